@@ -1,0 +1,1 @@
+"""Compiled kernels: arrays and floats in SI in, arrays and floats out."""
