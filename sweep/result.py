@@ -1,0 +1,160 @@
+"""What one simulated case hands back: a status, a sentence, a row of numbers, curves and shapes.
+
+Failure is a value: a case that could not finish is a `Result` with another status than
+`converged`, a sentence that says what to try, and whatever it had until then.
+Nothing here computes or opens a file.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from math import nan
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from sweep.params import Case
+
+
+class Status(StrEnum):
+    """How a case ended. Only `converged` means that the whole scene ran."""
+
+    CONVERGED = "converged"
+    STOPPED = "stopped"
+    TIMED_OUT = "timed_out"
+    WORKER_DIED = "worker_died"
+
+
+@dataclass(frozen=True)
+class Column:
+    """Meaning of a column: its units ("1" for a pure number, "" for text) and a sentence."""
+
+    units: str
+    description: str
+
+
+@dataclass(frozen=True)
+class Result:
+    """One case, done or not.
+
+    summary: column -> float, int or str, names and units in `COLUMNS`.
+    history: column -> float64 (rows,), names and units in `HISTORY_COLUMNS`.
+    frames: `strain (f,)`, `time_s (f,)`, `position_m (f, n, 2)`, `plate_y_m (f, 2)` (surface of the
+    lower and the upper platen, NaN where there is none), `edges (m, 2)`, `edge_thickness_m (m,)`.
+    """
+
+    case_id: str
+    status: Status
+    message: str = ""
+    summary: Mapping[str, float | int | str] = field(default_factory=dict)
+    history: Mapping[str, np.ndarray] = field(default_factory=dict)
+    frames: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+
+COLUMNS: dict[str, Column] = {
+    "case_id": Column("", "hash of everything that the case computes from"),
+    "status": Column("", "converged, stopped, timed_out or worker_died"),
+    "message": Column("", "why the case did not converge and what to try; empty when it did"),
+    "lattice_kind": Column("", "family of the infill pattern"),
+    "cells_x": Column("1", "cells across the width"),
+    "cells_y": Column("1", "cells over the height"),
+    "wall_thickness_m": Column("m", "thickness of a wall"),
+    "width_m": Column("m", "width over centre lines"),
+    "height_m": Column("m", "height over centre lines"),
+    "depth_m": Column("m", "depth of the walls, out of the plane"),
+    "material": Column("", "name of the material; empty when given by numbers"),
+    "loading_mode": Column("", "force, displacement or impact"),
+    "platen": Column("", "none, contact or glued"),
+    "force_N": Column("N", "dead force on the top; NaN unless the mode is force"),
+    "stroke_m": Column("m", "prescribed travel of the top platen; NaN unless prescribed"),
+    "contact_model": Column("", "how walls touch: none or barrier"),
+    "mass_g": Column("g", "density x exact area of the printed walls x depth"),
+    "relative_density": Column("1", "printed area / area of the bounding box"),
+    "absorbed_energy_J": Column("J", "work done on the lattice while loading"),
+    "returned_energy_J": Column("J", "work given back while unloading"),
+    "dissipated_energy_J": Column("J", "sum of the dissipation rows of the energy book"),
+    "dissipated_integrator_J": Column("J", "energy that the time integrator itself removed"),
+    "energy_residual_J": Column("J", "what the energy book leaves over"),
+    "specific_absorption_J_per_g": Column("J/g", "absorbed energy / mass"),
+    "plateau_stress_Pa": Column("Pa", "mean nominal stress of the crushing plateau"),
+    "densification_strain": Column("1", "strain of greatest energy-absorption efficiency"),
+    "efficiency": Column("1", "greatest energy-absorption efficiency"),
+    "peak_force_N": Column("N", "greatest force transmitted to a platen or support"),
+    "peak_strain": Column("1", "greatest top displacement / height"),
+    "residual_strain": Column("1", "top displacement / height at the end"),
+    "min_gap_m": Column("m", "smallest gap left between surfaces of walls; NaN without contact"),
+    "max_crossings": Column("1", "walls that pass through one another in any stored frame"),
+    "steps": Column("1", "accepted time or load steps"),
+    "newton_iterations": Column("1", "Newton iterations of the whole run"),
+    "cpu_s": Column("s", "processor time of the run"),
+}
+"""Every column that a summary always has, in the order in which it is stored and shown."""
+
+HISTORY_COLUMNS: dict[str, Column] = {
+    "time_s": Column("s", "time since the start"),
+    "strain": Column("1", "top displacement / height"),
+    "top_displacement_m": Column("m", "travel of the top, positive downwards"),
+    "reaction_top_N": Column("N", "force on the upper platen or row, compression > 0"),
+    "reaction_bottom_N": Column("N", "force on the lower platen or row, compression > 0"),
+    "work_in_J": Column("J", "work done on the lattice so far"),
+    "kinetic_J": Column("J", "kinetic energy"),
+    "stretch_J": Column("J", "stretching energy of the walls"),
+    "bend_J": Column("J", "bending energy of the walls, fold barrier included"),
+    "contact_J": Column("J", "energy stored in contacts"),
+    "dissipated_material_J": Column("J", "dissipated by the material's damping so far"),
+    "dissipated_friction_J": Column("J", "dissipated by friction so far"),
+    "dissipated_integrator_J": Column("J", "removed by the time integrator so far"),
+    "injected_by_projection_J": Column("J", "added by position-based contact so far"),
+    "energy_residual_J": Column("J", "what the energy book leaves over so far"),
+    "newton_iterations": Column("1", "Newton iterations since the row before"),
+    "min_gap_m": Column("m", "smallest gap between surfaces of walls; NaN without contact"),
+}
+"""Every column that a history always has, in the order in which it is stored."""
+
+_ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
+
+
+def absorbed_energy_column(force: float) -> str:
+    """Name of the column of the energy absorbed until `force` (N) is first transmitted."""
+    return f"absorbed_energy_at_{force:.10g}N_J"
+
+
+def describe_column(name: str) -> Column:
+    """Meaning of a summary column; neither fixed nor an allowed force, it is a grid key."""
+    if name in COLUMNS:
+        return COLUMNS[name]
+    if match := _ABSORBED_AT.fullmatch(name):
+        return Column("J", f"work done until {match[1]} N is first transmitted")
+    return Column("", f"grid key {name}")
+
+
+def design_columns(case: Case) -> dict[str, float | int | str]:
+    """The summary columns that are known before the case runs."""
+    lattice, loading = case.lattice, case.loading
+    return {
+        "lattice_kind": lattice.kind,
+        "cells_x": lattice.cells_x,
+        "cells_y": lattice.cells_y,
+        "wall_thickness_m": lattice.wall_thickness,
+        "width_m": lattice.width,
+        "height_m": lattice.height,
+        "depth_m": lattice.depth,
+        "material": case.material.name or "",
+        "loading_mode": loading.mode,
+        "platen": loading.platen or "",
+        "force_N": nan if loading.force is None else loading.force,
+        "stroke_m": nan if loading.stroke is None else loading.stroke,
+        "contact_model": case.contact.model,
+    }
+
+
+def failed_result(case: Case, status: Status, message: str) -> Result:
+    """Row of a case that left nothing to measure: its design, NaN for every measure, no curves."""
+    measures = {name: nan for name in COLUMNS if name not in ("case_id", "status", "message")}
+    measures |= {absorbed_energy_column(force): nan for force in case.loading.allowed_forces or ()}
+    counts = {"max_crossings": 0, "steps": 0, "newton_iterations": 0}
+    return Result(case.case_id, status, message, measures | counts | design_columns(case))

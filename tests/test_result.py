@@ -1,0 +1,69 @@
+"""The words of a result: fixed columns, their meaning, and the row of a case that failed."""
+
+from math import isnan
+from types import SimpleNamespace
+
+import pytest
+
+from sweep.result import (
+    COLUMNS,
+    HISTORY_COLUMNS,
+    Result,
+    Status,
+    absorbed_energy_column,
+    describe_column,
+    design_columns,
+    failed_result,
+)
+
+
+def a_case(**loading):
+    """A stand-in with the attributes that a row of the design needs."""
+    lattice = {"kind": "square", "cells_x": 3, "cells_y": 2, "wall_thickness": 8e-4}
+    lattice |= {"width": 0.0125, "height": 0.0125, "depth": 0.012}
+    loads = {"mode": "force", "platen": "none", "force": 10.0, "stroke": None}
+    return SimpleNamespace(
+        case_id="0123456789abcdef",
+        lattice=SimpleNamespace(**lattice),
+        material=SimpleNamespace(name="ninjaflex"),
+        loading=SimpleNamespace(**(loads | {"allowed_forces": (50.0,)} | loading)),
+        contact=SimpleNamespace(model="barrier"),
+    )
+
+
+@pytest.mark.parametrize("columns", [COLUMNS, HISTORY_COLUMNS])
+def test_every_column_has_units_that_its_name_ends_in(columns):
+    endings = {"J_per_g": "J/g", "J": "J", "g": "g", "N": "N", "m": "m", "s": "s", "Pa": "Pa"}
+    for name, column in columns.items():
+        ending = next((units for end, units in endings.items() if name.endswith(f"_{end}")), None)
+        assert column.description
+        assert column.units == ending if ending else column.units in ("", "1")
+
+
+def test_allowed_force_is_a_column_with_units():
+    assert absorbed_energy_column(50.0) == "absorbed_energy_at_50N_J"
+    assert absorbed_energy_column(12.5) == "absorbed_energy_at_12.5N_J"
+    assert describe_column("absorbed_energy_at_50N_J").units == "J"
+    assert "50 N" in describe_column("absorbed_energy_at_50N_J").description
+
+
+def test_status_is_its_word():
+    assert Status("timed_out") is Status.TIMED_OUT
+    assert f"{Status.CONVERGED}" == "converged"
+
+
+def test_design_of_a_case_is_known_before_it_runs():
+    row = design_columns(a_case(mode="displacement", force=None, stroke=6e-3))
+    assert row["cells_y"] == 2
+    assert row["stroke_m"] == 6e-3
+    assert isnan(row["force_N"])
+    assert set(row) <= set(COLUMNS)
+
+
+def test_failed_result_keeps_the_design_and_measures_nothing():
+    result = failed_result(a_case(), Status.WORKER_DIED, "It took its worker with it.")
+    assert isinstance(result, Result)
+    assert list(result.summary) == [*list(COLUMNS)[3:], "absorbed_energy_at_50N_J"]
+    assert result.summary["wall_thickness_m"] == 8e-4
+    assert result.summary["newton_iterations"] == 0
+    assert isnan(result.summary["absorbed_energy_at_50N_J"])
