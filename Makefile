@@ -1,0 +1,44 @@
+# Every target sets up what it needs; the environment is .venv/ in this folder.
+#   make sweep CONFIG=configs/smoke.toml      another sweep than the default
+
+CONFIG ?= configs/armor.toml
+NAME = $(basename $(notdir $(CONFIG)))
+RESULTS ?= results/$(NAME).h5
+TABLES ?= results/$(NAME)
+
+PYTHON = .venv/bin/python
+STAMP = .venv/.ready
+
+# An environment whose interpreter has gone is made anew.
+$(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
+
+.PHONY: help setup sweep rank test lint clean
+.DELETE_ON_ERROR:
+
+help:  ## print this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-6s  %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
+
+setup: $(STAMP)  ## make the environment: Python 3.11 to 3.13, packages from requirements.lock
+
+$(STAMP): requirements.lock pyproject.toml .ci/setup
+	@sh .ci/setup
+	@touch $@
+
+sweep: setup  ## simulate what CONFIG asks for (finished cases are kept) and rank it
+	@$(PYTHON) -m sweep run $(CONFIG) --out $(RESULTS); status=$$?; test $$status -le 1 || exit $$status; \
+	$(PYTHON) -m sweep rank $(RESULTS) --out $(TABLES) && exit $$status
+
+rank: setup  ## rank the results of CONFIG again, running the sweep first if there are none
+	@test -f $(RESULTS) || $(PYTHON) -m sweep run $(CONFIG) --out $(RESULTS)
+	@$(PYTHON) -m sweep rank $(RESULTS) --out $(TABLES)
+
+lint: setup  ## check style and types
+	$(PYTHON) -m ruff check
+	$(PYTHON) -m mypy
+
+test: lint  ## check style and types, then run the tests
+	$(PYTHON) -m pytest
+
+clean:  ## remove the environment and all caches, but no results
+	rm -rf .venv build *.egg-info .pytest_cache .mypy_cache .ruff_cache
+	find kernels sweep tests -type d -name __pycache__ -prune -exec rm -rf {} +
