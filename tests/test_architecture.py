@@ -1,0 +1,159 @@
+"""The shape of the code: who may import what, and how long a thing may be."""
+
+import ast
+import graphlib
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+SOURCES = {
+    ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): path
+    for package in ("sweep", "kernels", "tests")
+    for path in sorted((ROOT / package).glob("*.py"))
+}
+TREES = {module: ast.parse(path.read_text("utf-8")) for module, path in SOURCES.items()}
+PROGRAM = [module for module in TREES if not module.startswith("tests")]
+KERNELS = [module for module in PROGRAM if module.startswith("kernels")]
+
+HOMES = {
+    "numba": "kernels.jit",
+    "llvmlite": "kernels.jit",
+    "dask": "sweep.graph",
+    "distributed": "sweep.graph",
+    "h5py": "sweep.store",
+    "matplotlib": "sweep.plots",
+    "pint": "sweep.config",
+}
+# What reads results, and so must run where neither numba nor dask is installed.
+READERS = [f"sweep.{name}" for name in ("rank", "report", "export", "plots", "store")]
+HEAVY = ["numba", "kernels", "dask", "distributed", "scipy", "pandas", "matplotlib", "h5py"]
+
+MAX_LINES_OF_FILE = 300
+MAX_LINES_OF_FUNCTION = 80
+
+
+def walk(node, lazy):
+    """Nodes below this one but those for type checkers; without `lazy`, none inside functions."""
+    for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.If) and "TYPE_CHECKING" in ast.unparse(child.test):
+            continue
+        yield child
+        if lazy or not isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
+            yield from walk(child, lazy)
+
+
+def imports(module, lazy=True):
+    """Dotted names that a module imports; a name that is no module of ours is cut at its module."""
+    found = set()
+    for node in walk(TREES[module], lazy):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            base = "." * node.level + (node.module or "")
+            dotted = {f"{base}.{alias.name}" for alias in node.names}
+            found |= {name if name in SOURCES else base for name in dotted}
+    return found
+
+
+def packages(module):
+    """First parts of the names that a module imports."""
+    return {name.split(".")[0] for name in imports(module)}
+
+
+def reachable(module):
+    """All modules of ours that a module imports, through others and lazily too."""
+    seen, waiting = set(), [module]
+    while waiting:
+        name = waiting.pop()
+        if name not in seen:
+            seen.add(name)
+            waiting += imports(name) & set(SOURCES)
+    return seen
+
+
+def functions(module):
+    return [n for n in ast.walk(TREES[module]) if isinstance(n, ast.FunctionDef)]
+
+
+def called(function):
+    """Last part of the name of everything that a function calls."""
+    calls = (node.func for node in ast.walk(function) if isinstance(node, ast.Call))
+    return {ast.unparse(callee).split(".")[-1] for callee in calls}
+
+
+def asserts(function):
+    """True if a function has an assertion of its own, of numpy or of pytest."""
+    known = {"raises", "warns", "assert_allclose", "assert_array_equal", "assert_frame_equal"}
+    return any(isinstance(n, ast.Assert) for n in ast.walk(function)) or called(function) & known
+
+
+def test_imports_are_absolute():
+    relative = {m for m in PROGRAM for name in imports(m) if name.startswith(".")}
+    assert relative == set()
+
+
+def test_kernels_import_only_numpy_and_kernels():
+    allowed = {"numpy", "math", "typing", "kernels"}
+    strangers = {m: packages(m) - allowed for m in KERNELS if m != "kernels.jit"}
+    assert {m: names for m, names in strangers.items() if names} == {}
+
+
+def test_kernels_never_import_sweep():
+    assert [m for m in KERNELS if "sweep" in packages(m)] == []
+
+
+def test_each_library_has_one_home():
+    users = {library: [m for m in PROGRAM if library in packages(m)] for library in HOMES}
+    astray = {lib: [m for m in found if m != HOMES[lib]] for lib, found in users.items()}
+    assert {library: found for library, found in astray.items() if found} == {}
+
+
+def test_no_circular_imports():
+    ours = {m: imports(m, lazy=False) & set(PROGRAM) - {m} for m in PROGRAM}
+    order = list(graphlib.TopologicalSorter(ours).static_order())  # raises on a circle
+    assert set(order) == set(PROGRAM)
+
+
+def test_readers_of_results_reach_neither_kernels_nor_dask():
+    readers = [m for m in READERS if m in SOURCES]
+    reached = {m: [n for n in reachable(m) if n in KERNELS or n == "sweep.graph"] for m in readers}
+    assert readers
+    assert {m: names for m, names in reached.items() if names} == {}
+
+
+def test_files_are_short():
+    lengths = {m: len(path.read_text("utf-8").splitlines()) for m, path in SOURCES.items()}
+    assert {m: n for m, n in lengths.items() if n > MAX_LINES_OF_FILE} == {}
+
+
+def test_functions_are_short():
+    lengths = {f"{m}.{f.name}": f.end_lineno - f.lineno + 1 for m in SOURCES for f in functions(m)}
+    assert {name: n for name, n in lengths.items() if n > MAX_LINES_OF_FUNCTION} == {}
+
+
+def test_names_say_what_a_thing_is():
+    empty = ("compute_", "get_")
+    modules = [m for m in SOURCES if m.split(".")[-1] in {"utils", "helpers", "common", "misc"}]
+    names = [f"{m}.{f.name}" for m in PROGRAM for f in functions(m) if f.name.startswith(empty)]
+    assert modules + names == []
+
+
+def test_every_test_asserts():
+    silent = []
+    for module in (m for m in SOURCES if m.startswith("tests.test_")):
+        checks = {f.name for f in functions(module) if asserts(f)}
+        tests = [f for f in functions(module) if f.name.startswith("test_")]
+        silent += [
+            f"{module}.{f.name}" for f in tests if not (f.name in checks or called(f) & checks)
+        ]
+    assert silent == []
+
+
+def test_command_line_starts_without_heavy_imports():
+    script = f"import sys, sweep.__main__; print(*[m for m in {HEAVY} if m in sys.modules])"
+    done = subprocess.run(
+        [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert done.stderr == ""
+    assert done.stdout.split() == []
