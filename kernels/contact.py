@@ -1,0 +1,203 @@
+"""Contact of walls over their thickness, and with two platens, as a barrier on distance.
+
+    E_c = 1/2 sum_p l_p [ sum_e phi(d(p, e)) - sum_v (n_v - 1) phi(d(p, v)) ] + sum_p l_p phi(d(p, plate))
+    phi(d) = c Y' depth t_c b(d / t_c)
+
+The subtraction lets a straight wall count once at any mesh; 1/2 because each pair of walls is seen
+from both sides. (Signs of the barrier as in `barrier`.)
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels import ccd
+from kernels.barrier import barrier
+from kernels.distance import (
+    closest,
+    normal,
+    push,
+    push_point,
+    push_point_stiffen,
+    push_stiffen,
+)
+from kernels.jit import jit, jit_exact
+from kernels.rows import pair
+from kernels.sparse import add
+from kernels.stretch import direction
+
+
+class Contact(NamedTuple):
+    """What may touch. Lengths in m; an absent contact has empty arrays.
+
+    stiffness: c Y' depth, N/m. reach: largest contact distance. edges (m, 2). tributary (n,): l_p.
+    node_thickness (n,), edge_thickness (m,). subtract (m, 2): ends counted by another segment.
+    special_*: pairs near a joint or near at rest, by node (start (n + 1,)): edge, weight, distance
+    of contact, subtract. plate_nodes (k,): nodes that may touch a platen. low, high: coordinates
+    of the surfaces of the lower and the upper platen.
+    """
+
+    stiffness: float
+    reach: float
+    edges: np.ndarray
+    tributary: np.ndarray
+    node_thickness: np.ndarray
+    edge_thickness: np.ndarray
+    subtract: np.ndarray
+    special_start: np.ndarray
+    special_edge: np.ndarray
+    special_weight: np.ndarray
+    special_distance: np.ndarray
+    special_subtract: np.ndarray
+    plate_nodes: np.ndarray
+    low: int
+    high: int
+
+
+@jit
+def _law(contact, weight, d_contact, d):
+    """Return weight * phi(d) and its first two derivatives in d."""
+    value, slope, curvature = barrier(d / d_contact)
+    scale = weight * contact.stiffness
+    return scale * d_contact * value, scale * slope, scale / d_contact * curvature
+
+
+@jit
+def _segment_distance(x, p, a, b):
+    tau, _ = closest(x, p, a, b)
+    _, _, d = normal(x, p, a, b, tau)
+    return d
+
+
+@jit
+def energy(x, contact, pairs):
+    """Return E_c in J; infinite where anything touches at distance zero."""
+    total = 0.0
+    for k in range(pairs.node.size):
+        if pairs.weight[k] == 0.0:
+            continue
+        p, dc = pairs.node[k], pairs.d_contact[k]
+        a, b = pair(contact.edges, pairs.edge[k])
+        d = _segment_distance(x, p, a, b)
+        if d >= dc:
+            continue
+        weight = 0.5 * pairs.weight[k]
+        total += _law(contact, weight, dc, d)[0]
+        for side, v in ((0, a), (1, b)):
+            if pairs.subtract[k, side] != 0.0:
+                _, _, dv = direction(x, v, p)
+                if dv < dc:
+                    total -= _law(contact, weight, dc, dv)[0]
+    return total + _plate_energy(x, contact)
+
+
+@jit
+def gradient(x, contact, pairs, g):
+    """Add dE_c/dx to ``g``."""
+    for k in range(pairs.node.size):
+        if pairs.weight[k] == 0.0:
+            continue
+        p, dc = pairs.node[k], pairs.d_contact[k]
+        a, b = pair(contact.edges, pairs.edge[k])
+        d = _segment_distance(x, p, a, b)
+        if d >= dc:
+            continue
+        weight = 0.5 * pairs.weight[k]
+        push(g, x, p, a, b, _law(contact, weight, dc, d)[1])
+        for side, v in ((0, a), (1, b)):
+            if pairs.subtract[k, side] != 0.0:
+                _, _, dv = direction(x, v, p)
+                if dv < dc:
+                    push_point(g, x, p, v, -_law(contact, weight, dc, dv)[1])
+    _plate_gradient(x, contact, g)
+
+
+@jit
+def hessian(x, contact, pairs, matrix, projected):
+    """Add d2E_c/dx2; ``projected`` keeps only the convex part of each pair."""
+    for k in range(pairs.node.size):
+        if pairs.weight[k] == 0.0:
+            continue
+        p, dc = pairs.node[k], pairs.d_contact[k]
+        a, b = pair(contact.edges, pairs.edge[k])
+        d = _segment_distance(x, p, a, b)
+        if d >= dc:
+            continue
+        weight = 0.5 * pairs.weight[k]
+        _, slope, curvature = _law(contact, weight, dc, d)
+        push_stiffen(matrix, x, p, a, b, curvature, 0.0 if projected else slope)
+        if projected:
+            continue
+        for side, v in ((0, a), (1, b)):
+            if pairs.subtract[k, side] != 0.0:
+                _, _, dv = direction(x, v, p)
+                if dv < dc:
+                    _, slope, curvature = _law(contact, weight, dc, dv)
+                    push_point_stiffen(matrix, x, p, v, -curvature, -slope)
+    _plate_hessian(x, contact, matrix)
+
+
+@jit
+def _plate_energy(x, contact):
+    total = 0.0
+    for p in contact.plate_nodes:
+        dc = 0.5 * contact.node_thickness[p]
+        y = x[2 * p + 1]
+        for d in (y - x[contact.low], x[contact.high] - y):
+            if d < dc:
+                total += _law(contact, contact.tributary[p], dc, d)[0]
+    return total
+
+
+@jit
+def _plate_gradient(x, contact, g):
+    for p in contact.plate_nodes:
+        dc, y = 0.5 * contact.node_thickness[p], x[2 * p + 1]
+        for plate, side in ((contact.low, 1.0), (contact.high, -1.0)):
+            d = side * (y - x[plate])
+            if d < dc:
+                _, slope, _ = _law(contact, contact.tributary[p], dc, d)
+                g[2 * p + 1] += side * slope
+                g[plate] -= side * slope
+
+
+@jit
+def _plate_hessian(x, contact, matrix):
+    for p in contact.plate_nodes:
+        dc, y = 0.5 * contact.node_thickness[p], x[2 * p + 1]
+        for plate, side in ((contact.low, 1.0), (contact.high, -1.0)):
+            d = side * (y - x[plate])
+            if d < dc:
+                _, _, curvature = _law(contact, contact.tributary[p], dc, d)
+                add(matrix, 2 * p + 1, 2 * p + 1, curvature)
+                add(matrix, plate, plate, curvature)
+                add(matrix, plate, 2 * p + 1, -curvature)
+
+
+@jit_exact
+def step_limit(x, dx, contact, pairs):
+    """Return the first share of the step ``dx`` at which a node meets a segment or a platen."""
+    first = np.inf
+    for k in range(pairs.node.size):
+        a, b = pair(contact.edges, pairs.edge[k])
+        first = min(first, ccd.first_contact(x, dx, pairs.node[k], a, b))
+    for p in contact.plate_nodes:
+        for plate, side in ((contact.low, 1.0), (contact.high, -1.0)):
+            closing = side * (dx[plate] - dx[2 * p + 1])
+            if closing > 0.0:
+                first = min(first, side * (x[2 * p + 1] - x[plate]) / closing)
+    return first
+
+
+@jit_exact
+def least_gap(x, contact, pairs):
+    """Return the smallest distance in m between lines that may touch, over the pairs in reach."""
+    least = np.inf
+    for k in range(pairs.node.size):
+        if pairs.weight[k] > 0.0:
+            a, b = pair(contact.edges, pairs.edge[k])
+            least = min(least, _segment_distance(x, pairs.node[k], a, b))
+    for p in contact.plate_nodes:
+        y = x[2 * p + 1]
+        least = min(least, y - x[contact.low], x[contact.high] - y)
+    return least

@@ -1,0 +1,208 @@
+"""Steps through a stage of loading, with halved steps where one fails, and keeps the energy book.
+
+Backward Euler: v' = (x' - x) / dt, loss 1/2 |v' - v|_M^2 + [grad U(x') . dx - dU].
+Static: no inertia; work and loss by the trapezoidal rule, loss = 1/2 (grad U + grad U') . dx - dU.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels import contact, damp, friction, inertia
+from kernels.jit import jit, jit_exact
+from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, Work, largest, minimise, reduce
+from kernels.step import Step, find_near, gradient, stored, stored_gradient
+
+WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR, RESIDUAL = range(9)
+TIME, TOP, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP = range(9, 15)
+N_COLUMNS = 15
+SMALLEST = 2.0**-12  # share of a step
+GRIP_LOOPS = 30  # fixed-point iterations of friction
+
+
+class Stage(NamedTuple):
+    """steps: number; dt: duration of one in s, infinite if static; pace: time of one in s; the
+    load factor and the driven coordinate (m) go linearly from ``*0`` to ``*1``."""
+
+    steps: int
+    dt: float
+    pace: float
+    factor0: float
+    factor1: float
+    driven0: float
+    driven1: float
+
+
+class State(NamedTuple):
+    """x (n,), v (n,), book (9,) in J, pulled (n,): what the last step left of forces that the
+    trapezoidal rule needs (gradient of U, rate forces), totals (4,): iterations, steps, time, share."""
+
+    x: np.ndarray
+    v: np.ndarray
+    book: np.ndarray
+    elastic: np.ndarray
+    rate: np.ndarray
+    held: np.ndarray
+    totals: np.ndarray
+
+
+class Output(NamedTuple):
+    """rows (steps, N_COLUMNS); frame_of (steps,): slot of a step in frames (f, n) or -1.
+
+    bottom: coordinates whose supports make the lower reaction; top: those whose mean y is the top.
+    """
+
+    rows: np.ndarray
+    frame_of: np.ndarray
+    frames: np.ndarray
+    bottom: np.ndarray
+    top: np.ndarray
+
+
+@jit_exact
+def _solve_step(x, target, terms, step, near, unknowns, tolerance, work, control):
+    """Minimise; with friction, again until the lagged forces agree with the contact they belong to."""
+    total = 0
+    for _ in range(GRIP_LOOPS):
+        outcome, iterations, near = minimise(
+            x, target, terms, step, near, unknowns, tolerance, work, control
+        )
+        total += iterations
+        if outcome != CONVERGED or terms.friction.mu == 0.0:
+            return outcome, total, near, step
+        grips = friction.lag(x, terms.contact, near.pairs, terms.friction)
+        renewed = Step(step.x0, step.x_pred, step.dt, step.factor, grips)
+        gradient(x, terms, renewed, near, work.g)
+        reduce(work.g, unknowns.row, work.residual)
+        if largest(work.residual, unknowns) <= tolerance.friction:
+            return CONVERGED, total, near, step
+        step = renewed
+    return ITERATIONS, total, near, step
+
+
+@jit_exact
+def _dot(a, b):
+    total = 0.0
+    for i in range(a.size):
+        total += a[i] * b[i]
+    return total
+
+
+@jit_exact
+def _rate_forces(x, terms, step, material, rubbing):
+    """Fill the gradients of the dissipation potentials of material and friction."""
+    material[:] = 0.0
+    rubbing[:] = 0.0
+    if step.dt < np.inf:
+        damp.gradient(x, step.x0, terms, step.dt, material)
+    friction.gradient(x, step.x0, step.grips, terms.friction.slip, rubbing)
+
+
+@jit_exact
+def _enter(book, before, x, terms, step, near, unknowns, state, work):
+    """Add one converged step to the energy book; ``before``: stored energies at its start."""
+    new = step.dt < np.inf
+    theta = 1.0 if new else 0.5
+    dx = x - step.x0
+    after = stored(x, terms, near)
+    material, rubbing = np.empty(x.size), np.empty(x.size)
+    _rate_forces(x, terms, step, material, rubbing)
+    elastic = np.zeros(x.size)
+    stored_gradient(x, terms, near, elastic)
+    gradient(x, terms, step, near, work.g)
+    held = 0.0
+    if unknowns.driven >= 0:
+        reduce(work.g, unknowns.row, work.residual)
+        held = work.residual[unknowns.free]
+    pull = step.factor * _dot(terms.load, dx)
+    if not new:
+        pull = 0.5 * (step.factor + state.held[1]) * _dot(terms.load, dx)
+    lead = dx[unknowns.driven] if unknowns.driven >= 0 else 0.0
+    book[WORK] += pull + (theta * held + (1.0 - theta) * state.held[0]) * lead
+    book[STRETCH], book[BEND], book[CONTACT] = after
+    book[MATERIAL] += _dot(material, dx)
+    book[FRICTION] += theta * _dot(rubbing, dx) + (1.0 - theta) * _dot(state.rate, dx)
+    change = sum(after) - sum(before)
+    loss = theta * _dot(elastic, dx) + (1.0 - theta) * _dot(state.elastic, dx) - change
+    if new:
+        v = dx / step.dt
+        loss += inertia.kinetic(v - state.v, terms.mass)
+        state.v[:] = v
+        book[KINETIC] = inertia.kinetic(v, terms.mass)
+    book[INTEGRATOR] += loss
+    state.elastic[:] = elastic
+    state.rate[:] = rubbing
+    state.held[0] = held
+    state.held[1] = step.factor
+    book[RESIDUAL] = book[WORK] - book[KINETIC] - sum(after)
+    book[RESIDUAL] -= book[MATERIAL] + book[FRICTION] + book[INTEGRATOR]
+
+
+@jit_exact
+def _write(out, k, state, terms, near, unknowns, work):
+    """Write row ``k`` of the history and its frame."""
+    row = out.rows[k]
+    row[:TIME] = state.book
+    row[TIME] = state.totals[2]
+    row[TOP] = 0.0
+    for c in out.top:
+        row[TOP] += state.x[c] / out.top.size
+    row[REACTION_BOTTOM] = 0.0
+    for c in out.bottom:
+        row[REACTION_BOTTOM] += work.g[c]
+    row[REACTION_TOP] = -state.held[0]
+    if unknowns.driven < 0:
+        row[REACTION_TOP] = -state.held[1] * terms.load.sum()
+    row[ITERATIONS_DONE] = state.totals[0]
+    row[GAP] = contact.least_gap(state.x, terms.contact, near.pairs)
+    if out.frame_of[k] >= 0:
+        out.frames[out.frame_of[k]] = state.x
+
+
+@jit_exact
+def march(terms, unknowns, tolerance, stage, state, out, control):
+    """March through ``stage`` from ``state`` (changed in place); fill ``out``.
+
+    Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts steps done.
+    """
+    n, rows = state.x.size, unknowns.scale.size
+    work = Work(np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(rows), np.zeros(rows))
+    near = find_near(state.x, terms, terms.contact.reach)
+    share = 1.0
+    for k in range(stage.steps):
+        done = 0.0
+        iterations = 0
+        while done < 1.0:
+            share = min(share, 1.0 - done)
+            part = (k + done + share) / stage.steps
+            factor = stage.factor0 + (stage.factor1 - stage.factor0) * part
+            target = stage.driven0 + (stage.driven1 - stage.driven0) * part
+            dt = stage.dt * share
+            x0 = state.x.copy()
+            x_pred = x0 + dt * state.v if dt < np.inf else x0
+            grips = friction.empty()
+            if terms.friction.mu > 0.0:
+                grips = friction.lag(x0, terms.contact, near.pairs, terms.friction)
+            step = Step(x0, x_pred, dt, factor, grips)
+            before = stored(x0, terms, near)
+            outcome, spent, near, step = _solve_step(
+                state.x, target, terms, step, near, unknowns, tolerance, work, control
+            )
+            iterations += spent
+            if outcome == CONVERGED:
+                _enter(state.book, before, state.x, terms, step, near, unknowns, state, work)
+                done += share
+                share = 2.0 * share
+                state.totals[1] += 1
+                continue
+            state.x[:] = x0
+            near = find_near(x0, terms, terms.contact.reach)
+            share *= 0.5
+            if outcome == INTERRUPTED or share < SMALLEST:
+                return outcome, k
+        share = min(share, 1.0)
+        state.totals[0] += iterations
+        state.totals[2] += stage.pace
+        _write(out, k, state, terms, near, unknowns, work)
+        control[1] += 1
+    return CONVERGED, stage.steps

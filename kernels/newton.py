@@ -1,0 +1,226 @@
+"""Newton's method for one step: a descent to a minimum, with the proof that it is one.
+
+The exact Hessian is used wherever it is positive definite (all pivots positive); elsewhere the
+projected one. The step is cut to its admissible share and backtracked until the energy falls
+(Armijo). Converged means: scaled residual and Newton decrement below tolerance *and* an exact
+Hessian without a negative pivot; at a saddle the direction of the negative pivot leads on.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels import sparse
+from kernels.jit import jit, jit_exact
+from kernels.step import covers, energy, find_near, gradient, hessian, step_limit
+
+CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE = range(6)
+ARMIJO = 1e-4
+HALVINGS = 40
+RESOLVED = 1e-11  # an energy change below this share of the energy is lost in round-off
+
+
+class Tolerance(NamedTuple):
+    """force: largest residual in N; decrement: largest Newton decrement in J; friction: largest
+    change of a lagged friction force in N; iterations: most for one minimum."""
+
+    force: float
+    decrement: float
+    friction: float
+    iterations: int
+
+
+class Unknowns(NamedTuple):
+    """row (n,): row of each coordinate or -1. scale (rows,): length that turns a row's unit into m,
+    1 for a coordinate in m. free: rows solved for (a driven row comes last). driven: coordinate
+    that is led to a target, -1 if none. cap: longest move in one iteration, m. nudge: move that
+    leaves a saddle, m."""
+
+    row: np.ndarray
+    scale: np.ndarray
+    free: int
+    driven: int
+    cap: float
+    nudge: float
+
+
+class Work(NamedTuple):
+    """Scratch arrays: g, dx, trial (n,) by coordinate; residual, direction (rows,)."""
+
+    g: np.ndarray
+    dx: np.ndarray
+    trial: np.ndarray
+    residual: np.ndarray
+    direction: np.ndarray
+
+
+@jit
+def reduce(g, row, residual):
+    """Fill ``residual`` (rows,) with ``g`` (n,) gathered by row."""
+    residual[:] = 0.0
+    for i in range(g.size):
+        if row[i] >= 0:
+            residual[row[i]] += g[i]
+
+
+@jit_exact
+def largest(residual, unknowns):
+    """Return the largest residual of the free rows in N; NaN if any is."""
+    most = 0.0
+    for i in range(unknowns.free):
+        size = abs(residual[i]) / unknowns.scale[i]
+        if not size <= most:
+            most = size
+            if size != size:
+                return size
+    return most
+
+
+@jit_exact
+def _spread(direction, unknowns, dx):
+    """Fill ``dx`` (n,) from rows; return the largest move in m."""
+    for i in range(dx.size):
+        r = unknowns.row[i]
+        dx[i] = direction[r] if r >= 0 else 0.0
+    most = 0.0
+    for i in range(unknowns.free):
+        most = max(most, abs(direction[i]) * unknowns.scale[i])
+    return most
+
+
+@jit_exact
+def _factored(x, terms, step, near, unknowns, projected):
+    """Assemble and factor; return the first row with a negative pivot, -1 if there is none."""
+    hessian(x, terms, step, near, projected)
+    matrix = near.matrix
+    scale = 0.0
+    for i in range(unknowns.free):
+        scale = max(scale, abs(matrix.values[matrix.offset[i] + i]))
+    failed, _ = sparse.factor(matrix, unknowns.free, scale)
+    return failed
+
+
+@jit
+def _pull_of_driven(matrix, unknowns, remaining, direction):
+    """Subtract the force that the driven row's move ``remaining`` exerts on the free rows."""
+    s = unknowns.free
+    for j in range(matrix.first[s], s):
+        direction[j] -= matrix.values[matrix.offset[s] + j] * remaining
+
+
+@jit_exact
+def _dot(a, b, n):
+    total = 0.0
+    for i in range(n):
+        total += a[i] * b[i]
+    return total
+
+
+@jit_exact
+def _search(x, terms, step, near, work, slope, share):
+    """Backtrack from ``share`` of dx until the energy falls; return the share, 0 if it never does."""
+    start = energy(x, terms, step, near)
+    resolved = abs(slope) > RESOLVED * abs(start)
+    for _ in range(HALVINGS):
+        for i in range(x.size):
+            work.trial[i] = x[i] + share * work.dx[i]
+        reached = energy(work.trial, terms, step, near)
+        enough = start + ARMIJO * share * slope if resolved else start + RESOLVED * abs(start)
+        if reached <= enough and reached < np.inf:
+            return share
+        share *= 0.5
+    return 0.0
+
+
+@jit_exact
+def _leave_saddle(x, terms, step, near, unknowns, work, failed):
+    """Move along the direction of a negative pivot; return whether the energy fell."""
+    sparse.descent(near.matrix, failed, work.direction)
+    uphill = _dot(work.residual, work.direction, unknowns.free) > 0.0
+    most = _spread(work.direction, unknowns, work.dx)
+    for i in range(x.size):
+        work.dx[i] *= (-1.0 if uphill else 1.0) * unknowns.nudge / most
+    share = step_limit(x, work.dx, terms, near)
+    start = energy(x, terms, step, near)
+    for _ in range(HALVINGS):
+        for i in range(x.size):
+            work.trial[i] = x[i] + share * work.dx[i]
+        if energy(work.trial, terms, step, near) < start:
+            x[:] = work.trial
+            return True
+        share *= 0.5
+    return False
+
+
+@jit_exact
+def _driven_direction(x, terms, step, near, unknowns, work, remaining):
+    """Point ``work.direction`` to the equilibrium after the driven row's move; False if singular."""
+    for projected in (False, True):
+        failed = _factored(x, terms, step, near, unknowns, projected)
+        if failed < 0:
+            break
+    if failed >= 0:
+        return False
+    work.direction[:] = -work.residual
+    _pull_of_driven(near.matrix, unknowns, remaining, work.direction)
+    sparse.solve(near.matrix, unknowns.free, work.direction)
+    work.direction[unknowns.free] = remaining
+    return True
+
+
+@jit_exact
+def minimise(x, target, terms, step, near, unknowns, tolerance, work, control):
+    """Descend from ``x`` (n,), in place, to a minimum with the driven coordinate at ``target``.
+
+    Return (outcome, iterations, near). ``control[0]`` != 0 interrupts.
+    """
+    for iteration in range(tolerance.iterations):
+        if control[0] != 0:
+            return INTERRUPTED, iteration, near
+        gradient(x, terms, step, near, work.g)
+        reduce(work.g, unknowns.row, work.residual)
+        size = largest(work.residual, unknowns)
+        if not size < np.inf:
+            return NOT_FINITE, iteration, near
+        remaining = target - x[unknowns.driven] if unknowns.driven >= 0 else 0.0
+        if remaining != 0.0:
+            if not _driven_direction(x, terms, step, near, unknowns, work, remaining):
+                return SINGULAR, iteration, near
+        else:
+            failed = _factored(x, terms, step, near, unknowns, False)
+            stable = failed < 0
+            if not stable and size <= tolerance.force:
+                if not _leave_saddle(x, terms, step, near, unknowns, work, failed):
+                    return SINGULAR, iteration, near
+                continue
+            if not stable and _factored(x, terms, step, near, unknowns, True) >= 0:
+                return SINGULAR, iteration, near
+            work.direction[:] = -work.residual
+            sparse.solve(near.matrix, unknowns.free, work.direction)
+            if unknowns.driven >= 0:
+                work.direction[unknowns.free] = 0.0
+            slope = _dot(work.residual, work.direction, unknowns.free)
+            if stable and size <= tolerance.force and -0.5 * slope <= tolerance.decrement:
+                return CONVERGED, iteration, near
+        most = _spread(work.direction, unknowns, work.dx)
+        cap = max(unknowns.cap, 5.0 * abs(remaining))
+        if most > cap:
+            work.dx *= cap / most
+            slope = slope * cap / most if remaining == 0.0 else 0.0
+            most = cap
+        if not covers(near, x, terms, most):
+            near = find_near(x, terms, max(3.0 * most, terms.contact.reach))
+        share = step_limit(x, work.dx, terms, near)
+        if remaining == 0.0:
+            share = _search(x, terms, step, near, work, slope, share)
+            if share == 0.0:
+                return STALLED, iteration, near
+            x[:] = work.trial
+        else:
+            if share < 1e-3:
+                return STALLED, iteration, near
+            for i in range(x.size):
+                x[i] += share * work.dx[i]
+            if share == 1.0 and most < cap:
+                x[unknowns.driven] = target
+    return ITERATIONS, tolerance.iterations, near

@@ -1,0 +1,122 @@
+"""Which nodes are near which segments: broad phase by cells, kept between steps.
+
+A list found with a margin stays valid until some node has moved half of that margin.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels.distance import squared_distance
+from kernels.jit import jit_exact
+from kernels.rows import pair
+
+
+class Pairs(NamedTuple):
+    """Node-segment pairs that share no node.
+
+    node (n,), edge (n,): indices. weight (n,): contact length in m, 0 where only crossing is
+    watched. d_contact (n,): distance at which contact starts, m. subtract (n, 2): 1 where the
+    contribution of that end of the segment is counted by another segment already.
+    """
+
+    node: np.ndarray
+    edge: np.ndarray
+    weight: np.ndarray
+    d_contact: np.ndarray
+    subtract: np.ndarray
+
+
+@jit_exact
+def _binned(x, n_nodes, low_x, low_y, cell, nx, ny):
+    """Return (start, order): the nodes of cell c are order[start[c]:start[c + 1]]."""
+    start = np.zeros(nx * ny + 1, np.int64)
+    home = np.empty(n_nodes, np.int64)
+    for p in range(n_nodes):
+        home[p] = int((x[2 * p + 1] - low_y) / cell) * nx + int((x[2 * p] - low_x) / cell)
+        start[home[p] + 1] += 1
+    for c in range(nx * ny):
+        start[c + 1] += start[c]
+    order = np.empty(n_nodes, np.int64)
+    fill = start[:-1].copy()
+    for p in range(n_nodes):
+        order[fill[home[p]]] = p
+        fill[home[p]] += 1
+    return start, order
+
+
+@jit_exact
+def _grid(x, n_nodes, cell):
+    """Return the lower corner of a grid over all nodes, its cell (grown if too many) and size."""
+    low_x, low_y = np.inf, np.inf
+    high_x, high_y = -np.inf, -np.inf
+    for p in range(n_nodes):
+        low_x, high_x = min(low_x, x[2 * p]), max(high_x, x[2 * p])
+        low_y, high_y = min(low_y, x[2 * p + 1]), max(high_y, x[2 * p + 1])
+    area = (high_x - low_x) * (high_y - low_y)
+    cell = max(cell, np.sqrt(area / (4.0 * n_nodes)), max(high_x - low_x, high_y - low_y) * 1e-3)
+    return low_x, low_y, cell, int((high_x - low_x) / cell) + 1, int((high_y - low_y) / cell) + 1
+
+
+@jit_exact
+def near(x, n_nodes, edges, radius):
+    """Return (node, edge) of every pair closer than ``radius`` (m) that shares no node."""
+    low_x, low_y, cell, nx, ny = _grid(x, n_nodes, radius)
+    start, order = _binned(x, n_nodes, low_x, low_y, cell, nx, ny)
+    node = np.empty(8 * n_nodes, np.int64)
+    edge = np.empty(8 * n_nodes, np.int64)
+    count = 0
+    for k in range(edges.shape[0]):
+        a, b = pair(edges, k)
+        left = max(int((min(x[2 * a], x[2 * b]) - radius - low_x) / cell), 0)
+        right = min(int((max(x[2 * a], x[2 * b]) + radius - low_x) / cell), nx - 1)
+        down = max(int((min(x[2 * a + 1], x[2 * b + 1]) - radius - low_y) / cell), 0)
+        up = min(int((max(x[2 * a + 1], x[2 * b + 1]) + radius - low_y) / cell), ny - 1)
+        for row in range(down, up + 1):
+            for q in range(start[row * nx + left], start[row * nx + right + 1]):
+                p = order[q]
+                if p == a or p == b or squared_distance(x, p, a, b) >= radius * radius:
+                    continue
+                if count == node.size:
+                    node = np.append(node, np.empty_like(node))
+                    edge = np.append(edge, np.empty_like(edge))
+                node[count], edge[count] = p, k
+                count += 1
+    return node[:count], edge[:count]
+
+
+@jit_exact
+def find(x, contact, radius):
+    """Return the `Pairs` closer than ``radius`` at ``x``, with the weights of ``contact``."""
+    node, edge = near(x, contact.tributary.size, contact.edges, radius)
+    n = node.size
+    weight, d_contact, subtract = np.empty(n), np.empty(n), np.empty((n, 2))
+    for k in range(n):
+        p, e = node[k], edge[k]
+        weight[k] = contact.tributary[p]
+        d_contact[k] = 0.5 * (contact.node_thickness[p] + contact.edge_thickness[e])
+        subtract[k, 0], subtract[k, 1] = contact.subtract[e, 0], contact.subtract[e, 1]
+        for q in range(contact.special_start[p], contact.special_start[p + 1]):
+            if contact.special_edge[q] == e:
+                weight[k] = contact.special_weight[q]
+                d_contact[k] = contact.special_distance[q]
+                subtract[k, 0] = contact.special_subtract[q, 0]
+                subtract[k, 1] = contact.special_subtract[q, 1]
+    return Pairs(node, edge, weight, d_contact, subtract)
+
+
+@jit_exact
+def empty():
+    """Return no pairs."""
+    none = np.empty(0, np.int64)
+    return Pairs(none, none, np.empty(0), np.empty(0), np.empty((0, 2)))
+
+
+@jit_exact
+def farthest(x, other, n_nodes):
+    """Return the largest distance that a node has moved between ``x`` and ``other``."""
+    most = 0.0
+    for p in range(n_nodes):
+        mx, my = x[2 * p] - other[2 * p], x[2 * p + 1] - other[2 * p + 1]
+        most = max(most, mx * mx + my * my)
+    return np.sqrt(most)

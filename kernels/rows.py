@@ -1,0 +1,15 @@
+"""Rows of index arrays as tuples, which compiled code can unpack."""
+
+from kernels.jit import jit
+
+
+@jit
+def pair(indices, k):
+    """Return row ``k`` of an (n, 2) array."""
+    return indices[k, 0], indices[k, 1]
+
+
+@jit
+def triple(indices, k):
+    """Return row ``k`` of an (n, 3) array."""
+    return indices[k, 0], indices[k, 1], indices[k, 2]

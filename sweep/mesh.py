@@ -1,0 +1,96 @@
+"""From a network of walls to nodes, elements, hinges, arms and folds: indices and rest geometry."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sweep.lattice import Network
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Walls split into equal elements. The joints of the network come first among the nodes.
+
+    points (n, 2) m, at rest. edges (m, 2): along their wall. wall (m,): wall of an element.
+    pieces (m,): elements in that wall. thickness (m,) m.
+    """
+
+    points: Floats
+    edges: Ints
+    wall: Ints
+    pieces: Ints
+    thickness: Floats
+    n_joints: int
+
+    @property
+    def rest_length(self) -> Floats:
+        """Length of every element, (m,) m."""
+        return np.linalg.norm(self.points[self.edges[:, 1]] - self.points[self.edges[:, 0]], axis=1)
+
+    @property
+    def inner(self) -> Ints:
+        """Nodes inside walls, with the elements before and after: (h, 3) element, node, element."""
+        at_end = np.flatnonzero(self.wall[1:] == self.wall[:-1])
+        return np.column_stack([at_end, self.edges[at_end, 1], at_end + 1])
+
+    @property
+    def ends(self) -> Ints:
+        """Ends of elements that lie at joints: (k, 3) element, node at the joint, other node."""
+        element = np.repeat(np.arange(len(self.edges)), 2)
+        node, other = self.edges.ravel(), self.edges[:, ::-1].ravel()
+        at_joint = node < self.n_joints
+        return np.column_stack([element, node, other])[at_joint]
+
+    def tributary(self, per_length: Floats) -> Floats:
+        """Half of every element's length x ``per_length`` (m,), summed at its two nodes: (n,)."""
+        half = 0.5 * self.rest_length * per_length
+        return np.bincount(self.edges.ravel(), np.repeat(half, 2), minlength=len(self.points))
+
+
+def split_walls(network: Network, pieces: int, imperfection: float) -> Mesh:
+    """Split every wall into ``pieces`` equal elements and shift all points sideways.
+
+    The stress-free shift in x is ``imperfection`` (m) x sin(pi y / height).
+    """
+    share = np.arange(1, pieces) / pieces
+    start, end = network.points[network.walls[:, 0]], network.points[network.walls[:, 1]]
+    inner = start[:, None] + share[:, None] * (end - start)[:, None]
+    points = np.concatenate([network.points, inner.reshape(-1, 2)])
+    height = np.ptp(network.points[:, 1])
+    points[:, 0] += imperfection * np.sin(np.pi * (points[:, 1] - points[:, 1].min()) / height)
+    n_joints, n_walls = len(network.points), len(network.walls)
+    inside = n_joints + np.arange(n_walls * (pieces - 1)).reshape(n_walls, pieces - 1)
+    chain = np.column_stack([network.walls[:, :1], inside, network.walls[:, 1:]])
+    return Mesh(
+        points=points,
+        edges=np.stack([chain[:, :-1], chain[:, 1:]], axis=-1).reshape(-1, 2),
+        wall=np.repeat(np.arange(n_walls), pieces),
+        pieces=np.full(n_walls * pieces, pieces),
+        thickness=np.repeat(network.wall_thickness, pieces),
+        n_joints=n_joints,
+    )
+
+
+def openings(mesh: Mesh) -> tuple[Ints, Floats, Ints]:
+    """Openings between neighbouring arms of every node.
+
+    Returns nodes (f, 3), anticlockwise from arm 1-0 to arm 1-2; the rest opening (f,) in rad;
+    elements (f, 2) of the two arms.
+    """
+    element = np.repeat(np.arange(len(mesh.edges)), 2)
+    node, other = mesh.edges.ravel(), mesh.edges[:, ::-1].ravel()
+    arm = mesh.points[other] - mesh.points[node]
+    bearing = np.arctan2(arm[:, 1], arm[:, 0])
+    order = np.lexsort([bearing, node])
+    element, node, other, bearing = element[order], node[order], other[order], bearing[order]
+    start = np.searchsorted(node, node, side="left")
+    count = np.searchsorted(node, node, side="right") - start
+    following = start + (np.arange(len(node)) - start + 1) % count
+    opened = np.mod(bearing[following] - bearing, 2 * np.pi)
+    kept = count > 1
+    nodes = np.column_stack([other, node, other[following]])
+    return nodes[kept], opened[kept], np.column_stack([element, element[following]])[kept]

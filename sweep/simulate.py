@@ -1,0 +1,184 @@
+"""A case in, a result out: build the arrays, march through the stages, measure. No files."""
+
+import threading
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from kernels import march, newton
+from kernels.newton import Tolerance
+from sweep.measure import crossings, history_columns, summarise
+from sweep.params import Case
+from sweep.result import Result, Status
+from sweep.scene import Scene, build_scene, time_step
+
+FRAMES = 40
+ROUND_OFF = 4e-15
+ADVICE = {
+    newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; "
+    "try more solver.load_steps or a smaller solver.time_step",
+    newton.STALLED: "the energy could not be lowered further; "
+    "try a looser solver.tolerance or smaller steps",
+    newton.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
+    newton.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
+}
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A stage with its name, for messages."""
+
+    name: str
+    stage: march.Stage
+
+
+def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
+    """Simulate ``case`` and return its `Result`; a numerical failure is a status, not an exception.
+
+    ``stop``: int64 (2,), set stop[0] to 1 from another thread to interrupt; stop[1] counts steps.
+    """
+    started = time.thread_time()
+    scene = build_scene(case)
+    run = _Run(scene, case, np.zeros(2, np.int64) if stop is None else stop)
+    status, message = run.march()
+    history = history_columns(run.rows[: run.done], scene, case)
+    frames = run.frames()
+    summary = summarise(case, scene, history, run.loading_rows)
+    summary |= {
+        "case_id": case.case_id,
+        "status": str(status),
+        "message": message,
+        "max_crossings": crossings(frames),
+        "steps": int(run.state.totals[1]),
+        "newton_iterations": int(run.state.totals[0]),
+        "cpu_s": time.thread_time() - started,
+    }
+    return Result(case.case_id, status, message, summary, history, frames)
+
+
+class _Run:
+    """The march of one scene: its state, what it has written, and its clock."""
+
+    def __init__(self, scene: Scene, case: Case, control: np.ndarray):
+        self.scene, self.case, self.control = scene, case, control
+        self.stages = stages(case, scene)
+        n = scene.x_rest.size
+        total = sum(s.stage.steps for s in self.stages)
+        self.state = march.State(
+            scene.x_rest.copy(), np.zeros(n), np.zeros(march.TIME), np.zeros(n), np.zeros(n),
+            np.zeros(2), np.zeros(3),
+        )  # fmt: skip
+        self.rows = np.zeros((total + 1, march.N_COLUMNS))
+        self.rows[0, march.TOP] = scene.x_rest[scene.top].mean()
+        self.rows[0, march.GAP] = np.nan
+        self.frame_of, kept = _frames(total + 1)
+        self.positions = np.tile(scene.x_rest, (kept, 1))
+        self.done = 1
+        self.loading_rows = self.stages[0].stage.steps + 1
+
+    def march(self) -> tuple[Status, str]:
+        """March through all stages; return the status and its sentence."""
+        late = threading.Event()
+        timer = threading.Timer(self.case.solver.time_limit, self._expire, [late])
+        timer.daemon = True
+        timer.start()
+        try:
+            for stretch in self.stages:
+                outcome = self._march(stretch.stage)
+                if outcome != newton.CONVERGED:
+                    return self._failed(outcome, stretch.name, late.is_set())
+        finally:
+            timer.cancel()
+        return Status.CONVERGED, ""
+
+    def _expire(self, late: threading.Event) -> None:
+        late.set()
+        self.control[0] = 1
+
+    def _march(self, stage: march.Stage) -> int:
+        span = slice(self.done, self.done + stage.steps)
+        out = march.Output(
+            self.rows[span], self.frame_of[span], self.positions, self.scene.bottom, self.scene.top
+        )
+        tolerance = tolerances(self.case, self.scene, stage.dt)
+        outcome, written = march.march(
+            self.scene.terms, self.scene.unknowns, tolerance, stage, self.state, out, self.control
+        )
+        self.done += written
+        return outcome
+
+    def _failed(self, outcome: int, stage: str, late: bool) -> tuple[Status, str]:
+        strain = self._top_strain()
+        where = f"while {stage}, at strain {strain:.3g} after {self.done - 1} steps"
+        if late:
+            limit = self.case.solver.time_limit
+            return Status.TIMED_OUT, f"solver.time_limit of {limit:g} s reached {where}; raise it"
+        if outcome == newton.INTERRUPTED:
+            return Status.STOPPED, f"interrupted {where}; run again to complete it"
+        advice = ADVICE[outcome].format(limit=self.case.solver.max_iterations)
+        return Status.STOPPED, f"stopped {where}: {advice}"
+
+    def _top_strain(self) -> float:
+        tops = self.rows[[0, self.done - 1], march.TOP]
+        return float((tops[0] - tops[1]) / self.case.lattice.height)
+
+    def frames(self) -> dict[str, np.ndarray]:
+        """Stored shapes up to the last row that was written."""
+        steps = np.flatnonzero(self.frame_of[: self.done] >= 0)
+        rows, x = self.rows[steps], self.positions[: len(steps)]
+        n = len(self.scene.mesh.points)
+        plates = x[:, -2:].copy()
+        if self.case.loading.platen == "none":
+            plates[:] = np.nan
+        return {
+            "strain": (self.rows[0, march.TOP] - rows[:, march.TOP]) / self.case.lattice.height,
+            "time_s": rows[:, march.TIME],
+            "position_m": x[:, : 2 * n].reshape(len(x), n, 2),
+            "plate_y_m": plates,
+            "edges": self.scene.mesh.edges,
+            "edge_thickness_m": self.scene.mesh.thickness,
+        }
+
+
+def _frames(n_rows: int) -> tuple[np.ndarray, int]:
+    """Slot of every row among about `FRAMES` evenly spaced frames (-1: not kept), and their count."""
+    kept = np.unique(np.linspace(0, n_rows - 1, min(FRAMES + 1, n_rows)).round().astype(int))
+    frame_of = np.full(n_rows, -1)
+    frame_of[kept] = np.arange(len(kept))
+    return frame_of, len(kept)
+
+
+def tolerances(case: Case, scene: Scene, dt: float) -> Tolerance:
+    """Scale ``solver.tolerance`` to forces and energies, not below what round-off allows."""
+    terms = scene.terms
+    force = max(scene.force_scale, np.abs(terms.load).max(initial=0.0))
+    size = np.ptp(scene.mesh.points)
+    rounded = terms.law.modulus * terms.stretch.area.max() * size / terms.stretch.l0.min()
+    rounded += terms.mass.max() * size / dt**2
+    allowed = max(case.solver.tolerance * force, ROUND_OFF * rounded)
+    return Tolerance(
+        force=allowed,
+        decrement=1e-3 * allowed * case.lattice.wall_thickness,
+        friction=1e3 * allowed,
+        iterations=case.solver.max_iterations,
+    )
+
+
+def stages(case: Case, scene: Scene) -> list[Stretch]:
+    """Loading and unloading as stages with linear ramps."""
+    loading, solver = case.loading, case.solver
+    pace = time_step(case)
+    dt = np.inf if solver.integrator == "static" else pace
+    rest = float(scene.x_rest[-1])
+    if loading.mode == "displacement":
+        low = rest - loading.stroke
+        down = march.Stage(solver.load_steps, dt, pace, 0.0, 0.0, rest, low)
+        up = march.Stage(solver.load_steps, dt, pace, 0.0, 0.0, low, rest)
+        return [Stretch("loading", down)] + ([Stretch("unloading", up)] if loading.unload else [])
+    hold = max(round(loading.release_time / pace), 1)
+    free = max(round((loading.duration - loading.release_time) / pace), 0)
+    start = 0.0 if solver.integrator == "static" else 1.0
+    held = march.Stage(hold, dt, pace, start, 1.0, rest, rest)
+    released = march.Stage(free, dt, pace, 1.0 - start, 0.0, rest, rest)
+    return [Stretch("loading", held)] + ([Stretch("released", released)] if free else [])
