@@ -1,0 +1,102 @@
+"""The uniaxial law of a material: nominal stress over nominal strain, a C1 piecewise cubic.
+
+Tension: the record, shape-preserving (pchip); below 1 % a straight line from the origin, since the
+toe of a record is slack and grip. Compression: the material's own branch where its record has one,
+else `0.7 lower + 0.3 upper` with the tension curve P, nominal strain e < 0 and stretch s = 1 + e:
+
+    lower(e) = -P(-e)                    stress odd in nominal strain
+    upper(e) = -P(1/s - 1) / s^2         Cauchy stress odd in log strain, incompressible
+
+(weights from one moulded grade; good to about 30 % beyond 15 % compression).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sweep.params import Material
+from sweep.record import TOE, stress_at
+
+Floats = NDArray[np.float64]
+
+LOWER_WEIGHT, UPPER_WEIGHT = 0.7, 0.3
+COMPRESSION = -np.array(
+    [
+        *(0.7, 0.65, 0.6, 0.55, 0.5, 0.45, 0.4, 0.35, 0.3, 0.25),
+        *(0.2, 0.15, 0.125, 0.1, 0.075, 0.05, 0.04, 0.03, 0.02, TOE),
+    ]
+)
+
+
+@dataclass(frozen=True)
+class StressLaw:
+    """Stress (Pa) = c0 + c1 s + c2 s^2 + c3 s^3, with s = strain - knots[i] in interval i.
+
+    knots (k,) increase; coefficients (k - 1, 4). Beyond the ends: the last tangent.
+    """
+
+    knots: Floats
+    coefficients: Floats
+
+
+def stress_law(material: Material) -> StressLaw:
+    """The law of a material under uniaxial stress; the plane-strain factor is not in it."""
+    if material.stretch == "linear":
+        slope = material.modulus
+        return StressLaw(np.array([-1.0, 1.0]), np.array([[-slope, slope, 0.0, 0.0]]))
+    from scipy.interpolate import CubicHermiteSpline
+
+    spline = CubicHermiteSpline(*_knots(material.curve_strain, material.curve_stress))
+    return StressLaw(spline.x, np.ascontiguousarray(spline.c[::-1].T))
+
+
+def _knots(
+    curve_strain: tuple[float, ...], curve_stress: tuple[float, ...]
+) -> tuple[Floats, Floats, Floats]:
+    """Strains (k,), stresses (k,) and slopes (k,) of the law."""
+    strain, stress = np.array(curve_strain), np.array(curve_stress)
+    own, above = strain < 0.0, strain > TOE
+    toe = stress_at(TOE, curve_strain, curve_stress)
+    knots = np.r_[strain[own], 0.0, TOE, strain[above]]
+    values = np.r_[stress[own], 0.0, toe, stress[above]]
+    slopes = _shape_preserving_slopes(knots, values)
+    slopes[own.sum() : own.sum() + 2] = toe / TOE  # both ends of the straight line
+    if own.any():
+        return knots, values, slopes
+    values_below, slopes_below = _compression(COMPRESSION, knots, values, slopes)
+    return (
+        np.r_[COMPRESSION, knots],
+        np.r_[values_below, values],
+        np.r_[slopes_below, slopes],
+    )
+
+
+def _shape_preserving_slopes(knots: Floats, values: Floats) -> Floats:
+    from scipy.interpolate import PchipInterpolator
+
+    return np.asarray(PchipInterpolator(knots, values).derivative()(knots))
+
+
+def _compression(
+    strain: Floats, knots: Floats, values: Floats, slopes: Floats
+) -> tuple[Floats, Floats]:
+    """Stress and slope at compressive strains, from the tension curve through the knots."""
+    stretch = 1.0 + strain
+    lower, lower_slope = _tension(-strain, knots, values, slopes)
+    cauchy, cauchy_slope = _tension(1.0 / stretch - 1.0, knots, values, slopes)
+    stress = -LOWER_WEIGHT * lower - UPPER_WEIGHT * cauchy / stretch**2
+    upper_slope = cauchy_slope / stretch**4 + 2.0 * cauchy / stretch**3
+    return stress, LOWER_WEIGHT * lower_slope + UPPER_WEIGHT * upper_slope
+
+
+def _tension(
+    strain: Floats, knots: Floats, values: Floats, slopes: Floats
+) -> tuple[Floats, Floats]:
+    """Stress and slope of the tension curve; beyond its end it goes on with the last tangent."""
+    from scipy.interpolate import CubicHermiteSpline
+
+    curve = CubicHermiteSpline(knots, values, slopes)
+    inside = np.minimum(strain, knots[-1])
+    tangent = curve(inside, 1)
+    return curve(inside) + tangent * (strain - inside), tangent

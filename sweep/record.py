@@ -1,0 +1,106 @@
+"""Material records: the tables under `configs/materials/`, read as they stand, in SI.
+
+A record is a csv file. Its comment lines hold the source and, one a line, `# key: value` for
+`density_kg_m3`, `poisson` and, optionally, `modulus_Pa`; then come the columns `strain,stress_Pa`
+(nominal, tension positive, strains increasing; the origin is implied and may be left out).
+Rows of negative strain, where there are any, are the material's own compression branch.
+"""
+
+import csv
+import re
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+from pathlib import Path
+
+FOLDER = Path(__file__).parents[1] / "configs" / "materials"
+COLUMNS = ["strain", "stress_Pa"]
+TOE = 0.01  # strain below which a record is replaced by a straight line from the origin
+SECANT = (0.01, 0.04)  # strains between which the modulus of a curve is taken
+
+_HEADER = re.compile(r"#\s*(density_kg_m3|poisson|modulus_Pa)\s*:\s*(\S+)")
+
+
+class RecordError(ValueError):
+    """A record that cannot be used; the text is one line that names the file and the fault."""
+
+
+@dataclass(frozen=True)
+class Record:
+    """One material: nominal strain and stress (k,) in Pa, and its numbers in SI."""
+
+    name: str
+    strain: tuple[float, ...]
+    stress: tuple[float, ...]
+    density: float
+    poisson: float
+    modulus: float
+
+
+def available() -> list[str]:
+    """Names of the records that come with the project."""
+    return sorted(path.stem for path in FOLDER.glob("*.csv"))
+
+
+def locate(name: str, folder: Path | None = None) -> Path:
+    """The file of a shipped material, or of a user's own csv, relative to `folder`."""
+    if name.endswith(".csv"):
+        path = (folder or Path()) / name
+        if path.is_file():
+            return path
+    elif name in available():
+        return FOLDER / f"{name}.csv"
+    names = ", ".join(available())
+    raise RecordError(f"unknown material; allowed: {names}, or the path of a .csv file")
+
+
+@lru_cache(maxsize=64)
+def read_record(path: Path) -> Record:
+    """Read and check one record. Modulus: as stated, else the secant between 1 and 4 %."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    stated = dict(match.groups() for line in lines if (match := _HEADER.match(line)))
+    rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))
+    if not rows or [word.strip() for word in rows[0]] != COLUMNS:
+        raise RecordError(f"{path.name}: the first row must read {','.join(COLUMNS)}")
+    try:
+        strain, stress = zip(*((float(a), float(b)) for a, b in rows[1:]), strict=True)
+        numbers = {key: float(value) for key, value in stated.items()}
+    except ValueError:
+        raise RecordError(f"{path.name}: needs two numbers in every row under its header") from None
+    if "density_kg_m3" not in numbers or "poisson" not in numbers:
+        raise RecordError(f"{path.name}: needs the lines # density_kg_m3: ... and # poisson: ...")
+    check_curve(strain, stress)
+    return Record(
+        name=path.stem,
+        strain=strain,
+        stress=stress,
+        density=numbers["density_kg_m3"],
+        poisson=numbers["poisson"],
+        modulus=numbers.get("modulus_Pa", secant_modulus(strain, stress)),
+    )
+
+
+def check_curve(strain: tuple[float, ...], stress: tuple[float, ...]) -> None:
+    """Refuse a curve that is no function of strain, or that starts flat or falling."""
+    if len(strain) != len(stress) or not strain or strain[-1] < SECANT[1]:
+        raise RecordError("a curve needs as many stresses as strains, beyond a strain of 0.04")
+    if any(b <= a for a, b in pairwise(strain)) or strain[0] <= -1.0:
+        raise RecordError("the strains of a curve must increase, from above -1")
+    if stress_at(TOE, strain, stress) <= 0.0:
+        raise RecordError("the stress of a curve must be positive at 1 % strain")
+
+
+def secant_modulus(strain: tuple[float, ...], stress: tuple[float, ...]) -> float:
+    """Slope of the record between 1 and 4 % tension (Pa)."""
+    low, high = SECANT
+    rise = stress_at(high, strain, stress) - stress_at(low, strain, stress)
+    return rise / (high - low)
+
+
+def stress_at(at: float, strain: tuple[float, ...], stress: tuple[float, ...]) -> float:
+    """Stress (Pa) at a tensile strain, straight between the points of the record and the origin."""
+    points = [(0.0, 0.0), *((e, s) for e, s in zip(strain, stress, strict=True) if e > 0.0)]
+    for (e0, s0), (e1, s1) in pairwise(points):
+        if at <= e1:
+            return s0 + (s1 - s0) * (at - e0) / (e1 - e0)
+    raise RecordError(f"the record ends below a strain of {at:g}")

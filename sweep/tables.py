@@ -1,0 +1,170 @@
+"""The tables of a case: frozen models whose attribute names are the TOML keys, SI inside."""
+
+import json
+from functools import cached_property
+from typing import Annotated, Any, Literal, NamedTuple, Self
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from sweep.record import check_curve, locate, read_record
+
+BY_NUMBERS = "by numbers"
+SIGNIFICANT = 12  # digits of a number that count in an id: a unit conversion leaves them alone
+
+
+class Unit(NamedTuple):
+    """What a quantity is measured in, and how a config may write it."""
+
+    symbol: str
+    kind: str
+    example: str
+
+
+Length = Annotated[float, Unit("m", "a length", "0.8 mm"), Field(gt=0)]
+Duration = Annotated[float, Unit("s", "a time", "0.2 s"), Field(gt=0)]
+Force = Annotated[float, Unit("N", "a force", "10 N"), Field(gt=0)]
+Speed = Annotated[float, Unit("m/s", "a speed", "100 mm/min"), Field(gt=0)]
+Rate = Annotated[float, Unit("1/s", "a rate", "5 1/s"), Field(ge=0)]
+Lag = Annotated[float, Unit("s", "a time", "1e-4 s"), Field(ge=0)]
+Stress = Annotated[float, Unit("Pa", "a stress", "12 MPa"), Field(gt=0)]
+Density = Annotated[float, Unit("kg/m^3", "a density", "1190 kg/m^3"), Field(gt=0)]
+Count = Annotated[int, Field(ge=1)]
+NonNegative = Annotated[float, Field(ge=0)]
+
+
+class Table(BaseModel):
+    """One table of a config."""
+
+    model_config = ConfigDict(frozen=True, strict=True, extra="forbid", allow_inf_nan=False)
+
+    @cached_property
+    def canonical(self) -> str:
+        """The table as JSON: sorted keys, rounded numbers, only the keys in use."""
+        used = {key: _rounded(value) for key, value in self if value is not None}
+        return json.dumps(used, sort_keys=True, separators=(",", ":"))
+
+
+def refusal(key: str, value: object, allowed: str) -> PydanticCustomError:
+    """The error of one key whose value does not go with the rest of its case."""
+    context = {"key": key, "value": value, "allowed": allowed}
+    return PydanticCustomError("refused", "{key} = {value}; allowed: {allowed}", context)
+
+
+def _rounded(value: object) -> object:
+    if isinstance(value, float):
+        return float(f"{value:.{SIGNIFICANT}g}")
+    return [_rounded(item) for item in value] if isinstance(value, tuple) else value
+
+
+class Lattice(Table):
+    """The specimen: outer size over centre lines, and the mesh of its walls."""
+
+    kind: Literal["square"] = "square"
+    cells_x: Count = 3
+    cells_y: Count = 3
+    width: Length = 12.5e-3
+    height: Length = 12.5e-3
+    depth: Length = 12e-3
+    wall_thickness: Length = 0.8e-3
+    nodes_per_wall: Annotated[int, Field(ge=0)] = 2
+    imperfection: NonNegative = 0.01
+
+    @model_validator(mode="after")
+    def _leave_an_opening(self) -> Self:
+        half_pitch = 0.5 * min(self.width / self.cells_x, self.height / self.cells_y)
+        if self.wall_thickness >= half_pitch:
+            allowed = f"below half the cell pitch, {half_pitch:.4g} m here"
+            raise refusal("lattice.wall_thickness", self.wall_thickness, allowed)
+        return self
+
+
+class Material(Table):
+    """A material: a record by its name, whose numbers may be overridden, or numbers alone.
+
+    `curve_strain`, `curve_stress` (k,) in Pa hold the record itself (empty if stretch is linear),
+    so that a case needs no file.
+    """
+
+    name: str = "ninjaflex"
+    stretch: Literal["nonlinear", "linear"] = "nonlinear"
+    bend: Literal["linear"] = "linear"
+    plane: Literal["strain", "stress", "strain_bending"] = "strain"
+    # Filled in before validation, from the record; the zeros are refused if they are not.
+    modulus: Stress = Field(default=0.0, validate_default=True)
+    density: Density = Field(default=0.0, validate_default=True)
+    poisson: Annotated[float, Field(ge=0, lt=0.5)] = 0.48
+    curve_strain: tuple[float, ...] = ()
+    curve_stress: tuple[float, ...] = ()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _fill_in(cls, given: Any) -> Any:
+        if not isinstance(given, dict) or "curve_strain" in given:
+            return given
+        if "modulus" in given and "name" not in given:
+            if "density" not in given:
+                raise refusal("material.density", None, "a density, as no name is given")
+            return {"name": BY_NUMBERS, "stretch": "linear", **given}
+        record = read_record(locate(given.get("name", "ninjaflex")))
+        known = {key: getattr(record, key) for key in ("modulus", "density", "poisson")}
+        if given.get("stretch") != "linear":
+            known |= {"curve_strain": record.strain, "curve_stress": record.stress}
+        return {**known, **given, "name": record.name}
+
+    @model_validator(mode="after")
+    def _has_its_curve(self) -> Self:
+        if self.stretch == "nonlinear":
+            if not self.curve_strain:
+                raise refusal("material.stretch", "nonlinear", '"linear", as no curve is given')
+            check_curve(self.curve_strain, self.curve_stress)
+        elif self.curve_strain:
+            raise refusal("material.curve_strain", self.curve_strain, "no curve if linear")
+        return self
+
+
+class Loading(Table):
+    """What is done to the specimen. None: not given, or not used by the mode."""
+
+    mode: Literal["force", "displacement"] = "force"
+    force: Force | None = None
+    release_time: Duration | None = None
+    duration: Duration | None = None
+    stroke: Length | None = None
+    strain: Annotated[float, Field(gt=0, lt=1)] | None = None
+    speed: Speed | None = None
+    quasi_static: bool | None = None
+    unload: bool | None = None
+    platen: Literal["none", "contact", "glued"] | None = None
+    allowed_forces: tuple[Force, ...] = ()
+
+
+class Contact(Table):
+    """Wall against wall and wall against platen; `stiffness` is the factor c of the barrier."""
+
+    model: Literal["none", "barrier"] = "barrier"
+    friction: NonNegative | None = 0.3
+    stiffness: Annotated[float, Field(gt=0)] | None = 1.0
+    slip_speed: Speed | None = None
+
+
+class Damping(Table):
+    """Rayleigh: `mass` alpha, `stiffness` beta. Kelvin-Voigt: viscosity = modulus x time."""
+
+    model: Literal["none", "rayleigh", "kelvin_voigt"] = "rayleigh"
+    mass: Rate | None = 5.0
+    stiffness: Lag | None = 1e-4
+    relaxation_time: Lag | None = 1e-4
+
+
+class Solver(Table):
+    """How the equations are solved. None: chosen by the loading, or not used by it."""
+
+    integrator: Literal["backward_euler", "static"] | None = None
+    time_step: Duration | None = None
+    load_steps: Count | None = None
+    tolerance: Annotated[float, Field(gt=0, lt=1)] = 1e-8
+    max_iterations: Count = 100
+    time_limit: Duration = 300.0
+    hinges: Literal["exact_beam", "classical"] = "exact_beam"
+    bend_measure: Literal["angle", "tangent"] = "angle"
