@@ -115,12 +115,27 @@ HISTORY_COLUMNS: dict[str, Column] = {
 }
 """Every column that a history always has, in the order in which it is stored."""
 
+FRAME_COLUMNS: dict[str, Column] = {
+    "strain": Column("1", "top displacement / height of a frame"),
+    "time_s": Column("s", "time of a frame"),
+    "plate_y_m": Column("m", "height of the lower and the upper platen; NaN where there is none"),
+    "position_m": Column("m", "x and y of every node, frame after frame"),
+    "edges": Column("", "the two nodes of every element"),
+    "edge_thickness_m": Column("m", "wall thickness of every element"),
+}
+"""Every array of the frames of a case."""
+
 _ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
 
 
 def absorbed_energy_column(force: float) -> str:
     """Name of the column of the energy absorbed until `force` (N) is first transmitted."""
     return f"absorbed_energy_at_{force:.10g}N_J"
+
+
+def is_grid_key(name: str) -> bool:
+    """True for the column of a grid key, such as `lattice.wall_thickness`."""
+    return name not in COLUMNS and not _ABSORBED_AT.fullmatch(name)
 
 
 def describe_column(name: str) -> Column:

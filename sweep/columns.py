@@ -1,0 +1,93 @@
+"""Tables as plain dictionaries: column -> array (rows,), where text is an array of `object`.
+
+A value that a row lacks is NaN in a column of numbers and "" in a column of text.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from sweep.result import COLUMNS, is_grid_key
+
+Columns = dict[str, np.ndarray]
+
+_FIXED = list(COLUMNS)
+_HEAD = ("case_id", "status", "message")
+
+
+def tabulate(rows: Sequence[Mapping[str, Any]]) -> Columns:
+    """Table of rows that need not have the same columns."""
+    names = dict.fromkeys(name for row in rows for name in row)
+    return {name: _column([row.get(name) for row in rows]) for name in names}
+
+
+def take(table: Mapping[str, np.ndarray], index: np.ndarray) -> Columns:
+    """Rows of a table by their numbers, in that order."""
+    return {name: column[index] for name, column in table.items()}
+
+
+def stack(tables: Sequence[Columns]) -> Columns:
+    """Tables one below another, with every column of any."""
+    lengths = [len(table["case_id"]) for table in tables]
+    names = dict.fromkeys(name for table in tables for name in table)
+    return {name: _join([table.get(name) for table in tables], lengths) for name in names}
+
+
+def relabel(table: Columns, axes: Mapping[str, Mapping[str, Any]]) -> Columns:
+    """Table with the grid values of the cases in `axes` (by case id) written anew.
+
+    A case that an earlier sweep computed belongs to this one too, under the keys of this grid;
+    the labels that `axes` does not speak of stand.
+    """
+    rows = [axes.get(case_id, {}) for case_id in table["case_id"]]
+    fresh = {}
+    for name in dict.fromkeys(name for row in rows for name in row):
+        old = table[name].tolist() if name in table else [None] * len(rows)
+        fresh[name] = _column([row.get(name, value) for row, value in zip(rows, old, strict=True)])
+    return table | fresh
+
+
+def arrange(table: Columns) -> Columns:
+    """Columns in the order of a reader: who and how, the grid, the fixed ones, the others."""
+    return {name: table[name] for name in sorted(table, key=_place)}
+
+
+def rows_in_order(ids: Iterable[str], wanted: Iterable[str]) -> np.ndarray:
+    """Row numbers that bring `ids` into the order of `wanted`; the others follow as they are."""
+    place = {case_id: number for number, case_id in enumerate(wanted)}
+    return np.argsort([place.get(case_id, len(place)) for case_id in ids], kind="stable")
+
+
+def _place(name: str) -> tuple[int, int]:
+    if name in _HEAD:
+        return 0, _FIXED.index(name)
+    if name in COLUMNS:
+        return 2, _FIXED.index(name)
+    return (1, 0) if is_grid_key(name) else (3, 0)
+
+
+def _column(values: Sequence[Any]) -> np.ndarray:
+    """Text if any value is, whole numbers if all are, else float64."""
+    if any(isinstance(value, str) for value in values):
+        return np.array([_text(value) for value in values], dtype=object)
+    if all(isinstance(value, int | np.integer) for value in values):
+        return np.array(values, dtype=np.int64)
+    return np.array([np.nan if value is None else value for value in values], dtype=np.float64)
+
+
+def _join(parts: Sequence[np.ndarray | None], lengths: Sequence[int]) -> np.ndarray:
+    kinds = {"f" if part is None else part.dtype.kind for part in parts}
+    if "O" in kinds:
+        return _column([v for part, n in zip(parts, lengths, strict=True) for v in _list(part, n)])
+    blank = [np.full(n, np.nan) for n in lengths]
+    return np.concatenate([b if p is None else p for p, b in zip(parts, blank, strict=True)])
+
+
+def _list(part: np.ndarray | None, length: int) -> list[Any]:
+    return [None] * length if part is None else part.tolist()
+
+
+def _text(value: Any) -> str:
+    """A value of a text column; a missing one (None, NaN) is empty."""
+    return "" if value is None or value != value else str(value)

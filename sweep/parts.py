@@ -1,0 +1,108 @@
+"""Sealed parts beside a results file: names, order, and a way of writing that survives a kill.
+
+Part `FIRST-LAST.h5` holds the batches numbered FIRST to LAST of the results file's life. Merging
+parts 1-1 to 64-64 makes 1-64, which covers them: should the deletion be cut short, nobody reads a
+batch twice.
+"""
+
+import os
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+MERGE_AT = 64  # parts of one size that become one: a sweep of any length leaves a few hundred
+
+_NAME = re.compile(r"(\d+)-(\d+)\.h5")
+_TEMPORARY = ".tmp"
+
+
+class Part(NamedTuple):
+    """A sealed file and the numbers of the batches in it."""
+
+    first: int
+    last: int
+    path: Path
+
+    @property
+    def size(self) -> int:
+        """Number of batches."""
+        return self.last - self.first + 1
+
+
+def parts_folder(path: Path) -> Path:
+    """Folder of the parts of a results file."""
+    return path.with_suffix(".parts")
+
+
+def new_part(path: Path, first: int, last: int) -> Part:
+    """The part of the results file `path` that is to hold these batches."""
+    return Part(first, last, parts_folder(path) / f"{first:08d}-{last:08d}.h5")
+
+
+def list_parts(path: Path) -> list[Part]:
+    """Parts of a results file in order, without those that a merged one covers."""
+    parts: list[Part] = []
+    for part in sorted(_found(path), key=lambda part: (part.first, -part.last)):
+        if not parts or part.last > parts[-1].last:
+            parts.append(part)
+    return parts
+
+
+def parts_to_merge(parts: list[Part]) -> list[Part]:
+    """The last parts, if there are enough of one size to be merged."""
+    tail = [part for part in parts[-MERGE_AT:] if part.size == parts[-1].size]
+    return tail if len(tail) == MERGE_AT else []
+
+
+def seal(target: Path, write: Callable[[Path], None]) -> None:
+    """Let `write` fill a file and give it its name only when it is safe on the disk."""
+    temporary = target.with_name(target.name + _TEMPORARY)
+    write(temporary)
+    _synchronise(temporary)
+    os.replace(temporary, target)
+    _synchronise(target.parent)
+
+
+def make_folder(folder: Path) -> None:
+    """Make a folder that a power cut does not undo."""
+    if not folder.is_dir():
+        folder.mkdir(parents=True, exist_ok=True)
+        _synchronise(folder.parent)
+
+
+def discard(parts: list[Part]) -> None:
+    """Delete parts whose batches are safe elsewhere."""
+    for part in parts:
+        part.path.unlink(missing_ok=True)
+
+
+def clear_leftovers(path: Path, folded: int) -> None:
+    """Delete what a killed writer left: temporaries, and parts whose batches are elsewhere."""
+    path.with_name(path.name + _TEMPORARY).unlink(missing_ok=True)
+    for temporary in parts_folder(path).glob("*" + _TEMPORARY):
+        temporary.unlink()
+    needed = {part for part in list_parts(path) if part.last > folded}
+    discard([part for part in _found(path) if part not in needed])
+
+
+def remove_folder(path: Path) -> None:
+    """Remove the folder of the parts if nothing is left in it."""
+    folder = parts_folder(path)
+    if folder.is_dir() and not any(folder.iterdir()):
+        folder.rmdir()
+
+
+def _found(path: Path) -> list[Part]:
+    folder = parts_folder(path)
+    names = os.listdir(folder) if folder.is_dir() else []
+    matches = [match for name in names if (match := _NAME.fullmatch(name))]
+    return [Part(int(match[1]), int(match[2]), folder / match[0]) for match in matches]
+
+
+def _synchronise(path: Path) -> None:
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
