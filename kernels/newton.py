@@ -17,6 +17,7 @@ from kernels.step import covers, energy, find_near, gradient, hessian, step_limi
 CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE = range(6)
 ARMIJO = 1e-4
 HALVINGS = 40
+LEAST_SHARE = 1e-12  # of a step: less is standing still
 RESOLVED = 1e-11  # an energy change below this share of the energy is lost in round-off
 
 
@@ -153,19 +154,18 @@ def _leave_saddle(x, terms, step, near, unknowns, work, failed):
 
 
 @jit_exact
-def _driven_direction(x, terms, step, near, unknowns, work, remaining):
-    """Point ``work.direction`` to the equilibrium after the driven row's move; False if singular."""
-    for projected in (False, True):
-        failed = _factored(x, terms, step, near, unknowns, projected)
-        if failed < 0:
-            break
-    if failed >= 0:
-        return False
+def _solve(matrix, unknowns, work, remaining):
+    """Point ``work.direction`` to where the quadratic model is stationary; return its slope there.
+
+    A driven row that has ``remaining`` m to go takes the others along (no slope is defined then).
+    """
     work.direction[:] = -work.residual
-    _pull_of_driven(near.matrix, unknowns, remaining, work.direction)
-    sparse.solve(near.matrix, unknowns.free, work.direction)
-    work.direction[unknowns.free] = remaining
-    return True
+    if remaining != 0.0:
+        _pull_of_driven(matrix, unknowns, remaining, work.direction)
+    sparse.solve(matrix, unknowns.free, work.direction)
+    if unknowns.driven >= 0:
+        work.direction[unknowns.free] = remaining
+    return _dot(work.residual, work.direction, unknowns.free)
 
 
 @jit_exact
@@ -183,44 +183,35 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, work, control):
         if not size < np.inf:
             return NOT_FINITE, iteration, near
         remaining = target - x[unknowns.driven] if unknowns.driven >= 0 else 0.0
-        if remaining != 0.0:
-            if not _driven_direction(x, terms, step, near, unknowns, work, remaining):
-                return SINGULAR, iteration, near
-        else:
-            failed = _factored(x, terms, step, near, unknowns, False)
-            stable = failed < 0
-            if not stable and size <= tolerance.force:
-                if not _leave_saddle(x, terms, step, near, unknowns, work, failed):
-                    return SINGULAR, iteration, near
+        settled = remaining == 0.0 and size <= tolerance.force
+        failed, stable = 0, False
+        for projected in (False, True):
+            failed = _factored(x, terms, step, near, unknowns, projected)
+            stable = failed < 0 and not projected
+            if failed < 0 or settled:
+                break
+        if failed >= 0:
+            if settled and _leave_saddle(x, terms, step, near, unknowns, work, failed):
                 continue
-            if not stable and _factored(x, terms, step, near, unknowns, True) >= 0:
-                return SINGULAR, iteration, near
-            work.direction[:] = -work.residual
-            sparse.solve(near.matrix, unknowns.free, work.direction)
-            if unknowns.driven >= 0:
-                work.direction[unknowns.free] = 0.0
-            slope = _dot(work.residual, work.direction, unknowns.free)
-            if stable and size <= tolerance.force and -0.5 * slope <= tolerance.decrement:
-                return CONVERGED, iteration, near
+            return SINGULAR, iteration, near
+        slope = _solve(near.matrix, unknowns, work, remaining)
+        if settled and stable and -0.5 * slope <= tolerance.decrement:
+            return CONVERGED, iteration, near
         most = _spread(work.direction, unknowns, work.dx)
         cap = max(unknowns.cap, 5.0 * abs(remaining))
         if most > cap:
-            work.dx *= cap / most
-            slope = slope * cap / most if remaining == 0.0 else 0.0
+            work.dx[:] = work.dx * (cap / most)
+            slope *= cap / most
             most = cap
         if not covers(near, x, terms, most):
             near = find_near(x, terms, max(3.0 * most, terms.contact.reach))
         share = step_limit(x, work.dx, terms, near)
         if remaining == 0.0:
             share = _search(x, terms, step, near, work, slope, share)
-            if share == 0.0:
-                return STALLED, iteration, near
-            x[:] = work.trial
-        else:
-            if share < 1e-3:
-                return STALLED, iteration, near
-            for i in range(x.size):
-                x[i] += share * work.dx[i]
-            if share == 1.0 and most < cap:
-                x[unknowns.driven] = target
+        if share < LEAST_SHARE:
+            return STALLED, iteration, near
+        for i in range(x.size):
+            x[i] += share * work.dx[i]
+        if remaining != 0.0 and share == 1.0 and most < cap:
+            x[unknowns.driven] = target
     return ITERATIONS, tolerance.iterations, near

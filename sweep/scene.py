@@ -179,7 +179,7 @@ def _coordinates(mesh: Mesh, bending: bend.Bend, folds: Ints) -> list[Ints]:
     """Coordinates of each element, hinge, fold, arm and coupling: (k, 4), (k, 6) ... (k, 6)."""
 
     def of(nodes: Ints) -> Ints:
-        return np.stack([2 * nodes, 2 * nodes + 1], axis=-1).reshape(len(nodes), -1)
+        return np.stack([2 * nodes, 2 * nodes + 1], axis=-1).reshape(len(nodes), 2 * nodes.shape[1])
 
     arms = np.column_stack([of(bending.arms[:, :2]), bending.arms[:, 2]])
     pairs = bending.couplings

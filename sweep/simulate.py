@@ -41,7 +41,7 @@ def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
     started = time.thread_time()
     scene = build_scene(case)
     run = _Run(scene, case, np.zeros(2, np.int64) if stop is None else stop)
-    status, message = run.march()
+    status, message = run.complete()
     history = history_columns(run.rows[: run.done], scene, case)
     frames = run.frames()
     summary = summarise(case, scene, history, run.loading_rows)
@@ -77,7 +77,7 @@ class _Run:
         self.done = 1
         self.loading_rows = self.stages[0].stage.steps + 1
 
-    def march(self) -> tuple[Status, str]:
+    def complete(self) -> tuple[Status, str]:
         """March through all stages; return the status and its sentence."""
         late = threading.Event()
         timer = threading.Timer(self.case.solver.time_limit, self._expire, [late])
@@ -85,7 +85,7 @@ class _Run:
         timer.start()
         try:
             for stretch in self.stages:
-                outcome = self._march(stretch.stage)
+                outcome = self._through(stretch.stage)
                 if outcome != newton.CONVERGED:
                     return self._failed(outcome, stretch.name, late.is_set())
         finally:
@@ -96,7 +96,7 @@ class _Run:
         late.set()
         self.control[0] = 1
 
-    def _march(self, stage: march.Stage) -> int:
+    def _through(self, stage: march.Stage) -> int:
         span = slice(self.done, self.done + stage.steps)
         out = march.Output(
             self.rows[span], self.frame_of[span], self.positions, self.scene.bottom, self.scene.top
