@@ -151,8 +151,9 @@ def test_every_test_asserts():
     assert silent == []
 
 
-def test_command_line_starts_without_heavy_imports():
-    script = f"import sys, sweep.__main__; print(*[m for m in {HEAVY} if m in sys.modules])"
+def test_help_and_a_refused_config_need_no_heavy_imports():
+    light = "sweep.__main__, sweep.params, sweep.config"
+    script = f"import sys, {light}; print(*[m for m in {HEAVY} if m in sys.modules])"
     done = subprocess.run(
         [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=False
     )
