@@ -7,9 +7,9 @@ from functools import cached_property
 from hashlib import blake2b
 from typing import Self
 
-from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from sweep.resolve import resolved_contact, resolved_damping, resolved_loading, resolved_solver
+from sweep.resolve import resolve
 from sweep.tables import Contact, Damping, Lattice, Loading, Material, Solver, Table
 
 __all__ = [
@@ -29,23 +29,18 @@ class Case(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    lattice: Lattice = Lattice()
-    material: Material = Material()
-    loading: Loading = Loading()
-    contact: Contact = Contact()
-    damping: Damping = Damping()
-    solver: Solver = Solver()
+    lattice: Lattice = Field(default_factory=Lattice)
+    material: Material = Field(default_factory=Material)
+    loading: Loading = Field(default_factory=Loading)
+    contact: Contact = Field(default_factory=Contact)
+    damping: Damping = Field(default_factory=Damping)
+    solver: Solver = Field(default_factory=Solver)
     axes: dict[str, float | int | str | None] = {}
 
     @model_validator(mode="after")
     def _resolve(self) -> Self:
-        loading = resolved_loading(self.loading, self.lattice, self.solver)
-        resolved = {
-            "loading": loading,
-            "contact": resolved_contact(self.contact, loading),
-            "damping": resolved_damping(self.damping, loading),
-            "solver": resolved_solver(self.solver, loading),
-        }
+        height = self.lattice.height
+        resolved = resolve(height, self.loading, self.contact, self.damping, self.solver)
         for name, table in resolved.items():
             object.__setattr__(self, name, table)  # frozen from here on
         return self
@@ -58,5 +53,10 @@ class Case(BaseModel):
 
 
 TABLES: dict[str, type[Table]] = {
-    name: field.annotation for name, field in Case.model_fields.items() if name != "axes"
+    "lattice": Lattice,
+    "material": Material,
+    "loading": Loading,
+    "contact": Contact,
+    "damping": Damping,
+    "solver": Solver,
 }

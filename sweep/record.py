@@ -9,7 +9,6 @@ Rows of negative strain, where there are any, are the material's own compression
 import csv
 import re
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
 
@@ -50,15 +49,13 @@ def locate(name: str, folder: Path | None = None) -> Path:
             return path
     elif name in available():
         return FOLDER / f"{name}.csv"
-    names = ", ".join(available())
-    raise RecordError(f"unknown material; allowed: {names}, or the path of a .csv file")
+    raise RecordError("unknown material")
 
 
-@lru_cache(maxsize=64)
 def read_record(path: Path) -> Record:
     """Read and check one record. Modulus: as stated, else the secant between 1 and 4 %."""
     lines = path.read_text(encoding="utf-8").splitlines()
-    stated = dict(match.groups() for line in lines if (match := _HEADER.match(line)))
+    stated = {m[1]: m[2] for line in lines if (m := _HEADER.match(line))}
     rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))
     if not rows or [word.strip() for word in rows[0]] != COLUMNS:
         raise RecordError(f"{path.name}: the first row must read {','.join(COLUMNS)}")

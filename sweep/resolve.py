@@ -7,21 +7,33 @@ together is refused. Resolving what is resolved changes nothing.
 from math import ceil, isclose
 from typing import TypeVar
 
-from sweep.tables import Contact, Damping, Lattice, Loading, Solver, refusal
+from sweep.tables import Contact, Damping, Loading, Solver, Table, refusal
 
 T = TypeVar("T")
 
 
-def resolved_loading(loading: Loading, lattice: Lattice, solver: Solver) -> Loading:
-    """The loading with the keys of its mode filled in, and those only."""
+def resolve(
+    height: float, loading: Loading, contact: Contact, damping: Damping, solver: Solver
+) -> dict[str, Table]:
+    """The tables that depend on one another and on the height of the lattice, nothing left open."""
+    loading = _loading(loading, height, solver.integrator)
+    return {
+        "loading": loading,
+        "contact": _contact(contact, loading),
+        "damping": _damping(damping, loading),
+        "solver": _solver(solver, loading),
+    }
+
+
+def _loading(loading: Loading, height: float, integrator: str | None) -> Loading:
     if loading.mode == "force":
-        return _force(loading, solver)
-    return _displacement(loading, lattice.height, solver.integrator)
+        return _force(loading, integrator)
+    return _displacement(loading, height, integrator)
 
 
-def _force(loading: Loading, solver: Solver) -> Loading:
+def _force(loading: Loading, integrator: str | None) -> Loading:
     """The seed's loading: on until `release_time`, watched until `duration`."""
-    if solver.integrator == "static":
+    if integrator == "static":
         raise refusal("solver.integrator", "static", '"backward_euler" if loading.mode is "force"')
     duration = _given(loading.duration, 0.2)
     release_time = _given(loading.release_time, min(0.138, duration))
@@ -74,7 +86,7 @@ def _stroke_and_strain(loading: Loading, height: float) -> tuple[float, float]:
     return stroke, strain
 
 
-def resolved_contact(contact: Contact, loading: Loading) -> Contact:
+def _contact(contact: Contact, loading: Loading) -> Contact:
     """A platen that is not glued needs the barrier even where walls do not see each other."""
     if contact.model == "none" and loading.platen != "contact":
         return Contact(model="none", friction=None, stiffness=None)
@@ -84,7 +96,7 @@ def resolved_contact(contact: Contact, loading: Loading) -> Contact:
     return contact.model_copy(update={"slip_speed": _given(contact.slip_speed, 0.01 * reference)})
 
 
-def resolved_damping(damping: Damping, loading: Loading) -> Damping:
+def _damping(damping: Damping, loading: Loading) -> Damping:
     """Without time there is nothing to damp."""
     unused = {
         "none": ("mass", "stiffness", "relaxation_time"),
@@ -95,7 +107,7 @@ def resolved_damping(damping: Damping, loading: Loading) -> Damping:
     return damping.model_copy(update={"model": model, **dict.fromkeys(unused[model])})
 
 
-def resolved_solver(solver: Solver, loading: Loading) -> Solver:
+def _solver(solver: Solver, loading: Loading) -> Solver:
     """A platen moves in `load_steps` equal steps, which set the time step if there is time."""
     if loading.mode == "force":
         step = {"time_step": _given(solver.time_step, 1e-4), "load_steps": None}

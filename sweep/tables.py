@@ -2,7 +2,7 @@
 
 import json
 from functools import cached_property
-from typing import Annotated, Any, Literal, NamedTuple, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -13,22 +13,15 @@ BY_NUMBERS = "by numbers"
 SIGNIFICANT = 12  # digits of a number that count in an id: a unit conversion leaves them alone
 
 
-class Unit(NamedTuple):
-    """What a quantity is measured in, and how a config may write it."""
-
-    symbol: str
-    kind: str
-    example: str
-
-
-Length = Annotated[float, Unit("m", "a length", "0.8 mm"), Field(gt=0)]
-Duration = Annotated[float, Unit("s", "a time", "0.2 s"), Field(gt=0)]
-Force = Annotated[float, Unit("N", "a force", "10 N"), Field(gt=0)]
-Speed = Annotated[float, Unit("m/s", "a speed", "100 mm/min"), Field(gt=0)]
-Rate = Annotated[float, Unit("1/s", "a rate", "5 1/s"), Field(ge=0)]
-Lag = Annotated[float, Unit("s", "a time", "1e-4 s"), Field(ge=0)]
-Stress = Annotated[float, Unit("Pa", "a stress", "12 MPa"), Field(gt=0)]
-Density = Annotated[float, Unit("kg/m^3", "a density", "1190 kg/m^3"), Field(gt=0)]
+Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m"})]
+Duration = Annotated[float, Field(gt=0, json_schema_extra={"unit": "s"})]
+Lag = Annotated[float, Field(ge=0, json_schema_extra={"unit": "s"})]
+Rate = Annotated[float, Field(ge=0, json_schema_extra={"unit": "1/s"})]
+Speed = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m/s"})]
+Force = Annotated[float, Field(gt=0, json_schema_extra={"unit": "N"})]
+Stress = Annotated[float, Field(gt=0, json_schema_extra={"unit": "Pa"})]
+Mass = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
+Density = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg/m^3"})]
 Count = Annotated[int, Field(ge=1)]
 NonNegative = Annotated[float, Field(ge=0)]
 
@@ -41,7 +34,7 @@ class Table(BaseModel):
     @cached_property
     def canonical(self) -> str:
         """The table as JSON: sorted keys, rounded numbers, only the keys in use."""
-        used = {key: _rounded(value) for key, value in self if value is not None}
+        used = {key: rounded(value) for key, value in self if value is not None}
         return json.dumps(used, sort_keys=True, separators=(",", ":"))
 
 
@@ -51,10 +44,11 @@ def refusal(key: str, value: object, allowed: str) -> PydanticCustomError:
     return PydanticCustomError("refused", "{key} = {value}; allowed: {allowed}", context)
 
 
-def _rounded(value: object) -> object:
+def rounded(value: object) -> object:
+    """A value as it counts in an id."""
     if isinstance(value, float):
         return float(f"{value:.{SIGNIFICANT}g}")
-    return [_rounded(item) for item in value] if isinstance(value, tuple) else value
+    return [rounded(item) for item in value] if isinstance(value, tuple) else value
 
 
 class Lattice(Table):
@@ -168,3 +162,10 @@ class Solver(Table):
     time_limit: Duration = 300.0
     hinges: Literal["exact_beam", "classical"] = "exact_beam"
     bend_measure: Literal["angle", "tangent"] = "angle"
+
+
+class Rank(Table):
+    """What a ranking is asked for: greatest masses (kg), and the panel that the specimens fill."""
+
+    budgets: tuple[Mass, ...] = ()
+    panel: tuple[Length, Length] | None = None

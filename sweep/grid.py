@@ -1,0 +1,183 @@
+"""From a config to its cases: grid x zips, without what is excluded and without doubles."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cache
+from itertools import product
+from math import prod
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from pydantic import ValidationError
+from pydantic_core import PydanticCustomError
+
+from sweep.keys import ALIASES, case_keys
+from sweep.params import TABLES, Case
+from sweep.resolve import resolve
+from sweep.tables import Rank, Table, rounded
+
+MAX_CASES = 1_000_000
+
+
+class Fault(NamedTuple):
+    """One thing wrong: the key it is about, and one line with key, value and what is allowed."""
+
+    key: str
+    line: str
+
+
+class ConfigError(ValueError):
+    """A config that cannot be run, with everything that is wrong with it, a line each."""
+
+    def __init__(self, faults: list[Fault]) -> None:
+        super().__init__("\n".join(fault.line for fault in faults))
+        self.faults = faults
+
+
+class Written(NamedTuple):
+    """A value in SI (None: left at its default), and the words of the file."""
+
+    value: Any
+    text: str
+
+
+Reason = dict[str, Any]  # key, value, allowed
+Values = dict[str, Written]
+Axes = dict[str, tuple[Written, ...]]
+
+
+@dataclass(frozen=True)
+class Config:
+    """A sweep: one case, and the axes along which it varies; keys are dotted.
+
+    `exclude`: of each table, the values (rounded) that a case must have at all its keys to be
+    dropped.
+    """
+
+    name: str
+    base: Values = field(default_factory=dict)
+    grid: Axes = field(default_factory=dict)
+    zip: tuple[Axes, ...] = ()
+    exclude: tuple[dict[str, tuple[object, ...]], ...] = ()
+    rank: Rank = field(default_factory=Rank)
+    path: Path | None = None
+
+
+def case_count(config: Config) -> int:
+    """Number of combinations, before any are excluded or found to be equal."""
+    lengths = [len(values) for values in config.grid.values()]
+    return prod(lengths + [len(next(iter(tied.values()))) for tied in config.zip])
+
+
+def expand(config: Config) -> list[Case]:
+    """All cases, the first axis of the grid varying slowest; of equal ones, the first."""
+    count = case_count(config)
+    if count > MAX_CASES:
+        line = f"[grid] makes {count:,} cases; allowed: at most {MAX_CASES:,} in one sweep"
+        raise ConfigError([Fault("grid", line)])
+    cases: dict[str, Case] = {}
+    refused: dict[str, list[Fault]] = {}
+    for draft in _drafts(config):
+        if any(draft.matches(table) for table in config.exclude):
+            continue
+        for fault in draft.faults:
+            refused.setdefault(fault.key, []).append(fault)
+        if not draft.faults:
+            cases.setdefault(draft.case.case_id, draft.labelled())
+    if refused:
+        raise ConfigError([_merged(faults, count) for faults in refused.values()])
+    if not cases:
+        line = f"[[exclude]] drops all {count:,} cases; allowed: tables that leave at least one"
+        raise ConfigError([Fault("exclude", line)])
+    return list(cases.values())
+
+
+@dataclass(frozen=True)
+class _Draft:
+    """One combination: its values along the axes, the case that it makes, what is wrong with it."""
+
+    chosen: Values
+    case: Case
+    faults: list[Fault]
+
+    def value(self, key: str) -> Any:
+        """The value of the resolved case; of an alias, the one that all its targets share."""
+        targets = [target.split(".") for target in ALIASES.get(key, (key,))]
+        first, *others = [getattr(getattr(self.case, table), name) for table, name in targets]
+        return first if all(other == first for other in others) else None
+
+    def matches(self, table: dict[str, tuple[object, ...]]) -> bool:
+        """True if the case has one of the values of every key of an [[exclude]] table."""
+        return all(rounded(self.value(key)) in values for key, values in table.items())
+
+    def labelled(self) -> Case:
+        """The case with its values along the axes."""
+        values = {key: self.value(key) for key in self.chosen}
+        axes = {key: int(v) if isinstance(v, bool) else v for key, v in values.items()}
+        return self.case.model_copy(update={"axes": axes})
+
+
+def _drafts(config: Config) -> Iterator[_Draft]:
+    made, settled = cache(_table), cache(resolve)  # most cases share most of their tables
+    for chosen in _combinations(config):
+        given = config.base | _targets(chosen)
+        values = [(*key.split("."), written.value) for key, written in given.items()]
+        tables: dict[str, Any] = {}
+        wrong: list[Reason] = []
+        for name in TABLES:
+            items = tuple((field, value) for table, field, value in values if table == name)
+            tables[name], reasons = made(name, items)
+            wrong += reasons
+        depending = [tables[name] for name in ("loading", "contact", "damping", "solver")]
+        try:
+            tables |= settled(tables["lattice"].height, *depending)
+        except PydanticCustomError as error:
+            wrong.append(error.context or {})
+        case = Case.model_construct(None, **tables)
+        yield _Draft(chosen, case, [_fault(reason, given) for reason in wrong])
+
+
+def _combinations(config: Config) -> Iterator[Values]:
+    """Values along the axes: every value of the grid with every row of each zip."""
+    parts = [[{key: value} for value in values] for key, values in config.grid.items()]
+    for tied in config.zip:
+        rows = zip(*tied.values(), strict=True)
+        parts.append([dict(zip(tied, row, strict=True)) for row in rows])
+    for choice in product(*parts):
+        yield {key: written for part in choice for key, written in part.items()}
+
+
+def _targets(chosen: Values) -> Values:
+    """The keys of a case that are set, aliases replaced."""
+    set_here = {key: written for key, written in chosen.items() if written.value is not None}
+    return {
+        target: written for key, written in set_here.items() for target in ALIASES.get(key, (key,))
+    }
+
+
+def _table(name: str, items: tuple[tuple[str, Any], ...]) -> tuple[Table, list[Reason]]:
+    """A table of these values, and why it cannot be used."""
+    try:
+        return TABLES[name].model_validate(dict(items)), []
+    except ValidationError as error:
+        table = TABLES[name].model_construct(None, **dict(items))
+        return table, [refused.get("ctx", {}) for refused in error.errors()]
+
+
+def _fault(reason: Reason, given: Values) -> Fault:
+    """What is wrong with one case, in the words of the file where they are there."""
+    key, value, allowed = reason["key"], reason["value"], reason["allowed"]
+    if key in given:
+        return Fault(key, f"{key} = {given[key].text}: does not fit; allowed: {allowed}")
+    if value is None:
+        return Fault(key, f"{key} is missing; needed: {allowed}")
+    default = f"{value} {case_keys()[key].unit or ''}".rstrip()
+    return Fault(key, f"{key} = {default} by default: does not fit; allowed: {allowed}")
+
+
+def _merged(faults: list[Fault], count: int) -> Fault:
+    """One fault for all cases that share it, in the words of the first."""
+    key, line = faults[0]
+    if count > 1:
+        line += f" ({len(faults):,} of {count:,} combinations)"
+    return Fault(key, line)
