@@ -29,8 +29,9 @@ sweep: setup  ## simulate what CONFIG asks for (finished cases are kept) and ran
 	$(PYTHON) -m sweep rank $(RESULTS) --out $(TABLES) && exit $$status
 
 rank: setup  ## rank the results of CONFIG again, running the sweep first if there are none
-	@test -f $(RESULTS) || $(PYTHON) -m sweep run $(CONFIG) --out $(RESULTS)
+	@test -f $(RESULTS) || $(PYTHON) -m sweep run $(CONFIG) --out $(RESULTS) || test $$? -eq 1
 	@$(PYTHON) -m sweep rank $(RESULTS) --out $(TABLES)
+	@$(PYTHON) -m sweep rank $(RESULTS)
 
 lint: setup  ## check style and types
 	$(PYTHON) -m ruff check
