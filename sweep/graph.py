@@ -1,0 +1,239 @@
+"""Cases on Dask: on threads of this process, or on the workers of a `distributed` scheduler.
+
+A graph of one task per case would take Dask longer to build than the cases take to run. Here a task
+is a batch of about a second of work, and only a limited number of tasks exists at a time.
+"""
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from multiprocessing import get_context
+from queue import Empty, SimpleQueue
+from threading import Lock
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from dask.base import compute
+from dask.delayed import delayed
+
+from sweep.params import Case
+from sweep.plan import Plan
+from sweep.result import Result, Status, failed_result
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
+
+WAVE = 256  # tasks of one graph on threads
+WINDOW = 8  # batches in flight per thread of a cluster
+PATIENCE = 60  # seconds until a cluster has its first worker
+MOMENT = 0.2  # seconds after which a wish to stop is noticed
+
+Simulate = Callable[[Case, np.ndarray], Result]
+Sink = Callable[[list[Result]], None]
+
+
+class GraphError(Exception):
+    """Dask cannot run the sweep; the text is one clear line."""
+
+
+class Stop:
+    """A wish to stop that reaches simulations while they run.
+
+    Each running case has an array `control`, int64 (2,), of its own: control[0] = 1 ends the case.
+    """
+
+    def __init__(self) -> None:
+        self.asked = False
+        self._running: dict[int, np.ndarray] = {}
+
+    def ask(self) -> None:
+        """End all running cases and start no other."""
+        self.asked = True
+        for control in list(self._running.values()):
+            control[0] = 1
+
+    @contextmanager
+    def control(self) -> Iterator[np.ndarray]:
+        """The array of one case, while it runs."""
+        control = np.zeros(2, dtype=np.int64)
+        self._running[id(control)] = control
+        control[0] = self.asked
+        try:
+            yield control
+        finally:
+            del self._running[id(control)]
+
+
+def run(
+    plan: Plan, simulate: Simulate, sink: Sink, stop: Stop, scheduler: str | None = None
+) -> None:
+    """Run all cases of a plan, and hand each finished batch to `sink`, one at a time.
+
+    Without the address of a `scheduler`, on `plan.workers` threads: `simulate` should release the
+    GIL. Returns early when `stop` is asked for; cases that it interrupted do not reach the sink.
+    """
+    if scheduler is None:
+        _run_on_threads(plan, simulate, sink, stop)
+    else:
+        _run_on_cluster(plan, simulate, sink, stop, scheduler)
+
+
+def _run_on_threads(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop) -> None:
+    one_at_a_time = Lock()
+    troubles: list[Exception] = []
+
+    def next_batch() -> None:
+        """One task. It takes its batch only now, when the pace is known best."""
+        batch = [] if stop.asked else plan.take()
+        if not batch:
+            return
+        results, seconds = run_batch(simulate, batch, stop)
+        plan.learn(batch, seconds)
+        try:
+            with one_at_a_time:
+                sink(results)
+        except Exception as error:  # noqa: BLE001 raised below, once no thread is at work any more
+            troubles.append(error)
+            stop.ask()
+
+    task = delayed(next_batch, pure=False)
+    while len(plan) and not stop.asked:
+        wave = [task() for _ in range(min(WAVE, len(plan)))]
+        compute(*wave, scheduler="threads", num_workers=plan.workers, optimize_graph=False)
+    if troubles:
+        raise troubles[0]
+
+
+def run_batch(
+    simulate: Simulate, batch: Sequence[Case], stop: Stop | None = None
+) -> tuple[list[Result], float]:
+    """Results of a batch, without cases that were interrupted, and the seconds that it took."""
+    stop = stop or Stop()
+    started = time.perf_counter()
+    results = []
+    for case in batch:
+        with stop.control() as control:
+            result = _attempt(simulate, case, control)
+        if stop.asked and result.status is Status.STOPPED:
+            break
+        results.append(result)
+    return results, time.perf_counter() - started
+
+
+def _attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
+    try:
+        return simulate(case, control)
+    except Exception as error:  # noqa: BLE001 a defect that one case meets must not end the sweep
+        message = f"unexpected {_one_line(error)}; please report it"
+        return failed_result(case, Status.STOPPED, message)
+
+
+def _run_on_cluster(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop, scheduler: str) -> None:
+    with _connected(scheduler) as client, _blame_at_once(client):
+        flight = _Flight(client, plan, simulate, stop)
+        for results in flight.landings():
+            sink(results)
+
+
+@contextmanager
+def _connected(scheduler: str) -> "Iterator[Client]":
+    from distributed import Client
+
+    try:
+        client = Client(scheduler, set_as_default=False, timeout=PATIENCE)
+    except (OSError, ValueError) as error:
+        raise GraphError(f"no Dask scheduler at {scheduler}: {_one_line(error)}") from error
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=PATIENCE)
+        except TimeoutError:
+            line = f"no worker joined the Dask scheduler at {scheduler} within {PATIENCE} s"
+            raise GraphError(line) from None
+        yield client
+
+
+@contextmanager
+def _blame_at_once(client: "Client") -> Iterator[None]:
+    """Let the scheduler give up a task whose worker died, and not kill three more with it."""
+
+    def allow(count: int, dask_scheduler: Any = None) -> int:
+        before: int = dask_scheduler.allowed_failures
+        dask_scheduler.allowed_failures = count
+        return before
+
+    before = client.run_on_scheduler(allow, 0)
+    try:
+        yield
+    finally:
+        client.run_on_scheduler(allow, before)
+
+
+class _Flight:
+    """Batches in flight on a cluster: enough to keep its workers busy, few enough to hold."""
+
+    def __init__(self, client: "Client", plan: Plan, simulate: Simulate, stop: Stop) -> None:
+        self.client, self.plan, self.simulate, self.stop = client, plan, simulate, stop
+        self.flying: dict[Future, list[Case]] = {}
+        self.landed: SimpleQueue[Future] = SimpleQueue()
+        self.suspects: list[list[Case]] = []
+
+    def landings(self) -> Iterator[list[Result]]:
+        """Results of each batch as it lands, until all have or a stop is asked for."""
+        self._launch()
+        while self.flying and not self.stop.asked:
+            try:
+                future = self.landed.get(timeout=MOMENT)
+            except Empty:
+                continue
+            yield self._results(future, self.flying.pop(future))
+            self._launch()
+        self.client.cancel(list(self.flying))
+
+    def _launch(self) -> None:
+        self.plan.workers = max(sum(self.client.nthreads().values()), 1)
+        while len(self.flying) < WINDOW * self.plan.workers and (batch := self._next_batch()):
+            future = self.client.submit(run_batch, self.simulate, batch, pure=False)
+            self.flying[future] = batch
+            future.add_done_callback(self.landed.put)
+
+    def _next_batch(self) -> list[Case]:
+        """A lost batch goes after all others: it may take its neighbours down again."""
+        return self.plan.take() or (self.suspects.pop() if self.suspects else [])
+
+    def _results(self, future: "Future", batch: list[Case]) -> list[Result]:
+        from distributed import KilledWorker
+
+        try:
+            results, seconds = future.result()
+        except KilledWorker:
+            return self._narrow(batch)
+        except Exception as error:
+            raise GraphError(f"the Dask workers cannot run a batch: {_one_line(error)}") from error
+        self.plan.learn(batch, seconds)
+        return list(results)
+
+    def _narrow(self, batch: list[Case]) -> list[Result]:
+        """Halve a batch that lost its worker, until a case is left that can prove itself alone."""
+        half = len(batch) // 2
+        if half == 0:
+            return _run_alone(self.simulate, batch, self.stop)
+        self.suspects += [batch[:half], batch[half:]]
+        return []
+
+
+def _run_alone(simulate: Simulate, suspect: list[Case], stop: Stop) -> list[Result]:
+    """Run a case in a process of its own, so that only the case can be to blame for its end."""
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as process:
+        try:
+            results, _ = process.submit(run_batch, simulate, suspect).result()
+        except BrokenProcessPool:
+            message = "took its worker process down, even alone; try a smaller model"
+            died = failed_result(suspect[0], Status.WORKER_DIED, message)
+            return [] if stop.asked else [died]
+    return results
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(f"{type(error).__name__}: {error}".split())

@@ -1,0 +1,196 @@
+"""Cases on Dask: every case once, longest first, whatever its neighbours do."""
+
+import os
+import threading
+import time
+
+import pytest
+from standin import cases, number_of, simulate
+
+from sweep.graph import GraphError, Stop, run
+from sweep.params import Case, Lattice, Solver
+from sweep.plan import Plan, cost
+from sweep.result import Status
+
+
+class Kept(list):
+    """A sink that remembers the batches."""
+
+    def __call__(self, results):
+        """Remember a batch."""
+        self.append(results)
+
+    @property
+    def results(self):
+        """All results by their case."""
+        return {result.case_id: result for batch in self for result in batch}
+
+
+def run_on_threads(batch, simulate, stop=None, workers=2):
+    kept = Kept()
+    run(Plan(batch, workers), simulate, kept, stop or Stop())
+    return kept
+
+
+def with_work(steps):
+    return Case(solver=Solver(time_step=0.2 / steps))
+
+
+def test_every_case_runs_once():
+    batch = cases(300)
+    seen = []
+    kept = run_on_threads(batch, lambda case, stop: seen.append(case.case_id) or simulate(case))
+    assert sorted(seen) == sorted(case.case_id for case in batch)
+    assert kept.results.keys() == {case.case_id for case in batch}
+    assert len(kept) < 100
+
+
+def test_batches_are_handed_over_one_at_a_time_while_others_run():
+    busy, clashes, threads = threading.Lock(), [], set()
+
+    def sink(results):
+        threads.add(threading.get_ident())
+        clashes.append(not busy.acquire(blocking=False))
+        time.sleep(0.002)
+        busy.release()
+
+    run(Plan(cases(100), 2), lambda case, stop: time.sleep(0.001) or simulate(case), sink, Stop())
+    assert len(clashes) > 1
+    assert not any(clashes)
+
+
+def test_cases_run_at_the_same_time():
+    together = threading.Barrier(2, timeout=5)
+    kept = run_on_threads(cases(2), lambda case, stop: together.wait() * 0 or simulate(case))
+    assert len(kept.results) == 2
+
+
+def test_exception_in_a_case_is_a_row_with_its_name():
+    def broken(case, stop):
+        if number_of(case) == 2:
+            raise ZeroDivisionError("of\nsomething")
+        return simulate(case)
+
+    batch = cases(5)
+    failed = run_on_threads(batch, broken).results[batch[2].case_id]
+    assert failed.status is Status.STOPPED
+    assert "ZeroDivisionError: of something" in failed.message
+
+
+def test_error_of_the_sink_ends_the_sweep():
+    def full(results):
+        raise OSError("no space left")
+
+    started = time.perf_counter()
+    with pytest.raises(OSError, match="no space"):
+        run(
+            Plan(cases(200), 2), lambda case, stop: time.sleep(0.05) or simulate(case), full, Stop()
+        )
+    assert time.perf_counter() - started < 2
+
+
+def test_stop_reaches_running_cases_and_forgets_them():
+    """Two cases run at a time; those that the stop cuts short are not results."""
+    stop, running = Stop(), threading.Semaphore(0)
+
+    def endless(case, control):
+        if number_of(case) < 2:
+            return simulate(case)
+        running.release()
+        while not control[0]:
+            time.sleep(0.001)
+        return simulate(cases(8)[7])  # a result with the status `stopped`
+
+    def ask():
+        assert running.acquire(timeout=5)
+        assert running.acquire(timeout=5)
+        stop.ask()
+
+    threading.Thread(target=ask).start()
+    batch = cases(6)
+    kept = run_on_threads(batch, endless, stop)
+    assert kept.results.keys() <= {case.case_id for case in batch[:2]}
+
+
+def test_each_case_has_its_own_control():
+    """One that reaches its time limit, and uses its own array to end, must not end the others."""
+    together = threading.Barrier(2, timeout=5)
+    seen = []
+
+    def expire(case, control):
+        together.wait()
+        control[0] = 1
+        together.wait()
+        seen.append(control)
+        return simulate(case)
+
+    kept = run_on_threads(cases(2), expire)
+    assert seen[0] is not seen[1]
+    assert len(kept.results) == 2
+
+
+def test_cost_counts_steps_and_nodes():
+    assert cost(with_work(2000)) == pytest.approx(10 * cost(with_work(200)))
+    fine = Case(lattice=Lattice(cells_x=6, cells_y=6))
+    assert 4 < cost(fine) / cost(Case()) < 16
+
+
+def test_shortest_case_first_then_the_longest():
+    plan = Plan([with_work(steps) for steps in (100, 400, 200, 800, 50)], workers=2)
+    (first,) = plan.take()
+    assert first == with_work(50)
+    plan.learn([first], 1.0)
+    order = [case for batch in iter(plan.take, []) for case in batch]
+    assert order == [with_work(steps) for steps in (800, 400, 200, 100)]
+
+
+def test_batches_hold_about_a_second_and_shrink_towards_the_end():
+    plan = Plan(cases(1000), workers=2)
+    plan.learn(plan.take(), 0.02)
+    sizes = []
+    while batch := plan.take():
+        sizes.append(len(batch))
+        plan.learn(batch, 0.02 * len(batch))
+    assert 49 <= sizes[0] <= 50
+    assert sizes[-1] <= 5
+    assert sum(sizes) == 999
+    assert max(sizes) <= 50
+
+
+def test_compiling_in_the_first_case_is_soon_forgotten():
+    plan = Plan(cases(1000), workers=2)
+    plan.learn(plan.take(), 30.0)
+    for _ in range(8):
+        batch = plan.take()
+        plan.learn(batch, 0.01 * len(batch))
+    assert 20 <= len(plan.take()) <= 100
+
+
+def poisonous(case, stop=None):
+    """Case 11 takes its process with it; the others take a moment."""
+    if number_of(case) == 11:
+        os._exit(1)
+    time.sleep(0.02)
+    return simulate(case)
+
+
+@pytest.mark.filterwarnings("ignore")  # of a worker that died, as it shall
+def test_case_that_kills_its_worker_is_a_row_and_its_neighbours_succeed():
+    from distributed import LocalCluster
+
+    batch, kept = cases(24), Kept()
+    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
+    with LocalCluster(**options, silence_logs=50) as cluster:
+        run(Plan(batch, 2), poisonous, kept, Stop(), cluster.scheduler_address)
+        assert cluster.scheduler.allowed_failures == 3
+    statuses = {number_of(case): kept.results[case.case_id].status for case in batch}
+    assert statuses.pop(11) is Status.WORKER_DIED
+    assert statuses.pop(7) is Status.STOPPED
+    assert set(statuses.values()) == {Status.CONVERGED}
+    assert sum(map(len, kept)) == 24
+
+
+def test_scheduler_that_is_not_there(monkeypatch):
+    monkeypatch.setattr("sweep.graph.PATIENCE", 0.5)
+    with pytest.raises(GraphError, match="no Dask scheduler at tcp://"):
+        run(Plan(cases(1), 2), simulate, Kept(), Stop(), "tcp://127.0.0.1:9")
