@@ -144,7 +144,14 @@ def describe_column(name: str) -> Column:
         return COLUMNS[name]
     if match := _ABSORBED_AT.fullmatch(name):
         return Column("J", f"work done until {match[1]} N is first transmitted")
-    return Column("", f"grid key {name}")
+    return Column(_unit_of_key(name), f"grid key {name}")
+
+
+def _unit_of_key(name: str) -> str:
+    from sweep.keys import case_keys
+
+    key = case_keys().get(name)
+    return (key and key.unit) or ""
 
 
 def design_columns(case: Case) -> dict[str, float | int | str]:

@@ -1,0 +1,98 @@
+"""How far a sweep is: a bar on a terminal, a line now and then elsewhere."""
+
+import time
+from collections import deque
+from collections.abc import Mapping, Sequence
+from datetime import timedelta
+from typing import Self
+
+from rich.console import Console
+from rich.progress import BarColumn, SpinnerColumn, TextColumn, TimeElapsedColumn
+from rich.progress import Progress as Bar
+
+from sweep.result import Result, Status
+
+PERIOD = 5.0  # seconds between plain lines
+RECENT = 60.0  # seconds that the pace is taken from
+SENTENCES = 5  # failures that are told while the sweep runs
+
+
+class Progress:
+    """Counts cases as they finish.
+
+    costs: case id -> weight in the time that is left, of every case to come. done: cases of the
+    sweep that were there before.
+    """
+
+    def __init__(
+        self, costs: Mapping[str, float], done: int = 0, console: Console | None = None
+    ) -> None:
+        self.console = console or Console()
+        self.costs = costs
+        self.total = done + len(costs)
+        self.done, self.failed = done, 0
+        self._left = sum(costs.values())
+        self._recent: deque[tuple[float, int, float]] = deque()  # time, cases done, cost left
+        self._told = 0.0
+        self._sentences: set[str] = set()
+        self._bar = Bar(
+            SpinnerColumn(),
+            BarColumn(),
+            TextColumn("{task.description}"),
+            TimeElapsedColumn(),
+            console=self.console,
+            disable=not self.console.is_terminal,
+        )
+        self._task = self._bar.add_task(self._line(), total=self._left)
+
+    def __enter__(self) -> Self:
+        self._bar.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._bar.stop()
+        if not self.console.is_terminal:
+            self._say(self._line())
+
+    def advance(self, results: Sequence[Result]) -> None:
+        """Count finished cases, and tell the first failures."""
+        cost = sum(self.costs[result.case_id] for result in results)
+        self.done += len(results)
+        self._left -= cost
+        for result in results:
+            if result.status is not Status.CONVERGED:
+                self._tell(result)
+        self._note(time.monotonic())
+        self._bar.update(self._task, advance=cost, description=self._line())
+
+    def _tell(self, result: Result) -> None:
+        self.failed += 1
+        if result.message not in self._sentences and len(self._sentences) < SENTENCES:
+            self._sentences.add(result.message)
+            self._say(f"case {result.case_id} {result.status}: {result.message}")
+
+    def _note(self, now: float) -> None:
+        self._recent.append((now, self.done, self._left))
+        while len(self._recent) > 2 and now - self._recent[0][0] > RECENT:
+            self._recent.popleft()
+        if not self.console.is_terminal and now - self._told > PERIOD:
+            self._told = now
+            self._say(self._line())
+
+    def _line(self) -> str:
+        parts = [f"{self.done}/{self.total} cases", *self._pace()]
+        return ", ".join([*parts, f"{self.failed} failed"] if self.failed else parts)
+
+    def _pace(self) -> list[str]:
+        """Cases a second and time left, once there are two moments to compare."""
+        if len(self._recent) < 2:
+            return []
+        (begin, done_then, left_then), (now, done, left) = self._recent[0], self._recent[-1]
+        if now == begin or left_then <= left:
+            return []
+        pace = f"{(done - done_then) / (now - begin):.3g} a second"
+        seconds = round(left * (now - begin) / (left_then - left))
+        return [pace, f"{timedelta(seconds=seconds)} left"] if self.done < self.total else [pace]
+
+    def _say(self, line: str) -> None:
+        self.console.print(line, markup=False, highlight=False, soft_wrap=True)

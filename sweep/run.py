@@ -1,0 +1,96 @@
+"""A sweep from its cases to its results file: skip what is there, run the rest, fold."""
+
+import os
+import signal
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from threading import current_thread, main_thread
+
+from sweep.graph import Simulate, Sink, Stop, run
+from sweep.grid import Config, expand
+from sweep.params import Case
+from sweep.plan import Plan, cost
+from sweep.progress import Progress
+from sweep.provenance import config_text, describe_run
+from sweep.result import Result
+from sweep.store import finished_ids
+from sweep.writer import Writer
+
+
+class Interrupted(KeyboardInterrupt):
+    """A sweep that was told to stop; the text says what is kept and how to go on."""
+
+
+def run_sweep(
+    sweep: Config | Sequence[Case],
+    out: str | os.PathLike[str],
+    workers: int = 2,
+    scheduler: str | None = None,
+    retry_failed: bool = False,
+    simulate: Simulate | None = None,
+) -> int:
+    """Run the cases that `out` does not hold yet; return how many of the sweep did not converge.
+
+    scheduler: address of a Dask scheduler; without one, `workers` threads of this process.
+    retry_failed: run those that did not converge once more. Ctrl-C (or SIGTERM) keeps what is
+    finished and raises Interrupted.
+    """
+    drafts = expand(sweep) if isinstance(sweep, Config) else sweep
+    cases = {case.case_id: case for case in drafts}
+    axes = {case_id: case.axes for case_id, case in cases.items()}
+    stop = Stop()
+    with Writer(out, axes, describe_run(config_text(sweep, drafts[0]))) as writer:
+        done = cases.keys() & finished_ids(out, retry_failed)
+        waiting = [case for case_id, case in cases.items() if case_id not in done]
+        if waiting:
+            with _keeping(writer, waiting, len(done)) as keep, _interruptible(stop):
+                run(Plan(waiting, workers), simulate or _simulate(), keep, stop, scheduler)
+        writer.fold()
+    if stop.asked:
+        kept = len(cases.keys() & finished_ids(out, retry_failed))
+        line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
+        raise Interrupted(f"{line}, and the same command runs the rest")
+    return len(cases.keys() - finished_ids(out, retry_failed=True))
+
+
+@contextmanager
+def _keeping(writer: Writer, waiting: Sequence[Case], done: int) -> Iterator[Sink]:
+    """A sink that seals each batch and then counts it aloud."""
+    with Progress({case.case_id: cost(case) for case in waiting}, done) as progress:
+
+        def keep(results: list[Result]) -> None:
+            writer.append(results)
+            progress.advance(results)
+
+        yield keep
+
+
+def _simulate() -> Simulate:
+    """The real thing, imported when it is needed: it brings the compiled kernels."""
+    from sweep.simulate import simulate
+
+    return simulate
+
+
+@contextmanager
+def _interruptible(stop: Stop) -> Iterator[None]:
+    """Turn the first Ctrl-C into a wish to stop; the next one has its usual effect."""
+    if current_thread() is not main_thread():
+        yield  # no other thread may listen to signals
+        return
+    usual = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+
+    def restore() -> None:
+        for number, handler in usual.items():
+            signal.signal(number, handler)
+
+    def ask(*_: object) -> None:
+        restore()
+        stop.ask()
+
+    for number in usual:
+        signal.signal(number, ask)
+    try:
+        yield
+    finally:
+        restore()
