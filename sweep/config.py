@@ -6,6 +6,7 @@ import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
+from math import isfinite
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -29,7 +30,7 @@ gram = [mass] = g
 minute = 60 * second = min
 hour = 60 * minute = h
 inch = 0.0254 * meter = in = inches
-thou = 1e-3 * inch = mil
+thou = 1e-3 * inch
 foot = 12 * inch = ft = feet
 ounce = 28.349523125 * gram = oz
 pound = 16 * ounce = lb
@@ -72,7 +73,7 @@ def _document(path: Path) -> dict[str, Any]:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         wrong = f"cannot be read ({error.strerror}); needed: a TOML file"
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (ValueError, RecursionError) as error:
         wrong = f"not TOML ({error})"
     raise ConfigError([Fault("path", f"{path}: {wrong}")])
 
@@ -94,7 +95,10 @@ def _converted(text: object, unit: str) -> float:
         raise ValueError(f"unknown unit {in_words(written)}") from None
     if found.dimensionality != registry.parse_units(unit).dimensionality:
         raise ValueError(f"{in_words(written)} is a unit of another kind")
-    return float(f"{registry.Quantity(float(number), found).m_as(unit):.15g}")
+    value = registry.Quantity(float(number), found).m_as(unit)
+    if not isfinite(value):
+        raise ValueError("not finite")
+    return float(f"{value:.15g}")
 
 
 @lru_cache(maxsize=1)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from pydantic import ValidationError
-from pydantic_core import PydanticCustomError
+from pydantic_core import ErrorDetails, PydanticCustomError
 
 from sweep.keys import ALIASES, case_keys
 from sweep.params import TABLES, Case
@@ -161,7 +161,15 @@ def _table(name: str, items: tuple[tuple[str, Any], ...]) -> tuple[Table, list[R
         return TABLES[name].model_validate(dict(items)), []
     except ValidationError as error:
         table = TABLES[name].model_construct(None, **dict(items))
-        return table, [refused.get("ctx", {}) for refused in error.errors()]
+        return table, [_reason(name, wrong) for wrong in error.errors()]
+
+
+def _reason(table: str, wrong: ErrorDetails) -> Reason:
+    """The reason of a refusal, or of a number of a record that is out of range."""
+    if wrong["type"] == "refused":
+        return wrong["ctx"]
+    key = f"{table}.{wrong['loc'][0]}"
+    return {"key": key, "value": wrong["input"], "allowed": case_keys()[key].allowed}
 
 
 def _fault(reason: Reason, given: Values) -> Fault:

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from sweep.grid import Axes, Config, Fault, Values, Written
 from sweep.keys import ALIASES, Key, case_keys, nearest, table_keys
 from sweep.params import TABLES
-from sweep.record import locate, read_record
+from sweep.record import UnknownMaterialError, locate, read_record
 from sweep.tables import Rank, rounded
 
 _REASONS = {
@@ -23,7 +23,7 @@ _REASONS = {
     "missing": "too few values",
     "too_long": "too many values",
 }
-_NAME = re.compile(r"[\w.-]+")
+_NAME = re.compile(r"\w[\w.-]*")
 
 
 class Reader:
@@ -45,7 +45,7 @@ class Reader:
             if section not in sections:
                 self._unknown(section, document[section], sections)
         return Config(
-            name=self._name(document.get("name", path.stem)),
+            name=self._name(document["name"]) if "name" in document else path.stem,
             base=self._base(document),
             grid=self._axes(_flat(self._section(document, "grid")), "[grid]"),
             zip=tuple(
@@ -143,11 +143,15 @@ class Reader:
         return tied if len({len(values) for values in tied.values()}) == 1 else {}
 
     def _exclude(self, table: dict[str, Any]) -> dict[str, tuple[object, ...]]:
+        """Values of keys that make a case be dropped, as the case would hold them."""
         excluded = {}
         for name, raw in table.items():
             raws = raw if isinstance(raw, list) else [raw]
             values = [self._value(name, value, "[[exclude]]") for value in raws]
-            excluded[name] = tuple(rounded(value.value) for value in values if value)
+            held = [value.value for value in values if value]
+            if name == "material.name":
+                held = [Path(value).name.removesuffix(".csv") for value in held]
+            excluded[name] = tuple(rounded(value) for value in held)
         return excluded
 
     def _value(self, name: str, raw: Any, where: str = "") -> Written | None:
@@ -190,7 +194,10 @@ class Reader:
 
 def _material(name: str, folder: Path) -> str:
     """A shipped name as it is; a user's own record as its whole path."""
-    path = locate(name, folder)
+    try:
+        path = locate(name, folder)
+    except UnknownMaterialError:
+        raise ValueError("unknown material") from None
     read_record(path)
     return str(path.resolve()) if name.endswith(".csv") else name
 

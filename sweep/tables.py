@@ -23,6 +23,8 @@ Stress = Annotated[float, Field(gt=0, json_schema_extra={"unit": "Pa"})]
 Mass = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
 Density = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg/m^3"})]
 Count = Annotated[int, Field(ge=1)]
+Few = Annotated[int, Field(ge=1, le=1000)]  # a slip of the keyboard must not fill the memory
+Curve = Annotated[tuple[float, ...], Field(strict=False)]  # a list too, as JSON gives it back
 NonNegative = Annotated[float, Field(ge=0)]
 
 
@@ -55,13 +57,13 @@ class Lattice(Table):
     """The specimen: outer size over centre lines, and the mesh of its walls."""
 
     kind: Literal["square"] = "square"
-    cells_x: Count = 3
-    cells_y: Count = 3
+    cells_x: Few = 3
+    cells_y: Few = 3
     width: Length = 12.5e-3
     height: Length = 12.5e-3
     depth: Length = 12e-3
     wall_thickness: Length = 0.8e-3
-    nodes_per_wall: Annotated[int, Field(ge=0)] = 2
+    nodes_per_wall: Annotated[int, Field(ge=0, le=1000)] = 2
     imperfection: NonNegative = 0.01
 
     @model_validator(mode="after")
@@ -88,8 +90,8 @@ class Material(Table):
     modulus: Stress = Field(default=0.0, validate_default=True)
     density: Density = Field(default=0.0, validate_default=True)
     poisson: Annotated[float, Field(ge=0, lt=0.5)] = 0.48
-    curve_strain: tuple[float, ...] = ()
-    curve_stress: tuple[float, ...] = ()
+    curve_strain: Curve = ()
+    curve_stress: Curve = ()
 
     @model_validator(mode="before")
     @classmethod
