@@ -189,6 +189,8 @@ class _Flight:
                 continue
             yield self._results(future, self.flying.pop(future))
             self._launch()
+        for future in [future for future in self.flying if future.status == "finished"]:
+            yield self._results(future, self.flying.pop(future))
         self.client.cancel(list(self.flying))
 
     def _launch(self) -> None:

@@ -190,6 +190,22 @@ def test_case_that_kills_its_worker_is_a_row_and_its_neighbours_succeed():
     assert sum(map(len, kept)) == 24
 
 
+@pytest.mark.filterwarnings("ignore")
+def test_stop_on_a_cluster_keeps_what_has_landed():
+    from distributed import LocalCluster
+
+    batch, kept, stop = cases(40), Kept(), Stop()
+
+    def sink(results):
+        kept(results)
+        stop.ask()
+
+    options = {"n_workers": 1, "threads_per_worker": 1, "processes": False}
+    with LocalCluster(**options, dashboard_address=None, silence_logs=50) as cluster:
+        run(Plan(batch, 2), simulate, sink, stop, cluster.scheduler_address)
+    assert 0 < sum(map(len, kept)) < 40
+
+
 def test_scheduler_that_is_not_there(monkeypatch):
     monkeypatch.setattr("sweep.graph.PATIENCE", 0.5)
     with pytest.raises(GraphError, match="no Dask scheduler at tcp://"):

@@ -47,6 +47,12 @@ def test_allowed_force_is_a_column_with_units():
     assert "50 N" in describe_column("absorbed_energy_at_50N_J").description
 
 
+def test_grid_key_has_the_unit_of_its_parameter():
+    assert describe_column("lattice.wall_thickness").units == "m"
+    assert describe_column("damping.mass").units == "1/s"
+    assert describe_column("lattice.cells").units == ""
+
+
 def test_status_is_its_word():
     assert Status("timed_out") is Status.TIMED_OUT
     assert f"{Status.CONVERGED}" == "converged"

@@ -243,7 +243,7 @@ def test_one_writer_at_a_time(path):
 
 def test_readers_never_meet_a_half_written_file(path, monkeypatch):
     monkeypatch.setattr(parts, "MERGE_AT", 3)
-    batch, counts, done = cases(30), [], threading.Event()
+    batch, counts, done = cases(19), [], threading.Event()
     write(path, batch[:1])
 
     def read():
@@ -258,4 +258,4 @@ def test_readers_never_meet_a_half_written_file(path, monkeypatch):
     reader.join()
     assert len(counts) > 3
     assert counts == sorted(counts)
-    assert len(read_summary(path)) == 30
+    assert len(read_summary(path)) == 19
