@@ -114,11 +114,12 @@ def run_batch(
     started = time.perf_counter()
     results = []
     for case in batch:
+        if stop.asked:
+            break
         with stop.control() as control:
             result = _attempt(simulate, case, control)
-        if stop.asked and result.status is Status.STOPPED:
-            break
-        results.append(result)
+        if not (stop.asked and result.status is Status.STOPPED):
+            results.append(result)
     return results, time.perf_counter() - started
 
 

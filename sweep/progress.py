@@ -33,7 +33,7 @@ class Progress:
         self.done, self.failed = done, 0
         self._left = sum(costs.values())
         self._recent: deque[tuple[float, int, float]] = deque()  # time, cases done, cost left
-        self._told = 0.0
+        self._told, self._last = 0.0, ""  # when a plain line was last printed, and which
         self._sentences: set[str] = set()
         self._bar = Bar(
             SpinnerColumn(),
@@ -51,7 +51,7 @@ class Progress:
 
     def __exit__(self, *_: object) -> None:
         self._bar.stop()
-        if not self.console.is_terminal:
+        if not self.console.is_terminal and self._last != self._line():
             self._say(self._line())
 
     def advance(self, results: Sequence[Result]) -> None:
@@ -76,8 +76,8 @@ class Progress:
         while len(self._recent) > 2 and now - self._recent[0][0] > RECENT:
             self._recent.popleft()
         if not self.console.is_terminal and now - self._told > PERIOD:
-            self._told = now
-            self._say(self._line())
+            self._told, self._last = now, self._line()
+            self._say(self._last)
 
     def _line(self) -> str:
         parts = [f"{self.done}/{self.total} cases", *self._pace()]
