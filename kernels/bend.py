@@ -137,11 +137,11 @@ def _couple(x, bend, k, matrix, projected):
     if not projected:
         angle.arm_stiffen(matrix, x, *triple(bend.arms, one), k12 * kappa2 * e1, k12 * kappa2 * d1)
         angle.arm_stiffen(matrix, x, *triple(bend.arms, two), k12 * kappa1 * e2, k12 * kappa1 * d2)
-    _cross(x, matrix, triple(bend.arms, one), triple(bend.arms, two), k12 * d1 * d2)
+    cross(x, matrix, triple(bend.arms, one), triple(bend.arms, two), k12 * d1 * d2)
 
 
 @jit
-def _cross(x, matrix, one, two, weight):
+def cross(x, matrix, one, two, weight):
     """Add weight (p q^T + q p^T) for the turns of the two arms p, q of one element.
 
     Both arms lie along the element i-j and so have the same slope s: p = q = s (e_j - e_i) but
