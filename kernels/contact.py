@@ -81,6 +81,8 @@ def energy(x, contact, pairs):
         d = _segment_distance(x, p, a, b)
         if d >= dc:
             continue
+        if d == 0.0:  # at a vertex what is taken off is infinite too
+            return np.inf
         weight = 0.5 * pairs.weight[k]
         total += _law(contact, weight, dc, d)[0]
         for side, v in ((0, a), (1, b)):
