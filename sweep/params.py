@@ -3,14 +3,13 @@
 A `Case` is resolved when it is made (sweep/resolve.py), so that equal physics has an equal id.
 """
 
-from functools import cached_property
 from hashlib import blake2b
 from typing import Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from sweep.resolve import resolve
-from sweep.tables import Contact, Damping, Lattice, Loading, Material, Solver, Table
+from sweep.tables import Contact, Damping, Lattice, Loading, Material, Solver, Table, canonical
 
 __all__ = [
     "TABLES",
@@ -45,10 +44,10 @@ class Case(BaseModel):
             object.__setattr__(self, name, table)  # frozen from here on
         return self
 
-    @cached_property
+    @property
     def case_id(self) -> str:
         """Hash of every parameter but the labels: 16 hexadecimal digits."""
-        tables = ",".join(f'"{name}":{getattr(self, name).canonical}' for name in sorted(TABLES))
+        tables = ",".join(f'"{name}":{canonical(getattr(self, name))}' for name in sorted(TABLES))
         return blake2b(f"{{{tables}}}".encode(), digest_size=8).hexdigest()
 
 

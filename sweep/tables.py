@@ -1,7 +1,7 @@
 """The tables of a case: frozen models whose attribute names are the TOML keys, SI inside."""
 
 import json
-from functools import cached_property
+from functools import lru_cache
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
@@ -11,7 +11,6 @@ from sweep.record import check_curve, locate, read_record
 
 BY_NUMBERS = "by numbers"
 SIGNIFICANT = 12  # digits of a number that count in an id: a unit conversion leaves them alone
-
 
 Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m"})]
 Duration = Annotated[float, Field(gt=0, json_schema_extra={"unit": "s"})]
@@ -33,12 +32,6 @@ class Table(BaseModel):
 
     model_config = ConfigDict(frozen=True, strict=True, extra="forbid", allow_inf_nan=False)
 
-    @cached_property
-    def canonical(self) -> str:
-        """The table as JSON: sorted keys, rounded numbers, only the keys in use."""
-        used = {key: rounded(value) for key, value in self if value is not None}
-        return json.dumps(used, sort_keys=True, separators=(",", ":"))
-
 
 def refusal(key: str, value: object, allowed: str) -> PydanticCustomError:
     """The error of one key whose value does not go with the rest of its case."""
@@ -46,9 +39,16 @@ def refusal(key: str, value: object, allowed: str) -> PydanticCustomError:
     return PydanticCustomError("refused", "{key} = {value}; allowed: {allowed}", context)
 
 
+@lru_cache(maxsize=4096)
+def canonical(table: Table) -> str:
+    """A table as JSON: sorted keys, rounded numbers, only the keys in use."""
+    used = {key: rounded(value) for key, value in table if value is not None}
+    return json.dumps(used, sort_keys=True, separators=(",", ":"))
+
+
 def rounded(value: object) -> object:
     """A value as it counts in an id."""
-    if isinstance(value, float):
+    if isinstance(value, int | float) and not isinstance(value, bool):
         return float(f"{value:.{SIGNIFICANT}g}")
     return [rounded(item) for item in value] if isinstance(value, tuple) else value
 

@@ -27,7 +27,7 @@ def test_default_is_the_specimen_of_the_seed():
 
 
 def test_id_is_stable_between_versions():
-    assert Case().case_id == "2c85886c300becdb"
+    assert Case().case_id == "d3e6bef2433ebdef"
 
 
 def test_id_ignores_labels_and_rounding():
@@ -49,6 +49,14 @@ def test_id_ignores_labels_and_rounding():
 )
 def test_id_sees_every_table(other):
     assert other.case_id != Case().case_id
+
+
+def test_a_changed_copy_has_an_id_of_its_own():
+    case = Case()
+    before = case.case_id
+    lattice = case.lattice.model_copy(update={"cells_x": 2})
+    assert case.model_copy(update={"lattice": lattice}).case_id != before
+    assert case.case_id == before
 
 
 def test_keys_that_the_mode_does_not_use_do_not_count():
