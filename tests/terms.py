@@ -1,4 +1,8 @@
-"""Small scenes for tests of kernels: a few walls with every kind of joint, in any state."""
+"""Derivatives of one term against differences, and its matrices, for tests of kernels.
+
+A term is a kernel module with energy(x, *args), gradient(x, *args, g) and
+hessian(x, *args, matrix, projected).
+"""
 
 import numpy as np
 
@@ -21,43 +25,51 @@ def dense(matrix: Matrix) -> np.ndarray:
     return full + np.tril(full, -1).T
 
 
-def numeric_gradient(energy, x: np.ndarray, step: float) -> np.ndarray:
-    """Fourth-order central differences of ``energy`` at ``x``."""
-    slope = np.zeros_like(x)
-    for i in range(x.size):
-        e = np.zeros_like(x)
-        e[i] = step
-        near, far = energy(x + e) - energy(x - e), energy(x + 2 * e) - energy(x - 2 * e)
-        slope[i] = (8 * near - far) / (12 * step)
-    return slope
+def gradient_of(kernel, args, x: np.ndarray) -> np.ndarray:
+    """Gradient (n,) of a term at ``x``."""
+    g = np.zeros_like(x)
+    kernel.gradient(x, *args, g)
+    return g
 
 
-def numeric_hessian(gradient, x: np.ndarray, step: float) -> np.ndarray:
-    """Fourth-order central differences of ``gradient`` at ``x``."""
+def hessian_of(kernel, args, x: np.ndarray, projected: bool = False) -> np.ndarray:
+    """Hessian (n, n) of a term at ``x``."""
+    matrix = full_matrix(x.size)
+    kernel.hessian(x, *args, matrix, projected)
+    return dense(matrix)
+
+
+def differences(function, x: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """Fourth-order central differences of ``function`` at ``x`` in steps of each coordinate."""
     rows = []
     for i in range(x.size):
         e = np.zeros_like(x)
-        e[i] = step
-        near = gradient(x + e) - gradient(x - e)
-        far = gradient(x + 2 * e) - gradient(x - 2 * e)
-        rows.append((8 * near - far) / (12 * step))
+        e[i] = step[i]
+        close = function(x + e) - function(x - e)
+        far = function(x + 2 * e) - function(x - 2 * e)
+        rows.append((8 * close - far) / (12 * step[i]))
     return np.array(rows)
 
 
-def assert_derivatives(energy, gradient, hessian, x: np.ndarray, step: float = 1e-4) -> None:
-    """Check gradient and Hessian against differences, to 1e-7 of their largest entry.
+def derivative_error(kernel, args, x: np.ndarray, unit=1.0, step: float = 1e-3) -> float:
+    """Largest error of gradient and exact Hessian against differences, relative to their size.
 
-    energy(x) -> float; gradient(x, g) and hessian(x, matrix) add to zeroed arrays.
+    unit: size of a coordinate, a number or (n,); step: of the differences, in that unit.
     """
+    unit = np.broadcast_to(unit, x.shape)
+    slope = gradient_of(kernel, args, x) * unit
+    curvature = hessian_of(kernel, args, x) * np.outer(unit, unit)
+    by_energy = differences(lambda at: kernel.energy(at, *args), x, step * unit) * unit
+    by_slope = differences(lambda at: gradient_of(kernel, args, at), x, step * unit)
+    by_slope = by_slope * np.outer(unit, unit)
+    stiffest, steepest = np.abs(curvature).max(), np.abs(slope).max()
+    in_slope = np.abs(slope - by_energy).max() / (steepest + step * stiffest or 1.0)
+    in_curvature = np.abs(curvature - by_slope).max() / (stiffest or steepest or 1.0)
+    return max(in_slope, in_curvature)
 
-    def filled(at: np.ndarray) -> np.ndarray:
-        g = np.zeros_like(at)
-        gradient(at, g)
-        return g
 
-    matrix = full_matrix(x.size)
-    hessian(x, matrix)
-    exact, slope = dense(matrix), filled(x)
-    scale = np.abs(exact).max() + np.abs(slope).max() + 1e-300
-    np.testing.assert_allclose(slope, numeric_gradient(energy, x, step), rtol=0, atol=1e-7 * scale)
-    np.testing.assert_allclose(exact, numeric_hessian(filled, x, step), rtol=0, atol=1e-7 * scale)
+def least_share(kernel, args, x: np.ndarray, unit=1.0) -> float:
+    """Smallest eigenvalue of the projected Hessian as a share of the largest one."""
+    unit = np.broadcast_to(unit, x.shape)
+    values = np.linalg.eigvalsh(hessian_of(kernel, args, x, True) * np.outer(unit, unit))
+    return values[0] / np.abs(values).max()
