@@ -13,6 +13,7 @@ import difflib
 import re
 from collections.abc import Sequence
 from os import PathLike
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -236,12 +237,12 @@ def _several(budget: Quantity | Sequence[Quantity] | None) -> list[Quantity]:
     return [budget] if isinstance(budget, float | int | str) else list(budget)
 
 
-def _si(value: Quantity, unit: str) -> float:
+def _si(value: Any, unit: str) -> float:
     """A positive number in SI, from a number or from text with a unit."""
     if isinstance(value, str):
         from sweep.config import quantity
 
-        return quantity(value, unit)
+        value = quantity(value, unit)
     if not value > 0.0:
         raise RankError(f"{value:g} {unit}: budgets, panels and forces must be above zero")
     return float(value)

@@ -6,16 +6,18 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from sweep.rank import ASSUMPTIONS
+from pandas import Series
+
+from sweep.rank import ASSUMPTIONS, by_scene, scene_label
 
 if TYPE_CHECKING:
-    from pandas import DataFrame, Series
+    from pandas import DataFrame
     from rich.table import Table
 
 NOTHING = "–"
-LEGEND = (
-    "* Pareto: nothing lighter in its table absorbs as much.  packs at: strain of densification."
-)
+LEGEND = """\
+*: on the Pareto front, nothing lighter in its scene absorbs as much. mass, peak: of one specimen.
+pack: strain of densification. sink: greatest strain under the load."""
 
 MILLIMETRES = {
     "wall_thickness_m": "wall mm",
@@ -36,6 +38,12 @@ SHOWN_BY_NAME = {
 }
 """Grid keys whose values have a column of the summary to themselves."""
 
+STRAINS = {
+    "displacement": ("pack %", "densification_strain"),
+    "force": ("sink %", "peak_strain"),
+}
+"""The strain that says most about a scene: head and column."""
+
 
 class Sheet(NamedTuple):
     """A table of text. `opens` are the rows that begin a section, `notes` the lines below."""
@@ -49,25 +57,53 @@ class Sheet(NamedTuple):
 
 def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
     """One sheet a loading scene, budgets one below the other; designs as they vary in `summary`."""
-    names = ranking.attrs
-    for scene, lightest in names["lightest_g"].items():
+    budgets = ranking.attrs["budgets_g"]
+    for scene, lightest in ranking.attrs["lightest_g"].items():
         rows = ranking[ranking["scene"] == scene]
-        first = ~rows["budget_g"].duplicated()
-        columns = {"#": rows["place"].astype(str) + rows["pareto"].map({True: "*", False: " "})}
-        if len(names["budgets_g"]) > 1:
-            columns = {"up to g": rows["budget_g"].map("{:g}".format).where(first, "")} | columns
-        columns |= design_text(rows, summary) | _measures(rows, names)
+        lead = {}
+        if len(budgets) > 1:
+            rows = _without_repeats(rows)
+            lead["up to g"] = rows["up_to"].where(~rows["up_to"].duplicated(), "")
+        columns = {
+            **lead,
+            "#": rows["place"].astype(str) + rows["pareto"].map({True: "*", False: " "}),
+            **design_text(rows, summary),
+            **_measures(rows, ranking.attrs),
+        }
         yield Sheet(
             title=scene,
             heads=list(columns),
             rows=[list(row) for row in zip(*columns.values(), strict=True)],
-            opens=frozenset(i for i, opens in enumerate(first) if opens),
+            opens=frozenset(i for i, text in enumerate(lead.get("up to g", ())) if text),
             notes=tuple(
                 f"Nothing weighs {budget:g} g or less: the lightest weighs {lightest:.3g} g."
-                for budget in names["budgets_g"]
+                for budget in budgets
                 if budget < lightest
             ),
         )
+
+
+def _without_repeats(rows: DataFrame) -> DataFrame:
+    """Rows of several budgets, where those with the same places share one section, `up_to`.
+
+    What is best up to 20 g and up to 50 g is so for all budgets between them.
+    """
+    same = rows.groupby("budget_g")["case_id"].agg(" ".join)
+    alike = same.index.to_series().groupby(same)
+    low, high = alike.transform("min"), alike.transform("max")
+    spans = {b: f"{b:g}" if b == high[b] else f"{b:g}-{high[b]:g}" for b in low}
+    kept = rows[rows["budget_g"].isin(low)]
+    return kept.assign(up_to=kept["budget_g"].map(spans))
+
+
+def case_sheet(summary: DataFrame) -> Sheet:
+    """All cases with what makes them differ and how they ended."""
+    columns = {"case": summary["case_id"], **design_text(summary, summary)}
+    scene = Series(index=summary.index, dtype=object)
+    for rows in by_scene(summary):
+        scene.loc[rows.index] = scene_label(rows)
+    columns |= {"scene": scene, "status": summary["status"]}
+    return Sheet("", list(columns), [list(row) for row in zip(*columns.values(), strict=True)])
 
 
 def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
@@ -88,6 +124,22 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
     return columns
 
 
+def design_labels(frame: DataFrame, among: DataFrame) -> list[str]:
+    """The same as one text a design, such as "cells 3 x 3, wall 0.8 mm, ninjaflex"."""
+    columns = design_text(frame, among) or {"material": frame["material"].astype(str)}
+    return [
+        ", ".join(_with_noun(head, text) for head, text in zip(columns, texts, strict=True))
+        for texts in zip(*columns.values(), strict=True)
+    ]
+
+
+def _with_noun(head: str, text: str) -> str:
+    """A value with the head of its column: "wall mm", "0.8" -> "wall 0.8 mm"."""
+    if head in MILLIMETRES.values():
+        return f"{head.removesuffix('mm')}{text} mm"
+    return text if head in ("material", "pattern") else f"{head} {text}"
+
+
 def _measures(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
     """Columns of what was found; the column sorted by is always among them."""
     energy, by = rows[names["energy"]], names["by"]
@@ -98,33 +150,40 @@ def _measures(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
     columns[f"{whole} {unit}"] = numerals(energy * scale)
     columns["J/g"] = numerals(rows[names["per_gram"]])
     columns["peak N"] = numerals(rows["peak_force_N"])
-    if rows["densification_strain"].notna().any():
-        columns["packs at"] = rows["densification_strain"].map(percent)
-    shown = {"mass_g", "panel_mass_g", "peak_force_N", "densification_strain"}
+    loaded = (rows["loading_mode"] == "force").all()
+    head, strain = STRAINS["force" if loaded else "displacement"]
+    columns[head] = rows[strain].map(percent)
+    shown = {"mass_g", "panel_mass_g", "peak_force_N", strain}
     if by not in shown | {names["energy"], names["per_gram"]}:
         columns[by] = numerals(rows[by])
     return columns
 
 
-def terminal_table(sheet: Sheet) -> Table:
-    """A rich table; the unit of a head goes on a second line, so that 80 columns are enough."""
+def terminal_table(sheet: Sheet, width: int) -> Table:
+    """A rich table; the unit of a head goes on a second line, so that 80 columns are enough.
+
+    A table wider than the terminal gives up a space between its columns.
+    """
     from rich import box
     from rich.table import Table
 
+    heads = ["\n".join(head.rsplit(" ", 1)) for head in sheet.heads]
+    columns = [
+        [*head.split("\n"), *texts] for head, texts in zip(heads, _columns(sheet), strict=True)
+    ]
+    natural = sum(max(map(len, texts)) + 2 for texts in columns) - 2
     table = Table(
         title=sheet.title,
         caption="\n".join(sheet.notes) or None,
         title_justify="left",
         caption_justify="left",
         box=box.SIMPLE_HEAD,
-        pad_edge=False,
         show_edge=False,
-        collapse_padding=True,
+        padding=(0, 1 if natural <= width else 0, 0, 0),
     )
-    for head, texts in zip(sheet.heads, _columns(sheet), strict=True):
+    for head, texts in zip(heads, _columns(sheet), strict=True):
         right = all(text[:1] in f"0123456789-{NOTHING}" and " x " not in text for text in texts)
-        lines = "\n".join(head.rsplit(" ", 1))
-        table.add_column(lines, justify="right" if right else "left", no_wrap=True)
+        table.add_column(head, justify="right" if right else "left", no_wrap=True)
     for i, row in enumerate(sheet.rows):
         if i in sheet.opens and i:
             table.add_section()
@@ -152,16 +211,21 @@ def _markdown(sheet: Sheet) -> str:
 
 
 def numerals(values: Series) -> Series:
-    """Numbers with as many decimals as give the greatest three significant digits."""
-    greatest = values.abs().replace(math.inf, math.nan).max()
-    decimals = 2 - math.floor(math.log10(greatest)) if greatest > 0.0 else 0
-    decimals = min(max(decimals, 0), 9)
-    return values.map(lambda value: f"{value:.{decimals}f}" if math.isfinite(value) else NOTHING)
+    """Numbers with three significant digits, never in powers of ten."""
+    return values.map(three_digits)
+
+
+def three_digits(value: float) -> str:
+    """A number with at least three significant digits: 0.0123, 1.23, 1234."""
+    if not math.isfinite(value):
+        return NOTHING
+    decimals = 2 - math.floor(math.log10(abs(value))) if value else 0
+    return f"{value:.{max(decimals, 0)}f}"
 
 
 def percent(value: float) -> str:
     """A strain as whole percent."""
-    return f"{value:.0%}" if math.isfinite(value) else NOTHING
+    return f"{100 * value:.0f}" if math.isfinite(value) else NOTHING
 
 
 def short(value: object) -> str:

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from sweep.rank import RankError, pareto, rank, scene_label
-from sweep.sheets import markdown, numerals, ranking_sheets
+from sweep.sheets import markdown, ranking_sheets, three_digits
 from tests.rows import designs, summary
 
 NAN = float("nan")
@@ -164,16 +164,23 @@ def test_budgets_stand_one_below_the_other_in_markdown():
     text = markdown(ranking_sheets(ranking, table))
     assert text == (
         "### crushed to 50%, glued platens\n\n"
-        "| up to g | #  | cells | mass g | absorbs mJ | J/g   | peak N | packs at |\n"
-        "| ------- | -- | ----- | ------ | ---------- | ----- | ------ | -------- |\n"
-        "| 1       | 1* | 3 x 3 | 1.00   | 100        | 0.100 | 20.0   | 55%      |\n"
-        "| 2       | 1* | 3 x 3 | 2.00   | 300        | 0.150 | 20.0   | 55%      |\n"
-        "|         | 2* | 3 x 3 | 1.00   | 100        | 0.100 | 20.0   | 55%      |\n\n"
+        "| up to g | #  | cells | mass g | absorbs mJ | J/g   | peak N | pack % |\n"
+        "| ------- | -- | ----- | ------ | ---------- | ----- | ------ | ------ |\n"
+        "| 1       | 1* | 3 x 3 | 1.00   | 100        | 0.100 | 20.0   | 55     |\n"
+        "| 2       | 1* | 3 x 3 | 2.00   | 300        | 0.150 | 20.0   | 55     |\n"
+        "|         | 2* | 3 x 3 | 1.00   | 100        | 0.100 | 20.0   | 55     |\n\n"
         "Nothing weighs 0.5 g or less: the lightest weighs 1 g.\n"
     )
 
 
-def test_numerals_show_three_digits_of_the_greatest():
-    assert list(numerals(pd.Series([0.01234, 0.5, NAN]))) == ["0.012", "0.500", "–"]
-    assert list(numerals(pd.Series([12345.6, 7.0]))) == ["12346", "7"]
-    assert list(numerals(pd.Series([0.0]))) == ["0"]
+def test_numbers_show_three_digits():
+    numbers = [0.01234, 0.5, 9.996, 12345.6, -7.0, 0.0, NAN, float("inf")]
+    expected = ["0.0123", "0.500", "10.00", "12346", "-7.00", "0", "–", "–"]
+    assert [three_digits(number) for number in numbers] == expected
+
+
+def test_budgets_with_the_same_places_share_a_section():
+    table = summary(*designs([1.0, 2.0], [0.3, 0.1]), {"mass_g": 9.0, "absorbed_energy_J": 0.9})
+    ranking = rank(table, budget=["1 g", "3 g", "5 g", "9 g"], top=1)
+    sheet = next(ranking_sheets(ranking, table))
+    assert [row[:2] for row in sheet.rows] == [["1-5", "1*"], ["9", "1*"]]

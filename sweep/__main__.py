@@ -1,0 +1,121 @@
+"""The command line: `crumple VERB ...`, also `python -m sweep`. Each verb is a call of sweep/verbs.
+
+Exit status: 0 done; 1 done, but some cases failed; 2 the config or the arguments are wrong.
+"""
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from typing import NoReturn
+
+ABOUT = "Which printed infill absorbs the most energy per gram?"
+EXAMPLES = """examples:
+  crumple run configs/armor.toml --dry-run      how many cases, how long, how much disk
+  crumple run configs/armor.toml                simulate; the same command goes on after a stop
+  crumple status results/armor.h5               what is done, what failed and why
+  crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
+  crumple show results/armor.h5                 the ids of all cases
+  crumple show results/armor.h5 7a85            pictures of the case whose id begins so
+"""
+RUN = """Simulate every case of CONFIG that the results file does not hold yet, then rank.
+Finished cases are never lost and never computed twice: after a stop or a kill, or when the
+grid has grown, run the same command again."""
+RANK = """List the designs that absorb the most energy, one table for each loading scene.
+Without options: the budgets and the panel that the config names under [rank]."""
+RANK_EXAMPLES = """examples:
+  crumple rank F.h5                                       most J/g, or the [rank] of the config
+  crumple rank F.h5 --budget "25 g"                       specimens of at most 25 g
+  crumple rank F.h5 --budget "1 oz" --panel "4 in" "2 in"  panels of at most an ounce
+  crumple rank F.h5 --allowed-force "50 N"                energy before 50 N are passed on
+  crumple rank F.h5 --by peak_force_N --top 3             gentlest first
+  crumple rank F.h5 --csv > ranking.csv
+"""
+SHOW = """Draw one case: force against strain, where the energy goes, and six deformed shapes.
+Without CASE: list the ids of all cases with what makes them differ."""
+
+
+class Parser(argparse.ArgumentParser):
+    """Arguments whose refusal takes two lines."""
+
+    def error(self, message: str) -> NoReturn:
+        """Say what is wrong and where to read on."""
+        self.exit(2, f"{self.prog}: {message}\n{self.prog} --help shows examples\n")
+
+
+def parser() -> Parser:
+    """All verbs and their options."""
+    raw = argparse.RawDescriptionHelpFormatter
+    main = Parser(prog="crumple", description=ABOUT, epilog=EXAMPLES, formatter_class=raw)
+    verbs = main.add_subparsers(dest="verb", metavar="VERB", required=True)
+
+    run = verbs.add_parser("run", help="simulate a sweep", description=RUN, formatter_class=raw)
+    run.add_argument("config", metavar="CONFIG", help="TOML file with the case and its [grid]")
+    run.add_argument("--out", metavar="F.h5", help="results file (default: results/NAME.h5)")
+    run.add_argument("--workers", type=_count, default=2, metavar="N", help="default: 2")
+    run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster: tcp://host:8786")
+    run.add_argument("--dry-run", action="store_true", help="estimate time and disk, write nothing")
+    run.add_argument("--retry-failed", action="store_true", help="compute failed cases once more")
+
+    status = verbs.add_parser("status", help="what is done, and what failed and why")
+    status.add_argument("file", metavar="F.h5")
+
+    rank = verbs.add_parser(
+        "rank", help="the best designs", description=RANK, epilog=RANK_EXAMPLES, formatter_class=raw
+    )
+    rank.add_argument("file", metavar="F.h5")
+    _add_question(rank)
+    shape = rank.add_mutually_exclusive_group()
+    for name, what in {"csv": "all columns", "json": "all columns", "markdown": "tables"}.items():
+        shape.add_argument(f"--{name}", action="store_true", help=f"{what}, as {name} on stdout")
+    shape.add_argument("--out", metavar="DIR", help="write tables and figures into a folder")
+
+    show = verbs.add_parser("show", help="draw a case", description=SHOW, formatter_class=raw)
+    show.add_argument("file", metavar="F.h5")
+    show.add_argument("case", metavar="CASE", nargs="?", help="id, or the beginning of one")
+    show.add_argument("--out", metavar="DIR", help="folder of the pictures (default: beside F.h5)")
+    return main
+
+
+def _add_question(rank: argparse.ArgumentParser) -> None:
+    """What a ranking may be asked for."""
+    rank.add_argument(
+        "--budget", nargs="+", action="extend", metavar="MASS", help='greatest mass: "25 g" "2 oz"'
+    )
+    rank.add_argument(
+        "--panel", nargs=2, metavar="LENGTH", help='area to fill with specimens: "100 mm" "50 mm"'
+    )
+    rank.add_argument("--by", metavar="COLUMN", help="sort by this column of the summary")
+    rank.add_argument("--top", type=_count, metavar="N", help="places shown: 10, or 3 a budget")
+    rank.add_argument(
+        "--allowed-force", metavar="FORCE", help='count energy up to this force: "50 N"'
+    )
+
+
+def _count(text: str) -> int:
+    """A whole number above zero."""
+    if text.isdecimal() and int(text) > 0:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"{text!r}; allowed: a whole number, 1 or more")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one verb and return the exit status."""
+    arguments = parser().parse_args(argv)
+    from sweep import verbs
+
+    try:
+        return verbs.VERBS[arguments.verb](arguments)
+    except verbs.refusals() as refusal:
+        print(f"crumple {arguments.verb}: {refusal}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # no second complaint
+        return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,89 @@
+"""Files for people: the ranking of a sweep as tables and figures, a case as pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from sweep import plots
+from sweep.rank import rank
+from sweep.sheets import design_labels, markdown, ranking_sheets
+from sweep.store import read_frames, read_history, read_summary
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from pandas import DataFrame, Series
+
+MAX_WINNERS = 6
+Named = Iterator[tuple[str, "Figure"]]
+
+
+def publish_ranking(file: str, question: Mapping[str, Any], folder: Path) -> list[Path]:
+    """Write a ranking as `ranking.md`, every design as `ranking.csv`, and the figures.
+
+    question : the keywords of `rank`.
+    """
+    summary = read_summary(file)
+    shown = rank(summary, **question)
+    ranking = rank(summary, **{**question, "budget": None, "top": None, "by": shown.attrs["by"]})
+    ranking.attrs["budgets_g"] = shown.attrs["budgets_g"]
+    folder.mkdir(parents=True, exist_ok=True)
+    text, table = folder / "ranking.md", folder / "ranking.csv"
+    text.write_text(markdown(ranking_sheets(shown, summary)), encoding="utf-8")
+    ranking.to_csv(table, index=False)
+    figures = _sweep_figures(file, shown, ranking)
+    return [text, table, *(plots.save(fig, folder / f"{name}.png") for name, fig in figures)]
+
+
+def publish_case(file: str, row: Series, folder: Path) -> list[Path]:
+    """Draw one case: its force, its energies and six of its shapes, as far as it ran."""
+    figures = _case_figures(file, row)
+    return [plots.save(figure, folder / f"{name}.png") for name, figure in figures]
+
+
+def _sweep_figures(file: str, shown: DataFrame, ranking: DataFrame) -> Named:
+    """The map of all designs, the trend with wall thickness, the shapes of the winners."""
+    if ranking.empty:
+        return
+    scenes = ranking["scene"].nunique()
+    size = (4.2 * min(3, scenes) + 2.2, 3.8 * -(-scenes // 3))
+    figure = plots.blank(*size)
+    plots.absorption_map(figure, ranking)
+    yield "absorption", figure
+    if len(ranking["wall_thickness_m"].unique()) > 1:
+        figure = plots.blank(*size)
+        plots.thickness_trends(figure, ranking)
+        yield "wall_thickness", figure
+    if winners := _winners(file, shown, ranking):
+        figure = plots.blank(12.0, 3.0 * len(winners))
+        plots.winners(figure, winners)
+        yield "winners", figure
+
+
+def _winners(file: str, shown: DataFrame, ranking: DataFrame) -> dict[str, dict[str, Any]]:
+    """Frames of the crushed designs in first place, under the name of budget, scene and design."""
+    first = shown[(shown["place"] == 1) & (shown["loading_mode"] == "displacement")]
+    first = first.drop_duplicates("case_id").head(MAX_WINNERS)
+    winners = {}
+    for (_, row), design in zip(first.iterrows(), design_labels(first, ranking), strict=True):
+        budget = f"up to {row['budget_g']:g} g, " if row["budget_g"] > 0.0 else ""
+        if frames := read_frames(file, row["case_id"]):
+            winners[f"{budget}{row['scene']}: {design}"] = frames
+    return winners
+
+
+def _case_figures(file: str, row: Series) -> Named:
+    """Figures of what a case has left; none of a case that left nothing."""
+    history, frames = read_history(file, row["case_id"]), read_frames(file, row["case_id"])
+    if len(history) > 1:
+        figure = plots.blank(6.4, 4.4)
+        plots.force_displacement(figure.subplots(), history, row)
+        yield "force", figure
+        figure = plots.blank(7.4, 4.2)
+        plots.energies(figure.subplots(), history, row)
+        yield "energies", figure
+    if frames:
+        figure = plots.blank(12.0, 2.8)
+        plots.deformed_shapes(figure, frames, times=row["loading_mode"] == "force")
+        yield "shapes", figure

@@ -1,0 +1,243 @@
+"""What each verb of the command line does: arguments in, text on the terminal, exit status out."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from argparse import Namespace
+
+    from pandas import DataFrame, Series
+
+    from sweep.sheets import Sheet
+
+DONE, SOME_FAILED = 0, 1
+WIDTH = 120  # a longer line is wrapped by the terminal: better than losing what it says
+TOP, TOP_OF_A_BUDGET = 10, 3
+REFUSALS = {
+    "sweep.grid": "ConfigError",
+    "sweep.store": "StoreError",
+    "sweep.graph": "GraphError",
+    "sweep.rank": "RankError",
+}
+
+
+class ArgumentError(ValueError):
+    """An argument that does not go with the results file."""
+
+
+def refusals() -> tuple[type[Exception], ...]:
+    """Errors that say what is wrong with a config, a file or an argument.
+
+    Only of modules that are loaded: no other can have been raised.
+    """
+    loaded = [(sys.modules[name], error) for name, error in REFUSALS.items() if name in sys.modules]
+    return (ArgumentError, *(getattr(module, error) for module, error in loaded))
+
+
+def run(arguments: Namespace) -> int:
+    """Simulate what is missing, then rank; with --dry-run, only estimate."""
+    from sweep.config import load_config
+
+    config = load_config(arguments.config)
+    out = arguments.out or f"results/{config.name}.h5"
+    if arguments.dry_run:
+        from sweep.pilot import dry_run
+
+        _say(dry_run(config, out, arguments.workers, arguments.retry_failed))
+        return DONE
+    from sweep.run import run_sweep
+
+    failed = run_sweep(config, out, arguments.workers, arguments.scheduler, arguments.retry_failed)
+    _print_ranking(out, _question(config.rank.budgets, config.rank.panel))
+    return SOME_FAILED if failed else DONE
+
+
+def status(arguments: Namespace) -> int:
+    """Counts, failures with their sentences, time and origin of a results file."""
+    from sweep.store import read_attributes, read_summary
+
+    summary, about = read_summary(arguments.file), read_attributes(arguments.file)
+    counts = summary["status"].value_counts()
+    _say(f"{arguments.file}: {len(summary)} cases")
+    _say_all(f"{count:7d} {name}" for name, count in counts.items())
+    _say_all(_failures(summary))
+    _say(f"{summary['cpu_s'].sum():.4g} s of processor time in all")
+    known = {name.removeprefix("version_"): about[name] for name in about if "version_" in name}
+    _say(f"last run {about.get('created', '?')}, revision {about.get('git_revision', '?')}")
+    _say(", ".join(f"{name} {version}" for name, version in known.items()))
+    return _exit_status(summary)
+
+
+def rank(arguments: Namespace) -> int:
+    """The ranking, as tables on the terminal, as text for other programs, or into a folder."""
+    question = _asked(arguments)
+    if arguments.out:
+        from sweep.publish import publish_ranking
+
+        _say_all(publish_ranking(arguments.file, question, Path(arguments.out)))
+        return DONE
+    if not (arguments.csv or arguments.json or arguments.markdown):
+        return _print_ranking(arguments.file, question)
+    from sweep.rank import rank as ranked
+    from sweep.sheets import markdown, ranking_sheets
+    from sweep.store import read_summary
+
+    summary = read_summary(arguments.file)
+    ranking = ranked(summary, **question)
+    if arguments.csv:
+        _say(ranking.to_csv(index=False), end="")
+    elif arguments.json:
+        _say(ranking.to_json(orient="records", indent=2))
+    else:
+        _say(markdown(ranking_sheets(ranking, summary)), end="")
+    return _exit_status(summary)
+
+
+def show(arguments: Namespace) -> int:
+    """Pictures of one case, or the list of all."""
+    from sweep.store import read_summary
+
+    summary = read_summary(arguments.file)
+    if arguments.case is None:
+        _print_cases(summary)
+        return DONE
+    from sweep.publish import publish_case
+
+    row = _find_case(summary, arguments.case)
+    folder = Path(arguments.out or Path(arguments.file).with_suffix("") / row["case_id"])
+    _say(f"case {row['case_id']}: {row['status']}. {row['message']}".rstrip())
+    pictures = publish_case(arguments.file, row, folder)
+    _say_all(pictures or ["nothing to draw: the case left no curves and no shapes"])
+    return DONE
+
+
+VERBS = {"run": run, "status": status, "rank": rank, "show": show}
+
+
+def _asked(arguments: Namespace) -> dict[str, Any]:
+    """The keywords of `rank` from the command line; budgets and panel else from the config."""
+    from sweep.config import quantity
+
+    def si(texts: Iterable[str] | None, unit: str) -> list[float]:
+        return [quantity(text, unit) for text in texts or ()]
+
+    budgets, panel = si(arguments.budget, "kg"), si(arguments.panel, "m")
+    force = si([arguments.allowed_force] if arguments.allowed_force else (), "N")
+    if not (budgets or panel or force or arguments.by):
+        stored = _stored_rank(arguments.file)
+        budgets, panel = stored.get("budgets") or [], stored.get("panel") or []
+    question = _question(budgets, panel)
+    question |= {"by": arguments.by, "allowed_force": force[0] if force else None}
+    return question | ({"top": arguments.top} if arguments.top else {})
+
+
+def _question(budgets: Iterable[float], panel: Iterable[float] | None) -> dict[str, Any]:
+    """The keywords of `rank`: several budgets leave room for fewer places each."""
+    budget, sides = list(budgets), list(panel or ())
+    top = TOP_OF_A_BUDGET if len(budget) > 1 else TOP
+    return {"budget": budget or None, "panel": sides or None, "top": top}
+
+
+def _stored_rank(file: str) -> dict[str, Any]:
+    """The [rank] of the config that a results file was made from."""
+    from sweep.store import read_attributes
+
+    config: dict[str, Any] = json.loads(read_attributes(file).get("config") or "{}")
+    return config.get("rank") or {}
+
+
+def _print_ranking(file: str, question: Mapping[str, Any]) -> int:
+    """Tables on the terminal, and aloud what has no place in them."""
+    from sweep.rank import rank
+    from sweep.sheets import LEGEND, ranking_sheets
+    from sweep.store import read_summary
+
+    summary = read_summary(file)
+    ranking = rank(summary, **question)
+    _say(_heading(question, ranking))
+    _print_sheets(ranking_sheets(ranking, summary))
+    if not ranking.empty:
+        _say(LEGEND)
+    if unranked := ranking.attrs["unranked"]:
+        _say(f"{unranked} cases have no {ranking.attrs['by']} and so no place.")
+    if failed := ranking.attrs["failed"]:
+        _say(f"{failed} of {len(summary)} cases failed: crumple status {file} lists them")
+    return _exit_status(summary)
+
+
+def _heading(question: Mapping[str, Any], ranking: DataFrame) -> str:
+    """What the tables are about, in a line or two."""
+    from sweep.rank import LESS_IS_BETTER
+
+    names = ranking.attrs
+    by = names["by"]
+    usual = {names["energy"]: "most energy", names["per_gram"]: "most energy per gram"}
+    order = usual.get(by, f"least {by}" if by in LESS_IS_BETTER else f"most {by}")
+    lines = [f"Best first: {order}."]
+    if len(names["budgets_g"]) == 1:
+        lines.insert(0, f"At most {names['budgets_g'][0]:.4g} g.")
+    if panel := question["panel"]:
+        a, b = (f"{1e3 * side:g}" for side in panel)
+        lines.insert(0, f"Panel of {a} x {b} mm, filled with specimens side by side.")
+    return " ".join(lines)
+
+
+def _failures(summary: DataFrame) -> list[str]:
+    """A line for each kind of failure: how many cases, and what the first of them says."""
+    failed = summary[summary["status"] != "converged"]
+    kind = failed["message"].str.replace(r"\d[\d.e+-]*", "#", regex=True)
+    return [
+        f"{len(rows)} x {rows['message'].iloc[0]} (case {', '.join(rows['case_id'].head(3))}"
+        + (", ...)" if len(rows) > 3 else ")")
+        for _, rows in failed.groupby([failed["status"], kind], sort=False)
+    ]
+
+
+def _find_case(summary: DataFrame, prefix: str) -> Series:
+    """The one row whose id begins like this."""
+    found = summary[summary["case_id"].str.startswith(prefix)]
+    if len(found) == 1:
+        return found.iloc[0]
+    if found.empty:
+        raise ArgumentError(f'no case "{prefix}"; without CASE, show lists all {len(summary)} ids')
+    ids = ", ".join(found["case_id"].head(4)) + (" ..." if len(found) > 4 else "")
+    raise ArgumentError(f'"{prefix}" begins {len(found)} ids: {ids}')
+
+
+def _exit_status(summary: DataFrame) -> int:
+    return SOME_FAILED if (summary["status"] != "converged").any() else DONE
+
+
+def _print_cases(summary: DataFrame) -> None:
+    """Ids with what makes the cases differ."""
+    from sweep.sheets import case_sheet
+
+    _print_sheets([case_sheet(summary)])
+
+
+def _print_sheets(sheets: Iterable[Sheet]) -> None:
+    """Tables on the terminal, a blank line above each."""
+    from rich.console import Console
+
+    from sweep.sheets import terminal_table
+
+    console = Console()
+    width, console.width = console.width, max(console.width, WIDTH)
+    for sheet in sheets:
+        console.print()
+        console.print(terminal_table(sheet, width))
+    console.print()
+
+
+def _say(text: object, end: str = "\n") -> None:
+    sys.stdout.write(f"{text}{end}")
+
+
+def _say_all(lines: Iterable[object]) -> None:
+    for line in lines:
+        _say(line)
