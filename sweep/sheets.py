@@ -160,9 +160,9 @@ def _measures(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
 
 
 def terminal_table(sheet: Sheet, width: int) -> Table:
-    """A rich table; the unit of a head goes on a second line, so that 80 columns are enough.
+    """A rich table, without title and notes, that tries to fit into `width` columns.
 
-    A table wider than the terminal gives up a space between its columns.
+    The unit of a head goes on a second line; if need be, columns move a space closer together.
     """
     from rich import box
     from rich.table import Table
@@ -173,10 +173,6 @@ def terminal_table(sheet: Sheet, width: int) -> Table:
     ]
     natural = sum(max(map(len, texts)) + 2 for texts in columns) - 2
     table = Table(
-        title=sheet.title,
-        caption="\n".join(sheet.notes) or None,
-        title_justify="left",
-        caption_justify="left",
         box=box.SIMPLE_HEAD,
         show_edge=False,
         padding=(0, 1 if natural <= width else 0, 0, 0),

@@ -229,9 +229,11 @@ def _print_sheets(sheets: Iterable[Sheet]) -> None:
     console = Console()
     width, console.width = console.width, max(console.width, WIDTH)
     for sheet in sheets:
-        console.print()
+        _say("")
+        console.print(sheet.title, style="bold", markup=False, highlight=False)
         console.print(terminal_table(sheet, width))
-    console.print()
+        _say_all(sheet.notes)
+    _say("")
 
 
 def _say(text: object, end: str = "\n") -> None:

@@ -1,46 +1,12 @@
 """Pictures: what they show is what the numbers say."""
 
 import numpy as np
-import pandas as pd
 import pytest
 from matplotlib.colors import to_rgba
+from specimens import HEIGHT, T, designs, squeezed_cell, summary, there_and_back
 
 from sweep import plots
 from sweep.rank import rank
-from sweep.result import HISTORY_COLUMNS
-from tests.rows import designs, summary
-
-HEIGHT, T = 10e-3, 1e-3
-
-
-def there_and_back(rows=21):
-    """A block of 10 mm pressed by 4 mm at a rising force and let up at half of it."""
-    travel = 4e-3 * np.concatenate([np.linspace(0, 1, rows), np.linspace(1, 0, rows)[1:]])
-    force = 20.0 + 2e3 * travel
-    force[rows:] *= 0.5
-    work = np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(travel)))
-    history = pd.DataFrame(0.0, index=range(len(travel)), columns=list(HISTORY_COLUMNS))
-    history["top_displacement_m"], history["strain"] = travel, travel / HEIGHT
-    history["reaction_top_N"] = history["reaction_bottom_N"] = force
-    history["work_in_J"], history["time_s"] = work, np.arange(len(travel)) * 1e-3
-    history["bend_J"], history["dissipated_friction_J"] = 0.7 * work, 0.3 * work
-    history["kinetic_J"] = 1e-4 * work
-    return history
-
-
-def squeezed_cell(platens=True, heights=(10.0, 9.0, 8.0, 7.0, 6.0, 5.0, 7.0, 10.0)):
-    """A single cell, 10 mm square with walls of 1 mm, squeezed flat and let up."""
-    position = np.array([[[0, 0], [10, 0], [10, h], [0, h]] for h in heights]) * 1e-3
-    top = np.array(heights) * 1e-3
-    plates = np.column_stack([np.full(len(top), -0.5 * T), top + 0.5 * T])
-    return {
-        "strain": 1.0 - top / HEIGHT,
-        "time_s": np.arange(len(top)) * 0.01,
-        "position_m": position,
-        "edges": np.array([[0, 1], [1, 2], [2, 3], [3, 0]]),
-        "edge_thickness_m": np.full(4, T),
-        "plate_y_m": plates if platens else np.full_like(plates, np.nan),
-    }
 
 
 @pytest.fixture

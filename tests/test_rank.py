@@ -5,10 +5,10 @@ import itertools
 import numpy as np
 import pandas as pd
 import pytest
+from specimens import designs, summary
 
 from sweep.rank import RankError, pareto, rank, scene_label
 from sweep.sheets import markdown, ranking_sheets, three_digits
-from tests.rows import designs, summary
 
 NAN = float("nan")
 

@@ -1,0 +1,55 @@
+"""The estimate before a sweep."""
+
+import numpy as np
+import pytest
+
+from sweep.params import Case, Lattice, Loading
+from sweep.pilot import duration, estimate
+from sweep.plan import cost
+from sweep.result import Result, Status
+
+GLUED = Loading(mode="displacement", platen="glued")
+
+
+def cases(loading, cells=(2, 3, 4, 5)):
+    return [Case(lattice=Lattice(cells_x=n, cells_y=n), loading=loading) for n in cells]
+
+
+def stand_in(status=Status.CONVERGED):
+    """A simulation with a pace for each mode of loading and 1000 numbers to store, and its log."""
+    asked = []
+
+    def simulate(case):
+        asked.append(case)
+        pace = {"force": 1e-6, "displacement": 5e-6}[case.loading.mode]
+        history = {"strain": np.zeros(1000)}
+        return Result(case.case_id, status, "", {"cpu_s": pace * cost(case)}, history)
+
+    return simulate, asked
+
+
+def test_each_kind_of_loading_is_scaled_by_its_own_pace():
+    force, glued = cases(Loading()), cases(GLUED)
+    expected = 1e-6 * sum(map(cost, force)) + 5e-6 * sum(map(cost, glued))
+    found = estimate([*force, *glued], stand_in()[0])
+    assert found.cpu == pytest.approx(expected)
+    assert found.pilots == 2
+    assert found.disk == pytest.approx(8 * (1000 + 0.75 * 4 * 1000))
+
+
+def test_pilot_stands_in_the_middle_of_the_work():
+    simulate, asked = stand_in()
+    estimate(cases(GLUED), simulate)
+    warm_up, pilot = asked
+    assert (warm_up.lattice.cells_x, pilot.lattice.cells_x) == (2, 5)
+
+
+def test_failed_pilots_are_counted():
+    assert estimate(cases(GLUED), stand_in(Status.STOPPED)[0]).failed == 1
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"), [(0.123, "0.12 s"), (95.0, "95 s"), (150.0, "2.5 min"), (9000.0, "2.5 h")]
+)
+def test_durations_are_rough(seconds, text):
+    assert duration(seconds) == text
