@@ -13,7 +13,7 @@ import numpy as np
 
 from kernels.barrier import barrier
 from kernels.distance import closest, normal
-from kernels.jit import jit, jit_exact
+from kernels.jit import jit, jit_exact, jit_owning
 from kernels.rows import pair
 from kernels.sparse import add_block
 
@@ -37,7 +37,7 @@ class Grips(NamedTuple):
     load: np.ndarray
 
 
-@jit_exact
+@jit_owning
 def empty():
     """Return no grips."""
     return Grips(np.empty((0, 3), np.int64), np.empty(0), np.empty((0, 2)), np.empty(0))
@@ -57,7 +57,7 @@ def _normal_force(contact, weight, dc, d):
     return -weight * contact.stiffness * barrier(d / dc)[1] if d < dc else 0.0
 
 
-@jit_exact
+@jit_owning
 def lag(x, contact, pairs, friction):
     """Return the `Grips` of all pairs in contact at ``x``."""
     most = 3 * pairs.node.size + 2 * contact.plate_nodes.size

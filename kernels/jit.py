@@ -2,7 +2,8 @@
 
 ``@jit`` is for arithmetic; ``@jit_exact`` keeps every rounding as written, for collision detection,
 distances, tests of a sign or a pivot, and sums of the energy book (fast-math destroys exact zeros
-and compensated sums). Both release the GIL, so that threads run side by side.
+and compensated sums); ``@jit_owning`` is exact too and may make arrays. All release the GIL, so
+that threads run side by side.
 
 Numba's own cache has two faults that would cost results, not only time. It looks at the file of the
 compiled function alone, so that an edited callee in another file leaves the old code running: here
@@ -153,11 +154,17 @@ class SealedCache(FunctionCache):
             super().save_overload(sig, data)
 
 
-def compiler(fastmath):
-    """Decorator that compiles a function for the argument types it meets, and keeps the code."""
+def compiler(fastmath, owning=False):
+    """Decorator that compiles a function for the argument types it meets, and keeps the code.
+
+    Without ``owning`` the code counts no references, which costs four times the arithmetic of an
+    assembly; such a function may read and fill arrays but must not make or return any.
+    """
 
     def decorate(function):
-        dispatcher = numba.njit(nogil=True, error_model="numpy", fastmath=fastmath)(function)
+        dispatcher = numba.njit(
+            nogil=True, error_model="numpy", fastmath=fastmath, _nrt=owning
+        )(function)
         if not numba.config.DISABLE_JIT:  # under NUMBA_DISABLE_JIT it is the plain function
             dispatcher._cache = SealedCache(function)
         return dispatcher
@@ -169,3 +176,4 @@ numba.config.CACHE_DIR = str(open_cache(Path(__file__).parent))
 
 jit = compiler({"contract", "reassoc", "nsz", "arcp"})
 jit_exact = compiler(False)
+jit_owning = compiler(False, owning=True)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels import contact, damp, friction, inertia
-from kernels.jit import jit, jit_exact
+from kernels.jit import jit_exact, jit_owning
 from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, Work, largest, minimise, reduce
 from kernels.step import Step, find_near, gradient, stored, stored_gradient
 
@@ -59,7 +59,7 @@ class Output(NamedTuple):
     top: np.ndarray
 
 
-@jit_exact
+@jit_owning
 def _solve_step(x, target, terms, step, near, unknowns, tolerance, work, control):
     """Minimise; with friction, again until the lagged forces agree with the contact they belong to."""
     total = 0
@@ -88,7 +88,7 @@ def _dot(a, b):
     return total
 
 
-@jit_exact
+@jit_owning
 def _rate_forces(x, terms, step, material, rubbing):
     """Fill the gradients of the dissipation potentials of material and friction."""
     material[:] = 0.0
@@ -98,7 +98,7 @@ def _rate_forces(x, terms, step, material, rubbing):
     friction.gradient(x, step.x0, step.grips, terms.friction.slip, rubbing)
 
 
-@jit_exact
+@jit_owning
 def _enter(book, before, x, terms, step, near, unknowns, state, work):
     """Add one converged step to the energy book; ``before``: stored energies at its start."""
     new = step.dt < np.inf
@@ -142,7 +142,8 @@ def _enter(book, before, x, terms, step, near, unknowns, state, work):
 def _write(out, k, state, terms, near, unknowns, work):
     """Write row ``k`` of the history and its frame."""
     row = out.rows[k]
-    row[:TIME] = state.book
+    for c in range(TIME):
+        row[c] = state.book[c]
     row[TIME] = state.totals[2]
     row[TOP] = 0.0
     for c in out.top:
@@ -156,10 +157,11 @@ def _write(out, k, state, terms, near, unknowns, work):
     row[ITERATIONS_DONE] = state.totals[0]
     row[GAP] = contact.least_gap(state.x, terms.contact, near.pairs)
     if out.frame_of[k] >= 0:
-        out.frames[out.frame_of[k]] = state.x
+        for i in range(state.x.size):
+            out.frames[out.frame_of[k], i] = state.x[i]
 
 
-@jit_exact
+@jit_owning
 def march(terms, unknowns, tolerance, stage, state, out, control):
     """March through ``stage`` from ``state`` (changed in place); fill ``out``.
 
@@ -167,7 +169,7 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
     """
     n, rows = state.x.size, unknowns.scale.size
     work = Work(np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(rows), np.zeros(rows))
-    near = find_near(state.x, terms, terms.contact.reach)
+    near = find_near(state.x, terms, 0.0)
     share = 1.0
     for k in range(stage.steps):
         done = 0.0
@@ -196,7 +198,7 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
                 state.totals[1] += 1
                 continue
             state.x[:] = x0
-            near = find_near(x0, terms, terms.contact.reach)
+            near = find_near(x0, terms, 0.0)
             share *= 0.5
             if outcome == INTERRUPTED or share < SMALLEST:
                 return outcome, k

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels import sparse
-from kernels.jit import jit, jit_exact
+from kernels.jit import jit, jit_exact, jit_owning
 from kernels.step import covers, energy, find_near, gradient, hessian, step_limit
 
 CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE = range(6)
@@ -147,7 +147,8 @@ def _leave_saddle(x, terms, step, near, unknowns, work, failed):
         for i in range(x.size):
             work.trial[i] = x[i] + share * work.dx[i]
         if energy(work.trial, terms, step, near) < start:
-            x[:] = work.trial
+            for i in range(x.size):
+                x[i] = work.trial[i]
             return True
         share *= 0.5
     return False
@@ -159,7 +160,8 @@ def _solve(matrix, unknowns, work, remaining):
 
     A driven row that has ``remaining`` m to go takes the others along (no slope is defined then).
     """
-    work.direction[:] = -work.residual
+    for i in range(work.residual.size):
+        work.direction[i] = -work.residual[i]
     if remaining != 0.0:
         _pull_of_driven(matrix, unknowns, remaining, work.direction)
     sparse.solve(matrix, unknowns.free, work.direction)
@@ -168,7 +170,7 @@ def _solve(matrix, unknowns, work, remaining):
     return _dot(work.residual, work.direction, unknowns.free)
 
 
-@jit_exact
+@jit_owning
 def minimise(x, target, terms, step, near, unknowns, tolerance, work, control):
     """Descend from ``x`` (n,), in place, to a minimum with the driven coordinate at ``target``.
 
@@ -200,11 +202,12 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, work, control):
         most = _spread(work.direction, unknowns, work.dx)
         cap = max(unknowns.cap, 5.0 * abs(remaining))
         if most > cap:
-            work.dx[:] = work.dx * (cap / most)
+            for i in range(x.size):
+                work.dx[i] *= cap / most
             slope *= cap / most
             most = cap
         if not covers(near, x, terms, most):
-            near = find_near(x, terms, max(3.0 * most, terms.contact.reach))
+            near = find_near(x, terms, most)
         share = step_limit(x, work.dx, terms, near)
         if remaining == 0.0:
             share = _search(x, terms, step, near, work, slope, share)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.distance import squared_distance
-from kernels.jit import jit_exact
+from kernels.jit import jit_exact, jit_owning
 from kernels.rows import pair
 
 
@@ -27,7 +27,7 @@ class Pairs(NamedTuple):
     subtract: np.ndarray
 
 
-@jit_exact
+@jit_owning
 def _binned(x, n_nodes, low_x, low_y, cell, nx, ny):
     """Return (start, order): the nodes of cell c are order[start[c]:start[c + 1]]."""
     start = np.zeros(nx * ny + 1, np.int64)
@@ -58,7 +58,7 @@ def _grid(x, n_nodes, cell):
     return low_x, low_y, cell, int((high_x - low_x) / cell) + 1, int((high_y - low_y) / cell) + 1
 
 
-@jit_exact
+@jit_owning
 def near(x, n_nodes, edges, radius):
     """Return (node, edge) of every pair closer than ``radius`` (m) that shares no node."""
     low_x, low_y, cell, nx, ny = _grid(x, n_nodes, radius)
@@ -85,7 +85,7 @@ def near(x, n_nodes, edges, radius):
     return node[:count], edge[:count]
 
 
-@jit_exact
+@jit_owning
 def find(x, contact, radius):
     """Return the `Pairs` closer than ``radius`` at ``x``, with the weights of ``contact``."""
     node, edge = near(x, contact.tributary.size, contact.edges, radius)
@@ -105,7 +105,7 @@ def find(x, contact, radius):
     return Pairs(node, edge, weight, d_contact, subtract)
 
 
-@jit_exact
+@jit_owning
 def empty():
     """Return no pairs."""
     none = np.empty(0, np.int64)

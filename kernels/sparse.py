@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.jit import jit, jit_exact
+from kernels.jit import jit, jit_exact, jit_owning
 
 NEUTRAL = 1e-13  # a pivot below this share of its diagonal is round-off around zero
 
@@ -29,7 +29,7 @@ class Matrix(NamedTuple):
     diagonal: np.ndarray
 
 
-@jit
+@jit_owning
 def shaped(row, first):
     """Return a zero matrix with the skyline ``first`` (n,)."""
     n = first.size
@@ -74,7 +74,7 @@ def add_block(matrix, i, j, xx, xy, yx, yy):
         add(matrix, i, j + 1, xy)
 
 
-@jit_exact
+@jit
 def _eliminate(matrix, i):
     """Turn row ``i`` into a row of the factor and return its pivot."""
     values, first, offset = matrix.values, matrix.first, matrix.offset

@@ -11,10 +11,11 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels import bend, ccd, contact, damp, fold, friction, inertia, pairs, sparse, stretch
-from kernels.jit import jit, jit_exact
+from kernels.jit import jit, jit_exact, jit_owning
 from kernels.rows import pair, triple
 
 SHORTEST = 0.1  # of an element's length: no step shrinks it further
+MARGIN = 0.25  # of the reach of contact: how much farther pairs are listed
 ADVANCE = 0.9  # share of the way to the first contact that a step may use
 
 
@@ -127,10 +128,11 @@ def step_limit(x, dx, terms, near):
     return min(1.0, ADVANCE * first, shortest)
 
 
-@jit_exact
-def find_near(x, terms, margin):
-    """Return `Near` at ``x``: pairs within contact reach plus ``margin``, and a matrix for them."""
+@jit_owning
+def find_near(x, terms, move):
+    """Return `Near` at ``x`` for moves up to ``move`` (m): pairs in reach, and a matrix for them."""
     anchor = x.copy()
+    margin = max(3.0 * move, MARGIN * terms.contact.reach)
     if terms.contact.tributary.size == 0:
         found = pairs.empty()
         margin = np.inf

@@ -8,14 +8,14 @@ the rest state is free of stress. Run once for a scene.
 import numpy as np
 
 from kernels.distance import squared_distance
-from kernels.jit import jit_exact
+from kernels.jit import jit_owning
 from kernels.pairs import near
 
 RADIUS = 1.5  # times the mean thickness, along the network
 REST_SHARE = 0.9
 
 
-@jit_exact
+@jit_owning
 def incidence(n_nodes, edges):
     """Return (start (n + 1,), incident (2 m,)): the edges at each node, ascending."""
     start = np.zeros(n_nodes + 1, np.int64)
@@ -33,7 +33,7 @@ def incidence(n_nodes, edges):
     return start, incident
 
 
-@jit_exact
+@jit_owning
 def owners(n_nodes, edges):
     """Return subtract (m, 2): 0 where an edge is the first at that end, else 1."""
     subtract = np.ones((edges.shape[0], 2))
@@ -45,7 +45,7 @@ def owners(n_nodes, edges):
     return subtract
 
 
-@jit_exact
+@jit_owning
 def _reach_from(source, radius, edges, l0, graph, far, queue):
     """Fill ``far`` with distances along the network up to ``radius``; return the nodes reached.
 
@@ -72,7 +72,7 @@ def _reach_from(source, radius, edges, l0, graph, far, queue):
     return reached
 
 
-@jit_exact
+@jit_owning
 def _half_weight(near_end, far_end, h, radius):
     """Return the length of a half element (h / 2) that is farther than ``radius`` from a segment.
 
@@ -84,7 +84,7 @@ def _half_weight(near_end, far_end, h, radius):
     return max(high - low, 0.0)
 
 
-@jit_exact
+@jit_owning
 def _weight(p, e, radius, far_from_ends, mesh):
     """Return the contact length of node ``p`` against edge ``e``, given distances from e's ends."""
     edges, l0, start, incident = mesh
@@ -97,7 +97,7 @@ def _weight(p, e, radius, far_from_ends, mesh):
     return total
 
 
-@jit_exact
+@jit_owning
 def _near_pairs(edges, l0, node_thickness, edge_thickness, tributary):
     """Return lists (node, edge, weight) of pairs whose weight the network reduces."""
     n = tributary.size
@@ -129,7 +129,7 @@ def _near_pairs(edges, l0, node_thickness, edge_thickness, tributary):
     return node[1:], edge[1:], weight[1:]
 
 
-@jit_exact
+@jit_owning
 def _by_node(n, node):
     """Return (start, order) that sorts pairs by node."""
     start = np.zeros(n + 1, np.int64)
@@ -140,7 +140,7 @@ def _by_node(n, node):
     return start, np.argsort(node, kind="mergesort")
 
 
-@jit_exact
+@jit_owning
 def _unique_with_neighbours(p, listed, mesh):
     """Return the edges of ``listed`` and all that share a vertex with them, without those at p."""
     edges, _, start, incident = mesh
@@ -154,7 +154,7 @@ def _unique_with_neighbours(p, listed, mesh):
     return found[1:]
 
 
-@jit_exact
+@jit_owning
 def _subtract(p, entries, weights, mesh, subtract):
     """Fill ``subtract``: at every vertex of the entries all but the heaviest segment are taken off."""
     edges, _, start, incident = mesh
@@ -173,7 +173,7 @@ def _subtract(p, entries, weights, mesh, subtract):
                 subtract[i, side] = _full_elsewhere(p, v, entries, i, weights, mesh)
 
 
-@jit_exact
+@jit_owning
 def _full_elsewhere(p, v, entries, i, weights, mesh):
     """Return 1.0 if an ordinary edge at ``v`` that is not among the entries owns the vertex."""
     edges, _, start, incident = mesh
@@ -187,7 +187,7 @@ def _full_elsewhere(p, v, entries, i, weights, mesh):
     return 0.0
 
 
-@jit_exact
+@jit_owning
 def special_pairs(x, edges, l0, node_thickness, edge_thickness, tributary):
     """Return (start, edge, weight, distance, subtract) of all pairs with rules of their own.
 
