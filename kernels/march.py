@@ -14,7 +14,7 @@ from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, Work, largest, mi
 from kernels.step import Step, find_near, gradient, stored, stored_gradient
 
 WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR, RESIDUAL = range(9)
-TIME, TOP, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP = range(9, 15)
+TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP = range(9, 15)
 N_COLUMNS = 15
 SMALLEST = 2.0**-12  # share of a step
 GRIP_LOOPS = 30  # fixed-point iterations of friction
@@ -49,7 +49,7 @@ class State(NamedTuple):
 class Output(NamedTuple):
     """rows (steps, N_COLUMNS); frame_of (steps,): slot of a step in frames (f, n) or -1.
 
-    bottom: coordinates whose supports make the lower reaction; top: those whose mean y is the top.
+    bottom: coordinates whose supports make the lower reaction. top, base: see `height`.
     """
 
     rows: np.ndarray
@@ -57,6 +57,7 @@ class Output(NamedTuple):
     frames: np.ndarray
     bottom: np.ndarray
     top: np.ndarray
+    base: np.ndarray
 
 
 @jit_owning
@@ -88,7 +89,29 @@ def _dot(a, b):
     return total
 
 
-@jit_owning
+@jit_exact
+def height(x, top, base):
+    """Return how far the mean of ``top`` is above that of ``base`` (coordinates).
+
+    Where ``top`` is empty it is the extent of ``base``, what a caliper would read.
+    """
+    if top.size > 0:
+        return _mean(x, top) - _mean(x, base)
+    low, high = np.inf, -np.inf
+    for c in base:
+        low, high = min(low, x[c]), max(high, x[c])
+    return high - low
+
+
+@jit_exact
+def _mean(x, coordinates):
+    total = 0.0
+    for c in coordinates:
+        total += x[c]
+    return total / coordinates.size
+
+
+@jit_exact
 def _rate_forces(x, terms, step, material, rubbing):
     """Fill the gradients of the dissipation potentials of material and friction."""
     material[:] = 0.0
@@ -145,9 +168,7 @@ def _write(out, k, state, terms, near, unknowns, work):
     for c in range(TIME):
         row[c] = state.book[c]
     row[TIME] = state.totals[2]
-    row[TOP] = 0.0
-    for c in out.top:
-        row[TOP] += state.x[c] / out.top.size
+    row[HEIGHT] = height(state.x, out.top, out.base)
     row[REACTION_BOTTOM] = 0.0
     for c in out.bottom:
         row[REACTION_BOTTOM] += work.g[c]

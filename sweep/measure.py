@@ -27,7 +27,7 @@ PLATEAU_START = 0.05  # strain from which a plateau is averaged at the earliest
 
 def history_columns(rows: Floats, scene: Scene, case: Case) -> dict[str, Floats]:
     """Columns of the history from the rows that the march wrote, (rows, N_COLUMNS)."""
-    travel = rows[0, march.TOP] - rows[:, march.TOP]
+    travel = rows[0, march.HEIGHT] - rows[:, march.HEIGHT]
     gap = np.where(np.isfinite(rows[:, march.GAP]), rows[:, march.GAP], np.nan)
     return {
         "time_s": rows[:, march.TIME].copy(),

@@ -15,7 +15,7 @@ from kernels.step import Terms
 from sweep.lattice import Network, build_network, mass
 from sweep.material import stress_law
 from sweep.mesh import Floats, Ints, Mesh, openings, split_walls
-from sweep.params import Case, Material
+from sweep.params import Case, Loading, Material
 
 FOLD_LIMIT = np.radians(20.0)
 STATIC_SLIP = 1e-3  # of the wall thickness
@@ -23,7 +23,7 @@ STATIC_SLIP = 1e-3  # of the wall thickness
 
 @dataclass(frozen=True)
 class Scene:
-    """A case as arrays. x_rest (n_coordinates,) m and rad; bottom, top: coordinates (see `Output`)."""
+    """A case as arrays. x_rest (n_coordinates,) m and rad; bottom, top, base: coordinates (see `Output`)."""
 
     mesh: Mesh
     network: Network
@@ -32,6 +32,7 @@ class Scene:
     x_rest: Floats
     bottom: Ints
     top: Ints
+    base: Ints
     force_scale: float
 
 
@@ -276,7 +277,7 @@ def build_scene(case: Case) -> Scene:
     second_moment = lattice.depth * mesh.thickness**3 / 12
     rigidity = in_bend * case.material.modulus * second_moment
     bending = _bend(mesh, layout, rigidity, case)
-    touching = in_stretch * case.material.modulus * lattice.depth * case.contact.stiffness
+    touching = in_stretch * case.material.modulus * lattice.depth * (case.contact.stiffness or 0.0)
     held = _held(network, layout, platen)
     tied = 2 * network.top + 1 if platen == "glued" else np.empty(0, np.int64)
     folding = _fold(mesh, bending)
@@ -297,7 +298,7 @@ def build_scene(case: Case) -> Scene:
     )
     return Scene(
         mesh, network, terms, _unknowns(mesh, layout, row, case),
-        _rest(mesh, network, layout), *_reported(network, layout, platen),
+        _rest(mesh, network, layout), *_reported(network, layout, case.loading),
         force_scale=float(np.min(rigidity) / np.max(_wall_length(network)) ** 2),
     )  # fmt: skip
 
@@ -314,12 +315,20 @@ def _rest(mesh: Mesh, network: Network, layout: Layout) -> Floats:
     return np.concatenate([mesh.points.ravel(), np.zeros(layout.n_joints), [bottom, top]])
 
 
-def _reported(network: Network, layout: Layout, platen: str) -> tuple[Ints, Ints]:
-    """Coordinates of the lower reaction and of the top."""
-    if platen == "contact":
-        return np.array([layout.low]), np.array([layout.high])
-    top = np.array([layout.high]) if platen == "glued" else 2 * network.top + 1
-    return 2 * network.bottom + 1, top
+def _reported(network: Network, layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
+    """Coordinates of the lower reaction, of the top and of the base.
+
+    Strain is the travel of a driven platen, or of the loaded row. Under a loose loaded platen it is
+    taken from the extent of the lattice itself, which jumps off when it is released.
+    """
+    bottom = 2 * network.bottom + 1
+    low, high = np.array([layout.low]), np.array([layout.high])
+    reaction = low if loading.platen == "contact" else bottom
+    if loading.mode == "displacement":
+        return reaction, high, low
+    if loading.platen == "contact":
+        return reaction, np.empty(0, np.int64), 2 * np.arange(layout.n_nodes) + 1
+    return reaction, 2 * network.top + 1, bottom
 
 
 def _unknowns(mesh: Mesh, layout: Layout, row: Ints, case: Case) -> newton.Unknowns:

@@ -70,7 +70,7 @@ class _Run:
             np.zeros(2), np.zeros(3),
         )  # fmt: skip
         self.rows = np.zeros((total + 1, march.N_COLUMNS))
-        self.rows[0, march.TOP] = scene.x_rest[scene.top].mean()
+        self.rows[0, march.HEIGHT] = march.height(scene.x_rest, scene.top, scene.base)
         self.rows[0, march.GAP] = np.nan
         self.frame_of, kept = _frames(total + 1)
         self.positions = np.tile(scene.x_rest, (kept, 1))
@@ -99,7 +99,8 @@ class _Run:
     def _through(self, stage: march.Stage) -> int:
         span = slice(self.done, self.done + stage.steps)
         out = march.Output(
-            self.rows[span], self.frame_of[span], self.positions, self.scene.bottom, self.scene.top
+            self.rows[span], self.frame_of[span], self.positions,
+            self.scene.bottom, self.scene.top, self.scene.base,
         )
         tolerance = tolerances(self.case, self.scene, stage.dt)
         outcome, written = march.march(
@@ -120,7 +121,7 @@ class _Run:
         return Status.STOPPED, f"stopped {where}: {advice}"
 
     def _top_strain(self) -> float:
-        tops = self.rows[[0, self.done - 1], march.TOP]
+        tops = self.rows[[0, self.done - 1], march.HEIGHT]
         return float((tops[0] - tops[1]) / self.case.lattice.height)
 
     def frames(self) -> dict[str, np.ndarray]:
@@ -132,7 +133,7 @@ class _Run:
         if self.case.loading.platen == "none":
             plates[:] = np.nan
         return {
-            "strain": (self.rows[0, march.TOP] - rows[:, march.TOP]) / self.case.lattice.height,
+            "strain": (self.rows[0, march.HEIGHT] - rows[:, march.HEIGHT]) / self.case.lattice.height,
             "time_s": rows[:, march.TIME],
             "position_m": x[:, : 2 * n].reshape(len(x), n, 2),
             "plate_y_m": plates,
