@@ -17,19 +17,24 @@ EXAMPLES = """examples:
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
   crumple show results/armor.h5                 the ids of all cases
   crumple show results/armor.h5 7a85            pictures of the case whose id begins so
+
+exit status: 0 done, 1 done but some cases failed, 2 wrong config or arguments
 """
 RUN = """Simulate every case of CONFIG that the results file does not hold yet, then rank.
 Finished cases are never lost and never computed twice: after a stop or a kill, or when the
 grid has grown, run the same command again."""
 RANK = """List the designs that absorb the most energy, one table for each loading scene.
-Without options: the budgets and the panel that the config names under [rank]."""
+Budgets and panel that are not given here are those of the config, [rank]; --by alone ranks
+single specimens of any mass."""
 RANK_EXAMPLES = """examples:
-  crumple rank F.h5                                       most J/g, or the [rank] of the config
-  crumple rank F.h5 --budget "25 g"                       specimens of at most 25 g
-  crumple rank F.h5 --budget "1 oz" --panel "4 in" "2 in"  panels of at most an ounce
-  crumple rank F.h5 --allowed-force "50 N"                energy before 50 N are passed on
-  crumple rank F.h5 --by peak_force_N --top 3             gentlest first
+  crumple rank F.h5                                         as the config asks; else most J/g
+  crumple rank F.h5 --budget "25 g" "2 oz"                  two budgets
+  crumple rank F.h5 --budget "1 oz" --panel "4 in" "2 in"   a panel of at most an ounce
+  crumple rank F.h5 --allowed-force "50 N"                  energy before 50 N are passed on
+  crumple rank F.h5 --by specific_absorption_J_per_g        most J/g, whatever the mass
+  crumple rank F.h5 --by peak_force_N --top 3               gentlest first
   crumple rank F.h5 --csv > ranking.csv
+  crumple rank F.h5 --out results/armor                     tables and figures in a folder
 """
 SHOW = """Draw one case: force against strain, where the energy goes, and six deformed shapes.
 Without CASE: list the ids of all cases with what makes them differ."""

@@ -39,6 +39,7 @@ ENERGIES = {
 }
 NEGLIGIBLE = 0.005  # share of the work below which an energy is not worth a colour
 SHAPES = 6
+AIRBORNE = 0.1  # of its height above its place at rest: a specimen there has jumped
 
 
 def blank(width: float, height: float) -> Figure:
@@ -134,7 +135,11 @@ def deformed_shapes(
 
     frames : as `read_frames` gives them.
     """
-    chosen = _even_times(frames["time_s"]) if times else _even_strains(frames["strain"])
+    chosen = (
+        _even_times(frames["time_s"], frames["strain"])
+        if times
+        else _even_strains(frames["strain"])
+    )
     axes = fig.subplots(1, len(chosen), sharex=True, sharey=True, squeeze=False)[0]
     points, plates = 1e3 * frames["position_m"][chosen], 1e3 * frames["plate_y_m"][chosen]
     thickness = 1e3 * frames["edge_thickness_m"]
@@ -250,8 +255,10 @@ def _legend(fig: Figure, title: str) -> None:
     fig.legend(found.values(), found.keys(), loc="outside right upper", frameon=False, title=title)
 
 
-def _even_times(time: np.ndarray) -> list[int]:
-    """Frames at even times from the first to the last."""
+def _even_times(time: np.ndarray, strain: np.ndarray) -> list[int]:
+    """Frames at even times, up to the moment when a released specimen jumps off its support."""
+    airborne = np.flatnonzero(strain < -AIRBORNE)
+    time = time[: airborne[0]] if len(airborne) else time
     wanted = np.linspace(time[0], time[-1], SHAPES)
     return list(dict.fromkeys(np.abs(time[:, None] - wanted).argmin(0).tolist()))
 

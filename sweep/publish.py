@@ -9,22 +9,24 @@ from typing import TYPE_CHECKING, Any
 from sweep import plots
 from sweep.rank import rank
 from sweep.sheets import design_labels, markdown, ranking_sheets
-from sweep.store import read_frames, read_history, read_summary
+from sweep.store import read_frames, read_history
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from pandas import DataFrame, Series
 
+MAX_SCENES = 12  # drawn in one figure
 MAX_WINNERS = 6
 Named = Iterator[tuple[str, "Figure"]]
 
 
-def publish_ranking(file: str, question: Mapping[str, Any], folder: Path) -> list[Path]:
+def publish_ranking(
+    file: str, summary: DataFrame, question: Mapping[str, Any], folder: Path
+) -> list[Path]:
     """Write a ranking as `ranking.md`, every design as `ranking.csv`, and the figures.
 
     question : the keywords of `rank`.
     """
-    summary = read_summary(file)
     shown = rank(summary, **question)
     ranking = rank(summary, **{**question, "budget": None, "top": None, "by": shown.attrs["by"]})
     ranking.attrs["budgets_g"] = shown.attrs["budgets_g"]
@@ -46,8 +48,9 @@ def _sweep_figures(file: str, shown: DataFrame, ranking: DataFrame) -> Named:
     """The map of all designs, the trend with wall thickness, the shapes of the winners."""
     if ranking.empty:
         return
-    scenes = ranking["scene"].nunique()
-    size = (4.2 * min(3, scenes) + 2.2, 3.8 * -(-scenes // 3))
+    scenes = ranking["scene"].unique()[:MAX_SCENES]
+    ranking = ranking[ranking["scene"].isin(scenes)]
+    size = (4.2 * min(3, len(scenes)) + 2.2, 3.8 * -(-len(scenes) // 3))
     figure = plots.blank(*size)
     plots.absorption_map(figure, ranking)
     yield "absorption", figure

@@ -24,6 +24,7 @@ from sweep.result import Status, absorbed_energy_column
 Quantity = float | str
 """A number in SI, or text with a unit such as "25 g"."""
 
+NOTHING = "–"
 ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
 
 SCENE = ["loading_mode", "platen", "force_N"]
@@ -126,24 +127,23 @@ def scene_keys(frame: DataFrame) -> list[str]:
 
 
 def scene_label(rows: DataFrame) -> str:
-    """What was done to these cases of one scene, in words."""
+    """What was done to these cases of one scene, in words; different for every scene."""
     if rows.empty:
         return ""
     first = rows.iloc[0]
+    said = set(SCENE)
     if first["loading_mode"] == "force":
-        what = f"dead load of {first['force_N']:g} N"
+        words = [f"dead load of {first['force_N']:g} N"]
+    elif len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
+        words = [f"crushed to {100 * strains[0]:g} %"]
+        said |= {"loading.strain", "loading.stroke"}
     else:
-        depth = (rows["stroke_m"] / rows["height_m"]).round(3).unique()
-        what = f"crushed to {depth[0]:.0%}" if len(depth) == 1 else "crushed"
-    platen = {"none": "no platens", "": "no platens"}.get(
-        first["platen"], f"{first['platen']} platens"
-    )
-    extra = [
-        f"{key.split('.')[-1].replace('_', ' ')} {_plain(first[key])}"
-        for key in scene_keys(rows)
-        if key not in SCENE and key not in ("loading.strain", "loading.stroke")
-    ]
-    return ", ".join([what, platen, *extra])
+        words = ["crushed"]
+    platen = first["platen"]
+    words.append("no platens" if platen in ("none", "") else f"{platen} platens")
+    others = [key for key in scene_keys(rows) if key not in said]
+    words += [f"{key.replace('.', ' ').replace('_', ' ')} {short(first[key])}" for key in others]
+    return ", ".join(words)
 
 
 def pareto(mass: Series, energy: Series) -> Series:
@@ -151,6 +151,13 @@ def pareto(mass: Series, energy: Series) -> Series:
     best = energy.groupby(mass).max()
     lighter = best.cummax().shift(fill_value=-np.inf)
     return (energy == mass.map(best)) & (energy > mass.map(lighter))
+
+
+def short(value: float | str | None) -> str:
+    """A number with few digits, anything else as it is; a dash where there is nothing."""
+    if pd.isna(value):
+        return NOTHING
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
 def panel_factor(frame: DataFrame, panel: Sequence[Quantity]) -> Series:
@@ -246,11 +253,6 @@ def _si(value: Any, unit: str) -> float:
     if not value > 0.0:
         raise RankError(f"{value:g} {unit}: budgets, panels and forces must be above zero")
     return float(value)
-
-
-def _plain(value: object) -> str:
-    """A number short, anything else as it is."""
-    return f"{value:g}" if isinstance(value, float | np.floating) else str(value)
 
 
 def _read(path: str | PathLike[str]) -> DataFrame:

@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pandas import Series
 
-from sweep.rank import ASSUMPTIONS, by_scene, scene_label
+from sweep.rank import ASSUMPTIONS, NOTHING, by_scene, scene_label, short
 
 if TYPE_CHECKING:
     from pandas import DataFrame
     from rich.table import Table
 
-NOTHING = "–"
 LEGEND = """\
 *: on the Pareto front, nothing lighter in its scene absorbs as much. mass, peak: of one specimen.
 pack: strain of densification. sink: greatest strain under the load."""
@@ -124,6 +123,12 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
     return columns
 
 
+def describe_case(row: Series, among: DataFrame) -> str:
+    """The scene and the design of one case of a summary, in words."""
+    rows = among.loc[[row.name]]
+    return f"{scene_label(rows)}, {design_labels(rows, among)[0]}"
+
+
 def design_labels(frame: DataFrame, among: DataFrame) -> list[str]:
     """The same as one text a design, such as "cells 3 x 3, wall 0.8 mm, ninjaflex"."""
     columns = design_text(frame, among) or {"material": frame["material"].astype(str)}
@@ -222,13 +227,6 @@ def three_digits(value: float) -> str:
 def percent(value: float) -> str:
     """A strain as whole percent."""
     return f"{100 * value:.0f}" if math.isfinite(value) else NOTHING
-
-
-def short(value: object) -> str:
-    """A number with few digits, anything else as it is."""
-    if isinstance(value, float):
-        return f"{value:.4g}" if math.isfinite(value) else NOTHING
-    return str(value)
 
 
 def _varies(frame: DataFrame, *names: str) -> bool:

@@ -51,9 +51,10 @@ def run(arguments: Namespace) -> int:
         _say(dry_run(config, out, arguments.workers, arguments.retry_failed))
         return DONE
     from sweep.run import run_sweep
+    from sweep.store import read_summary
 
     failed = run_sweep(config, out, arguments.workers, arguments.scheduler, arguments.retry_failed)
-    _print_ranking(out, _question(config.rank.budgets, config.rank.panel))
+    _print_ranking(out, read_summary(out), _question(config.rank.budgets, config.rank.panel))
     return SOME_FAILED if failed else DONE
 
 
@@ -75,42 +76,41 @@ def status(arguments: Namespace) -> int:
 
 def rank(arguments: Namespace) -> int:
     """The ranking, as tables on the terminal, as text for other programs, or into a folder."""
-    question = _asked(arguments)
-    if arguments.out:
-        from sweep.publish import publish_ranking
-
-        _say_all(publish_ranking(arguments.file, question, Path(arguments.out)))
-        return DONE
-    if not (arguments.csv or arguments.json or arguments.markdown):
-        return _print_ranking(arguments.file, question)
-    from sweep.rank import rank as ranked
+    from sweep.rank import rank
     from sweep.sheets import markdown, ranking_sheets
     from sweep.store import read_summary
 
-    summary = read_summary(arguments.file)
-    ranking = ranked(summary, **question)
-    if arguments.csv:
-        _say(ranking.to_csv(index=False), end="")
+    summary, question = read_summary(arguments.file), _asked(arguments)
+    if arguments.out:
+        from sweep.publish import publish_ranking
+
+        _say_all(publish_ranking(arguments.file, summary, question, Path(arguments.out)))
+    elif arguments.csv:
+        _say(rank(summary, **question).to_csv(index=False), end="")
     elif arguments.json:
-        _say(ranking.to_json(orient="records", indent=2))
+        _say(rank(summary, **question).to_json(orient="records", indent=2))
+    elif arguments.markdown:
+        _say(markdown(ranking_sheets(rank(summary, **question), summary)), end="")
     else:
-        _say(markdown(ranking_sheets(ranking, summary)), end="")
+        _print_ranking(arguments.file, summary, question)
     return _exit_status(summary)
 
 
 def show(arguments: Namespace) -> int:
     """Pictures of one case, or the list of all."""
+    from sweep.sheets import case_sheet, describe_case
     from sweep.store import read_summary
 
     summary = read_summary(arguments.file)
     if arguments.case is None:
-        _print_cases(summary)
+        _print_sheets([case_sheet(summary)])
         return DONE
     from sweep.publish import publish_case
 
     row = _find_case(summary, arguments.case)
     folder = Path(arguments.out or Path(arguments.file).with_suffix("") / row["case_id"])
-    _say(f"case {row['case_id']}: {row['status']}. {row['message']}".rstrip())
+    _say(f"case {row['case_id']}, {describe_case(row, summary)}: {row['status']}")
+    _say_all([row["message"]] if row["message"] else [])
     pictures = publish_case(arguments.file, row, folder)
     _say_all(pictures or ["nothing to draw: the case left no curves and no shapes"])
     return DONE
@@ -120,27 +120,31 @@ VERBS = {"run": run, "status": status, "rank": rank, "show": show}
 
 
 def _asked(arguments: Namespace) -> dict[str, Any]:
-    """The keywords of `rank` from the command line; budgets and panel else from the config."""
+    """The keywords of `rank` from the command line and, where it is silent, from the config.
+
+    The config's budgets stand unless --budget or --by is given; its panel, where there are budgets.
+    """
     from sweep.config import quantity
 
-    def si(texts: Iterable[str] | None, unit: str) -> list[float]:
-        return [quantity(text, unit) for text in texts or ()]
-
-    budgets, panel = si(arguments.budget, "kg"), si(arguments.panel, "m")
-    force = si([arguments.allowed_force] if arguments.allowed_force else (), "N")
-    if not (budgets or panel or force or arguments.by):
-        stored = _stored_rank(arguments.file)
-        budgets, panel = stored.get("budgets") or [], stored.get("panel") or []
-    question = _question(budgets, panel)
-    question |= {"by": arguments.by, "allowed_force": force[0] if force else None}
+    stored = _stored_rank(arguments.file)
+    budgets, panel = stored.get("budgets"), stored.get("panel")
+    if arguments.budget:
+        budgets = [quantity(text, "kg") for text in arguments.budget]
+    elif arguments.by:
+        budgets = panel = None
+    if arguments.panel:
+        panel = [quantity(text, "m") for text in arguments.panel]
+    question = _question(budgets, panel) | {"by": arguments.by}
+    if arguments.allowed_force:
+        question["allowed_force"] = quantity(arguments.allowed_force, "N")
     return question | ({"top": arguments.top} if arguments.top else {})
 
 
-def _question(budgets: Iterable[float], panel: Iterable[float] | None) -> dict[str, Any]:
+def _question(budgets: Iterable[float] | None, panel: Iterable[float] | None) -> dict[str, Any]:
     """The keywords of `rank`: several budgets leave room for fewer places each."""
-    budget, sides = list(budgets), list(panel or ())
-    top = TOP_OF_A_BUDGET if len(budget) > 1 else TOP
-    return {"budget": budget or None, "panel": sides or None, "top": top}
+    masses, sides = list(budgets or ()), list(panel or ())
+    top = TOP_OF_A_BUDGET if len(masses) > 1 else TOP
+    return {"budget": masses or None, "panel": sides or None, "top": top}
 
 
 def _stored_rank(file: str) -> dict[str, Any]:
@@ -151,13 +155,11 @@ def _stored_rank(file: str) -> dict[str, Any]:
     return config.get("rank") or {}
 
 
-def _print_ranking(file: str, question: Mapping[str, Any]) -> int:
+def _print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -> None:
     """Tables on the terminal, and aloud what has no place in them."""
     from sweep.rank import rank
     from sweep.sheets import LEGEND, ranking_sheets
-    from sweep.store import read_summary
 
-    summary = read_summary(file)
     ranking = rank(summary, **question)
     _say(_heading(question, ranking))
     _print_sheets(ranking_sheets(ranking, summary))
@@ -167,7 +169,6 @@ def _print_ranking(file: str, question: Mapping[str, Any]) -> int:
         _say(f"{unranked} cases have no {ranking.attrs['by']} and so no place.")
     if failed := ranking.attrs["failed"]:
         _say(f"{failed} of {len(summary)} cases failed: crumple status {file} lists them")
-    return _exit_status(summary)
 
 
 def _heading(question: Mapping[str, Any], ranking: DataFrame) -> str:
@@ -189,7 +190,7 @@ def _heading(question: Mapping[str, Any], ranking: DataFrame) -> str:
 
 def _failures(summary: DataFrame) -> list[str]:
     """A line for each kind of failure: how many cases, and what the first of them says."""
-    failed = summary[summary["status"] != "converged"]
+    failed = _failed(summary)
     kind = failed["message"].str.replace(r"\d[\d.e+-]*", "#", regex=True)
     return [
         f"{len(rows)} x {rows['message'].iloc[0]} (case {', '.join(rows['case_id'].head(3))}"
@@ -210,14 +211,13 @@ def _find_case(summary: DataFrame, prefix: str) -> Series:
 
 
 def _exit_status(summary: DataFrame) -> int:
-    return SOME_FAILED if (summary["status"] != "converged").any() else DONE
+    return DONE if _failed(summary).empty else SOME_FAILED
 
 
-def _print_cases(summary: DataFrame) -> None:
-    """Ids with what makes the cases differ."""
-    from sweep.sheets import case_sheet
+def _failed(summary: DataFrame) -> DataFrame:
+    from sweep.result import Status
 
-    _print_sheets([case_sheet(summary)])
+    return summary[summary["status"] != Status.CONVERGED]
 
 
 def _print_sheets(sheets: Iterable[Sheet]) -> None:

@@ -4,6 +4,7 @@ import io
 import json
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pandas as pd
@@ -11,7 +12,6 @@ import pytest
 from specimens import designs, summary, write
 from standin import simulate
 
-import sweep.simulate
 from sweep.__main__ import main
 from sweep.store import read_summary
 
@@ -38,7 +38,7 @@ def file(tmp_path_factory):
 @pytest.fixture
 def config(tmp_path, monkeypatch):
     """A sweep of three cases on the stand-in of tests/standin.py, of which one fails."""
-    monkeypatch.setattr(sweep.simulate, "simulate", simulate)
+    monkeypatch.setattr(import_module("sweep.simulate"), "simulate", simulate)
     monkeypatch.chdir(tmp_path)
     path = tmp_path / "trial.toml"
     path.write_text(CONFIG.format(values=[0.006, 0.007, 0.008]))
@@ -103,6 +103,17 @@ def test_ranking_counts_failures_aloud(capsys, file):
 def test_ranking_without_options_is_that_of_the_config(capsys, file):
     _, out, _ = crumple(capsys, "rank", file)
     assert "At most 2 g. Best first: most energy." in out
+
+
+def test_config_speaks_where_the_arguments_are_silent(capsys, tmp_path):
+    config = {"rank": {"budgets": [0.5], "panel": [0.1, 0.05]}}
+    file = write(tmp_path / "trial.h5", summary({}), {"config": json.dumps(config)})
+    heading = "Panel of 100 x 50 mm, filled with specimens side by side. At most {} g. Best first"
+    assert heading.format(500) in crumple(capsys, "rank", file)[1]
+    assert heading.format(200) in crumple(capsys, "rank", file, "--budget", "200 g")[1]
+    other = heading.replace("50 mm", "25 mm").format(500)
+    assert other in crumple(capsys, "rank", file, "--panel", "100 mm", "25 mm")[1]
+    assert crumple(capsys, "rank", file, "--by", "mass_g")[1].startswith("Best first: least mass_g")
 
 
 def test_tables_fit_a_terminal_of_80_columns(capsys, file, monkeypatch):
@@ -182,7 +193,9 @@ def test_dry_run_counts_and_writes_nothing(capsys, config, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["trial.toml"]
     crumple(capsys, "run", config)
     assert "nothing is left to run" in crumple(capsys, "run", config, "--dry-run")[1]
-    assert "1 others" in crumple(capsys, "run", config, "--dry-run", "--retry-failed")[1]
+    assert (
+        "estimate for 1 cases" in crumple(capsys, "run", config, "--dry-run", "--retry-failed")[1]
+    )
 
 
 def test_interruption_says_what_is_kept(capsys, config, monkeypatch):

@@ -91,6 +91,14 @@ def test_six_shapes_at_even_times():
     assert times == ["0 ms", "10 ms", "30 ms", "40 ms", "60 ms", "70 ms"]
 
 
+def test_a_specimen_that_jumps_is_drawn_while_it_stands():
+    figure = plots.blank(12, 3)
+    frames = squeezed_cell(heights=(10.0, 9.0, 5.0, 5.0, 10.0, 30.0, 90.0))
+    plots.deformed_shapes(figure, frames, times=True)
+    strains = [ax.get_title().split("\n")[0] for ax in figure.axes]
+    assert strains == ["0 %", "10 %", "50 %", "50 %", "0 %"]
+
+
 def test_walls_are_as_thick_as_they_are_in_millimetres():
     figure = plots.blank(12, 3)
     plots.deformed_shapes(figure, squeezed_cell())
