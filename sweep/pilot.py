@@ -84,8 +84,8 @@ def duration(seconds: float) -> str:
     """A time that is only roughly known."""
     for unit, length in {"h": 3600.0, "min": 60.0}.items():
         if seconds >= 2.0 * length:
-            return f"{seconds / length:.2g} {unit}"
-    return f"{seconds:.2g} s"
+            return f"{float(f'{seconds / length:.2g}'):g} {unit}"
+    return f"{float(f'{seconds:.2g}'):g} s"
 
 
 def _kind(case: Case) -> tuple[str, ...]:

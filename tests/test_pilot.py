@@ -49,7 +49,8 @@ def test_failed_pilots_are_counted():
 
 
 @pytest.mark.parametrize(
-    ("seconds", "text"), [(0.123, "0.12 s"), (95.0, "95 s"), (150.0, "2.5 min"), (9000.0, "2.5 h")]
+    ("seconds", "text"),
+    [(0.123, "0.12 s"), (95.0, "95 s"), (104.0, "100 s"), (150.0, "2.5 min"), (9000.0, "2.5 h")],
 )
 def test_durations_are_rough(seconds, text):
     assert duration(seconds) == text
