@@ -189,7 +189,9 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
     Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts steps done.
     """
     n, rows = state.x.size, unknowns.scale.size
-    work = Work(np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(rows), np.zeros(rows))
+    work = Work(
+        np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(rows), np.zeros(rows), np.zeros(rows)
+    )
     near = find_near(state.x, terms, 0.0)
     share = 1.0
     for k in range(stage.steps):

@@ -1,9 +1,9 @@
 """Newton's method for one step: a descent to a minimum, with the proof that it is one.
 
 The exact Hessian is used wherever it is positive definite (all pivots positive); elsewhere the
-projected one. The step is cut to its admissible share and backtracked until the energy falls
-(Armijo). Converged means: scaled residual and Newton decrement below tolerance *and* an exact
-Hessian without a negative pivot; at a saddle the direction of the negative pivot leads on.
+projected one, or the direction of the negative pivot if that promises a greater fall. The step is
+cut to its admissible share and backtracked until the energy falls (Armijo). Converged means: scaled
+residual and Newton decrement below tolerance *and* an exact Hessian without a negative pivot.
 """
 
 from typing import NamedTuple
@@ -34,25 +34,26 @@ class Tolerance(NamedTuple):
 class Unknowns(NamedTuple):
     """row (n,): row of each coordinate or -1. scale (rows,): length that turns a row's unit into m,
     1 for a coordinate in m. free: rows solved for (a driven row comes last). driven: coordinate
-    that is led to a target, -1 if none. cap: longest move in one iteration, m. nudge: move that
-    leaves a saddle, m."""
+    that is led to a target, -1 if none. cap: longest move in one iteration, m. leap: first move
+    along a direction of negative curvature, m."""
 
     row: np.ndarray
     scale: np.ndarray
     free: int
     driven: int
     cap: float
-    nudge: float
+    leap: float
 
 
 class Work(NamedTuple):
-    """Scratch arrays: g, dx, trial (n,) by coordinate; residual, direction (rows,)."""
+    """Scratch arrays: g, dx, trial (n,) by coordinate; residual, direction, escape (rows,)."""
 
     g: np.ndarray
     dx: np.ndarray
     trial: np.ndarray
     residual: np.ndarray
     direction: np.ndarray
+    escape: np.ndarray
 
 
 @jit
@@ -91,14 +92,13 @@ def _spread(direction, unknowns, dx):
 
 @jit_exact
 def _factored(x, terms, step, near, unknowns, projected):
-    """Assemble and factor; return the first row with a negative pivot, -1 if there is none."""
+    """Assemble and factor; return the first row with a negative pivot (-1: none) and the pivot."""
     hessian(x, terms, step, near, projected)
     matrix = near.matrix
     scale = 0.0
     for i in range(unknowns.free):
         scale = max(scale, abs(matrix.values[matrix.offset[i] + i]))
-    failed, _ = sparse.factor(matrix, unknowns.free, scale)
-    return failed
+    return sparse.factor(matrix, unknowns.free, scale)
 
 
 @jit
@@ -118,40 +118,20 @@ def _dot(a, b, n):
 
 
 @jit_exact
-def _search(x, terms, step, near, work, slope, share):
+def _search(x, terms, step, near, work, slope, curvature, share):
     """Backtrack from ``share`` of dx until the energy falls; return the share, 0 if it never does."""
     start = energy(x, terms, step, near)
-    resolved = abs(slope) > RESOLVED * abs(start)
     for _ in range(HALVINGS):
         for i in range(x.size):
             work.trial[i] = x[i] + share * work.dx[i]
         reached = energy(work.trial, terms, step, near)
-        enough = start + ARMIJO * share * slope if resolved else start + RESOLVED * abs(start)
-        if reached <= enough and reached < np.inf:
+        expected = ARMIJO * share * (slope + 0.5 * share * curvature)
+        if abs(expected) <= ARMIJO * RESOLVED * abs(start):
+            expected = RESOLVED * abs(start)
+        if reached <= start + expected and reached < np.inf:
             return share
         share *= 0.5
     return 0.0
-
-
-@jit_exact
-def _leave_saddle(x, terms, step, near, unknowns, work, failed):
-    """Move along the direction of a negative pivot; return whether the energy fell."""
-    sparse.descent(near.matrix, failed, work.direction)
-    uphill = _dot(work.residual, work.direction, unknowns.free) > 0.0
-    most = _spread(work.direction, unknowns, work.dx)
-    for i in range(x.size):
-        work.dx[i] *= (-1.0 if uphill else 1.0) * unknowns.nudge / most
-    share = step_limit(x, work.dx, terms, near)
-    start = energy(x, terms, step, near)
-    for _ in range(HALVINGS):
-        for i in range(x.size):
-            work.trial[i] = x[i] + share * work.dx[i]
-        if energy(work.trial, terms, step, near) < start:
-            for i in range(x.size):
-                x[i] = work.trial[i]
-            return True
-        share *= 0.5
-    return False
 
 
 @jit_exact
@@ -170,6 +150,23 @@ def _solve(matrix, unknowns, work, remaining):
     return _dot(work.residual, work.direction, unknowns.free)
 
 
+@jit_exact
+def _aim_off(matrix, unknowns, work, failed, pivot):
+    """Point ``work.escape`` downhill along the negative pivot, with a move of ``unknowns.leap``.
+
+    Return slope and curvature of the energy along it.
+    """
+    sparse.descent(matrix, failed, work.escape)
+    slope = _dot(work.residual, work.escape, unknowns.free)
+    most = 0.0
+    for i in range(unknowns.free):
+        most = max(most, abs(work.escape[i]) * unknowns.scale[i])
+    factor = unknowns.leap / most * (-1.0 if slope > 0.0 else 1.0)
+    for i in range(work.escape.size):
+        work.escape[i] *= factor
+    return slope * factor, pivot * factor * factor
+
+
 @jit_owning
 def minimise(x, target, terms, step, near, unknowns, tolerance, work, control):
     """Descend from ``x`` (n,), in place, to a minimum with the driven coordinate at ``target``.
@@ -186,20 +183,28 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, work, control):
             return NOT_FINITE, iteration, near
         remaining = target - x[unknowns.driven] if unknowns.driven >= 0 else 0.0
         settled = remaining == 0.0 and size <= tolerance.force
-        failed, stable = 0, False
+        failed, stable, fall, curvature = 0, False, 0.0, 0.0
         for projected in (False, True):
-            failed = _factored(x, terms, step, near, unknowns, projected)
-            stable = failed < 0 and not projected
-            if failed < 0 or settled:
+            failed, pivot = _factored(x, terms, step, near, unknowns, projected)
+            if failed < 0:
+                stable = not projected
                 break
-        if failed >= 0:
-            if settled and _leave_saddle(x, terms, step, near, unknowns, work, failed):
-                continue
-            return SINGULAR, iteration, near
-        slope = _solve(near.matrix, unknowns, work, remaining)
+            if projected:
+                return SINGULAR, iteration, near
+            fall, curvature = _aim_off(near.matrix, unknowns, work, failed, pivot)
+            if settled:
+                break
+        slope = 0.0
+        if failed < 0:
+            slope = _solve(near.matrix, unknowns, work, remaining)
         if settled and stable and -0.5 * slope <= tolerance.decrement:
             return CONVERGED, iteration, near
-        most = _spread(work.direction, unknowns, work.dx)
+        if remaining != 0.0 or stable or fall + 0.5 * curvature > 0.5 * slope:
+            most = _spread(work.direction, unknowns, work.dx)
+            curvature = 0.0
+        else:
+            most = _spread(work.escape, unknowns, work.dx)
+            slope = fall
         cap = max(unknowns.cap, 5.0 * abs(remaining))
         if most > cap:
             for i in range(x.size):
@@ -210,7 +215,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, work, control):
             near = find_near(x, terms, most)
         share = step_limit(x, work.dx, terms, near)
         if remaining == 0.0:
-            share = _search(x, terms, step, near, work, slope, share)
+            share = _search(x, terms, step, near, work, slope, curvature, share)
         if share < LEAST_SHARE:
             return STALLED, iteration, near
         for i in range(x.size):

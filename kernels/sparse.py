@@ -12,7 +12,7 @@ import numpy as np
 
 from kernels.jit import jit, jit_exact, jit_owning
 
-NEUTRAL = 1e-13  # a pivot below this share of its diagonal is round-off around zero
+NEUTRAL = 1e-11  # a pivot below this share of its diagonal is round-off around zero
 
 
 class Matrix(NamedTuple):

@@ -345,5 +345,5 @@ def _unknowns(mesh: Mesh, layout: Layout, row: Ints, case: Case) -> newton.Unkno
         cap=0.25 * min(case.lattice.width, case.lattice.height) / max(
             case.lattice.cells_x, case.lattice.cells_y
         ),
-        nudge=0.01 * case.lattice.wall_thickness,
+        leap=0.1 * case.lattice.wall_thickness,
     )
