@@ -162,9 +162,9 @@ def compiler(fastmath, owning=False):
     """
 
     def decorate(function):
-        dispatcher = numba.njit(
-            nogil=True, error_model="numpy", fastmath=fastmath, _nrt=owning
-        )(function)
+        dispatcher = numba.njit(nogil=True, error_model="numpy", fastmath=fastmath, _nrt=owning)(
+            function
+        )
         if not numba.config.DISABLE_JIT:  # under NUMBA_DISABLE_JIT it is the plain function
             dispatcher._cache = SealedCache(function)
         return dispatcher
