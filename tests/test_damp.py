@@ -112,6 +112,15 @@ def test_projected_hessian_is_semi_definite(seed, damping):
     assert least_share(damp, args, shaken(FRAME, seed, 0.4), FRAME.unit) > -1e-12
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_projected_viscous_moments_are_semi_definite_without_stretch(seed):
+    x0, (_, terms, _) = shaken(FRAME, seed + 30, 0.4), args_of(FRAME, FRAME.rest, VISCOUS)
+    args = x0, terms._replace(law=terms.law._replace(modulus=0.0)), DT
+    x = shaken(FRAME, seed, 0.4)
+    assert np.linalg.eigvalsh(hessian_of(damp, args, x))[0] < -1.0
+    assert least_share(damp, args, x, FRAME.unit) > -1e-12
+
+
 def test_the_exact_viscous_hessian_can_be_indefinite():
     x0, x = shaken(FRAME, 30, 0.4), shaken(FRAME, 0, 0.4)
     values = np.linalg.eigvalsh(hessian_of(damp, args_of(FRAME, x0, VISCOUS), x))
