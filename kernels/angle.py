@@ -90,7 +90,7 @@ def arm_turned(x, b, c, phi, cos_rest, sin_rest):
 
 @jit
 def arm_twist(g, x, b, c, rotation, moment):
-    """Add the gradient of an energy with derivative ``moment`` in an arm's turn against its joint."""
+    """Add the gradient of an energy with slope ``moment`` in an arm's turn against its joint."""
     qx, qy = slope(x, b, c)
     g[2 * c] += moment * qx
     g[2 * c + 1] += moment * qy

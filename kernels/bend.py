@@ -110,7 +110,7 @@ def _stiffness(measure, weight, delta, projected):
 
 @jit
 def hessian(x, bend, matrix, projected):
-    """Add d2E_b/dx2; ``projected`` keeps the part that is positive semi-definite in every element."""
+    """Add d2E_b/dx2; ``projected`` keeps what is positive semi-definite in every element."""
     for k in range(bend.hinge_stiffness.size):
         a, b, c = triple(bend.hinges, k)
         stiffness, moment = _stiffness(

@@ -15,7 +15,7 @@ RIM = 1e-9  # a hit this far beyond an end still counts, relative to the segment
 
 @jit_exact
 def roots(c0, c1, c2):
-    """Return the real roots of c0 + c1 s + c2 s^2 (infinite where missing), without cancellation."""
+    """Return the real roots of c0 + c1 s + c2 s^2, infinite where missing, without cancellation."""
     if c2 == 0.0:
         return (-c0 / c1, math.inf) if c1 != 0.0 else (math.inf, math.inf)
     discriminant = c1 * c1 - 4.0 * c0 * c2

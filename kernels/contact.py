@@ -1,6 +1,7 @@
 """Contact of walls over their thickness, and with two platens, as a barrier on distance.
 
-    E_c = 1/2 sum_p l_p [ sum_e phi(d(p, e)) - sum_v (n_v - 1) phi(d(p, v)) ] + sum_p l_p phi(d(p, plate))
+    E_c = 1/2 sum_p l_p [ sum_e phi(d(p, e)) - sum_v (n_v - 1) phi(d(p, v)) ]
+          + sum_p l_p phi(d(p, platen))
     phi(d) = c Y' depth t_c b(d / t_c)
 
 The subtraction lets a straight wall count once at any mesh; 1/2 because each pair of walls is seen

@@ -74,7 +74,7 @@ def _outer(matrix, i, j, weight, px, py, qx, qy):
 
 @jit
 def _pair_block(matrix, i, j, qi, qj, ri, rj, vectors, terms):
-    """Add the (i, j) block of stiffness N N^T - force [U R^T + R U^T + d R R^T], see `push_stiffen`."""
+    """Add block (i, j) of stiffness N N^T - force [U R^T + R U^T + d R R^T], N = q n, R = r n."""
     nx, ny, ux, uy = vectors
     stiffness, force, d = terms
     _outer(matrix, i, j, stiffness * qi * qj - force * d * ri * rj, nx, ny, nx, ny)

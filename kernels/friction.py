@@ -3,8 +3,8 @@
     D_f = sum mu lambda f(u),   f(u) = |u|^2/eps - |u|^3/(3 eps^2) + eps/3 for |u| < eps, else |u|
 
 u is the tangential slip within the step, lambda the normal force of a pair at the last iterate of a
-fixed-point loop (Li et al. 2020, eq. 16). A share counted twice by the contact sum is taken off here
-with a negative force, so that friction sees the same normal force as contact.
+fixed-point loop (Li et al. 2020, eq. 16). A share that the contact sum counts twice is taken off
+here with a negative force, so that friction sees the same normal force as contact.
 """
 
 from typing import NamedTuple
@@ -26,7 +26,7 @@ class Friction(NamedTuple):
 
 
 class Grips(NamedTuple):
-    """Lagged contacts: nodes (n, 3) p, a, b (a = -1: a platen); tau (n,); tangent (n, 2); load (n,).
+    """Lagged contacts. nodes (n, 3): p, a, b (a = -1: platen); tau (n,), tangent (n, 2), load (n,).
 
     load is mu * lambda in N; a rigid platen does not move sideways.
     """
@@ -61,7 +61,9 @@ def _normal_force(contact, weight, dc, d):
 def lag(x, contact, pairs, friction):
     """Return the `Grips` of all pairs in contact at ``x``."""
     most = 3 * pairs.node.size + 2 * contact.plate_nodes.size
-    grips = Grips(np.empty((most, 3), np.int64), np.empty(most), np.empty((most, 2)), np.empty(most))
+    grips = Grips(
+        np.empty((most, 3), np.int64), np.empty(most), np.empty((most, 2)), np.empty(most)
+    )
     n = 0
     for k in range(pairs.node.size):
         p, dc, weight = pairs.node[k], pairs.d_contact[k], 0.5 * friction.mu * pairs.weight[k]
@@ -92,7 +94,11 @@ def smooth(u, slip):
     if size >= slip:
         return size, (1.0 if u > 0.0 else -1.0), 0.0
     s = size / slip
-    return slip * (s * s * (1.0 - s / 3.0) + 1.0 / 3.0), u / slip * (2.0 - s), (2.0 - 2.0 * s) / slip
+    return (
+        slip * (s * s * (1.0 - s / 3.0) + 1.0 / 3.0),
+        u / slip * (2.0 - s),
+        (2.0 - 2.0 * s) / slip,
+    )
 
 
 @jit

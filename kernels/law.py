@@ -31,7 +31,7 @@ class Law(NamedTuple):
 
 @jit
 def _piece(knots, strain):
-    """Return the index of the cubic that holds ``strain`` (the first or last one beyond the ends)."""
+    """Return the index of the cubic that holds ``strain`` (beyond the ends: the last one there)."""
     low, high = 0, knots.size - 1
     while high - low > 1:
         middle = (low + high) // 2

@@ -21,8 +21,10 @@ GRIP_LOOPS = 30  # fixed-point iterations of friction
 
 
 class Stage(NamedTuple):
-    """steps: number; dt: duration of one in s, infinite if static; pace: time of one in s; the
-    load factor and the driven coordinate (m) go linearly from ``*0`` to ``*1``."""
+    """Linear ramps of the load factor and of the driven coordinate (m) from ``*0`` to ``*1``.
+
+    steps: number. dt: duration of one in s, infinite if static. pace: time of one in s.
+    """
 
     steps: int
     dt: float
@@ -34,8 +36,11 @@ class Stage(NamedTuple):
 
 
 class State(NamedTuple):
-    """x (n,), v (n,), book (9,) in J, pulled (n,): what the last step left of forces that the
-    trapezoidal rule needs (gradient of U, rate forces), totals (4,): iterations, steps, time, share."""
+    """Where the march is. x, v (n,): position and velocity. book (9,): energy book in J.
+
+    elastic, rate (n,), held (2,): gradient of U, friction, driven reaction (N) and load factor at
+    the last step, for the trapezoidal rule. totals (3,): iterations, steps, time in s.
+    """
 
     x: np.ndarray
     v: np.ndarray
@@ -62,7 +67,7 @@ class Output(NamedTuple):
 
 @jit_owning
 def _solve_step(x, target, terms, step, near, unknowns, tolerance, work, control):
-    """Minimise; with friction, again until the lagged forces agree with the contact they belong to."""
+    """Minimise; with friction again and again until the lagged forces agree with the contacts."""
     total = 0
     for _ in range(GRIP_LOOPS):
         outcome, iterations, near = minimise(

@@ -22,8 +22,11 @@ RESOLVED = 1e-11  # an energy change below this share of the energy is lost in r
 
 
 class Tolerance(NamedTuple):
-    """force: largest residual in N; decrement: largest Newton decrement in J; friction: largest
-    change of a lagged friction force in N; iterations: most for one minimum."""
+    """What counts as converged.
+
+    force: largest residual in N. decrement: largest Newton decrement in J. friction: largest change
+    of a lagged friction force in N. iterations: most for one minimum.
+    """
 
     force: float
     decrement: float
@@ -32,10 +35,13 @@ class Tolerance(NamedTuple):
 
 
 class Unknowns(NamedTuple):
-    """row (n,): row of each coordinate or -1. scale (rows,): length that turns a row's unit into m,
+    """Which coordinates move, and how far at once.
+
+    row (n,): row of each coordinate or -1. scale (rows,): length that turns a row's unit into m,
     1 for a coordinate in m. free: rows solved for (a driven row comes last). driven: coordinate
     that is led to a target, -1 if none. cap: longest move in one iteration, m. leap: first move
-    along a direction of negative curvature, m."""
+    along a direction of negative curvature, m.
+    """
 
     row: np.ndarray
     scale: np.ndarray
@@ -119,7 +125,7 @@ def _dot(a, b, n):
 
 @jit_exact
 def _search(x, terms, step, near, work, slope, curvature, share):
-    """Backtrack from ``share`` of dx until the energy falls; return the share, 0 if it never does."""
+    """Backtrack from ``share`` of dx until the energy falls; return the share, 0 if never."""
     start = energy(x, terms, step, near)
     for _ in range(HALVINGS):
         for i in range(x.size):

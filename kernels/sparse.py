@@ -19,7 +19,7 @@ class Matrix(NamedTuple):
     """Skyline matrix of n rows.
 
     row (n_coordinates,): row of each coordinate or -1. first (n,): first column of each row.
-    offset (n,): entry (i, j) is values[offset[i] + j]. values (nnz,). diagonal (n,): set by `factor`.
+    offset (n,): entry (i, j) is values[offset[i] + j]. values (nnz,). diagonal (n,): 1 / L_ii.
     """
 
     row: np.ndarray
@@ -66,7 +66,7 @@ def add(matrix, i, j, value):
 
 @jit
 def add_block(matrix, i, j, xx, xy, yx, yy):
-    """Add the 2 x 2 block of the points whose x is coordinate ``i`` and ``j`` (lower half if equal)."""
+    """Add the 2 x 2 block of points whose x are coordinates ``i``, ``j`` (lower half if equal)."""
     add(matrix, i, j, xx)
     add(matrix, i + 1, j, yx)
     add(matrix, i + 1, j + 1, yy)

@@ -20,8 +20,11 @@ ADVANCE = 0.9  # share of the way to the first contact that a step may use
 
 
 class Terms(NamedTuple):
-    """One scene. mass (n,) kg and load (n,) N by coordinate; first (rows,) the elastic skyline;
-    row (n,) as in `sparse.Matrix`."""
+    """One scene: the data of every term.
+
+    mass (n,) kg and load (n,) N by coordinate. row (n,) as in `sparse.Matrix`. first (rows,): the
+    skyline without contact.
+    """
 
     law: object
     stretch: object
@@ -130,10 +133,10 @@ def step_limit(x, dx, terms, near):
 
 @jit_owning
 def find_near(x, terms, move):
-    """Return `Near` at ``x`` for moves up to ``move`` (m): pairs in reach, and a matrix for them."""
+    """Return `Near` at ``x`` for moves up to ``move`` (m): pairs in reach and a matrix for them."""
     anchor = x.copy()
     margin = max(3.0 * move, MARGIN * terms.contact.reach)
-    if terms.contact.tributary.size == 0:
+    if terms.contact.edges.shape[0] == 0:
         found = pairs.empty()
         margin = np.inf
     else:
@@ -155,7 +158,7 @@ def find_near(x, terms, move):
 @jit_exact
 def covers(near, x, terms, reach):
     """Return whether the list still holds every pair that matters within ``reach`` of ``x``."""
-    n_nodes = terms.contact.tributary.size
-    if n_nodes == 0:
+    if terms.contact.edges.shape[0] == 0:
         return True
+    n_nodes = terms.contact.tributary.size
     return 2.0 * (pairs.farthest(x, near.anchor, n_nodes) + reach) <= near.margin

@@ -156,8 +156,8 @@ def _unique_with_neighbours(p, listed, mesh):
 
 @jit_owning
 def _subtract(p, entries, weights, mesh, subtract):
-    """Fill ``subtract``: at every vertex of the entries all but the heaviest segment are taken off."""
-    edges, _, start, incident = mesh
+    """Fill ``subtract``: at each vertex of the entries all but the heaviest segment come off."""
+    edges, _, _, _ = mesh
     for i in range(len(entries)):
         for side in range(2):
             v = edges[entries[i], side]

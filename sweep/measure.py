@@ -43,7 +43,7 @@ def history_columns(rows: Floats, scene: Scene, case: Case) -> dict[str, Floats]
 
 
 def absorbed_until(force: float, transmitted: Floats, work: Floats) -> float:
-    """Work in J done until ``transmitted`` (rows,) N first exceeds ``force``, interpolated linearly."""
+    """Work in J done until ``transmitted`` (rows,) first exceeds ``force`` (N), interpolated."""
     over = np.flatnonzero(transmitted > force)
     if len(over) == 0:
         return float(work[-1])
@@ -55,9 +55,9 @@ def absorbed_until(force: float, transmitted: Floats, work: Floats) -> float:
 
 
 def efficiency(strain: Floats, stress: Floats, work_density: Floats) -> Floats:
-    """Energy-absorption efficiency, integral of stress over strain / largest stress so far, (rows,).
+    """Energy-absorption efficiency: work density / largest stress so far, (rows,).
 
-    Source: Miltz & Gruenbaum 1981; the maximum marks densification (Li, Magkiriadis & Harrigan 2006).
+    Its maximum marks densification (Miltz & Gruenbaum 1981; Li, Magkiriadis & Harrigan 2006).
     """
     largest = np.maximum.accumulate(np.abs(stress))
     safe = np.where(largest > 0, largest, 1.0)

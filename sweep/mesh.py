@@ -48,7 +48,8 @@ class Mesh:
     def tributary(self, per_length: Floats) -> Floats:
         """Half of every element's length x ``per_length`` (m,), summed at its two nodes: (n,)."""
         half = 0.5 * self.rest_length * per_length
-        return np.bincount(self.edges.ravel(), np.repeat(half, 2), minlength=len(self.points))
+        shared = np.bincount(self.edges.ravel(), np.repeat(half, 2), minlength=len(self.points))
+        return shared.astype(np.float64)
 
 
 def split_walls(network: Network, pieces: int, imperfection: float) -> Mesh:

@@ -4,7 +4,7 @@ A `Case` is resolved when it is made (sweep/resolve.py), so that equal physics h
 """
 
 from hashlib import blake2b
-from typing import Self
+from typing import Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -20,6 +20,7 @@ __all__ = [
     "Loading",
     "Material",
     "Solver",
+    "given",
 ]
 
 
@@ -59,3 +60,13 @@ TABLES: dict[str, type[Table]] = {
     "damping": Damping,
     "solver": Solver,
 }
+
+
+T = TypeVar("T")
+
+
+def given(value: T | None) -> T:
+    """Return a parameter that every resolved case of its mode has."""
+    if value is None:
+        raise ValueError("a resolved case has this parameter; this one was not resolved")
+    return value

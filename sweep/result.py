@@ -86,7 +86,7 @@ COLUMNS: dict[str, Column] = {
     "peak_force_N": Column("N", "greatest force transmitted to a platen or support"),
     "peak_strain": Column("1", "greatest top displacement / height"),
     "residual_strain": Column("1", "top displacement / height at the end"),
-    "min_gap_m": Column("m", "least distance of centre lines near contact, > 0: no crossing; NaN if far"),
+    "min_gap_m": Column("m", "least distance of centre lines near contact; NaN if none is near"),
     "max_crossings": Column("1", "walls that pass through one another in any stored frame"),
     "steps": Column("1", "accepted time or load steps"),
     "newton_iterations": Column("1", "Newton iterations of the whole run"),
@@ -97,7 +97,7 @@ COLUMNS: dict[str, Column] = {
 HISTORY_COLUMNS: dict[str, Column] = {
     "time_s": Column("s", "time since the start"),
     "strain": Column("1", "top displacement / height"),
-    "top_displacement_m": Column("m", "shortening of the specimen: travel of a driven platen, else of the top row"),
+    "top_displacement_m": Column("m", "shortening: travel of a driven platen, else of the top row"),
     "reaction_top_N": Column("N", "force on the upper platen or row, compression > 0"),
     "reaction_bottom_N": Column("N", "force on the lower platen or row, compression > 0"),
     "work_in_J": Column("J", "work done on the lattice so far"),
@@ -111,7 +111,7 @@ HISTORY_COLUMNS: dict[str, Column] = {
     "injected_by_projection_J": Column("J", "added by position-based contact so far"),
     "energy_residual_J": Column("J", "what the energy book leaves over so far"),
     "newton_iterations": Column("1", "Newton iterations since the row before"),
-    "min_gap_m": Column("m", "least distance of centre lines near contact, > 0: no crossing; NaN if far"),
+    "min_gap_m": Column("m", "least distance of centre lines near contact; NaN if none is near"),
 }
 """Every column that a history always has, in the order in which it is stored."""
 

@@ -9,7 +9,7 @@ import numpy as np
 from kernels import march, newton
 from kernels.newton import Tolerance
 from sweep.measure import crossings, history_columns, summarise
-from sweep.params import Case
+from sweep.params import Case, given
 from sweep.result import Result, Status
 from sweep.scene import Scene, build_scene, time_step
 
@@ -99,8 +99,12 @@ class _Run:
     def _through(self, stage: march.Stage) -> int:
         span = slice(self.done, self.done + stage.steps)
         out = march.Output(
-            self.rows[span], self.frame_of[span], self.positions,
-            self.scene.bottom, self.scene.top, self.scene.base,
+            self.rows[span],
+            self.frame_of[span],
+            self.positions,
+            self.scene.bottom,
+            self.scene.top,
+            self.scene.base,
         )
         tolerance = tolerances(self.case, self.scene, stage.dt)
         outcome, written = march.march(
@@ -133,7 +137,8 @@ class _Run:
         if self.case.loading.platen == "none":
             plates[:] = np.nan
         return {
-            "strain": (self.rows[0, march.HEIGHT] - rows[:, march.HEIGHT]) / self.case.lattice.height,
+            "strain": (self.rows[0, march.HEIGHT] - rows[:, march.HEIGHT])
+            / self.case.lattice.height,
             "time_s": rows[:, march.TIME],
             "position_m": x[:, : 2 * n].reshape(len(x), n, 2),
             "plate_y_m": plates,
@@ -143,7 +148,7 @@ class _Run:
 
 
 def _frames(n_rows: int) -> tuple[np.ndarray, int]:
-    """Slot of every row among about `FRAMES` evenly spaced frames (-1: not kept), and their count."""
+    """Slot of every row among some `FRAMES` even frames (-1: not kept), and their number."""
     kept = np.unique(np.linspace(0, n_rows - 1, min(FRAMES + 1, n_rows)).round().astype(int))
     frame_of = np.full(n_rows, -1)
     frame_of[kept] = np.arange(len(kept))
@@ -173,13 +178,12 @@ def stages(case: Case, scene: Scene) -> list[Stretch]:
     dt = np.inf if solver.integrator == "static" else pace
     rest = float(scene.x_rest[-1])
     if loading.mode == "displacement":
-        low = rest - loading.stroke
-        down = march.Stage(solver.load_steps, dt, pace, 0.0, 0.0, rest, low)
-        up = march.Stage(solver.load_steps, dt, pace, 0.0, 0.0, low, rest)
+        low, steps = rest - given(loading.stroke), given(solver.load_steps)
+        down = march.Stage(steps, dt, pace, 0.0, 0.0, rest, low)
+        up = march.Stage(steps, dt, pace, 0.0, 0.0, low, rest)
         return [Stretch("loading", down)] + ([Stretch("unloading", up)] if loading.unload else [])
-    hold = max(round(loading.release_time / pace), 1)
-    free = max(round((loading.duration - loading.release_time) / pace), 0)
-    start = 0.0 if solver.integrator == "static" else 1.0
-    held = march.Stage(hold, dt, pace, start, 1.0, rest, rest)
-    released = march.Stage(free, dt, pace, 1.0 - start, 0.0, rest, rest)
+    release, duration = given(loading.release_time), given(loading.duration)
+    hold, free = max(round(release / pace), 1), max(round((duration - release) / pace), 0)
+    held = march.Stage(hold, dt, pace, 1.0, 1.0, rest, rest)
+    released = march.Stage(free, dt, pace, 0.0, 0.0, rest, rest)
     return [Stretch("loading", held)] + ([Stretch("released", released)] if free else [])

@@ -39,10 +39,13 @@ def refusal(key: str, value: object, allowed: str) -> PydanticCustomError:
     return PydanticCustomError("refused", "{key} = {value}; allowed: {allowed}", context)
 
 
+NOT_PHYSICS = ("time_limit",)  # raising it must not make finished cases run again
+
+
 @lru_cache(maxsize=4096)
 def canonical(table: Table) -> str:
     """A table as JSON: sorted keys, rounded numbers, only the keys in use."""
-    used = {key: rounded(value) for key, value in table if value is not None}
+    used = {key: rounded(v) for key, v in table if v is not None and key not in NOT_PHYSICS}
     return json.dumps(used, sort_keys=True, separators=(",", ":"))
 
 
