@@ -174,6 +174,12 @@ def compiler(fastmath, owning=False):
 
 numba.config.CACHE_DIR = str(open_cache(Path(__file__).parent))
 
+
+def is_cold():
+    """Return whether nothing is kept yet for these sources: the first call will compile."""
+    return not any(Path(numba.config.CACHE_DIR).rglob("*.nbi"))
+
+
 jit = compiler({"contract", "reassoc", "nsz", "arcp"})
 jit_exact = compiler(False)
 jit_owning = compiler(False, owning=True)

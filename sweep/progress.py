@@ -17,6 +17,11 @@ RECENT = 60.0  # seconds that the pace is taken from
 SENTENCES = 5  # failures that are told while the sweep runs
 
 
+def tell(line: str) -> None:
+    """Say one thing before there is any progress."""
+    Console().print(line, highlight=False)
+
+
 class Progress:
     """Counts cases as they finish.
 

@@ -10,7 +10,7 @@ from sweep.graph import Simulate, Sink, Stop, run
 from sweep.grid import Config, expand
 from sweep.params import Case
 from sweep.plan import Plan, cost
-from sweep.progress import Progress
+from sweep.progress import Progress, tell
 from sweep.provenance import config_text, describe_run
 from sweep.result import Result
 from sweep.store import finished_ids
@@ -43,8 +43,9 @@ def run_sweep(
         done = cases.keys() & finished_ids(out, retry_failed)
         waiting = [case for case_id, case in cases.items() if case_id not in done]
         if waiting:
+            simulate = simulate or _simulate()
             with _keeping(writer, waiting, len(done)) as keep, _interruptible(stop):
-                run(Plan(waiting, workers), simulate or _simulate(), keep, stop, scheduler)
+                run(Plan(waiting, workers), simulate, keep, stop, scheduler)
         writer.fold()
     if stop.asked:
         kept = len(cases.keys() & finished_ids(out, retry_failed))
@@ -67,8 +68,12 @@ def _keeping(writer: Writer, waiting: Sequence[Case], done: int) -> Iterator[Sin
 
 def _simulate() -> Simulate:
     """The real thing, imported when it is needed: it brings the compiled kernels."""
-    from sweep.simulate import simulate
+    from kernels.jit import is_cold
+    from sweep.simulate import simulate, warm_up
 
+    if is_cold():
+        tell("compiling the kernels, once: this takes about a minute")
+    warm_up()
     return simulate
 
 

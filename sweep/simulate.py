@@ -9,7 +9,7 @@ import numpy as np
 from kernels import march, newton
 from kernels.newton import Tolerance
 from sweep.measure import crossings, history_columns, summarise
-from sweep.params import Case, given
+from sweep.params import Case, Lattice, Loading, given
 from sweep.result import Result, Status
 from sweep.scene import Scene, build_scene, time_step
 
@@ -55,6 +55,12 @@ def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
         "cpu_s": time.thread_time() - started,
     }
     return Result(case.case_id, status, message, summary, history, frames)
+
+
+def warm_up() -> None:
+    """Load the compiled kernels, or compile them once, so that no case pays for it."""
+    lattice = Lattice(cells_x=1, cells_y=1)
+    simulate(Case(lattice=lattice, loading=Loading(release_time=1e-4, duration=2e-4)))
 
 
 class _Run:
