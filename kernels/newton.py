@@ -25,12 +25,14 @@ class Tolerance(NamedTuple):
     """What counts as converged.
 
     force: largest residual in N. decrement: largest Newton decrement in J. friction: largest change
-    of a lagged friction force in N. iterations: most for one minimum.
+    of a lagged friction force in N. noise: energy changes below it are round-off, J. iterations:
+    most for one minimum.
     """
 
     force: float
     decrement: float
     friction: float
+    noise: float
     iterations: int
 
 
@@ -124,16 +126,18 @@ def _dot(a, b, n):
 
 
 @jit_exact
-def _search(x, terms, step, near, work, slope, curvature, share):
+def _search(x, terms, step, near, work, noise, model, share):
     """Backtrack from ``share`` of dx until the energy falls; return the share, 0 if never."""
+    slope, curvature = model
     start = energy(x, terms, step, near)
+    noise += RESOLVED * abs(start)
     for _ in range(HALVINGS):
         for i in range(x.size):
             work.trial[i] = x[i] + share * work.dx[i]
         reached = energy(work.trial, terms, step, near)
         expected = ARMIJO * share * (slope + 0.5 * share * curvature)
-        if abs(expected) <= ARMIJO * RESOLVED * abs(start):
-            expected = RESOLVED * abs(start)
+        if abs(expected) <= ARMIJO * noise:
+            expected = noise
         if reached <= start + expected and reached < np.inf:
             return share
         share *= 0.5
@@ -221,7 +225,8 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, work, control):
             near = find_near(x, terms, most)
         share = step_limit(x, work.dx, terms, near)
         if remaining == 0.0:
-            share = _search(x, terms, step, near, work, slope, curvature, share)
+            model = slope, curvature
+            share = _search(x, terms, step, near, work, tolerance.noise, model, share)
         if share < LEAST_SHARE:
             return STALLED, iteration, near
         for i in range(x.size):

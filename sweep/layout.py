@@ -86,7 +86,9 @@ def rows(layout: Layout, held: Ints, tied: Ints, terms: list[Ints]) -> Ints:
     led[layout.high] = False
     inner = np.flatnonzero(led)
     graph = _coupled(terms, layout.size).tocsr()[inner][:, inner]
-    order = inner[reverse_cuthill_mckee(graph, symmetric_mode=True)]
+    order = inner
+    if len(inner) > 0:
+        order = inner[reverse_cuthill_mckee(graph, symmetric_mode=True)]
     row = np.full(layout.size, -1)
     row[order] = np.arange(len(order))
     if free[layout.high]:

@@ -173,6 +173,7 @@ def tolerances(case: Case, scene: Scene, dt: float) -> Tolerance:
         force=allowed,
         decrement=1e-3 * allowed * case.lattice.wall_thickness,
         friction=1e3 * allowed,
+        noise=ROUND_OFF * force * size,
         iterations=case.solver.max_iterations,
     )
 
