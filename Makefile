@@ -12,7 +12,7 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test lint clean
+.PHONY: help setup sweep rank test verify lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -39,6 +39,9 @@ lint: setup  ## check style and types
 
 test: lint  ## check style and types, then run the tests
 	$(PYTHON) -m pytest
+
+verify: setup  ## print the model's figures beside those of other programs
+	@$(PYTHON) tests/figures.py
 
 clean:  ## remove the environment and all caches, but no results
 	rm -rf .venv build *.egg-info .pytest_cache .mypy_cache .ruff_cache
