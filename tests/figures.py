@@ -24,7 +24,7 @@ LOADS = (6.6, 7.0, 7.5)
 WATCHED = 0.137  # s
 
 MATERIAL = Material(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
-SEED = {"hinges": "classical", "bend_measure": "tangent"}
+ROD = {"hinges": "classical", "bend_measure": "tangent"}
 
 
 def pressed(pieces, strain, contact, **solver):
@@ -66,7 +66,7 @@ def frame_rows():
     for name, pieces, solver in (
         ("12 elements a wall", 12, {}),
         ("3 elements a wall (default)", 3, {}),
-        ("3, classical hinges, tangent measure", 3, SEED),
+        ("3, classical hinges, tangent measure", 3, ROD),
     ):
         history = pressed(pieces, 0.3, "none", **solver).history
         force = np.interp(list(FRAME), history["strain"], history["reaction_top_N"])
