@@ -11,16 +11,17 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from kernels.bend import Bend
-from sweep.lattice import Network
 from sweep.mesh import Ints, Mesh
 
 
 @dataclass(frozen=True)
 class Layout:
-    """Where the coordinates are."""
+    """Where the coordinates are. bottom, top: nodes of the outer rows."""
 
     n_nodes: int
     n_joints: int
+    bottom: Ints
+    top: Ints
 
     @property
     def rotation(self) -> Ints:
@@ -43,11 +44,11 @@ class Layout:
         return self.high + 1
 
 
-def held(network: Network, layout: Layout, platen: str | None) -> Ints:
-    """Coordinates that never move: clamped rows, and the lower platen."""
-    bottom, top = network.bottom, network.top
-    clamped = [2 * bottom, 2 * bottom + 1, layout.rotation[bottom]]
-    along = [2 * top, layout.rotation[top]]
+def held(layout: Layout, platen: str | None) -> Ints:
+    """Coordinates that never move: those of clamped rows, and the lower platen."""
+    bottom, top = layout.bottom, layout.top
+    clamped = [2 * bottom, 2 * bottom + 1, layout.rotation[bottom[bottom < layout.n_joints]]]
+    along = [2 * top, layout.rotation[top[top < layout.n_joints]]]
     low, high = np.array([layout.low]), np.array([layout.high])
     if platen == "contact":
         return low

@@ -76,6 +76,12 @@ def split_walls(network: Network, pieces: int, imperfection: float) -> Mesh:
     )
 
 
+def row_nodes(network: Network, mesh: Mesh, joints: Ints) -> Ints:
+    """Nodes of an outer row: its joints and the nodes inside the walls between them."""
+    start, end = np.isin(network.walls, joints).T
+    return np.union1d(joints, mesh.edges[(start & end)[mesh.wall]].ravel())
+
+
 def openings(mesh: Mesh) -> tuple[Ints, Floats, Ints]:
     """Openings between neighbouring arms of every node.
 

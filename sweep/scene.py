@@ -13,7 +13,7 @@ from sweep.joints import build_bend, build_fold
 from sweep.lattice import Network, build_network, mass
 from sweep.layout import Layout, coordinates, held, rows, skyline
 from sweep.material import stress_law
-from sweep.mesh import Floats, Ints, Mesh, split_walls
+from sweep.mesh import Floats, Ints, Mesh, row_nodes, split_walls
 from sweep.params import Case, Loading, Material, given
 
 STATIC_SLIP = 1e-3  # of the wall thickness
@@ -100,12 +100,12 @@ def _masses(mesh: Mesh, layout: Layout, total: float) -> Floats:
     return masses
 
 
-def _load(network: Network, layout: Layout, case: Case) -> Floats:
+def _load(layout: Layout, case: Case) -> Floats:
     """Total force downwards: on the upper platen, or spread equally over the top nodes."""
     load = np.zeros(layout.size)
     if case.loading.mode == "force":
         if case.loading.platen == "none":
-            load[2 * network.top + 1] = -given(case.loading.force) / len(network.top)
+            load[2 * layout.top + 1] = -given(case.loading.force) / len(layout.top)
         else:
             load[layout.high] = -given(case.loading.force)
     return load
@@ -144,14 +144,19 @@ def build_scene(case: Case) -> Scene:
     mesh = split_walls(
         network, lattice.nodes_per_wall + 1, lattice.imperfection * lattice.wall_thickness
     )
-    layout = Layout(len(mesh.points), mesh.n_joints)
+    layout = Layout(
+        len(mesh.points),
+        mesh.n_joints,
+        row_nodes(network, mesh, network.bottom),
+        row_nodes(network, mesh, network.top),
+    )
     in_stretch, in_bend = plane_factors(case.material)
     second_moment = lattice.depth * mesh.thickness**3 / 12
     rigidity = in_bend * case.material.modulus * second_moment
     bending = build_bend(mesh, layout, rigidity, case)
     touching = in_stretch * case.material.modulus * lattice.depth * (case.contact.stiffness or 0.0)
-    fixed = held(network, layout, platen)
-    tied = 2 * network.top + 1 if platen == "glued" else np.empty(0, np.int64)
+    fixed = held(layout, platen)
+    tied = 2 * layout.top + 1 if platen == "glued" else np.empty(0, np.int64)
     folding = build_fold(mesh, bending)
     groups = coordinates(mesh, bending, folding.nodes)
     row = rows(layout, fixed, tied, groups)
@@ -164,13 +169,13 @@ def build_scene(case: Case) -> Scene:
         friction=_friction(case),
         damp=_damp(case),
         mass=_masses(mesh, layout, mass(network, lattice.depth, case.material.density)),
-        load=_load(network, layout, case),
+        load=_load(layout, case),
         row=row,
         first=skyline(row, groups),
     )
     return Scene(
         mesh, network, terms, _unknowns(mesh, layout, row, case),
-        _rest(mesh, network, layout), *_reported(network, layout, case.loading),
+        _rest(mesh, network, layout), *_reported(layout, case.loading),
         force_scale=float(np.min(rigidity) / np.max(_wall_length(network)) ** 2),
     )  # fmt: skip
 
@@ -187,20 +192,20 @@ def _rest(mesh: Mesh, network: Network, layout: Layout) -> Floats:
     return np.concatenate([mesh.points.ravel(), np.zeros(layout.n_joints), [bottom, top]])
 
 
-def _reported(network: Network, layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
+def _reported(layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
     """Coordinates of the lower reaction, of the top and of the base.
 
     Strain is the travel of a driven platen, or of the loaded row. Under a loose loaded platen it is
     taken from the extent of the lattice itself, which jumps off when it is released.
     """
-    bottom = 2 * network.bottom + 1
+    bottom = 2 * layout.bottom + 1
     low, high = np.array([layout.low]), np.array([layout.high])
     reaction = low if loading.platen == "contact" else bottom
     if loading.mode == "displacement":
         return reaction, high, low
     if loading.platen == "contact":
         return reaction, np.empty(0, np.int64), 2 * np.arange(layout.n_nodes) + 1
-    return reaction, 2 * network.top + 1, bottom
+    return reaction, 2 * layout.top + 1, bottom
 
 
 def _unknowns(mesh: Mesh, layout: Layout, row: Ints, case: Case) -> newton.Unknowns:
