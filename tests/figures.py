@@ -6,8 +6,8 @@ outside this repository with other programs:
 
 FRAME: geometrically exact beams, converged, without contact; glued platens; force in N.
 SOLID: plane finite elements with true walls, neo-Hookean, with self-contact, converged; energy, mJ.
-CRITICAL: dead load in N at which the exact frame, clamped below, loses stability (its top row of
-ten nodes bears equal shares; here the four joints of that row do).
+CRITICAL: dead load in N at which the exact frame, clamped below, loses stability; the ten nodes of
+its top row bear equal shares.
 """
 
 import sys
