@@ -1,0 +1,128 @@
+"""Orders of accuracy, as slopes: hinges in the length of elements, steps in time, Newton."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from kernels import friction, newton
+from kernels.newton import Work, largest, minimise, reduce
+from kernels.step import Step, find_near, gradient
+from sweep.params import Case, Loading
+from sweep.scene import build_scene
+from sweep.simulate import tolerances
+from tests.scenes import SEED, VISCOUS, loaded, pressed, run, slopes
+
+NEVER = np.zeros(2, dtype=np.int64)  # no wish to stop
+ROUND_OFF = 1e-11  # N
+
+
+def buckled_force(elements, hinges):
+    """Force (N) at 5 % without contact, past buckling, where every wall bends."""
+    case = pressed(elements, 0.05, 8, contact="none", solver={"hinges": hinges})
+    return run(case).history["reaction_top_N"][-1]
+
+
+@cache
+def converged_force():
+    coarse, fine = (buckled_force(elements, "exact_beam") for elements in (24, 48))
+    return fine + (fine - coarse) / 3
+
+
+@pytest.mark.parametrize("hinges", ["exact_beam", "classical"])
+def test_hinges_are_of_second_order(hinges):
+    errors = [buckled_force(n, hinges) - converged_force() for n in (6, 12, 24)]
+    np.testing.assert_allclose(slopes(errors), 2.0, atol=0.06)
+
+
+def test_exact_beam_hinges_err_far_less():
+    exact, classical = (buckled_force(6, hinges) for hinges in ("exact_beam", "classical"))
+    assert abs(exact - converged_force()) < 0.05 * abs(classical - converged_force())
+
+
+@pytest.mark.parametrize("damping", [SEED, VISCOUS], ids=["rayleigh", "kelvin_voigt"])
+@pytest.mark.parametrize("column", ["strain", "stretch_J"])
+def test_backward_euler_is_of_first_order(damping, column):
+    """In the first 0.4 ms after the load has come, while the grid is still going down."""
+    time = 4e-4
+    cases = [
+        loaded(5.0, time_step=time / n, damping=damping, release_time=time, duration=time)
+        for n in (200, 400, 800, 1600)
+    ]
+    values = np.array([run(case).history[column][-1] for case in cases])
+    np.testing.assert_allclose(slopes(np.diff(values)), 1.0, atol=0.05)
+
+
+def crushed():
+    """Glued, pressed to 40 %: buckled, and walls touch."""
+    descent = Descent(pressed(3, 0.4, 1), np.inf)
+    height = descent.scene.x_rest[-1]
+    for strain in np.linspace(0.0, 0.4, 41)[1:]:
+        descent.go_on(100, height - 12.5e-3 * strain)
+    return descent
+
+
+def folded():
+    """A measured curve under a dead load that its walls do not bear, in one step of 1 ms."""
+    return Descent(Case(loading=Loading(mode="force", force=20.0)), 1e-3)
+
+
+class Descent:
+    """One step of a scene from rest, iteration by iteration; dt: its duration, infinite: static."""
+
+    def __init__(self, case, dt):
+        self.scene = build_scene(case)
+        n, rows = self.scene.x_rest.size, self.scene.unknowns.scale.size
+        self.x = self.scene.x_rest.copy()
+        self.near = find_near(self.x, self.scene.terms, 0.0)
+        self.step = Step(self.x.copy(), self.x.copy(), dt, 1.0, friction.empty())
+        self.work = Work(*np.zeros((3, n)), *np.zeros((3, rows)))
+        self.tolerance = tolerances(case, self.scene, dt)
+
+    def residual(self):
+        """Largest force out of balance, N."""
+        gradient(self.x, self.scene.terms, self.step, self.near, self.work.g)
+        reduce(self.work.g, self.scene.unknowns.row, self.work.residual)
+        return largest(self.work.residual, self.scene.unknowns)
+
+    def go_on(self, iterations, target=None):
+        """Iterate and return the outcome; target: of the platen (m), where it is if None."""
+        outcome, _, self.near = minimise(
+            self.x, self.x[-1] if target is None else target, self.scene.terms, self.step,
+            self.near, self.scene.unknowns, self.tolerance._replace(iterations=iterations),
+            self.work, NEVER,
+        )  # fmt: skip
+        return outcome
+
+    def shake(self, amount):
+        """Move all that is free at random, by up to ``amount`` (m)."""
+        row, scale = self.scene.unknowns.row, self.scene.unknowns.scale
+        free = (row >= 0) & (row < self.scene.unknowns.free)
+        move = np.random.default_rng(5).uniform(-amount, amount, self.x.size)
+        self.x[free] += move[free] / scale[row[free]]
+
+
+@pytest.mark.parametrize("scene", [crushed, folded])
+def test_newton_is_quadratic_near_a_minimum(scene):
+    """What one iteration leaves of a disturbance falls with its square."""
+    descent = scene()
+    assert descent.go_on(100) == newton.CONVERGED
+    minimum, left = descent.x.copy(), []
+    for amount in (1e-7, 5e-8, 2.5e-8, 1.25e-8):
+        descent.x[:] = minimum
+        descent.shake(amount)
+        descent.go_on(1)
+        left.append(descent.residual())
+    np.testing.assert_allclose(slopes(left), 2.0, atol=0.05)
+
+
+@pytest.mark.parametrize("travel", [3e-4, 4e-4, 5e-4])
+def test_newton_ends_a_smooth_step_quadratically(travel):
+    """Order log(r'' / r') / log(r' / r) of the last residuals above round-off."""
+    descent, residuals = crushed(), []
+    target = descent.x[-1] - travel
+    while descent.go_on(1, target) == newton.ITERATIONS:
+        residuals.append(descent.residual())
+    falls = np.diff(np.log([size for size in residuals if size > ROUND_OFF]))
+    assert residuals[-1] < 1e-9
+    assert falls[-1] / falls[-2] == pytest.approx(2.0, abs=0.05)

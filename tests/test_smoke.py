@@ -1,0 +1,59 @@
+"""Every config of the repository runs; each is held by a number."""
+
+from pathlib import Path
+
+import pytest
+
+from sweep.config import load_config
+from sweep.grid import expand
+from sweep.rank import rank
+from sweep.run import run_sweep
+from sweep.simulate import simulate
+from sweep.store import read_frames, read_history, read_summary
+
+CONFIGS = Path(__file__).parents[1] / "configs"
+
+
+def test_no_config_is_forgotten():
+    assert {path.name for path in CONFIGS.glob("*.toml")} == {"armor.toml", "smoke.toml"}
+
+
+def test_smoke_runs_from_end_to_end(tmp_path):
+    out, config = tmp_path / "smoke.h5", load_config(CONFIGS / "smoke.toml")
+    assert run_sweep(config, out) == 0
+    table = read_summary(out).set_index(["lattice.cells", "loading.mode", "loading.platen"])
+    assert len(table) == len(expand(config)) == 6
+    assert set(table["status"]) == {"converged"}
+    assert not table["max_crossings"].any()
+    assert (abs(table["energy_residual_J"]) < 1e-6 * table["absorbed_energy_J"]).all()
+    pinned = table.loc[(3, "displacement", "glued")]
+    assert 1e3 * pinned["absorbed_energy_J"] == pytest.approx(134.1, rel=1e-3)
+    case_id = pinned["case_id"]
+    assert read_history(out, case_id)["strain"].max() == pytest.approx(0.4)
+    assert read_frames(out, case_id)["position_m"].shape[1:] == (64, 2)
+    assert set(rank(out)["case_id"]) == set(table["case_id"])
+
+
+@pytest.mark.parametrize(
+    ("mode", "platen", "force", "energy"),
+    [
+        ("displacement", "glued", None, 92.98),
+        ("displacement", "contact", None, 70.83),
+        ("force", "contact", 20.0, 174.8),
+    ],
+)
+def test_armor_holds_its_numbers(mode, platen, force, energy):
+    """The grid of 2 x 2 cells with walls of 0.8 mm, printed in NinjaFlex."""
+    found = [
+        case
+        for case in expand(load_config(CONFIGS / "armor.toml"))
+        if (case.lattice.cells_x, case.lattice.wall_thickness) == (2, 0.8e-3)
+        and case.material.name == "ninjaflex"
+        and (case.loading.mode, case.loading.platen) == (mode, platen)
+        and case.loading.force == force
+    ]
+    assert len(found) == 1
+    summary = simulate(found[0]).summary
+    assert summary["status"] == "converged"
+    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
+    assert 1e3 * summary["absorbed_energy_J"] == pytest.approx(energy, rel=1e-3)
