@@ -11,7 +11,7 @@ STEPS = (50, 200, 800)
 
 
 def to_60_percent(elements, friction=0.0):
-    return run(pressed(elements, 0.6, 60, friction=friction))
+    return run(pressed(elements, 0.6, 120, friction=friction))
 
 
 def there_and_back(platen, friction, steps=200, elements=3):
