@@ -91,12 +91,16 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
 
 
 def _plateau(ax: Axes, row: Mapping[str, Any]) -> None:
-    """Height of the plateau, up to the strain of densification."""
+    """Height of the plateau, up to the strain of densification or of the stroke."""
     area = (row["width_m"] + row["wall_thickness_m"]) * row["depth_m"]
     plateau, packed = area * row["plateau_stress_Pa"], 100.0 * row["densification_strain"]
-    if row["loading_mode"] == "displacement" and np.isfinite(plateau + packed):
-        ax.plot([0.0, packed, packed], [plateau, plateau, 0.0], color="black", lw=1.0, ls=":",
-                label=f"plateau {plateau:.3g} N,\npacked at {packed:.0f} %")  # fmt: skip
+    if row["loading_mode"] != "displacement" or np.isnan(plateau):
+        return
+    packs = np.isfinite(packed)
+    end = packed if packs else 100.0 * row["peak_strain"]
+    words = f"packed at {packed:.0f} %" if packs else "not packed"
+    stairs = [0.0, end, end], [plateau, plateau, 0.0]
+    ax.plot(*stairs, color="black", lw=1.0, ls=":", label=f"plateau {plateau:.3g} N,\n{words}")
 
 
 def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:

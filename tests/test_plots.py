@@ -71,6 +71,14 @@ def test_plateau_is_the_mean_force_up_to_densification(row):
     assert labels(ax)[-1] == "plateau 22 N,\npacked at 30 %"
 
 
+def test_plateau_without_densification_goes_to_the_stroke(row):
+    never = row | {"densification_strain": np.nan}
+    ax = axes_of(plots.force_displacement, there_and_back(), never)
+    dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
+    assert dotted.get_xdata()[-1] == pytest.approx(40.0)
+    assert labels(ax)[-1] == "plateau 22 N,\nnot packed"
+
+
 def test_dead_load_comes_and_goes_in_a_step(dead):
     history = under_dead_load()
     ax = axes_of(plots.force_displacement, history, dead)
