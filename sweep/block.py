@@ -36,6 +36,13 @@ class Ragged:
     rows: np.ndarray
     arrays: Mapping[str, Any]
 
+    def is_whole(self) -> bool:
+        """True if every stretch lies within every array."""
+        end = (self.start + self.rows).max(initial=0)
+        return min(self.start.min(initial=0), self.rows.min(initial=0)) >= 0 and all(
+            array.shape[0] >= end for array in self.arrays.values()
+        )
+
     def case(self, row: int) -> dict[str, np.ndarray]:
         """The arrays of one case."""
         begin = self.start[row]

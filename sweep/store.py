@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 FORMAT = 1  # of the layout above
 CHUNK = 4096  # rows of a compressed piece
 ATTEMPTS = 100  # at a set of files that holds still while it is opened
-
+DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError)
 
 Axes = Mapping[str, Mapping[str, Any]]
 
@@ -102,7 +102,7 @@ def read_frames(path: str | os.PathLike[str], case_id: str) -> dict[str, np.ndar
 def folded_batches(path: Path) -> int:
     """Number of the last batch that is in the one file (the newer ones are in parts)."""
     with ExitStack() as held:
-        return int(_open(path, held).attributes["folded"]) if path.exists() else 0
+        return _open(path, held).attributes["folded"] if path.exists() else 0
 
 
 def seal_results(target: Path, results: Sequence[Result], about: About) -> None:
@@ -149,7 +149,7 @@ def _open_all(path: Path, held: ExitStack) -> list[Block]:
     # Parts before the file: what a fold takes away between the two is then in the file.
     parts = [(part.last, _open(part.path, held)) for part in list_parts(path)]
     whole = [_open(path, held)] if path.exists() else []
-    folded = int(whole[0].attributes["folded"]) if whole else 0
+    folded = whole[0].attributes["folded"] if whole else 0
     blocks = whole + [block for last, block in parts if last > folded]
     if not blocks:
         raise StoreError(f"{path} does not exist.")
@@ -157,36 +157,65 @@ def _open_all(path: Path, held: ExitStack) -> list[Block]:
 
 
 def _open(path: Path, held: ExitStack) -> Block:
-    try:
+    with _undamaged(path):
         # A sealed file never changes, and a lock on it could only hinder others.
         file = held.enter_context(h5py.File(path, "r", locking=False))
-        ragged = {name: _open_ragged(file[name]) for name in GROUPS}
-        return Block(_Lazy(file["summary"]), ragged, dict(file.attrs))
+        ragged = {name: _open_ragged(path, file[name]) for name in GROUPS}
+        attributes = {**file.attrs, "folded": int(file.attrs["folded"])}
+        return Block(_Columns(path, file["summary"]), ragged, attributes)
+
+
+@contextmanager
+def _undamaged(path: Path) -> Iterator[None]:
+    """Turn whatever HDF5 stumbles over while it reads a sealed file into one clear line."""
+    try:
+        yield
     except FileNotFoundError:
         raise
-    except (OSError, KeyError):
-        raise StoreError(f"{path} is not a results file of Crumple, or is damaged.") from None
+    except DAMAGE as error:
+        if isinstance(error, OSError) and error.errno:
+            raise StoreError(f"{path} cannot be read: {os.strerror(error.errno)}.") from error
+        advice = "move it away, and `crumple run` computes its cases anew"
+        line = f"{path} is not a results file of Crumple, or is damaged: {advice}."
+        raise StoreError(line) from error
 
 
-def _open_ragged(group: h5py.Group) -> Ragged:
-    return Ragged(group["start"][:], group["rows"][:], dict(group["values"]))
+def _open_ragged(path: Path, group: h5py.Group) -> Ragged:
+    arrays = {name: _Array(path, data) for name, data in dict(group["values"]).items()}
+    ragged = Ragged(group["start"][:], group["rows"][:], arrays)
+    if not ragged.is_whole():
+        raise ValueError("stretches that lie beyond the end of their arrays")
+    return ragged
 
 
-class _Lazy(Mapping[str, np.ndarray]):
-    """Columns of a group, read when they are asked for."""
+class _Array:
+    """An array of a sealed file, read where it is asked for."""
 
-    def __init__(self, group: h5py.Group) -> None:
-        self._group = group
+    def __init__(self, path: Path, data: h5py.Dataset) -> None:
+        self._path, self._data = path, data
+        self.dtype, self.shape = data.dtype, data.shape
+
+    def __getitem__(self, rows: slice) -> np.ndarray:
+        with _undamaged(self._path):
+            return self._data[rows]
+
+
+class _Columns(Mapping[str, np.ndarray]):
+    """Columns of a sealed file, read when they are asked for."""
+
+    def __init__(self, path: Path, group: h5py.Group) -> None:
+        self._path, self._data = path, dict(group)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        data = self._group[name]
-        return data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
+        with _undamaged(self._path):
+            data = self._data[name]
+            return data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._group)
+        return iter(self._data)
 
     def __len__(self) -> int:
-        return len(self._group)
+        return len(self._data)
 
 
 def _read_case(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, np.ndarray]:
