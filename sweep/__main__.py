@@ -1,6 +1,7 @@
 """The command line: `crumple VERB ...`, also `python -m sweep`. Each verb is a call of sweep/verbs.
 
-Exit status: 0 done; 1 done, but some cases failed; 2 the config or the arguments are wrong.
+Exit status: 0 done; 1 some cases failed, or it was interrupted; 2 the config, a file or an argument
+cannot be used.
 """
 
 import argparse
@@ -18,7 +19,7 @@ EXAMPLES = """examples:
   crumple show results/armor.h5                 the ids of all cases
   crumple show results/armor.h5 7a85            pictures of the case whose id begins so
 
-exit status: 0 done, 1 done but some cases failed, 2 wrong config or arguments
+exit status: 0 done, 1 some cases failed or interrupted, 2 wrong config, file or arguments
 """
 RUN = """Simulate every case of CONFIG that the results file does not hold yet, then rank.
 Finished cases are never lost and never computed twice: after a stop or a kill, or when the
@@ -55,30 +56,38 @@ def parser() -> Parser:
     verbs = main.add_subparsers(dest="verb", metavar="VERB", required=True)
 
     run = verbs.add_parser("run", help="simulate a sweep", description=RUN, formatter_class=raw)
-    run.add_argument("config", metavar="CONFIG", help="TOML file with the case and its [grid]")
-    run.add_argument("--out", metavar="F.h5", help="results file (default: results/NAME.h5)")
+    run.add_argument(
+        "config", type=_path, metavar="CONFIG", help="TOML file with the case and its [grid]"
+    )
+    run.add_argument(
+        "--out", type=_path, metavar="F.h5", help="results file (default: results/NAME.h5)"
+    )
     run.add_argument("--workers", type=_count, default=2, metavar="N", help="default: 2")
     run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster: tcp://host:8786")
     run.add_argument("--dry-run", action="store_true", help="estimate time and disk, write nothing")
     run.add_argument("--retry-failed", action="store_true", help="compute failed cases once more")
 
     status = verbs.add_parser("status", help="what is done, and what failed and why")
-    status.add_argument("file", metavar="F.h5")
+    status.add_argument("file", type=_path, metavar="F.h5")
 
     rank = verbs.add_parser(
         "rank", help="the best designs", description=RANK, epilog=RANK_EXAMPLES, formatter_class=raw
     )
-    rank.add_argument("file", metavar="F.h5")
+    rank.add_argument("file", type=_path, metavar="F.h5")
     _add_question(rank)
     shape = rank.add_mutually_exclusive_group()
     for name, what in {"csv": "all columns", "json": "all columns", "markdown": "tables"}.items():
         shape.add_argument(f"--{name}", action="store_true", help=f"{what}, as {name} on stdout")
-    shape.add_argument("--out", metavar="DIR", help="write tables and figures into a folder")
+    shape.add_argument(
+        "--out", type=_path, metavar="DIR", help="write tables and figures into a folder"
+    )
 
     show = verbs.add_parser("show", help="draw a case", description=SHOW, formatter_class=raw)
-    show.add_argument("file", metavar="F.h5")
+    show.add_argument("file", type=_path, metavar="F.h5")
     show.add_argument("case", metavar="CASE", nargs="?", help="id, or the beginning of one")
-    show.add_argument("--out", metavar="DIR", help="folder of the pictures (default: beside F.h5)")
+    show.add_argument(
+        "--out", type=_path, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
+    )
     return main
 
 
@@ -104,22 +113,44 @@ def _count(text: str) -> int:
     raise argparse.ArgumentTypeError(f"{text!r}; allowed: a whole number, 1 or more")
 
 
+def _path(text: str) -> str:
+    """A path that names something."""
+    if text:
+        return text
+    raise argparse.ArgumentTypeError("an empty path; allowed: the name of a file or a folder")
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one verb and return the exit status."""
     arguments = parser().parse_args(argv)
     from sweep import verbs
 
+    sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # ASCII has no dash
     try:
-        return verbs.VERBS[arguments.verb](arguments)
-    except verbs.refusals() as refusal:
-        print(f"crumple {arguments.verb}: {refusal}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        print("interrupted", file=sys.stderr)
-        return 130
+        status = verbs.VERBS[arguments.verb](arguments)
+        sys.stdout.flush()
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # no second complaint
+        _silence()
         return 0
+    except KeyboardInterrupt as stop:
+        print(str(stop) or "interrupted", file=sys.stderr)
+        return 1
+    except OSError as error:
+        _silence()
+        return _refuse(arguments.verb, error)
+    except verbs.refusals() as refusal:
+        return _refuse(arguments.verb, refusal)
+    return status
+
+
+def _refuse(verb: str, why: Exception) -> int:
+    print(f"crumple {verb}: {why}", file=sys.stderr)
+    return 2
+
+
+def _silence() -> None:
+    """Send what is still to be printed nowhere: no second complaint at the exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 if __name__ == "__main__":

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -33,10 +34,11 @@ class ArgumentError(ValueError):
 def refusals() -> tuple[type[Exception], ...]:
     """Errors that say what is wrong with a config, a file or an argument.
 
-    Only of modules that are loaded: no other can have been raised.
+    Of our own, only those of modules that are loaded: no other can have been raised.
     """
     loaded = [(sys.modules[name], error) for name, error in REFUSALS.items() if name in sys.modules]
-    return (ArgumentError, *(getattr(module, error) for module, error in loaded))
+    ours = [getattr(module, error) for module, error in loaded]
+    return (ArgumentError, ModuleNotFoundError, *ours)
 
 
 def run(arguments: Namespace) -> int:
@@ -84,7 +86,10 @@ def rank(arguments: Namespace) -> int:
     if arguments.out:
         from sweep.publish import publish_ranking
 
-        _say_all(publish_ranking(arguments.file, summary, question, Path(arguments.out)))
+        folder = Path(arguments.out)
+        with _writing(folder):
+            files = publish_ranking(arguments.file, summary, question, folder)
+        _say_all(files)
     elif arguments.csv:
         _say(rank(summary, **question).to_csv(index=False), end="")
     elif arguments.json:
@@ -111,7 +116,8 @@ def show(arguments: Namespace) -> int:
     folder = Path(arguments.out or Path(arguments.file).with_suffix("") / row["case_id"])
     _say(f"case {row['case_id']}, {describe_case(row, summary)}: {row['status']}")
     _say_all([row["message"]] if row["message"] else [])
-    pictures = publish_case(arguments.file, row, folder)
+    with _writing(folder):
+        pictures = publish_case(arguments.file, row, folder)
     _say_all(pictures or ["nothing to draw: the case left no curves and no shapes"])
     return DONE
 
@@ -119,28 +125,29 @@ def show(arguments: Namespace) -> int:
 VERBS = {"run": run, "status": status, "rank": rank, "show": show}
 
 
+@contextmanager
+def _writing(folder: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise ArgumentError(f"{folder} cannot be written: {error.strerror or error}") from error
+
+
 def _asked(arguments: Namespace) -> dict[str, Any]:
     """The keywords of `rank` from the command line and, where it is silent, from the config.
 
     The config's budgets stand unless --budget or --by is given; its panel, where there are budgets.
     """
-    from sweep.config import quantity
-
     stored = _stored_rank(arguments.file)
     budgets, panel = stored.get("budgets"), stored.get("panel")
-    if arguments.budget:
-        budgets = [quantity(text, "kg") for text in arguments.budget]
-    elif arguments.by:
+    if arguments.by and not arguments.budget:
         budgets = panel = None
-    if arguments.panel:
-        panel = [quantity(text, "m") for text in arguments.panel]
-    question = _question(budgets, panel) | {"by": arguments.by}
-    if arguments.allowed_force:
-        question["allowed_force"] = quantity(arguments.allowed_force, "N")
+    question = _question(arguments.budget or budgets, arguments.panel or panel)
+    question |= {"by": arguments.by, "allowed_force": arguments.allowed_force}
     return question | ({"top": arguments.top} if arguments.top else {})
 
 
-def _question(budgets: Iterable[float] | None, panel: Iterable[float] | None) -> dict[str, Any]:
+def _question(budgets: Iterable[Any] | None, panel: Iterable[Any] | None) -> dict[str, Any]:
     """The keywords of `rank`: several budgets leave room for fewer places each."""
     masses, sides = list(budgets or ()), list(panel or ())
     top = TOP_OF_A_BUDGET if len(masses) > 1 else TOP
@@ -151,7 +158,10 @@ def _stored_rank(file: str) -> dict[str, Any]:
     """The [rank] of the config that a results file was made from."""
     from sweep.store import read_attributes
 
-    config: dict[str, Any] = json.loads(read_attributes(file).get("config") or "{}")
+    try:
+        config: dict[str, Any] = json.loads(read_attributes(file).get("config") or "{}")
+    except ValueError:
+        raise ArgumentError(f"{file} is damaged: the config in it is no JSON") from None
     return config.get("rank") or {}
 
 
@@ -161,13 +171,15 @@ def _print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -
     from sweep.sheets import LEGEND, ranking_sheets
 
     ranking = rank(summary, **question)
-    _say(_heading(question, ranking))
-    _print_sheets(ranking_sheets(ranking, summary))
+    failed = ranking.attrs["failed"]
+    if failed < len(summary):
+        _say(_heading(question, ranking))
+        _print_sheets(ranking_sheets(ranking, summary))
     if not ranking.empty:
         _say(LEGEND)
     if unranked := ranking.attrs["unranked"]:
         _say(f"{unranked} cases have no {ranking.attrs['by']} and so no place.")
-    if failed := ranking.attrs["failed"]:
+    if failed:
         _say(f"{failed} of {len(summary)} cases failed: crumple status {file} lists them")
 
 
@@ -180,12 +192,19 @@ def _heading(question: Mapping[str, Any], ranking: DataFrame) -> str:
     usual = {names["energy"]: "most energy", names["per_gram"]: "most energy per gram"}
     order = usual.get(by, f"least {by}" if by in LESS_IS_BETTER else f"most {by}")
     lines = [f"Best first: {order}."]
-    if len(names["budgets_g"]) == 1:
-        lines.insert(0, f"At most {names['budgets_g'][0]:.4g} g.")
+    if force := question.get("allowed_force"):
+        lines.append(f"Energy counts until a specimen passes on {force}.")
+    if (budgets := question["budget"]) and len(budgets) == 1:
+        lines.insert(0, f"At most {_written(budgets[0], 1e3, 'g')}.")
     if panel := question["panel"]:
-        a, b = (f"{1e3 * side:g}" for side in panel)
-        lines.insert(0, f"Panel of {a} x {b} mm, filled with specimens side by side.")
+        sides = " x ".join(_written(side, 1e3, "mm") for side in panel)
+        lines.insert(0, f"Panel of {sides}, filled with specimens side by side.")
     return " ".join(lines)
+
+
+def _written(value: float | str, scale: float, unit: str) -> str:
+    """A quantity in the words of the user, or an SI one in a maker's unit."""
+    return value if isinstance(value, str) else f"{scale * value:.4g} {unit}"
 
 
 def _failures(summary: DataFrame) -> list[str]:

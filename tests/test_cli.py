@@ -2,6 +2,7 @@
 
 import io
 import json
+import os
 import subprocess
 import sys
 from importlib import import_module
@@ -13,7 +14,11 @@ from specimens import designs, summary, write
 from standin import simulate
 
 from sweep.__main__ import main
+from sweep.result import absorbed_energy_column
+from sweep.run import Interrupted
 from sweep.store import read_summary
+
+ROOT = Path(__file__).parents[1]
 
 CONFIG = """
 name = "trial"
@@ -79,6 +84,12 @@ REFUSED = [
     (["show", "FILE", "0"], "begins 5 ids: 0000000000000000"),
     (["run", "nowhere.toml"], "nowhere.toml"),
     (["run", "nowhere.toml", "--workers", "none"], "1 or more"),
+    (["run", "nowhere.toml", "--out", ""], "an empty path"),
+    (["rank", "FILE", "--out", ""], "an empty path"),
+    (["rank", ""], "an empty path"),
+    (["rank", "FILE", "--out", "FILE"], "trial.h5 cannot be written: File exists"),
+    (["rank", "FILE", "--out", "/proc/x"], "/proc/x cannot be written: "),
+    (["rank", "/proc"], "/proc cannot be read: Is a directory"),
 ]
 
 
@@ -89,6 +100,29 @@ def test_refusals_take_two_lines_and_exit_with_2(capsys, file, arguments, expect
     assert (status, out) == (2, "")
     assert expected in err
     assert err.count("\n") <= 2
+
+
+def test_pictures_need_a_folder(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({"case_id": "ab"}))
+    for folder, why in {file: "File exists", "/proc/x": "No such file or directory"}.items():
+        status, _, err = crumple(capsys, "show", file, "ab", "--out", folder)
+        assert (status, err) == (2, f"crumple show: {folder} cannot be written: {why}\n")
+
+
+@pytest.mark.parametrize("words", [["status"], ["rank"], ["show"], ["rank", "--csv"]])
+def test_damaged_file_is_refused_in_one_line(capsys, tmp_path, words):
+    file = Path(write(tmp_path / "trial.h5", summary({"case_id": "ab"})))
+    file.write_bytes(file.read_bytes()[:-1000])
+    status, out, err = crumple(capsys, words[0], str(file), *words[1:])
+    assert (status, out) == (2, "")
+    assert err.startswith(f"crumple {words[0]}: {file} is not a results file of Crumple, or is dam")
+    assert err.count("\n") == 1
+
+
+def test_config_of_a_file_that_cannot_be_read(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({}), {"config": "{"})
+    status, _, err = crumple(capsys, "rank", file)
+    assert (status, err) == (2, f"crumple rank: {file} is damaged: the config in it is no JSON\n")
 
 
 def test_ranking_counts_failures_aloud(capsys, file):
@@ -108,11 +142,12 @@ def test_ranking_without_options_is_that_of_the_config(capsys, file):
 def test_config_speaks_where_the_arguments_are_silent(capsys, tmp_path):
     config = {"rank": {"budgets": [0.5], "panel": [0.1, 0.05]}}
     file = write(tmp_path / "trial.h5", summary({}), {"config": json.dumps(config)})
-    heading = "Panel of 100 x 50 mm, filled with specimens side by side. At most {} g. Best first"
+    heading = "Panel of 100 mm x 50 mm, filled with specimens side by side. At most {} g. Best"
     assert heading.format(500) in crumple(capsys, "rank", file)[1]
     assert heading.format(200) in crumple(capsys, "rank", file, "--budget", "200 g")[1]
-    other = heading.replace("50 mm", "25 mm").format(500)
-    assert other in crumple(capsys, "rank", file, "--panel", "100 mm", "25 mm")[1]
+    other = heading.replace("100 mm x 50 mm", "4 in x 2in").format(500)
+    assert other in crumple(capsys, "rank", file, "--panel", "4 in", "2in")[1]
+    assert "At most 2 oz. Best" in crumple(capsys, "rank", file, "--budget", "2 oz")[1]
     assert crumple(capsys, "rank", file, "--by", "mass_g")[1].startswith("Best first: least mass_g")
 
 
@@ -120,9 +155,21 @@ def test_tables_fit_a_terminal_of_80_columns(capsys, file, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     panel = ["--panel", "100 mm", "50 mm"]
     _, out, _ = crumple(capsys, "rank", file, *panel, "--budget", "200 g", "400 g")
-    assert "Panel of 100 x 50 mm" in out
+    assert "Panel of 100 mm x 50 mm" in out
     assert max(len(line) for line in out.splitlines() if "crumple status" not in line) <= 100
     assert "…" not in out
+
+
+def test_heading_says_up_to_which_force_energy_counts(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({absorbed_energy_column(50.0): 0.01}))
+    _, out, _ = crumple(capsys, "rank", file, "--allowed-force", "0.05 kN")
+    assert "Energy counts until a specimen passes on 0.05 kN." in out
+
+
+def test_ranking_without_any_finished_case_is_no_ranking(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({"status": "stopped"}, {"status": "timed_out"}))
+    status, out, _ = crumple(capsys, "rank", file)
+    assert (status, out) == (1, f"2 of 2 cases failed: crumple status {file} lists them\n")
 
 
 def test_csv_json_and_markdown_are_clean(capsys, file):
@@ -198,9 +245,55 @@ def test_dry_run_counts_and_writes_nothing(capsys, config, tmp_path):
     )
 
 
-def test_interruption_says_what_is_kept(capsys, config, monkeypatch):
+@pytest.mark.parametrize(
+    ("stop", "told"),
+    [(KeyboardInterrupt(), "interrupted\n"), (Interrupted("it keeps 3 of 4"), "it keeps 3 of 4\n")],
+)
+def test_interruption_says_what_is_kept(capsys, config, monkeypatch, stop, told):
     def interrupt(*_):
-        raise KeyboardInterrupt
+        raise stop
 
     monkeypatch.setattr("sweep.run.run_sweep", interrupt)
-    assert crumple(capsys, "run", config)[0] == 130
+    assert crumple(capsys, "run", config) == (1, "", told)
+
+
+def started(*arguments, **options):
+    """A call in a process of its own, in a usual environment, and killed if it hangs."""
+    usual = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
+    options["env"] = usual | {"PYTHONPATH": str(ROOT)} | options.pop("env", {})
+    command = [sys.executable, "-m", "sweep", *arguments]
+    return subprocess.run(
+        command, stderr=subprocess.PIPE, text=True, timeout=60, check=False, **options
+    )
+
+
+def test_scheduler_that_is_none_ends_the_command(tmp_path):
+    (tmp_path / "trial.toml").write_text("")
+    done = started("run", "trial.toml", "--scheduler", "nonsense", cwd=tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.startswith('crumple run: "nonsense": missing port')
+    assert done.stderr.count("\n") == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["trial.toml"]
+
+
+def test_output_that_nobody_reads_is_no_error(file):
+    read, write = os.pipe()
+    os.close(read)
+    with os.fdopen(write, "w") as pipe:
+        done = started("status", file, stdout=pipe)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_disk_that_is_full(file):
+    with Path("/dev/full").open("w") as full:
+        done = started("status", file, stdout=full)
+    assert done.returncode == 2
+    assert done.stderr == "crumple status: [Errno 28] No space left on device\n"
+
+
+def test_terminal_that_knows_only_ascii(tmp_path):
+    file = write(tmp_path / "trial.h5", summary({"material": "gomme élastique"}, {}))
+    ascii_only = {"PYTHONIOENCODING": "ascii"}
+    done = started("show", file, stdout=subprocess.PIPE, env=ascii_only)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "gomme ?lastique" in done.stdout
