@@ -15,6 +15,7 @@ from sweep.result import (
     absorbed_energy_column,
     design_columns,
 )
+from sweep.writer import Writer
 
 NODES = 5
 
@@ -68,3 +69,17 @@ def slow(case, stop=None):
     with Path(os.environ["EXECUTIONS"]).open("a") as file:
         file.write(f"{case.case_id}\n")
     return simulate(case)
+
+
+def write(path, batch, fold=False, size=2, **about):
+    """Append results of a batch in pieces, as one run."""
+    with Writer(path, {case.case_id: case.axes for case in batch}, about) as writer:
+        for begin in range(0, len(batch), size):
+            writer.append([simulate(case) for case in batch[begin : begin + size]])
+        if fold:
+            writer.fold()
+
+
+def parts_of(path):
+    """The sealed parts of a results file, in order."""
+    return sorted(path.with_suffix(".parts").glob("*"))

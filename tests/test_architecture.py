@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from specimens import summary, write
+
 ROOT = Path(__file__).parents[1]
 SOURCES = {
     ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): path
@@ -25,8 +27,25 @@ HOMES = {
     "matplotlib": "sweep.plots",
     "pint": "sweep.config",
 }
-# What reads results, and so must run where neither numba nor dask is installed.
-READERS = [f"sweep.{name}" for name in ("rank", "report", "export", "plots", "store")]
+# What reads results, and so must run where nothing is installed that simulates.
+READERS = [f"sweep.{name}" for name in ("store", "rank", "sheets", "plots", "publish", "verbs")]
+ABSENT = ["kernels", "numba", "llvmlite", "dask", "distributed", "pydantic", "pint", "scipy"]
+ABSENT += ["pydantic_core", "shapely", "tornado"]
+READING = """
+import sys
+from importlib import import_module
+
+class Absent:
+    def find_spec(self, name, path=None, target=None):
+        if name.split(".")[0] in {absent}:
+            raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
+
+sys.meta_path.insert(0, Absent())
+for name in {readers}:
+    import_module(name)
+from sweep.__main__ import main
+print([main(words) for words in {calls}])
+"""
 HEAVY = ["numba", "kernels", "dask", "distributed", "scipy", "pandas", "matplotlib", "h5py"]
 
 MAX_LINES_OF_FILE = 300
@@ -61,17 +80,6 @@ def packages(module):
     return {name.split(".")[0] for name in imports(module)}
 
 
-def reachable(module):
-    """All modules of ours that a module imports, through others and lazily too."""
-    seen, waiting = set(), [module]
-    while waiting:
-        name = waiting.pop()
-        if name not in seen:
-            seen.add(name)
-            waiting += imports(name) & set(SOURCES)
-    return seen
-
-
 def functions(module):
     return [n for n in ast.walk(TREES[module]) if isinstance(n, ast.FunctionDef)]
 
@@ -80,6 +88,12 @@ def called(function):
     """Last part of the name of everything that a function calls."""
     calls = (node.func for node in ast.walk(function) if isinstance(node, ast.Call))
     return {ast.unparse(callee).split(".")[-1] for callee in calls}
+
+
+def python(script):
+    """What a fresh interpreter makes of a script."""
+    command = [sys.executable, "-c", script]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
 
 
 def asserts(function):
@@ -115,12 +129,22 @@ def test_no_circular_imports():
     assert set(order) == set(PROGRAM)
 
 
-def test_readers_of_results_reach_neither_simulation_nor_dask():
-    beyond = {*KERNELS, "sweep.scene", "sweep.simulate", "sweep.graph"}
-    readers = [module for module in READERS if module in SOURCES]
-    reached = {module: reachable(module) & beyond for module in readers}
-    assert readers
-    assert {module: names for module, names in reached.items() if names} == {}
+def test_results_are_read_where_nothing_that_simulates_is_installed(tmp_path):
+    file, folder = write(tmp_path / "trial.h5", summary({"case_id": "ab"})), str(tmp_path / "out")
+    calls = [["status", file], ["rank", file], ["rank", file, "--csv"], ["show", file]]
+    calls += [["rank", file, "--markdown"], ["rank", file, "--out", folder], ["show", file, "ab"]]
+    done = python(READING.format(absent=ABSENT, readers=READERS, calls=calls))
+    assert done.stderr == ""
+    assert done.stdout.splitlines()[-1] == str([0] * len(calls))
+    assert {path.name for path in tmp_path.rglob("*.png")} > {"force.png", "absorption.png"}
+
+
+def test_quantity_with_a_unit_says_which_package_it_needs(tmp_path):
+    file = write(tmp_path / "trial.h5", summary({}))
+    calls = [["rank", file, "--budget", "25 g"]]
+    done = python(READING.format(absent=ABSENT, readers=READERS, calls=calls))
+    assert done.stdout == "[2]\n"
+    assert done.stderr == "crumple rank: No module named 'pydantic'\n"
 
 
 def test_files_are_short():
@@ -154,8 +178,6 @@ def test_every_test_asserts():
 def test_help_and_a_refused_config_need_no_heavy_imports():
     light = "sweep.__main__, sweep.params, sweep.config"
     script = f"import sys, {light}; print(*[m for m in {HEAVY} if m in sys.modules])"
-    done = subprocess.run(
-        [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=False
-    )
+    done = python(script)
     assert done.stderr == ""
     assert done.stdout.split() == []
