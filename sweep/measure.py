@@ -1,14 +1,21 @@
-"""What a crush was worth: history columns, energies, plateau, densification, crossings."""
+"""What a crush was worth: history columns, energies, plateau, densification."""
 
 import numpy as np
-from shapely import STRtree, linestrings
 
 from kernels import march
 from sweep.lattice import mass, relative_density
 from sweep.mesh import Floats
-from sweep.params import Case
+from sweep.params import Case, Lattice
 from sweep.result import absorbed_energy_column, design_columns
 from sweep.scene import Scene
+from sweep.shapes import (
+    Frames,
+    crossings,
+    element_strains,
+    kept_area,
+    shortening,
+    work_within_model,
+)
 
 BOOK = {
     "work_in_J": march.WORK,
@@ -22,6 +29,7 @@ BOOK = {
     "energy_residual_J": march.RESIDUAL,
 }
 DISSIPATED = ("dissipated_material_J", "dissipated_friction_J", "dissipated_integrator_J")
+PLATEAU = ("plateau_stress_Pa", "densification_strain", "efficiency")
 PLATEAU_START = 0.05  # strain from which a plateau is averaged at the earliest
 
 
@@ -54,7 +62,7 @@ def absorbed_until(force: float, transmitted: Floats, work: Floats) -> float:
     return float(work[k - 1] + share * (work[k] - work[k - 1]))
 
 
-def efficiency(strain: Floats, stress: Floats, work_density: Floats) -> Floats:
+def efficiency(stress: Floats, work_density: Floats) -> Floats:
     """Energy-absorption efficiency: work density / largest stress so far, (rows,).
 
     Its maximum marks densification (Miltz & Gruenbaum 1981; Li, Magkiriadis & Harrigan 2006).
@@ -64,66 +72,97 @@ def efficiency(strain: Floats, stress: Floats, work_density: Floats) -> Floats:
     return np.where(largest > 0, work_density / safe, 0.0)
 
 
-def plateau(case: Case, strain: Floats, force: Floats, work: Floats) -> dict[str, float]:
-    """Plateau stress (mean stress up to densification), densification strain and efficiency."""
-    lattice = case.lattice
+def plateau(
+    lattice: Lattice, strain: Floats, force: Floats, work: Floats
+) -> tuple[int, dict[str, float]]:
+    """The row up to which a crush is counted, and the columns `PLATEAU` at it.
+
+    That is where the efficiency is greatest and the lattice has packed down. If that is the last
+    row, nothing says that it has: a longer crush might be more efficient still.
+
+    strain, force (N), work (J): (rows,), of the way down.
+    """
     area = (lattice.width + lattice.wall_thickness) * lattice.depth
     stress, density = force / area, work / (area * lattice.height)
-    gained = efficiency(strain, stress, density)
-    densified = int(np.argmax(gained))
-    begun = int(np.searchsorted(strain, min(PLATEAU_START, 0.5 * strain[densified])))
+    gained = efficiency(stress, density)
+    best, last = int(np.argmax(gained)), len(strain) - 1
+    packs = 0 < best < last
+    row = best if packs else last
+    begun = int(np.searchsorted(strain, min(PLATEAU_START, 0.5 * strain[row])))
     mean = np.nan
-    if strain[densified] > strain[begun]:
-        mean = (density[densified] - density[begun]) / (strain[densified] - strain[begun])
-    return {
-        "plateau_stress_Pa": float(mean),
-        "densification_strain": float(strain[densified]),
-        "efficiency": float(gained[densified]),
-    }
+    if strain[row] > strain[begun]:
+        mean = (density[row] - density[begun]) / (strain[row] - strain[begun])
+    packed = strain[row] if packs else np.nan
+    return row, dict(zip(PLATEAU, map(float, (mean, packed, gained[row])), strict=True))
 
 
 def summarise(
-    case: Case, scene: Scene, history: dict[str, Floats], loading_rows: int
+    case: Case, scene: Scene, history: dict[str, Floats], frames: Frames, loading_rows: int
 ) -> dict[str, float | int | str]:
-    """Summary columns of a run from its history, whose first ``loading_rows`` rows are loading."""
-    down = slice(0, min(loading_rows, len(history["strain"])))
-    work, strain = history["work_in_J"], history["strain"]
-    force = np.maximum(history["reaction_top_N"], history["reaction_bottom_N"])
-    absorbed = float(work[down][-1])
+    """Summary columns of a run, of whose history the first ``loading_rows`` rows are loading."""
+    loading = {name: column[:loading_rows] for name, column in history.items()}
     grams = 1e3 * mass(scene.network, case.lattice.depth, case.material.density)
+    absorbed = float(loading["work_in_J"][-1])
     gaps = history["min_gap_m"][np.isfinite(history["min_gap_m"])]
-    summary: dict[str, float | int | str] = {
+    return {
         **design_columns(case),
         "mass_g": grams,
         "relative_density": relative_density(scene.network),
         "absorbed_energy_J": absorbed,
-        "returned_energy_J": absorbed - float(work[-1]),
+        "returned_energy_J": returned(case, history, loading_rows),
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),
         "dissipated_integrator_J": float(history["dissipated_integrator_J"][-1]),
         "energy_residual_J": float(history["energy_residual_J"][-1]),
         "specific_absorption_J_per_g": absorbed / grams,
-        "peak_force_N": float(force.max()),
-        "peak_strain": float(strain.max()),
-        "residual_strain": float(strain[-1]),
+        "peak_force_N": float(transmitted(history).max()),
+        "peak_strain": float(history["strain"].max()),
         "min_gap_m": float(gaps.min()) if len(gaps) else np.nan,
+        **crush_columns(case, loading),
+        **shape_columns(scene, frames, loading),
     }
-    summary |= {
-        absorbed_energy_column(allowed): absorbed_until(allowed, force[down], work[down])
-        for allowed in case.loading.allowed_forces or ()
+
+
+def returned(case: Case, history: dict[str, Floats], loading_rows: int) -> float:
+    """Work given back to a platen that moves back up (J); NaN where none does."""
+    work = history["work_in_J"]
+    if case.loading.mode == "force" or len(work) <= loading_rows:
+        return np.nan
+    return float(work[loading_rows - 1] - work[-1])
+
+
+def transmitted(history: dict[str, Floats]) -> Floats:
+    """The greater of the forces on the two platens, (rows,) N."""
+    return np.maximum(history["reaction_top_N"], history["reaction_bottom_N"])
+
+
+def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
+    """What the force-displacement curve of the loading says; a dead load has no plateau."""
+    strain, work, passed_on = loading["strain"], loading["work_in_J"], transmitted(loading)
+    row, found = len(strain) - 1, dict.fromkeys(PLATEAU, np.nan)
+    if case.loading.mode == "displacement":
+        row, found = plateau(case.lattice, strain, loading["reaction_top_N"], work)
+    found |= {
+        "absorbed_energy_at_densification_J": float(work[row]),
+        "peak_force_at_densification_N": float(passed_on[: row + 1].max()),
     }
-    return summary | plateau(case, strain[down], history["reaction_top_N"][down], work[down])
+    return found | {
+        absorbed_energy_column(allowed): absorbed_until(allowed, passed_on, work)
+        for allowed in case.loading.allowed_forces
+    }
 
 
-def crossings(frames: dict[str, Floats]) -> int:
-    """Largest number of pairs of elements that pass through one another in any stored shape.
-
-    Independent of the solver: shapely's exact predicates on the centre lines.
-    """
-    edges = frames["edges"]
-    worst = 0
-    for position in frames["position_m"]:
-        lines = linestrings(position[edges])
-        one, two = STRtree(lines).query(lines, predicate="intersects")
-        apart = (one < two) & ~np.any(edges[one][:, :, None] == edges[two][:, None, :], axis=(1, 2))
-        worst = max(worst, int(apart.sum()))
-    return worst
+def shape_columns(
+    scene: Scene, frames: Frames, loading: dict[str, Floats]
+) -> dict[str, float | int]:
+    """What the stored shapes say, and the work up to which they are within the model."""
+    strains, network = element_strains(frames), scene.network
+    return {
+        "residual_strain": shortening(frames, network.bottom, network.top),
+        "least_element_strain": float(strains.min()),
+        "greatest_element_strain": float(strains.max()),
+        "kept_area": kept_area(frames),
+        "absorbed_energy_within_model_J": work_within_model(
+            frames, loading["time_s"], loading["work_in_J"]
+        ),
+        "max_crossings": crossings(frames),
+    }

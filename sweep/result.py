@@ -66,27 +66,57 @@ COLUMNS: dict[str, Column] = {
     "width_m": Column("m", "width over centre lines"),
     "height_m": Column("m", "height over centre lines"),
     "depth_m": Column("m", "depth of the walls, out of the plane"),
-    "material": Column("", "name of the material; empty when given by numbers"),
-    "loading_mode": Column("", "force, displacement or impact"),
+    "material": Column("", 'name of the material; "by numbers" when it has none'),
+    "loading_mode": Column("", "force or displacement"),
     "platen": Column("", "none, contact or glued"),
     "force_N": Column("N", "dead force on the top; NaN unless the mode is force"),
-    "stroke_m": Column("m", "prescribed travel of the top platen; NaN unless prescribed"),
+    "stroke_m": Column("m", "prescribed travel of the top; NaN unless the mode is displacement"),
     "contact_model": Column("", "how walls touch: none or barrier"),
     "mass_g": Column("g", "density x exact area of the printed walls x depth"),
     "relative_density": Column("1", "printed area / area of the bounding box"),
-    "absorbed_energy_J": Column("J", "work done on the lattice while loading"),
-    "returned_energy_J": Column("J", "work given back while unloading"),
-    "dissipated_energy_J": Column("J", "sum of the dissipation rows of the energy book"),
+    "absorbed_energy_J": Column("J", "work done on the lattice down to the stroke, or to release"),
+    "absorbed_energy_at_densification_J": Column(
+        "J", "work done until the lattice has packed down; all of it where it does not"
+    ),
+    "absorbed_energy_within_model_J": Column(
+        "J", "work done until an element is squeezed below 0.7 of its length; all if none is"
+    ),
+    "returned_energy_J": Column(
+        "J", "work given back to the platen on its way back; NaN where none moves back"
+    ),
+    "dissipated_energy_J": Column("J", "dissipated by material, friction and time integrator"),
     "dissipated_integrator_J": Column("J", "energy that the time integrator itself removed"),
     "energy_residual_J": Column("J", "what the energy book leaves over"),
     "specific_absorption_J_per_g": Column("J/g", "absorbed energy / mass"),
-    "plateau_stress_Pa": Column("Pa", "mean nominal stress of the crushing plateau"),
-    "densification_strain": Column("1", "strain of greatest energy-absorption efficiency"),
-    "efficiency": Column("1", "greatest energy-absorption efficiency"),
-    "peak_force_N": Column("N", "greatest force transmitted to a platen or support"),
+    "plateau_stress_Pa": Column(
+        "Pa",
+        "mean nominal stress from about 5 % strain until packed or stopped; NaN for dead loads",
+    ),
+    "densification_strain": Column(
+        "1", "strain of packing: greatest efficiency; NaN where that still rises, or for dead loads"
+    ),
+    "efficiency": Column(
+        "1", "greatest of work per volume / greatest stress until then; NaN for dead loads"
+    ),
+    "peak_force_N": Column(
+        "N",
+        "greatest force on a platen or support; for dead loads it depends on the time step",
+    ),
+    "peak_force_at_densification_N": Column(
+        "N", "the same until the lattice has packed down, or until release"
+    ),
     "peak_strain": Column("1", "greatest top displacement / height"),
-    "residual_strain": Column("1", "top displacement / height at the end"),
-    "min_gap_m": Column("m", "least distance of centre lines near contact; NaN if none is near"),
+    "residual_strain": Column(
+        "1", "in the last stored shape, loss of distance between top and bottom row / height"
+    ),
+    "least_element_strain": Column("1", "of the element squeezed most in any stored shape"),
+    "greatest_element_strain": Column("1", "of the element drawn out most in any stored shape"),
+    "kept_area": Column(
+        "1", "printed area still covered at the greatest strain; solid TPU would keep it all, 1"
+    ),
+    "min_gap_m": Column(
+        "m", "least distance of a centre line from others near it and from loose platens, else NaN"
+    ),
     "max_crossings": Column("1", "walls that pass through one another in any stored frame"),
     "steps": Column("1", "accepted time or load steps"),
     "newton_iterations": Column("1", "Newton iterations of the whole run"),
@@ -97,7 +127,9 @@ COLUMNS: dict[str, Column] = {
 HISTORY_COLUMNS: dict[str, Column] = {
     "time_s": Column("s", "time since the start"),
     "strain": Column("1", "top displacement / height"),
-    "top_displacement_m": Column("m", "shortening: travel of a driven platen, else of the top row"),
+    "top_displacement_m": Column(
+        "m", "travel of a driven platen or the top row; loss of extent of a loose loaded lattice"
+    ),
     "reaction_top_N": Column("N", "force on the upper platen or row, compression > 0"),
     "reaction_bottom_N": Column("N", "force on the lower platen or row, compression > 0"),
     "work_in_J": Column("J", "work done on the lattice so far"),
@@ -108,10 +140,12 @@ HISTORY_COLUMNS: dict[str, Column] = {
     "dissipated_material_J": Column("J", "dissipated by the material's damping so far"),
     "dissipated_friction_J": Column("J", "dissipated by friction so far"),
     "dissipated_integrator_J": Column("J", "removed by the time integrator so far"),
-    "injected_by_projection_J": Column("J", "added by position-based contact so far"),
+    "injected_by_projection_J": Column("J", "added by contact that moves nodes: none does, 0"),
     "energy_residual_J": Column("J", "what the energy book leaves over so far"),
     "newton_iterations": Column("1", "Newton iterations since the row before"),
-    "min_gap_m": Column("m", "least distance of centre lines near contact; NaN if none is near"),
+    "min_gap_m": Column(
+        "m", "least distance of a centre line from others near it and from loose platens, else NaN"
+    ),
 }
 """Every column that a history always has, in the order in which it is stored."""
 
@@ -125,7 +159,7 @@ FRAME_COLUMNS: dict[str, Column] = {
 }
 """Every array of the frames of a case."""
 
-_ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
+ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
 
 
 def absorbed_energy_column(force: float) -> str:
@@ -135,15 +169,15 @@ def absorbed_energy_column(force: float) -> str:
 
 def is_grid_key(name: str) -> bool:
     """True for the column of a grid key, such as `lattice.wall_thickness`."""
-    return name not in COLUMNS and not _ABSORBED_AT.fullmatch(name)
+    return name not in COLUMNS and not ABSORBED_AT.fullmatch(name)
 
 
 def describe_column(name: str) -> Column:
     """Meaning of a summary column; neither fixed nor an allowed force, it is a grid key."""
     if name in COLUMNS:
         return COLUMNS[name]
-    if match := _ABSORBED_AT.fullmatch(name):
-        return Column("J", f"work done until {match[1]} N is first transmitted")
+    if match := ABSORBED_AT.fullmatch(name):
+        return Column("J", f"work done until {match[1]} N is first passed on; all if it never is")
     return Column(_unit_of_key(name), f"grid key {name}")
 
 
@@ -165,7 +199,7 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
         "width_m": lattice.width,
         "height_m": lattice.height,
         "depth_m": lattice.depth,
-        "material": case.material.name or "",
+        "material": case.material.name,
         "loading_mode": loading.mode,
         "platen": loading.platen or "",
         "force_N": nan if loading.force is None else loading.force,

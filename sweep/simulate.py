@@ -8,7 +8,7 @@ import numpy as np
 
 from kernels import march, newton
 from kernels.newton import Tolerance
-from sweep.measure import crossings, history_columns, summarise
+from sweep.measure import history_columns, summarise
 from sweep.params import Case, Lattice, Loading, given
 from sweep.result import Result, Status
 from sweep.scene import Scene, build_scene, time_step
@@ -44,12 +44,11 @@ def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
     status, message = run.complete()
     history = history_columns(run.rows[: run.done], scene, case)
     frames = run.frames()
-    summary = summarise(case, scene, history, run.loading_rows)
+    summary = summarise(case, scene, history, frames, run.loading_rows)
     summary |= {
         "case_id": case.case_id,
         "status": str(status),
         "message": message,
-        "max_crossings": crossings(frames),
         "steps": int(run.state.totals[1]),
         "newton_iterations": int(run.state.totals[0]),
         "cpu_s": time.thread_time() - started,

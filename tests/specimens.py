@@ -38,12 +38,16 @@ _DEFAULTS = {
 def summary(*rows):
     """Table with a row for each dict of what differs from a 3 x 3 grid crushed to one half.
 
-    Ids count from 0...0; J/g follows from energy and mass; columns not named are 0.
+    Ids count from 0...0; J/g follows from energy and mass; energy and force until packed down, and
+    energy within the model, are those of the whole crush; columns not named are 0.
     """
     ids = count()
     full = [{"case_id": f"{next(ids):016x}"} | _DEFAULTS | dict(row) for row in rows]
     for row in full:
         row["specific_absorption_J_per_g"] = row["absorbed_energy_J"] / row["mass_g"]
+        for name in ("absorbed_energy_at_densification_J", "absorbed_energy_within_model_J"):
+            row.setdefault(name, row["absorbed_energy_J"])
+        row.setdefault("peak_force_at_densification_N", row["peak_force_N"])
     names = dict.fromkeys([*COLUMNS, *(name for row in full for name in row)])
     return pd.DataFrame({name: [row.get(name, 0.0) for row in full] for name in names})
 

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from sweep.params import Case, Contact, Loading, Material
 from sweep.result import (
     COLUMNS,
     HISTORY_COLUMNS,
@@ -15,6 +16,7 @@ from sweep.result import (
     design_columns,
     failed_result,
 )
+from sweep.tables import BY_NUMBERS
 
 
 def a_case(**loading):
@@ -51,6 +53,33 @@ def test_grid_key_has_the_unit_of_its_parameter():
     assert describe_column("lattice.wall_thickness").units == "m"
     assert describe_column("damping.mass").units == "1/s"
     assert describe_column("lattice.cells").units == ""
+
+
+@pytest.mark.parametrize(
+    ("column", "table", "key"),
+    [
+        ("loading_mode", Loading, "mode"),
+        ("platen", Loading, "platen"),
+        ("contact_model", Contact, "model"),
+    ],
+)
+def test_choices_are_those_that_a_config_has(column, table, key):
+    arms = table.model_json_schema()["properties"][key]
+    choices = next(arm["enum"] for arm in [arms, *arms.get("anyOf", [])] if "enum" in arm)
+    said = COLUMNS[column].description.split(": ")[-1]
+    assert said == f"{', '.join(choices[:-1])} or {choices[-1]}"
+
+
+def test_a_material_given_by_numbers_says_so():
+    case = Case(material=Material(modulus=12e6, density=1190.0))
+    assert design_columns(case)["material"] == BY_NUMBERS
+    assert f'"{BY_NUMBERS}"' in COLUMNS["material"].description
+
+
+def test_gaps_are_described_alike_in_summary_and_history():
+    said = COLUMNS["min_gap_m"]
+    assert said == HISTORY_COLUMNS["min_gap_m"]
+    assert "platens" in said.description
 
 
 def test_status_is_its_word():

@@ -1,0 +1,89 @@
+"""What is read off stored shapes, on shapes made by hand."""
+
+import numpy as np
+import pytest
+from specimens import squeezed_cell
+
+from sweep.shapes import crossings, element_strains, kept_area, shortening, work_within_model
+
+SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1]]
+SIDES = [[0, 1], [1, 2], [2, 3], [3, 0]]
+BOTTOM, TOP = np.array([0, 1]), np.array([2, 3])
+
+
+def frames(*shapes, edges=SIDES, thickness=0.1):
+    """Frames of these shapes at times 0, 1, 2, ..., with strains that rise."""
+    return {
+        "strain": np.linspace(0.0, 0.5, len(shapes)),
+        "time_s": np.arange(float(len(shapes))),
+        "position_m": np.array(shapes, float),
+        "edges": np.array(edges),
+        "edge_thickness_m": np.full(len(edges), thickness),
+    }
+
+
+def scaled(x, y):
+    return np.array(SQUARE) * [x, y]
+
+
+def test_strains_of_elements():
+    strains = element_strains(frames(SQUARE, scaled(1.25, 0.6)))
+    assert strains == pytest.approx(np.array([[0.0] * 4, [0.25, -0.4, 0.25, -0.4]]))
+
+
+def test_work_within_the_model_ends_where_an_element_is_squeezed_too_far():
+    """0.7 of the length is passed half-way between the shapes at 1 s and 2 s."""
+    shapes = frames(SQUARE, scaled(1.0, 0.8), scaled(1.0, 0.6), scaled(1.0, 0.9))
+    time = np.linspace(0.0, 3.0, 31)
+    assert work_within_model(shapes, time, time**2) == pytest.approx(2.25)
+
+
+def test_all_work_is_within_the_model_where_none_is():
+    time = np.array([0.0, 1.0, 2.0])
+    shapes = frames(SQUARE, scaled(1.9, 0.71), scaled(1.0, 0.8))
+    assert work_within_model(shapes, time, time) == 2.0
+    let_up = frames(SQUARE, scaled(1.0, 0.9), scaled(1.0, 0.9), scaled(1.0, 0.5))
+    assert work_within_model(let_up, time, time) == 2.0
+    assert work_within_model(frames(SQUARE), time[:1], time[:1]) == 0.0
+
+
+def test_kept_area_of_walls_that_overlap():
+    """Two walls, 10 x 0.1, brought to half a thickness of one another."""
+    walls = [[0, 1], [2, 3]]
+    apart = [[0, 0], [10, 0], [0, 1], [10, 1]]
+    near = [[0, 0], [10, 0], [0, 0.05], [10, 0.05]]
+    assert kept_area(frames(apart, near, edges=walls)) == pytest.approx(0.75, abs=2e-3)
+    assert kept_area(frames(apart, apart, edges=walls)) == 1.0
+
+
+def test_kept_area_is_that_of_the_deepest_shape():
+    cell = squeezed_cell()
+    area = [(11.0 * (h + 1.0) - 9.0 * (h - 1.0)) for h in (10.0, 5.0)]
+    assert kept_area(cell) == pytest.approx(area[1] / area[0], rel=2e-3)
+
+
+def test_shortening_is_that_of_the_last_shape():
+    squashed = frames(SQUARE, scaled(1.0, 0.5), scaled(1.0, 0.8))
+    assert shortening(squashed, BOTTOM, TOP) == pytest.approx(0.2)
+
+
+def test_a_specimen_that_has_turned_over_is_as_long_as_before():
+    turn = np.pi / 4 * np.arange(1, 4)
+    turned = [
+        SQUARE @ np.array([[np.cos(a), np.sin(a)], [-np.sin(a), np.cos(a)]]) + 3.0 for a in turn
+    ]
+    assert shortening(frames(SQUARE, *turned), BOTTOM, TOP) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_crossings_by_hand():
+    """Diagonals of a square cross once; its sides only meet; the worst shape counts."""
+    cross = [[0, 2], [1, 3]]
+    assert crossings(frames(SQUARE, edges=SIDES)) == 0
+    assert crossings(frames(SQUARE, edges=SIDES + cross)) == 1
+    bow_tie = [[0, 0], [1, 1], [1, 0], [0, 1]]
+    assert crossings(frames(SQUARE, bow_tie, SQUARE)) == 1
+
+
+def test_walls_that_touch_without_a_common_node_cross():
+    on_the_side = [[0, 0], [2, 0], [1, 0], [1, 1]]
+    assert crossings(frames(on_the_side, edges=[[0, 1], [2, 3]])) == 1
