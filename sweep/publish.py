@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sweep import plots
 from sweep.rank import rank
-from sweep.sheets import design_labels, markdown, ranking_sheets
+from sweep.sheets import design_labels, legend, markdown, ranking_sheets
 from sweep.store import read_frames, read_history
 from sweep.storyboard import headline, last_loaded
 
@@ -29,11 +30,13 @@ def publish_ranking(
     question : the keywords of `rank`.
     """
     shown = rank(summary, **question)
-    ranking = rank(summary, **{**question, "budget": None, "top": None, "by": shown.attrs["by"]})
+    unlimited = question["budget"] and [inf]  # a budget, so that energy counts and not J/g
+    ranking = rank(summary, **{**question, "budget": unlimited, "top": None})
     ranking.attrs["budgets_g"] = shown.attrs["budgets_g"]
     folder.mkdir(parents=True, exist_ok=True)
     text, table = folder / "ranking.md", folder / "ranking.csv"
-    text.write_text(markdown(ranking_sheets(shown, summary)), encoding="utf-8")
+    tables = f"{markdown(ranking_sheets(shown, summary))}\n{legend(shown)}\n"
+    text.write_text(tables, encoding="utf-8")
     ranking.to_csv(table, index=False)
     figures = _sweep_figures(file, shown, ranking)
     return [text, table, *(plots.save(fig, folder / f"{name}.png") for name, fig in figures)]
@@ -47,11 +50,12 @@ def publish_case(file: str, row: Series, folder: Path) -> list[Path]:
 
 def _sweep_figures(file: str, shown: DataFrame, ranking: DataFrame) -> Named:
     """The map of all designs, the trend with wall thickness, the shapes of the winners."""
+    ranking = ranking[ranking["loading_mode"] == "displacement"]  # whose energy is a merit
     if ranking.empty:
         return
     scenes = ranking["scene"].unique()[:MAX_SCENES]
     ranking = ranking[ranking["scene"].isin(scenes)]
-    size = (4.8 * min(2, len(scenes)) + 1.8, 4.2 * -(-len(scenes) // 2))
+    size = (5.0 * min(2, len(scenes)) + 1.8, 4.2 * -(-len(scenes) // 2))
     figure = plots.blank(*size)
     plots.absorption_map(figure, ranking)
     yield "absorption", figure

@@ -1,31 +1,24 @@
 """Which design absorbs the most energy: per gram, within a weight budget, below an allowed force.
 
-A specimen of width w, wall thickness t and depth b stands for a panel when it is repeated side by
-side:  factor = panel area / ((w + t) b),  panel mass = factor mass,  panel energy = factor energy.
-
 Only cases of the same loading scene are compared: a block under a dead load of 5 N and one crushed
-to half its height absorb energies that answer different questions.
+to half its height absorb energies that answer different questions. Under a dead load, whatever
+gives way absorbs most: there the design that sinks least is the best.
 """
 
 from __future__ import annotations
 
 import difflib
-import re
 from collections.abc import Sequence
 from os import PathLike
-from typing import Any
 
 import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
-from sweep.result import Status, absorbed_energy_column
-
-Quantity = float | str
-"""A number in SI, or text with a unit such as "25 g"."""
+from sweep.merit import Quantity, RankError, in_si, merits
+from sweep.result import Status
 
 NOTHING = "–"
-ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
 
 SCENE = ["loading_mode", "platen", "force_N"]
 
@@ -44,24 +37,36 @@ ASSUMPTIONS = (
 )
 """Grid keys that say how a design was tested, not what it is: each value is a scene of its own."""
 
-LEADING = ["budget_g", "scene", "place", "pareto", "case_id", "panel_mass_g", "panel_energy_J"]
+LEADING = [
+    "budget_g",
+    "scene",
+    "place",
+    "pareto",
+    "case_id",
+    "ranked_by",
+    "panel_mass_g",
+    "panel_energy_J",
+    "passed_on_N",
+    "returned_share",
+    "beyond_model",
+]
 
 LESS_IS_BETTER = frozenset(
     {
         "mass_g",
         "panel_mass_g",
         "relative_density",
+        "passed_on_N",
         "peak_force_N",
+        "peak_force_at_densification_N",
+        "peak_strain",
         "returned_energy_J",
+        "returned_share",
         "residual_strain",
         "cpu_s",
     }
 )
 """Columns that `by` sorts upwards; all others count the greatest as the best."""
-
-
-class RankError(ValueError):
-    """A ranking that cannot be made; the text is one sentence that says what is allowed."""
 
 
 def rank(
@@ -80,8 +85,10 @@ def rank(
     budget : greatest mass (kg, or text with a unit) of the panel, or of the specimen without one.
         Several budgets give a ranking each, told apart by the column `budget_g`.
     panel : the two lengths (m, or text with a unit) of the area that the specimens fill.
-    by : column to sort by. Default: the absorbed energy where a budget or a panel is given (a
-        budget is there to be spent), else the absorbed energy per gram.
+    by : column to sort by. Default: under a dead load the greatest strain, least first; else the
+        energy absorbed until the lattice has packed down where a budget or a panel is given (a
+        budget is there to be spent), else that energy per gram. By `absorbed_energy_J` or
+        `specific_absorption_J_per_g`, energy is counted to the end of the stroke.
     top : places kept for each scene and budget; None keeps all.
     allowed_force : count energy only up to this force (N, or text) passed on by one specimen, which
         needs the column `absorbed_energy_at_..N_J`.
@@ -89,27 +96,32 @@ def rank(
     Returns
     -------
     The summary's rows that have a place, led by `budget_g`, `scene`, `place` (equal values share
-    one) and `pareto` (True: no design of the scene is lighter without absorbing less, none absorbs
-    more without being heavier), and with a panel `panel_mass_g`, `panel_energy_J`.
-    `attrs`: names of the columns compared (`mass`, `energy`, `per_gram`, `by`), the counts `cases`,
-    `failed`, `unranked` (finished, but without a value to sort by), `budgets_g`, and `lightest_g`,
-    the smallest mass of each scene.
+    one), `pareto` (True: no design of the scene is lighter without absorbing less, none absorbs
+    more without being heavier; under a dead load: without sinking more, sinks less), `ranked_by`,
+    with a panel `panel_mass_g` and `panel_energy_J`; and `passed_on_N`, the greatest force while
+    that energy is absorbed, `returned_share` of the work of the whole crush, which was stored and
+    not dissipated, `beyond_model` (True: a wall was squeezed too far while it was absorbed).
+    `attrs`: names of the columns compared (`mass`, `energy`, `per_gram`; `by`: of the crushed
+    designs where there are any), the counts `cases`, `failed`, `unranked` (finished, but without a
+    value to sort by), `budgets_g`, and `lightest_g`, the smallest mass of each scene.
     """
     summary = source if isinstance(source, DataFrame) else _read(source)
     finished = summary[summary["status"] == Status.CONVERGED]
-    compared, names = _scaled(finished, panel, allowed_force)
+    compared, names = merits(finished, by, panel, allowed_force)
     usual = names["energy" if budget is not None or panel is not None else "per_gram"]
-    names["by"] = _column(compared, by or usual)
-    limits = [_si(mass, "kg") * 1e3 for mass in _several(budget)] or [np.inf]
-    scenes = [_with_scene(rows, names) for rows in by_scene(compared)]
-    parts = [_places(rows, names, limit, top) for rows in scenes for limit in limits]
+    by = by and _column(compared, by)
+    limits = [in_si(mass, "kg") * 1e3 for mass in _several(budget)] or [np.inf]
+    scenes = [(_with_scene(rows, names), _order(rows, by, usual)) for rows in by_scene(compared)]
+    parts = [_places(rows, names["mass"], order, g, top) for rows, order in scenes for g in limits]
     ranking = pd.concat(parts, ignore_index=True)
+    labelled = pd.concat([rows for rows, _ in scenes])
     ranking.attrs = names | {
+        "by": next((order for _, order in scenes if order != "peak_strain"), "peak_strain"),
         "cases": len(summary),
         "failed": len(summary) - len(finished),
-        "unranked": int(compared[names["by"]].isna().sum()),
+        "unranked": sum(int(rows[order].isna().sum()) for rows, order in scenes),
         "budgets_g": [limit for limit in limits if np.isfinite(limit)],
-        "lightest_g": pd.concat(scenes).groupby("scene", sort=False)[names["mass"]].min().to_dict(),
+        "lightest_g": labelled.groupby("scene", sort=False)[names["mass"]].min().to_dict(),
     }
     return ranking
 
@@ -160,56 +172,31 @@ def short(value: float | str | None) -> str:
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
-def panel_factor(frame: DataFrame, panel: Sequence[Quantity]) -> Series:
-    """Number of specimens, side by side, that fill the area of the panel."""
-    if len(panel) != 2:
-        raise RankError(f"a panel has two lengths, got {len(panel)}")
-    area = _si(panel[0], "m") * _si(panel[1], "m")
-    return area / ((frame["width_m"] + frame["wall_thickness_m"]) * frame["depth_m"])
-
-
-def _scaled(
-    finished: DataFrame, panel: Sequence[Quantity] | None, allowed_force: Quantity | None
-) -> tuple[DataFrame, dict[str, str]]:
-    """Rows with the columns that are compared, and the names of these."""
-    names = {
-        "mass": "mass_g",
-        "energy": "absorbed_energy_J",
-        "per_gram": "specific_absorption_J_per_g",
-    }
-    added: dict[str, Series] = {}
-    if allowed_force is not None:
-        names["energy"] = _energy_column(finished, _si(allowed_force, "N"))
-        names["per_gram"] = f"{names['energy']}_per_g".replace(
-            "absorbed_energy", "specific_absorption"
-        )
-        added[names["per_gram"]] = finished[names["energy"]] / finished["mass_g"]
-    if panel is not None:
-        factor = panel_factor(finished, panel)
-        added["panel_mass_g"] = factor * finished["mass_g"]
-        added["panel_energy_J"] = factor * finished[names["energy"]]
-        names |= {"mass": "panel_mass_g", "energy": "panel_energy_J"}
-    return finished.assign(**added), names
+def _order(rows: DataFrame, by: str | None, usual: str) -> str:
+    """The column by which the rows of one scene are sorted."""
+    loaded = rows["loading_mode"].eq("force").any()
+    return by or ("peak_strain" if loaded else usual)
 
 
 def _with_scene(rows: DataFrame, names: dict[str, str]) -> DataFrame:
     """Rows of one scene with its label and their Pareto flag."""
-    front = pareto(rows[names["mass"]], rows[names["energy"]])
-    return rows.assign(scene=scene_label(rows), pareto=front)
+    loaded = rows["loading_mode"].eq("force")
+    merit = rows[names["energy"]].where(~loaded, -rows["peak_strain"])
+    return rows.assign(scene=scene_label(rows), pareto=pareto(rows[names["mass"]], merit))
 
 
-def _places(rows: DataFrame, names: dict[str, str], budget_g: float, top: int | None) -> DataFrame:
+def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | None) -> DataFrame:
     """The first places among the rows of one scene within a budget, best first.
 
     Equal values share a place and are listed lighter first, then by id: the order never depends on
     the order of the rows.
     """
-    by, mass = names["by"], names["mass"]
     upwards = by in LESS_IS_BETTER
     rows = rows[rows[mass] <= budget_g].dropna(subset=by)
     rows = rows.assign(
         budget_g=budget_g if np.isfinite(budget_g) else np.nan,
         place=rows[by].rank(method="min", ascending=upwards).astype(int),
+        ranked_by=by,
     )
     order = ["place", *dict.fromkeys([mass, "case_id"])]
     rows = rows.sort_values(order).head(len(rows) if top is None else top)
@@ -227,32 +214,11 @@ def _column(frame: DataFrame, by: str) -> str:
     raise RankError(f'cannot sort by "{by}"; {hint}allowed: {", ".join(allowed)}')
 
 
-def _energy_column(frame: DataFrame, force: float) -> str:
-    """The column of the energy absorbed up to an allowed force (N), which the sweep must hold."""
-    name = absorbed_energy_column(force)
-    if name in frame:
-        return name
-    held = [match[1] for key in frame if (match := ABSORBED_AT.fullmatch(key))]
-    known = " or ".join(f"{text} N" for text in held) or "none (set loading.allowed_forces)"
-    raise RankError(f"no energies up to {force:g} N in these results; allowed: {known}")
-
-
 def _several(budget: Quantity | Sequence[Quantity] | None) -> list[Quantity]:
     """No, one or several budgets as a list."""
     if budget is None:
         return []
     return [budget] if isinstance(budget, float | int | str) else list(budget)
-
-
-def _si(value: Any, unit: str) -> float:
-    """A positive number in SI, from a number or from text with a unit."""
-    if isinstance(value, str):
-        from sweep.config import quantity
-
-        value = quantity(value, unit)
-    if not value > 0.0:
-        raise RankError(f"{value:g} {unit}: budgets, panels and forces must be above zero")
-    return float(value)
 
 
 def _read(path: str | PathLike[str]) -> DataFrame:

@@ -14,9 +14,13 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from rich.table import Table
 
-LEGEND = """\
-*: on the Pareto front, nothing lighter in its scene absorbs as much. mass, peak: of one specimen.
-pack: strain of densification. sink: greatest strain under the load."""
+MARKS = "*: on the Pareto front, nothing lighter in its scene does as well. mass: of one specimen."
+CRUSHED = """\
+peak: greatest force that one specimen passes on. It and the energy count {until}.
+pack: strain at which the lattice has packed down.
+back: share of the work of the whole crush that comes back when let up: stored, not dissipated."""
+LOADED = "sink: greatest strain under the load."
+BEYOND = "!: beyond the model, as a wall is squeezed below 0.7 of its length: not to be trusted."
 
 MILLIMETRES = {
     "wall_thickness_m": "wall mm",
@@ -36,12 +40,6 @@ SHOWN_BY_NAME = {
     "material.name",
 }
 """Grid keys whose values have a column of the summary to themselves."""
-
-STRAINS = {
-    "displacement": ("pack %", "densification_strain"),
-    "force": ("sink %", "peak_strain"),
-}
-"""The strain that says most about a scene: head and column."""
 
 
 class Sheet(NamedTuple):
@@ -65,21 +63,38 @@ def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
             lead["up to g"] = rows["up_to"].where(~rows["up_to"].duplicated(), "")
         columns = {
             **lead,
-            "#": rows["place"].astype(str) + rows["pareto"].map({True: "*", False: " "}),
+            "#": _places(rows),
             **design_text(rows, summary),
             **_measures(rows, ranking.attrs),
         }
+        loaded = rows["ranked_by"].eq("peak_strain").all() and not rows.empty
         yield Sheet(
-            title=scene,
+            title=f"{scene}: least sink first" if loaded else scene,
             heads=list(columns),
             rows=[list(row) for row in zip(*columns.values(), strict=True)],
             opens=frozenset(i for i, text in enumerate(lead.get("up to g", ())) if text),
-            notes=tuple(
-                f"Nothing weighs {budget:g} g or less: the lightest weighs {lightest:.3g} g."
-                for budget in budgets
-                if budget < lightest
+            notes=(
+                *((BEYOND,) if rows["beyond_model"].any() else ()),
+                *(
+                    f"Nothing weighs {budget:g} g or less: the lightest weighs {lightest:.3g} g."
+                    for budget in budgets
+                    if budget < lightest
+                ),
             ),
         )
+
+
+def legend(ranking: DataFrame) -> str:
+    """What the marks and the heads of the sheets of a ranking mean."""
+    modes = set(ranking["loading_mode"])
+    crushed = [CRUSHED.format(until=ranking.attrs["until"])] if "displacement" in modes else []
+    return "\n".join([MARKS, *crushed, *([LOADED] if "force" in modes else [])])
+
+
+def _places(rows: DataFrame) -> Series:
+    """Places with the marks of the Pareto front and of the limits of the model."""
+    pareto = rows["pareto"].map({True: "*", False: " "})
+    return rows["place"].astype(str) + pareto + rows["beyond_model"].map({True: "!", False: ""})
 
 
 def _without_repeats(rows: DataFrame) -> DataFrame:
@@ -147,21 +162,35 @@ def _with_noun(head: str, text: str) -> str:
 
 def _measures(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
     """Columns of what was found; the column sorted by is always among them."""
-    energy, by = rows[names["energy"]], names["by"]
-    whole, columns = "absorbs", {"mass g": numerals(rows["mass_g"])}
+    columns = {"mass g": numerals(rows["mass_g"])}
     if "panel_mass_g" in rows:
-        whole, columns["panel g"] = "panel", numerals(rows["panel_mass_g"])
-    unit, scale = ("mJ", 1e3) if energy.max() < 1.0 else ("J", 1.0)
-    columns[f"{whole} {unit}"] = numerals(energy * scale)
-    columns["J/g"] = numerals(rows[names["per_gram"]])
-    columns["peak N"] = numerals(rows["peak_force_N"])
-    loaded = (rows["loading_mode"] == "force").all()
-    head, strain = STRAINS["force" if loaded else "displacement"]
-    columns[head] = rows[strain].map(percent)
-    shown = {"mass_g", "panel_mass_g", "peak_force_N", strain}
-    if by not in shown | {names["energy"], names["per_gram"]}:
-        columns[by] = numerals(rows[by])
+        columns["panel g"] = numerals(rows["panel_mass_g"])
+    loaded = rows["loading_mode"].eq("force").any()
+    columns |= _under_load(rows) if loaded else _crushed(rows, names)
+    shown = {"mass_g", "panel_mass_g", "peak_strain" if loaded else names["energy"]}
+    shown |= set() if loaded else {names["per_gram"], "densification_strain", "returned_share"}
+    for by in rows["ranked_by"].unique():
+        columns |= {} if by in shown else {by: numerals(rows[by])}
     return columns
+
+
+def _under_load(rows: DataFrame) -> dict[str, Series]:
+    return {"sink %": numerals(100.0 * rows["peak_strain"])}
+
+
+def _crushed(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
+    energy, whole = rows[names["energy"]], "panel" if "panel_mass_g" in rows else "absorbs"
+    unit, scale = ("mJ", 1e3) if energy.max() < 1.0 else ("J", 1.0)
+    packed = rows["densification_strain"]
+    return {
+        f"{whole} {unit}": numerals(energy * scale),
+        "J/g": numerals(rows[names["per_gram"]]),
+        "peak N": numerals(rows["passed_on_N"]),
+        "pack %": packed.map(percent).where(
+            packed.notna(), "> " + rows["peak_strain"].map(percent)
+        ),
+        "back %": rows["returned_share"].map(percent),
+    }
 
 
 def terminal_table(sheet: Sheet, width: int) -> Table:
@@ -183,7 +212,7 @@ def terminal_table(sheet: Sheet, width: int) -> Table:
         padding=(0, 1 if natural <= width else 0, 0, 0),
     )
     for head, texts in zip(heads, _columns(sheet), strict=True):
-        right = all(text[:1] in f"0123456789-{NOTHING}" and " x " not in text for text in texts)
+        right = all(text[:1] in f"0123456789->{NOTHING}" and " x " not in text for text in texts)
         table.add_column(head, justify="right" if right else "left", no_wrap=True)
     for i, row in enumerate(sheet.rows):
         if i in sheet.opens and i:

@@ -168,7 +168,7 @@ def _stored_rank(file: str) -> dict[str, Any]:
 def _print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -> None:
     """Tables on the terminal, and aloud what has no place in them."""
     from sweep.rank import rank
-    from sweep.sheets import LEGEND, ranking_sheets
+    from sweep.sheets import legend, ranking_sheets
 
     ranking = rank(summary, **question)
     failed = ranking.attrs["failed"]
@@ -176,7 +176,7 @@ def _print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -
         _say(_heading(question, ranking))
         _print_sheets(ranking_sheets(ranking, summary))
     if not ranking.empty:
-        _say(LEGEND)
+        _say(legend(ranking))
     if unranked := ranking.attrs["unranked"]:
         _say(f"{unranked} cases have no {ranking.attrs['by']} and so no place.")
     if failed:

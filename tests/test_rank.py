@@ -8,7 +8,7 @@ import pytest
 from specimens import designs, summary
 
 from sweep.rank import RankError, pareto, rank, scene_label
-from sweep.sheets import markdown, ranking_sheets, three_digits
+from sweep.sheets import BEYOND, legend, markdown, ranking_sheets, three_digits
 
 NAN = float("nan")
 
@@ -22,7 +22,8 @@ def test_best_per_gram_comes_first():
     ranking = rank(summary(*designs([1.0, 2.0, 4.0], [0.10, 0.30, 0.40])))
     assert ids(ranking) == [1, 0, 2]
     assert list(ranking["place"]) == [1, 2, 2]
-    assert ranking.attrs["by"] == "specific_absorption_J_per_g"
+    assert ranking.attrs["by"] == "specific_absorption_at_densification_J_per_g"
+    assert set(ranking["ranked_by"]) == {ranking.attrs["by"]}
 
 
 def test_budget_is_spent_on_energy_not_on_energy_per_gram():
@@ -138,6 +139,97 @@ def test_energy_counts_up_to_the_allowed_force():
     assert ranking.loc[0, "specific_absorption_at_50N_J_per_g"] == pytest.approx(0.1)
     assert list(ranking["pareto"]) == [True, False]
 
+    assert list(ranking["passed_on_N"]) == [20.0, 20.0]
+    strong = table.assign(peak_force_N=80.0, peak_force_at_densification_N=30.0)
+    assert list(rank(strong, allowed_force="50 N")["passed_on_N"]) == [50.0, 50.0]
+
+
+CRUSHED_SOLID = {
+    "absorbed_energy_J": 0.9,
+    "absorbed_energy_at_densification_J": 0.2,
+    "absorbed_energy_within_model_J": 0.5,
+    "peak_force_N": 900.0,
+    "peak_force_at_densification_N": 30.0,
+    "returned_energy_J": 0.81,
+}
+SPARSE = {"absorbed_energy_J": 0.3, "returned_energy_J": 0.285, "densification_strain": NAN}
+SPARSE |= {"peak_strain": 0.5, "peak_force_N": 25.0}
+
+
+def test_energy_counts_until_the_lattice_has_packed_down():
+    ranking = rank(summary(CRUSHED_SOLID, SPARSE), budget="2 g")
+    assert ids(ranking) == [1, 0]
+    assert ranking.attrs["energy"] == "absorbed_energy_at_densification_J"
+    assert list(ranking["passed_on_N"]) == [25.0, 30.0]
+    assert not ranking["beyond_model"].any()
+
+
+def test_energy_of_the_whole_crush_is_marked_where_the_model_does_not_hold_it():
+    table = summary(CRUSHED_SOLID, SPARSE)
+    ranking = rank(table, by="absorbed_energy_J")
+    assert ids(ranking) == [0, 1]
+    assert list(ranking["passed_on_N"]) == [900.0, 25.0]
+    assert list(ranking["beyond_model"]) == [True, False]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert [row[0] for row in sheet.rows] == ["1*!", "2 "]
+    assert sheet.notes == (BEYOND,)
+    (sheet,) = ranking_sheets(rank(table), table)
+    assert sheet.notes == ()
+
+
+def test_what_comes_back_and_what_has_not_packed_is_told():
+    table = summary(CRUSHED_SOLID, SPARSE)
+    ranking = rank(table)
+    assert list(ranking["returned_share"]) == pytest.approx([0.95, 0.9])
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sheet.heads[-2:] == ["pack %", "back %"]
+    assert [row[-2:] for row in sheet.rows] == [["> 50", "95"], ["55", "90"]]
+
+
+def test_under_a_dead_load_the_least_sink_wins():
+    load = {"loading_mode": "force", "force_N": 5.0, "stroke_m": NAN, "returned_energy_J": NAN}
+    rows = designs([1.0, 2.0, 3.0], [0.3, 0.2, 0.1], **load)
+    for row, sink in zip(rows, [0.6, 0.002, 0.004], strict=True):
+        row["peak_strain"] = sink
+    table = summary(*rows, {"absorbed_energy_J": 0.2})
+    ranking = rank(table, budget="5 g")
+    assert ids(ranking) == [1, 2, 0, 3]
+    assert list(ranking["pareto"]) == [True, False, True, True]
+    assert list(ranking["ranked_by"]) == ["peak_strain"] * 3 + [ranking.attrs["energy"]]
+    loaded, crushed = ranking_sheets(ranking, table)
+    assert (loaded.title, crushed.title) == (
+        "dead load of 5 N, glued platens: least sink first",
+        "crushed to 50 %, glued platens",
+    )
+    assert loaded.heads == ["#", "mass g", "sink %"]
+    assert [row[-1] for row in loaded.rows] == ["0.200", "0.400", "60.0"]
+    assert rank(table.head(3)).attrs["by"] == "peak_strain"
+
+
+def test_a_column_that_is_asked_for_sorts_dead_loads_too():
+    load = {"loading_mode": "force", "force_N": 5.0, "stroke_m": NAN}
+    table = summary(*designs([2.0, 1.0], [0.3, 0.2], **load))
+    ranking = rank(table, by="mass_g")
+    assert ids(ranking) == [1, 0]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sheet.title == "dead load of 5 N, glued platens"
+
+
+def test_legend_explains_what_is_shown():
+    crushed = summary({"absorbed_energy_at_50N_J": 0.1})
+    assert "count until it has packed down" in legend(rank(crushed))
+    assert "count until 50 N are passed on" in legend(rank(crushed, allowed_force=50.0))
+    assert "count to the end of the stroke" in legend(rank(crushed, by="absorbed_energy_J"))
+    assert "sink" not in legend(rank(crushed))
+    loaded = summary({"loading_mode": "force", "force_N": 5.0})
+    assert legend(rank(loaded)).splitlines()[1:] == ["sink: greatest strain under the load."]
+
+
+def test_results_of_an_older_version_are_refused():
+    table = summary({}).drop(columns="absorbed_energy_within_model_J")
+    with pytest.raises(RankError, match="absorbed_energy_within_model_J: an older version wrote"):
+        rank(table)
+
 
 def test_refusals_name_what_is_allowed():
     table = summary({"absorbed_energy_at_50N_J": 0.1, "absorbed_energy_at_200N_J": 0.2})
@@ -171,11 +263,11 @@ def test_budgets_stand_one_below_the_other_in_markdown():
     text = markdown(ranking_sheets(ranking, table))
     assert text == (
         "### crushed to 50 %, glued platens\n\n"
-        "| up to g | #  | cells | mass g | absorbs mJ | J/g   | peak N | pack % |\n"
-        "| ------- | -- | ----- | ------ | ---------- | ----- | ------ | ------ |\n"
-        "| 1       | 1* | 3 x 3 | 1.00   | 100        | 0.100 | 20.0   | 55     |\n"
-        "| 2       | 1* | 3 x 3 | 2.00   | 300        | 0.150 | 20.0   | 55     |\n"
-        "|         | 2* | 3 x 3 | 1.00   | 100        | 0.100 | 20.0   | 55     |\n\n"
+        "| up to g | #  | cells | mass g | absorbs mJ | J/g   | peak N | pack % | back % |\n"
+        "| ------- | -- | ----- | ------ | ---------- | ----- | ------ | ------ | ------ |\n"
+        "| 1       | 1* | 3 x 3 | 1.00   | 100        | 0.100 | 20.0   | 55     | 0      |\n"
+        "| 2       | 1* | 3 x 3 | 2.00   | 300        | 0.150 | 20.0   | 55     | 0      |\n"
+        "|         | 2* | 3 x 3 | 1.00   | 100        | 0.100 | 20.0   | 55     | 0      |\n\n"
         "Nothing weighs 0.5 g or less: the lightest weighs 1 g.\n"
     )
 
