@@ -155,6 +155,13 @@ def test_friction_slows_what_slides_by_mu_times_the_forces_on_it():
     assert abs(gained[march.RESIDUAL]) < 1e-6 * gained[march.FRICTION]
 
 
+def test_height_is_between_rows_or_the_extent():
+    x = np.array([0.3, 0.5, 2.0, 3.0, -1.0])
+    top, base, none = np.array([2, 3]), np.array([0, 1]), np.empty(0, np.int64)
+    assert march.height(x, top, base) == pytest.approx(2.5 - 0.4)
+    assert march.height(x, none, np.array([0, 1, 3])) == pytest.approx(3.0 - 0.3)
+
+
 def crush(steps, speed=None, **solver):
     """A 3 x 3 grid pressed to 30 % without contact."""
     return Case(

@@ -100,6 +100,36 @@ def test_the_same_minimum_from_all_around(seed):
     assert np.abs(expected.x - scene.x_rest).max() > 1e-4 * HEIGHT
 
 
+@pytest.mark.parametrize("loose", ["force", "decrement"])
+def test_either_tolerance_alone_brings_it_to_the_minimum(loose):
+    """Balanced within a large force is not enough where a small one would still move walls far."""
+    case = grid(2.0)
+    scene = build_scene(case)
+    args = whole(scene, scene.x_rest)
+    expected = descend(case, scene, scene.x_rest, args, force=1e-9, decrement=1e-20)
+    tight = {"force": 1e-9, "decrement": 1e-20} | {loose: 1e9}
+    found = descend(case, scene, scene.x_rest, args, **tight)
+    assert found.outcome == newton.CONVERGED
+    np.testing.assert_allclose(found.x, expected.x, rtol=0, atol=1e-7 * HEIGHT)
+
+
+@pytest.mark.parametrize(("share", "settled"), [(0.9, False), (1.1, True)])
+def test_a_moment_counts_as_the_force_that_it_is_over_an_element(share, settled):
+    """A joint that is turned: the moment on it is larger, so measured, than all forces."""
+    case = grid(2.0)
+    scene = build_scene(case)
+    x = scene.x_rest.copy()
+    x[2 * len(scene.mesh.points) + 4] += 1e-3  # the joint in the middle
+    args = whole(scene, x, factor=0.0)
+    sizes, scale = np.abs(residual(scene, x, args)), scene.unknowns.scale
+    assert scale[np.argmax(sizes)] == pytest.approx(scene.mesh.rest_length.mean())
+    allowed = share * sizes.max()
+    assert sizes[scale[: sizes.size] == 1.0].max() < 0.5 * allowed
+    found = descend(case, scene, x, args, force=allowed, decrement=1.0)
+    assert found.outcome == newton.CONVERGED
+    assert (found.iterations == 0) == settled
+
+
 @pytest.mark.parametrize("dt", [1e-3, np.inf])
 @pytest.mark.parametrize("seed", range(4))
 def test_no_iteration_raises_the_energy(seed, dt):
@@ -132,7 +162,7 @@ def test_it_ends_quadratically(force, contact, dt):
         outcome, _, x = descend(case, scene, x, args, iterations=1)
         sizes.append(np.abs(residual(scene, x, whole(scene, x, scene.x_rest, dt))).max())
     falls = np.diff(np.log(sizes[-4:-1]))  # the last iteration only finds that it is done
-    assert falls[1] / falls[0] == pytest.approx(2.0, abs=0.2)
+    assert falls[1] / falls[0] == pytest.approx(2.0, abs=0.3)
 
 
 def test_the_platen_ends_exactly_at_its_target():

@@ -166,6 +166,7 @@ def test_a_glued_row_keeps_its_shape():
     )
     shapes, rest = result.frames["position_m"], result.frames["position_m"][0]
     top, bottom = (np.isclose(rest[:, 1], y) for y in (12.5e-3, 0.0))
+    assert top.sum() == bottom.sum() == 10
     np.testing.assert_allclose(
         shapes[:, bottom], np.broadcast_to(rest[bottom], shapes[:, bottom].shape)
     )

@@ -8,7 +8,7 @@ from sweep.params import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.scene import build_scene
 from sweep.simulate import simulate
 from tests.figures import MATERIAL
-from tests.scenes import UNDAMPED, unbalanced
+from tests.scenes import UNDAMPED, pressed, unbalanced
 from tests.solving import at_rest, go_on, ramp
 
 DT = 5e-5
@@ -92,6 +92,7 @@ def test_book_of_an_oscillator_is_the_closed_form_of_the_scheme(damping):
         "reaction_bottom_N": stiffness * y + between * v,
         "energy_residual_J": 0.0 * y,
         "time_s": np.arange(steps + 1) * DT,
+        "newton_iterations": np.minimum(np.arange(steps + 1), 1),  # as all is linear
     }
     assert np.ptp(v) * DT > 0.1 * np.ptp(y)
     for name, column in expected.items():
@@ -153,3 +154,10 @@ def test_a_static_load_that_grows_does_half_of_its_work():
     np.testing.assert_allclose(rows[:, march.WORK], full * share**2, rtol=1e-9)
     np.testing.assert_allclose(rows[:, march.STRETCH], full * share**2, rtol=1e-9)
     assert np.abs(rows[:, march.INTEGRATOR]).max() < 1e-9 * full
+
+
+def test_book_of_static_friction_closes():
+    """Friction is booked by trapezoids as the work is: halves of either would not match."""
+    history = simulate(pressed(3, 0.1, 10, "contact", 0.3)).history
+    assert unbalanced(history) < 1e-9
+    assert history["dissipated_friction_J"][-1] > 1e-5 * history["work_in_J"][-1]
