@@ -1,6 +1,7 @@
-"""How designs look in a chart: colour = cells, sign = material, size = wall thickness.
+"""How designs stand in a chart: what they look like, what they are worth, which of them win.
 
-The same design looks the same in every panel.
+Colour = cells, sign = material, size = wall thickness, open = beyond the model: the same in every
+panel.
 """
 
 from __future__ import annotations
@@ -10,8 +11,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from sweep.sheets import design_labels
+
 if TYPE_CHECKING:
-    from pandas import DataFrame
+    from pandas import DataFrame, Series
 
 RAMP = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98))  # of viridis: few to many cells
 SIGNS = "o^sDvP"
@@ -25,6 +28,7 @@ class Looks(NamedTuple):
     colors: dict[tuple[int, int], str]
     signs: dict[str, str]
     areas: dict[float, float]
+    beyond_model: bool
 
     def of(self, points: DataFrame) -> dict[str, Any]:
         """Keywords of a scatter plot for designs of one material."""
@@ -42,12 +46,14 @@ class Looks(NamedTuple):
             "material": {name: {"marker": sign} for name, sign in self.signs.items()},
             "wall": {f"{1e3 * t:.3g} mm": {"ms": area**0.5} for t, area in self.areas.items()},
         }
+        beyond = {**PLAIN, "mfc": "white", "label": "beyond the model"}
         shown = [name for name in groups if len(groups[name]) > 1 and (walls or name != "wall")]
-        return [
+        entries = [
             {**PLAIN, **look, "label": label}
             for name in shown
             for label, look in [(name, {"marker": ""}), *groups[name].items()]
         ]
+        return entries + [beyond] * self.beyond_model
 
 
 def looks(designs: DataFrame) -> Looks:
@@ -58,7 +64,45 @@ def looks(designs: DataFrame) -> Looks:
         dict(zip(cells, _ramp(len(cells)), strict=True)),
         dict(zip(sorted(designs["material"].unique()), cycle(SIGNS), strict=False)),
         dict(zip(walls, np.linspace(*AREAS, len(walls)), strict=True)),
+        bool(designs["beyond_model"].any()),
     )
+
+
+def is_loaded(rows: DataFrame) -> bool:
+    """True for designs under a dead load, which are compared by how little they sink."""
+    return bool((rows["loading_mode"] == "force").all())
+
+
+def merits(rows: DataFrame, energy: str) -> Series:
+    """What the designs of one scene are compared by: sink in %, or the absorbed energy in J."""
+    return 100.0 * rows["peak_strain"] if is_loaded(rows) else rows[energy]
+
+
+def budget_winners(rows: DataFrame, ranking: DataFrame) -> list[tuple[str, float, float]]:
+    """Words, mass and merit of the best of one scene for each budget; without any, of the best."""
+    mass, energy = ranking.attrs["mass"], ranking.attrs["energy"]
+    front = rows[rows["pareto"]].sort_values(mass)
+    winners = []
+    for budget in ranking.attrs["budgets_g"] or [np.inf]:
+        won = front[front[mass] <= budget].tail(1)
+        if not won.empty:
+            limit = f"up to {budget:g} g" if np.isfinite(budget) else "best"
+            merit = merits(won, energy).item()
+            winners.append((f"{limit}: {_words(won, merit, ranking)}", won[mass].item(), merit))
+    return winners
+
+
+def _words(won: DataFrame, merit: float, ranking: DataFrame) -> str:
+    """A design and what it is worth, such as "cells 3 x 3, wall 0.8 mm, 13.4 J"."""
+    (design,) = design_labels(won, ranking)
+    worth = f"sinks {merit:.2g} %" if is_loaded(won) else energy_text(merit)
+    beyond = ", beyond the model" if won["beyond_model"].item() else ""
+    return f"{design}, {worth}{beyond}"
+
+
+def energy_text(joules: float) -> str:
+    """An energy with its unit."""
+    return f"{joules:.3g} J" if joules >= 1.0 else f"{1e3 * joules:.3g} mJ"
 
 
 def _ramp(count: int) -> list[str]:

@@ -11,21 +11,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path as Outline
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from sweep.looks import looks
-from sweep.sheets import design_labels
+from sweep.looks import budget_winners, energy_text, is_loaded, looks, merits
 from sweep.silhouette import silhouette
 from sweep.storyboard import headline, last_loaded, shots
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import SubFigure
-    from pandas import DataFrame
+    from pandas import DataFrame, Series
 
 BLUE, SKY, ORANGE = "#0072b2", "#56b4e9", "#e69f00"
 VERMILION, PURPLE, YELLOW, GREY = "#d55e00", "#cc79a7", "#f0e442", "#8a8a8a"
@@ -70,7 +70,7 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     words = ("load on", "load off") if dead else ("loading", f"unloading,\n{given_back}")
     style: Any = "steps-pre" if dead else "default"
     sky: dict[str, Any] = {"color": SKY, "alpha": 0.3, "lw": 0, "step": "pre" if dead else None}
-    whole = f"absorbs {_energy(absorbed)},\n{per_gram:.3g} J/g"
+    whole = f"absorbs {energy_text(absorbed)},\n{per_gram:.3g} J/g"
     ax.fill_between(strain[down], force[down], label=whole, **sky)
     ax.plot(strain[down], force[down], drawstyle=style, color=BLUE, lw=2.2, label=words[0])
     if turn + 1 < len(history):
@@ -165,47 +165,37 @@ def deformed_shapes(
     _scale_bar(axes[0], span[0], below)
 
 
-def absorption_map(fig: Figure, ranking: DataFrame) -> None:
-    """What to print: absorbed energy against mass, a panel a scene, winners of the budgets named.
+def design_map(fig: Figure, ranking: DataFrame) -> None:
+    """What to print: merit against mass, a panel a scene, the winner of each budget named.
 
-    ranking : all places (`top=None`). The stairs are the most that any mass absorbs; where they
-    meet a budget stands its winner.
+    ranking : all places (`top=None`), of crushes or of dead loads. Merit: absorbed energy, or how
+    little a load sinks. The stairs are the best that any mass offers; where they meet a budget
+    stands its winner.
     """
-    names = ranking.attrs
-    of = "panel" if "panel_mass_g" in ranking else "specimen"
+    mass = ranking.attrs["mass"]
+    of = "panel" if mass == "panel_mass_g" else "specimen"
     look = looks(ranking)
     for ax, rows in _scene_axes(fig, ranking):
+        merit, loaded = merits(rows, ranking.attrs["energy"]), is_loaded(rows)
         for _, points in rows.groupby("material"):
-            mass, energy = points[names["mass"]], points[names["energy"]]
-            ax.scatter(mass, energy, lw=0, alpha=0.9, **look.of(points))
-        front = rows[rows["pareto"]].sort_values(names["mass"])
+            _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
+        front = rows[rows["pareto"]].sort_values(mass)
+        stairs = front[mass], merit.loc[front.index]
+        ax.plot(*stairs, color="black", lw=0.9, zorder=1, drawstyle="steps-post")
         ax.set(xscale="log", yscale="log")
-        low, high = rows[names["mass"]].min(), rows[names["mass"]].max()
-        room = max(high / low, 2.0)
-        ax.set_xlim(low / room**0.45, high * room**0.1)
-        ax.margins(y=0.15)
-        ax.plot(front[names["mass"]], front[names["energy"]], color="black", lw=0.9, zorder=1,
-                drawstyle="steps-post")  # fmt: skip
-        for budget in names["budgets_g"]:
+        ax.margins(0.1, 0.15)
+        for budget in ranking.attrs["budgets_g"]:
             _mark(ax, budget, f"{budget:g} g")
-        _name_winners(ax, front, ranking)
-        ax.set(xlabel=f"mass of the {of}, g", ylabel=f"energy absorbed by the {of}, J")
-        _round_ticks(ax.xaxis, ax.yaxis)
+        words = [ax.get_title("left")]
+        for said, x, y in budget_winners(rows, ranking):
+            ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")
+            words.append(said)
+        ax.set_title("\n".join(words), loc="left", fontsize="small")
+        ax.set_xlabel(f"mass of the {of}, g")
+        ax.set_ylabel("sink, %" if loaded else f"energy absorbed by the {of}, J")
+        _round_ticks(ax.xaxis, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
+        _round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
     _legend(fig, look.legend())
-
-
-def _name_winners(ax: Axes, front: DataFrame, ranking: DataFrame) -> None:
-    """A ring round the best design of each budget, and its name to the left, where nothing is."""
-    names = ranking.attrs
-    mass = front[names["mass"]]
-    best = [front[mass <= budget].tail(1) for budget in names["budgets_g"] or [np.inf]]
-    won = front.loc[list(dict.fromkeys(i for rows in best for i in rows.index))]
-    for (_, row), design in zip(won.iterrows(), design_labels(won, ranking), strict=True):
-        x, y = row[names["mass"]], row[names["energy"]]
-        ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")
-        ax.annotate(f"{design}, {_energy(y)}".replace(", ", "\n"), (x, y), (-8, 0), ha="right",
-                    va="bottom", fontsize="small", textcoords="offset points",
-                    bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})  # fmt: skip
 
 
 def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
@@ -214,12 +204,23 @@ def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
     look = looks(ranking)
     for ax, rows in _scene_axes(fig, ranking):
         for _, points in rows.groupby(["cells_x", "cells_y", "material"]):
-            line = points.groupby("wall_thickness_m")[per_gram].max()
-            style = look.of(points)
-            ax.plot(1e3 * line.index, line, color=style["c"][0], marker=style["marker"], ms=5)
+            best = points.loc[points.groupby("wall_thickness_m")[per_gram].idxmax()]
+            style = look.of(best) | {"s": 28.0}
+            wall = 1e3 * best["wall_thickness_m"]
+            ax.plot(wall, best[per_gram], color=style["c"][0], lw=1.2)
+            _dots(ax, wall, best[per_gram], style, best)
         ax.set(xlabel="wall thickness, mm", ylabel="absorbed energy per gram, J/g", yscale="log")
-        _round_ticks(ax.yaxis)
+        _round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
     _legend(fig, look.legend(walls=False))
+
+
+def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
+    """Designs of one material; open where they are beyond the model."""
+    dots = ax.scatter(x, y, lw=1.2, zorder=2, **style)
+    colors = dots.get_facecolor()
+    beyond = points["beyond_model"].to_numpy()[:, None]
+    faces: Any = np.where(beyond, to_rgba("white"), colors)
+    dots.set(edgecolor=colors, facecolor=faces)
 
 
 def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:
@@ -259,17 +260,11 @@ def _mark(ax: Axes, x: float, words: str) -> None:
                 textcoords="offset points", fontsize="small", color="#555555")  # fmt: skip
 
 
-def _round_ticks(*axes: Any) -> None:
-    """Ticks of log axes at 1, 2, 5, 10 ..."""
-    for axis in axes:
-        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        axis.set_major_formatter("{x:g}")
-        axis.set_minor_formatter(NullFormatter())
-
-
-def _energy(joules: float) -> str:
-    """An energy with its unit."""
-    return f"{joules:.3g} J" if joules >= 1.0 else f"{1e3 * joules:.3g} mJ"
+def _round_ticks(axis: Any, *subs: float) -> None:
+    """Ticks of a log axis at these multiples of the powers of ten."""
+    axis.set_major_locator(LogLocator(subs=subs))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
 
 
 def _platen(ax: Axes, span: tuple[float, float], bottom: float, height: float) -> None:

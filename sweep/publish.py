@@ -49,24 +49,33 @@ def publish_case(file: str, row: Series, folder: Path) -> list[Path]:
 
 
 def _sweep_figures(file: str, shown: DataFrame, ranking: DataFrame) -> Named:
-    """The map of all designs, the trend with wall thickness, the shapes of the winners."""
-    ranking = ranking[ranking["loading_mode"] == "displacement"]  # whose energy is a merit
-    if ranking.empty:
-        return
-    scenes = ranking["scene"].unique()[:MAX_SCENES]
-    ranking = ranking[ranking["scene"].isin(scenes)]
-    size = (5.0 * min(2, len(scenes)) + 1.8, 4.2 * -(-len(scenes) // 2))
-    figure = plots.blank(*size)
-    plots.absorption_map(figure, ranking)
-    yield "absorption", figure
-    if len(ranking["wall_thickness_m"].unique()) > 1:
-        figure = plots.blank(*size)
-        plots.thickness_trends(figure, ranking)
+    """What to print by mass, the trend with wall thickness, the shapes of the winners."""
+    loaded = ranking["loading_mode"] == "force"
+    crushed = _some_scenes(ranking[~loaded])
+    for name, rows in (("absorption", crushed), ("sink", _some_scenes(ranking[loaded]))):
+        if not rows.empty:
+            figure = plots.blank(*_size(rows))
+            plots.design_map(figure, rows)
+            yield name, figure
+    if len(crushed["wall_thickness_m"].unique()) > 1:
+        figure = plots.blank(*_size(crushed))
+        plots.thickness_trends(figure, crushed)
         yield "wall_thickness", figure
     if winners := _winners(file, shown, ranking):
         figure = plots.blank(12.0, 2.6 * len(winners))
         plots.winners(figure, winners)
         yield "winners", figure
+
+
+def _some_scenes(ranking: DataFrame) -> DataFrame:
+    """Designs of as many scenes as fit into one figure."""
+    return ranking[ranking["scene"].isin(ranking["scene"].unique()[:MAX_SCENES])]
+
+
+def _size(ranking: DataFrame) -> tuple[float, float]:
+    """Inches for a panel a scene, two a row, and a legend."""
+    scenes = len(ranking["scene"].unique())
+    return 5.0 * min(2, scenes) + 1.8, 4.2 * -(-scenes // 2)
 
 
 def _winners(file: str, shown: DataFrame, ranking: DataFrame) -> dict[str, dict[str, Any]]:

@@ -1,45 +1,74 @@
-"""One design looks the same wherever it is drawn, and the legend says how."""
+"""One design looks the same wherever it is drawn; the legend says how; the winners are named."""
 
 import pytest
-from specimens import summary
+from specimens import designs, summary
 
-from sweep.looks import looks
+from sweep.looks import budget_winners, looks, merits
+from sweep.rank import rank
 
 
 @pytest.fixture
-def designs():
+def ranking():
     cells, walls = [10, 2, 3, 2], [0.8e-3, 0.4e-3, 0.8e-3, 0.8e-3]
-    return summary(
-        *(
-            {"cells_x": n, "cells_y": n, "wall_thickness_m": t}
-            for n, t in zip(cells, walls, strict=True)
-        )
-    )
+    rows = designs([1.0, 2.0, 3.0, 4.0], [0.1, 0.4, 0.3, 1.6])
+    for row, n, wall in zip(rows, cells, walls, strict=True):
+        row |= {"cells_x": n, "cells_y": n, "wall_thickness_m": wall}
+    return rank(summary(*rows), top=None).sort_values("mass_g", ignore_index=True)
 
 
-def test_colours_go_by_number_of_cells(designs):
-    colors = looks(designs).colors
+def entries(ranking, **chosen):
+    return [entry["label"] for entry in looks(ranking).legend(**chosen)]
+
+
+def test_colours_go_by_number_of_cells(ranking):
+    colors = looks(ranking).colors
     assert list(colors) == [(2, 2), (3, 3), (10, 10)]
     assert colors[2, 2] == "#440154"
     assert len({*colors.values()}) == 3
 
 
-def test_a_design_keeps_its_look_in_a_part_of_the_ranking(designs):
-    of = looks(designs).of
-    whole, part = of(designs), of(designs.tail(1))
+def test_a_design_keeps_its_look_in_a_part_of_the_ranking(ranking):
+    of = looks(ranking).of
+    whole, part = of(ranking), of(ranking.tail(1))
     assert (part["c"][0], part["s"][0]) == (whole["c"][3], whole["s"][3])
     assert part["marker"] == whole["marker"]
     assert whole["s"][1] < whole["s"][0]
 
 
-def test_legend_lists_what_varies_under_headings(designs):
-    entries = [entry["label"] for entry in looks(designs).legend()]
-    assert entries == ["cells", "2 x 2", "3 x 3", "10 x 10", "wall", "0.4 mm", "0.8 mm"]
-    assert "wall" not in [entry["label"] for entry in looks(designs).legend(walls=False)]
+def test_legend_lists_what_varies_under_headings(ranking):
+    assert entries(ranking) == ["cells", "2 x 2", "3 x 3", "10 x 10", "wall", "0.4 mm", "0.8 mm"]
+    assert entries(ranking, walls=False) == ["cells", "2 x 2", "3 x 3", "10 x 10"]
 
 
-def test_materials_have_signs(designs):
-    designs["material"] = ["cheetah", "ninjaflex"] * 2
-    signs = looks(designs).signs
+def test_legend_explains_open_signs_where_there_are_any(ranking):
+    assert entries(ranking.assign(beyond_model=[False, True] * 2))[-1] == "beyond the model"
+
+
+def test_materials_have_signs(ranking):
+    signs = looks(ranking.assign(material=["cheetah", "ninjaflex"] * 2)).signs
     assert list(signs) == ["cheetah", "ninjaflex"]
     assert len({*signs.values()}) == 2
+
+
+def test_winners_of_budgets_are_the_most_that_is_light_enough(ranking):
+    ranking.attrs["budgets_g"] = [0.5, 1.5, 2.0, 9.0]
+    assert budget_winners(ranking, ranking) == [
+        ("up to 1.5 g: cells 10 x 10, wall 0.8 mm, 100 mJ", 1.0, 0.1),
+        ("up to 2 g: cells 2 x 2, wall 0.4 mm, 400 mJ", 2.0, 0.4),
+        ("up to 9 g: cells 2 x 2, wall 0.8 mm, 1.6 J", 4.0, 1.6),
+    ]
+
+
+def test_without_a_budget_the_best_of_all_wins(ranking):
+    ((words, *point),) = budget_winners(ranking.assign(beyond_model=True), ranking)
+    assert words == "best: cells 2 x 2, wall 0.8 mm, 1.6 J, beyond the model"
+    assert point == [4.0, 1.6]
+
+
+def test_under_a_dead_load_the_least_sink_wins():
+    sinks = zip([1.0, 2.0, 3.0], [0.5, 0.2, 0.3], [0.4e-3, 0.8e-3, 1.2e-3], strict=True)
+    load = {"loading_mode": "force", "force_N": 5.0}
+    rows = [load | {"mass_g": m, "peak_strain": e, "wall_thickness_m": t} for m, e, t in sinks]
+    ranking = rank(summary(*rows), top=None)
+    assert budget_winners(ranking, ranking) == [("best: wall 0.8 mm, sinks 20 %", 2.0, 20.0)]
+    assert merits(ranking, "absorbed_energy_J").tolist() == [20.0, 30.0, 50.0]
