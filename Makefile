@@ -40,8 +40,9 @@ lint: setup  ## check style and types
 test: lint  ## check style and types, then run the tests
 	$(PYTHON) -m pytest
 
-verify: setup  ## print the model's figures beside those of other programs
-	@$(PYTHON) tests/figures.py
+verify: setup  ## print the numbers of README.md anew, from results/armor.h5 and beside references
+	@test -f results/armor.h5 || $(PYTHON) -m sweep run configs/armor.toml
+	@$(PYTHON) tests/figures.py results/armor.h5
 
 clean:  ## remove the environment and all caches, but no results
 	rm -rf .venv build *.egg-info .pytest_cache .mypy_cache .ruff_cache

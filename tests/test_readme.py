@@ -1,43 +1,38 @@
 """What the README says: its commands, files, keys, columns, snippets and figures are real."""
 
+import json
+import os
 import re
 import shlex
 from functools import cache
-from pathlib import Path
 
 import figures
 import matplotlib.pyplot
 import pytest
+import readme
+from readme import QUOTED, ROOT, blocks
 
 from sweep.__main__ import main, parser
-from sweep.config import load_config
+from sweep.config import load_config, quantity
 from sweep.grid import expand
 from sweep.keys import case_keys, table_keys
-from sweep.params import TABLES
+from sweep.params import TABLES, Case, Damping, Loading
 from sweep.record import COLUMNS as RECORD
 from sweep.result import COLUMNS
+from sweep.simulate import simulate
+from sweep.writer import Writer
 
-ROOT = Path(__file__).parents[1]
-README = (ROOT / "README.md").read_text("utf-8")
-BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", README, re.MULTILINE | re.DOTALL)
-QUOTED = set(re.findall(r"`([^`\n]+)`", README))
 OF_THE_USER = {"bumper.toml"}
+NUMBER = r"(?<![\w.])[-+]?\d[\d.]*(?:e[-+]?\d+)?(?![\w.])"
 
 
-def blocks(language):
-    return [text for name, text in BLOCKS if name == language]
-
-
-def rows_of(text):
-    """Cells of the rows of Markdown tables, heads and rules included."""
-    lines = [line for line in text.splitlines() if line.startswith("|")]
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
-
-
-@cache
-def figures_now():
-    """Rows of all tables of figures, by their names."""
-    return {row[0]: row[1:] for table in figures.TABLES for row in table()}
+def test_lines_are_few_and_tables_narrow():
+    lines = readme.TEXT.splitlines()
+    fenced = [line for text in blocks("text") for line in text.splitlines()]
+    wide = [line for line in lines if line.startswith("|") or line in fenced]
+    assert len(lines) < 300
+    assert max(map(len, wide)) <= 100
+    assert max(map(len, lines)) <= 128
 
 
 def test_make_targets_exist():
@@ -83,12 +78,30 @@ def test_example_has_as_many_cases_as_it_says(tmp_path):
     assert sum(case.case_id.startswith(shown) for case in cases) == 1
 
 
+def keys_of(table):
+    """What the README says of the keys of a table."""
+    (text,) = re.findall(rf"^- `\[{table}\]`: (.*?)(?=^- |\n\n)", readme.TEXT, re.M | re.S)
+    return " ".join(text.split())
+
+
 @pytest.mark.parametrize("table", [*TABLES, "rank"])
 def test_every_key_is_explained(table):
     known = table_keys(table) if table == "rank" else case_keys()
-    (row,) = [row for row in rows_of(README) if row[0] == f"`[{table}]`"]
     fields = {name.split(".")[1] for name in known if name.startswith(f"{table}.")}
-    assert fields - set(re.findall(r"`(\w+)`", row[1])) == set()
+    assert fields - {"load_steps"} - set(re.findall(r"`(\w+)`", keys_of(table))) == set()
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_defaults_are_those_of_a_case(table):
+    said = re.findall(r'`(\w+)` ("[^"]+"|true|[\d.e-]+\d)', keys_of(table))
+    modes = [Case(), Case(loading=Loading(mode="displacement"))]
+    modes.append(Case(damping=Damping(model="kelvin_voigt")))
+    assert len(said) >= 2
+    for name, text in said:
+        unit = case_keys()[f"{table}.{name}"].unit
+        value = json.loads(text)
+        value = quantity(value, unit) if unit else value
+        assert value in [getattr(getattr(case, table), name) for case in modes], name
 
 
 def test_columns_exist():
@@ -101,6 +114,11 @@ def test_refusal_reads_so(tmp_path, capsys):
     path.write_text('[lattice]\nwall_thicknes = "0.8 mm"\ndepth = 12\n')
     assert main(["run", str(path)]) == 2
     assert capsys.readouterr().err in blocks("text")
+
+
+def test_failure_reads_so():
+    without_numbers = re.sub(NUMBER, "#", " ".join(readme.TEXT.split()))
+    assert re.sub(NUMBER, "#", figures.failure()) in without_numbers
 
 
 def test_snippets_run(tmp_path, monkeypatch, capsys):
@@ -116,26 +134,63 @@ def test_snippets_run(tmp_path, monkeypatch, capsys):
     assert len(names["table"]) == len(names["summary"]) == 6
 
 
+@cache
+def figures_now():
+    """Tables of figures by their first cell."""
+    found = [list(table()) for table in figures.TABLES]
+    return {rows[0][0]: rows for rows in found}
+
+
 def test_figures_are_those_of_make_verify():
-    told = {row[0]: row[1:] for row in rows_of(README)}
-    for name in figures_now().keys() - set(figures.OF_THIS_RUN):
-        for said, cell in zip(told[name], figures_now()[name], strict=True):
-            assert values(said) == pytest.approx(values(cell), rel=0.01, abs=0.0), name
-            assert errors(said) == pytest.approx(errors(cell), abs=0.2), name
+    told = {rows[0][0]: rows for rows in readme.tables()}
+    for head, rows in figures_now().items():
+        for said, row in zip(told[head], rows, strict=True):
+            assert words(said) == words(row)
+            if row[0] not in figures.OF_THIS_RUN:
+                assert numbers(said) == pytest.approx(numbers(row), rel=0.01, abs=0.05), row
 
 
-def values(cell):
-    """Numbers of a cell outside parentheses."""
-    return [float(number) for number in re.findall(r"[\d.]+", re.sub(r"\(.*\)", "", cell))]
+def numbers(row):
+    return [float(number) for number in re.findall(NUMBER, " ".join(row[1:]))]
 
 
-def errors(cell):
-    """Numbers of a cell in parentheses, in per cent."""
-    return [float(number) for number in re.findall(r"\(([-+][\d.]+) %\)", cell)]
+def words(row):
+    return [row[0], *(re.sub(NUMBER, "#", cell) for cell in row[1:])]
 
 
 def test_worst_book_is_below_a_millionth():
-    left = figures_now()["energy left over / absorbed"]
+    rows = {row[0]: row[1:] for row in figures_now()["3 elements a wall, contact, loose platens"]}
+    left = rows["energy left over / absorbed"]
     assert all(float(share) < 1e-6 for share in left)
-    assert figures_now()["walls that cross"] == ["0"] * len(left)
-    assert figures_now()["status"] == ["converged"] * len(left)
+    assert rows["walls that cross"] == ["0"] * len(left)
+    assert rows["status"] == ["converged"] * len(left)
+
+
+@pytest.fixture(scope="module")
+def quick_armor(tmp_path_factory):
+    """A folder with the results of those designs of armor.toml that take no time."""
+    folder = tmp_path_factory.mktemp("readme")
+    config = load_config(ROOT / "configs/armor.toml")
+    cases = [case for case in expand(config) if is_quick(case)]
+    ranked = {"rank": {"budgets": config.rank.budgets, "panel": config.rank.panel}}
+    with Writer(folder / "results/armor.h5", attributes={"config": json.dumps(ranked)}) as writer:
+        writer.append([simulate(case) for case in cases])
+        writer.fold()
+    return folder
+
+
+def is_quick(case):
+    lattice, thin = case.lattice, case.lattice.wall_thickness < 1e-3
+    return case.loading.platen == "glued" and lattice.cells_x <= (3 if thin else 2)
+
+
+@pytest.mark.parametrize("example", readme.examples(), ids=lambda example: example.command)
+def test_rankings_are_those_of_the_sweep(example, quick_armor, monkeypatch):
+    monkeypatch.chdir(quick_armor)
+    monkeypatch.setitem(os.environ, "COLUMNS", "80")
+    printed = [line.split() for line in figures.answer(example) if line]
+    told = [line.split() for line in example.lines if "3 x 3" in line or "2 x 2" in line]
+    assert len(told) >= 2
+    for said in told:
+        same = [numbers(line) for line in printed if words(line) == words(said)]
+        assert pytest.approx(numbers(said), rel=0.01) in same
