@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from sweep.sheets import design_labels
+from sweep.sheets import design_labels, three_digits
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -95,14 +95,14 @@ def budget_winners(rows: DataFrame, ranking: DataFrame) -> list[tuple[str, float
 def _words(won: DataFrame, merit: float, ranking: DataFrame) -> str:
     """A design and what it is worth, such as "cells 3 x 3, wall 0.8 mm, 13.4 J"."""
     (design,) = design_labels(won, ranking)
-    worth = f"sinks {merit:.2g} %" if is_loaded(won) else energy_text(merit)
+    worth = f"sinks {three_digits(merit)} %" if is_loaded(won) else energy_text(merit)
     beyond = ", beyond the model" if won["beyond_model"].item() else ""
     return f"{design}, {worth}{beyond}"
 
 
 def energy_text(joules: float) -> str:
     """An energy with its unit."""
-    return f"{joules:.3g} J" if joules >= 1.0 else f"{1e3 * joules:.3g} mJ"
+    return f"{three_digits(joules)} J" if joules >= 1.0 else f"{three_digits(1e3 * joules)} mJ"
 
 
 def _ramp(count: int) -> list[str]:

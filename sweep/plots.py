@@ -19,6 +19,7 @@ from matplotlib.path import Path as Outline
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from sweep.looks import budget_winners, energy_text, is_loaded, looks, merits
+from sweep.sheets import three_digits
 from sweep.silhouette import silhouette
 from sweep.storyboard import headline, last_loaded, shots
 
@@ -70,7 +71,7 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     words = ("load on", "load off") if dead else ("loading", f"unloading,\n{given_back}")
     style: Any = "steps-pre" if dead else "default"
     sky: dict[str, Any] = {"color": SKY, "alpha": 0.3, "lw": 0, "step": "pre" if dead else None}
-    whole = f"absorbs {energy_text(absorbed)},\n{per_gram:.3g} J/g"
+    whole = f"absorbs {energy_text(absorbed)},\n{three_digits(per_gram)} J/g"
     ax.fill_between(strain[down], force[down], label=whole, **sky)
     ax.plot(strain[down], force[down], drawstyle=style, color=BLUE, lw=2.2, label=words[0])
     if turn + 1 < len(history):
@@ -82,7 +83,7 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     _plateau(ax, row)
     ax.set(xlabel="strain, %", ylabel="force, N")
     ax.set_title(headline(row), loc="left", fontsize="medium")
-    ax.set(xlim=(0.0, strain.max()), ylim=(min(0.0, force[down].min()), None))
+    ax.set(xlim=(0.0, 1.02 * strain.max()), ylim=(min(0.0, force[down].min()), None))
     scale = 10.0 * row["height_m"]  # mm of travel for one percent
     travel = ax.secondary_xaxis("top", functions=(lambda x: x * scale, lambda x: x / scale))
     travel.set_xlabel("travel of the top, mm")
@@ -100,7 +101,9 @@ def _plateau(ax: Axes, row: Mapping[str, Any]) -> None:
     end = packed if packs else 100.0 * row["peak_strain"]
     words = f"packed at {packed:.0f} %" if packs else "not packed"
     stairs = [0.0, end, end], [plateau, plateau, 0.0]
-    ax.plot(*stairs, color="black", lw=1.0, ls=":", label=f"plateau {plateau:.3g} N,\n{words}")
+    ax.plot(
+        *stairs, color="black", lw=1.0, ls=":", label=f"plateau {three_digits(plateau)} N,\n{words}"
+    )
 
 
 def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:

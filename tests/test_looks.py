@@ -55,13 +55,13 @@ def test_winners_of_budgets_are_the_most_that_is_light_enough(ranking):
     assert budget_winners(ranking, ranking) == [
         ("up to 1.5 g: cells 10 x 10, wall 0.8 mm, 100 mJ", 1.0, 0.1),
         ("up to 2 g: cells 2 x 2, wall 0.4 mm, 400 mJ", 2.0, 0.4),
-        ("up to 9 g: cells 2 x 2, wall 0.8 mm, 1.6 J", 4.0, 1.6),
+        ("up to 9 g: cells 2 x 2, wall 0.8 mm, 1.60 J", 4.0, 1.6),
     ]
 
 
 def test_without_a_budget_the_best_of_all_wins(ranking):
     ((words, *point),) = budget_winners(ranking.assign(beyond_model=True), ranking)
-    assert words == "best: cells 2 x 2, wall 0.8 mm, 1.6 J, beyond the model"
+    assert words == "best: cells 2 x 2, wall 0.8 mm, 1.60 J, beyond the model"
     assert point == [4.0, 1.6]
 
 
@@ -70,5 +70,5 @@ def test_under_a_dead_load_the_least_sink_wins():
     load = {"loading_mode": "force", "force_N": 5.0}
     rows = [load | {"mass_g": m, "peak_strain": e, "wall_thickness_m": t} for m, e, t in sinks]
     ranking = rank(summary(*rows), top=None)
-    assert budget_winners(ranking, ranking) == [("best: wall 0.8 mm, sinks 20 %", 2.0, 20.0)]
+    assert budget_winners(ranking, ranking) == [("best: wall 0.8 mm, sinks 20.0 %", 2.0, 20.0)]
     assert merits(ranking, "absorbed_energy_J").tolist() == [20.0, 30.0, 50.0]

@@ -51,7 +51,7 @@ def test_shaded_area_is_the_absorbed_energy(row):
     history = there_and_back()
     ax = axes_of(plots.force_displacement, history, row)
     assert area(ax.collections[0]) == pytest.approx(history["work_in_J"].max())
-    assert labels(ax)[0] == "absorbs 96 mJ,\n0.096 J/g"
+    assert labels(ax)[0] == "absorbs 96.0 mJ,\n0.0960 J/g"
 
 
 def test_way_down_and_way_back_are_told_apart(row):
@@ -68,7 +68,7 @@ def test_plateau_is_the_mean_force_up_to_densification(row):
     dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
     assert dotted.get_xdata()[-1] == pytest.approx(30.0)
     assert dotted.get_ydata()[0] == pytest.approx(0.2e6 * 11e-3 * 10e-3)
-    assert labels(ax)[-1] == "plateau 22 N,\npacked at 30 %"
+    assert labels(ax)[-1] == "plateau 22.0 N,\npacked at 30 %"
 
 
 def test_plateau_without_densification_goes_to_the_stroke(row):
@@ -76,7 +76,7 @@ def test_plateau_without_densification_goes_to_the_stroke(row):
     ax = axes_of(plots.force_displacement, there_and_back(), never)
     dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
     assert dotted.get_xdata()[-1] == pytest.approx(40.0)
-    assert labels(ax)[-1] == "plateau 22 N,\nnot packed"
+    assert labels(ax)[-1] == "plateau 22.0 N,\nnot packed"
 
 
 def test_dead_load_comes_and_goes_in_a_step(dead):
