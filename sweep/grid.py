@@ -1,5 +1,6 @@
 """From a config to its cases: grid x zips, without what is excluded and without doubles."""
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
@@ -18,6 +19,7 @@ from sweep.resolve import resolve
 from sweep.tables import Rank, Table, rounded
 
 MAX_CASES = 1_000_000
+_QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
 FACTS = ("material.poisson",)  # of a material: may be stated where plane stress needs none
 
 
@@ -216,11 +218,23 @@ def _fault(reason: Reason, given: Values) -> Fault:
     """What is wrong with one case, in the words of the file where they are there."""
     key, value, allowed = reason["key"], reason["value"], reason["allowed"]
     if key in given:
-        return Fault(key, f"{key} = {given[key].text}: does not fit; allowed: {allowed}")
+        written, allowed = given[key], _in_unit_of(given[key], key, allowed)
+        line = f"{written.name or key} = {written.text}: does not fit; allowed: {allowed}"
+        return Fault(key, line)
     if value is None:
         return Fault(key, f"{key} is missing; needed: {allowed}")
     default = f"{value} {case_keys()[key].unit or ''}".rstrip()
     return Fault(key, f"{key} = {default} by default: does not fit; allowed: {allowed}")
+
+
+def _in_unit_of(written: Written, key: str, sentence: str) -> str:
+    """A sentence whose quantities, in SI, are of the kind of a key: in the unit of the file."""
+    unit, match = case_keys()[key].unit, _QUANTITY.fullmatch(written.text)
+    if unit is None or match is None:
+        return sentence
+    scale = float(match[1]) / written.value
+    in_si = re.compile(rf"([\d.e+-]+) {re.escape(unit)}(?![\w/^])")
+    return in_si.sub(lambda found: f"{float(found[1]) * scale:.4g} {match[2]}", sentence)
 
 
 def _merged(faults: list[Fault], count: int) -> Fault:

@@ -5,6 +5,7 @@ from collections import deque
 from collections.abc import Iterable
 
 from sweep.params import Case
+from sweep.resolve import steps
 
 SECONDS = 1.0  # of work in a batch: far above the cost of passing it on, and soon done
 LEAST = 0.1  # of that, when little is left to share out
@@ -14,18 +15,8 @@ MEMORY = 0.5  # weight of what is known of the pace against the newest batch: co
 
 def cost(case: Case) -> float:
     """Work of a case, steps x elements^1.5: no time, but good enough to sort and to weigh by."""
-    lattice = case.lattice
-    walls = lattice.cells_x * (lattice.cells_y + 1) + lattice.cells_y * (lattice.cells_x + 1)
-    return _steps(case) * (walls * (lattice.nodes_per_wall + 1)) ** 1.5
-
-
-def _steps(case: Case) -> float:
-    loading, solver = case.loading, case.solver
-    if solver.load_steps is not None:
-        return solver.load_steps * (2 if loading.unload else 1)
-    assert loading.duration is not None
-    assert solver.time_step is not None
-    return loading.duration / solver.time_step
+    elements = case.lattice.walls * (case.lattice.nodes_per_wall + 1)
+    return steps(case.loading, case.solver) * elements**1.5
 
 
 class Plan:

@@ -7,7 +7,7 @@ together is refused. Resolving what is resolved changes nothing.
 from math import ceil, isclose
 from typing import TypeVar
 
-from sweep.tables import Contact, Damping, Loading, Solver, Table, refusal
+from sweep.tables import MAX_STEPS, Contact, Damping, Loading, Solver, Table, refusal
 
 T = TypeVar("T")
 
@@ -16,13 +16,33 @@ def resolve(
     height: float, loading: Loading, contact: Contact, damping: Damping, solver: Solver
 ) -> dict[str, Table]:
     """The tables that depend on one another and on the height of the lattice, nothing left open."""
-    loading = _loading(loading, height, solver.integrator)
+    loading, wish = _loading(loading, height, solver.integrator), solver.time_step
+    solver = _solver(solver, loading)
+    _check_steps(steps(loading, solver), solver, wish)
     return {
         "loading": loading,
         "contact": _contact(contact, loading),
         "damping": _damping(damping, loading),
-        "solver": _solver(solver, loading),
+        "solver": solver,
     }
+
+
+def steps(loading: Loading, solver: Solver) -> float:
+    """Number of steps of a resolved case."""
+    if solver.load_steps is not None:
+        return solver.load_steps * (2 if loading.unload else 1)
+    assert loading.duration is not None
+    assert solver.time_step is not None
+    return loading.duration / solver.time_step
+
+
+def _check_steps(count: float, solver: Solver, time_step: float | None) -> None:
+    """Refuse too many of them; `time_step`: the one that was asked for."""
+    allowed = f"at most {MAX_STEPS:,} steps in all"
+    if count > MAX_STEPS and solver.load_steps is not None and time_step is None:
+        raise refusal("solver.load_steps", solver.load_steps, f"{allowed}, {count:,} here")
+    if count > MAX_STEPS:
+        raise refusal("solver.time_step", time_step or solver.time_step, allowed)
 
 
 def _loading(loading: Loading, height: float, integrator: str | None) -> Loading:
@@ -117,11 +137,17 @@ def _solver(solver: Solver, loading: Loading) -> Solver:
         assert loading.stroke is not None
         assert loading.speed is not None
         time = loading.stroke / loading.speed
-        by_time = 200 if solver.time_step is None else ceil(time / solver.time_step * (1 - 1e-9))
-        load_steps = _given(solver.load_steps, by_time)
+        load_steps = _given(solver.load_steps, _steps_in(time, solver.time_step))
         step = {"time_step": time / load_steps, "load_steps": load_steps}
     integrator = "static" if loading.quasi_static else "backward_euler"
     return solver.model_copy(update={"integrator": integrator, **step})
+
+
+def _steps_in(time: float, time_step: float | None) -> int:
+    """Steps of at most this length, as many as count; 200 where none is asked for."""
+    if time_step is None:
+        return 200
+    return ceil(min(time / time_step * (1 - 1e-9), MAX_STEPS + 1.0))
 
 
 def _given(value: T | None, default: T) -> T:

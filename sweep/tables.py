@@ -26,6 +26,10 @@ Few = Annotated[int, Field(ge=1, le=1000)]  # a slip of the keyboard must not fi
 # Lists too, as JSON gives them back.
 Curve = Annotated[tuple[float, ...], Field(strict=False)]
 Forces = Annotated[tuple[Force, ...], Field(strict=False)]
+# The factor of 70 000 nodes takes 8 GB, and a step with it minutes.
+MAX_NODES = 50_000
+# A million rows take 120 MB while a case runs, and one square cell half a minute.
+MAX_STEPS = 1_000_000
 NonNegative = Annotated[float, Field(ge=0)]
 
 
@@ -78,6 +82,21 @@ class Lattice(Table):
             allowed = f"below half the cell pitch, {half_pitch:.4g} m here"
             raise refusal("lattice.wall_thickness", self.wall_thickness, allowed)
         return self
+
+    @model_validator(mode="after")
+    def _be_small_enough(self) -> Self:
+        nodes = (self.cells_x + 1) * (self.cells_y + 1) + self.walls * self.nodes_per_wall
+        if nodes > MAX_NODES:
+            values = {key: getattr(self, key) for key in ("cells_x", "cells_y", "nodes_per_wall")}
+            key = max(values, key=values.__getitem__)
+            allowed = f"at most {MAX_NODES:,} nodes in all, {nodes:,} here"
+            raise refusal(f"lattice.{key}", values[key], allowed)
+        return self
+
+    @property
+    def walls(self) -> int:
+        """Number of walls between joints."""
+        return self.cells_x * (self.cells_y + 1) + self.cells_y * (self.cells_x + 1)
 
 
 class Material(Table):

@@ -64,6 +64,7 @@ def test_pilot_that_breaks_down_leaves_the_time_unknown():
 
 def test_pilot_can_be_interrupted_while_it_runs():
     def endless(case, control):
+        time.sleep(0.1)  # until the main thread waits for this one
         os.kill(os.getpid(), signal.SIGINT)
         while not control[0]:
             time.sleep(0.001)

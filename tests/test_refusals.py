@@ -51,15 +51,40 @@ CHOICES = {
 UNFIT = {
     '[lattice]\nwall_thickness = "2.5 mm"': (
         'lattice.wall_thickness = "2.5 mm": does not fit; allowed: below half the cell pitch,'
-        " 0.002083 m here"
+        " 2.083 mm here"
     ),
     "[lattice]\ncells = 20": (
         "lattice.wall_thickness = 0.0008 m by default: does not fit; allowed: below half the cell"
         " pitch, 0.0003125 m here"
     ),
     '[loading]\nmode = "displacement"\nstrain = 0.5\nstroke = "5 mm"': (
-        'loading.stroke = "5 mm": does not fit; allowed: 0.00625 m at the strain given; give one'
+        'loading.stroke = "5 mm": does not fit; allowed: 6.25 mm at the strain given; give one'
         " of them"
+    ),
+    '[loading]\nstroke = "0.5in"': (
+        'loading.stroke = "0.5in": does not fit; allowed: below the height of the lattice,'
+        " 0.4921 in"
+    ),
+    '[lattice]\ncells = 300\nwidth = "3 m"\nheight = "3 m"': (
+        "lattice.cells = 300: does not fit; allowed: at most 50,000 nodes in all, 451,801 here"
+    ),
+    "[lattice]\ncells_y = 4\nnodes_per_wall = 999\ncells_x = 6": (
+        "lattice.nodes_per_wall = 999: does not fit; allowed: at most 50,000 nodes in all,"
+        " 57,977 here"
+    ),
+    '[solver]\ntime_step = "1e-12 s"': (
+        'solver.time_step = "1e-12 s": does not fit; allowed: at most 1,000,000 steps in all'
+    ),
+    '[loading]\nspeed = "1 mm/s"\n[solver]\ntime_step = "1e-320 s"': (
+        'solver.time_step = "1e-320 s": does not fit; allowed: at most 1,000,000 steps in all'
+    ),
+    '[loading]\nduration = "1000 s"': (
+        "solver.time_step = 0.0001 s by default: does not fit; allowed: at most 1,000,000 steps in"
+        " all"
+    ),
+    "[loading]\nstrain = 0.5\nload_steps = 500_001": (
+        "loading.load_steps = 500001: does not fit; allowed: at most 1,000,000 steps in all,"
+        " 1,000,002 here"
     ),
     "[loading]\nload_steps = 3\n[solver]\nload_steps = 4": (
         "solver.load_steps = 4: set twice; allowed: the same as loading.load_steps = 3"
