@@ -19,7 +19,7 @@ CRUSHED = """\
 peak: greatest force that one specimen passes on. It and the energy count {until}.
 pack: strain at which the lattice has packed down.
 back: share of the work of the whole crush that comes back when let up: stored, not dissipated."""
-LOADED = "sink: greatest strain under the load."
+LOADED = "sink: greatest strain under the load, its swing included."
 BEYOND = "!: beyond the model, as a wall is squeezed below 0.7 of its length: not to be trusted."
 
 MILLIMETRES = {

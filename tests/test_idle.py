@@ -42,6 +42,12 @@ IDLE = {
     '[material]\nplane = "stress"\n[grid]\nmaterial.poisson = [0.3, 0.4]': (
         '[grid] material.poisson = [0.3, 0.4]: as material.plane is "stress"'
     ),
+    '[[zip]]\nloading.mode = ["displacement", "displacement"]\nloading.force = ["", "5 N"]': (
+        '[[zip]] loading.force = ["", "5 N"]: as loading.mode is "displacement"'
+    ),
+    PRESSED + 'force = "3 N"\n[[zip]]\ncontact.friction = [0.1]\nloading.load_steps = [""]': (
+        'loading.force = "3 N": as loading.mode is "displacement"'
+    ),
     BOTH + f"contact.stiffness = {[0.1 + 0.01 * i for i in range(20)]}\n"
     '[contact]\nmodel = "none"': '[grid] contact.stiffness = [...]: as contact.model is "none"',
     BOTH + '[[exclude]]\nloading.mode = "force"\n[loading]\nforce = "3 N"': (
