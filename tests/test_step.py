@@ -13,7 +13,10 @@ from tests.terms import derivative_error, gradient_of, hessian_of
 DT = 1e-3
 RAYLEIGH = Damping(model="rayleigh", mass=300.0, stiffness=1e-3)
 VISCOUS = Damping(model="kelvin_voigt", relaxation_time=1e-3)
-CURVE = Material(name="ninjaflex")
+DAMPINGS = pytest.mark.parametrize(
+    "damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model
+)
+CURVE, STIFF = Material(name="ninjaflex"), MATERIAL.model_copy(update={"modulus": 12e15})
 SIZE = 12.5e-3
 GRIP = Contact(friction=0.3, slip_speed=0.1)  # smoothed below 0.1 mm in a step
 SLIDE = Contact(friction=0.3, slip_speed=1e-4)
@@ -109,7 +112,7 @@ def error(scene, x, args, step=1e-5):
 
 
 @pytest.mark.parametrize("dt", [DT, np.inf])
-@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+@DAMPINGS
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("seed", range(2))
 def test_derivatives(seed, state, damping, dt):
@@ -127,7 +130,7 @@ def test_derivatives_at_rest(elements, dt):
 
 
 @pytest.mark.parametrize("measure", ["angle", "tangent"])
-@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+@DAMPINGS
 @pytest.mark.parametrize("state", ["bent", "leaning"])
 def test_derivatives_of_single_elements(state, damping, measure):
     scene = loaded(1, damping=damping, solver=Solver(time_step=DT, bend_measure=measure))
@@ -145,13 +148,7 @@ def test_derivatives_under_a_driven_platen(platen, elements, state):
 
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize(
-    ("size", "material"),
-    [
-        (1e3, CURVE),
-        (1e-3, CURVE),
-        (1.0, MATERIAL.model_copy(update={"modulus": 12e15})),
-    ],
-    ids=["12 m", "12 um", "12 PPa"],
+    ("size", "material"), [(1e3, CURVE), (1e-3, CURVE), (1.0, STIFF)], ids=["m", "um", "PPa"]
 )
 def test_derivatives_in_other_units(size, material, state):
     scene = loaded(size=size, material=material, damping=VISCOUS)
@@ -181,7 +178,7 @@ def potentials(x, terms, step, near):
 
 
 @pytest.mark.parametrize("dt", [DT, np.inf])
-@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+@DAMPINGS
 def test_the_sum_has_all_terms_and_each_of_them_counts(damping, dt):
     scene = loaded(damping=damping)
     x = leaning(scene)
@@ -219,6 +216,7 @@ def test_at_rest_there_is_nothing_but_the_load(elements, platen):
 
 
 SCENES = {
+    "untouched": lambda: loaded(platen="none", contact=Contact(model="none")),
     "free top": lambda: loaded(platen="none"),
     "loose platen": loaded,
     "driven and glued": lambda: driven("glued"),
@@ -242,14 +240,16 @@ def test_the_matrix_has_room_for_all_that_is_free(name, state, projected):
 
 
 @pytest.mark.parametrize("dt", [DT, np.inf])
-@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+@DAMPINGS
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("seed", range(3))
 def test_projected_hessian_is_semi_definite(seed, state, damping, dt):
     scene = loaded(damping=damping)
     x = STATES[state](scene, seed)
     args, size = step_to(scene, x, seed, dt), unit(scene)
-    exact, projected = (hessian_of(WHOLE, args, x, how) * np.outer(size, size) for how in (0, 1))
+    exact, projected = (
+        hessian_of(WHOLE, args, x, how) * np.outer(size, size) for how in (False, True)
+    )
     values = np.linalg.eigvalsh(projected)
     assert values[0] > -1e-12 * values[-1]
     assert np.abs(exact - projected).max() > 1e-6 * values[-1]
