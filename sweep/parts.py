@@ -8,8 +8,12 @@ batch twice.
 import os
 import re
 from collections.abc import Callable
+from io import FileIO
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from _typeshed import ReadableBuffer
 
 MERGE_AT = 64  # parts of one size that become one: a sweep of any length leaves a few hundred
 
@@ -32,7 +36,7 @@ class Part(NamedTuple):
 
 def parts_folder(path: Path) -> Path:
     """Folder of the parts of a results file."""
-    return path.with_suffix(".parts")
+    return path.parent / f"{path.stem}.parts"
 
 
 def new_part(path: Path, first: int, last: int) -> Part:
@@ -55,13 +59,38 @@ def parts_to_merge(parts: list[Part]) -> list[Part]:
     return tail if len(tail) == MERGE_AT else []
 
 
-def seal(target: Path, write: Callable[[Path], None]) -> None:
+def seal(target: Path, write: Callable[[FileIO], None]) -> None:
     """Let `write` fill a file and give it its name only when it is safe on the disk."""
     temporary = target.with_name(target.name + _TEMPORARY)
-    write(temporary)
-    _synchronise(temporary)
+    with _Patient(temporary, "w+") as file:
+        try:
+            write(file)
+        finally:
+            file.complain()
+        os.fsync(file.fileno())
     os.replace(temporary, target)
     _synchronise(target.parent)
+
+
+class _Patient(FileIO):
+    """A file that keeps an error of the disk to itself until HDF5, which crashes on it, is done."""
+
+    _error: OSError | None = None
+
+    def write(self, data: "ReadableBuffer", /) -> int:
+        """Write all of it, or pretend to."""
+        rest = memoryview(data)
+        try:
+            while rest and self._error is None:
+                rest = rest[super().write(rest) :]
+        except OSError as error:
+            self._error = error
+        return memoryview(data).nbytes
+
+    def complain(self) -> None:
+        """Raise the first error."""
+        if self._error is not None:
+            raise self._error
 
 
 def make_folder(folder: Path) -> None:

@@ -15,6 +15,7 @@ import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
+from io import FileIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -229,8 +230,8 @@ def _read_case(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, np.
 
 
 def _seal(target: Path, blocks: Sequence[Block], about: About) -> None:
-    def write(temporary: Path) -> None:
-        with h5py.File(temporary, "w", libver=("v110", "v110")) as file:
+    def write(disk: FileIO) -> None:
+        with h5py.File(disk, "w", libver=("v110", "v110")) as file:
             file.attrs.update({**about.attributes, "format": FORMAT, "folded": about.last})
             _write(file, blocks, about.axes)
 

@@ -51,6 +51,8 @@ class Writer:
         self._held = ExitStack()
 
     def __enter__(self) -> Self:
+        if self.path.suffix != ".h5":  # with another name it would share its parts with NAME.h5
+            raise StoreError(f"{self.path} cannot be written: allowed are names that end in .h5.")
         with _writing(self.path), ExitStack() as held:
             make_folder(self.path.parent)
             held.enter_context(_only_writer(self.path))

@@ -1,5 +1,6 @@
 """The results file: what is sealed is read back, whatever happens to the writer."""
 
+import os
 import subprocess
 import sys
 import threading
@@ -22,6 +23,8 @@ from sweep.store import (
     read_summary,
 )
 from sweep.writer import Writer
+
+ROOT = Path(__file__).parents[1]
 
 
 @pytest.fixture
@@ -197,15 +200,51 @@ def test_folder_that_cannot_be_written(tmp_path):
         write(tmp_path / "file" / "armor.h5", cases(1))
 
 
+FULL = """
+import resource
+from standin import cases, write
+from sweep.store import StoreError
+
+resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
+try:
+    write({path!r}, cases(9))
+except StoreError as error:
+    print(error)
+"""
+
+
+@pytest.mark.parametrize("limit", [0, 5_000, 30_000])
+def test_disk_that_fills_up_is_an_error_and_no_crash(path, limit):
+    paths = os.pathsep.join([str(ROOT), str(ROOT / "tests")])
+    done = subprocess.run(
+        [sys.executable, "-c", FULL.format(path=str(path), limit=limit)],
+        env=os.environ | {"PYTHONPATH": paths},
+        capture_output=True,
+        text=True,
+    )
+    assert done.stderr == ""
+    assert done.returncode == 0
+    assert done.stdout == f"{path} cannot be written: File too large.\n"
+    assert finished_ids(path) == set()
+
+
+@pytest.mark.parametrize("name", [".", "..", "/", "armor", "armor.v2", ".h5"])
+def test_names_that_could_share_their_parts_are_refused(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(StoreError, match="names that end in"):
+        write(name, cases(1))
+    assert list(tmp_path.iterdir()) == []
+    with pytest.raises(StoreError):
+        read_summary(name)
+
+
 def test_one_writer_at_a_time(path):
     with Writer(path) as writer:
         writer.append([simulate(cases(1)[0])])
         with pytest.raises(StoreError, match="Another run is writing"), Writer(path):
             pass
         script = f"from sweep.writer import Writer; Writer({str(path)!r}).__enter__()"
-        other = subprocess.run(
-            [sys.executable, "-c", script], cwd=Path(__file__).parents[1], capture_output=True
-        )
+        other = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True)
     assert b"Another run is writing" in other.stderr
     with Writer(path):
         assert len(read_summary(path)) == 1
