@@ -17,11 +17,10 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.barrier import barrier
-from kernels.distance import closest, normal
+from kernels.blocks import add_block
+from kernels.distance import closest, direction, normal
 from kernels.jit import jit, jit_exact, jit_owning
 from kernels.rows import pair
-from kernels.sparse import add_block
-from kernels.stretch import direction
 
 
 class Friction(NamedTuple):
@@ -121,41 +120,33 @@ def smooth(u, slip):
 
 
 @jit
-def _slip(x, x0, grips, k):
+def _slip(u, grips, k):
     total = 0.0
     for v in range(3):
         i = 2 * grips.nodes[k, v]
-        total += grips.slopes[k, v, 0] * (x[i] - x0[i])
-        total += grips.slopes[k, v, 1] * (x[i + 1] - x0[i + 1])
+        total += grips.slopes[k, v, 0] * u[i] + grips.slopes[k, v, 1] * u[i + 1]
     return total
 
 
 @jit
-def energy(x, x0, grips, slip):
-    """Return D_f in J, counted from zero at rest."""
+def evaluate(u, grips, slip, g):
+    """Return D_f in J for a move ``u`` (n,) in the step, counted from zero; add dD_f/dx to ``g``."""
     total = 0.0
     for k in range(grips.load.size):
-        value, _, _ = smooth(_slip(x, x0, grips, k), slip)
+        value, slope, _ = smooth(_slip(u, grips, k), slip)
         total += grips.load[k] * (value - slip / 3.0)
-    return total
-
-
-@jit
-def gradient(x, x0, grips, slip, g):
-    """Add dD_f/dx to ``g``."""
-    for k in range(grips.load.size):
-        _, slope, _ = smooth(_slip(x, x0, grips, k), slip)
         for v in range(3):
             i = 2 * grips.nodes[k, v]
             g[i] += grips.load[k] * slope * grips.slopes[k, v, 0]
             g[i + 1] += grips.load[k] * slope * grips.slopes[k, v, 1]
+    return total
 
 
 @jit
-def hessian(x, x0, grips, slip, matrix, projected):
+def hessian(u, grips, slip, matrix, projected):
     """Add d2D_f/dx2; ``projected`` leaves out shares with a negative force."""
     for k in range(grips.load.size):
-        _, _, curvature = smooth(_slip(x, x0, grips, k), slip)
+        _, _, curvature = smooth(_slip(u, grips, k), slip)
         weight = grips.load[k] * curvature
         if weight == 0.0 or (projected and weight < 0.0):
             continue
