@@ -10,7 +10,7 @@ import numpy as np
 
 from kernels import contact, damp, friction, inertia
 from kernels.chain import Shape, Stiffness
-from kernels.jit import jit_exact, jit_owning
+from kernels.jit import jit_exact, jit_inlined, jit_owning
 from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, Work, largest, minimise, reduce
 from kernels.rows import copy
 from kernels.step import At, Step, find_near, rub
@@ -95,7 +95,7 @@ def _room(terms):
     return before, at, Work(more[0], more[1], more[2], more[3], more[4])
 
 
-@jit_owning
+@jit_inlined
 def _solve_step(x, target, terms, step, near, unknowns, tolerance, at, work, control):
     """Minimise; with friction again and again until the lagged forces agree with the contacts."""
     total = 0

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels import chain, system
-from kernels.jit import jit, jit_exact, jit_owning
+from kernels.jit import jit, jit_exact, jit_inlined
 from kernels.rows import copy
 from kernels.step import covers, evaluate, factor, find_near, step_limit
 
@@ -149,7 +149,7 @@ def _aim_off(terms, near, unknowns, at, work, place):
     return slope * factor, pivot * factor * factor
 
 
-@jit_owning
+@jit_inlined
 def _factored(x, terms, step, near, at, projected):
     """Factor at ``x``; where contact outgrew the system, find a new one first."""
     place = factor(x, terms, step, near, at, projected)
@@ -160,7 +160,7 @@ def _factored(x, terms, step, near, at, projected):
     return place, near
 
 
-@jit_exact
+@jit_inlined
 def _search(x, terms, step, near, at, work, noise, model, led):
     """Backtrack from the share of dx in ``model`` until the energy falls; move ``x`` there.
 
@@ -183,7 +183,7 @@ def _search(x, terms, step, near, at, work, noise, model, led):
     return 0.0, start
 
 
-@jit_owning
+@jit_inlined
 def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, control):
     """Descend from ``x`` (n,), in place, to a minimum with the driven coordinate at ``target``.
 
