@@ -110,6 +110,7 @@ def _solve_step(x, target, terms, step, near, unknowns, tolerance, at, work, con
         rub(terms, grips, at)
         reduce(at.g, unknowns.leader, work.residual)
         if largest(work.residual, unknowns) <= tolerance.friction:
+            rub(terms, step.grips, at)  # those that x is in balance with
             return CONVERGED, total, near
         step = Step(step.before, step.x_pred, step.dt, step.factor, grips)
     return ITERATIONS, total, near
