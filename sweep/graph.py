@@ -5,6 +5,7 @@ is a batch of about a second of work, and only a limited number of tasks exists 
 """
 
 import time
+from asyncio import wait_for
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
 WAVE = 256  # tasks of one graph on threads
 WINDOW = 8  # batches in flight per thread of a cluster
+ANSWER = 10  # seconds in which a scheduler has to answer
 PATIENCE = 60  # seconds until a cluster has its first worker
 MOMENT = 0.2  # seconds after which a wish to stop is noticed
 
@@ -126,32 +128,61 @@ def run_batch(
 def _attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
     try:
         return simulate(case, control)
+    except MemoryError:
+        message = "needs more memory than there is; try fewer cells, nodes or steps"
+        return failed_result(case, Status.STOPPED, message)
     except Exception as error:  # noqa: BLE001 a defect that one case meets must not end the sweep
         message = f"unexpected {_one_line(error)}; please report it"
         return failed_result(case, Status.STOPPED, message)
 
 
 def _run_on_cluster(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop, scheduler: str) -> None:
-    with _connected(scheduler) as client, _blame_at_once(client):
+    with _connected(scheduler, stop) as client, _blame_at_once(client):
         flight = _Flight(client, plan, simulate, stop)
         for results in flight.landings():
             sink(results)
 
 
+def check_scheduler(scheduler: str) -> None:
+    """Refuse an address at which no Dask scheduler answers soon: a `Client` of it may never end."""
+    from distributed.utils import LoopRunner
+
+    try:
+        found = LoopRunner().run_sync(_identify, scheduler)
+    except (ValueError, TypeError) as error:
+        allowed = "a Dask scheduler such as tcp://host:8786"
+        raise GraphError(f'"{scheduler}": {error}; allowed: {allowed}') from error
+    except Exception as error:
+        raise GraphError(f"no Dask scheduler answers at {scheduler}") from error
+    if found != "Scheduler":
+        raise GraphError(f"{scheduler} is a Dask {found}; needed: its scheduler")
+
+
+async def _identify(address: str) -> str:
+    """What answers at an address: a `Scheduler`, a `Worker`, ..."""
+    from distributed import Security, rpc
+
+    security = Security().get_connection_args("client")
+    async with rpc(address, timeout=ANSWER, connection_args=security) as server:
+        identity = await wait_for(server.identity(), ANSWER)
+    return str(identity["type"])
+
+
 @contextmanager
-def _connected(scheduler: str) -> "Iterator[Client]":
+def _connected(scheduler: str, stop: Stop) -> "Iterator[Client]":
     from distributed import Client
 
     try:
-        client = Client(scheduler, set_as_default=False, timeout=PATIENCE)
-    except (OSError, ValueError) as error:
+        client = Client(scheduler, set_as_default=False, timeout=ANSWER)
+    except (OSError, ImportError) as error:
         raise GraphError(f"no Dask scheduler at {scheduler}: {_one_line(error)}") from error
     with client:
-        try:
-            client.wait_for_workers(1, timeout=PATIENCE)
-        except TimeoutError:
-            line = f"no worker joined the Dask scheduler at {scheduler} within {PATIENCE} s"
-            raise GraphError(line) from None
+        limit = time.monotonic() + PATIENCE
+        while not (client.nthreads() or stop.asked):
+            if time.monotonic() > limit:
+                line = f"no worker joined the Dask scheduler at {scheduler} within {PATIENCE} s"
+                raise GraphError(line)
+            time.sleep(MOMENT)
         yield client
 
 
@@ -239,4 +270,4 @@ def _run_alone(simulate: Simulate, suspect: list[Case], stop: Stop) -> list[Resu
 
 
 def _one_line(error: Exception) -> str:
-    return " ".join(f"{type(error).__name__}: {error}".split())
+    return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")

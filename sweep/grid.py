@@ -11,12 +11,14 @@ from typing import Any, NamedTuple
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails, PydanticCustomError
 
+from sweep.idle import still_idle
 from sweep.keys import ALIASES, case_keys
 from sweep.params import TABLES, Case
 from sweep.resolve import resolve
 from sweep.tables import Rank, Table, rounded
 
 MAX_CASES = 1_000_000
+FACTS = ("material.poisson",)  # of a material: may be stated where plane stress needs none
 
 
 class Fault(NamedTuple):
@@ -35,10 +37,11 @@ class ConfigError(ValueError):
 
 
 class Written(NamedTuple):
-    """A value in SI (None: left at its default), and the words of the file."""
+    """A value in SI (None: left at its default), and the words of the file for it and its key."""
 
     value: Any
     text: str
+    name: str = ""
 
 
 Reason = dict[str, Any]  # key, value, allowed
@@ -70,13 +73,17 @@ def case_count(config: Config) -> int:
 
 
 def expand(config: Config) -> list[Case]:
-    """All cases, the first axis of the grid varying slowest; of equal ones, the first."""
+    """All cases, the first axis of the grid varying slowest; of equal ones, the first.
+
+    A key that none of them needs is refused: it says something that does not happen.
+    """
     count = case_count(config)
     if count > MAX_CASES:
         line = f"[grid] makes {count:,} cases; allowed: at most {MAX_CASES:,} in one sweep"
         raise ConfigError([Fault("grid", line)])
     cases: dict[str, Case] = {}
     refused: dict[str, list[Fault]] = {}
+    idle = dict.fromkeys(_spoken_for(config), "")
     for draft in _drafts(config):
         if any(draft.matches(table) for table in config.exclude):
             continue
@@ -84,11 +91,14 @@ def expand(config: Config) -> list[Case]:
             refused.setdefault(fault.key, []).append(fault)
         if not draft.faults:
             cases.setdefault(draft.case.case_id, draft.labelled())
+            idle = still_idle(idle, draft.given, draft.case) if idle else idle
     if refused:
         raise ConfigError([_merged(faults, count) for faults in refused.values()])
     if not cases:
         line = f"[[exclude]] drops all {count:,} cases; allowed: tables that leave at least one"
         raise ConfigError([Fault("exclude", line)])
+    if any(idle.values()):
+        raise ConfigError(_without_effect(config, idle))
     return list(cases.values())
 
 
@@ -97,12 +107,13 @@ class _Draft:
     """One combination: its values along the axes, the case that it makes, what is wrong with it."""
 
     chosen: Values
+    given: dict[str, Any]
     case: Case
     faults: list[Fault]
 
     def value(self, key: str) -> Any:
         """The value of the resolved case; of an alias, the one that all its targets share."""
-        targets = [target.split(".") for target in ALIASES.get(key, (key,))]
+        targets = [target.split(".") for target in _keys(key)]
         first, *others = [getattr(getattr(self.case, table), name) for table, name in targets]
         return first if all(other == first for other in others) else None
 
@@ -120,8 +131,9 @@ class _Draft:
 def _drafts(config: Config) -> Iterator[_Draft]:
     made, settled = cache(_table), cache(resolve)  # most cases share most of their tables
     for chosen in _combinations(config):
-        given = config.base | _targets(chosen)
-        values = [(*key.split("."), written.value) for key, written in given.items()]
+        written = config.base | _targets(chosen)
+        given = {key: value for key, (value, *_) in written.items()}
+        values = [(*key.split("."), value) for key, value in given.items()]
         tables: dict[str, Any] = {}
         wrong: list[Reason] = []
         for name in TABLES:
@@ -134,7 +146,32 @@ def _drafts(config: Config) -> Iterator[_Draft]:
         except PydanticCustomError as error:
             wrong.append(error.context or {})
         case = Case.model_construct(None, **tables)
-        yield _Draft(chosen, case, [_fault(reason, given) for reason in wrong])
+        yield _Draft(chosen, given, case, [_fault(reason, written) for reason in wrong])
+
+
+def _spoken_for(config: Config) -> list[str]:
+    """The keys of a case that a config sets; a fact of its material may stand unused."""
+    stated = [key for key in config.base if key not in FACTS]
+    return stated + [target for _, name, _ in _axes(config) for target in _keys(name)]
+
+
+def _without_effect(config: Config, idle: dict[str, str]) -> list[Fault]:
+    """A fault for each key that no case needs; `idle` holds the reasons."""
+    lines = {key: f"{written.name or key} = {written.text}" for key, written in config.base.items()}
+    for where, name, values in _axes(config):
+        texts = ", ".join(written.text for written in values)
+        lines[_keys(name)[0]] = f"{where} {name} = [{texts if len(texts) < 60 else '...'}]"
+    return [
+        Fault(key, f"{line}: has no effect, as {idle[key]}")
+        for key, line in lines.items()
+        if idle.get(key)
+    ]
+
+
+def _axes(config: Config) -> Iterator[tuple[str, str, tuple[Written, ...]]]:
+    """Every axis: where it stands, its key, its values."""
+    for where, axes in [("[grid]", config.grid), *(("[[zip]]", tied) for tied in config.zip)]:
+        yield from ((where, name, values) for name, values in axes.items())
 
 
 def _combinations(config: Config) -> Iterator[Values]:
@@ -150,9 +187,12 @@ def _combinations(config: Config) -> Iterator[Values]:
 def _targets(chosen: Values) -> Values:
     """The keys of a case that are set, aliases replaced."""
     set_here = {key: written for key, written in chosen.items() if written.value is not None}
-    return {
-        target: written for key, written in set_here.items() for target in ALIASES.get(key, (key,))
-    }
+    return {target: written for key, written in set_here.items() for target in _keys(key)}
+
+
+def _keys(name: str) -> tuple[str, ...]:
+    """The keys of a case that a key of a config sets."""
+    return ALIASES.get(name, (name,))
 
 
 def _table(name: str, items: tuple[tuple[str, Any], ...]) -> tuple[Table, list[Reason]]:

@@ -6,31 +6,36 @@ to a factor of two or so: how often walls meet cannot be known before they do.
 
 import time
 from bisect import bisect
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
+from math import isnan
 
+from sweep.graph import Simulate, Stop, run
 from sweep.grid import Config, case_count, expand
 from sweep.params import Case
-from sweep.plan import cost
+from sweep.plan import Plan, cost
 from sweep.result import Result, Status
+from sweep.run import Interrupted, interruptible, real_simulate
 from sweep.store import finished_ids
 
 BYTES = 4  # of a stored number: single precision
 PACKED = 0.75  # what compression leaves of curves and shapes
 ROW = 1000  # bytes of the summary of a case
 
-Simulate = Callable[[Case], Result]
-
 
 @dataclass(frozen=True)
 class Estimate:
-    """Processor time (s) and disk (bytes) of a sweep, from `pilots` cases that took `seconds`."""
+    """Processor time (s) and disk (bytes) of a sweep, from `pilots` cases that took `seconds`.
+
+    The time is NaN if a pilot left nothing to measure; `failures` are the sentences of those that
+    did not converge.
+    """
 
     cpu: float
     disk: float
     pilots: int
-    failed: int
+    failures: list[str]
     seconds: float
 
 
@@ -45,9 +50,7 @@ def dry_run(config: Config, out: str, workers: int, retry_failed: bool) -> str:
     )
     if not waiting:
         return f"{counts}\nnothing is left to run"
-    from sweep.simulate import simulate
-
-    found = estimate(waiting, simulate)
+    found = estimate(waiting, real_simulate())
     wall = found.cpu / min(workers, len(waiting))
     lines = [
         counts,
@@ -58,30 +61,43 @@ def dry_run(config: Config, out: str, workers: int, retry_failed: bool) -> str:
         f"  disk            {found.disk / 1e6:.2g} MB",
         "nothing was written",
     ]
-    if found.failed:
-        lines.insert(-1, f"  {found.failed} of the pilot cases did not converge")
+    if found.failures:
+        count = f"{len(found.failures)} of the pilot cases did not converge"
+        lines.insert(-1, f"  {count}: {found.failures[0]}")
     return "\n".join(lines)
 
 
 def estimate(cases: Sequence[Case], simulate: Simulate) -> Estimate:
     """Run one case of each kind of loading and scale it to the others of its kind."""
-    started = time.perf_counter()
-    simulate(min(cases, key=cost))  # warms up: kernels are compiled or loaded here
     kinds: dict[tuple[str, ...], list[Case]] = {}
     for case in cases:
         kinds.setdefault(_kind(case), []).append(case)
-    cpu = disk = failed = 0.0
-    for alike in kinds.values():
-        pilot = _middle(alike)
-        result = simulate(pilot)
+    pilots = [(_middle(alike), alike) for alike in kinds.values()]
+    started = time.perf_counter()
+    results = _run_all([pilot for pilot, _ in pilots], simulate)
+    cpu = disk = 0.0
+    for pilot, alike in pilots:
+        result = results[pilot.case_id]
         cpu += float(result.summary["cpu_s"]) * sum(map(cost, alike)) / cost(pilot)
         disk += len(alike) * _stored(result)
-        failed += result.status != Status.CONVERGED
-    return Estimate(cpu, disk, len(kinds), int(failed), time.perf_counter() - started)
+    failures = [r.message for r in results.values() if r.status is not Status.CONVERGED]
+    return Estimate(cpu, disk, len(pilots), failures, time.perf_counter() - started)
+
+
+def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
+    """Results by their case, one case at a time, as a sweep would have them."""
+    stop, results = Stop(), list[Result]()
+    with interruptible(stop):
+        run(Plan(pilots, workers=1), simulate, results.extend, stop)
+    if stop.asked:
+        raise Interrupted("interrupted; nothing was written")
+    return {result.case_id: result for result in results}
 
 
 def duration(seconds: float) -> str:
-    """A time that is only roughly known."""
+    """A time that is only roughly known, if at all."""
+    if isnan(seconds):
+        return "unknown"
     for unit, length in {"h": 3600.0, "min": 60.0}.items():
         if seconds >= 2.0 * length:
             return f"{float(f'{seconds / length:.2g}'):g} {unit}"

@@ -10,6 +10,7 @@ from sweep import plots
 from sweep.rank import rank
 from sweep.sheets import design_labels, markdown, ranking_sheets
 from sweep.store import read_frames, read_history
+from sweep.storyboard import headline, last_loaded
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -50,7 +51,7 @@ def _sweep_figures(file: str, shown: DataFrame, ranking: DataFrame) -> Named:
         return
     scenes = ranking["scene"].unique()[:MAX_SCENES]
     ranking = ranking[ranking["scene"].isin(scenes)]
-    size = (4.2 * min(3, len(scenes)) + 2.2, 3.8 * -(-len(scenes) // 3))
+    size = (4.8 * min(2, len(scenes)) + 1.8, 4.2 * -(-len(scenes) // 2))
     figure = plots.blank(*size)
     plots.absorption_map(figure, ranking)
     yield "absorption", figure
@@ -59,7 +60,7 @@ def _sweep_figures(file: str, shown: DataFrame, ranking: DataFrame) -> Named:
         plots.thickness_trends(figure, ranking)
         yield "wall_thickness", figure
     if winners := _winners(file, shown, ranking):
-        figure = plots.blank(12.0, 3.0 * len(winners))
+        figure = plots.blank(12.0, 2.6 * len(winners))
         plots.winners(figure, winners)
         yield "winners", figure
 
@@ -80,13 +81,15 @@ def _case_figures(file: str, row: Series) -> Named:
     """Figures of what a case has left; none of a case that left nothing."""
     history, frames = read_history(file, row["case_id"]), read_frames(file, row["case_id"])
     if len(history) > 1:
-        figure = plots.blank(6.4, 4.4)
+        figure = plots.blank(8.0, 4.4)
         plots.force_displacement(figure.subplots(), history, row)
         yield "force", figure
-        figure = plots.blank(7.4, 4.2)
+        figure = plots.blank(8.0, 4.2)
         plots.energies(figure.subplots(), history, row)
         yield "energies", figure
     if frames:
+        dead = row["loading_mode"] == "force"
+        release = history["time_s"][last_loaded(history, row)] if dead else None
         figure = plots.blank(12.0, 2.8)
-        plots.deformed_shapes(figure, frames, times=row["loading_mode"] == "force")
+        plots.deformed_shapes(figure, headline(row).replace("\n", ", "), frames, release)
         yield "shapes", figure

@@ -63,7 +63,7 @@ class Reader:
             "material": {"material"},
             "grid": set(),
             "exclude": {*TABLES, "exclude", "grid", "zip"},
-        }.get(_table(fault.key), {"lattice", "loading", "solver"})
+        }.get(_table(fault.key), TABLES.keys() - {"material"})
         return not founded_on & {_table(known.key) for known in self.faults}
 
     def _name(self, name: object) -> str:
@@ -163,7 +163,7 @@ class Reader:
         if raw == "" and where == "[[zip]]":
             return Written(None, '""')
         try:
-            return Written(self._checked(known[name], raw), in_words(raw))
+            return Written(self._checked(known[name], raw), in_words(raw), name)
         except ValueError as error:
             self._refuse(name, raw, f"{error}; allowed: {known[name].allowed}", where)
             return None

@@ -32,7 +32,7 @@ def _loading(loading: Loading, height: float, integrator: str | None) -> Loading
 
 
 def _force(loading: Loading, integrator: str | None) -> Loading:
-    """The seed's loading: on until `release_time`, watched until `duration`."""
+    """A dead load, put on at once, let go at `release_time`, watched until `duration`."""
     if integrator == "static":
         raise refusal("solver.integrator", "static", '"backward_euler" if loading.mode is "force"')
     duration = _given(loading.duration, 0.2)
@@ -90,7 +90,7 @@ def _contact(contact: Contact, loading: Loading) -> Contact:
     """A platen that is not glued needs the barrier even where walls do not see each other."""
     if contact.model == "none" and loading.platen != "contact":
         return Contact(model="none", friction=None, stiffness=None)
-    if loading.quasi_static:
+    if loading.quasi_static or not contact.friction:
         return contact.model_copy(update={"slip_speed": None})
     reference = 0.1 if loading.speed is None else loading.speed
     return contact.model_copy(update={"slip_speed": _given(contact.slip_speed, 0.01 * reference)})

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from threading import current_thread, main_thread
 
-from sweep.graph import Simulate, Sink, Stop, run
+from sweep.graph import Simulate, Sink, Stop, check_scheduler, run
 from sweep.grid import Config, expand
 from sweep.params import Case
 from sweep.plan import Plan, cost
@@ -39,16 +39,19 @@ def run_sweep(
     cases = {case.case_id: case for case in drafts}
     axes = {case_id: case.axes for case_id, case in cases.items()}
     stop = Stop()
+    if scheduler is not None:
+        check_scheduler(scheduler)
     with Writer(out, axes, describe_run(config_text(sweep, drafts[0]))) as writer:
         done = cases.keys() & finished_ids(out, retry_failed)
         waiting = [case for case_id, case in cases.items() if case_id not in done]
-        if waiting:
-            simulate = simulate or _simulate()
-            with _keeping(writer, waiting, len(done)) as keep, _interruptible(stop):
-                run(Plan(waiting, workers), simulate, keep, stop, scheduler)
-        writer.fold()
-    if stop.asked:
-        kept = len(cases.keys() & finished_ids(out, retry_failed))
+        chosen = simulate or real_simulate() if waiting else None
+        with interruptible(stop):
+            if chosen:
+                with _keeping(writer, waiting, len(done)) as keep:
+                    run(Plan(waiting, workers), chosen, keep, stop, scheduler)
+            writer.fold()
+    kept = len(cases.keys() & finished_ids(out, retry_failed))
+    if stop.asked and kept < len(cases):
         line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
         raise Interrupted(f"{line}, and the same command runs the rest")
     return len(cases.keys() - finished_ids(out, retry_failed=True))
@@ -66,7 +69,7 @@ def _keeping(writer: Writer, waiting: Sequence[Case], done: int) -> Iterator[Sin
         yield keep
 
 
-def _simulate() -> Simulate:
+def real_simulate() -> Simulate:
     """The real thing, imported when it is needed: it brings the compiled kernels."""
     from kernels.jit import is_cold
     from sweep.simulate import simulate, warm_up
@@ -78,7 +81,7 @@ def _simulate() -> Simulate:
 
 
 @contextmanager
-def _interruptible(stop: Stop) -> Iterator[None]:
+def interruptible(stop: Stop) -> Iterator[None]:
     """Turn the first Ctrl-C into a wish to stop; the next one has its usual effect."""
     if current_thread() is not main_thread():
         yield  # no other thread may listen to signals

@@ -23,7 +23,9 @@ Mass = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
 Density = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg/m^3"})]
 Count = Annotated[int, Field(ge=1)]
 Few = Annotated[int, Field(ge=1, le=1000)]  # a slip of the keyboard must not fill the memory
-Curve = Annotated[tuple[float, ...], Field(strict=False)]  # a list too, as JSON gives it back
+# Lists too, as JSON gives them back.
+Curve = Annotated[tuple[float, ...], Field(strict=False)]
+Forces = Annotated[tuple[Force, ...], Field(strict=False)]
 NonNegative = Annotated[float, Field(ge=0)]
 
 
@@ -122,8 +124,15 @@ class Material(Table):
         return self
 
 
+LOADED = ("force", "release_time", "duration")  # keys of a dead load
+PRESSED = ("stroke", "strain", "speed", "quasi_static", "unload")  # keys of a moving platen
+
+
 class Loading(Table):
-    """What is done to the specimen. None: not given, or not used by the mode."""
+    """What is done to the specimen. None: not given, or not used by the mode.
+
+    Without a mode, the keys of one mode say which it is.
+    """
 
     mode: Literal["force", "displacement"] = "force"
     force: Force | None = None
@@ -135,7 +144,20 @@ class Loading(Table):
     quasi_static: bool | None = None
     unload: bool | None = None
     platen: Literal["none", "contact", "glued"] | None = None
-    allowed_forces: tuple[Force, ...] = ()
+    allowed_forces: Forces = ()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _infer_mode(cls, given: Any) -> Any:
+        if not isinstance(given, dict) or "mode" in given:
+            return given
+        pressed, loaded = (
+            [key for key in keys if given.get(key) is not None] for keys in (PRESSED, LOADED)
+        )
+        if pressed and loaded:
+            keys = f"as loading.{loaded[0]} needs the one and loading.{pressed[0]} the other"
+            raise refusal("loading.mode", None, f'"force" or "displacement", {keys}')
+        return {"mode": "displacement" if pressed else "force", **given}
 
 
 class Contact(Table):

@@ -69,6 +69,16 @@ def there_and_back(rows=21):
     return history
 
 
+def under_dead_load():
+    """A block that sinks to 4 mm under 20 N while they are on, and rises when they are off."""
+    history = there_and_back()
+    loaded = np.arange(len(history)) <= history["strain"].idxmax()
+    history["reaction_top_N"] = np.where(loaded & (history["time_s"] > 0.0), 20.0, 0.0)
+    history["reaction_bottom_N"] = history["reaction_top_N"]
+    history["work_in_J"] = 20.0 * history["top_displacement_m"].cummax()
+    return history
+
+
 def squeezed_cell(platens=True, heights=(10.0, 9.0, 8.0, 7.0, 6.0, 5.0, 7.0, 10.0)):
     """A single cell, 10 mm square with walls of 1 mm, squeezed flat and let up."""
     position = np.array([[[0, 0], [10, 0], [10, h], [0, h]] for h in heights]) * 1e-3

@@ -1,13 +1,14 @@
 """Cases on Dask: every case once, longest first, whatever its neighbours do."""
 
 import os
+import socket
 import threading
 import time
 
 import pytest
 from standin import cases, number_of, simulate
 
-from sweep.graph import GraphError, Stop, run
+from sweep.graph import GraphError, Stop, check_scheduler, run
 from sweep.params import Case, Lattice, Solver
 from sweep.plan import Plan, cost
 from sweep.result import Status
@@ -75,6 +76,15 @@ def test_exception_in_a_case_is_a_row_with_its_name():
     failed = run_on_threads(batch, broken).results[batch[2].case_id]
     assert failed.status is Status.STOPPED
     assert "ZeroDivisionError: of something" in failed.message
+
+
+def test_case_that_needs_too_much_memory_is_a_row_with_advice():
+    def huge(case, stop):
+        raise MemoryError
+
+    failed = run_on_threads(cases(1), huge).results[cases(1)[0].case_id]
+    assert failed.status is Status.STOPPED
+    assert failed.message == "needs more memory than there is; try fewer cells, nodes or steps"
 
 
 def test_error_of_the_sink_ends_the_sweep():
@@ -206,7 +216,46 @@ def test_stop_on_a_cluster_keeps_what_has_landed():
     assert 0 < sum(map(len, kept)) < 40
 
 
+@pytest.mark.parametrize("address", ["nonsense", "", "tcp://", "host:port", "http://host:80"])
+def test_what_is_no_address_is_refused_in_one_line(address):
+    with pytest.raises(GraphError, match="such as tcp://host:8786") as refusal:
+        check_scheduler(address)
+    assert str(refusal.value).startswith(f'"{address}": ')
+    assert "\n" not in str(refusal.value)
+
+
 def test_scheduler_that_is_not_there(monkeypatch):
-    monkeypatch.setattr("sweep.graph.PATIENCE", 0.5)
-    with pytest.raises(GraphError, match="no Dask scheduler at tcp://"):
-        run(Plan(cases(1), 2), simulate, Kept(), Stop(), "tcp://127.0.0.1:9")
+    monkeypatch.setattr("sweep.graph.ANSWER", 0.5)
+    with pytest.raises(GraphError, match="no Dask scheduler answers at tcp://"):
+        check_scheduler("tcp://127.0.0.1:9")
+
+
+def test_server_that_never_answers(monkeypatch):
+    monkeypatch.setattr("sweep.graph.ANSWER", 0.5)
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        address = "tcp://{}:{}".format(*server.getsockname())
+        with pytest.raises(GraphError, match=f"no Dask scheduler answers at {address}"):
+            check_scheduler(address)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_worker_is_no_scheduler():
+    from distributed import LocalCluster
+
+    options = {"n_workers": 1, "threads_per_worker": 1, "processes": False}
+    with LocalCluster(**options, dashboard_address=None, silence_logs=50) as cluster:
+        assert check_scheduler(cluster.scheduler_address) is None
+        with pytest.raises(GraphError, match="is a Dask Worker; needed: its scheduler"):
+            check_scheduler(cluster.workers[0].address)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_stop_while_a_cluster_has_no_worker():
+    from distributed import LocalCluster
+
+    stop = Stop()
+    threading.Timer(0.5, stop.ask).start()
+    with LocalCluster(n_workers=0, dashboard_address=None, silence_logs=50) as cluster:
+        kept = Kept()
+        run(Plan(cases(3), 2), simulate, kept, stop, cluster.scheduler_address)
+    assert kept == []

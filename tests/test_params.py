@@ -61,7 +61,8 @@ def test_a_changed_copy_has_an_id_of_its_own():
 
 def test_keys_that_the_mode_does_not_use_do_not_count():
     assert pressed(force=5.0, duration=3.0).case_id == pressed().case_id
-    assert Case(loading=Loading(stroke=1e-3, unload=False)).case_id == Case().case_id
+    loaded = Loading(mode="force", stroke=1e-3, unload=False)
+    assert Case(loading=loaded).case_id == Case().case_id
     undamped = Case(damping=Damping(model="none", mass=1.0, relaxation_time=2.0))
     assert undamped.case_id == Case(damping=Damping(model="none")).case_id
 
@@ -73,6 +74,31 @@ def test_displacement_defaults():
     assert (case.solver.integrator, case.solver.load_steps) == ("static", 200)
     assert case.solver.time_step is None
     assert case.damping.model == "none"
+
+
+@pytest.mark.parametrize(
+    "given",
+    [{"strain": 0.5}, {"stroke": 5e-3}, {"speed": 1e-3}, {"quasi_static": True}, {"unload": False}],
+)
+def test_keys_of_a_platen_say_the_mode(given):
+    assert Case(loading=Loading(**given)) == pressed(**given)
+
+
+@pytest.mark.parametrize(
+    "given", [{}, {"force": 5.0}, {"duration": 0.3, "strain": None}, {"platen": "contact"}]
+)
+def test_without_them_the_mode_is_a_force(given):
+    assert Case(loading=Loading(**given)) == Case(loading=Loading(mode="force", **given))
+
+
+def test_slip_speed_without_friction_does_not_count():
+    slow, fast = (
+        pressed(speed=1e-3).model_copy(update={"contact": Contact(friction=0.0, slip_speed=v)})
+        for v in (1e-5, 1e-3)
+    )
+    assert Case.model_validate(slow.model_dump()).case_id == (
+        Case.model_validate(fast.model_dump()).case_id
+    )
 
 
 def test_strain_and_stroke_give_each_other():
@@ -132,6 +158,7 @@ def test_linear_material_holds_no_curve():
         (lambda: Material(modulus=12e6, density=1e3, stretch="nonlinear"), 'allowed: "linear"'),
         (lambda: Material(curve_strain=(0.0, 1.0), curve_stress=(0.0, 1e6)), "greater than 0"),
         (lambda: pressed(platen="none"), "contact"),
+        (lambda: Loading(strain=0.5, force=5.0), "as loading.force needs the one and"),
         (lambda: pressed(strain=0.5, stroke=5e-3), "give one of them"),
         (lambda: pressed(stroke=12.5e-3), "below the height"),
         (lambda: pressed(quasi_static=False), "a speed if quasi_static is false"),

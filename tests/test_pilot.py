@@ -1,5 +1,9 @@
 """The estimate before a sweep."""
 
+import os
+import signal
+import time
+
 import numpy as np
 import pytest
 
@@ -7,6 +11,7 @@ from sweep.params import Case, Lattice, Loading
 from sweep.pilot import duration, estimate
 from sweep.plan import cost
 from sweep.result import Result, Status
+from sweep.run import Interrupted
 
 GLUED = Loading(mode="displacement", platen="glued")
 
@@ -19,11 +24,11 @@ def stand_in(status=Status.CONVERGED):
     """A simulation with a pace for each mode of loading and 1000 numbers to store, and its log."""
     asked = []
 
-    def simulate(case):
+    def simulate(case, control):
         asked.append(case)
         pace = {"force": 1e-6, "displacement": 5e-6}[case.loading.mode]
         history = {"strain": np.zeros(1000)}
-        return Result(case.case_id, status, "", {"cpu_s": pace * cost(case)}, history)
+        return Result(case.case_id, status, "why", {"cpu_s": pace * cost(case)}, history)
 
     return simulate, asked
 
@@ -40,12 +45,32 @@ def test_each_kind_of_loading_is_scaled_by_its_own_pace():
 def test_pilot_stands_in_the_middle_of_the_work():
     simulate, asked = stand_in()
     estimate(cases(GLUED), simulate)
-    warm_up, pilot = asked
-    assert (warm_up.lattice.cells_x, pilot.lattice.cells_x) == (2, 5)
+    (pilot,) = asked
+    assert pilot.lattice.cells_x == 5
 
 
 def test_failed_pilots_are_counted():
-    assert estimate(cases(GLUED), stand_in(Status.STOPPED)[0]).failed == 1
+    assert estimate(cases(GLUED), stand_in(Status.STOPPED)[0]).failures == ["why"]
+
+
+def test_pilot_that_breaks_down_leaves_the_time_unknown():
+    def huge(case, control):
+        raise MemoryError
+
+    found = estimate(cases(GLUED), huge)
+    assert "needs more memory than there is" in found.failures[0]
+    assert duration(found.cpu) == "unknown"
+
+
+def test_pilot_can_be_interrupted_while_it_runs():
+    def endless(case, control):
+        os.kill(os.getpid(), signal.SIGINT)
+        while not control[0]:
+            time.sleep(0.001)
+        return stand_in(Status.STOPPED)[0](case, control)
+
+    with pytest.raises(Interrupted, match="interrupted; nothing was written"):
+        estimate(cases(GLUED), endless)
 
 
 @pytest.mark.parametrize(

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgba
-from specimens import HEIGHT, T, designs, squeezed_cell, summary, there_and_back
+from specimens import HEIGHT, T, designs, squeezed_cell, summary, there_and_back, under_dead_load
 
 from sweep import plots
 from sweep.rank import rank
@@ -11,18 +10,25 @@ from sweep.rank import rank
 
 @pytest.fixture
 def row():
-    return {
-        "loading_mode": "displacement",
-        "height_m": HEIGHT,
-        "width_m": 10e-3,
-        "depth_m": 10e-3,
-        "wall_thickness_m": T,
-        "plateau_stress_Pa": 0.2e6,
-        "densification_strain": 0.3,
-        "absorbed_energy_J": 0.096,
-        "specific_absorption_J_per_g": 0.1,
-        "peak_strain": 0.4,
-    }
+    (row,) = summary(
+        {
+            "height_m": HEIGHT,
+            "width_m": 10e-3,
+            "wall_thickness_m": T,
+            "stroke_m": 4e-3,
+            "plateau_stress_Pa": 0.2e6,
+            "densification_strain": 0.3,
+            "absorbed_energy_J": 0.096,
+            "returned_energy_J": 0.048,
+            "peak_strain": 0.4,
+        }
+    ).to_dict("records")
+    return row
+
+
+@pytest.fixture
+def dead(row):
+    return row | {"loading_mode": "force", "force_N": 20.0, "stroke_m": np.nan}
 
 
 def axes_of(draw, *arguments):
@@ -31,22 +37,30 @@ def axes_of(draw, *arguments):
     return ax
 
 
+def labels(ax):
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def area(filled):
+    """Area in J of what is filled in a diagram of N over % of the height."""
+    x, y = filled.get_paths()[0].vertices.T
+    return 0.5 * abs(np.dot(x, np.roll(y, 1)) - np.dot(y, np.roll(x, 1))) / 100 * HEIGHT
+
+
 def test_shaded_area_is_the_absorbed_energy(row):
     history = there_and_back()
     ax = axes_of(plots.force_displacement, history, row)
-    x, y = ax.collections[0].get_paths()[0].vertices.T
-    area = 0.5 * abs(np.dot(x, np.roll(y, 1)) - np.dot(y, np.roll(x, 1)))  # percent x newton
-    assert area / 100 * HEIGHT == pytest.approx(history["work_in_J"].max())
-    assert "96 mJ" in ax.get_title("left")
+    assert area(ax.collections[0]) == pytest.approx(history["work_in_J"].max())
+    assert labels(ax)[0] == "absorbs 96 mJ,\n0.096 J/g"
 
 
 def test_way_down_and_way_back_are_told_apart(row):
     ax = axes_of(plots.force_displacement, there_and_back(), row)
-    lines = {line.get_label(): line for line in ax.get_lines()}
-    down, back = lines["loading"], lines["unloading"]
+    down, back = ax.get_lines()[:2]
     assert down.get_xdata()[-1] == back.get_xdata()[0] == pytest.approx(40.0)
     assert down.get_color() != back.get_color()
     assert down.get_linestyle() != back.get_linestyle()
+    assert labels(ax)[1:3] == ["loading", "unloading,\ngives back 50 %"]
 
 
 def test_plateau_is_the_mean_force_up_to_densification(row):
@@ -54,54 +68,68 @@ def test_plateau_is_the_mean_force_up_to_densification(row):
     dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
     assert dotted.get_xdata()[-1] == pytest.approx(30.0)
     assert dotted.get_ydata()[0] == pytest.approx(0.2e6 * 11e-3 * 10e-3)
+    assert labels(ax)[-1] == "plateau 22 N,\npacked at 30 %"
 
 
-def test_plateau_of_a_dead_load_is_not_drawn(row):
-    ax = axes_of(plots.force_displacement, there_and_back(), row | {"loading_mode": "force"})
-    assert [line.get_linestyle() for line in ax.get_lines()] == ["--", "-"]
+def test_plateau_without_densification_goes_to_the_stroke(row):
+    never = row | {"densification_strain": np.nan}
+    ax = axes_of(plots.force_displacement, there_and_back(), never)
+    dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
+    assert dotted.get_xdata()[-1] == pytest.approx(40.0)
+    assert labels(ax)[-1] == "plateau 22 N,\nnot packed"
 
 
-@pytest.mark.parametrize(("mode", "end"), [("displacement", 8.0), ("force", 40.0)])
-def test_energies_add_up_to_the_work(row, mode, end):
+def test_dead_load_comes_and_goes_in_a_step(dead):
+    history = under_dead_load()
+    ax = axes_of(plots.force_displacement, history, dead)
+    on, off = ax.get_lines()[:2]
+    assert {on.get_drawstyle(), off.get_drawstyle()} == {"steps-pre"}
+    assert on.get_ydata()[-1] == off.get_ydata()[0] == 20.0
+    assert off.get_ydata()[-1] == 0.0
+    assert area(ax.collections[0]) == pytest.approx(history["work_in_J"].max())
+    assert labels(ax)[1:] == ["load on", "load off"]
+
+
+@pytest.mark.parametrize("draw", [plots.force_displacement, plots.energies])
+def test_title_says_design_and_scene(row, draw):
+    title = axes_of(draw, there_and_back(), row).get_title("left")
+    assert title == "3 x 3 cells, wall 1 mm, ninjaflex\ncrushed to 40 %, glued platens"
+
+
+def test_energies_add_up_to_the_work_along_the_path_of_the_platen(row):
     history = there_and_back()
-    ax = axes_of(plots.energies, history, row | {"loading_mode": mode})
+    ax = axes_of(plots.energies, history, row)
     top = max(stack.get_paths()[0].vertices[:, 1].max() for stack in ax.collections)
     assert top == pytest.approx(1e3 * history["work_in_J"].max())
-    work = next(line for line in ax.get_lines() if line.get_label() == "work done")
-    assert work.get_xdata()[-1] == pytest.approx(end)
+    turn, work = ax.get_lines()
+    assert turn.get_xdata()[0] == pytest.approx(4.0)
+    assert work.get_xdata()[-1] == pytest.approx(8.0)
+
+
+def test_energies_under_a_dead_load_are_drawn_over_time(dead):
+    ax = axes_of(plots.energies, under_dead_load(), dead)
+    release, work = ax.get_lines()
+    assert release.get_xdata()[0] == pytest.approx(20.0)
+    assert work.get_xdata()[-1] == pytest.approx(40.0)
+    assert [text.get_text() for text in ax.texts] == ["load off"]
 
 
 def test_negligible_energies_have_no_colour(row):
     ax = axes_of(plots.energies, there_and_back(), row)
-    labels = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert labels == ["work done", "lost to friction", "bending"]
+    assert labels(ax) == ["work done", "lost to friction", "bending"]
 
 
-def test_six_shapes_at_even_strains_and_the_last_one():
+def test_shapes_have_captions_under_a_title():
     figure = plots.blank(12, 3)
-    plots.deformed_shapes(figure, squeezed_cell())
+    plots.deformed_shapes(figure, "a cell", squeezed_cell())
     titles = [ax.get_title() for ax in figure.axes]
-    assert titles == ["0 %", "10 %", "20 %", "40 %", "50 %", "0 %"]
-
-
-def test_six_shapes_at_even_times():
-    figure = plots.blank(12, 3)
-    plots.deformed_shapes(figure, squeezed_cell(), times=True)
-    times = [ax.get_title().split("\n")[1] for ax in figure.axes]
-    assert times == ["0 ms", "10 ms", "30 ms", "40 ms", "60 ms", "70 ms"]
-
-
-def test_a_specimen_that_jumps_is_drawn_while_it_stands():
-    figure = plots.blank(12, 3)
-    frames = squeezed_cell(heights=(10.0, 9.0, 5.0, 5.0, 10.0, 30.0, 90.0))
-    plots.deformed_shapes(figure, frames, times=True)
-    strains = [ax.get_title().split("\n")[0] for ax in figure.axes]
-    assert strains == ["0 %", "10 %", "50 %", "50 %", "0 %"]
+    assert titles == ["0 %", "10 %", "20 %", "40 %", "50 %", "released"]
+    assert figure.get_suptitle() == "a cell"
 
 
 def test_walls_are_as_thick_as_they_are_in_millimetres():
     figure = plots.blank(12, 3)
-    plots.deformed_shapes(figure, squeezed_cell())
+    plots.deformed_shapes(figure, "", squeezed_cell())
     ax = figure.axes[0]
     walls, lower, upper = ax.patches
     box = walls.get_path().get_extents()
@@ -113,7 +141,7 @@ def test_walls_are_as_thick_as_they_are_in_millimetres():
 
 def test_without_platens_only_the_ground_is_drawn():
     figure = plots.blank(12, 3)
-    plots.deformed_shapes(figure, squeezed_cell(platens=False))
+    plots.deformed_shapes(figure, "", squeezed_cell(platens=False))
     assert [len(ax.patches) for ax in figure.axes] == [2] * 6
 
 
@@ -126,12 +154,25 @@ def ranking():
     return rank(glued, top=None)
 
 
-def test_map_has_a_panel_a_scene_and_rings_round_the_pareto_front(ranking):
+def test_map_has_a_panel_a_scene_and_stairs_along_the_pareto_front(ranking):
     figure = plots.blank(8, 4)
     plots.absorption_map(figure, ranking)
     assert [ax.get_title("left") for ax in figure.axes] == list(ranking["scene"].unique())
-    rings = figure.axes[0].collections[-1]
-    np.testing.assert_allclose(rings.get_offsets(), [[1.0, 0.1], [2.0, 0.3]])
+    stairs = figure.axes[0].get_lines()[0]
+    np.testing.assert_allclose(stairs.get_xydata(), [[1.0, 0.1], [2.0, 0.3]])
+    assert stairs.get_drawstyle() == "steps-post"
+
+
+def test_map_names_the_winner_of_each_budget_once(ranking):
+    ranking.attrs["budgets_g"] = [1.5, 2.0, 3.0]
+    figure = plots.blank(8, 4)
+    plots.absorption_map(figure, ranking)
+    ax = figure.axes[0]
+    texts = [text.get_text() for text in ax.texts]
+    assert texts[:3] == ["1.5 g", "2 g", "3 g"]
+    assert texts[3:] == ["wall 0.4 mm\n100 mJ", "wall 0.8 mm\n300 mJ"]
+    rings = [tuple(dots.get_offsets()[0]) for dots in ax.collections[-2:]]
+    assert rings == [(1.0, 0.1), (2.0, 0.3)]
 
 
 def test_trend_follows_the_wall_thickness(ranking):
@@ -140,19 +181,6 @@ def test_trend_follows_the_wall_thickness(ranking):
     line = figure.axes[0].get_lines()[0]
     np.testing.assert_allclose(line.get_xdata(), [0.4, 0.8, 1.2])
     np.testing.assert_allclose(line.get_ydata(), [0.1, 0.15, 0.2 / 3.0])
-
-
-def test_families_keep_their_colour_in_every_panel(ranking):
-    wide = ranking.assign(cells_x=[2, 3, 4, 3, 4, 2])
-    wide.attrs = ranking.attrs
-    figure = plots.blank(8, 4)
-    plots.absorption_map(figure, wide)
-    colors = [
-        {dots.get_label(): to_rgba(dots.get_facecolor()[0]) for dots in ax.collections[:3]}
-        for ax in figure.axes
-    ]
-    assert colors[0] == colors[1]
-    assert len(set(colors[0].values())) == 3
 
 
 def test_pictures_are_png_files(tmp_path):

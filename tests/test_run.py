@@ -12,9 +12,11 @@ import pandas as pd
 import pytest
 from standin import cases, number_of, simulate, slow
 
+from sweep.graph import GraphError
 from sweep.grid import Config, Written
 from sweep.run import Interrupted, run_sweep
 from sweep.store import StoreError, exists, read_attributes, read_frames, read_history, read_summary
+from sweep.writer import Writer
 
 ROOT = Path(__file__).parents[1]
 SWEEP = """
@@ -115,6 +117,26 @@ def test_interruption_in_this_process(tmp_path):
     assert signal.getsignal(signal.SIGINT) is usual
 
 
+def test_interruption_after_the_last_case_loses_nothing_and_is_no_failure(tmp_path, monkeypatch):
+    fold = Writer.fold
+
+    def pressed(writer):
+        os.kill(os.getpid(), signal.SIGINT)
+        fold(writer)
+
+    monkeypatch.setattr(Writer, "fold", pressed)
+    out = tmp_path / "sweep.h5"
+    assert run_sweep(cases(3), out, simulate=lambda case, stop: simulate(case)) == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["sweep.h5"]
+    assert len(read_summary(out)) == 3
+
+
+def test_scheduler_that_cannot_be_is_refused_before_anything_is_written(tmp_path):
+    with pytest.raises(GraphError, match="nonsense"):
+        run_sweep(cases(3), tmp_path / "new" / "sweep.h5", scheduler="nonsense", simulate=slow)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_finished_cases_do_not_run_again(tmp_path, executions, capsys):
     out = tmp_path / "new" / "folder" / "sweep.h5"
     assert run_sweep(cases(6), out, simulate=slow) == 0
@@ -128,7 +150,8 @@ def test_finished_cases_do_not_run_again(tmp_path, executions, capsys):
 
 
 def test_progress_away_from_a_terminal_is_a_few_plain_lines(tmp_path, capsys):
-    run_sweep(cases(9), tmp_path / "sweep.h5", simulate=lambda case, stop: simulate(case))
+    out = tmp_path / "sweep.h5"
+    run_sweep(cases(9), out, workers=1, simulate=lambda case, stop: simulate(case))
     *_, failure, last = capsys.readouterr().out.splitlines()
     assert failure == (
         f"case {cases(9)[7].case_id} stopped: No step was short enough: try a smaller time_step."

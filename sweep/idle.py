@@ -1,0 +1,50 @@
+"""Keys that a case is given and does without: a sweep in which no case needs one is refused."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from sweep.params import Case
+
+
+def still_idle(idle: Mapping[str, str], given: Mapping[str, Any], case: Case) -> dict[str, str]:
+    """The keys of `idle` that this case does without too, each with the reason where it is given.
+
+    given : the values that the case, resolved, is made from, by their dotted keys.
+    """
+    reasons = {key: why_idle(key, given, case) for key in idle if key in given}
+    return {key: reasons.get(key, why) for key, why in idle.items() if reasons.get(key, "-")}
+
+
+def why_idle(key: str, given: Mapping[str, Any], case: Case) -> str:
+    """Why a case does without the value that it is given for a key; empty if it does not."""
+    table, name = key.split(".")
+    held = getattr(getattr(case, table), name)
+    if key == "material.poisson" and case.material.plane == "stress":
+        return 'material.plane is "stress"'
+    counts = held == given[key] or _counts_anyway(key, held, given, case)
+    if counts or table in ("lattice", "material"):
+        return ""
+    return _reason(key, case)
+
+
+def _counts_anyway(key: str, held: object, given: Mapping[str, Any], case: Case) -> bool:
+    """True for values that count although the case holds another, or none.
+
+    A time step is adjusted to a whole number of steps; the speed of a quasi-static crush is a
+    label.
+    """
+    if key == "solver.time_step":
+        return held is not None and "solver.load_steps" not in given
+    return key == "loading.speed" and case.loading.mode == "displacement"
+
+
+def _reason(key: str, case: Case) -> str:
+    if key.startswith("loading.") or (key == "solver.load_steps" and case.loading.mode == "force"):
+        return f'loading.mode is "{case.loading.mode}"'
+    if key.startswith("contact.") and case.contact.friction is None:
+        return 'contact.model is "none"'
+    if case.loading.quasi_static:
+        return "the crush is quasi-static"
+    if key.startswith("damping."):
+        return f'damping.model is "{case.damping.model}"'
+    return "contact.friction is 0" if key == "contact.slip_speed" else "solver.load_steps sets it"

@@ -1,0 +1,203 @@
+"""Newton: it ends at a minimum and nowhere else, or says why not."""
+
+import numpy as np
+import pytest
+
+from kernels import newton
+from sweep.params import Case, Contact, Damping, Lattice, Loading, Solver
+from sweep.scene import build_scene
+from sweep.simulate import tolerances
+from tests.figures import MATERIAL
+from tests.solving import WHOLE, assembled, descend, residual, whole
+from tests.terms import gradient_of
+
+HEIGHT = 12.5e-3
+BUCKLED = 0.03  # strain, beyond that of a clamped wall, (2 pi)^2 / 12 (t / H)^2 = 0.0135
+
+
+def column(elements=6):
+    """One cell of perfectly straight walls between glued platens."""
+    return Case(
+        lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=elements - 1, imperfection=0.0),
+        material=MATERIAL,
+        loading=Loading(mode="displacement", strain=BUCKLED),
+        contact=Contact(model="none"),
+    )
+
+
+def straight(scene, strain):
+    """The column compressed evenly: an equilibrium at any strain."""
+    x = scene.x_rest.copy()
+    x[1 : 2 * len(scene.mesh.points) : 2] *= 1.0 - strain
+    x[-1] -= strain * HEIGHT
+    return x
+
+
+def grid(force, platen="none", contact="none", elements=3):
+    """A 2 x 2 grid under a dead load."""
+    return Case(
+        lattice=Lattice(cells_x=2, cells_y=2, nodes_per_wall=elements - 1),
+        material=MATERIAL,
+        loading=Loading(force=force, platen=platen),
+        contact=Contact(model=contact, friction=0.0),
+        damping=Damping(model="none"),
+        solver=Solver(time_step=1e-3),
+    )
+
+
+def shaken(scene, x, seed, share):
+    """All that is free moved at random, by up to a share of an element or of 1 rad."""
+    row, scale = scene.unknowns.row, scene.unknowns.scale
+    free = np.flatnonzero((row >= 0) & (row < scene.unknowns.free))
+    amount = np.where(scale[row[free]] == 1.0, scene.mesh.rest_length.mean(), 1.0)
+    moved = x.copy()
+    moved[free] += share * amount * np.random.default_rng(seed).uniform(-1, 1, free.size)
+    return moved
+
+
+def is_minimum(case, scene, x, dt, args):
+    """Balanced, and with no negative curvature in any direction; both from pairs found anew."""
+    free = scene.unknowns.free
+    curvature = np.linalg.eigvalsh(assembled(x, args)[:free, :free])
+    allowed = tolerances(case, scene, dt).force
+    balanced = np.abs(residual(scene, x, args)).max() <= allowed
+    return balanced and curvature[0] > -1e-9 * curvature[-1]
+
+
+def test_a_straight_column_is_left_once_it_buckles():
+    """Every force is balanced there: only the negative pivot tells."""
+    case = column()
+    scene = build_scene(case)
+    start = straight(scene, BUCKLED)
+    args = whole(scene, start)
+    assert np.abs(residual(scene, start, args)).max() < 1e-9
+    assert not is_minimum(case, scene, start, np.inf, args)
+    found = descend(case, scene, start, args)
+    assert found.outcome == newton.CONVERGED
+    assert is_minimum(case, scene, found.x, np.inf, args)
+    assert np.abs(found.x - start)[: 2 * len(scene.mesh.points)].max() > 1e-3
+    assert WHOLE.energy(found.x, *args) < 0.75 * WHOLE.energy(start, *args)
+
+
+def test_a_straight_column_stays_straight_before_it_buckles():
+    case = column()
+    scene = build_scene(case)
+    start = straight(scene, 0.01)
+    found = descend(case, scene, start, whole(scene, start))
+    assert (found.outcome, found.iterations) == (newton.CONVERGED, 0)
+    np.testing.assert_array_equal(found.x, start)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_same_minimum_from_all_around(seed):
+    case = grid(2.0)
+    scene = build_scene(case)
+    args = whole(scene, scene.x_rest)
+    expected = descend(case, scene, scene.x_rest, args)
+    found = descend(case, scene, shaken(scene, scene.x_rest, seed, 0.1), args)
+    assert found.outcome == expected.outcome == newton.CONVERGED
+    np.testing.assert_allclose(found.x, expected.x, rtol=0, atol=1e-6 * HEIGHT)
+    assert np.abs(expected.x - scene.x_rest).max() > 1e-4 * HEIGHT
+
+
+@pytest.mark.parametrize("dt", [1e-3, np.inf])
+@pytest.mark.parametrize("seed", range(4))
+def test_no_iteration_raises_the_energy(seed, dt):
+    """From a crumpled start, between platens and with contact, one iteration after another."""
+    case = grid(5.0, "contact", "barrier")
+    scene = build_scene(case)
+    args = whole(scene, scene.x_rest, dt=dt)
+    x = shaken(scene, scene.x_rest, seed, 0.3)
+    x[[-2, -1]] += -1e-3, 1e-3
+    energies, outcome = [WHOLE.energy(x, *whole(scene, x, scene.x_rest, dt))], newton.ITERATIONS
+    while outcome == newton.ITERATIONS and len(energies) < 300:
+        outcome, _, x = descend(case, scene, x, args, iterations=1)
+        energies.append(WHOLE.energy(x, *whole(scene, x, scene.x_rest, dt)))
+    assert outcome == newton.CONVERGED
+    noise = 2.0 * newton.RESOLVED * np.abs(energies[:-1])
+    assert np.all(np.diff(energies) <= noise + tolerances(case, scene, dt).noise)
+    assert is_minimum(case, scene, x, dt, whole(scene, x, scene.x_rest, dt))
+
+
+@pytest.mark.parametrize(
+    ("force", "contact", "dt"), [(2.0, "none", 1e-3), (20.0, "barrier", np.inf)]
+)
+def test_it_ends_quadratically(force, contact, dt):
+    """Order log(r'' / r') / log(r' / r) of the last residuals."""
+    case = grid(force, "contact", contact)
+    scene = build_scene(case)
+    args = whole(scene, scene.x_rest, dt=dt)
+    x, sizes, outcome = scene.x_rest, [], newton.ITERATIONS
+    while outcome == newton.ITERATIONS:
+        outcome, _, x = descend(case, scene, x, args, iterations=1)
+        sizes.append(np.abs(residual(scene, x, whole(scene, x, scene.x_rest, dt))).max())
+    falls = np.diff(np.log(sizes[-4:-1]))  # the last iteration only finds that it is done
+    assert falls[1] / falls[0] == pytest.approx(2.0, abs=0.2)
+
+
+def test_the_platen_ends_exactly_at_its_target():
+    case = column()
+    scene = build_scene(case)
+    start, target = straight(scene, 0.004), (1.0 - 0.012) * HEIGHT + scene.x_rest[-1] - HEIGHT
+    found = descend(case, scene, start, whole(scene, start), target)
+    assert found.outcome == newton.CONVERGED
+    assert found.x[-1] == target
+    np.testing.assert_allclose(found.x, straight(scene, 0.012), rtol=0, atol=1e-9 * HEIGHT)
+
+
+def test_what_is_held_does_not_move():
+    case = grid(2.0)
+    scene = build_scene(case)
+    args = whole(scene, scene.x_rest)
+    found = descend(case, scene, shaken(scene, scene.x_rest, 0, 0.1), args)
+    held = scene.unknowns.row < 0
+    assert held.sum() > 10
+    np.testing.assert_array_equal(found.x[held], scene.x_rest[held])
+    reaction = -gradient_of(WHOLE, args, found.x)[scene.bottom].sum()
+    assert reaction == pytest.approx(-2.0, rel=1e-6)
+
+
+@pytest.mark.parametrize("most", [1, 2, 3])
+def test_too_few_iterations_are_a_failure(most):
+    case = column()
+    scene = build_scene(case)
+    start = shaken(scene, straight(scene, BUCKLED), 0, 0.05)
+    args = whole(scene, start)
+    found = descend(case, scene, start, args, iterations=most)
+    assert (found.outcome, found.iterations) == (newton.ITERATIONS, most)
+    assert not is_minimum(case, scene, found.x, np.inf, args)
+    on = descend(case, scene, found.x, args)
+    whole_way = descend(case, scene, start, args)
+    assert on.outcome == whole_way.outcome == newton.CONVERGED
+    assert on.iterations + most == whole_way.iterations
+
+
+def test_an_interruption_leaves_everything_where_it_is():
+    case = grid(2.0)
+    scene = build_scene(case)
+    args = whole(scene, scene.x_rest)
+    found = descend(case, scene, scene.x_rest, args, control=np.array([1, 0]))
+    assert (found.outcome, found.iterations) == (newton.INTERRUPTED, 0)
+    np.testing.assert_array_equal(found.x, scene.x_rest)
+
+
+def test_nodes_in_one_place_leave_the_range_of_numbers():
+    case = grid(2.0)
+    scene = build_scene(case)
+    one, two = scene.mesh.edges[-1]
+    x = scene.x_rest.copy()
+    x[2 * one : 2 * one + 2] = x[2 * two : 2 * two + 2]
+    found = descend(case, scene, x, whole(scene, scene.x_rest))
+    assert found.outcome == newton.NOT_FINITE
+
+
+def test_a_wall_that_lies_upon_another_is_stuck():
+    """No move is admissible, however small, although contact does not press: joints are near."""
+    case = grid(2.0, "contact", "barrier", 20)
+    scene = build_scene(case)
+    x, h = scene.x_rest.copy(), scene.mesh.rest_length.mean()
+    above = np.argmin(np.linalg.norm(scene.mesh.points - (0.0, 2.0 * h), axis=1))
+    x[2 * above : 2 * above + 2] = 1.5 * h, 0.0
+    found = descend(case, scene, x, whole(scene, scene.x_rest))
+    assert found.outcome == newton.STALLED
+    np.testing.assert_array_equal(found.x, x)
