@@ -134,11 +134,11 @@ class SealedFiles(IndexDataCacheFile):
 class SealedCache(FunctionCache):
     """Cache of one function. What cannot be read or written costs a compilation, never a result."""
 
-    def __init__(self, function):
+    def __init__(self, function, kind):
         super().__init__(function)
         self._cache_file = SealedFiles(
             cache_path=self._cache_path,
-            filename_base=self._impl.filename_base,
+            filename_base=f"{self._impl.filename_base}-{kind}",
             source_stamp=self._impl.locator.get_source_stamp(),
         )
 
@@ -163,9 +163,8 @@ class Kernel:
     """
 
     def __init__(self, function, options):
-        self._inner = _dispatcher(
-            function, options | {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-        )
+        bare = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+        self._inner = _dispatcher(function, options | bare, "bare")
         self._numba_type_ = numba.types.Dispatcher(self._inner)
         self.options = options
         functools.update_wrapper(self, function)
@@ -173,7 +172,7 @@ class Kernel:
     @functools.cached_property
     def entry(self):
         """The dispatcher of the function with its wrapper."""
-        return _dispatcher(self.__wrapped__, self.options)
+        return _dispatcher(self.__wrapped__, self.options, "entry")
 
     def __call__(self, *args):
         return self.entry(*args)
@@ -182,7 +181,7 @@ class Kernel:
         return getattr(self._inner, name)
 
 
-def _dispatcher(function, options):
+def _dispatcher(function, options, kind):
     """Numba's dispatcher, with the sealed cache.
 
     A constant argument gets no version of its own, which Numba would compile for every one.
@@ -192,7 +191,7 @@ def _dispatcher(function, options):
     dispatcher.get_call_template = lambda args, kws: typed(
         [numba.types.unliteral(a) for a in args], kws
     )
-    dispatcher._cache = SealedCache(function)
+    dispatcher._cache = SealedCache(function, kind)
     return dispatcher
 
 
