@@ -40,11 +40,11 @@ def _cross_dot(x, a, b, c):
 
 @jit
 def opening(x, fold, k):
-    """Return the opening g where it is between 0 and 45 degrees, else a value beyond any limit."""
+    """Return the opening g up to 45 degrees, which is beyond any limit, and 45 degrees above."""
     a, b, c = triple(fold.nodes, k)
     cross, dot = _cross_dot(x, a, b, c)
     if cross < 0.0 or dot <= cross:
-        return math.pi
+        return 0.25 * math.pi
     return math.atan2(cross, dot)
 
 
@@ -58,7 +58,7 @@ def _bearing_slope(x, b, c):
 
 @jit
 def evaluate(x, fold, g):
-    """Return (E_f in J, least opening in rad below 45 degrees, else pi); add dE_f/dx to ``g``."""
+    """Return E_f in J and the least `opening` in rad (pi without any); add dE_f/dx to ``g``."""
     total, least = 0.0, math.pi
     for k in range(fold.limit.size):
         opened = opening(x, fold, k)
