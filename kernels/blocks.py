@@ -168,20 +168,23 @@ def pivoted(pivot, own, scale):
 def _invert(values, at, own, scale):
     """Replace the diagonal block at ``at`` by its inverse; return the failed slot and its pivot.
 
-    d = diag(a, b, c) and the unit lower triangle l are the block's own LDL^T.
+    d = diag(a, b, c) and the unit lower triangle l are the block's own LDL^T. Above the diagonal
+    stands l^{-T}, so far as it is known, until the block is inverted.
     """
     a = pivoted(values[at], own[0], scale)
     if not a > 0.0:
         return 0, a
     l10, l20 = values[at + 3] / a, values[at + 6] / a
+    values[at + 1] = -l10
     b = pivoted(values[at + 4] - l10 * values[at + 3], own[1], scale)
     if not b > 0.0:
         return 1, b
     l21 = (values[at + 7] - l20 * values[at + 3]) / b
+    m20 = l10 * l21 - l20
+    values[at + 2], values[at + 5] = m20, -l21
     c = pivoted(values[at + 8] - l20 * values[at + 6] - l21 * l21 * b, own[2], scale)
     if not c > 0.0:
         return 2, c
-    m20 = l10 * l21 - l20
     values[at + 8] = 1.0 / c
     values[at + 7] = values[at + 5] = -l21 / c
     values[at + 6] = values[at + 2] = m20 / c
@@ -280,13 +283,6 @@ def descend(blocks, failed):
     v[:] = 0.0
     v[failed] = 1.0
     j, slot = failed // 3, failed % 3
-    at = SIZE * j
-    if slot == 1:
-        v[3 * j] = -values[at + 3] / values[at]
-    elif slot == 2:
-        a, b, c = values[at], values[at + 3], values[at + 4]
-        p, q = values[at + 6], values[at + 7]
-        determinant = a * c - b * b
-        v[3 * j] = -(c * p - b * q) / determinant
-        v[3 * j + 1] = -(a * q - b * p) / determinant
+    for s in range(slot):
+        v[3 * j + s] = values[SIZE * j + 3 * s + slot]
     backward(blocks, j)
