@@ -21,15 +21,14 @@ FOLD_LIMIT = math.radians(20.0)
 
 
 class Bend(NamedTuple):
-    """Hinges and arms; stiffness in N m, rest angles as (cos, sin).
+    """Hinges and arms; stiffness in N m.
 
-    hinges (h,): element before. hinge_rest (h, 2), hinge_angle (h,): angle between its elements at
-    rest. arm_rest (2 w, 2): bearing at rest of the element at an end. coupling (w,): k12.
+    hinges (h,): element before. hinge_angle (h,): angle between its elements at rest, rad. arm_rest
+    (2 w, 2): bearing at rest of the element at an end (cos, sin). coupling (w,): k12.
     """
 
     measure: int
     hinges: np.ndarray
-    hinge_rest: np.ndarray
     hinge_angle: np.ndarray
     hinge_stiffness: np.ndarray
     arm_rest: np.ndarray
@@ -72,12 +71,9 @@ def turns(x, walls, bend, frame, shape):
     t, widest = shape.t, 0.0
     for h in range(bend.hinges.size):
         k = bend.hinges[h]
-        rest = bend.hinge_rest[h]
-        co = t[0, k] * rest[0] - t[1, k] * rest[1]
-        si = t[1, k] * rest[0] + t[0, k] * rest[1]
-        delta = between(co, si, t[0, k + 1], t[1, k + 1])
-        shape.hinge_turn[k] = delta
-        widest = max(widest, abs(delta + bend.hinge_angle[h]))
+        angle = between(t[0, k], t[1, k], t[0, k + 1], t[1, k + 1])
+        shape.hinge_turn[k] = angle - bend.hinge_angle[h]
+        widest = max(widest, abs(angle))
     for a in range(frame.shape[0]):
         k = walls.arm_element[a]
         delta = between(frame[a, 0], frame[a, 1], t[0, k], t[1, k])

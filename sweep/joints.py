@@ -33,7 +33,6 @@ def build_bend(mesh: Mesh, rigidity: Floats, case: Case) -> bend.Bend:
     return bend.Bend(
         measure=bend.TANGENT if case.solver.bend_measure == "tangent" else bend.ANGLE,
         hinges=before,
-        hinge_rest=np.column_stack([cosine, sine]),
         hinge_angle=np.arctan2(sine, cosine),
         hinge_stiffness=(inside * rigidity)[before] / (0.5 * (length[before] + length[after])),
         arm_rest=on[end],

@@ -183,13 +183,12 @@ def bend_of(of: Frame, measure: int = bend.ANGLE, exact: bool = True) -> bend.Be
     before = np.flatnonzero(of.edges[:, 1] >= of.joints)
     along = (of.points[of.edges[:, 1]] - of.points[of.edges[:, 0]]) / of.l0[:, None]
     one, two = along[before], along[before + 1]
-    turn = [np.sum(one * two, axis=1), one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]]
+    cosine, sine = np.sum(one * two, axis=1), one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
     single = exact & (n[of.start[:-1]] == 1)
     return bend.Bend(
         measure=measure,
         hinges=before,
-        hinge_rest=np.column_stack(turn),
-        hinge_angle=np.arctan2(turn[1], turn[0]),
+        hinge_angle=np.arctan2(sine, cosine),
         hinge_stiffness=inside[before],
         arm_rest=along[of.arm_element],
         arm_stiffness=at_end[of.arm_element],
