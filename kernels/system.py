@@ -74,14 +74,15 @@ def _is_fixed(layout, c):
 @jit_exact
 def _kind(layout, w, m, touched):
     """Return how wall ``w`` with ``m`` inner unknowns enters the system."""
-    fixed, first = 0, 2 * layout.inner[w]
+    inside, ends, first = 0, 0, 2 * layout.inner[w]
     for c in range(first, first + m):
-        fixed += _is_fixed(layout, c)
-    if fixed == 0:
-        return OPEN if touched else CONDENSED
+        inside += _is_fixed(layout, c)
     for c in layout.outer[w]:
-        fixed += _is_fixed(layout, c)
-    return RIGID if fixed == m + condense.OUTER else OPEN
+        ends += _is_fixed(layout, c)
+    together = layout.leader[layout.outer[w, 1]] == layout.leader[layout.outer[w, 4]]
+    if inside + ends == m + condense.OUTER and together:
+        return RIGID
+    return CONDENSED if inside == 0 and not touched else OPEN
 
 
 @jit_exact
