@@ -34,10 +34,10 @@ def hinge_alone(of: Frame) -> bend.Bend:
     return bending._replace(arm_stiffness=np.zeros_like(bending.arm_stiffness))
 
 
-def fold_of_hinge(of: Frame, opening: float) -> float:
-    """K (g0 / 2)^2 b(g / g_f), written out."""
+def fold_of_hinge(of: Frame, opening: float, side: int) -> float:
+    """K (g0 / 2)^2 b(g / g_f), written out; g0: opening at rest on that side."""
     bending = bend_of(of)
-    rest = np.pi - abs(bending.hinge_angle[0])
+    rest = np.pi - side * bending.hinge_angle[0]
     return bending.hinge_stiffness[0] * (0.5 * rest) ** 2 * barrier(opening / LIMIT)[0]
 
 
@@ -57,7 +57,7 @@ def test_energy_of_a_folded_wall(share, side):
     elastic = 0.5 * stiffness * (np.pi - share * LIMIT) ** 2
     hinge = bending_of(walls_of(HINGE), hinge_alone(HINGE))
     found = hinge.energy(x) - elastic
-    assert found == pytest.approx(fold_of_hinge(HINGE, share * LIMIT), rel=1e-9, abs=1e-12)
+    assert found == pytest.approx(fold_of_hinge(HINGE, share * LIMIT, side), rel=1e-9, abs=1e-12)
     assert (found > 1e-9) == (share < 1)
 
 
@@ -67,7 +67,7 @@ def test_the_fold_of_a_kinked_wall_is_that_of_its_own_angle(side):
     x, bending = closing(KINKED, 0.5 * LIMIT, side), hinge_alone(KINKED)
     turn = side * (np.pi - 0.5 * LIMIT) - bending.hinge_angle[0]
     elastic = 0.5 * bending.hinge_stiffness[0] * turn**2
-    expected = elastic + fold_of_hinge(KINKED, 0.5 * LIMIT)
+    expected = elastic + fold_of_hinge(KINKED, 0.5 * LIMIT, side)
     assert abs(bending.hinge_angle[0]) > 0.5
     assert bending_of(walls_of(KINKED), bending).energy(x) == pytest.approx(expected, rel=1e-9)
 
