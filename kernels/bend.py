@@ -18,6 +18,7 @@ from kernels.jit import jit
 
 ANGLE, TANGENT = 0, 1
 FOLD_LIMIT = math.radians(20.0)
+NEAR_ENOUGH = 0.5  # rad
 
 
 class Bend(NamedTuple):
@@ -53,12 +54,14 @@ def between(cos_a, sin_a, cos_b, sin_b):
 
 @jit
 def aim(x, walls, bend, frame):
-    """Fill ``frame`` (2 w, 3): rest bearing of every arm turned by its joint (cos, sin), and phi.
+    """Renew ``frame`` (2 w, 3): rest bearing of every arm turned by its joint (cos, sin), and phi.
 
-    A turn is measured from this frame, so that it never wraps while a joint turns by less than pi.
+    A turn is measured from this frame, so that it never wraps. One that is near enough is kept.
     """
     for a in range(frame.shape[0]):
         phi = x[walls.rotation[a]]
+        if abs(phi - frame[a, 2]) < NEAR_ENOUGH:
+            continue
         co, si = math.cos(phi), math.sin(phi)
         frame[a, 0] = co * bend.arm_rest[a, 0] - si * bend.arm_rest[a, 1]
         frame[a, 1] = si * bend.arm_rest[a, 0] + co * bend.arm_rest[a, 1]

@@ -40,10 +40,12 @@ def _couple(rows, outer, i, j, xx, xy, yx, yy):
 
 
 @jit
-def fill(walls, w, stiffness, rows, outer):
-    """Write the Hessian of wall ``w`` into ``rows`` (m, 12) and ``outer`` (6, 6), lower half."""
+def fill(first, last, w, stiffness, rows, outer):
+    """Write the Hessian of wall ``w``, elements ``first`` .. ``last``, into ``rows`` (m, 12) and
+    ``outer`` (6, 6), lower half.
+    """
     own, following = stiffness.own, stiffness.next
-    first, n = walls.start[w], walls.start[w + 1] - walls.start[w]
+    n = last - first
     rows[:] = 0.0
     outer[:] = 0.0
     for q in range(n + 1):
@@ -115,13 +117,14 @@ def _reduce(rows, k, m, inverse, outer):
 
 
 @jit_exact
-def eliminate(rows, own, outer, scale):
+def eliminate(rows, diagonal, own, outer, scale):
     """Eliminate all rows in place; return (failed, pivot): the first negative one, -1 if none.
 
-    ``own`` (m,): filled with the diagonal before.
+    ``diagonal`` (m,) is added first; ``own`` (m,) is filled with the diagonal before.
     """
     m = rows.shape[0]
     for k in range(m):
+        rows[k, 0] += diagonal[k]
         own[k] = rows[k, 0]
     for k in range(m):
         pivot = pivoted(rows[k, 0], own[k], scale)

@@ -34,17 +34,40 @@ class Grips(NamedTuple):
     """Lagged contacts: nodes (n, 3) p, a, b; slopes (n, 3, 2) of the slip in them; load (n,).
 
     load is mu * lambda in N. A rigid platen does not move sideways: a = b = p with slope zero.
+    count (1,): how many there are, with room for more.
     """
 
     nodes: np.ndarray
     slopes: np.ndarray
     load: np.ndarray
+    count: np.ndarray
 
 
 @jit_owning
-def empty():
+def room(pairs, contact, friction):
+    """Return no grips, with room for all pairs and platens in contact."""
+    most = 3 * pairs.node.size + 2 * contact.plate_nodes.size if friction.mu > 0.0 else 0
+    return Grips(
+        np.empty((most, 3), np.int64), np.empty((most, 3, 2)), np.empty(most), np.zeros(1, np.int64)
+    )
+
+
+@jit_owning
+def none():
     """Return no grips."""
-    return Grips(np.empty((0, 3), np.int64), np.empty((0, 3, 2)), np.empty(0))
+    count = np.zeros(1, np.int64)
+    return Grips(np.empty((0, 3), np.int64), np.empty((0, 3, 2)), np.empty(0), count)
+
+
+@jit_owning
+def moved(grips, larger):
+    """Return ``larger`` with what is in ``grips``."""
+    n = min(grips.count[0], larger.load.size)
+    larger.nodes[:n] = grips.nodes[:n]
+    larger.slopes[:n] = grips.slopes[:n]
+    larger.load[:n] = grips.load[:n]
+    larger.count[0] = n
+    return larger
 
 
 @jit_exact
@@ -76,11 +99,9 @@ def _normal_force(contact, weight, dc, d):
     return -weight * contact.stiffness * barrier(d / dc)[1] if d < dc else 0.0
 
 
-@jit_owning
-def lag(x, contact, pairs, friction):
-    """Return the `Grips` of all pairs in contact at ``x``."""
-    most = 3 * pairs.node.size + 2 * contact.plate_nodes.size
-    grips = Grips(np.empty((most, 3), np.int64), np.empty((most, 3, 2)), np.empty(most))
+@jit_exact
+def lag(x, contact, pairs, friction, grips):
+    """Fill ``grips`` with all pairs in contact at ``x``."""
     n = 0
     for k in range(pairs.node.size):
         p, dc, weight = pairs.node[k], pairs.d_contact[k], 0.5 * friction.mu * pairs.weight[k]
@@ -102,7 +123,7 @@ def lag(x, contact, pairs, friction):
             if d < dc:
                 n = _put(grips, n, (p, p, p), _normal_force(contact, weight, dc, d))
                 grips.slopes[n - 1, 0, 0] = 1.0
-    return Grips(grips.nodes[:n], grips.slopes[:n], grips.load[:n])
+    grips.count[0] = n
 
 
 @jit
@@ -132,7 +153,7 @@ def _slip(u, grips, k):
 def evaluate(u, grips, slip, g):
     """Return D_f in J for a move ``u`` (n,) in the step, counted from zero; add dD_f/dx to ``g``."""
     total = 0.0
-    for k in range(grips.load.size):
+    for k in range(grips.count[0]):
         value, slope, _ = smooth(_slip(u, grips, k), slip)
         total += grips.load[k] * (value - slip / 3.0)
         for v in range(3):
@@ -145,7 +166,7 @@ def evaluate(u, grips, slip, g):
 @jit
 def hessian(u, grips, slip, matrix, projected):
     """Add d2D_f/dx2; ``projected`` leaves out shares with a negative force."""
-    for k in range(grips.load.size):
+    for k in range(grips.count[0]):
         _, _, curvature = smooth(_slip(u, grips, k), slip)
         weight = grips.load[k] * curvature
         if weight == 0.0 or (projected and weight < 0.0):

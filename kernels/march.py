@@ -11,7 +11,16 @@ import numpy as np
 from kernels import contact, damp, friction, inertia
 from kernels.chain import Shape, Stiffness
 from kernels.jit import jit_exact, jit_inlined, jit_owning
-from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, Work, largest, minimise, reduce
+from kernels.newton import (
+    CONVERGED,
+    INTERRUPTED,
+    ITERATIONS,
+    OUTGROWN,
+    Work,
+    largest,
+    minimise,
+    reduce,
+)
 from kernels.rows import copy
 from kernels.step import At, Step, find_near, rub
 
@@ -20,6 +29,7 @@ TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP = range(9, 15)
 N_COLUMNS = 15
 SMALLEST = 2.0**-12  # share of a step
 GRIP_LOOPS = 30  # fixed-point iterations of friction
+ROW, DONE, SHARE, SPENT, LOOPS, MOVE = range(6)  # of what is to be done: see `_go`
 
 
 class Stage(NamedTuple):
@@ -81,39 +91,20 @@ def _shape(terms):
 
 
 @jit_owning
-def _room(terms):
-    """Return the arrays of all steps: `Before`, `At` and `Work`."""
+def _room(terms, near):
+    """Return the arrays of all steps: `Before`, `At`, `Work`, `Grips` and the predicted position."""
     n = terms.mass.size
     shape, stiffness = _shape(terms)
-    before = damp.Before(np.zeros(n), np.zeros((terms.walls.rotation.size, 3)), shape, stiffness)
+    frame = np.full((terms.walls.rotation.size, 3), np.inf)  # none yet
+    before = damp.Before(np.zeros(n), frame, shape, stiffness)
     shape, stiffness = _shape(terms)
     five = np.zeros((5, n))
     at = At(
         five[0], five[1], five[2], five[3], five[4], np.zeros(3), np.zeros(2), shape, stiffness
     )
     more = np.zeros((5, n))
-    return before, at, Work(more[0], more[1], more[2], more[3], more[4])
-
-
-@jit_inlined
-def _solve_step(x, target, terms, step, near, unknowns, tolerance, at, work, control):
-    """Minimise; with friction again and again until the lagged forces agree with the contacts."""
-    total = 0
-    for _ in range(GRIP_LOOPS):
-        outcome, iterations, near = minimise(
-            x, target, terms, step, near, unknowns, tolerance, at, work, control
-        )
-        total += iterations
-        if outcome != CONVERGED or terms.friction.mu == 0.0:
-            return outcome, total, near
-        grips = friction.lag(x, terms.contact, near.pairs, terms.friction)
-        rub(terms, grips, at)
-        reduce(at.g, unknowns.leader, work.residual)
-        if largest(work.residual, unknowns) <= tolerance.friction:
-            rub(terms, step.grips, at)  # those that x is in balance with
-            return CONVERGED, total, near
-        step = Step(step.before, step.x_pred, step.dt, step.factor, grips)
-    return ITERATIONS, total, near
+    work = Work(more[0], more[1], more[2], more[3], more[4], np.full(1, np.inf))
+    return before, at, work, friction.room(near.pairs, terms.contact, terms.friction), np.zeros(n)
 
 
 @jit_exact
@@ -146,7 +137,7 @@ def _mean(x, coordinates):
     return total / coordinates.size
 
 
-@jit_exact
+@jit_inlined
 def _enter(terms, step, unknowns, state, at, work):
     """Add one converged step, found by the last `evaluate`, to the energy book."""
     book, dynamic = state.book, step.dt < np.inf
@@ -181,7 +172,7 @@ def _enter(terms, step, unknowns, state, at, work):
     book[RESIDUAL] -= book[MATERIAL] + book[FRICTION] + book[INTEGRATOR]
 
 
-@jit_exact
+@jit_inlined
 def _write(out, k, state, terms, near, unknowns, at):
     """Write row ``k`` of the history and its frame."""
     row = out.rows[k]
@@ -202,51 +193,105 @@ def _write(out, k, state, terms, near, unknowns, at):
             out.frames[out.frame_of[k], i] = state.x[i]
 
 
+@jit_inlined
+def _begin(terms, stage, state, near, room, todo):
+    """Set out on the next step, from where the last one ended."""
+    before, _, work, grips, x_pred = room
+    x, dt = state.x, stage.dt * todo[SHARE]
+    copy(x, before.x0)
+    damp.prepare(terms, before)
+    for i in range(x.size):
+        work.dx[i] = dt * state.v[i] if dt < np.inf else 0.0
+        x_pred[i] = x[i] + work.dx[i]
+    if terms.friction.mu > 0.0:
+        friction.lag(x, terms.contact, near.pairs, terms.friction, grips)
+    todo[LOOPS] = 0.0
+
+
+@jit_inlined
+def _grips_agree(x, terms, near, unknowns, tolerance, room, todo):
+    """Lag friction at ``x``; return whether ``x`` is still in balance (then nothing is changed)."""
+    _, at, work, grips, _ = room
+    copy(at.g, work.trial)
+    copy(at.rubbing, work.escape)
+    friction.lag(x, terms.contact, near.pairs, terms.friction, grips)
+    rub(terms, grips, at)
+    reduce(at.g, unknowns.leader, work.residual)
+    agree = largest(work.residual, unknowns) <= tolerance.friction
+    if agree:
+        copy(work.trial, at.g)
+        copy(work.escape, at.rubbing)
+    todo[LOOPS] += 1.0
+    work.dx[:] = 0.0
+    return agree
+
+
+@jit_exact
+def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo):
+    """March on from where ``todo`` (6,) says, until the stage ends or something must be done."""
+    before, at, work, grips, x_pred = room
+    while todo[ROW] < stage.steps:
+        if todo[LOOPS] < 0.0:
+            todo[SHARE] = min(todo[SHARE], 1.0 - todo[DONE])
+            _begin(terms, stage, state, near, room, todo)
+        part = (todo[ROW] + todo[DONE] + todo[SHARE]) / stage.steps
+        factor = stage.factor0 + (stage.factor1 - stage.factor0) * part
+        target = stage.driven0 + (stage.driven1 - stage.driven0) * part
+        step = Step(before, x_pred, stage.dt * todo[SHARE], factor, grips)
+        outcome, spent, todo[MOVE] = minimise(
+            state.x, target, terms, step, near, unknowns, tolerance, at, work, control
+        )
+        todo[SPENT] += spent
+        if outcome == OUTGROWN and todo[SPENT] < GRIP_LOOPS * tolerance.iterations:
+            work.dx[:] = 0.0
+            return outcome
+        if outcome == CONVERGED and terms.friction.mu > 0.0:
+            if not _grips_agree(state.x, terms, near, unknowns, tolerance, room, todo):
+                if todo[LOOPS] < GRIP_LOOPS:
+                    continue
+                outcome = ITERATIONS
+        todo[LOOPS] = -1.0
+        if outcome != CONVERGED:
+            copy(before.x0, state.x)
+            todo[SHARE] *= 0.5
+            work.kept[0] = np.inf
+            if outcome == INTERRUPTED or todo[SHARE] < SMALLEST:
+                return ITERATIONS if outcome == OUTGROWN else outcome
+            continue
+        _enter(terms, step, unknowns, state, at, work)
+        todo[DONE] += todo[SHARE]
+        if todo[SHARE] < 1.0 or terms.friction.mu > 0.0:  # the next Hessian is another
+            todo[SHARE] *= 2.0
+            work.kept[0] = np.inf
+        state.totals[1] += 1
+        if todo[DONE] == 1.0:
+            state.totals[0] += todo[SPENT]
+            state.totals[2] += stage.pace
+            _write(out, int(todo[ROW]), state, terms, near, unknowns, at)
+            control[1] += 1
+            todo[ROW], todo[DONE], todo[SPENT] = todo[ROW] + 1.0, 0.0, 0.0
+            todo[SHARE] = min(todo[SHARE], 1.0)
+    return CONVERGED
+
+
 @jit_owning
 def march(terms, unknowns, tolerance, stage, state, out, control):
     """March through ``stage`` from ``state`` (changed in place); fill ``out``.
 
     Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts steps done.
     """
-    before, at, work = _room(terms)
-    x, x_pred = state.x, np.zeros(state.x.size)
-    near = find_near(x, terms, friction.empty(), 0.0)
-    share = 1.0
-    for k in range(stage.steps):
-        done, iterations = 0.0, 0
-        while done < 1.0:
-            share = min(share, 1.0 - done)
-            part = (k + done + share) / stage.steps
-            factor = stage.factor0 + (stage.factor1 - stage.factor0) * part
-            target = stage.driven0 + (stage.driven1 - stage.driven0) * part
-            dt = stage.dt * share
-            copy(x, before.x0)
-            damp.prepare(terms, before)
-            if dt < np.inf:
-                for i in range(x.size):
-                    x_pred[i] = x[i] + dt * state.v[i]
-            grips = friction.empty()
-            if terms.friction.mu > 0.0:
-                grips = friction.lag(x, terms.contact, near.pairs, terms.friction)
-            step = Step(before, x_pred, dt, factor, grips)
-            outcome, spent, near = _solve_step(
-                x, target, terms, step, near, unknowns, tolerance, at, work, control
-            )
-            iterations += spent
-            if outcome == CONVERGED:
-                _enter(terms, step, unknowns, state, at, work)
-                done += share
-                share = 2.0 * share
-                state.totals[1] += 1
-                continue
-            copy(before.x0, x)
-            near = find_near(x, terms, friction.empty(), 0.0)
-            share *= 0.5
-            if outcome == INTERRUPTED or share < SMALLEST:
-                return outcome, k
-        share = min(share, 1.0)
-        state.totals[0] += iterations
-        state.totals[2] += stage.pace
-        _write(out, k, state, terms, near, unknowns, at)
-        control[1] += 1
-    return CONVERGED, stage.steps
+    todo = np.zeros(6)
+    todo[SHARE], todo[LOOPS] = 1.0, -1.0
+    near = find_near(state.x, terms, friction.none(), 0.0)
+    room = _room(terms, near)
+    while True:
+        outcome = _go(
+            terms, unknowns, tolerance, stage, state, out, control, near, room, todo
+        )
+        if outcome != OUTGROWN:
+            return outcome, int(todo[ROW])
+        near = find_near(state.x, terms, room[3], todo[MOVE])
+        room[2].kept[0] = np.inf
+        wider = friction.room(near.pairs, terms.contact, terms.friction)
+        if wider.load.size > room[3].load.size:
+            room = room[0], room[1], room[2], friction.moved(room[3], wider), room[4]

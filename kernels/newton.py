@@ -4,7 +4,8 @@ The exact Hessian is used wherever it is positive definite (all pivots positive)
 projected one, or the direction of the negative pivot if that promises a greater fall. The step is
 cut to its admissible share and backtracked until the energy falls (Armijo); what is evaluated there
 serves the next iteration. Converged means: scaled residual and Newton decrement below tolerance
-*and* no negative pivot in the exact Hessian, here or one step shorter than `Unknowns.close` before.
+*and* no negative pivot in the exact Hessian, here or not farther than `Unknowns.close` away. Within
+that distance a factor is used again.
 """
 
 from typing import NamedTuple
@@ -14,11 +15,12 @@ import numpy as np
 from kernels import chain, system
 from kernels.jit import jit, jit_exact, jit_inlined
 from kernels.rows import copy
-from kernels.step import covers, evaluate, factor, find_near, step_limit
+from kernels.step import covers, evaluate, factor, step_limit
 
-CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE = range(6)
+CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
 ARMIJO = 1e-4
 HALVINGS = 40
+SLOW = 0.1  # a kept factor that shrinks the residual by less is renewed
 LEAST_SHARE = 1e-12  # of a step: less is standing still
 RESOLVED = 1e-11  # an energy change below this share of the energy is lost in round-off
 
@@ -42,13 +44,14 @@ class Unknowns(NamedTuple):
     """Which coordinates move, and how far at once.
 
     leader (n,): as in `system.Layout`. scale (n,): length that turns a coordinate into m, 1 for one
-    in m. driven: coordinate that is led to a target, -1 if none. cap: longest move in one
+    in m; lever (n,): its inverse. driven: coordinate that is led to a target, -1 if none. cap: longest move in one
     iteration, m. leap: first move along a direction of negative curvature, m. close: a move so
     short that stability cannot have been lost on it, m.
     """
 
     leader: np.ndarray
     scale: np.ndarray
+    lever: np.ndarray
     driven: int
     cap: float
     leap: float
@@ -56,13 +59,16 @@ class Unknowns(NamedTuple):
 
 
 class Work(NamedTuple):
-    """Scratch arrays by coordinate."""
+    """Scratch arrays by coordinate; kept (1,): how far x may have moved, m, since an exact Hessian
+    was factored without a negative pivot (infinite: no such factor is at hand).
+    """
 
     dx: np.ndarray
     trial: np.ndarray
     residual: np.ndarray
     direction: np.ndarray
     escape: np.ndarray
+    kept: np.ndarray
 
 
 @jit
@@ -79,7 +85,7 @@ def largest(residual, unknowns):
     """Return the largest residual of the free coordinates in N; NaN if any is."""
     most = 0.0
     for i in range(residual.size):
-        size = abs(residual[i]) / unknowns.scale[i] if i != unknowns.driven else 0.0
+        size = abs(residual[i]) * unknowns.lever[i] if i != unknowns.driven else 0.0
         if not size <= most:
             most = size
             if size != size:
@@ -149,98 +155,131 @@ def _aim_off(terms, near, unknowns, at, work, place):
     return slope * factor, pivot * factor * factor
 
 
-@jit_inlined
-def _factored(x, terms, step, near, at, projected):
-    """Factor at ``x``; where contact outgrew the system, find a new one first."""
-    place = factor(x, terms, step, near, at, projected)
-    while near.system.matrix.missing[0] != 0:
-        near = find_near(x, terms, step.grips, 0.0)
-        evaluate(x, terms, step, near, at, projected)
-        place = factor(x, terms, step, near, at, projected)
-    return place, near
+@jit_exact
+def _advance(x, work, share):
+    """Point ``work.trial`` to a share of dx."""
+    for i in range(x.size):
+        work.trial[i] = x[i] + share * work.dx[i]
 
 
-@jit_inlined
-def _search(x, terms, step, near, at, work, noise, model, led):
-    """Backtrack from the share of dx in ``model`` until the energy falls; move ``x`` there.
-
-    ``model``: share, energy at x, slope and curvature along dx. ``led``: any energy will do.
-    Return (share, energy), share 0 if it never falls.
-    """
-    share, start, slope, curvature = model
+@jit_exact
+def _falls(reached, start, share, model, noise):
+    """Return whether the energy fell as the quadratic ``model`` (slope, curvature) lets expect."""
+    slope, curvature = model
     noise += RESOLVED * abs(start)
-    for _ in range(HALVINGS):
-        for i in range(x.size):
-            work.trial[i] = x[i] + share * work.dx[i]
-        reached = evaluate(work.trial, terms, step, near, at, False)
-        expected = ARMIJO * share * (slope + 0.5 * share * curvature)
-        if abs(expected) <= ARMIJO * noise:
-            expected = noise
-        if reached < np.inf and (led or reached <= start + expected):
-            copy(work.trial, x)
-            return share, reached
-        share *= 0.5
-    return 0.0, start
+    expected = ARMIJO * share * (slope + 0.5 * share * curvature)
+    if abs(expected) <= ARMIJO * noise:
+        expected = noise
+    return reached <= start + expected
+
+
+@jit_exact
+def _capped(dx, most, cap):
+    """Shorten ``dx`` so that no coordinate moves farther than ``cap``; return the factor."""
+    factor = min(1.0, cap / most) if most > 0.0 else 1.0
+    if factor < 1.0:
+        for i in range(dx.size):
+            dx[i] *= factor
+    return factor
 
 
 @jit_inlined
+def _choose(slope, stable, led, escape, unknowns, remaining, work):
+    """Fill dx with the Newton direction, or with the escape where that promises more.
+
+    Return the model (slope, curvature) along it and its length in m, cut to the cap.
+    """
+    fall, curvature = escape
+    if led or stable or fall + 0.5 * curvature > 0.5 * slope:
+        copy(work.direction, work.dx)
+        fall, curvature = slope, 0.0
+    else:
+        copy(work.escape, work.dx)
+    most = _longest(work.dx, unknowns)
+    cut = _capped(work.dx, most, max(unknowns.cap, 5.0 * abs(remaining)))
+    return (fall * cut, curvature), max(most * cut, abs(remaining)), cut == 1.0
+
+
+@jit_exact
 def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, control):
     """Descend from ``x`` (n,), in place, to a minimum with the driven coordinate at ``target``.
 
-    Return (outcome, iterations, near); ``at`` holds what `evaluate` finds at the end.
-    ``control[0]`` != 0 interrupts.
+    Starts from ``x`` + ``work.dx``, as far as that is admissible. Return (outcome, iterations, most);
+    ``at`` holds what `evaluate` found last. OUTGROWN: ``near`` does not hold all that a move of
+    ``most`` m could bring near; find it anew and go on. ``control[0]`` != 0 interrupts. Every turn
+    of the loop evaluates at one point: a trial of the search, or the same point again for another
+    Hessian.
     """
-    value = evaluate(x, terms, step, near, at, False)
-    moved = np.inf  # since the last exact and positive factor, which is kept
-    for iteration in range(tolerance.iterations):
-        if control[0] != 0:
-            return INTERRUPTED, iteration, near
-        reduce(at.g, unknowns.leader, work.residual)
-        size = largest(work.residual, unknowns)
-        if not size < np.inf:
-            return NOT_FINITE, iteration, near
-        remaining = target - x[unknowns.driven] if unknowns.driven >= 0 else 0.0
-        settled = remaining == 0.0 and size <= tolerance.force
-        stable, fall, curvature = True, 0.0, 0.0
-        if not (settled and moved <= unknowns.close):
-            place, near = _factored(x, terms, step, near, at, False)
-            stable = place[1] < 0
-        if not stable:
-            fall, curvature = _aim_off(terms, near, unknowns, at, work, place)
-            if not settled:
-                evaluate(x, terms, step, near, at, True)
-                place, near = _factored(x, terms, step, near, at, True)
+    outcome, iteration, halvings = ITERATIONS, -1, 0
+    setting_out, searching, arrived, free, whole = True, True, False, True, False
+    projected, settled = False, False
+    value, remaining, share, model, escape = 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0)
+    place = (-1, -1, 0.0)  # of the first negative pivot of the exact Hessian
+    kept = work.kept
+    most, before = _longest(work.dx, unknowns), np.inf
+    while True:
+        if setting_out:
+            if not covers(near, x, terms, most):
+                outcome = OUTGROWN
+                break
+            share = step_limit(x, work.dx, most, terms, near, at)
+            if share < LEAST_SHARE:
+                outcome = STALLED
+                break
+            setting_out, searching, halvings = False, True, 0
+            _advance(x, work, share)
+        reached = evaluate(work.trial, terms, step, near, at, projected)
+        if searching:
+            fine = free or _falls(reached, value, share, model, tolerance.noise)
+            if not (fine and reached < np.inf):
+                halvings, share = halvings + 1, 0.5 * share
+                if halvings == HALVINGS or share < LEAST_SHARE:
+                    outcome = STALLED
+                    break
+                _advance(x, work, share)
+                continue
+            copy(work.trial, x)
+            kept[0] += share * most
+            if free and whole and share == 1.0:
+                x[unknowns.driven] = target
+            iteration, searching, arrived = iteration + 1, False, True
+        if arrived:
+            value, arrived = reached, False
+            reduce(at.g, unknowns.leader, work.residual)
+            size = largest(work.residual, unknowns)
+            if control[0] != 0 or not size < np.inf:
+                outcome = INTERRUPTED if control[0] != 0 else NOT_FINITE
+                break
+            remaining = target - x[unknowns.driven] if unknowns.driven >= 0 else 0.0
+            settled = remaining == 0.0 and size <= tolerance.force
+            if not settled and size > SLOW * before:
+                kept[0] = np.inf
+            before = size
+        if kept[0] > unknowns.close:
+            found = factor(x, terms, step, near, at, projected)
+            if near.system.matrix.missing[0] != 0:
+                outcome, most, kept[0] = OUTGROWN, 0.0, np.inf
+                break
+            if projected and found[1] >= 0:
+                outcome = SINGULAR
+                break
+            if not projected:
+                place = found
+                kept[0] = 0.0 if found[1] < 0 else np.inf
                 if place[1] >= 0:
-                    return SINGULAR, iteration, near
-        slope = 0.0
-        if stable or not settled:
+                    escape = _aim_off(terms, near, unknowns, at, work, place)
+                    projected = not settled
+                    if projected:
+                        continue
+        stable, slope = place[1] < 0, 0.0
+        if stable or projected:
             slope = _solve(terms, near, unknowns, at, work, remaining)
         if settled and stable and -0.5 * slope <= tolerance.decrement:
-            return CONVERGED, iteration, near
-        if remaining != 0.0 or stable or fall + 0.5 * curvature > 0.5 * slope:
-            copy(work.direction, work.dx)
-            curvature = 0.0
-        else:
-            copy(work.escape, work.dx)
-            slope = fall
-        most = _longest(work.dx, unknowns)
-        cap = max(unknowns.cap, 5.0 * abs(remaining))
-        if most > cap:
-            for i in range(x.size):
-                work.dx[i] *= cap / most
-            slope *= cap / most
-            most = cap
-        moved = most if stable else np.inf
-        farthest = max(most, abs(remaining))
-        if not covers(near, x, terms, farthest):
-            near = find_near(x, terms, step.grips, farthest)
-            moved = np.inf
-        share = step_limit(x, work.dx, farthest, terms, near, at)
-        model = share, value, slope, curvature
-        led = remaining != 0.0
-        share, value = _search(x, terms, step, near, at, work, tolerance.noise, model, led)
-        if share < LEAST_SHARE:
-            return STALLED, iteration, near
-        if led and share == 1.0 and most < cap:
-            x[unknowns.driven] = target
-    return ITERATIONS, tolerance.iterations, near
+            outcome = CONVERGED
+            break
+        if iteration == tolerance.iterations:
+            break
+        free, projected = remaining != 0.0, False
+        model, most, whole = _choose(slope, stable, free, escape, unknowns, remaining, work)
+        setting_out = True
+    return outcome, max(iteration, 0), most

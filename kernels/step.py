@@ -24,7 +24,7 @@ from kernels import (
     stretch,
     system,
 )
-from kernels.jit import jit, jit_exact, jit_owning
+from kernels.jit import jit, jit_exact, jit_inlined, jit_owning
 from kernels.rows import pair, triple
 
 STRETCH, BEND, CONTACT = range(3)
@@ -89,7 +89,7 @@ class At(NamedTuple):
     stiffness: object
 
 
-@jit
+@jit_inlined
 def evaluate(x, terms, step, near, at, projected):
     """Return E in J; fill ``at``, with the walls' part of the (``projected``) Hessian."""
     walls, shape = terms.walls, at.shape
@@ -116,7 +116,7 @@ def evaluate(x, terms, step, near, at, projected):
     return total + rub(terms, step.grips, at)
 
 
-@jit
+@jit_inlined
 def _start(x, step, at):
     for i in range(x.size):
         at.u[i] = x[i] - step.before.x0[i]
@@ -125,7 +125,7 @@ def _start(x, step, at):
         at.rubbing[i] = 0.0
 
 
-@jit
+@jit_inlined
 def _damping(terms, step, at, projected):
     at.shape.slope[:] = 0.0
     at.shape.moment[:] = 0.0
@@ -137,7 +137,7 @@ def _damping(terms, step, at, projected):
     return total
 
 
-@jit
+@jit_inlined
 def rub(terms, grips, at):
     """Return D_f of ``grips`` and exchange its gradient in ``at`` for the one there."""
     if terms.friction.mu == 0.0:
@@ -151,7 +151,7 @@ def rub(terms, grips, at):
     return total
 
 
-@jit_exact
+@jit_inlined
 def factor(x, terms, step, near, at, projected):
     """Factor the Hessian at the ``x`` of the last `evaluate`; return as `system.factor` does."""
     matrix = near.system.matrix
@@ -166,7 +166,7 @@ def factor(x, terms, step, near, at, projected):
     return system.factor(near.system, terms.layout, terms.walls, at.stiffness)
 
 
-@jit_exact
+@jit_inlined
 def step_limit(x, dx, most, terms, near, at):
     """Return the share of ``dx`` (at most 1) that keeps walls apart, open and long enough.
 
@@ -198,7 +198,7 @@ def _first_fold(x, dx, terms):
 def _couplings(x, terms, found, grips):
     """Return (c, 4) nodes of what may soon share a term: contacts, grips, closing joints."""
     layout, reach = terms.layout, 1.0 + LIKELY
-    most = found.node.size + grips.load.size + terms.fold.limit.size
+    most = found.node.size + grips.count[0] + terms.fold.limit.size
     most += terms.contact.plate_nodes.size
     nodes, n = np.empty((most, 3), np.int64), 0
     for k in range(found.node.size):
@@ -206,7 +206,7 @@ def _couplings(x, terms, found, grips):
             a, b = pair(terms.contact.edges, found.edge[k])
             nodes[n, 0], nodes[n, 1], nodes[n, 2] = found.node[k], a, b
             n += 1
-    for k in range(grips.load.size):
+    for k in range(grips.count[0]):
         nodes[n] = grips.nodes[k]
         n += 1
     for k in range(terms.fold.limit.size):
@@ -235,7 +235,7 @@ def find_near(x, terms, grips, move):
     return Near(found, x.copy(), margin, solver)
 
 
-@jit_exact
+@jit_inlined
 def _drift(x, terms, near):
     """Return how far a node has moved since the pairs were listed, m."""
     if terms.contact.edges.shape[0] == 0:
@@ -243,7 +243,7 @@ def _drift(x, terms, near):
     return pairs.farthest(x, near.anchor, terms.layout.n_nodes)
 
 
-@jit_exact
+@jit_inlined
 def covers(near, x, terms, reach):
     """Return whether the list still holds every pair that matters within ``reach`` of ``x``."""
     return 2.0 * (_drift(x, terms, near) + reach) <= near.margin

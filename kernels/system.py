@@ -11,7 +11,7 @@ import numpy as np
 
 from kernels import blocks, condense, order
 from kernels.blocks import DRIVEN, HELD, INNER
-from kernels.jit import jit, jit_exact, jit_owning
+from kernels.jit import jit, jit_exact, jit_inlined, jit_owning
 
 CONDENSED, OPEN, RIGID = range(3)
 
@@ -230,53 +230,57 @@ def analyse(layout, walls, couplings):
 
 
 @jit
-def _scatter(system, w, rows):
-    """Add the entries of wall ``w`` to the block matrix."""
-    values, target, t = system.matrix.values, system.target, system.target_start[w]
-    if system.kind[w] == OPEN:
+def _scatter(values, target, rows, outer):
+    """Add the entries of a wall to the block matrix: its ``rows`` too where they have targets."""
+    t = 0
+    if target.size > 21:
         for k in range(rows.shape[0]):
             for c in range(condense.WIDTH):
                 values[target[t]] += rows[k, c]
                 t += 1
     for c in range(condense.OUTER):
         for d in range(c + 1):
-            values[target[t]] += system.outer[c, d]
+            values[target[t]] += outer[c, d]
             t += 1
 
 
-@jit_exact
+@jit_inlined
 def factor(system, layout, walls, stiffness):
     """Add the walls to what the matrix holds and factor all.
 
     Return (wall, failed, pivot): where the first negative pivot is, failed = -1 if there is none;
     wall = -1 if it is in the block matrix.
     """
+    wall, failed, pivot = -1, -1, 0.0
     for w in range(system.kind.size):
         if system.kind[w] == RIGID:
             continue
         span = slice(system.row_start[w], system.row_start[w + 1])
-        rows = system.rows[span]
-        condense.fill(walls, w, stiffness, rows, system.outer)
+        rows, own = system.rows[span], system.own[span]
+        condense.fill(walls.start[w], walls.start[w + 1], w, stiffness, rows, system.outer)
         if system.kind[w] == CONDENSED:
-            for k in range(rows.shape[0]):
-                rows[k, 0] += system.matrix.diagonal[2 * layout.inner[w] + k]
-            failed, pivot = condense.eliminate(rows, system.own[span], system.outer, layout.scale)
+            first = 2 * layout.inner[w]
+            diagonal = system.matrix.diagonal[first : first + rows.shape[0]]
+            failed, pivot = condense.eliminate(rows, diagonal, own, system.outer, layout.scale)
             if failed >= 0:
-                return w, failed, pivot
-        _scatter(system, w, rows)
-    blocks.settle(system.matrix, layout.scale)
-    failed, pivot = blocks.factor(system.matrix, layout.scale)
-    return -1, failed, pivot
+                wall = w
+                break
+        targets = system.target[system.target_start[w] : system.target_start[w + 1]]
+        _scatter(system.matrix.values, targets, rows, system.outer)
+    if failed < 0:
+        blocks.settle(system.matrix, layout.scale)
+        failed, pivot = blocks.factor(system.matrix, layout.scale)
+    return wall, failed, pivot
 
 
-@jit
+@jit_inlined
 def _inner(system, layout, w):
     """Return the coordinates of the inner unknowns of wall ``w``."""
     first = 2 * layout.inner[w]
     return slice(first, first + system.row_start[w + 1] - system.row_start[w])
 
 
-@jit
+@jit_inlined
 def _expand(system, layout, b):
     """Write the solution of the block matrix to ``b`` and solve the condensed walls for the rest."""
     home, vector, joints = system.matrix.home, system.matrix.vector, system.joints

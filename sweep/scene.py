@@ -238,6 +238,7 @@ def _unknowns(mesh: Mesh, layout: Layout, solved: system.Layout, case: Case) -> 
     return newton.Unknowns(
         leader=solved.leader,
         scale=scale,
+        lever=1.0 / scale,
         driven=solved.driven,
         cap=0.25 * min(lattice.width, lattice.height) / max(lattice.cells_x, lattice.cells_y),
         leap=0.1 * lattice.wall_thickness,
