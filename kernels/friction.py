@@ -120,7 +120,7 @@ def lag(x, contact, pairs, friction, grips):
     for p in contact.plate_nodes:
         dc, weight = 0.5 * contact.node_thickness[p], friction.mu * contact.tributary[p]
         for d in (x[2 * p + 1] - x[contact.low], x[contact.high] - x[2 * p + 1]):
-            if d < dc:
+            if d < dc and weight > 0.0:
                 n = _put(grips, n, (p, p, p), _normal_force(contact, weight, dc, d))
                 grips.slopes[n - 1, 0, 0] = 1.0
     grips.count[0] = n
