@@ -6,8 +6,9 @@ and `system`, which are compared with it.
 
 import numpy as np
 
-from kernels import bend, blocks, chain, contact, pairs
+from kernels import bend, blocks, chain, contact, damp, pairs
 from kernels.blocks import Blocks
+from kernels.step import Terms
 
 
 class Term:
@@ -95,6 +96,26 @@ def bending_of(walls: chain.Walls, bending: bend.Bend, x0=None) -> Term:
         return bend.evaluate(walls, bending, shape, stiffness, projected)
 
     return of_walls(walls, bending, add, x0)
+
+
+def damping_of(terms: Terms, x0: np.ndarray, dt: float) -> Term:
+    """Damping of a step of ``dt`` from x0, with the Hessian of its mass, which a step adds."""
+    walls = terms.walls
+    before = damp.Before(x0, np.full((walls.rotation.size, 3), np.inf), *room(walls))
+    damp.prepare(terms, before)
+
+    def found(x, projected, g):
+        shape, stiffness = room(walls)
+        chain.measure(x, walls, shape)
+        bend.turns(x, walls, terms.bend, before.frame, shape)
+        value = damp.evaluate(x - x0, terms, before, dt, shape, stiffness, projected, g)
+        return value, stiffness
+
+    def second(x, projected):
+        _, stiffness = found(x, projected, np.zeros_like(x))
+        return assembled(walls, stiffness, x.size) + np.diag(terms.damp.alpha_m / dt * terms.mass)
+
+    return Term(lambda x, g: found(x, False, g)[0], second)
 
 
 def full_matrix(n: int) -> Blocks:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels import bend, chain, damp, stretch
+from kernels import bend, damp, stretch
 from tests.frames import (
     carried,
     curve_law,
@@ -14,7 +14,7 @@ from tests.frames import (
     shaken,
     terms_of,
 )
-from tests.terms import Term, assembled, derivative_error, least_share, of_walls, room
+from tests.terms import Term, damping_of, derivative_error, least_share, of_walls
 
 FRAME = joint_of_four()
 DT = 0.02
@@ -29,23 +29,7 @@ def damped(of, damping, measure=bend.ANGLE, law=curve_law):
 
 
 def term_of(terms, x0) -> Term:
-    """Damping of a step of ``DT`` from x0; the Hessian of its mass is left to the step."""
-    walls = terms.walls
-    before = damp.Before(x0, np.full((walls.rotation.size, 3), np.inf), *room(walls))
-    damp.prepare(terms, before)
-
-    def found(x, projected, g):
-        shape, stiffness = room(walls)
-        chain.measure(x, walls, shape)
-        bend.turns(x, walls, terms.bend, before.frame, shape)
-        value = damp.evaluate(x - x0, terms, before, DT, shape, stiffness, projected, g)
-        return value, stiffness
-
-    def second(x, projected):
-        _, stiffness = found(x, projected, np.zeros_like(x))
-        return assembled(walls, stiffness, x.size) + np.diag(terms.damp.alpha_m / DT * terms.mass)
-
-    return Term(lambda x, g: found(x, False, g)[0], second)
+    return damping_of(terms, x0, DT)
 
 
 def elastic(terms, x, projected=False):
