@@ -33,6 +33,7 @@ LEAST_LENGTH = 0.1  # of an element's length: no step shrinks it further
 MARGIN = 1.0  # of the reach of contact: how much farther pairs are listed
 LIKELY = 0.25  # of its contact distance: a pair that much farther away gets room in the matrix
 ADVANCE = 0.9  # share of the way to the first contact that a step may use
+DIAGONAL = 2.0**0.5  # a node may move so many times as far as either of its coordinates
 
 
 class Terms(NamedTuple):
@@ -170,13 +171,13 @@ def factor(x, terms, step, near, at, projected):
 def step_limit(x, dx, most, terms, near, at):
     """Return the share of ``dx`` (at most 1) that keeps walls apart, open and long enough.
 
-    ``most``: farthest move of a node in m. A bound tells first whether a check is needed at all.
+    ``most``: farthest move of a coordinate in m. A bound tells first whether a check is needed.
     """
-    contacts, shortest = terms.contact, np.inf
-    first = contact.step_limit(x, dx, most, contacts, near.pairs, _drift(x, terms, near))
-    if np.pi * 2.0 * most >= at.least[OPENING] * at.least[SHORTEST]:
+    contacts, shortest, farthest = terms.contact, np.inf, DIAGONAL * most
+    first = contact.step_limit(x, dx, farthest, contacts, near.pairs, _drift(x, terms, near))
+    if np.pi * 2.0 * farthest >= at.least[OPENING] * at.least[SHORTEST]:
         first = min(first, _first_fold(x, dx, terms))
-    if 2.0 * most >= (1.0 - LEAST_LENGTH) * at.least[SHORTEST]:
+    if 2.0 * farthest >= (1.0 - LEAST_LENGTH) * at.least[SHORTEST]:
         for k in range(terms.walls.edges.shape[0]):
             i, j = pair(terms.walls.edges, k)
             shortest = min(shortest, ccd.first_shrink(x, dx, i, j, LEAST_LENGTH))
@@ -245,5 +246,5 @@ def _drift(x, terms, near):
 
 @jit_inlined
 def covers(near, x, terms, reach):
-    """Return whether the list still holds every pair that matters within ``reach`` of ``x``."""
-    return 2.0 * (_drift(x, terms, near) + reach) <= near.margin
+    """Return whether the list holds all that matters while no coordinate moves beyond ``reach``."""
+    return 2.0 * (_drift(x, terms, near) + DIAGONAL * reach) <= near.margin
