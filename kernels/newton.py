@@ -234,7 +234,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
             if not (fine and reached < np.inf):
                 halvings, share = halvings + 1, 0.5 * share
                 if halvings == HALVINGS or share < LEAST_SHARE:
-                    outcome = STALLED
+                    outcome = STALLED if reached < np.inf else NOT_FINITE
                     break
                 _advance(x, work, share)
                 continue
