@@ -253,6 +253,7 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
         todo[LOOPS] = -1.0
         if outcome != CONVERGED:
             copy(before.x0, state.x)
+            at.least[:] = 0.0  # what was found last was found elsewhere
             todo[SHARE] *= 0.5
             work.kept[0] = np.inf
             if outcome == INTERRUPTED or todo[SHARE] < SMALLEST:
