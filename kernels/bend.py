@@ -2,8 +2,9 @@
 
 Inside a wall a *hinge* resists the angle between its two elements. At a joint every *arm* resists
 its own turn against the joint's rotation phi, an unknown of its own. A wall of a single element
-adds k12 kappa_1 kappa_2 between its two ends (a *coupling*), which makes it an exact beam.
+adds k12 kappa_1 kappa_2 between its two ends, which makes it an exact beam.
 Measures: kappa = delta (``angle``) or 2 tan(delta / 2) (``tangent``), delta the turn from rest.
+A hinge that folds meets the barrier K (g0 / 2)^2 b(g / g_f) of its opening g = pi - |angle|.
 """
 
 import math
@@ -11,31 +12,29 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels import angle
+from kernels import chain
+from kernels.barrier import barrier
 from kernels.jit import jit
-from kernels.rows import pair, triple
-from kernels.sparse import add, add_block
 
 ANGLE, TANGENT = 0, 1
+FOLD_LIMIT = math.radians(20.0)
+NEAR_ENOUGH = 0.5  # rad
 
 
 class Bend(NamedTuple):
-    """Hinges and arms; stiffness in N m, rest angles as (cos, sin).
+    """Hinges and arms; stiffness in N m.
 
-    hinges (h, 3): nodes before, at and after. arms (k, 3): node at the joint, node at the other
-    end of the element, coordinate of the joint's rotation. couplings (q, 2): the two arms of a
-    single-element wall.
+    hinges (h,): element before. hinge_angle (h,): angle between its elements at rest, rad. arm_rest
+    (2 w, 2): bearing at rest of the element at an end (cos, sin). coupling (w,): k12.
     """
 
     measure: int
     hinges: np.ndarray
-    hinge_rest: np.ndarray
+    hinge_angle: np.ndarray
     hinge_stiffness: np.ndarray
-    arms: np.ndarray
     arm_rest: np.ndarray
     arm_stiffness: np.ndarray
-    couplings: np.ndarray
-    coupling_stiffness: np.ndarray
+    coupling: np.ndarray
 
 
 @jit
@@ -48,115 +47,99 @@ def curvature(measure, delta):
 
 
 @jit
-def hinge_turn(x, bend, k):
-    """Return the turn of hinge ``k`` from rest."""
-    a, b, c = triple(bend.hinges, k)
-    cross, dot = angle.between(x, a, b, c)
-    return angle.turned(cross, dot, bend.hinge_rest[k, 0], bend.hinge_rest[k, 1])
+def between(cos_a, sin_a, cos_b, sin_b):
+    """Return the angle from direction a to direction b, in (-pi, pi]."""
+    return math.atan2(cos_a * sin_b - sin_a * cos_b, cos_a * cos_b + sin_a * sin_b)
 
 
 @jit
-def arm_turn(x, bend, k):
-    """Return the turn of arm ``k`` from its rest direction, relative to its joint."""
-    b, c, rotation = triple(bend.arms, k)
-    return angle.arm_turned(x, b, c, x[rotation], bend.arm_rest[k, 0], bend.arm_rest[k, 1])
+def aim(x, walls, bend, frame):
+    """Renew ``frame`` (2 w, 3): rest bearing of every arm turned by its joint (cos, sin), and phi.
+
+    A turn is measured from this frame, so that it never wraps. One that is near enough is kept.
+    """
+    for a in range(frame.shape[0]):
+        phi = x[walls.rotation[a]]
+        if abs(phi - frame[a, 2]) < NEAR_ENOUGH:
+            continue
+        co, si = math.cos(phi), math.sin(phi)
+        frame[a, 0] = co * bend.arm_rest[a, 0] - si * bend.arm_rest[a, 1]
+        frame[a, 1] = si * bend.arm_rest[a, 0] + co * bend.arm_rest[a, 1]
+        frame[a, 2] = phi
 
 
 @jit
-def energy(x, bend):
-    """Return E_b in J."""
+def turns(x, walls, bend, frame, shape):
+    """Fill the turns from rest; return the least opening of a hinge in rad."""
+    t, widest = shape.t, 0.0
+    for h in range(bend.hinges.size):
+        k = bend.hinges[h]
+        angle = between(t[0, k], t[1, k], t[0, k + 1], t[1, k + 1])
+        shape.hinge_turn[k] = angle - bend.hinge_angle[h]
+        widest = max(widest, abs(angle))
+    for a in range(frame.shape[0]):
+        k = walls.arm_element[a]
+        delta = between(frame[a, 0], frame[a, 1], t[0, k], t[1, k])
+        shape.arm_turn[a] = delta - (x[walls.rotation[a]] - frame[a, 2])
+    return math.pi - widest
+
+
+@jit
+def _folding(stiffness, angle, rest):
+    """Return energy, moment and rigidity of the fold barrier of a hinge at ``angle``."""
+    side = 1.0 if angle > 0.0 else -1.0
+    opened, opened_rest = math.pi - side * angle, math.pi - side * rest
+    limit = min(FOLD_LIMIT, 0.5 * opened_rest)
+    if opened >= limit:
+        return 0.0, 0.0, 0.0
+    scale = stiffness * (0.5 * opened_rest) ** 2
+    value, slope, second = barrier(opened / limit)
+    return scale * value, -side * scale / limit * slope, scale / limit**2 * second
+
+
+@jit
+def _hinges(bend, shape, stiffness, projected):
     total = 0.0
-    for k in range(bend.hinge_stiffness.size):
-        kappa, _, _ = curvature(bend.measure, hinge_turn(x, bend, k))
-        total += 0.5 * bend.hinge_stiffness[k] * kappa * kappa
-    for k in range(bend.arm_stiffness.size):
-        kappa, _, _ = curvature(bend.measure, arm_turn(x, bend, k))
-        total += 0.5 * bend.arm_stiffness[k] * kappa * kappa
-    for k in range(bend.coupling_stiffness.size):
-        kappa1, _, _ = curvature(bend.measure, arm_turn(x, bend, bend.couplings[k, 0]))
-        kappa2, _, _ = curvature(bend.measure, arm_turn(x, bend, bend.couplings[k, 1]))
-        total += bend.coupling_stiffness[k] * kappa1 * kappa2
+    for h in range(bend.hinges.size):
+        k, weight = bend.hinges[h], bend.hinge_stiffness[h]
+        delta = shape.hinge_turn[k]
+        kappa, d1, d2 = curvature(bend.measure, delta)
+        folding, moment, rigidity = _folding(weight, delta + bend.hinge_angle[h], bend.hinge_angle[h])
+        total += 0.5 * weight * kappa * kappa + folding
+        moment += weight * kappa * d1
+        rigidity += weight * d1 * d1
+        if not projected:
+            rigidity += weight * kappa * d2
+        chain.turn_hinge(shape, stiffness, k, moment, rigidity, 0.0 if projected else moment)
     return total
 
 
 @jit
-def gradient(x, bend, g):
-    """Add dE_b/dx to ``g``; entries of rotations are moments, N m."""
-    for k in range(bend.hinge_stiffness.size):
-        a, b, c = triple(bend.hinges, k)
-        kappa, d1, _ = curvature(bend.measure, hinge_turn(x, bend, k))
-        angle.twist(g, x, a, b, c, bend.hinge_stiffness[k] * kappa * d1)
-    for k in range(bend.arm_stiffness.size):
-        b, c, rotation = triple(bend.arms, k)
-        kappa, d1, _ = curvature(bend.measure, arm_turn(x, bend, k))
-        angle.arm_twist(g, x, b, c, rotation, bend.arm_stiffness[k] * kappa * d1)
-    for k in range(bend.coupling_stiffness.size):
-        one, two = pair(bend.couplings, k)
-        kappa1, d1, _ = curvature(bend.measure, arm_turn(x, bend, one))
-        kappa2, d2, _ = curvature(bend.measure, arm_turn(x, bend, two))
-        k12 = bend.coupling_stiffness[k]
-        angle.arm_twist(g, x, *triple(bend.arms, one), k12 * kappa2 * d1)
-        angle.arm_twist(g, x, *triple(bend.arms, two), k12 * kappa1 * d2)
+def _arms(walls, bend, shape, stiffness, projected):
+    """Both arms of every wall. With k12 = k1 / 2 = k2 / 2 the projected sum is semi-definite."""
+    total = 0.0
+    for w in range(bend.coupling.size):
+        k12 = bend.coupling[w]
+        one, e1, s1 = curvature(bend.measure, shape.arm_turn[2 * w])
+        two, e2, s2 = curvature(bend.measure, shape.arm_turn[2 * w + 1])
+        total += k12 * one * two
+        for a, kappa, d1, d2, other in ((2 * w, one, e1, s1, two), (2 * w + 1, two, e2, s2, one)):
+            weight = bend.arm_stiffness[a]
+            total += 0.5 * weight * kappa * kappa
+            force = weight * kappa + k12 * other
+            rigidity = weight * d1 * d1 + (0.0 if projected else force * d2)
+            bent = 0.0 if projected else force * d1
+            chain.turn_arm(shape, stiffness, walls, a, force * d1, rigidity, bent)
+        if k12 > 0.0:
+            chain.couple_arms(shape, stiffness, walls, w, k12 * e1 * e2)
+    return total
 
 
 @jit
-def _stiffness(measure, weight, delta, projected):
-    """Return d2 and d of weight/2 kappa^2 in the turn; ``projected`` drops what may be negative."""
-    kappa, d1, d2 = curvature(measure, delta)
-    if projected:
-        return weight * d1 * d1, 0.0
-    return weight * (d1 * d1 + kappa * d2), weight * kappa * d1
+def evaluate(walls, bend, shape, stiffness, projected):
+    """Return E_b in J with the folds of hinges; add its derivatives in the turns of ``shape``.
 
-
-@jit
-def hessian(x, bend, matrix, projected):
-    """Add d2E_b/dx2; ``projected`` keeps what is positive semi-definite in every element."""
-    for k in range(bend.hinge_stiffness.size):
-        a, b, c = triple(bend.hinges, k)
-        stiffness, moment = _stiffness(
-            bend.measure, bend.hinge_stiffness[k], hinge_turn(x, bend, k), projected
-        )
-        angle.twist_stiffen(matrix, x, a, b, c, stiffness, moment)
-    for k in range(bend.arm_stiffness.size):
-        b, c, rotation = triple(bend.arms, k)
-        stiffness, moment = _stiffness(
-            bend.measure, bend.arm_stiffness[k], arm_turn(x, bend, k), projected
-        )
-        angle.arm_stiffen(matrix, x, b, c, rotation, stiffness, moment)
-    for k in range(bend.coupling_stiffness.size):
-        _couple(x, bend, k, matrix, projected)
-
-
-@jit
-def _couple(x, bend, k, matrix, projected):
-    """Add the Hessian of k12 kappa1 kappa2. With k12 = k1/2 = k2/2 the sum stays semi-definite."""
-    one, two = pair(bend.couplings, k)
-    kappa1, d1, e1 = curvature(bend.measure, arm_turn(x, bend, one))
-    kappa2, d2, e2 = curvature(bend.measure, arm_turn(x, bend, two))
-    k12 = bend.coupling_stiffness[k]
-    if not projected:
-        angle.arm_stiffen(matrix, x, *triple(bend.arms, one), k12 * kappa2 * e1, k12 * kappa2 * d1)
-        angle.arm_stiffen(matrix, x, *triple(bend.arms, two), k12 * kappa1 * e2, k12 * kappa1 * d2)
-    cross(x, matrix, triple(bend.arms, one), triple(bend.arms, two), k12 * d1 * d2)
-
-
-@jit
-def cross(x, matrix, one, two, weight):
-    """Add weight (p q^T + q p^T) for the turns of the two arms p, q of one element.
-
-    Both arms lie along the element i-j and so have the same slope s: p = q = s (e_j - e_i) but
-    for the rotations, -1 at the own joint's.
+    ``projected`` keeps what is positive semi-definite in every hinge and wall.
     """
-    i, j, first = one
-    _, _, second = two
-    sx, sy = angle.slope(x, i, j)
-    xx, xy, yy = 2.0 * weight * sx * sx, 2.0 * weight * sx * sy, 2.0 * weight * sy * sy
-    add_block(matrix, 2 * i, 2 * i, xx, xy, xy, yy)
-    add_block(matrix, 2 * j, 2 * j, xx, xy, xy, yy)
-    add_block(matrix, 2 * i, 2 * j, -xx, -xy, -xy, -yy)
-    for rotation in (first, second):
-        add(matrix, rotation, 2 * i, weight * sx)
-        add(matrix, rotation, 2 * i + 1, weight * sy)
-        add(matrix, rotation, 2 * j, -weight * sx)
-        add(matrix, rotation, 2 * j + 1, -weight * sy)
-    add(matrix, first, second, weight)
+    total = _hinges(bend, shape, stiffness, projected)
+    return total + _arms(walls, bend, shape, stiffness, projected)

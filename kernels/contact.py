@@ -14,8 +14,10 @@ import numpy as np
 
 from kernels import ccd
 from kernels.barrier import barrier
+from kernels.blocks import add
 from kernels.distance import (
     closest,
+    direction,
     normal,
     push,
     push_point,
@@ -24,8 +26,6 @@ from kernels.distance import (
 )
 from kernels.jit import jit, jit_exact
 from kernels.rows import pair
-from kernels.sparse import add
-from kernels.stretch import direction
 
 
 class Contact(NamedTuple):
@@ -71,61 +71,53 @@ def _segment_distance(x, p, a, b):
 
 
 @jit
-def energy(x, contact, pairs):
-    """Return E_c in J; infinite where anything touches at distance zero."""
-    total = 0.0
+def evaluate(x, contact, pairs, drift, g):
+    """Return E_c in J, infinite where anything touches at distance zero; add dE_c/dx to ``g``.
+
+    ``drift``: farthest move in m of a node since the pairs were listed. Those in contact are noted
+    in ``pairs.touching``, their number in ``pairs.count``.
+    """
+    total = _plates(x, contact, g)
+    pairs.count[0] = 0
     for k in range(pairs.node.size):
+        if pairs.distance[k] > contact.reach + 2.0 * drift:
+            break  # all others are farther away
         if pairs.weight[k] == 0.0:
             continue
         p, dc = pairs.node[k], pairs.d_contact[k]
         a, b = pair(contact.edges, pairs.edge[k])
-        d = _segment_distance(x, p, a, b)
+        tau, _ = closest(x, p, a, b)
+        _, _, d = normal(x, p, a, b, tau)
         if d >= dc:
             continue
         if d == 0.0:  # at a vertex what is taken off is infinite too
             return np.inf
+        pairs.touching[pairs.count[0]] = k
+        pairs.count[0] += 1
         weight = 0.5 * pairs.weight[k]
-        total += _law(contact, weight, dc, d)[0]
+        value, slope, _ = _law(contact, weight, dc, d)
+        total += value
+        push(g, x, p, a, b, slope)
         for side, v in ((0, a), (1, b)):
             if pairs.subtract[k, side] != 0.0:
                 _, _, dv = direction(x, v, p)
                 if dv < dc:
-                    total -= _law(contact, weight, dc, dv)[0]
-    return total + _plate_energy(x, contact)
-
-
-@jit
-def gradient(x, contact, pairs, g):
-    """Add dE_c/dx to ``g``."""
-    for k in range(pairs.node.size):
-        if pairs.weight[k] == 0.0:
-            continue
-        p, dc = pairs.node[k], pairs.d_contact[k]
-        a, b = pair(contact.edges, pairs.edge[k])
-        d = _segment_distance(x, p, a, b)
-        if d >= dc:
-            continue
-        weight = 0.5 * pairs.weight[k]
-        push(g, x, p, a, b, _law(contact, weight, dc, d)[1])
-        for side, v in ((0, a), (1, b)):
-            if pairs.subtract[k, side] != 0.0:
-                _, _, dv = direction(x, v, p)
-                if dv < dc:
-                    push_point(g, x, p, v, -_law(contact, weight, dc, dv)[1])
-    _plate_gradient(x, contact, g)
+                    value, slope, _ = _law(contact, weight, dc, dv)
+                    total -= value
+                    push_point(g, x, p, v, -slope)
+    return total
 
 
 @jit
 def hessian(x, contact, pairs, matrix, projected):
-    """Add d2E_c/dx2; ``projected`` keeps only the convex part of each pair."""
-    for k in range(pairs.node.size):
-        if pairs.weight[k] == 0.0:
-            continue
+    """Add d2E_c/dx2 of what touched in `evaluate`; ``projected`` keeps each pair's convex part."""
+    _plates_hessian(x, contact, matrix)
+    for n in range(pairs.count[0]):
+        k = pairs.touching[n]
         p, dc = pairs.node[k], pairs.d_contact[k]
         a, b = pair(contact.edges, pairs.edge[k])
-        d = _segment_distance(x, p, a, b)
-        if d >= dc:
-            continue
+        tau, _ = closest(x, p, a, b)
+        _, _, d = normal(x, p, a, b, tau)
         weight = 0.5 * pairs.weight[k]
         _, slope, curvature = _law(contact, weight, dc, d)
         push_stiffen(matrix, x, p, a, b, curvature, 0.0 if projected else slope)
@@ -137,35 +129,25 @@ def hessian(x, contact, pairs, matrix, projected):
                 if dv < dc:
                     _, slope, curvature = _law(contact, weight, dc, dv)
                     push_point_stiffen(matrix, x, p, v, -curvature, -slope)
-    _plate_hessian(x, contact, matrix)
 
 
 @jit
-def _plate_energy(x, contact):
+def _plates(x, contact, g):
     total = 0.0
-    for p in contact.plate_nodes:
-        dc = 0.5 * contact.node_thickness[p]
-        y = x[2 * p + 1]
-        for d in (y - x[contact.low], x[contact.high] - y):
-            if d < dc:
-                total += _law(contact, contact.tributary[p], dc, d)[0]
-    return total
-
-
-@jit
-def _plate_gradient(x, contact, g):
     for p in contact.plate_nodes:
         dc, y = 0.5 * contact.node_thickness[p], x[2 * p + 1]
         for plate, side in ((contact.low, 1.0), (contact.high, -1.0)):
             d = side * (y - x[plate])
             if d < dc:
-                _, slope, _ = _law(contact, contact.tributary[p], dc, d)
+                value, slope, _ = _law(contact, contact.tributary[p], dc, d)
+                total += value
                 g[2 * p + 1] += side * slope
                 g[plate] -= side * slope
+    return total
 
 
 @jit
-def _plate_hessian(x, contact, matrix):
+def _plates_hessian(x, contact, matrix):
     for p in contact.plate_nodes:
         dc, y = 0.5 * contact.node_thickness[p], x[2 * p + 1]
         for plate, side in ((contact.low, 1.0), (contact.high, -1.0)):
@@ -178,10 +160,15 @@ def _plate_hessian(x, contact, matrix):
 
 
 @jit_exact
-def step_limit(x, dx, contact, pairs):
-    """Return the first share of the step ``dx`` at which a node meets a segment or a platen."""
+def step_limit(x, dx, most, contact, pairs, drift):
+    """Return the first share of the step ``dx`` at which a node meets a segment or a platen.
+
+    ``most``: farthest move in m of a node in the step.
+    """
     first = np.inf
     for k in range(pairs.node.size):
+        if pairs.distance[k] > 2.0 * (drift + most):
+            break
         a, b = pair(contact.edges, pairs.edge[k])
         first = min(first, ccd.first_contact(x, dx, pairs.node[k], a, b))
     for p in contact.plate_nodes:

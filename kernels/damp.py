@@ -7,9 +7,10 @@ The force is dD/dx. In one step a quadratic potential dissipates dD/dx . (x - x0
 
 from typing import NamedTuple
 
-from kernels import kelvin_voigt, rayleigh
+import numpy as np
+
+from kernels import bend, chain, kelvin_voigt, rayleigh, stretch
 from kernels.jit import jit
-from kernels.sparse import add
 
 
 class Damp(NamedTuple):
@@ -20,39 +21,47 @@ class Damp(NamedTuple):
     relaxation: float
 
 
+class Before(NamedTuple):
+    """The start of a step: x0 (n,), its frame, shape and projected stiffness."""
+
+    x0: np.ndarray
+    frame: np.ndarray
+    shape: object
+    stiffness: object
+
+
 @jit
-def energy(x, x0, terms, dt):
-    """Return D in J."""
+def prepare(terms, before):
+    """Fill ``before`` for a step from ``before.x0``; what no damping needs is left out."""
+    x0, shape, stiffness = before.x0, before.shape, before.stiffness
+    bend.aim(x0, terms.walls, terms.bend, before.frame)
+    if terms.damp.beta_k == 0.0 and terms.damp.relaxation == 0.0:
+        return
+    chain.measure(x0, terms.walls, shape)
+    bend.turns(x0, terms.walls, terms.bend, before.frame, shape)
+    if terms.damp.beta_k > 0.0:
+        chain.clear(shape, stiffness)
+        stretch.evaluate(terms.stretch, terms.law, shape, stiffness, True)
+        bend.evaluate(terms.walls, terms.bend, shape, stiffness, True)
+
+
+@jit
+def evaluate(u, terms, before, dt, shape, stiffness, projected, g):
+    """Return D in J for a move ``u`` from x0; add dD/dx to ``g`` and its walls' part to
+    ``stiffness``. Slopes and moments of ``shape`` start at zero.
+    """
     total = 0.0
-    if terms.damp.alpha_m > 0.0:
-        for i in range(terms.mass.size):
-            total += 0.5 * terms.damp.alpha_m / dt * terms.mass[i] * (x[i] - x0[i]) ** 2
+    alpha = terms.damp.alpha_m / dt
+    if alpha > 0.0:
+        for i in range(u.size):
+            total += 0.5 * alpha * terms.mass[i] * u[i] * u[i]
+            g[i] += alpha * terms.mass[i] * u[i]
     if terms.damp.beta_k > 0.0:
-        total += rayleigh.energy(x, x0, terms, terms.damp.beta_k / dt)
+        rate = terms.damp.beta_k / dt
+        total += rayleigh.evaluate(u, terms.walls, before.stiffness, rate, shape, stiffness)
     if terms.damp.relaxation > 0.0:
-        total += kelvin_voigt.energy(x, x0, terms, terms.damp.relaxation / dt)
+        rate = terms.damp.relaxation / dt
+        total += kelvin_voigt.evaluate(terms, before.shape, rate, shape, stiffness, projected)
+    if terms.damp.beta_k > 0.0 or terms.damp.relaxation > 0.0:
+        chain.gather(terms.walls, shape, g)
     return total
-
-
-@jit
-def gradient(x, x0, terms, dt, g):
-    """Add dD/dx to ``g``."""
-    if terms.damp.alpha_m > 0.0:
-        for i in range(terms.mass.size):
-            g[i] += terms.damp.alpha_m / dt * terms.mass[i] * (x[i] - x0[i])
-    if terms.damp.beta_k > 0.0:
-        rayleigh.gradient(x, x0, terms, terms.damp.beta_k / dt, g)
-    if terms.damp.relaxation > 0.0:
-        kelvin_voigt.gradient(x, x0, terms, terms.damp.relaxation / dt, g)
-
-
-@jit
-def hessian(x, x0, terms, dt, matrix, projected):
-    """Add d2D/dx2."""
-    if terms.damp.alpha_m > 0.0:
-        for i in range(terms.mass.size):
-            add(matrix, i, i, terms.damp.alpha_m / dt * terms.mass[i])
-    if terms.damp.beta_k > 0.0:
-        rayleigh.hessian(x0, terms, terms.damp.beta_k / dt, matrix)
-    if terms.damp.relaxation > 0.0:
-        kelvin_voigt.hessian(x, x0, terms, terms.damp.relaxation / dt, matrix, projected)

@@ -8,9 +8,19 @@ the nodes (p, a, b):
     grad d = (1, -1) n,  d2 d = (I - n n^T) / d                                   (point-point)
 """
 
+import numpy as np
+
+from kernels.blocks import add_block
 from kernels.jit import jit, jit_exact
-from kernels.sparse import add_block
-from kernels.stretch import direction, pull, stiffen
+
+
+@jit
+def direction(x, i, j):
+    """Return unit vector and length of the line from node ``i`` to node ``j``."""
+    nx = x[2 * j] - x[2 * i]
+    ny = x[2 * j + 1] - x[2 * i + 1]
+    length = np.sqrt(nx * nx + ny * ny)
+    return nx / length, ny / length, length
 
 
 @jit_exact
@@ -64,7 +74,10 @@ def push(g, x, p, a, b, force):
 def push_point(g, x, p, v, force):
     """Add the gradient of an energy with derivative ``force`` in the distance of p from node v."""
     nx, ny, _ = direction(x, v, p)
-    pull(g, v, p, nx, ny, force)
+    g[2 * v] -= force * nx
+    g[2 * v + 1] -= force * ny
+    g[2 * p] += force * nx
+    g[2 * p + 1] += force * ny
 
 
 @jit
@@ -106,4 +119,10 @@ def push_stiffen(matrix, x, p, a, b, stiffness, force):
 def push_point_stiffen(matrix, x, p, v, stiffness, force):
     """Add stiffness * (grad d)(grad d)^T + force * d2 d for the distance of p from node v."""
     nx, ny, d = direction(x, v, p)
-    stiffen(matrix, v, p, nx, ny, stiffness, force / d)
+    across = force / d
+    xx = across + (stiffness - across) * nx * nx
+    xy = (stiffness - across) * nx * ny
+    yy = across + (stiffness - across) * ny * ny
+    add_block(matrix, 2 * p, 2 * p, xx, xy, xy, yy)
+    add_block(matrix, 2 * v, 2 * v, xx, xy, xy, yy)
+    add_block(matrix, 2 * p, 2 * v, -xx, -xy, -xy, -yy)

@@ -1,8 +1,11 @@
-"""Fold barrier: two neighbouring arms of a node never close onto one another.
+"""Fold barrier at joints: two neighbouring arms never close onto one another.
 
-For every opening g between arms that are adjacent round a node (rest opening g0):
+For every opening g between arms that are adjacent round a joint (rest opening g0):
 
     E_f = K (g0 / 2)^2 b(g / g_f)   for g < g_f = min(20 degrees, g0 / 2),   else 0
+
+With u, v the arms and psi = arg v - arg u: d arg(v) = (-v_y, v_x) / r^2 =: q, and
+d2 arg(v) = [[-2 q_x q_y, q_x^2 - q_y^2], [., 2 q_x q_y]]. (Folds of hinges are in `bend`.)
 """
 
 import math
@@ -10,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels import angle
 from kernels.barrier import barrier
+from kernels.blocks import add_block
 from kernels.jit import jit
 from kernels.rows import triple
 
@@ -28,36 +31,67 @@ class Fold(NamedTuple):
 
 
 @jit
+def _cross_dot(x, a, b, c):
+    """Return (cross, dot) of arm b-a with arm b-c."""
+    ux, uy = x[2 * a] - x[2 * b], x[2 * a + 1] - x[2 * b + 1]
+    vx, vy = x[2 * c] - x[2 * b], x[2 * c + 1] - x[2 * b + 1]
+    return ux * vy - uy * vx, ux * vx + uy * vy
+
+
+@jit
 def opening(x, fold, k):
-    """Return the opening g where it is between 0 and 90 degrees, else a value beyond any limit."""
+    """Return the opening g up to 45 degrees, which is beyond any limit, and 45 degrees above."""
     a, b, c = triple(fold.nodes, k)
-    cross, dot = angle.between(x, a, b, c)
-    if cross < 0.0 or dot <= 0.0:
-        return math.pi
+    cross, dot = _cross_dot(x, a, b, c)
+    if cross < 0.0 or dot <= cross:
+        return 0.25 * math.pi
     return math.atan2(cross, dot)
 
 
 @jit
-def energy(x, fold):
-    """Return E_f in J."""
-    total = 0.0
-    for k in range(fold.limit.size):
-        g = opening(x, fold, k)
-        if g < fold.limit[k]:
-            value, _, _ = barrier(g / fold.limit[k])
-            total += fold.stiffness[k] * value
-    return total
+def _bearing_slope(x, b, c):
+    """Return d arg(c - b) / dc, two numbers in 1/m (minus the same with respect to b)."""
+    vx, vy = x[2 * c] - x[2 * b], x[2 * c + 1] - x[2 * b + 1]
+    r2 = vx * vx + vy * vy
+    return -vy / r2, vx / r2
 
 
 @jit
-def gradient(x, fold, g):
-    """Add dE_f/dx to ``g``."""
+def evaluate(x, fold, g):
+    """Return E_f in J and the least `opening` in rad (pi without any); add dE_f/dx to ``g``."""
+    total, least = 0.0, math.pi
     for k in range(fold.limit.size):
         opened = opening(x, fold, k)
+        least = min(least, opened)
         if opened < fold.limit[k]:
-            _, slope, _ = barrier(opened / fold.limit[k])
+            value, slope, _ = barrier(opened / fold.limit[k])
+            total += fold.stiffness[k] * value
+            moment = fold.stiffness[k] / fold.limit[k] * slope
             a, b, c = triple(fold.nodes, k)
-            angle.twist(g, x, a, b, c, fold.stiffness[k] / fold.limit[k] * slope)
+            px, py = _bearing_slope(x, b, a)
+            qx, qy = _bearing_slope(x, b, c)
+            g[2 * a] -= moment * px
+            g[2 * a + 1] -= moment * py
+            g[2 * c] += moment * qx
+            g[2 * c + 1] += moment * qy
+            g[2 * b] += moment * (px - qx)
+            g[2 * b + 1] += moment * (py - qy)
+    return total, least
+
+
+@jit
+def _outer(matrix, i, j, weight, px, py, qx, qy):
+    i, j = 2 * i, 2 * j
+    add_block(matrix, i, j, weight * px * qx, weight * px * qy, weight * py * qx, weight * py * qy)
+
+
+@jit
+def _curl(matrix, b, c, moment, qx, qy):
+    """Add moment * d2 arg(c - b); (qx, qy) is `_bearing_slope`, whose products are its entries."""
+    xx, xy = -2.0 * moment * qx * qy, moment * (qx * qx - qy * qy)
+    add_block(matrix, 2 * c, 2 * c, xx, xy, xy, -xx)
+    add_block(matrix, 2 * b, 2 * b, xx, xy, xy, -xx)
+    add_block(matrix, 2 * c, 2 * b, -xx, -xy, -xy, xx)
 
 
 @jit
@@ -67,7 +101,18 @@ def hessian(x, fold, matrix, projected):
         opened = opening(x, fold, k)
         if opened < fold.limit[k]:
             _, slope, curvature = barrier(opened / fold.limit[k])
-            a, b, c = triple(fold.nodes, k)
             scale = fold.stiffness[k] / fold.limit[k]
-            moment = 0.0 if projected else scale * slope
-            angle.twist_stiffen(matrix, x, a, b, c, scale / fold.limit[k] * curvature, moment)
+            rigidity = scale / fold.limit[k] * curvature
+            a, b, c = triple(fold.nodes, k)
+            px, py = _bearing_slope(x, b, a)
+            qx, qy = _bearing_slope(x, b, c)
+            rx, ry = px - qx, py - qy
+            _outer(matrix, a, a, rigidity, px, py, px, py)
+            _outer(matrix, b, b, rigidity, rx, ry, rx, ry)
+            _outer(matrix, c, c, rigidity, qx, qy, qx, qy)
+            _outer(matrix, a, b, -rigidity, px, py, rx, ry)
+            _outer(matrix, c, b, rigidity, qx, qy, rx, ry)
+            _outer(matrix, a, c, -rigidity, px, py, qx, qy)
+            if not projected:
+                _curl(matrix, b, c, scale * slope, qx, qy)
+                _curl(matrix, b, a, -scale * slope, px, py)

@@ -17,11 +17,10 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.barrier import barrier
-from kernels.distance import closest, normal
+from kernels.blocks import add_block
+from kernels.distance import closest, direction, normal
 from kernels.jit import jit, jit_exact, jit_owning
 from kernels.rows import pair
-from kernels.sparse import add_block
-from kernels.stretch import direction
 
 
 class Friction(NamedTuple):
@@ -35,17 +34,40 @@ class Grips(NamedTuple):
     """Lagged contacts: nodes (n, 3) p, a, b; slopes (n, 3, 2) of the slip in them; load (n,).
 
     load is mu * lambda in N. A rigid platen does not move sideways: a = b = p with slope zero.
+    count (1,): how many there are, with room for more.
     """
 
     nodes: np.ndarray
     slopes: np.ndarray
     load: np.ndarray
+    count: np.ndarray
 
 
 @jit_owning
-def empty():
+def room(pairs, contact, friction):
+    """Return no grips, with room for all pairs and platens in contact."""
+    most = 3 * pairs.node.size + 2 * contact.plate_nodes.size if friction.mu > 0.0 else 0
+    return Grips(
+        np.empty((most, 3), np.int64), np.empty((most, 3, 2)), np.empty(most), np.zeros(1, np.int64)
+    )
+
+
+@jit_owning
+def none():
     """Return no grips."""
-    return Grips(np.empty((0, 3), np.int64), np.empty((0, 3, 2)), np.empty(0))
+    count = np.zeros(1, np.int64)
+    return Grips(np.empty((0, 3), np.int64), np.empty((0, 3, 2)), np.empty(0), count)
+
+
+@jit_owning
+def moved(grips, larger):
+    """Return ``larger`` with what is in ``grips``."""
+    n = min(grips.count[0], larger.load.size)
+    larger.nodes[:n] = grips.nodes[:n]
+    larger.slopes[:n] = grips.slopes[:n]
+    larger.load[:n] = grips.load[:n]
+    larger.count[0] = n
+    return larger
 
 
 @jit_exact
@@ -77,11 +99,9 @@ def _normal_force(contact, weight, dc, d):
     return -weight * contact.stiffness * barrier(d / dc)[1] if d < dc else 0.0
 
 
-@jit_owning
-def lag(x, contact, pairs, friction):
-    """Return the `Grips` of all pairs in contact at ``x``."""
-    most = 3 * pairs.node.size + 2 * contact.plate_nodes.size
-    grips = Grips(np.empty((most, 3), np.int64), np.empty((most, 3, 2)), np.empty(most))
+@jit_exact
+def lag(x, contact, pairs, friction, grips):
+    """Fill ``grips`` with all pairs in contact at ``x``."""
     n = 0
     for k in range(pairs.node.size):
         p, dc, weight = pairs.node[k], pairs.d_contact[k], 0.5 * friction.mu * pairs.weight[k]
@@ -100,10 +120,10 @@ def lag(x, contact, pairs, friction):
     for p in contact.plate_nodes:
         dc, weight = 0.5 * contact.node_thickness[p], friction.mu * contact.tributary[p]
         for d in (x[2 * p + 1] - x[contact.low], x[contact.high] - x[2 * p + 1]):
-            if d < dc:
+            if d < dc and weight > 0.0:
                 n = _put(grips, n, (p, p, p), _normal_force(contact, weight, dc, d))
                 grips.slopes[n - 1, 0, 0] = 1.0
-    return Grips(grips.nodes[:n], grips.slopes[:n], grips.load[:n])
+    grips.count[0] = n
 
 
 @jit
@@ -121,41 +141,33 @@ def smooth(u, slip):
 
 
 @jit
-def _slip(x, x0, grips, k):
+def _slip(u, grips, k):
     total = 0.0
     for v in range(3):
         i = 2 * grips.nodes[k, v]
-        total += grips.slopes[k, v, 0] * (x[i] - x0[i])
-        total += grips.slopes[k, v, 1] * (x[i + 1] - x0[i + 1])
+        total += grips.slopes[k, v, 0] * u[i] + grips.slopes[k, v, 1] * u[i + 1]
     return total
 
 
 @jit
-def energy(x, x0, grips, slip):
-    """Return D_f in J, counted from zero at rest."""
+def evaluate(u, grips, slip, g):
+    """Return D_f in J for a move ``u`` (n,) in the step, counted from zero; add dD_f/dx to ``g``."""
     total = 0.0
-    for k in range(grips.load.size):
-        value, _, _ = smooth(_slip(x, x0, grips, k), slip)
+    for k in range(grips.count[0]):
+        value, slope, _ = smooth(_slip(u, grips, k), slip)
         total += grips.load[k] * (value - slip / 3.0)
-    return total
-
-
-@jit
-def gradient(x, x0, grips, slip, g):
-    """Add dD_f/dx to ``g``."""
-    for k in range(grips.load.size):
-        _, slope, _ = smooth(_slip(x, x0, grips, k), slip)
         for v in range(3):
             i = 2 * grips.nodes[k, v]
             g[i] += grips.load[k] * slope * grips.slopes[k, v, 0]
             g[i + 1] += grips.load[k] * slope * grips.slopes[k, v, 1]
+    return total
 
 
 @jit
-def hessian(x, x0, grips, slip, matrix, projected):
+def hessian(u, grips, slip, matrix, projected):
     """Add d2D_f/dx2; ``projected`` leaves out shares with a negative force."""
-    for k in range(grips.load.size):
-        _, _, curvature = smooth(_slip(x, x0, grips, k), slip)
+    for k in range(grips.count[0]):
+        _, _, curvature = smooth(_slip(u, grips, k), slip)
         weight = grips.load[k] * curvature
         if weight == 0.0 or (projected and weight < 0.0):
             continue

@@ -1,32 +1,20 @@
 """Inertia of backward Euler as a potential: E_i = |x - x~|_M^2 / (2 dt^2), lumped masses."""
 
 from kernels.jit import jit
-from kernels.sparse import add
 
 
 @jit
-def energy(x, x_pred, mass, dt):
-    """Return E_i in J; ``mass`` (n_coordinates,) in kg, zero for rotations."""
+def evaluate(x, x_pred, mass, dt, g):
+    """Return E_i in J and add M (x - x~) / dt^2 to ``g``.
+
+    ``mass`` (n,) in kg by coordinate, zero for rotations.
+    """
     total = 0.0
     for i in range(mass.size):
-        d = x[i] - x_pred[i]
-        total += mass[i] * d * d
-    return total / (2.0 * dt * dt)
-
-
-@jit
-def gradient(x, x_pred, mass, dt, g):
-    """Add M (x - x~) / dt^2 to ``g``."""
-    for i in range(mass.size):
-        g[i] += mass[i] * (x[i] - x_pred[i]) / (dt * dt)
-
-
-@jit
-def hessian(mass, dt, matrix):
-    """Add M / dt^2."""
-    for i in range(mass.size):
-        if mass[i] > 0.0:
-            add(matrix, i, i, mass[i] / (dt * dt))
+        force = mass[i] * (x[i] - x_pred[i]) / (dt * dt)
+        total += force * (x[i] - x_pred[i])
+        g[i] += force
+    return 0.5 * total
 
 
 @jit

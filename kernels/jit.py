@@ -13,6 +13,7 @@ what it reads: here every file ends with a seal, and what does not fit its seal 
 
 import atexit
 import contextlib
+import functools
 import hashlib
 import io
 import os
@@ -133,11 +134,11 @@ class SealedFiles(IndexDataCacheFile):
 class SealedCache(FunctionCache):
     """Cache of one function. What cannot be read or written costs a compilation, never a result."""
 
-    def __init__(self, function):
+    def __init__(self, function, kind):
         super().__init__(function)
         self._cache_file = SealedFiles(
             cache_path=self._cache_path,
-            filename_base=self._impl.filename_base,
+            filename_base=f"{self._impl.filename_base}-{kind}",
             source_stamp=self._impl.locator.get_source_stamp(),
         )
 
@@ -154,20 +155,59 @@ class SealedCache(FunctionCache):
             super().save_overload(sig, data)
 
 
-def compiler(fastmath, owning=False):
+class Kernel:
+    """A function for other kernels to call.
+
+    A wrapper for calls from Python costs as much to compile as the function itself: it is made at
+    the first such call, as `entry`.
+    """
+
+    def __init__(self, function, options):
+        bare = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+        self._inner = _dispatcher(function, options | bare, "bare")
+        self._numba_type_ = numba.types.Dispatcher(self._inner)
+        self.options = options
+        functools.update_wrapper(self, function)
+
+    @functools.cached_property
+    def entry(self):
+        """The dispatcher of the function with its wrapper."""
+        return _dispatcher(self.__wrapped__, self.options, "entry")
+
+    def __call__(self, *args):
+        return self.entry(*args)
+
+    def __getattr__(self, name):
+        return getattr(self._inner, name)
+
+
+def _dispatcher(function, options, kind):
+    """Numba's dispatcher, with the sealed cache.
+
+    A constant argument gets no version of its own, which Numba would compile for every one.
+    """
+    dispatcher = numba.njit(nogil=True, error_model="numpy", **options)(function)
+    typed = dispatcher.get_call_template
+    dispatcher.get_call_template = lambda args, kws: typed(
+        [numba.types.unliteral(a) for a in args], kws
+    )
+    dispatcher._cache = SealedCache(function, kind)
+    return dispatcher
+
+
+def compiler(fastmath, owning=False, inline="never"):
     """Decorator that compiles a function for the argument types it meets, and keeps the code.
 
     Without ``owning`` the code counts no references, which costs four times the arithmetic of an
-    assembly; such a function may read and fill arrays but must not make or return any.
+    assembly; such a function may read and fill arrays but must not make or return any. ``inline``
+    writes it out in its caller, for the few that would otherwise be optimised at every level.
     """
+    options = {"fastmath": fastmath, "_nrt": owning, "inline": inline}
 
     def decorate(function):
-        dispatcher = numba.njit(nogil=True, error_model="numpy", fastmath=fastmath, _nrt=owning)(
-            function
-        )
-        if not numba.config.DISABLE_JIT:  # under NUMBA_DISABLE_JIT it is the plain function
-            dispatcher._cache = SealedCache(function)
-        return dispatcher
+        if numba.config.DISABLE_JIT:
+            return function
+        return Kernel(function, options)
 
     return decorate
 
@@ -183,3 +223,4 @@ def is_cold():
 jit = compiler({"contract", "reassoc", "nsz", "arcp"})
 jit_exact = compiler(False)
 jit_owning = compiler(False, owning=True)
+jit_inlined = compiler(False, owning=True, inline="always")

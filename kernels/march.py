@@ -9,15 +9,27 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels import contact, damp, friction, inertia
-from kernels.jit import jit_exact, jit_owning
-from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, Work, largest, minimise, reduce
-from kernels.step import Step, find_near, gradient, stored, stored_gradient
+from kernels.chain import Shape, Stiffness
+from kernels.jit import jit_exact, jit_inlined, jit_owning
+from kernels.newton import (
+    CONVERGED,
+    INTERRUPTED,
+    ITERATIONS,
+    OUTGROWN,
+    Work,
+    largest,
+    minimise,
+    reduce,
+)
+from kernels.rows import copy
+from kernels.step import At, Step, find_near, rub
 
 WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR, RESIDUAL = range(9)
 TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP = range(9, 15)
 N_COLUMNS = 15
 SMALLEST = 2.0**-12  # share of a step
 GRIP_LOOPS = 30  # fixed-point iterations of friction
+ROW, DONE, SHARE, SPENT, LOOPS, MOVE = range(6)  # of what is to be done: see `_go`
 
 
 class Stage(NamedTuple):
@@ -38,15 +50,17 @@ class Stage(NamedTuple):
 class State(NamedTuple):
     """Where the march is. x, v (n,): position and velocity. book (9,): energy book in J.
 
-    elastic, rate (n,), held (2,): gradient of U, friction, driven reaction (N) and load factor at
-    the last step, for the trapezoidal rule. totals (3,): iterations, steps, time in s.
+    elastic, rubbing (n,), stored (3,), held (2,): gradients of the stored energy and of friction,
+    stored energies, driven reaction (N) and load factor at the last step. totals (3,): iterations,
+    steps, time in s.
     """
 
     x: np.ndarray
     v: np.ndarray
     book: np.ndarray
     elastic: np.ndarray
-    rate: np.ndarray
+    rubbing: np.ndarray
+    stored: np.ndarray
     held: np.ndarray
     totals: np.ndarray
 
@@ -66,24 +80,31 @@ class Output(NamedTuple):
 
 
 @jit_owning
-def _solve_step(x, target, terms, step, near, unknowns, tolerance, work, control):
-    """Minimise; with friction again and again until the lagged forces agree with the contacts."""
-    total = 0
-    for _ in range(GRIP_LOOPS):
-        outcome, iterations, near = minimise(
-            x, target, terms, step, near, unknowns, tolerance, work, control
-        )
-        total += iterations
-        if outcome != CONVERGED or terms.friction.mu == 0.0:
-            return outcome, total, near, step
-        grips = friction.lag(x, terms.contact, near.pairs, terms.friction)
-        renewed = Step(step.x0, step.x_pred, step.dt, step.factor, grips)
-        gradient(x, terms, renewed, near, work.g)
-        reduce(work.g, unknowns.row, work.residual)
-        if largest(work.residual, unknowns) <= tolerance.friction:
-            return CONVERGED, total, near, step
-        step = renewed
-    return ITERATIONS, total, near, step
+def _shape(terms):
+    """Return room for the shape and the stiffness of all walls."""
+    m, arms = terms.stretch.l0.size, terms.walls.rotation.size
+    shape = Shape(
+        np.zeros((2, m)), np.zeros(m), np.zeros(m), np.zeros(arms), np.zeros((2, m)), np.zeros(arms)
+    )
+    twist = np.zeros(arms // 2)
+    return shape, Stiffness(np.zeros((3, m)), np.zeros((4, m)), np.zeros((3, arms)), twist)
+
+
+@jit_owning
+def _room(terms, near):
+    """Return the arrays of all steps: `Before`, `At`, `Work`, `Grips` and the predicted position."""
+    n = terms.mass.size
+    shape, stiffness = _shape(terms)
+    frame = np.full((terms.walls.rotation.size, 3), np.inf)  # none yet
+    before = damp.Before(np.zeros(n), frame, shape, stiffness)
+    shape, stiffness = _shape(terms)
+    five = np.zeros((5, n))
+    at = At(
+        five[0], five[1], five[2], five[3], five[4], np.zeros(3), np.zeros(2), shape, stiffness
+    )
+    more = np.zeros((5, n))
+    work = Work(more[0], more[1], more[2], more[3], more[4], np.full(1, np.inf))
+    return before, at, work, friction.room(near.pairs, terms.contact, terms.friction), np.zeros(n)
 
 
 @jit_exact
@@ -116,58 +137,43 @@ def _mean(x, coordinates):
     return total / coordinates.size
 
 
-@jit_exact
-def _rate_forces(x, terms, step, material, rubbing):
-    """Fill the gradients of the dissipation potentials of material and friction."""
-    material[:] = 0.0
-    rubbing[:] = 0.0
-    if step.dt < np.inf:
-        damp.gradient(x, step.x0, terms, step.dt, material)
-    friction.gradient(x, step.x0, step.grips, terms.friction.slip, rubbing)
-
-
-@jit_owning
-def _enter(book, before, x, terms, step, near, unknowns, state, work):
-    """Add one converged step to the energy book; ``before``: stored energies at its start."""
-    new = step.dt < np.inf
-    theta = 1.0 if new else 0.5
-    dx = x - step.x0
-    after = stored(x, terms, near)
-    material, rubbing = np.empty(x.size), np.empty(x.size)
-    _rate_forces(x, terms, step, material, rubbing)
-    elastic = np.zeros(x.size)
-    stored_gradient(x, terms, near, elastic)
-    gradient(x, terms, step, near, work.g)
-    held = 0.0
+@jit_inlined
+def _enter(terms, step, unknowns, state, at, work):
+    """Add one converged step, found by the last `evaluate`, to the energy book."""
+    book, dynamic = state.book, step.dt < np.inf
+    theta = 1.0 if dynamic else 0.5
+    held, lead = 0.0, 0.0
     if unknowns.driven >= 0:
-        reduce(work.g, unknowns.row, work.residual)
-        held = work.residual[unknowns.free]
-    pull = step.factor * _dot(terms.load, dx)
-    if not new:
-        pull = 0.5 * (step.factor + state.held[1]) * _dot(terms.load, dx)
-    lead = dx[unknowns.driven] if unknowns.driven >= 0 else 0.0
-    book[WORK] += pull + (theta * held + (1.0 - theta) * state.held[0]) * lead
-    book[STRETCH], book[BEND], book[CONTACT] = after
-    book[MATERIAL] += _dot(material, dx)
-    book[FRICTION] += theta * _dot(rubbing, dx) + (1.0 - theta) * _dot(state.rate, dx)
-    change = sum(after) - sum(before)
-    loss = theta * _dot(elastic, dx) + (1.0 - theta) * _dot(state.elastic, dx) - change
-    if new:
-        v = dx / step.dt
-        loss += inertia.kinetic(v - state.v, terms.mass)
-        state.v[:] = v
-        book[KINETIC] = inertia.kinetic(v, terms.mass)
+        reduce(at.g, unknowns.leader, work.residual)
+        held, lead = work.residual[unknowns.driven], at.u[unknowns.driven]
+    factor = theta * step.factor + (1.0 - theta) * state.held[1]
+    book[WORK] += factor * _dot(terms.load, at.u)
+    book[WORK] += (theta * held + (1.0 - theta) * state.held[0]) * lead
+    book[MATERIAL] += _dot(at.material, at.u)
+    book[FRICTION] += theta * _dot(at.rubbing, at.u) + (1.0 - theta) * _dot(state.rubbing, at.u)
+    loss = theta * _dot(at.elastic, at.u) + (1.0 - theta) * _dot(state.elastic, at.u)
+    total = 0.0
+    for k in range(at.stored.size):
+        loss -= at.stored[k] - state.stored[k]
+        total += at.stored[k]
+        book[STRETCH + k] = at.stored[k]
+        state.stored[k] = at.stored[k]
+    if dynamic:
+        for i in range(at.u.size):
+            change = at.u[i] / step.dt - state.v[i]
+            loss += 0.5 * terms.mass[i] * change * change
+            state.v[i] += change
+        book[KINETIC] = inertia.kinetic(state.v, terms.mass)
     book[INTEGRATOR] += loss
-    state.elastic[:] = elastic
-    state.rate[:] = rubbing
-    state.held[0] = held
-    state.held[1] = step.factor
-    book[RESIDUAL] = book[WORK] - book[KINETIC] - sum(after)
+    copy(at.elastic, state.elastic)
+    copy(at.rubbing, state.rubbing)
+    state.held[0], state.held[1] = held, step.factor
+    book[RESIDUAL] = book[WORK] - book[KINETIC] - total
     book[RESIDUAL] -= book[MATERIAL] + book[FRICTION] + book[INTEGRATOR]
 
 
-@jit_exact
-def _write(out, k, state, terms, near, unknowns, work):
+@jit_inlined
+def _write(out, k, state, terms, near, unknowns, at):
     """Write row ``k`` of the history and its frame."""
     row = out.rows[k]
     for c in range(TIME):
@@ -176,7 +182,7 @@ def _write(out, k, state, terms, near, unknowns, work):
     row[HEIGHT] = height(state.x, out.top, out.base)
     row[REACTION_BOTTOM] = 0.0
     for c in out.bottom:
-        row[REACTION_BOTTOM] += work.g[c]
+        row[REACTION_BOTTOM] += at.g[c]
     row[REACTION_TOP] = -state.held[0]
     if unknowns.driven < 0:
         row[REACTION_TOP] = -state.held[1] * terms.load.sum()
@@ -187,52 +193,106 @@ def _write(out, k, state, terms, near, unknowns, work):
             out.frames[out.frame_of[k], i] = state.x[i]
 
 
+@jit_inlined
+def _begin(terms, stage, state, near, room, todo):
+    """Set out on the next step, from where the last one ended."""
+    before, _, work, grips, x_pred = room
+    x, dt = state.x, stage.dt * todo[SHARE]
+    copy(x, before.x0)
+    damp.prepare(terms, before)
+    for i in range(x.size):
+        work.dx[i] = dt * state.v[i] if dt < np.inf else 0.0
+        x_pred[i] = x[i] + work.dx[i]
+    if terms.friction.mu > 0.0:
+        friction.lag(x, terms.contact, near.pairs, terms.friction, grips)
+    todo[LOOPS] = 0.0
+
+
+@jit_inlined
+def _grips_agree(x, terms, near, unknowns, tolerance, room, todo):
+    """Lag friction at ``x``; return whether ``x`` is still in balance (then nothing is changed)."""
+    _, at, work, grips, _ = room
+    copy(at.g, work.trial)
+    copy(at.rubbing, work.escape)
+    friction.lag(x, terms.contact, near.pairs, terms.friction, grips)
+    rub(terms, grips, at)
+    reduce(at.g, unknowns.leader, work.residual)
+    agree = largest(work.residual, unknowns) <= tolerance.friction
+    if agree:
+        copy(work.trial, at.g)
+        copy(work.escape, at.rubbing)
+    todo[LOOPS] += 1.0
+    work.dx[:] = 0.0
+    return agree
+
+
+@jit_exact
+def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo):
+    """March on from where ``todo`` (6,) says, until the stage ends or something must be done."""
+    before, at, work, grips, x_pred = room
+    while todo[ROW] < stage.steps:
+        if todo[LOOPS] < 0.0:
+            todo[SHARE] = min(todo[SHARE], 1.0 - todo[DONE])
+            _begin(terms, stage, state, near, room, todo)
+        part = (todo[ROW] + todo[DONE] + todo[SHARE]) / stage.steps
+        factor = stage.factor0 + (stage.factor1 - stage.factor0) * part
+        target = stage.driven0 + (stage.driven1 - stage.driven0) * part
+        step = Step(before, x_pred, stage.dt * todo[SHARE], factor, grips)
+        outcome, spent, todo[MOVE] = minimise(
+            state.x, target, terms, step, near, unknowns, tolerance, at, work, control
+        )
+        todo[SPENT] += spent
+        if outcome == OUTGROWN and todo[SPENT] < GRIP_LOOPS * tolerance.iterations:
+            work.dx[:] = 0.0
+            return outcome
+        if outcome == CONVERGED and terms.friction.mu > 0.0:
+            if not _grips_agree(state.x, terms, near, unknowns, tolerance, room, todo):
+                if todo[LOOPS] < GRIP_LOOPS:
+                    continue
+                outcome = ITERATIONS
+        todo[LOOPS] = -1.0
+        if outcome != CONVERGED:
+            copy(before.x0, state.x)
+            at.least[:] = 0.0  # what was found last was found elsewhere
+            todo[SHARE] *= 0.5
+            work.kept[0] = np.inf
+            if outcome == INTERRUPTED or todo[SHARE] < SMALLEST:
+                return ITERATIONS if outcome == OUTGROWN else outcome
+            continue
+        _enter(terms, step, unknowns, state, at, work)
+        todo[DONE] += todo[SHARE]
+        if todo[SHARE] < 1.0 or terms.friction.mu > 0.0:  # the next Hessian is another
+            todo[SHARE] *= 2.0
+            work.kept[0] = np.inf
+        state.totals[1] += 1
+        if todo[DONE] == 1.0:
+            state.totals[0] += todo[SPENT]
+            state.totals[2] += stage.pace
+            _write(out, int(todo[ROW]), state, terms, near, unknowns, at)
+            control[1] += 1
+            todo[ROW], todo[DONE], todo[SPENT] = todo[ROW] + 1.0, 0.0, 0.0
+            todo[SHARE] = min(todo[SHARE], 1.0)
+    return CONVERGED
+
+
 @jit_owning
 def march(terms, unknowns, tolerance, stage, state, out, control):
     """March through ``stage`` from ``state`` (changed in place); fill ``out``.
 
     Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts steps done.
     """
-    n, rows = state.x.size, unknowns.scale.size
-    work = Work(
-        np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(rows), np.zeros(rows), np.zeros(rows)
-    )
-    near = find_near(state.x, terms, 0.0)
-    share = 1.0
-    for k in range(stage.steps):
-        done = 0.0
-        iterations = 0
-        while done < 1.0:
-            share = min(share, 1.0 - done)
-            part = (k + done + share) / stage.steps
-            factor = stage.factor0 + (stage.factor1 - stage.factor0) * part
-            target = stage.driven0 + (stage.driven1 - stage.driven0) * part
-            dt = stage.dt * share
-            x0 = state.x.copy()
-            x_pred = x0 + dt * state.v if dt < np.inf else x0
-            grips = friction.empty()
-            if terms.friction.mu > 0.0:
-                grips = friction.lag(x0, terms.contact, near.pairs, terms.friction)
-            step = Step(x0, x_pred, dt, factor, grips)
-            before = stored(x0, terms, near)
-            outcome, spent, near, step = _solve_step(
-                state.x, target, terms, step, near, unknowns, tolerance, work, control
-            )
-            iterations += spent
-            if outcome == CONVERGED:
-                _enter(state.book, before, state.x, terms, step, near, unknowns, state, work)
-                done += share
-                share = 2.0 * share
-                state.totals[1] += 1
-                continue
-            state.x[:] = x0
-            near = find_near(x0, terms, 0.0)
-            share *= 0.5
-            if outcome == INTERRUPTED or share < SMALLEST:
-                return outcome, k
-        share = min(share, 1.0)
-        state.totals[0] += iterations
-        state.totals[2] += stage.pace
-        _write(out, k, state, terms, near, unknowns, work)
-        control[1] += 1
-    return CONVERGED, stage.steps
+    todo = np.zeros(6)
+    todo[SHARE], todo[LOOPS] = 1.0, -1.0
+    near = find_near(state.x, terms, friction.none(), 0.0)
+    room = _room(terms, near)
+    while True:
+        outcome = _go(
+            terms, unknowns, tolerance, stage, state, out, control, near, room, todo
+        )
+        if outcome != OUTGROWN:
+            return outcome, int(todo[ROW])
+        near = find_near(state.x, terms, room[3], todo[MOVE])
+        room[2].kept[0] = np.inf
+        wider = friction.room(near.pairs, terms.contact, terms.friction)
+        if wider.load.size > room[3].load.size:
+            room = room[0], room[1], room[2], friction.moved(room[3], wider), room[4]

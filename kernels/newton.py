@@ -1,22 +1,26 @@
-"""Newton's method for one step: a descent to a minimum, with the proof that it is one.
+"""Newton's method for one step: a descent to a minimum.
 
 The exact Hessian is used wherever it is positive definite (all pivots positive); elsewhere the
 projected one, or the direction of the negative pivot if that promises a greater fall. The step is
-cut to its admissible share and backtracked until the energy falls (Armijo). Converged means: scaled
-residual and Newton decrement below tolerance *and* an exact Hessian without a negative pivot.
+cut to its admissible share and backtracked until the energy falls (Armijo); what is evaluated there
+serves the next iteration. Converged means: scaled residual and Newton decrement below tolerance
+*and* no negative pivot in the exact Hessian, here or not farther than `Unknowns.close` away. Within
+that distance a factor is used again.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from kernels import sparse
-from kernels.jit import jit, jit_exact, jit_owning
-from kernels.step import covers, energy, find_near, gradient, hessian, step_limit
+from kernels import chain, system
+from kernels.jit import jit, jit_exact, jit_inlined
+from kernels.rows import copy
+from kernels.step import covers, evaluate, factor, step_limit
 
-CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE = range(6)
+CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
 ARMIJO = 1e-4
 HALVINGS = 40
+SLOW = 0.1  # a kept factor that shrinks the residual by less is renewed
 LEAST_SHARE = 1e-12  # of a step: less is standing still
 RESOLVED = 1e-11  # an energy change below this share of the energy is lost in round-off
 
@@ -39,46 +43,49 @@ class Tolerance(NamedTuple):
 class Unknowns(NamedTuple):
     """Which coordinates move, and how far at once.
 
-    row (n,): row of each coordinate or -1. scale (rows,): length that turns a row's unit into m,
-    1 for a coordinate in m. free: rows solved for (a driven row comes last). driven: coordinate
-    that is led to a target, -1 if none. cap: longest move in one iteration, m. leap: first move
-    along a direction of negative curvature, m.
+    leader (n,): as in `system.Layout`. scale (n,): length that turns a coordinate into m, 1 for one
+    in m; lever (n,): its inverse. driven: coordinate that is led to a target, -1 if none. cap: longest move in one
+    iteration, m. leap: first move along a direction of negative curvature, m. close: a move so
+    short that stability cannot have been lost on it, m.
     """
 
-    row: np.ndarray
+    leader: np.ndarray
     scale: np.ndarray
-    free: int
+    lever: np.ndarray
     driven: int
     cap: float
     leap: float
+    close: float
 
 
 class Work(NamedTuple):
-    """Scratch arrays: g, dx, trial (n,) by coordinate; residual, direction, escape (rows,)."""
+    """Scratch arrays by coordinate; kept (1,): how far x may have moved, m, since an exact Hessian
+    was factored without a negative pivot (infinite: no such factor is at hand).
+    """
 
-    g: np.ndarray
     dx: np.ndarray
     trial: np.ndarray
     residual: np.ndarray
     direction: np.ndarray
     escape: np.ndarray
+    kept: np.ndarray
 
 
 @jit
-def reduce(g, row, residual):
-    """Fill ``residual`` (rows,) with ``g`` (n,) gathered by row."""
+def reduce(g, leader, residual):
+    """Fill ``residual`` (n,) with ``g``, what is tied added to its leader, zero where held."""
     residual[:] = 0.0
     for i in range(g.size):
-        if row[i] >= 0:
-            residual[row[i]] += g[i]
+        if leader[i] >= 0:
+            residual[leader[i]] += g[i]
 
 
 @jit_exact
 def largest(residual, unknowns):
-    """Return the largest residual of the free rows in N; NaN if any is."""
+    """Return the largest residual of the free coordinates in N; NaN if any is."""
     most = 0.0
-    for i in range(unknowns.free):
-        size = abs(residual[i]) / unknowns.scale[i]
+    for i in range(residual.size):
+        size = abs(residual[i]) * unknowns.lever[i] if i != unknowns.driven else 0.0
         if not size <= most:
             most = size
             if size != size:
@@ -87,150 +94,192 @@ def largest(residual, unknowns):
 
 
 @jit_exact
-def _spread(direction, unknowns, dx):
-    """Fill ``dx`` (n,) from rows; return the largest move in m."""
-    for i in range(dx.size):
-        r = unknowns.row[i]
-        dx[i] = direction[r] if r >= 0 else 0.0
+def _longest(direction, unknowns):
+    """Return the largest move in m of a coordinate that is not led."""
     most = 0.0
-    for i in range(unknowns.free):
-        most = max(most, abs(direction[i]) * unknowns.scale[i])
+    for i in range(direction.size):
+        if unknowns.leader[i] >= 0 and unknowns.leader[i] != unknowns.driven:
+            most = max(most, abs(direction[i]) * unknowns.scale[i])
     return most
 
 
 @jit_exact
-def _factored(x, terms, step, near, unknowns, projected):
-    """Assemble and factor; return the first row with a negative pivot (-1: none) and the pivot."""
-    hessian(x, terms, step, near, projected)
-    matrix = near.matrix
-    scale = 0.0
-    for i in range(unknowns.free):
-        scale = max(scale, abs(matrix.values[matrix.offset[i] + i]))
-    return sparse.factor(matrix, unknowns.free, scale)
-
-
-@jit
-def _pull_of_driven(matrix, unknowns, remaining, direction):
-    """Subtract the force that the driven row's move ``remaining`` exerts on the free rows."""
-    s = unknowns.free
-    for j in range(matrix.first[s], s):
-        direction[j] -= matrix.values[matrix.offset[s] + j] * remaining
-
-
-@jit_exact
-def _dot(a, b, n):
+def _dot(a, b):
     total = 0.0
-    for i in range(n):
+    for i in range(a.size):
         total += a[i] * b[i]
     return total
 
 
 @jit_exact
-def _search(x, terms, step, near, work, noise, model, share):
-    """Backtrack from ``share`` of dx until the energy falls; return the share, 0 if never."""
-    slope, curvature = model
-    start = energy(x, terms, step, near)
-    noise += RESOLVED * abs(start)
-    for _ in range(HALVINGS):
-        for i in range(x.size):
-            work.trial[i] = x[i] + share * work.dx[i]
-        reached = energy(work.trial, terms, step, near)
-        expected = ARMIJO * share * (slope + 0.5 * share * curvature)
-        if abs(expected) <= ARMIJO * noise:
-            expected = noise
-        if reached <= start + expected and reached < np.inf:
-            return share
-        share *= 0.5
-    return 0.0
-
-
-@jit_exact
-def _solve(matrix, unknowns, work, remaining):
+def _solve(terms, near, unknowns, at, work, remaining):
     """Point ``work.direction`` to where the quadratic model is stationary; return its slope there.
 
-    A driven row that has ``remaining`` m to go takes the others along (no slope is defined then).
+    A driven coordinate that has ``remaining`` m to go takes the others along.
     """
-    for i in range(work.residual.size):
-        work.direction[i] = -work.residual[i]
+    direction, matrix = work.direction, near.system.matrix
     if remaining != 0.0:
-        _pull_of_driven(matrix, unknowns, remaining, work.direction)
-    sparse.solve(matrix, unknowns.free, work.direction)
-    if unknowns.driven >= 0:
-        work.direction[unknowns.free] = remaining
-    return _dot(work.residual, work.direction, unknowns.free)
+        for i in range(direction.size):
+            direction[i] = remaining if unknowns.leader[i] == unknowns.driven else 0.0
+        at.shape.slope[:] = 0.0
+        at.shape.moment[:] = 0.0
+        chain.product(terms.walls, at.stiffness, direction, at.shape)
+        direction[:] = 0.0
+        chain.gather(terms.walls, at.shape, direction)
+        for i in range(direction.size):
+            direction[i] += matrix.pull[i] * remaining
+    else:
+        direction[:] = 0.0
+    for i in range(direction.size):
+        direction[i] = -at.g[i] - direction[i]
+    system.solve(near.system, terms.layout, direction)
+    if remaining != 0.0:
+        for i in range(direction.size):
+            if unknowns.leader[i] == unknowns.driven:
+                direction[i] = remaining
+    return _dot(at.g, direction)
 
 
 @jit_exact
-def _aim_off(matrix, unknowns, work, failed, pivot):
+def _aim_off(terms, near, unknowns, at, work, place):
     """Point ``work.escape`` downhill along the negative pivot, with a move of ``unknowns.leap``.
 
     Return slope and curvature of the energy along it.
     """
-    sparse.descent(matrix, failed, work.escape)
-    slope = _dot(work.residual, work.escape, unknowns.free)
-    most = 0.0
-    for i in range(unknowns.free):
-        most = max(most, abs(work.escape[i]) * unknowns.scale[i])
-    factor = unknowns.leap / most * (-1.0 if slope > 0.0 else 1.0)
+    wall, failed, pivot = place
+    system.descend(near.system, terms.layout, wall, failed, work.escape)
+    slope = _dot(at.g, work.escape)
+    factor = unknowns.leap / _longest(work.escape, unknowns) * (-1.0 if slope > 0.0 else 1.0)
     for i in range(work.escape.size):
         work.escape[i] *= factor
     return slope * factor, pivot * factor * factor
 
 
-@jit_owning
-def minimise(x, target, terms, step, near, unknowns, tolerance, work, control):
+@jit_exact
+def _advance(x, work, share):
+    """Point ``work.trial`` to a share of dx."""
+    for i in range(x.size):
+        work.trial[i] = x[i] + share * work.dx[i]
+
+
+@jit_exact
+def _falls(reached, start, share, model, noise):
+    """Return whether the energy fell as the quadratic ``model`` (slope, curvature) lets expect."""
+    slope, curvature = model
+    noise += RESOLVED * abs(start)
+    expected = ARMIJO * share * (slope + 0.5 * share * curvature)
+    if abs(expected) <= ARMIJO * noise:
+        expected = noise
+    return reached <= start + expected
+
+
+@jit_exact
+def _capped(dx, most, cap):
+    """Shorten ``dx`` so that no coordinate moves farther than ``cap``; return the factor."""
+    factor = min(1.0, cap / most) if most > 0.0 else 1.0
+    if factor < 1.0:
+        for i in range(dx.size):
+            dx[i] *= factor
+    return factor
+
+
+@jit_inlined
+def _choose(slope, stable, led, escape, unknowns, remaining, work):
+    """Fill dx with the Newton direction, or with the escape where that promises more.
+
+    Return the model (slope, curvature) along it and its length in m, cut to the cap.
+    """
+    fall, curvature = escape
+    if led or stable or fall + 0.5 * curvature > 0.5 * slope:
+        copy(work.direction, work.dx)
+        fall, curvature = slope, 0.0
+    else:
+        copy(work.escape, work.dx)
+    most = _longest(work.dx, unknowns)
+    cut = _capped(work.dx, most, max(unknowns.cap, 5.0 * abs(remaining)))
+    return (fall * cut, curvature), max(most * cut, abs(remaining)), cut == 1.0
+
+
+@jit_exact
+def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, control):
     """Descend from ``x`` (n,), in place, to a minimum with the driven coordinate at ``target``.
 
-    Return (outcome, iterations, near). ``control[0]`` != 0 interrupts.
+    Starts from ``x`` + ``work.dx``, as far as that is admissible. Return (outcome, iterations, most);
+    ``at`` holds what `evaluate` found last. OUTGROWN: ``near`` does not hold all that a move of
+    ``most`` m could bring near; find it anew and go on. ``control[0]`` != 0 interrupts. Every turn
+    of the loop evaluates at one point: a trial of the search, or the same point again for another
+    Hessian.
     """
-    for iteration in range(tolerance.iterations):
-        if control[0] != 0:
-            return INTERRUPTED, iteration, near
-        gradient(x, terms, step, near, work.g)
-        reduce(work.g, unknowns.row, work.residual)
-        size = largest(work.residual, unknowns)
-        if not size < np.inf:
-            return NOT_FINITE, iteration, near
-        remaining = target - x[unknowns.driven] if unknowns.driven >= 0 else 0.0
-        settled = remaining == 0.0 and size <= tolerance.force
-        failed, stable, fall, curvature = 0, False, 0.0, 0.0
-        for projected in (False, True):
-            failed, pivot = _factored(x, terms, step, near, unknowns, projected)
-            if failed < 0:
-                stable = not projected
+    outcome, iteration, halvings = ITERATIONS, -1, 0
+    setting_out, searching, arrived, free, whole = True, True, False, True, False
+    projected, settled = False, False
+    value, remaining, share, model, escape = 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0)
+    place = (-1, -1, 0.0)  # of the first negative pivot of the exact Hessian
+    kept = work.kept
+    most, before = _longest(work.dx, unknowns), np.inf
+    while True:
+        if setting_out:
+            if not covers(near, x, terms, most):
+                outcome = OUTGROWN
                 break
-            if projected:
-                return SINGULAR, iteration, near
-            fall, curvature = _aim_off(near.matrix, unknowns, work, failed, pivot)
-            if settled:
+            share = step_limit(x, work.dx, most, terms, near, at)
+            if share < LEAST_SHARE:
+                outcome = STALLED
                 break
-        slope = 0.0
-        if failed < 0:
-            slope = _solve(near.matrix, unknowns, work, remaining)
+            setting_out, searching, halvings = False, True, 0
+            _advance(x, work, share)
+        reached = evaluate(work.trial, terms, step, near, at, projected)
+        if searching:
+            fine = free or _falls(reached, value, share, model, tolerance.noise)
+            if not (fine and reached < np.inf):
+                halvings, share = halvings + 1, 0.5 * share
+                if halvings == HALVINGS or share < LEAST_SHARE:
+                    outcome = STALLED if reached < np.inf else NOT_FINITE
+                    break
+                _advance(x, work, share)
+                continue
+            copy(work.trial, x)
+            kept[0] += share * most
+            if free and whole and share == 1.0:
+                x[unknowns.driven] = target
+            iteration, searching, arrived = iteration + 1, False, True
+        if arrived:
+            value, arrived = reached, False
+            reduce(at.g, unknowns.leader, work.residual)
+            size = largest(work.residual, unknowns)
+            if control[0] != 0 or not size < np.inf:
+                outcome = INTERRUPTED if control[0] != 0 else NOT_FINITE
+                break
+            remaining = target - x[unknowns.driven] if unknowns.driven >= 0 else 0.0
+            settled = remaining == 0.0 and size <= tolerance.force
+            if not settled and size > SLOW * before:
+                kept[0] = np.inf
+            before = size
+        if kept[0] > unknowns.close:
+            found = factor(x, terms, step, near, at, projected)
+            if near.system.matrix.missing[0] != 0:
+                outcome, most, kept[0] = OUTGROWN, 0.0, np.inf
+                break
+            if projected and found[1] >= 0:
+                outcome = SINGULAR
+                break
+            if not projected:
+                place = found
+                kept[0] = 0.0 if found[1] < 0 else np.inf
+                if place[1] >= 0:
+                    escape = _aim_off(terms, near, unknowns, at, work, place)
+                    projected = not settled
+                    if projected:
+                        continue
+        stable, slope = place[1] < 0, 0.0
+        if stable or projected:
+            slope = _solve(terms, near, unknowns, at, work, remaining)
         if settled and stable and -0.5 * slope <= tolerance.decrement:
-            return CONVERGED, iteration, near
-        if remaining != 0.0 or stable or fall + 0.5 * curvature > 0.5 * slope:
-            most = _spread(work.direction, unknowns, work.dx)
-            curvature = 0.0
-        else:
-            most = _spread(work.escape, unknowns, work.dx)
-            slope = fall
-        cap = max(unknowns.cap, 5.0 * abs(remaining))
-        if most > cap:
-            for i in range(x.size):
-                work.dx[i] *= cap / most
-            slope *= cap / most
-            most = cap
-        if not covers(near, x, terms, most):
-            near = find_near(x, terms, most)
-        share = step_limit(x, work.dx, terms, near)
-        if remaining == 0.0:
-            model = slope, curvature
-            share = _search(x, terms, step, near, work, tolerance.noise, model, share)
-        if share < LEAST_SHARE:
-            return STALLED, iteration, near
-        for i in range(x.size):
-            x[i] += share * work.dx[i]
-        if remaining != 0.0 and share == 1.0 and most < cap:
-            x[unknowns.driven] = target
-    return ITERATIONS, tolerance.iterations, near
+            outcome = CONVERGED
+            break
+        if iteration == tolerance.iterations:
+            break
+        free, projected = remaining != 0.0, False
+        model, most, whole = _choose(slope, stable, free, escape, unknowns, remaining, work)
+        setting_out = True
+    return outcome, max(iteration, 0), most

@@ -15,16 +15,20 @@ from kernels.rows import pair
 class Pairs(NamedTuple):
     """Node-segment pairs that share no node.
 
-    node (n,), edge (n,): indices. weight (n,): contact length in m, 0 where only crossing is
-    watched. d_contact (n,): distance at which contact starts, m. subtract (n, 2): 1 where the
-    contribution of that end of the segment is counted by another segment already.
+    node (n,), edge (n,): indices. distance (n,): where they were listed, m, ascending. weight (n,):
+    contact length in m, 0 where only crossing is watched. d_contact (n,): distance at which contact
+    starts, m. subtract (n, 2): 1 where the contribution of that end of the segment is counted by
+    another segment already. touching (n,), count (1,): those in contact when last evaluated.
     """
 
     node: np.ndarray
     edge: np.ndarray
+    distance: np.ndarray
     weight: np.ndarray
     d_contact: np.ndarray
     subtract: np.ndarray
+    touching: np.ndarray
+    count: np.ndarray
 
 
 @jit_owning
@@ -60,11 +64,12 @@ def _grid(x, n_nodes, cell):
 
 @jit_owning
 def near(x, n_nodes, edges, radius):
-    """Return (node, edge) of every pair closer than ``radius`` (m) that shares no node."""
+    """Return (node, edge, distance) of every pair closer than ``radius`` (m) that shares no node."""
     low_x, low_y, cell, nx, ny = _grid(x, n_nodes, radius)
     start, order = _binned(x, n_nodes, low_x, low_y, cell, nx, ny)
     node = np.empty(8 * n_nodes, np.int64)
     edge = np.empty(8 * n_nodes, np.int64)
+    distance = np.empty(8 * n_nodes)
     count = 0
     for k in range(edges.shape[0]):
         a, b = pair(edges, k)
@@ -75,20 +80,26 @@ def near(x, n_nodes, edges, radius):
         for row in range(down, up + 1):
             for q in range(start[row * nx + left], start[row * nx + right + 1]):
                 p = order[q]
-                if p == a or p == b or squared_distance(x, p, a, b) >= radius * radius:
+                if p == a or p == b:
+                    continue
+                d2 = squared_distance(x, p, a, b)
+                if d2 >= radius * radius:
                     continue
                 if count == node.size:
                     node = np.append(node, np.empty_like(node))
                     edge = np.append(edge, np.empty_like(edge))
-                node[count], edge[count] = p, k
+                    distance = np.append(distance, np.empty_like(distance))
+                node[count], edge[count], distance[count] = p, k, np.sqrt(d2)
                 count += 1
-    return node[:count], edge[:count]
+    return node[:count], edge[:count], distance[:count]
 
 
 @jit_owning
 def find(x, contact, radius):
     """Return the `Pairs` closer than ``radius`` at ``x``, with the weights of ``contact``."""
-    node, edge = near(x, contact.tributary.size, contact.edges, radius)
+    node, edge, distance = near(x, contact.tributary.size, contact.edges, radius)
+    nearest = np.argsort(distance)
+    node, edge, distance = node[nearest], edge[nearest], distance[nearest]
     n = node.size
     weight, d_contact, subtract = np.empty(n), np.empty(n), np.empty((n, 2))
     for k in range(n):
@@ -102,14 +113,16 @@ def find(x, contact, radius):
                 d_contact[k] = contact.special_distance[q]
                 subtract[k, 0] = contact.special_subtract[q, 0]
                 subtract[k, 1] = contact.special_subtract[q, 1]
-    return Pairs(node, edge, weight, d_contact, subtract)
+    touching, count = np.empty(n, np.int64), np.zeros(1, np.int64)
+    return Pairs(node, edge, distance, weight, d_contact, subtract, touching, count)
 
 
 @jit_owning
 def empty():
     """Return no pairs."""
-    none = np.empty(0, np.int64)
-    return Pairs(none, none, np.empty(0), np.empty(0), np.empty((0, 2)))
+    none, nothing = np.empty(0, np.int64), np.empty(0)
+    count = np.zeros(1, np.int64)
+    return Pairs(none, none, nothing, nothing, nothing, np.empty((0, 2)), none, count)
 
 
 @jit_exact

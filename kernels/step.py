@@ -1,6 +1,6 @@
 """What one step minimises: the sum of all terms, with its gradient, Hessian and admissible length.
 
-    E(x) = |x - x~|_M^2 / (2 dt^2) + E_s + E_b + E_f + E_c - f . (x - x0) + D + D_f
+    E(x) = E_s + E_b + E_f + E_c - f . u + |x - x~|_M^2 / (2 dt^2) + D(u) + D_f(u),   u = x - x0
 
 dt is infinite in a static step: inertia and damping vanish. A term that a scene lacks is an empty
 array.
@@ -10,23 +10,37 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels import bend, ccd, contact, damp, fold, friction, inertia, pairs, sparse, stretch
-from kernels.jit import jit, jit_exact, jit_owning
+from kernels import (
+    bend,
+    blocks,
+    ccd,
+    chain,
+    contact,
+    damp,
+    fold,
+    friction,
+    inertia,
+    pairs,
+    stretch,
+    system,
+)
+from kernels.jit import jit, jit_exact, jit_inlined, jit_owning
 from kernels.rows import pair, triple
 
-SHORTEST = 0.1  # of an element's length: no step shrinks it further
-MARGIN = 0.25  # of the reach of contact: how much farther pairs are listed
+STRETCH, BEND, CONTACT = range(3)
+SHORTEST, OPENING = range(2)
+LEAST_LENGTH = 0.1  # of an element's length: no step shrinks it further
+MARGIN = 1.0  # of the reach of contact: how much farther pairs are listed
+LIKELY = 0.25  # of its contact distance: a pair that much farther away gets room in the matrix
 ADVANCE = 0.9  # share of the way to the first contact that a step may use
+DIAGONAL = 2.0**0.5  # a node may move so many times as far as either of its coordinates
 
 
 class Terms(NamedTuple):
-    """One scene: the data of every term.
-
-    mass (n,) kg and load (n,) N by coordinate. row (n,) as in `sparse.Matrix`. first (rows,): the
-    skyline without contact.
-    """
+    """One scene: the data of every term. mass (n,) kg and load (n,) N by coordinate."""
 
     law: object
+    walls: object
     stretch: object
     bend: object
     fold: object
@@ -35,14 +49,13 @@ class Terms(NamedTuple):
     damp: object
     mass: np.ndarray
     load: np.ndarray
-    row: np.ndarray
-    first: np.ndarray
+    layout: object
 
 
 class Step(NamedTuple):
-    """One step from x0: x_pred (n,), duration dt in s, factor of the load, lagged friction."""
+    """One step: its start, x_pred (n,), duration dt in s, factor of the load, lagged friction."""
 
-    x0: np.ndarray
+    before: object
     x_pred: np.ndarray
     dt: float
     factor: float
@@ -50,115 +63,188 @@ class Step(NamedTuple):
 
 
 class Near(NamedTuple):
-    """Pairs found at ``anchor`` (n,) with ``margin`` (m), and the matrix that has room for them."""
+    """Pairs found at ``anchor`` (n,) with ``margin`` (m), and the system that has room for them."""
 
     pairs: object
     anchor: np.ndarray
     margin: float
-    matrix: object
+    system: object
 
 
-@jit
-def stored(x, terms, near):
-    """Return the recoverable energies (stretch, bend with folds, contact) in J."""
-    return (
-        stretch.energy(x, terms.stretch, terms.law),
-        bend.energy(x, terms.bend) + fold.energy(x, terms.fold),
-        contact.energy(x, terms.contact, near.pairs),
+class At(NamedTuple):
+    """What `evaluate` found at x. g (n,): gradient by coordinate, what supports must supply.
+
+    elastic, rubbing, material, u (n,): gradients of the stored energy, of friction and of damping;
+    move from x0. stored (3,): E_s, E_b with folds, E_c in J. least (2,): shortest element in m,
+    least opening of two arms in rad.
+    """
+
+    g: np.ndarray
+    elastic: np.ndarray
+    rubbing: np.ndarray
+    material: np.ndarray
+    u: np.ndarray
+    stored: np.ndarray
+    least: np.ndarray
+    shape: object
+    stiffness: object
+
+
+@jit_inlined
+def evaluate(x, terms, step, near, at, projected):
+    """Return E in J; fill ``at``, with the walls' part of the (``projected``) Hessian."""
+    walls, shape = terms.walls, at.shape
+    _start(x, step, at)
+    at.least[SHORTEST] = chain.measure(x, walls, shape)
+    opened = bend.turns(x, walls, terms.bend, step.before.frame, shape)
+    chain.clear(shape, at.stiffness)
+    at.stored[STRETCH] = stretch.evaluate(terms.stretch, terms.law, shape, at.stiffness, projected)
+    at.stored[BEND] = bend.evaluate(walls, terms.bend, shape, at.stiffness, projected)
+    chain.gather(walls, shape, at.elastic)
+    folding, at.least[OPENING] = fold.evaluate(x, terms.fold, at.elastic)
+    at.stored[BEND] += folding
+    at.least[OPENING] = min(opened, at.least[OPENING])
+    at.stored[CONTACT] = contact.evaluate(
+        x, terms.contact, near.pairs, _drift(x, terms, near), at.elastic
     )
-
-
-@jit
-def stored_gradient(x, terms, near, g):
-    """Add the gradient of the recoverable energy to ``g``."""
-    stretch.gradient(x, terms.stretch, terms.law, g)
-    bend.gradient(x, terms.bend, g)
-    fold.gradient(x, terms.fold, g)
-    contact.gradient(x, terms.contact, near.pairs, g)
-
-
-@jit
-def energy(x, terms, step, near):
-    """Return E in J."""
-    stretching, bending, touching = stored(x, terms, near)
-    total = stretching + bending + touching
+    total = at.stored[STRETCH] + at.stored[BEND] + at.stored[CONTACT]
     for i in range(x.size):
-        total -= step.factor * terms.load[i] * (x[i] - step.x0[i])
+        total -= step.factor * terms.load[i] * at.u[i]
+        at.g[i] = at.elastic[i] - step.factor * terms.load[i]
     if step.dt < np.inf:
-        total += inertia.energy(x, step.x_pred, terms.mass, step.dt)
-        total += damp.energy(x, step.x0, terms, step.dt)
-    return total + friction.energy(x, step.x0, step.grips, terms.friction.slip)
+        total += inertia.evaluate(x, step.x_pred, terms.mass, step.dt, at.g)
+        total += _damping(terms, step, at, projected)
+    return total + rub(terms, step.grips, at)
 
 
-@jit
-def gradient(x, terms, step, near, g):
-    """Fill ``g`` (n,) with dE/dx by coordinate: what supports must supply, zero where free."""
-    for i in range(g.size):
-        g[i] = -step.factor * terms.load[i]
-    stored_gradient(x, terms, near, g)
-    if step.dt < np.inf:
-        inertia.gradient(x, step.x_pred, terms.mass, step.dt, g)
-        damp.gradient(x, step.x0, terms, step.dt, g)
-    friction.gradient(x, step.x0, step.grips, terms.friction.slip, g)
+@jit_inlined
+def _start(x, step, at):
+    for i in range(x.size):
+        at.u[i] = x[i] - step.before.x0[i]
+        at.elastic[i] = 0.0
+        at.material[i] = 0.0
+        at.rubbing[i] = 0.0
 
 
-@jit
-def hessian(x, terms, step, near, projected):
-    """Fill the matrix of ``near`` with d2E/dx2, or with its projected, positive part."""
-    matrix = near.matrix
-    matrix.values[:] = 0.0
-    stretch.hessian(x, terms.stretch, terms.law, matrix, projected)
-    bend.hessian(x, terms.bend, matrix, projected)
+@jit_inlined
+def _damping(terms, step, at, projected):
+    at.shape.slope[:] = 0.0
+    at.shape.moment[:] = 0.0
+    total = damp.evaluate(
+        at.u, terms, step.before, step.dt, at.shape, at.stiffness, projected, at.material
+    )
+    for i in range(at.g.size):
+        at.g[i] += at.material[i]
+    return total
+
+
+@jit_inlined
+def rub(terms, grips, at):
+    """Return D_f of ``grips`` and exchange its gradient in ``at`` for the one there."""
+    if terms.friction.mu == 0.0:
+        return 0.0
+    for i in range(at.g.size):
+        at.g[i] -= at.rubbing[i]
+        at.rubbing[i] = 0.0
+    total = friction.evaluate(at.u, grips, terms.friction.slip, at.rubbing)
+    for i in range(at.g.size):
+        at.g[i] += at.rubbing[i]
+    return total
+
+
+@jit_inlined
+def factor(x, terms, step, near, at, projected):
+    """Factor the Hessian at the ``x`` of the last `evaluate`; return as `system.factor` does."""
+    matrix = near.system.matrix
+    blocks.clear(matrix)
     fold.hessian(x, terms.fold, matrix, projected)
     contact.hessian(x, terms.contact, near.pairs, matrix, projected)
+    friction.hessian(at.u, step.grips, terms.friction.slip, matrix, projected)
     if step.dt < np.inf:
-        inertia.hessian(terms.mass, step.dt, matrix)
-        damp.hessian(x, step.x0, terms, step.dt, matrix, projected)
-    friction.hessian(x, step.x0, step.grips, terms.friction.slip, matrix, projected)
+        inert = 1.0 / (step.dt * step.dt) + terms.damp.alpha_m / step.dt
+        for i in range(x.size):
+            matrix.diagonal[i] += inert * terms.mass[i]
+    return system.factor(near.system, terms.layout, terms.walls, at.stiffness)
 
 
-@jit_exact
-def step_limit(x, dx, terms, near):
-    """Return the share of ``dx`` (at most 1) that keeps walls apart, open and long enough."""
-    first = contact.step_limit(x, dx, terms.contact, near.pairs)
-    for k in range(terms.fold.limit.size):
-        a, b, c = triple(terms.fold.nodes, k)
-        first = min(first, ccd.first_fold(x, dx, a, b, c))
-    shortest = np.inf
-    for k in range(terms.stretch.l0.size):
-        i, j = pair(terms.stretch.edges, k)
-        shortest = min(shortest, ccd.first_shrink(x, dx, i, j, SHORTEST))
+@jit_inlined
+def step_limit(x, dx, most, terms, near, at):
+    """Return the share of ``dx`` (at most 1) that keeps walls apart, open and long enough.
+
+    ``most``: farthest move of a coordinate in m. A bound tells first whether a check is needed.
+    """
+    contacts, shortest, farthest = terms.contact, np.inf, DIAGONAL * most
+    first = contact.step_limit(x, dx, farthest, contacts, near.pairs, _drift(x, terms, near))
+    if np.pi * 2.0 * farthest >= at.least[OPENING] * at.least[SHORTEST]:
+        first = min(first, _first_fold(x, dx, terms))
+    if 2.0 * farthest >= (1.0 - LEAST_LENGTH) * at.least[SHORTEST]:
+        for k in range(terms.walls.edges.shape[0]):
+            i, j = pair(terms.walls.edges, k)
+            shortest = min(shortest, ccd.first_shrink(x, dx, i, j, LEAST_LENGTH))
     return min(1.0, ADVANCE * first, shortest)
 
 
-@jit_owning
-def find_near(x, terms, move):
-    """Return `Near` at ``x`` for moves up to ``move`` (m): pairs in reach and a matrix for them."""
-    anchor = x.copy()
-    margin = max(3.0 * move, MARGIN * terms.contact.reach)
-    if terms.contact.edges.shape[0] == 0:
-        found = pairs.empty()
-        margin = np.inf
-    else:
-        found = pairs.find(x, terms.contact, terms.contact.reach + margin)
-    first = terms.first.copy()
-    for k in range(found.node.size):
-        if found.weight[k] > 0.0:
-            p = found.node[k]
-            a, b = pair(terms.contact.edges, found.edge[k])
-            for i in range(2):
-                for j in range(2):
-                    for v in (a, b):
-                        sparse.widen(first, terms.row[2 * p + i], terms.row[2 * v + j])
-    for p in terms.contact.plate_nodes:
-        sparse.widen(first, terms.row[terms.contact.high], terms.row[2 * p + 1])
-    return Near(found, anchor, margin, sparse.shaped(terms.row, first))
-
-
 @jit_exact
-def covers(near, x, terms, reach):
-    """Return whether the list still holds every pair that matters within ``reach`` of ``x``."""
+def _first_fold(x, dx, terms):
+    first, edges = np.inf, terms.walls.edges
+    for k in range(terms.fold.limit.size):
+        a, b, c = triple(terms.fold.nodes, k)
+        first = min(first, ccd.first_fold(x, dx, a, b, c))
+    for k in terms.bend.hinges:
+        first = min(first, ccd.first_fold(x, dx, edges[k, 0], edges[k, 1], edges[k + 1, 1]))
+    return first
+
+
+@jit_owning
+def _couplings(x, terms, found, grips):
+    """Return (c, 4) nodes of what may soon share a term: contacts, grips, closing joints."""
+    layout, reach = terms.layout, 1.0 + LIKELY
+    most = found.node.size + grips.count[0] + terms.fold.limit.size
+    most += terms.contact.plate_nodes.size
+    nodes, n = np.empty((most, 3), np.int64), 0
+    for k in range(found.node.size):
+        if found.weight[k] > 0.0 and found.distance[k] < reach * found.d_contact[k]:
+            a, b = pair(terms.contact.edges, found.edge[k])
+            nodes[n, 0], nodes[n, 1], nodes[n, 2] = found.node[k], a, b
+            n += 1
+    for k in range(grips.count[0]):
+        nodes[n] = grips.nodes[k]
+        n += 1
+    for k in range(terms.fold.limit.size):
+        if fold.opening(x, terms.fold, k) < 2.0 * terms.fold.limit[k]:
+            nodes[n] = terms.fold.nodes[k]
+            n += 1
+    if layout.leader[terms.contact.high] >= 0 and layout.driven < 0:
+        for p in terms.contact.plate_nodes:
+            gap = x[terms.contact.high] - x[2 * p + 1]
+            if gap < 0.5 * reach * terms.contact.node_thickness[p]:
+                nodes[n] = p
+                nodes[n, 2] = layout.n_nodes
+                n += 1
+    return nodes[:n]
+
+
+@jit_owning
+def find_near(x, terms, grips, move):
+    """Return `Near` at ``x`` for moves up to ``move`` (m): pairs in reach and room for them."""
     if terms.contact.edges.shape[0] == 0:
-        return True
-    n_nodes = terms.contact.tributary.size
-    return 2.0 * (pairs.farthest(x, near.anchor, n_nodes) + reach) <= near.margin
+        found, margin = pairs.empty(), np.inf
+    else:
+        margin = max(3.0 * move, MARGIN * terms.contact.reach)
+        found = pairs.find(x, terms.contact, terms.contact.reach + margin)
+    solver = system.analyse(terms.layout, terms.walls, _couplings(x, terms, found, grips))
+    return Near(found, x.copy(), margin, solver)
+
+
+@jit_inlined
+def _drift(x, terms, near):
+    """Return how far a node has moved since the pairs were listed, m."""
+    if terms.contact.edges.shape[0] == 0:
+        return 0.0
+    return pairs.farthest(x, near.anchor, terms.layout.n_nodes)
+
+
+@jit_inlined
+def covers(near, x, terms, reach):
+    """Return whether the list holds all that matters while no coordinate moves beyond ``reach``."""
+    return 2.0 * (_drift(x, terms, near) + DIAGONAL * reach) <= near.margin

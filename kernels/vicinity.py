@@ -199,7 +199,7 @@ def special_pairs(x, edges, l0, node_thickness, edge_thickness, tributary):
     mesh = (edges, l0, start, incident)
     node, edge, weight = _near_pairs(edges, l0, node_thickness, edge_thickness, tributary)
     near_start, near_order = _by_node(n, np.array(node, dtype=np.int64))
-    close_node, close_edge = near(x, n, edges, max(node_thickness.max(), edge_thickness.max()))
+    close_node, close_edge, _ = near(x, n, edges, max(node_thickness.max(), edge_thickness.max()))
     close_start, close_order = _by_node(n, close_node)
     out_start = np.zeros(n + 1, np.int64)
     out_edge, out_weight, out_distance, out_subtract = [0], [0.0], [0.0], [(0.0, 0.0)]

@@ -44,7 +44,7 @@ def stress_law(material: Material) -> StressLaw:
     """The law of a material under uniaxial stress; the plane-strain factor is not in it."""
     if material.stretch == "linear":
         slope = material.modulus
-        return StressLaw(np.array([-1.0, 1.0]), np.array([[-slope, slope, 0.0, 0.0]]))
+        return StressLaw(np.array([0.0, 1.0]), np.array([[0.0, slope, 0.0, 0.0]]))
     from scipy.interpolate import CubicHermiteSpline
 
     spline = CubicHermiteSpline(*_knots(material.curve_strain, material.curve_stress))

@@ -38,12 +38,20 @@ class Mesh:
         return np.column_stack([at_end, self.edges[at_end, 1], at_end + 1])
 
     @property
-    def ends(self) -> Ints:
-        """Ends of elements that lie at joints: (k, 3) element, node at the joint, other node."""
-        element = np.repeat(np.arange(len(self.edges)), 2)
-        node, other = self.edges.ravel(), self.edges[:, ::-1].ravel()
-        at_joint = node < self.n_joints
-        return np.column_stack([element, node, other])[at_joint]
+    def start(self) -> Ints:
+        """First element of every wall and the end of the last, (w + 1,)."""
+        return np.flatnonzero(np.diff(self.wall, prepend=-1, append=self.wall[-1] + 1))
+
+    @property
+    def arm_element(self) -> Ints:
+        """Elements at both ends of every wall, (2 w,)."""
+        return np.column_stack([self.start[:-1], self.start[1:] - 1]).ravel()
+
+    @property
+    def arm_joint(self) -> Ints:
+        """Joints at both ends of every wall, (2 w,)."""
+        first, last = self.start[:-1], self.start[1:] - 1
+        return np.column_stack([self.edges[first, 0], self.edges[last, 1]]).ravel()
 
     def tributary(self, per_length: Floats) -> Floats:
         """Half of every element's length x ``per_length`` (m,), summed at its two nodes: (n,)."""
@@ -83,21 +91,22 @@ def row_nodes(network: Network, mesh: Mesh, joints: Ints) -> Ints:
 
 
 def openings(mesh: Mesh) -> tuple[Ints, Floats, Ints]:
-    """Openings between neighbouring arms of every node.
+    """Openings between neighbouring arms of every joint.
 
     Returns nodes (f, 3), anticlockwise from arm 1-0 to arm 1-2; the rest opening (f,) in rad;
-    elements (f, 2) of the two arms.
+    the two arms (f, 2), numbered as in `Mesh.arm_joint`.
     """
-    element = np.repeat(np.arange(len(mesh.edges)), 2)
-    node, other = mesh.edges.ravel(), mesh.edges[:, ::-1].ravel()
+    node, at_start = mesh.arm_joint, np.arange(2 * len(mesh.start) - 2) % 2 == 0
+    first, second = mesh.edges[mesh.arm_element].T
+    other = np.where(at_start, second, first)
     arm = mesh.points[other] - mesh.points[node]
     bearing = np.arctan2(arm[:, 1], arm[:, 0])
     order = np.lexsort([bearing, node])
-    element, node, other, bearing = element[order], node[order], other[order], bearing[order]
+    node, other, bearing = node[order], other[order], bearing[order]
     start = np.searchsorted(node, node, side="left")
     count = np.searchsorted(node, node, side="right") - start
     following = start + (np.arange(len(node)) - start + 1) % count
     opened = np.mod(bearing[following] - bearing, 2 * np.pi)
     kept = count > 1
     nodes = np.column_stack([other, node, other[following]])
-    return nodes[kept], opened[kept], np.column_stack([element, element[following]])[kept]
+    return nodes[kept], opened[kept], np.column_stack([order, order[following]])[kept]

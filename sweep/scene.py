@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kernels import contact, damp, friction, law, newton, stretch, vicinity
+from kernels import chain, contact, damp, friction, law, newton, stretch, system, vicinity
 from kernels.step import Terms
 from sweep.joints import build_bend, build_fold
 from sweep.lattice import Network, build_network, mass
-from sweep.layout import Layout, coordinates, held, rows, skyline
+from sweep.layout import Layout, held, leaders
 from sweep.material import stress_law
 from sweep.mesh import Floats, Ints, Mesh, row_nodes, split_walls
 from sweep.params import Case, Loading, Material, given
@@ -53,7 +53,32 @@ def _law(material: Material, factor: float) -> law.Law:
 
 
 def _stretch(mesh: Mesh, depth: float) -> stretch.Stretch:
-    return stretch.Stretch(mesh.edges, mesh.rest_length, depth * mesh.thickness)
+    return stretch.Stretch(mesh.rest_length, depth * mesh.thickness)
+
+
+def _walls(mesh: Mesh, layout: Layout) -> chain.Walls:
+    rotation = layout.rotation[mesh.arm_joint]
+    return chain.Walls(mesh.edges, mesh.start, mesh.arm_element, rotation)
+
+
+def _solved(mesh: Mesh, layout: Layout, leader: Ints, case: Case) -> system.Layout:
+    """What the linear solver knows of the scene."""
+    joints = mesh.arm_joint.reshape(-1, 2)
+    outer = np.stack([2 * joints, 2 * joints + 1, layout.rotation[joints]], axis=-1)
+    wall_of = np.full(layout.n_nodes, -1)
+    before, node, _ = mesh.inner.T
+    wall_of[node] = mesh.wall[before]
+    axial = case.material.modulus * case.lattice.depth * mesh.thickness / mesh.rest_length
+    return system.Layout(
+        leader=leader,
+        driven=layout.high if case.loading.mode == "displacement" else -1,
+        n_nodes=layout.n_nodes,
+        n_joints=layout.n_joints,
+        inner=mesh.edges[mesh.start[:-1], 1],
+        wall_of=wall_of,
+        outer=outer.reshape(-1, 6),
+        scale=float(axial.max()),
+    )
 
 
 def _no_special_pairs(n_nodes: int) -> tuple[Ints, Ints, Floats, Floats, Floats]:
@@ -153,28 +178,26 @@ def build_scene(case: Case) -> Scene:
     in_stretch, in_bend = plane_factors(case.material)
     second_moment = lattice.depth * mesh.thickness**3 / 12
     rigidity = in_bend * case.material.modulus * second_moment
-    bending = build_bend(mesh, layout, rigidity, case)
+    bending = build_bend(mesh, rigidity, case)
     touching = in_stretch * case.material.modulus * lattice.depth * (case.contact.stiffness or 0.0)
     fixed = held(layout, platen)
     tied = 2 * layout.top + 1 if platen == "glued" else np.empty(0, np.int64)
-    folding = build_fold(mesh, bending)
-    groups = coordinates(mesh, bending, folding.nodes)
-    row = rows(layout, fixed, tied, groups)
+    follows = _solved(mesh, layout, leaders(layout, fixed, tied), case)
     terms = Terms(
         law=_law(case.material, in_stretch),
+        walls=_walls(mesh, layout),
         stretch=_stretch(mesh, lattice.depth),
         bend=bending,
-        fold=folding,
+        fold=build_fold(mesh, bending),
         contact=_contact(mesh, layout, touching, case),
         friction=_friction(case),
         damp=_damp(case),
         mass=_masses(mesh, layout, mass(network, lattice.depth, case.material.density)),
         load=_load(layout, case),
-        row=row,
-        first=skyline(row, groups),
+        layout=follows,
     )
     return Scene(
-        mesh, network, terms, _unknowns(mesh, layout, row, case),
+        mesh, network, terms, _unknowns(mesh, layout, follows, case),
         _rest(mesh, network, layout), *_reported(layout, case.loading),
         force_scale=float(np.min(rigidity) / np.max(_wall_length(network)) ** 2),
     )  # fmt: skip
@@ -208,19 +231,16 @@ def _reported(layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
     return reaction, 2 * layout.top + 1, bottom
 
 
-def _unknowns(mesh: Mesh, layout: Layout, row: Ints, case: Case) -> newton.Unknowns:
-    driven = case.loading.mode == "displacement"
-    n_rows = int(row.max()) + 1
-    scale = np.ones(n_rows)
-    rotation = row[layout.rotation]
-    scale[rotation[rotation >= 0]] = mesh.rest_length.mean()
+def _unknowns(mesh: Mesh, layout: Layout, solved: system.Layout, case: Case) -> newton.Unknowns:
+    lattice = case.lattice
+    scale = np.ones(layout.size)
+    scale[layout.rotation] = mesh.rest_length.mean()
     return newton.Unknowns(
-        row=row,
+        leader=solved.leader,
         scale=scale,
-        free=n_rows - driven,
-        driven=layout.high if driven else -1,
-        cap=0.25
-        * min(case.lattice.width, case.lattice.height)
-        / max(case.lattice.cells_x, case.lattice.cells_y),
-        leap=0.1 * case.lattice.wall_thickness,
+        lever=1.0 / scale,
+        driven=solved.driven,
+        cap=0.25 * min(lattice.width, lattice.height) / max(lattice.cells_x, lattice.cells_y),
+        leap=0.1 * lattice.wall_thickness,
+        close=1e-3 * lattice.wall_thickness,
     )

@@ -72,7 +72,7 @@ class _Run:
         total = sum(s.stage.steps for s in self.stages)
         self.state = march.State(
             scene.x_rest.copy(), np.zeros(n), np.zeros(march.TIME), np.zeros(n), np.zeros(n),
-            np.zeros(2), np.zeros(3),
+            np.zeros(3), np.zeros(2), np.zeros(3),
         )  # fmt: skip
         self.rows = np.zeros((total + 1, march.N_COLUMNS))
         self.rows[0, march.HEIGHT] = march.height(scene.x_rest, scene.top, scene.base)

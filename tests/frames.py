@@ -8,7 +8,19 @@ from itertools import pairwise
 
 import numpy as np
 
-from kernels import bend, contact, damp, fold, friction, law, stretch, vicinity
+from kernels import (
+    bend,
+    chain,
+    contact,
+    damp,
+    fold,
+    friction,
+    law,
+    pairs,
+    stretch,
+    system,
+    vicinity,
+)
 from kernels.step import Terms
 
 MODULUS, DEPTH = 12.0, 10.0
@@ -39,6 +51,22 @@ class Frame:
     def rigidity(self) -> np.ndarray:
         """Y I of every element, (m,)."""
         return self.modulus * self.depth * self.thickness**3 / 12
+
+    @property
+    def start(self) -> np.ndarray:
+        """First element of every wall and the end of the last, (w + 1,)."""
+        return np.append(np.flatnonzero(self.edges[:, 0] < self.joints), len(self.edges))
+
+    @property
+    def arm_element(self) -> np.ndarray:
+        """Elements at both ends of every wall, (2 w,)."""
+        return np.column_stack([self.start[:-1], self.start[1:] - 1]).ravel()
+
+    @property
+    def arm_joint(self) -> np.ndarray:
+        """Joints at both ends of every wall, (2 w,)."""
+        first, last = self.start[:-1], self.start[1:] - 1
+        return np.column_stack([self.edges[first, 0], self.edges[last, 1]]).ravel()
 
     @property
     def rest(self) -> np.ndarray:
@@ -136,8 +164,12 @@ def curve_law(modulus: float) -> law.Law:
     return law.Law(knots, pieces, energy - energy[1], modulus)
 
 
+def walls_of(of: Frame) -> chain.Walls:
+    return chain.Walls(of.edges, of.start, of.arm_element, 2 * len(of.points) + of.arm_joint)
+
+
 def stretch_of(of: Frame) -> stretch.Stretch:
-    return stretch.Stretch(of.edges, of.l0, of.depth * of.thickness)
+    return stretch.Stretch(of.l0, of.depth * of.thickness)
 
 
 def bend_of(of: Frame, measure: int = bend.ANGLE, exact: bool = True) -> bend.Bend:
@@ -148,33 +180,20 @@ def bend_of(of: Frame, measure: int = bend.ANGLE, exact: bool = True) -> bend.Be
     n, per_length = of.pieces, of.rigidity / of.l0
     inside = per_length * (1 - 1 / n**2 if exact else 1.0)
     at_end = 2 * per_length * (1 + 1 / n if exact else 1.0)
-    before = np.flatnonzero((of.edges[:-1, 1] == of.edges[1:, 0]) & (of.edges[1:, 0] >= of.joints))
-    hinges = np.column_stack([of.edges[before], of.edges[before + 1, 1]])
-    element, side = np.nonzero(of.edges < of.joints)
-    joint, other = of.edges[element, side], of.edges[element, 1 - side]
-    single = np.flatnonzero(of.pieces == 1) if exact else np.empty(0, np.int64)
-    first = np.searchsorted(element, single)
+    before = np.flatnonzero(of.edges[:, 1] >= of.joints)
+    along = (of.points[of.edges[:, 1]] - of.points[of.edges[:, 0]]) / of.l0[:, None]
+    one, two = along[before], along[before + 1]
+    cosine, sine = np.sum(one * two, axis=1), one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+    single = exact & (n[of.start[:-1]] == 1)
     return bend.Bend(
         measure=measure,
-        hinges=hinges,
-        hinge_rest=_turn(of.points, *hinges.T),
+        hinges=before,
+        hinge_angle=np.arctan2(sine, cosine),
         hinge_stiffness=inside[before],
-        arms=np.column_stack([joint, other, 2 * len(of.points) + joint]),
-        arm_rest=_direction(of.points, joint, other),
-        arm_stiffness=at_end[element],
-        couplings=np.column_stack([first, first + 1]),
-        coupling_stiffness=2 * per_length[single],
+        arm_rest=along[of.arm_element],
+        arm_stiffness=at_end[of.arm_element],
+        coupling=np.where(single, 2 * per_length[of.start[:-1]], 0.0),
     )
-
-
-def _direction(points, start, end):
-    arm = points[end] - points[start]
-    return arm / np.linalg.norm(arm, axis=1)[:, None]
-
-
-def _turn(points, a, b, c):
-    u, v = _direction(points, b, a), _direction(points, b, c)
-    return np.column_stack([np.sum(u * v, axis=1), u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]])
 
 
 def contact_of(of: Frame, stiffness: float = 1.0) -> contact.Contact:
@@ -191,17 +210,34 @@ def contact_of(of: Frame, stiffness: float = 1.0) -> contact.Contact:
     )  # fmt: skip
 
 
+def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> system.Layout:
+    """``held`` coordinates and the lower platen do not move, ``tied`` ones follow the upper one."""
+    n, size = len(of.points), of.rest.size
+    leader = np.arange(size)
+    leader[list(tied)] = size - 1
+    leader[[*held, size - 2]] = -1
+    wall_of = np.full(n, -1)
+    inside = np.flatnonzero(of.edges[:, 1] >= of.joints)
+    wall_of[of.edges[inside, 1]] = np.searchsorted(of.start, inside, "right") - 1
+    joints = of.arm_joint.reshape(-1, 2)
+    outer = np.stack([2 * joints, 2 * joints + 1, 2 * n + joints], axis=-1).reshape(-1, 6)
+    axial = of.modulus * of.depth * of.thickness / of.l0
+    return system.Layout(
+        leader, size - 1 if driven else -1, n, of.joints, of.edges[of.start[:-1], 1], wall_of,
+        outer, float(axial.max()),
+    )  # fmt: skip
+
+
 def terms_of(of: Frame, curve: law.Law, measure: int, damping: damp.Damp) -> Terms:
-    """What damping reads: law, stretch, bend, damp and mass; no folds and no contact."""
+    """What damping reads: law, walls, stretch, bend, damp and mass; no folds and no contact."""
     share = np.bincount(of.edges.ravel(), np.repeat(of.l0 * of.thickness, 2), len(of.points))
     mass = np.zeros(of.rest.size)
     mass[: 2 * len(of.points)] = np.repeat(share, 2)
     none = np.empty(0)
     return Terms(
-        curve, stretch_of(of), bend_of(of, measure),
+        curve, walls_of(of), stretch_of(of), bend_of(of, measure),
         fold.Fold(np.empty((0, 3), np.int64), none, none), contact_of(of),
-        friction.Friction(0.0, 1.0), damping, mass, none, np.empty(0, np.int64),
-        np.empty(0, np.int64),
+        friction.Friction(0.0, 1.0), damping, mass, none, layout_of(of),
     )  # fmt: skip
 
 
@@ -217,3 +253,11 @@ def touching(of: Frame, apart: float = 50.0) -> contact.Contact:
     upper = np.unique(of.edges[of.pieces[0] :])
     moved[upper, 1] += apart * of.millimetre
     return contact_of(replace(of, points=moved))
+
+
+def only(listed: pairs.Pairs, node: int) -> pairs.Pairs:
+    """The pairs of one node."""
+    columns = listed._asdict()
+    count = columns.pop("count")
+    chosen = {name: column[listed.node == node] for name, column in columns.items()}
+    return pairs.Pairs(**chosen, count=count)

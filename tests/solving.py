@@ -1,60 +1,104 @@
 """The inside of a step as tests reach it: the one place that knows how its kernels are called."""
 
-from types import SimpleNamespace
 from typing import NamedTuple
 from unittest.mock import patch
 
 import numpy as np
 
-from kernels import friction, march, newton, step
+from kernels import contact, damp, fold, friction, march, newton, pairs, step, system
 from sweep.scene import build_scene
 from sweep.simulate import tolerances
-from tests.terms import dense
+from tests.terms import assembled, dense, full_matrix, room
 
 RUN = np.zeros(2, dtype=np.int64)  # nobody asks to stop
 
 
-def _hessian(x, terms, one, near, matrix, projected):
-    step.hessian(x, terms, one, near._replace(matrix=matrix), projected)
+class Whole(NamedTuple):
+    """All that a step minimises, as one term; ``near``: pairs and system of some state."""
+
+    terms: step.Terms
+    step: step.Step
+    near: step.Near
+
+    def found(self, x, projected=False):
+        """Energy and what else `evaluate` finds at ``x``."""
+        at = step.At(*np.zeros((5, x.size)), np.zeros(3), np.zeros(2), *room(self.terms.walls))
+        return step.evaluate(x, self.terms, self.step, self.near, at, projected), at
+
+    def energy(self, x):
+        """Energy at ``x``."""
+        return self.found(x)[0]
+
+    def gradient(self, x):
+        """Gradient (n,) at ``x``."""
+        return self.found(x)[1].g
+
+    def hessian(self, x, projected=False):
+        """Hessian (n, n) at ``x``, put together apart from `step.factor`."""
+        _, at = self.found(x, projected)
+        terms, dt, matrix = self.terms, self.step.dt, full_matrix(x.size)
+        fold.hessian(x, terms.fold, matrix, projected)
+        contact.hessian(x, terms.contact, self.near.pairs, matrix, projected)
+        friction.hessian(at.u, self.step.grips, terms.friction.slip, matrix, projected)
+        inert = (1.0 / dt + terms.damp.alpha_m) / dt * terms.mass
+        return assembled(terms.walls, at.stiffness, x.size) + dense(matrix) + np.diag(inert)
+
+    def factor(self, x, projected=False):
+        """Place of the first negative pivot at ``x``, and whether an entry had no room."""
+        _, at = self.found(x, projected)
+        place = step.factor(x, self.terms, self.step, self.near, at, projected)
+        return place, bool(self.near.system.matrix.missing[0])
+
+    def solve(self, b):
+        """Solution (n,) for a right side ``b`` (n,) after `factor`."""
+        y = b.copy()
+        system.solve(self.near.system, self.terms.layout, y)
+        return y
+
+    def escape(self, place):
+        """Direction (n,) of negative curvature after a `factor` that has met it."""
+        d = np.zeros(self.terms.mass.size)
+        wall, failed, _ = place
+        system.descend(self.near.system, self.terms.layout, wall, failed, d)
+        return d
+
+    def limit(self, x, dx):
+        """Share of the move ``dx`` from ``x`` that is admissible."""
+        _, at = self.found(x)
+        most = max(pairs.farthest(dx, 0.0 * dx, self.terms.layout.n_nodes), np.abs(dx[-2:]).max())
+        return step.step_limit(x, dx, most, self.terms, self.near, at)
 
 
-WHOLE = SimpleNamespace(energy=step.energy, gradient=step.gradient, hessian=_hessian)
-"""The sum of all terms, in the form of one term; its arguments: `whole`."""
+def gripped(x, terms, near):
+    """What friction lags at ``x``."""
+    grips = friction.room(near.pairs, terms.contact, terms.friction)
+    friction.lag(x, terms.contact, near.pairs, terms.friction, grips)
+    return grips
 
 
-def whole(scene, x, x0=None, dt=np.inf, v=None, factor=1.0):
-    """Terms, step and pairs near ``x`` of a step from x0 (``x``) and v (0); friction lags at x."""
-    x0 = x if x0 is None else x0
+def whole(scene, x, x0=None, dt=np.inf, v=None, factor=1.0, reach=0.0):
+    """A step from x0 (``x``) and v (0), near ``x`` and what is in ``reach``; friction lags at x."""
+    terms, x0 = scene.terms, x if x0 is None else x0
     x_pred = x0 if v is None else x0 + dt * v
-    near = step.find_near(x, scene.terms, 0.0)
-    grips = friction.lag(x, scene.terms.contact, near.pairs, scene.terms.friction)
-    return scene.terms, step.Step(x0.copy(), x_pred.copy(), dt, factor, grips), near
+    frame = np.full((terms.walls.rotation.size, 3), np.inf)
+    before = damp.Before(x0.copy(), frame, *room(terms.walls))
+    damp.prepare(terms, before)
+    grips = gripped(x, terms, step.find_near(x, terms, friction.none(), reach))
+    one = step.Step(before, x_pred.copy(), dt, factor, grips)
+    return Whole(terms, one, step.find_near(x, terms, grips, reach))
 
 
 def reduction(scene):
-    """Matrix (n, rows) from the rows that are solved for to coordinates."""
-    row = scene.unknowns.row
-    return (row[:, None] == np.arange(row.max() + 1)).astype(float)
-
-
-def assembled(x, args, projected=False):
-    """Hessian (rows, rows) as a step assembles it in the room that it has made."""
-    step.hessian(x, *args, projected)
-    return dense(args[2].matrix)
-
-
-def limit(scene, x, dx):
-    """Share of the move ``dx`` from ``x`` that is admissible."""
-    near = step.find_near(x, scene.terms, float(np.abs(dx).max()))
-    return step.step_limit(x, dx, scene.terms, near)
+    """Matrix (n, free) from what is solved for to coordinates: tied ones go with their leader."""
+    leader, driven = scene.unknowns.leader, scene.unknowns.driven
+    free = [c for c in np.unique(leader[leader >= 0]) if c != driven]
+    return (leader[:, None] == np.array(free)).astype(float)
 
 
 def residual(scene, x, args):
-    """Forces (rows,) out of balance in N, the driven one left out."""
-    g = np.zeros_like(x)
-    step.gradient(x, *args, g)
-    free = scene.unknowns.free
-    return (reduction(scene).T @ g)[:free] / scene.unknowns.scale[:free]
+    """Forces (free,) out of balance in N, the driven one left out."""
+    R = reduction(scene)
+    return R.T @ args.gradient(x) / (R.T @ scene.unknowns.scale / R.sum(axis=0))
 
 
 class Descent(NamedTuple):
@@ -65,17 +109,28 @@ class Descent(NamedTuple):
     x: np.ndarray
 
 
+def scratch(n):
+    """Scratch of a minimisation that begins, with no factor at hand."""
+    return newton.Work(*np.zeros((5, n)), np.full(1, np.inf))
+
+
 def descend(case, scene, start, args, target=None, control=RUN, **tolerance):
     """Minimise from ``start`` with the platen at ``target`` (where it is)."""
     terms, one, _ = args
-    x = start.copy()
-    rows = scene.unknowns.scale.size
-    outcome, iterations, _ = newton.minimise(
-        x, x[-1] if target is None else target, terms, one, step.find_near(x, terms, 0.0),
-        scene.unknowns, tolerances(case, scene, one.dt)._replace(**tolerance),
-        newton.Work(*np.zeros((3, x.size)), *np.zeros((3, rows))), control,
-    )  # fmt: skip
-    return Descent(outcome, iterations, x)
+    x, work = start.copy(), scratch(start.size)
+    at = step.At(*np.zeros((5, x.size)), np.zeros(3), np.zeros(2), *room(terms.walls))
+    allowed = tolerances(case, scene, one.dt)._replace(**tolerance)
+    target, done, move = x[-1] if target is None else target, 0, 0.0
+    while True:
+        near = step.find_near(x, terms, one.grips, move)
+        outcome, iterations, move = newton.minimise(
+            x, target, terms, one, near, scene.unknowns,
+            allowed._replace(iterations=allowed.iterations - done), at, work, control,
+        )  # fmt: skip
+        done += iterations
+        if outcome != newton.OUTGROWN:
+            return Descent(outcome, done, x)
+        work.dx[:], work.kept[0] = 0.0, np.inf
 
 
 def at_rest(scene):
@@ -83,7 +138,7 @@ def at_rest(scene):
     n = scene.x_rest.size
     return march.State(
         scene.x_rest.copy(), np.zeros(n), np.zeros(march.TIME), np.zeros(n), np.zeros(n),
-        np.zeros(2), np.zeros(3),
+        np.zeros(3), np.zeros(2), np.zeros(3),
     )  # fmt: skip
 
 

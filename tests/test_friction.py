@@ -3,22 +3,39 @@
 import numpy as np
 import pytest
 
-from kernels import contact, friction, pairs
+from kernels import friction, pairs
 from kernels.barrier import barrier
-from tests.frames import carried, scaled, shaken, touching, two_walls
-from tests.terms import derivative_error, differences, gradient_of, hessian_of, least_share
+from tests.frames import carried, only, scaled, shaken, touching, two_walls
+from tests.terms import Term, derivative_error, differences, least_share, of_points, touch_of
 
 MU, T = 0.3, 0.8
 WALLS = two_walls(0.5, (3, 2))
 UPPER = np.unique(WALLS.edges[3:])
 
 
-def grips_of(of, x, mu=MU, only=None):
+def grips_of(of, x, mu=MU, node=None):
     touch = touching(of)
     listed = pairs.find(x, touch, 2.0 * touch.reach)
-    if only is not None:
-        listed = pairs.Pairs(*(column[listed.node == only] for column in listed))
-    return friction.lag(x, touch, listed, friction.Friction(mu, 1.0)), touch, listed
+    if node is not None:
+        listed = only(listed, node)
+    return lagged(x, touch, listed, mu), touch, listed
+
+
+def lagged(x, touch, listed, mu=MU):
+    """What is gripped at ``x``."""
+    rubbing = friction.Friction(mu, 1.0)
+    grips = friction.room(listed, touch, rubbing)
+    friction.lag(x, touch, listed, rubbing, grips)
+    n = grips.count[0]
+    return friction.Grips(grips.nodes[:n], grips.slopes[:n], grips.load[:n], grips.count)
+
+
+def term_of(x0, grips, slip) -> Term:
+    """Friction of a step from x0."""
+    return of_points(
+        lambda x, g: friction.evaluate(x - x0, grips, slip, g),
+        lambda x, matrix, projected: friction.hessian(x - x0, grips, slip, matrix, projected),
+    )
 
 
 def slid(amount):
@@ -67,29 +84,29 @@ def test_derivatives_in_random_states(seed, slip, length):
     x0 = shaken(of, seed, 0.1)
     grips, _, _ = grips_of(of, x0)
     assert len(grips.load) > 5
-    args = x0, grips, slip * length
-    assert derivative_error(friction, args, shaken(of, seed + 9, 0.1), of.unit, 1e-5) < 1e-6
+    term = term_of(x0, grips, slip * length)
+    assert derivative_error(term, shaken(of, seed + 9, 0.1), of.unit, 1e-5) < 1e-6
 
 
 @pytest.mark.parametrize("amount", [0.0, 0.002, -0.009, 0.011, 0.5])
 def test_derivatives_while_sticking_and_sliding(amount):
     grips, _, _ = grips_of(WALLS, WALLS.rest)
-    error = derivative_error(friction, (WALLS.rest, grips, 0.01), slid(amount), WALLS.unit, 1e-6)
+    error = derivative_error(term_of(WALLS.rest, grips, 0.01), slid(amount), WALLS.unit, 1e-6)
     assert error < (1e-3 if amount == 0.0 else 1e-6)  # |u|^3 has a kink in its third derivative
 
 
 def test_walls_that_turn_together_do_not_slip():
     grips, _, _ = grips_of(WALLS, WALLS.rest)
     small = carried(WALLS, WALLS.rest, 1e-6)
-    slid_apart = friction.energy(slid(1e-6), WALLS.rest, grips, 1e-3)
-    assert friction.energy(small, WALLS.rest, grips, 1e-3) < 1e-9 * slid_apart
+    term = term_of(WALLS.rest, grips, 1e-3)
+    assert term.energy(small) < 1e-9 * term.energy(slid(1e-6))
 
 
 def test_a_step_that_stays_costs_nothing():
     x = shaken(WALLS, 1, 0.1)
     grips, _, _ = grips_of(WALLS, x)
-    assert friction.energy(x, x, grips, 0.01) == pytest.approx(0.0, abs=1e-12)
-    assert np.abs(gradient_of(friction, (x, grips, 0.01), x)).max() < 1e-10
+    assert term_of(x, grips, 0.01).energy(x) == 0.0
+    assert not term_of(x, grips, 0.01).gradient(x).any()
 
 
 @pytest.mark.parametrize("pieces", [(1, 1), (3, 2), (12, 7), (24, 24)])
@@ -99,7 +116,7 @@ def test_the_load_is_mu_times_the_normal_force_of_contact(gap, pieces):
     of = two_walls(gap, pieces)
     grips, touch, listed = grips_of(of, of.rest)
     upper = np.unique(of.edges[pieces[0] :])
-    lift = gradient_of(contact, (touch, listed), of.rest)[2 * upper + 1].sum()
+    lift = touch_of(touch, listed, of.rest).gradient(of.rest)[2 * upper + 1].sum()
     assert grips.load.sum() == pytest.approx(-MU * lift, rel=1e-11)
     assert grips.load.sum() == pytest.approx(MU * 4.0 * normal_force(gap), rel=1e-11)
 
@@ -108,11 +125,11 @@ def test_the_load_is_mu_times_the_normal_force_of_contact(gap, pieces):
 def test_sliding_walls_resist_with_mu_times_the_normal_force(way):
     grips, _, _ = grips_of(WALLS, WALLS.rest)
     limit = MU * 4.0 * normal_force(0.5)
-    g = gradient_of(friction, (WALLS.rest, grips, 1e-3), slid(0.1 * way))
+    g = term_of(WALLS.rest, grips, 1e-3).gradient(slid(0.1 * way))
     assert g[2 * UPPER].sum() == pytest.approx(way * limit, rel=1e-11)
     assert g[0 : 2 * len(WALLS.points) : 2].sum() == pytest.approx(0.0, abs=1e-9)
     assert abs(moment(g, WALLS.rest)) < 1e-9 * limit
-    energy = friction.energy(slid(0.1 * way), WALLS.rest, grips, 1e-3)
+    energy = term_of(WALLS.rest, grips, 1e-3).energy(slid(0.1 * way))
     assert energy == pytest.approx(limit * (0.1 - 1e-3 / 3), rel=1e-11)
 
 
@@ -120,16 +137,16 @@ def test_sliding_walls_resist_with_mu_times_the_normal_force(way):
 def test_sticking_walls_resist_with_less_than_the_limit(share):
     grips, _, _ = grips_of(WALLS, WALLS.rest)
     limit = MU * 4.0 * normal_force(0.5)
-    g = gradient_of(friction, (WALLS.rest, grips, 1e-3), slid(share * 1e-3))
+    g = term_of(WALLS.rest, grips, 1e-3).gradient(slid(share * 1e-3))
     assert g[2 * UPPER].sum() == pytest.approx(limit * share * (2 - share), rel=1e-9)
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_no_force_exceeds_the_load_whatever_the_motion(seed):
-    grips, _, _ = grips_of(WALLS, WALLS.rest, only=2)
+    grips, _, _ = grips_of(WALLS, WALLS.rest, node=2)
     assert np.all(grips.load > 0)
     for x in (shaken(WALLS, seed, 1e-4), shaken(WALLS, seed, 1.0)):
-        g = gradient_of(friction, (WALLS.rest, grips, 1e-3), x)
+        g = term_of(WALLS.rest, grips, 1e-3).gradient(x)
         assert np.linalg.norm(g[4:6]) <= grips.load.sum() * (1 + 1e-12)
 
 
@@ -137,20 +154,20 @@ def test_motion_along_the_normal_meets_no_friction():
     x = WALLS.rest.copy()
     x[2 * UPPER + 1] += 0.1
     grips, _, _ = grips_of(WALLS, WALLS.rest)
-    assert np.abs(gradient_of(friction, (WALLS.rest, grips, 1e-3), x)).max() < 1e-9
+    assert np.abs(term_of(WALLS.rest, grips, 1e-3).gradient(x)).max() < 1e-9
 
 
 def test_a_common_translation_costs_nothing():
     grips, _, _ = grips_of(WALLS, WALLS.rest)
     x = carried(WALLS, WALLS.rest, 0.0, (0.8, -0.3))
-    assert friction.energy(x, WALLS.rest, grips, 1e-3) == pytest.approx(0.0, abs=1e-9)
+    assert term_of(WALLS.rest, grips, 1e-3).energy(x) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_no_friction_or_no_contact_means_no_force():
     assert not np.any(grips_of(WALLS, WALLS.rest, mu=0.0)[0].load)
     apart = two_walls(0.9, (3, 2))
     assert grips_of(apart, apart.rest)[0].load.size == 0
-    assert friction.energy(WALLS.rest, WALLS.rest, friction.empty(), 1.0) == 0.0
+    assert term_of(WALLS.rest, friction.none(), 1.0).energy(slid(0.1)) == 0.0
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -160,9 +177,9 @@ def test_projected_hessian_is_semi_definite(seed):
     x0 = shaken(of, seed, 0.1)
     grips, _, _ = grips_of(of, x0)
     assert grips.load.min() < 0
-    args, x = (x0, grips, 0.5), shaken(of, seed + 20, 0.1)
-    assert least_share(friction, args, x) > -1e-12
-    exact, projected = (hessian_of(friction, args, x, p) for p in (False, True))
+    term, x = term_of(x0, grips, 0.5), shaken(of, seed + 20, 0.1)
+    assert least_share(term, x) > -1e-12
+    exact, projected = (term.hessian(x, p) for p in (False, True))
     assert np.abs(projected - exact).max() > 1e-3
 
 
@@ -172,12 +189,13 @@ def test_a_wall_that_slides_on_a_platen(low, high, side):
     x0 = WALLS.rest.copy()
     x0[-2:] = low, high
     touch = touching(WALLS)
-    grips = friction.lag(x0, touch, pairs.empty(), friction.Friction(MU, 1.0))
+    grips = lagged(x0, touch, pairs.empty())
+    assert lagged(x0, touch, pairs.empty(), 0.0).load.size == 0
     press = -4.0 * WALLS.modulus * WALLS.depth * barrier((0.2, 0.25)[side] / 0.4)[1]
     assert grips.load.sum() == pytest.approx(MU * press, rel=1e-11)
     x = x0.copy()
     x[0 : 2 * len(WALLS.points)] += 0.5
-    g = gradient_of(friction, (x0, grips, 1e-3), x)
+    g = term_of(x0, grips, 1e-3).gradient(x)
     assert g[0::2][: len(WALLS.points)].sum() == pytest.approx(MU * press, rel=1e-11)
     assert not g[1::2].any()
-    assert derivative_error(friction, (x0, grips, 2.0), x, WALLS.unit, 1e-4) < 1e-6
+    assert derivative_error(term_of(x0, grips, 2.0), x, WALLS.unit, 1e-4) < 1e-6

@@ -5,7 +5,7 @@ import pytest
 
 from kernels import pairs
 from kernels.distance import squared_distance
-from tests.frames import contact_of, frame, joint_of_four
+from tests.frames import contact_of, frame, joint_of_four, shaken
 
 
 def brute_force(x, edges, radius):
@@ -26,7 +26,9 @@ def random_segments(rng, n, reach):
 
 
 def found(x, edges, radius):
-    node, edge = pairs.near(x, x.size // 2, edges, radius)
+    node, edge, distance = pairs.near(x, x.size // 2, edges, radius)
+    for p, k, d in zip(node, edge, distance, strict=True):
+        assert d == np.sqrt(squared_distance(x, p, *edges[k]))
     listed = list(zip(node.tolist(), edge.tolist(), strict=True))
     assert len(listed) == len(set(listed))
     return set(listed)
@@ -94,7 +96,8 @@ def test_find_gives_special_pairs_their_own_rules():
     contact = contact_of(of)
     listed = pairs.find(of.rest, contact, 2.0)
     seen = 0
-    for p, e, weight, d, subtract in zip(*listed, strict=True):
+    columns = listed.node, listed.edge, listed.weight, listed.d_contact, listed.subtract
+    for p, e, weight, d, subtract in zip(*columns, strict=True):
         at = np.arange(contact.special_start[p], contact.special_start[p + 1])
         at = at[contact.special_edge[at] == e]
         if len(at):
@@ -105,6 +108,20 @@ def test_find_gives_special_pairs_their_own_rules():
         else:
             assert weight == contact.tributary[p]
     assert 5 < seen < len(listed.node) + 1
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_find_lists_the_nearest_first(seed):
+    of = joint_of_four()
+    x = shaken(of, seed)
+    listed = pairs.find(x, contact_of(of), 3.0)
+    assert len(listed.node) > 20
+    assert np.all(np.diff(listed.distance) >= 0.0)
+    for p, k, d in zip(listed.node, listed.edge, listed.distance, strict=True):
+        assert d == np.sqrt(squared_distance(x, p, *of.edges[k]))
+    assert set(zip(listed.node.tolist(), listed.edge.tolist(), strict=True)) == brute_force(
+        x[: 2 * len(of.points)], of.edges, 3.0
+    )
 
 
 def test_farthest_is_the_largest_move_of_a_node():

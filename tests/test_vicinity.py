@@ -5,8 +5,8 @@ import pytest
 
 from kernels import contact, pairs, vicinity
 from kernels.barrier import barrier
-from tests.frames import carried, contact_of, frame, grid, joint_of_four, scaled
-from tests.terms import gradient_of
+from tests.frames import carried, contact_of, frame, grid, joint_of_four, only, scaled
+from tests.terms import touch_of
 
 T = 0.8
 
@@ -58,8 +58,8 @@ def test_the_rest_state_is_free_of_contact(name, pieces):
         x = carried(of, of.rest, turn)
         listed = pairs.find(x, touch, 2.0 * touch.reach)
         assert np.any(listed.weight > 0) or pieces == 1
-        assert contact.energy(x, touch, listed) == 0.0
-        assert not gradient_of(contact, (touch, listed), x).any()
+        assert touch_of(touch, listed, x).energy(x) == 0.0
+        assert not touch_of(touch, listed, x).gradient(x).any()
     assert contact.least_gap(of.rest, touch, listed) > 0
 
 
@@ -123,7 +123,7 @@ def test_a_pair_near_at_rest_starts_at_nine_tenths_of_its_distance():
     for gap, expected in ((0.46, 0.0), (0.44, barrier(0.44 / 0.45)[0])):
         x = of.rest.copy()
         x[2 * np.unique(of.edges[3:]) + 1] = gap
-        energy = contact.energy(x, touch, pairs.find(x, touch, 2.0))
+        energy = touch_of(touch, pairs.find(x, touch, 2.0), x).energy(x)
         assert energy == pytest.approx(4.0 * of.modulus * of.depth * 0.45 * expected, rel=1e-3)
 
 
@@ -184,12 +184,11 @@ def test_a_node_that_slides_along_a_wall_is_counted_once(seed, rise):
     for s in np.linspace(0.5, 9.5, 120):
         x = of.rest.copy()
         x[2 * p : 2 * p + 2] = s, rise * s * (10.0 - s) + rng.uniform(0.2, 0.6)
-        listed = pairs.find(x, touch, 2.0)
-        listed = pairs.Pairs(*(column[listed.node == p] for column in listed))
+        listed = only(pairs.find(x, touch, 2.0), p)
         nearest = least_distance(of, x, p)
         met.update(listed.edge.tolist())
         expected = half * T * barrier(nearest / T)[0]
-        assert contact.energy(x, touch, listed) == pytest.approx(expected, rel=1e-9)
+        assert touch_of(touch, listed, x).energy(x) == pytest.approx(expected, rel=1e-9)
     assert len(met) > 7
 
 

@@ -1,0 +1,288 @@
+"""Symmetric matrix of 3 x 3 blocks with a static pattern: assembly, LDL^T factor, solve.
+
+A block holds the unknowns of one point: x, y and the rotation of a joint. Blocks are numbered in
+the order of their elimination; the lower half is stored by columns, each diagonal block first in
+`values`, then the blocks below. Every update of the factor knows its target beforehand
+(George & Liu 1981, Computer Solution of Large Sparse Positive Definite Systems, ch. 5).
+
+A coordinate has a *home*: 3 x block + slot, or one of the codes below.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels.jit import jit, jit_exact, jit_owning
+
+HELD, INNER, DRIVEN = -1, -2, -3  # never moves; eliminated inside its wall; led with the platen
+NEUTRAL = 1e-11  # a pivot below this share of its diagonal is round-off around zero
+SIZE = 9
+
+
+class Blocks(NamedTuple):
+    """Matrix of nb blocks.
+
+    home (n,): of each coordinate. start (nb + 1,), row (nl,): blocks below each diagonal block.
+    update (nu,): targets in the order in which `factor` meets them. values (9 (nb + nl) + 1,): the
+    last one takes what belongs nowhere. own (3 nb,): diagonal before the factor. diagonal, pull
+    (n,): by coordinate, diagonal entries and couplings with the driven platen. vector (3 nb,),
+    column (9 x longest,): scratch. missing (1,): set when an entry has no room.
+    """
+
+    home: np.ndarray
+    start: np.ndarray
+    row: np.ndarray
+    update: np.ndarray
+    values: np.ndarray
+    own: np.ndarray
+    diagonal: np.ndarray
+    pull: np.ndarray
+    vector: np.ndarray
+    column: np.ndarray
+    missing: np.ndarray
+
+
+@jit_exact
+def find(start, row, i, j):
+    """Return which block below the diagonals is (i, j), i > j; -1 if there is none."""
+    for q in range(start[j], start[j + 1]):
+        if row[q] == i:
+            return q
+    return -1
+
+
+@jit_owning
+def updates(start, row):
+    """Return the targets of all updates, column by column, as positions in `values`."""
+    nb = start.size - 1
+    count = 0
+    for j in range(nb):
+        height = start[j + 1] - start[j]
+        count += height * (height + 1) // 2
+    update = np.empty(count, np.int64)
+    count = 0
+    for j in range(nb):
+        for a in range(start[j], start[j + 1]):
+            for b in range(start[j], a):
+                update[count] = SIZE * (nb + find(start, row, row[a], row[b]))
+                count += 1
+            update[count] = SIZE * row[a]
+            count += 1
+    return update
+
+
+@jit_owning
+def shaped(home, start, row):
+    """Return a zero matrix with this pattern."""
+    nb, n = start.size - 1, home.size
+    longest = 0
+    for j in range(nb):
+        longest = max(longest, start[j + 1] - start[j])
+    return Blocks(
+        home, start, row, updates(start, row), np.zeros(SIZE * (nb + row.size) + 1),
+        np.zeros(3 * nb), np.zeros(n), np.zeros(n), np.zeros(3 * nb), np.zeros(SIZE * longest),
+        np.zeros(1, np.int64),
+    )  # fmt: skip
+
+
+@jit_exact
+def clear(blocks):
+    """Set all entries to zero."""
+    blocks.values[:] = 0.0
+    blocks.diagonal[:] = 0.0
+    blocks.pull[:] = 0.0
+    blocks.missing[0] = 0
+
+
+@jit_exact
+def position(home, start, row, i, j):
+    """Return where entry (i, j) of homes is in `values`; -1 if it has no room."""
+    p, q = home[i] // 3, home[j] // 3
+    r, s = home[i] - 3 * p, home[j] - 3 * q
+    if p == q:
+        return SIZE * p + 3 * max(r, s) + min(r, s)
+    if p < q:
+        p, q, r, s = q, p, s, r
+    found = find(start, row, p, q)
+    return SIZE * (start.size - 1 + found) + 3 * r + s if found >= 0 else -1
+
+
+@jit
+def add(blocks, i, j, value):
+    """Add a symmetric pair of entries at coordinates ``i``, ``j`` (once where i == j)."""
+    if i == j:
+        blocks.diagonal[i] += value
+        return
+    a, b = blocks.home[i], blocks.home[j]
+    if a == HELD or b == HELD or (a == DRIVEN and b == DRIVEN):
+        return
+    if a == DRIVEN:
+        blocks.pull[j] += value
+    elif b == DRIVEN:
+        blocks.pull[i] += value
+    elif a == INNER or b == INNER:
+        blocks.missing[0] = 1
+    else:
+        at = position(blocks.home, blocks.start, blocks.row, i, j)
+        if at < 0:
+            blocks.missing[0] = 1
+        else:
+            blocks.values[at] += 2.0 * value if a == b else value
+
+
+@jit
+def add_block(blocks, i, j, xx, xy, yx, yy):
+    """Add the 2 x 2 block of points whose x are coordinates ``i``, ``j`` (lower half if equal)."""
+    add(blocks, i, j, xx)
+    add(blocks, i + 1, j, yx)
+    add(blocks, i + 1, j + 1, yy)
+    if i != j:
+        add(blocks, i, j + 1, xy)
+
+
+@jit_exact
+def settle(blocks, scale):
+    """Add the diagonal entries of the coordinates to their blocks; unused slots become 1."""
+    for i in range(blocks.home.size):
+        h = blocks.home[i]
+        if h >= 0:
+            blocks.values[SIZE * (h // 3) + 4 * (h % 3)] += blocks.diagonal[i]
+            blocks.own[h] = -1.0
+    for h in range(blocks.own.size):
+        at = SIZE * (h // 3) + 4 * (h % 3)
+        if blocks.own[h] != -1.0:
+            blocks.values[at] = scale
+        blocks.own[h] = blocks.values[at]
+
+
+@jit_exact
+def pivoted(pivot, own, scale):
+    """Return the pivot to use. One that is zero within round-off marks a motion without stiffness:
+    it is given that of its own diagonal (or ``scale``), so that the solution moves little along it.
+    """
+    noise = NEUTRAL * max(abs(own), 1e-3 * scale)
+    return max(abs(own), scale) if abs(pivot) <= noise else pivot
+
+
+@jit_exact
+def _invert(values, at, own, scale):
+    """Replace the diagonal block at ``at`` by its inverse; return the failed slot and its pivot.
+
+    d = diag(a, b, c) and the unit lower triangle l are the block's own LDL^T. Above the diagonal
+    stands l^{-T}, so far as it is known, until the block is inverted.
+    """
+    a = pivoted(values[at], own[0], scale)
+    if not a > 0.0:
+        return 0, a
+    l10, l20 = values[at + 3] / a, values[at + 6] / a
+    values[at + 1] = -l10
+    b = pivoted(values[at + 4] - l10 * values[at + 3], own[1], scale)
+    if not b > 0.0:
+        return 1, b
+    l21 = (values[at + 7] - l20 * values[at + 3]) / b
+    m20 = l10 * l21 - l20
+    values[at + 2], values[at + 5] = m20, -l21
+    c = pivoted(values[at + 8] - l20 * values[at + 6] - l21 * l21 * b, own[2], scale)
+    if not c > 0.0:
+        return 2, c
+    values[at + 8] = 1.0 / c
+    values[at + 7] = values[at + 5] = -l21 / c
+    values[at + 6] = values[at + 2] = m20 / c
+    values[at + 4] = 1.0 / b + l21 * l21 / c
+    values[at + 3] = values[at + 1] = -l10 / b - l21 * m20 / c
+    values[at] = 1.0 / a + l10 * l10 / b + m20 * m20 / c
+    return -1, 0.0
+
+
+@jit
+def _scale_column(blocks, j, nb):
+    """Keep column ``j`` and multiply it by the inverse of its diagonal block."""
+    values, column = blocks.values, blocks.column
+    inverse = values[SIZE * j : SIZE * j + SIZE]
+    for q in range(blocks.start[j], blocks.start[j + 1]):
+        at, kept = SIZE * (nb + q), SIZE * (q - blocks.start[j])
+        for r in range(3):
+            x, y, z = values[at + 3 * r], values[at + 3 * r + 1], values[at + 3 * r + 2]
+            for s in range(3):
+                column[kept + 3 * r + s] = values[at + 3 * r + s]
+                values[at + 3 * r + s] = x * inverse[s] + y * inverse[3 + s] + z * inverse[6 + s]
+
+
+@jit
+def _update(blocks, j, nb, count):
+    """Subtract what column ``j`` adds to the blocks behind it; ``count``: its first update."""
+    values, column, update = blocks.values, blocks.column, blocks.update
+    for a in range(blocks.start[j + 1] - blocks.start[j]):
+        left = values[SIZE * (nb + blocks.start[j] + a) : SIZE * (nb + blocks.start[j] + a + 1)]
+        for b in range(a + 1):
+            to, kept = update[count], SIZE * b
+            count += 1
+            for r in range(3):
+                x, y, z = left[3 * r], left[3 * r + 1], left[3 * r + 2]
+                for s in range(3):
+                    k = kept + 3 * s
+                    values[to + 3 * r + s] -= (
+                        x * column[k] + y * column[k + 1] + z * column[k + 2]
+                    )
+    return count
+
+
+@jit_exact
+def factor(blocks, scale):
+    """Factor in place: A = L D L^T, L D^{-1} below, D^{-1} in the diagonal blocks.
+
+    Return (failed, pivot): home of the first negative pivot, -1 if none.
+    """
+    nb, count = blocks.start.size - 1, 0
+    for j in range(nb):
+        own = blocks.own[3 * j : 3 * j + 3]
+        slot, pivot = _invert(blocks.values, SIZE * j, own, scale)
+        if slot >= 0:
+            return 3 * j + slot, pivot
+        _scale_column(blocks, j, nb)
+        count = _update(blocks, j, nb, count)
+    return -1, 0.0
+
+
+@jit
+def forward(blocks):
+    """Solve L D y = vector, in place."""
+    nb, values, v = blocks.start.size - 1, blocks.values, blocks.vector
+    for j in range(nb):
+        x, y, z = v[3 * j], v[3 * j + 1], v[3 * j + 2]
+        for q in range(blocks.start[j], blocks.start[j + 1]):
+            at, to = SIZE * (nb + q), 3 * blocks.row[q]
+            for r in range(3):
+                k = at + 3 * r
+                v[to + r] -= values[k] * x + values[k + 1] * y + values[k + 2] * z
+        at = SIZE * j
+        for r in range(3):
+            k = at + 3 * r
+            v[3 * j + r] = values[k] * x + values[k + 1] * y + values[k + 2] * z
+
+
+@jit
+def backward(blocks, first):
+    """Solve L^T y = vector, in place, for the blocks before ``first``."""
+    nb, values, v = blocks.start.size - 1, blocks.values, blocks.vector
+    for j in range(first - 1, -1, -1):
+        for q in range(blocks.start[j], blocks.start[j + 1]):
+            at, of = SIZE * (nb + q), 3 * blocks.row[q]
+            for r in range(3):
+                for s in range(3):
+                    v[3 * j + s] -= values[at + 3 * r + s] * v[of + r]
+
+
+@jit_exact
+def descend(blocks, failed):
+    """Fill ``vector`` with d such that d^T A d is the negative pivot at home ``failed``.
+
+    With A = [[A1, a], [a^T, c]] the vector (-A1^{-1} a, 1, 0 ...) has d^T A d = c - a^T A1^{-1} a.
+    """
+    v, values = blocks.vector, blocks.values
+    v[:] = 0.0
+    v[failed] = 1.0
+    j, slot = failed // 3, failed % 3
+    for s in range(slot):
+        v[3 * j + s] = values[SIZE * j + 3 * s + slot]
+    backward(blocks, j)
