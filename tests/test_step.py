@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from kernels import bend, fold, friction, step, stretch
+from sweep.params import Solver
 from tests.figures import MATERIAL
 from tests.solving import whole
 from tests.states import (
@@ -42,6 +43,15 @@ def test_derivatives_at_rest(elements, dt):
     """Of a linear material: a measured curve has a kink in its tangent there."""
     scene = loaded(elements, "none", material=MATERIAL)
     assert error(scene, scene.x_rest, whole(scene, scene.x_rest, dt=dt), 1e-4) < 1e-9
+
+
+@pytest.mark.parametrize("measure", ["angle", "tangent"])
+@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+@pytest.mark.parametrize("state", ["bent", "leaning"])
+def test_derivatives_of_single_elements(state, damping, measure):
+    scene = loaded(1, damping=damping, solver=Solver(time_step=DT, bend_measure=measure))
+    x = STATES[state](scene)
+    assert error(scene, x, step_to(scene, x, 0)) < 1e-9
 
 
 @pytest.mark.parametrize("state", STATES)
