@@ -5,7 +5,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from kernels import contact, damp, fold, friction, march, newton, pairs, step, system
+from kernels import contact, damp, fold, friction, march, newton, step, system
 from sweep.scene import build_scene
 from sweep.simulate import tolerances
 from tests.terms import assembled, dense, full_matrix, room
@@ -65,7 +65,8 @@ class Whole(NamedTuple):
     def limit(self, x, dx):
         """Share of the move ``dx`` from ``x`` that is admissible."""
         _, at = self.found(x)
-        most = max(pairs.farthest(dx, 0.0 * dx, self.terms.layout.n_nodes), np.abs(dx[-2:]).max())
+        nodes = dx[: 2 * self.terms.layout.n_nodes]
+        most = max(np.abs(nodes).max(), np.abs(dx[-2:]).max())
         return step.step_limit(x, dx, most, self.terms, self.near, at)
 
 
@@ -114,22 +115,23 @@ def scratch(n):
     return newton.Work(*np.zeros((5, n)), np.full(1, np.inf))
 
 
-def descend(case, scene, start, args, target=None, control=RUN, **tolerance):
-    """Minimise from ``start`` with the platen at ``target`` (where it is)."""
+def descend(case, scene, start, args, target=None, control=RUN, move=None, **tolerance):
+    """Minimise from ``start``, moved by ``move``, with the platen at ``target`` (where it is)."""
     terms, one, _ = args
     x, work = start.copy(), scratch(start.size)
     at = step.At(*np.zeros((5, x.size)), np.zeros(3), np.zeros(2), *room(terms.walls))
     allowed = tolerances(case, scene, one.dt)._replace(**tolerance)
-    target, done, move = x[-1] if target is None else target, 0, 0.0
+    target, done, near = x[-1] if target is None else target, 0, args.near
+    work.dx[:] = 0.0 if move is None else move
     while True:
-        near = step.find_near(x, terms, one.grips, move)
-        outcome, iterations, move = newton.minimise(
+        outcome, iterations, reach = newton.minimise(
             x, target, terms, one, near, scene.unknowns,
             allowed._replace(iterations=allowed.iterations - done), at, work, control,
         )  # fmt: skip
         done += iterations
         if outcome != newton.OUTGROWN:
             return Descent(outcome, done, x)
+        near = step.find_near(x, terms, one.grips, reach)
         work.dx[:], work.kept[0] = 0.0, np.inf
 
 
