@@ -104,7 +104,8 @@ def _hinges(bend, shape, stiffness, projected):
         k, weight = bend.hinges[h], bend.hinge_stiffness[h]
         delta = shape.hinge_turn[k]
         kappa, d1, d2 = curvature(bend.measure, delta)
-        folding, moment, rigidity = _folding(weight, delta + bend.hinge_angle[h], bend.hinge_angle[h])
+        rest = bend.hinge_angle[h]
+        folding, moment, rigidity = _folding(weight, rest + delta, rest)
         total += 0.5 * weight * kappa * kappa + folding
         moment += weight * kappa * d1
         rigidity += weight * d1 * d1

@@ -221,9 +221,7 @@ def _update(blocks, j, nb, count):
                 x, y, z = left[3 * r], left[3 * r + 1], left[3 * r + 2]
                 for s in range(3):
                     k = kept + 3 * s
-                    values[to + 3 * r + s] -= (
-                        x * column[k] + y * column[k + 1] + z * column[k + 2]
-                    )
+                    values[to + 3 * r + s] -= x * column[k] + y * column[k + 1] + z * column[k + 2]
     return count
 
 

@@ -44,8 +44,8 @@ class Shape(NamedTuple):
 
 
 class Stiffness(NamedTuple):
-    """Second derivatives: own (3, m) xx, xy, yy; next (4, m) xx, xy, yx, yy; arm (3, 2 w) x, y, phi;
-    twist (w,).
+    """Second derivatives: own (3, m) xx, xy, yy; next (4, m) xx, xy, yx, yy; arm (3, 2 w) x, y and
+    phi; twist (w,).
     """
 
     own: np.ndarray

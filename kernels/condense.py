@@ -149,7 +149,7 @@ def forward(rows, b, joints):
 
 @jit
 def backward(rows, b, joints, last):
-    """Solve for the inner unknowns before ``last``, in place of ``b``, given those of the joints."""
+    """Solve in place for the inner unknowns before ``last``, given those of the ``joints`` (6,)."""
     m = rows.shape[0]
     for k in range(last - 1, -1, -1):
         total = b[k]

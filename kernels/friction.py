@@ -151,7 +151,7 @@ def _slip(u, grips, k):
 
 @jit
 def evaluate(u, grips, slip, g):
-    """Return D_f in J for a move ``u`` (n,) in the step, counted from zero; add dD_f/dx to ``g``."""
+    """Return D_f in J for a move ``u`` (n,) in the step, zero at rest; add dD_f/dx to ``g``."""
     total = 0.0
     for k in range(grips.count[0]):
         value, slope, _ = smooth(_slip(u, grips, k), slip)

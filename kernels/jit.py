@@ -175,6 +175,7 @@ class Kernel:
         return _dispatcher(self.__wrapped__, self.options, "entry")
 
     def __call__(self, *args):
+        """Call it from Python."""
         return self.entry(*args)
 
     def __getattr__(self, name):

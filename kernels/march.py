@@ -92,16 +92,14 @@ def _shape(terms):
 
 @jit_owning
 def _room(terms, near):
-    """Return the arrays of all steps: `Before`, `At`, `Work`, `Grips` and the predicted position."""
+    """Return the arrays of all steps: `Before`, `At`, `Work`, `Grips`, predicted position."""
     n = terms.mass.size
     shape, stiffness = _shape(terms)
     frame = np.full((terms.walls.rotation.size, 3), np.inf)  # none yet
     before = damp.Before(np.zeros(n), frame, shape, stiffness)
     shape, stiffness = _shape(terms)
     five = np.zeros((5, n))
-    at = At(
-        five[0], five[1], five[2], five[3], five[4], np.zeros(3), np.zeros(2), shape, stiffness
-    )
+    at = At(five[0], five[1], five[2], five[3], five[4], np.zeros(3), np.zeros(2), shape, stiffness)
     more = np.zeros((5, n))
     work = Work(more[0], more[1], more[2], more[3], more[4], np.full(1, np.inf))
     return before, at, work, friction.room(near.pairs, terms.contact, terms.friction), np.zeros(n)
@@ -286,9 +284,7 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
     near = find_near(state.x, terms, friction.none(), 0.0)
     room = _room(terms, near)
     while True:
-        outcome = _go(
-            terms, unknowns, tolerance, stage, state, out, control, near, room, todo
-        )
+        outcome = _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo)
         if outcome != OUTGROWN:
             return outcome, int(todo[ROW])
         near = find_near(state.x, terms, room[3], todo[MOVE])

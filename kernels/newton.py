@@ -43,10 +43,10 @@ class Tolerance(NamedTuple):
 class Unknowns(NamedTuple):
     """Which coordinates move, and how far at once.
 
-    leader (n,): as in `system.Layout`. scale (n,): length that turns a coordinate into m, 1 for one
-    in m; lever (n,): its inverse. driven: coordinate that is led to a target, -1 if none. cap: longest move in one
-    iteration, m. leap: first move along a direction of negative curvature, m. close: a move so
-    short that stability cannot have been lost on it, m.
+    leader (n,): as in `pattern.Layout`. scale (n,): length that turns a coordinate into m, 1 for
+    one in m; lever (n,): its inverse. driven: coordinate that is led to a target, -1 if none. cap:
+    longest move in one iteration, m. leap: first move along a direction of negative curvature, m.
+    close: a move so short that stability cannot have been lost on it, m.
     """
 
     leader: np.ndarray
@@ -204,18 +204,16 @@ def _choose(slope, stable, led, escape, unknowns, remaining, work):
 def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, control):
     """Descend from ``x`` (n,), in place, to a minimum with the driven coordinate at ``target``.
 
-    Starts from ``x`` + ``work.dx``, as far as that is admissible. Return (outcome, iterations, most);
-    ``at`` holds what `evaluate` found last. OUTGROWN: ``near`` does not hold all that a move of
-    ``most`` m could bring near; find it anew and go on. ``control[0]`` != 0 interrupts. Every turn
-    of the loop evaluates at one point: a trial of the search, or the same point again for another
-    Hessian.
+    Start from ``x`` + ``work.dx`` as far as admissible; return (outcome, iterations, most).
+    OUTGROWN: ``near`` does not hold all that a move of ``most`` m could bring near; find it anew
+    and go on. ``control[0]`` != 0 interrupts. Every turn of the loop evaluates at one point, a
+    trial of the search or the same point for another Hessian; ``at`` holds what it found last.
     """
-    outcome, iteration, halvings = ITERATIONS, -1, 0
-    setting_out, searching, arrived, free, whole = True, True, False, True, False
-    projected, settled = False, False
+    outcome, iteration, halvings, kept = ITERATIONS, -1, 0, work.kept
+    setting_out, searching, arrived, free = True, True, False, True
+    whole, projected, settled = False, False, False
     value, remaining, share, model, escape = 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0)
     place = (-1, -1, 0.0)  # of the first negative pivot of the exact Hessian
-    kept = work.kept
     most, before = _longest(work.dx, unknowns), np.inf
     while True:
         if setting_out:

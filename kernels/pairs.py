@@ -64,7 +64,7 @@ def _grid(x, n_nodes, cell):
 
 @jit_owning
 def near(x, n_nodes, edges, radius):
-    """Return (node, edge, distance) of every pair closer than ``radius`` (m) that shares no node."""
+    """Return (node, edge, distance) of the pairs closer than ``radius`` (m) that share no node."""
     low_x, low_y, cell, nx, ny = _grid(x, n_nodes, radius)
     start, order = _binned(x, n_nodes, low_x, low_y, cell, nx, ny)
     node = np.empty(8 * n_nodes, np.int64)

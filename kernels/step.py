@@ -21,10 +21,11 @@ from kernels import (
     friction,
     inertia,
     pairs,
+    pattern,
     stretch,
     system,
 )
-from kernels.jit import jit, jit_exact, jit_inlined, jit_owning
+from kernels.jit import jit_exact, jit_inlined, jit_owning
 from kernels.rows import pair, triple
 
 STRETCH, BEND, CONTACT = range(3)
@@ -232,7 +233,7 @@ def find_near(x, terms, grips, move):
     else:
         margin = max(3.0 * move, MARGIN * terms.contact.reach)
         found = pairs.find(x, terms.contact, terms.contact.reach + margin)
-    solver = system.analyse(terms.layout, terms.walls, _couplings(x, terms, found, grips))
+    solver = pattern.analyse(terms.layout, terms.walls, _couplings(x, terms, found, grips))
     return Near(found, x.copy(), margin, solver)
 
 

@@ -55,7 +55,7 @@ def held(layout: Layout, platen: str | None) -> Ints:
 
 
 def leaders(layout: Layout, held: Ints, tied: Ints) -> Ints:
-    """The coordinate that each follows, (size,): itself, the upper platen where tied, -1 if held."""
+    """What each coordinate follows, (size,): itself, the upper platen where tied, -1 if held."""
     leader = np.arange(layout.size)
     leader[tied] = layout.high
     leader[held] = -1

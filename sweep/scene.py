@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kernels import chain, contact, damp, friction, law, newton, stretch, system, vicinity
+from kernels import chain, contact, damp, friction, law, newton, pattern, stretch, vicinity
 from kernels.step import Terms
 from sweep.joints import build_bend, build_fold
 from sweep.lattice import Network, build_network, mass
@@ -61,7 +61,7 @@ def _walls(mesh: Mesh, layout: Layout) -> chain.Walls:
     return chain.Walls(mesh.edges, mesh.start, mesh.arm_element, rotation)
 
 
-def _solved(mesh: Mesh, layout: Layout, leader: Ints, case: Case) -> system.Layout:
+def _solved(mesh: Mesh, layout: Layout, leader: Ints, case: Case) -> pattern.Layout:
     """What the linear solver knows of the scene."""
     joints = mesh.arm_joint.reshape(-1, 2)
     outer = np.stack([2 * joints, 2 * joints + 1, layout.rotation[joints]], axis=-1)
@@ -69,7 +69,7 @@ def _solved(mesh: Mesh, layout: Layout, leader: Ints, case: Case) -> system.Layo
     before, node, _ = mesh.inner.T
     wall_of[node] = mesh.wall[before]
     axial = case.material.modulus * case.lattice.depth * mesh.thickness / mesh.rest_length
-    return system.Layout(
+    return pattern.Layout(
         leader=leader,
         driven=layout.high if case.loading.mode == "displacement" else -1,
         n_nodes=layout.n_nodes,
@@ -231,7 +231,7 @@ def _reported(layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
     return reaction, 2 * layout.top + 1, bottom
 
 
-def _unknowns(mesh: Mesh, layout: Layout, solved: system.Layout, case: Case) -> newton.Unknowns:
+def _unknowns(mesh: Mesh, layout: Layout, solved: pattern.Layout, case: Case) -> newton.Unknowns:
     lattice = case.lattice
     scale = np.ones(layout.size)
     scale[layout.rotation] = mesh.rest_length.mean()

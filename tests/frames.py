@@ -17,8 +17,8 @@ from kernels import (
     friction,
     law,
     pairs,
+    pattern,
     stretch,
-    system,
     vicinity,
 )
 from kernels.step import Terms
@@ -210,7 +210,7 @@ def contact_of(of: Frame, stiffness: float = 1.0) -> contact.Contact:
     )  # fmt: skip
 
 
-def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> system.Layout:
+def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> pattern.Layout:
     """``held`` coordinates and the lower platen do not move, ``tied`` ones follow the upper one."""
     n, size = len(of.points), of.rest.size
     leader = np.arange(size)
@@ -222,7 +222,7 @@ def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> system.Layou
     joints = of.arm_joint.reshape(-1, 2)
     outer = np.stack([2 * joints, 2 * joints + 1, 2 * n + joints], axis=-1).reshape(-1, 6)
     axial = of.modulus * of.depth * of.thickness / of.l0
-    return system.Layout(
+    return pattern.Layout(
         leader, size - 1 if driven else -1, n, of.joints, of.edges[of.start[:-1], 1], wall_of,
         outer, float(axial.max()),
     )  # fmt: skip

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from kernels import blocks, system
-from kernels.system import CONDENSED, OPEN, RIGID
+from kernels import blocks, pattern, system
+from kernels.pattern import CONDENSED, OPEN, RIGID
 from tests.frames import frame, layout_of, walls_of
 from tests.terms import assembled, by_home, room
 
@@ -79,7 +79,7 @@ class Problem:
         self.stiffness = random_stiffness(of, rng)
         self.diagonal = mass * rng.uniform(0.5, 1.0, self.n)
         self.contacts = [(nodes, rng.uniform(-1, 1, (6, 6))) for nodes in coupled.tolist()]
-        self.found = system.analyse(layout, self.walls, coupled)
+        self.found = pattern.analyse(layout, self.walls, coupled)
 
     def dense(self):
         """Hessian (n, n) by coordinate."""
