@@ -217,6 +217,7 @@ def test_at_rest_there_is_nothing_but_the_load(elements, platen):
 
 SCENES = {
     "untouched": lambda: loaded(platen="none", contact=Contact(model="none")),
+    "single elements": lambda: loaded(1, "none", contact=Contact(model="none")),
     "free top": lambda: loaded(platen="none"),
     "loose platen": loaded,
     "driven and glued": lambda: driven("glued"),
