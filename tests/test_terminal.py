@@ -43,6 +43,11 @@ def test_output_that_nobody_reads_is_no_error(file):
     assert (done.returncode, done.stderr) == (0, "")
 
 
+def test_output_that_is_closed_is_no_error(file):
+    done = started("status", file, preexec_fn=lambda: os.close(1))
+    assert (done.returncode, done.stderr) == (1, "")
+
+
 def test_disk_that_is_full(file):
     with Path("/dev/full").open("w") as full:
         done = started("status", file, stdout=full)
