@@ -125,6 +125,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     arguments = parser().parse_args(argv)
     from sweep import verbs
 
+    sys.stdout = sys.stdout or os.fdopen(_nowhere(), "w")  # there is none if it was closed
     sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # ASCII has no dash
     try:
         status = verbs.VERBS[arguments.verb](arguments)
@@ -150,7 +151,11 @@ def _refuse(verb: str, why: Exception) -> int:
 
 def _silence() -> None:
     """Send what is still to be printed nowhere: no second complaint at the exit."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    os.dup2(_nowhere(), sys.stdout.fileno())
+
+
+def _nowhere() -> int:
+    return os.open(os.devnull, os.O_WRONLY)
 
 
 if __name__ == "__main__":

@@ -137,10 +137,14 @@ def _attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
 
 
 def _run_on_cluster(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop, scheduler: str) -> None:
-    with _connected(scheduler, stop) as client, _blame_at_once(client):
-        flight = _Flight(client, plan, simulate, stop)
-        for results in flight.landings():
-            sink(results)
+    try:
+        with _connected(scheduler, stop) as client, _blame_at_once(client):
+            flight = _Flight(client, plan, simulate, stop)
+            for results in flight.landings():
+                sink(results)
+    except OSError as error:
+        line = f"lost the Dask scheduler at {scheduler}; the same command runs the rest"
+        raise GraphError(line) from error
 
 
 def check_scheduler(scheduler: str) -> None:
@@ -174,8 +178,8 @@ def _connected(scheduler: str, stop: Stop) -> "Iterator[Client]":
 
     try:
         client = Client(scheduler, set_as_default=False, timeout=ANSWER)
-    except (OSError, ImportError) as error:
-        raise GraphError(f"no Dask scheduler at {scheduler}: {_one_line(error)}") from error
+    except ImportError as error:
+        raise GraphError(f"the Dask scheduler at {scheduler}: {_one_line(error)}") from error
     with client:
         limit = time.monotonic() + PATIENCE
         while not (client.nthreads() or stop.asked):

@@ -70,13 +70,15 @@ def panel_factor(frame: DataFrame, panel: Sequence[Quantity]) -> Series:
 
 def in_si(value: Any, unit: str) -> float:
     """A positive number in SI, from a number or from text with a unit."""
+    number = value
     if isinstance(value, str):
         from sweep.config import quantity
 
-        value = quantity(value, unit)
-    if not value > 0.0:
-        raise RankError(f"{value:g} {unit}: budgets, panels and forces must be above zero")
-    return float(value)
+        number = quantity(value, unit)
+    if not number > 0.0:
+        written = value if isinstance(value, str) else f"{value:g} {unit}"
+        raise RankError(f"{written}: budgets, panels and forces must be above zero")
+    return float(number)
 
 
 def _counted(

@@ -2,7 +2,6 @@
 
 import io
 import json
-import os
 import subprocess
 import sys
 from importlib import import_module
@@ -17,8 +16,6 @@ from sweep.__main__ import main
 from sweep.result import absorbed_energy_column
 from sweep.run import Interrupted
 from sweep.store import read_summary
-
-ROOT = Path(__file__).parents[1]
 
 CONFIG = """
 name = "trial"
@@ -74,7 +71,7 @@ REFUSED = [
     (["status", "nowhere.h5"], "nowhere.h5"),
     (["rank", "FILE", "--budget", "25"], "a bare number"),
     (["rank", "FILE", "--budget", "25 mm"], "another kind"),
-    (["rank", "FILE", "--budget", "0 g"], "above zero"),
+    (["rank", "FILE", "--budget", "-1 oz"], "-1 oz: budgets, panels and forces must be above zero"),
     (["rank", "FILE", "--panel", "100 mm"], "expected 2 arguments"),
     (["rank", "FILE", "--by", "peak_forse_N"], "did you mean peak_force_N?"),
     (["rank", "FILE", "--allowed-force", "50 N"], "set loading.allowed_forces"),
@@ -166,6 +163,12 @@ def test_heading_says_up_to_which_force_energy_counts(capsys, tmp_path):
     assert "Energy counts until a specimen passes on 0.05 kN." in out
 
 
+def test_budget_that_nothing_meets_is_told(capsys, file):
+    status, out, _ = crumple(capsys, "rank", file, "--budget", "0.5 g")
+    assert status == 1
+    assert "Nothing weighs 0.5 g or less: the lightest weighs 1 g." in out
+
+
 def test_ranking_without_any_finished_case_is_no_ranking(capsys, tmp_path):
     file = write(tmp_path / "trial.h5", summary({"status": "stopped"}, {"status": "timed_out"}))
     status, out, _ = crumple(capsys, "rank", file)
@@ -255,45 +258,3 @@ def test_interruption_says_what_is_kept(capsys, config, monkeypatch, stop, told)
 
     monkeypatch.setattr("sweep.run.run_sweep", interrupt)
     assert crumple(capsys, "run", config) == (1, "", told)
-
-
-def started(*arguments, **options):
-    """A call in a process of its own, in a usual environment, and killed if it hangs."""
-    usual = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
-    options["env"] = usual | {"PYTHONPATH": str(ROOT)} | options.pop("env", {})
-    command = [sys.executable, "-m", "sweep", *arguments]
-    return subprocess.run(
-        command, stderr=subprocess.PIPE, text=True, timeout=60, check=False, **options
-    )
-
-
-def test_scheduler_that_is_none_ends_the_command(tmp_path):
-    (tmp_path / "trial.toml").write_text("")
-    done = started("run", "trial.toml", "--scheduler", "nonsense", cwd=tmp_path)
-    assert done.returncode == 2
-    assert done.stderr.startswith('crumple run: "nonsense": missing port')
-    assert done.stderr.count("\n") == 1
-    assert [path.name for path in tmp_path.iterdir()] == ["trial.toml"]
-
-
-def test_output_that_nobody_reads_is_no_error(file):
-    read, write = os.pipe()
-    os.close(read)
-    with os.fdopen(write, "w") as pipe:
-        done = started("status", file, stdout=pipe)
-    assert (done.returncode, done.stderr) == (0, "")
-
-
-def test_disk_that_is_full(file):
-    with Path("/dev/full").open("w") as full:
-        done = started("status", file, stdout=full)
-    assert done.returncode == 2
-    assert done.stderr == "crumple status: [Errno 28] No space left on device\n"
-
-
-def test_terminal_that_knows_only_ascii(tmp_path):
-    file = write(tmp_path / "trial.h5", summary({"material": "gomme élastique"}, {}))
-    ascii_only = {"PYTHONIOENCODING": "ascii"}
-    done = started("show", file, stdout=subprocess.PIPE, env=ascii_only)
-    assert (done.returncode, done.stderr) == (0, "")
-    assert "gomme ?lastique" in done.stdout

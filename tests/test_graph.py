@@ -239,6 +239,25 @@ def test_server_that_never_answers(monkeypatch):
 
 
 @pytest.mark.filterwarnings("ignore")
+def test_scheduler_that_goes_away_is_told_in_one_line(monkeypatch):
+    from distributed import LocalCluster
+
+    monkeypatch.setattr("sweep.graph.ANSWER", 1)
+    options = {"n_workers": 1, "threads_per_worker": 1, "processes": False}
+    with (
+        LocalCluster(**options, dashboard_address=None, silence_logs=60) as cluster,
+        pytest.raises(GraphError, match="lost the Dask scheduler at inproc"),
+    ):
+        run(
+            Plan(cases(40), 2),
+            simulate,
+            lambda _: cluster.close(),
+            Stop(),
+            cluster.scheduler_address,
+        )
+
+
+@pytest.mark.filterwarnings("ignore")
 def test_worker_is_no_scheduler():
     from distributed import LocalCluster
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from kernels import contact, inertia, march, newton, pairs
+from kernels.distance import squared_distance
 from sweep.params import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.scene import build_scene
 from sweep.simulate import simulate
@@ -114,17 +115,22 @@ def test_what_nothing_holds_keeps_its_momentum(damping, friction):
     assert (rows[0, march.FRICTION] > 0.0) == (friction > 0.0)
 
 
-def test_contact_in_the_book_is_that_of_all_pairs():
+def test_contact_energy_and_gap_are_those_of_all_pairs():
     """Pairs are listed anew before any that matters is missed."""
     case, scene, state = loose(speed=150.0)
-    touch, most = scene.terms.contact, 0.0
+    touch, near = scene.terms.contact, 0
     for _ in range(12):
-        go_on(case, scene, state, ramp(scene, 3, DT))
+        _, rows = go_on(case, scene, state, ramp(scene, 3, DT))
         everything = pairs.find(state.x, touch, case.lattice.width)
         energy = contact.energy(state.x, touch, everything)
         assert state.book[march.CONTACT] == pytest.approx(energy, rel=1e-12, abs=1e-18)
-        most = max(most, energy)
-    assert most > 0.0
+        listed = zip(everything.node, touch.edges[everything.edge], everything.weight, strict=True)
+        gap = min(squared_distance(state.x, p, *ends) for p, ends, w in listed if w > 0.0) ** 0.5
+        if gap < touch.reach:
+            near += 1
+            assert energy > 0.0
+            assert rows[-1, march.GAP] == pytest.approx(gap, rel=1e-12)
+    assert near > 2
 
 
 def sliding():
