@@ -6,13 +6,14 @@ import time
 import numpy as np
 import pytest
 
-from kernels import contact, inertia, march, newton, pairs
+from kernels import inertia, march, newton, pairs
 from sweep.params import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.scene import build_scene
 from sweep.simulate import simulate
 from tests.figures import MATERIAL
 from tests.scenes import UNDAMPED, unbalanced
 from tests.solving import at_rest, floating, go_on, ramp
+from tests.terms import touch_of
 
 DT = 5e-5
 RAYLEIGH = Damping(model="rayleigh", mass=2000.0, stiffness=3e-5)
@@ -113,7 +114,7 @@ def test_contact_in_the_book_is_that_of_all_pairs():
     for _ in range(12):
         go_on(case, scene, state, ramp(scene, 3, DT))
         everything = pairs.find(state.x, touch, case.lattice.width)
-        energy = contact.energy(state.x, touch, everything)
+        energy = touch_of(touch, everything, state.x).energy(state.x)
         assert state.book[march.CONTACT] == pytest.approx(energy, rel=1e-12, abs=1e-18)
         most = max(most, energy)
     assert most > 0.0
