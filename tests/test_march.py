@@ -250,3 +250,22 @@ def test_an_interruption_in_the_middle_stops_early():
     assert 3 <= done < 20000
     assert len(history["time_s"]) == done + 1
     np.testing.assert_allclose(history["strain"], 0.3 * np.arange(done + 1) / 20000, atol=1e-12)
+
+
+@pytest.mark.parametrize("steps", [8, 400])
+def test_buckling_is_seen_however_small_the_steps(steps):
+    """A straight column at twice its critical strain: a factor is not kept for ever."""
+    case = Case(
+        lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=5, imperfection=0.0),
+        material=MATERIAL,
+        loading=Loading(mode="displacement", strain=0.03),
+        contact=Contact(model="none"),
+    )
+    scene = build_scene(case)
+    state, travel = at_rest(scene), 0.03 * case.lattice.height
+    outcome, rows = go_on(case, scene, state, ramp(scene, steps, travel=(0.0, travel)))
+    assert outcome == newton.CONVERGED
+    bent, stretched = rows[-1, [march.BEND, march.STRETCH]]
+    assert bent > 0.5 * stretched
+    before = rows[steps // 8, march.BEND]
+    assert before < 1e-12 * bent
