@@ -16,7 +16,17 @@ import numpy as np
 import pytest
 
 from kernels import jit as home
-from kernels.jit import SealedFiles, fingerprint, jit, jit_exact, open_cache, prune, seal
+from kernels.jit import (
+    SealedFiles,
+    fingerprint,
+    jit,
+    jit_exact,
+    jit_inlined,
+    jit_owning,
+    open_cache,
+    prune,
+    seal,
+)
 
 DAMAGE = {
     "empty": lambda content: b"",
@@ -64,12 +74,15 @@ def package(tmp_path):
     return folder
 
 
-def run(package, **environment):
-    """Value at 1 in a new process, and how often its code came from the cache."""
-    script = (
-        "from kernels.caller import value; "
-        "print(value(1.0), value.stats.cache_hits.total() if hasattr(value, '_cache') else 'plain')"
-    )
+VALUE = (
+    "from kernels.caller import value; "
+    "print(value(1.0), value.entry.stats.cache_hits.total() "
+    "if hasattr(value, 'entry') else 'plain')"
+)
+
+
+def run(package, script=VALUE, **environment):
+    """What a new process prints: the value at 1, and how often its code came from the cache."""
     done = subprocess.run(
         [sys.executable, "-c", script],
         cwd=package.parent,
@@ -112,9 +125,9 @@ def test_damaged_file_costs_one_compilation(cache, suffix, damage):
 
     again, healed = jit(plus_one), jit(plus_one)
     assert again(1.0) == 2.0
-    assert again.stats.cache_misses.total() == 1
+    assert again.entry.stats.cache_misses.total() == 1
     assert healed(1.0) == 2.0
-    assert healed.stats.cache_hits.total() == 1
+    assert healed.entry.stats.cache_hits.total() == 1
 
 
 def test_missing_data_file_costs_one_compilation(cache):
@@ -150,7 +163,7 @@ def test_first_calls_from_many_threads(cache):
     with ThreadPoolExecutor(8) as pool:
         values = list(pool.map(kernel, np.arange(64.0)))
     assert values == list(np.arange(1.0, 65.0))
-    assert len(kernel.signatures) == 1
+    assert len(kernel.entry.signatures) == 1
 
 
 def test_fingerprint_follows_every_source(package):
@@ -208,4 +221,70 @@ def test_kernels_see_nan_divide_like_numpy_and_release_the_lock(cache, decorator
 
     assert ratio_is_nan(0.0, 0.0)
     assert not ratio_is_nan(1.0, 0.0)
-    assert ratio_is_nan.targetoptions["nogil"] is True
+    assert ratio_is_nan.entry.targetoptions["nogil"] is True
+
+
+def test_a_kernel_called_by_kernels_can_be_called_from_python_too(package):
+    """Both versions of its code are kept: neither is taken for the other."""
+    script = (
+        "from kernels.caller import value; from kernels.callee import offset; "
+        "print(value(1.0), offset(1.0), offset.entry.stats.cache_hits.total())"
+    )
+    assert [run(package, script) for _ in range(2)] == [["2.5", "2.0", "0"], ["2.5", "2.0", "1"]]
+    only = "from kernels.callee import offset; print(offset(1.0), *offset.signatures)"
+    assert run(package, only) == ["2.0"]
+
+
+def test_a_constant_argument_makes_no_new_version(cache):
+    times = jit(product)
+
+    @jit
+    def sixfold(x):
+        return times(x, 2) + times(x, 3) + times(x, 1)
+
+    assert sixfold(1.5) == 9.0
+    assert len(times.signatures) == 1
+    assert times.entry.signatures == []
+
+
+def product(x, n):
+    return x * n
+
+
+def test_a_kernel_that_does_not_compile_says_where(cache):
+    """Which operation, of which types, in which function, called by which; and again next time."""
+    times = jit(product)
+
+    @jit
+    def nonsense(x):
+        return times(x, None)
+
+    for _ in range(2):
+        with pytest.raises(numba.TypingError) as failure:
+            nonsense(1.5)
+        for part in ("mul(float64, none)", "def product(x, n)", "def nonsense(x)"):
+            assert part in str(failure.value)
+    assert times(1.5, 2) == 3.0
+
+
+def test_only_an_owning_kernel_may_make_an_array(cache):
+    def total(n):
+        return np.ones(n).sum()
+
+    for decorator in (jit, jit_exact):
+        with pytest.raises(numba.TypingError, match=r"No implementation of function .*ones"):
+            decorator(total)(3)
+    assert jit_owning(total)(3) == 3.0
+
+
+def test_inlined_kernels_are_written_out_in_their_callers(cache):
+    inner, called = jit_inlined(product), jit(product)
+
+    @jit
+    def both(x):
+        return inner(x, 2) + called(x, 3)
+
+    assert both(1.0) == 5.0
+    assert inner.signatures == []
+    assert len(called.signatures) == 1
+    assert inner(1.5, 2) == 3.0

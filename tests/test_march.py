@@ -6,7 +6,7 @@ import time
 import numpy as np
 import pytest
 
-from kernels import contact, inertia, march, newton, pairs
+from kernels import inertia, march, newton, pairs
 from kernels.distance import squared_distance
 from sweep.params import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.scene import build_scene
@@ -14,6 +14,7 @@ from sweep.simulate import simulate
 from tests.figures import MATERIAL
 from tests.scenes import UNDAMPED, unbalanced
 from tests.solving import at_rest, floating, go_on, ramp
+from tests.terms import touch_of
 
 DT = 5e-5
 RAYLEIGH = Damping(model="rayleigh", mass=2000.0, stiffness=3e-5)
@@ -122,7 +123,7 @@ def test_contact_energy_and_gap_are_those_of_all_pairs():
     for _ in range(12):
         _, rows = go_on(case, scene, state, ramp(scene, 3, DT))
         everything = pairs.find(state.x, touch, case.lattice.width)
-        energy = contact.energy(state.x, touch, everything)
+        energy = touch_of(touch, everything, state.x).energy(state.x)
         assert state.book[march.CONTACT] == pytest.approx(energy, rel=1e-12, abs=1e-18)
         listed = zip(everything.node, touch.edges[everything.edge], everything.weight, strict=True)
         gap = min(squared_distance(state.x, p, *ends) for p, ends, w in listed if w > 0.0) ** 0.5
@@ -270,3 +271,22 @@ def test_an_interruption_in_the_middle_stops_early():
     assert 3 <= done < 20000
     assert len(history["time_s"]) == done + 1
     np.testing.assert_allclose(history["strain"], 0.3 * np.arange(done + 1) / 20000, atol=1e-12)
+
+
+@pytest.mark.parametrize("steps", [8, 400])
+def test_buckling_is_seen_however_small_the_steps(steps):
+    """A straight column at twice its critical strain: a factor is not kept for ever."""
+    case = Case(
+        lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=5, imperfection=0.0),
+        material=MATERIAL,
+        loading=Loading(mode="displacement", strain=0.03),
+        contact=Contact(model="none"),
+    )
+    scene = build_scene(case)
+    state, travel = at_rest(scene), 0.03 * case.lattice.height
+    outcome, rows = go_on(case, scene, state, ramp(scene, steps, travel=(0.0, travel)))
+    assert outcome == newton.CONVERGED
+    bent, stretched = rows[-1, [march.BEND, march.STRETCH]]
+    assert bent > 0.5 * stretched
+    before = rows[steps // 8, march.BEND]
+    assert before < 1e-12 * bent

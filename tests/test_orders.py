@@ -6,14 +6,11 @@ import numpy as np
 import pytest
 
 from kernels import friction, newton
-from kernels.newton import Work, largest, minimise, reduce
-from kernels.step import Step, find_near, gradient
 from sweep.params import Case, Loading
 from sweep.scene import build_scene
-from sweep.simulate import tolerances
 from tests.scenes import SEED, VISCOUS, loaded, pressed, run, slopes
+from tests.solving import descend, residual, whole
 
-NEVER = np.zeros(2, dtype=np.int64)  # no wish to stop
 ROUND_OFF = 1e-11  # N
 
 
@@ -71,35 +68,30 @@ class Descent:
     """One step of a scene from rest, iteration by iteration; dt: its duration, infinite: static."""
 
     def __init__(self, case, dt):
-        self.scene = build_scene(case)
-        n, rows = self.scene.x_rest.size, self.scene.unknowns.scale.size
+        self.case, self.dt, self.scene = case, dt, build_scene(case)
         self.x = self.scene.x_rest.copy()
-        self.near = find_near(self.x, self.scene.terms, 0.0)
-        self.step = Step(self.x.copy(), self.x.copy(), dt, 1.0, friction.empty())
-        self.work = Work(*np.zeros((3, n)), *np.zeros((3, rows)))
-        self.tolerance = tolerances(case, self.scene, dt)
+
+    def whole(self):
+        """What is minimised, from pairs found anew and without friction."""
+        found = whole(self.scene, self.x, self.scene.x_rest, self.dt)
+        return found._replace(step=found.step._replace(grips=friction.none()))
 
     def residual(self):
         """Largest force out of balance, N."""
-        gradient(self.x, self.scene.terms, self.step, self.near, self.work.g)
-        reduce(self.work.g, self.scene.unknowns.row, self.work.residual)
-        return largest(self.work.residual, self.scene.unknowns)
+        return np.abs(residual(self.scene, self.x, self.whole())).max()
 
     def go_on(self, iterations, target=None):
         """Iterate and return the outcome; target: of the platen (m), where it is if None."""
-        outcome, _, self.near = minimise(
-            self.x, self.x[-1] if target is None else target, self.scene.terms, self.step,
-            self.near, self.scene.unknowns, self.tolerance._replace(iterations=iterations),
-            self.work, NEVER,
-        )  # fmt: skip
-        return outcome
+        found = descend(self.case, self.scene, self.x, self.whole(), target, iterations=iterations)
+        self.x = found.x
+        return found.outcome
 
     def shake(self, amount):
         """Move all that is free at random, by up to ``amount`` (m)."""
-        row, scale = self.scene.unknowns.row, self.scene.unknowns.scale
-        free = (row >= 0) & (row < self.scene.unknowns.free)
+        leader, scale = self.scene.unknowns.leader, self.scene.unknowns.scale
+        free = (leader == np.arange(leader.size)) & (leader != self.scene.unknowns.driven)
         move = np.random.default_rng(5).uniform(-amount, amount, self.x.size)
-        self.x[free] += move[free] / scale[row[free]]
+        self.x[free] += (move / scale)[free]
 
 
 @pytest.mark.parametrize("scene", [crushed, folded])
@@ -109,7 +101,7 @@ def test_newton_is_quadratic_near_a_minimum(scene):
     assert descent.go_on(100) == newton.CONVERGED
     minimum, left = descent.x.copy(), []
     for amount in (1e-7, 5e-8, 2.5e-8, 1.25e-8):
-        descent.x[:] = minimum
+        descent.x = minimum.copy()
         descent.shake(amount)
         descent.go_on(1)
         left.append(descent.residual())
@@ -121,7 +113,9 @@ def test_newton_ends_a_smooth_step_quadratically(travel):
     """Order log(r'' / r') / log(r' / r) of the last residuals above round-off."""
     descent, residuals = crushed(), []
     target = descent.x[-1] - travel
-    while descent.go_on(1, target) == newton.ITERATIONS:
+    outcome = newton.ITERATIONS
+    while outcome == newton.ITERATIONS:
+        outcome = descent.go_on(1, target)
         residuals.append(descent.residual())
     falls = np.diff(np.log([size for size in residuals if size > ROUND_OFF]))
     assert residuals[-1] < 1e-9

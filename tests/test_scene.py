@@ -1,4 +1,4 @@
-"""The arrays of a case: stiffness of joints, masses, loads, supports, and what is left out."""
+"""The arrays of a case: masses, loads, supports, contact, and what is left out."""
 
 import numpy as np
 import pytest
@@ -8,11 +8,8 @@ from sweep.params import Case, Contact, Damping, Lattice, Loading, Material, Sol
 from sweep.scene import build_scene, plane_factors
 from sweep.simulate import simulate
 from tests.figures import MATERIAL
-from tests.solving import WHOLE, whole
-from tests.terms import gradient_of
 
 DEPTH, THICKNESS, WALL = 12e-3, 0.8e-3, 12.5e-3 / 3
-RIGIDITY = MATERIAL.modulus * DEPTH * THICKNESS**3 / 12
 LOADINGS = {
     "none": Loading(force=5.0),
     "contact": Loading(force=5.0, platen="contact"),
@@ -27,57 +24,6 @@ def scene_of(elements=3, platen="none", imperfection=0.0, **tables):
     lattice = Lattice(nodes_per_wall=elements - 1, imperfection=imperfection)
     chosen = {"lattice": lattice, "material": MATERIAL, "loading": LOADINGS[platen]} | tables
     return build_scene(Case(**chosen))
-
-
-@pytest.mark.parametrize("elements", [1, 2, 3, 7])
-@pytest.mark.parametrize("hinges", ["exact_beam", "classical"])
-def test_hinge_stiffness(hinges, elements):
-    bend = scene_of(elements, solver=Solver(hinges=hinges)).terms.bend
-    n, per_length = elements, RIGIDITY / (WALL / elements)
-    inside, at_end = {
-        "exact_beam": (per_length * (1 - 1 / n**2), 2 * per_length * (1 + 1 / n)),
-        "classical": (per_length, 2 * per_length),
-    }[hinges]
-    assert bend.hinge_stiffness.shape == (24 * (n - 1),)
-    np.testing.assert_allclose(bend.hinge_stiffness, inside, rtol=1e-12)
-    np.testing.assert_allclose(bend.arm_stiffness, np.full(48, at_end), rtol=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("hinges", "elements", "count"),
-    [("exact_beam", 1, 24), ("exact_beam", 2, 0), ("classical", 1, 0)],
-)
-def test_only_an_exact_single_element_couples_its_ends(hinges, elements, count):
-    """E = 2 YI/h (a1^2 + a1 a2 + a2^2): k12 is half of k1 = k2 = 4 YI/h."""
-    bend = scene_of(elements, solver=Solver(hinges=hinges)).terms.bend
-    np.testing.assert_allclose(bend.coupling_stiffness, np.full(count, 2 * RIGIDITY / WALL))
-    one, two = bend.arms[bend.couplings[:, 0]], bend.arms[bend.couplings[:, 1]]
-    np.testing.assert_array_equal(one[:, :2], two[:, 1::-1])
-    assert len(np.unique(bend.couplings)) == 2 * count
-
-
-@pytest.mark.parametrize("measure", ["angle", "tangent"])
-@pytest.mark.parametrize("imperfection", [0.0, 0.5])
-def test_arms_and_hinges_are_free_of_stress_at_rest(imperfection, measure):
-    scene = scene_of(4, imperfection=imperfection, solver=Solver(bend_measure=measure))
-    assert scene.terms.bend.measure == {"angle": 0, "tangent": 1}[measure]
-    g = gradient_of(WHOLE, whole(scene, scene.x_rest), scene.x_rest)
-    np.testing.assert_allclose(g, -scene.terms.load, rtol=0, atol=1e-9)
-
-
-def test_folds_of_a_grid():
-    """Two sides of every node: corners open by 90 and 270 degrees, walls by 180."""
-    scene = scene_of(3)
-    fold, bend, n_joints = scene.terms.fold, scene.terms.bend, scene.mesh.n_joints
-    at_joint = fold.nodes[:, 1] < n_joints
-    assert (at_joint.sum(), (~at_joint).sum()) == (4 * 2 + 8 * 3 + 4 * 4, 2 * 48)
-    np.testing.assert_allclose(fold.limit, np.radians(20.0))
-    hinge, arm = bend.hinge_stiffness[0], bend.arm_stiffness[0]
-    np.testing.assert_allclose(fold.stiffness[~at_joint], hinge * (np.pi / 2) ** 2)
-    quarters = np.round(np.sqrt(fold.stiffness[at_joint] / (0.5 * arm)) / (np.pi / 4), 9)
-    found, count = np.unique(quarters, return_counts=True)
-    np.testing.assert_allclose(found, [1.0, 2.0, 3.0])
-    assert list(count) == [4 + 16 + 16, 8, 4]
 
 
 @pytest.mark.parametrize("platen", LOADINGS)
@@ -133,8 +79,8 @@ def row_of_nodes(scene, height):
 def test_what_is_held_and_what_moves_with_the_platen(platen, elements):
     """A clamped row is held in x, y and phi; a glued upper one too, but for y, the platen's."""
     scene = scene_of(elements, platen)
-    row = scene.unknowns.row
-    low, high = row.size - 2, row.size - 1
+    leader = scene.unknowns.leader
+    low, high = leader.size - 2, leader.size - 1
     bottom, top = (np.concatenate(row_of_nodes(scene, y)) for y in (0.0, 12.5e-3))
     x, y, rotation = row_of_nodes(scene, 12.5e-3)
     glued = np.concatenate([x, rotation])
@@ -143,16 +89,34 @@ def test_what_is_held_and_what_moves_with_the_platen(platen, elements):
         "glued": ([*bottom, *glued, low], [*y, high]),
         "contact": ([low], [high]),
     }[platen.removeprefix("driven, ")]
-    np.testing.assert_array_equal(np.flatnonzero(row < 0), np.sort(held))
-    last = scene.unknowns.scale.size - 1
-    if led:
-        np.testing.assert_array_equal(np.flatnonzero(row == last), np.sort(led))
-    alone = np.delete(row, [*held, *led])
-    np.testing.assert_array_equal(np.sort(alone), np.arange(alone.size))
-    driven = platen.startswith("driven")
-    assert scene.unknowns.driven == (high if driven else -1)
-    assert scene.unknowns.free == last + (not driven)
+    np.testing.assert_array_equal(np.flatnonzero(leader < 0), np.sort(held))
+    np.testing.assert_array_equal(np.flatnonzero(leader == high), np.sort(led))
+    alone = np.delete(np.arange(leader.size), [*held, *led])
+    np.testing.assert_array_equal(leader[alone], alone)
+    assert scene.unknowns.driven == (high if platen.startswith("driven") else -1)
     assert len(top) == len(bottom)
+
+
+@pytest.mark.parametrize("elements", [1, 3])
+@pytest.mark.parametrize("platen", LOADINGS)
+def test_the_solver_knows_who_leads_and_where_walls_are(platen, elements):
+    scene = scene_of(elements, platen)
+    layout, walls, mesh = scene.terms.layout, scene.terms.walls, scene.mesh
+    assert (layout.n_nodes, layout.n_joints) == (len(mesh.points), 16)
+    assert layout.driven == scene.unknowns.driven
+    np.testing.assert_array_equal(layout.leader, scene.unknowns.leader)
+    expected = np.full(len(mesh.points), -1)
+    for w in range(24):
+        chain = walls.edges[walls.start[w] : walls.start[w + 1]]
+        expected[chain[1:, 0]] = w
+        if elements > 1:
+            assert layout.inner[w] == chain[0, 1]
+            np.testing.assert_array_equal(np.diff(chain[:-1, 1]), 1)
+        ends = np.array([chain[0, 0], chain[-1, 1]])
+        outer = np.column_stack([2 * ends, 2 * ends + 1, 2 * len(mesh.points) + ends])
+        np.testing.assert_array_equal(layout.outer[w], outer.ravel())
+    np.testing.assert_array_equal(layout.wall_of, expected)
+    assert layout.scale == pytest.approx(MATERIAL.modulus * DEPTH * THICKNESS * elements / WALL)
 
 
 def test_a_glued_row_keeps_its_shape():
@@ -182,11 +146,10 @@ def test_a_glued_row_keeps_its_shape():
 
 def test_rotations_are_scaled_by_the_length_of_an_element():
     scene = scene_of(3)
-    row, scale = scene.unknowns.row, scene.unknowns.scale
-    nodes = 2 * len(scene.mesh.points)
-    rotation = row[nodes:-2][row[nodes:-2] >= 0]
-    np.testing.assert_allclose(scale[rotation], WALL / 3, rtol=1e-12)
-    np.testing.assert_array_equal(np.delete(scale, rotation), 1.0)
+    scale, nodes = scene.unknowns.scale, 2 * len(scene.mesh.points)
+    np.testing.assert_allclose(scale[nodes:-2], WALL / 3, rtol=1e-12)
+    np.testing.assert_array_equal(np.delete(scale, np.arange(nodes, nodes + 16)), 1.0)
+    np.testing.assert_allclose(scene.unknowns.lever * scale, 1.0, rtol=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -268,15 +268,6 @@ def test_joints_without_a_common_wall_have_no_room_for_a_contact():
         assert problem.found.matrix.missing[0] == missing
 
 
-def test_mass_needs_no_room_inside_a_condensed_wall():
-    """Only what couples two coordinates does."""
-    of = web(MIXED)
-    problem = Problem(of, supported(of, "clamped"), couplings(of, "condensed"), mass=100.0)
-    assert problem.factor()[1] == -1
-    assert problem.found.matrix.missing[0] == 0
-    assert problem.is_factored(np.ones(problem.n))
-
-
 def test_where_all_joints_are_held_walls_are_solved_one_by_one():
     """No block is left."""
     of = frame([(0, 0), (4, 0), (4, 3)], [(0, 1), (1, 2)], [3, 5])
