@@ -54,7 +54,7 @@ def dry_run(config: Config, out: str, workers: int, retry_failed: bool) -> str:
     wall = found.cpu / min(workers, len(waiting))
     lines = [
         counts,
-        f"estimate for {len(waiting):,} cases, from {found.pilots} pilot cases "
+        f"estimate for {len(waiting):,} cases, after running {found.pilots} of them "
         f"({found.seconds:.1f} s); it may be off by a factor of two:",
         f"  processor time  {duration(found.cpu)}",
         f"  wall time       {duration(wall)} on {workers} workers",

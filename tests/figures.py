@@ -147,7 +147,7 @@ def beyond(file):
 
 def failure():
     """What a case says that may not iterate enough."""
-    solver = Solver(load_steps=20, max_iterations=3)
+    solver = Solver(load_steps=20, max_iterations=4)
     case = Case(loading=Loading(mode="displacement"), solver=solver)
     result = simulate(case)
     return f'`{result.status}`, "{result.message}"'

@@ -133,3 +133,15 @@ def is_sound(result):
         and np.all(np.isfinite(result.frames["position_m"]))
         and result.summary["max_crossings"] == 0
     )
+
+
+def grid(force, platen="none", contact="none", elements=3):
+    """A 2 x 2 grid under a dead load."""
+    return Case(
+        lattice=Lattice(cells_x=2, cells_y=2, nodes_per_wall=elements - 1),
+        material=MATERIAL,
+        loading=Loading(force=force, platen=platen),
+        contact=Contact(model=contact, friction=0.0),
+        damping=Damping(model="none"),
+        solver=Solver(time_step=1e-3),
+    )

@@ -102,6 +102,23 @@ def residual(scene, x, args):
     return R.T @ args.gradient(x) / (R.T @ scene.unknowns.scale / R.sum(axis=0))
 
 
+def free_of(scene):
+    """Coordinates that move by themselves."""
+    leader = scene.unknowns.leader
+    own = leader == np.arange(leader.size)
+    own[scene.unknowns.driven] &= scene.unknowns.driven < 0
+    return np.flatnonzero(own)
+
+
+def shaken(scene, x, seed, share):
+    """All that is free moved at random, by up to a share of an element or of 1 rad."""
+    free, h = free_of(scene), scene.mesh.rest_length.mean()
+    amount = np.where(scene.unknowns.scale[free] == 1.0, h, 1.0)
+    moved = x.copy()
+    moved[free] += share * amount * np.random.default_rng(seed).uniform(-1, 1, free.size)
+    return moved
+
+
 class Descent(NamedTuple):
     """How a minimisation ended, and where."""
 

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from kernels import newton
-from sweep.params import Case, Contact, Damping, Lattice, Loading, Solver
+from sweep.params import Case, Contact, Lattice, Loading
 from sweep.scene import build_scene
 from sweep.simulate import tolerances
 from tests.figures import MATERIAL
-from tests.scenes import slopes
-from tests.solving import descend, floating, reduction, residual, whole
+from tests.scenes import grid, slopes
+from tests.solving import descend, reduction, residual, shaken, whole
 
 HEIGHT = 12.5e-3
 BUCKLED = 0.03  # strain, beyond that of a clamped wall, (2 pi)^2 / 12 (t / H)^2 = 0.0135
@@ -31,35 +31,6 @@ def straight(scene, strain):
     x[1 : 2 * len(scene.mesh.points) : 2] *= 1.0 - strain
     x[-1] -= strain * HEIGHT
     return x
-
-
-def grid(force, platen="none", contact="none", elements=3):
-    """A 2 x 2 grid under a dead load."""
-    return Case(
-        lattice=Lattice(cells_x=2, cells_y=2, nodes_per_wall=elements - 1),
-        material=MATERIAL,
-        loading=Loading(force=force, platen=platen),
-        contact=Contact(model=contact, friction=0.0),
-        damping=Damping(model="none"),
-        solver=Solver(time_step=1e-3),
-    )
-
-
-def free_of(scene):
-    """Coordinates that move by themselves."""
-    leader = scene.unknowns.leader
-    own = leader == np.arange(leader.size)
-    own[scene.unknowns.driven] &= scene.unknowns.driven < 0
-    return np.flatnonzero(own)
-
-
-def shaken(scene, x, seed, share):
-    """All that is free moved at random, by up to a share of an element or of 1 rad."""
-    free, h = free_of(scene), scene.mesh.rest_length.mean()
-    amount = np.where(scene.unknowns.scale[free] == 1.0, h, 1.0)
-    moved = x.copy()
-    moved[free] += share * amount * np.random.default_rng(seed).uniform(-1, 1, free.size)
-    return moved
 
 
 def is_minimum(case, scene, x, dt, args):
@@ -228,18 +199,6 @@ def test_nodes_in_one_place_leave_the_range_of_numbers():
     assert found.outcome == newton.NOT_FINITE
 
 
-def test_a_wall_that_lies_upon_another_is_stuck():
-    """No move is admissible, however small, although contact does not press: joints are near."""
-    case = grid(2.0, "contact", "barrier", 20)
-    scene = build_scene(case)
-    x, h = scene.x_rest.copy(), scene.mesh.rest_length.mean()
-    above = np.argmin(np.linalg.norm(scene.mesh.points - (0.0, 2.0 * h), axis=1))
-    x[2 * above : 2 * above + 2] = 1.5 * h, 0.0
-    found = descend(case, scene, x, whole(scene, scene.x_rest))
-    assert found.outcome == newton.STALLED
-    np.testing.assert_array_equal(found.x, x)
-
-
 @pytest.mark.parametrize("platen", ["glued", "contact"])
 def test_a_driven_platen_takes_the_others_along(platen):
     """To where the quadratic model is stationary: what is left falls with the square of the way."""
@@ -257,47 +216,3 @@ def test_a_driven_platen_takes_the_others_along(platen):
         assert found.x[-1] == start.x[-1] - way
         left.append(np.abs(residual(scene, found.x, whole(scene, found.x))).max())
     np.testing.assert_allclose(slopes(left), 2.0, atol=0.2)
-
-
-@pytest.mark.parametrize("seed", range(40))
-def test_the_first_move_goes_as_far_as_is_admissible(seed):
-    """Whatever its direction: two walls that fly at one another on a diagonal do not pass."""
-    case = grid(2.0, "contact", "barrier")
-    scene = build_scene(case)
-    rng = np.random.default_rng(seed)
-    start, bearing = shaken(scene, scene.x_rest, seed, 0.1), rng.uniform(-np.pi, np.pi)
-    start[[-2, -1]] += -1e-3, 1e-3
-    move = np.zeros_like(start)
-    points = 2 * len(scene.mesh.points)
-    move[:points] = rng.choice([-1.0, 1.0], points // 2).repeat(2) * np.tile(
-        [np.cos(bearing), np.sin(bearing)], points // 2
-    )
-    move *= 10.0 ** rng.uniform(-3.5, -2)
-    args = whole(scene, start, reach=3e-2)
-    share = args.limit(start, move)
-    found = descend(case, scene, start, args, move=move, iterations=0)
-    assert found.outcome == newton.ITERATIONS
-    np.testing.assert_allclose(found.x, start + share * move, rtol=0, atol=1e-15)
-
-
-@pytest.mark.parametrize("angle", [0.0, 0.5, np.pi / 4, 1.0])
-def test_walls_that_fly_at_one_another_do_not_pass(angle):
-    """Whichever way they go: a node is faster than either of its coordinates."""
-    size, reach = 6e-3, 3.4e-3
-    case = Case(
-        lattice=Lattice(cells_x=1, cells_y=1, width=size, height=size, imperfection=0.0),
-        loading=Loading(force=1.0),
-    )
-    scene = floating(case)
-    points, across = scene.mesh.points, np.array([np.cos(angle), np.sin(angle)])
-    turn = np.array([across, [-across[1], across[0]]])
-    start, move = scene.x_rest.copy(), np.zeros_like(scene.x_rest)
-    start[: points.size] = (points @ turn).ravel()
-    start[points.size : -2] += angle
-    for side, way in ((0.0, 1.0), (size, -1.0)):
-        inside = (points[:, 0] == side) & (points[:, 1] > 0.0) & (points[:, 1] < size)
-        move[: points.size].reshape(-1, 2)[inside] = way * reach * across
-    args = whole(scene, start, reach=3e-2)
-    found = descend(case, scene, start, args, move=move, iterations=0)
-    expected = start + 0.9 * 0.5 * size / reach * move
-    np.testing.assert_allclose(found.x, expected, rtol=0, atol=1e-12)
