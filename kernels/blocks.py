@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.jit import jit, jit_exact, jit_owning
+from kernels.rows import zero
 
 HELD, INNER, DRIVEN = -1, -2, -3  # never moves; eliminated inside its wall; led with the platen
 NEUTRAL = 1e-11  # a pivot below this share of its diagonal is round-off around zero
@@ -45,10 +46,14 @@ class Blocks(NamedTuple):
 @jit_exact
 def find(start, row, i, j):
     """Return which block below the diagonals is (i, j), i > j; -1 if there is none."""
-    for q in range(start[j], start[j + 1]):
-        if row[q] == i:
-            return q
-    return -1
+    low, high = start[j], start[j + 1]
+    while low < high:
+        middle = (low + high) // 2
+        if row[middle] < i:
+            low = middle + 1
+        else:
+            high = middle
+    return low if low < start[j + 1] and row[low] == i else -1
 
 
 @jit_owning
@@ -88,9 +93,9 @@ def shaped(home, start, row):
 @jit_exact
 def clear(blocks):
     """Set all entries to zero."""
-    blocks.values[:] = 0.0
-    blocks.diagonal[:] = 0.0
-    blocks.pull[:] = 0.0
+    zero(blocks.values)
+    zero(blocks.diagonal)
+    zero(blocks.pull)
     blocks.missing[0] = 0
 
 
@@ -131,8 +136,26 @@ def add(blocks, i, j, value):
 
 
 @jit
+def _is_whole(home, i):
+    """Return whether x and y of the point whose x is coordinate ``i`` share a block."""
+    return home[i] >= 0 and home[i + 1] == home[i] + 1
+
+
+@jit
 def add_block(blocks, i, j, xx, xy, yx, yy):
     """Add the 2 x 2 block of points whose x are coordinates ``i``, ``j`` (lower half if equal)."""
+    home, values = blocks.home, blocks.values
+    if i != j and _is_whole(home, i) and _is_whole(home, j):
+        at = position(home, blocks.start, blocks.row, i, j)
+        if at < 0:
+            blocks.missing[0] = 1
+            return
+        across, down = (1, 3) if home[i] > home[j] else (3, 1)
+        values[at] += xx
+        values[at + across] += xy
+        values[at + down] += yx
+        values[at + 4] += yy
+        return
     add(blocks, i, j, xx)
     add(blocks, i + 1, j, yx)
     add(blocks, i + 1, j + 1, yy)
@@ -278,7 +301,7 @@ def descend(blocks, failed):
     With A = [[A1, a], [a^T, c]] the vector (-A1^{-1} a, 1, 0 ...) has d^T A d = c - a^T A1^{-1} a.
     """
     v, values = blocks.vector, blocks.values
-    v[:] = 0.0
+    zero(v)
     v[failed] = 1.0
     j, slot = failed // 3, failed % 3
     for s in range(slot):

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.jit import jit
+from kernels.rows import zero, zero_rows
 
 
 class Walls(NamedTuple):
@@ -72,12 +73,12 @@ def measure(x, walls, shape):
 @jit
 def clear(shape, stiffness):
     """Start the sums over the terms at zero."""
-    shape.slope[:] = 0.0
-    shape.moment[:] = 0.0
-    stiffness.own[:] = 0.0
-    stiffness.next[:] = 0.0
-    stiffness.arm[:] = 0.0
-    stiffness.twist[:] = 0.0
+    zero_rows(shape.slope)
+    zero(shape.moment)
+    zero_rows(stiffness.own)
+    zero_rows(stiffness.next)
+    zero_rows(stiffness.arm)
+    zero(stiffness.twist)
 
 
 @jit

@@ -10,6 +10,7 @@ After `eliminate` it holds the row of D L^T, with 1 / pivot in front.
 
 from kernels.blocks import pivoted
 from kernels.jit import jit, jit_exact
+from kernels.rows import zero_rows
 
 BAND, WIDTH, OUTER = 6, 12, 6
 
@@ -46,8 +47,8 @@ def fill(first, last, w, stiffness, rows, outer):
     """
     own, following = stiffness.own, stiffness.next
     n = last - first
-    rows[:] = 0.0
-    outer[:] = 0.0
+    zero_rows(rows)
+    zero_rows(outer)
     for q in range(n + 1):
         k = first + q
         xx = xy = yx = yy = 0.0

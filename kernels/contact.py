@@ -64,6 +64,13 @@ def _law(contact, weight, d_contact, d):
 
 
 @jit
+def cancelled(pairs, k, tau, inside):
+    """Return which end (0, 1) of segment ``k`` is closest and taken off again; -1 if none is."""
+    end = 0 if tau == 0.0 else 1
+    return -1 if inside or pairs.subtract[k, end] == 0.0 else end
+
+
+@jit
 def _segment_distance(x, p, a, b):
     tau, _ = closest(x, p, a, b)
     _, _, d = normal(x, p, a, b, tau)
@@ -86,7 +93,7 @@ def evaluate(x, contact, pairs, drift, g):
             continue
         p, dc = pairs.node[k], pairs.d_contact[k]
         a, b = pair(contact.edges, pairs.edge[k])
-        tau, _ = closest(x, p, a, b)
+        tau, inside = closest(x, p, a, b)
         _, _, d = normal(x, p, a, b, tau)
         if d >= dc:
             continue
@@ -94,12 +101,13 @@ def evaluate(x, contact, pairs, drift, g):
             return np.inf
         pairs.touching[pairs.count[0]] = k
         pairs.count[0] += 1
-        weight = 0.5 * pairs.weight[k]
-        value, slope, _ = _law(contact, weight, dc, d)
-        total += value
-        push(g, x, p, a, b, slope)
+        weight, off = 0.5 * pairs.weight[k], cancelled(pairs, k, tau, inside)
+        if off < 0:
+            value, slope, _ = _law(contact, weight, dc, d)
+            total += value
+            push(g, x, p, a, b, slope)
         for side, v in ((0, a), (1, b)):
-            if pairs.subtract[k, side] != 0.0:
+            if pairs.subtract[k, side] != 0.0 and side != off:
                 _, _, dv = direction(x, v, p)
                 if dv < dc:
                     value, slope, _ = _law(contact, weight, dc, dv)
@@ -116,15 +124,16 @@ def hessian(x, contact, pairs, matrix, projected):
         k = pairs.touching[n]
         p, dc = pairs.node[k], pairs.d_contact[k]
         a, b = pair(contact.edges, pairs.edge[k])
-        tau, _ = closest(x, p, a, b)
+        tau, inside = closest(x, p, a, b)
         _, _, d = normal(x, p, a, b, tau)
-        weight = 0.5 * pairs.weight[k]
-        _, slope, curvature = _law(contact, weight, dc, d)
-        push_stiffen(matrix, x, p, a, b, curvature, 0.0 if projected else slope)
+        weight, off = 0.5 * pairs.weight[k], cancelled(pairs, k, tau, inside)
+        if off < 0:
+            _, slope, curvature = _law(contact, weight, dc, d)
+            push_stiffen(matrix, x, p, a, b, curvature, 0.0 if projected else slope)
         if projected:
             continue
         for side, v in ((0, a), (1, b)):
-            if pairs.subtract[k, side] != 0.0:
+            if pairs.subtract[k, side] != 0.0 and side != off:
                 _, _, dv = direction(x, v, p)
                 if dv < dc:
                     _, slope, curvature = _law(contact, weight, dc, dv)

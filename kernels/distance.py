@@ -81,18 +81,15 @@ def push_point(g, x, p, v, force):
 
 
 @jit
-def _outer(matrix, i, j, weight, px, py, qx, qy):
-    add_block(matrix, i, j, weight * px * qx, weight * px * qy, weight * py * qx, weight * py * qy)
-
-
-@jit
 def _pair_block(matrix, i, j, qi, qj, ri, rj, vectors, terms):
     """Add block (i, j) of stiffness N N^T - force [U R^T + R U^T + d R R^T], N = q n, R = r n."""
     nx, ny, ux, uy = vectors
     stiffness, force, d = terms
-    _outer(matrix, i, j, stiffness * qi * qj - force * d * ri * rj, nx, ny, nx, ny)
-    _outer(matrix, i, j, -force * qi * rj, ux, uy, nx, ny)
-    _outer(matrix, i, j, -force * ri * qj, nx, ny, ux, uy)
+    nn = stiffness * qi * qj - force * d * ri * rj
+    un, nu = -force * qi * rj, -force * ri * qj
+    xx, xy = (nn * nx + (un + nu) * ux) * nx, nn * nx * ny + un * ux * ny + nu * nx * uy
+    yx, yy = nn * nx * ny + un * uy * nx + nu * ny * ux, (nn * ny + (un + nu) * uy) * ny
+    add_block(matrix, i, j, xx, xy, yx, yy)
 
 
 @jit

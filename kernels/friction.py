@@ -18,6 +18,7 @@ import numpy as np
 
 from kernels.barrier import barrier
 from kernels.blocks import add_block
+from kernels.contact import cancelled
 from kernels.distance import closest, direction, normal
 from kernels.jit import jit, jit_exact, jit_owning
 from kernels.rows import pair
@@ -62,11 +63,13 @@ def none():
 @jit_owning
 def moved(grips, larger):
     """Return ``larger`` with what is in ``grips``."""
-    n = min(grips.count[0], larger.load.size)
-    larger.nodes[:n] = grips.nodes[:n]
-    larger.slopes[:n] = grips.slopes[:n]
-    larger.load[:n] = grips.load[:n]
-    larger.count[0] = n
+    larger.count[0] = min(grips.count[0], larger.load.size)
+    for n in range(larger.count[0]):
+        larger.load[n] = grips.load[n]
+        for k in range(3):
+            larger.nodes[n, k] = grips.nodes[n, k]
+            larger.slopes[n, k, 0] = grips.slopes[n, k, 0]
+            larger.slopes[n, k, 1] = grips.slopes[n, k, 1]
     return larger
 
 
@@ -106,15 +109,17 @@ def lag(x, contact, pairs, friction, grips):
     for k in range(pairs.node.size):
         p, dc, weight = pairs.node[k], pairs.d_contact[k], 0.5 * friction.mu * pairs.weight[k]
         a, b = pair(contact.edges, pairs.edge[k])
-        tau, _ = closest(x, p, a, b)
+        tau, inside = closest(x, p, a, b)
         _, _, d = normal(x, p, a, b, tau)
         if weight == 0.0 or d >= dc:
             continue
-        load = _normal_force(contact, weight, dc, d)
-        n = _grip_segment(x, grips, n, (p, a, b), tau, load)
+        off = cancelled(pairs, k, tau, inside)
+        if off < 0:
+            load = _normal_force(contact, weight, dc, d)
+            n = _grip_segment(x, grips, n, (p, a, b), tau, load)
         for side, end in ((0, 0.0), (1, 1.0)):
             _, _, d = normal(x, p, a, b, end)
-            if pairs.subtract[k, side] != 0.0 and d < dc:
+            if pairs.subtract[k, side] != 0.0 and d < dc and side != off:
                 load = -_normal_force(contact, weight, dc, d)
                 n = _grip_segment(x, grips, n, (p, a, b), end, load)
     for p in contact.plate_nodes:

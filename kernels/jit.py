@@ -1,198 +1,117 @@
-"""How kernels are compiled and where the machine code is kept: the only file that knows Numba.
+"""How kernels are compiled: the only numba options.
 
 ``@jit`` is for arithmetic; ``@jit_exact`` keeps every rounding as written, for collision detection,
 distances, tests of a sign or a pivot, and sums of the energy book (fast-math destroys exact zeros
 and compensated sums); ``@jit_owning`` is exact too and may make arrays. All release the GIL, so
 that threads run side by side.
 
-Numba's own cache has two faults that would cost results, not only time. It looks at the file of the
-compiled function alone, so that an edited callee in another file leaves the old code running: here
-the folder is named by a hash of all kernel sources, the versions and the processor. And it trusts
-what it reads: here every file ends with a seal, and what does not fit its seal is compiled again.
+A kernel that other kernels call is only linked into them, and is machine code only there. What is
+called from Python becomes machine code at the first such call, together with all that it calls, and
+is kept (`cache`).
 """
 
-import atexit
-import contextlib
 import functools
-import hashlib
-import io
-import os
-import platform
-import shutil
-import tempfile
-import time
-import uuid
-from pathlib import Path
 
-import llvmlite
-import llvmlite.binding
 import numba
-import numpy as np
-from numba.core.caching import FunctionCache, IndexDataCacheFile
+from numba import _dynfunc
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler
+from numba.core.compiler_machinery import register_pass
+from numba.core.typed_passes import NativeLowering
 
-FOLDERS_KEPT = 8
-SECONDS_KEPT = 7 * 24 * 3600.0
-SEAL_BYTES = 16
-
-
-def fingerprint(sources):
-    """Hash (16 hex) of all kernel sources in a folder and of what compiles and runs them."""
-    digest = hashlib.blake2b(digest_size=8)
-    versions = [numba.__version__, llvmlite.__version__, np.__version__]
-    machine = [platform.python_version(), platform.machine(), llvmlite.binding.get_host_cpu_name()]
-    digest.update("\0".join(versions + machine).encode())
-    for path in sorted(path for path in sources.glob("*.py") if path.is_file()):
-        content = path.read_bytes()
-        digest.update(f"\0{path.name}\0{len(content)}\0".encode() + content)
-    return digest.hexdigest()
+from kernels.cache import SealedCache
 
 
-def cache_home():
-    """CRUMPLE_CACHE_DIR if it is set, else `crumple` in the user's cache directory."""
-    chosen = os.environ.get("CRUMPLE_CACHE_DIR")
-    if chosen:
-        return Path(chosen).absolute()
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "crumple"
+class Linked(JITCodeLibrary):
+    """Code that is linked into its callers, where it is optimised in full and made machine code.
 
-
-def last_used(folder):
-    """Time (s) when a process last started on this folder; 0 when it has just been removed."""
-    try:
-        return folder.stat().st_mtime
-    except OSError:
-        return 0.0
-
-
-def prune(home):
-    """Remove folders of other sources, but neither the newest nor those used in the last week.
-
-    A process that still runs on a removed folder loses nothing: it makes the folder anew.
-    """
-    folders = sorted(home.glob("kernels-*"), key=last_used, reverse=True)
-    for folder in folders[FOLDERS_KEPT:]:
-        if last_used(folder) < time.time() - SECONDS_KEPT:
-            shutil.rmtree(folder, ignore_errors=True)
-
-
-def open_cache(sources):
-    """Folder for the machine code of these sources; a temporary one if that is not writable."""
-    try:
-        home = cache_home()
-        folder = home / f"kernels-{fingerprint(sources)}"
-        folder.mkdir(parents=True, exist_ok=True)
-        tempfile.TemporaryFile(dir=folder).close()
-        os.utime(folder)
-    except (OSError, RuntimeError):  # not writable; a user without a home
-        folder = Path(tempfile.mkdtemp(prefix="crumple-kernels-"))
-        atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    else:
-        prune(home)
-    return folder
-
-
-def seal(content):
-    """Digest that a cache file ends with."""
-    return hashlib.blake2b(content, digest_size=SEAL_BYTES).digest()
-
-
-def is_sealed(path):
-    """True if the file is there and ends with the digest of what comes before."""
-    try:
-        content = Path(path).read_bytes()
-    except OSError:
-        return False
-    return content[-SEAL_BYTES:] == seal(content[:-SEAL_BYTES])
-
-
-class SealedFiles(IndexDataCacheFile):
-    """Numba's index and data files, each closed by a seal that is checked before it is unpickled.
-
-    Unsealed files count as absent (numba's pickles end before the seal, so its readers ignore it).
+    Doing so at every level would double the time of a compilation.
     """
 
-    @contextlib.contextmanager
-    def _open_for_write(self, filepath):
-        with super()._open_for_write(filepath) as file:
-            content = io.BytesIO()
-            yield content
-            file.write(content.getvalue() + seal(content.getvalue()))
-
-    def _load_index(self):
-        return super()._load_index() if is_sealed(self._index_path) else {}
-
-    def _load_data(self, name):
-        if not is_sealed(self._data_path(name)):
-            raise FileNotFoundError(name)  # which numba answers with a compilation
-        return super()._load_data(name)
-
-    def _data_name(self, number):
-        # Numbers alone could let two processes that start together store the code of two
-        # signatures under one name.
-        return super()._data_name(number).replace(".nbc", f"-{uuid.uuid4().hex[:12]}.nbc")
-
-
-class SealedCache(FunctionCache):
-    """Cache of one function. What cannot be read or written costs a compilation, never a result."""
-
-    def __init__(self, function, kind):
-        super().__init__(function)
-        self._cache_file = SealedFiles(
-            cache_path=self._cache_path,
-            filename_base=f"{self._impl.filename_base}-{kind}",
-            source_stamp=self._impl.locator.get_source_stamp(),
+    def _optimize_final_module(self):
+        cheap, timing = self._codegen._module_pass_manager(
+            loop_vectorize=False, slp_vectorize=False, opt=3, cost="cheap"
         )
+        cheap.run(self._final_module, timing)
 
-    def load_overload(self, sig, target_context):
-        """Kept code for a signature, or None."""
-        try:
-            return super().load_overload(sig, target_context)
-        except Exception:  # noqa: BLE001  (whatever unpickling or linking foreign code can raise)
-            return None
+    def _finalize_final_module(self):
+        self._finalize_dynamic_globals()
+        self._finalized = True
 
-    def save_overload(self, sig, data):
-        """Keep the code of a signature, if it can be."""
-        with contextlib.suppress(OSError):  # a full disk, a folder taken away
-            super().save_overload(sig, data)
+
+@register_pass(mutates_CFG=True, analysis_only=False)
+class LinkedLowering(NativeLowering):
+    """Numba's lowering to a library that callers link, with no address of its own."""
+
+    _name = "linked_lowering"
+
+    def run_pass(self, state):
+        """Lower the function and make it known to its callers."""
+        state.library = Linked(state.targetctx.codegen(), state.func_id.func_qualname)
+        state.flags.no_compile = True
+        super().run_pass(state)
+        lowered, context = state["cr"], state.targetctx
+        name = lowered.fndesc.qualname
+        nowhere = 1  # an address that is not called
+        key = _dynfunc.make_function(
+            lowered.fndesc.lookup_module(), name, name, nowhere, lowered.env, (state.library,)
+        )
+        context.insert_user_function(key, lowered.fndesc, [state.library])
+        state["cr"] = lowered._replace(cfunc=key)
+        return True
+
+
+class LinkedCompiler(Compiler):
+    """Numba's compiler with `LinkedLowering`."""
+
+    def define_pipelines(self):
+        """Return Numba's passes with the lowering exchanged."""
+        passes = super().define_pipelines()
+        for manager in passes:
+            manager.passes = [
+                (LinkedLowering if step is NativeLowering else step, what)
+                for step, what in manager.passes
+            ]
+            manager._finalized = False
+            manager.finalize()
+        return passes
 
 
 class Kernel:
-    """A function for other kernels to call.
-
-    A wrapper for calls from Python costs as much to compile as the function itself: it is made at
-    the first such call, as `entry`.
-    """
+    """A function for other kernels to call, and for Python: that is its `entry`."""
 
     def __init__(self, function, options):
-        bare = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-        self._inner = _dispatcher(function, options | bare, "bare")
-        self._numba_type_ = numba.types.Dispatcher(self._inner)
+        linked = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+        self._linked = _dispatcher(function, options | linked, pipeline_class=LinkedCompiler)
+        self._numba_type_ = numba.types.Dispatcher(self._linked)
         self.options = options
         functools.update_wrapper(self, function)
 
     @functools.cached_property
     def entry(self):
-        """The dispatcher of the function with its wrapper."""
-        return _dispatcher(self.__wrapped__, self.options, "entry")
+        """The dispatcher for calls from Python, whose machine code is kept."""
+        dispatcher = _dispatcher(self.__wrapped__, self.options)
+        dispatcher._cache = SealedCache(self.__wrapped__)
+        return dispatcher
 
     def __call__(self, *args):
         """Call it from Python."""
         return self.entry(*args)
 
     def __getattr__(self, name):
-        return getattr(self._inner, name)
+        return getattr(self._linked, name)
 
 
-def _dispatcher(function, options, kind):
-    """Numba's dispatcher, with the sealed cache.
+def _dispatcher(function, options, **how):
+    """Numba's dispatcher.
 
     A constant argument gets no version of its own, which Numba would compile for every one.
     """
-    dispatcher = numba.njit(nogil=True, error_model="numpy", **options)(function)
+    dispatcher = numba.njit(nogil=True, error_model="numpy", **how, **options)(function)
     typed = dispatcher.get_call_template
     dispatcher.get_call_template = lambda args, kws: typed(
         [numba.types.unliteral(a) for a in args], kws
     )
-    dispatcher._cache = SealedCache(function, kind)
     return dispatcher
 
 
@@ -211,14 +130,6 @@ def compiler(fastmath, owning=False, inline="never"):
         return Kernel(function, options)
 
     return decorate
-
-
-numba.config.CACHE_DIR = str(open_cache(Path(__file__).parent))
-
-
-def is_cold():
-    """Return whether nothing is kept yet for these sources: the first call will compile."""
-    return not any(Path(numba.config.CACHE_DIR).rglob("*.nbi"))
 
 
 jit = compiler({"contract", "reassoc", "nsz", "arcp"})

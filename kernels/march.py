@@ -21,7 +21,7 @@ from kernels.newton import (
     minimise,
     reduce,
 )
-from kernels.rows import copy
+from kernels.rows import copy, zero
 from kernels.step import At, Step, find_near, rub
 
 WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR, RESIDUAL = range(9)
@@ -220,7 +220,7 @@ def _grips_agree(x, terms, near, unknowns, tolerance, room, todo):
         copy(work.trial, at.g)
         copy(work.escape, at.rubbing)
     todo[LOOPS] += 1.0
-    work.dx[:] = 0.0
+    zero(work.dx)
     return agree
 
 
@@ -241,7 +241,7 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
         )
         todo[SPENT] += spent
         if outcome == OUTGROWN and todo[SPENT] < GRIP_LOOPS * tolerance.iterations:
-            work.dx[:] = 0.0
+            zero(work.dx)
             return outcome
         if outcome == CONVERGED and terms.friction.mu > 0.0:
             if not _grips_agree(state.x, terms, near, unknowns, tolerance, room, todo):
@@ -251,7 +251,7 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
         todo[LOOPS] = -1.0
         if outcome != CONVERGED:
             copy(before.x0, state.x)
-            at.least[:] = 0.0  # what was found last was found elsewhere
+            zero(at.least)  # what was found last was found elsewhere
             todo[SHARE] *= 0.5
             work.kept[0] = np.inf
             if outcome == INTERRUPTED or todo[SHARE] < SMALLEST:

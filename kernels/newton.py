@@ -14,7 +14,7 @@ import numpy as np
 
 from kernels import chain, system
 from kernels.jit import jit, jit_exact, jit_inlined
-from kernels.rows import copy
+from kernels.rows import copy, zero, zero_rows
 from kernels.step import covers, evaluate, factor, step_limit
 
 CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
@@ -74,7 +74,7 @@ class Work(NamedTuple):
 @jit
 def reduce(g, leader, residual):
     """Fill ``residual`` (n,) with ``g``, what is tied added to its leader, zero where held."""
-    residual[:] = 0.0
+    zero(residual)
     for i in range(g.size):
         if leader[i] >= 0:
             residual[leader[i]] += g[i]
@@ -121,15 +121,15 @@ def _solve(terms, near, unknowns, at, work, remaining):
     if remaining != 0.0:
         for i in range(direction.size):
             direction[i] = remaining if unknowns.leader[i] == unknowns.driven else 0.0
-        at.shape.slope[:] = 0.0
-        at.shape.moment[:] = 0.0
+        zero_rows(at.shape.slope)
+        zero(at.shape.moment)
         chain.product(terms.walls, at.stiffness, direction, at.shape)
-        direction[:] = 0.0
+        zero(direction)
         chain.gather(terms.walls, at.shape, direction)
         for i in range(direction.size):
             direction[i] += matrix.pull[i] * remaining
     else:
-        direction[:] = 0.0
+        zero(direction)
     for i in range(direction.size):
         direction[i] = -at.g[i] - direction[i]
     system.solve(near.system, terms.layout, direction)

@@ -89,6 +89,9 @@ def columns(bits, order):
     row = np.empty(start[n], np.int64)
     for p in range(n):
         for m in range(_members(bits[order[p]], members)):
-            row[start[p] + m] = position[members[m]]
-        row[start[p] : start[p + 1]].sort()
+            at, later = start[p] + m, position[members[m]]
+            while at > start[p] and row[at - 1] > later:
+                row[at] = row[at - 1]
+                at -= 1
+            row[at] = later
     return start, row

@@ -9,7 +9,7 @@ import numpy as np
 
 from kernels.distance import squared_distance
 from kernels.jit import jit_exact, jit_owning
-from kernels.rows import pair
+from kernels.rows import grouped, pair, sort
 
 
 class Pairs(NamedTuple):
@@ -32,21 +32,13 @@ class Pairs(NamedTuple):
 
 
 @jit_owning
-def _binned(x, n_nodes, low_x, low_y, cell, nx, ny):
+def _binned(x, n_nodes, grid):
     """Return (start, order): the nodes of cell c are order[start[c]:start[c + 1]]."""
-    start = np.zeros(nx * ny + 1, np.int64)
+    low_x, low_y, cell, nx, ny = grid
     home = np.empty(n_nodes, np.int64)
     for p in range(n_nodes):
         home[p] = int((x[2 * p + 1] - low_y) / cell) * nx + int((x[2 * p] - low_x) / cell)
-        start[home[p] + 1] += 1
-    for c in range(nx * ny):
-        start[c + 1] += start[c]
-    order = np.empty(n_nodes, np.int64)
-    fill = start[:-1].copy()
-    for p in range(n_nodes):
-        order[fill[home[p]]] = p
-        fill[home[p]] += 1
-    return start, order
+    return grouped(home, nx * ny)
 
 
 @jit_exact
@@ -62,48 +54,63 @@ def _grid(x, n_nodes, cell):
     return low_x, low_y, cell, int((high_x - low_x) / cell) + 1, int((high_y - low_y) / cell) + 1
 
 
-@jit_owning
-def near(x, n_nodes, edges, radius):
-    """Return (node, edge, distance) of the pairs closer than ``radius`` (m) that share no node."""
-    low_x, low_y, cell, nx, ny = _grid(x, n_nodes, radius)
-    start, order = _binned(x, n_nodes, low_x, low_y, cell, nx, ny)
-    node = np.empty(8 * n_nodes, np.int64)
-    edge = np.empty(8 * n_nodes, np.int64)
-    distance = np.empty(8 * n_nodes)
+@jit_exact
+def _span(x, c, a, b, radius, low, cell, most):
+    """Return the first and the last cell along axis ``c`` within ``radius`` of segment a-b."""
+    one, two = x[2 * a + c], x[2 * b + c]
+    first = int((min(one, two) - radius - low) / cell)
+    return max(first, 0), min(int((max(one, two) + radius - low) / cell), most - 1)
+
+
+@jit_exact
+def _list(x, edges, radius, grid, bins, node, edge, distance):
+    """Write the pairs as far as there is room; return their number."""
+    low_x, low_y, cell, nx, ny = grid
+    start, order = bins
     count = 0
     for k in range(edges.shape[0]):
         a, b = pair(edges, k)
-        left = max(int((min(x[2 * a], x[2 * b]) - radius - low_x) / cell), 0)
-        right = min(int((max(x[2 * a], x[2 * b]) + radius - low_x) / cell), nx - 1)
-        down = max(int((min(x[2 * a + 1], x[2 * b + 1]) - radius - low_y) / cell), 0)
-        up = min(int((max(x[2 * a + 1], x[2 * b + 1]) + radius - low_y) / cell), ny - 1)
+        left, right = _span(x, 0, a, b, radius, low_x, cell, nx)
+        down, up = _span(x, 1, a, b, radius, low_y, cell, ny)
         for row in range(down, up + 1):
             for q in range(start[row * nx + left], start[row * nx + right + 1]):
                 p = order[q]
                 if p == a or p == b:
                     continue
                 d2 = squared_distance(x, p, a, b)
-                if d2 >= radius * radius:
-                    continue
-                if count == node.size:
-                    node = np.append(node, np.empty_like(node))
-                    edge = np.append(edge, np.empty_like(edge))
-                    distance = np.append(distance, np.empty_like(distance))
-                node[count], edge[count], distance[count] = p, k, np.sqrt(d2)
-                count += 1
-    return node[:count], edge[:count], distance[:count]
+                if d2 < radius * radius:
+                    if count < node.size:
+                        node[count], edge[count], distance[count] = p, k, np.sqrt(d2)
+                    count += 1
+    return count
+
+
+@jit_owning
+def near(x, n_nodes, edges, radius):
+    """Return (node, edge, distance) of the pairs closer than ``radius`` (m) that share no node."""
+    grid = _grid(x, n_nodes, radius)
+    bins = _binned(x, n_nodes, grid)
+    count = 8 * n_nodes
+    while True:
+        node, edge = np.empty(count, np.int64), np.empty(count, np.int64)
+        distance = np.empty(count)
+        count = _list(x, edges, radius, grid, bins, node, edge, distance)
+        if count <= node.size:
+            return node[:count], edge[:count], distance[:count]
 
 
 @jit_owning
 def find(x, contact, radius):
     """Return the `Pairs` closer than ``radius`` at ``x``, with the weights of ``contact``."""
-    node, edge, distance = near(x, contact.tributary.size, contact.edges, radius)
-    nearest = np.argsort(distance)
-    node, edge, distance = node[nearest], edge[nearest], distance[nearest]
-    n = node.size
+    listed = near(x, contact.tributary.size, contact.edges, radius)
+    n = listed[0].size
+    nearest = np.empty(n, np.int64)
+    sort(listed[2], nearest)
+    node, edge, distance = np.empty(n, np.int64), np.empty(n, np.int64), np.empty(n)
     weight, d_contact, subtract = np.empty(n), np.empty(n), np.empty((n, 2))
     for k in range(n):
-        p, e = node[k], edge[k]
+        p, e = listed[0][nearest[k]], listed[1][nearest[k]]
+        node[k], edge[k], distance[k] = p, e, listed[2][nearest[k]]
         weight[k] = contact.tributary[p]
         d_contact[k] = 0.5 * (contact.node_thickness[p] + contact.edge_thickness[e])
         subtract[k, 0], subtract[k, 1] = contact.subtract[e, 0], contact.subtract[e, 1]

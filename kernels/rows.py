@@ -1,6 +1,8 @@
-"""Rows of index arrays as tuples, which compiled code can unpack; copies of vectors."""
+"""Loops that Numba compiles in no time: rows as tuples, vectors filled, copied and sorted."""
 
-from kernels.jit import jit
+import numpy as np
+
+from kernels.jit import jit, jit_exact, jit_owning
 
 
 @jit
@@ -20,3 +22,70 @@ def copy(source, to):
     """Write ``source`` (n,) into ``to`` (n,)."""
     for i in range(source.size):
         to[i] = source[i]
+
+
+@jit
+def zero(vector):
+    """Fill ``vector`` (n,) with zeros."""
+    for i in range(vector.size):
+        vector[i] = 0.0
+
+
+@jit
+def zero_rows(matrix):
+    """Fill ``matrix`` (m, n) with zeros."""
+    for k in range(matrix.shape[0]):
+        for i in range(matrix.shape[1]):
+            matrix[k, i] = 0.0
+
+
+@jit_exact
+def greatest(vector):
+    """Return the largest entry of ``vector`` (n,)."""
+    most = vector[0]
+    for i in range(vector.size):
+        most = max(most, vector[i])
+    return most
+
+
+@jit_exact
+def _sift(keys, order, first, end):
+    """Let the entry at ``first`` of a heap that ends before ``end`` sink to its place."""
+    item, place = order[first], first
+    while 2 * place + 1 < end:
+        child = 2 * place + 1
+        if child + 1 < end and keys[order[child]] < keys[order[child + 1]]:
+            child += 1
+        if not keys[item] < keys[order[child]]:
+            break
+        order[place] = order[child]
+        place = child
+    order[place] = item
+
+
+@jit_exact
+def sort(keys, order):
+    """Fill ``order`` (n,) with the indices that sort ``keys`` (n,), by heaps."""
+    n = order.size
+    for i in range(n):
+        order[i] = i
+    for first in range(n // 2 - 1, -1, -1):
+        _sift(keys, order, first, n)
+    for end in range(n - 1, 0, -1):
+        order[0], order[end] = order[end], order[0]
+        _sift(keys, order, 0, end)
+
+
+@jit_owning
+def grouped(group, n):
+    """Return (start (n + 1,), order): the members of group g are order[start[g]:start[g + 1]]."""
+    start, order = np.zeros(n + 1, np.int64), np.empty(group.size, np.int64)
+    for g in group:
+        start[g + 1] += 1
+    for g in range(n):
+        start[g + 1] += start[g]
+    free = start.copy()
+    for k in range(group.size):
+        order[free[group[k]]] = k
+        free[group[k]] += 1
+    return start, order

@@ -26,7 +26,7 @@ from kernels import (
     system,
 )
 from kernels.jit import jit_exact, jit_inlined, jit_owning
-from kernels.rows import pair, triple
+from kernels.rows import pair, triple, zero, zero_rows
 
 STRETCH, BEND, CONTACT = range(3)
 SHORTEST, OPENING = range(2)
@@ -129,8 +129,8 @@ def _start(x, step, at):
 
 @jit_inlined
 def _damping(terms, step, at, projected):
-    at.shape.slope[:] = 0.0
-    at.shape.moment[:] = 0.0
+    zero_rows(at.shape.slope)
+    zero(at.shape.moment)
     total = damp.evaluate(
         at.u, terms, step.before, step.dt, at.shape, at.stiffness, projected, at.material
     )

@@ -4,6 +4,7 @@ from kernels import blocks, condense
 from kernels.blocks import INNER
 from kernels.jit import jit, jit_inlined
 from kernels.pattern import CONDENSED, RIGID
+from kernels.rows import zero
 
 
 @jit
@@ -78,14 +79,14 @@ def _expand(system, layout, b):
 def solve(system, layout, b):
     """Solve in place for a right side ``b`` (n,) by coordinate; what is held stays at zero."""
     home, vector, joints = system.matrix.home, system.matrix.vector, system.joints
-    vector[:] = 0.0
+    zero(vector)
     for c in range(b.size):
         if home[c] >= 0:
             vector[home[c]] += b[c]
     for w in range(system.kind.size):
         if system.kind[w] == CONDENSED:
             rows = system.rows[system.row_start[w] : system.row_start[w + 1]]
-            joints[:] = 0.0
+            zero(joints)
             condense.forward(rows, b[_inner(system, layout, w)], joints)
             for c in range(condense.OUTER):
                 h = home[layout.outer[w, c]]
@@ -99,10 +100,10 @@ def solve(system, layout, b):
 @jit
 def descend(system, layout, wall, failed, direction):
     """Fill ``direction`` (n,) with d such that d^T A d is the negative pivot of `factor`."""
-    direction[:] = 0.0
+    zero(direction)
     if wall >= 0:
         rows = system.rows[system.row_start[wall] : system.row_start[wall + 1]]
-        system.joints[:] = 0.0
+        zero(system.joints)
         inner = direction[_inner(system, layout, wall)]
         inner[failed] = 1.0
         condense.backward(rows, inner, system.joints, failed)

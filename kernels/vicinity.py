@@ -5,31 +5,58 @@ network from the segment; a pair nearer than t at rest touches at 0.9 x its rest
 the rest state is free of stress. Run once for a scene.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from kernels.distance import squared_distance
-from kernels.jit import jit_owning
+from kernels.jit import jit_exact, jit_owning
 from kernels.pairs import near
+from kernels.rows import greatest, grouped, pair
 
 RADIUS = 1.5  # times the mean thickness, along the network
 REST_SHARE = 0.9
+UNLISTED = -1.0
+
+
+class Graph(NamedTuple):
+    """Edges (m, 2) with their lengths l0 (m,), m; those at node p, ascending, are
+    incident[start[p]:start[p + 1]].
+    """
+
+    edges: np.ndarray
+    l0: np.ndarray
+    start: np.ndarray
+    incident: np.ndarray
+
+
+class Pairs(NamedTuple):
+    """Pairs in the order in which they were found, of which the first ``count`` (1,) are there."""
+
+    node: np.ndarray
+    edge: np.ndarray
+    weight: np.ndarray
+    count: np.ndarray
+
+
+class Rules(NamedTuple):
+    """Rules of node p: start[p] .. start[p + 1]. edge, weight (m), distance (m) (s,); subtract
+    (s, 2): as in `pairs.Pairs`.
+    """
+
+    start: np.ndarray
+    edge: np.ndarray
+    weight: np.ndarray
+    distance: np.ndarray
+    subtract: np.ndarray
 
 
 @jit_owning
 def incidence(n_nodes, edges):
     """Return (start (n + 1,), incident (2 m,)): the edges at each node, ascending."""
-    start = np.zeros(n_nodes + 1, np.int64)
-    for k in range(edges.shape[0]):
-        start[edges[k, 0] + 1] += 1
-        start[edges[k, 1] + 1] += 1
-    for p in range(n_nodes):
-        start[p + 1] += start[p]
-    fill = start[:-1].copy()
-    incident = np.empty(2 * edges.shape[0], np.int64)
-    for k in range(edges.shape[0]):
-        for p in edges[k]:
-            incident[fill[p]] = k
-            fill[p] += 1
+    start, incident = grouped(edges.ravel(), n_nodes)
+    for q in range(incident.size):
+        incident[q] //= 2
     return start, incident
 
 
@@ -45,34 +72,35 @@ def owners(n_nodes, edges):
     return subtract
 
 
-@jit_owning
-def _reach_from(source, radius, edges, l0, graph, far, queue):
-    """Fill ``far`` with distances along the network up to ``radius``; return the nodes reached.
+@jit_exact
+def _spread(e, radius, graph, far, reached, queue):
+    """Fill ``far`` with distances along the network from edge ``e``, up to ``radius``.
 
-    Nodes may enter the queue again when a shorter way is found; ``far`` is infinite elsewhere.
+    Return how many nodes were ``reached``. Nodes may enter the queue again when a shorter way is
+    found; ``far`` is infinite elsewhere.
     """
-    start, incident = graph
-    far[source] = 0.0
-    reached = [source]
-    queue[0] = source
-    head, tail = 0, 1
+    reached[0], reached[1] = pair(graph.edges, e)
+    queue[0], queue[1] = reached[0], reached[1]
+    far[reached[0]] = far[reached[1]] = 0.0
+    head, tail, count = 0, 2, 2
     while head < tail:
         p = queue[head % queue.size]
         head += 1
-        for q in range(start[p], start[p + 1]):
-            k = incident[q]
-            other = edges[k, 0] + edges[k, 1] - p
-            through = far[p] + l0[k]
+        for q in range(graph.start[p], graph.start[p + 1]):
+            k = graph.incident[q]
+            other = graph.edges[k, 0] + graph.edges[k, 1] - p
+            through = far[p] + graph.l0[k]
             if through < far[other] and through <= radius:
                 if far[other] == np.inf:
-                    reached.append(other)
+                    reached[count] = other
+                    count += 1
                 far[other] = through
                 queue[tail % queue.size] = other
                 tail += 1
-    return reached
+    return count
 
 
-@jit_owning
+@jit_exact
 def _half_weight(near_end, far_end, h, radius):
     """Return the length of a half element (h / 2) that is farther than ``radius`` from a segment.
 
@@ -84,158 +112,138 @@ def _half_weight(near_end, far_end, h, radius):
     return max(high - low, 0.0)
 
 
-@jit_owning
-def _weight(p, e, radius, far_from_ends, mesh):
-    """Return the contact length of node ``p`` against edge ``e``, given distances from e's ends."""
-    edges, l0, start, incident = mesh
+@jit_exact
+def _weight(p, e, radius, far, graph):
+    """Return the contact length of node ``p`` against edge ``e``, given distances from it."""
     total = 0.0
-    for q in range(start[p], start[p + 1]):
-        k = incident[q]
+    for q in range(graph.start[p], graph.start[p + 1]):
+        k = graph.incident[q]
         if k != e:
-            other = edges[k, 0] + edges[k, 1] - p
-            total += _half_weight(far_from_ends[p], far_from_ends[other], l0[k], radius)
+            other = graph.edges[k, 0] + graph.edges[k, 1] - p
+            total += _half_weight(far[p], far[other], graph.l0[k], radius)
     return total
 
 
+@jit_exact
+def _reduce(graph, node_thickness, edge_thickness, tributary, far, reached, queue, found):
+    """Write the pairs whose weight the network reduces to ``found``, so far as there is room."""
+    thickest, longest, count = greatest(node_thickness), greatest(graph.l0), 0
+    for e in range(graph.edges.shape[0]):
+        widest = RADIUS * 0.5 * (edge_thickness[e] + thickest) + longest
+        n_reached = _spread(e, widest, graph, far, reached, queue)
+        for i in range(2, n_reached):
+            p = reached[i]
+            radius = RADIUS * 0.5 * (edge_thickness[e] + node_thickness[p])
+            weight = _weight(p, e, radius, far, graph)
+            if weight < (1.0 - 1e-12) * tributary[p]:
+                if count < found.node.size:
+                    found.node[count], found.edge[count] = p, e
+                    found.weight[count] = weight if weight > 1e-9 * tributary[p] else 0.0
+                count += 1
+        for i in range(n_reached):
+            far[reached[i]] = np.inf
+    found.count[0] = count
+
+
 @jit_owning
-def _near_pairs(edges, l0, node_thickness, edge_thickness, tributary):
-    """Return lists (node, edge, weight) of pairs whose weight the network reduces."""
+def _reduced(graph, node_thickness, edge_thickness, tributary):
+    """Return the `Pairs` whose weight the network reduces."""
     n = tributary.size
-    start, incident = incidence(n, edges)
-    mesh = (edges, l0, start, incident)
-    longest = l0.max()
-    far, queue = np.full(n, np.inf), np.empty(4 * n + 16, np.int64)
-    from_segment = np.full(n, np.inf)
-    node, edge, weight = [0], [0], [0.0]
-    for e in range(edges.shape[0]):
-        widest = RADIUS * 0.5 * (edge_thickness[e] + node_thickness.max()) + longest
-        touched = [0]
-        for end in edges[e]:
-            for p in _reach_from(end, widest, edges, l0, (start, incident), far, queue):
-                if from_segment[p] == np.inf:
-                    touched.append(p)
-                from_segment[p] = min(from_segment[p], far[p])
-                far[p] = np.inf
-        for p in touched[1:]:
-            if p != edges[e, 0] and p != edges[e, 1]:
-                radius = RADIUS * 0.5 * (edge_thickness[e] + node_thickness[p])
-                w = _weight(p, e, radius, from_segment, mesh)
-                if w < (1.0 - 1e-12) * tributary[p]:
-                    node.append(p)
-                    edge.append(e)
-                    weight.append(w if w > 1e-9 * tributary[p] else 0.0)
-        for p in touched[1:]:
-            from_segment[p] = np.inf
-    return node[1:], edge[1:], weight[1:]
+    far, reached = np.full(n, np.inf), np.empty(n, np.int64)
+    queue, size = np.empty(4 * n + 16, np.int64), 8 * n
+    while True:
+        found = Pairs(
+            np.empty(size, np.int64), np.empty(size, np.int64), np.empty(size),
+            np.zeros(1, np.int64),
+        )  # fmt: skip
+        _reduce(graph, node_thickness, edge_thickness, tributary, far, reached, queue, found)
+        size = found.count[0]
+        if size <= found.node.size:
+            return found
 
 
-@jit_owning
-def _by_node(n, node):
-    """Return (start, order) that sorts pairs by node."""
-    start = np.zeros(n + 1, np.int64)
-    for p in node:
-        start[p + 1] += 1
-    for p in range(n):
-        start[p + 1] += start[p]
-    return start, np.argsort(node, kind="mergesort")
+@jit_exact
+def _list(k, value, weight, listed, count):
+    """List edge ``k`` with contact length ``value``, unless it is listed already."""
+    if weight[k] == UNLISTED:
+        weight[k] = value
+        listed[count] = k
+        return count + 1
+    return count
 
 
-@jit_owning
-def _unique_with_neighbours(p, listed, mesh):
-    """Return the edges of ``listed`` and all that share a vertex with them, without those at p."""
-    edges, _, start, incident = mesh
-    found = [np.int64(0)]
-    for e in listed:
-        for v in edges[e]:
-            for q in range(start[v], start[v + 1]):
-                k = incident[q]
-                if edges[k, 0] != p and edges[k, 1] != p and k not in found[1:]:
-                    found.append(k)
-    return found[1:]
+@jit_exact
+def _entries(p, graph, tributary, reduced, close, weight, listed):
+    """List the edges with rules for node ``p``; return their number.
+
+    Beside those that are near, along the network or across, all that share a vertex with one.
+    """
+    count = 0
+    for start, order, edge, value in reduced, close:
+        for q in range(start[p], start[p + 1]):
+            count = _list(edge[order[q]], value[order[q]], weight, listed, count)
+    for i in range(count):
+        for v in graph.edges[listed[i]]:
+            for q in range(graph.start[v], graph.start[v + 1]):
+                k = graph.incident[q]
+                if graph.edges[k, 0] != p and graph.edges[k, 1] != p:
+                    count = _list(k, tributary[p], weight, listed, count)
+    return count
 
 
-@jit_owning
-def _subtract(p, entries, weights, mesh, subtract):
-    """Fill ``subtract``: at each vertex of the entries all but the heaviest segment come off."""
-    edges, _, _, _ = mesh
-    for i in range(len(entries)):
-        for side in range(2):
-            v = edges[entries[i], side]
-            subtract[i, side] = 0.0
-            for j in range(len(entries)):
-                e = entries[j]
-                if j != i and (edges[e, 0] == v or edges[e, 1] == v):
-                    heavier = weights[j] > weights[i]
-                    earlier = weights[j] == weights[i] and e < entries[i]
-                    if heavier or earlier:
-                        subtract[i, side] = 1.0
-            if subtract[i, side] == 0.0:
-                subtract[i, side] = _full_elsewhere(p, v, entries, i, weights, mesh)
-
-
-@jit_owning
-def _full_elsewhere(p, v, entries, i, weights, mesh):
-    """Return 1.0 if an ordinary edge at ``v`` that is not among the entries owns the vertex."""
-    edges, _, start, incident = mesh
-    first = incident[start[v]]
-    for q in range(start[v], start[v + 1]):
-        k = incident[q]
-        if edges[k, 0] == p or edges[k, 1] == p or k in entries:
-            continue
-        if k == first:  # the ordinary owner keeps the vertex
-            return 1.0
-    return 0.0
+@jit_exact
+def _is_counted(p, e, v, graph, weight):
+    """Return whether vertex ``v`` of edge ``e`` counts with another: the heaviest one keeps it."""
+    for q in range(graph.start[v], graph.start[v + 1]):
+        k = graph.incident[q]
+        if k != e and weight[k] != UNLISTED:
+            if weight[k] > weight[e] or (weight[k] == weight[e] and k < e):
+                return True
+    first = graph.incident[graph.start[v]]  # which keeps it where no rule is
+    return weight[first] == UNLISTED and graph.edges[first, 0] != p and graph.edges[first, 1] != p
 
 
 @jit_owning
 def special_pairs(x, edges, l0, node_thickness, edge_thickness, tributary):
-    """Return (start, edge, weight, distance, subtract) of all pairs with rules of their own.
+    """Return the `Rules` of all pairs that have their own.
 
-    Shapes (n + 1,), (s,), (s,), (s,), (s, 2); lengths in m. Every segment that shares a vertex with
-    a pair of reduced weight or distance is listed too, so that vertices are counted once.
+    Every segment that shares a vertex with a pair of reduced weight or distance is listed too, so
+    that vertices are counted once.
     """
-    n = tributary.size
+    n, m = tributary.size, edges.shape[0]
     start, incident = incidence(n, edges)
-    mesh = (edges, l0, start, incident)
-    node, edge, weight = _near_pairs(edges, l0, node_thickness, edge_thickness, tributary)
-    near_start, near_order = _by_node(n, np.array(node, dtype=np.int64))
-    close_node, close_edge, _ = near(x, n, edges, max(node_thickness.max(), edge_thickness.max()))
-    close_start, close_order = _by_node(n, close_node)
-    out_start = np.zeros(n + 1, np.int64)
-    out_edge, out_weight, out_distance, out_subtract = [0], [0.0], [0.0], [(0.0, 0.0)]
+    graph = Graph(edges, l0, start, incident)
+    found = _reduced(graph, node_thickness, edge_thickness, tributary)
+    start, order = grouped(found.node[: found.count[0]], n)
+    reduced = start, order, found.edge, found.weight
+    widest = max(greatest(node_thickness), greatest(edge_thickness))
+    node, edge, length = near(x, n, edges, widest)
+    for k in range(node.size):
+        length[k] = tributary[node[k]]
+    start, order = grouped(node, n)
+    close = start, order, edge, length
+    weight, listed = np.full(m, UNLISTED), np.empty(m, np.int64)
+    first = np.zeros(n + 1, np.int64)
     for p in range(n):
-        listed = [np.int64(edge[k]) for k in near_order[near_start[p] : near_start[p + 1]]]
-        reduced = [weight[k] for k in near_order[near_start[p] : near_start[p + 1]]]
-        for k in close_order[close_start[p] : close_start[p + 1]]:
-            if close_edge[k] not in listed:
-                listed.append(close_edge[k])
-                reduced.append(tributary[p])
-        entries = listed[:0]
-        if len(listed) > 0:
-            entries = _unique_with_neighbours(p, listed, mesh)
-        weights = np.full(len(entries), tributary[p])
-        for i in range(len(entries)):
-            for j in range(len(listed)):
-                if listed[j] == entries[i]:
-                    weights[i] = reduced[j]
-        subtract = np.zeros((len(entries), 2))
-        _subtract(p, entries, weights, mesh, subtract)
-        for i in range(len(entries)):
-            e = entries[i]
-            t = 0.5 * (node_thickness[p] + edge_thickness[e])
-            rest = np.sqrt(squared_distance(x, p, edges[e, 0], edges[e, 1]))
-            out_edge.append(e)
-            out_weight.append(weights[i])
-            out_distance.append(t if rest >= t else REST_SHARE * rest)
-            out_subtract.append((subtract[i, 0], subtract[i, 1]))
-        out_start[p + 1] = len(out_edge) - 1
-    subtract_array = np.empty((len(out_edge) - 1, 2))
-    for k in range(subtract_array.shape[0]):
-        subtract_array[k, 0], subtract_array[k, 1] = out_subtract[k + 1]
-    return (
-        out_start,
-        np.array(out_edge[1:]),
-        np.array(out_weight[1:]),
-        np.array(out_distance[1:]),
-        subtract_array,
+        count = _entries(p, graph, tributary, reduced, close, weight, listed)
+        first[p + 1] = first[p] + count
+        for i in range(count):
+            weight[listed[i]] = UNLISTED
+    size = first[n]
+    rules = Rules(
+        first, np.empty(size, np.int64), np.empty(size), np.empty(size), np.empty((size, 2))
     )
+    for p in range(n):
+        count = _entries(p, graph, tributary, reduced, close, weight, listed)
+        for i in range(count):
+            e, k = listed[i], first[p] + i
+            a, b = pair(edges, e)
+            t = 0.5 * (node_thickness[p] + edge_thickness[e])
+            rest = np.sqrt(squared_distance(x, p, a, b))
+            rules.edge[k], rules.weight[k] = e, weight[e]
+            rules.distance[k] = t if rest >= t else REST_SHARE * rest
+            rules.subtract[k, 0] = 1.0 if _is_counted(p, e, a, graph, weight) else 0.0
+            rules.subtract[k, 1] = 1.0 if _is_counted(p, e, b, graph, weight) else 0.0
+        for i in range(count):
+            weight[listed[i]] = UNLISTED
+    return rules

@@ -71,7 +71,7 @@ def _keeping(writer: Writer, waiting: Sequence[Case], done: int) -> Iterator[Sin
 
 def real_simulate() -> Simulate:
     """The real thing, imported when it is needed: it brings the compiled kernels."""
-    from kernels.jit import is_cold
+    from kernels.cache import is_cold
     from sweep.simulate import simulate, warm_up
 
     if is_cold():

@@ -15,18 +15,10 @@ import numba
 import numpy as np
 import pytest
 
+from kernels import cache as kept
 from kernels import jit as home
-from kernels.jit import (
-    SealedFiles,
-    fingerprint,
-    jit,
-    jit_exact,
-    jit_inlined,
-    jit_owning,
-    open_cache,
-    prune,
-    seal,
-)
+from kernels.cache import SealedFiles, fingerprint, open_cache, prune, seal
+from kernels.jit import jit, jit_exact, jit_inlined, jit_owning
 
 DAMAGE = {
     "empty": lambda content: b"",
@@ -63,6 +55,7 @@ def package(tmp_path):
     folder = tmp_path / "kernels"
     folder.mkdir()
     shutil.copy(home.__file__, folder)
+    shutil.copy(kept.__file__, folder)
     (folder / "__init__.py").touch()
     (folder / "callee.py").write_text(
         "from kernels.jit import jit\n\n\n@jit\ndef offset(x):\n    return x + 1.0\n"
@@ -199,10 +192,10 @@ def test_prune_keeps_what_is_new_or_in_use(tmp_path):
         (tmp_path / name).mkdir()
         os.utime(tmp_path / name, (time.time() - 86400 * days - 60,) * 2)
     prune(tmp_path)
-    kept = [f"kernels-{days:02d}" for days in range(home.FOLDERS_KEPT)] + ["other"]
-    assert sorted(path.name for path in tmp_path.iterdir()) == kept
+    stay = [f"kernels-{days:02d}" for days in range(kept.FOLDERS_KEPT)] + ["other"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == stay
 
-    for number in range(home.FOLDERS_KEPT):
+    for number in range(kept.FOLDERS_KEPT):
         (tmp_path / f"kernels-just-used-{number}").mkdir()
     prune(tmp_path)
     assert not (tmp_path / "kernels-07").exists()
