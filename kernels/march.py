@@ -28,6 +28,7 @@ WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR, RESIDUAL 
 TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP = range(9, 15)
 N_COLUMNS = 15
 SMALLEST = 2.0**-12  # share of a step
+FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 GRIP_LOOPS = 30  # fixed-point iterations of friction
 ROW, DONE, SHARE, SPENT, LOOPS, MOVE = range(6)  # of what is to be done: see `_go`
 
@@ -192,15 +193,21 @@ def _write(out, k, state, terms, near, unknowns, at):
 
 
 @jit_inlined
-def _begin(terms, stage, state, near, room, todo):
-    """Set out on the next step, from where the last one ended."""
-    before, _, work, grips, x_pred = room
-    x, dt = state.x, stage.dt * todo[SHARE]
+def _begin(terms, stage, target, driven, state, near, room, todo):
+    """Set out on the next step, from where the last one ended and on as that went."""
+    before, at, work, grips, x_pred = room
+    x, dt, more = state.x, stage.dt * todo[SHARE], 0.0
+    if driven >= 0:
+        remaining = target - x[driven]
+        if remaining * at.u[driven] > 0.0 and abs(remaining) <= FURTHER * abs(at.u[driven]):
+            more = remaining / at.u[driven]
     copy(x, before.x0)
     damp.prepare(terms, before)
     for i in range(x.size):
-        work.dx[i] = dt * state.v[i] if dt < np.inf else 0.0
+        work.dx[i] = dt * state.v[i] if dt < np.inf else more * at.u[i]
         x_pred[i] = x[i] + work.dx[i]
+    if more > 0.0:
+        work.dx[driven] = remaining
     if terms.friction.mu > 0.0:
         friction.lag(x, terms.contact, near.pairs, terms.friction, grips)
     todo[LOOPS] = 0.0
@@ -231,7 +238,9 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
     while todo[ROW] < stage.steps:
         if todo[LOOPS] < 0.0:
             todo[SHARE] = min(todo[SHARE], 1.0 - todo[DONE])
-            _begin(terms, stage, state, near, room, todo)
+            part = (todo[ROW] + todo[DONE] + todo[SHARE]) / stage.steps
+            target = stage.driven0 + (stage.driven1 - stage.driven0) * part
+            _begin(terms, stage, target, unknowns.driven, state, near, room, todo)
         part = (todo[ROW] + todo[DONE] + todo[SHARE]) / stage.steps
         factor = stage.factor0 + (stage.factor1 - stage.factor0) * part
         target = stage.driven0 + (stage.driven1 - stage.driven0) * part
@@ -252,6 +261,7 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
         if outcome != CONVERGED:
             copy(before.x0, state.x)
             zero(at.least)  # what was found last was found elsewhere
+            zero(at.u)
             todo[SHARE] *= 0.5
             work.kept[0] = np.inf
             if outcome == INTERRUPTED or todo[SHARE] < SMALLEST:

@@ -211,7 +211,8 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
     """
     outcome, iteration, halvings, kept = ITERATIONS, -1, 0, work.kept
     setting_out, searching, arrived, free = True, True, False, True
-    whole, projected, settled = False, False, False
+    whole = unknowns.driven >= 0 and work.dx[unknowns.driven] == target - x[unknowns.driven]
+    projected, settled = False, False
     value, remaining, share, model, escape = 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0)
     place = (-1, -1, 0.0)  # of the first negative pivot of the exact Hessian
     most, before = _longest(work.dx, unknowns), np.inf
