@@ -11,6 +11,7 @@ else `0.7 lower + 0.3 upper` with the tension curve P, nominal strain e < 0 and 
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +41,7 @@ class StressLaw:
     coefficients: Floats
 
 
+@lru_cache(maxsize=64)
 def stress_law(material: Material) -> StressLaw:
     """The law of a material under uniaxial stress; the plane-strain factor is not in it."""
     if material.stretch == "linear":
