@@ -16,7 +16,6 @@ from sweep.result import Result
 from sweep.store import finished_ids
 from sweep.writer import Writer
 
-
 AT_RISK = 1.0  # seconds of each worker's time in results that a kill may take
 
 
@@ -51,7 +50,7 @@ def run_sweep(
         with interruptible(stop):
             if chosen:
                 plan, costs = Plan(waiting, workers), {case.case_id: cost(case) for case in waiting}
-                with Progress(costs, len(done)) as told, _keeping(writer, plan, told) as keep:
+                with Progress(costs, len(done)) as told, keeping(writer, plan, told) as keep:
                     run(plan, chosen, keep, stop, scheduler)
             writer.fold()
     kept = len(cases.keys() & finished_ids(out, retry_failed))
@@ -62,10 +61,10 @@ def run_sweep(
 
 
 @contextmanager
-def _keeping(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
-    """A sink that seals results and then counts them aloud: the first at once, to show that it works.
+def keeping(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
+    """A sink that seals results and then counts them aloud: the first at once, as a sign of life.
 
-    Later ones wait until they are worth it: a part costs about 50 ms to seal and to fold.
+    Later ones wait until they are worth it: a part takes about 50 ms to seal and to fold.
     """
     unsealed: list[Result] = []
     begun = progress.done
@@ -77,7 +76,7 @@ def _keeping(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
 
     def keep(results: list[Result]) -> None:
         unsealed.extend(results)
-        worth = sum(result.summary["cpu_s"] for result in unsealed)
+        worth = sum(float(result.summary["cpu_s"]) for result in unsealed)
         if progress.done == begun or not worth < AT_RISK * plan.workers:  # NaN: cannot be told
             seal()
 
