@@ -25,7 +25,7 @@ exit status: 0 done, 1 some cases failed or interrupted, 2 wrong config, file or
 RUN = """Simulate every case of CONFIG that the results file does not hold yet, then rank.
 Finished cases are never lost and never computed twice: after a stop or a kill, or when the
 grid has grown, run the same command again."""
-WARM = """Compile the kernels now, so that the next run starts at once; without it, the first run does.
+WARM = """Compile the kernels now, so that the next run starts at once; else the first run does it.
 It takes about a minute, and again after an update of Crumple or of its packages. The code is kept
 in CRUMPLE_CACHE_DIR, else in ~/.cache/crumple: one call serves all machines of a cluster that
 share this folder and have the same processor."""

@@ -67,7 +67,7 @@ def _knots(
     toe = stress_at(TOE, curve_strain, curve_stress)
     knots = np.r_[strain[own], 0.0, TOE, strain[above]]
     values = np.r_[stress[own], 0.0, toe, stress[above]]
-    slopes = _shape_preserving_slopes(knots, values)
+    slopes = shape_preserving_slopes(knots, values)
     slopes[own.sum() : own.sum() + 2] = toe / TOE  # both ends of the straight line
     if own.any():
         return knots, values, slopes
@@ -79,7 +79,7 @@ def _knots(
     )
 
 
-def _shape_preserving_slopes(knots: Floats, values: Floats) -> Floats:
+def shape_preserving_slopes(knots: Floats, values: Floats) -> Floats:
     """Slopes at the knots (k,), k > 2, by which the cubics between them make no new extremum.
 
     Inside: weighted harmonic mean of the secants on both sides, 0 where they differ in sign
