@@ -45,11 +45,12 @@ def run_sweep(
         check_scheduler(scheduler)
     with Writer(out, axes, describe_run(config_text(sweep, drafts[0]))) as writer:
         done = cases.keys() & finished_ids(out, retry_failed)
-        waiting = [case for case_id, case in cases.items() if case_id not in done]
+        waiting = {case_id: case for case_id, case in cases.items() if case_id not in done}
         chosen = simulate or real_simulate() if waiting else None
         with interruptible(stop):
             if chosen:
-                plan, costs = Plan(waiting, workers), {case.case_id: cost(case) for case in waiting}
+                plan = Plan(waiting.values(), workers)
+                costs = {case_id: cost(case) for case_id, case in waiting.items()}
                 with Progress(costs, len(done)) as told, keeping(writer, plan, told) as keep:
                     run(plan, chosen, keep, stop, scheduler)
             writer.fold()
