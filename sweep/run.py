@@ -16,7 +16,7 @@ from sweep.result import Result
 from sweep.store import finished_ids
 from sweep.writer import Writer
 
-AT_RISK = 1.0  # seconds of each worker's time in results that a kill may take
+AT_RISK = 2.0  # seconds of each worker's time in results that a kill may take
 
 
 class Interrupted(KeyboardInterrupt):

@@ -287,10 +287,10 @@ def _write_values(
 
 
 def _compact(like: Any, total: int) -> dict[str, Any]:
-    """How an array of `total` rows is stored: half the digits, in compressed pieces."""
+    """How an array is stored: half the digits; compressed once it comes from another file."""
     real = like.dtype.kind == "f"
     kind = {"dtype": np.float32 if real else np.int32, "fillvalue": np.nan if real else 0}
-    if total == 0:
+    if total == 0 or isinstance(like, np.ndarray):
         return kind
     pieces = (min(CHUNK, total), *like.shape[1:])
     return kind | {"chunks": pieces, "shuffle": True, "compression": "gzip", "compression_opts": 4}

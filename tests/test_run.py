@@ -17,7 +17,7 @@ from sweep.graph import GraphError
 from sweep.grid import Config, Written
 from sweep.plan import Plan
 from sweep.progress import Progress
-from sweep.run import Interrupted, keeping, run_sweep
+from sweep.run import AT_RISK, Interrupted, keeping, run_sweep
 from sweep.store import StoreError, exists, read_attributes, read_frames, read_history, read_summary
 from sweep.writer import Writer
 
@@ -157,19 +157,19 @@ def told():
     return Progress({case.case_id: 1.0 for case in cases(9)})
 
 
-def took(seconds, numbers):
-    """Results that took so many seconds each."""
+def took(share, numbers):
+    """Results that each took this share of what may be at risk for a worker."""
     found = [simulate(case) for case in cases(len(numbers), numbers[0])]
-    return [replace(r, summary=r.summary | {"cpu_s": seconds}) for r in found]
+    return [replace(r, summary=r.summary | {"cpu_s": share * AT_RISK}) for r in found]
 
 
 def test_first_result_is_sealed_at_once_and_later_ones_when_they_are_worth_it(tmp_path, told):
-    """At most a second of the time of each worker is at risk; NaN might be any time."""
+    """Two workers: what is at risk is at most twice as much. NaN might be any time."""
     out, sealed = tmp_path / "sweep.h5", []
     batches = [(0.1, [0]), (0.9, [1, 2]), (0.3, [3]), (1.9, [4]), (np.nan, [5]), (0.1, [6])]
     with Writer(out) as writer, keeping(writer, Plan([], workers=2), told) as keep:
-        for seconds, numbers in batches:
-            keep(took(seconds, numbers))
+        for share, numbers in batches:
+            keep(took(share, numbers))
             sealed.append(len(read_summary(out)))
             assert told.done == sealed[-1]
     assert sealed == [1, 1, 4, 4, 6, 6]
