@@ -14,6 +14,7 @@ ABOUT = "Which printed infill absorbs the most energy per gram?"
 EXAMPLES = """examples:
   crumple run configs/armor.toml --dry-run      how many cases, how long, how much disk
   crumple run configs/armor.toml                simulate; the same command goes on after a stop
+  crumple warm                                  compile ahead what the first run would compile
   crumple status results/armor.h5               what is done, what failed and why
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
   crumple show results/armor.h5                 the ids of all cases
@@ -24,6 +25,10 @@ exit status: 0 done, 1 some cases failed or interrupted, 2 wrong config, file or
 RUN = """Simulate every case of CONFIG that the results file does not hold yet, then rank.
 Finished cases are never lost and never computed twice: after a stop or a kill, or when the
 grid has grown, run the same command again."""
+WARM = """Compile the kernels now, so that the next run starts at once; else the first run does it.
+It takes about a minute, and again after an update of Crumple or of its packages. The code is kept
+in CRUMPLE_CACHE_DIR, else in ~/.cache/crumple: one call serves all machines of a cluster that
+share this folder and have the same processor."""
 RANK = """List the designs that absorb the most energy, one table for each loading scene.
 Budgets and panel that are not given here are those of the config, [rank]; --by alone ranks
 single specimens of any mass."""
@@ -66,6 +71,8 @@ def parser() -> Parser:
     run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster: tcp://host:8786")
     run.add_argument("--dry-run", action="store_true", help="estimate time and disk, write nothing")
     run.add_argument("--retry-failed", action="store_true", help="compute failed cases once more")
+
+    verbs.add_parser("warm", help="compile ahead", description=WARM, formatter_class=raw)
 
     status = verbs.add_parser("status", help="what is done, and what failed and why")
     status.add_argument("file", type=_path, metavar="F.h5")

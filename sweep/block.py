@@ -129,6 +129,9 @@ def _ragged(cases: Sequence[Mapping[str, np.ndarray]]) -> Ragged:
 def _end_to_end(name: str, cases: Sequence[Mapping], rows: np.ndarray) -> np.ndarray:
     """One array of all cases; NaN for a case with rows that lacks it."""
     like = next(case[name] for case in cases if name in case)
-    blanks = [np.full((n, *like.shape[1:]), np.nan) for n in rows]
-    pairs = zip(cases, blanks, strict=True)
-    return np.concatenate([case.get(name, blank) for case, blank in pairs if case] or [like[:0]])
+    values = [
+        case[name] if name in case else np.full((n, *like.shape[1:]), np.nan)
+        for case, n in zip(cases, rows, strict=True)
+        if case
+    ]
+    return np.concatenate(values or [like[:0]])

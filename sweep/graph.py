@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from dask.base import compute
 from dask.delayed import delayed
+from dask.threaded import get
 
 from sweep.params import Case
 from sweep.plan import Plan
@@ -103,7 +104,7 @@ def _run_on_threads(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop) -> N
     task = delayed(next_batch, pure=False)
     while len(plan) and not stop.asked:
         wave = [task() for _ in range(min(WAVE, len(plan)))]
-        compute(*wave, scheduler="threads", num_workers=plan.workers, optimize_graph=False)
+        compute(*wave, scheduler=get, num_workers=plan.workers, optimize_graph=False)
     if troubles:
         raise troubles[0]
 

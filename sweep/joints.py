@@ -24,7 +24,7 @@ def build_bend(mesh: Mesh, rigidity: Floats, case: Case) -> bend.Bend:
     """``rigidity`` (m,): Y' I of every element, N m^2."""
     length = mesh.rest_length
     inside, at_end = _hinge_weights(mesh.pieces, case.solver.hinges)
-    before, _, after = mesh.inner.T
+    before, _, after = np.ascontiguousarray(mesh.inner.T)
     on = _directions(mesh)
     cosine = np.sum(on[before] * on[after], axis=1)
     sine = on[before, 0] * on[after, 1] - on[before, 1] * on[after, 0]

@@ -1,6 +1,7 @@
 """The lattice as drawn: joints, walls, and the material that its print takes."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,23 @@ class Network:
     bottom: Indices
     top: Indices
 
+    @cached_property
+    def printed_area(self) -> float:
+        """Area of the union of the walls (m^2): flat caps, mitred corners, joints counted once."""
+        import shapely
+
+        lines = shapely.linestrings(self.points[self.walls])
+        bands = [
+            shapely.buffer(
+                shapely.line_merge(shapely.multilinestrings(lines[self.wall_thickness == t])),
+                0.5 * t,
+                cap_style="flat",
+                join_style="mitre",
+            )
+            for t in np.unique(self.wall_thickness)
+        ]
+        return float(shapely.area(shapely.union_all(bands)))
+
 
 def build_network(lattice: Lattice) -> Network:
     """A square grid: joints row by row from below, first the walls along x, then along y."""
@@ -39,29 +57,12 @@ def build_network(lattice: Lattice) -> Network:
     return Network(points, walls, thickness, bottom=joint[0], top=joint[-1])
 
 
-def printed_area(network: Network) -> float:
-    """Area of the union of the walls (m^2): flat caps, mitred corners, joints counted once."""
-    import shapely
-
-    lines = shapely.linestrings(network.points[network.walls])
-    bands = [
-        shapely.buffer(
-            shapely.line_merge(shapely.multilinestrings(lines[network.wall_thickness == t])),
-            0.5 * t,
-            cap_style="flat",
-            join_style="mitre",
-        )
-        for t in np.unique(network.wall_thickness)
-    ]
-    return float(shapely.area(shapely.union_all(bands)))
-
-
 def mass(network: Network, depth: float, density: float) -> float:
     """Mass of the print (kg)."""
-    return density * depth * printed_area(network)
+    return density * depth * network.printed_area
 
 
 def relative_density(network: Network) -> float:
     """Printed area over the area of the outer box, (width + t)(height + t)."""
     width, height = np.ptp(network.points, axis=0) + network.wall_thickness.max()
-    return printed_area(network) / float(width * height)
+    return network.printed_area / float(width * height)

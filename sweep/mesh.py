@@ -1,6 +1,7 @@
 """From a network of walls to nodes, elements, hinges, arms and folds: indices and rest geometry."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,28 +27,28 @@ class Mesh:
     thickness: Floats
     n_joints: int
 
-    @property
+    @cached_property
     def rest_length(self) -> Floats:
         """Length of every element, (m,) m."""
         return np.linalg.norm(self.points[self.edges[:, 1]] - self.points[self.edges[:, 0]], axis=1)
 
-    @property
+    @cached_property
     def inner(self) -> Ints:
         """Nodes inside walls, with the elements before and after: (h, 3) element, node, element."""
         at_end = np.flatnonzero(self.wall[1:] == self.wall[:-1])
         return np.column_stack([at_end, self.edges[at_end, 1], at_end + 1])
 
-    @property
+    @cached_property
     def start(self) -> Ints:
         """First element of every wall and the end of the last, (w + 1,)."""
         return np.flatnonzero(np.diff(self.wall, prepend=-1, append=self.wall[-1] + 1))
 
-    @property
+    @cached_property
     def arm_element(self) -> Ints:
         """Elements at both ends of every wall, (2 w,)."""
         return np.column_stack([self.start[:-1], self.start[1:] - 1]).ravel()
 
-    @property
+    @cached_property
     def arm_joint(self) -> Ints:
         """Joints at both ends of every wall, (2 w,)."""
         first, last = self.start[:-1], self.start[1:] - 1

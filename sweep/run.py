@@ -16,6 +16,8 @@ from sweep.result import Result
 from sweep.store import finished_ids
 from sweep.writer import Writer
 
+AT_RISK = 2.0  # seconds of each worker's time in results that a kill may take
+
 
 class Interrupted(KeyboardInterrupt):
     """A sweep that was told to stop; the text says what is kept and how to go on."""
@@ -43,12 +45,14 @@ def run_sweep(
         check_scheduler(scheduler)
     with Writer(out, axes, describe_run(config_text(sweep, drafts[0]))) as writer:
         done = cases.keys() & finished_ids(out, retry_failed)
-        waiting = [case for case_id, case in cases.items() if case_id not in done]
+        waiting = {case_id: case for case_id, case in cases.items() if case_id not in done}
         chosen = simulate or real_simulate() if waiting else None
         with interruptible(stop):
             if chosen:
-                with _keeping(writer, waiting, len(done)) as keep:
-                    run(Plan(waiting, workers), chosen, keep, stop, scheduler)
+                plan = Plan(waiting.values(), workers)
+                costs = {case_id: cost(case) for case_id, case in waiting.items()}
+                with Progress(costs, len(done)) as told, keeping(writer, plan, told) as keep:
+                    run(plan, chosen, keep, stop, scheduler)
             writer.fold()
     kept = len(cases.keys() & finished_ids(out, retry_failed))
     if stop.asked and kept < len(cases):
@@ -58,15 +62,31 @@ def run_sweep(
 
 
 @contextmanager
-def _keeping(writer: Writer, waiting: Sequence[Case], done: int) -> Iterator[Sink]:
-    """A sink that seals each batch and then counts it aloud."""
-    with Progress({case.case_id: cost(case) for case in waiting}, done) as progress:
+def keeping(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
+    """A sink that seals results and then counts them aloud: the first at once, as a sign of life.
 
-        def keep(results: list[Result]) -> None:
-            writer.append(results)
-            progress.advance(results)
+    Later ones wait until they are worth it: a part takes about 50 ms to seal and to fold.
+    """
+    unsealed: list[Result] = []
+    begun = progress.done
 
+    def seal() -> None:
+        batch, unsealed[:] = unsealed[:], []
+        writer.append(batch)
+        progress.advance(batch)
+
+    def keep(results: list[Result]) -> None:
+        unsealed.extend(results)
+        worth = sum(float(result.summary["cpu_s"]) for result in unsealed)
+        if progress.done == begun or not worth < AT_RISK * plan.workers:  # NaN: cannot be told
+            seal()
+
+    try:
         yield keep
+    except Exception:
+        seal()
+        raise
+    seal()
 
 
 def real_simulate() -> Simulate:

@@ -11,12 +11,22 @@ from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import STRtree, area, buffer, linestrings, union_all
+from shapely import (
+    STRtree,
+    area,
+    buffer,
+    intersects,
+    line_merge,
+    linestrings,
+    multilinestrings,
+    union_all,
+)
 
 Floats = NDArray[np.float64]
 Frames = Mapping[str, np.ndarray]
 
 SQUEEZED = -0.3  # element strain beyond which a wall is a block
+TOGETHER = 1 << 20  # pairs of boxes that are compared at a time
 
 
 def element_strains(frames: Frames) -> Floats:
@@ -47,8 +57,11 @@ def kept_area(frames: Frames) -> float:
 
 
 def _covered(position: Floats, frames: Frames) -> float:
-    lines = linestrings(position[frames["edges"]])
-    walls = buffer(lines, 0.5 * frames["edge_thickness_m"], quad_segs=4)
+    lines, thickness = linestrings(position[frames["edges"]]), frames["edge_thickness_m"]
+    walls = [
+        buffer(line_merge(multilinestrings(lines[thickness == t])), 0.5 * t, quad_segs=4)
+        for t in np.unique(thickness)
+    ]
     return float(area(union_all(walls)))
 
 
@@ -68,13 +81,28 @@ def shortening(frames: Frames, bottom: NDArray[np.int64], top: NDArray[np.int64]
 def crossings(frames: Frames) -> int:
     """Largest number of pairs of elements that pass through one another in any stored shape.
 
-    Independent of the solver: shapely's exact predicates on the centre lines.
+    Independent of the solver: shapely's exact predicates on the centre lines, asked only of
+    elements without a common node whose boxes overlap.
     """
-    edges = frames["edges"]
-    worst = 0
-    for position in frames["position_m"]:
-        lines = linestrings(position[edges])
-        one, two = STRtree(lines).query(lines, predicate="intersects")
-        apart = (one < two) & ~np.any(edges[one][:, :, None] == edges[two][:, None, :], axis=(1, 2))
-        worst = max(worst, int(apart.sum()))
-    return worst
+    ends = frames["position_m"][:, frames["edges"]]
+    low, high = ends.min(axis=2), ends.max(axis=2)
+    met = _ever_near(low, high)
+    nodes = frames["edges"][met]
+    apart = ~np.any(nodes[:, 0, :, None] == nodes[:, 1, None], axis=(1, 2))
+    crossed = np.zeros(len(ends), np.int64)
+    for one, two in np.array_split(met[apart].T, 1 + len(met) * len(ends) // TOGETHER, axis=1):
+        overlap = (low[:, one] <= high[:, two]) & (low[:, two] <= high[:, one])
+        shape, pair = np.nonzero(overlap[..., 0] & overlap[..., 1])
+        lines = linestrings(ends[shape, one[pair]]), linestrings(ends[shape, two[pair]])
+        crossed += np.bincount(shape[intersects(*lines)], minlength=len(ends))
+    return int(crossed.max())
+
+
+def _ever_near(low: Floats, high: Floats) -> NDArray[np.int64]:
+    """Pairs of elements, (k, 2), where the boxes of all that they sweep over overlap.
+
+    low, high (f, m, 2): corners of the box of every element in every shape.
+    """
+    swept = linestrings(np.stack([low.min(axis=0), high.max(axis=0)], axis=1))
+    one, two = STRtree(swept).query(swept)
+    return np.column_stack([one, two])[one < two]

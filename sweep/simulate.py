@@ -45,15 +45,16 @@ def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
     history = history_columns(run.rows[: run.done], scene, case)
     frames = run.frames()
     summary = summarise(case, scene, history, frames, run.loading_rows)
+    case_id = case.case_id
     summary |= {
-        "case_id": case.case_id,
+        "case_id": case_id,
         "status": str(status),
         "message": message,
         "steps": int(run.state.totals[1]),
         "newton_iterations": int(run.state.totals[0]),
         "cpu_s": time.thread_time() - started,
     }
-    return Result(case.case_id, status, message, summary, history, frames)
+    return Result(case_id, status, message, summary, history, frames)
 
 
 def warm_up() -> None:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 FORMAT = 1  # of the layout above
-CHUNK = 4096  # rows of a compressed piece
+CHUNK = 4096  # rows of a piece that is compressed and checked by itself
 ATTEMPTS = 100  # at a set of files that holds still while it is opened
 DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError)
 
@@ -287,13 +287,13 @@ def _write_values(
 
 
 def _compact(like: Any, total: int) -> dict[str, Any]:
-    """How an array of `total` rows is stored: half the digits, in compressed pieces."""
+    """How an array is stored: half the digits; compressed once it comes from another file."""
     real = like.dtype.kind == "f"
     kind = {"dtype": np.float32 if real else np.int32, "fillvalue": np.nan if real else 0}
-    if total == 0:
-        return kind
-    pieces = (min(CHUNK, total), *like.shape[1:])
-    return kind | {"chunks": pieces, "shuffle": True, "compression": "gzip", "compression_opts": 4}
+    level = 0 if isinstance(like, np.ndarray) else 4  # 0: a checksum and nothing else
+    packed = {"shuffle": True, "compression": "gzip", "compression_opts": level}
+    pieces = {"chunks": (min(CHUNK, total), *like.shape[1:])}
+    return kind | pieces | packed if total else kind
 
 
 def _describe(data: h5py.Dataset, column: Column) -> None:

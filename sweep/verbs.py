@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+import time
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -58,6 +59,18 @@ def run(arguments: Namespace) -> int:
     failed = run_sweep(config, out, arguments.workers, arguments.scheduler, arguments.retry_failed)
     _print_ranking(out, read_summary(out), _question(config.rank.budgets, config.rank.panel))
     return SOME_FAILED if failed else DONE
+
+
+def warm(_: Namespace) -> int:
+    """Compile the kernels ahead of the first run."""
+    from kernels.jit import is_cold
+    from sweep.run import real_simulate
+
+    done = "compiled the kernels" if is_cold() else "found compiled kernels and loaded them"
+    started = time.perf_counter()
+    real_simulate()
+    _say(f"{done} in {time.perf_counter() - started:.1f} s; no run has to compile any")
+    return DONE
 
 
 def status(arguments: Namespace) -> int:
@@ -122,7 +135,7 @@ def show(arguments: Namespace) -> int:
     return DONE
 
 
-VERBS = {"run": run, "status": status, "rank": rank, "show": show}
+VERBS = {"run": run, "warm": warm, "status": status, "rank": rank, "show": show}
 
 
 @contextmanager

@@ -60,7 +60,8 @@ def test_help_teaches_every_verb_by_an_example():
     done = subprocess.run(
         [sys.executable, "-m", "sweep", "--help"], capture_output=True, text=True, check=True
     )
-    assert all(f"crumple {verb} " in done.stdout for verb in ("run", "status", "rank", "show"))
+    verbs = ("run", "warm", "status", "rank", "show")
+    assert all(f"crumple {verb} " in done.stdout for verb in verbs)
 
 
 REFUSED = [

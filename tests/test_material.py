@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from scipy.interpolate import PPoly
+from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
 
 from sweep import record
-from sweep.material import stress_law
+from sweep.material import shape_preserving_slopes, stress_law
 from sweep.params import Material
 from sweep.record import RecordError, read_record
 
@@ -58,6 +58,39 @@ def test_law_passes_through_the_record(material):
     law = polynomial(stress_law(material))
     assert law(material.curve_strain) == pytest.approx(material.curve_stress, rel=1e-12)
     assert law(0.0) == 0.0
+
+
+def test_tension_is_the_shape_preserving_cubic_of_scipy(material):
+    """Between the knots above the toe, whose slopes nothing else sets."""
+    law = stress_law(material)
+    knots = law.knots[law.knots >= 0.0]
+    values = polynomial(law)(knots)
+    slopes = PchipInterpolator(knots, values).derivative()(knots)
+    strain = np.linspace(knots[2], knots[-1], 500)
+    assert polynomial(law)(strain) == pytest.approx(
+        CubicHermiteSpline(knots, values, slopes)(strain), rel=1e-12
+    )
+
+
+def test_slopes_of_a_record_that_falls_and_rises_are_those_of_scipy(own_record):
+    path = own_record(HEADER + "0.01,2e4\n0.05,1e5\n0.1,8e4\n0.2,8e4\n0.3,9e5\n0.31,8e5\n0.5,8e6\n")
+    law = stress_law(Material(name=str(path)))
+    knots = law.knots[law.knots >= 0.0]
+    slopes = PchipInterpolator(knots, polynomial(law)(knots)).derivative()(knots)
+    assert polynomial(law)(knots[2:], 1) == pytest.approx(slopes[2:], rel=1e-12)
+    assert slopes[3:6] == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize(
+    "stresses",
+    [(0.0, 1.0, 5.0), (0.0, 1.0, 1.5), (0.0, 0.1, 5.0), (0.0, 1.0, -9.0), (0.0, 0.0, 1.0)],
+)
+def test_slopes_at_the_ends_are_those_of_scipy(stresses):
+    knots, values = np.array([0.0, 1.0, 1.5]), np.array(stresses)
+    expected = PchipInterpolator(knots, values).derivative()(knots)
+    assert shape_preserving_slopes(knots, values) == pytest.approx(expected, rel=1e-12)
+    mirrored = shape_preserving_slopes(-knots[::-1], values[::-1])
+    assert mirrored == pytest.approx(-expected[::-1], rel=1e-12)
 
 
 def test_stress_and_tangent_are_continuous(material):

@@ -5,16 +5,19 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
-from standin import cases, number_of, simulate, slow
+from standin import cases, number_of, parts_of, simulate, slow
 
 from sweep.graph import GraphError
 from sweep.grid import Config, Written
-from sweep.run import Interrupted, run_sweep
+from sweep.plan import Plan
+from sweep.progress import Progress
+from sweep.run import AT_RISK, Interrupted, keeping, run_sweep
 from sweep.store import StoreError, exists, read_attributes, read_frames, read_history, read_summary
 from sweep.writer import Writer
 
@@ -147,6 +150,43 @@ def test_finished_cases_do_not_run_again(tmp_path, executions, capsys):
     assert executions.read_text().split()[9:] == [cases(9)[7].case_id]
     assert len(read_summary(out)) == 9
     assert "9/9 cases" in capsys.readouterr().out
+
+
+@pytest.fixture
+def told():
+    return Progress({case.case_id: 1.0 for case in cases(9)})
+
+
+def took(share, numbers):
+    """Results that each took this share of what may be at risk for a worker."""
+    found = [simulate(case) for case in cases(len(numbers), numbers[0])]
+    return [replace(r, summary=r.summary | {"cpu_s": share * AT_RISK}) for r in found]
+
+
+def test_first_result_is_sealed_at_once_and_later_ones_when_they_are_worth_it(tmp_path, told):
+    """Two workers: what is at risk is at most twice as much. NaN might be any time."""
+    out, sealed = tmp_path / "sweep.h5", []
+    batches = [(0.1, [0]), (0.9, [1, 2]), (0.3, [3]), (1.9, [4]), (np.nan, [5]), (0.1, [6])]
+    with Writer(out) as writer, keeping(writer, Plan([], workers=2), told) as keep:
+        for share, numbers in batches:
+            keep(took(share, numbers))
+            sealed.append(len(read_summary(out)))
+            assert told.done == sealed[-1]
+    assert sealed == [1, 1, 4, 4, 6, 6]
+    assert len(read_summary(out)) == told.done == 7
+    assert len(parts_of(out)) == 4
+
+
+def test_error_in_the_middle_of_a_sweep_loses_no_result_that_has_come_in(tmp_path, told):
+    def broken_off(out):
+        with Writer(out) as writer, keeping(writer, Plan([], workers=2), told) as keep:
+            keep(took(0.1, [0]))
+            keep(took(0.1, [1, 2]))
+            raise GraphError("lost the scheduler")
+
+    with pytest.raises(GraphError):
+        broken_off(tmp_path / "sweep.h5")
+    assert len(read_summary(tmp_path / "sweep.h5")) == 3
 
 
 def test_progress_away_from_a_terminal_is_a_few_plain_lines(tmp_path, capsys):

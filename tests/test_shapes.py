@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+import shapely
 from specimens import squeezed_cell
 
+from sweep import shapes
 from sweep.shapes import crossings, element_strains, kept_area, shortening, work_within_model
 
 SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1]]
@@ -82,6 +84,29 @@ def test_crossings_by_hand():
     assert crossings(frames(SQUARE, edges=SIDES + cross)) == 1
     bow_tie = [[0, 0], [1, 1], [1, 0], [0, 1]]
     assert crossings(frames(SQUARE, bow_tie, SQUARE)) == 1
+
+
+def test_crossings_are_those_of_every_pair_of_every_shape(monkeypatch):
+    """A tangle of 20 elements, its pairs all at once and a few at a time."""
+    random = np.random.default_rng(7)
+    tangle, edges = random.random((6, 21, 2)), np.column_stack([np.arange(20), np.arange(1, 21)])
+    apart = [(i, j) for i in range(20) for j in range(i + 2, 20)]
+    lines = [shapely.linestrings(points[edges]) for points in tangle]
+    expected = max(sum(one[i].intersects(one[j]) for i, j in apart) for one in lines)
+    found = [crossings(frames(*tangle, edges=edges))]
+    monkeypatch.setattr(shapes, "TOGETHER", 50)
+    found.append(crossings(frames(*tangle, edges=edges)))
+    assert found == [expected] * 2
+    assert expected > 20
+
+
+def test_kept_area_of_walls_of_two_thicknesses():
+    """The thicker wall covers the thinner one when it lies on it."""
+    apart = [[0, 0], [10, 0], [0, 1], [10, 1]]
+    over = [[0, 0], [10, 0], [0, 0], [10, 0]]
+    cell = frames(apart, over, edges=[[0, 1], [2, 3]])
+    cell["edge_thickness_m"] = np.array([0.1, 0.3])
+    assert kept_area(cell) == pytest.approx(0.75, abs=5e-3)
 
 
 def test_walls_that_touch_without_a_common_node_cross():

@@ -63,8 +63,8 @@ def killed(config, out, least):
 
 def test_killed_run_is_completed_to_the_same_table(config, tmp_path):
     out, reference = tmp_path / "killed.h5", tmp_path / "reference.h5"
-    before = killed(config, out, least=4)
-    assert 4 <= len(before) < CASES
+    before = killed(config, out, least=1)
+    assert 1 <= len(before) < CASES
     assert not out.exists()  # only sealed parts: the run was in its middle
     again, whole = complete(config, out), complete(config, reference)
     assert again.returncode == whole.returncode == 0, again.stderr + whole.stderr
