@@ -14,7 +14,6 @@ import numpy as np
 
 from kernels import ccd
 from kernels.barrier import barrier
-from kernels.blocks import add
 from kernels.distance import (
     closest,
     direction,
@@ -24,6 +23,7 @@ from kernels.distance import (
     push_point_stiffen,
     push_stiffen,
 )
+from kernels.entries import add
 from kernels.jit import jit, jit_exact
 from kernels.rows import pair
 

@@ -10,7 +10,7 @@ the nodes (p, a, b):
 
 import numpy as np
 
-from kernels.blocks import add_block
+from kernels.entries import add_block
 from kernels.jit import jit, jit_exact
 
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.barrier import barrier
-from kernels.blocks import add_block
+from kernels.entries import add_block
 from kernels.jit import jit
 from kernels.rows import triple
 

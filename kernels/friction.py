@@ -17,9 +17,9 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.barrier import barrier
-from kernels.blocks import add_block
 from kernels.contact import cancelled
 from kernels.distance import closest, direction, normal
+from kernels.entries import add_block
 from kernels.jit import jit, jit_exact, jit_owning
 from kernels.rows import pair
 

@@ -9,20 +9,19 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels import contact, damp, friction, inertia
-from kernels.chain import Shape, Stiffness
 from kernels.jit import jit_exact, jit_inlined, jit_owning
 from kernels.newton import (
     CONVERGED,
     INTERRUPTED,
     ITERATIONS,
     OUTGROWN,
-    Work,
     largest,
     minimise,
     reduce,
 )
+from kernels.room import make_room
 from kernels.rows import copy, zero
-from kernels.step import At, Step, find_near, rub
+from kernels.step import Step, find_near, rub
 
 WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR, RESIDUAL = range(9)
 TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP = range(9, 15)
@@ -78,32 +77,6 @@ class Output(NamedTuple):
     bottom: np.ndarray
     top: np.ndarray
     base: np.ndarray
-
-
-@jit_owning
-def _shape(terms):
-    """Return room for the shape and the stiffness of all walls."""
-    m, arms = terms.stretch.l0.size, terms.walls.rotation.size
-    shape = Shape(
-        np.zeros((2, m)), np.zeros(m), np.zeros(m), np.zeros(arms), np.zeros((2, m)), np.zeros(arms)
-    )
-    twist = np.zeros(arms // 2)
-    return shape, Stiffness(np.zeros((3, m)), np.zeros((4, m)), np.zeros((3, arms)), twist)
-
-
-@jit_owning
-def _room(terms, near):
-    """Return the arrays of all steps: `Before`, `At`, `Work`, `Grips`, predicted position."""
-    n = terms.mass.size
-    shape, stiffness = _shape(terms)
-    frame = np.full((terms.walls.rotation.size, 3), np.inf)  # none yet
-    before = damp.Before(np.zeros(n), frame, shape, stiffness)
-    shape, stiffness = _shape(terms)
-    five = np.zeros((5, n))
-    at = At(five[0], five[1], five[2], five[3], five[4], np.zeros(3), np.zeros(2), shape, stiffness)
-    more = np.zeros((5, n))
-    work = Work(more[0], more[1], more[2], more[3], more[4], np.full(1, np.inf))
-    return before, at, work, friction.room(near.pairs, terms.contact, terms.friction), np.zeros(n)
 
 
 @jit_exact
@@ -292,7 +265,7 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
     todo = np.zeros(6)
     todo[SHARE], todo[LOOPS] = 1.0, -1.0
     near = find_near(state.x, terms, friction.none(), 0.0)
-    room = _room(terms, near)
+    room = make_room(terms, near)
     while True:
         outcome = _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo)
         if outcome != OUTGROWN:

@@ -183,6 +183,12 @@ def _capped(dx, most, cap):
     return factor
 
 
+@jit_exact
+def _arrives(x, dx, target, driven):
+    """Return whether the first move leads the driven coordinate all the way."""
+    return driven >= 0 and dx[driven] == target - x[driven]
+
+
 @jit_inlined
 def _choose(slope, stable, led, escape, unknowns, remaining, work):
     """Fill dx with the Newton direction, or with the escape where that promises more.
@@ -211,8 +217,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
     """
     outcome, iteration, halvings, kept = ITERATIONS, -1, 0, work.kept
     setting_out, searching, arrived, free = True, True, False, True
-    whole = unknowns.driven >= 0 and work.dx[unknowns.driven] == target - x[unknowns.driven]
-    projected, settled = False, False
+    whole, projected, settled = _arrives(x, work.dx, target, unknowns.driven), False, False
     value, remaining, share, model, escape = 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0)
     place = (-1, -1, 0.0)  # of the first negative pivot of the exact Hessian
     most, before = _longest(work.dx, unknowns), np.inf

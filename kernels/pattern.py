@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels import blocks, condense, order
-from kernels.blocks import DRIVEN, HELD, INNER
+from kernels import condense, entries, order
+from kernels.entries import DRIVEN, HELD, INNER
 from kernels.jit import jit_exact, jit_owning
 
 CONDENSED, OPEN, RIGID = range(3)
@@ -178,7 +178,7 @@ def _targets(layout, row_start, kind, home, start, row):
         m = row_start[w + 1] - row_start[w]
         size = 0 if kind[w] == RIGID else 21 + (condense.WIDTH * m if kind[w] == OPEN else 0)
         target_start[w + 1] = target_start[w] + size
-    nowhere = blocks.SIZE * (start.size - 1 + row.size)
+    nowhere = entries.SIZE * (start.size - 1 + row.size)
     target = np.full(target_start[-1], nowhere)
     for w in range(kind.size):
         m, t = row_start[w + 1] - row_start[w], target_start[w]
@@ -189,7 +189,7 @@ def _targets(layout, row_start, kind, home, start, row):
                     if other < m or c >= condense.BAND:
                         i, j = _coordinate(layout, w, m, k), _coordinate(layout, w, m, other)
                         if home[i] >= 0 and home[j] >= 0:
-                            at = blocks.position(home, start, row, i, j)
+                            at = entries.position(home, start, row, i, j)
                             target[t] = at if at >= 0 else nowhere
                     t += 1
         if kind[w] != RIGID:
@@ -197,7 +197,7 @@ def _targets(layout, row_start, kind, home, start, row):
                 for d in range(c + 1):
                     i, j = layout.outer[w, c], layout.outer[w, d]
                     if home[i] >= 0 and home[j] >= 0:
-                        at = blocks.position(home, start, row, i, j)
+                        at = entries.position(home, start, row, i, j)
                         target[t] = at if at >= 0 else nowhere
                     t += 1
     return target_start, target
@@ -225,5 +225,5 @@ def analyse(layout, walls, couplings):
     target_start, target = _targets(layout, row_start, kind, home, start, row)
     return System(
         kind, row_start, np.zeros((row_start[-1], condense.WIDTH)), np.zeros(row_start[-1]),
-        target_start, target, blocks.shaped(home, start, row), np.zeros((6, 6)), np.zeros(6),
+        target_start, target, entries.shaped(home, start, row), np.zeros((6, 6)), np.zeros(6),
     )  # fmt: skip

@@ -12,7 +12,6 @@ import numpy as np
 
 from kernels import (
     bend,
-    blocks,
     ccd,
     chain,
     contact,
@@ -25,6 +24,7 @@ from kernels import (
     stretch,
     system,
 )
+from kernels.entries import clear
 from kernels.jit import jit_exact, jit_inlined, jit_owning
 from kernels.rows import pair, triple, zero, zero_rows
 
@@ -157,7 +157,7 @@ def rub(terms, grips, at):
 def factor(x, terms, step, near, at, projected):
     """Factor the Hessian at the ``x`` of the last `evaluate`; return as `system.factor` does."""
     matrix = near.system.matrix
-    blocks.clear(matrix)
+    clear(matrix)
     fold.hessian(x, terms.fold, matrix, projected)
     contact.hessian(x, terms.contact, near.pairs, matrix, projected)
     friction.hessian(at.u, step.grips, terms.friction.slip, matrix, projected)

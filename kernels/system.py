@@ -1,7 +1,7 @@
 """The linear system of a step: walls condensed one by one, then the joints and what touches."""
 
 from kernels import blocks, condense
-from kernels.blocks import INNER
+from kernels.entries import INNER
 from kernels.jit import jit, jit_inlined
 from kernels.pattern import CONDENSED, RIGID
 from kernels.rows import zero

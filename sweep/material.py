@@ -47,15 +47,10 @@ def stress_law(material: Material) -> StressLaw:
     if material.stretch == "linear":
         slope = material.modulus
         return StressLaw(np.array([0.0, 1.0]), np.array([[0.0, slope, 0.0, 0.0]]))
-    return _cubics(*_knots(material.curve_strain, material.curve_stress))
+    from scipy.interpolate import CubicHermiteSpline
 
-
-def _cubics(knots: Floats, values: Floats, slopes: Floats) -> StressLaw:
-    """The law with these values and slopes at its knots, (k,) each."""
-    width, secant = np.diff(knots), np.diff(values) / np.diff(knots)
-    bend = (slopes[:-1] + slopes[1:] - 2.0 * secant) / width
-    square = (secant - slopes[:-1]) / width - bend
-    return StressLaw(knots, np.column_stack([values[:-1], slopes[:-1], square, bend / width]))
+    spline = CubicHermiteSpline(*_knots(material.curve_strain, material.curve_stress))
+    return StressLaw(spline.x, np.ascontiguousarray(spline.c[::-1].T))
 
 
 def _knots(
@@ -67,7 +62,7 @@ def _knots(
     toe = stress_at(TOE, curve_strain, curve_stress)
     knots = np.r_[strain[own], 0.0, TOE, strain[above]]
     values = np.r_[stress[own], 0.0, toe, stress[above]]
-    slopes = shape_preserving_slopes(knots, values)
+    slopes = _shape_preserving_slopes(knots, values)
     slopes[own.sum() : own.sum() + 2] = toe / TOE  # both ends of the straight line
     if own.any():
         return knots, values, slopes
@@ -79,30 +74,10 @@ def _knots(
     )
 
 
-def shape_preserving_slopes(knots: Floats, values: Floats) -> Floats:
-    """Slopes at the knots (k,), k > 2, by which the cubics between them make no new extremum.
+def _shape_preserving_slopes(knots: Floats, values: Floats) -> Floats:
+    from scipy.interpolate import PchipInterpolator
 
-    Inside: weighted harmonic mean of the secants on both sides, 0 where they differ in sign
-    (Fritsch & Butland 1984). At the ends: three-point formula, bounded (Moler 2004, section 3.6).
-    """
-    width, secant = np.diff(knots), np.diff(values) / np.diff(knots)
-    before, after = secant[:-1], secant[1:]
-    weight = 2.0 * width[1:] + width[:-1], width[1:] + 2.0 * width[:-1]
-    monotone = before * after > 0.0
-    safe = np.where(monotone, before, 1.0), np.where(monotone, after, 1.0)
-    mean = (weight[0] + weight[1]) / (weight[0] / safe[0] + weight[1] / safe[1])
-    inner = np.where(monotone, mean, 0.0)
-    return np.r_[_end_slope(width, secant), inner, _end_slope(width[::-1], secant[::-1])]
-
-
-def _end_slope(width: Floats, secant: Floats) -> float:
-    """Slope at the end where the first of these intervals begins."""
-    slope = ((2.0 * width[0] + width[1]) * secant[0] - width[0] * secant[1]) / width[:2].sum()
-    if slope * secant[0] <= 0.0:
-        return 0.0
-    if secant[0] * secant[1] <= 0.0 and abs(slope) > 3.0 * abs(secant[0]):
-        return float(3.0 * secant[0])
-    return float(slope)
+    return np.asarray(PchipInterpolator(knots, values).derivative()(knots))
 
 
 def _compression(
@@ -121,8 +96,9 @@ def _tension(
     strain: Floats, knots: Floats, values: Floats, slopes: Floats
 ) -> tuple[Floats, Floats]:
     """Stress and slope of the tension curve; beyond its end it goes on with the last tangent."""
-    law, inside = _cubics(knots, values, slopes), np.minimum(strain, knots[-1])
-    interval = np.searchsorted(knots[1:-1], inside, side="right")
-    s, (c0, c1, c2, c3) = inside - knots[interval], law.coefficients[interval].T
-    tangent = c1 + s * (2.0 * c2 + s * 3.0 * c3)
-    return c0 + s * (c1 + s * (c2 + s * c3)) + tangent * (strain - inside), tangent
+    from scipy.interpolate import CubicHermiteSpline
+
+    curve = CubicHermiteSpline(knots, values, slopes)
+    inside = np.minimum(strain, knots[-1])
+    tangent = curve(inside, 1)
+    return curve(inside) + tangent * (strain - inside), tangent

@@ -63,7 +63,7 @@ def run(arguments: Namespace) -> int:
 
 def warm(_: Namespace) -> int:
     """Compile the kernels ahead of the first run."""
-    from kernels.jit import is_cold
+    from kernels.cache import is_cold
     from sweep.run import real_simulate
 
     done = "compiled the kernels" if is_cold() else "found compiled kernels and loaded them"

@@ -6,8 +6,8 @@ and `system`, which are compared with it.
 
 import numpy as np
 
-from kernels import bend, blocks, chain, contact, damp, pairs
-from kernels.blocks import Blocks
+from kernels import bend, chain, contact, damp, entries, pairs
+from kernels.entries import Blocks
 from kernels.step import Terms
 
 
@@ -124,7 +124,7 @@ def full_matrix(n: int) -> Blocks:
     nb = (n + 1) // 2
     start = np.cumsum([0, *range(nb - 1, -1, -1)])
     row = np.concatenate([np.arange(j + 1, nb) for j in range(nb)])
-    return blocks.shaped(3 * (c // 2) + c % 2, start, row)
+    return entries.shaped(3 * (c // 2) + c % 2, start, row)
 
 
 def by_home(matrix: Blocks) -> np.ndarray:

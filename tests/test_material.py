@@ -5,7 +5,7 @@ import pytest
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
 
 from sweep import record
-from sweep.material import shape_preserving_slopes, stress_law
+from sweep.material import stress_law
 from sweep.params import Material
 from sweep.record import RecordError, read_record
 
@@ -79,18 +79,6 @@ def test_slopes_of_a_record_that_falls_and_rises_are_those_of_scipy(own_record):
     slopes = PchipInterpolator(knots, polynomial(law)(knots)).derivative()(knots)
     assert polynomial(law)(knots[2:], 1) == pytest.approx(slopes[2:], rel=1e-12)
     assert slopes[3:6] == pytest.approx(0.0)
-
-
-@pytest.mark.parametrize(
-    "stresses",
-    [(0.0, 1.0, 5.0), (0.0, 1.0, 1.5), (0.0, 0.1, 5.0), (0.0, 1.0, -9.0), (0.0, 0.0, 1.0)],
-)
-def test_slopes_at_the_ends_are_those_of_scipy(stresses):
-    knots, values = np.array([0.0, 1.0, 1.5]), np.array(stresses)
-    expected = PchipInterpolator(knots, values).derivative()(knots)
-    assert shape_preserving_slopes(knots, values) == pytest.approx(expected, rel=1e-12)
-    mirrored = shape_preserving_slopes(-knots[::-1], values[::-1])
-    assert mirrored == pytest.approx(-expected[::-1], rel=1e-12)
 
 
 def test_stress_and_tangent_are_continuous(material):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels import blocks, pattern, system
+from kernels import entries, pattern, system
 from kernels.pattern import CONDENSED, OPEN, RIGID
 from tests.frames import frame, layout_of, walls_of
 from tests.terms import assembled, by_home, room
@@ -103,10 +103,10 @@ class Problem:
     def factor(self):
         """Place of the first negative pivot."""
         matrix = self.found.matrix
-        blocks.clear(matrix)
+        entries.clear(matrix)
         matrix.diagonal[:] = self.diagonal
         for nodes, half in self.contacts:
-            self._contact(nodes, half, lambda i, j, value: blocks.add(matrix, i, j, value))
+            self._contact(nodes, half, lambda i, j, value: entries.add(matrix, i, j, value))
         return system.factor(self.found, self.layout, self.walls, self.stiffness)
 
     def solve(self, b):

@@ -49,7 +49,7 @@ def versions():
     modules = [module for name, module in sys.modules.items() if name.startswith("kernels.")]
     kernels = {id(k): k for m in modules for k in vars(m).values() if isinstance(k, Kernel)}
     return {
-        f"{kernel.__module__}.{kernel.__qualname__}": len(kernel._inner.signatures)
+        f"{kernel.__module__}.{kernel.__qualname__}": len(kernel._linked.signatures)
         + len(kernel.entry.signatures if "entry" in vars(kernel) else ())
         for kernel in kernels.values()
     }

@@ -1,0 +1,35 @@
+"""The arrays that the steps of a march share, made once."""
+
+import numpy as np
+
+from kernels import damp, friction
+from kernels.chain import Shape, Stiffness
+from kernels.jit import jit_owning
+from kernels.newton import Work
+from kernels.step import At
+
+
+@jit_owning
+def _shape(terms):
+    """Return room for the shape and the stiffness of all walls."""
+    m, arms = terms.stretch.l0.size, terms.walls.rotation.size
+    shape = Shape(
+        np.zeros((2, m)), np.zeros(m), np.zeros(m), np.zeros(arms), np.zeros((2, m)), np.zeros(arms)
+    )
+    twist = np.zeros(arms // 2)
+    return shape, Stiffness(np.zeros((3, m)), np.zeros((4, m)), np.zeros((3, arms)), twist)
+
+
+@jit_owning
+def make_room(terms, near):
+    """Return the arrays of all steps: `Before`, `At`, `Work`, `Grips`, predicted position."""
+    n = terms.mass.size
+    shape, stiffness = _shape(terms)
+    frame = np.full((terms.walls.rotation.size, 3), np.inf)  # none yet
+    before = damp.Before(np.zeros(n), frame, shape, stiffness)
+    shape, stiffness = _shape(terms)
+    five = np.zeros((5, n))
+    at = At(five[0], five[1], five[2], five[3], five[4], np.zeros(3), np.zeros(2), shape, stiffness)
+    more = np.zeros((5, n))
+    work = Work(more[0], more[1], more[2], more[3], more[4], np.full(1, np.inf))
+    return before, at, work, friction.room(near.pairs, terms.contact, terms.friction), np.zeros(n)
