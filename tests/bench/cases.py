@@ -43,6 +43,4 @@ def blow(cells=3, strain=0.6, steps=200, **left_out):
     """Crush at a speed with all there is: measured curve, contact, friction, damping."""
     chosen = {"material": Material(), "contact": ROUGH, "damping": Damping()} | left_out
     loading = Loading(mode="displacement", strain=strain, unload=False, speed=SPEED)
-    return Case(
-        lattice=lattice(cells), loading=loading, solver=Solver(load_steps=steps), **chosen
-    )
+    return Case(lattice=lattice(cells), loading=loading, solver=Solver(load_steps=steps), **chosen)

@@ -1,67 +1,50 @@
 """How an iteration, what comes before it and the memory grow with the lattice."""
 
 from functools import partial
-from math import log
 
 import numpy as np
 
-from kernels import friction, step
 from sweep.scene import build_scene
+from tests.bench import cases, loops, marching
+from tests.bench.alone import MEMORY, alone
 from tests.bench.clock import medians, seconds
-from tests.bench.crushes import Crush
-from tests.bench.processes import memory
-from tests.bench.table import Row
+from tests.bench.table import Table
 
-GROUP = "growth: past buckling, without contact"
-TIMES = {
-    "an iteration, µs": ("iteration", 1e6),
-    "building the scene, ms": ("scene", 1e3),
-    "order and pattern of the matrix, ms": ("pattern", 1e3),
-}
-
-
-def _sides(crush):
-    given = crush.state.x, crush.scene.terms, friction.none(), 0.0
-    return {
-        "iteration": crush.each,
-        "scene": partial(seconds, partial(build_scene, crush.case)),
-        "pattern": partial(seconds, partial(step.find_near, *given)),
-    }
+STRAIN = 0.1  # buckled, and nothing touches
+EACH, TOTAL, SCENE, PATTERN, PEAK = (
+    "µs an iteration (/ the size before)",
+    "march, s (iterations)",
+    "building the scene, ms",
+    "pattern of the matrix, ms",
+    "memory of the process, MB",
+)
 
 
-def exponent(times):
-    """Power of the cells a side with which times (by cells) grow, fitted over all of them."""
-    return float(np.polyfit(np.log(list(times)), np.log(list(times.values())), 1)[0])
+def exponent(sizes, times):
+    """Power of the cells a side with which times grow, fitted over all sizes."""
+    return float(np.polyfit(np.log(sizes), np.log(times), 1)[0])
 
 
-def _ratios(times):
-    """Rows on how the time of an iteration grows from size to size, and over all."""
-    apart, ratio = Row(GROUP, "times that of the size before"), Row(GROUP, "power, cells a side")
-    overall = Row(GROUP, "the same, fitted over all sizes")
-    sizes = list(times)
-    for small, large in zip(sizes, sizes[1:], strict=False):
-        apart.put(large, times[large] / times[small])
-        ratio.put(large, log(times[large] / times[small]) / log(large / small))
-    if len(sizes) > 1:
-        overall.put(sizes[-1], exponent(times))
-    return [apart, ratio, overall]
-
-
-def rows(sizes, count):
-    """Rows of the table."""
-    timed = {what: Row(GROUP, what) for what in TIMES}
-    blocks, updates = Row(GROUP, "3 x 3 blocks (below diagonal)"), Row(GROUP, "updates of blocks")
-    held = Row(GROUP, "peak memory of a process, MB (above the smallest)")
+def table(sizes, steps, count):
+    """Time and memory by size; the last column has the exponents."""
+    found, before = Table(f"pressed to 10 % in {steps} steps", (*sizes, "power")), None
     for cells in sizes:
-        crush = Crush(cells)
-        found = medians(_sides(crush), count)
-        for what, (side, unit) in TIMES.items():
-            timed[what].put(cells, unit * found[side])
-        matrix = step.find_near(crush.state.x, crush.scene.terms, friction.none(), 0.0).system.matrix
-        blocks.put(cells, matrix.start.size - 1, f"{matrix.row.size:,}")
-        updates.put(cells, matrix.update.size)
-        peak = memory(cells)
-        held.put(cells, peak, f"{peak - held.values.get(sizes[0], peak):.0f}")
-    iteration, *others = timed.values()
-    times = {cells: value for cells, value in iteration.values.items()}
-    return [iteration, *_ratios(times), *others, blocks, updates, held]
+        case = cases.crush(cells, STRAIN, steps)
+        scene = build_scene(case)
+        often = marching.whole(case, scene).iterations
+        sides = {
+            EACH: lambda case=case, scene=scene: marching.whole(case, scene).each,
+            SCENE: partial(seconds, partial(build_scene, case)),
+            PATTERN: partial(seconds, partial(loops.search, 1, scene.x_rest, scene.terms)),
+        }
+        at = medians(sides, count)
+        found.put(EACH, cells, 1e6 * at[EACH], f"{at[EACH] / before:.3g} x" if before else "")
+        found.put(TOTAL, cells, at[EACH] * often, f"{often}")
+        found.put(SCENE, cells, 1e3 * at[SCENE])
+        found.put(PATTERN, cells, 1e3 * at[PATTERN])
+        found.put(PEAK, cells, alone(case)[MEMORY])
+        before = at[EACH]
+    for name in (EACH, SCENE, PATTERN):
+        times = [found.values[name, cells] for cells in sizes]
+        found.put(name, "power", exponent(sizes, times))
+    return found

@@ -36,7 +36,7 @@ def split(crush, count):
 def table(sizes, count):
     """µs an iteration, before anything touches and after the collapse."""
     columns = tuple(f"{n} x {n} {state}" for state in STATES for n in sizes)
-    found = Table("a Newton iteration, µs (% of the whole)", columns)
+    found = Table("µs (% of the iteration)", columns)
     for state, given in STATES.items():
         for cells in sizes:
             times = split(Crush(cells, *given), count)

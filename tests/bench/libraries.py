@@ -16,10 +16,11 @@ from tests.bench.clock import medians, seconds
 from tests.bench.crushes import Crush
 from tests.bench.matrix import assembled
 from tests.bench.spot import Spot
-from tests.bench.table import Row
+from tests.bench.table import Table
 
-GROUP = "factor and solve one matrix, µs (ratio to ours)"
+OURS = "ours, from the elements"
 SYMMETRIC = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
+SAMPLE = 5e-3  # s of calls in a sample
 
 
 def _superlu(matrix):
@@ -35,9 +36,10 @@ def _band(matrix):
     lower, back = matrix[order][:, order].tocoo(), np.argsort(order)
     below = lower.row >= lower.col
     offset = (lower.row - lower.col)[below]
-    band = np.zeros((offset.max() + 1, matrix.shape[0]))
+    band = np.zeros((offset.max() + 1, matrix.shape[0]), order="F")
     band[offset, lower.col[below]] = lower.data[below]
-    return lambda b: linalg.solveh_banded(band, b[order], lower=True, check_finite=False)[back]
+    factor, solve = linalg.get_lapack_funcs(("pbtrf", "pbtrs"), (band,))
+    return lambda b: solve(factor(band, lower=1)[0], b[order], lower=1)[0][back]
 
 
 def _qdldl(matrix):
@@ -54,6 +56,19 @@ def _qdldl(matrix):
     return again
 
 
+def _cholmod(matrix):
+    """CHOLMOD with the analysis of its first factor."""
+    from sksparse.cholmod import analyze
+
+    factor = analyze(matrix)
+
+    def again(b):
+        factor.cholesky_inplace(matrix)
+        return factor(b)
+
+    return again
+
+
 def _pardiso(matrix):
     """PARDISO of MKL with the analysis of its first factor."""
     from pypardiso import PyPardisoSolver
@@ -66,44 +81,51 @@ def _pardiso(matrix):
 
 
 LIBRARIES = {
-    "SuperLU (scipy), analysis included": _superlu,
     "LAPACK band (scipy)": _band,
+    "SuperLU (scipy), with its analysis": _superlu,
     "QDLDL (qdldl)": _qdldl,
+    "CHOLMOD (scikit-sparse)": _cholmod,
     "PARDISO (pypardiso)": _pardiso,
 }
 
 
 def solvers(matrix):
-    """Function of a right side for every library that is installed."""
+    """Function of a right side for every library; None where it is not installed."""
     found = {}
     for name, prepare in LIBRARIES.items():
         try:
             found[name] = prepare(matrix)
         except ImportError:
-            continue
+            found[name] = None
     return found
 
 
-def _both(spot):
-    return spot.each(loops.FACTOR) + spot.each(loops.SOLVE)
+def repeated(solve, b):
+    """CPU seconds of one call; ``SAMPLE`` is filled."""
+    calls = max(round(SAMPLE / max(seconds(partial(solve, b)), 1e-6)), 1)
+    return seconds(lambda: [solve(b) for _ in range(calls)]) / calls
 
 
-def rows(sizes, count):
-    """Rows of the table."""
-    table = {name: Row(GROUP, name) for name in ("ours, from the elements", *LIBRARIES)}
+def matrix_of(crush):
+    """Spot of a crush, and its matrix."""
+    spot = Spot(crush.scene, crush.state.x, crush.move)
+    return spot, assembled(crush.scene.terms, spot.at.stiffness)
+
+
+def table(sizes, count):
+    """µs to factor and solve."""
+    found = Table("factor and solve the same matrix, µs", sizes)
     for cells in sizes:
-        crush = Crush(cells)
-        spot = Spot(crush.scene, crush.state.x)
-        matrix = assembled(crush.scene.terms, spot.at.stiffness)
-        b = np.ones(matrix.shape[0])
-        sides = {"ours, from the elements": partial(_both, spot)}
-        for name, solve in solvers(matrix).items():
-            sides[name] = partial(seconds, partial(solve, b))
-        found = medians(sides, count)
-        ours = found["ours, from the elements"]
-        for name, row in table.items():
-            if name in found:
-                row.put(cells, 1e6 * found[name], f"{found[name] / ours:.2g}")
+        spot, matrix = matrix_of(Crush(cells))
+        b, libraries = np.ones(matrix.shape[0]), solvers(matrix)
+        sides = {OURS: lambda spot=spot: spot.each(loops.FACTOR) + spot.each(loops.SOLVE)}
+        for name, solve in libraries.items():
+            if solve:
+                sides[name] = partial(repeated, solve, b)
+        at = medians(sides, count)
+        for name in (OURS, *libraries):
+            if name in at:
+                found.put(name, cells, 1e6 * at[name], f"{at[name] / at[OURS]:.2g} x")
             else:
-                row.lack(cells, "not installed")
-    return list(table.values())
+                found.lack(name, "not installed")
+    return found

@@ -4,7 +4,18 @@ The one file of the bench that knows how the kernels of a step are called.
 """
 
 from kernels import (
-    bend, blocks, chain, condense, contact, damp, fold, friction, inertia, step, stretch, system,
+    bend,
+    blocks,
+    chain,
+    condense,
+    contact,
+    damp,
+    fold,
+    friction,
+    inertia,
+    step,
+    stretch,
+    system,
 )  # fmt: skip
 from kernels.jit import jit_exact, jit_owning
 from kernels.pattern import RIGID

@@ -9,7 +9,8 @@ from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 
-from kernels import march
+import numpy as np
+
 from sweep.params import given
 from sweep.scene import time_step
 from sweep.simulate import stages, tolerances
@@ -86,9 +87,6 @@ class Peer:
                 raise RuntimeError("OpenSees found no equilibrium")
             iterations.append(self.ops.testIter())
 
-    def height(self):
-        """What a march writes as height, now."""
-        x = self.scene.x_rest.copy()
-        for i in range(len(self.scene.mesh.points)):
-            x[2 * i : 2 * i + 2] += self.ops.nodeDisp(i)[:2]
-        return march.height(x, self.scene.top, self.scene.base)
+    def moved(self):
+        """How far every node has moved, (n, 2) m."""
+        return np.array([self.ops.nodeDisp(i)[:2] for i in range(len(self.scene.mesh.points))])

@@ -10,16 +10,13 @@ from tests.bench.crushes import COLLAPSED, Crush
 from tests.bench.table import Table
 
 WHOLE, SCENE, ITERATIONS, EACH = "CPU s", "building, ms", "iterations", "µs an iteration"
-COLUMNS = (WHOLE, SCENE, ITERATIONS, EACH)  # in brackets: ratio to the first row
+COLUMNS = (WHOLE, SCENE, ITERATIONS, EACH)
 SEED = "5 N, no contact"
-VARIANTS = {
-    SEED: {},
+ALLOWED = {
     "contact allowed, nothing touches": {"contact": cases.SMOOTH},
-    "friction too, nothing touches": {"contact": cases.ROUGH},
+    "friction too": {"contact": cases.ROUGH},
 }
-FULL = "the full model"
 LEFT_OUT = {
-    FULL: {},
     "without contact": {"contact": cases.APART},
     "without damping": {"damping": cases.UNDAMPED},
     "without friction": {"contact": cases.SMOOTH},
@@ -27,33 +24,70 @@ LEFT_OUT = {
 }
 
 
-def compared(title, chosen, count):
-    """A row for each of the ``chosen`` cases."""
-    found, sides, iterations = Table(title, COLUMNS), {}, {}
+def compared(title, chosen, count, peers=None):
+    """A row for each of the ``chosen`` cases and of the ``peers``, which march; in brackets the
+    ratio to the first row.
+    """
+    sides, iterations = {}, {}
     for name, case in chosen.items():
         scene = build_scene(case)
         iterations[name] = marching.whole(case, scene).iterations
         sides[name, WHOLE] = partial(seconds, partial(simulate, case))
         sides[name, SCENE] = partial(seconds, partial(build_scene, case))
         sides[name, EACH] = lambda case=case, scene=scene: marching.whole(case, scene).each
-    at, first = medians(sides, count), next(iter(chosen))
-    for name in chosen:
-        _row(found, name, iterations[name], {c: (at[name, c], at[first, c]) for c in (WHOLE, EACH)})
-        found.put(name, SCENE, 1e3 * at[name, SCENE])
+    for name, peer in (peers or {}).items():
+        iterations[name] = peer.whole().iterations
+        sides[name, WHOLE] = lambda peer=peer: peer.whole().seconds
+    found, at, first = Table(title, COLUMNS), medians(sides, count), next(iter(chosen))
+    for name, often in iterations.items():
+        each = at.get((name, EACH), at[name, WHOLE] / often)
+        whole = at[name, WHOLE]
+        found.put(name, WHOLE, whole, f"{whole / at[first, WHOLE]:.3g} x")
+        if name in chosen:
+            found.put(name, SCENE, 1e3 * at[name, SCENE])
+        found.put(name, ITERATIONS, often)
+        found.put(name, EACH, 1e6 * each, f"{each / at[first, EACH]:.3g} x")
     return found
 
 
-def _row(table, name, iterations, times):
-    """Enter a row: times (own, of the first row) by column."""
-    for column, (own, first) in times.items():
-        value = 1e6 * own if column == EACH else own
-        table.put(name, column, value, f"{own / first:.3g} x")
-    table.put(name, ITERATIONS, iterations)
-
-
-def seed(duration, count):
+def seed(cells, duration, count, allowed=ALLOWED, solver="ProfileSPD"):
     """The seed's scene, and OpenSees with it where that is installed."""
-    chosen = {name: cases.seed(duration, **given) for name, given in VARIANTS.items()}
-    found = compared("the seed's scene, 3 x 3", chosen, count)
-    case = chosen[SEED]
+    title = f"the seed's scene, {cells} x {cells}, {round(1e4 * duration):,} steps"
+    case, name = cases.seed(cells, duration), f"OpenSees, {solver}"
+    chosen = {SEED: case}
+    chosen |= {what: cases.seed(cells, duration, **given) for what, given in allowed.items()}
+    try:
+        peers = {name: opensees.Peer(case, build_scene(case), solver)}
+    except ImportError:
+        found = compared(title, chosen, count)
+        found.lack(name, "not installed")
+        return found
+    return compared(title, chosen, count, peers)
+
+
+def crush(steps, count):
+    """Crushes to 60 % between glued platens, with contact and without."""
+    chosen = {
+        name: cases.crush(3, 0.6, steps, contact)
+        for name, contact in (("without contact", cases.APART), ("with contact", cases.SMOOTH))
+    }
+    return compared(f"crushed to 60 %, 3 x 3, {steps} steps", chosen, count)
+
+
+def left_out(steps, count):
+    """What each part of a crush at a speed costs."""
+    chosen = {"the full model": cases.blow(steps=steps)}
+    chosen |= {name: cases.blow(steps=steps, **given) for name, given in LEFT_OUT.items()}
+    return compared(f"pressed at {cases.SPEED} m/s to 60 %, 3 x 3, {steps} steps", chosen, count)
+
+
+def collapse(sizes, count):
+    """An iteration in full collapse, with contact and without."""
+    found = Table("from 55 to 60 % strain, µs an iteration", sizes)
+    for cells in sizes:
+        pair = {"without contact": cases.APART, "with contact": cases.SMOOTH}
+        sides = {name: Crush(cells, contact, COLLAPSED).each for name, contact in pair.items()}
+        at = medians(sides, count)
+        for name, time in at.items():
+            found.put(name, cells, 1e6 * time, f"{time / at['without contact']:.2g} x")
     return found
