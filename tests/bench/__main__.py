@@ -25,7 +25,7 @@ def tables(long):
     yield "split", lambda: iteration.table(TWO, COUNT)
     yield "kernels", lambda: kernels.table(TWO, COUNT)
     yield "factor", lambda: libraries.table((3, 5, 10, 20), COUNT)
-    yield "overhead", lambda: sweeps.overhead(designs[::10], 3)
+    yield "overhead", lambda: sweeps.overhead(designs[::9], 3)
     yield "throughput", lambda: sweeps.throughput(designs, 41)
     if long:
         yield "densify", lambda: densify.table(40, 0.6, 200)

@@ -3,6 +3,7 @@
 import tempfile
 import time
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -32,28 +33,49 @@ def changed(case, **tables):
     return Case(**kept, **given)
 
 
+class Swept(NamedTuple):
+    """Seconds of a sweep: on the clock, those that a worker waited for a core that another program
+    had, CPU of the process, CPU of the cases alone.
+    """
+
+    wall: float
+    waited: float
+    spent: float
+    own: float
+
+    @property
+    def free(self):
+        """On the clock, had no other program run."""
+        return self.wall - self.waited
+
+
+def delay():
+    """Seconds that all threads of this process have waited for a core so far."""
+    tasks = Path("/proc/self/task").glob("*/schedstat")
+    return 1e-9 * sum(int(task.read_text("utf-8").split()[1]) for task in tasks)
+
+
 def swept(designs, workers):
-    """Wall seconds of a sweep, CPU seconds of all of it, and of its cases alone."""
+    """Sweep through designs into a file that is thrown away."""
     with tempfile.TemporaryDirectory() as folder:
-        file, wall = f"{folder}/bench.h5", time.perf_counter()
+        file, wall, before = f"{folder}/bench.h5", time.perf_counter(), delay()
         spent = seconds(lambda: run_sweep(designs, file, workers=workers))
-        wall, summary = time.perf_counter() - wall, read_summary(file)
+        wall, waited = time.perf_counter() - wall, (delay() - before) / workers
+        summary = read_summary(file)
     if not (summary["status"] == "converged").all():
         raise RuntimeError(f"a sweep of {len(designs)} cases left some that did not converge")
-    return wall, spent, float(summary["cpu_s"].sum())
+    return Swept(wall, waited, spent, float(summary["cpu_s"].sum()))
 
 
 def overhead(designs, count):
     """Two workers against one."""
-    columns = ("wall, s", "CPU of the cases, s", "wall / (CPU / workers)", "other CPU, %")
+    columns = ("wall, s", "waited, s", "CPU of cases, s", "(wall - waited) / (CPU / workers)")
     found = Table(f"a sweep of {len(designs)} cases", columns)
     samples = [[swept(designs, workers) for workers in WORKERS] for _ in range(count)]
-    for workers, rounds in zip(WORKERS, np.array(samples).swapaxes(0, 1), strict=True):
-        wall, spent, own = rounds.T
-        name = f"{workers} workers" if workers > 1 else "1 worker"
-        shares = wall, own, wall * workers / own, 100.0 * (spent / own - 1.0)
-        for column, share in zip(columns, shares, strict=True):
-            found.put(name, column, float(np.median(share)))
+    for workers, rounds in zip(WORKERS, zip(*samples, strict=True), strict=True):
+        figures = [(s.wall, s.waited, s.own, s.free * workers / s.own) for s in rounds]
+        for column, figure in zip(columns, np.median(figures, axis=0), strict=True):
+            found.put(f"{workers} worker{'s' * (workers > 1)}", column, float(figure))
     return found
 
 
@@ -68,14 +90,14 @@ def errors(sample):
 
 def throughput(designs, every):
     """Designs a second with friction and without, and what a sample of them is off by."""
-    columns = ("designs a second", "wall, s", "CPU of a case, ms", "error, % (greatest)")
+    columns = ("designs a second", "wall, s", "waited, s", "CPU of a case, ms", "error, % (most)")
     found = Table(f"{len(designs):,} designs to 60 %, two workers", columns)
     smooth = [changed(case, contact={"friction": 0.0}) for case in designs]
     for name, chosen in (("with friction", designs), ("without friction", smooth)):
-        wall, _, own = swept(chosen, 2)
-        off = 100.0 * errors(chosen[::every])
-        found.put(name, columns[0], len(chosen) / wall)
-        found.put(name, columns[1], wall)
-        found.put(name, columns[2], 1e3 * own / len(chosen))
-        found.put(name, columns[3], float(np.median(off)), f"{off.max():.2g}")
+        sweep, off = swept(chosen, 2), 100.0 * errors(chosen[::every])
+        each = 1e3 * sweep.own / len(chosen)
+        figures = len(chosen) / sweep.free, sweep.wall, sweep.waited, each
+        for column, figure in zip(columns, figures, strict=False):
+            found.put(name, column, figure)
+        found.put(name, columns[-1], float(np.median(off)), f"{off.max():.2g}")
     return found
