@@ -2,7 +2,7 @@
 
 from sweep.scene import build_scene
 from tests.bench import cases
-from tests.bench.marching import copied, press
+from tests.bench.marching import copied, press, sustained
 from tests.solving import at_rest
 
 APPROACH = 0.005  # strain of a step on the way there
@@ -27,7 +27,7 @@ class Crush:
 
     def each(self):
         """Seconds an iteration."""
-        return self.onwards()[0].each
+        return sustained(lambda: self.onwards()[0])
 
     @property
     def move(self):

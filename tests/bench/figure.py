@@ -32,7 +32,7 @@ def _growth(ax, grown, factored):
     ax.set(xlabel="cells a side", ylabel="µs", title="one iteration, and factor + solve")
     ax.set_xticks(list(own), [str(cells) for cells in own])
     ax.minorticks_off()
-    ax.legend(frameon=False, fontsize="small", loc="lower right")
+    _legend_below(ax)
 
 
 def _split(ax, split):
@@ -50,9 +50,12 @@ def _split(ax, split):
     ax.set_yticks(range(len(names)), names)
     ax.invert_yaxis()
     ax.set(xlabel="% of an iteration", title="where an iteration goes")
-    ax.legend(
-        frameon=False, fontsize="small", ncols=2, loc="upper center", bbox_to_anchor=(0.4, -0.14)
-    )
+    _legend_below(ax)
+
+
+def _legend_below(ax):
+    place = {"loc": "upper center", "bbox_to_anchor": (0.45, -0.14)}
+    ax.legend(frameon=False, fontsize="small", ncols=2, **place)
 
 
 def _seed(ax, seed):

@@ -31,9 +31,10 @@ def table(sizes, steps, count):
     for cells in sizes:
         case = cases.crush(cells, STRAIN, steps)
         scene = build_scene(case)
-        often = marching.whole(case, scene).iterations
+        march = partial(marching.whole, case, scene)
+        often = march().iterations
         sides = {
-            EACH: lambda case=case, scene=scene: marching.whole(case, scene).each,
+            EACH: partial(marching.sustained, march),
             SCENE: partial(seconds, partial(build_scene, case)),
             PATTERN: partial(seconds, partial(loops.search, 1, scene.x_rest, scene.terms)),
         }

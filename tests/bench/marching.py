@@ -9,6 +9,8 @@ from sweep.simulate import stages, tolerances
 from tests.bench.clock import seconds
 from tests.solving import at_rest, ramp
 
+SAMPLE = 5e-3  # s of marches in a sample
+
 
 class Spent(NamedTuple):
     """CPU seconds and Newton iterations of a march."""
@@ -48,6 +50,15 @@ def go(case, scene, state, ramps):
         if outcomes[0][0] != newton.CONVERGED:
             raise RuntimeError(f"the march of {case.case_id} did not converge: {outcomes[0]}")
     return Spent(spent, int(state.totals[0] - before))
+
+
+def sustained(march):
+    """Seconds an iteration of a march, repeated until caches are warm and a sample is full."""
+    march()
+    runs = [march()]
+    while sum(run.seconds for run in runs) < SAMPLE:
+        runs.append(march())
+    return sum(run.seconds for run in runs) / sum(run.iterations for run in runs)
 
 
 def copied(state):

@@ -31,10 +31,11 @@ def compared(title, chosen, count, peers=None):
     sides, iterations = {}, {}
     for name, case in chosen.items():
         scene = build_scene(case)
-        iterations[name] = marching.whole(case, scene).iterations
+        march = partial(marching.whole, case, scene)
+        iterations[name] = march().iterations
         sides[name, WHOLE] = partial(seconds, partial(simulate, case))
         sides[name, SCENE] = partial(seconds, partial(build_scene, case))
-        sides[name, EACH] = lambda case=case, scene=scene: marching.whole(case, scene).each
+        sides[name, EACH] = partial(marching.sustained, march)
     for name, peer in (peers or {}).items():
         iterations[name] = peer.whole().iterations
         sides[name, WHOLE] = lambda peer=peer: peer.whole().seconds
