@@ -44,8 +44,8 @@ verify: setup  ## print the numbers of README.md anew, from results/armor.h5 and
 	@test -f results/armor.h5 || $(PYTHON) -m sweep run configs/armor.toml
 	@$(PYTHON) tests/figures.py results/armor.h5
 
-bench: setup  ## measure how fast it is (LONG=1: 40 x 40 cells crushed too): results/bench/
-	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.bench results/bench $(if $(LONG),--long)
+bench: setup  ## measure how fast it is; table and figure go to results/bench/
+	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.bench results/bench
 
 clean:  ## remove the environment and all caches, but no results
 	rm -rf .venv build *.egg-info .pytest_cache .mypy_cache .ruff_cache

@@ -1,6 +1,6 @@
 """Measure everything, print it as Markdown, and draw it: `make bench`.
 
-python -m tests.bench FOLDER [--long]
+python -m tests.bench FOLDER
 """
 
 import sys
@@ -13,7 +13,7 @@ from tests.bench import densify, figure, growth, iteration, kernels, libraries, 
 SIZES, TWO, COUNT = (3, 5, 10, 20, 40), (3, 20), 7
 
 
-def tables(long):
+def tables():
     """Names and functions of all tables."""
     designs = sweeps.thousand()
     yield "seed", lambda: scenes.seed(3, 0.2, COUNT)
@@ -27,15 +27,14 @@ def tables(long):
     yield "factor", lambda: libraries.table((3, 5, 10, 20), COUNT)
     yield "overhead", lambda: sweeps.overhead(designs[::9], 3)
     yield "throughput", lambda: sweeps.throughput(designs, 41)
-    if long:
-        yield "densify", lambda: densify.table(40, 0.6, 200)
+    yield "densify", lambda: densify.table(40, 0.6, 200)
 
 
-def main(folder, long):
+def main(folder):
     """Print every table as it is found; write them and the figure to a folder."""
     warm_up()
     found, lines = {}, []
-    for name, made in tables(long):
+    for name, made in tables():
         found[name] = made()
         lines += [*found[name].markdown(), ""]
         sys.stdout.write("\n".join([*found[name].markdown(), "", ""]))
@@ -46,4 +45,4 @@ def main(folder, long):
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), "--long" in sys.argv)
+    main(Path(sys.argv[1]))
