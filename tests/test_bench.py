@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import readme
 
 from kernels import newton, step
 from sweep.params import Case
@@ -259,3 +260,9 @@ def test_figure_draws_what_is_there():
     assert [list(line.get_ydata()) for line in left.lines] == [[5.0, 200.0], [2.0, 90.0]]
     assert [bar.get_width() for bar in middle.patches] == [40.0, 60.0]
     assert [bar.get_width() for bar in right.patches] == [0.05]
+
+
+def test_readme_shows_rows_of_the_bench():
+    said = {row[0] for table in readme.tables() for row in table}
+    chosen = {scenes.SEED, *scenes.ALLOWED, growth.EACH, growth.PEAK, "with friction"}
+    assert chosen | {libraries.OURS, *libraries.LIBRARIES} <= said
