@@ -223,12 +223,17 @@ def test_thousand_designs_are_a_thousand():
 def test_sweeps_are_timed_and_checked():
     few = [cases.crush(cells, 0.1, 5) for cells in (1, 2)]
     overhead = sweeps.overhead(few, 1)
-    assert positive(overhead, ["1 worker", "2 workers"])
+    for workers in ("1 worker", "2 workers"):
+        found = overhead.row(workers)
+        assert found["wall, s"] > 0.5 * found["CPU of cases, s"] > 0.0
+        assert found["other CPU, %"] > 0.0
     rough = sweeps.errors([cases.crush(2, 0.3, 4)])
     fine = sweeps.errors([cases.crush(2, 0.3, 64)])
     assert rough > 4.0 * fine > 0.0
     smooth = [cases.crush(2, 0.1, 5, contact) for contact in (cases.SMOOTH, cases.ROUGH)]
-    assert positive(sweeps.throughput(smooth, 1), ["with friction", "without friction"])
+    throughput = sweeps.throughput(smooth, 1)
+    assert throughput.values["with friction", "a second"] > 1.0
+    assert throughput.values["without friction", "error, % (most)"] > 0.0
 
 
 def test_sweep_with_a_failure_is_no_figure():

@@ -50,6 +50,11 @@ class Swept(NamedTuple):
         """On the clock, had no other program run."""
         return self.wall - self.waited
 
+    @property
+    def other(self):
+        """CPU that the cases have not taken, in % of theirs."""
+        return 100.0 * (self.spent / self.own - 1.0)
+
 
 def delay():
     """Seconds that all threads of this process have waited for a core so far."""
@@ -72,11 +77,12 @@ def swept(designs, workers):
 
 def overhead(designs, count):
     """Two workers against one."""
-    columns = ("wall, s", "waited, s", "CPU of cases, s", "(wall - waited) / (CPU / workers)")
+    ratio = "(wall - waited) / (CPU / workers)"
+    columns = ("wall, s", "waited, s", "CPU of cases, s", "other CPU, %", ratio)
     found = Table(f"a sweep of {len(designs)} cases", columns)
     samples = [[swept(designs, workers) for workers in WORKERS] for _ in range(count)]
     for workers, rounds in zip(WORKERS, zip(*samples, strict=True), strict=True):
-        figures = [(s.wall, s.waited, s.own, s.free * workers / s.own) for s in rounds]
+        figures = [(s.wall, s.waited, s.own, s.other, s.free * workers / s.own) for s in rounds]
         for column, figure in zip(columns, np.median(figures, axis=0), strict=True):
             found.put(f"{workers} worker{'s' * (workers > 1)}", column, float(figure))
     return found
