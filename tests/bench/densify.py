@@ -7,7 +7,7 @@ from tests.bench.sweeps import changed
 from tests.bench.table import Table
 
 PATIENCE = 4 * 3600.0  # s
-COLUMNS = ("CPU s", "march, s", "iterations", "ms an iteration", "memory, MB", "packed at, %")
+COLUMNS = ("CPU s", "march, s", "iterations", "ms of each", "memory, MB", "packed at %")
 
 
 def table(cells, strain, steps):

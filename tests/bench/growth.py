@@ -11,9 +11,11 @@ from tests.bench.clock import medians, seconds
 from tests.bench.table import Table
 
 STRAIN = 0.1  # buckled, and nothing touches
-EACH, TOTAL, SCENE, PATTERN, PEAK = (
-    "µs an iteration (/ the size before)",
-    "march, s (iterations)",
+EACH, RATIO, TOTAL, ITERATIONS, SCENE, PATTERN, PEAK = (
+    "µs an iteration",
+    "times that of the size before",
+    "the march, s",
+    "its iterations",
     "building the scene, ms",
     "pattern of the matrix, ms",
     "memory of the process, MB",
@@ -39,8 +41,11 @@ def table(sizes, steps, count):
             PATTERN: partial(seconds, partial(loops.search, 1, scene.x_rest, scene.terms)),
         }
         at = medians(sides, count)
-        found.put(EACH, cells, 1e6 * at[EACH], f"{at[EACH] / before:.3g} x" if before else "")
-        found.put(TOTAL, cells, at[EACH] * often, f"{often}")
+        found.put(EACH, cells, 1e6 * at[EACH])
+        if before:
+            found.put(RATIO, cells, at[EACH] / before)
+        found.put(TOTAL, cells, at[EACH] * often)
+        found.put(ITERATIONS, cells, often)
         found.put(SCENE, cells, 1e3 * at[SCENE])
         found.put(PATTERN, cells, 1e3 * at[PATTERN])
         found.put(PEAK, cells, alone(case)[MEMORY])

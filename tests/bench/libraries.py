@@ -106,17 +106,13 @@ def repeated(solve, b):
     return seconds(lambda: [solve(b) for _ in range(calls)]) / calls
 
 
-def matrix_of(crush):
-    """Spot of a crush, and its matrix."""
-    spot = Spot(crush.scene, crush.state.x, crush.move)
-    return spot, assembled(crush.scene.terms, spot.at.stiffness)
-
-
 def table(sizes, count):
     """µs to factor and solve."""
     found = Table("factor and solve the same matrix, µs", sizes)
     for cells in sizes:
-        spot, matrix = matrix_of(Crush(cells))
+        crush = Crush(cells)
+        spot = Spot(crush.scene, crush.state.x, crush.move)
+        matrix = assembled(crush.scene.terms, spot.at.stiffness)
         b, libraries = np.ones(matrix.shape[0]), solvers(matrix)
         sides = {OURS: lambda spot=spot: spot.each(loops.FACTOR) + spot.each(loops.SOLVE)}
         for name, solve in libraries.items():
