@@ -251,9 +251,9 @@ def test_sweep_with_a_failure_is_no_figure():
 def test_long_crush_says_when_it_has_packed(monkeypatch):
     monkeypatch.setattr(densify, "alone", lambda case: simulate(case).summary | {alone.MEMORY: 1.0})
     table = densify.table(2, 0.6, 30)
-    assert positive(table, ["to 60 %"])
+    assert positive(table, ["to 60 % in 30 steps"])
     monkeypatch.setattr(densify, "alone", lambda case: {"status": "stopped", "message": "why"})
-    assert densify.table(2, 0.6, 30).texts["to 60 %", "CPU s"] == "why"
+    assert densify.table(2, 0.6, 30).texts["to 60 % in 30 steps", "CPU s"] == "why"
 
 
 def test_figure_draws_what_is_there():

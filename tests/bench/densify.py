@@ -12,10 +12,10 @@ COLUMNS = ("CPU s", "march, s", "iterations", "ms of each", "memory, MB", "packe
 
 def table(cells, strain, steps):
     """One row; why there is none, if the crush did not get through."""
-    found = Table(f"{cells} x {cells}, contact, {steps} steps", COLUMNS)
+    found = Table(f"{cells} x {cells}, with contact", COLUMNS)
     case = cases.crush(cells, strain, steps, cases.SMOOTH)
     summary = alone(changed(case, solver={"time_limit": PATIENCE}))
-    row = f"to {100 * strain:.0f} %"
+    row = f"to {100 * strain:.0f} % in {steps} steps"
     if summary["status"] != "converged":
         found.lack(row, summary["message"])
         return found

@@ -44,6 +44,8 @@ def table(sizes, steps, count):
         found.put(EACH, cells, 1e6 * at[EACH])
         if before:
             found.put(RATIO, cells, at[EACH] / before)
+        else:
+            found.lack(RATIO, "")
         found.put(TOTAL, cells, at[EACH] * often)
         found.put(ITERATIONS, cells, often)
         found.put(SCENE, cells, 1e3 * at[SCENE])

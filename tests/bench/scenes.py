@@ -11,7 +11,7 @@ from tests.bench.table import Table
 
 WHOLE, SCENE, ITERATIONS, EACH = "CPU s", "building, ms", "iterations", "µs an iteration"
 COLUMNS = (WHOLE, SCENE, ITERATIONS, EACH)
-SEED = "5 N, no contact"
+SEED = "no contact"
 ALLOWED = {
     "contact allowed, nothing touches": {"contact": cases.SMOOTH},
     "friction too": {"contact": cases.ROUGH},
@@ -53,7 +53,7 @@ def compared(title, chosen, count, peers=None):
 
 def seed(cells, duration, count, allowed=ALLOWED, solver="ProfileSPD"):
     """The seed's scene, and OpenSees with it where that is installed."""
-    title = f"the seed's scene, {cells} x {cells}, {round(1e4 * duration):,} steps"
+    title = f"dead load, {cells} x {cells}, {round(1e4 * duration):,} steps"
     case, name = cases.seed(cells, duration), f"OpenSees, {solver}"
     chosen = {SEED: case}
     chosen |= {what: cases.seed(cells, duration, **given) for what, given in allowed.items()}
