@@ -12,7 +12,7 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test verify lint clean
+.PHONY: help setup sweep rank test verify bench lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -43,6 +43,9 @@ test: lint  ## check style and types, then run the tests
 verify: setup  ## print the numbers of README.md anew, from results/armor.h5 and beside references
 	@test -f results/armor.h5 || $(PYTHON) -m sweep run configs/armor.toml
 	@$(PYTHON) tests/figures.py results/armor.h5
+
+bench: setup  ## measure how fast it is; table and figure go to results/bench/
+	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.bench results/bench
 
 clean:  ## remove the environment and all caches, but no results
 	rm -rf .venv build *.egg-info .pytest_cache .mypy_cache .ruff_cache

@@ -1,0 +1,46 @@
+"""A Newton iteration taken apart: what a march calls, how often, and how long that takes."""
+
+from functools import partial
+
+from tests.bench import cases, loops
+from tests.bench.clock import medians
+from tests.bench.counts import counted
+from tests.bench.crushes import BUCKLED, COLLAPSED, Crush
+from tests.bench.spot import Spot
+from tests.bench.table import Table
+
+STATES = {"buckled": (cases.APART, BUCKLED), "collapsed": (cases.SMOOTH, COLLAPSED)}
+WHOLE, SEARCH, REST = "an iteration", "line search", "the rest"
+
+
+def split(crush, count):
+    """Seconds an iteration of the whole and of its parts, by name."""
+    spot, often = Spot(crush.scene, crush.state.x, crush.move), counted(crush)
+    names = ("EVALUATE", "FACTOR", "SOLVE", "LIMIT", "CONTACT", "CONTACT_HESSIAN")
+    sides = {name: partial(spot.each, getattr(loops, name)) for name in names}
+    at = medians(sides | {"SEARCH": spot.search, WHOLE: crush.each}, count)
+    evaluation = at["EVALUATE"] - at["CONTACT"]
+    parts = {
+        "evaluation of walls and joints": evaluation,
+        SEARCH: (often["evaluate"] - 1.0) * evaluation,
+        "factor": often["factor"] * (at["FACTOR"] - at["CONTACT_HESSIAN"]),
+        "solve": often["solve"] * at["SOLVE"],
+        "contact: energy and Hessian": often["evaluate"] * at["CONTACT"]
+        + often["factor"] * at["CONTACT_HESSIAN"],
+        "how far a step may go": often["limit"] * at["LIMIT"],
+        "near pairs and pattern anew": often["find"] * at["SEARCH"],
+    }
+    return {WHOLE: at[WHOLE], **parts, REST: at[WHOLE] - sum(parts.values())}
+
+
+def table(sizes, count):
+    """µs an iteration, before anything touches and after the collapse."""
+    columns = tuple(f"{n} x {n} {state}" for state in STATES for n in sizes)
+    found = Table("µs (% of the iteration)", columns)
+    for state, given in STATES.items():
+        for cells in sizes:
+            times = split(Crush(cells, *given), count)
+            for name, time in times.items():
+                share = "" if name == WHOLE else f"{100 * time / times[WHOLE]:.0f}"
+                found.put(name, f"{cells} x {cells} {state}", 1e6 * time, share)
+    return found

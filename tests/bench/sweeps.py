@@ -1,0 +1,112 @@
+"""Whole sweeps on two cores: what comes on top of the cases, and designs a second."""
+
+import tempfile
+import time
+from contextlib import redirect_stdout
+from io import StringIO
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from sweep.config import load_config
+from sweep.grid import expand
+from sweep.params import Case
+from sweep.run import run_sweep
+from sweep.simulate import simulate
+from sweep.store import read_summary
+from tests.bench.clock import seconds
+from tests.bench.table import Table
+
+CONFIG = Path(__file__).parents[2] / "configs/thousand.toml"
+FINER = 4  # times the load steps, to see what they leave out
+WORKERS = (1, 2)
+
+
+def thousand():
+    """All designs of the config."""
+    return expand(load_config(CONFIG))
+
+
+def changed(case, **tables):
+    """A case with some keys of some tables changed."""
+    given = {name: getattr(case, name).model_copy(update=keys) for name, keys in tables.items()}
+    kept = {name: getattr(case, name) for name in Case.model_fields if name not in given}
+    return Case(**kept, **given)
+
+
+class Swept(NamedTuple):
+    """Seconds of a sweep: on the clock, those that a worker waited for a core that another program
+    had, CPU of the process, CPU of the cases alone.
+    """
+
+    wall: float
+    waited: float
+    spent: float
+    own: float
+
+    @property
+    def free(self):
+        """On the clock, had no other program run."""
+        return self.wall - self.waited
+
+    @property
+    def other(self):
+        """CPU that the cases have not taken, in % of theirs."""
+        return 100.0 * (self.spent / self.own - 1.0)
+
+
+def delay():
+    """Seconds that all threads of this process have waited for a core so far."""
+    tasks = Path("/proc/self/task").glob("*/schedstat")
+    return 1e-9 * sum(int(task.read_text("utf-8").split()[1]) for task in tasks)
+
+
+def swept(designs, workers):
+    """Sweep through designs into a file that is thrown away."""
+    with tempfile.TemporaryDirectory() as folder:
+        file, wall, before = f"{folder}/bench.h5", time.perf_counter(), delay()
+        with redirect_stdout(StringIO()):  # its progress
+            spent = seconds(lambda: run_sweep(designs, file, workers=workers))
+        wall, waited = time.perf_counter() - wall, (delay() - before) / workers
+        summary = read_summary(file)
+    if not (summary["status"] == "converged").all():
+        raise RuntimeError(f"a sweep of {len(designs)} cases left some that did not converge")
+    return Swept(wall, waited, spent, float(summary["cpu_s"].sum()))
+
+
+def overhead(designs, count):
+    """Two workers against one."""
+    ratio = "(wall - waited) / (CPU / workers)"
+    columns = ("wall, s", "waited, s", "CPU of cases, s", "other CPU, %", ratio)
+    found = Table(f"a sweep of {len(designs)} cases", columns)
+    samples = [[swept(designs, workers) for workers in WORKERS] for _ in range(count)]
+    for workers, rounds in zip(WORKERS, zip(*samples, strict=True), strict=True):
+        figures = [(s.wall, s.waited, s.own, s.other, s.free * workers / s.own) for s in rounds]
+        for column, figure in zip(columns, np.median(figures, axis=0), strict=True):
+            found.put(f"{workers} worker{'s' * (workers > 1)}", column, float(figure))
+    return found
+
+
+def errors(sample):
+    """Share by which the absorbed energy of each design changes with `FINER` times its steps."""
+    energies = []
+    for factor in (1, FINER):
+        finer = [changed(c, solver={"load_steps": factor * c.solver.load_steps}) for c in sample]
+        energies.append([simulate(case).summary["absorbed_energy_J"] for case in finer])
+    return np.abs(np.divide(*energies) - 1.0)
+
+
+def throughput(designs, every):
+    """Designs a second with friction and without, and what a sample of them is off by."""
+    columns = ("a second", "wall, s", "waited, s", "CPU of each, ms", "error, % (most)")
+    found = Table(f"{len(designs):,} designs, two workers", columns)
+    smooth = [changed(case, contact={"friction": 0.0}) for case in designs]
+    for name, chosen in (("with friction", designs), ("without friction", smooth)):
+        sweep, off = swept(chosen, 2), 100.0 * errors(chosen[::every])
+        each = 1e3 * sweep.own / len(chosen)
+        figures = len(chosen) / sweep.free, sweep.wall, sweep.waited, each
+        for column, figure in zip(columns, figures, strict=False):
+            found.put(name, column, figure)
+        found.put(name, columns[-1], float(np.median(off)), f"{off.max():.2g}")
+    return found
