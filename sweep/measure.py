@@ -82,7 +82,7 @@ def plateau(
 
     strain, force (N), work (J): (rows,), of the way down.
     """
-    area = (lattice.width + lattice.wall_thickness) * lattice.depth
+    area = lattice.outer_width * lattice.depth
     stress, density = force / area, work / (area * lattice.height)
     gained = efficiency(stress, density)
     best, last = int(np.argmax(gained)), len(strain) - 1

@@ -93,7 +93,7 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
 
 def _plateau(ax: Axes, row: Mapping[str, Any]) -> None:
     """Height of the plateau, up to the strain of densification or of the stroke."""
-    area = (row["width_m"] + row["wall_thickness_m"]) * row["depth_m"]
+    area = row["outer_width_m"] * row["depth_m"]
     plateau, packed = area * row["plateau_stress_Pa"], 100.0 * row["densification_strain"]
     if row["loading_mode"] != "displacement" or np.isnan(plateau):
         return

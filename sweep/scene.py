@@ -198,7 +198,7 @@ def build_scene(case: Case) -> Scene:
     )
     return Scene(
         mesh, network, terms, _unknowns(mesh, layout, follows, case),
-        _rest(mesh, network, layout), *_reported(layout, case.loading),
+        _rest(mesh, layout, terms.contact.node_thickness), *_reported(layout, case.loading),
         force_scale=float(np.min(rigidity) / np.max(_wall_length(network)) ** 2),
     )  # fmt: skip
 
@@ -208,11 +208,11 @@ def _wall_length(network: Network) -> Floats:
     return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
 
 
-def _rest(mesh: Mesh, network: Network, layout: Layout) -> Floats:
-    """Coordinates at rest; platens touch the outer walls."""
-    half = 0.5 * network.wall_thickness.max()
-    bottom, top = network.points[:, 1].min() - half, network.points[:, 1].max() + half
-    return np.concatenate([mesh.points.ravel(), np.zeros(layout.n_joints), [bottom, top]])
+def _rest(mesh: Mesh, layout: Layout, thickness: Floats) -> Floats:
+    """Coordinates at rest; platens touch the outermost walls. thickness (n,): of nodes, m."""
+    y, half = mesh.points[:, 1], 0.5 * thickness
+    platens = [(y - half).min(), (y + half).max()]
+    return np.concatenate([mesh.points.ravel(), np.zeros(layout.n_joints), platens])
 
 
 def _reported(layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:

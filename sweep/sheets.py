@@ -30,6 +30,7 @@ MILLIMETRES = {
 }
 SHOWN_BY_NAME = {
     "lattice.kind",
+    "lattice.mass",
     "lattice.cells",
     "lattice.cells_x",
     "lattice.cells_y",

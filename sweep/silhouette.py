@@ -34,10 +34,11 @@ def _mitres(position: Floats, node: Integers, arm: Floats, half: Floats) -> Floa
     order = np.lexsort((np.arctan2(arm[:, 1], arm[:, 0]), node))
     node, arm, half = node[order], arm[order], half[order, None]
     following = _following(node)
-    left, right = _left(arm), -_left(arm[following])
-    one, other = half * left, half[following] * right
-    reach = 1.0 + (left * right).sum(1, keepdims=True)
-    tip = (one + other) / np.maximum(reach, BLUNT)
+    left, right, beyond = _left(arm), -_left(arm[following]), half[following]
+    one, other = half * left, beyond * right
+    cosine = (left * right).sum(1, keepdims=True)
+    tip = 0.5 * (half + beyond) * (left + right) / np.maximum(1.0 + cosine, BLUNT)
+    tip += 0.5 * (half - beyond) * (left - right) / np.maximum(1.0 - cosine, BLUNT)
     kites = np.stack([np.zeros_like(tip), one, tip, other, np.zeros_like(tip)], axis=1)
     gap = (left * arm[following]).sum(1) < -STRAIGHT
     return (position[node][:, None] + kites)[gap]
