@@ -111,10 +111,20 @@ def _contact(mesh: Mesh, layout: Layout, stiffness: float, case: Case) -> contac
         special_weight=special[2],
         special_distance=special[3],
         special_subtract=special[4],
-        plate_nodes=np.arange(layout.n_nodes if case.loading.platen == "contact" else 0),
+        plate_nodes=_loose(layout, case),
         low=layout.low,
         high=layout.high,
     )
+
+
+def _loose(layout: Layout, case: Case) -> Ints:
+    """Nodes that a platen can meet: all of them; those that are not glued to it, if walls touch."""
+    nodes = np.arange(layout.n_nodes)
+    if case.loading.platen == "contact":
+        return nodes
+    if case.loading.platen == "glued" and case.contact.model != "none":
+        return np.setdiff1d(nodes, np.union1d(layout.bottom, layout.top))
+    return nodes[:0]
 
 
 def _masses(mesh: Mesh, layout: Layout, total: float) -> Floats:
@@ -223,7 +233,7 @@ def _reported(layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
     """
     bottom = 2 * layout.bottom + 1
     low, high = np.array([layout.low]), np.array([layout.high])
-    reaction = low if loading.platen == "contact" else bottom
+    reaction = {"contact": low, "glued": np.append(bottom, low)}.get(loading.platen or "", bottom)
     if loading.mode == "displacement":
         return reaction, high, low
     if loading.platen == "contact":
