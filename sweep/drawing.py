@@ -1,13 +1,18 @@
 """Centre lines as joints and walls: a drawing stretched to its box, clipped, outlined, welded."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sweep.infill import Drawing, drawer
+from sweep.infill import drawer
+
+if TYPE_CHECKING:
+    from sweep.infill import Drawing
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -31,7 +36,8 @@ class Sketch(NamedTuple):
 @lru_cache(maxsize=256)
 def joints_and_walls(sketch: Sketch) -> tuple[Floats, Indices]:
     """Joints (j, 2) in m, row by row from below, and walls (w, 2), the level ones first."""
-    draw, (columns, rows) = drawer(sketch.kind, sketch.orientation), map(range, sketch.cells)
+    draw = drawer(sketch.kind, sketch.orientation)
+    columns, rows = (range(n) for n in sketch.cells)
     if sketch.closed or sketch.capped:
         rows = range(-SPILL, len(rows) + SPILL)
     if sketch.closed:
@@ -67,13 +73,13 @@ def counts(sketch: Sketch) -> tuple[int, int]:
     Both are linear in the number of columns, and of rows, of equal parity.
     """
     for axis, n in enumerate(sketch.cells):
-        if n > FEW + 1:
+        if n > FEW + 3:
             few = FEW + n % 2
             one, two = (counts(_with_cells(sketch, axis, k)) for k in (few, few + 2))
             joints, walls = (a + (b - a) * (n - few) // 2 for a, b in zip(one, two, strict=True))
             return joints, walls
-    points, walls = joints_and_walls(sketch)
-    return len(points), len(walls)
+    drawn = joints_and_walls(sketch)
+    return len(drawn[0]), len(drawn[1])
 
 
 def sample(sketch: Sketch) -> Sketch:
@@ -86,13 +92,13 @@ def sample(sketch: Sketch) -> Sketch:
 
 def _with_cells(sketch: Sketch, axis: int, n: int) -> Sketch:
     """A sketch with ``n`` columns (axis 0) or rows of the same cells."""
-    cells = list(sketch.cells)
-    cells[axis] = n
+    columns, rows = sketch.cells
+    cells = (n, rows) if axis == 0 else (columns, n)
     (low, high), (less, more) = (
-        extent(sketch.kind, sketch.orientation, some) for some in (sketch.cells, tuple(cells))
+        extent(sketch.kind, sketch.orientation, some) for some in (sketch.cells, cells)
     )
-    box = np.array(sketch.box) * (more - less) / (high - low)
-    return sketch._replace(cells=tuple(cells), box=tuple(box.tolist()))
+    width, height = np.array(sketch.box) * (more - less) / (high - low)
+    return sketch._replace(cells=cells, box=(float(width), float(height)))
 
 
 def on_outline(points: Floats, walls: Indices, side: float, axis: int) -> NDArray[np.bool_]:

@@ -132,7 +132,8 @@ class _Draft:
 
 
 def _drafts(config: Config) -> Iterator[_Draft]:
-    made, settled, weighed = cache(_table), cache(resolve), cache(sized)  # most cases share most of their tables
+    # Most cases share most of their tables.
+    made, settled, weighed = cache(_table), cache(resolve), cache(sized)
     for chosen in _combinations(config):
         written = config.base | _targets(chosen)
         given = {key: value for key, (value, *_) in written.items()}

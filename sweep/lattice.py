@@ -119,7 +119,7 @@ def relative_density(network: Network) -> float:
 
 
 @lru_cache(maxsize=256)
-def tightest(drawn: Sketch) -> float:
+def opening(drawn: Sketch) -> float:
     """Clear width between the centre lines of the narrowest cell: of its largest circle, m."""
     import shapely
 

@@ -6,11 +6,8 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from sweep.drawing import counts
-from sweep.infill import families, is_oriented
-from sweep.lattice import sketch, tightest
+from sweep.infill import families, trait
 from sweep.tables import Few, Length, Mass, NonNegative, Table, refusal
-from sweep.wishes import cells_for, thickest, thickness_for
 
 LINE_WIDTH, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m, of a 0.4 mm nozzle
 # The factor of 70 000 nodes takes 8 GB, and a step with it minutes.
@@ -63,7 +60,7 @@ class Lattice(Table):
     def _complete(self) -> Self:
         lines = self.perimeters > 0 or self.infill is not None
         used = {
-            "orientation": (self.orientation or "pointy") if is_oriented(self.kind) else None,
+            "orientation": (self.orientation or "pointy") if trait(self.kind, "ORIENTED") else None,
             "line_width": (self.line_width or LINE_WIDTH) if lines else None,
             "layer_height": (self.layer_height or LAYER_HEIGHT) if self.solid_layers else None,
         }
@@ -82,6 +79,8 @@ class Lattice(Table):
             raise refusal("lattice.mass", self.mass, "none where lattice.infill is given")
         wished = f"as lattice.infill is {100 * share:g} %; give one of them"
         self._follow("wall_thickness", self.line_width, f"{self.line_width:g} m, {wished}")
+        from sweep.wishes import cells_for
+
         cells = cells_for(self, MAX_NODES)
         if not cells:
             allowed = f"a share that 1 to {MAX_NODES:,} cells fill with lines of "
@@ -96,7 +95,7 @@ class Lattice(Table):
         object.__setattr__(self, key, value)
 
     def _be_small_enough(self) -> None:
-        joints, walls = counts(sketch(self))
+        joints, walls = self._counts
         nodes = joints + walls * self.nodes_per_wall
         if nodes > MAX_NODES:
             values = {key: getattr(self, key) for key in ("cells_x", "cells_y", "nodes_per_wall")}
@@ -107,7 +106,35 @@ class Lattice(Table):
     @property
     def walls(self) -> int:
         """Number of walls between joints."""
-        return counts(sketch(self))[1]
+        return self._counts[1]
+
+    @property
+    def _counts(self) -> tuple[int, int]:
+        """Numbers of joints and walls."""
+        if known := trait(self.kind, "counts"):
+            return known(self.cells_x, self.cells_y)
+        from sweep.drawing import counts
+        from sweep.lattice import sketch
+
+        return counts(sketch(self))
+
+    @property
+    def opening(self) -> float:
+        """Clear width between the centre lines of the narrowest cell that is whole, m."""
+        if known := trait(self.kind, "opening"):
+            return known(self.width / self.cells_x, self.height / self.cells_y)
+        from sweep.lattice import opening, sketch
+
+        return opening(sketch(self, outlined=False))
+
+    @property
+    def thickest(self) -> float:
+        """Wall thickness (m) with which the narrowest opening is as wide as its walls are thick."""
+        if self.grading == 1.0:
+            return 0.5 * self.opening
+        from sweep.lattice import gradient
+
+        return 0.5 * self.opening / float(gradient(self).max())
 
     @property
     def outline(self) -> tuple[float, float]:
@@ -123,11 +150,11 @@ class Lattice(Table):
 
 def leave_openings(lattice: Lattice) -> None:
     """Refuse walls that leave no sensible opening between them, and an outline that fills cells."""
-    limit, thickness = thickest(lattice), lattice.wall_thickness
+    limit, thickness = lattice.thickest, lattice.wall_thickness
     if thickness >= limit * (1.0 - 1e-12):
         allowed = f"below half the width of the narrowest cell, {limit:.4g} m here"
         raise refusal("lattice.wall_thickness", thickness, allowed)
-    room = tightest(sketch(lattice, outlined=False)) - thickness
+    room = lattice.opening - thickness
     for axis, key in enumerate(("perimeters", "solid_layers")):
         outline, count = lattice.outline[axis], getattr(lattice, key)
         if count and outline >= room:
@@ -140,6 +167,8 @@ def sized(lattice: Lattice, density: float) -> Lattice:
     """A lattice whose walls are as thick as its `mass` demands."""
     if lattice.mass is None:
         return lattice
+    from sweep.wishes import thickness_for
+
     thickness, light, heavy = thickness_for(lattice, density)
     if isnan(thickness):
         allowed = f"between {light:.4g} kg and {heavy:.4g} kg with these cells"

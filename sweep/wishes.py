@@ -6,7 +6,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from sweep.drawing import FEW, extent
-from sweep.lattice import build_network, gradient, infill_walls, mass, sketch, tightest
+from sweep.lattice import build_network, infill_walls, mass
 
 if TYPE_CHECKING:
     from sweep.specimen import Lattice
@@ -56,12 +56,6 @@ def _pitch(kind: str, orientation: str | None) -> tuple[float, float]:
     return width, height
 
 
-def thickest(lattice: Lattice) -> float:
-    """Wall thickness (m) at which an opening is half the narrowest cell: the limit of the model."""
-    greatest = 1.0 if lattice.grading == 1.0 else float(gradient(lattice).max())
-    return 0.5 * tightest(sketch(lattice, outlined=False)) / greatest
-
-
 @lru_cache(maxsize=4096)
 def thickness_for(lattice: Lattice, density: float) -> tuple[float, float, float]:
     """Wall thickness (m) for the `mass` of a lattice, and the masses (kg) between which it can be.
@@ -74,7 +68,7 @@ def thickness_for(lattice: Lattice, density: float) -> tuple[float, float, float
         network = build_network(lattice.model_copy(update={"wall_thickness": thickness}))
         return mass(network, lattice.depth, density)
 
-    high = thickest(lattice)
+    high = lattice.thickest
     low = THIN * high
     light, heavy = weight(low), weight(high)
     if not light < wanted < heavy:

@@ -26,7 +26,7 @@ def load(tmp_path):
     return loaded
 
 
-@pytest.mark.parametrize(("name", "cases"), [("smoke", 6), ("armor", 140)])
+@pytest.mark.parametrize(("name", "cases"), [("smoke", 6), ("armor", 140), ("infills", 13)])
 def test_shipped_configs_expand(name, cases):
     config = load_config(CONFIGS / f"{name}.toml")
     assert config.name == name
@@ -34,7 +34,7 @@ def test_shipped_configs_expand(name, cases):
 
 
 def test_every_shipped_config_is_pinned():
-    assert {path.stem for path in CONFIGS.glob("*.toml")} == {"smoke", "armor"}
+    assert {path.stem for path in CONFIGS.glob("*.toml")} == {"smoke", "armor", "infills"}
 
 
 def test_empty_config_is_the_seed(load):

@@ -13,8 +13,7 @@ def row():
     (row,) = summary(
         {
             "height_m": HEIGHT,
-            "width_m": 10e-3,
-            "wall_thickness_m": T,
+            "outer_width_m": 10e-3 + T,
             "stroke_m": 4e-3,
             "plateau_stress_Pa": 0.2e6,
             "densification_strain": 0.3,

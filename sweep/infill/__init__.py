@@ -4,19 +4,25 @@ Each has `draw(columns, rows)`: the centre lines of the cells with these numbers
 polylines (n, k, 2) whose vertices are joints, in a unit of its own, y upwards. Columns and rows are
 consecutive and may be negative; what neighbouring cells share may be drawn twice. The drawing is
 stretched to the box. `ORIENTED = True`: it may be turned by a quarter (`lattice.orientation`).
+
+Numpy is loaded only to draw, so that a config is refused at once.
 """
+
+from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
 
-Floats = NDArray[np.float64]
-Drawing = list[Floats]
-Draw = Callable[[Sequence[int], Sequence[int]], Drawing]
+    Floats = NDArray[np.float64]
+    Drawing = list[Floats]
+    Draw = Callable[[Sequence[int], Sequence[int]], Drawing]
 
 
 @cache
@@ -25,16 +31,15 @@ def families() -> tuple[str, ...]:
     return tuple(sorted(module.name for module in iter_modules(__path__)))
 
 
-@cache
-def is_oriented(kind: str) -> bool:
-    """True for a family that may be turned by a quarter."""
-    return getattr(import_module(f"sweep.infill.{kind}"), "ORIENTED", False)
+def trait(kind: str, name: str) -> Any:
+    """What the file of a family has under a name; None without it."""
+    return getattr(import_module(f"sweep.infill.{kind}"), name, None)
 
 
 @cache
 def drawer(kind: str, orientation: str | None) -> Draw:
     """The `draw` of a family; "flat": x and y, and so columns and rows, exchanged."""
-    upright: Draw = import_module(f"sweep.infill.{kind}").draw
+    upright: Draw = trait(kind, "draw")
     if orientation != "flat":
         return upright
     return lambda columns, rows: [lines[..., ::-1] for lines in upright(rows, columns)]
@@ -48,6 +53,8 @@ def tile(
     stagger: float = 0.0,
 ) -> Floats:
     """A polyline (k, 2) repeated at all cells, (n, k, 2); odd rows are shifted by a share."""
+    import numpy as np
+
     column, row = np.meshgrid(columns, rows)
     at = np.stack([(column + stagger * (row % 2)) * pitch[0], row * pitch[1]], axis=-1)
     return at.reshape(-1, 1, 2) + np.asarray(motif, dtype=float)

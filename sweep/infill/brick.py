@@ -1,10 +1,14 @@
 """Offset squares: courses of bricks, every other one with half a brick at either end."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sweep.infill import Drawing, Floats
+if TYPE_CHECKING:
+    from sweep.infill import Drawing, Floats
 
 
 def draw(columns: Sequence[int], rows: Sequence[int]) -> Drawing:

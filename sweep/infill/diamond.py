@@ -1,8 +1,14 @@
 """Grid at 45 degrees, clipped by the box: diamonds whose corners touch its sides."""
 
-from collections.abc import Sequence
+from __future__ import annotations
 
-from sweep.infill import Drawing, tile
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from sweep.infill import tile
+
+if TYPE_CHECKING:
+    from sweep.infill import Drawing
 
 CELL = [(0.5, 0), (1, 0.5), (0.5, 1), (0, 0.5), (0.5, 0)]
 

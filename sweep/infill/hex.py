@@ -1,8 +1,14 @@
-"""Honeycomb: staggered rows of hexagons that stand on a corner; flat: columns that lie on a side."""
+"""Honeycomb: staggered rows of hexagons on their corners; flat: columns of hexagons on a side."""
+
+from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from sweep.infill import Drawing, tile
+from sweep.infill import tile
+
+if TYPE_CHECKING:
+    from sweep.infill import Drawing
 
 ORIENTED = True
 HALF = 0.75**0.5  # of the width of a hexagon of side 1

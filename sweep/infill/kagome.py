@@ -1,8 +1,14 @@
 """Kagome: triangles and hexagons, as straight lines in three directions make them."""
 
-from collections.abc import Sequence
+from __future__ import annotations
 
-from sweep.infill import Drawing, tile
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from sweep.infill import tile
+
+if TYPE_CHECKING:
+    from sweep.infill import Drawing
 
 RISE = 0.75**0.5  # of a regular triangle of side 1
 GLASS = [(0, 0), (1, 0), (0.5, RISE), (1, 2 * RISE), (0, 2 * RISE), (0.5, RISE), (0, 0)]

@@ -3,9 +3,15 @@
 Upright walls twice as long as the slanted ones, which rise by 30 degrees.
 """
 
-from collections.abc import Sequence
+from __future__ import annotations
 
-from sweep.infill import Drawing, tile
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from sweep.infill import tile
+
+if TYPE_CHECKING:
+    from sweep.infill import Drawing
 
 ORIENTED = True
 HALF = 0.75**0.5  # of the width of a cell whose slanted walls are 1 long
