@@ -48,6 +48,8 @@ def joints_and_walls(sketch: Sketch) -> tuple[Floats, Indices]:
     segments = (_segments(draw(columns, rows)) - low) * (box / (high - low))
     segments = _snapped(segments, box, tolerance)
     if sketch.closed or sketch.capped:
+        inside = np.all((segments[..., 0] >= 0.0) & (segments[..., 0] <= box[0]), axis=1)
+        segments = segments if sketch.closed else segments[inside]
         segments = _outlined(segments, box, [sketch.closed, True])
     points, walls = _welded(segments, tolerance)
     points.flags.writeable = walls.flags.writeable = False

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
+
+
+GRID = 2.0**-40  # of a wall thickness: without it GEOS loses a corner here and there
 
 
 @dataclass(frozen=True)
@@ -33,6 +36,19 @@ class Network:
     wall_thickness: Floats
     bottom: Indices
     top: Indices
+
+    @cached_property
+    def printed_area(self) -> float:
+        """Area of the union of the walls (m^2): flat caps, mitred corners, joints counted once.
+
+        Corners sharper than 60 degrees are blunt.
+        """
+        import shapely
+
+        unit = float(self.wall_thickness.max())
+        loops = silhouette(self.points / unit, self.walls, self.wall_thickness / unit)
+        union = shapely.union_all(shapely.polygons(np.array(loops)), grid_size=GRID)
+        return unit**2 * float(shapely.area(union))
 
 
 def build_network(lattice: Lattice) -> Network:
@@ -94,28 +110,15 @@ def _outlines(
     return found
 
 
-def printed_area(network: Network) -> float:
-    """Area of the union of the walls (m^2): flat caps, mitred corners, joints counted once.
-
-    Corners sharper than 60 degrees are blunt.
-    """
-    import shapely
-
-    loops = silhouette(network.points, network.walls, network.wall_thickness)
-    return float(shapely.area(shapely.union_all(shapely.polygons(np.array(loops)))))
-
-
 def mass(network: Network, depth: float, density: float) -> float:
     """Mass of the print (kg)."""
-    return density * depth * printed_area(network)
+    return density * depth * network.printed_area
 
 
-def relative_density(network: Network) -> float:
+def relative_density(network: Network, lattice: Lattice) -> float:
     """Printed area over the area of the outer box, (width + t)(height + t)."""
-    half = 0.5 * network.wall_thickness[:, None, None]
-    ends = network.points[network.walls]
-    width, height = (ends + half).max(axis=(0, 1)) - (ends - half).min(axis=(0, 1))
-    return printed_area(network) / float(width * height)
+    width, height = lattice.outer_size
+    return network.printed_area / (width * height)
 
 
 @lru_cache(maxsize=256)

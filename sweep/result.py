@@ -200,7 +200,7 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
         "width_m": lattice.width,
         "height_m": lattice.height,
         "depth_m": lattice.depth,
-        "outer_width_m": lattice.outer_width,
+        "outer_width_m": lattice.outer_size[0],
         "material": case.material.name,
         "loading_mode": loading.mode,
         "platen": loading.platen or "",

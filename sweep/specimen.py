@@ -143,9 +143,10 @@ class Lattice(Table):
         return sides, self.solid_layers * (self.layer_height or 0.0) or sides
 
     @property
-    def outer_width(self) -> float:
-        """Width over all, m."""
-        return self.width + (self.outline[0] or self.wall_thickness)
+    def outer_size(self) -> tuple[float, float]:
+        """Width and height over all, of walls of mean thickness where there is no outline, m."""
+        sides, caps = (outline or self.wall_thickness for outline in self.outline)
+        return self.width + sides, self.height + caps
 
 
 def leave_openings(lattice: Lattice) -> None:

@@ -40,9 +40,9 @@ def cells_for(lattice: Lattice, most: int) -> dict[str, int]:
     def missed(rows: int) -> float:
         return abs(infill_share(lattice.model_copy(update=cells(rows))) - wanted)
 
-    few = infill_share(lattice.model_copy(update=cells(FEW)))
-    guess = max(1, round(FEW * wanted / few))
-    near = range(max(1, guess - 2), guess + 3)
+    few, more = (infill_share(lattice.model_copy(update=cells(n))) for n in (FEW, FEW + 2))
+    guess = FEW + round(2 * (wanted - few) / (more - few))
+    near = range(max(1, guess - 2), max(1, guess) + 3)
     if near[-1] * cells(near[-1])["cells_x"] > most:
         return {}
     best = min(near, key=missed)

@@ -8,7 +8,7 @@ from scipy.sparse.csgraph import connected_components
 import sweep.infill
 from sweep.drawing import Sketch, counts, extent, joints_and_walls
 from sweep.infill import families, trait
-from sweep.lattice import build_network, printed_area, relative_density, sketch
+from sweep.lattice import build_network, relative_density, sketch
 from sweep.params import Case, Lattice, Loading
 from sweep.scene import build_scene
 from tests.solving import whole
@@ -78,7 +78,7 @@ def test_joints_and_walls_are_as_many_as_closed_forms_say(kind, way, cells):
 @pytest.mark.parametrize("edge", EDGES)
 @pytest.mark.parametrize(("kind", "way"), KINDS)
 def test_counts_are_known_without_drawing(kind, way, edge):
-    drawn = sketch(lattice_of(kind, way, (13, 14), **EDGES[edge]))
+    drawn = sketch(lattice_of(kind, way, (13, 14), width=0.1, height=0.1, **EDGES[edge]))
     assert counts(drawn) == tuple(map(len, joints_and_walls(drawn)))
 
 
@@ -116,28 +116,30 @@ def overlaps(points, walls):
 @pytest.mark.parametrize("t", [0.02e-3, 0.2e-3])
 @pytest.mark.parametrize(("kind", "way"), KINDS)
 def test_printed_area_counts_joints_once(kind, way, t):
-    """t L - t^2/4 sum cot(g/2): what two arms share between them, or lack outside a corner."""
-    network = build_network(lattice_of(kind, way, wall_thickness=t))
+    """T L - t^2/4 sum cot(g/2): what two arms share between them, or lack outside a corner."""
+    low, high = extent(kind, way, (3, 3))
+    width, height = 4e-3 * (high - low)  # regular: no corner is sharper than 60 degrees
+    network = build_network(lattice_of(kind, way, width=width, height=height, wall_thickness=t))
     ends = network.points[network.walls]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
     expected = t * length - 0.25 * t**2 * overlaps(network.points, network.walls)
-    assert printed_area(network) == pytest.approx(expected, rel=1e-9)
+    assert network.printed_area == pytest.approx(expected, rel=1e-11)
 
 
 def test_regular_honeycomb_in_closed_form():
     """(3 + 1/2) pitches and 5 sides; 38 walls of one side, 14 joints of three arms, 16 corners."""
     side, t = 4e-3, 0.3e-3
-    network = build_network(
-        lattice_of("hex", width=3.5 * 3**0.5 * side, height=5 * side, wall_thickness=t)
-    )
+    box = {"width": 3.5 * 3**0.5 * side, "height": 5 * side}
+    lattice = lattice_of("hex", wall_thickness=t, **box)
+    network = build_network(lattice)
     ends = network.points[network.walls]
     np.testing.assert_allclose(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), side, rtol=1e-12)
     sixty = 1.0 / np.tan(np.pi / 3)
     assert np.bincount(np.bincount(network.walls.ravel())).tolist() == [0, 0, 14, 16]
     area = 38 * side * t - 0.25 * t**2 * 16 * 3 * sixty
-    assert printed_area(network) == pytest.approx(area, rel=1e-12)
+    assert network.printed_area == pytest.approx(area, rel=1e-12)
     outer = (3.5 * 3**0.5 * side + t) * (5 * side + t)
-    assert relative_density(network) == pytest.approx(area / outer, rel=1e-12)
+    assert relative_density(network, lattice) == pytest.approx(area / outer, rel=1e-12)
 
 
 MIRRORS = {  # signs of x and y under which three rows, four rows look the same

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sweep.lattice import Network, build_network, mass, printed_area, relative_density
+from sweep.lattice import Network, build_network, mass, relative_density
 from sweep.params import Lattice
 
 
@@ -45,20 +45,20 @@ def test_every_edge_between_adjacent_joints_is_one_wall(cells_x, cells_y):
 @pytest.mark.parametrize("thickness", [0.1e-3, 0.8e-3])
 def test_printed_area_counts_joints_once(cells, thickness):
     lattice = Lattice(cells_x=cells[0], cells_y=cells[1], height=20e-3, wall_thickness=thickness)
-    assert printed_area(build_network(lattice)) == pytest.approx(closed_form(lattice), rel=1e-11)
+    assert build_network(lattice).printed_area == pytest.approx(closed_form(lattice), rel=1e-11)
 
 
 def test_printed_area_of_the_seed_is_the_closed_form_of_a_square_grid():
     n, p, t = 3, 12.5e-3 / 3, 0.8e-3
     expected = (n * p + t) ** 2 - n**2 * (p - t) ** 2
-    assert printed_area(build_network(Lattice())) == pytest.approx(expected, rel=1e-12)
+    assert build_network(Lattice()).printed_area == pytest.approx(expected, rel=1e-12)
 
 
 def test_walls_of_different_thickness():
     points = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]])
     walls, ends = np.array([[0, 1], [1, 2]]), np.array([0])
     network = Network(points, walls, np.array([0.1, 0.2]), ends, ends)
-    assert printed_area(network) == pytest.approx(0.3)
+    assert network.printed_area == pytest.approx(0.3)
 
 
 def test_mass_and_relative_density_of_the_published_specimen():
@@ -67,4 +67,4 @@ def test_mass_and_relative_density_of_the_published_specimen():
     )
     network = build_network(lattice)
     assert mass(network, lattice.depth, 1220.0) == pytest.approx(0.543e-3, rel=1e-3)
-    assert relative_density(network) == pytest.approx(0.241, abs=5e-4)
+    assert relative_density(network, lattice) == pytest.approx(0.241, abs=5e-4)

@@ -15,7 +15,11 @@ CONFIGS = Path(__file__).parents[1] / "configs"
 
 
 def test_no_config_is_forgotten():
-    assert {path.name for path in CONFIGS.glob("*.toml")} == {"armor.toml", "infills.toml", "smoke.toml"}
+    assert {path.name for path in CONFIGS.glob("*.toml")} == {
+        "armor.toml",
+        "infills.toml",
+        "smoke.toml",
+    }
 
 
 def test_smoke_runs_from_end_to_end(tmp_path):
