@@ -13,7 +13,8 @@ from sweep.params import Case, Lattice, Loading
 from sweep.scene import build_scene
 from tests.solving import whole
 
-KINDS = [(kind, way) for kind in families() for way in ("pointy", "flat")[: 1 + (trait(kind, "ORIENTED") or 0)]]  # fmt: skip
+WAYS = {None: ["pointy"], True: ["pointy", "flat"]}
+KINDS = [(kind, way) for kind in families() for way in WAYS[trait(kind, "ORIENTED")]]
 EDGES = {"free": {}, "closed": {"perimeters": 2}, "capped": {"solid_layers": 3}}
 
 

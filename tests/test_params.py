@@ -151,7 +151,7 @@ def test_linear_material_holds_no_curve():
     [
         (
             lambda: Lattice(wall_thickness=2.1e-3),
-            "below half the width of the narrowest cell, 0.002083 m",
+            "the narrowest cell, 0.002083 m",
         ),
         (lambda: Lattice(cells_x=True), "valid integer"),
         (lambda: Lattice(width=float("inf")), "finite"),

@@ -136,8 +136,8 @@ def test_share_of_a_square_grid_is_that_of_slicers():
         ),
         (
             'mass = "9 g"',
-            'lattice.mass = "9 g": does not fit; allowed: between 2.975e-06 g and 2.479 g with these'
-            " cells",
+            'lattice.mass = "9 g": does not fit; allowed: between 2.975e-06 g and 2.479 g with'
+            " these cells",
         ),
         (
             'kind = "triangle"\nwall_thickness = "1.3 mm"',
