@@ -51,12 +51,14 @@ class Network:
         return unit**2 * float(shapely.area(union))
 
 
+@lru_cache(maxsize=1024)
 def build_network(lattice: Lattice) -> Network:
     """The infill stretched to the box; within an outline it is cut there and joined to it."""
     points, walls = joints_and_walls(sketch(lattice))
     thickness = lattice.wall_thickness * gradient(lattice)
     for on, outline in _outlines(lattice, points, walls):
         thickness[on] = outline
+    thickness.flags.writeable = False
     y = points[:, 1]
     return Network(
         points, walls, thickness, np.flatnonzero(y == y.min()), np.flatnonzero(y == y.max())

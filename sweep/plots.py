@@ -178,7 +178,7 @@ def design_map(fig: Figure, ranking: DataFrame) -> None:
     mass = ranking.attrs["mass"]
     of = "panel" if mass == "panel_mass_g" else "specimen"
     look = looks(ranking)
-    for ax, rows in _scene_axes(fig, ranking):
+    for ax, rows in _scene_axes(fig, ranking.round({mass: 9})):  # equal by design is equal
         merit, loaded = merits(rows, ranking.attrs["energy"]), is_loaded(rows)
         for _, points in rows.groupby("material"):
             _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
