@@ -220,7 +220,7 @@ def _wall_length(network: Network) -> Floats:
 
 def _rest(mesh: Mesh, layout: Layout, thickness: Floats) -> Floats:
     """Coordinates at rest; platens touch the outermost walls. thickness (n,): of nodes, m."""
-    y, half = mesh.points[:, 1], 0.5 * thickness
+    y, half = mesh.points[:, 1], 0.5 * thickness.round(15)
     platens = [(y - half).min(), (y + half).max()]
     return np.concatenate([mesh.points.ravel(), np.zeros(layout.n_joints), platens])
 

@@ -100,6 +100,8 @@ class Lattice(Table):
         if nodes > MAX_NODES:
             values = {key: getattr(self, key) for key in ("cells_x", "cells_y", "nodes_per_wall")}
             key = max(values, key=values.__getitem__)
+            if self.infill is not None:
+                key, values = "infill", {"infill": self.infill}
             allowed = f"at most {MAX_NODES:,} nodes in all, {nodes:,} here"
             raise refusal(f"lattice.{key}", values[key], allowed)
 
@@ -153,6 +155,9 @@ def leave_openings(lattice: Lattice) -> None:
     """Refuse walls that leave no sensible opening between them, and an outline that fills cells."""
     limit, thickness = lattice.thickest, lattice.wall_thickness
     if thickness >= limit * (1.0 - 1e-12):
+        if lattice.infill is not None:
+            allowed = "a share that leaves cells at least twice as wide as their walls"
+            raise refusal("lattice.infill", lattice.infill, allowed)
         allowed = f"below half the width of the narrowest cell, {limit:.4g} m here"
         raise refusal("lattice.wall_thickness", thickness, allowed)
     room = lattice.opening - thickness

@@ -125,6 +125,11 @@ def test_share_of_a_square_grid_is_that_of_slicers():
             " with lines of 0.0004 m in this box",
         ),
         (
+            'infill = "90 %"\nwidth = "50 mm"\nheight = "50 mm"\nkind = "kagome"',
+            'lattice.infill = "90 %": does not fit; allowed: a share that leaves cells at least'
+            " twice as wide as their walls",
+        ),
+        (
             "infill = 0.2",
             "lattice.infill = 0.2: a bare number; allowed: a share in percent, such as"
             ' "20 %", above 0, below 1',
