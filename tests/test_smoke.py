@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from sweep.config import load_config
@@ -73,9 +74,12 @@ def infills():
     ("design", "energy"), [(("hex", "flat", 0), 162.5), (("diamond", None, 0), 102.2)]
 )
 def test_infills_hold_their_numbers(design, energy):
-    summary = simulate(infills()[design]).summary
+    result = simulate(infills()[design])
+    summary, frames = result.summary, result.frames
     assert summary["status"] == "converged"
     assert summary["max_crossings"] == 0
+    y, plates = frames["position_m"][..., 1], frames["plate_y_m"]
+    assert np.all((y > plates[:, :1]) & (y < plates[:, 1:]))
     assert summary["mass_g"] == pytest.approx(1.4, rel=1e-12)
     assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
     assert 1e3 * summary["absorbed_energy_J"] == pytest.approx(energy, rel=1e-3)
