@@ -19,7 +19,7 @@ Indices = NDArray[np.int64]
 
 TOLERANCE = 1e-9  # of the box: what is nearer than that is one point
 FEW = 4  # cells in a row that show what more of them do
-SPILL = 2  # cells drawn beyond the box, for an outline to cut
+SPILL = 1  # cells drawn beyond the box on each side, for an outline to cut
 
 
 class Sketch(NamedTuple):
@@ -138,7 +138,6 @@ def _outlined(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
         line = np.full((len(at), 2), side)
         line[:, 1 - axis] = at
         outline.append(np.stack([line[:-1], line[1:]], axis=1))
-        segments = segments[~ends.all(axis=1)]
     return np.concatenate([segments, *outline])
 
 
