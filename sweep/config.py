@@ -40,6 +40,7 @@ pound_force = 4.4482216152605 * newton = lbf
 pascal = newton / meter ** 2 = Pa
 bar = 1e5 * pascal
 psi = pound_force / inch ** 2
+percent = 0.01 = %
 """
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 

@@ -16,6 +16,7 @@ from sweep.idle import still_idle
 from sweep.keys import ALIASES, case_keys
 from sweep.params import TABLES, Case
 from sweep.resolve import resolve
+from sweep.specimen import sized
 from sweep.tables import Rank, Table, rounded
 
 MAX_CASES = 1_000_000
@@ -131,7 +132,8 @@ class _Draft:
 
 
 def _drafts(config: Config) -> Iterator[_Draft]:
-    made, settled = cache(_table), cache(resolve)  # most cases share most of their tables
+    # Most cases share most of their tables.
+    made, settled, weighed = cache(_table), cache(resolve), cache(sized)
     for chosen in _combinations(config):
         written = config.base | _targets(chosen)
         given = {key: value for key, (value, *_) in written.items()}
@@ -144,6 +146,8 @@ def _drafts(config: Config) -> Iterator[_Draft]:
             wrong += reasons
         depending = [tables[name] for name in ("loading", "contact", "damping", "solver")]
         try:
+            if not any(reason["key"].startswith("lattice.") for reason in wrong):
+                tables["lattice"] = weighed(tables["lattice"], tables["material"].density)
             tables |= settled(tables["lattice"].height, *depending)
         except PydanticCustomError as error:
             wrong.append(error.context or {})

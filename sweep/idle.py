@@ -22,9 +22,18 @@ def why_idle(key: str, given: Mapping[str, Any], case: Case) -> str:
     if key == "material.poisson" and case.material.plane == "stress":
         return 'material.plane is "stress"'
     counts = held == given[key] or _counts_anyway(key, held, given, case)
-    if counts or table in ("lattice", "material"):
+    if counts or table == "material":
         return ""
-    return _reason(key, case)
+    return _undrawn(key, case) if table == "lattice" else _reason(key, case)
+
+
+def _undrawn(key: str, case: Case) -> str:
+    reasons = {
+        "lattice.orientation": f'lattice.kind is "{case.lattice.kind}"',
+        "lattice.line_width": "there are neither lattice.perimeters nor a lattice.infill",
+        "lattice.layer_height": "lattice.solid_layers is 0",
+    }
+    return reasons.get(key, "")
 
 
 def _counts_anyway(key: str, held: object, given: Mapping[str, Any], case: Case) -> bool:

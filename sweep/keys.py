@@ -28,6 +28,7 @@ QUANTITIES = {
     "N": 'a force with a unit, such as "10 N"',
     "Pa": 'a stress with a unit, such as "12 MPa"',
     "kg": 'a mass with a unit, such as "25 g"',
+    "1": 'a share in percent, such as "20 %"',
     "kg/m^3": 'a density with a unit, such as "1190 kg/m^3"',
 }
 _BOUNDS = {

@@ -1,15 +1,25 @@
 """The lattice as drawn: joints, walls, and the material that its print takes."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sweep.params import Lattice
+from sweep.drawing import Sketch, joints_and_walls, on_outline, sample
+from sweep.silhouette import silhouette
+
+if TYPE_CHECKING:
+    from sweep.specimen import Lattice
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
+
+
+GRID = 2.0**-40  # of a wall thickness: without it GEOS loses a corner here and there
 
 
 @dataclass(frozen=True)
@@ -17,7 +27,8 @@ class Network:
     """Centre lines at rest, before the imperfection.
 
     points (j, 2) in m; walls (w, 2), the two joints of each; wall_thickness (w,) in m;
-    bottom, top: the joints of the outer rows, from left to right.
+    bottom, top: the joints of least and of greatest y, from left to right, be they a wall or the
+    corners of cells. They are what platens hold, and what a dead load without a platen acts on.
     """
 
     points: Floats
@@ -28,33 +39,77 @@ class Network:
 
     @cached_property
     def printed_area(self) -> float:
-        """Area of the union of the walls (m^2): flat caps, mitred corners, joints counted once."""
+        """Area of the union of the walls (m^2): flat caps, mitred corners, joints counted once.
+
+        Corners sharper than 60 degrees are blunt.
+        """
         import shapely
 
-        lines = shapely.linestrings(self.points[self.walls])
-        bands = [
-            shapely.buffer(
-                shapely.line_merge(shapely.multilinestrings(lines[self.wall_thickness == t])),
-                0.5 * t,
-                cap_style="flat",
-                join_style="mitre",
-            )
-            for t in np.unique(self.wall_thickness)
-        ]
-        return float(shapely.area(shapely.union_all(bands)))
+        unit = float(self.wall_thickness.max())
+        loops = silhouette(self.points / unit, self.walls, self.wall_thickness / unit)
+        union = shapely.union_all(shapely.polygons(np.array(loops)), grid_size=GRID)
+        return unit**2 * float(shapely.area(union))
 
 
+@lru_cache(maxsize=1024)
 def build_network(lattice: Lattice) -> Network:
-    """A square grid: joints row by row from below, first the walls along x, then along y."""
-    x = np.linspace(0.0, lattice.width, lattice.cells_x + 1)
-    y = np.linspace(0.0, lattice.height, lattice.cells_y + 1)
-    points = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    joint = np.arange(len(points)).reshape(len(y), len(x))
-    along_x = np.stack([joint[:, :-1], joint[:, 1:]], axis=-1).reshape(-1, 2)
-    along_y = np.stack([joint[:-1], joint[1:]], axis=-1).reshape(-1, 2)
-    walls = np.concatenate([along_x, along_y])
-    thickness = np.full(len(walls), lattice.wall_thickness)
-    return Network(points, walls, thickness, bottom=joint[0], top=joint[-1])
+    """The infill stretched to the box; within an outline it is cut there and joined to it."""
+    points, walls = joints_and_walls(sketch(lattice))
+    thickness = lattice.wall_thickness * gradient(lattice)
+    for on, outline in _outlines(lattice, points, walls):
+        thickness[on] = outline
+    thickness.flags.writeable = False
+    y = points[:, 1]
+    return Network(
+        points, walls, thickness, np.flatnonzero(y == y.min()), np.flatnonzero(y == y.max())
+    )
+
+
+def sketch(lattice: Lattice, outlined: bool = True) -> Sketch:
+    """What is drawn of a lattice; not ``outlined``: its infill alone, as far as cells are whole."""
+    return Sketch(
+        lattice.kind,
+        lattice.orientation,
+        (lattice.cells_x, lattice.cells_y),
+        (lattice.width, lattice.height),
+        closed=outlined and lattice.perimeters > 0,
+        capped=outlined and lattice.solid_layers > 0,
+    )
+
+
+def infill_walls(lattice: Lattice) -> tuple[Floats, Floats]:
+    """Length (w,) in m and height of the middle / height of the box of every wall.
+
+    Walls of the outline have length 0.
+    """
+    points, walls = joints_and_walls(sketch(lattice))
+    ends = points[walls]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    for on, _ in _outlines(lattice, points, walls):
+        length[on] = 0.0
+    return length, ends[..., 1].mean(axis=1) / lattice.height
+
+
+def gradient(lattice: Lattice) -> Floats:
+    """Thickness of every wall / the mean over the length of all walls of the infill, (w,).
+
+    Linear in the height of the wall's middle, with the ratio `grading` from top to bottom.
+    """
+    length, height = infill_walls(lattice)
+    share = 1.0 + (lattice.grading - 1.0) * height
+    return share / np.average(share, weights=length) if length.any() else share
+
+
+def _outlines(
+    lattice: Lattice, points: Floats, walls: Indices
+) -> list[tuple[NDArray[np.bool_], float]]:
+    """The walls on each side that is outlined, and their thickness."""
+    found = []
+    for axis, thickness in enumerate(lattice.outline):
+        if thickness > 0.0:
+            for side in (0.0, (lattice.width, lattice.height)[axis]):
+                found.append((on_outline(points, walls, side, axis), thickness))
+    return found
 
 
 def mass(network: Network, depth: float, density: float) -> float:
@@ -62,7 +117,22 @@ def mass(network: Network, depth: float, density: float) -> float:
     return density * depth * network.printed_area
 
 
-def relative_density(network: Network) -> float:
+def relative_density(network: Network, lattice: Lattice) -> float:
     """Printed area over the area of the outer box, (width + t)(height + t)."""
-    width, height = np.ptp(network.points, axis=0) + network.wall_thickness.max()
-    return network.printed_area / float(width * height)
+    width, height = lattice.outer_size
+    return network.printed_area / (width * height)
+
+
+@lru_cache(maxsize=256)
+def opening(drawn: Sketch) -> float:
+    """Clear width between the centre lines of the narrowest cell: of its largest circle, m."""
+    import shapely
+
+    points, walls = joints_and_walls(sample(drawn))
+    cells = shapely.get_parts(shapely.polygonize(shapely.linestrings(points[walls])))
+    size = np.column_stack([shapely.area(cells), shapely.length(cells)])
+    scale = size[:, 1].max() ** np.array([2, 1])
+    _, differing = np.unique((size / scale).round(7), axis=0, return_index=True)
+    tolerance = 1e-6 * max(drawn.box)
+    radii = shapely.maximum_inscribed_circle(cells[differing], tolerance)
+    return 2.0 * float(shapely.length(radii).min())

@@ -82,7 +82,7 @@ def plateau(
 
     strain, force (N), work (J): (rows,), of the way down.
     """
-    area = (lattice.width + lattice.wall_thickness) * lattice.depth
+    area = lattice.outer_size[0] * lattice.depth
     stress, density = force / area, work / (area * lattice.height)
     gained = efficiency(stress, density)
     best, last = int(np.argmax(gained)), len(strain) - 1
@@ -107,7 +107,7 @@ def summarise(
     return {
         **design_columns(case),
         "mass_g": grams,
-        "relative_density": relative_density(scene.network),
+        "relative_density": relative_density(scene.network, case.lattice),
         "absorbed_energy_J": absorbed,
         "returned_energy_J": returned(case, history, loading_rows),
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),

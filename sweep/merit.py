@@ -3,8 +3,8 @@
 Energy is counted until the lattice has packed down, or until the allowed force is passed on: what a
 solid block of TPU takes beyond that, at a multiple of the force, is no merit of its infill.
 
-A specimen of width w, wall thickness t and depth b stands for a panel when it is repeated side by
-side:  factor = panel area / ((w + t) b),  panel mass = factor mass,  panel energy = factor energy.
+A specimen of outer width w and depth b stands for a panel when it is repeated side by
+side:  factor = panel area / (w b),  panel mass = factor mass,  panel energy = factor energy.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def panel_factor(frame: DataFrame, panel: Sequence[Quantity]) -> Series:
     if len(panel) != 2:
         raise RankError(f"a panel has two lengths, got {len(panel)}")
     area = in_si(panel[0], "m") * in_si(panel[1], "m")
-    return area / ((frame["width_m"] + frame["wall_thickness_m"]) * frame["depth_m"])
+    return area / (frame["outer_width_m"] * frame["depth_m"])
 
 
 def in_si(value: Any, unit: str) -> float:

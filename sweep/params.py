@@ -9,7 +9,8 @@ from typing import Self, TypeVar
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from sweep.resolve import resolve
-from sweep.tables import Contact, Damping, Lattice, Loading, Material, Solver, Table, canonical
+from sweep.specimen import Lattice, sized
+from sweep.tables import Contact, Damping, Loading, Material, Solver, Table, canonical
 
 __all__ = [
     "TABLES",
@@ -39,9 +40,9 @@ class Case(BaseModel):
 
     @model_validator(mode="after")
     def _resolve(self) -> Self:
-        height = self.lattice.height
-        resolved = resolve(height, self.loading, self.contact, self.damping, self.solver)
-        for name, table in resolved.items():
+        lattice = sized(self.lattice, self.material.density)
+        resolved = resolve(lattice.height, self.loading, self.contact, self.damping, self.solver)
+        for name, table in ({"lattice": lattice} | resolved).items():
             object.__setattr__(self, name, table)  # frozen from here on
         return self
 

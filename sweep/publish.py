@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sweep import plots
+from sweep.patterns import panel_size, pattern_bars
 from sweep.rank import rank
 from sweep.sheets import design_labels, legend, markdown, ranking_sheets
 from sweep.store import read_frames, read_history
@@ -49,7 +50,7 @@ def publish_case(file: str, row: Series, folder: Path) -> list[Path]:
 
 
 def _sweep_figures(file: str, shown: DataFrame, ranking: DataFrame) -> Named:
-    """What to print by mass, the trend with wall thickness, the shapes of the winners."""
+    """What to print by mass, by pattern, the trend with wall thickness, the winners' shapes."""
     loaded = ranking["loading_mode"] == "force"
     crushed = _some_scenes(ranking[~loaded])
     for name, rows in (("absorption", crushed), ("sink", _some_scenes(ranking[loaded]))):
@@ -57,6 +58,10 @@ def _sweep_figures(file: str, shown: DataFrame, ranking: DataFrame) -> Named:
             figure = plots.blank(*_size(rows))
             plots.design_map(figure, rows)
             yield name, figure
+    if len(crushed["lattice_kind"].unique()) > 1:
+        figure = plots.blank(*panel_size(crushed))
+        pattern_bars(figure, crushed)
+        yield "patterns", figure
     if len(crushed["wall_thickness_m"].unique()) > 1:
         figure = plots.blank(*_size(crushed))
         plots.thickness_trends(figure, crushed)

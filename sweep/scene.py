@@ -111,10 +111,20 @@ def _contact(mesh: Mesh, layout: Layout, stiffness: float, case: Case) -> contac
         special_weight=special[2],
         special_distance=special[3],
         special_subtract=special[4],
-        plate_nodes=np.arange(layout.n_nodes if case.loading.platen == "contact" else 0),
+        plate_nodes=_loose(layout, case),
         low=layout.low,
         high=layout.high,
     )
+
+
+def _loose(layout: Layout, case: Case) -> Ints:
+    """Nodes that a platen can meet: all of them; those that are not glued to it, if walls touch."""
+    nodes = np.arange(layout.n_nodes)
+    if case.loading.platen == "contact":
+        return nodes
+    if case.loading.platen == "glued" and case.contact.model != "none":
+        return np.setdiff1d(nodes, np.union1d(layout.bottom, layout.top))
+    return nodes[:0]
 
 
 def _masses(mesh: Mesh, layout: Layout, total: float) -> Floats:
@@ -198,7 +208,7 @@ def build_scene(case: Case) -> Scene:
     )
     return Scene(
         mesh, network, terms, _unknowns(mesh, layout, follows, case),
-        _rest(mesh, network, layout), *_reported(layout, case.loading),
+        _rest(mesh, layout, terms.contact.node_thickness), *_reported(layout, case.loading),
         force_scale=float(np.min(rigidity) / np.max(_wall_length(network)) ** 2),
     )  # fmt: skip
 
@@ -208,11 +218,11 @@ def _wall_length(network: Network) -> Floats:
     return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
 
 
-def _rest(mesh: Mesh, network: Network, layout: Layout) -> Floats:
-    """Coordinates at rest; platens touch the outer walls."""
-    half = 0.5 * network.wall_thickness.max()
-    bottom, top = network.points[:, 1].min() - half, network.points[:, 1].max() + half
-    return np.concatenate([mesh.points.ravel(), np.zeros(layout.n_joints), [bottom, top]])
+def _rest(mesh: Mesh, layout: Layout, thickness: Floats) -> Floats:
+    """Coordinates at rest; platens touch the outermost walls. thickness (n,): of nodes, m."""
+    y, half = mesh.points[:, 1], 0.5 * thickness.round(15)
+    platens = [(y - half).min(), (y + half).max()]
+    return np.concatenate([mesh.points.ravel(), np.zeros(layout.n_joints), platens])
 
 
 def _reported(layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
@@ -223,7 +233,7 @@ def _reported(layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
     """
     bottom = 2 * layout.bottom + 1
     low, high = np.array([layout.low]), np.array([layout.high])
-    reaction = low if loading.platen == "contact" else bottom
+    reaction = {"contact": low, "glued": np.append(bottom, low)}.get(loading.platen or "", bottom)
     if loading.mode == "displacement":
         return reaction, high, low
     if loading.platen == "contact":

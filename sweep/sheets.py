@@ -30,6 +30,7 @@ MILLIMETRES = {
 }
 SHOWN_BY_NAME = {
     "lattice.kind",
+    "lattice.mass",
     "lattice.cells",
     "lattice.cells_x",
     "lattice.cells_y",
@@ -148,7 +149,7 @@ def design_labels(frame: DataFrame, among: DataFrame) -> list[str]:
     """The same as one text a design, such as "cells 3 x 3, wall 0.8 mm, ninjaflex"."""
     columns = design_text(frame, among) or {"material": frame["material"].astype(str)}
     return [
-        ", ".join(_with_noun(head, text) for head, text in zip(columns, texts, strict=True))
+        ", ".join(_with_noun(head, text) for head, text in zip(columns, texts, strict=True) if text)
         for texts in zip(*columns.values(), strict=True)
     ]
 

@@ -34,13 +34,24 @@ def _mitres(position: Floats, node: Integers, arm: Floats, half: Floats) -> Floa
     order = np.lexsort((np.arctan2(arm[:, 1], arm[:, 0]), node))
     node, arm, half = node[order], arm[order], half[order, None]
     following = _following(node)
-    left, right = _left(arm), -_left(arm[following])
-    one, other = half * left, half[following] * right
-    reach = 1.0 + (left * right).sum(1, keepdims=True)
-    tip = (one + other) / np.maximum(reach, BLUNT)
+    left, right, beyond = _left(arm), -_left(arm[following]), half[following]
+    one, other = half * left, beyond * right
+    tip = _tip(half, beyond, (left * right).sum(1, keepdims=True), left, right)
     kites = np.stack([np.zeros_like(tip), one, tip, other, np.zeros_like(tip)], axis=1)
     gap = (left * arm[following]).sum(1) < -STRAIGHT
     return (position[node][:, None] + kites)[gap]
+
+
+def _tip(one: Floats, other: Floats, cosine: Floats, left: Floats, right: Floats) -> Floats:
+    """Where two sides meet that are `one` and `other` away from a node, along unit normals.
+
+    A thin wall that leaves a thick one nearly straight ends within its corner.
+    """
+    mean = 0.5 * (one + other) / np.maximum(1.0 + cosine, BLUNT)
+    unlike = 0.5 * (one - other) / np.maximum(1.0 - cosine, STRAIGHT)
+    along = np.where(mean < unlike, one, np.where(mean < -unlike, 0.0, mean + unlike))
+    across = np.where(mean < unlike, 0.0, np.where(mean < -unlike, other, mean - unlike))
+    return along * left + across * right
 
 
 def _following(node: Integers) -> Integers:

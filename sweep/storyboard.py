@@ -20,8 +20,9 @@ FLOWN = 0.5  # of its height above its place at rest: a shape beyond is not wort
 
 def headline(row: Mapping[str, Any]) -> str:
     """Design and scene of a case, a line each; row : its row of the summary."""
-    cells, wall = f"{row['cells_x']} x {row['cells_y']} cells", 1e3 * row["wall_thickness_m"]
-    return f"{cells}, wall {wall:.3g} mm, {row['material']}\n{scene_label(DataFrame([row]))}"
+    pattern, cells = row["lattice_kind"], f"{row['cells_x']} x {row['cells_y']} cells"
+    wall = f"wall {1e3 * row['wall_thickness_m']:.3g} mm"
+    return f"{pattern}, {cells}, {wall}, {row['material']}\n{scene_label(DataFrame([row]))}"
 
 
 def last_loaded(history: DataFrame, row: Mapping[str, Any]) -> int:

@@ -2,7 +2,7 @@
 
 import json
 from functools import lru_cache
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -26,8 +26,6 @@ Few = Annotated[int, Field(ge=1, le=1000)]  # a slip of the keyboard must not fi
 # Lists too, as JSON gives them back.
 Curve = Annotated[tuple[float, ...], Field(strict=False)]
 Forces = Annotated[tuple[Force, ...], Field(strict=False)]
-# The factor of 70 000 nodes takes 8 GB, and a step with it minutes.
-MAX_NODES = 50_000
 # A million rows take 120 MB while a case runs, and one square cell half a minute.
 MAX_STEPS = 1_000_000
 NonNegative = Annotated[float, Field(ge=0)]
@@ -37,6 +35,8 @@ class Table(BaseModel):
     """One table of a config."""
 
     model_config = ConfigDict(frozen=True, strict=True, extra="forbid", allow_inf_nan=False)
+    neutral: ClassVar[dict[str, Any]] = {}  # keys that count in an id only if they differ
+    labels: ClassVar[tuple[str, ...]] = ()  # keys that never do
 
 
 def refusal(key: str, value: object, allowed: str) -> PydanticCustomError:
@@ -45,13 +45,14 @@ def refusal(key: str, value: object, allowed: str) -> PydanticCustomError:
     return PydanticCustomError("refused", "{key} = {value}; allowed: {allowed}", context)
 
 
-NOT_PHYSICS = ("time_limit",)  # raising it must not make finished cases run again
-
-
 @lru_cache(maxsize=4096)
 def canonical(table: Table) -> str:
     """A table as JSON: sorted keys, rounded numbers, only the keys in use."""
-    used = {key: rounded(v) for key, v in table if v is not None and key not in NOT_PHYSICS}
+    used = {
+        key: rounded(value)
+        for key, value in table
+        if value is not None and key not in table.labels and value != table.neutral.get(key)
+    }
     return json.dumps(used, sort_keys=True, separators=(",", ":"))
 
 
@@ -60,43 +61,6 @@ def rounded(value: object) -> object:
     if isinstance(value, int | float) and not isinstance(value, bool):
         return float(f"{value:.{SIGNIFICANT}g}")
     return [rounded(item) for item in value] if isinstance(value, tuple) else value
-
-
-class Lattice(Table):
-    """The specimen: outer size over centre lines, and the mesh of its walls."""
-
-    kind: Literal["square"] = "square"
-    cells_x: Few = 3
-    cells_y: Few = 3
-    width: Length = 12.5e-3
-    height: Length = 12.5e-3
-    depth: Length = 12e-3
-    wall_thickness: Length = 0.8e-3
-    nodes_per_wall: Annotated[int, Field(ge=0, le=1000)] = 2
-    imperfection: NonNegative = 0.01
-
-    @model_validator(mode="after")
-    def _leave_an_opening(self) -> Self:
-        half_pitch = 0.5 * min(self.width / self.cells_x, self.height / self.cells_y)
-        if self.wall_thickness >= half_pitch:
-            allowed = f"below half the cell pitch, {half_pitch:.4g} m here"
-            raise refusal("lattice.wall_thickness", self.wall_thickness, allowed)
-        return self
-
-    @model_validator(mode="after")
-    def _be_small_enough(self) -> Self:
-        nodes = (self.cells_x + 1) * (self.cells_y + 1) + self.walls * self.nodes_per_wall
-        if nodes > MAX_NODES:
-            values = {key: getattr(self, key) for key in ("cells_x", "cells_y", "nodes_per_wall")}
-            key = max(values, key=values.__getitem__)
-            allowed = f"at most {MAX_NODES:,} nodes in all, {nodes:,} here"
-            raise refusal(f"lattice.{key}", values[key], allowed)
-        return self
-
-    @property
-    def walls(self) -> int:
-        """Number of walls between joints."""
-        return self.cells_x * (self.cells_y + 1) + self.cells_y * (self.cells_x + 1)
 
 
 class Material(Table):
@@ -199,6 +163,8 @@ class Damping(Table):
 
 class Solver(Table):
     """How the equations are solved. None: chosen by the loading, or not used by it."""
+
+    labels: ClassVar[tuple[str, ...]] = ("time_limit",)  # raising it makes nothing run again
 
     integrator: Literal["backward_euler", "static"] | None = None
     time_step: Duration | None = None

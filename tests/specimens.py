@@ -20,6 +20,7 @@ _DEFAULTS = {
     "width_m": 12.2e-3,
     "height_m": 12.2e-3,
     "depth_m": 10e-3,
+    "outer_width_m": 13e-3,
     "material": "ninjaflex",
     "loading_mode": "displacement",
     "platen": "glued",

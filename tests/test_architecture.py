@@ -12,7 +12,7 @@ ROOT = Path(__file__).parents[1]
 SOURCES = {
     ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): path
     for package in ("sweep", "kernels", "tests")
-    for path in sorted((ROOT / package).glob("*.py"))
+    for path in sorted((ROOT / package).rglob("*.py"))
 }
 TREES = {module: ast.parse(path.read_text("utf-8")) for module, path in SOURCES.items()}
 PROGRAM = [module for module in TREES if not module.startswith("tests")]

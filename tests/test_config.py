@@ -26,7 +26,9 @@ def load(tmp_path):
     return loaded
 
 
-@pytest.mark.parametrize(("name", "cases"), [("smoke", 6), ("armor", 140), ("thousand", 1000)])
+@pytest.mark.parametrize(
+    ("name", "cases"), [("smoke", 6), ("armor", 140), ("infills", 13), ("thousand", 1000)]
+)
 def test_shipped_configs_expand(name, cases):
     config = load_config(CONFIGS / f"{name}.toml")
     assert config.name == name
@@ -34,7 +36,11 @@ def test_shipped_configs_expand(name, cases):
 
 
 def test_every_shipped_config_is_pinned():
+<<<<<<< HEAD
     assert {path.stem for path in CONFIGS.glob("*.toml")} == {"smoke", "armor", "thousand"}
+=======
+    assert {path.stem for path in CONFIGS.glob("*.toml")} == {"smoke", "armor", "infills"}
+>>>>>>> family
 
 
 def test_empty_config_is_the_seed(load):

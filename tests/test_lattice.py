@@ -67,4 +67,4 @@ def test_mass_and_relative_density_of_the_published_specimen():
     )
     network = build_network(lattice)
     assert mass(network, lattice.depth, 1220.0) == pytest.approx(0.543e-3, rel=1e-3)
-    assert relative_density(network) == pytest.approx(0.241, abs=5e-4)
+    assert relative_density(network, lattice) == pytest.approx(0.241, abs=5e-4)

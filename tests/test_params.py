@@ -149,7 +149,10 @@ def test_linear_material_holds_no_curve():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Lattice(wall_thickness=2.1e-3), "below half the cell pitch, 0.002083 m"),
+        (
+            lambda: Lattice(wall_thickness=2.1e-3),
+            "the narrowest cell, 0.002083 m",
+        ),
         (lambda: Lattice(cells_x=True), "valid integer"),
         (lambda: Lattice(width=float("inf")), "finite"),
         (lambda: Lattice(colour=1), "not permitted"),

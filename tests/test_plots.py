@@ -13,8 +13,8 @@ def row():
     (row,) = summary(
         {
             "height_m": HEIGHT,
-            "width_m": 10e-3,
             "wall_thickness_m": T,
+            "outer_width_m": 10e-3 + T,
             "stroke_m": 4e-3,
             "plateau_stress_Pa": 0.2e6,
             "densification_strain": 0.3,
@@ -93,7 +93,7 @@ def test_dead_load_comes_and_goes_in_a_step(dead):
 @pytest.mark.parametrize("draw", [plots.force_displacement, plots.energies])
 def test_title_says_design_and_scene(row, draw):
     title = axes_of(draw, there_and_back(), row).get_title("left")
-    assert title == "3 x 3 cells, wall 1 mm, ninjaflex\ncrushed to 40 %, glued platens"
+    assert title == "square, 3 x 3 cells, wall 1 mm, ninjaflex\ncrushed to 40 %, glued platens"
 
 
 def test_energies_add_up_to_the_work_along_the_path_of_the_platen(row):

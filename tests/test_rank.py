@@ -93,6 +93,11 @@ def test_pareto_agrees_with_its_definition():
     assert list(pareto(mass, energy)) == expected
 
 
+def test_round_off_of_equal_masses_is_no_merit():
+    mass, energy = pd.Series([1.4, 1.4 + 3e-13, 1.4 - 3e-13]), pd.Series([1.0, 2.0, 0.5])
+    assert list(pareto(mass, energy)) == [False, True, False]
+
+
 def test_pareto_looks_at_all_rows_of_the_scene():
     table = summary(*designs([1.0, 2.0, 3.0], [0.3, 0.2, 0.6]))
     ranking = rank(table, by="mass_g", top=2)

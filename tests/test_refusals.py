@@ -40,7 +40,10 @@ VALUES = {
 
 CHOICES = {
     '[loading]\nmode = "impact"': 'loading.mode = "impact"; "force" or "displacement"',
-    '[lattice]\nkind = "hex"': 'lattice.kind = "hex"; "square"',
+    '[lattice]\nkind = "hexagon"': (
+        'lattice.kind = "hexagon"; "brick", "circle", "diamond", "hex", "kagome", "reentrant",'
+        ' "square" or "triangle"'
+    ),
     '[material]\nbend = "section"': 'material.bend = "section"; "linear"',
     '[contact]\nmodel = "position_based"': 'contact.model = "position_based"; "none" or "barrier"',
     '[solver]\nintegrator = "newmark"': (
@@ -50,12 +53,12 @@ CHOICES = {
 
 UNFIT = {
     '[lattice]\nwall_thickness = "2.5 mm"': (
-        'lattice.wall_thickness = "2.5 mm": does not fit; allowed: below half the cell pitch,'
-        " 2.083 mm here"
+        'lattice.wall_thickness = "2.5 mm": does not fit; allowed: below half the width of'
+        " the narrowest cell, 2.083 mm here"
     ),
     "[lattice]\ncells = 20": (
-        "lattice.wall_thickness = 0.0008 m by default: does not fit; allowed: below half the cell"
-        " pitch, 0.0003125 m here"
+        "lattice.wall_thickness = 0.0008 m by default: does not fit; allowed: below half the"
+        " width of the narrowest cell, 0.0003125 m here"
     ),
     '[loading]\nmode = "displacement"\nstrain = 0.5\nstroke = "5 mm"': (
         'loading.stroke = "5 mm": does not fit; allowed: 6.25 mm at the strain given; give one'

@@ -22,7 +22,7 @@ from sweep.tables import BY_NUMBERS
 def a_case(**loading):
     """A stand-in with the attributes that a row of the design needs."""
     lattice = {"kind": "square", "cells_x": 3, "cells_y": 2, "wall_thickness": 8e-4}
-    lattice |= {"width": 0.0125, "height": 0.0125, "depth": 0.012}
+    lattice |= {"width": 0.0125, "height": 0.0125, "depth": 0.012, "outer_size": (0.0133, 0.0133)}
     loads = {"mode": "force", "platen": "none", "force": 10.0, "stroke": None}
     return SimpleNamespace(
         case_id="0123456789abcdef",

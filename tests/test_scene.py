@@ -194,11 +194,13 @@ def test_without_contact_its_arrays_are_empty():
 
 @pytest.mark.parametrize("model", ["none", "barrier"])
 @pytest.mark.parametrize("platen", LOADINGS)
-def test_only_loose_platens_touch_nodes(platen, model):
+def test_platens_touch_what_is_not_glued_to_them(platen, model):
     scene = scene_of(platen=platen, contact=Contact(model=model))
-    loose = platen.endswith("contact")
-    expected = len(scene.mesh.points) if loose else 0
-    assert len(scene.terms.contact.plate_nodes) == expected
+    y = scene.mesh.points[:, 1]
+    touched = np.full(len(y), platen.endswith("contact"))
+    if platen.endswith("glued") and model == "barrier":
+        touched = (y > 0.0) & (y < 12.5e-3)
+    np.testing.assert_array_equal(scene.terms.contact.plate_nodes, np.flatnonzero(touched))
     assert len(scene.terms.contact.edges) == (0 if model == "none" else len(scene.mesh.edges))
     np.testing.assert_allclose(
         scene.x_rest[-2:], [-0.5 * THICKNESS, 12.5e-3 + 0.5 * THICKNESS], rtol=1e-12
@@ -231,10 +233,10 @@ def test_smoothing_of_friction():
     ("platen", "bottom", "top", "base"),
     [
         ("none", "row", "row", "row"),
-        ("glued", "row", "row", "row"),
+        ("glued", "row and platen", "row", "row"),
         ("contact", "platen", "nothing", "nodes"),
         ("driven, contact", "platen", "platen", "platen"),
-        ("driven, glued", "row", "platen", "platen"),
+        ("driven, glued", "row and platen", "platen", "platen"),
     ],
 )
 def test_where_reaction_and_strain_are_read(platen, bottom, top, base):
@@ -243,6 +245,7 @@ def test_where_reaction_and_strain_are_read(platen, bottom, top, base):
     below, above = row_of_nodes(scene, 0.0)[1], row_of_nodes(scene, 12.5e-3)[1]
     nodes = 2 * np.arange(len(scene.mesh.points)) + 1
     low_of = {"row": below, "platen": [high - 1], "nodes": nodes}
+    low_of["row and platen"] = [*below, high - 1]
     high_of = {"row": above, "platen": [high], "nothing": []}
     np.testing.assert_array_equal(scene.bottom, low_of[bottom])
     np.testing.assert_array_equal(scene.top, high_of[top])

@@ -51,3 +51,24 @@ def test_straight_wall_needs_no_mitre():
 def test_folded_wall_stays_near_its_node():
     area = union([(0.0, 0.0), (5.0, 0.0), (0.0, 0.01)], [(0, 1), (1, 2)])
     assert area.bounds[2] < 5.0 + 2.0 * T
+
+
+@pytest.mark.parametrize("thin", [0.8, 0.3])
+def test_corner_of_unlike_walls_is_where_their_sides_meet(thin):
+    """Two walls at a right angle: each as long as the other is thick, and their common corner."""
+    position, edges = np.array([[5.0, 0.0], [0.0, 0.0], [0.0, 5.0]]), np.array([[0, 1], [1, 2]])
+    loops = silhouette(position, edges, np.array([T, thin]))
+    found = shapely.union_all([shapely.Polygon(loop) for loop in loops])
+    assert found.area == pytest.approx(5.0 * T + 5.0 * thin - 0.25 * T * thin + 0.25 * T * thin)
+    assert found.bounds == pytest.approx((-0.5 * thin, -0.5 * T, 5.0, 5.0))
+
+
+@pytest.mark.parametrize("angle", [2.0, 2.2, -2.0])
+def test_sharp_corner_of_unlike_walls_stays_between_their_sides(angle):
+    """The sides of the thick wall bound the union, wherever a thin one leaves it."""
+    position = np.array([[5.0, 0.0], [0.0, 0.0], [5.0 * np.cos(angle), 5.0 * np.sin(angle)]])
+    loops = silhouette(position, np.array([[0, 1], [1, 2]]), np.array([T, 0.4]))
+    found = shapely.union_all([shapely.Polygon(loop) for loop in loops])
+    side = -0.5 * T * np.sign(angle)
+    beyond = found.bounds[1] if angle > 0 else found.bounds[3]
+    assert beyond == pytest.approx(side)

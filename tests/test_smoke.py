@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from sweep.config import load_config
@@ -15,7 +16,7 @@ CONFIGS = Path(__file__).parents[1] / "configs"
 
 
 def test_no_config_is_forgotten():
-    assert {path.name for path in CONFIGS.glob("*.toml")} == {"armor.toml", "smoke.toml"}
+    assert {path.stem for path in CONFIGS.glob("*.toml")} == {"armor", "infills", "smoke"}
 
 
 def test_smoke_runs_from_end_to_end(tmp_path):
@@ -57,3 +58,32 @@ def test_armor_holds_its_numbers(mode, platen, force, energy):
     assert summary["status"] == "converged"
     assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
     assert 1e3 * summary["absorbed_energy_J"] == pytest.approx(energy, rel=1e-3)
+
+
+def infills():
+    """The cases of infills.toml by pattern, orientation and lines all round."""
+    cases = expand(load_config(CONFIGS / "infills.toml"))
+    return {
+        (case.lattice.kind, case.lattice.orientation, case.lattice.perimeters): case
+        for case in cases
+        if case.lattice.grading == 1.0
+    }
+
+
+@pytest.mark.parametrize(
+    ("design", "energy"), [(("hex", "flat", 0), 162.5), (("diamond", None, 0), 102.2)]
+)
+def test_infills_hold_their_numbers(design, energy):
+    result = simulate(infills()[design])
+    summary, frames = result.summary, result.frames
+    assert summary["status"] == "converged"
+    assert summary["max_crossings"] == 0
+    y, plates = frames["position_m"][..., 1], frames["plate_y_m"]
+    assert np.all((y > plates[:, :1]) & (y < plates[:, 1:]))
+    assert summary["mass_g"] == pytest.approx(1.4, rel=1e-12)
+    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
+    assert 1e3 * summary["absorbed_energy_J"] == pytest.approx(energy, rel=1e-3)
+
+
+def test_infills_are_twelve_designs_and_more():
+    assert len(infills()) == 12

@@ -52,4 +52,7 @@ def test_load_goes_where_the_way_turns_or_the_force_ends(mode, history):
 
 def test_headline_names_cells_wall_material_and_scene():
     (row,) = summary({"cells_y": 2}).to_dict("records")
-    assert headline(row) == "3 x 2 cells, wall 0.8 mm, ninjaflex\ncrushed to 50 %, glued platens"
+    assert (
+        headline(row)
+        == "square, 3 x 2 cells, wall 0.8 mm, ninjaflex\ncrushed to 50 %, glued platens"
+    )
