@@ -36,11 +36,8 @@ def test_shipped_configs_expand(name, cases):
 
 
 def test_every_shipped_config_is_pinned():
-<<<<<<< HEAD
-    assert {path.stem for path in CONFIGS.glob("*.toml")} == {"smoke", "armor", "thousand"}
-=======
-    assert {path.stem for path in CONFIGS.glob("*.toml")} == {"smoke", "armor", "infills"}
->>>>>>> family
+    names = {"smoke", "armor", "infills", "thousand"}
+    assert {path.stem for path in CONFIGS.glob("*.toml")} == names
 
 
 def test_empty_config_is_the_seed(load):
