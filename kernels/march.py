@@ -20,7 +20,7 @@ from kernels.newton import (
     reduce,
 )
 from kernels.room import make_room
-from kernels.rows import copy, zero
+from kernels.rows import copy, total, zero
 from kernels.step import Step, drift, find_near, rub
 
 WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR, RESIDUAL = range(9)
@@ -157,7 +157,7 @@ def _write(out, k, state, terms, near, unknowns, at):
         row[REACTION_BOTTOM] += at.g[c]
     row[REACTION_TOP] = -state.held[0]
     if unknowns.driven < 0:
-        row[REACTION_TOP] = -state.held[1] * terms.load.sum()
+        row[REACTION_TOP] = -state.held[1] * total(terms.load)
     row[ITERATIONS_DONE] = state.totals[0]
     row[GAP] = contact.least_gap(state.x, terms.contact, near.pairs, drift(state.x, terms, near))
     if out.frame_of[k] >= 0:

@@ -48,6 +48,15 @@ def greatest(vector):
     return most
 
 
+@jit_exact
+def total(vector):
+    """Return the sum of ``vector`` (n,)."""
+    value = 0.0
+    for i in range(vector.size):
+        value += vector[i]
+    return value
+
+
 @jit_owning
 def grouped(group, n):
     """Return (start (n + 1,), order): the members of group g are order[start[g]:start[g + 1]]."""

@@ -196,9 +196,16 @@ def _first_fold(x, dx, terms):
     return first
 
 
+@jit_exact
+def _couple(nodes, n, a, b, c):
+    """Write the ``n``-th three nodes; return the next number."""
+    nodes[n, 0], nodes[n, 1], nodes[n, 2] = a, b, c
+    return n + 1
+
+
 @jit_owning
 def _couplings(x, terms, found, grips):
-    """Return (c, 4) nodes of what may soon share a term: contacts, grips, closing joints."""
+    """Return (c, 3) nodes of what may soon share a term: contacts, grips, closing joints."""
     layout, reach = terms.layout, 1.0 + LIKELY
     most = found.node.size + grips.count[0] + terms.fold.limit.size
     most += terms.contact.plate_nodes.size
@@ -206,22 +213,18 @@ def _couplings(x, terms, found, grips):
     for k in range(found.node.size):
         if found.weight[k] > 0.0 and found.distance[k] < reach * found.d_contact[k]:
             a, b = pair(terms.contact.edges, found.edge[k])
-            nodes[n, 0], nodes[n, 1], nodes[n, 2] = found.node[k], a, b
-            n += 1
+            n = _couple(nodes, n, found.node[k], a, b)
     for k in range(grips.count[0]):
-        nodes[n] = grips.nodes[k]
-        n += 1
+        n = _couple(nodes, n, grips.nodes[k, 0], grips.nodes[k, 1], grips.nodes[k, 2])
     for k in range(terms.fold.limit.size):
         if fold.opening(x, terms.fold, k) < 2.0 * terms.fold.limit[k]:
-            nodes[n] = terms.fold.nodes[k]
-            n += 1
+            a, b, c = triple(terms.fold.nodes, k)
+            n = _couple(nodes, n, a, b, c)
     if layout.leader[terms.contact.high] >= 0 and layout.driven < 0:
         for p in terms.contact.plate_nodes:
             gap = x[terms.contact.high] - x[2 * p + 1]
             if gap < 0.5 * reach * terms.contact.node_thickness[p]:
-                nodes[n] = p
-                nodes[n, 2] = layout.n_nodes
-                n += 1
+                n = _couple(nodes, n, p, p, layout.n_nodes)
     return nodes[:n]
 
 
