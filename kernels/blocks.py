@@ -9,6 +9,7 @@ from kernels.jit import jit, jit_exact
 from kernels.rows import zero
 
 NEUTRAL = 1e-11  # a pivot below this share of its diagonal is round-off around zero
+SOFT = 1e-6  # share of its diagonal that it is given then
 ROUNDED = -1e-7  # so is a negative one above this: what stiff neighbours leave when they cancel
 
 
@@ -30,10 +31,11 @@ def settle(blocks, scale):
 @jit_exact
 def pivoted(pivot, own, scale):
     """Return the pivot to use. One that is zero within round-off marks a motion without stiffness:
-    it is given that of its own diagonal (or ``scale``), so that the solution moves little along it.
+    it is given a small share of its own diagonal (or ``scale``), so that the solution moves along
+    it where a force asks for it, and hardly by what forces leave in round-off.
     """
     size = max(abs(own), 1e-3 * scale)
-    return max(abs(own), scale) if ROUNDED * size <= pivot <= NEUTRAL * size else pivot
+    return SOFT * max(abs(own), scale) if ROUNDED * size <= pivot <= NEUTRAL * size else pivot
 
 
 @jit_exact

@@ -12,6 +12,7 @@ from tests.scenes import grid, slopes
 from tests.solving import descend, reduction, residual, shaken, whole
 
 HEIGHT = 12.5e-3
+ROUND_OFF = 1e-9  # N
 BUCKLED = 0.03  # strain, beyond that of a clamped wall, (2 pi)^2 / 12 (t / H)^2 = 0.0135
 
 
@@ -146,7 +147,7 @@ def test_no_iteration_raises_the_energy(seed, dt):
     ("force", "contact", "dt"), [(2.0, "none", 1e-3), (20.0, "barrier", np.inf)]
 )
 def test_it_ends_quadratically(force, contact, dt):
-    """Order log(r'' / r') / log(r' / r) of the last residuals."""
+    """Order log(r'' / r') / log(r' / r) of the last residuals that are more than round-off."""
     case = grid(force, "contact", contact)
     scene = build_scene(case)
     args = whole(scene, scene.x_rest, dt=dt)
@@ -154,8 +155,8 @@ def test_it_ends_quadratically(force, contact, dt):
     while outcome == newton.ITERATIONS:
         outcome, _, x = descend(case, scene, x, args, iterations=1)
         sizes.append(np.abs(residual(scene, x, whole(scene, x, scene.x_rest, dt))).max())
-    falls = np.diff(np.log(sizes[-3:]))
-    assert falls[1] / falls[0] == pytest.approx(2.0, abs=0.25)
+    falls = np.diff(np.log([size for size in sizes if size > ROUND_OFF][-3:]))
+    assert falls[1] / falls[0] > 1.75
 
 
 def test_the_platen_ends_exactly_at_its_target():
