@@ -30,7 +30,8 @@ def shaped(joined, home=None):
     nb = len(joined)
     below = [j + 1 + np.flatnonzero(joined[j + 1 :, j]) for j in range(nb)]
     start = np.cumsum([0, *map(len, below)])
-    return entries.shaped(np.arange(3 * nb) if home is None else home, start, np.concatenate(below))
+    home = np.arange(3 * nb) if home is None else home
+    return entries.shaped(home, start, np.concatenate(below), np.ones(home.size))
 
 
 def put(matrix, full, room=None):
