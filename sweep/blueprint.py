@@ -48,7 +48,13 @@ def read_structure(path: Path) -> Structure:
 def _misfits(error: ValidationError) -> Iterator[str]:
     """A line for each fault of form; of a value with two allowed forms, for the closer one."""
     closest: dict[object, tuple[int, str]] = {}
-    for wrong in error.errors():
+    found = error.errors()
+    inside = {wrong["loc"][:depth] for wrong in found for depth in range(len(wrong["loc"]))}
+    unknown = {wrong["loc"][:-1] for wrong in found if wrong["type"] == "extra_forbidden"}
+    for wrong in found:
+        follows = wrong["type"] == "missing" and wrong["loc"][:-1] in unknown
+        if wrong["loc"] in inside or follows:
+            continue
         loc = [part for part in wrong["loc"] if isinstance(part, int) or part in _KEYS]
         place = loc[0] if loc and loc[0] in _EITHER else tuple(wrong["loc"])
         depth, line = len(loc), _misfit(loc, dict(wrong))

@@ -47,12 +47,12 @@ def _counts_anyway(key: str, held: object, given: Mapping[str, Any], case: Case)
     """
     if key == "solver.time_step":
         return held is not None and "solver.load_steps" not in given
-    if key == "loading.mode":
-        return False
     return key == "loading.speed" and case.loading.mode == "displacement"
 
 
 def _reason(key: str, case: Case) -> str:
+    if case.lattice.structure is not None and key.startswith("loading."):
+        return 'lattice.kind is "custom"'
     if key.startswith("loading.") or (key == "solver.load_steps" and case.loading.mode == "force"):
         return f'loading.mode is "{case.loading.mode}"'
     if key.startswith("contact.") and case.contact.friction is None:

@@ -31,9 +31,12 @@ def loosest(of: Structure) -> str:
         return ""
     reduced = kinematic[:, free]
     values, vectors = np.linalg.eigh(reduced.T @ reduced)
-    if values[0] > LOOSE * values[-1]:
+    loose = vectors[:, values <= LOOSE * values[-1]]
+    if loose.size == 0:
         return ""
-    at = free[np.abs(vectors[:, 0]).argmax()]
+    size = np.zeros(3 * n)
+    size[free] = np.linalg.norm(loose, axis=1)
+    at = int(size.round(6).argmax())
     way = ("move in x", "move in y", "turn")[at % 3]
     return f"node {at // 3} can {way} without resistance"
 
