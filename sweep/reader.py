@@ -152,6 +152,8 @@ class Reader:
             held = [value.value for value in values if value]
             if name == "material.name":
                 held = [Path(value).name.removesuffix(".csv") for value in held]
+            if name == "lattice.file":
+                held = [Path(value).name for value in held]
             excluded[name] = tuple(rounded(value) for value in held)
         return excluded
 

@@ -97,6 +97,7 @@ class Lattice(Table):
         width, height = structure.size_mm
         thickness = structure.thickness_mm
         measures = {
+            "file": Path(self.file).name if self.file else None,
             "cells_x": 1,
             "cells_y": 1,
             "width": 1e-3 * width,

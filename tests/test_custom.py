@@ -1,8 +1,14 @@
 """Structures of a user's own against closed forms: statics."""
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from sweep.config import load_config
+from sweep.grid import expand
+from sweep.params import Contact
 from tests.structures import (
     AXIAL,
     BEAM,
@@ -13,6 +19,7 @@ from tests.structures import (
     MM,
     ROD,
     THICKNESS,
+    finished,
     probe,
     pushed,
 )
@@ -21,6 +28,7 @@ from tests.structures import (
 # the end / L, its slope.
 ELASTICA = [(1.0, 0.30172, 0.05643, 0.46135), (10.0, 0.81061, 0.55500, 1.43029)]
 L = LENGTH * MM
+CONFIGS = Path(__file__).parents[1] / "configs"
 
 
 def end_load(force, moment=0.0):
@@ -225,3 +233,53 @@ def test_stretched_spring_is_energy_brought_along():
     assert history["work_in_J"][0] == pytest.approx(0.05 * apart**2, rel=1e-9)
     assert history["energy_residual_J"] == pytest.approx(0.0, abs=1e-9)
     assert probe(result, 1, "y_m")[-1] < -0.001
+
+
+def test_shipped_arch_snaps_through():
+    """Held at first by its compressed walls, it gives way to one side and pulls at the end."""
+    (case,) = expand(load_config(CONFIGS / "custom.toml"))
+    result = finished(case)
+    assert result.history["work_in_J"][-1] == pytest.approx(7.781e-3, rel=1e-3)
+    assert case.lattice.file == "custom.json"
+
+
+def test_arms_that_close_touch():
+    """Two fingers of a clamp, led towards one another, meet over their thickness."""
+    clamp = {
+        "nodes_mm": [[0, 0], [0, 10], [60, 0], [60, 10]],
+        "walls": [[0, 1], [0, 2], [1, 3]],
+        "subdivide": [4, 24, 24],
+        "supports": [{"node": node, "fix": CLAMPED} for node in (0, 1)],
+        "prescribed": [
+            {"node": 2, "direction": "y", "displacement_mm": 6.0},
+            {"node": 3, "direction": "y", "displacement_mm": -6.0},
+        ],
+        "probes": [2, 3],
+    }
+    result = pushed(clamp, steps=24, contact=Contact(friction=0.0))
+    gap = result.history["min_gap_m"]
+    touching = result.history["contact_J"] > 0.0
+    assert not touching[:12].any()
+    assert touching[-1]
+    assert 0.5 * MM * THICKNESS < gap[-1] < MM * THICKNESS
+    forces = probe(result, 2, "reaction_y_N") + probe(result, 3, "reaction_y_N")
+    assert np.abs(forces).max() < 0.02 * probe(result, 2, "reaction_y_N").max()
+    apart = pushed(clamp, steps=24)
+    assert probe(apart, 2, "reaction_y_N")[-1] < 0.5 * probe(result, 2, "reaction_y_N")[-1]
+
+
+def test_files_are_an_axis(tmp_path):
+    for name, thickness in (("thin", 1.0), ("thick", 2.0)):
+        whole = BEAM | {"wall_thickness_mm": thickness}
+        (tmp_path / f"{name}.json").write_text(json.dumps(whole))
+    text = """[lattice]
+    kind = "custom"
+    [grid]
+    lattice.file = ["thin.json", "thick.json"]
+    """
+    (tmp_path / "two.toml").write_text(text)
+    cases = expand(load_config(tmp_path / "two.toml"))
+    assert [case.axes["lattice.file"] for case in cases] == ["thin.json", "thick.json"]
+    assert [case.lattice.wall_thickness for case in cases] == [1e-3, 2e-3]
+    (tmp_path / "one.toml").write_text(f'{text}[[exclude]]\nlattice.file = "thin.json"')
+    assert len(expand(load_config(tmp_path / "one.toml"))) == 1
