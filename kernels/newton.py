@@ -77,8 +77,11 @@ def reduce(g, unknowns, residual):
     """Fill ``residual`` (n,) with ``g``, what is tied added to its leader, zero where held."""
     zero(residual)
     for i in range(g.size):
-        if unknowns.leader[i] >= 0:
-            residual[unknowns.leader[i]] += unknowns.ratio[i] * g[i]
+        leader = unknowns.leader[i]
+        if leader == i:
+            residual[i] += g[i]
+        elif leader >= 0:
+            residual[leader] += unknowns.ratio[i] * g[i]
 
 
 @jit_exact

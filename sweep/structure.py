@@ -97,8 +97,10 @@ def build_structure(case: Case) -> Scene:
         load=_load(of, layout, masses),
         layout=follows,
     )
-    shortest = MM * min(_distances(of, of.walls))
-    unknowns = unknowns_of(mesh, layout, follows, case)._replace(cap=0.25 * shortest)
+    span = max(
+        MM * _distances(of, of.walls).max(), 0.25 * np.hypot(*np.ptp(network.points, axis=0))
+    )
+    unknowns = unknowns_of(mesh, layout, follows, case)._replace(cap=0.25 * span)
     return Scene(
         mesh, network, terms, unknowns, _rest(of, mesh, layout),
         bottom=np.array([layout.low]),

@@ -129,9 +129,9 @@ STATIC = '[solver]\nintegrator = "static"'
 @pytest.mark.parametrize(
     ("parts", "loose"),
     [
-        ({}, "node 0 can move in y"),
+        ({}, "node 1 can move in y"),
         ({"supports": [{"node": 0, "fix": ["x", "y"]}]}, "node 1 can move in y"),
-        ({"supports": FIXED, "pins": [1]}, "node 2 can turn"),
+        ({"supports": FIXED, "pins": [1]}, "node 2 can move in x"),
         ({"supports": FIXED}, ""),
         ({"supports": [{"node": 0, "fix": ["x", "y"]}, {"node": 2, "fix": ["y"]}]}, ""),
     ],
