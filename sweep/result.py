@@ -169,6 +169,11 @@ def absorbed_energy_column(force: float) -> str:
     return f"absorbed_energy_at_{force:.10g}N_J"
 
 
+def describe_array(group: str, name: str) -> Column:
+    """Meaning of an array of curves or shapes."""
+    return describe_history(name) if group == "/histories" else FRAME_COLUMNS[name]
+
+
 def describe_history(name: str) -> Column:
     """Meaning of a column of a history; what is not fixed belongs to a structure of one's own."""
     if match := PROBE.fullmatch(name):

@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 
 from sweep.params import Contact, Damping
+from sweep.result import Column, describe_history
 from tests.figures import MATERIAL
+from tests.scenes import unbalanced
 from tests.structures import (
+    BEAM,
     GRAVITY,
     LENGTH,
     MASS,
@@ -129,3 +132,29 @@ def test_block_slides_as_fast_as_friction_lets_it():
     fast = [on_incline(slope, friction, duration) for duration in (0.1, 0.2)]
     gained = G * (np.sin(slope) - friction * np.cos(slope)) * 0.1
     assert fast[1] - fast[0] == pytest.approx(gained, rel=1e-3)
+
+
+def test_book_of_what_is_led_in_time():
+    """A beam shaken at its end, with a weight on it and a speed to begin with."""
+    parts = BEAM | {
+        "prescribed": [
+            {"node": 1, "direction": "y", "displacement_mm": 10.0},
+            {"node": 1, "direction": "rotation", "angle_rad": 0.3},
+        ],
+        "initial_velocity_mm_s": [0.0, 50.0],
+        "gravity_mm_s2": [0, -GRAVITY],
+    }
+    result = let_go(parts, 0.05, 5e-4, damping=Damping())
+    history = result.history
+    np.testing.assert_allclose(probe(result, 1, "y_m"), 0.2 * history["time_s"], atol=1e-12)
+    np.testing.assert_allclose(probe(result, 1, "rotation_rad"), 6.0 * history["time_s"])
+    assert history["work_in_J"][0] == history["kinetic_J"][0] > 0.0
+    assert unbalanced(history) < 1e-6
+    assert probe(result, 0, "reaction_y_N")[-1] != 0.0
+
+
+def test_column_of_a_probe_is_described():
+    assert describe_history("probe_12_reaction_moment_Nm").units == "N m"
+    assert describe_history("probe_12_x_m") == Column("m", "x at node 12")
+    assert describe_history("load_factor").units == "1"
+    assert describe_history("strain").units == "1"
