@@ -68,7 +68,7 @@ COLUMNS: dict[str, Column] = {
     "depth_m": Column("m", "depth of the walls, out of the plane"),
     "outer_width_m": Column("m", "width over all, walls included"),
     "material": Column("", 'name of the material; "by numbers" when it has none'),
-    "loading_mode": Column("", "force or displacement"),
+    "loading_mode": Column("", "force, displacement or custom"),
     "platen": Column("", "none, contact or glued"),
     "force_N": Column("N", "dead force on the top; NaN unless the mode is force"),
     "stroke_m": Column("m", "prescribed travel of the top; NaN unless the mode is displacement"),
