@@ -14,7 +14,7 @@ import numpy as np
 from kernels.jit import jit, jit_exact, jit_owning
 from kernels.rows import zero
 
-HELD, INNER, DRIVEN = -1, -2, -3  # never moves; eliminated inside its wall; led with the platen
+HELD, INNER, DRIVEN = -1, -2, -3  # never moves; eliminated inside its wall; led
 SIZE = 9
 
 
@@ -24,8 +24,9 @@ class Blocks(NamedTuple):
     home (n,): of each coordinate. start (nb + 1,), row (nl,): blocks below each diagonal block.
     update (nu,): targets in the order in which `factor` meets them. values (9 (nb + nl) + 1,): the
     last one takes what belongs nowhere. own (3 nb,): diagonal before the factor. diagonal, pull
-    (n,): by coordinate, diagonal entries and couplings with the driven platen. vector (3 nb,),
-    column (9 x longest,): scratch. missing (1,): set when an entry has no room.
+    (n,): by coordinate, diagonal entries and couplings with what is led. ratio (n,): as in
+    `pattern.Layout`. vector (3 nb,), column (9 x longest,): scratch. missing (1,): set when an
+    entry has no room.
     """
 
     home: np.ndarray
@@ -36,6 +37,7 @@ class Blocks(NamedTuple):
     own: np.ndarray
     diagonal: np.ndarray
     pull: np.ndarray
+    ratio: np.ndarray
     vector: np.ndarray
     column: np.ndarray
     missing: np.ndarray
@@ -77,7 +79,7 @@ def updates(start, row):
 
 
 @jit_owning
-def shaped(home, start, row):
+def shaped(home, start, row, ratio):
     """Return a zero matrix with this pattern."""
     nb, n = start.size - 1, home.size
     longest = 0
@@ -85,8 +87,8 @@ def shaped(home, start, row):
         longest = max(longest, start[j + 1] - start[j])
     return Blocks(
         home, start, row, updates(start, row), np.zeros(SIZE * (nb + row.size) + 1),
-        np.zeros(3 * nb), np.zeros(n), np.zeros(n), np.zeros(3 * nb), np.zeros(SIZE * longest),
-        np.zeros(1, np.int64),
+        np.zeros(3 * nb), np.zeros(n), np.zeros(n), ratio, np.zeros(3 * nb),
+        np.zeros(SIZE * longest), np.zeros(1, np.int64),
     )  # fmt: skip
 
 
@@ -122,9 +124,9 @@ def add(blocks, i, j, value):
     if a == HELD or b == HELD or (a == DRIVEN and b == DRIVEN):
         return
     if a == DRIVEN:
-        blocks.pull[j] += value
+        blocks.pull[j] += blocks.ratio[i] * value
     elif b == DRIVEN:
-        blocks.pull[i] += value
+        blocks.pull[i] += blocks.ratio[j] * value
     elif a == INNER or b == INNER:
         blocks.missing[0] = 1
     else:

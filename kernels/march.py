@@ -69,7 +69,8 @@ class State(NamedTuple):
 class Output(NamedTuple):
     """rows (steps, N_COLUMNS); frame_of (steps,): slot of a step in frames (f, n) or -1.
 
-    bottom: coordinates whose supports make the lower reaction. top, base: see `height`.
+    bottom: coordinates whose supports make the lower reaction. top, base: see `height`. probed
+    (steps, 2, k): value and reaction of the coordinates ``probes`` (k,).
     """
 
     rows: np.ndarray
@@ -78,6 +79,8 @@ class Output(NamedTuple):
     bottom: np.ndarray
     top: np.ndarray
     base: np.ndarray
+    probes: np.ndarray
+    probed: np.ndarray
 
 
 @jit_exact
@@ -117,7 +120,7 @@ def _enter(terms, step, unknowns, state, at, work):
     theta = 1.0 if dynamic else 0.5
     held, lead = 0.0, 0.0
     if unknowns.driven >= 0:
-        reduce(at.g, unknowns.leader, work.residual)
+        reduce(at.g, unknowns, work.residual)
         held, lead = work.residual[unknowns.driven], at.u[unknowns.driven]
     factor = theta * step.factor + (1.0 - theta) * state.held[1]
     book[WORK] += factor * _dot(terms.load, at.u)
@@ -159,6 +162,9 @@ def _write(out, k, state, terms, near, unknowns, at):
     row[REACTION_TOP] = -state.held[0]
     if unknowns.driven < 0:
         row[REACTION_TOP] = -state.held[1] * total(terms.load)
+    for p in range(out.probes.size):
+        out.probed[k, 0, p] = state.x[out.probes[p]]
+        out.probed[k, 1, p] = at.g[out.probes[p]]
     row[ITERATIONS_DONE] = state.totals[0]
     row[GAP] = contact.least_gap(state.x, terms.contact, near.pairs, drift(state.x, terms, near))
     if out.frame_of[k] >= 0:
@@ -198,7 +204,7 @@ def _grips_agree(x, terms, near, unknowns, tolerance, room, todo):
     todo[RELAXED] = approach(x, y, way[CHANGE], unknowns, todo[RELAXED])
     friction.lag(y, terms.contact, near.pairs, drift(y, terms, near), terms.friction, grips)
     rub(terms, grips, at)
-    reduce(at.g, unknowns.leader, work.residual)
+    reduce(at.g, unknowns, work.residual)
     agree = largest(work.residual, unknowns) <= tolerance.friction
     if agree:
         copy(work.trial, at.g)

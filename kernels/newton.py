@@ -43,13 +43,14 @@ class Tolerance(NamedTuple):
 class Unknowns(NamedTuple):
     """Which coordinates move, and how far at once.
 
-    leader (n,): as in `pattern.Layout`. scale (n,): length that turns a coordinate into m, 1 for
-    one in m; lever (n,): its inverse. driven: coordinate that is led to a target, -1 if none. cap:
-    longest move in one iteration, m. leap: first move along a direction of negative curvature, m.
-    close: a move so short that stability cannot have been lost on it, m.
+    leader, ratio (n,): as in `pattern.Layout`. scale (n,): length that turns a coordinate into m, 1
+    for one in m; lever (n,): its inverse. driven: coordinate that is led to a target, -1 if none.
+    cap: longest move in one iteration, m. leap: first move along a direction of negative curvature,
+    m. close: a move so short that stability cannot have been lost on it, m.
     """
 
     leader: np.ndarray
+    ratio: np.ndarray
     scale: np.ndarray
     lever: np.ndarray
     driven: int
@@ -72,12 +73,15 @@ class Work(NamedTuple):
 
 
 @jit
-def reduce(g, leader, residual):
+def reduce(g, unknowns, residual):
     """Fill ``residual`` (n,) with ``g``, what is tied added to its leader, zero where held."""
     zero(residual)
     for i in range(g.size):
-        if leader[i] >= 0:
-            residual[leader[i]] += g[i]
+        leader = unknowns.leader[i]
+        if leader == i:
+            residual[i] += g[i]
+        elif leader >= 0:
+            residual[leader] += unknowns.ratio[i] * g[i]
 
 
 @jit_exact
@@ -112,6 +116,14 @@ def _dot(a, b):
 
 
 @jit_exact
+def _lead(direction, unknowns, remaining):
+    """Write the moves of all that is led when the driven coordinate goes ``remaining`` m."""
+    for i in range(direction.size):
+        if unknowns.leader[i] == unknowns.driven:
+            direction[i] = unknowns.ratio[i] * remaining
+
+
+@jit_exact
 def _solve(terms, near, unknowns, at, work, remaining):
     """Point ``work.direction`` to where the quadratic model is stationary; return its slope there.
 
@@ -119,8 +131,8 @@ def _solve(terms, near, unknowns, at, work, remaining):
     """
     direction, matrix = work.direction, near.system.matrix
     if remaining != 0.0:
-        for i in range(direction.size):
-            direction[i] = remaining if unknowns.leader[i] == unknowns.driven else 0.0
+        zero(direction)
+        _lead(direction, unknowns, remaining)
         zero_rows(at.shape.slope)
         zero(at.shape.moment)
         chain.product(terms.walls, at.stiffness, direction, at.shape)
@@ -134,9 +146,7 @@ def _solve(terms, near, unknowns, at, work, remaining):
         direction[i] = -at.g[i] - direction[i]
     system.solve(near.system, terms.layout, direction)
     if remaining != 0.0:
-        for i in range(direction.size):
-            if unknowns.leader[i] == unknowns.driven:
-                direction[i] = remaining
+        _lead(direction, unknowns, remaining)
     return _dot(at.g, direction)
 
 
@@ -249,7 +259,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
             iteration, searching, arrived = iteration + 1, False, True
         if arrived:
             value, arrived = reached, False
-            reduce(at.g, unknowns.leader, work.residual)
+            reduce(at.g, unknowns, work.residual)
             size = largest(work.residual, unknowns)
             if control[0] != 0 or not size < np.inf:
                 outcome = INTERRUPTED if control[0] != 0 else NOT_FINITE

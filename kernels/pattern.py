@@ -19,7 +19,8 @@ CONDENSED, OPEN, RIGID = range(3)
 class Layout(NamedTuple):
     """Coordinates: x and y of every node, rotations of joints, lower and upper platen.
 
-    leader (n,): the coordinate itself if it moves, the upper platen if it is tied to it, else -1.
+    leader (n,): the coordinate itself if it moves, the last one (the upper platen) if it is tied to
+    that, else -1. ratio (n,): of its move to that of its leader; 1 unless the leader is driven.
     driven: coordinate that is led to a target, -1 if none. n_nodes, n_joints: joints come first.
     inner (w,): first inner node of each wall, the others follow along it. wall_of (n_nodes,): wall
     of an inner node, -1 for a joint. outer (w, 6): coordinates of its joints. scale: stiffness of
@@ -27,6 +28,7 @@ class Layout(NamedTuple):
     """
 
     leader: np.ndarray
+    ratio: np.ndarray
     driven: int
     n_nodes: int
     n_joints: int
@@ -225,5 +227,6 @@ def analyse(layout, walls, couplings):
     target_start, target = _targets(layout, row_start, kind, home, start, row)
     return System(
         kind, row_start, np.zeros((row_start[-1], condense.WIDTH)), np.zeros(row_start[-1]),
-        target_start, target, entries.shaped(home, start, row), np.zeros((6, 6)), np.zeros(6),
+        target_start, target, entries.shaped(home, start, row, layout.ratio), np.zeros((6, 6)),
+        np.zeros(6),
     )  # fmt: skip

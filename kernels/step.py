@@ -21,6 +21,7 @@ from kernels import (
     inertia,
     pairs,
     pattern,
+    spring,
     stretch,
     system,
 )
@@ -45,6 +46,7 @@ class Terms(NamedTuple):
     stretch: object
     bend: object
     fold: object
+    spring: object
     contact: object
     friction: object
     damp: object
@@ -76,8 +78,8 @@ class At(NamedTuple):
     """What `evaluate` found at x. g (n,): gradient by coordinate, what supports must supply.
 
     elastic, rubbing, material, u (n,): gradients of the stored energy, of friction and of damping;
-    move from x0. stored (3,): E_s, E_b with folds, E_c in J. least (2,): shortest element in m,
-    least opening of two arms in rad.
+    move from x0. stored (3,): E_s with springs, E_b with folds, E_c in J. least (2,): shortest
+    element in m, least opening of two arms in rad.
     """
 
     g: np.ndarray
@@ -102,6 +104,7 @@ def evaluate(x, terms, step, near, at, projected):
     at.stored[STRETCH] = stretch.evaluate(terms.stretch, terms.law, shape, at.stiffness, projected)
     at.stored[BEND] = bend.evaluate(walls, terms.bend, shape, at.stiffness, projected)
     chain.gather(walls, shape, at.elastic)
+    at.stored[STRETCH] += spring.evaluate(x, terms.spring, at.elastic)
     folding, at.least[OPENING] = fold.evaluate(x, terms.fold, at.elastic)
     at.stored[BEND] += folding
     at.least[OPENING] = min(opened, at.least[OPENING])
@@ -159,6 +162,7 @@ def factor(x, terms, step, near, at, projected):
     matrix = near.system.matrix
     clear(matrix)
     fold.hessian(x, terms.fold, matrix, projected)
+    spring.hessian(x, terms.spring, matrix, projected)
     contact.hessian(x, terms.contact, near.pairs, matrix, projected)
     friction.hessian(at.u, step.grips, terms.friction.slip, matrix, projected)
     if step.dt < np.inf:
@@ -205,10 +209,10 @@ def _couple(nodes, n, a, b, c):
 
 @jit_owning
 def _couplings(x, terms, found, grips):
-    """Return (c, 3) nodes of what may soon share a term: contacts, grips, closing joints."""
+    """Return (c, 3) nodes of what may soon share a term: contacts, grips, springs, folds."""
     layout, reach = terms.layout, 1.0 + LIKELY
     most = found.node.size + grips.count[0] + terms.fold.limit.size
-    most += terms.contact.plate_nodes.size
+    most += terms.contact.plate_nodes.size + terms.spring.l0.size
     nodes, n = np.empty((most, 3), np.int64), 0
     for k in range(found.node.size):
         if found.weight[k] > 0.0 and found.distance[k] < reach * found.d_contact[k]:
@@ -216,6 +220,9 @@ def _couplings(x, terms, found, grips):
             n = _couple(nodes, n, found.node[k], a, b)
     for k in range(grips.count[0]):
         n = _couple(nodes, n, grips.nodes[k, 0], grips.nodes[k, 1], grips.nodes[k, 2])
+    for k in range(terms.spring.l0.size):
+        a, b = pair(terms.spring.nodes, k)
+        n = _couple(nodes, n, a, a, b)
     for k in range(terms.fold.limit.size):
         if fold.opening(x, terms.fold, k) < 2.0 * terms.fold.limit[k]:
             a, b, c = triple(terms.fold.nodes, k)

@@ -148,7 +148,7 @@ def _drafts(config: Config) -> Iterator[_Draft]:
         try:
             if not any(reason["key"].startswith("lattice.") for reason in wrong):
                 tables["lattice"] = weighed(tables["lattice"], tables["material"].density)
-            tables |= settled(tables["lattice"].height, *depending)
+            tables |= settled(tables["lattice"], *depending)
         except PydanticCustomError as error:
             wrong.append(error.context or {})
         case = Case.model_construct(None, **tables)

@@ -17,6 +17,8 @@ def still_idle(idle: Mapping[str, str], given: Mapping[str, Any], case: Case) ->
 
 def why_idle(key: str, given: Mapping[str, Any], case: Case) -> str:
     """Why a case does without the value that it is given for a key; empty if it does not."""
+    if case.lattice.structure is not None and key.split(".")[0] == "lattice":
+        return "" if key in ("lattice.kind", "lattice.file") else 'lattice.kind is "custom"'
     table, name = key.split(".")
     held = getattr(getattr(case, table), name)
     if key == "material.poisson" and case.material.plane == "stress":
@@ -29,6 +31,7 @@ def why_idle(key: str, given: Mapping[str, Any], case: Case) -> str:
 
 def _undrawn(key: str, case: Case) -> str:
     reasons = {
+        "lattice.file": f'lattice.kind is "{case.lattice.kind}"',
         "lattice.orientation": f'lattice.kind is "{case.lattice.kind}"',
         "lattice.line_width": "there are neither lattice.perimeters nor a lattice.infill",
         "lattice.layer_height": "lattice.solid_layers is 0",
@@ -48,6 +51,8 @@ def _counts_anyway(key: str, held: object, given: Mapping[str, Any], case: Case)
 
 
 def _reason(key: str, case: Case) -> str:
+    if case.lattice.structure is not None and key.startswith("loading."):
+        return 'lattice.kind is "custom"'
     if key.startswith("loading.") or (key == "solver.load_steps" and case.loading.mode == "force"):
         return f'loading.mode is "{case.loading.mode}"'
     if key.startswith("contact.") and case.contact.friction is None:

@@ -19,7 +19,11 @@ ALIASES = {
     "lattice.cells": ("lattice.cells_x", "lattice.cells_y"),
     "loading.load_steps": ("solver.load_steps",),
 }
-RESOLVED = {"material.curve_strain", "material.curve_stress"}  # part of a case, not of a config
+RESOLVED = {
+    "lattice.structure",
+    "material.curve_strain",
+    "material.curve_stress",
+}  # part of a case, not of a config
 QUANTITIES = {
     "m": 'a length with a unit, such as "0.8 mm"',
     "s": 'a time with a unit, such as "0.2 s"',

@@ -39,7 +39,7 @@ def history_columns(rows: Floats, scene: Scene, case: Case) -> dict[str, Floats]
     gap = np.where(np.isfinite(rows[:, march.GAP]), rows[:, march.GAP], np.nan)
     return {
         "time_s": rows[:, march.TIME].copy(),
-        "strain": travel / case.lattice.height,
+        "strain": travel / (case.lattice.height or np.nan),
         "top_displacement_m": travel,
         "reaction_top_N": rows[:, march.REACTION_TOP].copy(),
         "reaction_bottom_N": rows[:, march.REACTION_BOTTOM].copy(),
@@ -132,7 +132,7 @@ def returned(case: Case, history: dict[str, Floats], loading_rows: int) -> float
 
 def transmitted(history: dict[str, Floats]) -> Floats:
     """The greater of the forces on the two platens, (rows,) N."""
-    return np.maximum(history["reaction_top_N"], history["reaction_bottom_N"])
+    return np.fmax(history["reaction_top_N"], history["reaction_bottom_N"])
 
 
 def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:

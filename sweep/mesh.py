@@ -61,27 +61,34 @@ class Mesh:
         return shared.astype(np.float64)
 
 
-def split_walls(network: Network, pieces: int, imperfection: float) -> Mesh:
-    """Split every wall into ``pieces`` equal elements and shift all points sideways.
+def split_walls(network: Network, pieces: int | Ints, imperfection: float) -> Mesh:
+    """Split every wall into equal elements and shift all points sideways.
 
-    The stress-free shift in x is ``imperfection`` (m) x sin(pi y / height).
+    pieces: elements of a wall, or of each (w,). The stress-free shift in x is ``imperfection`` (m)
+    x sin(pi y / height).
     """
-    share = np.arange(1, pieces) / pieces
-    start, end = network.points[network.walls[:, 0]], network.points[network.walls[:, 1]]
-    inner = start[:, None] + share[:, None] * (end - start)[:, None]
-    points = np.concatenate([network.points, inner.reshape(-1, 2)])
-    height = np.ptp(network.points[:, 1])
-    points[:, 0] += imperfection * np.sin(np.pi * (points[:, 1] - points[:, 1].min()) / height)
-    n_joints, n_walls = len(network.points), len(network.walls)
-    inside = n_joints + np.arange(n_walls * (pieces - 1)).reshape(n_walls, pieces - 1)
-    chain = np.column_stack([network.walls[:, :1], inside, network.walls[:, 1:]])
+    pieces = np.broadcast_to(np.asarray(pieces), len(network.walls))
+    inside = pieces - 1
+    of_wall = np.repeat(np.arange(len(pieces)), inside)
+    number = np.arange(len(of_wall)) - np.repeat(np.cumsum(inside) - inside, inside) + 1
+    share = (number / pieces[of_wall])[:, None]
+    start, end = network.points[network.walls[of_wall]].swapaxes(0, 1)
+    points = np.concatenate([network.points, start + share * (end - start)])
+    if imperfection > 0.0:
+        height = np.ptp(network.points[:, 1])
+        points[:, 0] += imperfection * np.sin(np.pi * (points[:, 1] - points[:, 1].min()) / height)
+    wall = np.repeat(np.arange(len(pieces)), pieces)
+    last = np.cumsum(pieces)
+    node = len(network.points) + np.arange(len(wall)) - wall  # inner node at an element's end
+    before, after = node - 1, node
+    before[last - pieces], after[last - 1] = network.walls.T
     return Mesh(
         points=points,
-        edges=np.stack([chain[:, :-1], chain[:, 1:]], axis=-1).reshape(-1, 2),
-        wall=np.repeat(np.arange(n_walls), pieces),
-        pieces=np.full(n_walls * pieces, pieces),
+        edges=np.column_stack([before, after]),
+        wall=wall,
+        pieces=pieces[wall],
         thickness=np.repeat(network.wall_thickness, pieces),
-        n_joints=n_joints,
+        n_joints=len(network.points),
     )
 
 

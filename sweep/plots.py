@@ -157,7 +157,8 @@ def deformed_shapes(
         loops = silhouette(position, frames["edges"], thickness)
         walls = Outline.make_compound_path(*(Outline(loop, closed=True) for loop in loops))
         ax.add_patch(PathPatch(walls, facecolor=WALL, edgecolor="none", snap=False))
-        _platen(ax, span, (ground if np.isnan(plate[0]) else plate[0]) - room, room)
+        if np.isfinite([plate[0], frames["strain"][0]]).any():
+            _platen(ax, span, (ground if np.isnan(plate[0]) else plate[0]) - room, room)
         if np.isfinite(plate[1]):
             _platen(ax, span, plate[1], room)
         ax.set_title(caption, fontsize="medium")

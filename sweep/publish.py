@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from sweep import plots
 from sweep.patterns import panel_size, pattern_bars
 from sweep.rank import rank
+from sweep.reactions import probe_reactions
 from sweep.sheets import design_labels, legend, markdown, ranking_sheets
 from sweep.store import read_frames, read_history
 from sweep.storyboard import headline, last_loaded
@@ -100,7 +101,10 @@ def _case_figures(file: str, row: Series) -> Named:
     history, frames = read_history(file, row["case_id"]), read_frames(file, row["case_id"])
     if len(history) > 1:
         figure = plots.blank(8.0, 4.4)
-        plots.force_displacement(figure.subplots(), history, row)
+        if row["loading_mode"] == "custom":
+            probe_reactions(figure.subplots(), history, row)
+        else:
+            plots.force_displacement(figure.subplots(), history, row)
         yield "force", figure
         figure = plots.blank(8.0, 4.2)
         plots.energies(figure.subplots(), history, row)

@@ -146,13 +146,16 @@ def scene_label(rows: DataFrame) -> str:
     said = set(SCENE)
     if first["loading_mode"] == "force":
         words = [f"dead load of {first['force_N']:g} N"]
+    elif first["loading_mode"] == "custom":
+        words = ["loaded as its file says"]
     elif len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
         words = [f"crushed to {100 * strains[0]:g} %"]
         said |= {"loading.strain", "loading.stroke"}
     else:
         words = ["crushed"]
     platen = first["platen"]
-    words.append("no platens" if platen in ("none", "") else f"{platen} platens")
+    if first["loading_mode"] != "custom":
+        words.append("no platens" if platen in ("none", "") else f"{platen} platens")
     others = [key for key in scene_keys(rows) if key not in said]
     words += [f"{key.replace('.', ' ').replace('_', ' ')} {short(first[key])}" for key in others]
     return ", ".join(words)

@@ -11,6 +11,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from sweep.blueprint import StructureError, read_structure
 from sweep.grid import Axes, Config, Fault, Values, Written
 from sweep.keys import ALIASES, Key, case_keys, nearest, table_keys
 from sweep.params import TABLES
@@ -151,6 +152,8 @@ class Reader:
             held = [value.value for value in values if value]
             if name == "material.name":
                 held = [Path(value).name.removesuffix(".csv") for value in held]
+            if name == "lattice.file":
+                held = [Path(value).name for value in held]
             excluded[name] = tuple(rounded(value) for value in held)
         return excluded
 
@@ -164,6 +167,10 @@ class Reader:
             return Written(None, '""')
         try:
             return Written(self._checked(known[name], raw), in_words(raw), name)
+        except StructureError as error:
+            for line in error.lines:
+                self._refuse(name, raw, line, where)
+            return None
         except ValueError as error:
             self._refuse(name, raw, f"{error}; allowed: {known[name].allowed}", where)
             return None
@@ -180,6 +187,8 @@ class Reader:
         """A value in SI, or ValueError with the reason."""
         if key.targets == ("material.name",) and isinstance(raw, str):
             return _material(raw, self.folder)
+        if key.targets == ("lattice.file",) and isinstance(raw, str):
+            return _structure(self.folder / raw)
         many = isinstance(raw, list)
         value: Any = raw
         if key.unit:
@@ -200,6 +209,12 @@ def _material(name: str, folder: Path) -> str:
         raise ValueError("unknown material") from None
     read_record(path)
     return str(path.resolve()) if name.endswith(".csv") else name
+
+
+def _structure(path: Path) -> str:
+    """The whole path of a user's own structure."""
+    read_structure(path)
+    return str(path.resolve())
 
 
 def _flat(table: dict[str, Any], prefix: str = "") -> dict[str, Any]:

@@ -7,21 +7,23 @@ together is refused. Resolving what is resolved changes nothing.
 from math import ceil, isclose
 from typing import TypeVar
 
+from sweep.custom import Structure
+from sweep.specimen import Lattice
 from sweep.tables import MAX_STEPS, Contact, Damping, Loading, Solver, Table, refusal
 
 T = TypeVar("T")
 
 
 def resolve(
-    height: float, loading: Loading, contact: Contact, damping: Damping, solver: Solver
+    lattice: Lattice, loading: Loading, contact: Contact, damping: Damping, solver: Solver
 ) -> dict[str, Table]:
-    """The tables that depend on one another and on the height of the lattice, nothing left open."""
-    loading, wish = _loading(loading, height, solver.integrator), solver.time_step
+    """The tables that depend on one another and on the lattice, nothing left open."""
+    loading, wish = _loading(loading, lattice, solver.integrator), solver.time_step
     solver = _solver(solver, loading)
     _check_steps(steps(loading, solver), solver, wish)
     return {
         "loading": loading,
-        "contact": _contact(contact, loading),
+        "contact": _contact(contact, loading, lattice.structure),
         "damping": _damping(damping, loading),
         "solver": solver,
     }
@@ -45,10 +47,31 @@ def _check_steps(count: float, solver: Solver, time_step: float | None) -> None:
         raise refusal("solver.time_step", time_step or solver.time_step, allowed)
 
 
-def _loading(loading: Loading, height: float, integrator: str | None) -> Loading:
+def _loading(loading: Loading, lattice: Lattice, integrator: str | None) -> Loading:
+    if lattice.structure is not None:
+        return _own(loading, lattice.structure, integrator)
+    if loading.mode == "custom":
+        allowed = '"force" or "displacement" unless lattice.kind is "custom"'
+        raise refusal("loading.mode", "custom", allowed)
     if loading.mode == "force":
         return _force(loading, integrator)
-    return _displacement(loading, height, integrator)
+    return _displacement(loading, lattice.height, integrator)
+
+
+def _own(loading: Loading, structure: Structure, integrator: str | None) -> Loading:
+    """What the file of a structure says, for a time, or without one in equal increments."""
+    quasi_static = integrator == "static" or bool(loading.quasi_static)
+    if quasi_static and integrator not in (None, "static"):
+        raise refusal("solver.integrator", integrator, '"static" if quasi_static')
+    if quasi_static and structure.floor_y_mm is None:
+        from sweep.mechanism import loosest
+
+        found = loosest(structure)
+        if found:
+            allowed = f'"backward_euler", or more supports: {found}'
+            raise refusal("solver.integrator", "static", allowed)
+    duration = _given(loading.duration, 1.0 if quasi_static else 0.2)
+    return Loading(mode="custom", duration=duration, quasi_static=quasi_static, platen="none")
 
 
 def _force(loading: Loading, integrator: str | None) -> Loading:
@@ -106,9 +129,10 @@ def _stroke_and_strain(loading: Loading, height: float) -> tuple[float, float]:
     return stroke, strain
 
 
-def _contact(contact: Contact, loading: Loading) -> Contact:
+def _contact(contact: Contact, loading: Loading, structure: Structure | None) -> Contact:
     """A platen that is not glued needs the barrier even where walls do not see each other."""
-    if contact.model == "none" and loading.platen != "contact":
+    floor = structure is not None and structure.floor_y_mm is not None
+    if contact.model == "none" and loading.platen != "contact" and not floor:
         return Contact(model="none", friction=None, stiffness=None)
     if loading.quasi_static or not contact.friction:
         return contact.model_copy(update={"slip_speed": None})
@@ -129,7 +153,7 @@ def _damping(damping: Damping, loading: Loading) -> Damping:
 
 def _solver(solver: Solver, loading: Loading) -> Solver:
     """A platen moves in `load_steps` equal steps, which set the time step if there is time."""
-    if loading.mode == "force":
+    if loading.mode == "force" or (loading.mode == "custom" and not loading.quasi_static):
         step = {"time_step": _given(solver.time_step, 1e-4), "load_steps": None}
     elif loading.quasi_static:
         step = {"time_step": None, "load_steps": _given(solver.load_steps, 200)}

@@ -68,7 +68,7 @@ COLUMNS: dict[str, Column] = {
     "depth_m": Column("m", "depth of the walls, out of the plane"),
     "outer_width_m": Column("m", "width over all, walls included"),
     "material": Column("", 'name of the material; "by numbers" when it has none'),
-    "loading_mode": Column("", "force or displacement"),
+    "loading_mode": Column("", "force, displacement or custom"),
     "platen": Column("", "none, contact or glued"),
     "force_N": Column("N", "dead force on the top; NaN unless the mode is force"),
     "stroke_m": Column("m", "prescribed travel of the top; NaN unless the mode is displacement"),
@@ -160,12 +160,28 @@ FRAME_COLUMNS: dict[str, Column] = {
 }
 """Every array of the frames of a case."""
 
+PROBE = re.compile(r"probe_(\d+)_(.+)_(m|rad|N|Nm)")
 ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
 
 
 def absorbed_energy_column(force: float) -> str:
     """Name of the column of the energy absorbed until `force` (N) is first transmitted."""
     return f"absorbed_energy_at_{force:.10g}N_J"
+
+
+def describe_array(group: str, name: str) -> Column:
+    """Meaning of an array of curves or shapes."""
+    return describe_history(name) if group == "/histories" else FRAME_COLUMNS[name]
+
+
+def describe_history(name: str) -> Column:
+    """Meaning of a column of a history; what is not fixed belongs to a structure of one's own."""
+    if match := PROBE.fullmatch(name):
+        node, what, unit = match.groups()
+        return Column(unit.replace("Nm", "N m"), f"{what.replace('_', ' ')} at node {node}")
+    if name == "load_factor":
+        return Column("1", "share of the loads and prescribed moves that is on")
+    return HISTORY_COLUMNS[name]
 
 
 def is_grid_key(name: str) -> bool:

@@ -3,11 +3,11 @@
 A term that the scene lacks is an empty array: it costs nothing.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from kernels import chain, contact, damp, friction, law, newton, pattern, stretch, vicinity
+from kernels import chain, contact, damp, friction, law, newton, pattern, spring, stretch, vicinity
 from kernels.step import Terms
 from sweep.joints import build_bend, build_fold
 from sweep.lattice import Network, build_network, mass
@@ -17,11 +17,15 @@ from sweep.mesh import Floats, Ints, Mesh, row_nodes, split_walls
 from sweep.params import Case, Loading, Material, given
 
 STATIC_SLIP = 1e-3  # of the wall thickness
+NO_SPRINGS = spring.Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
 
 
 @dataclass(frozen=True)
 class Scene:
-    """A case as arrays. x_rest (n,): m and rad; bottom, top, base: coordinates, see `Output`."""
+    """A case as arrays. x_rest (n,): m and rad; bottom, top, base, probes: as in `march.Output`.
+
+    velocity (n,) at the start. travel: of the driven coordinate where the case does not say, m.
+    """
 
     mesh: Mesh
     network: Network
@@ -32,6 +36,9 @@ class Scene:
     top: Ints
     base: Ints
     force_scale: float
+    velocity: Floats
+    probes: Ints = field(default_factory=lambda: np.empty(0, np.int64))
+    travel: float = 0.0
 
 
 def plane_factors(material: Material) -> tuple[float, float]:
@@ -42,7 +49,8 @@ def plane_factors(material: Material) -> tuple[float, float]:
     ]
 
 
-def _law(material: Material, factor: float) -> law.Law:
+def law_of(material: Material, factor: float) -> law.Law:
+    """The law of a material, its stress times ``factor``."""
     curve = stress_law(material)
     coefficients = factor * np.ascontiguousarray(curve.coefficients)
     width = np.diff(curve.knots)[:, None] ** np.arange(1, 5)
@@ -52,16 +60,18 @@ def _law(material: Material, factor: float) -> law.Law:
     return raw._replace(energy=energy - law.uniaxial(raw, 0.0)[0])
 
 
-def _stretch(mesh: Mesh, depth: float) -> stretch.Stretch:
+def stretch_of(mesh: Mesh, depth: float) -> stretch.Stretch:
+    """Rest lengths and cross-sections. depth: m."""
     return stretch.Stretch(mesh.rest_length, depth * mesh.thickness)
 
 
-def _walls(mesh: Mesh, layout: Layout) -> chain.Walls:
+def walls_of(mesh: Mesh, layout: Layout) -> chain.Walls:
+    """Which elements and rotations make which wall."""
     rotation = layout.rotation[mesh.arm_joint]
     return chain.Walls(mesh.edges, mesh.start, mesh.arm_element, rotation)
 
 
-def _solved(mesh: Mesh, layout: Layout, leader: Ints, case: Case) -> pattern.Layout:
+def solved_by(mesh: Mesh, layout: Layout, leader: Ints, case: Case) -> pattern.Layout:
     """What the linear solver knows of the scene."""
     joints = mesh.arm_joint.reshape(-1, 2)
     outer = np.stack([2 * joints, 2 * joints + 1, layout.rotation[joints]], axis=-1)
@@ -71,6 +81,7 @@ def _solved(mesh: Mesh, layout: Layout, leader: Ints, case: Case) -> pattern.Lay
     axial = case.material.modulus * case.lattice.depth * mesh.thickness / mesh.rest_length
     return pattern.Layout(
         leader=leader,
+        ratio=np.ones(layout.size),
         driven=layout.high if case.loading.mode == "displacement" else -1,
         n_nodes=layout.n_nodes,
         n_joints=layout.n_joints,
@@ -87,7 +98,7 @@ def _no_special_pairs(n_nodes: int) -> tuple[Ints, Ints, Floats, Floats, Floats]
     return start, edge, np.empty(0), np.empty(0), np.empty((0, 2))
 
 
-def _contact(mesh: Mesh, layout: Layout, stiffness: float, case: Case) -> contact.Contact:
+def contact_of(mesh: Mesh, layout: Layout, stiffness: float, case: Case) -> contact.Contact:
     """Contact of walls unless the model is none, and of nodes with loose platens."""
     tributary = mesh.tributary(np.ones(len(mesh.edges)))
     node_thickness = mesh.tributary(mesh.thickness) / tributary
@@ -127,7 +138,7 @@ def _loose(layout: Layout, case: Case) -> Ints:
     return nodes[:0]
 
 
-def _masses(mesh: Mesh, layout: Layout, total: float) -> Floats:
+def masses_of(mesh: Mesh, layout: Layout, total: float) -> Floats:
     """Lumped mass of each coordinate, kg; in each direction they sum to ``total``."""
     share = mesh.tributary(mesh.thickness)
     masses = np.zeros(layout.size)
@@ -146,7 +157,7 @@ def _load(layout: Layout, case: Case) -> Floats:
     return load
 
 
-def _friction(case: Case) -> friction.Friction:
+def friction_of(case: Case) -> friction.Friction:
     """Slip speed x time step, or a share of the wall thickness where there is no time."""
     slip = STATIC_SLIP * case.lattice.wall_thickness
     if case.contact.slip_speed is not None:
@@ -159,10 +170,12 @@ def time_step(case: Case) -> float:
     if case.loading.mode == "displacement":
         speed = case.loading.speed or case.lattice.height
         return given(case.loading.stroke) / speed / given(case.solver.load_steps)
+    if case.solver.load_steps is not None:
+        return given(case.loading.duration) / case.solver.load_steps
     return given(case.solver.time_step)
 
 
-def _damp(case: Case) -> damp.Damp:
+def damp_of(case: Case) -> damp.Damp:
     """Damping of the model that is chosen; none without time."""
     chosen = "none" if case.solver.integrator == "static" else case.damping.model
     if chosen == "rayleigh":
@@ -192,30 +205,32 @@ def build_scene(case: Case) -> Scene:
     touching = in_stretch * case.material.modulus * lattice.depth * (case.contact.stiffness or 0.0)
     fixed = held(layout, platen)
     tied = 2 * layout.top + 1 if platen == "glued" else np.empty(0, np.int64)
-    follows = _solved(mesh, layout, leaders(layout, fixed, tied), case)
+    follows = solved_by(mesh, layout, leaders(layout, fixed, tied), case)
     terms = Terms(
-        law=_law(case.material, in_stretch),
-        walls=_walls(mesh, layout),
-        stretch=_stretch(mesh, lattice.depth),
+        law=law_of(case.material, in_stretch),
+        walls=walls_of(mesh, layout),
+        stretch=stretch_of(mesh, lattice.depth),
         bend=bending,
         fold=build_fold(mesh, bending),
-        contact=_contact(mesh, layout, touching, case),
-        friction=_friction(case),
-        damp=_damp(case),
-        mass=_masses(mesh, layout, mass(network, lattice.depth, case.material.density)),
+        spring=NO_SPRINGS,
+        contact=contact_of(mesh, layout, touching, case),
+        friction=friction_of(case),
+        damp=damp_of(case),
+        mass=masses_of(mesh, layout, mass(network, lattice.depth, case.material.density)),
         load=_load(layout, case),
         layout=follows,
     )
     return Scene(
-        mesh, network, terms, _unknowns(mesh, layout, follows, case),
+        mesh, network, terms, unknowns_of(mesh, layout, follows, case),
         _rest(mesh, layout, terms.contact.node_thickness), *_reported(layout, case.loading),
-        force_scale=float(np.min(rigidity) / np.max(_wall_length(network)) ** 2),
+        force_scale=force_scale(network, rigidity), velocity=np.zeros(layout.size),
     )  # fmt: skip
 
 
-def _wall_length(network: Network) -> Floats:
+def force_scale(network: Network, rigidity: Floats) -> float:
+    """A force (N) that bends the longest wall. rigidity (m,): Y' I of every element, N m^2."""
     ends = network.points[network.walls]
-    return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    return float(np.min(rigidity) / np.max(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)) ** 2)
 
 
 def _rest(mesh: Mesh, layout: Layout, thickness: Floats) -> Floats:
@@ -241,12 +256,14 @@ def _reported(layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
     return reaction, 2 * layout.top + 1, bottom
 
 
-def _unknowns(mesh: Mesh, layout: Layout, solved: pattern.Layout, case: Case) -> newton.Unknowns:
+def unknowns_of(mesh: Mesh, layout: Layout, solved: pattern.Layout, case: Case) -> newton.Unknowns:
+    """What moves, and how far at once."""
     lattice = case.lattice
     scale = np.ones(layout.size)
     scale[layout.rotation] = mesh.rest_length.mean()
     return newton.Unknowns(
         leader=solved.leader,
+        ratio=solved.ratio,
         scale=scale,
         lever=1.0 / scale,
         driven=solved.driven,

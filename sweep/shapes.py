@@ -51,7 +51,12 @@ def work_within_model(frames: Frames, time: Floats, work: Floats) -> float:
 
 
 def kept_area(frames: Frames) -> float:
-    """Area that the walls cover in the shape of greatest strain, as a share of that at rest."""
+    """Area that the walls cover in the shape of greatest strain, as a share of that at rest.
+
+    NaN where strain has no meaning.
+    """
+    if np.isnan(frames["strain"]).any():
+        return float("nan")
     rest, deepest = frames["position_m"][[0, int(np.argmax(frames["strain"]))]]
     return _covered(deepest, frames) / _covered(rest, frames)
 
@@ -68,8 +73,10 @@ def _covered(position: Floats, frames: Frames) -> float:
 def shortening(frames: Frames, bottom: NDArray[np.int64], top: NDArray[np.int64]) -> float:
     """Loss of distance between the middles of two rows of nodes in the last shape / at rest.
 
-    A specimen that has jumped off and turned over has its length still.
+    A specimen that has jumped off and turned over has its length still. NaN without rows.
     """
+    if len(bottom) == 0:
+        return float("nan")
     rest, last = frames["position_m"][[0, -1]]
     height, left = (
         np.linalg.norm(shape[top].mean(axis=0) - shape[bottom].mean(axis=0))

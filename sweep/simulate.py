@@ -6,12 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kernels import march, newton
+from kernels import inertia, march, newton, spring
 from kernels.newton import Tolerance
 from sweep.measure import history_columns, summarise
+from sweep.mesh import Floats
 from sweep.params import Case, Lattice, Loading, given
+from sweep.probes import own_columns
 from sweep.result import Result, Status
 from sweep.scene import Scene, build_scene, time_step
+from sweep.structure import build_structure
 
 FRAMES = 40
 ROUND_OFF = 4e-15
@@ -39,10 +42,12 @@ def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
     ``stop``: int64 (2,), set stop[0] to 1 from another thread to interrupt; stop[1] counts steps.
     """
     started = time.thread_time()
-    scene = build_scene(case)
+    scene = build_scene(case) if case.lattice.structure is None else build_structure(case)
     run = _Run(scene, case, np.zeros(2, np.int64) if stop is None else stop)
     status, message = run.complete()
     history = history_columns(run.rows[: run.done], scene, case)
+    if case.lattice.structure is not None:
+        history = own_columns(history, run.probed[: run.done], scene, case)
     frames = run.frames()
     summary = summarise(case, scene, history, frames, run.loading_rows)
     case_id = case.case_id
@@ -72,16 +77,31 @@ class _Run:
         n = scene.x_rest.size
         total = sum(s.stage.steps for s in self.stages)
         self.state = march.State(
-            scene.x_rest.copy(), np.zeros(n), np.zeros(march.TIME), np.zeros(n), np.zeros(n),
-            np.zeros(3), np.zeros(2), np.zeros(3),
+            scene.x_rest.copy(), scene.velocity.copy(), np.zeros(march.TIME), np.zeros(n),
+            np.zeros(n), np.zeros(3), np.zeros(2), np.zeros(3),
         )  # fmt: skip
         self.rows = np.zeros((total + 1, march.N_COLUMNS))
+        self.probed = np.zeros((total + 1, 2, scene.probes.size))
+        self.probed[0, 0] = scene.x_rest[scene.probes]
+        self._begin()
         self.rows[0, march.HEIGHT] = march.height(scene.x_rest, scene.top, scene.base)
         self.rows[0, march.GAP] = np.nan
         self.frame_of, kept = _frames(total + 1)
         self.positions = np.tile(scene.x_rest, (kept, 1))
         self.done = 1
         self.loading_rows = self.stages[0].stage.steps + 1
+
+    def _begin(self) -> None:
+        """Enter what the scene brings with it as work done: speed, and springs under tension.
+
+        What is out of balance then is let go in the first increment, like a snap.
+        """
+        state, terms = self.state, self.scene.terms
+        state.stored[0] = spring.evaluate(state.x, terms.spring, np.zeros_like(state.x))
+        state.book[march.STRETCH] = state.stored[0]
+        state.book[march.KINETIC] = inertia.kinetic(state.v, terms.mass)
+        state.book[march.WORK] = state.stored[0] + state.book[march.KINETIC]
+        self.rows[0, : march.TIME] = state.book
 
     def complete(self) -> tuple[Status, str]:
         """March through all stages; return the status and its sentence."""
@@ -111,6 +131,8 @@ class _Run:
             self.scene.bottom,
             self.scene.top,
             self.scene.base,
+            self.scene.probes,
+            self.probed[span],
         )
         tolerance = tolerances(self.case, self.scene, stage.dt)
         outcome, written = march.march(
@@ -120,8 +142,10 @@ class _Run:
         return outcome
 
     def _failed(self, outcome: int, stage: str, late: bool) -> tuple[Status, str]:
-        strain = self._top_strain()
-        where = f"while {stage}, at strain {strain:.3g} after {self.done - 1} steps"
+        where = f"while {stage}, after {self.done - 1} steps"
+        if self.case.lattice.structure is None:
+            strain = self._strain(self.rows[self.done - 1, march.HEIGHT])
+            where = f"while {stage}, at strain {strain:.3g} after {self.done - 1} steps"
         if late:
             limit = self.case.solver.time_limit
             return Status.TIMED_OUT, f"solver.time_limit of {limit:g} s reached {where}; raise it"
@@ -130,21 +154,25 @@ class _Run:
         advice = ADVICE[outcome].format(limit=self.case.solver.max_iterations)
         return Status.STOPPED, f"stopped {where}: {advice}"
 
-    def _top_strain(self) -> float:
-        tops = self.rows[[0, self.done - 1], march.HEIGHT]
-        return float((tops[0] - tops[1]) / self.case.lattice.height)
+    def _strain(self, height: Floats) -> Floats:
+        """Strain where the top is ``height`` (m) above the base; NaN for a structure."""
+        if self.case.lattice.structure is not None:
+            return np.full_like(height, np.nan)
+        return (self.rows[0, march.HEIGHT] - height) / self.case.lattice.height
 
     def frames(self) -> dict[str, np.ndarray]:
         """Stored shapes up to the last row that was written."""
         steps = np.flatnonzero(self.frame_of[: self.done] >= 0)
         rows, x = self.rows[steps], self.positions[: len(steps)]
         n = len(self.scene.mesh.points)
+        structure = self.case.lattice.structure
         plates = x[:, -2:].copy()
         if self.case.loading.platen == "none":
             plates[:] = np.nan
+        if structure is not None and structure.floor_y_mm is not None:
+            plates[:, 0] = x[:, self.scene.terms.contact.low]
         return {
-            "strain": (self.rows[0, march.HEIGHT] - rows[:, march.HEIGHT])
-            / self.case.lattice.height,
+            "strain": self._strain(rows[:, march.HEIGHT]),
             "time_s": rows[:, march.TIME],
             "position_m": x[:, : 2 * n].reshape(len(x), n, 2),
             "plate_y_m": plates,
@@ -164,7 +192,7 @@ def _frames(n_rows: int) -> tuple[np.ndarray, int]:
 def tolerances(case: Case, scene: Scene, dt: float) -> Tolerance:
     """Scale ``solver.tolerance`` to forces and energies, not below what round-off allows."""
     terms = scene.terms
-    force = max(scene.force_scale, np.abs(terms.load).max(initial=0.0))
+    force = max(scene.force_scale, np.abs(terms.load * scene.unknowns.lever).max(initial=0.0))
     size = np.ptp(scene.mesh.points)
     rounded = terms.law.modulus * terms.stretch.area.max() * size / terms.stretch.l0.min()
     rounded += terms.mass.max() * size / dt**2
@@ -183,6 +211,10 @@ def stages(case: Case, scene: Scene) -> list[Stretch]:
     loading, solver = case.loading, case.solver
     pace = time_step(case)
     dt = np.inf if solver.integrator == "static" else pace
+    if loading.mode == "custom":
+        steps = solver.load_steps or max(round(given(loading.duration) / pace), 1)
+        start = 0.0 if solver.integrator == "static" else 1.0
+        return [Stretch("loading", march.Stage(steps, dt, pace, start, 1.0, 0.0, scene.travel))]
     rest = float(scene.x_rest[-1])
     if loading.mode == "displacement":
         low, steps = rest - given(loading.stroke), given(solver.load_steps)

@@ -1,27 +1,31 @@
 """The table `lattice`: the specimen, and what of it follows from the rest."""
 
 from math import isclose, isnan
+from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from sweep.blueprint import read_structure
+from sweep.custom import Structure
 from sweep.infill import families, trait
 from sweep.tables import Few, Length, Mass, NonNegative, Table, refusal
 
+CUSTOM = "custom"
 LINE_WIDTH, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m, of a 0.4 mm nozzle
 # The factor of 70 000 nodes takes 8 GB, and a step with it minutes.
 MAX_NODES = 50_000
 
 
 def _known(kind: str) -> str:
-    if kind not in families():
+    if kind not in (*families(), CUSTOM):
         raise PydanticCustomError("literal_error", "no family of infill")
     return kind
 
 
 Kind = Annotated[
-    str, AfterValidator(_known), Field(json_schema_extra={"enum": list[Any](families())})
+    str, AfterValidator(_known), Field(json_schema_extra={"enum": list[Any]([*families(), CUSTOM])})
 ]
 Lines = Annotated[int, Field(ge=0, le=100)]
 Share = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})]
@@ -32,13 +36,16 @@ class Lattice(Table):
 
     Instead of cells and `wall_thickness`: `infill`, the share of the box that lines of `line_width`
     fill, as slicers count. Instead of `wall_thickness`: `mass`, solved for in `sized`.
-    None: not used, or filled in.
+    None: not used, or filled in. A custom kind is `structure`, read from `file`, in one piece: box
+    and thickness are then what it measures.
     """
 
     neutral: ClassVar[dict[str, Any]] = {"grading": 1.0, "perimeters": 0, "solid_layers": 0}
-    labels: ClassVar[tuple[str, ...]] = ("infill", "mass")
+    labels: ClassVar[tuple[str, ...]] = ("infill", "mass", "file")
 
     kind: Kind = "square"
+    file: str | None = None
+    structure: Structure | None = None
     orientation: Literal["pointy", "flat"] | None = None
     cells_x: Few = 3
     cells_y: Few = 3
@@ -56,10 +63,22 @@ class Lattice(Table):
     nodes_per_wall: Annotated[int, Field(ge=0, le=1000)] = 2
     imperfection: NonNegative = 0.01
 
+    @model_validator(mode="before")
+    @classmethod
+    def _read(cls, given: Any) -> Any:
+        if not isinstance(given, dict) or given.get("kind") != CUSTOM or "structure" in given:
+            return given
+        if given.get("file") is None:
+            raise refusal("lattice.file", None, "the path of a .json file, as the kind is custom")
+        return {**given, "structure": read_structure(Path(given["file"]))}
+
     @model_validator(mode="after")
     def _complete(self) -> Self:
+        if self.structure is not None:
+            return self._measured(self.structure)
         lines = self.perimeters > 0 or self.infill is not None
         used = {
+            "file": None,
             "orientation": (self.orientation or "pointy") if trait(self.kind, "ORIENTED") else None,
             "line_width": (self.line_width or LINE_WIDTH) if lines else None,
             "layer_height": (self.layer_height or LAYER_HEIGHT) if self.solid_layers else None,
@@ -71,6 +90,25 @@ class Lattice(Table):
         self._be_small_enough()
         if self.mass is None or "wall_thickness" in self.model_fields_set:
             leave_openings(self)
+        return self
+
+    def _measured(self, structure: Structure) -> Self:
+        """The box, the mean thickness and the depth of a structure, in m."""
+        width, height = structure.size_mm
+        thickness = structure.thickness_mm
+        measures = {
+            "file": Path(self.file).name if self.file else None,
+            "cells_x": 1,
+            "cells_y": 1,
+            "width": 1e-3 * width,
+            "height": 1e-3 * height,
+            "depth": 1e-3 * structure.depth_mm,
+            "wall_thickness": 1e-3 * sum(thickness) / len(thickness),
+            "nodes_per_wall": 0,
+            "imperfection": 0.0,
+        }
+        for key, value in measures.items():
+            object.__setattr__(self, key, value)  # frozen from here on
         return self
 
     def _fill(self, share: float) -> None:
@@ -112,7 +150,9 @@ class Lattice(Table):
 
     @property
     def _counts(self) -> tuple[int, int]:
-        """Numbers of joints and walls."""
+        """Numbers of joints and walls; of a structure, its elements."""
+        if self.structure is not None:
+            return len(self.structure.nodes_mm), sum(self.structure.pieces)
         if known := trait(self.kind, "counts"):
             return known(self.cells_x, self.cells_y)
         from sweep.drawing import counts

@@ -20,24 +20,31 @@ FLOWN = 0.5  # of its height above its place at rest: a shape beyond is not wort
 
 def headline(row: Mapping[str, Any]) -> str:
     """Design and scene of a case, a line each; row : its row of the summary."""
-    pattern, cells = row["lattice_kind"], f"{row['cells_x']} x {row['cells_y']} cells"
+    pattern, cells = row["lattice_kind"], f", {row['cells_x']} x {row['cells_y']} cells"
+    if row["loading_mode"] == "custom":
+        cells = ""
     wall = f"wall {1e3 * row['wall_thickness_m']:.3g} mm"
-    return f"{pattern}, {cells}, {wall}, {row['material']}\n{scene_label(DataFrame([row]))}"
+    return f"{pattern}{cells}, {wall}, {row['material']}\n{scene_label(DataFrame([row]))}"
 
 
 def last_loaded(history: DataFrame, row: Mapping[str, Any]) -> int:
     """Number of the row of a history after which the platen turns or the dead load lets go."""
     if row["loading_mode"] == "force":
         return int(np.flatnonzero(history["reaction_top_N"]).max(initial=0))
+    if row["loading_mode"] == "custom":
+        return len(history) - 1
     return int(history["strain"].argmax())
 
 
 def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple[int, str]]:
     """Frames worth drawing, with captions: at even strains down, then the last one back up.
 
-    frames : as `read_frames` gives them; release : time (s) until which a dead load is on.
+    frames : as `read_frames` gives them; release : time (s) until which a dead load is on. Where
+    strain has no meaning, at even times.
     """
     strain, time = frames["strain"], frames["time_s"]
+    if np.isnan(strain).all():
+        return [(i, f"{time[i]:.3g} s") for i in dict.fromkeys(_even(time, SHAPES))]
     turn = int(strain.argmax()) if release is None else int((time <= release).sum()) - 1
     back = _last_standing(frames["position_m"], turn)
     room = SHAPES - len(back) - (release is not None)

@@ -60,6 +60,8 @@ def rounded(value: object) -> object:
     """A value as it counts in an id."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         return float(f"{value:.{SIGNIFICANT}g}")
+    if isinstance(value, BaseModel):
+        return {key: rounded(item) for key, item in value}
     return [rounded(item) for item in value] if isinstance(value, tuple) else value
 
 
@@ -114,10 +116,11 @@ PRESSED = ("stroke", "strain", "speed", "quasi_static", "unload")  # keys of a m
 class Loading(Table):
     """What is done to the specimen. None: not given, or not used by the mode.
 
-    Without a mode, the keys of one mode say which it is.
+    Without a mode, the keys of one mode say which it is. A custom structure has its own, "custom":
+    its file says what is done to it.
     """
 
-    mode: Literal["force", "displacement"] = "force"
+    mode: Literal["force", "displacement", "custom"] = "force"
     force: Force | None = None
     release_time: Duration | None = None
     duration: Duration | None = None

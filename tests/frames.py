@@ -18,12 +18,14 @@ from kernels import (
     law,
     pairs,
     pattern,
+    spring,
     stretch,
     vicinity,
 )
 from kernels.step import Terms
 
 MODULUS, DEPTH = 12.0, 10.0
+NO_SPRINGS = spring.Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
 
 
 @dataclass(frozen=True)
@@ -223,8 +225,8 @@ def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> pattern.Layo
     outer = np.stack([2 * joints, 2 * joints + 1, 2 * n + joints], axis=-1).reshape(-1, 6)
     axial = of.modulus * of.depth * of.thickness / of.l0
     return pattern.Layout(
-        leader, size - 1 if driven else -1, n, of.joints, of.edges[of.start[:-1], 1], wall_of,
-        outer, float(axial.max()),
+        leader, np.ones(size), size - 1 if driven else -1, n, of.joints,
+        of.edges[of.start[:-1], 1], wall_of, outer, float(axial.max()),
     )  # fmt: skip
 
 
@@ -236,7 +238,7 @@ def terms_of(of: Frame, curve: law.Law, measure: int, damping: damp.Damp) -> Ter
     none = np.empty(0)
     return Terms(
         curve, walls_of(of), stretch_of(of), bend_of(of, measure),
-        fold.Fold(np.empty((0, 3), np.int64), none, none), contact_of(of),
+        fold.Fold(np.empty((0, 3), np.int64), none, none), NO_SPRINGS, contact_of(of),
         friction.Friction(0.0, 1.0), damping, mass, none, layout_of(of),
     )  # fmt: skip
 

@@ -5,7 +5,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from kernels import contact, damp, fold, friction, march, newton, step, system
+from kernels import contact, damp, fold, friction, march, newton, spring, step, system
 from sweep.scene import build_scene
 from sweep.simulate import tolerances
 from tests.terms import assembled, dense, full_matrix, room
@@ -38,6 +38,7 @@ class Whole(NamedTuple):
         _, at = self.found(x, projected)
         terms, dt, matrix = self.terms, self.step.dt, full_matrix(x.size)
         fold.hessian(x, terms.fold, matrix, projected)
+        spring.hessian(x, terms.spring, matrix, projected)
         contact.hessian(x, terms.contact, self.near.pairs, matrix, projected)
         friction.hessian(at.u, self.step.grips, terms.friction.slip, matrix, projected)
         inert = (1.0 / dt + terms.damp.alpha_m) / dt * terms.mass
@@ -173,6 +174,7 @@ def go_on(case, scene, state, stage, control=RUN, **tolerance):
     out = march.Output(
         np.zeros((stage.steps, march.N_COLUMNS)), np.full(stage.steps, -1),
         np.zeros((0, state.x.size)), scene.bottom, scene.top, scene.base,
+        scene.probes, np.zeros((stage.steps, 2, scene.probes.size)),
     )  # fmt: skip
     allowed = tolerances(case, scene, stage.dt)._replace(**tolerance)
     outcome, written = march.march(scene.terms, scene.unknowns, allowed, stage, state, out, control)

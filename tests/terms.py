@@ -124,7 +124,7 @@ def full_matrix(n: int) -> Blocks:
     nb = (n + 1) // 2
     start = np.cumsum([0, *range(nb - 1, -1, -1)])
     row = np.concatenate([np.arange(j + 1, nb) for j in range(nb)])
-    return entries.shaped(3 * (c // 2) + c % 2, start, row)
+    return entries.shaped(3 * (c // 2) + c % 2, start, row, np.ones(n))
 
 
 def by_home(matrix: Blocks) -> np.ndarray:

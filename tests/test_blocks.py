@@ -25,12 +25,15 @@ def random_pattern(rng, nb=NB):
     return filled(joined | joined.T)
 
 
-def shaped(joined, home=None):
+def shaped(joined, home=None, ratio=None):
     """Zero matrix with the blocks of a closed pattern; by default every slot is a coordinate."""
     nb = len(joined)
     below = [j + 1 + np.flatnonzero(joined[j + 1 :, j]) for j in range(nb)]
     start = np.cumsum([0, *map(len, below)])
-    return entries.shaped(np.arange(3 * nb) if home is None else home, start, np.concatenate(below))
+    home = np.arange(3 * nb) if home is None else home
+    return entries.shaped(
+        home, start, np.concatenate(below), np.ones(home.size) if ratio is None else ratio
+    )
 
 
 def put(matrix, full, room=None):
@@ -122,12 +125,16 @@ def reduction_to(home, nb):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_ties_and_supports_reduce_the_matrix(seed):
-    """Coordinates of one home move together; held and driven ones drop out: R^T A R."""
+    """Coordinates of one home move together; held and driven ones drop out: R^T A R.
+
+    A driven one pulls by its ratio to the move that is driven.
+    """
     rng = np.random.default_rng(seed)
     full = rng.uniform(-1, 1, (10, 10))
     full += full.T
     home = np.array([4, 0, HELD, 1, 4, 8, DRIVEN, 4, DRIVEN, 5])
-    matrix = shaped(np.ones((3, 3), dtype=bool), home)
+    ratio = np.where(home == DRIVEN, rng.uniform(-1, 1, 10), 1.0)
+    matrix = shaped(np.ones((3, 3), dtype=bool), home, ratio)
     put(matrix, full)
     blocks.settle(matrix, 7.0)
     R = reduction_to(home, 3)
@@ -136,7 +143,7 @@ def test_ties_and_supports_reduce_the_matrix(seed):
     np.testing.assert_array_equal(matrix.own, np.diag(by_home(matrix)))
     np.testing.assert_array_equal(matrix.diagonal, np.diag(full))
     driven, free = home == DRIVEN, home >= 0
-    np.testing.assert_allclose(matrix.pull[free], full[np.ix_(free, driven)].sum(axis=1))
+    np.testing.assert_allclose(matrix.pull[free], full[np.ix_(free, driven)] @ ratio[driven])
     assert matrix.missing[0] == 0
 
 

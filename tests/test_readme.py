@@ -14,6 +14,7 @@ from readme import QUOTED, ROOT, blocks
 
 from sweep.__main__ import main, parser
 from sweep.config import load_config, quantity
+from sweep.custom import Structure
 from sweep.grid import expand
 from sweep.keys import case_keys, table_keys
 from sweep.params import TABLES, Case, Damping, Loading
@@ -106,7 +107,7 @@ def test_defaults_are_those_of_a_case(table):
 
 def test_columns_exist():
     named = {words for words in QUOTED if re.fullmatch(r"[a-z_]+_(J|N|g|m|Pa|s|J_per_g)", words)}
-    assert {"mass_g", "absorbed_energy_J"} <= named <= {*COLUMNS, *RECORD}
+    assert {"mass_g", "absorbed_energy_J"} <= named <= {*COLUMNS, *RECORD, *Structure.model_fields}
 
 
 def test_refusal_reads_so(tmp_path, capsys):

@@ -39,10 +39,10 @@ VALUES = {
 }
 
 CHOICES = {
-    '[loading]\nmode = "impact"': 'loading.mode = "impact"; "force" or "displacement"',
+    '[loading]\nmode = "impact"': ('loading.mode = "impact"; "force", "displacement" or "custom"'),
     '[lattice]\nkind = "hexagon"': (
         'lattice.kind = "hexagon"; "brick", "circle", "diamond", "hex", "kagome", "reentrant",'
-        ' "square" or "triangle"'
+        ' "square", "triangle" or "custom"'
     ),
     '[material]\nbend = "section"': 'material.bend = "section"; "linear"',
     '[contact]\nmodel = "position_based"': 'contact.model = "position_based"; "none" or "barrier"',

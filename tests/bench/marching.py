@@ -42,6 +42,7 @@ def go(case, scene, state, ramps):
         out = march.Output(
             np.zeros((stage.steps, march.N_COLUMNS)), np.full(stage.steps, -1),
             np.zeros((0, state.x.size)), scene.bottom, scene.top, scene.base,
+            scene.probes, np.zeros((stage.steps, 2, scene.probes.size)),
         )  # fmt: skip
         allowed = tolerances(case, scene, stage.dt)
         given = (scene.terms, scene.unknowns, allowed, stage, state, out, np.zeros(2, np.int64))

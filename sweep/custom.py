@@ -1,0 +1,110 @@
+"""Structures of a user's own: what the JSON of `lattice.file` holds, as it stands there.
+
+Units are those that the keys name. Nodes are numbered as in the file, from 0.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Pair = tuple[float, float]
+Positive = Annotated[float, Field(gt=0)]
+Node = Annotated[int, Field(ge=0)]
+Pieces = Annotated[int, Field(ge=1, le=1000)]
+
+
+class Part(BaseModel):
+    """A part of a structure; its keys are those of the file."""
+
+    model_config = ConfigDict(frozen=True, strict=True, extra="forbid", allow_inf_nan=False)
+
+
+class Support(Part):
+    """What of a node never moves."""
+
+    node: Node
+    fix: Annotated[tuple[Literal["x", "y", "rotation"], ...], Field(min_length=1)]
+
+
+class Load(Part):
+    """A dead force and a moment, anticlockwise, at a node."""
+
+    node: Node
+    force_N: Pair = (0.0, 0.0)  # noqa: N815 as in the file
+    moment_Nmm: float = 0.0  # noqa: N815 as in the file
+
+
+class Prescribed(Part):
+    """How far a node is led along x or y, or turned anticlockwise."""
+
+    node: Node
+    direction: Literal["x", "y", "rotation"]
+    displacement_mm: float | None = None
+    angle_rad: float | None = None
+
+
+class PointMass(Part):
+    """A mass at a node, besides that of the walls."""
+
+    node: Node
+    mass_g: Annotated[float, Field(ge=0)]
+
+
+class SpringPart(Part):
+    """A linear spring between two nodes."""
+
+    nodes: tuple[Node, Node]
+    stiffness_N_mm: Positive  # noqa: N815 as in the file
+    rest_length_mm: Positive | None = None
+
+
+class Structure(Part):
+    """Nodes, walls and what holds and drives them."""
+
+    nodes_mm: Annotated[tuple[Pair, ...], Field(min_length=2)]
+    walls: Annotated[tuple[tuple[Node, Node], ...], Field(min_length=1)]
+    wall_thickness_mm: Positive | tuple[Positive, ...] = 0.8
+    depth_mm: Positive = 12.0
+    subdivide: Pieces | tuple[Pieces, ...] = 8
+    rest_angles: Literal["as_drawn"] = "as_drawn"
+    supports: tuple[Support, ...] = ()
+    loads: tuple[Load, ...] = ()
+    prescribed: tuple[Prescribed, ...] = ()
+    pins: tuple[Node, ...] = ()
+    masses: tuple[PointMass, ...] = ()
+    springs: tuple[SpringPart, ...] = ()
+    initial_velocity_mm_s: Pair | tuple[Pair, ...] = (0.0, 0.0)
+    gravity_mm_s2: Pair = (0.0, 0.0)
+    floor_y_mm: float | None = None
+    probes: tuple[Node, ...] = ()
+
+    @property
+    def thickness_mm(self) -> tuple[float, ...]:
+        """Of every wall."""
+        given = self.wall_thickness_mm
+        return given if isinstance(given, tuple) else (given,) * len(self.walls)
+
+    @property
+    def pieces(self) -> tuple[int, ...]:
+        """Elements of every wall."""
+        given = self.subdivide
+        return given if isinstance(given, tuple) else (given,) * len(self.walls)
+
+    @property
+    def velocity_mm_s(self) -> tuple[Pair, ...]:
+        """Of every node."""
+        given = self.initial_velocity_mm_s
+        if isinstance(given[0], tuple):
+            return given
+        return (given,) * len(self.nodes_mm)
+
+    @property
+    def held(self) -> set[tuple[int, str]]:
+        """Nodes and directions that supports fix."""
+        return {(support.node, way) for support in self.supports for way in support.fix}
+
+    @property
+    def size_mm(self) -> tuple[float, float]:
+        """Extent of the nodes in x and y."""
+        xs, ys = zip(*self.nodes_mm, strict=True)
+        return max(xs) - min(xs), max(ys) - min(ys)

@@ -1,0 +1,77 @@
+"""Structures of a few walls with closed forms, of a linear material in plane stress; units of SI.
+
+The length unit of a file is the mm.
+"""
+
+import json
+
+import numpy as np
+
+from sweep.custom import Structure
+from sweep.params import Case, Contact, Damping, Lattice, Loading, Solver
+from sweep.simulate import simulate
+from tests.figures import MATERIAL
+
+MM = 1e-3
+LENGTH, THICKNESS, DEPTH = 100.0, 1.0, 10.0  # mm
+BENDING = 12e6 * DEPTH * THICKNESS**3 / 12 * MM**4  # Y I, N m^2
+AXIAL = 12e6 * DEPTH * THICKNESS * MM**2  # Y A, N
+MASS = 1190.0 * LENGTH * THICKNESS * DEPTH * MM**3  # of a wall of `LENGTH`, kg
+GRAVITY = 9810.0  # mm/s^2
+APART = Contact(model="none")
+UNDAMPED = Damping(model="none")
+CLAMPED = ["x", "y", "rotation"]
+ROD = {"nodes_mm": [[0, 0], [LENGTH, 0]], "walls": [[0, 1]], "probes": [0, 1]}
+BEAM = ROD | {"supports": [{"node": 0, "fix": CLAMPED}], "subdivide": 32}
+
+
+def structure(**parts):
+    """A structure as its file would give it."""
+    whole = {"wall_thickness_mm": THICKNESS, "depth_mm": DEPTH} | parts
+    return Structure.model_validate_json(json.dumps(whole))
+
+
+def pushed(parts, steps=10, contact=APART, **solver):
+    """Result of a structure that is loaded in equal increments."""
+    case = Case(
+        lattice=Lattice(kind="custom", structure=structure(**parts)),
+        material=MATERIAL,
+        contact=contact,
+        solver=Solver(integrator="static", load_steps=steps, **solver),
+    )
+    return finished(case)
+
+
+def let_go(parts, duration, time_step, contact=APART, damping=UNDAMPED, material=MATERIAL):
+    """Result of a structure that moves for a while, s."""
+    case = Case(
+        lattice=Lattice(kind="custom", structure=structure(**parts)),
+        material=material,
+        loading=Loading(duration=duration),
+        contact=contact,
+        damping=damping,
+        solver=Solver(time_step=time_step),
+    )
+    return finished(case)
+
+
+def finished(case):
+    """Result of a case that converges."""
+    result = simulate(case)
+    assert result.status == "converged", result.message
+    return result
+
+
+def probe(result, node, what):
+    """A column of a probe, (rows,)."""
+    return result.history[f"probe_{node}_{what}"]
+
+
+def momentum(result, masses):
+    """Momentum (rows - 1, 2) and angular momentum (rows - 1,) of point masses at probes."""
+    at = np.stack([[probe(result, n, "x_m"), probe(result, n, "y_m")] for n in range(len(masses))])
+    dt = np.diff(result.history["time_s"])
+    velocity = np.diff(at, axis=2) / dt
+    p = masses[:, None, None] * velocity
+    x = at[:, :, 1:]
+    return p.sum(axis=0).T, (x[:, 0] * p[:, 1] - x[:, 1] * p[:, 0]).sum(axis=0)
