@@ -108,12 +108,25 @@ def _stroke_and_strain(loading: Loading, height: float) -> tuple[float, float]:
 
 def _contact(contact: Contact, loading: Loading) -> Contact:
     """A platen that is not glued needs the barrier even where walls do not see each other."""
+    if contact.model == "position_based":
+        return _by_position(contact, loading)
     if contact.model == "none" and loading.platen != "contact":
         return Contact(model="none", friction=None, stiffness=None)
     if loading.quasi_static or not contact.friction:
         return contact.model_copy(update={"slip_speed": None})
     reference = 0.1 if loading.speed is None else loading.speed
     return contact.model_copy(update={"slip_speed": _given(contact.slip_speed, 0.01 * reference)})
+
+
+def _by_position(contact: Contact, loading: Loading) -> Contact:
+    """Moving walls apart exerts no force: none that holds a platen up, and none that rubs."""
+    wanting = {
+        "loading.quasi_static": loading.quasi_static,
+        'loading.platen is "contact"': loading.platen == "contact",
+    }
+    for reason in (reason for reason, holds in wanting.items() if holds):
+        raise refusal("contact.model", contact.model, f'"none" or "barrier" if {reason}')
+    return contact.model_copy(update={"friction": None, "stiffness": None, "slip_speed": None})
 
 
 def _damping(damping: Damping, loading: Loading) -> Damping:

@@ -7,9 +7,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kernels import chain, contact, damp, friction, law, newton, pattern, stretch, vicinity
+from kernels import (
+    chain,
+    contact,
+    damp,
+    friction,
+    law,
+    newton,
+    pattern,
+    project,
+    stretch,
+    vicinity,
+)
 from kernels.step import Terms
-from sweep.joints import build_bend, build_fold
+from sweep.joints import bends, build_bend, build_fold
 from sweep.lattice import Network, build_network, mass
 from sweep.layout import Layout, held, leaders
 from sweep.material import stress_law
@@ -52,8 +63,9 @@ def _law(material: Material, factor: float) -> law.Law:
     return raw._replace(energy=energy - law.uniaxial(raw, 0.0)[0])
 
 
-def _stretch(mesh: Mesh, depth: float) -> stretch.Stretch:
-    return stretch.Stretch(mesh.rest_length, depth * mesh.thickness)
+def _stretch(mesh: Mesh, case: Case) -> stretch.Stretch:
+    area = case.lattice.depth * mesh.thickness
+    return stretch.Stretch(mesh.rest_length, area, case.solver.hessian == "exact")
 
 
 def _walls(mesh: Mesh, layout: Layout) -> chain.Walls:
@@ -87,11 +99,17 @@ def _no_special_pairs(n_nodes: int) -> tuple[Ints, Ints, Floats, Floats, Floats]
     return start, edge, np.empty(0), np.empty(0), np.empty((0, 2))
 
 
-def _contact(mesh: Mesh, layout: Layout, stiffness: float, case: Case) -> contact.Contact:
-    """Contact of walls unless the model is none, and of nodes with loose platens."""
+def _contact(
+    mesh: Mesh, layout: Layout, stiffness: float, case: Case, by_force: bool
+) -> contact.Contact:
+    """Contact of walls unless the model is none, and of nodes with loose platens.
+
+    Of the two kinds, ``by_force`` and by position, the one that the case has not is absent.
+    """
+    acts = by_force == (case.contact.model != "position_based")
     tributary = mesh.tributary(np.ones(len(mesh.edges)))
     node_thickness = mesh.tributary(mesh.thickness) / tributary
-    walls = case.contact.model != "none"
+    walls = acts and case.contact.model != "none"
     edges, thickness = mesh.edges[: None if walls else 0], mesh.thickness[: None if walls else 0]
     special = _no_special_pairs(layout.n_nodes)
     if walls:
@@ -111,7 +129,7 @@ def _contact(mesh: Mesh, layout: Layout, stiffness: float, case: Case) -> contac
         special_weight=special[2],
         special_distance=special[3],
         special_subtract=special[4],
-        plate_nodes=_loose(layout, case),
+        plate_nodes=_loose(layout, case)[: None if acts else 0],
         low=layout.low,
         high=layout.high,
     )
@@ -133,6 +151,15 @@ def _masses(mesh: Mesh, layout: Layout, total: float) -> Floats:
     masses = np.zeros(layout.size)
     masses[: 2 * layout.n_nodes] = np.repeat(total * share / share.sum(), 2)
     return masses
+
+
+def _projection(
+    mesh: Mesh, layout: Layout, solved: pattern.Layout, masses: Floats, case: Case
+) -> project.Projection:
+    """Contact by position: what moves on its own gives way, by its mass."""
+    own = (solved.leader == np.arange(layout.size)) & (masses > 0.0)
+    ease = np.divide(1.0, masses, out=np.zeros_like(masses), where=own)
+    return project.Projection(_contact(mesh, layout, 0.0, case, by_force=False), ease)
 
 
 def _load(layout: Layout, case: Case) -> Floats:
@@ -191,20 +218,24 @@ def build_scene(case: Case) -> Scene:
     bending = build_bend(mesh, rigidity, case)
     touching = in_stretch * case.material.modulus * lattice.depth * (case.contact.stiffness or 0.0)
     fixed = held(layout, platen)
+    if not bends(case):
+        fixed = np.union1d(fixed, layout.rotation)
     tied = 2 * layout.top + 1 if platen == "glued" else np.empty(0, np.int64)
     follows = _solved(mesh, layout, leaders(layout, fixed, tied), case)
+    masses = _masses(mesh, layout, mass(network, lattice.depth, case.material.density))
     terms = Terms(
         law=_law(case.material, in_stretch),
         walls=_walls(mesh, layout),
-        stretch=_stretch(mesh, lattice.depth),
+        stretch=_stretch(mesh, case),
         bend=bending,
-        fold=build_fold(mesh, bending),
-        contact=_contact(mesh, layout, touching, case),
+        fold=build_fold(mesh, bending, case),
+        contact=_contact(mesh, layout, touching, case, by_force=True),
         friction=_friction(case),
         damp=_damp(case),
-        mass=_masses(mesh, layout, mass(network, lattice.depth, case.material.density)),
+        mass=masses,
         load=_load(layout, case),
         layout=follows,
+        project=_projection(mesh, layout, follows, masses, case),
     )
     return Scene(
         mesh, network, terms, _unknowns(mesh, layout, follows, case),
