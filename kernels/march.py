@@ -201,7 +201,7 @@ def _begin(terms, stage, target, driven, state, near, room, todo):
     if more > 0.0:
         work.dx[driven] = remaining
     if terms.friction.mu > 0.0:
-        friction.lag(x, terms.contact, near.pairs, terms.friction, grips)
+        friction.lag(x, terms.contact, near.pairs, drift(x, terms, near), terms.friction, grips)
     todo[LOOPS] = 0.0
 
 
@@ -211,7 +211,7 @@ def _grips_agree(x, terms, near, unknowns, tolerance, room, todo):
     _, at, work, grips, _ = room
     copy(at.g, work.trial)
     copy(at.rubbing, work.escape)
-    friction.lag(x, terms.contact, near.pairs, terms.friction, grips)
+    friction.lag(x, terms.contact, near.pairs, drift(x, terms, near), terms.friction, grips)
     rub(terms, grips, at)
     reduce(at.g, unknowns.leader, work.residual)
     agree = largest(work.residual, unknowns) <= tolerance.friction

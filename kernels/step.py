@@ -104,7 +104,7 @@ def evaluate(x, terms, step, near, at, projected):
     _start(x, step, at)
     store(x, terms, step, at, projected)
     at.stored[CONTACT] = contact.evaluate(
-        x, terms.contact, near.pairs, _drift(x, terms, near), at.elastic
+        x, terms.contact, near.pairs, drift(x, terms, near), at.elastic
     )
     total = at.stored[STRETCH] + at.stored[BEND] + at.stored[CONTACT]
     for i in range(x.size):
@@ -188,7 +188,7 @@ def step_limit(x, dx, most, terms, near, at):
     ``most``: farthest move of a coordinate in m. A bound tells first whether a check is needed.
     """
     contacts, shortest, farthest = terms.contact, np.inf, DIAGONAL * most
-    first = contact.step_limit(x, dx, farthest, contacts, near.pairs, _drift(x, terms, near))
+    first = contact.step_limit(x, dx, farthest, contacts, near.pairs, drift(x, terms, near))
     if np.pi * 2.0 * farthest >= at.least[OPENING] * at.least[SHORTEST]:
         first = min(first, _first_fold(x, dx, terms))
     if 2.0 * farthest >= (1.0 - LEAST_LENGTH) * at.least[SHORTEST]:
@@ -263,7 +263,7 @@ def holds_crowd(near, x, terms):
 
 
 @jit_inlined
-def _drift(x, terms, near):
+def drift(x, terms, near):
     """Return how far a node has moved since the pairs were listed, m."""
     if terms.contact.edges.shape[0] == 0:
         return 0.0
@@ -273,13 +273,14 @@ def _drift(x, terms, near):
 @jit_inlined
 def covers(near, x, terms, reach):
     """Return whether the list holds all that matters while no coordinate moves beyond ``reach``."""
-    return 2.0 * (_drift(x, terms, near) + DIAGONAL * reach) <= near.margin
+    return 2.0 * (drift(x, terms, near) + DIAGONAL * reach) <= near.margin
 
 
 @jit_inlined
 def least_gap(x, terms, near):
     """Return the smallest distance in m between lines that may touch, by either kind of contact."""
+    moved = pairs.farthest(x, near.anchor, terms.layout.n_nodes)
     return min(
-        contact.least_gap(x, terms.contact, near.pairs),
-        contact.least_gap(x, terms.project.contact, near.crowd),
+        contact.least_gap(x, terms.contact, near.pairs, moved),
+        contact.least_gap(x, terms.project.contact, near.crowd, moved),
     )
