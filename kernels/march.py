@@ -21,7 +21,7 @@ from kernels.newton import (
 )
 from kernels.room import make_room
 from kernels.rows import copy, zero
-from kernels.step import Step, find_near, holds_crowd, least_gap, rub, store
+from kernels.step import Step, drift, find_near, holds_crowd, least_gap, rub, store
 
 WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR = range(8)
 INJECTED, RESIDUAL = 8, 9

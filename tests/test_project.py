@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels import pairs, project
+from kernels import contact, pairs, project
 from sweep.config import ConfigError, load_config
 from sweep.params import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.scene import build_scene
@@ -22,7 +22,7 @@ def moved(gap, shift, ease):
     listed = pairs.find(x, contacts, 2.0 * contacts.reach)
     projection = project.Projection(contacts, np.broadcast_to(ease, x.shape).copy())
     changed = project.move_apart(x, projection, listed)
-    nearest = pairs.find(x, contacts, 2.0 * contacts.reach).distance.min()
+    nearest = contact.least_gap(x, contacts, pairs.find(x, contacts, 2.0 * contacts.reach), 0.0)
     return walls.rest, x, changed, nearest
 
 
