@@ -35,6 +35,11 @@ def ours() -> Case:
     return same[-1]
 
 
+def coarse() -> Case:
+    """Our choices in steps of 0.1 ms, five times as long, which changes nothing that is held."""
+    return varied(ours(), solver={"time_step": 1e-4})
+
+
 def varied(case: Case, **changes: Mapping[str, Any]) -> Case:
     """A case with other values, in SI, of some keys of some tables; a mode starts a new loading."""
     tables = {name: getattr(case, name).model_dump(exclude_none=True) for name in TABLES}

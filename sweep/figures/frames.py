@@ -5,41 +5,45 @@ from pathlib import Path
 from sweep import plots
 from sweep.figures.cases import ours, report, run, varied
 from sweep.figures.springs import SHORT
+from sweep.params import Case
 
 
 def draw(folder: Path) -> tuple[str, ...]:
     """Its Figs. 5 and 6."""
-    rest = run(report()).frames
-    figure = plots.blank(3.0, 3.0)
-    first = {
-        **rest,
-        **{key: rest[key][:1] for key in ("strain", "time_s", "position_m", "plate_y_m")},
-    }
-    plots.deformed_shapes(figure, "at rest", first)
+    frames = run(report()).frames
+    rest = {key: values[:1] for key, values in frames.items() if not key.startswith("edge")}
+    figure = plots.blank(3.0, 3.2)
+    plots.deformed_shapes(figure, "at rest", {**frames, **rest})
     plots.save(figure, folder / "fig05_undeformed.png")
+    by_position, barrier = varied(report(), loading=SHORT), varied(ours(), loading=SHORT)
     cases = {
         "without contact": varied(report(), contact={"model": "none"}, loading=SHORT),
-        "contact by position: the report's model": varied(report(), loading=SHORT),
-        "barrier: our model": varied(ours(), loading=SHORT),
+        "contact by position: the report's model": by_position,
+        "barrier: our model": barrier,
     }
-    figure = plots.blank(10.0, 8.5)
-    plots.winners(figure, {name: run(case).frames for name, case in cases.items()})
+    figure = plots.blank(10.0, 7.0)
+    strips = figure.subfigures(len(cases), 1, squeeze=False)[:, 0]
+    for strip, (name, case) in zip(strips, cases.items(), strict=True):
+        plots.deformed_shapes(strip, name, run(case).frames, SHORT["duration"])
     plots.save(figure, folder / "fig06_collapse.png")
-    rows = {name: run(case).summary for name, case in cases.items()}
-    seen = "; ".join(
-        f"{name}: strain up to {row['peak_strain']:.2f}, {row['max_crossings']} crossings of walls, "
-        f"least distance of centre lines {_gap(row['min_gap_m'])}"
-        for name, row in rows.items()
-    )
+    rows = [
+        f"{name}: strain up to {run(case).summary['peak_strain']:.2f}, walls through one another "
+        f"{run(case).summary['max_crossings']} times"
+        for name, case in cases.items()
+    ]
     return (
         "Fig. 5 shows the grid of 3 x 3 cells with two nodes on each edge, Fig. 6 frames of its "
         "collapse under the load on the top row.",
-        f"In the first {1e3 * SHORT['duration']:.0f} ms, {seen}. "
-        f"The walls are {1e3 * report().lattice.wall_thickness:g} mm thick.",
+        f"In the first {1e3 * SHORT['duration']:.0f} ms, {'; '.join(rows)}. The walls are "
+        f"{1e3 * report().lattice.wall_thickness:g} mm thick; by position they come as close as "
+        f"{_gap(by_position):.2f} mm, centre line to centre line, with the barrier "
+        f"{_gap(barrier):.2f} mm.",
         "Without a floor and without contact the top row ends below the bottom row. With contact "
-        "the rows come to lie on one another, sideways, as the top row is free to sway.",
+        "the rows come to lie on one another, sideways, as the top row is free to sway. Only the "
+        "bottom row is held: the grey bar is drawn, and nothing rests on it.",
     )
 
 
-def _gap(gap: float) -> str:
-    return f"{1e3 * gap:.2f} mm" if gap == gap else "not watched"
+def _gap(case: Case) -> float:
+    """Least distance of centre lines, mm."""
+    return 1e3 * float(run(case).summary["min_gap_m"])

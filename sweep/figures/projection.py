@@ -6,7 +6,7 @@ import numpy as np
 
 from sweep import plots
 from sweep.figures.cases import at, history, report, run, varied
-from sweep.figures.panels import curves, legend, title
+from sweep.figures.panels import curves, legend, ticks, title
 from sweep.figures.springs import SHORT
 from sweep.params import Case
 
@@ -29,7 +29,7 @@ def draw(folder: Path) -> tuple[str, ...]:
     left, right = figure.subplots(1, 2)
     steps = 1e6 * np.array(STEPS)
     lines = {"by position: injected": (steps, pushed), "barrier: left over": (steps, open_book)}
-    curves(left, lines, "time step, us", "energy error / work done", marker="o")
+    curves(left, lines, "time step, µs", "energy error / work done", marker="o")
     left.set(xscale="log", yscale="log")
     title(left, "energy that no force accounts for")
     legend(left, loc="center left")
@@ -37,14 +37,17 @@ def draw(folder: Path) -> tuple[str, ...]:
         words: [1e3 * (at(p, "stretch_J", HELD) + at(p, "bend_J", HELD)) for p in runs]
         for words, runs in pasts.items()
     }
-    curves(right, {n: (steps, e) for n, e in stored.items()}, "time step, us", "stored energy, mJ",
+    curves(right, {n: (steps, e) for n, e in stored.items()}, "time step, µs", "stored energy, mJ",
            marker="o")  # fmt: skip
     right.set(xscale="log", yscale="log")
+    for ax in (left, right):
+        ticks(ax.xaxis, steps)
+    ticks(right.yaxis, (100, 200, 400, 800))
     title(right, f"stretching and bending after {1e3 * HELD:.0f} ms")
     legend(right, loc="upper left")
     plots.save(figure, folder / "contact_models.png")
     rows = "; ".join(
-        f"{dt:g} us: {p:.3g} and {o:.1e}" for dt, p, o in zip(steps, pushed, open_book, strict=True)
+        f"{dt:g} µs: {p:.3g} and {o:.1e}" for dt, p, o in zip(steps, pushed, open_book, strict=True)
     )
     order = np.log(pushed[-2] / pushed[-1]) / np.log(STEPS[-2] / STEPS[-1])
     last = {name: values[-1] for name, values in stored.items()}
@@ -58,7 +61,7 @@ def draw(folder: Path) -> tuple[str, ...]:
         f"{last['by position']:.1f} and {last['barrier']:.1f} mJ are stored. Walls that cross, by "
         f"position: {', '.join(map(str, crossed))}; with the barrier: "
         f"{max(run(_case('barrier', dt)).summary['max_crossings'] for dt in STEPS)}. "
-        f"Newton iterations at {steps[2]:g} us: {cost[0]} and {cost[1]}.",
+        f"Newton iterations at {steps[2]:g} µs: {cost[0]} and {cost[1]}.",
         "A wall at rest on another must be moved back in every step, and the integrator takes out "
         "again what that puts in: by position, the book closes only with a column of what is "
         "injected, many times the work done. The barrier is part of the energy that is minimised; "
