@@ -62,8 +62,7 @@ def draw(folder: Path) -> tuple[str, ...]:
         + (f" Not converged: {', '.join(failed)}." if failed else ""),
         "Load, wall, material and plane decide whether the lattice stands or gives way: the load "
         "that buckles it goes with the modulus and the third power of the wall. Once it has given "
-        "way, damping, friction, imperfection and time step hardly move it. The mesh does: what "
-        "holds the folded lattice up is where its walls touch, and three elements a wall, the "
-        "report's, give sharp folds few places to do so. The strain under the load is the number "
-        "here that is trusted least.",
+        "way, damping, friction, imperfection and time step hardly move it. The mesh does, and has "
+        "not settled at the finest here: three elements a wall, the report's, are few for sharp "
+        "folds and for where walls touch. The strain under the load is to be trusted least.",
     )
