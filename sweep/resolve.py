@@ -120,12 +120,11 @@ def _contact(contact: Contact, loading: Loading) -> Contact:
 
 def _by_position(contact: Contact, loading: Loading) -> Contact:
     """Moving walls apart exerts no force: none that holds a platen up, and none that rubs."""
-    wanting = {
-        "loading.quasi_static": loading.quasi_static,
-        'loading.platen is "contact"': loading.platen == "contact",
-    }
-    for reason in (reason for reason, holds in wanting.items() if holds):
-        raise refusal("contact.model", contact.model, f'"none" or "barrier" if {reason}')
+    allowed = '"none" or "barrier" if '
+    if loading.quasi_static:
+        raise refusal("contact.model", contact.model, f"{allowed}loading.quasi_static")
+    if loading.platen == "contact":
+        raise refusal("contact.model", contact.model, f'{allowed}loading.platen is "contact"')
     return contact.model_copy(update={"friction": None, "stiffness": None, "slip_speed": None})
 
 

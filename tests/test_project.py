@@ -35,6 +35,15 @@ def test_walls_are_moved_to_their_thickness_and_no_farther(gap, shift):
     assert np.abs(x - rest).max() < 0.8 - gap + 1e-9
 
 
+@pytest.mark.parametrize("tau", [0.0, 0.25, 0.9])
+def test_one_pair_is_moved_apart_at_once(tau):
+    """Along the normal, by masses and levers of its three nodes."""
+    x, ease = np.array([tau, 0.1, 0.0, 0.0, 1.0, 0.0]), np.array([9.0, 1.0, 9.0, 2.0, 9.0, 0.5])
+    assert project._part(x, ease, 0, 1, 2, 0.2)
+    assert x[1] - (1.0 - tau) * x[3] - tau * x[5] == pytest.approx(0.2, rel=1e-12)
+    np.testing.assert_allclose(x[::2], [tau, 0.0, 1.0], rtol=1e-12)
+
+
 def test_walls_that_are_apart_are_left_alone():
     rest, x, changed, _ = moved(0.81, 0.0, 1.0)
     assert not changed
