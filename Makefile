@@ -12,11 +12,11 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test verify bench lint clean
+.PHONY: help setup sweep rank test verify bench figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-6s  %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-7s  %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
 
 setup: $(STAMP)  ## make the environment: Python 3.11 to 3.13, packages from requirements.lock
 
@@ -46,6 +46,9 @@ verify: setup  ## print the numbers of README.md anew, from results/armor.h5 and
 
 bench: setup  ## measure how fast it is; table and figure go to results/bench/
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.bench results/bench
+
+figures: setup  ## draw the figures of the course report beside ours, with captions, into results/figures/
+	@$(PYTHON) -m sweep.figures results/figures
 
 clean:  ## remove the environment and all caches, but no results
 	rm -rf .venv build *.egg-info .pytest_cache .mypy_cache .ruff_cache

@@ -41,7 +41,8 @@ def prepare(terms, before):
     bend.turns(x0, terms.walls, terms.bend, before.frame, shape)
     if terms.damp.beta_k > 0.0:
         chain.clear(shape, stiffness)
-        stretch.evaluate(terms.stretch, terms.law, shape, stiffness, True)
+        elements = stretch.Stretch(terms.stretch.l0, terms.stretch.area, True)
+        stretch.evaluate(elements, terms.law, shape, stiffness, True)
         bend.evaluate(terms.walls, terms.bend, shape, stiffness, True)
 
 

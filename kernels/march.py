@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels import contact, damp, friction, inertia
+from kernels import damp, friction, inertia, project
 from kernels.jit import jit_exact, jit_inlined, jit_owning
 from kernels.newton import (
     CONVERGED,
@@ -22,11 +22,12 @@ from kernels.newton import (
 from kernels.relax import approach
 from kernels.room import CHANGE, LAGGED, PREDICTED, make_room
 from kernels.rows import copy, total, zero
-from kernels.step import Step, drift, find_near, rub
+from kernels.step import Step, drift, find_near, holds_crowd, least_gap, rub, store
 
-WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR, RESIDUAL = range(9)
-TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP = range(9, 15)
-N_COLUMNS = 15
+WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR = range(8)
+INJECTED, RESIDUAL = 8, 9
+TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP = range(10, 16)
+N_COLUMNS = 16
 SMALLEST = 2.0**-12  # share of a step
 FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 GRIP_LOOPS = 30  # fixed-point iterations of friction
@@ -49,7 +50,7 @@ class Stage(NamedTuple):
 
 
 class State(NamedTuple):
-    """Where the march is. x, v (n,): position and velocity. book (9,): energy book in J.
+    """Where the march is. x, v (n,): position and velocity. book (10,): energy book in J.
 
     elastic, rubbing (n,), stored (3,), held (2,): gradients of the stored energy and of friction,
     stored energies, driven reaction (N) and load factor at the last step. totals (3,): iterations,
@@ -144,8 +145,26 @@ def _enter(terms, step, unknowns, state, at, work):
     copy(at.elastic, state.elastic)
     copy(at.rubbing, state.rubbing)
     state.held[0], state.held[1] = held, step.factor
-    book[RESIDUAL] = book[WORK] - book[KINETIC] - total
+    book[RESIDUAL] = book[WORK] + book[INJECTED] - book[KINETIC] - total
     book[RESIDUAL] -= book[MATERIAL] + book[FRICTION] + book[INTEGRATOR]
+
+
+@jit_inlined
+def _move_apart(terms, step, state, near, at, work):
+    """Move apart what is too near after a step, and book what that adds to the energy."""
+    x, book = state.x, state.book
+    copy(x, work.trial)
+    if not project.move_apart(x, terms.project, near.crowd):
+        return
+    store(x, terms, step, at, True)
+    work.kept[0] = np.inf
+    gained = -book[KINETIC] - book[STRETCH] - book[BEND]
+    way = step.factor * project.hasten(x, work.trial, step.dt, terms.load, state.v)
+    book[KINETIC] = inertia.kinetic(state.v, terms.mass)
+    book[STRETCH], book[BEND] = at.stored[0], at.stored[1]
+    copy(at.stored, state.stored)
+    book[WORK] += way
+    book[INJECTED] += gained + book[KINETIC] + book[STRETCH] + book[BEND] - way
 
 
 @jit_inlined
@@ -166,7 +185,7 @@ def _write(out, k, state, terms, near, unknowns, at):
         out.probed[k, 0, p] = state.x[out.probes[p]]
         out.probed[k, 1, p] = at.g[out.probes[p]]
     row[ITERATIONS_DONE] = state.totals[0]
-    row[GAP] = contact.least_gap(state.x, terms.contact, near.pairs, drift(state.x, terms, near))
+    row[GAP] = least_gap(state.x, terms, near)
     if out.frame_of[k] >= 0:
         for i in range(state.x.size):
             out.frames[out.frame_of[k], i] = state.x[i]
@@ -240,6 +259,9 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
                 if todo[LOOPS] < GRIP_LOOPS:
                     continue
                 outcome = ITERATIONS
+        if outcome == CONVERGED and not holds_crowd(near, state.x, terms):
+            zero(work.dx)
+            return OUTGROWN
         todo[LOOPS] = -1.0
         if outcome != CONVERGED:
             copy(before.x0, state.x)
@@ -251,6 +273,7 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
                 return ITERATIONS if outcome == OUTGROWN else outcome
             continue
         _enter(terms, step, unknowns, state, at, work)
+        _move_apart(terms, step, state, near, at, work)
         todo[DONE] += todo[SHARE]
         if todo[SHARE] < 1.0 or terms.friction.mu > 0.0:  # the next Hessian is another
             todo[SHARE] *= 2.0

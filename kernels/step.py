@@ -21,6 +21,7 @@ from kernels import (
     inertia,
     pairs,
     pattern,
+    project,
     spring,
     stretch,
     system,
@@ -33,6 +34,7 @@ STRETCH, BEND, CONTACT = range(3)
 SHORTEST, OPENING = range(2)
 LEAST_LENGTH = 0.1  # of an element's length: no step shrinks it further
 MARGIN = 1.0  # of the reach of contact: how much farther pairs are listed
+CROWD = 1.0  # of the thickness: how much farther pairs to be moved apart are listed
 LIKELY = 0.25  # of its contact distance: a pair that much farther away gets room in the matrix
 ADVANCE = 0.9  # share of the way to the first contact that a step may use
 DIAGONAL = 2.0**0.5  # a node may move so many times as far as either of its coordinates
@@ -53,6 +55,7 @@ class Terms(NamedTuple):
     mass: np.ndarray
     load: np.ndarray
     layout: object
+    project: object
 
 
 class Step(NamedTuple):
@@ -66,12 +69,16 @@ class Step(NamedTuple):
 
 
 class Near(NamedTuple):
-    """Pairs found at ``anchor`` (n,) with ``margin`` (m), and the system that has room for them."""
+    """Pairs found at ``anchor`` (n,) with ``margin`` (m), and the system that has room for them.
+
+    crowd: pairs that are moved apart after a step.
+    """
 
     pairs: object
     anchor: np.ndarray
     margin: float
     system: object
+    crowd: object
 
 
 class At(NamedTuple):
@@ -96,18 +103,8 @@ class At(NamedTuple):
 @jit_inlined
 def evaluate(x, terms, step, near, at, projected):
     """Return E in J; fill ``at``, with the walls' part of the (``projected``) Hessian."""
-    walls, shape = terms.walls, at.shape
     _start(x, step, at)
-    at.least[SHORTEST] = chain.measure(x, walls, shape)
-    opened = bend.turns(x, walls, terms.bend, step.before.frame, shape)
-    chain.clear(shape, at.stiffness)
-    at.stored[STRETCH] = stretch.evaluate(terms.stretch, terms.law, shape, at.stiffness, projected)
-    at.stored[BEND] = bend.evaluate(walls, terms.bend, shape, at.stiffness, projected)
-    chain.gather(walls, shape, at.elastic)
-    at.stored[STRETCH] += spring.evaluate(x, terms.spring, at.elastic)
-    folding, at.least[OPENING] = fold.evaluate(x, terms.fold, at.elastic)
-    at.stored[BEND] += folding
-    at.least[OPENING] = min(opened, at.least[OPENING])
+    store(x, terms, step, at, projected)
     at.stored[CONTACT] = contact.evaluate(
         x, terms.contact, near.pairs, drift(x, terms, near), at.elastic
     )
@@ -119,6 +116,22 @@ def evaluate(x, terms, step, near, at, projected):
         total += inertia.evaluate(x, step.x_pred, terms.mass, step.dt, at.g)
         total += _damping(terms, step, at, projected)
     return total + rub(terms, step.grips, at)
+
+
+@jit_inlined
+def store(x, terms, step, at, projected):
+    """Fill ``at`` with what the walls store at ``x`` and its derivatives; elastic adds up."""
+    walls, shape = terms.walls, at.shape
+    at.least[SHORTEST] = chain.measure(x, walls, shape)
+    opened = bend.turns(x, walls, terms.bend, step.before.frame, shape)
+    chain.clear(shape, at.stiffness)
+    at.stored[STRETCH] = stretch.evaluate(terms.stretch, terms.law, shape, at.stiffness, projected)
+    at.stored[BEND] = bend.evaluate(walls, terms.bend, shape, at.stiffness, projected)
+    chain.gather(walls, shape, at.elastic)
+    at.stored[STRETCH] += spring.evaluate(x, terms.spring, at.elastic)
+    folding, at.least[OPENING] = fold.evaluate(x, terms.fold, at.elastic)
+    at.stored[BEND] += folding
+    at.least[OPENING] = min(opened, at.least[OPENING])
 
 
 @jit_inlined
@@ -244,7 +257,19 @@ def find_near(x, terms, grips, move):
         margin = max(3.0 * move, MARGIN * terms.contact.reach)
         found = pairs.find(x, terms.contact, terms.contact.reach + margin)
     solver = pattern.analyse(terms.layout, terms.walls, _couplings(x, terms, found, grips))
-    return Near(found, x.copy(), margin, solver)
+    crowd, touch = pairs.empty(), terms.project.contact
+    if touch.edges.shape[0] > 0:
+        crowd = pairs.find(x, touch, (1.0 + CROWD) * touch.reach)
+    return Near(found, x.copy(), margin, solver, crowd)
+
+
+@jit_inlined
+def holds_crowd(near, x, terms):
+    """Return whether the crowd has all that is near at ``x``, with half of its room to spare."""
+    if project.is_absent(terms.project):
+        return True
+    moved = pairs.farthest(x, near.anchor, terms.layout.n_nodes)
+    return 4.0 * moved <= CROWD * terms.project.contact.reach
 
 
 @jit_inlined
@@ -259,3 +284,13 @@ def drift(x, terms, near):
 def covers(near, x, terms, reach):
     """Return whether the list holds all that matters while no coordinate moves beyond ``reach``."""
     return 2.0 * (drift(x, terms, near) + DIAGONAL * reach) <= near.margin
+
+
+@jit_inlined
+def least_gap(x, terms, near):
+    """Return the smallest distance in m between lines that may touch, by either kind of contact."""
+    moved = pairs.farthest(x, near.anchor, terms.layout.n_nodes)
+    return min(
+        contact.least_gap(x, terms.contact, near.pairs, moved),
+        contact.least_gap(x, terms.project.contact, near.crowd, moved),
+    )

@@ -10,10 +10,15 @@ from kernels.law import uniaxial
 
 
 class Stretch(NamedTuple):
-    """Elements: l0 (m,) rest length in m, area (m,) cross-section in m^2."""
+    """Elements: l0 (m,) rest length in m, area (m,) cross-section in m^2.
+
+    geometric: whether the Hessian has the part across elements; without it, it is that of the
+    tangent modulus alone, and Newton a quasi-Newton.
+    """
 
     l0: np.ndarray
     area: np.ndarray
+    geometric: bool
 
 
 @jit
@@ -27,7 +32,8 @@ def evaluate(stretch, law, shape, stiffness, projected):
         l0, area, length = stretch.l0[k], stretch.area[k], shape.length[k]
         density, stress, tangent = uniaxial(law, length / l0 - 1.0)
         total += area * l0 * density
-        along, across = area * tangent / l0, area * stress / length
+        along = area * tangent / l0
+        across = area * stress / length if stretch.geometric else 0.0
         if projected:
             along, across = max(along, 0.0), max(across, 0.0)
         chain.stretch(shape, stiffness, k, area * stress, along, across)

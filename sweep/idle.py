@@ -56,7 +56,7 @@ def _reason(key: str, case: Case) -> str:
     if key.startswith("loading.") or (key == "solver.load_steps" and case.loading.mode == "force"):
         return f'loading.mode is "{case.loading.mode}"'
     if key.startswith("contact.") and case.contact.friction is None:
-        return 'contact.model is "none"'
+        return f'contact.model is "{case.contact.model}"'
     if case.loading.quasi_static:
         return "the crush is quasi-static"
     if key.startswith("damping."):

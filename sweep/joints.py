@@ -20,11 +20,16 @@ def _hinge_weights(pieces: Ints, hinges: str) -> tuple[Floats, Floats]:
     return 1.0 - 1.0 / n**2, 2.0 * (1.0 + 1.0 / n)
 
 
+def bends(case: Case) -> bool:
+    """False where walls are chains of springs that turn freely."""
+    return case.material.bend != "none"
+
+
 def build_bend(mesh: Mesh, rigidity: Floats, case: Case) -> bend.Bend:
     """``rigidity`` (m,): Y' I of every element, N m^2."""
-    length = mesh.rest_length
+    length, rigidity = mesh.rest_length, rigidity * bends(case)
     inside, at_end = _hinge_weights(mesh.pieces, case.solver.hinges)
-    before, _, after = np.ascontiguousarray(mesh.inner.T)
+    before, _, after = np.ascontiguousarray(mesh.inner[: None if bends(case) else 0].T)
     on = _directions(mesh)
     cosine = np.sum(on[before] * on[after], axis=1)
     sine = on[before, 0] * on[after, 1] - on[before, 1] * on[after, 0]
@@ -41,9 +46,9 @@ def build_bend(mesh: Mesh, rigidity: Floats, case: Case) -> bend.Bend:
     )
 
 
-def build_fold(mesh: Mesh, bending: bend.Bend) -> fold.Fold:
+def build_fold(mesh: Mesh, bending: bend.Bend, case: Case) -> fold.Fold:
     """Fold barrier between neighbouring arms of every joint; K that of the two in series."""
-    nodes, opened, arms = openings(mesh)
+    nodes, opened, arms = (a[: None if bends(case) else 0] for a in openings(mesh))
     limit = np.minimum(bend.FOLD_LIMIT, 0.5 * opened)
     one, two = bending.arm_stiffness[arms].T
     return fold.Fold(nodes, limit, one * two / (one + two) * (0.5 * opened) ** 2)

@@ -26,6 +26,7 @@ BOOK = {
     "dissipated_material_J": march.MATERIAL,
     "dissipated_friction_J": march.FRICTION,
     "dissipated_integrator_J": march.INTEGRATOR,
+    "injected_by_projection_J": march.INJECTED,
     "energy_residual_J": march.RESIDUAL,
 }
 DISSIPATED = ("dissipated_material_J", "dissipated_friction_J", "dissipated_integrator_J")
@@ -44,7 +45,6 @@ def history_columns(rows: Floats, scene: Scene, case: Case) -> dict[str, Floats]
         "reaction_top_N": rows[:, march.REACTION_TOP].copy(),
         "reaction_bottom_N": rows[:, march.REACTION_BOTTOM].copy(),
         **{name: rows[:, column].copy() for name, column in BOOK.items()},
-        "injected_by_projection_J": np.zeros(len(rows)),
         "newton_iterations": np.diff(rows[:, march.ITERATIONS_DONE], prepend=0.0),
         "min_gap_m": gap,
     }
@@ -112,6 +112,7 @@ def summarise(
         "returned_energy_J": returned(case, history, loading_rows),
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),
         "dissipated_integrator_J": float(history["dissipated_integrator_J"][-1]),
+        "injected_by_projection_J": float(history["injected_by_projection_J"][-1]),
         "energy_residual_J": float(history["energy_residual_J"][-1]),
         "specific_absorption_J_per_g": absorbed / grams,
         "peak_force_N": float(transmitted(history).max()),

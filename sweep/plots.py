@@ -88,7 +88,7 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     travel = ax.secondary_xaxis("top", functions=(lambda x: x * scale, lambda x: x / scale))
     travel.set_xlabel("travel of the top, mm")
     ax.legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
-    _plain(ax, top=True)
+    plain(ax, top=True)
 
 
 def _plateau(ax: Axes, row: Mapping[str, Any]) -> None:
@@ -121,7 +121,7 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
         words = "time, ms", "load off"
     ax.set_xlabel(words[0])
     if turn + 1 < len(history):
-        _mark(ax, way[turn], words[1])
+        mark(ax, way[turn], words[1])
     parts = {
         label: (1e3 * history[name], color)
         for name, (label, color) in ENERGIES.items()
@@ -136,7 +136,7 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     ax.set_ylim(bottom=min(0.0, work.min()))
     handles, labels = ax.get_legend_handles_labels()
     ax.legend(handles[::-1], labels[::-1], frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
-    _plain(ax)
+    plain(ax)
 
 
 def deformed_shapes(
@@ -189,7 +189,7 @@ def design_map(fig: Figure, ranking: DataFrame) -> None:
         ax.set(xscale="log", yscale="log")
         ax.margins(0.1, 0.15)
         for budget in ranking.attrs["budgets_g"]:
-            _mark(ax, budget, f"{budget:g} g")
+            mark(ax, budget, f"{budget:g} g")
         words = [ax.get_title("left")]
         for said, x, y in budget_winners(rows, ranking):
             ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")
@@ -246,7 +246,7 @@ def _scene_axes(fig: Figure, ranking: DataFrame) -> Iterator[tuple[Axes, DataFra
         ax.set_title(scene, loc="left", fontsize="medium")
         ax.grid(color=GRID, lw=0.6)
         ax.set_axisbelow(True)
-        _plain(ax)
+        plain(ax)
         yield ax, group
 
 
@@ -257,7 +257,7 @@ def _legend(fig: Figure, entries: list[dict[str, Any]]) -> None:
         fig.legend(handles=handles, loc="outside right upper", frameon=False)
 
 
-def _mark(ax: Axes, x: float, words: str) -> None:
+def mark(ax: Axes, x: float, words: str) -> None:
     """A dotted line across the axes, and what it is at its upper end."""
     ax.axvline(x, color=GREY, lw=1.0, ls=":")
     ax.annotate(words, (x, 1.0), (-3, -2), xycoords=ax.get_xaxis_transform(), ha="right", va="top",
@@ -286,7 +286,7 @@ def _scale_bar(ax: Axes, left: float, below: float) -> None:
                 textcoords="offset points", annotation_clip=False)  # fmt: skip
 
 
-def _plain(ax: Axes, top: bool = False) -> None:
+def plain(ax: Axes, top: bool = False) -> None:
     """Axes without a box."""
     ax.spines["right"].set_visible(False)
     ax.spines["top"].set_visible(top)

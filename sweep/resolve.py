@@ -131,6 +131,8 @@ def _stroke_and_strain(loading: Loading, height: float) -> tuple[float, float]:
 
 def _contact(contact: Contact, loading: Loading, structure: Structure | None) -> Contact:
     """A platen that is not glued needs the barrier even where walls do not see each other."""
+    if contact.model == "position_based":
+        return _by_position(contact, loading, structure)
     floor = structure is not None and structure.floor_y_mm is not None
     if contact.model == "none" and loading.platen != "contact" and not floor:
         return Contact(model="none", friction=None, stiffness=None)
@@ -138,6 +140,18 @@ def _contact(contact: Contact, loading: Loading, structure: Structure | None) ->
         return contact.model_copy(update={"slip_speed": None})
     reference = 0.1 if loading.speed is None else loading.speed
     return contact.model_copy(update={"slip_speed": _given(contact.slip_speed, 0.01 * reference)})
+
+
+def _by_position(contact: Contact, loading: Loading, structure: Structure | None) -> Contact:
+    """Moving walls apart exerts no force: none that holds a platen up, and none that rubs."""
+    allowed = '"none" or "barrier" if '
+    if loading.quasi_static:
+        raise refusal("contact.model", contact.model, f"{allowed}loading.quasi_static")
+    if loading.platen == "contact":
+        raise refusal("contact.model", contact.model, f'{allowed}loading.platen is "contact"')
+    if structure is not None:
+        raise refusal("contact.model", contact.model, f'{allowed}lattice.kind is "custom"')
+    return contact.model_copy(update={"friction": None, "stiffness": None, "slip_speed": None})
 
 
 def _damping(damping: Damping, loading: Loading) -> Damping:

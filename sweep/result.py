@@ -72,7 +72,7 @@ COLUMNS: dict[str, Column] = {
     "platen": Column("", "none, contact or glued"),
     "force_N": Column("N", "dead force on the top; NaN unless the mode is force"),
     "stroke_m": Column("m", "prescribed travel of the top; NaN unless the mode is displacement"),
-    "contact_model": Column("", "how walls touch: none or barrier"),
+    "contact_model": Column("", "how walls touch: none, barrier or position_based"),
     "mass_g": Column("g", "density x exact area of the printed walls x depth"),
     "relative_density": Column("1", "printed area / area of the bounding box"),
     "absorbed_energy_J": Column("J", "work done on the lattice down to the stroke, or to release"),
@@ -87,6 +87,9 @@ COLUMNS: dict[str, Column] = {
     ),
     "dissipated_energy_J": Column("J", "dissipated by material, friction and time integrator"),
     "dissipated_integrator_J": Column("J", "energy that the time integrator itself removed"),
+    "injected_by_projection_J": Column(
+        "J", "energy added by position-based contact; negative where it takes some out"
+    ),
     "energy_residual_J": Column("J", "what the energy book leaves over"),
     "specific_absorption_J_per_g": Column("J/g", "absorbed energy / mass"),
     "plateau_stress_Pa": Column(
@@ -141,7 +144,9 @@ HISTORY_COLUMNS: dict[str, Column] = {
     "dissipated_material_J": Column("J", "dissipated by the material's damping so far"),
     "dissipated_friction_J": Column("J", "dissipated by friction so far"),
     "dissipated_integrator_J": Column("J", "removed by the time integrator so far"),
-    "injected_by_projection_J": Column("J", "added by contact that moves nodes: none does, 0"),
+    "injected_by_projection_J": Column(
+        "J", "added by moving walls apart so far; negative where it takes energy out"
+    ),
     "energy_residual_J": Column("J", "what the energy book leaves over so far"),
     "newton_iterations": Column("1", "Newton iterations since the row before"),
     "min_gap_m": Column(

@@ -7,9 +7,21 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from kernels import chain, contact, damp, friction, law, newton, pattern, spring, stretch, vicinity
+from kernels import (
+    chain,
+    contact,
+    damp,
+    friction,
+    law,
+    newton,
+    pattern,
+    project,
+    spring,
+    stretch,
+    vicinity,
+)
 from kernels.step import Terms
-from sweep.joints import build_bend, build_fold
+from sweep.joints import bends, build_bend, build_fold
 from sweep.lattice import Network, build_network, mass
 from sweep.layout import Layout, held, leaders
 from sweep.material import stress_law
@@ -60,9 +72,10 @@ def law_of(material: Material, factor: float) -> law.Law:
     return raw._replace(energy=energy - law.uniaxial(raw, 0.0)[0])
 
 
-def stretch_of(mesh: Mesh, depth: float) -> stretch.Stretch:
-    """Rest lengths and cross-sections. depth: m."""
-    return stretch.Stretch(mesh.rest_length, depth * mesh.thickness)
+def stretch_of(mesh: Mesh, case: Case) -> stretch.Stretch:
+    """Rest lengths and cross-sections."""
+    area = case.lattice.depth * mesh.thickness
+    return stretch.Stretch(mesh.rest_length, area, case.solver.hessian == "exact")
 
 
 def walls_of(mesh: Mesh, layout: Layout) -> chain.Walls:
@@ -98,11 +111,17 @@ def _no_special_pairs(n_nodes: int) -> tuple[Ints, Ints, Floats, Floats, Floats]
     return start, edge, np.empty(0), np.empty(0), np.empty((0, 2))
 
 
-def contact_of(mesh: Mesh, layout: Layout, stiffness: float, case: Case) -> contact.Contact:
-    """Contact of walls unless the model is none, and of nodes with loose platens."""
+def contact_of(
+    mesh: Mesh, layout: Layout, stiffness: float, case: Case, by_force: bool
+) -> contact.Contact:
+    """Contact of walls unless the model is none, and of nodes with loose platens.
+
+    Of the two kinds, ``by_force`` and by position, the one that the case has not is absent.
+    """
+    acts = by_force == (case.contact.model != "position_based")
     tributary = mesh.tributary(np.ones(len(mesh.edges)))
     node_thickness = mesh.tributary(mesh.thickness) / tributary
-    walls = case.contact.model != "none"
+    walls = acts and case.contact.model != "none"
     edges, thickness = mesh.edges[: None if walls else 0], mesh.thickness[: None if walls else 0]
     special = _no_special_pairs(layout.n_nodes)
     if walls:
@@ -122,7 +141,7 @@ def contact_of(mesh: Mesh, layout: Layout, stiffness: float, case: Case) -> cont
         special_weight=special[2],
         special_distance=special[3],
         special_subtract=special[4],
-        plate_nodes=_loose(layout, case),
+        plate_nodes=_loose(layout, case)[: None if acts else 0],
         low=layout.low,
         high=layout.high,
     )
@@ -144,6 +163,15 @@ def masses_of(mesh: Mesh, layout: Layout, total: float) -> Floats:
     masses = np.zeros(layout.size)
     masses[: 2 * layout.n_nodes] = np.repeat(total * share / share.sum(), 2)
     return masses
+
+
+def projection_of(
+    mesh: Mesh, layout: Layout, solved: pattern.Layout, masses: Floats, case: Case
+) -> project.Projection:
+    """Contact by position: what moves on its own gives way, by its mass."""
+    own = (solved.leader == np.arange(layout.size)) & (masses > 0.0)
+    ease = np.divide(1.0, masses, out=np.zeros_like(masses), where=own)
+    return project.Projection(contact_of(mesh, layout, 0.0, case, by_force=False), ease)
 
 
 def _load(layout: Layout, case: Case) -> Floats:
@@ -204,21 +232,25 @@ def build_scene(case: Case) -> Scene:
     bending = build_bend(mesh, rigidity, case)
     touching = in_stretch * case.material.modulus * lattice.depth * (case.contact.stiffness or 0.0)
     fixed = held(layout, platen)
+    if not bends(case):
+        fixed = np.union1d(fixed, layout.rotation)
     tied = 2 * layout.top + 1 if platen == "glued" else np.empty(0, np.int64)
     follows = solved_by(mesh, layout, leaders(layout, fixed, tied), case)
+    masses = masses_of(mesh, layout, mass(network, lattice.depth, case.material.density))
     terms = Terms(
         law=law_of(case.material, in_stretch),
         walls=walls_of(mesh, layout),
-        stretch=stretch_of(mesh, lattice.depth),
+        stretch=stretch_of(mesh, case),
         bend=bending,
-        fold=build_fold(mesh, bending),
+        fold=build_fold(mesh, bending, case),
         spring=NO_SPRINGS,
-        contact=contact_of(mesh, layout, touching, case),
+        contact=contact_of(mesh, layout, touching, case, by_force=True),
         friction=friction_of(case),
         damp=damp_of(case),
-        mass=masses_of(mesh, layout, mass(network, lattice.depth, case.material.density)),
+        mass=masses,
         load=_load(layout, case),
         layout=follows,
+        project=projection_of(mesh, layout, follows, masses, case),
     )
     return Scene(
         mesh, network, terms, unknowns_of(mesh, layout, follows, case),

@@ -12,7 +12,7 @@ import numpy as np
 from kernels import bend, contact, pattern, spring
 from kernels.step import Terms
 from sweep.custom import Structure
-from sweep.joints import build_bend, build_fold
+from sweep.joints import bends, build_bend, build_fold
 from sweep.lattice import Network, mass
 from sweep.layout import Layout
 from sweep.mesh import Floats, Ints, Mesh, split_walls
@@ -26,6 +26,7 @@ from sweep.scene import (
     law_of,
     masses_of,
     plane_factors,
+    projection_of,
     solved_by,
     stretch_of,
     unknowns_of,
@@ -80,15 +81,18 @@ def build_structure(case: Case) -> Scene:
     rigidity = in_bend * material.modulus * depth * mesh.thickness**3 / 12
     bending = build_bend(mesh, rigidity, case)
     touching = in_stretch * material.modulus * depth * (case.contact.stiffness or 0.0)
-    follows, travel = _led(of, solved_by(mesh, layout, _leaders(of, layout), case), layout, mesh)
-    touch = contact_of(mesh, layout, touching, case)
+    leader = _leaders(of, layout)
+    if not bends(case):
+        leader[layout.rotation] = -1
+    follows, travel = _led(of, solved_by(mesh, layout, leader, case), layout, mesh)
+    touch = contact_of(mesh, layout, touching, case, by_force=True)
     masses = _masses(of, masses_of(mesh, layout, mass(network, depth, material.density)))
     terms = Terms(
         law=law_of(material, in_stretch),
         walls=walls_of(mesh, layout),
-        stretch=stretch_of(mesh, depth),
+        stretch=stretch_of(mesh, case),
         bend=_unpinned(bending, mesh, of.pins),
-        fold=build_fold(mesh, bending),
+        fold=build_fold(mesh, bending, case),
         spring=_springs(of),
         contact=_on_floor(touch, of, layout),
         friction=friction_of(case),
@@ -96,6 +100,7 @@ def build_structure(case: Case) -> Scene:
         mass=masses,
         load=_load(of, layout, masses),
         layout=follows,
+        project=projection_of(mesh, layout, follows, masses, case),
     )
     span = max(
         MM * _distances(of, of.walls).max(), 0.25 * np.hypot(*np.ptp(network.points, axis=0))

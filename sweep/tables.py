@@ -74,7 +74,7 @@ class Material(Table):
 
     name: str = "ninjaflex"
     stretch: Literal["nonlinear", "linear"] = "nonlinear"
-    bend: Literal["linear"] = "linear"
+    bend: Literal["linear", "none"] = "linear"
     plane: Literal["strain", "stress", "strain_bending"] = "strain"
     # Filled in before validation, from the record; the zeros are refused if they are not.
     modulus: Stress = Field(default=0.0, validate_default=True)
@@ -147,9 +147,12 @@ class Loading(Table):
 
 
 class Contact(Table):
-    """Wall against wall and wall against platen; `stiffness` is the factor c of the barrier."""
+    """Wall against wall and wall against platen; `stiffness` is the factor c of the barrier.
 
-    model: Literal["none", "barrier"] = "barrier"
+    position_based: what is too near is moved apart after each step.
+    """
+
+    model: Literal["none", "barrier", "position_based"] = "barrier"
     friction: NonNegative | None = 0.3
     stiffness: Annotated[float, Field(gt=0)] | None = 1.0
     slip_speed: Speed | None = None
@@ -168,6 +171,7 @@ class Solver(Table):
     """How the equations are solved. None: chosen by the loading, or not used by it."""
 
     labels: ClassVar[tuple[str, ...]] = ("time_limit",)  # raising it makes nothing run again
+    neutral: ClassVar[dict[str, Any]] = {"hessian": "exact"}
 
     integrator: Literal["backward_euler", "static"] | None = None
     time_step: Duration | None = None
@@ -177,6 +181,7 @@ class Solver(Table):
     time_limit: Duration = 300.0
     hinges: Literal["exact_beam", "classical"] = "exact_beam"
     bend_measure: Literal["angle", "tangent"] = "angle"
+    hessian: Literal["exact", "tangent_modulus"] = "exact"
 
 
 class Rank(Table):

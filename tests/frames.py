@@ -18,6 +18,7 @@ from kernels import (
     law,
     pairs,
     pattern,
+    project,
     spring,
     stretch,
     vicinity,
@@ -171,7 +172,7 @@ def walls_of(of: Frame) -> chain.Walls:
 
 
 def stretch_of(of: Frame) -> stretch.Stretch:
-    return stretch.Stretch(of.l0, of.depth * of.thickness)
+    return stretch.Stretch(of.l0, of.depth * of.thickness, True)
 
 
 def bend_of(of: Frame, measure: int = bend.ANGLE, exact: bool = True) -> bend.Bend:
@@ -240,6 +241,7 @@ def terms_of(of: Frame, curve: law.Law, measure: int, damping: damp.Damp) -> Ter
         curve, walls_of(of), stretch_of(of), bend_of(of, measure),
         fold.Fold(np.empty((0, 3), np.int64), none, none), NO_SPRINGS, contact_of(of),
         friction.Friction(0.0, 1.0), damping, mass, none, layout_of(of),
+        project.Projection(contact_of(of), none),
     )  # fmt: skip
 
 

@@ -28,7 +28,14 @@ def load(tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "cases"),
-    [("smoke", 6), ("armor", 140), ("infills", 13), ("thousand", 1000), ("custom", 1)],
+    [
+        ("smoke", 6),
+        ("armor", 140),
+        ("infills", 13),
+        ("thousand", 1000),
+        ("custom", 1),
+        ("seed", 14),
+    ],
 )
 def test_shipped_configs_expand(name, cases):
     config = load_config(CONFIGS / f"{name}.toml")
@@ -37,7 +44,7 @@ def test_shipped_configs_expand(name, cases):
 
 
 def test_every_shipped_config_is_pinned():
-    names = {"smoke", "armor", "infills", "thousand", "custom"}
+    names = {"smoke", "armor", "infills", "thousand", "custom", "seed"}
     assert {path.stem for path in CONFIGS.glob("*.toml")} == names
 
 

@@ -50,12 +50,12 @@ def test_backward_euler_is_of_first_order(damping, column):
     np.testing.assert_allclose(slopes(np.diff(values)), 1.0, atol=0.05)
 
 
-def crushed():
+def crushed(**solver):
     """Glued, pressed to 40 %: buckled, and walls touch."""
-    descent = Descent(pressed(3, 0.4, 1), np.inf)
+    descent = Descent(pressed(3, 0.4, 1, solver=solver), np.inf)
     height = descent.scene.x_rest[-1]
     for strain in np.linspace(0.0, 0.4, 41)[1:]:
-        descent.go_on(100, height - 12.5e-3 * strain)
+        descent.go_on(400, height - 12.5e-3 * strain)
     return descent
 
 
@@ -120,3 +120,26 @@ def test_newton_ends_a_smooth_step_quadratically(travel):
     falls = np.diff(np.log([size for size in residuals if size > ROUND_OFF]))
     assert residuals[-1] < 1e-9
     assert falls[-1] / falls[-2] == pytest.approx(2.0, abs=0.05)
+
+
+def test_newton_with_the_tangent_modulus_is_of_first_order():
+    """Its last residuals fall by one factor, each time."""
+    descent, residuals = crushed(hessian="tangent_modulus"), []
+    target = descent.x[-1] - 3e-4
+    while descent.go_on(1, target) == newton.ITERATIONS:
+        residuals.append(descent.residual())
+    falls = np.diff(np.log(residuals))[-6:]
+    np.testing.assert_allclose(falls[1:] / falls[:-1], 1.0, atol=0.02)
+    assert 0.2 < np.exp(falls[-1]) < 0.8
+
+
+def test_tangent_modulus_finds_the_same_minima_in_more_iterations():
+    exact, tangent = (
+        run(pressed(3, 0.4, 80, solver={"hessian": hessian, "max_iterations": 400}))
+        for hessian in ("exact", "tangent_modulus")
+    )
+    for name in ("reaction_top_N", "bend_J", "contact_J"):
+        scale = np.abs(exact.history[name]).max()
+        np.testing.assert_allclose(tangent.history[name], exact.history[name], atol=1e-6 * scale)
+    iterations = [result.summary["newton_iterations"] for result in (exact, tangent)]
+    assert 5 < iterations[1] / iterations[0] < 9

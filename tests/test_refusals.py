@@ -44,8 +44,11 @@ CHOICES = {
         'lattice.kind = "hexagon"; "brick", "circle", "diamond", "hex", "kagome", "reentrant",'
         ' "square", "triangle" or "custom"'
     ),
-    '[material]\nbend = "section"': 'material.bend = "section"; "linear"',
-    '[contact]\nmodel = "position_based"': 'contact.model = "position_based"; "none" or "barrier"',
+    '[material]\nbend = "section"': 'material.bend = "section"; "linear" or "none"',
+    '[contact]\nmodel = "by_position"': (
+        'contact.model = "by_position"; "none", "barrier" or "position_based"'
+    ),
+    '[solver]\nhessian = "tangent"': 'solver.hessian = "tangent"; "exact" or "tangent_modulus"',
     '[solver]\nintegrator = "newmark"': (
         'solver.integrator = "newmark"; "backward_euler" or "static"'
     ),

@@ -18,7 +18,7 @@ CONFIGS = Path(__file__).parents[1] / "configs"
 def test_no_config_is_forgotten():
     """`thousand` is held by the bench, `custom` by the tests of structures."""
     names = {path.stem for path in CONFIGS.glob("*.toml")}
-    assert names == {"armor", "custom", "infills", "smoke", "thousand"}
+    assert names == {"armor", "custom", "infills", "seed", "smoke", "thousand"}
 
 
 def test_smoke_runs_from_end_to_end(tmp_path):
@@ -89,3 +89,28 @@ def test_infills_hold_their_numbers(design, energy):
 
 def test_infills_are_twelve_designs_and_more():
     assert len(infills()) == 12
+
+
+def seed(model, hinges):
+    """Result of the case of seed.toml in steps of 20 us, nonlinear, Newton exact."""
+    (case,) = (
+        case
+        for case in expand(load_config(CONFIGS / "seed.toml"))
+        if (case.contact.model, case.solver.hinges) == (model, hinges)
+        and (case.material.stretch, case.solver.hessian) == ("nonlinear", "exact")
+    )
+    return simulate(case)
+
+
+@pytest.mark.parametrize(
+    ("model", "hinges", "energy", "within"),
+    [("position_based", "classical", 122.0, 1e-2), ("barrier", "exact_beam", 132.3, 1e-3)],
+)
+def test_seed_holds_its_numbers(model, hinges, energy, within):
+    """What is moved apart in another order comes to rest a little elsewhere."""
+    summary = seed(model, hinges).summary
+    assert summary["status"] == "converged"
+    assert summary["max_crossings"] == 0
+    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
+    assert (summary["injected_by_projection_J"] > 0.0) == (model == "position_based")
+    assert 1e3 * summary["absorbed_energy_J"] == pytest.approx(energy, rel=within)
