@@ -24,8 +24,8 @@ from kernels.rows import copy, zero
 from kernels.step import Step, find_near, rub
 
 WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR, RESIDUAL = range(9)
-TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP = range(9, 15)
-N_COLUMNS = 15
+TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP, SPEED = range(9, 16)
+N_COLUMNS = 16
 SMALLEST = 2.0**-12  # share of a step
 FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 GRIP_LOOPS = 30  # fixed-point iterations of friction
@@ -159,6 +159,7 @@ def _write(out, k, state, terms, near, unknowns, at):
     if unknowns.driven < 0:
         row[REACTION_TOP] = -state.held[1] * terms.load.sum()
     row[ITERATIONS_DONE] = state.totals[0]
+    row[SPEED] = state.v[terms.contact.high]
     row[GAP] = contact.least_gap(state.x, terms.contact, near.pairs)
     if out.frame_of[k] >= 0:
         for i in range(state.x.size):

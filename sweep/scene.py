@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kernels import chain, contact, damp, friction, law, newton, pattern, stretch, vicinity
+from kernels import chain, contact, damp, friction, newton, pattern, stretch, vicinity
 from kernels.step import Terms
 from sweep.joints import build_bend, build_fold
 from sweep.lattice import Network, build_network, mass
 from sweep.layout import Layout, held, leaders
-from sweep.material import stress_law
+from sweep.material import as_law, stress_law
 from sweep.mesh import Floats, Ints, Mesh, row_nodes, split_walls
 from sweep.params import Case, Loading, Material, given
 
@@ -21,13 +21,17 @@ STATIC_SLIP = 1e-3  # of the wall thickness
 
 @dataclass(frozen=True)
 class Scene:
-    """A case as arrays. x_rest (n,): m and rad; bottom, top, base: coordinates, see `Output`."""
+    """A case as arrays. x_rest (n,): m and rad; v_start (n,): velocity at the start.
+
+    bottom, top, base: coordinates, see `Output`.
+    """
 
     mesh: Mesh
     network: Network
     terms: Terms
     unknowns: newton.Unknowns
     x_rest: Floats
+    v_start: Floats
     bottom: Ints
     top: Ints
     base: Ints
@@ -40,16 +44,6 @@ def plane_factors(material: Material) -> tuple[float, float]:
     return {"strain": (strain, strain), "stress": (1.0, 1.0), "strain_bending": (1.0, strain)}[
         material.plane
     ]
-
-
-def _law(material: Material, factor: float) -> law.Law:
-    curve = stress_law(material)
-    coefficients = factor * np.ascontiguousarray(curve.coefficients)
-    width = np.diff(curve.knots)[:, None] ** np.arange(1, 5)
-    gained = np.sum(coefficients * width / np.arange(1, 5), axis=1)
-    energy = np.concatenate([[0.0], np.cumsum(gained)])
-    raw = law.Law(curve.knots, coefficients, energy, factor * material.modulus)
-    return raw._replace(energy=energy - law.uniaxial(raw, 0.0)[0])
 
 
 def _stretch(mesh: Mesh, depth: float) -> stretch.Stretch:
@@ -127,12 +121,18 @@ def _loose(layout: Layout, case: Case) -> Ints:
     return nodes[:0]
 
 
-def _masses(mesh: Mesh, layout: Layout, total: float) -> Floats:
-    """Lumped mass of each coordinate, kg; in each direction they sum to ``total``."""
+def _masses(mesh: Mesh, layout: Layout, total: float, loading: Loading) -> Floats:
+    """Lumped mass of each coordinate, kg; in each direction nodes sum to ``total``."""
     share = mesh.tributary(mesh.thickness)
     masses = np.zeros(layout.size)
     masses[: 2 * layout.n_nodes] = np.repeat(total * share / share.sum(), 2)
+    masses[layout.high] = loading.striker_mass or 0.0
     return masses
+
+
+def _velocity(layout: Layout, leader: Ints, loading: Loading) -> Floats:
+    """Velocity of each coordinate at the start: a striker flies with what is glued to it, m/s."""
+    return np.where(leader == layout.high, -(loading.striker_speed or 0.0), 0.0)
 
 
 def _load(layout: Layout, case: Case) -> Floats:
@@ -190,11 +190,12 @@ def build_scene(case: Case) -> Scene:
     rigidity = in_bend * case.material.modulus * second_moment
     bending = build_bend(mesh, rigidity, case)
     touching = in_stretch * case.material.modulus * lattice.depth * (case.contact.stiffness or 0.0)
+    printed = mass(network, lattice.depth, case.material.density)
     fixed = held(layout, platen)
     tied = 2 * layout.top + 1 if platen == "glued" else np.empty(0, np.int64)
     follows = _solved(mesh, layout, leaders(layout, fixed, tied), case)
     terms = Terms(
-        law=_law(case.material, in_stretch),
+        law=as_law(stress_law(case.material), in_stretch, case.material.modulus),
         walls=_walls(mesh, layout),
         stretch=_stretch(mesh, lattice.depth),
         bend=bending,
@@ -202,13 +203,14 @@ def build_scene(case: Case) -> Scene:
         contact=_contact(mesh, layout, touching, case),
         friction=_friction(case),
         damp=_damp(case),
-        mass=_masses(mesh, layout, mass(network, lattice.depth, case.material.density)),
+        mass=_masses(mesh, layout, printed, case.loading),
         load=_load(layout, case),
         layout=follows,
     )
     return Scene(
         mesh, network, terms, _unknowns(mesh, layout, follows, case),
-        _rest(mesh, layout, terms.contact.node_thickness), *_reported(layout, case.loading),
+        _rest(mesh, layout, terms.contact.node_thickness),
+        _velocity(layout, follows.leader, case.loading), *_reported(layout, case.loading),
         force_scale=float(np.min(rigidity) / np.max(_wall_length(network)) ** 2),
     )  # fmt: skip
 
@@ -228,13 +230,13 @@ def _rest(mesh: Mesh, layout: Layout, thickness: Floats) -> Floats:
 def _reported(layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
     """Coordinates of the lower reaction, of the top and of the base.
 
-    Strain is the travel of a driven platen, or of the loaded row. Under a loose loaded platen it is
+    Strain is the travel of a driven platen or a striker, or of the loaded row. Under a loose loaded platen it is
     taken from the extent of the lattice itself, which jumps off when it is released.
     """
     bottom = 2 * layout.bottom + 1
     low, high = np.array([layout.low]), np.array([layout.high])
     reaction = {"contact": low, "glued": np.append(bottom, low)}.get(loading.platen or "", bottom)
-    if loading.mode == "displacement":
+    if loading.mode != "force":
         return reaction, high, low
     if loading.platen == "contact":
         return reaction, np.empty(0, np.int64), 2 * np.arange(layout.n_nodes) + 1

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kernels import march, newton
+from kernels import inertia, march, newton
 from kernels.newton import Tolerance
 from sweep.measure import history_columns, summarise
 from sweep.params import Case, Lattice, Loading, given
@@ -14,6 +14,9 @@ from sweep.result import Result, Status
 from sweep.scene import Scene, build_scene, time_step
 
 FRAMES = 40
+IMPACT_FRAMES = 4 * FRAMES  # most impacts are over in a quarter of their duration
+GLANCE = 64  # steps of a striker after which one looks whether it is back
+LONGER = "try a longer loading.duration"
 ROUND_OFF = 4e-15
 ADVICE = {
     newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; "
@@ -71,17 +74,21 @@ class _Run:
         self.stages = stages(case, scene)
         n = scene.x_rest.size
         total = sum(s.stage.steps for s in self.stages)
+        brought = inertia.kinetic(scene.v_start, scene.terms.mass)
         self.state = march.State(
-            scene.x_rest.copy(), np.zeros(n), np.zeros(march.TIME), np.zeros(n), np.zeros(n),
-            np.zeros(3), np.zeros(2), np.zeros(3),
+            scene.x_rest.copy(), scene.v_start.copy(), np.zeros(march.TIME), np.zeros(n),
+            np.zeros(n), np.zeros(3), np.zeros(2), np.zeros(3),
         )  # fmt: skip
+        self.state.book[[march.WORK, march.KINETIC]] = brought
         self.rows = np.zeros((total + 1, march.N_COLUMNS))
+        self.rows[0, : march.TIME] = self.state.book
+        self.rows[0, march.SPEED] = scene.v_start[-1]
         self.rows[0, march.HEIGHT] = march.height(scene.x_rest, scene.top, scene.base)
         self.rows[0, march.GAP] = np.nan
-        self.frame_of, kept = _frames(total + 1)
+        self.struck = case.loading.mode == "impact"
+        self.frame_of, kept = _frames(total + 1, IMPACT_FRAMES if self.struck else FRAMES)
         self.positions = np.tile(scene.x_rest, (kept, 1))
         self.done = 1
-        self.loading_rows = self.stages[0].stage.steps + 1
 
     def complete(self) -> tuple[Status, str]:
         """March through all stages; return the status and its sentence."""
@@ -94,9 +101,27 @@ class _Run:
                 outcome = self._through(stretch.stage)
                 if outcome != newton.CONVERGED:
                     return self._failed(outcome, stretch.name, late.is_set())
+                if self.struck and self._is_back():
+                    break
         finally:
             timer.cancel()
+        if self.struck and self.rows[self.done - 1, march.SPEED] < 0.0:
+            return Status.STOPPED, f"the striker still sinks {self._where()}; {LONGER}"
         return Status.CONVERGED, ""
+
+    def _is_back(self) -> bool:
+        """Whether the striker is where it started; what it did beyond is dropped."""
+        height = self.rows[: self.done, march.HEIGHT]
+        back = np.flatnonzero(height[1:] >= height[0])
+        self.done = int(back[0]) + 2 if len(back) else self.done
+        return len(back) > 0
+
+    @property
+    def loading_rows(self) -> int:
+        """Rows of the history until release, full stroke, or the striker's stop."""
+        if self.struck:
+            return int(np.argmin(self.rows[: self.done, march.HEIGHT])) + 1
+        return self.stages[0].stage.steps + 1
 
     def _expire(self, late: threading.Event) -> None:
         late.set()
@@ -120,8 +145,7 @@ class _Run:
         return outcome
 
     def _failed(self, outcome: int, stage: str, late: bool) -> tuple[Status, str]:
-        strain = self._top_strain()
-        where = f"while {stage}, at strain {strain:.3g} after {self.done - 1} steps"
+        where = f"while {stage}, {self._where()}"
         if late:
             limit = self.case.solver.time_limit
             return Status.TIMED_OUT, f"solver.time_limit of {limit:g} s reached {where}; raise it"
@@ -130,9 +154,10 @@ class _Run:
         advice = ADVICE[outcome].format(limit=self.case.solver.max_iterations)
         return Status.STOPPED, f"stopped {where}: {advice}"
 
-    def _top_strain(self) -> float:
+    def _where(self) -> str:
         tops = self.rows[[0, self.done - 1], march.HEIGHT]
-        return float((tops[0] - tops[1]) / self.case.lattice.height)
+        strain = (tops[0] - tops[1]) / self.case.lattice.height
+        return f"at strain {strain:.3g} after {self.done - 1} steps"
 
     def frames(self) -> dict[str, np.ndarray]:
         """Stored shapes up to the last row that was written."""
@@ -153,9 +178,9 @@ class _Run:
         }
 
 
-def _frames(n_rows: int) -> tuple[np.ndarray, int]:
-    """Slot of every row among some `FRAMES` even frames (-1: not kept), and their number."""
-    kept = np.unique(np.linspace(0, n_rows - 1, min(FRAMES + 1, n_rows)).round().astype(int))
+def _frames(n_rows: int, frames: int) -> tuple[np.ndarray, int]:
+    """Slot of every row among some even ``frames`` (-1: not kept), and their number."""
+    kept = np.unique(np.linspace(0, n_rows - 1, min(frames + 1, n_rows)).round().astype(int))
     frame_of = np.full(n_rows, -1)
     frame_of[kept] = np.arange(len(kept))
     return frame_of, len(kept)
@@ -189,8 +214,16 @@ def stages(case: Case, scene: Scene) -> list[Stretch]:
         down = march.Stage(steps, dt, pace, 0.0, 0.0, rest, low)
         up = march.Stage(steps, dt, pace, 0.0, 0.0, low, rest)
         return [Stretch("loading", down)] + ([Stretch("unloading", up)] if loading.unload else [])
+    if loading.mode == "impact":
+        return _flight(max(round(given(loading.duration) / pace), 1), dt, rest)
     release, duration = given(loading.release_time), given(loading.duration)
     hold, free = max(round(release / pace), 1), max(round((duration - release) / pace), 0)
     held = march.Stage(hold, dt, pace, 1.0, 1.0, rest, rest)
     released = march.Stage(free, dt, pace, 0.0, 0.0, rest, rest)
     return [Stretch("loading", held)] + ([Stretch("released", released)] if free else [])
+
+
+def _flight(steps: int, dt: float, rest: float) -> list[Stretch]:
+    """A striker that flies by itself, in stages after which the run may end."""
+    parts = [min(GLANCE, steps - done) for done in range(0, steps, GLANCE)]
+    return [Stretch("struck", march.Stage(n, dt, dt, 0.0, 0.0, rest, rest)) for n in parts]
