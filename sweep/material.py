@@ -27,7 +27,7 @@ from sweep.record import TOE, stress_at
 
 Floats = NDArray[np.float64]
 
-SURFACE_STEPS = 70  # of the table of moments
+SURFACE_STEPS = 70  # of the table of moments, within the toe and in all
 LOWER_WEIGHT, UPPER_WEIGHT = 0.7, 0.3
 COMPRESSION = -np.array(
     [
@@ -74,15 +74,16 @@ def section_law(material: Material) -> StressLaw:
     curve = as_law(_spline(knots, values, slopes), 1.0, material.modulus)
     odd = np.vectorize(lambda u: uniaxial(curve, u)[1] - uniaxial(curve, -u)[1])
     end = -COMPRESSION[0]
-    s = np.unique(np.r_[np.abs(knots), np.linspace(0.0, end, SURFACE_STEPS + 1)].round(12))
+    even = [np.linspace(0.0, reach, SURFACE_STEPS + 1) for reach in (TOE, end)]
+    s = np.unique(np.concatenate([np.abs(knots), *even]).round(12))
     s = s[s <= end]
     at, weight = np.polynomial.legendre.leggauss(3)  # exact: d is cubic between knots
     u = s[:-1, None] + 0.5 * np.diff(s)[:, None] * (1.0 + at)
     gained = 0.5 * np.diff(s) * (odd(u) * u @ weight)
     moment = np.cumsum(gained) / s[1:] ** 2
     slope = (odd(s[1:]) - 2.0 * moment) / s[1:]
-    start = moment[0] / s[1]  # the toe is straight
-    return _spline(s, 1.5 * np.r_[0.0, moment], 1.5 * np.r_[start, slope])
+    start = uniaxial(curve, 0.0)[2]
+    return _spline(s, 1.5 * np.r_[0.0, moment], np.r_[start, 1.5 * slope])
 
 
 def as_law(curve: StressLaw, factor: float, modulus: float) -> Law:

@@ -12,7 +12,7 @@ from sweep.tables import MAX_STEPS, Contact, Damping, Loading, Material, Solver,
 T = TypeVar("T")
 
 PASSAGES = 10  # times that the striker takes for the height of the lattice: duration of an impact
-STEPS_OF_PASSAGE = 500  # in one of these times
+STEPS_OF_PASSAGE = 1000  # in one of these times
 
 
 def resolve(

@@ -198,6 +198,12 @@ def describe_column(name: str) -> Column:
     return Column(_unit_of_key(name), f"grid key {name}")
 
 
+def describe_array(name: str, *, history: bool) -> Column:
+    """Meaning of an array of a case: a column of its history, or of its frames."""
+    meanings = HISTORY_COLUMNS | STRIKER_COLUMNS if history else FRAME_COLUMNS
+    return meanings.get(name, Column("", name))
+
+
 def _unit_of_key(name: str) -> str:
     from sweep.keys import case_keys
 

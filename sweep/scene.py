@@ -230,8 +230,8 @@ def _rest(mesh: Mesh, layout: Layout, thickness: Floats) -> Floats:
 def _reported(layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
     """Coordinates of the lower reaction, of the top and of the base.
 
-    Strain is the travel of a driven platen or a striker, or of the loaded row. Under a loose loaded platen it is
-    taken from the extent of the lattice itself, which jumps off when it is released.
+    Strain is the travel of a driven platen or a striker, or of the loaded row. Under a loose loaded
+    platen it is taken from the extent of the lattice itself, which jumps off when it is released.
     """
     bottom = 2 * layout.bottom + 1
     low, high = np.array([layout.low]), np.array([layout.high])

@@ -25,15 +25,7 @@ import numpy as np
 from sweep.block import FRAME_GROUPS, GROUPS, Block, Ragged, block_of, joined, newest, newest_rows
 from sweep.columns import arrange, relabel, rows_in_order, take
 from sweep.parts import list_parts, seal
-from sweep.result import (
-    FRAME_COLUMNS,
-    HISTORY_COLUMNS,
-    STRIKER_COLUMNS,
-    Column,
-    Result,
-    Status,
-    describe_column,
-)
+from sweep.result import HISTORY_COLUMNS, Column, Result, Status, describe_array, describe_column
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -273,10 +265,9 @@ def _write_ragged(
     group["start"] = (np.cumsum(rows) - rows)[order]
     group["rows"] = rows[order]
     values = group.create_group("values", track_order=True)
-    meanings = HISTORY_COLUMNS | STRIKER_COLUMNS if group.name == "/histories" else FRAME_COLUMNS
     for name in dict.fromkeys(name for ragged, _ in pieces for name in ragged.arrays):
         data = _write_values(values, name, int(rows.sum()), pieces)
-        _describe(data, meanings.get(name, Column("", name)))
+        _describe(data, describe_array(name, history=group.name == "/histories"))
 
 
 def _write_values(

@@ -27,7 +27,8 @@ def load(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "cases"), [("smoke", 6), ("armor", 140), ("infills", 13), ("thousand", 1000)]
+    ("name", "cases"),
+    [("smoke", 6), ("armor", 140), ("infills", 13), ("thousand", 1000), ("impact", 24)],
 )
 def test_shipped_configs_expand(name, cases):
     config = load_config(CONFIGS / f"{name}.toml")
@@ -36,7 +37,7 @@ def test_shipped_configs_expand(name, cases):
 
 
 def test_every_shipped_config_is_pinned():
-    names = {"smoke", "armor", "infills", "thousand"}
+    names = {"smoke", "armor", "infills", "thousand", "impact"}
     assert {path.stem for path in CONFIGS.glob("*.toml")} == names
 
 

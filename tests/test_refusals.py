@@ -39,12 +39,12 @@ VALUES = {
 }
 
 CHOICES = {
-    '[loading]\nmode = "impact"': 'loading.mode = "impact"; "force" or "displacement"',
+    '[loading]\nmode = "shake"': ('loading.mode = "shake"; "force", "displacement" or "impact"'),
     '[lattice]\nkind = "hexagon"': (
         'lattice.kind = "hexagon"; "brick", "circle", "diamond", "hex", "kagome", "reentrant",'
         ' "square" or "triangle"'
     ),
-    '[material]\nbend = "section"': 'material.bend = "section"; "linear"',
+    '[material]\nbend = "curve"': 'material.bend = "curve"; "linear" or "section"',
     '[contact]\nmodel = "position_based"': 'contact.model = "position_based"; "none" or "barrier"',
     '[solver]\nintegrator = "newmark"': (
         'solver.integrator = "newmark"; "backward_euler" or "static"'
