@@ -106,31 +106,31 @@ def _folding(stiffness, angle, rest):
 
 
 @jit
-def response(section, surface, k, kappa):
-    """Return energy, moment and rigidity of hinge or arm ``k`` over its stiffness."""
-    if surface.size == 0:
-        return 0.5 * kappa * kappa, kappa, 1.0
-    c = surface[k]
+def response(section, c, kappa):
+    """Return energy, moment and rigidity over the stiffness, with strain c kappa at the surface."""
     energy, moment, rigidity = curve(section, abs(c * kappa))
     return energy / (c * c), math.copysign(moment, kappa) / c, rigidity
 
 
 @jit
 def _hinges(bend, shape, stiffness, projected):
-    total = 0.0
+    total, curved = 0.0, bend.hinge_surface.size > 0
     for h in range(bend.hinges.size):
         k, weight = bend.hinges[h], bend.hinge_stiffness[h]
         delta = shape.hinge_turn[k]
         kappa, d1, d2 = curvature(bend.measure, delta)
         rest = bend.hinge_angle[h]
         folding, moment, rigidity = _folding(weight, rest + delta, rest)
-        value, slope, second = response(bend.section, bend.hinge_surface, h, kappa)
+        value, slope, second = 0.5 * kappa * kappa, kappa, 1.0
+        if curved:
+            value, slope, second = response(bend.section, bend.hinge_surface[h], kappa)
+            if projected:
+                second = max(second, 0.0)
         total += weight * value + folding
         moment += weight * slope * d1
-        if projected:
-            rigidity += weight * max(second, 0.0) * d1 * d1
-        else:
-            rigidity += weight * (second * d1 * d1 + slope * d2)
+        rigidity += weight * second * d1 * d1
+        if not projected:
+            rigidity += weight * slope * d2
         chain.turn_hinge(shape, stiffness, k, moment, rigidity, 0.0 if projected else moment)
     return total
 
@@ -138,7 +138,7 @@ def _hinges(bend, shape, stiffness, projected):
 @jit
 def _arms(walls, bend, shape, stiffness, projected):
     """Both arms of every wall. With k12 = k1 / 2 = k2 / 2 the projected sum is semi-definite."""
-    total = 0.0
+    total, curved = 0.0, bend.arm_surface.size > 0
     for w in range(bend.coupling.size):
         k12 = bend.coupling[w]
         one, e1, s1 = curvature(bend.measure, shape.arm_turn[2 * w])
@@ -146,13 +146,14 @@ def _arms(walls, bend, shape, stiffness, projected):
         total += k12 * one * two
         for a, kappa, d1, d2, other in ((2 * w, one, e1, s1, two), (2 * w + 1, two, e2, s2, one)):
             weight = bend.arm_stiffness[a]
-            value, slope, second = response(bend.section, bend.arm_surface, a, kappa)
+            value, slope, second = 0.5 * kappa * kappa, kappa, 1.0
+            if curved:
+                value, slope, second = response(bend.section, bend.arm_surface[a], kappa)
+                if projected:
+                    second = max(second, 0.0)
             total += weight * value
             force = weight * slope + k12 * other
-            if projected:
-                rigidity = weight * max(second, 0.0) * d1 * d1
-            else:
-                rigidity = weight * second * d1 * d1 + force * d2
+            rigidity = weight * second * d1 * d1 + (0.0 if projected else force * d2)
             bent = 0.0 if projected else force * d1
             chain.turn_arm(shape, stiffness, walls, a, force * d1, rigidity, bent)
         if k12 > 0.0:

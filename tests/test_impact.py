@@ -1,10 +1,14 @@
 """A rigid striker: momentum and energy, the spring that it meets at best, its stop and rebound."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from pydantic import ValidationError
 
 from kernels import inertia, march, newton
+from sweep.config import load_config
+from sweep.grid import expand
 from sweep.params import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.scene import build_scene
 from sweep.simulate import simulate
@@ -187,6 +191,12 @@ def test_the_glued_row_flies_with_the_striker(platen):
     brought = inertia.kinetic(scene.v_start, scene.terms.mass)
     assert brought == pytest.approx(0.1, rel=0.005)
     assert brought == run(case).history["work_in_J"][0]
+
+
+def test_the_shipped_sweep_over_hit_energies():
+    case = expand(load_config(Path(__file__).parents[1] / "configs" / "impact.toml"))[2]
+    assert (case.loading.energy, case.lattice.wall_thickness) == (0.03, 1.2e-3)
+    assert run(case).summary["peak_force_N"] == pytest.approx(76.9, abs=0.5)
 
 
 def test_speed_and_energy_follow_from_one_another():

@@ -74,17 +74,17 @@ def test_a_linear_curve_bends_linearly():
 @pytest.mark.parametrize("name", NAMES)
 def test_moment_and_rigidity_are_derivatives_of_the_energy(name):
     """At zero, at every knot and beyond the table."""
-    law, surface = table(name), np.array([0.3])
-    kappas = np.concatenate([[0.0, 1e-4], law.knots / surface[0], [2.6, 4.0]])
+    law, surface = table(name), 0.3
+    kappas = np.concatenate([[0.0, 1e-4], law.knots / surface, [2.6, 4.0]])
     for kappa in np.concatenate([kappas, -kappas, kappas + 1e-3]):
         at, step = np.array([kappa]), np.array([2e-5])
-        found = bend.response(law, surface, 0, kappa)
+        found = bend.response(law, surface, kappa)
         parts = [
-            differences(lambda k, i=i: bend.response(law, surface, 0, k[0])[i], at, step)[0]
+            differences(lambda k, i=i: bend.response(law, surface, k[0])[i], at, step)[0]
             for i in (0, 1)
         ]
         np.testing.assert_allclose(found[1:], parts, rtol=0, atol=2e-4)
-        assert bend.response(law, surface, 0, -kappa) == pytest.approx(
+        assert bend.response(law, surface, -kappa) == pytest.approx(
             (found[0], -found[1], found[2]), rel=1e-12
         )
 
