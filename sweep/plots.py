@@ -130,7 +130,8 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     }
     values, colors = zip(*parts.values(), strict=True) if parts else ((), ())
     ax.stackplot(way, *values, colors=colors, labels=list(parts), linewidth=0)
-    ax.plot(way, work, color="black", lw=1.4, label="work done")
+    paid = "brought by the striker" if row["loading_mode"] == "impact" else "work done"
+    ax.plot(way, work, color="black", lw=1.4, label=paid)
     ax.set_ylabel("energy, mJ")
     ax.set_title(headline(row), loc="left", fontsize="medium")
     ax.margins(x=0.0, y=0.1)
