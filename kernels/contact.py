@@ -25,6 +25,7 @@ from kernels.distance import (
 )
 from kernels.entries import add
 from kernels.jit import jit, jit_exact
+from kernels.pairs import within
 from kernels.rows import pair
 
 
@@ -86,9 +87,7 @@ def evaluate(x, contact, pairs, drift, g):
     """
     total = _plates(x, contact, g)
     pairs.count[0] = 0
-    for k in range(pairs.node.size):
-        if pairs.distance[k] > contact.reach + 2.0 * drift:
-            break  # all others are farther away
+    for k in range(within(pairs, contact.reach + 2.0 * drift)):
         if pairs.weight[k] == 0.0:
             continue
         p, dc = pairs.node[k], pairs.d_contact[k]
@@ -175,9 +174,7 @@ def step_limit(x, dx, most, contact, pairs, drift):
     ``most``: farthest move in m of a node in the step.
     """
     first = np.inf
-    for k in range(pairs.node.size):
-        if pairs.distance[k] > 2.0 * (drift + most):
-            break
+    for k in range(within(pairs, 2.0 * (drift + most))):
         a, b = pair(contact.edges, pairs.edge[k])
         first = min(first, ccd.first_contact(x, dx, pairs.node[k], a, b))
     for p in contact.plate_nodes:
@@ -189,10 +186,12 @@ def step_limit(x, dx, most, contact, pairs, drift):
 
 
 @jit_exact
-def least_gap(x, contact, pairs):
+def least_gap(x, contact, pairs, drift):
     """Return the smallest distance in m between lines that may touch, over the pairs in reach."""
     least = np.inf
     for k in range(pairs.node.size):
+        if pairs.distance[k] - 2.0 * drift >= least:
+            break  # all others are farther away
         if pairs.weight[k] > 0.0:
             a, b = pair(contact.edges, pairs.edge[k])
             least = min(least, _segment_distance(x, pairs.node[k], a, b))

@@ -62,15 +62,17 @@ def updates(start, row):
     for j in range(nb):
         height = start[j + 1] - start[j]
         count += height * (height + 1) // 2
-    update = np.empty(count, np.int64)
-    count = 0
+    update, first = np.empty(count, np.int64), 0
     for j in range(nb):
-        for a in range(start[j], start[j + 1]):
-            for b in range(start[j], a):
-                update[count] = SIZE * (nb + find(start, row, row[a], row[b]))
-                count += 1
-            update[count] = SIZE * row[a]
-            count += 1
+        height = start[j + 1] - start[j]
+        for b in range(height):
+            update[first + b * (b + 3) // 2] = SIZE * row[start[j] + b]
+            q = start[row[start[j] + b]]  # through the rows of column b, which has all behind b
+            for a in range(b + 1, height):
+                while row[q] < row[start[j] + a]:
+                    q += 1
+                update[first + a * (a + 1) // 2 + b] = SIZE * (nb + q)
+        first += height * (height + 1) // 2
     return update
 
 

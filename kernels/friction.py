@@ -21,6 +21,7 @@ from kernels.contact import cancelled
 from kernels.distance import closest, direction, normal
 from kernels.entries import add_block
 from kernels.jit import jit, jit_exact, jit_owning
+from kernels.pairs import within
 from kernels.rows import pair
 
 
@@ -103,10 +104,10 @@ def _normal_force(contact, weight, dc, d):
 
 
 @jit_exact
-def lag(x, contact, pairs, friction, grips):
-    """Fill ``grips`` with all pairs in contact at ``x``."""
+def lag(x, contact, pairs, drift, friction, grips):
+    """Fill ``grips`` with all pairs in contact at ``x``. ``drift``: as in `contact.evaluate`."""
     n = 0
-    for k in range(pairs.node.size):
+    for k in range(within(pairs, contact.reach + 2.0 * drift)):
         p, dc, weight = pairs.node[k], pairs.d_contact[k], 0.5 * friction.mu * pairs.weight[k]
         a, b = pair(contact.edges, pairs.edge[k])
         tau, inside = closest(x, p, a, b)

@@ -20,8 +20,8 @@ from kernels.newton import (
     reduce,
 )
 from kernels.room import make_room
-from kernels.rows import copy, zero
-from kernels.step import Step, find_near, rub
+from kernels.rows import copy, total, zero
+from kernels.step import Step, drift, find_near, rub
 
 WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR, RESIDUAL = range(9)
 TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP, SPEED = range(9, 16)
@@ -157,10 +157,10 @@ def _write(out, k, state, terms, near, unknowns, at):
         row[REACTION_BOTTOM] += at.g[c]
     row[REACTION_TOP] = -state.held[0]
     if unknowns.driven < 0:
-        row[REACTION_TOP] = -state.held[1] * terms.load.sum()
+        row[REACTION_TOP] = -state.held[1] * total(terms.load)
     row[ITERATIONS_DONE] = state.totals[0]
     row[SPEED] = state.v[terms.contact.high]
-    row[GAP] = contact.least_gap(state.x, terms.contact, near.pairs)
+    row[GAP] = contact.least_gap(state.x, terms.contact, near.pairs, drift(state.x, terms, near))
     if out.frame_of[k] >= 0:
         for i in range(state.x.size):
             out.frames[out.frame_of[k], i] = state.x[i]
@@ -183,7 +183,7 @@ def _begin(terms, stage, target, driven, state, near, room, todo):
     if more > 0.0:
         work.dx[driven] = remaining
     if terms.friction.mu > 0.0:
-        friction.lag(x, terms.contact, near.pairs, terms.friction, grips)
+        friction.lag(x, terms.contact, near.pairs, drift(x, terms, near), terms.friction, grips)
     todo[LOOPS] = 0.0
 
 
@@ -193,7 +193,7 @@ def _grips_agree(x, terms, near, unknowns, tolerance, room, todo):
     _, at, work, grips, _ = room
     copy(at.g, work.trial)
     copy(at.rubbing, work.escape)
-    friction.lag(x, terms.contact, near.pairs, terms.friction, grips)
+    friction.lag(x, terms.contact, near.pairs, drift(x, terms, near), terms.friction, grips)
     rub(terms, grips, at)
     reduce(at.g, unknowns.leader, work.residual)
     agree = largest(work.residual, unknowns) <= tolerance.friction

@@ -52,28 +52,54 @@ def _count(row):
     return n
 
 
+@jit_exact
+def _link(queue, i, degree):
+    """Put ``i`` at the head of those of a degree; ``queue``: rows head, following, preceding."""
+    first = queue[0, degree]
+    queue[0, degree], queue[1, i], queue[2, i] = i, first, -1
+    if first >= 0:
+        queue[2, first] = i
+
+
+@jit_exact
+def _unlink(queue, i, degree):
+    """Take ``i`` out of those of its degree."""
+    after, before = queue[1, i], queue[2, i]
+    if before >= 0:
+        queue[1, before] = after
+    else:
+        queue[0, degree] = after
+    if after >= 0:
+        queue[2, after] = before
+
+
 @jit_owning
 def minimum_degree(bits):
     """Return the order (n,) of elimination; ``bits`` becomes the columns of the factor."""
     n = bits.shape[0]
     order, members, degree = np.empty(n, np.int64), np.empty(n, np.int64), np.empty(n, np.int64)
-    for i in range(n):
+    queue = np.full((3, n), -1)
+    for i in range(n - 1, -1, -1):
         degree[i] = _count(bits[i])
+        _link(queue, i, degree[i])
+    least = 0
     for step in range(n):
-        v = 0
-        for i in range(n):
-            if degree[i] < degree[v]:
-                v = i
+        while queue[0, least] < 0:
+            least += 1
+        v = queue[0, least]
+        _unlink(queue, v, least)
         order[step] = v
-        degree[v] = n + 1
         mask, word = ~(ONE << np.uint64(v % WORD)), v // WORD
         for m in range(_members(bits[v], members)):
             u = members[m]
+            _unlink(queue, u, degree[u])
             for k in range(bits.shape[1]):
                 bits[u, k] |= bits[v, k]
             bits[u, word] &= mask
             bits[u, u // WORD] &= ~(ONE << np.uint64(u % WORD))
             degree[u] = _count(bits[u])
+            _link(queue, u, degree[u])
+            least = min(least, degree[u])
     return order
 
 

@@ -9,13 +9,16 @@ import numpy as np
 
 from kernels.distance import squared_distance
 from kernels.jit import jit_exact, jit_owning
-from kernels.rows import grouped, pair, sort
+from kernels.rows import grouped, pair
+
+SHELLS = 64  # steps in which distances are told apart
 
 
 class Pairs(NamedTuple):
     """Node-segment pairs that share no node.
 
-    node (n,), edge (n,): indices. distance (n,): where they were listed, m, ascending. weight (n,):
+    node (n,), edge (n,): indices. distance (n,): at least so far apart were they when they were
+    listed, m, ascending. weight (n,):
     contact length in m, 0 where only crossing is watched. d_contact (n,): distance at which contact
     starts, m. subtract (n, 2): 1 where the contribution of that end of the segment is counted by
     another segment already. touching (n,), count (1,): those in contact when last evaluated.
@@ -104,13 +107,15 @@ def find(x, contact, radius):
     """Return the `Pairs` closer than ``radius`` at ``x``, with the weights of ``contact``."""
     listed = near(x, contact.tributary.size, contact.edges, radius)
     n = listed[0].size
-    nearest = np.empty(n, np.int64)
-    sort(listed[2], nearest)
+    shell = np.empty(n, np.int64)
+    for k in range(n):
+        shell[k] = min(int(listed[2][k] / radius * SHELLS), SHELLS - 1)
+    _, nearest = grouped(shell, SHELLS)
     node, edge, distance = np.empty(n, np.int64), np.empty(n, np.int64), np.empty(n)
     weight, d_contact, subtract = np.empty(n), np.empty(n), np.empty((n, 2))
     for k in range(n):
         p, e = listed[0][nearest[k]], listed[1][nearest[k]]
-        node[k], edge[k], distance[k] = p, e, listed[2][nearest[k]]
+        node[k], edge[k], distance[k] = p, e, shell[nearest[k]] * radius / SHELLS
         weight[k] = contact.tributary[p]
         d_contact[k] = 0.5 * (contact.node_thickness[p] + contact.edge_thickness[e])
         subtract[k, 0], subtract[k, 1] = contact.subtract[e, 0], contact.subtract[e, 1]
@@ -122,6 +127,19 @@ def find(x, contact, radius):
                 subtract[k, 1] = contact.special_subtract[q, 1]
     touching, count = np.empty(n, np.int64), np.zeros(1, np.int64)
     return Pairs(node, edge, distance, weight, d_contact, subtract, touching, count)
+
+
+@jit_exact
+def within(pairs, radius):
+    """Return how many of the first pairs may be nearer than ``radius`` (m)."""
+    low, high = 0, pairs.distance.size
+    while low < high:
+        middle = (low + high) // 2
+        if pairs.distance[middle] < radius:
+            low = middle + 1
+        else:
+            high = middle
+    return low
 
 
 @jit_owning

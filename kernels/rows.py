@@ -1,4 +1,4 @@
-"""Loops that Numba compiles in no time: rows as tuples, vectors filled, copied and sorted."""
+"""Loops that Numba compiles in no time: rows as tuples, vectors filled, copied and grouped."""
 
 import numpy as np
 
@@ -49,31 +49,12 @@ def greatest(vector):
 
 
 @jit_exact
-def _sift(keys, order, first, end):
-    """Let the entry at ``first`` of a heap that ends before ``end`` sink to its place."""
-    item, place = order[first], first
-    while 2 * place + 1 < end:
-        child = 2 * place + 1
-        if child + 1 < end and keys[order[child]] < keys[order[child + 1]]:
-            child += 1
-        if not keys[item] < keys[order[child]]:
-            break
-        order[place] = order[child]
-        place = child
-    order[place] = item
-
-
-@jit_exact
-def sort(keys, order):
-    """Fill ``order`` (n,) with the indices that sort ``keys`` (n,), by heaps."""
-    n = order.size
-    for i in range(n):
-        order[i] = i
-    for first in range(n // 2 - 1, -1, -1):
-        _sift(keys, order, first, n)
-    for end in range(n - 1, 0, -1):
-        order[0], order[end] = order[end], order[0]
-        _sift(keys, order, 0, end)
+def total(vector):
+    """Return the sum of ``vector`` (n,)."""
+    value = 0.0
+    for i in range(vector.size):
+        value += vector[i]
+    return value
 
 
 @jit_owning

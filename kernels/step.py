@@ -106,7 +106,7 @@ def evaluate(x, terms, step, near, at, projected):
     at.stored[BEND] += folding
     at.least[OPENING] = min(opened, at.least[OPENING])
     at.stored[CONTACT] = contact.evaluate(
-        x, terms.contact, near.pairs, _drift(x, terms, near), at.elastic
+        x, terms.contact, near.pairs, drift(x, terms, near), at.elastic
     )
     total = at.stored[STRETCH] + at.stored[BEND] + at.stored[CONTACT]
     for i in range(x.size):
@@ -177,7 +177,7 @@ def step_limit(x, dx, most, terms, near, at):
     ``most``: farthest move of a coordinate in m. A bound tells first whether a check is needed.
     """
     contacts, shortest, farthest = terms.contact, np.inf, DIAGONAL * most
-    first = contact.step_limit(x, dx, farthest, contacts, near.pairs, _drift(x, terms, near))
+    first = contact.step_limit(x, dx, farthest, contacts, near.pairs, drift(x, terms, near))
     if np.pi * 2.0 * farthest >= at.least[OPENING] * at.least[SHORTEST]:
         first = min(first, _first_fold(x, dx, terms))
     if 2.0 * farthest >= (1.0 - LEAST_LENGTH) * at.least[SHORTEST]:
@@ -198,9 +198,16 @@ def _first_fold(x, dx, terms):
     return first
 
 
+@jit_exact
+def _couple(nodes, n, a, b, c):
+    """Write the ``n``-th three nodes; return the next number."""
+    nodes[n, 0], nodes[n, 1], nodes[n, 2] = a, b, c
+    return n + 1
+
+
 @jit_owning
 def _couplings(x, terms, found, grips):
-    """Return (c, 4) nodes of what may soon share a term: contacts, grips, closing joints."""
+    """Return (c, 3) nodes of what may soon share a term: contacts, grips, closing joints."""
     layout, reach = terms.layout, 1.0 + LIKELY
     most = found.node.size + grips.count[0] + terms.fold.limit.size
     most += terms.contact.plate_nodes.size
@@ -208,22 +215,18 @@ def _couplings(x, terms, found, grips):
     for k in range(found.node.size):
         if found.weight[k] > 0.0 and found.distance[k] < reach * found.d_contact[k]:
             a, b = pair(terms.contact.edges, found.edge[k])
-            nodes[n, 0], nodes[n, 1], nodes[n, 2] = found.node[k], a, b
-            n += 1
+            n = _couple(nodes, n, found.node[k], a, b)
     for k in range(grips.count[0]):
-        nodes[n] = grips.nodes[k]
-        n += 1
+        n = _couple(nodes, n, grips.nodes[k, 0], grips.nodes[k, 1], grips.nodes[k, 2])
     for k in range(terms.fold.limit.size):
         if fold.opening(x, terms.fold, k) < 2.0 * terms.fold.limit[k]:
-            nodes[n] = terms.fold.nodes[k]
-            n += 1
+            a, b, c = triple(terms.fold.nodes, k)
+            n = _couple(nodes, n, a, b, c)
     if layout.leader[terms.contact.high] >= 0 and layout.driven < 0:
         for p in terms.contact.plate_nodes:
             gap = x[terms.contact.high] - x[2 * p + 1]
             if gap < 0.5 * reach * terms.contact.node_thickness[p]:
-                nodes[n] = p
-                nodes[n, 2] = layout.n_nodes
-                n += 1
+                n = _couple(nodes, n, p, p, layout.n_nodes)
     return nodes[:n]
 
 
@@ -240,7 +243,7 @@ def find_near(x, terms, grips, move):
 
 
 @jit_inlined
-def _drift(x, terms, near):
+def drift(x, terms, near):
     """Return how far a node has moved since the pairs were listed, m."""
     if terms.contact.edges.shape[0] == 0:
         return 0.0
@@ -250,4 +253,4 @@ def _drift(x, terms, near):
 @jit_inlined
 def covers(near, x, terms, reach):
     """Return whether the list holds all that matters while no coordinate moves beyond ``reach``."""
-    return 2.0 * (_drift(x, terms, near) + DIAGONAL * reach) <= near.margin
+    return 2.0 * (drift(x, terms, near) + DIAGONAL * reach) <= near.margin

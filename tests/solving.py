@@ -73,7 +73,7 @@ class Whole(NamedTuple):
 def gripped(x, terms, near):
     """What friction lags at ``x``."""
     grips = friction.room(near.pairs, terms.contact, terms.friction)
-    friction.lag(x, terms.contact, near.pairs, terms.friction, grips)
+    friction.lag(x, terms.contact, near.pairs, np.inf, terms.friction, grips)
     return grips
 
 

@@ -21,6 +21,7 @@ from tests.bench import (
     iteration,
     kernels,
     libraries,
+    lockstep,
     loops,
     marching,
     opensees,
@@ -239,6 +240,18 @@ def test_sweeps_are_timed_and_checked():
     throughput = sweeps.throughput(smooth, 1)
     assert throughput.values["with friction", "a second"] > 1.0
     assert throughput.values["without friction", "error, % (most)"] > 0.0
+
+
+def test_lanes_are_alike_and_wait_for_the_slowest():
+    groups = list(lockstep.lanes(sweeps.thousand()))
+    assert len(groups) >= 100
+    for group in groups:
+        assert len(group) == lockstep.LANES
+        assert len({lockstep.topology(case) for case in group}) == 1
+        assert len({case.case_id for case in group}) == lockstep.LANES
+    one, other = (cases.crush(3, 0.6, 20, contact) for contact in (cases.SMOOTH, cases.ROUGH))
+    assert lockstep.waiting([one, one]) == 1.0
+    assert 1.0 < lockstep.waiting([one, other]) < 2.0
 
 
 def test_sweep_with_a_failure_is_no_figure():

@@ -225,7 +225,7 @@ def test_step_limit_is_the_first_contact_with_a_wall_or_a_platen(fall):
         assert limit(down) > 1.0
     assert limit(-down) == pytest.approx(99.5 / fall)
     assert limit(np.zeros_like(down)) == np.inf
-    assert contact.least_gap(WALLS.rest, touch, listed) == pytest.approx(0.5)
+    assert contact.least_gap(WALLS.rest, touch, listed, 0.0) == pytest.approx(0.5)
     low = np.zeros_like(down)
     low[-2] = 200.0
     assert limit(low) == pytest.approx(0.5)

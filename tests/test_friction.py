@@ -25,7 +25,7 @@ def lagged(x, touch, listed, mu=MU):
     """What is gripped at ``x``."""
     rubbing = friction.Friction(mu, 1.0)
     grips = friction.room(listed, touch, rubbing)
-    friction.lag(x, touch, listed, rubbing, grips)
+    friction.lag(x, touch, listed, np.inf, rubbing, grips)
     n = grips.count[0]
     return friction.Grips(grips.nodes[:n], grips.slopes[:n], grips.load[:n], grips.count)
 

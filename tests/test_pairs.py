@@ -118,7 +118,11 @@ def test_find_lists_the_nearest_first(seed):
     assert len(listed.node) > 20
     assert np.all(np.diff(listed.distance) >= 0.0)
     for p, k, d in zip(listed.node, listed.edge, listed.distance, strict=True):
-        assert d == np.sqrt(squared_distance(x, p, *of.edges[k]))
+        assert d <= np.sqrt(squared_distance(x, p, *of.edges[k])) < d + 3.1 / pairs.SHELLS
+    for radius in (0.0, 0.5, 2.0, np.inf):
+        ahead = pairs.within(listed, radius)
+        assert np.all(listed.distance[:ahead] < radius)
+        assert np.all(listed.distance[ahead:] >= radius)
     assert set(zip(listed.node.tolist(), listed.edge.tolist(), strict=True)) == brute_force(
         x[: 2 * len(of.points)], of.edges, 3.0
     )

@@ -60,7 +60,7 @@ def test_the_rest_state_is_free_of_contact(name, pieces):
         assert np.any(listed.weight > 0) or pieces == 1
         assert touch_of(touch, listed, x).energy(x) == 0.0
         assert not touch_of(touch, listed, x).gradient(x).any()
-    assert contact.least_gap(of.rest, touch, listed) > 0
+    assert contact.least_gap(of.rest, touch, listed, 0.0) > 0
 
 
 @pytest.mark.parametrize("pieces", [1, 2, 3, 5, 12])

@@ -8,7 +8,17 @@ from pathlib import Path
 
 from sweep.plots import save
 from sweep.simulate import warm_up
-from tests.bench import densify, figure, growth, iteration, kernels, libraries, scenes, sweeps
+from tests.bench import (
+    densify,
+    figure,
+    growth,
+    iteration,
+    kernels,
+    libraries,
+    lockstep,
+    scenes,
+    sweeps,
+)
 
 SIZES, TWO, COUNT = (3, 5, 10, 20, 40), (3, 20), 7
 
@@ -25,6 +35,7 @@ def tables():
     yield "split", lambda: iteration.table(TWO, COUNT)
     yield "kernels", lambda: kernels.table(TWO, COUNT)
     yield "factor", lambda: libraries.table((3, 5, 10, 20), COUNT)
+    yield "lockstep", lambda: lockstep.table(sweeps.kinds(designs), 12)
     yield "overhead", lambda: sweeps.overhead(designs[::9], 3)
     yield "throughput", lambda: sweeps.throughput(designs, 41)
     yield "densify", lambda: densify.table(40, 0.6, 200)

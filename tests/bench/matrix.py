@@ -3,7 +3,7 @@
 import numpy as np
 from scipy import sparse
 
-from kernels.blocks import HELD
+from kernels.entries import HELD
 
 
 def _motions(walls, n):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from kernels.blocks import SIZE
+from kernels.entries import SIZE
 from tests.bench import loops
 from tests.bench.clock import seconds
 from tests.solving import whole

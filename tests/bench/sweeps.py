@@ -97,12 +97,17 @@ def errors(sample):
     return np.abs(np.divide(*energies) - 1.0)
 
 
+def kinds(designs):
+    """The designs with friction and without."""
+    smooth = [changed(case, contact={"friction": 0.0}) for case in designs]
+    return {"with friction": designs, "without friction": smooth}
+
+
 def throughput(designs, every):
     """Designs a second with friction and without, and what a sample of them is off by."""
     columns = ("a second", "wall, s", "waited, s", "CPU of each, ms", "error, % (most)")
     found = Table(f"{len(designs):,} designs, two workers", columns)
-    smooth = [changed(case, contact={"friction": 0.0}) for case in designs]
-    for name, chosen in (("with friction", designs), ("without friction", smooth)):
+    for name, chosen in kinds(designs).items():
         sweep, off = swept(chosen, 2), 100.0 * errors(chosen[::every])
         each = 1e3 * sweep.own / len(chosen)
         figures = len(chosen) / sweep.free, sweep.wall, sweep.waited, each
