@@ -168,6 +168,18 @@ def test_columns_of_an_impact(platen):
     assert summary["stroke_left_m"] == pytest.approx(grown - history["top_displacement_m"].max())
 
 
+@pytest.mark.parametrize("platen", ["glued", "contact"])
+def test_work_on_the_lattice_is_the_area_under_the_striker_s_force(platen):
+    """Until 20 N are first passed on; what flies with the striker brings its own."""
+    case = struck(platen, 0.3, SEED, striker_mass=0.05, energy=0.1, allowed_forces=(20.0,))
+    history, summary = run(case).history, run(case).summary
+    force, speed = history["reaction_top_N"], history["striker_speed_m_per_s"]
+    way = 0.5 * (speed[1:] + speed[:-1]) * np.diff(history["time_s"])
+    row = np.argmax(history["reaction_bottom_N"] > 20.0)
+    work = history["work_in_J"][0] - 0.1 + np.cumsum(force[1:] * way)
+    assert 0.001 < work[row - 2] <= summary["absorbed_energy_at_20N_J"] <= work[row - 1] < 0.05
+
+
 def test_a_run_ends_when_the_striker_is_back():
     travel = run(struck("contact", 0.3, SEED)).history["top_displacement_m"]
     assert travel[-1] <= 0.0 < travel[1:-1].min()
