@@ -19,7 +19,8 @@ from kernels.newton import (
     minimise,
     reduce,
 )
-from kernels.room import make_room
+from kernels.relax import approach
+from kernels.room import CHANGE, LAGGED, PREDICTED, make_room
 from kernels.rows import copy, total, zero
 from kernels.step import Step, drift, find_near, rub
 
@@ -29,7 +30,7 @@ N_COLUMNS = 16
 SMALLEST = 2.0**-12  # share of a step
 FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 GRIP_LOOPS = 30  # fixed-point iterations of friction
-ROW, DONE, SHARE, SPENT, LOOPS, MOVE = range(6)  # of what is to be done: see `_go`
+ROW, DONE, SHARE, SPENT, LOOPS, MOVE, RELAXED = range(7)  # of what is to be done: see `_go`
 
 
 class Stage(NamedTuple):
@@ -169,7 +170,7 @@ def _write(out, k, state, terms, near, unknowns, at):
 @jit_inlined
 def _begin(terms, stage, target, driven, state, near, room, todo):
     """Set out on the next step, from where the last one ended and on as that went."""
-    before, at, work, grips, x_pred = room
+    before, at, work, grips, way = room
     x, dt, more = state.x, stage.dt * todo[SHARE], 0.0
     if driven >= 0:
         remaining = target - x[driven]
@@ -179,21 +180,24 @@ def _begin(terms, stage, target, driven, state, near, room, todo):
     damp.prepare(terms, before)
     for i in range(x.size):
         work.dx[i] = dt * state.v[i] if dt < np.inf else more * at.u[i]
-        x_pred[i] = x[i] + work.dx[i]
+        way[PREDICTED, i] = x[i] + work.dx[i]
+        way[LAGGED, i] = x[i]
     if more > 0.0:
         work.dx[driven] = remaining
     if terms.friction.mu > 0.0:
         friction.lag(x, terms.contact, near.pairs, drift(x, terms, near), terms.friction, grips)
-    todo[LOOPS] = 0.0
+    todo[LOOPS], todo[RELAXED] = 0.0, 0.0
 
 
 @jit_inlined
 def _grips_agree(x, terms, near, unknowns, tolerance, room, todo):
-    """Lag friction at ``x``; return whether ``x`` is still in balance (then nothing is changed)."""
-    _, at, work, grips, _ = room
+    """Lag friction anew; return whether ``x`` is still in balance (then nothing is changed)."""
+    _, at, work, grips, way = room
     copy(at.g, work.trial)
     copy(at.rubbing, work.escape)
-    friction.lag(x, terms.contact, near.pairs, drift(x, terms, near), terms.friction, grips)
+    y = way[LAGGED]
+    todo[RELAXED] = approach(x, y, way[CHANGE], unknowns, todo[RELAXED])
+    friction.lag(y, terms.contact, near.pairs, drift(y, terms, near), terms.friction, grips)
     rub(terms, grips, at)
     reduce(at.g, unknowns.leader, work.residual)
     agree = largest(work.residual, unknowns) <= tolerance.friction
@@ -207,8 +211,8 @@ def _grips_agree(x, terms, near, unknowns, tolerance, room, todo):
 
 @jit_exact
 def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo):
-    """March on from where ``todo`` (6,) says, until the stage ends or something must be done."""
-    before, at, work, grips, x_pred = room
+    """March on from where ``todo`` (7,) says, until the stage ends or something must be done."""
+    before, at, work, grips, way = room
     while todo[ROW] < stage.steps:
         if todo[LOOPS] < 0.0:
             todo[SHARE] = min(todo[SHARE], 1.0 - todo[DONE])
@@ -218,7 +222,7 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
         part = (todo[ROW] + todo[DONE] + todo[SHARE]) / stage.steps
         factor = stage.factor0 + (stage.factor1 - stage.factor0) * part
         target = stage.driven0 + (stage.driven1 - stage.driven0) * part
-        step = Step(before, x_pred, stage.dt * todo[SHARE], factor, grips)
+        step = Step(before, way[PREDICTED], stage.dt * todo[SHARE], factor, grips)
         outcome, spent, todo[MOVE] = minimise(
             state.x, target, terms, step, near, unknowns, tolerance, at, work, control
         )
@@ -263,7 +267,7 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
 
     Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts steps done.
     """
-    todo = np.zeros(6)
+    todo = np.zeros(7)
     todo[SHARE], todo[LOOPS] = 1.0, -1.0
     near = find_near(state.x, terms, friction.none(), 0.0)
     room = make_room(terms, near)

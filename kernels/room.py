@@ -8,6 +8,8 @@ from kernels.jit import jit_owning
 from kernels.newton import Work
 from kernels.step import At
 
+PREDICTED, LAGGED, CHANGE = range(3)
+
 
 @jit_owning
 def _shape(terms):
@@ -22,7 +24,9 @@ def _shape(terms):
 
 @jit_owning
 def make_room(terms, near):
-    """Return the arrays of all steps: `Before`, `At`, `Work`, `Grips`, predicted position."""
+    """Return the arrays of all steps: `Before`, `At`, `Work`, `Grips`, and (3, n): predicted
+    position, where friction was lagged, how far from there the step ended.
+    """
     n = terms.mass.size
     shape, stiffness = _shape(terms)
     frame = np.full((terms.walls.rotation.size, 3), np.inf)  # none yet
@@ -32,4 +36,5 @@ def make_room(terms, near):
     at = At(five[0], five[1], five[2], five[3], five[4], np.zeros(3), np.zeros(2), shape, stiffness)
     more = np.zeros((5, n))
     work = Work(more[0], more[1], more[2], more[3], more[4], np.full(1, np.inf))
-    return before, at, work, friction.room(near.pairs, terms.contact, terms.friction), np.zeros(n)
+    grips = friction.room(near.pairs, terms.contact, terms.friction)
+    return before, at, work, grips, np.zeros((3, n))
