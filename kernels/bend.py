@@ -4,6 +4,8 @@ Inside a wall a *hinge* resists the angle between its two elements. At a joint e
 its own turn against the joint's rotation phi, an unknown of its own. A wall of a single element
 adds k12 kappa_1 kappa_2 between its two ends, which makes it an exact beam.
 Measures: kappa = delta (``angle``) or 2 tan(delta / 2) (``tangent``), delta the turn from rest.
+Through the measured curve (``section``) 1/2 kappa^2 becomes U(s) / c^2 with s = c kappa, the strain
+of the wall's surface: U(s) = 1/2 s^2 for a linear curve. Folds stay on the linear K.
 A hinge that folds meets the barrier K (g0 / 2)^2 b(g / g_f) of its opening g = pi - |angle|.
 """
 
@@ -15,6 +17,7 @@ import numpy as np
 from kernels import chain
 from kernels.barrier import barrier
 from kernels.jit import jit
+from kernels.law import curve
 
 ANGLE, TANGENT = 0, 1
 FOLD_LIMIT = math.radians(20.0)
@@ -26,6 +29,8 @@ class Bend(NamedTuple):
 
     hinges (h,): element before. hinge_angle (h,): angle between its elements at rest, rad. arm_rest
     (2 w, 2): bearing at rest of the element at an end (cos, sin). coupling (w,): k12.
+    section: U' over surface strain s >= 0. hinge_surface (h,), arm_surface (2 w,): surface strain
+    per unit of kappa; empty where bending is linear.
     """
 
     measure: int
@@ -35,6 +40,9 @@ class Bend(NamedTuple):
     arm_rest: np.ndarray
     arm_stiffness: np.ndarray
     coupling: np.ndarray
+    section: object
+    hinge_surface: np.ndarray
+    arm_surface: np.ndarray
 
 
 @jit
@@ -98,19 +106,31 @@ def _folding(stiffness, angle, rest):
 
 
 @jit
+def response(section, c, kappa):
+    """Return energy, moment and rigidity over the stiffness, with strain c kappa at the surface."""
+    energy, moment, rigidity = curve(section, abs(c * kappa))
+    return energy / (c * c), math.copysign(moment, kappa) / c, rigidity
+
+
+@jit
 def _hinges(bend, shape, stiffness, projected):
-    total = 0.0
+    total, curved = 0.0, bend.hinge_surface.size > 0
     for h in range(bend.hinges.size):
         k, weight = bend.hinges[h], bend.hinge_stiffness[h]
         delta = shape.hinge_turn[k]
         kappa, d1, d2 = curvature(bend.measure, delta)
         rest = bend.hinge_angle[h]
         folding, moment, rigidity = _folding(weight, rest + delta, rest)
-        total += 0.5 * weight * kappa * kappa + folding
-        moment += weight * kappa * d1
-        rigidity += weight * d1 * d1
+        value, slope, second = 0.5 * kappa * kappa, kappa, 1.0
+        if curved:
+            value, slope, second = response(bend.section, bend.hinge_surface[h], kappa)
+            if projected:
+                second = max(second, 0.0)
+        total += weight * value + folding
+        moment += weight * slope * d1
+        rigidity += weight * second * d1 * d1
         if not projected:
-            rigidity += weight * kappa * d2
+            rigidity += weight * slope * d2
         chain.turn_hinge(shape, stiffness, k, moment, rigidity, 0.0 if projected else moment)
     return total
 
@@ -118,7 +138,7 @@ def _hinges(bend, shape, stiffness, projected):
 @jit
 def _arms(walls, bend, shape, stiffness, projected):
     """Both arms of every wall. With k12 = k1 / 2 = k2 / 2 the projected sum is semi-definite."""
-    total = 0.0
+    total, curved = 0.0, bend.arm_surface.size > 0
     for w in range(bend.coupling.size):
         k12 = bend.coupling[w]
         one, e1, s1 = curvature(bend.measure, shape.arm_turn[2 * w])
@@ -126,9 +146,14 @@ def _arms(walls, bend, shape, stiffness, projected):
         total += k12 * one * two
         for a, kappa, d1, d2, other in ((2 * w, one, e1, s1, two), (2 * w + 1, two, e2, s2, one)):
             weight = bend.arm_stiffness[a]
-            total += 0.5 * weight * kappa * kappa
-            force = weight * kappa + k12 * other
-            rigidity = weight * d1 * d1 + (0.0 if projected else force * d2)
+            value, slope, second = 0.5 * kappa * kappa, kappa, 1.0
+            if curved:
+                value, slope, second = response(bend.section, bend.arm_surface[a], kappa)
+                if projected:
+                    second = max(second, 0.0)
+            total += weight * value
+            force = weight * slope + k12 * other
+            rigidity = weight * second * d1 * d1 + (0.0 if projected else force * d2)
             bent = 0.0 if projected else force * d1
             chain.turn_arm(shape, stiffness, walls, a, force * d1, rigidity, bent)
         if k12 > 0.0:

@@ -2,6 +2,8 @@
 
     D_mass = alpha / (2 dt) |x - x0|_M^2;  the others: `rayleigh` and `kelvin_voigt`.
 
+M is the lattice's: nothing damps the flight of a striker.
+
 The force is dD/dx. In one step a quadratic potential dissipates dD/dx . (x - x0) = 2 D.
 """
 
@@ -54,7 +56,7 @@ def evaluate(u, terms, before, dt, shape, stiffness, projected, g):
     total = 0.0
     alpha = terms.damp.alpha_m / dt
     if alpha > 0.0:
-        for i in range(u.size):
+        for i in range(2 * terms.layout.n_nodes):
             total += 0.5 * alpha * terms.mass[i] * u[i] * u[i]
             g[i] += alpha * terms.mass[i] * u[i]
     if terms.damp.beta_k > 0.0:

@@ -43,7 +43,7 @@ def _piece(knots, strain):
 
 
 @jit
-def _curve(law, strain):
+def curve(law, strain):
     """Return W, sigma and its tangent on the measured part, continued by tangents."""
     i = _piece(law.knots, strain)
     inside = min(max(strain, law.knots[0]), law.knots[-1])
@@ -60,7 +60,7 @@ def _curve(law, strain):
 @jit
 def uniaxial(law, strain):
     """Return energy density W (J/m^3), nominal stress sigma (Pa) and tangent (Pa) at ``strain``."""
-    density, stress, tangent = _curve(law, strain)
+    density, stress, tangent = curve(law, strain)
     if strain < GUARD:
         width = 1.0 + GUARD
         value, slope, curvature = barrier((1.0 + strain) / width)

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels import damp, friction, inertia, project
+from kernels.caliper import height
 from kernels.jit import jit_exact, jit_inlined, jit_owning
 from kernels.newton import (
     CONVERGED,
@@ -26,8 +27,8 @@ from kernels.step import Step, drift, find_near, holds_crowd, least_gap, rub, st
 
 WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR = range(8)
 INJECTED, RESIDUAL = 8, 9
-TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP = range(10, 16)
-N_COLUMNS = 16
+TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP, SPEED = range(10, 17)
+N_COLUMNS = 17
 SMALLEST = 2.0**-12  # share of a step
 FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 GRIP_LOOPS = 30  # fixed-point iterations of friction
@@ -90,28 +91,6 @@ def _dot(a, b):
     for i in range(a.size):
         total += a[i] * b[i]
     return total
-
-
-@jit_exact
-def height(x, top, base):
-    """Return how far the mean of ``top`` is above that of ``base`` (coordinates).
-
-    Where ``top`` is empty it is the extent of ``base``, what a caliper would read.
-    """
-    if top.size > 0:
-        return _mean(x, top) - _mean(x, base)
-    low, high = np.inf, -np.inf
-    for c in base:
-        low, high = min(low, x[c]), max(high, x[c])
-    return high - low
-
-
-@jit_exact
-def _mean(x, coordinates):
-    total = 0.0
-    for c in coordinates:
-        total += x[c]
-    return total / coordinates.size
 
 
 @jit_inlined
@@ -185,6 +164,7 @@ def _write(out, k, state, terms, near, unknowns, at):
         out.probed[k, 0, p] = state.x[out.probes[p]]
         out.probed[k, 1, p] = at.g[out.probes[p]]
     row[ITERATIONS_DONE] = state.totals[0]
+    row[SPEED] = state.v[terms.contact.high]
     row[GAP] = least_gap(state.x, terms, near)
     if out.frame_of[k] >= 0:
         for i in range(state.x.size):

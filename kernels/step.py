@@ -179,9 +179,11 @@ def factor(x, terms, step, near, at, projected):
     contact.hessian(x, terms.contact, near.pairs, matrix, projected)
     friction.hessian(at.u, step.grips, terms.friction.slip, matrix, projected)
     if step.dt < np.inf:
-        inert = 1.0 / (step.dt * step.dt) + terms.damp.alpha_m / step.dt
+        inert, drag = 1.0 / (step.dt * step.dt), terms.damp.alpha_m / step.dt
         for i in range(x.size):
             matrix.diagonal[i] += inert * terms.mass[i]
+        for i in range(2 * terms.layout.n_nodes):
+            matrix.diagonal[i] += drag * terms.mass[i]
     return system.factor(near.system, terms.layout, terms.walls, at.stiffness)
 
 

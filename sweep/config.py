@@ -38,6 +38,7 @@ newton = kilogram * meter / second ** 2 = N
 kilogram_force = 9.80665 * newton = kgf
 pound_force = 4.4482216152605 * newton = lbf
 pascal = newton / meter ** 2 = Pa
+joule = newton * meter = J
 bar = 1e5 * pascal
 psi = pound_force / inch ** 2
 percent = 0.01 = %

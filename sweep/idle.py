@@ -53,7 +53,8 @@ def _counts_anyway(key: str, held: object, given: Mapping[str, Any], case: Case)
 def _reason(key: str, case: Case) -> str:
     if case.lattice.structure is not None and key.startswith("loading."):
         return 'lattice.kind is "custom"'
-    if key.startswith("loading.") or (key == "solver.load_steps" and case.loading.mode == "force"):
+    timed = key == "solver.load_steps" and case.loading.mode != "displacement"
+    if key.startswith("loading.") or timed:
         return f'loading.mode is "{case.loading.mode}"'
     if key.startswith("contact.") and case.contact.friction is None:
         return f'contact.model is "{case.contact.model}"'

@@ -3,6 +3,7 @@
 import numpy as np
 
 from kernels import bend, fold
+from sweep.material import as_law, section_law
 from sweep.mesh import Floats, Ints, Mesh, openings
 from sweep.params import Case
 
@@ -27,22 +28,28 @@ def bends(case: Case) -> bool:
 
 def build_bend(mesh: Mesh, rigidity: Floats, case: Case) -> bend.Bend:
     """``rigidity`` (m,): Y' I of every element, N m^2."""
-    length, rigidity = mesh.rest_length, rigidity * bends(case)
+    length, material = mesh.rest_length, case.material
+    rigidity = rigidity * bends(case)
     inside, at_end = _hinge_weights(mesh.pieces, case.solver.hinges)
     before, _, after = np.ascontiguousarray(mesh.inner[: None if bends(case) else 0].T)
     on = _directions(mesh)
     cosine = np.sum(on[before] * on[after], axis=1)
     sine = on[before, 0] * on[after, 1] - on[before, 1] * on[after, 0]
     end = mesh.arm_element
+    between = 0.5 * (length[before] + length[after])
+    through = slice(None if material.bend == "section" else 0)
     single = (mesh.pieces[end[::2]] == 1) & (case.solver.hinges == "exact_beam")
     return bend.Bend(
         measure=bend.TANGENT if case.solver.bend_measure == "tangent" else bend.ANGLE,
         hinges=before,
         hinge_angle=np.arctan2(sine, cosine),
-        hinge_stiffness=(inside * rigidity)[before] / (0.5 * (length[before] + length[after])),
+        hinge_stiffness=(inside * rigidity)[before] / between,
         arm_rest=on[end],
         arm_stiffness=(at_end * rigidity / length)[end],
         coupling=np.where(single, 2.0 * (rigidity / length)[end[::2]], 0.0),
+        section=as_law(section_law(material), 1.0 / material.modulus, material.modulus),
+        hinge_surface=(0.5 * mesh.thickness[before] / between)[through],
+        arm_surface=(mesh.thickness / length)[end][through],
     )
 
 

@@ -30,6 +30,7 @@ QUANTITIES = {
     "1/s": 'a rate with a unit, such as "5 1/s"',
     "m/s": 'a speed with a unit, such as "100 mm/min"',
     "N": 'a force with a unit, such as "10 N"',
+    "J": 'an energy with a unit, such as "0.1 J"',
     "Pa": 'a stress with a unit, such as "12 MPa"',
     "kg": 'a mass with a unit, such as "25 g"',
     "1": 'a share in percent, such as "20 %"',

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from sweep.merit import LEAST
 from sweep.sheets import design_labels, three_digits
 
 if TYPE_CHECKING:
@@ -68,14 +69,10 @@ def looks(designs: DataFrame) -> Looks:
     )
 
 
-def is_loaded(rows: DataFrame) -> bool:
-    """True for designs under a dead load, which are compared by how little they sink."""
-    return bool((rows["loading_mode"] == "force").all())
-
-
 def merits(rows: DataFrame, energy: str) -> Series:
-    """What the designs of one scene are compared by: sink in %, or the absorbed energy in J."""
-    return 100.0 * rows["peak_strain"] if is_loaded(rows) else rows[energy]
+    """What the designs of one scene are compared by: sink in %, force in N, or energy in J."""
+    least = LEAST.get(rows["loading_mode"].iloc[0])
+    return rows[least or energy] * (100.0 if least == "peak_strain" else 1.0)
 
 
 def budget_winners(rows: DataFrame, ranking: DataFrame) -> list[tuple[str, float, float]]:
@@ -95,7 +92,11 @@ def budget_winners(rows: DataFrame, ranking: DataFrame) -> list[tuple[str, float
 def _words(won: DataFrame, merit: float, ranking: DataFrame) -> str:
     """A design and what it is worth, such as "cells 3 x 3, wall 0.8 mm, 13.4 J"."""
     (design,) = design_labels(won, ranking)
-    worth = f"sinks {three_digits(merit)} %" if is_loaded(won) else energy_text(merit)
+    worths = {
+        "force": f"sinks {three_digits(merit)} %",
+        "impact": f"passes {three_digits(merit)} N on",
+    }
+    worth = worths.get(won["loading_mode"].item(), energy_text(merit))
     beyond = ", beyond the model" if won["beyond_model"].item() else ""
     return f"{design}, {worth}{beyond}"
 

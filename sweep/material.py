@@ -8,6 +8,11 @@ else `0.7 lower + 0.3 upper` with the tension curve P, nominal strain e < 0 and 
     upper(e) = -P(1/s - 1) / s^2         Cauchy stress odd in log strain, incompressible
 
 (weights from one moulded grade; good to about 30 % beyond 15 % compression).
+
+Bending through the curve: strain s eta at the share eta of half the thickness from the centroid,
+s at the surface, gives a wall of depth b and thickness t the moment b t^2 / 4 m(s),
+
+    m(s) = integral over eta in -1..1 of sigma(s eta) eta,    odd in s;  2/3 Y s for a linear curve.
 """
 
 from dataclasses import dataclass
@@ -16,11 +21,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from kernels.law import Law, uniaxial
 from sweep.params import Material
 from sweep.record import TOE, stress_at
 
 Floats = NDArray[np.float64]
 
+SURFACE_STEPS = 70  # of the table of moments, within the toe and in all
 LOWER_WEIGHT, UPPER_WEIGHT = 0.7, 0.3
 COMPRESSION = -np.array(
     [
@@ -41,15 +48,58 @@ class StressLaw:
     coefficients: Floats
 
 
+def linear_law(slope: float) -> StressLaw:
+    """Stress in proportion to strain."""
+    return StressLaw(np.array([0.0, 1.0]), np.array([[0.0, slope, 0.0, 0.0]]))
+
+
 @lru_cache(maxsize=64)
 def stress_law(material: Material) -> StressLaw:
     """The law of a material under uniaxial stress; the plane-strain factor is not in it."""
     if material.stretch == "linear":
-        slope = material.modulus
-        return StressLaw(np.array([0.0, 1.0]), np.array([[0.0, slope, 0.0, 0.0]]))
+        return linear_law(material.modulus)
+    return _spline(*_knots(material.curve_strain, material.curve_stress))
+
+
+@lru_cache(maxsize=64)
+def section_law(material: Material) -> StressLaw:
+    """3/2 m(s) over 0 <= s (Pa), the stress of a linear curve with the same moment.
+
+    With d(u) = sigma(u) - sigma(-u):  m = 1/s^2 integral_0^s d(u) u du,  m' = (d(s) - 2 m) / s.
+    Beyond the table, where the inner surface is crushed to 0.3 of its length: the last tangent.
+    """
+    if material.bend == "linear":
+        return linear_law(material.modulus)
+    knots, values, slopes = _knots(material.curve_strain, material.curve_stress)
+    curve = as_law(_spline(knots, values, slopes), 1.0, material.modulus)
+    odd = np.vectorize(lambda u: uniaxial(curve, u)[1] - uniaxial(curve, -u)[1])
+    end = -COMPRESSION[0]
+    even = [np.linspace(0.0, reach, SURFACE_STEPS + 1) for reach in (TOE, end)]
+    s = np.unique(np.concatenate([np.abs(knots), *even]).round(12))
+    s = s[s <= end]
+    at, weight = np.polynomial.legendre.leggauss(3)  # exact: d is cubic between knots
+    u = s[:-1, None] + 0.5 * np.diff(s)[:, None] * (1.0 + at)
+    gained = 0.5 * np.diff(s) * (odd(u) * u @ weight)
+    moment = np.cumsum(gained) / s[1:] ** 2
+    slope = (odd(s[1:]) - 2.0 * moment) / s[1:]
+    start = uniaxial(curve, 0.0)[2]
+    return _spline(s, 1.5 * np.r_[0.0, moment], np.r_[start, 1.5 * slope])
+
+
+def as_law(curve: StressLaw, factor: float, modulus: float) -> Law:
+    """A law with its integral for kernels, all stresses times ``factor``."""
+    coefficients = factor * np.ascontiguousarray(curve.coefficients)
+    width = np.diff(curve.knots)[:, None] ** np.arange(1, 5)
+    gained = np.sum(coefficients * width / np.arange(1, 5), axis=1)
+    energy = np.concatenate([[0.0], np.cumsum(gained)])
+    raw = Law(curve.knots, coefficients, energy, factor * modulus)
+    return raw._replace(energy=energy - uniaxial(raw, 0.0)[0])
+
+
+def _spline(knots: Floats, values: Floats, slopes: Floats) -> StressLaw:
     from scipy.interpolate import CubicHermiteSpline
 
-    spline = CubicHermiteSpline(*_knots(material.curve_strain, material.curve_stress))
+    spline = CubicHermiteSpline(knots, values, slopes)
     return StressLaw(spline.x, np.ascontiguousarray(spline.c[::-1].T))
 
 

@@ -3,6 +3,13 @@
 import numpy as np
 
 from kernels import march
+from sweep.impact import (
+    impact_columns,
+    kinetic,
+    rebound_speed,
+    striker_curves,
+    work_on_lattice,
+)
 from sweep.lattice import mass, relative_density
 from sweep.mesh import Floats
 from sweep.params import Case, Lattice
@@ -47,7 +54,7 @@ def history_columns(rows: Floats, scene: Scene, case: Case) -> dict[str, Floats]
         **{name: rows[:, column].copy() for name, column in BOOK.items()},
         "newton_iterations": np.diff(rows[:, march.ITERATIONS_DONE], prepend=0.0),
         "min_gap_m": gap,
-    }
+    } | (striker_curves(rows[:, march.SPEED], case) if case.loading.mode == "impact" else {})
 
 
 def absorbed_until(force: float, transmitted: Floats, work: Floats) -> float:
@@ -100,7 +107,8 @@ def summarise(
     case: Case, scene: Scene, history: dict[str, Floats], frames: Frames, loading_rows: int
 ) -> dict[str, float | int | str]:
     """Summary columns of a run, of whose history the first ``loading_rows`` rows are loading."""
-    loading = {name: column[:loading_rows] for name, column in history.items()}
+    curves = history | {"work_in_J": work_on_lattice(case, history)}
+    loading = {name: column[:loading_rows] for name, column in curves.items()}
     grams = 1e3 * mass(scene.network, case.lattice.depth, case.material.density)
     absorbed = float(loading["work_in_J"][-1])
     gaps = history["min_gap_m"][np.isfinite(history["min_gap_m"])]
@@ -115,30 +123,35 @@ def summarise(
         "injected_by_projection_J": float(history["injected_by_projection_J"][-1]),
         "energy_residual_J": float(history["energy_residual_J"][-1]),
         "specific_absorption_J_per_g": absorbed / grams,
-        "peak_force_N": float(transmitted(history).max()),
+        "peak_force_N": float(transmitted(case, history).max()),
         "peak_strain": float(history["strain"].max()),
         "min_gap_m": float(gaps.min()) if len(gaps) else np.nan,
+        **impact_columns(case, scene, history),
         **crush_columns(case, loading),
         **shape_columns(scene, frames, loading),
     }
 
 
 def returned(case: Case, history: dict[str, Floats], loading_rows: int) -> float:
-    """Work given back to a platen that moves back up (J); NaN where none does."""
+    """Work given back to a platen or a striker that moves back up (J); NaN where none does."""
+    if case.loading.mode == "impact":
+        return float(kinetic(case, rebound_speed(history)))
     work = history["work_in_J"]
     if case.loading.mode == "force" or len(work) <= loading_rows:
         return np.nan
     return float(work[loading_rows - 1] - work[-1])
 
 
-def transmitted(history: dict[str, Floats]) -> Floats:
-    """The greater of the forces on the two platens, (rows,) N."""
+def transmitted(case: Case, history: dict[str, Floats]) -> Floats:
+    """The greater of the forces on the two platens; that on the support if struck, (rows,) N."""
+    if case.loading.mode == "impact":
+        return history["reaction_bottom_N"]
     return np.fmax(history["reaction_top_N"], history["reaction_bottom_N"])
 
 
 def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
     """What the force-displacement curve of the loading says; a dead load has no plateau."""
-    strain, work, passed_on = loading["strain"], loading["work_in_J"], transmitted(loading)
+    strain, work, passed_on = loading["strain"], loading["work_in_J"], transmitted(case, loading)
     row, found = len(strain) - 1, dict.fromkeys(PLATEAU, np.nan)
     if case.loading.mode == "displacement":
         row, found = plateau(case.lattice, strain, loading["reaction_top_N"], work)

@@ -2,6 +2,7 @@
 
 Energy is counted until the lattice has packed down, or until the allowed force is passed on: what a
 solid block of TPU takes beyond that, at a multiple of the force, is no merit of its infill.
+Where the energy is not the design's own doing, `LEAST` counts.
 
 A specimen of outer width w and depth b stands for a panel when it is repeated side by
 side:  factor = panel area / (w b),  panel mass = factor mass,  panel energy = factor energy.
@@ -19,6 +20,14 @@ if TYPE_CHECKING:
 
 Quantity = float | str
 """A number in SI, or text with a unit such as "25 g"."""
+
+LEAST = {"force": "peak_strain", "impact": "peak_force_N"}
+"""What counts in place of energy, least first, by `loading_mode`.
+
+Under a dead load whatever gives way absorbs most. A striker is stopped with all its energy by every
+design: what tells them apart is the force on what they protect, and one that runs out of stroke
+shows it there.
+"""
 
 WHOLE_CRUSH = ("absorbed_energy_J", "specific_absorption_J_per_g")
 ROUND_OFF = 1e-9

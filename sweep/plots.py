@@ -18,7 +18,7 @@ from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path as Outline
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from sweep.looks import budget_winners, energy_text, is_loaded, looks, merits
+from sweep.looks import budget_winners, energy_text, looks, merits
 from sweep.sheets import three_digits
 from sweep.silhouette import silhouette
 from sweep.storyboard import headline, last_loaded, shots
@@ -32,6 +32,7 @@ BLUE, SKY, ORANGE = "#0072b2", "#56b4e9", "#e69f00"
 VERMILION, PURPLE, YELLOW, GREY = "#d55e00", "#cc79a7", "#f0e442", "#8a8a8a"
 WALL, PLATEN, GRID = "#2b4c6f", "#c9c9c9", "#e6e6e6"
 
+LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
 ENERGIES = {
     "stretch_J": ("stretching", BLUE),
     "bend_J": ("bending", SKY),
@@ -118,7 +119,7 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
         words = "path of the platen, down and back up, mm", "turns"
     else:
         way = 1e3 * history["time_s"]
-        words = "time, ms", "load off"
+        words = "time, ms", "load off" if row["loading_mode"] == "force" else "stops"
     ax.set_xlabel(words[0])
     if turn + 1 < len(history):
         mark(ax, way[turn], words[1])
@@ -129,7 +130,8 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     }
     values, colors = zip(*parts.values(), strict=True) if parts else ((), ())
     ax.stackplot(way, *values, colors=colors, labels=list(parts), linewidth=0)
-    ax.plot(way, work, color="black", lw=1.4, label="work done")
+    paid = "brought by the striker" if row["loading_mode"] == "impact" else "work done"
+    ax.plot(way, work, color="black", lw=1.4, label=paid)
     ax.set_ylabel("energy, mJ")
     ax.set_title(headline(row), loc="left", fontsize="medium")
     ax.margins(x=0.0, y=0.1)
@@ -172,15 +174,16 @@ def deformed_shapes(
 def design_map(fig: Figure, ranking: DataFrame) -> None:
     """What to print: merit against mass, a panel a scene, the winner of each budget named.
 
-    ranking : all places (`top=None`), of crushes or of dead loads. Merit: absorbed energy, or how
-    little a load sinks. The stairs are the best that any mass offers; where they meet a budget
-    stands its winner.
+    ranking : all places (`top=None`), of one mode. Merit: absorbed energy, how little a load sinks,
+    or the force that a striker leaves on the support. The stairs are the best that any mass offers;
+    where they meet a budget stands its winner.
     """
     mass = ranking.attrs["mass"]
     of = "panel" if mass == "panel_mass_g" else "specimen"
     look = looks(ranking)
     for ax, rows in _scene_axes(fig, ranking.round({mass: 9})):  # equal by design is equal
-        merit, loaded = merits(rows, ranking.attrs["energy"]), is_loaded(rows)
+        merit = merits(rows, ranking.attrs["energy"])
+        least = LEAST_SHOWN.get(rows["loading_mode"].iloc[0])
         for _, points in rows.groupby("material"):
             _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
         front = rows[rows["pareto"]].sort_values(mass)
@@ -196,7 +199,7 @@ def design_map(fig: Figure, ranking: DataFrame) -> None:
             words.append(said)
         ax.set_title("\n".join(words), loc="left", fontsize="small")
         ax.set_xlabel(f"mass of the {of}, g")
-        ax.set_ylabel("sink, %" if loaded else f"energy absorbed by the {of}, J")
+        ax.set_ylabel(least or f"energy absorbed by the {of}, J")
         _round_ticks(ax.xaxis, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
         _round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
     _legend(fig, look.legend())

@@ -52,9 +52,13 @@ def publish_case(file: str, row: Series, folder: Path) -> list[Path]:
 
 def _sweep_figures(file: str, shown: DataFrame, ranking: DataFrame) -> Named:
     """What to print by mass, by pattern, the trend with wall thickness, the winners' shapes."""
-    loaded = ranking["loading_mode"] == "force"
-    crushed = _some_scenes(ranking[~loaded])
-    for name, rows in (("absorption", crushed), ("sink", _some_scenes(ranking[loaded]))):
+    pictures = {"absorption": "displacement", "sink": "force", "passed_on": "impact"}
+    drawn = {
+        name: _some_scenes(ranking[ranking["loading_mode"] == mode])
+        for name, mode in pictures.items()
+    }
+    crushed = drawn["absorption"]
+    for name, rows in drawn.items():
         if not rows.empty:
             figure = plots.blank(*_size(rows))
             plots.design_map(figure, rows)
@@ -85,8 +89,8 @@ def _size(ranking: DataFrame) -> tuple[float, float]:
 
 
 def _winners(file: str, shown: DataFrame, ranking: DataFrame) -> dict[str, dict[str, Any]]:
-    """Frames of the crushed designs in first place, under the name of budget, scene and design."""
-    first = shown[(shown["place"] == 1) & (shown["loading_mode"] == "displacement")]
+    """Frames of the crushed or struck designs in first place, named by budget, scene and design."""
+    first = shown[(shown["place"] == 1) & (shown["loading_mode"] != "force")]
     first = first.drop_duplicates("case_id").head(MAX_WINNERS)
     winners = {}
     for (_, row), design in zip(first.iterrows(), design_labels(first, ranking), strict=True):

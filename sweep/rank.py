@@ -1,8 +1,8 @@
 """Which design absorbs the most energy: per gram, within a weight budget, below an allowed force.
 
 Only cases of the same loading scene are compared: a block under a dead load of 5 N and one crushed
-to half its height absorb energies that answer different questions. Under a dead load, whatever
-gives way absorbs most: there the design that sinks least is the best.
+to half its height absorb energies that answer different questions. Under a dead load the design
+that sinks least is the best, under a striker the one that passes the least force on.
 """
 
 from __future__ import annotations
@@ -15,14 +15,20 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
-from sweep.merit import Quantity, RankError, in_si, merits
+from sweep.merit import LEAST, Quantity, RankError, in_si, merits
 from sweep.result import Status
 
 NOTHING = "–"
 
-SCENE = ["loading_mode", "platen", "force_N"]
+SCENE = ["loading_mode", "platen", "force_N", "striker_mass_g", "striker_speed_m_per_s"]
 
-HELD_BY_SCENE = ("loading.mode", "loading.platen", "loading.force", "loading.allowed_forces")
+HELD_BY_SCENE = tuple(
+    f"loading.{key}"
+    for key in (
+        *("mode", "platen", "force", "allowed_forces"),
+        *("striker_mass", "striker_speed", "energy"),
+    )
+)
 ASSUMPTIONS = (
     "loading.",
     "contact.",
@@ -85,7 +91,8 @@ def rank(
     budget : greatest mass (kg, or text with a unit) of the panel, or of the specimen without one.
         Several budgets give a ranking each, told apart by the column `budget_g`.
     panel : the two lengths (m, or text with a unit) of the area that the specimens fill.
-    by : column to sort by. Default: under a dead load the greatest strain, least first; else the
+    by : column to sort by. Default: under a dead load the greatest strain, under a striker the
+        greatest force on the support, least first (`merit.LEAST`); else the
         energy absorbed until the lattice has packed down where a budget or a panel is given (a
         budget is there to be spent), else that energy per gram. By `absorbed_energy_J` or
         `specific_absorption_J_per_g`, energy is counted to the end of the stroke.
@@ -97,7 +104,7 @@ def rank(
     -------
     The summary's rows that have a place, led by `budget_g`, `scene`, `place` (equal values share
     one), `pareto` (True: no design of the scene is lighter without absorbing less, none absorbs
-    more without being heavier; under a dead load: without sinking more, sinks less), `ranked_by`,
+    more without being heavier; where `LEAST` counts, the same for that), `ranked_by`,
     with a panel `panel_mass_g` and `panel_energy_J`; and `passed_on_N`, the greatest force while
     that energy is absorbed, `returned_share` of the work of the whole crush, which was stored and
     not dissipated, `beyond_model` (True: a wall was squeezed too far while it was absorbed).
@@ -116,7 +123,7 @@ def rank(
     ranking = pd.concat(parts, ignore_index=True)
     labelled = pd.concat([rows for rows, _ in scenes])
     ranking.attrs = names | {
-        "by": next((order for _, order in scenes if order != "peak_strain"), "peak_strain"),
+        "by": next((o for _, o in scenes if by or o not in LEAST.values()), scenes[0][1]),
         "cases": len(summary),
         "failed": len(summary) - len(finished),
         "unranked": sum(int(rows[order].isna().sum()) for rows, order in scenes),
@@ -148,6 +155,9 @@ def scene_label(rows: DataFrame) -> str:
         words = [f"dead load of {first['force_N']:g} N"]
     elif first["loading_mode"] == "custom":
         words = ["loaded as its file says"]
+    elif first["loading_mode"] == "impact":
+        struck = short(float(first["striker_mass_g"])), short(float(first["striker_speed_m_per_s"]))
+        words = [f"struck by {struck[0]} g at {struck[1]} m/s"]
     elif len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
         words = [f"crushed to {100 * strains[0]:g} %"]
         said |= {"loading.strain", "loading.stroke"}
@@ -178,14 +188,18 @@ def short(value: float | str | None) -> str:
 
 def _order(rows: DataFrame, by: str | None, usual: str) -> str:
     """The column by which the rows of one scene are sorted."""
-    loaded = rows["loading_mode"].eq("force").any()
-    return by or ("peak_strain" if loaded else usual)
+    return by or _least(rows) or usual
+
+
+def _least(rows: DataFrame) -> str | None:
+    """The column of `LEAST` for the rows of one scene."""
+    return None if rows.empty else LEAST.get(rows["loading_mode"].iloc[0])
 
 
 def _with_scene(rows: DataFrame, names: dict[str, str]) -> DataFrame:
     """Rows of one scene with its label and their Pareto flag."""
-    loaded = rows["loading_mode"].eq("force")
-    merit = rows[names["energy"]].where(~loaded, -rows["peak_strain"])
+    least = _least(rows)
+    merit = rows[names["energy"]] if least is None else -rows[least]
     return rows.assign(scene=scene_label(rows), pareto=pareto(rows[names["mass"]], merit))
 
 

@@ -4,14 +4,17 @@ Keys that the mode does not use become None, so that equal physics has an equal 
 together is refused. Resolving what is resolved changes nothing.
 """
 
-from math import ceil, isclose
+from math import ceil, isclose, sqrt
 from typing import TypeVar
 
 from sweep.custom import Structure
 from sweep.specimen import Lattice
-from sweep.tables import MAX_STEPS, Contact, Damping, Loading, Solver, Table, refusal
+from sweep.tables import MAX_STEPS, Contact, Damping, Loading, Material, Solver, Table, refusal
 
 T = TypeVar("T")
+
+PASSAGES = 10  # times that the striker takes for the height of the lattice: duration of an impact
+STEPS_OF_PASSAGE = 1000  # in one of these times
 
 
 def resolve(
@@ -19,7 +22,7 @@ def resolve(
 ) -> dict[str, Table]:
     """The tables that depend on one another and on the lattice, nothing left open."""
     loading, wish = _loading(loading, lattice, solver.integrator), solver.time_step
-    solver = _solver(solver, loading)
+    solver = _solver(solver, loading, lattice.height)
     _check_steps(steps(loading, solver), solver, wish)
     return {
         "loading": loading,
@@ -27,6 +30,13 @@ def resolve(
         "damping": _damping(damping, loading),
         "solver": solver,
     }
+
+
+def check_section(material: Material, nodes_per_wall: int, solver: Solver) -> None:
+    """A wall of one element bends as an exact beam only where moment is proportional to turn."""
+    if material.bend == "section" and nodes_per_wall == 0 and solver.hinges == "exact_beam":
+        allowed = '"linear" if lattice.nodes_per_wall is 0 and solver.hinges "exact_beam"'
+        raise refusal("material.bend", "section", allowed)
 
 
 def steps(loading: Loading, solver: Solver) -> float:
@@ -55,6 +65,8 @@ def _loading(loading: Loading, lattice: Lattice, integrator: str | None) -> Load
         raise refusal("loading.mode", "custom", allowed)
     if loading.mode == "force":
         return _force(loading, integrator)
+    if loading.mode == "impact":
+        return _impact(loading, lattice.height, integrator)
     return _displacement(loading, lattice.height, integrator)
 
 
@@ -90,6 +102,37 @@ def _force(loading: Loading, integrator: str | None) -> Loading:
         platen=loading.platen or "none",
         allowed_forces=loading.allowed_forces,
     )
+
+
+def _impact(loading: Loading, height: float, integrator: str | None) -> Loading:
+    """A striker that is let go at the lattice, watched until `duration`, or until it is back."""
+    if integrator == "static":
+        raise refusal("solver.integrator", "static", '"backward_euler" if loading.mode is "impact"')
+    if loading.platen == "none":
+        raise refusal("loading.platen", "none", '"contact" or "glued" if loading.mode is "impact"')
+    striker_mass = _given(loading.striker_mass, 0.05)
+    speed, energy = _speed_and_energy(loading, striker_mass)
+    return Loading(
+        mode="impact",
+        striker_mass=striker_mass,
+        striker_speed=speed,
+        energy=energy,
+        duration=_given(loading.duration, PASSAGES * height / speed),
+        platen=loading.platen or "glued",
+        allowed_forces=loading.allowed_forces,
+    )
+
+
+def _speed_and_energy(loading: Loading, striker_mass: float) -> tuple[float, float]:
+    """Each from the other: 2 m/s if neither is given."""
+    if loading.striker_speed is None and loading.energy is not None:
+        return sqrt(2.0 * loading.energy / striker_mass), loading.energy
+    speed = _given(loading.striker_speed, 2.0)
+    energy = 0.5 * striker_mass * speed**2
+    if not isclose(_given(loading.energy, energy), energy, rel_tol=1e-9):
+        allowed = f"{energy:g} J at the speed given; give one of them"
+        raise refusal("loading.energy", loading.energy, allowed)
+    return speed, energy
 
 
 def _displacement(loading: Loading, height: float, integrator: str | None) -> Loading:
@@ -138,7 +181,7 @@ def _contact(contact: Contact, loading: Loading, structure: Structure | None) ->
         return Contact(model="none", friction=None, stiffness=None)
     if loading.quasi_static or not contact.friction:
         return contact.model_copy(update={"slip_speed": None})
-    reference = 0.1 if loading.speed is None else loading.speed
+    reference = loading.speed or loading.striker_speed or 0.1
     return contact.model_copy(update={"slip_speed": _given(contact.slip_speed, 0.01 * reference)})
 
 
@@ -165,10 +208,13 @@ def _damping(damping: Damping, loading: Loading) -> Damping:
     return damping.model_copy(update={"model": model, **dict.fromkeys(unused[model])})
 
 
-def _solver(solver: Solver, loading: Loading) -> Solver:
+def _solver(solver: Solver, loading: Loading, height: float) -> Solver:
     """A platen moves in `load_steps` equal steps, which set the time step if there is time."""
     if loading.mode == "force" or (loading.mode == "custom" and not loading.quasi_static):
         step = {"time_step": _given(solver.time_step, 1e-4), "load_steps": None}
+    elif loading.striker_speed is not None:
+        usual = height / loading.striker_speed / STEPS_OF_PASSAGE
+        step = {"time_step": _given(solver.time_step, usual), "load_steps": None}
     elif loading.quasi_static:
         step = {"time_step": None, "load_steps": _given(solver.load_steps, 200)}
     else:

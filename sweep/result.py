@@ -68,14 +68,17 @@ COLUMNS: dict[str, Column] = {
     "depth_m": Column("m", "depth of the walls, out of the plane"),
     "outer_width_m": Column("m", "width over all, walls included"),
     "material": Column("", 'name of the material; "by numbers" when it has none'),
-    "loading_mode": Column("", "force, displacement or custom"),
+    "loading_mode": Column("", "force, displacement, impact or custom"),
     "platen": Column("", "none, contact or glued"),
     "force_N": Column("N", "dead force on the top; NaN unless the mode is force"),
     "stroke_m": Column("m", "prescribed travel of the top; NaN unless the mode is displacement"),
+    "striker_mass_g": Column("g", "mass of the striker; NaN unless the mode is impact"),
+    "striker_speed_m_per_s": Column("m/s", "its speed at first touch; NaN unless it is impact"),
+    "impact_energy_J": Column("J", "its energy at first touch; NaN unless the mode is impact"),
     "contact_model": Column("", "how walls touch: none, barrier or position_based"),
     "mass_g": Column("g", "density x exact area of the printed walls x depth"),
     "relative_density": Column("1", "printed area / area of the bounding box"),
-    "absorbed_energy_J": Column("J", "work done on the lattice down to the stroke, or to release"),
+    "absorbed_energy_J": Column("J", "work done on the lattice until release, full stroke or stop"),
     "absorbed_energy_at_densification_J": Column(
         "J", "work done until the lattice has packed down; all of it where it does not"
     ),
@@ -83,7 +86,7 @@ COLUMNS: dict[str, Column] = {
         "J", "work done until an element is squeezed below 0.7 of its length; all if none is"
     ),
     "returned_energy_J": Column(
-        "J", "work given back to the platen on its way back; NaN where none moves back"
+        "J", "work given back to the platen or striker on its way back; NaN where none moves back"
     ),
     "dissipated_energy_J": Column("J", "dissipated by material, friction and time integrator"),
     "dissipated_integrator_J": Column("J", "energy that the time integrator itself removed"),
@@ -104,12 +107,19 @@ COLUMNS: dict[str, Column] = {
     ),
     "peak_force_N": Column(
         "N",
-        "greatest force on a platen or support; for dead loads it depends on the time step",
+        "greatest force on a platen or support; for dead loads it depends on the time step, of an "
+        "impact it is that on the support",
     ),
     "peak_force_at_densification_N": Column(
         "N", "the same until the lattice has packed down, or until release"
     ),
     "peak_strain": Column("1", "greatest top displacement / height"),
+    "peak_deceleration_m_per_s2": Column("m/s^2", "greatest deceleration of the striker, else NaN"),
+    "stroke_left_m": Column(
+        "m", "what is left at the striker's stop of the height that closes all voids, else NaN"
+    ),
+    "rebound_speed_m_per_s": Column("m/s", "greatest speed of the striker upwards, else NaN"),
+    "rebound_share": Column("1", "energy of the striker at that speed / at first touch, else NaN"),
     "residual_strain": Column(
         "1", "in the last stored shape, loss of distance between top and bottom row / height"
     ),
@@ -155,6 +165,12 @@ HISTORY_COLUMNS: dict[str, Column] = {
 }
 """Every column that a history always has, in the order in which it is stored."""
 
+STRIKER_COLUMNS: dict[str, Column] = {
+    "striker_speed_m_per_s": Column("m/s", "speed of the striker downwards"),
+    "deceleration_m_per_s2": Column("m/s^2", "its mean deceleration since the row before"),
+}
+"""Columns that the history of an impact has, too."""
+
 FRAME_COLUMNS: dict[str, Column] = {
     "strain": Column("1", "top displacement / height of a frame"),
     "time_s": Column("s", "time of a frame"),
@@ -186,7 +202,7 @@ def describe_history(name: str) -> Column:
         return Column(unit.replace("Nm", "N m"), f"{what.replace('_', ' ')} at node {node}")
     if name == "load_factor":
         return Column("1", "share of the loads and prescribed moves that is on")
-    return HISTORY_COLUMNS[name]
+    return (HISTORY_COLUMNS | STRIKER_COLUMNS)[name]
 
 
 def is_grid_key(name: str) -> bool:
@@ -227,6 +243,9 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
         "platen": loading.platen or "",
         "force_N": nan if loading.force is None else loading.force,
         "stroke_m": nan if loading.stroke is None else loading.stroke,
+        "striker_mass_g": nan if loading.striker_mass is None else 1e3 * loading.striker_mass,
+        "striker_speed_m_per_s": nan if loading.striker_speed is None else loading.striker_speed,
+        "impact_energy_J": nan if loading.energy is None else loading.energy,
         "contact_model": case.contact.model,
     }
 

@@ -7,26 +7,15 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from kernels import (
-    chain,
-    contact,
-    damp,
-    friction,
-    law,
-    newton,
-    pattern,
-    project,
-    spring,
-    stretch,
-    vicinity,
-)
+from kernels import chain, damp, friction, newton, pattern, spring, stretch
 from kernels.step import Terms
 from sweep.joints import bends, build_bend, build_fold
 from sweep.lattice import Network, build_network, mass
 from sweep.layout import Layout, held, leaders
-from sweep.material import stress_law
+from sweep.material import as_law, stress_law
 from sweep.mesh import Floats, Ints, Mesh, row_nodes, split_walls
 from sweep.params import Case, Loading, Material, given
+from sweep.touch import contact_of, projection_of
 
 STATIC_SLIP = 1e-3  # of the wall thickness
 NO_SPRINGS = spring.Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
@@ -59,17 +48,6 @@ def plane_factors(material: Material) -> tuple[float, float]:
     return {"strain": (strain, strain), "stress": (1.0, 1.0), "strain_bending": (1.0, strain)}[
         material.plane
     ]
-
-
-def law_of(material: Material, factor: float) -> law.Law:
-    """The law of a material, its stress times ``factor``."""
-    curve = stress_law(material)
-    coefficients = factor * np.ascontiguousarray(curve.coefficients)
-    width = np.diff(curve.knots)[:, None] ** np.arange(1, 5)
-    gained = np.sum(coefficients * width / np.arange(1, 5), axis=1)
-    energy = np.concatenate([[0.0], np.cumsum(gained)])
-    raw = law.Law(curve.knots, coefficients, energy, factor * material.modulus)
-    return raw._replace(energy=energy - law.uniaxial(raw, 0.0)[0])
 
 
 def stretch_of(mesh: Mesh, case: Case) -> stretch.Stretch:
@@ -105,73 +83,18 @@ def solved_by(mesh: Mesh, layout: Layout, leader: Ints, case: Case) -> pattern.L
     )
 
 
-def _no_special_pairs(n_nodes: int) -> tuple[Ints, Ints, Floats, Floats, Floats]:
-    """What `vicinity.special_pairs` returns where walls never touch."""
-    start, edge = np.zeros(n_nodes + 1, np.int64), np.empty(0, np.int64)
-    return start, edge, np.empty(0), np.empty(0), np.empty((0, 2))
-
-
-def contact_of(
-    mesh: Mesh, layout: Layout, stiffness: float, case: Case, by_force: bool
-) -> contact.Contact:
-    """Contact of walls unless the model is none, and of nodes with loose platens.
-
-    Of the two kinds, ``by_force`` and by position, the one that the case has not is absent.
-    """
-    acts = by_force == (case.contact.model != "position_based")
-    tributary = mesh.tributary(np.ones(len(mesh.edges)))
-    node_thickness = mesh.tributary(mesh.thickness) / tributary
-    walls = acts and case.contact.model != "none"
-    edges, thickness = mesh.edges[: None if walls else 0], mesh.thickness[: None if walls else 0]
-    special = _no_special_pairs(layout.n_nodes)
-    if walls:
-        special = vicinity.special_pairs(
-            mesh.points.ravel(), edges, mesh.rest_length, node_thickness, thickness, tributary
-        )
-    return contact.Contact(
-        stiffness=stiffness,
-        reach=thickness.max(initial=0.0),
-        edges=edges,
-        tributary=tributary,
-        node_thickness=node_thickness,
-        edge_thickness=thickness,
-        subtract=vicinity.owners(layout.n_nodes, edges),
-        special_start=special[0],
-        special_edge=special[1],
-        special_weight=special[2],
-        special_distance=special[3],
-        special_subtract=special[4],
-        plate_nodes=_loose(layout, case)[: None if acts else 0],
-        low=layout.low,
-        high=layout.high,
-    )
-
-
-def _loose(layout: Layout, case: Case) -> Ints:
-    """Nodes that a platen can meet: all of them; those that are not glued to it, if walls touch."""
-    nodes = np.arange(layout.n_nodes)
-    if case.loading.platen == "contact":
-        return nodes
-    if case.loading.platen == "glued" and case.contact.model != "none":
-        return np.setdiff1d(nodes, np.union1d(layout.bottom, layout.top))
-    return nodes[:0]
-
-
-def masses_of(mesh: Mesh, layout: Layout, total: float) -> Floats:
-    """Lumped mass of each coordinate, kg; in each direction they sum to ``total``."""
+def masses_of(mesh: Mesh, layout: Layout, total: float, loading: Loading) -> Floats:
+    """Lumped mass of each coordinate, kg; in each direction nodes sum to ``total``."""
     share = mesh.tributary(mesh.thickness)
     masses = np.zeros(layout.size)
     masses[: 2 * layout.n_nodes] = np.repeat(total * share / share.sum(), 2)
+    masses[layout.high] = loading.striker_mass or 0.0
     return masses
 
 
-def projection_of(
-    mesh: Mesh, layout: Layout, solved: pattern.Layout, masses: Floats, case: Case
-) -> project.Projection:
-    """Contact by position: what moves on its own gives way, by its mass."""
-    own = (solved.leader == np.arange(layout.size)) & (masses > 0.0)
-    ease = np.divide(1.0, masses, out=np.zeros_like(masses), where=own)
-    return project.Projection(contact_of(mesh, layout, 0.0, case, by_force=False), ease)
+def _velocity(layout: Layout, leader: Ints, loading: Loading) -> Floats:
+    """Velocity of each coordinate at the start: a striker flies with what is glued to it, m/s."""
+    return np.where(leader == layout.high, -(loading.striker_speed or 0.0), 0.0)
 
 
 def _load(layout: Layout, case: Case) -> Floats:
@@ -231,14 +154,15 @@ def build_scene(case: Case) -> Scene:
     rigidity = in_bend * case.material.modulus * second_moment
     bending = build_bend(mesh, rigidity, case)
     touching = in_stretch * case.material.modulus * lattice.depth * (case.contact.stiffness or 0.0)
+    printed = mass(network, lattice.depth, case.material.density)
     fixed = held(layout, platen)
     if not bends(case):
         fixed = np.union1d(fixed, layout.rotation)
     tied = 2 * layout.top + 1 if platen == "glued" else np.empty(0, np.int64)
     follows = solved_by(mesh, layout, leaders(layout, fixed, tied), case)
-    masses = masses_of(mesh, layout, mass(network, lattice.depth, case.material.density))
+    masses = masses_of(mesh, layout, printed, case.loading)
     terms = Terms(
-        law=law_of(case.material, in_stretch),
+        law=as_law(stress_law(case.material), in_stretch, case.material.modulus),
         walls=walls_of(mesh, layout),
         stretch=stretch_of(mesh, case),
         bend=bending,
@@ -255,7 +179,8 @@ def build_scene(case: Case) -> Scene:
     return Scene(
         mesh, network, terms, unknowns_of(mesh, layout, follows, case),
         _rest(mesh, layout, terms.contact.node_thickness), *_reported(layout, case.loading),
-        force_scale=force_scale(network, rigidity), velocity=np.zeros(layout.size),
+        force_scale=force_scale(network, rigidity),
+        velocity=_velocity(layout, follows.leader, case.loading),
     )  # fmt: skip
 
 
@@ -275,13 +200,13 @@ def _rest(mesh: Mesh, layout: Layout, thickness: Floats) -> Floats:
 def _reported(layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
     """Coordinates of the lower reaction, of the top and of the base.
 
-    Strain is the travel of a driven platen, or of the loaded row. Under a loose loaded platen it is
-    taken from the extent of the lattice itself, which jumps off when it is released.
+    Strain is the travel of a driven platen or a striker, or of the loaded row. Under a loose loaded
+    platen it is taken from the extent of the lattice itself, which jumps off when it is released.
     """
     bottom = 2 * layout.bottom + 1
     low, high = np.array([layout.low]), np.array([layout.high])
     reaction = {"contact": low, "glued": np.append(bottom, low)}.get(loading.platen or "", bottom)
-    if loading.mode == "displacement":
+    if loading.mode != "force":
         return reaction, high, low
     if loading.platen == "contact":
         return reaction, np.empty(0, np.int64), 2 * np.arange(layout.n_nodes) + 1

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pandas import Series
 
+from sweep.merit import LEAST
 from sweep.rank import ASSUMPTIONS, NOTHING, by_scene, scene_label, short
 
 if TYPE_CHECKING:
@@ -20,6 +21,10 @@ peak: greatest force that one specimen passes on. It and the energy count {until
 pack: strain at which the lattice has packed down.
 back: share of the work of the whole crush that comes back when let up: stored, not dissipated."""
 LOADED = "sink: greatest strain under the load, its swing included."
+STRUCK = """\
+force: greatest on the support. left: of the height that closes all voids, at the striker's stop.
+rebound: share of the striker's energy with which it leaves."""
+FIRST = {"peak_strain": ": least sink first", "peak_force_N": ": least force first"}
 BEYOND = "!: beyond the model, as a wall is squeezed below 0.7 of its length: not to be trusted."
 
 MILLIMETRES = {
@@ -68,9 +73,9 @@ def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
             **design_text(rows, summary),
             **_measures(rows, ranking.attrs),
         }
-        loaded = rows["ranked_by"].eq("peak_strain").all() and not rows.empty
+        order = "" if rows.empty else FIRST.get(rows["ranked_by"].iloc[0], "")
         yield Sheet(
-            title=f"{scene}: least sink first" if loaded else scene,
+            title=f"{scene}{order}",
             heads=list(columns),
             rows=[list(row) for row in zip(*columns.values(), strict=True)],
             opens=frozenset(i for i, text in enumerate(lead.get("up to g", ())) if text),
@@ -88,8 +93,12 @@ def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
 def legend(ranking: DataFrame) -> str:
     """What the marks and the heads of the sheets of a ranking mean."""
     modes = set(ranking["loading_mode"])
-    crushed = [CRUSHED.format(until=ranking.attrs["until"])] if "displacement" in modes else []
-    return "\n".join([MARKS, *crushed, *([LOADED] if "force" in modes else [])])
+    said = {
+        "displacement": CRUSHED.format(until=ranking.attrs["until"]),
+        "force": LOADED,
+        "impact": STRUCK,
+    }
+    return "\n".join([MARKS, *(words for mode, words in said.items() if mode in modes)])
 
 
 def _places(rows: DataFrame) -> Series:
@@ -166,10 +175,13 @@ def _measures(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
     columns = {"mass g": numerals(rows["mass_g"])}
     if "panel_mass_g" in rows:
         columns["panel g"] = numerals(rows["panel_mass_g"])
-    loaded = rows["loading_mode"].eq("force").any()
-    columns |= _under_load(rows) if loaded else _crushed(rows, names)
-    shown = {"mass_g", "panel_mass_g", "peak_strain" if loaded else names["energy"]}
-    shown |= set() if loaded else {names["per_gram"], "densification_strain", "returned_share"}
+    mode, shown = "" if rows.empty else rows["loading_mode"].iloc[0], {"mass_g", "panel_mass_g"}
+    if mode in LEAST:
+        columns |= _under_load(rows) if mode == "force" else _struck(rows)
+        shown |= {LEAST[mode]}
+    else:
+        columns |= _crushed(rows, names)
+        shown |= {names["energy"], names["per_gram"], "densification_strain", "returned_share"}
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
     return columns
@@ -177,6 +189,15 @@ def _measures(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
 
 def _under_load(rows: DataFrame) -> dict[str, Series]:
     return {"sink %": numerals(100.0 * rows["peak_strain"])}
+
+
+def _struck(rows: DataFrame) -> dict[str, Series]:
+    return {
+        "force N": numerals(rows["peak_force_N"]),
+        "sink %": numerals(100.0 * rows["peak_strain"]),
+        "left mm": numerals(1e3 * rows["stroke_left_m"]),
+        "rebound %": rows["rebound_share"].map(percent),
+    }
 
 
 def _crushed(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:

@@ -17,6 +17,9 @@ from sweep.scene import Scene, build_scene, time_step
 from sweep.structure import build_structure
 
 FRAMES = 40
+IMPACT_FRAMES = 4 * FRAMES  # most impacts are over in a quarter of their duration
+GLANCE = 64  # steps of a striker after which one looks whether it is back
+LONGER = "try a longer loading.duration"
 ROUND_OFF = 4e-15
 ADVICE = {
     newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; "
@@ -84,12 +87,13 @@ class _Run:
         self.probed = np.zeros((total + 1, 2, scene.probes.size))
         self.probed[0, 0] = scene.x_rest[scene.probes]
         self._begin()
+        self.rows[0, march.SPEED] = scene.velocity[scene.terms.contact.high]
         self.rows[0, march.HEIGHT] = march.height(scene.x_rest, scene.top, scene.base)
         self.rows[0, march.GAP] = np.nan
-        self.frame_of, kept = _frames(total + 1)
+        self.struck = case.loading.mode == "impact"
+        self.frame_of, kept = _frames(total + 1, IMPACT_FRAMES if self.struck else FRAMES)
         self.positions = np.tile(scene.x_rest, (kept, 1))
         self.done = 1
-        self.loading_rows = self.stages[0].stage.steps + 1
 
     def _begin(self) -> None:
         """Enter what the scene brings with it as work done: speed, and springs under tension.
@@ -114,9 +118,27 @@ class _Run:
                 outcome = self._through(stretch.stage)
                 if outcome != newton.CONVERGED:
                     return self._failed(outcome, stretch.name, late.is_set())
+                if self.struck and self._is_back():
+                    break
         finally:
             timer.cancel()
+        if self.struck and self.rows[self.done - 1, march.SPEED] < 0.0:
+            return Status.STOPPED, f"the striker still sinks {self._where()}; {LONGER}"
         return Status.CONVERGED, ""
+
+    def _is_back(self) -> bool:
+        """Whether the striker is where it started; what it did beyond is dropped."""
+        height = self.rows[: self.done, march.HEIGHT]
+        back = np.flatnonzero(height[1:] >= height[0])
+        self.done = int(back[0]) + 2 if len(back) else self.done
+        return len(back) > 0
+
+    @property
+    def loading_rows(self) -> int:
+        """Rows of the history until release, full stroke, or the striker's stop."""
+        if self.struck:
+            return int(np.argmin(self.rows[: self.done, march.HEIGHT])) + 1
+        return self.stages[0].stage.steps + 1
 
     def _expire(self, late: threading.Event) -> None:
         late.set()
@@ -142,10 +164,7 @@ class _Run:
         return outcome
 
     def _failed(self, outcome: int, stage: str, late: bool) -> tuple[Status, str]:
-        where = f"while {stage}, after {self.done - 1} steps"
-        if self.case.lattice.structure is None:
-            strain = self._strain(self.rows[self.done - 1, march.HEIGHT])
-            where = f"while {stage}, at strain {strain:.3g} after {self.done - 1} steps"
+        where = f"while {stage}, {self._where()}"
         if late:
             limit = self.case.solver.time_limit
             return Status.TIMED_OUT, f"solver.time_limit of {limit:g} s reached {where}; raise it"
@@ -153,6 +172,13 @@ class _Run:
             return Status.STOPPED, f"interrupted {where}; run again to complete it"
         advice = ADVICE[outcome].format(limit=self.case.solver.max_iterations)
         return Status.STOPPED, f"stopped {where}: {advice}"
+
+    def _where(self) -> str:
+        """How far it came, in words."""
+        steps = f"after {self.done - 1} steps"
+        if self.case.lattice.structure is not None:
+            return steps
+        return f"at strain {self._strain(self.rows[self.done - 1, march.HEIGHT]):.3g} {steps}"
 
     def _strain(self, height: Floats) -> Floats:
         """Strain where the top is ``height`` (m) above the base; NaN for a structure."""
@@ -181,9 +207,9 @@ class _Run:
         }
 
 
-def _frames(n_rows: int) -> tuple[np.ndarray, int]:
-    """Slot of every row among some `FRAMES` even frames (-1: not kept), and their number."""
-    kept = np.unique(np.linspace(0, n_rows - 1, min(FRAMES + 1, n_rows)).round().astype(int))
+def _frames(n_rows: int, frames: int) -> tuple[np.ndarray, int]:
+    """Slot of every row among some even ``frames`` (-1: not kept), and their number."""
+    kept = np.unique(np.linspace(0, n_rows - 1, min(frames + 1, n_rows)).round().astype(int))
     frame_of = np.full(n_rows, -1)
     frame_of[kept] = np.arange(len(kept))
     return frame_of, len(kept)
@@ -221,8 +247,16 @@ def stages(case: Case, scene: Scene) -> list[Stretch]:
         down = march.Stage(steps, dt, pace, 0.0, 0.0, rest, low)
         up = march.Stage(steps, dt, pace, 0.0, 0.0, low, rest)
         return [Stretch("loading", down)] + ([Stretch("unloading", up)] if loading.unload else [])
+    if loading.mode == "impact":
+        return _flight(max(round(given(loading.duration) / pace), 1), dt, rest)
     release, duration = given(loading.release_time), given(loading.duration)
     hold, free = max(round(release / pace), 1), max(round((duration - release) / pace), 0)
     held = march.Stage(hold, dt, pace, 1.0, 1.0, rest, rest)
     released = march.Stage(free, dt, pace, 0.0, 0.0, rest, rest)
     return [Stretch("loading", held)] + ([Stretch("released", released)] if free else [])
+
+
+def _flight(steps: int, dt: float, rest: float) -> list[Stretch]:
+    """A striker that flies by itself, in stages after which the run may end."""
+    parts = [min(GLANCE, steps - done) for done in range(0, steps, GLANCE)]
+    return [Stretch("struck", march.Stage(n, dt, dt, 0.0, 0.0, rest, rest)) for n in parts]

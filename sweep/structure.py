@@ -15,23 +15,22 @@ from sweep.custom import Structure
 from sweep.joints import bends, build_bend, build_fold
 from sweep.lattice import Network, mass
 from sweep.layout import Layout
+from sweep.material import as_law, stress_law
 from sweep.mesh import Floats, Ints, Mesh, split_walls
 from sweep.params import Case, given
 from sweep.scene import (
     Scene,
-    contact_of,
     damp_of,
     force_scale,
     friction_of,
-    law_of,
     masses_of,
     plane_factors,
-    projection_of,
     solved_by,
     stretch_of,
     unknowns_of,
     walls_of,
 )
+from sweep.touch import contact_of, projection_of
 
 MM = 1e-3
 FAR = 1e3  # times the size of a structure: where the ceiling is that no contact may miss
@@ -86,9 +85,10 @@ def build_structure(case: Case) -> Scene:
         leader[layout.rotation] = -1
     follows, travel = _led(of, solved_by(mesh, layout, leader, case), layout, mesh)
     touch = contact_of(mesh, layout, touching, case, by_force=True)
-    masses = _masses(of, masses_of(mesh, layout, mass(network, depth, material.density)))
+    printed = mass(network, depth, material.density)
+    masses = _masses(of, masses_of(mesh, layout, printed, case.loading))
     terms = Terms(
-        law=law_of(material, in_stretch),
+        law=as_law(stress_law(material), in_stretch, material.modulus),
         walls=walls_of(mesh, layout),
         stretch=stretch_of(mesh, case),
         bend=_unpinned(bending, mesh, of.pins),

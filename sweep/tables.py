@@ -18,6 +18,7 @@ Lag = Annotated[float, Field(ge=0, json_schema_extra={"unit": "s"})]
 Rate = Annotated[float, Field(ge=0, json_schema_extra={"unit": "1/s"})]
 Speed = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m/s"})]
 Force = Annotated[float, Field(gt=0, json_schema_extra={"unit": "N"})]
+Energy = Annotated[float, Field(gt=0, json_schema_extra={"unit": "J"})]
 Stress = Annotated[float, Field(gt=0, json_schema_extra={"unit": "Pa"})]
 Mass = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
 Density = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg/m^3"})]
@@ -68,13 +69,13 @@ def rounded(value: object) -> object:
 class Material(Table):
     """A material: a record by its name, whose numbers may be overridden, or numbers alone.
 
-    `curve_strain`, `curve_stress` (k,) in Pa hold the record itself (empty if stretch is linear),
-    so that a case needs no file.
+    `curve_strain`, `curve_stress` (k,) in Pa hold the record itself, so that a case needs no file;
+    empty if neither stretching nor bending goes by it.
     """
 
     name: str = "ninjaflex"
     stretch: Literal["nonlinear", "linear"] = "nonlinear"
-    bend: Literal["linear", "none"] = "linear"
+    bend: Literal["linear", "section", "none"] = "linear"
     plane: Literal["strain", "stress", "strain_bending"] = "strain"
     # Filled in before validation, from the record; the zeros are refused if they are not.
     modulus: Stress = Field(default=0.0, validate_default=True)
@@ -94,23 +95,30 @@ class Material(Table):
             return {"name": BY_NUMBERS, "stretch": "linear", **given}
         record = read_record(locate(given.get("name", "ninjaflex")))
         known = {key: getattr(record, key) for key in ("modulus", "density", "poisson")}
-        if given.get("stretch") != "linear":
+        if given.get("stretch") != "linear" or given.get("bend") == "section":
             known |= {"curve_strain": record.strain, "curve_stress": record.stress}
         return {**known, **given, "name": record.name}
 
     @model_validator(mode="after")
     def _has_its_curve(self) -> Self:
-        if self.stretch == "nonlinear":
+        measured = {"stretch": "nonlinear", "bend": "section"}
+        used = [(key, word) for key, word in measured.items() if getattr(self, key) == word]
+        if used:
             if not self.curve_strain:
-                raise refusal("material.stretch", "nonlinear", '"linear", as no curve is given')
+                key, word = used[0]
+                raise refusal(f"material.{key}", word, '"linear", as no curve is given')
             check_curve(self.curve_strain, self.curve_stress)
         elif self.curve_strain:
             raise refusal("material.curve_strain", self.curve_strain, "no curve if linear")
         return self
 
 
-LOADED = ("force", "release_time", "duration")  # keys of a dead load
-PRESSED = ("stroke", "strain", "speed", "quasi_static", "unload")  # keys of a moving platen
+# Keys that say the mode.
+MODES = {
+    "force": ("force", "release_time"),
+    "displacement": ("stroke", "strain", "speed", "quasi_static", "unload"),
+    "impact": ("striker_mass", "striker_speed", "energy"),
+}
 
 
 class Loading(Table):
@@ -120,7 +128,7 @@ class Loading(Table):
     its file says what is done to it.
     """
 
-    mode: Literal["force", "displacement", "custom"] = "force"
+    mode: Literal["force", "displacement", "impact", "custom"] = "force"
     force: Force | None = None
     release_time: Duration | None = None
     duration: Duration | None = None
@@ -129,6 +137,9 @@ class Loading(Table):
     speed: Speed | None = None
     quasi_static: bool | None = None
     unload: bool | None = None
+    striker_mass: Mass | None = None
+    striker_speed: Speed | None = None
+    energy: Energy | None = None
     platen: Literal["none", "contact", "glued"] | None = None
     allowed_forces: Forces = ()
 
@@ -137,13 +148,18 @@ class Loading(Table):
     def _infer_mode(cls, given: Any) -> Any:
         if not isinstance(given, dict) or "mode" in given:
             return given
-        pressed, loaded = (
-            [key for key in keys if given.get(key) is not None] for keys in (PRESSED, LOADED)
-        )
-        if pressed and loaded:
-            keys = f"as loading.{loaded[0]} needs the one and loading.{pressed[0]} the other"
-            raise refusal("loading.mode", None, f'"force" or "displacement", {keys}')
-        return {"mode": "displacement" if pressed else "force", **given}
+        said = {
+            mode: next(key for key in keys if given.get(key) is not None)
+            for mode, keys in MODES.items()
+            if any(given.get(key) is not None for key in keys)
+        }
+        if given.get("duration") is not None and "impact" not in said:
+            said.setdefault("force", "duration")
+        if len(said) > 1:
+            (one, key), (other, also) = list(said.items())[:2]
+            keys = f"as loading.{key} needs the one and loading.{also} the other"
+            raise refusal("loading.mode", None, f'"{one}" or "{other}", {keys}')
+        return {"mode": next(iter(said), "force"), **given}
 
 
 class Contact(Table):

@@ -196,6 +196,9 @@ def bend_of(of: Frame, measure: int = bend.ANGLE, exact: bool = True) -> bend.Be
         arm_rest=along[of.arm_element],
         arm_stiffness=at_end[of.arm_element],
         coupling=np.where(single, 2 * per_length[of.start[:-1]], 0.0),
+        section=linear_law(1.0),
+        hinge_surface=np.empty(0),
+        arm_surface=np.empty(0),
     )
 
 

@@ -35,6 +35,7 @@ def load(tmp_path):
         ("thousand", 1000),
         ("custom", 1),
         ("seed", 14),
+        ("impact", 24),
     ],
 )
 def test_shipped_configs_expand(name, cases):
@@ -44,7 +45,7 @@ def test_shipped_configs_expand(name, cases):
 
 
 def test_every_shipped_config_is_pinned():
-    names = {"smoke", "armor", "infills", "thousand", "custom", "seed"}
+    names = {"smoke", "armor", "infills", "thousand", "custom", "seed", "impact"}
     assert {path.stem for path in CONFIGS.glob("*.toml")} == names
 
 

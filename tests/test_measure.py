@@ -138,7 +138,13 @@ def test_a_force_that_is_passed_on_from_the_start_or_by_one_row():
 
 def test_the_greater_of_both_platens_is_passed_on():
     history = {"reaction_top_N": np.array([1.0, 5.0]), "reaction_bottom_N": np.array([2.0, 4.0])}
-    assert list(transmitted(history)) == [2.0, 5.0]
+    assert list(transmitted(Case(), history)) == [2.0, 5.0]
+
+
+def test_a_struck_lattice_passes_on_what_its_support_bears():
+    history = {"reaction_top_N": np.array([9.0, 5.0]), "reaction_bottom_N": np.array([2.0, 4.0])}
+    struck = Case(loading=Loading(mode="impact"))
+    assert list(transmitted(struck, history)) == [2.0, 4.0]
 
 
 def test_work_is_split_where_the_platen_turns():

@@ -95,7 +95,7 @@ def test_every_key_is_explained(table):
 @pytest.mark.parametrize("table", TABLES)
 def test_defaults_are_those_of_a_case(table):
     said = re.findall(r'`(\w+)` ("[^"]+"|true|[\d.e-]+\d)', keys_of(table))
-    modes = [Case(), Case(loading=Loading(mode="displacement"))]
+    modes = [Case(loading=Loading(mode=mode)) for mode in ("force", "displacement", "impact")]
     modes.append(Case(damping=Damping(model="kelvin_voigt")))
     assert len(said) >= 2
     for name, text in said:

@@ -39,12 +39,14 @@ VALUES = {
 }
 
 CHOICES = {
-    '[loading]\nmode = "impact"': ('loading.mode = "impact"; "force", "displacement" or "custom"'),
+    '[loading]\nmode = "shake"': (
+        'loading.mode = "shake"; "force", "displacement", "impact" or "custom"'
+    ),
     '[lattice]\nkind = "hexagon"': (
         'lattice.kind = "hexagon"; "brick", "circle", "diamond", "hex", "kagome", "reentrant",'
         ' "square", "triangle" or "custom"'
     ),
-    '[material]\nbend = "section"': 'material.bend = "section"; "linear" or "none"',
+    '[material]\nbend = "curve"': 'material.bend = "curve"; "linear", "section" or "none"',
     '[contact]\nmodel = "by_position"': (
         'contact.model = "by_position"; "none", "barrier" or "position_based"'
     ),

@@ -9,6 +9,7 @@ from sweep.params import Case, Contact, Loading, Material
 from sweep.result import (
     COLUMNS,
     HISTORY_COLUMNS,
+    STRIKER_COLUMNS,
     Result,
     Status,
     absorbed_energy_column,
@@ -24,6 +25,7 @@ def a_case(**loading):
     lattice = {"kind": "square", "cells_x": 3, "cells_y": 2, "wall_thickness": 8e-4}
     lattice |= {"width": 0.0125, "height": 0.0125, "depth": 0.012, "outer_size": (0.0133, 0.0133)}
     loads = {"mode": "force", "platen": "none", "force": 10.0, "stroke": None}
+    loads |= dict.fromkeys(("striker_mass", "striker_speed", "energy"))
     return SimpleNamespace(
         case_id="0123456789abcdef",
         lattice=SimpleNamespace(**lattice),
@@ -33,9 +35,10 @@ def a_case(**loading):
     )
 
 
-@pytest.mark.parametrize("columns", [COLUMNS, HISTORY_COLUMNS])
+@pytest.mark.parametrize("columns", [COLUMNS, HISTORY_COLUMNS, STRIKER_COLUMNS])
 def test_every_column_has_units_that_its_name_ends_in(columns):
-    endings = {"J_per_g": "J/g", "J": "J", "g": "g", "N": "N", "m": "m", "s": "s", "Pa": "Pa"}
+    endings = {"m_per_s2": "m/s^2", "m_per_s": "m/s", "J_per_g": "J/g"}
+    endings |= {"J": "J", "g": "g", "N": "N", "m": "m", "s": "s", "Pa": "Pa"}
     for name, column in columns.items():
         ending = next((units for end, units in endings.items() if name.endswith(f"_{end}")), None)
         assert column.description

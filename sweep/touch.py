@@ -1,0 +1,69 @@
+"""What of a case may touch: walls by force or by position, and nodes with platens."""
+
+import numpy as np
+
+from kernels import contact, pattern, project, vicinity
+from sweep.layout import Layout
+from sweep.mesh import Floats, Ints, Mesh
+from sweep.params import Case
+
+
+def _no_special_pairs(n_nodes: int) -> tuple[Ints, Ints, Floats, Floats, Floats]:
+    """What `vicinity.special_pairs` returns where walls never touch."""
+    start, edge = np.zeros(n_nodes + 1, np.int64), np.empty(0, np.int64)
+    return start, edge, np.empty(0), np.empty(0), np.empty((0, 2))
+
+
+def contact_of(
+    mesh: Mesh, layout: Layout, stiffness: float, case: Case, by_force: bool
+) -> contact.Contact:
+    """Contact of walls unless the model is none, and of nodes with loose platens.
+
+    Of the two kinds, ``by_force`` and by position, the one that the case has not is absent.
+    """
+    acts = by_force == (case.contact.model != "position_based")
+    tributary = mesh.tributary(np.ones(len(mesh.edges)))
+    node_thickness = mesh.tributary(mesh.thickness) / tributary
+    walls = acts and case.contact.model != "none"
+    edges, thickness = mesh.edges[: None if walls else 0], mesh.thickness[: None if walls else 0]
+    special = _no_special_pairs(layout.n_nodes)
+    if walls:
+        special = vicinity.special_pairs(
+            mesh.points.ravel(), edges, mesh.rest_length, node_thickness, thickness, tributary
+        )
+    return contact.Contact(
+        stiffness=stiffness,
+        reach=thickness.max(initial=0.0),
+        edges=edges,
+        tributary=tributary,
+        node_thickness=node_thickness,
+        edge_thickness=thickness,
+        subtract=vicinity.owners(layout.n_nodes, edges),
+        special_start=special[0],
+        special_edge=special[1],
+        special_weight=special[2],
+        special_distance=special[3],
+        special_subtract=special[4],
+        plate_nodes=_loose(layout, case)[: None if acts else 0],
+        low=layout.low,
+        high=layout.high,
+    )
+
+
+def _loose(layout: Layout, case: Case) -> Ints:
+    """Nodes that a platen can meet: all of them; those that are not glued to it, if walls touch."""
+    nodes = np.arange(layout.n_nodes)
+    if case.loading.platen == "contact":
+        return nodes
+    if case.loading.platen == "glued" and case.contact.model != "none":
+        return np.setdiff1d(nodes, np.union1d(layout.bottom, layout.top))
+    return nodes[:0]
+
+
+def projection_of(
+    mesh: Mesh, layout: Layout, solved: pattern.Layout, masses: Floats, case: Case
+) -> project.Projection:
+    """Contact by position: what moves on its own gives way, by its mass."""
+    own = (solved.leader == np.arange(layout.size)) & (masses > 0.0)
+    ease = np.divide(1.0, masses, out=np.zeros_like(masses), where=own)
+    return project.Projection(contact_of(mesh, layout, 0.0, case, by_force=False), ease)
