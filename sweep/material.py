@@ -68,7 +68,7 @@ def section_law(material: Material) -> StressLaw:
     With d(u) = sigma(u) - sigma(-u):  m = 1/s^2 integral_0^s d(u) u du,  m' = (d(s) - 2 m) / s.
     Beyond the table, where the inner surface is crushed to 0.3 of its length: the last tangent.
     """
-    if material.bend == "linear":
+    if material.bend != "section":
         return linear_law(material.modulus)
     knots, values, slopes = _knots(material.curve_strain, material.curve_stress)
     curve = as_law(_spline(knots, values, slopes), 1.0, material.modulus)

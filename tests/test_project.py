@@ -91,7 +91,7 @@ def dropped(model="position_based", force=15.0, time_step=2e-4, duration=0.016):
 
 def test_energies_of_a_step_are_those_of_where_it_was_moved_to():
     """Motion from the shapes alone, (x' - x) / dt, and stretching from the lengths in them."""
-    case = dropped(duration=8e-3)
+    case = dropped(duration=6e-3)
     result, scene = run(case), build_scene(case)
     history, frames = result.history, result.frames
     assert len(frames["time_s"]) == len(history["time_s"]) == result.summary["steps"] + 1
@@ -105,7 +105,7 @@ def test_energies_of_a_step_are_those_of_where_it_was_moved_to():
     energy = 0.5 * MATERIAL.modulus * scene.terms.stretch.area / length[0]
     stored = np.sum(energy * (length - length[0]) ** 2, axis=1)
     linear = np.all(length > 0.3 * length[0], axis=1)  # a guard acts below
-    assert linear.sum() > 30
+    assert linear.sum() > 20
     np.testing.assert_allclose(stored[linear], history["stretch_J"][linear], rtol=1e-9, atol=1e-15)
 
 

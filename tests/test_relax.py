@@ -11,8 +11,10 @@ from kernels import newton, relax
 def unknowns(n, leap=1.0):
     """What the iteration knows of its coordinates: lengths of 1 m and 2 m."""
     scale = np.where(np.arange(n) % 2 == 0, 1.0, 2.0)
-    leader = np.arange(n)
-    return newton.Unknowns(leader, scale, 1.0 / scale, -1, 1.0, leap, 1.0)
+    return newton.Unknowns(
+        leader=np.arange(n), ratio=np.ones(n), scale=scale, lever=1.0 / scale, driven=-1, cap=1.0,
+        leap=leap, close=1.0,
+    )  # fmt: skip
 
 
 def iterated(image, y, loops, leap=1.0):
