@@ -26,7 +26,8 @@ Floats = NDArray[np.float64]
 Frames = Mapping[str, np.ndarray]
 
 SQUEEZED = -0.3  # element strain beyond which a wall is a block
-TOGETHER = 1 << 20  # pairs of boxes that are compared at a time
+SWEPT = 1 << 14  # elements x shapes whose boxes are joined: small lattices in one go
+TOGETHER = 1 << 17  # pairs of boxes that are compared at a time
 
 
 def element_strains(frames: Frames) -> Floats:
@@ -92,9 +93,15 @@ def crossings(frames: Frames) -> int:
     elements without a common node whose boxes overlap.
     """
     ends = frames["position_m"][:, frames["edges"]]
+    parts = np.array_split(ends, 1 + ends.shape[0] * ends.shape[1] // SWEPT)
+    return max(_most_crossings(part, frames["edges"]) for part in parts if len(part) > 0)
+
+
+def _most_crossings(ends: Floats, edges: NDArray[np.int64]) -> int:
+    """The same of a few shapes; ends (f, m, 2, 2), edges (m, 2)."""
     low, high = ends.min(axis=2), ends.max(axis=2)
     met = _ever_near(low, high)
-    nodes = frames["edges"][met]
+    nodes = edges[met]
     apart = ~np.any(nodes[:, 0, :, None] == nodes[:, 1, None], axis=(1, 2))
     crossed = np.zeros(len(ends), np.int64)
     for one, two in np.array_split(met[apart].T, 1 + len(met) * len(ends) // TOGETHER, axis=1):
