@@ -22,7 +22,7 @@ from kernels.newton import (
 )
 from kernels.relax import approach
 from kernels.room import CHANGE, LAGGED, PREDICTED, make_room
-from kernels.rows import copy, total, zero
+from kernels.rows import copy, dot, total, zero
 from kernels.step import Step, drift, find_near, holds_crowd, least_gap, rub, store
 
 WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR = range(8)
@@ -85,14 +85,6 @@ class Output(NamedTuple):
     probed: np.ndarray
 
 
-@jit_exact
-def _dot(a, b):
-    total = 0.0
-    for i in range(a.size):
-        total += a[i] * b[i]
-    return total
-
-
 @jit_inlined
 def _enter(terms, step, unknowns, state, at, work):
     """Add one converged step, found by the last `evaluate`, to the energy book."""
@@ -103,11 +95,11 @@ def _enter(terms, step, unknowns, state, at, work):
         reduce(at.g, unknowns, work.residual)
         held, lead = work.residual[unknowns.driven], at.u[unknowns.driven]
     factor = theta * step.factor + (1.0 - theta) * state.held[1]
-    book[WORK] += factor * _dot(terms.load, at.u)
+    book[WORK] += factor * dot(terms.load, at.u)
     book[WORK] += (theta * held + (1.0 - theta) * state.held[0]) * lead
-    book[MATERIAL] += _dot(at.material, at.u)
-    book[FRICTION] += theta * _dot(at.rubbing, at.u) + (1.0 - theta) * _dot(state.rubbing, at.u)
-    loss = theta * _dot(at.elastic, at.u) + (1.0 - theta) * _dot(state.elastic, at.u)
+    book[MATERIAL] += dot(at.material, at.u)
+    book[FRICTION] += theta * dot(at.rubbing, at.u) + (1.0 - theta) * dot(state.rubbing, at.u)
+    loss = theta * dot(at.elastic, at.u) + (1.0 - theta) * dot(state.elastic, at.u)
     total = 0.0
     for k in range(at.stored.size):
         loss -= at.stored[k] - state.stored[k]
@@ -220,12 +212,11 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
     while todo[ROW] < stage.steps:
         if todo[LOOPS] < 0.0:
             todo[SHARE] = min(todo[SHARE], 1.0 - todo[DONE])
-            part = (todo[ROW] + todo[DONE] + todo[SHARE]) / stage.steps
-            target = stage.driven0 + (stage.driven1 - stage.driven0) * part
-            _begin(terms, stage, target, unknowns.driven, state, near, room, todo)
         part = (todo[ROW] + todo[DONE] + todo[SHARE]) / stage.steps
         factor = stage.factor0 + (stage.factor1 - stage.factor0) * part
         target = stage.driven0 + (stage.driven1 - stage.driven0) * part
+        if todo[LOOPS] < 0.0:
+            _begin(terms, stage, target, unknowns.driven, state, near, room, todo)
         step = Step(before, way[PREDICTED], stage.dt * todo[SHARE], factor, grips)
         outcome, spent, todo[MOVE] = minimise(
             state.x, target, terms, step, near, unknowns, tolerance, at, work, control

@@ -14,7 +14,7 @@ import numpy as np
 
 from kernels import chain, system
 from kernels.jit import jit, jit_exact, jit_inlined
-from kernels.rows import copy, zero, zero_rows
+from kernels.rows import copy, dot, zero, zero_rows
 from kernels.step import covers, evaluate, factor, step_limit
 
 CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
@@ -108,14 +108,6 @@ def _longest(direction, unknowns):
 
 
 @jit_exact
-def _dot(a, b):
-    total = 0.0
-    for i in range(a.size):
-        total += a[i] * b[i]
-    return total
-
-
-@jit_exact
 def _lead(direction, unknowns, remaining):
     """Write the moves of all that is led when the driven coordinate goes ``remaining`` m."""
     for i in range(direction.size):
@@ -147,7 +139,7 @@ def _solve(terms, near, unknowns, at, work, remaining):
     system.solve(near.system, terms.layout, direction)
     if remaining != 0.0:
         _lead(direction, unknowns, remaining)
-    return _dot(at.g, direction)
+    return dot(at.g, direction)
 
 
 @jit_exact
@@ -158,7 +150,7 @@ def _aim_off(terms, near, unknowns, at, work, place):
     """
     wall, failed, pivot = place
     system.descend(near.system, terms.layout, wall, failed, work.escape)
-    slope = _dot(at.g, work.escape)
+    slope = dot(at.g, work.escape)
     factor = unknowns.leap / _longest(work.escape, unknowns) * (-1.0 if slope > 0.0 else 1.0)
     for i in range(work.escape.size):
         work.escape[i] *= factor

@@ -49,6 +49,15 @@ def greatest(vector):
 
 
 @jit_exact
+def dot(a, b):
+    """Return the sum of the products of ``a`` (n,) and ``b`` (n,)."""
+    value = 0.0
+    for i in range(a.size):
+        value += a[i] * b[i]
+    return value
+
+
+@jit_exact
 def total(vector):
     """Return the sum of ``vector`` (n,)."""
     value = 0.0

@@ -41,7 +41,7 @@ class Case(BaseModel):
     @model_validator(mode="after")
     def _resolve(self) -> Self:
         lattice = sized(self.lattice, self.material.density)
-        check_section(self.material, lattice.nodes_per_wall, self.solver)
+        check_section(self.material, lattice, self.solver)
         resolved = resolve(lattice, self.loading, self.contact, self.damping, self.solver)
         for name, table in ({"lattice": lattice} | resolved).items():
             object.__setattr__(self, name, table)  # frozen from here on

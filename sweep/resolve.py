@@ -32,11 +32,16 @@ def resolve(
     }
 
 
-def check_section(material: Material, nodes_per_wall: int, solver: Solver) -> None:
+def check_section(material: Material, lattice: Lattice, solver: Solver) -> None:
     """A wall of one element bends as an exact beam only where moment is proportional to turn."""
-    if material.bend == "section" and nodes_per_wall == 0 and solver.hinges == "exact_beam":
-        allowed = '"linear" if lattice.nodes_per_wall is 0 and solver.hinges "exact_beam"'
-        raise refusal("material.bend", "section", allowed)
+    if material.bend == "section" and solver.hinges == "exact_beam":
+        cause = "lattice.nodes_per_wall is 0"
+        single = lattice.nodes_per_wall == 0
+        if lattice.structure is not None:
+            cause, single = "subdivide of lattice.file is 1", 1 in lattice.structure.pieces
+        if single:
+            allowed = f'"linear" if {cause} and solver.hinges "exact_beam"'
+            raise refusal("material.bend", "section", allowed)
 
 
 def steps(loading: Loading, solver: Solver) -> float:

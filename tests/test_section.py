@@ -14,6 +14,7 @@ from sweep.mesh import split_walls
 from sweep.params import Case, Lattice, Loading, Material, Solver
 from tests.frames import Frame, bend_of, carried, frame, joint_of_four, scaled, shaken, walls_of
 from tests.scenes import at, is_sound, run, unbalanced
+from tests.structures import structure
 from tests.terms import bending_of, derivative_error, differences, least_share
 
 MEASURES = [bend.ANGLE, bend.TANGENT]
@@ -207,3 +208,14 @@ def test_section_bending_needs_a_curve_and_more_than_one_element():
     with pytest.raises(ValidationError, match=r'"linear" if lattice\.nodes_per_wall is 0'):
         Case(lattice=single, material=Material(bend="section"))
     Case(lattice=single, material=Material(bend="section"), solver=Solver(hinges="classical"))
+
+
+def test_section_bending_needs_more_than_one_element_in_every_wall_of_a_structure():
+    walls = {"nodes_mm": [[0, 0], [10, 0], [20, 0]], "walls": [[0, 1], [1, 2]]}
+    for subdivide, refused in (1, True), ([8, 1], True), ([8, 2], False):
+        lattice = Lattice(kind="custom", structure=structure(**walls, subdivide=subdivide))
+        if not refused:
+            Case(lattice=lattice, material=Material(bend="section"))
+            continue
+        with pytest.raises(ValidationError, match=r"subdivide of lattice\.file is 1"):
+            Case(lattice=lattice, material=Material(bend="section"))
