@@ -14,7 +14,7 @@ import numpy as np
 from kernels.jit import jit, jit_exact, jit_owning
 from kernels.rows import zero
 
-HELD, INNER, DRIVEN = -1, -2, -3  # never moves; eliminated inside its wall; led
+HELD, INNER, DRIVEN, IMAGE = -1, -2, -3, -4  # never moves; eliminated in its wall; led; `image`
 SIZE = 9
 
 
@@ -24,8 +24,8 @@ class Blocks(NamedTuple):
     home (n,): of each coordinate. start (nb + 1,), row (nl,): blocks below each diagonal block.
     update (nu,): targets in the order in which `factor` meets them. values (9 (nb + nl) + 1,): the
     last one takes what belongs nowhere. own (3 nb,): diagonal before the factor. diagonal, pull
-    (n,): by coordinate, diagonal entries and couplings with what is led. ratio (n,): as in
-    `pattern.Layout`. vector (3 nb,), column (9 x longest,): scratch. missing (1,): set when an
+    (n,): by coordinate, diagonal entries and couplings with what is led. ratio (n,), images: as
+    in `pattern.Layout`. vector (3 nb,), column (9 x longest,): scratch. missing (1,): set when an
     entry has no room.
     """
 
@@ -38,6 +38,7 @@ class Blocks(NamedTuple):
     diagonal: np.ndarray
     pull: np.ndarray
     ratio: np.ndarray
+    images: object
     vector: np.ndarray
     column: np.ndarray
     missing: np.ndarray
@@ -79,7 +80,7 @@ def updates(start, row):
 
 
 @jit_owning
-def shaped(home, start, row, ratio):
+def shaped(home, start, row, ratio, images):
     """Return a zero matrix with this pattern."""
     nb, n = start.size - 1, home.size
     longest = 0
@@ -87,8 +88,8 @@ def shaped(home, start, row, ratio):
         longest = max(longest, start[j + 1] - start[j])
     return Blocks(
         home, start, row, updates(start, row), np.zeros(SIZE * (nb + row.size) + 1),
-        np.zeros(3 * nb), np.zeros(n), np.zeros(n), ratio, np.zeros(3 * nb),
-        np.zeros(SIZE * longest), np.zeros(1, np.int64),
+        np.zeros(3 * nb), np.zeros(n), np.zeros(n), ratio, images,
+        np.zeros(3 * nb), np.zeros(SIZE * longest), np.zeros(1, np.int64),
     )  # fmt: skip
 
 
@@ -117,9 +118,18 @@ def position(home, start, row, i, j):
 @jit
 def add(blocks, i, j, value):
     """Add a symmetric pair of entries at coordinates ``i``, ``j`` (once where i == j)."""
-    if i == j:
+    a, b = blocks.home[i], blocks.home[j]
+    if a == IMAGE or b == IMAGE:
+        add_image(blocks, i, j, value, True)
+    elif i == j:
         blocks.diagonal[i] += value
-        return
+    else:
+        _add_pair(blocks, i, j, value)
+
+
+@jit
+def _add_pair(blocks, i, j, value):
+    """Add a symmetric pair of entries at coordinates that differ and are no images."""
     a, b = blocks.home[i], blocks.home[j]
     if a == HELD or b == HELD or (a == DRIVEN and b == DRIVEN):
         return
@@ -135,6 +145,32 @@ def add(blocks, i, j, value):
             blocks.missing[0] = 1
         else:
             blocks.values[at] += 2.0 * value if a == b else value
+
+
+@jit_exact
+def add_image(blocks, i, j, value, pulls):
+    """Add a pair of entries, or one if i == j, of images: to what each of them follows.
+
+    Without ``pulls`` what is led is left out.
+    """
+    share = 0.5 if i == j else 1.0
+    for p, one in _followed(blocks, i):
+        for q, two in _followed(blocks, j):
+            if one != 0.0 and two != 0.0:
+                a, b = blocks.home[p], blocks.home[q]
+                if p == q:
+                    blocks.diagonal[p] += 2.0 * share * one * two * value
+                elif pulls or (a != DRIVEN and b != DRIVEN):
+                    _add_pair(blocks, p, q, share * one * two * value)
+
+
+@jit
+def _followed(blocks, c):
+    """Return the two coordinates that ``c`` follows, with their shares."""
+    if blocks.home[c] != IMAGE:
+        return (c, 1.0), (c, 0.0)
+    of, mean = blocks.images.of[c], blocks.images.mean[c]
+    return (max(of, 0), 1.0 if of >= 0 else 0.0), (mean, blocks.images.times[c])
 
 
 @jit
