@@ -44,13 +44,15 @@ PLATEAU_START = 0.05  # strain from which a plateau is averaged at the earliest
 def history_columns(rows: Floats, scene: Scene, case: Case) -> dict[str, Floats]:
     """Columns of the history from the rows that the march wrote, (rows, N_COLUMNS)."""
     travel = rows[0, march.HEIGHT] - rows[:, march.HEIGHT]
+    endless = case.lattice.boundary == "periodic"  # the same mean stress everywhere
+    below = march.REACTION_TOP if endless else march.REACTION_BOTTOM
     gap = np.where(np.isfinite(rows[:, march.GAP]), rows[:, march.GAP], np.nan)
     return {
         "time_s": rows[:, march.TIME].copy(),
         "strain": travel / (case.lattice.height or np.nan),
         "top_displacement_m": travel,
         "reaction_top_N": rows[:, march.REACTION_TOP].copy(),
-        "reaction_bottom_N": rows[:, march.REACTION_BOTTOM].copy(),
+        "reaction_bottom_N": rows[:, below].copy(),
         **{name: rows[:, column].copy() for name, column in BOOK.items()},
         "newton_iterations": np.diff(rows[:, march.ITERATIONS_DONE], prepend=0.0),
         "min_gap_m": gap,
