@@ -24,17 +24,22 @@ def _scatter(values, target, rows, outer):
 
 @jit
 def _scatter_image(system, layout, w, rows):
-    """Add the entries of wall ``w`` that belong to the image of a joint at its end."""
+    """Add the entries of wall ``w`` that belong to the image of a joint at its end.
+
+    An open wall has no room for those between nodes that are too far apart to couple.
+    """
     matrix, outer = system.matrix, layout.outer[w]
     for c in range(condense.OUTER):
         is_image = matrix.home[outer[c]] == IMAGE
         for d in range(c + 1):
-            if is_image or matrix.home[outer[d]] == IMAGE:
-                add_image(matrix, outer[c], outer[d], system.outer[c, d], False)
+            entry = system.outer[c, d]
+            if entry != 0.0 and (is_image or matrix.home[outer[d]] == IMAGE):
+                add_image(matrix, outer[c], outer[d], entry, False)
         if is_image and system.kind[w] == OPEN:
             for k in range(rows.shape[0]):
                 entry = rows[k, condense.BAND + c]
-                add_image(matrix, 2 * layout.inner[w] + k, outer[c], entry, False)
+                if entry != 0.0:
+                    add_image(matrix, 2 * layout.inner[w] + k, outer[c], entry, False)
 
 
 @jit_inlined
