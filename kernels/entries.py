@@ -14,7 +14,8 @@ import numpy as np
 from kernels.jit import jit, jit_exact, jit_owning
 from kernels.rows import zero
 
-HELD, INNER, DRIVEN, IMAGE = -1, -2, -3, -4  # never moves; eliminated in its wall; led; `image`
+HELD, INNER, DRIVEN = -1, -2, -3  # never moves; eliminated inside its wall; led
+IMAGE = -4  # of the first row of `image`, -5 of the second ...
 SIZE = 9
 
 
@@ -24,8 +25,8 @@ class Blocks(NamedTuple):
     home (n,): of each coordinate. start (nb + 1,), row (nl,): blocks below each diagonal block.
     update (nu,): targets in the order in which `factor` meets them. values (9 (nb + nl) + 1,): the
     last one takes what belongs nowhere. own (3 nb,): diagonal before the factor. diagonal, pull
-    (n,): by coordinate, diagonal entries and couplings with what is led. ratio (n,), images: as
-    in `pattern.Layout`. vector (3 nb,), column (9 x longest,): scratch. missing (1,): set when an
+    (n,): by coordinate, diagonal entries and couplings with what is led. ratio (n,), images (k, 4):
+    as in `pattern.Layout`. vector (3 nb,), column (9 x longest,): scratch. missing (1,): set when an
     entry has no room.
     """
 
@@ -38,7 +39,7 @@ class Blocks(NamedTuple):
     diagonal: np.ndarray
     pull: np.ndarray
     ratio: np.ndarray
-    images: object
+    images: np.ndarray
     vector: np.ndarray
     column: np.ndarray
     missing: np.ndarray
@@ -117,19 +118,10 @@ def position(home, start, row, i, j):
 
 @jit
 def add(blocks, i, j, value):
-    """Add a symmetric pair of entries at coordinates ``i``, ``j`` (once where i == j)."""
-    a, b = blocks.home[i], blocks.home[j]
-    if a == IMAGE or b == IMAGE:
-        add_image(blocks, i, j, value, True)
-    elif i == j:
+    """Add a symmetric pair of entries at ``i``, ``j`` (once where i == j), no images."""
+    if i == j:
         blocks.diagonal[i] += value
-    else:
-        _add_pair(blocks, i, j, value)
-
-
-@jit
-def _add_pair(blocks, i, j, value):
-    """Add a symmetric pair of entries at coordinates that differ and are no images."""
+        return
     a, b = blocks.home[i], blocks.home[j]
     if a == HELD or b == HELD or (a == DRIVEN and b == DRIVEN):
         return
@@ -148,29 +140,39 @@ def _add_pair(blocks, i, j, value):
 
 
 @jit_exact
+def _followed(blocks, c, which):
+    """Return the first or the second coordinate that ``c`` follows, and how many times."""
+    home = blocks.home[c]
+    if home > IMAGE:
+        return c, 1 - which
+    image = blocks.images[IMAGE - home]
+    return (image[2], image[3]) if which == 1 else (max(image[1], 0), 1 if image[1] >= 0 else 0)
+
+
+@jit_exact
 def add_image(blocks, i, j, value, pulls):
     """Add a pair of entries, or one if i == j, of images: to what each of them follows.
 
     Without ``pulls`` what is led is left out.
     """
     share = 0.5 if i == j else 1.0
-    for p, one in _followed(blocks, i):
-        for q, two in _followed(blocks, j):
-            if one != 0.0 and two != 0.0:
-                a, b = blocks.home[p], blocks.home[q]
-                if p == q:
-                    blocks.diagonal[p] += 2.0 * share * one * two * value
-                elif pulls or (a != DRIVEN and b != DRIVEN):
-                    _add_pair(blocks, p, q, share * one * two * value)
+    for k in range(4):
+        p, one = _followed(blocks, i, k // 2)
+        q, two = _followed(blocks, j, k % 2)
+        entry = share * one * two * value
+        if entry != 0.0:
+            if p == q:
+                blocks.diagonal[p] += 2.0 * entry
+            elif pulls or (blocks.home[p] != DRIVEN and blocks.home[q] != DRIVEN):
+                add(blocks, p, q, entry)
 
 
-@jit
-def _followed(blocks, c):
-    """Return the two coordinates that ``c`` follows, with their shares."""
-    if blocks.home[c] != IMAGE:
-        return (c, 1.0), (c, 0.0)
-    of, mean = blocks.images.of[c], blocks.images.mean[c]
-    return (max(of, 0), 1.0 if of >= 0 else 0.0), (mean, blocks.images.times[c])
+@jit_exact
+def _add_images(blocks, i, j, block):
+    """Add a block of points of which one is an image at least."""
+    for k in range(4):
+        if k != 1 or i != j:
+            add_image(blocks, i + k // 2, j + k % 2, block[k], True)
 
 
 @jit
@@ -193,6 +195,9 @@ def add_block(blocks, i, j, xx, xy, yx, yy):
         values[at + across] += xy
         values[at + down] += yx
         values[at + 4] += yy
+        return
+    if home[i] <= IMAGE or home[j] <= IMAGE:
+        _add_images(blocks, i, j, (xx, xy, yx, yy))
         return
     add(blocks, i, j, xx)
     add(blocks, i + 1, j, yx)

@@ -1,36 +1,23 @@
 """Coordinates of images, which follow two others: dx_c = dx_of + times dx_mean.
 
 An endless lattice is one period of it: an image of a node is as many periods away as ``times``
-says, and the mean strain changes the period.
+says, and the mean strain changes the period. A row of images (k, 4) is c, of, mean, times; of = -1:
+held.
 """
-
-from typing import NamedTuple
 
 import numpy as np
 
 from kernels.jit import jit_exact
 
-
-class Images(NamedTuple):
-    """coordinate (k,): those of images. By coordinate (n,): of, the one that is repeated (-1 if it
-    is held), mean, the size of a period, and times. All are empty in a scene without images.
-    """
-
-    coordinate: np.ndarray
-    of: np.ndarray
-    mean: np.ndarray
-    times: np.ndarray
-
-
-NONE = Images(np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0))
+NONE = np.empty((0, 4), np.int64)
 
 
 @jit_exact
 def spread(images, move):
     """Write the moves of all images to ``move`` (n,), given those of the others."""
-    for c in images.coordinate:
-        of = images.of[c]
-        move[c] = images.times[c] * move[images.mean[c]]
+    for k in range(images.shape[0]):
+        c, of = images[k, 0], images[k, 1]
+        move[c] = images[k, 3] * move[images[k, 2]]
         if of >= 0:
             move[c] += move[of]
 
@@ -38,9 +25,9 @@ def spread(images, move):
 @jit_exact
 def collect(images, force):
     """Add the forces (n,) on images to those on what they follow."""
-    for c in images.coordinate:
-        of = images.of[c]
-        force[images.mean[c]] += images.times[c] * force[c]
+    for k in range(images.shape[0]):
+        c, of = images[k, 0], images[k, 1]
+        force[images[k, 2]] += images[k, 3] * force[c]
         if of >= 0:
             force[of] += force[c]
         force[c] = 0.0

@@ -21,7 +21,7 @@ class Layout(NamedTuple):
 
     leader (n,): the coordinate itself if it moves, the last one (the upper platen) if it is tied to
     that, else -1. ratio (n,): of its move to that of its leader; 1 unless the leader is driven.
-    images: what follows two; its leader is itself. driven: coordinate that is led to a target, -1
+    images (k, 4): see `image`; their leader is the coordinate itself. driven: coordinate that is led to a target, -1
     if none. n_nodes, n_joints: joints come first. origin (n_nodes,): the node, or of which it is an
     image. inner (w,): first inner node of each wall, the others follow along it. wall_of
     (n_nodes,): wall of an inner node, -1 for a joint. outer (w, 6): coordinates of its joints, of
@@ -30,7 +30,7 @@ class Layout(NamedTuple):
 
     leader: np.ndarray
     ratio: np.ndarray
-    images: object
+    images: np.ndarray
     driven: int
     n_nodes: int
     n_joints: int
@@ -169,8 +169,8 @@ def _homes(layout, kind, index, sequence):
             home[c] = 3 * position[index[point]] + slot
         elif point >= 0:
             home[c] = INNER
-    for c in layout.images.coordinate:
-        home[c] = IMAGE
+    for k in range(layout.images.shape[0]):
+        home[layout.images[k, 0]] = IMAGE - k
     return home
 
 

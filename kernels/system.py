@@ -26,15 +26,18 @@ def _scatter(values, target, rows, outer):
 def _scatter_image(system, layout, w, rows):
     """Add the entries of wall ``w`` that belong to the image of a joint at its end.
 
-    An open wall has no room for those between nodes that are too far apart to couple.
+    Where both ends are one joint, the coupling of their rotations is a second time on the diagonal.
+    An open wall has no room for entries between nodes that are too far apart to couple.
     """
     matrix, outer = system.matrix, layout.outer[w]
     for c in range(condense.OUTER):
-        is_image = matrix.home[outer[c]] == IMAGE
+        is_image = matrix.home[outer[c]] <= IMAGE
         for d in range(c + 1):
             entry = system.outer[c, d]
-            if entry != 0.0 and (is_image or matrix.home[outer[d]] == IMAGE):
+            if entry != 0.0 and (is_image or matrix.home[outer[d]] <= IMAGE):
                 add_image(matrix, outer[c], outer[d], entry, False)
+            elif c != d and outer[c] == outer[d]:
+                matrix.diagonal[outer[c]] += entry
         if is_image and system.kind[w] == OPEN:
             for k in range(rows.shape[0]):
                 entry = rows[k, condense.BAND + c]
@@ -65,7 +68,7 @@ def factor(system, layout, walls, stiffness):
                 break
         targets = system.target[system.target_start[w] : system.target_start[w + 1]]
         _scatter(system.matrix.values, targets, rows, system.outer)
-        if home[layout.outer[w, 3]] == IMAGE:
+        if home[layout.outer[w, 3]] <= IMAGE:
             _scatter_image(system, layout, w, rows)
     if failed < 0:
         blocks.settle(system.matrix, layout.scale)

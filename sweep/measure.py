@@ -172,6 +172,7 @@ def shape_columns(
 ) -> dict[str, float | int]:
     """What the stored shapes say, and the work up to which they are within the model."""
     strains, network = element_strains(frames), scene.network
+    walls = np.concatenate([frames["edges"], scene.around])
     return {
         "residual_strain": shortening(frames, network.bottom, network.top),
         "least_element_strain": float(strains.min()),
@@ -180,5 +181,5 @@ def shape_columns(
         "absorbed_energy_within_model_J": work_within_model(
             frames, loading["time_s"], loading["work_in_J"]
         ),
-        "max_crossings": crossings(frames),
+        "max_crossings": crossings({**frames, "edges": walls}),
     }

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kernels import contact, image
+from kernels import contact
 from kernels.step import Terms
 from sweep.endless import Endless
 from sweep.joints import bends, build_bend, build_fold
@@ -104,6 +104,7 @@ def build_periodic(case: Case) -> Scene:
         base=np.array([2 * layout.anchor + 1]),
         force_scale=force_scale(network, in_bend * material.modulus * depth * mesh.thickness**3 / 12),
         velocity=np.zeros(layout.size),
+        around=whole.edges[elements.stop :],
     )  # fmt: skip
 
 
@@ -143,14 +144,18 @@ def _leaders(layout: Repeated, case: Case) -> Ints:
     return leader
 
 
-def _images(layout: Repeated, leader: Ints) -> image.Images:
-    """What images of nodes follow: each its node and, as many times as it is away, the period."""
+def _images(layout: Repeated, leader: Ints) -> Ints:
+    """What images of nodes follow: each its node and, as many times as it is away, the period.
+
+    (k, 4) as in `kernels.image`.
+    """
     nodes = np.flatnonzero(~layout.own)
-    of, mean, times = np.full(layout.size, -1), np.zeros(layout.size, np.int64), np.zeros(layout.size)
+    rows = []
     for axis, size in enumerate((layout.low, layout.high)):
-        c, o = 2 * nodes + axis, 2 * layout.origin[nodes] + axis
-        of[c], mean[c], times[c] = np.where(leader[o] < 0, -1, o), size, layout.shift[nodes, axis]
-    return image.Images(np.flatnonzero(mean), of, mean, times)
+        of = 2 * layout.origin[nodes] + axis
+        of, mean = np.where(leader[of] < 0, -1, of), np.full(len(nodes), size)
+        rows.append(np.column_stack([2 * nodes + axis, of, mean, layout.shift[nodes, axis]]))
+    return np.concatenate(rows)
 
 
 def _wall_of(mesh: Mesh, layout: Repeated) -> Ints:

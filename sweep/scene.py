@@ -26,6 +26,7 @@ class Scene:
     """A case as arrays. x_rest (n,): m and rad; bottom, top, base, probes: as in `march.Output`.
 
     velocity (n,) at the start. travel: of the driven coordinate where the case does not say, m.
+    around (k, 2): elements of the copies round a period.
     """
 
     mesh: Mesh
@@ -40,6 +41,7 @@ class Scene:
     velocity: Floats
     probes: Ints = field(default_factory=lambda: np.empty(0, np.int64))
     travel: float = 0.0
+    around: Ints = field(default_factory=lambda: np.empty((0, 2), np.int64))
 
 
 def plane_factors(material: Material) -> tuple[float, float]:
