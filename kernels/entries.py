@@ -25,9 +25,9 @@ class Blocks(NamedTuple):
     home (n,): of each coordinate. start (nb + 1,), row (nl,): blocks below each diagonal block.
     update (nu,): targets in the order in which `factor` meets them. values (9 (nb + nl) + 1,): the
     last one takes what belongs nowhere. own (3 nb,): diagonal before the factor. diagonal, pull
-    (n,): by coordinate, diagonal entries and couplings with what is led. ratio (n,), images (k, 4):
-    as in `pattern.Layout`. vector (3 nb,), column (9 x longest,): scratch. missing (1,): set when an
-    entry has no room.
+    (n,): by coordinate, diagonal entries and couplings with what is led. ratio (n,), images
+    (k, 4): as in `pattern.Layout`. vector (3 nb,), column (9 x longest,): scratch. missing (1,):
+    set when an entry has no room.
     """
 
     home: np.ndarray

@@ -43,10 +43,10 @@ class Tolerance(NamedTuple):
 class Unknowns(NamedTuple):
     """Which coordinates move, and how far at once.
 
-    leader, ratio (n,), images (k, 4): as in `pattern.Layout`. scale (n,): length that turns a coordinate into m, 1
-    for one in m; lever (n,): its inverse. driven: coordinate that is led to a target, -1 if none.
-    cap: longest move in one iteration, m. leap: first move along a direction of negative curvature,
-    m. close: a move so short that stability cannot have been lost on it, m.
+    leader, ratio (n,), images (k, 4): as in `pattern.Layout`. scale (n,): length that turns a
+    coordinate into m, 1 for one in m; lever (n,): its inverse. driven: coordinate that is led to a
+    target, -1 if none. cap: longest move in one iteration, m. leap: first move along a direction of
+    negative curvature, m. close: a move so short that stability cannot have been lost on it, m.
     """
 
     leader: np.ndarray

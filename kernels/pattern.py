@@ -21,11 +21,11 @@ class Layout(NamedTuple):
 
     leader (n,): the coordinate itself if it moves, the last one (the upper platen) if it is tied to
     that, else -1. ratio (n,): of its move to that of its leader; 1 unless the leader is driven.
-    images (k, 4): see `image`; their leader is the coordinate itself. driven: coordinate that is led to a target, -1
-    if none. n_nodes, n_joints: joints come first. origin (n_nodes,): the node, or of which it is an
-    image. inner (w,): first inner node of each wall, the others follow along it. wall_of
-    (n_nodes,): wall of an inner node, -1 for a joint. outer (w, 6): coordinates of its joints, of
-    which the second may be an image. scale: stiffness of the stiffest element, N/m.
+    images (k, 4): see `image`; their leader is the coordinate itself. driven: coordinate that is
+    led to a target, -1 if none. n_nodes, n_joints: joints come first. origin (n_nodes,): the node,
+    or of which it is an image. inner (w,): first inner node of each wall, the others follow along
+    it. wall_of (n_nodes,): wall of an inner node, -1 for a joint. outer (w, 6): coordinates of its
+    joints, of which the second may be an image. scale: stiffness of the stiffest element, N/m.
     """
 
     leader: np.ndarray

@@ -67,10 +67,8 @@ def build_periodic(case: Case) -> Scene:
         thickness=whole.thickness[elements],
     )
     in_stretch, in_bend = plane_factors(material)
-    bending, around = (
-        build_bend(part, in_bend * material.modulus * depth * part.thickness**3 / 12, case)
-        for part in (mesh, whole)
-    )
+    rigidity = in_bend * material.modulus * depth * whole.thickness**3 / 12
+    bending, around = build_bend(mesh, rigidity[elements], case), build_bend(whole, rigidity, case)
     fold = build_fold(whole, around, case)
     inside = layout.own[fold.nodes[:, 1]]
     leader = _leaders(layout, case)
@@ -102,7 +100,7 @@ def build_periodic(case: Case) -> Scene:
         bottom=np.empty(0, np.int64),
         top=np.array([layout.high]),
         base=np.array([2 * layout.anchor + 1]),
-        force_scale=force_scale(network, in_bend * material.modulus * depth * mesh.thickness**3 / 12),
+        force_scale=force_scale(network, rigidity),
         velocity=np.zeros(layout.size),
         around=whole.edges[elements.stop :],
     )  # fmt: skip
