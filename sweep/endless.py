@@ -65,7 +65,7 @@ def build_endless(lattice: Lattice, cut: tuple[float, float] = (0.0, 0.0)) -> En
     middle = 0.5 * (points[ends].sum(axis=1) + shift * period)
     copied, reach = middle + away[:, None] * period, REACH * period / cells
     near = (copied >= middle.min(axis=0) - reach) & (copied <= middle.max(axis=0) + reach)
-    copy, of = np.nonzero(near.all(axis=2) & away.any(axis=1)[:, None])
+    copy, of = np.nonzero(np.all(near, axis=2) & np.any(away, axis=1, keepdims=True))
     original = np.concatenate([np.arange(len(ends)), of])
     start = np.concatenate([np.zeros_like(shift), away[copy]])
     end = np.column_stack([start + shift[original], ends[original, 1]])

@@ -49,7 +49,7 @@ class Repeated(Layout):
     @property
     def own(self) -> np.ndarray:
         """Which nodes are no images, (n,)."""
-        return ~self.shift.any(axis=1)
+        return np.all(self.shift == 0, axis=1)
 
 
 def build_periodic(case: Case) -> Scene:
@@ -120,10 +120,8 @@ def _repeated(network: Endless, lattice: Lattice) -> tuple[Mesh, Repeated]:
     shift = np.concatenate([network.shift, np.repeat(copied, inside, axis=0)])
     points = mesh.points[origin]
     points[:, 0] += imperfection(lattice, points[:, 1])
-    layout = Repeated(
-        len(points), mesh.n_joints, *2 * [np.empty(0, np.int64)], origin, shift,
-        int(network.bottom[0]),
-    )  # fmt: skip
+    rows, anchor = np.empty(0, np.int64), int(network.bottom[0])
+    layout = Repeated(len(points), mesh.n_joints, rows, rows, origin, shift, anchor)
     return replace(mesh, points=points + shift * network.period), layout
 
 

@@ -202,6 +202,8 @@ class _Run:
         plates = x[:, -2:].copy()
         if self.case.loading.platen == "none":
             plates[:] = np.nan
+        if self.case.lattice.boundary == "periodic":
+            plates[:, 0] = -np.inf
         if structure is not None and structure.floor_y_mm is not None:
             plates[:, 0] = x[:, self.scene.terms.contact.low]
         return {

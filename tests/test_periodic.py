@@ -114,7 +114,7 @@ def test_the_book_is_closed_and_the_work_is_that_of_the_mean_stress():
 
 def crushed(lattice, strain, steps=20):
     """Scene and coordinates of a lattice that is pressed, and what a step there minimises."""
-    case = pressed(lattice, strain=strain)
+    case = pressed(lattice)
     scene = periodic.build_periodic(case)
     state = at_rest(scene)
     outcome, _ = go_on(
@@ -182,8 +182,8 @@ def test_a_led_step_converges_as_newton_does():
 THIN = 0.02
 
 
-def first_instability(case, held=(), pinned=False):
-    """Stress / (Y' (t/L)^3) at which the straight square grid gives way."""
+def stability(case, held, pinned):
+    """Least curvature of the straight square grid as a function of stress / (Y' (t/L)^3)."""
     scene = periodic.build_periodic(case)
     if pinned:
         bend = scene.terms.bend
@@ -195,18 +195,14 @@ def first_instability(case, held=(), pinned=False):
     for way in held:
         follows = follows[:, ~follows[fixed[way]].any(axis=0)]
 
-    def is_stable(stress):
+    def least(stress):
         x, strain = scene.x_rest.copy(), stress * THIN**2
         x[1 : 2 * nodes : 2] *= 1.0 - strain
         x[-1] *= 1.0 - strain
         curvature = follows.T @ whole(scene, x).hessian(x) @ follows
-        return np.linalg.eigvalsh(curvature)[0] > 0.0
+        return np.linalg.eigvalsh(curvature)[0]
 
-    low, high = 0.1, 10.0
-    for _ in range(20):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if is_stable(middle) else (low, middle)
-    return low
+    return least
 
 
 def grid(cells, nodes_per_wall):
@@ -217,17 +213,16 @@ def grid(cells, nodes_per_wall):
 @pytest.mark.parametrize(
     ("cells", "expected", "held", "pinned"),
     [
-        ((1, 24), 0.474, [], False),  # neighbouring rows sway together
-        ((2, 2), 0.822, [], False),  # they sway against one another: joints do not turn
+        ((2, 2), 0.822, [], False),  # rows sway against one another: joints do not turn
         ((2, 2), 1.372, ["x"], False),
         ((1, 1), 0.822, ["x", "rotation"], True),
         ((1, 1), 3.29, ["x", "rotation"], False),
     ],
-    ids=["row sway", "alternate sway", "no sway", "hinged walls", "clamped row"],
+    ids=["alternate sway", "no sway", "hinged walls", "clamped row"],
 )
 def test_square_grid_buckles_as_its_closed_forms(cells, expected, held, pinned):
-    found = first_instability(grid(cells, 5 if cells[1] > 2 else 11), held, pinned)
-    assert found == pytest.approx(expected, rel=0.02)
+    straight = stability(grid(cells, 11), held, pinned)
+    assert straight(0.98 * expected) > 0.0 > straight(1.02 * expected)
 
 
 def dispersion(rho, rows):
@@ -252,6 +247,7 @@ def test_a_crush_meets_the_longest_sway_that_the_period_has_room_for(rows):
     rho = np.linspace(1.0, 12.0, 2000)
     expected = rho[np.flatnonzero(np.diff(np.sign(dispersion(rho, rows))))[0]] / 12
     assert found == pytest.approx(expected, rel=0.02)
+    assert rows < 24 or found == pytest.approx(0.474, rel=0.02)
 
 
 def test_honeycomb_collapses_as_its_closed_form():
