@@ -1,7 +1,6 @@
-"""An endless lattice: what it may not depend on, its derivatives, its buckling, what it refuses."""
+"""An endless lattice: what it may not depend on, its derivatives, its period, what it refuses."""
 
 import re
-from dataclasses import replace
 from functools import partial
 from unittest.mock import patch
 
@@ -14,34 +13,11 @@ from kernels import newton
 from sweep import endless, periodic
 from sweep.infill import families
 from sweep.lattice import build_network, relative_density
-from sweep.params import Case, Contact, Lattice, Loading, Material, Solver
+from sweep.params import Case, Lattice
 from sweep.simulate import simulate
+from tests.periods import PITCH, L, follow, lattice_of, pressed
 from tests.scenes import is_sound, trapezoid, unbalanced
 from tests.solving import at_rest, descend, go_on, ramp, whole
-
-Y, NU, L, DEPTH = 12e6, 0.48, 4e-3, 10e-3
-PLANE = Y / (1 - NU**2)
-MATERIAL = Material(modulus=Y, density=1e3, poisson=NU)
-PITCH = {"hex": (0.6 * 3**0.5, 0.9), "kagome": (1.0, 0.75**0.5)}
-
-
-def lattice_of(kind, cells, slenderness, **chosen):
-    pitch = PITCH.get(kind, (1.0, 1.0))
-    width, height = (L * n * length for n, length in zip(cells, pitch, strict=True))
-    return Lattice(
-        kind=kind, boundary="periodic", cells_x=cells[0], cells_y=cells[1], width=width,
-        height=height, depth=DEPTH, wall_thickness=slenderness * L, **chosen,
-    )  # fmt: skip
-
-
-def pressed(lattice, strain=0.6, steps=60, friction=0.0, model="barrier", unload=False):
-    return Case(
-        lattice=lattice,
-        material=MATERIAL,
-        loading=Loading(mode="displacement", strain=strain, unload=unload),
-        contact=Contact(model=model, friction=friction),
-        solver=Solver(load_steps=steps),
-    )
 
 
 def cut_at(case, cut=(0.0, 0.0), wave=None):
@@ -124,17 +100,6 @@ def crushed(lattice, strain, steps=20):
     return case, scene, state.x, whole(scene, state.x)
 
 
-def follow(scene):
-    """Matrix (n, free + 1) from what is free, and the height of the period, to all coordinates."""
-    leader, images = scene.unknowns.leader, scene.unknowns.images
-    driven = scene.unknowns.driven
-    free = np.setdiff1d(leader[leader >= 0], [*images[:, 0], driven])
-    follows = (leader[:, None] == [*free, driven]).astype(float)
-    for c, of, mean, times in images:
-        follows[c] = times * follows[mean] + (follows[of] if of >= 0 else 0.0)
-    return follows
-
-
 CELLS = [("square", (1, 1)), ("square", (2, 1)), ("hex", (1, 2)), ("reentrant", (1, 2))]
 
 
@@ -177,88 +142,6 @@ def test_a_led_step_converges_as_newton_does():
     case, scene, x, args = crushed(lattice_of("reentrant", (1, 2), 0.12), 0.45)
     found = descend(case, scene, x, args, target=x[-1] - 1e-4 * L)
     assert (found.outcome, found.iterations <= 4) == (newton.CONVERGED, True)
-
-
-THIN = 0.02
-
-
-def stability(case, held, pinned):
-    """Least curvature of the straight square grid as a function of stress / (Y' (t/L)^3)."""
-    scene = periodic.build_periodic(case)
-    if pinned:
-        bend = scene.terms.bend
-        free = bend._replace(arm_stiffness=0.0 * bend.arm_stiffness, coupling=0.0 * bend.coupling)
-        scene = replace(scene, terms=scene.terms._replace(bend=free))
-    nodes, joints = len(scene.mesh.points), np.arange(scene.mesh.n_joints)
-    fixed = {"x": 2 * joints, "rotation": 2 * nodes + joints}
-    follows = follow(scene)[:, :-1]
-    for way in held:
-        follows = follows[:, ~follows[fixed[way]].any(axis=0)]
-
-    def least(stress):
-        x, strain = scene.x_rest.copy(), stress * THIN**2
-        x[1 : 2 * nodes : 2] *= 1.0 - strain
-        x[-1] *= 1.0 - strain
-        curvature = follows.T @ whole(scene, x).hessian(x) @ follows
-        return np.linalg.eigvalsh(curvature)[0]
-
-    return least
-
-
-def grid(cells, nodes_per_wall):
-    lattice = lattice_of("square", cells, THIN, imperfection=0.0, nodes_per_wall=nodes_per_wall)
-    return pressed(lattice, strain=2.0 * THIN**2, steps=200, model="none")
-
-
-@pytest.mark.parametrize(
-    ("cells", "expected", "held", "pinned"),
-    [
-        ((2, 2), 0.822, [], False),  # rows sway against one another: joints do not turn
-        ((2, 2), 1.372, ["x"], False),
-        ((1, 1), 0.822, ["x", "rotation"], True),
-        ((1, 1), 3.29, ["x", "rotation"], False),
-    ],
-    ids=["alternate sway", "no sway", "hinged walls", "clamped row"],
-)
-def test_square_grid_buckles_as_its_closed_forms(cells, expected, held, pinned):
-    straight = stability(grid(cells, 11), held, pinned)
-    assert straight(0.98 * expected) > 0.0 > straight(1.02 * expected)
-
-
-def dispersion(rho, rows):
-    """Zero at the load rho (EI / L^2) of a sway whose wave is so many rows long.
-
-    Stability functions s and c of columns; beams turn alike at both ends.
-    """
-    k, q = np.sqrt(rho), 2 * np.pi / rows
-    below = 2 - 2 * np.cos(k) - k * np.sin(k)
-    s, sc = k * (np.sin(k) - k * np.cos(k)) / below, k * (k - np.sin(k)) / below
-    joint, row = 12 + 2 * s + 2 * sc * np.cos(q), 2 * (s + sc) - rho
-    return joint * row - (2 * (s + sc) * np.cos(q / 2)) ** 2
-
-
-@pytest.mark.parametrize("rows", [2, 4, 8, 24])
-def test_a_crush_meets_the_longest_sway_that_the_period_has_room_for(rows):
-    """With the mean shear held at zero, the longer the period the lower: 0.474 at last."""
-    result = simulate(grid((1, rows), 3))
-    history = result.history
-    bent = np.flatnonzero(history["bend_J"] > 1e-6 * history["stretch_J"].max())[0]
-    found = history["reaction_top_N"][bent] / (L * DEPTH * PLANE * THIN**3)
-    rho = np.linspace(1.0, 12.0, 2000)
-    expected = rho[np.flatnonzero(np.diff(np.sign(dispersion(rho, rows))))[0]] / 12
-    assert found == pytest.approx(expected, rel=0.02)
-    assert rows < 24 or found == pytest.approx(0.474, rel=0.02)
-
-
-def test_honeycomb_collapses_as_its_closed_form():
-    """Elastic collapse stress 0.226 (t/L)^3 Y'; it rises a little as cells fold."""
-    side = 0.6 * L
-    lattice = lattice_of("hex", (2, 4), THIN * 0.6)
-    result = simulate(pressed(lattice, strain=0.25, model="none"))
-    stress = result.history["reaction_top_N"] / (lattice.width * DEPTH * PLANE * THIN**3)
-    folding = result.history["strain"] > 0.12
-    assert side * THIN == pytest.approx(lattice.wall_thickness)
-    assert np.mean(stress[folding]) == pytest.approx(0.226, rel=0.05)
 
 
 @pytest.mark.parametrize("kind", families())
