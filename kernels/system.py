@@ -46,13 +46,14 @@ def _scatter_image(system, layout, w, rows):
 
 
 @jit_inlined
-def factor(system, layout, walls, stiffness):
+def factor(system, layout, walls, stiffness, projected):
     """Add the walls to what the matrix holds and factor all.
 
     Return (wall, failed, pivot): where the first negative pivot is, failed = -1 if there is none;
     wall = -1 if it is in the block matrix.
     """
     wall, failed, pivot, home = -1, -1, 0.0, system.matrix.home
+    rounded = blocks.CONVEX if projected else blocks.ROUNDED
     for w in range(system.kind.size):
         if system.kind[w] == RIGID:
             continue
@@ -62,7 +63,9 @@ def factor(system, layout, walls, stiffness):
         if system.kind[w] == CONDENSED:
             first = 2 * layout.inner[w]
             diagonal = system.matrix.diagonal[first : first + rows.shape[0]]
-            failed, pivot = condense.eliminate(rows, diagonal, own, system.outer, layout.scale)
+            failed, pivot = condense.eliminate(
+                rows, diagonal, own, system.outer, layout.scale, rounded
+            )
             if failed >= 0:
                 wall = w
                 break
@@ -72,7 +75,7 @@ def factor(system, layout, walls, stiffness):
             _scatter_image(system, layout, w, rows)
     if failed < 0:
         blocks.settle(system.matrix, layout.scale)
-        failed, pivot = blocks.factor(system.matrix, layout.scale)
+        failed, pivot = blocks.factor(system.matrix, layout.scale, rounded)
     return wall, failed, pivot
 
 
