@@ -9,18 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels import damp, friction, inertia, project
+from kernels.balance import allowed, largest, reduce
 from kernels.caliper import height
 from kernels.jit import jit_exact, jit_inlined, jit_owning
-from kernels.newton import (
-    CONVERGED,
-    INTERRUPTED,
-    ITERATIONS,
-    OUTGROWN,
-    allowed,
-    largest,
-    minimise,
-    reduce,
-)
+from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, OUTGROWN, minimise
 from kernels.relax import approach
 from kernels.room import CHANGE, LAGGED, PREDICTED, make_room
 from kernels.rows import copy, dot, total, zero
@@ -33,7 +25,7 @@ N_COLUMNS = 17
 SMALLEST = 2.0**-21  # share of a step
 FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 GRIP_LOOPS = 30  # fixed-point iterations of friction
-# Of what is to be done, see `_go`. Iterations for a row, a part of a step, a minimum: SPENT to TRIED.
+# Of what is to be done: see `_go`. SPENT, EFFORT, TRIED: iterations for a row, a share, a minimum.
 ROW, DONE, SHARE, FAILED, SPENT, EFFORT, TRIED, LOOPS, MOVE, RELAXED = range(10)
 
 
@@ -199,7 +191,7 @@ def _grips_agree(x, terms, near, unknowns, tolerance, room, todo):
     rub(terms, grips, at)
     reduce(at.g, unknowns, work.residual)
     enough = max(tolerance.friction, tolerance.grip * largest(at.rubbing, unknowns))
-    enough = max(enough, allowed(near.system.matrix, tolerance))
+    enough = max(enough, allowed(near.system.matrix, tolerance)[0])
     agree = largest(work.residual, unknowns) <= enough
     if agree:
         copy(work.trial, at.g)

@@ -13,7 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels import chain, image, system
-from kernels.jit import jit, jit_exact, jit_inlined
+from kernels.balance import allowed, largest, reduce
+from kernels.jit import jit_exact, jit_inlined
 from kernels.rows import copy, dot, zero, zero_rows
 from kernels.step import covers, evaluate, factor, step_limit
 
@@ -23,43 +24,6 @@ HALVINGS = 40
 SLOW = 0.1  # a kept factor that shrinks the residual by less is renewed
 LEAST_SHARE = 1e-12  # of a step: less is standing still
 RESOLVED = 1e-11  # an energy change below this share of the energy is lost in round-off
-
-
-class Tolerance(NamedTuple):
-    """What counts as converged.
-
-    force: largest residual in N. decrement: largest Newton decrement in J. friction: largest change
-    of a lagged friction force in N. grip: the same as a share of the greatest one. noise: energy changes below it are round-off, J. finest: a move
-    that positions cannot resolve, m. iterations: most for one minimum.
-    """
-
-    force: float
-    decrement: float
-    friction: float
-    grip: float
-    noise: float
-    finest: float
-    iterations: int
-
-
-class Unknowns(NamedTuple):
-    """Which coordinates move, and how far at once.
-
-    leader, ratio (n,), images (k, 4): as in `pattern.Layout`. scale (n,): length that turns a
-    coordinate into m, 1 for one in m; lever (n,): its inverse. driven: coordinate that is led to a
-    target, -1 if none. cap: longest move in one iteration, m. leap: first move along a direction of
-    negative curvature, m. close: a move so short that stability cannot have been lost on it, m.
-    """
-
-    leader: np.ndarray
-    ratio: np.ndarray
-    images: np.ndarray
-    scale: np.ndarray
-    lever: np.ndarray
-    driven: int
-    cap: float
-    leap: float
-    close: float
 
 
 class Work(NamedTuple):
@@ -73,44 +37,6 @@ class Work(NamedTuple):
     direction: np.ndarray
     escape: np.ndarray
     kept: np.ndarray
-
-
-@jit
-def reduce(g, unknowns, residual):
-    """Fill ``residual`` (n,) with ``g``, what is tied added to its leader, zero where held."""
-    zero(residual)
-    for i in range(g.size):
-        leader = unknowns.leader[i]
-        if leader == i:
-            residual[i] += g[i]
-        elif leader >= 0:
-            residual[leader] += unknowns.ratio[i] * g[i]
-    image.collect(unknowns.images, residual)
-
-
-@jit_exact
-def largest(residual, unknowns):
-    """Return the largest residual of the free coordinates in N; NaN if any is."""
-    most = 0.0
-    for i in range(residual.size):
-        size = abs(residual[i]) * unknowns.lever[i] if i != unknowns.driven else 0.0
-        if not size <= most:
-            most = size
-            if size != size:
-                return size
-    return most
-
-
-@jit_exact
-def allowed(matrix, tolerance):
-    """Return the largest residual in N that counts as none: no less than what the stiffest
-    coordinate of the last factor answers to a move too fine for its position.
-    """
-    stiffest = 0.0
-    for h in range(matrix.own.size):
-        if h % 3 != 2:
-            stiffest = max(stiffest, matrix.own[h])
-    return max(tolerance.force, tolerance.finest * stiffest)
 
 
 @jit_exact
@@ -225,6 +151,17 @@ def _choose(slope, stable, led, escape, unknowns, remaining, work):
     return (fall * cut, curvature), max(most * cut, abs(remaining)), cut == 1.0
 
 
+@jit_inlined
+def _weigh(x, target, near, unknowns, tolerance, at, work):
+    """Return how far the driven coordinate has to go, m, the largest residual in N, and how much of
+    that would count as none.
+    """
+    reduce(at.g, unknowns, work.residual)
+    remaining = target - x[unknowns.driven] if unknowns.driven >= 0 else 0.0
+    size = largest(work.residual, unknowns)
+    return remaining, size, allowed(near.system.matrix, tolerance)
+
+
 @jit_exact
 def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, control):
     """Descend from ``x`` (n,), in place, to a minimum with the driven coordinate at ``target``.
@@ -238,7 +175,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
     setting_out, searching, arrived, free = True, True, False, True
     whole, projected, settled = _arrives(x, work.dx, target, unknowns.driven), False, False
     value, remaining, share, model, escape = 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0)
-    limit = tolerance.force
+    limit = (0.0, 0.0)  # what counts as none
     place = (-1, -1, 0.0)  # of the first negative pivot of the exact Hessian
     most, before = _longest(work.dx, unknowns), np.inf
     while True:
@@ -269,14 +206,11 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
             iteration, searching, arrived = iteration + 1, False, True
         if arrived:
             value, arrived = reached, False
-            reduce(at.g, unknowns, work.residual)
-            size = largest(work.residual, unknowns)
+            remaining, size, limit = _weigh(x, target, near, unknowns, tolerance, at, work)
             if control[0] != 0 or not size < np.inf:
                 outcome = INTERRUPTED if control[0] != 0 else NOT_FINITE
                 break
-            remaining = target - x[unknowns.driven] if unknowns.driven >= 0 else 0.0
-            limit = allowed(near.system.matrix, tolerance)
-            settled = remaining == 0.0 and size <= limit
+            settled = remaining == 0.0 and size <= limit[0]
             if not settled and size > SLOW * before:
                 kept[0] = np.inf
             before = size
@@ -299,11 +233,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
         stable, slope = place[1] < 0, 0.0
         if stable or projected:
             slope = _solve(terms, near, unknowns, at, work, remaining)
-        if (
-            settled
-            and stable
-            and -0.5 * slope <= tolerance.decrement * (limit / tolerance.force) ** 2
-        ):
+        if settled and stable and -0.5 * slope <= limit[1]:
             outcome = CONVERGED
             break
         if iteration == tolerance.iterations:

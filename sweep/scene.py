@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from kernels import chain, damp, friction, image, newton, pattern, spring, stretch
+from kernels import balance, chain, damp, friction, image, pattern, spring, stretch
 from kernels.step import Terms
 from sweep.joints import bends, build_bend, build_fold
 from sweep.lattice import Network, build_network, mass
@@ -32,7 +32,7 @@ class Scene:
     mesh: Mesh
     network: Network
     terms: Terms
-    unknowns: newton.Unknowns
+    unknowns: balance.Unknowns
     x_rest: Floats
     bottom: Ints
     top: Ints
@@ -217,12 +217,12 @@ def _reported(layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
     return reaction, 2 * layout.top + 1, bottom
 
 
-def unknowns_of(mesh: Mesh, layout: Layout, solved: pattern.Layout, case: Case) -> newton.Unknowns:
+def unknowns_of(mesh: Mesh, layout: Layout, solved: pattern.Layout, case: Case) -> balance.Unknowns:
     """What moves, and how far at once."""
     lattice = case.lattice
     scale = np.ones(layout.size)
     scale[layout.rotation] = mesh.rest_length.mean()
-    return newton.Unknowns(
+    return balance.Unknowns(
         leader=solved.leader,
         ratio=solved.ratio,
         images=solved.images,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kernels import inertia, march, newton, spring
-from kernels.newton import Tolerance
+from kernels.balance import Tolerance
 from sweep.measure import history_columns, summarise
 from sweep.mesh import Floats
 from sweep.params import Case, Lattice, Loading, given
