@@ -39,25 +39,27 @@ def pivoted(pivot, own, scale):
 
 
 @jit_exact
-def _invert(values, at, own, scale):
+def _invert(values, at, own, scale, through):
     """Replace the diagonal block at ``at`` by its inverse; return the failed slot and its pivot.
+
+    ``through``: negative pivots do not stop it.
 
     d = diag(a, b, c) and the unit lower triangle l are the block's own LDL^T. Above the diagonal
     stands l^{-T}, so far as it is known, until the block is inverted.
     """
     a = pivoted(values[at], own[0], scale)
-    if not a > 0.0:
+    if not (through or a > 0.0):
         return 0, a
     l10, l20 = values[at + 3] / a, values[at + 6] / a
     values[at + 1] = -l10
     b = pivoted(values[at + 4] - l10 * values[at + 3], own[1], scale)
-    if not b > 0.0:
+    if not (through or b > 0.0):
         return 1, b
     l21 = (values[at + 7] - l20 * values[at + 3]) / b
     m20 = l10 * l21 - l20
     values[at + 2], values[at + 5] = m20, -l21
     c = pivoted(values[at + 8] - l20 * values[at + 6] - l21 * l21 * b, own[2], scale)
-    if not c > 0.0:
+    if not (through or c > 0.0):
         return 2, c
     values[at + 8] = 1.0 / c
     values[at + 7] = values[at + 5] = -l21 / c
@@ -100,20 +102,33 @@ def _update(blocks, j, nb, count):
 
 
 @jit_exact
-def factor(blocks, scale):
+def factor(blocks, scale, through):
     """Factor in place: A = L D L^T, L D^{-1} below, D^{-1} in the diagonal blocks.
 
-    Return (failed, pivot): home of the first negative pivot, -1 if none.
+    Return (failed, pivot): home of the first negative pivot, -1 if none, or if it goes ``through``.
     """
     nb, count = blocks.start.size - 1, 0
     for j in range(nb):
         own = blocks.own[3 * j : 3 * j + 3]
-        slot, pivot = _invert(blocks.values, SIZE * j, own, scale)
+        slot, pivot = _invert(blocks.values, SIZE * j, own, scale, through)
         if slot >= 0:
             return 3 * j + slot, pivot
         _scale_column(blocks, j, nb)
         count = _update(blocks, j, nb, count)
     return -1, 0.0
+
+
+@jit_exact
+def negatives(blocks):
+    """Return how many pivots of the factor are negative, from the inverses of its blocks."""
+    count, v = 0, blocks.values
+    for at in range(0, SIZE * (blocks.start.size - 1), SIZE):
+        a = v[at]
+        b = v[at + 4] - v[at + 3] * v[at + 3] / a
+        l21 = (v[at + 7] - v[at + 6] * v[at + 3] / a) / b
+        c = v[at + 8] - v[at + 6] * v[at + 6] / a - l21 * l21 * b
+        count += (a < 0.0) + (b < 0.0) + (c < 0.0)
+    return count
 
 
 @jit

@@ -118,10 +118,11 @@ def _reduce(rows, k, m, inverse, outer):
 
 
 @jit_exact
-def eliminate(rows, diagonal, own, outer, scale):
+def eliminate(rows, diagonal, own, outer, scale, through):
     """Eliminate all rows in place; return (failed, pivot): the first negative one, -1 if none.
 
-    ``diagonal`` (m,) is added first; ``own`` (m,) is filled with the diagonal before.
+    ``diagonal`` (m,) is added first; ``own`` (m,) is filled with the diagonal before. ``through``:
+    negative pivots do not stop it.
     """
     m = rows.shape[0]
     for k in range(m):
@@ -129,7 +130,7 @@ def eliminate(rows, diagonal, own, outer, scale):
         own[k] = rows[k, 0]
     for k in range(m):
         pivot = pivoted(rows[k, 0], own[k], scale)
-        if not pivot > 0.0:
+        if not (through or pivot > 0.0):
             return k, pivot
         rows[k, 0] = 1.0 / pivot
         _reduce(rows, k, m, rows[k, 0], outer)

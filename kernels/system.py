@@ -2,7 +2,7 @@
 
 from kernels import blocks, condense
 from kernels.entries import INNER
-from kernels.jit import jit, jit_inlined
+from kernels.jit import jit, jit_exact, jit_inlined
 from kernels.pattern import CONDENSED, RIGID
 from kernels.rows import zero
 
@@ -23,11 +23,11 @@ def _scatter(values, target, rows, outer):
 
 
 @jit_inlined
-def factor(system, layout, walls, stiffness):
+def factor(system, layout, walls, stiffness, through):
     """Add the walls to what the matrix holds and factor all.
 
     Return (wall, failed, pivot): where the first negative pivot is, failed = -1 if there is none;
-    wall = -1 if it is in the block matrix.
+    wall = -1 if it is in the block matrix. ``through``: they do not stop it, see `negatives`.
     """
     wall, failed, pivot = -1, -1, 0.0
     for w in range(system.kind.size):
@@ -39,7 +39,9 @@ def factor(system, layout, walls, stiffness):
         if system.kind[w] == CONDENSED:
             first = 2 * layout.inner[w]
             diagonal = system.matrix.diagonal[first : first + rows.shape[0]]
-            failed, pivot = condense.eliminate(rows, diagonal, own, system.outer, layout.scale)
+            failed, pivot = condense.eliminate(
+                rows, diagonal, own, system.outer, layout.scale, through
+            )
             if failed >= 0:
                 wall = w
                 break
@@ -47,8 +49,19 @@ def factor(system, layout, walls, stiffness):
         _scatter(system.matrix.values, targets, rows, system.outer)
     if failed < 0:
         blocks.settle(system.matrix, layout.scale)
-        failed, pivot = blocks.factor(system.matrix, layout.scale)
+        failed, pivot = blocks.factor(system.matrix, layout.scale, through)
     return wall, failed, pivot
+
+
+@jit_exact
+def negatives(system):
+    """Return how many pivots of the factor are negative: as many as eigenvalues (Sylvester)."""
+    count = blocks.negatives(system.matrix)
+    for w in range(system.kind.size):
+        if system.kind[w] == CONDENSED:
+            for k in range(system.row_start[w], system.row_start[w + 1]):
+                count += system.rows[k, 0] < 0.0
+    return count
 
 
 @jit_inlined

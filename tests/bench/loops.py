@@ -38,7 +38,7 @@ def _condense(terms, near, at):
         rows, own = solver.rows[span], solver.own[span]
         first, last = terms.walls.start[w], terms.walls.start[w + 1]
         condense.fill(first, last, w, at.stiffness, rows, solver.outer)
-        failed += condense.eliminate(rows, own, own, solver.outer, terms.layout.scale)[0]
+        failed += condense.eliminate(rows, own, own, solver.outer, terms.layout.scale, False)[0]
     return failed
 
 
@@ -87,7 +87,7 @@ def repeat(which, count, x, dx, most, whole, at, ones):
             total += _condense(terms, near, at)
         elif which == BLOCKS:
             copy(ones, matrix.values)
-            total += blocks.factor(matrix, terms.layout.scale)[1]
+            total += blocks.factor(matrix, terms.layout.scale, False)[1]
     return total
 
 
