@@ -29,11 +29,15 @@ def settle(blocks, scale):
 
 
 @jit_exact
-def pivoted(pivot, own, scale):
+def pivoted(pivot, own, scale, through):
     """Return the pivot to use. One that is zero within round-off marks a motion without stiffness:
     it is given a small share of its own diagonal (or ``scale``), so that the solution moves along
     it where a force asks for it, and hardly by what forces leave in round-off.
+
+    ``through`` limit points, where true pivots are as small, it stays as it is.
     """
+    if through:
+        return pivot
     size = max(abs(own), 1e-3 * scale)
     return SOFT * max(abs(own), scale) if ROUNDED * size <= pivot <= NEUTRAL * size else pivot
 
@@ -47,18 +51,19 @@ def _invert(values, at, own, scale, through):
     d = diag(a, b, c) and the unit lower triangle l are the block's own LDL^T. Above the diagonal
     stands l^{-T}, so far as it is known, until the block is inverted.
     """
-    a = pivoted(values[at], own[0], scale)
+    a = pivoted(values[at], own[0], scale, through)
     if not (through or a > 0.0):
         return 0, a
     l10, l20 = values[at + 3] / a, values[at + 6] / a
     values[at + 1] = -l10
-    b = pivoted(values[at + 4] - l10 * values[at + 3], own[1], scale)
+    b = pivoted(values[at + 4] - l10 * values[at + 3], own[1], scale, through)
     if not (through or b > 0.0):
         return 1, b
     l21 = (values[at + 7] - l20 * values[at + 3]) / b
     m20 = l10 * l21 - l20
     values[at + 2], values[at + 5] = m20, -l21
-    c = pivoted(values[at + 8] - l20 * values[at + 6] - l21 * l21 * b, own[2], scale)
+    c = values[at + 8] - l20 * values[at + 6] - l21 * l21 * b
+    c = pivoted(c, own[2], scale, through)
     if not (through or c > 0.0):
         return 2, c
     values[at + 8] = 1.0 / c

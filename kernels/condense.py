@@ -129,7 +129,7 @@ def eliminate(rows, diagonal, own, outer, scale, through):
         rows[k, 0] += diagonal[k]
         own[k] = rows[k, 0]
     for k in range(m):
-        pivot = pivoted(rows[k, 0], own[k], scale)
+        pivot = pivoted(rows[k, 0], own[k], scale, through)
         if not (through or pivot > 0.0):
             return k, pivot
         rows[k, 0] = 1.0 / pivot
