@@ -32,7 +32,7 @@ from kernels.newton import (
 )
 from kernels.room import PREDICTED, make_room
 from kernels.rows import copy, dot, zero
-from kernels.step import Step, assemble, covers, evaluate, find_near, step_limit
+from kernels.step import Step, covers, evaluate, factor, find_near, step_limit
 
 FACTOR, UNSTABLE = range(2)  # columns of a path
 ROW, DONE, SHARE, LOAD, RISE, AIM, LENGTH, SPENT, MOVE = range(9)  # of what is to be done
@@ -114,8 +114,7 @@ def _balance(x, terms, before, near, unknowns, tolerance, room, arc, todo):
         size = largest(work.residual, unknowns)
         if not size < np.inf:
             return NOT_FINITE
-        assemble(x, terms, step, near, at, False)
-        system.factor(near.system, terms.layout, terms.walls, at.stiffness, True)
+        factor(x, terms, step, near, at, False, True)
         if near.system.matrix.missing[0] != 0:
             return OUTGROWN
         for i in range(x.size):
@@ -125,7 +124,7 @@ def _balance(x, terms, before, near, unknowns, tolerance, room, arc, todo):
         rise, met = _off(at.u, r, v, arc, todo)
         if met and size <= tolerance.force and abs(0.5 * dot(at.g, r)) <= tolerance.decrement:
             return CONVERGED
-        if todo[SPENT] > TRIES:
+        if todo[SPENT] > min(TRIES, tolerance.iterations):
             return ITERATIONS
         todo[RISE], todo[MOVE] = rise, _combine(r, rise, v, unknowns, work.dx)
 

@@ -170,15 +170,8 @@ def rub(terms, grips, at):
 
 
 @jit_inlined
-def factor(x, terms, step, near, at, projected):
+def factor(x, terms, step, near, at, projected, through):
     """Factor the Hessian at the ``x`` of the last `evaluate`; return as `system.factor` does."""
-    assemble(x, terms, step, near, at, projected)
-    return system.factor(near.system, terms.layout, terms.walls, at.stiffness, False)
-
-
-@jit_inlined
-def assemble(x, terms, step, near, at, projected):
-    """Write what is no wall's own of the Hessian at the ``x`` of the last `evaluate`."""
     matrix = near.system.matrix
     clear(matrix)
     fold.hessian(x, terms.fold, matrix, projected)
@@ -191,6 +184,7 @@ def assemble(x, terms, step, near, at, projected):
             matrix.diagonal[i] += inert * terms.mass[i]
         for i in range(2 * terms.layout.n_nodes):
             matrix.diagonal[i] += drag * terms.mass[i]
+    return system.factor(near.system, terms.layout, terms.walls, at.stiffness, through)
 
 
 @jit_inlined

@@ -31,6 +31,8 @@ ADVICE = {
     newton.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
 }
 
+LOST = "no shape in balance within reach of the shortest arc; try a smaller solver.arc_length"
+
 
 @dataclass(frozen=True)
 class Stretch:
@@ -174,6 +176,8 @@ class _Run:
         if outcome == newton.INTERRUPTED:
             return Status.STOPPED, f"interrupted {where}; run again to complete it"
         advice = ADVICE[outcome].format(limit=self.case.solver.max_iterations)
+        if self.arc is not None:
+            advice = LOST
         return Status.STOPPED, f"stopped {where}: {advice}"
 
     def _where(self) -> str:

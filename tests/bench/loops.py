@@ -53,7 +53,7 @@ def repeat(which, count, x, dx, most, whole, at, ones):
         if which == EVALUATE:
             total += step.evaluate(x, terms, one, near, at, False)
         elif which == FACTOR:
-            total += step.factor(x, terms, one, near, at, False)[2]
+            total += step.factor(x, terms, one, near, at, False, False)[2]
         elif which == SOLVE:
             b[:] = 1.0
             system.solve(near.system, terms.layout, b)
