@@ -16,6 +16,7 @@ from kernels.newton import (
     INTERRUPTED,
     ITERATIONS,
     OUTGROWN,
+    allowed,
     largest,
     minimise,
     reduce,
@@ -29,10 +30,11 @@ WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR = range(8)
 INJECTED, RESIDUAL = 8, 9
 TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP, SPEED = range(10, 17)
 N_COLUMNS = 17
-SMALLEST = 2.0**-12  # share of a step
+SMALLEST = 2.0**-21  # share of a step
 FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 GRIP_LOOPS = 30  # fixed-point iterations of friction
-ROW, DONE, SHARE, SPENT, LOOPS, MOVE, RELAXED = range(7)  # of what is to be done: see `_go`
+# Of what is to be done, see `_go`. Iterations for a row, a part of a step, a minimum: SPENT to TRIED.
+ROW, DONE, SHARE, FAILED, SPENT, EFFORT, TRIED, LOOPS, MOVE, RELAXED = range(10)
 
 
 class Stage(NamedTuple):
@@ -182,7 +184,7 @@ def _begin(terms, stage, target, driven, state, near, room, todo):
         work.dx[driven] = remaining
     if terms.friction.mu > 0.0:
         friction.lag(x, terms.contact, near.pairs, drift(x, terms, near), terms.friction, grips)
-    todo[LOOPS], todo[RELAXED] = 0.0, 0.0
+    todo[LOOPS], todo[RELAXED], todo[EFFORT], todo[TRIED] = 0.0, 0.0, 0.0, 0.0
 
 
 @jit_inlined
@@ -196,18 +198,20 @@ def _grips_agree(x, terms, near, unknowns, tolerance, room, todo):
     friction.lag(y, terms.contact, near.pairs, drift(y, terms, near), terms.friction, grips)
     rub(terms, grips, at)
     reduce(at.g, unknowns, work.residual)
-    agree = largest(work.residual, unknowns) <= tolerance.friction
+    enough = max(tolerance.friction, tolerance.grip * largest(at.rubbing, unknowns))
+    enough = max(enough, allowed(near.system.matrix, tolerance))
+    agree = largest(work.residual, unknowns) <= enough
     if agree:
         copy(work.trial, at.g)
         copy(work.escape, at.rubbing)
-    todo[LOOPS] += 1.0
+    todo[LOOPS], todo[TRIED] = todo[LOOPS] + 1.0, 0.0
     zero(work.dx)
     return agree
 
 
 @jit_exact
 def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo):
-    """March on from where ``todo`` (7,) says, until the stage ends or something must be done."""
+    """March on from where ``todo`` (10,) says, until the stage ends or something must be done."""
     before, at, work, grips, way = room
     while todo[ROW] < stage.steps:
         if todo[LOOPS] < 0.0:
@@ -221,8 +225,9 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
         outcome, spent, todo[MOVE] = minimise(
             state.x, target, terms, step, near, unknowns, tolerance, at, work, control
         )
-        todo[SPENT] += spent
-        if outcome == OUTGROWN and todo[SPENT] < GRIP_LOOPS * tolerance.iterations:
+        todo[SPENT], todo[EFFORT] = todo[SPENT] + spent, todo[EFFORT] + spent
+        todo[TRIED] += max(spent, 1)
+        if outcome == OUTGROWN and todo[TRIED] <= tolerance.iterations:
             zero(work.dx)
             return outcome
         if outcome == CONVERGED and terms.friction.mu > 0.0:
@@ -238,16 +243,17 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
             copy(before.x0, state.x)
             zero(at.least)  # what was found last was found elsewhere
             zero(at.u)
-            todo[SHARE] *= 0.5
+            todo[FAILED] += 1.0
+            todo[SHARE] *= 0.5 ** todo[FAILED]  # the oftener, the more boldly
             work.kept[0] = np.inf
             if outcome == INTERRUPTED or todo[SHARE] < SMALLEST:
                 return ITERATIONS if outcome == OUTGROWN else outcome
             continue
         enter(terms, step, unknowns, state, at, work)
         _move_apart(terms, step, state, near, at, work)
-        todo[DONE] += todo[SHARE]
+        todo[DONE], todo[FAILED] = todo[DONE] + todo[SHARE], 0.0
         if todo[SHARE] < 1.0 or terms.friction.mu > 0.0:  # the next Hessian is another
-            todo[SHARE] *= 2.0
+            todo[SHARE] *= 2.0 if todo[EFFORT] <= tolerance.iterations else 1.0
             work.kept[0] = np.inf
         state.totals[1] += 1
         if todo[DONE] == 1.0:
@@ -266,7 +272,7 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
 
     Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts steps done.
     """
-    todo = np.zeros(7)
+    todo = np.zeros(10)
     todo[SHARE], todo[LOOPS] = 1.0, -1.0
     near = find_near(state.x, terms, friction.none(), 0.0)
     room = make_room(terms, near)

@@ -184,7 +184,7 @@ def factor(x, terms, step, near, at, projected, through):
             matrix.diagonal[i] += inert * terms.mass[i]
         for i in range(2 * terms.layout.n_nodes):
             matrix.diagonal[i] += drag * terms.mass[i]
-    return system.factor(near.system, terms.layout, terms.walls, at.stiffness, through)
+    return system.factor(near.system, terms.layout, terms.walls, at.stiffness, projected, through)
 
 
 @jit_inlined

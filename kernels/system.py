@@ -23,13 +23,16 @@ def _scatter(values, target, rows, outer):
 
 
 @jit_inlined
-def factor(system, layout, walls, stiffness, through):
+def factor(system, layout, walls, stiffness, projected, through):
     """Add the walls to what the matrix holds and factor all.
 
     Return (wall, failed, pivot): where the first negative pivot is, failed = -1 if there is none;
     wall = -1 if it is in the block matrix. ``through``: they do not stop it, see `negatives`.
     """
     wall, failed, pivot = -1, -1, 0.0
+    rounded = blocks.CONVEX if projected else blocks.ROUNDED
+    if through:
+        rounded = blocks.THROUGH
     for w in range(system.kind.size):
         if system.kind[w] == RIGID:
             continue
@@ -40,7 +43,7 @@ def factor(system, layout, walls, stiffness, through):
             first = 2 * layout.inner[w]
             diagonal = system.matrix.diagonal[first : first + rows.shape[0]]
             failed, pivot = condense.eliminate(
-                rows, diagonal, own, system.outer, layout.scale, through
+                rows, diagonal, own, system.outer, layout.scale, rounded
             )
             if failed >= 0:
                 wall = w
@@ -49,7 +52,7 @@ def factor(system, layout, walls, stiffness, through):
         _scatter(system.matrix.values, targets, rows, system.outer)
     if failed < 0:
         blocks.settle(system.matrix, layout.scale)
-        failed, pivot = blocks.factor(system.matrix, layout.scale, through)
+        failed, pivot = blocks.factor(system.matrix, layout.scale, rounded)
     return wall, failed, pivot
 
 

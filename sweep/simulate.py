@@ -22,6 +22,7 @@ EARLY_FRAMES = 4 * FRAMES  # most impacts, and many paths, are over in a quarter
 GLANCE = 64  # steps of a striker after which one looks whether it is back
 LONGER = "try a longer loading.duration"
 ROUND_OFF = 4e-15
+GRIP = 1e3  # times the tolerance of forces: that of friction, which lags
 ADVICE = {
     newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; "
     "try more solver.load_steps or a smaller solver.time_step",
@@ -228,13 +229,16 @@ def tolerances(case: Case, scene: Scene, dt: float) -> Tolerance:
     force = max(scene.force_scale, np.abs(terms.load * scene.unknowns.lever).max(initial=0.0))
     size = np.ptp(scene.mesh.points)
     rounded = terms.law.modulus * terms.stretch.area.max() * size / terms.stretch.l0.min()
-    rounded += terms.mass.max() * size / dt**2
+    rounded *= 1.0 + (terms.damp.beta_k + terms.damp.relaxation) / dt
+    rounded += terms.mass.max() * size / dt * (1.0 / dt + terms.damp.alpha_m)
     allowed = max(case.solver.tolerance * force, ROUND_OFF * rounded)
     return Tolerance(
         force=allowed,
         decrement=1e-3 * allowed * case.lattice.wall_thickness,
-        friction=1e3 * allowed,
+        friction=GRIP * allowed,
+        grip=GRIP * case.solver.tolerance,
         noise=ROUND_OFF * force * size,
+        finest=ROUND_OFF * size,
         iterations=case.solver.max_iterations,
     )
 
