@@ -12,11 +12,11 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test verify bench figures lint clean
+.PHONY: help setup sweep rank test verify validate bench figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-7s  %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-8s  %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
 
 setup: $(STAMP)  ## make the environment: Python 3.11 to 3.13, packages from requirements.lock
 
@@ -43,6 +43,9 @@ test: lint  ## check style and types, then run the tests
 verify: setup  ## print the numbers of README.md anew, from results/armor.h5 and beside references
 	@test -f results/armor.h5 || $(PYTHON) -m sweep run configs/armor.toml
 	@$(PYTHON) tests/figures.py results/armor.h5
+
+validate: setup  ## solve reference problems at three meshes; the table goes to results/validation/
+	@$(PYTHON) -m tests.validation results/validation
 
 bench: setup  ## measure how fast it is; table and figure go to results/bench/
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.bench results/bench

@@ -14,6 +14,7 @@ NEUTRAL = 1e-11  # a pivot below this share of its diagonal is round-off around 
 SOFT = 1e-6  # share of its diagonal that it is given then
 ROUNDED = -1e-7  # so is a negative one above this: what stiff neighbours leave when they cancel
 CONVEX = -math.inf  # and any in a matrix that is positive semi-definite
+THROUGH = math.inf  # none is, and negative ones are no failure: see `negatives`
 
 
 @jit_exact
@@ -36,7 +37,7 @@ def pivoted(pivot, own, scale, rounded):
     """Return the pivot to use. One that is zero within round-off, above ``rounded`` x its diagonal,
     marks a motion without stiffness: it is given a small share of its own diagonal (or ``scale``),
     so that the solution moves along it where a force asks for it, and hardly by what forces leave
-    in round-off.
+    in round-off. `THROUGH` limit points, where true pivots are as small, it stays as it is.
     """
     size = max(abs(own), 1e-3 * scale)
     return SOFT * max(abs(own), scale) if rounded * size <= pivot <= NEUTRAL * size else pivot
@@ -50,19 +51,19 @@ def _invert(values, at, own, scale, rounded):
     stands l^{-T}, so far as it is known, until the block is inverted.
     """
     a = pivoted(values[at], own[0], scale, rounded)
-    if not a > 0.0:
+    if not (a > 0.0 or rounded == THROUGH):
         return 0, a
     l10, l20 = values[at + 3] / a, values[at + 6] / a
     values[at + 1] = -l10
     b = pivoted(values[at + 4] - l10 * values[at + 3], own[1], scale, rounded)
-    if not b > 0.0:
+    if not (b > 0.0 or rounded == THROUGH):
         return 1, b
     l21 = (values[at + 7] - l20 * values[at + 3]) / b
     m20 = l10 * l21 - l20
     values[at + 2], values[at + 5] = m20, -l21
     c = values[at + 8] - l20 * values[at + 6] - l21 * l21 * b
     c = pivoted(c, own[2], scale, rounded)
-    if not c > 0.0:
+    if not (c > 0.0 or rounded == THROUGH):
         return 2, c
     values[at + 8] = 1.0 / c
     values[at + 7] = values[at + 5] = -l21 / c
@@ -120,6 +121,19 @@ def factor(blocks, scale, rounded):
         _scale_column(blocks, j, nb)
         count = _update(blocks, j, nb, count)
     return -1, 0.0
+
+
+@jit_exact
+def negatives(blocks):
+    """Return how many pivots of the factor are negative, from the inverses of its blocks."""
+    count, v = 0, blocks.values
+    for at in range(0, SIZE * (blocks.start.size - 1), SIZE):
+        a = v[at]
+        b = v[at + 4] - v[at + 3] * v[at + 3] / a
+        l21 = (v[at + 7] - v[at + 6] * v[at + 3] / a) / b
+        c = v[at + 8] - v[at + 6] * v[at + 6] / a - l21 * l21 * b
+        count += (a < 0.0) + (b < 0.0) + (c < 0.0)
+    return count
 
 
 @jit

@@ -8,7 +8,7 @@ each. Row k of a wall holds entries (k, k) .. (k, k + 5), then those with the jo
 After `eliminate` it holds the row of D L^T, with 1 / pivot in front.
 """
 
-from kernels.blocks import pivoted
+from kernels.blocks import THROUGH, pivoted
 from kernels.jit import jit, jit_exact
 from kernels.rows import zero_rows
 
@@ -130,7 +130,7 @@ def eliminate(rows, diagonal, own, outer, scale, rounded):
         own[k] = rows[k, 0]
     for k in range(m):
         pivot = pivoted(rows[k, 0], own[k], scale, rounded)
-        if not pivot > 0.0:
+        if not (pivot > 0.0 or rounded == THROUGH):
             return k, pivot
         rows[k, 0] = 1.0 / pivot
         _reduce(rows, k, m, rows[k, 0], outer)

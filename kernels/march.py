@@ -80,7 +80,7 @@ class Output(NamedTuple):
 
 
 @jit_inlined
-def _enter(terms, step, unknowns, state, at, work):
+def enter(terms, step, unknowns, state, at, work):
     """Add one converged step, found by the last `evaluate`, to the energy book."""
     book, dynamic = state.book, step.dt < np.inf
     theta = 1.0 if dynamic else 0.5
@@ -133,7 +133,7 @@ def _move_apart(terms, step, state, near, at, work):
 
 
 @jit_inlined
-def _write(out, k, state, terms, near, unknowns, at):
+def write(out, k, state, terms, near, unknowns, at):
     """Write row ``k`` of the history and its frame."""
     row = out.rows[k]
     for c in range(TIME):
@@ -241,7 +241,7 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
             if outcome == INTERRUPTED or todo[SHARE] < SMALLEST:
                 return ITERATIONS if outcome == OUTGROWN else outcome
             continue
-        _enter(terms, step, unknowns, state, at, work)
+        enter(terms, step, unknowns, state, at, work)
         _move_apart(terms, step, state, near, at, work)
         todo[DONE], todo[FAILED] = todo[DONE] + todo[SHARE], 0.0
         if todo[SHARE] < 1.0 or terms.friction.mu > 0.0:  # the next Hessian is another
@@ -251,7 +251,7 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
         if todo[DONE] == 1.0:
             state.totals[0] += todo[SPENT]
             state.totals[2] += stage.pace
-            _write(out, int(todo[ROW]), state, terms, near, unknowns, at)
+            write(out, int(todo[ROW]), state, terms, near, unknowns, at)
             control[1] += 1
             todo[ROW], todo[DONE], todo[SPENT] = todo[ROW] + 1.0, 0.0, 0.0
             todo[SHARE] = min(todo[SHARE], 1.0)

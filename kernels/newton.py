@@ -215,7 +215,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
                 kept[0] = np.inf
             before = size
         if kept[0] > unknowns.close:
-            found = factor(x, terms, step, near, at, projected)
+            found = factor(x, terms, step, near, at, projected, False)
             if near.system.matrix.missing[0] != 0:
                 outcome, most, kept[0] = OUTGROWN, 0.0, np.inf
                 break

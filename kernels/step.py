@@ -170,7 +170,7 @@ def rub(terms, grips, at):
 
 
 @jit_inlined
-def factor(x, terms, step, near, at, projected):
+def factor(x, terms, step, near, at, projected, through):
     """Factor the Hessian at the ``x`` of the last `evaluate`; return as `system.factor` does."""
     matrix = near.system.matrix
     clear(matrix)
@@ -184,7 +184,7 @@ def factor(x, terms, step, near, at, projected):
             matrix.diagonal[i] += inert * terms.mass[i]
         for i in range(2 * terms.layout.n_nodes):
             matrix.diagonal[i] += drag * terms.mass[i]
-    return system.factor(near.system, terms.layout, terms.walls, at.stiffness, projected)
+    return system.factor(near.system, terms.layout, terms.walls, at.stiffness, projected, through)
 
 
 @jit_inlined

@@ -2,7 +2,7 @@
 
 from kernels import blocks, condense, image
 from kernels.entries import IMAGE, INNER, add_image
-from kernels.jit import jit, jit_inlined
+from kernels.jit import jit, jit_exact, jit_inlined
 from kernels.pattern import CONDENSED, OPEN, RIGID
 from kernels.rows import zero
 
@@ -46,14 +46,16 @@ def _scatter_image(system, layout, w, rows):
 
 
 @jit_inlined
-def factor(system, layout, walls, stiffness, projected):
+def factor(system, layout, walls, stiffness, projected, through):
     """Add the walls to what the matrix holds and factor all.
 
     Return (wall, failed, pivot): where the first negative pivot is, failed = -1 if there is none;
-    wall = -1 if it is in the block matrix.
+    wall = -1 if it is in the block matrix. ``through``: they do not stop it, see `negatives`.
     """
     wall, failed, pivot, home = -1, -1, 0.0, system.matrix.home
     rounded = blocks.CONVEX if projected else blocks.ROUNDED
+    if through:
+        rounded = blocks.THROUGH
     for w in range(system.kind.size):
         if system.kind[w] == RIGID:
             continue
@@ -77,6 +79,17 @@ def factor(system, layout, walls, stiffness, projected):
         blocks.settle(system.matrix, layout.scale)
         failed, pivot = blocks.factor(system.matrix, layout.scale, rounded)
     return wall, failed, pivot
+
+
+@jit_exact
+def negatives(system):
+    """Return how many pivots of the factor are negative: as many as eigenvalues (Sylvester)."""
+    count = blocks.negatives(system.matrix)
+    for w in range(system.kind.size):
+        if system.kind[w] == CONDENSED:
+            for k in range(system.row_start[w], system.row_start[w + 1]):
+                count += system.rows[k, 0] < 0.0
+    return count
 
 
 @jit_inlined

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from sweep.params import Case
+from sweep.resolve import ARCS
 
 
 def still_idle(idle: Mapping[str, str], given: Mapping[str, Any], case: Case) -> dict[str, str]:
@@ -51,6 +52,8 @@ def _counts_anyway(key: str, held: object, given: Mapping[str, Any], case: Case)
 
 
 def _reason(key: str, case: Case) -> str:
+    if ARCS in (key.split(".")[1], case.solver.integrator):
+        return f'solver.integrator is "{case.solver.integrator}"'
     if case.lattice.structure is not None and key.startswith("loading."):
         return 'lattice.kind is "custom"'
     timed = key == "solver.load_steps" and case.loading.mode != "displacement"

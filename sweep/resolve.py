@@ -4,7 +4,7 @@ Keys that the mode does not use become None, so that equal physics has an equal 
 together is refused. Resolving what is resolved changes nothing.
 """
 
-from math import ceil, isclose, sqrt
+from math import ceil, hypot, isclose, sqrt
 from typing import TypeVar
 
 from sweep.custom import Structure
@@ -13,6 +13,7 @@ from sweep.tables import MAX_STEPS, Contact, Damping, Loading, Material, Solver,
 
 T = TypeVar("T")
 
+ARCS = "arc_length"
 PASSAGES = 10  # times that the striker takes for the height of the lattice: duration of an impact
 STEPS_OF_PASSAGE = 1000  # in one of these times
 
@@ -22,11 +23,11 @@ def resolve(
 ) -> dict[str, Table]:
     """The tables that depend on one another and on the lattice, nothing left open."""
     loading, wish = _loading(loading, lattice, solver.integrator), solver.time_step
-    solver = _solver(solver, loading, lattice.height)
+    solver = _solver(solver, loading, lattice)
     _check_steps(steps(loading, solver), solver, wish)
     return {
         "loading": loading,
-        "contact": _contact(contact, loading, lattice.structure),
+        "contact": _contact(contact, loading, lattice.structure, solver),
         "damping": _damping(damping, loading),
         "solver": solver,
     }
@@ -68,6 +69,9 @@ def _loading(loading: Loading, lattice: Lattice, integrator: str | None) -> Load
     if loading.mode == "custom":
         allowed = '"force" or "displacement" unless lattice.kind is "custom"'
         raise refusal("loading.mode", "custom", allowed)
+    if integrator == ARCS:
+        allowed = '"backward_euler" or "static" unless lattice.kind is "custom"'
+        raise refusal("solver.integrator", ARCS, allowed)
     if lattice.boundary == "periodic":
         return _mean(loading, lattice.height, integrator)
     if loading.mode == "force":
@@ -79,8 +83,8 @@ def _loading(loading: Loading, lattice: Lattice, integrator: str | None) -> Load
 
 def _own(loading: Loading, structure: Structure, integrator: str | None) -> Loading:
     """What the file of a structure says, for a time, or without one in equal increments."""
-    quasi_static = integrator == "static" or bool(loading.quasi_static)
-    if quasi_static and integrator not in (None, "static"):
+    quasi_static = integrator in ("static", ARCS) or bool(loading.quasi_static)
+    if quasi_static and integrator not in (None, "static", ARCS):
         raise refusal("solver.integrator", integrator, '"static" if quasi_static')
     if quasi_static and structure.floor_y_mm is None:
         from sweep.mechanism import loosest
@@ -88,7 +92,12 @@ def _own(loading: Loading, structure: Structure, integrator: str | None) -> Load
         found = loosest(structure)
         if found:
             allowed = f'"backward_euler", or more supports: {found}'
-            raise refusal("solver.integrator", "static", allowed)
+            raise refusal("solver.integrator", integrator or "static", allowed)
+    if integrator == ARCS and structure.prescribed:
+        allowed = '"static", or loads instead of prescribed moves'
+        raise refusal("solver.integrator", ARCS, allowed)
+    if integrator == ARCS and not (structure.loads or any(structure.gravity_mm_s2)):
+        raise refusal("solver.integrator", ARCS, '"static" where there are no loads')
     duration = _given(loading.duration, 1.0 if quasi_static else 0.2)
     return Loading(mode="custom", duration=duration, quasi_static=quasi_static, platen="none")
 
@@ -197,13 +206,20 @@ def _stroke_and_strain(loading: Loading, height: float) -> tuple[float, float]:
     return stroke, strain
 
 
-def _contact(contact: Contact, loading: Loading, structure: Structure | None) -> Contact:
-    """A platen that is not glued needs the barrier even where walls do not see each other."""
+def _contact(
+    contact: Contact, loading: Loading, structure: Structure | None, solver: Solver
+) -> Contact:
+    """A platen that is not glued needs the barrier even where walls do not see each other.
+
+    Along a path that is not taken in reality nothing rubs.
+    """
     if contact.model == "position_based":
         return _by_position(contact, loading, structure)
     floor = structure is not None and structure.floor_y_mm is not None
     if contact.model == "none" and loading.platen != "contact" and not floor:
         return Contact(model="none", friction=None, stiffness=None)
+    if solver.integrator == ARCS:
+        return contact.model_copy(update={"friction": 0.0, "slip_speed": None})
     if loading.quasi_static or not contact.friction:
         return contact.model_copy(update={"slip_speed": None})
     reference = loading.speed or loading.striker_speed or 0.1
@@ -233,12 +249,21 @@ def _damping(damping: Damping, loading: Loading) -> Damping:
     return damping.model_copy(update={"model": model, **dict.fromkeys(unused[model])})
 
 
-def _solver(solver: Solver, loading: Loading, height: float) -> Solver:
-    """A platen moves in `load_steps` equal steps, which set the time step if there is time."""
+def _solver(solver: Solver, loading: Loading, lattice: Lattice) -> Solver:
+    """A platen moves in `load_steps` equal steps, which set the time step if there is time.
+
+    As many arcs make the diagonal of a structure.
+    """
+    if solver.integrator == ARCS:
+        arcs = _given(solver.load_steps, 200)
+        usual = hypot(lattice.width, lattice.height) / arcs
+        length = _given(solver.arc_length, usual)
+        step = {"time_step": None, "load_steps": arcs, "arc_length": length}
+        return solver.model_copy(update=step)
     if loading.mode == "force" or (loading.mode == "custom" and not loading.quasi_static):
         step = {"time_step": _given(solver.time_step, 1e-4), "load_steps": None}
     elif loading.striker_speed is not None:
-        usual = height / loading.striker_speed / STEPS_OF_PASSAGE
+        usual = lattice.height / loading.striker_speed / STEPS_OF_PASSAGE
         step = {"time_step": _given(solver.time_step, usual), "load_steps": None}
     elif loading.quasi_static:
         step = {"time_step": None, "load_steps": _given(solver.load_steps, 200)}
@@ -249,7 +274,7 @@ def _solver(solver: Solver, loading: Loading, height: float) -> Solver:
         load_steps = _given(solver.load_steps, _steps_in(time, solver.time_step))
         step = {"time_step": time / load_steps, "load_steps": load_steps}
     integrator = "static" if loading.quasi_static else "backward_euler"
-    return solver.model_copy(update={"integrator": integrator, **step})
+    return solver.model_copy(update={"integrator": integrator, "arc_length": None, **step})
 
 
 def _steps_in(time: float, time_step: float | None) -> int:

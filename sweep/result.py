@@ -172,6 +172,12 @@ STRIKER_COLUMNS: dict[str, Column] = {
 }
 """Columns that the history of an impact has, too."""
 
+LOAD_COLUMNS: dict[str, Column] = {
+    "load_factor": Column("1", "share of the loads and prescribed moves that is on"),
+    "unstable_modes": Column("1", "independent motions that lower the energy; 0 where stable"),
+}
+"""Columns that the history of a structure has in statics, the second along arcs only."""
+
 FRAME_COLUMNS: dict[str, Column] = {
     "strain": Column("1", "top displacement / height of a frame"),
     "time_s": Column("s", "time of a frame"),
@@ -203,9 +209,7 @@ def describe_history(name: str) -> Column:
     if match := PROBE.fullmatch(name):
         node, what, unit = match.groups()
         return Column(unit.replace("Nm", "N m"), f"{what.replace('_', ' ')} at node {node}")
-    if name == "load_factor":
-        return Column("1", "share of the loads and prescribed moves that is on")
-    return (HISTORY_COLUMNS | STRIKER_COLUMNS)[name]
+    return (HISTORY_COLUMNS | STRIKER_COLUMNS | LOAD_COLUMNS)[name]
 
 
 def is_grid_key(name: str) -> bool:

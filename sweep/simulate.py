@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kernels import inertia, march, newton, spring
+from kernels import arc, inertia, march, newton, spring
 from kernels.balance import Tolerance
 from sweep.measure import history_columns, summarise
 from sweep.mesh import Floats
 from sweep.params import Case, Lattice, Loading, given
+from sweep.path import arc_of, path_columns
 from sweep.periodic import build_periodic
 from sweep.probes import own_columns
 from sweep.result import Result, Status
@@ -18,7 +19,7 @@ from sweep.scene import Scene, build_scene, time_step
 from sweep.structure import build_structure
 
 FRAMES = 40
-IMPACT_FRAMES = 4 * FRAMES  # most impacts are over in a quarter of their duration
+EARLY_FRAMES = 4 * FRAMES  # most impacts, and many paths, are over in a quarter of their steps
 GLANCE = 64  # steps of a striker after which one looks whether it is back
 LONGER = "try a longer loading.duration"
 ROUND_OFF = 4e-15
@@ -31,6 +32,8 @@ ADVICE = {
     newton.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
     newton.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
 }
+
+LOST = "no shape in balance within reach of the shortest arc; try a smaller solver.arc_length"
 
 
 @dataclass(frozen=True)
@@ -53,6 +56,7 @@ def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
     history = history_columns(run.rows[: run.done], scene, case)
     if case.lattice.structure is not None:
         history = own_columns(history, run.probed[: run.done], scene, case)
+        history |= path_columns(run.arc, run.done)
     frames = run.frames()
     summary = summarise(case, scene, history, frames, run.loading_rows)
     case_id = case.case_id
@@ -99,8 +103,10 @@ class _Run:
         self.rows[0, march.HEIGHT] = march.height(scene.x_rest, scene.top, scene.base)
         self.rows[0, march.GAP] = np.nan
         self.struck = case.loading.mode == "impact"
-        self.frame_of, kept = _frames(total + 1, IMPACT_FRAMES if self.struck else FRAMES)
+        early = self.struck or case.solver.integrator == "arc_length"
+        self.frame_of, kept = _frames(total + 1, EARLY_FRAMES if early else FRAMES)
         self.positions = np.tile(scene.x_rest, (kept, 1))
+        self.arc = arc_of(scene, case)
         self.done = 1
 
     def _begin(self) -> None:
@@ -165,9 +171,8 @@ class _Run:
             self.probed[span],
         )
         tolerance = tolerances(self.case, self.scene, stage.dt)
-        outcome, written = march.march(
-            self.scene.terms, self.scene.unknowns, tolerance, stage, self.state, out, self.control
-        )
+        of = self.scene.terms, self.scene.unknowns, tolerance, stage, self.state, out, self.control
+        outcome, written = march.march(*of) if self.arc is None else arc.follow(*of, self.arc)
         self.done += written
         return outcome
 
@@ -179,6 +184,8 @@ class _Run:
         if outcome == newton.INTERRUPTED:
             return Status.STOPPED, f"interrupted {where}; run again to complete it"
         advice = ADVICE[outcome].format(limit=self.case.solver.max_iterations)
+        if self.arc is not None:
+            advice = LOST
         return Status.STOPPED, f"stopped {where}: {advice}"
 
     def _where(self) -> str:
@@ -249,10 +256,10 @@ def stages(case: Case, scene: Scene) -> list[Stretch]:
     """Loading and unloading as stages with linear ramps."""
     loading, solver = case.loading, case.solver
     pace = time_step(case)
-    dt = np.inf if solver.integrator == "static" else pace
+    dt = np.inf if loading.quasi_static else pace
     if loading.mode == "custom":
         steps = solver.load_steps or max(round(given(loading.duration) / pace), 1)
-        start = 0.0 if solver.integrator == "static" else 1.0
+        start = 0.0 if loading.quasi_static else 1.0
         return [Stretch("loading", march.Stage(steps, dt, pace, start, 1.0, 0.0, scene.travel))]
     rest = float(scene.x_rest[-1])
     if loading.mode == "displacement":

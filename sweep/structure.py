@@ -33,6 +33,7 @@ from sweep.scene import (
 from sweep.touch import contact_of, projection_of
 
 MM = 1e-3
+SUDDEN = 5e-3  # of t^2 / size: a slender column shortens by 0.8 t^2 / L and buckles
 FAR = 1e3  # times the size of a structure: where the ceiling is that no contact may miss
 WAYS = ("x", "y", "rotation")
 
@@ -102,10 +103,11 @@ def build_structure(case: Case) -> Scene:
         layout=follows,
         project=projection_of(mesh, layout, follows, masses, case),
     )
-    span = max(
-        MM * _distances(of, of.walls).max(), 0.25 * np.hypot(*np.ptp(network.points, axis=0))
-    )
-    unknowns = unknowns_of(mesh, layout, follows, case)._replace(cap=0.25 * span)
+    size = np.hypot(*np.ptp(network.points, axis=0))
+    span = max(MM * _distances(of, of.walls).max(), 0.25 * size)
+    unknowns = unknowns_of(mesh, layout, follows, case)
+    close = min(unknowns.close, SUDDEN * mesh.thickness.min() ** 2 / size)
+    unknowns = unknowns._replace(cap=0.25 * span, close=close)
     return Scene(
         mesh, network, terms, unknowns, _rest(of, mesh, layout),
         bottom=np.array([layout.low]),

@@ -189,9 +189,10 @@ class Solver(Table):
     labels: ClassVar[tuple[str, ...]] = ("time_limit",)  # raising it makes nothing run again
     neutral: ClassVar[dict[str, Any]] = {"hessian": "exact"}
 
-    integrator: Literal["backward_euler", "static"] | None = None
+    integrator: Literal["backward_euler", "static", "arc_length"] | None = None
     time_step: Duration | None = None
     load_steps: Count | None = None
+    arc_length: Length | None = None
     tolerance: Annotated[float, Field(gt=0, lt=1)] = 1e-8
     max_iterations: Count = 100
     time_limit: Duration = 300.0

@@ -47,7 +47,7 @@ class Whole(NamedTuple):
     def factor(self, x, projected=False):
         """Place of the first negative pivot at ``x``, and whether an entry had no room."""
         _, at = self.found(x, projected)
-        place = step.factor(x, self.terms, self.step, self.near, at, projected)
+        place = step.factor(x, self.terms, self.step, self.near, at, projected, False)
         return place, bool(self.near.system.matrix.missing[0])
 
     def solve(self, b):

@@ -8,10 +8,10 @@ import json
 import numpy as np
 
 from sweep.custom import Structure
-from sweep.params import Case, Contact, Damping, Lattice, Loading, Solver
+from sweep.params import Case, Contact, Damping, Lattice, Loading, Material, Solver
 from sweep.simulate import simulate
-from tests.figures import MATERIAL
 
+MATERIAL = Material(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
 MM = 1e-3
 LENGTH, THICKNESS, DEPTH = 100.0, 1.0, 10.0  # mm
 BENDING = 12e6 * DEPTH * THICKNESS**3 / 12 * MM**4  # Y I, N m^2
@@ -31,13 +31,13 @@ def structure(**parts):
     return Structure.model_validate_json(json.dumps(whole))
 
 
-def pushed(parts, steps=10, contact=APART, **solver):
-    """Result of a structure that is loaded in equal increments."""
+def pushed(parts, steps=10, contact=APART, integrator="static", **solver):
+    """Result of a structure that is loaded in equal increments, or along arcs."""
     case = Case(
         lattice=Lattice(kind="custom", structure=structure(**parts)),
         material=MATERIAL,
         contact=contact,
-        solver=Solver(integrator="static", load_steps=steps, **solver),
+        solver=Solver(integrator=integrator, load_steps=steps, **solver),
     )
     return finished(case)
 

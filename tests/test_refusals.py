@@ -52,7 +52,7 @@ CHOICES = {
     ),
     '[solver]\nhessian = "tangent"': 'solver.hessian = "tangent"; "exact" or "tangent_modulus"',
     '[solver]\nintegrator = "newmark"': (
-        'solver.integrator = "newmark"; "backward_euler" or "static"'
+        'solver.integrator = "newmark"; "backward_euler", "static" or "arc_length"'
     ),
 }
 

@@ -55,7 +55,7 @@ def repeat(which, count, x, dx, most, whole, at, ones):
         if which == EVALUATE:
             total += step.evaluate(x, terms, one, near, at, False)
         elif which == FACTOR:
-            total += step.factor(x, terms, one, near, at, False)[2]
+            total += step.factor(x, terms, one, near, at, False, False)[2]
         elif which == SOLVE:
             b[:] = 1.0
             system.solve(near.system, terms.layout, b)
@@ -89,7 +89,7 @@ def repeat(which, count, x, dx, most, whole, at, ones):
             total += _condense(terms, near, at)
         elif which == BLOCKS:
             copy(ones, matrix.values)
-            total += blocks.factor(matrix, terms.layout.scale)[1]
+            total += blocks.factor(matrix, terms.layout.scale, False)[1]
     return total
 
 

@@ -1,0 +1,224 @@
+"""Follows a path of equilibria through its limit points: load factor and shape are one unknown.
+
+A point of it balances the load and lies one arc from the point before (Crisfield 1981, Comput.
+Struct. 13, 55; both linearised together, as Ramm 1981 and Wempner 1971):
+
+    g(x) = lambda f,   |x - x0|_w = s,   |u|_w^2 = sum w u^2
+
+w is the share of the walls that a node bears, so that s does not depend on the mesh. Newton:
+
+    dx = r + dlambda v,   K r = -(g - lambda f),   K v = f,   dlambda = -(c + c_x . r) / (c_x . v)
+
+No minimum is looked for: K may have negative pivots, as many as there are directions in which the
+shape is unstable. Where the load would pass its full value, that takes the place of the arc.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels import damp, friction, system
+from kernels.balance import largest, reduce
+from kernels.jit import jit_exact, jit_inlined, jit_owning
+from kernels.march import SMALLEST, enter, write
+from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, NOT_FINITE, OUTGROWN, STALLED
+from kernels.room import PREDICTED, make_room
+from kernels.rows import copy, dot, zero
+from kernels.step import Step, covers, evaluate, factor, find_near, step_limit
+
+FACTOR, UNSTABLE = range(2)  # columns of a path
+ROW, DONE, SHARE, LOAD, RISE, AIM, LENGTH, SPENT, MOVE = range(9)  # of what is to be done
+WAY, TANGENT = range(2)  # last move, and that of a unit of load from its end
+TRIES = 20  # Newton iterations of an arc
+ON_ARC = 1e-6  # of the arc: farther off it is another one
+BEND = 0.7  # cosine between an arc and its start, or the arc before: less is another path
+MOST_LOAD = 0.05  # of the full load: no arc sets out for more
+
+
+class Arc(NamedTuple):
+    """weight (n,) of a coordinate, zero for rotations; length of an arc in m; path (steps + 1, 2):
+    load factor and number of unstable directions, at the start and at the end of every arc.
+    """
+
+    weight: np.ndarray
+    length: float
+    path: np.ndarray
+
+
+@jit_exact
+def _inner(a, b, weight):
+    """Return the product of two moves (n,) of which each coordinate has its weight."""
+    value = 0.0
+    for i in range(a.size):
+        value += weight[i] * a[i] * b[i]
+    return value
+
+
+@jit_exact
+def _cosine(a, b, weight):
+    """Return that of the angle between two moves; 1 where one of them is none."""
+    size = np.sqrt(_inner(a, a, weight) * _inner(b, b, weight))
+    return _inner(a, b, weight) / size if size > 0.0 else 1.0
+
+
+@jit_exact
+def _combine(r, share, v, unknowns, dx):
+    """Fill dx with r + share v; return its longest move of a coordinate, m."""
+    most = 0.0
+    for i in range(dx.size):
+        dx[i] = r[i] + share * v[i]
+        if unknowns.leader[i] >= 0:
+            most = max(most, abs(dx[i]) * unknowns.scale[i])
+    return most
+
+
+@jit_exact
+def _off(u, r, v, arc, todo):
+    """Return the rise of the load that the constraint asks for, and whether it is met."""
+    if todo[LENGTH] == 0.0:
+        return todo[AIM] - todo[LOAD], todo[AIM] == todo[LOAD]
+    square = todo[LENGTH] * todo[LENGTH]
+    gap = _inner(u, u, arc.weight) - square
+    rise = -(0.5 * gap + _inner(u, r, arc.weight)) / _inner(u, v, arc.weight)
+    return rise, abs(gap) <= ON_ARC * square
+
+
+@jit_exact
+def _balance(x, terms, before, near, unknowns, tolerance, room, arc, todo):
+    """Move ``x`` (n,) on by ``work.dx`` and the load by its rise until both are in balance."""
+    _, at, work, grips, way = room
+    r, v = work.direction, work.escape
+    while True:
+        if not covers(near, x, terms, todo[MOVE]):
+            return OUTGROWN
+        share = step_limit(x, work.dx, todo[MOVE], terms, near, at)
+        if todo[MOVE] > unknowns.cap:
+            share = min(share, unknowns.cap / todo[MOVE])
+        for i in range(x.size):
+            x[i] += share * work.dx[i]
+        arrives = share == 1.0 and todo[LENGTH] == 0.0
+        todo[LOAD] = todo[AIM] if arrives else todo[LOAD] + share * todo[RISE]
+        zero(work.dx)
+        todo[RISE], todo[MOVE], todo[SPENT] = 0.0, 0.0, todo[SPENT] + 1.0
+        step = Step(before, way[PREDICTED], np.inf, todo[LOAD], grips)
+        evaluate(x, terms, step, near, at, False)
+        reduce(at.g, unknowns, work.residual)
+        size = largest(work.residual, unknowns)
+        if not size < np.inf:
+            return NOT_FINITE
+        factor(x, terms, step, near, at, False, True)
+        if near.system.matrix.missing[0] != 0:
+            return OUTGROWN
+        for i in range(x.size):
+            r[i], v[i] = -at.g[i], terms.load[i]
+        system.solve(near.system, terms.layout, r)
+        system.solve(near.system, terms.layout, v)
+        rise, met = _off(at.u, r, v, arc, todo)
+        if met and size <= tolerance.force and abs(0.5 * dot(at.g, r)) <= tolerance.decrement:
+            return CONVERGED
+        if todo[SPENT] > min(TRIES, tolerance.iterations):
+            return ITERATIONS
+        todo[RISE], todo[MOVE] = rise, _combine(r, rise, v, unknowns, work.dx)
+
+
+@jit_inlined
+def _set_out(terms, unknowns, state, room, arc, trail, todo):
+    """Point dx along the path, for an arc or for what the load lacks, whichever is shorter."""
+    before, _, work, _, _ = room
+    copy(state.x, before.x0)
+    damp.prepare(terms, before)
+    tangent, way = trail[TANGENT], trail[WAY]
+    todo[SPENT], todo[LOAD], todo[AIM] = 0.0, state.held[1], state.held[1]
+    todo[LENGTH], todo[RISE] = 0.0, 0.0
+    if todo[ROW] >= 0.0:
+        size = np.sqrt(_inner(tangent, tangent, arc.weight))
+        length = todo[SHARE] * min(arc.length, MOST_LOAD * size)
+        todo[RISE] = length / size * (-1.0 if _inner(tangent, way, arc.weight) < 0.0 else 1.0)
+        todo[LENGTH] = length
+        if todo[RISE] >= 1.0 - todo[LOAD]:
+            todo[RISE], todo[LENGTH], todo[AIM] = 1.0 - todo[LOAD], 0.0, 1.0
+    zero(work.residual)
+    todo[MOVE] = _combine(work.residual, todo[RISE], tangent, unknowns, work.dx)
+
+
+@jit_inlined
+def _return(before, at, state, unknowns, work, todo):
+    """Set out from the last point for the full load instead, as an arc has passed it."""
+    share = (1.0 - state.held[1]) / (todo[LOAD] - state.held[1])
+    copy(before.x0, state.x)
+    zero(at.least)  # what was found last was found elsewhere
+    zero(work.residual)
+    todo[MOVE] = _combine(work.residual, share, at.u, unknowns, work.dx)
+    todo[LOAD], todo[RISE] = state.held[1], 1.0 - state.held[1]
+    state.totals[0] += todo[SPENT]
+    todo[LENGTH], todo[AIM], todo[SPENT] = 0.0, 1.0, 0.0
+
+
+@jit_exact
+def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, arc, trail, todo):
+    """Follow the path from where ``todo`` (9,) says, to its end or until room is lacking."""
+    before, at, work, grips, way = room
+    while todo[ROW] < stage.steps:
+        if todo[SPENT] < 0.0:
+            todo[SHARE] = min(todo[SHARE], 1.0 - todo[DONE])
+            _set_out(terms, unknowns, state, room, arc, trail, todo)
+        outcome = _balance(state.x, terms, before, near, unknowns, tolerance, room, arc, todo)
+        if outcome == OUTGROWN and todo[SPENT] <= 2 * TRIES:
+            return outcome
+        if control[0] != 0:
+            outcome = INTERRUPTED
+        if outcome == CONVERGED and todo[ROW] >= 0.0:
+            if todo[LENGTH] > 0.0 and todo[LOAD] > 1.0:
+                _return(before, at, state, unknowns, work, todo)
+                continue
+            side = -1.0 if _inner(trail[TANGENT], trail[WAY], arc.weight) < 0.0 else 1.0
+            if side * _cosine(at.u, trail[TANGENT], arc.weight) < BEND:
+                outcome = STALLED
+        state.totals[0] += todo[SPENT]
+        todo[SPENT] = -1.0
+        if outcome != CONVERGED:
+            copy(before.x0, state.x)
+            zero(at.least)
+            todo[SHARE] *= 0.5
+            if outcome == INTERRUPTED or todo[SHARE] < SMALLEST or todo[ROW] < 0.0:
+                return ITERATIONS if outcome == OUTGROWN else outcome
+            continue
+        step = Step(before, way[PREDICTED], np.inf, todo[LOAD], grips)
+        enter(terms, step, unknowns, state, at, work)
+        copy(work.escape, trail[TANGENT])
+        if todo[ROW] >= 0.0:
+            copy(at.u, trail[WAY])
+            todo[DONE] += todo[SHARE]
+            state.totals[1] += 1.0
+            if todo[DONE] < 1.0 and todo[LOAD] != 1.0:
+                todo[SHARE] *= 2.0
+                continue
+            state.totals[2] += stage.pace
+            write(out, int(todo[ROW]), state, terms, near, unknowns, at)
+            control[1] += 1
+        todo[ROW], todo[DONE], todo[SHARE] = todo[ROW] + 1.0, 0.0, 1.0
+        arc.path[int(todo[ROW]), FACTOR] = todo[LOAD]
+        arc.path[int(todo[ROW]), UNSTABLE] = system.negatives(near.system)
+        if todo[LOAD] == 1.0:
+            break
+    return CONVERGED
+
+
+@jit_owning
+def follow(terms, unknowns, tolerance, stage, state, out, control, arc):
+    """Follow the path from ``state`` (changed in place) for the arcs of ``stage``, or until the
+    load is full; fill ``out`` and ``arc.path``.
+
+    Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts arcs done.
+    """
+    todo, trail = np.zeros(9), np.zeros((2, state.x.size))
+    todo[ROW], todo[SHARE], todo[SPENT] = -1.0, 1.0, -1.0
+    near = find_near(state.x, terms, friction.none(), 0.0)
+    room = make_room(terms, near)
+    while True:
+        outcome = _go(
+            terms, unknowns, tolerance, stage, state, out, control, near, room, arc, trail, todo
+        )
+        if outcome != OUTGROWN:
+            return outcome, max(int(todo[ROW]), 0)
+        near = find_near(state.x, terms, room[3], todo[MOVE])

@@ -1,0 +1,33 @@
+"""The reference problems of `make validate`: their errors and observed orders."""
+
+from math import isnan
+
+import pytest
+
+from tests.validation import PROBLEMS
+from tests.validation.elastica import cantilever
+from tests.validation.problem import Finding, find
+
+BAND = 0.15
+
+
+@pytest.mark.parametrize("problem", PROBLEMS, ids=lambda problem: problem.name)
+def test_problem_is_solved_with_the_order_of_the_method(problem):
+    found = find(problem)
+    assert found.error < problem.within
+    if problem.order:
+        assert found.order == pytest.approx(problem.order, abs=BAND)
+
+
+def test_cantilever_is_that_of_the_literature():
+    """Figures of Mattiasson 1981: drop and shortening of the end over L, its slope."""
+    assert cantilever(1.0) == pytest.approx((0.30172, 0.05643, 0.46135), abs=1e-5)
+    assert cantilever(10.0) == pytest.approx((0.81061, 0.55500, 1.43029), abs=1e-5)
+
+
+def test_order_and_limit_of_a_sequence():
+    found = Finding((1.0 + 16e-3, 1.0 + 4e-3, 1.0 + 1e-3), 1.0, 2.0)
+    assert found.order == pytest.approx(2.0)
+    assert found.error == pytest.approx(1e-3)
+    assert found.extrapolated == pytest.approx(0.0, abs=1e-12)
+    assert isnan(Finding((1.0, 1.0, 1.0), 1.0, 2.0).order)

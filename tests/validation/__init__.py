@@ -1,0 +1,11 @@
+"""Reference problems: our value at three meshes beside a truth from elsewhere (`make validate`)."""
+
+from tests.validation import beams, frames, joints, motion, touching
+
+PROBLEMS = (
+    *beams.PROBLEMS,
+    *joints.PROBLEMS,
+    *frames.PROBLEMS,
+    *motion.PROBLEMS,
+    *touching.PROBLEMS,
+)
