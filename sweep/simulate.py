@@ -2,11 +2,11 @@
 
 import threading
 import time
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from kernels import inertia, march, newton, spring
+from kernels import book, inertia, march, newton, scheme, spring
 from kernels.newton import Tolerance
 from sweep.measure import history_columns, summarise
 from sweep.mesh import Floats
@@ -21,18 +21,25 @@ IMPACT_FRAMES = 4 * FRAMES  # most impacts are over in a quarter of their durati
 GLANCE = 64  # steps of a striker after which one looks whether it is back
 LONGER = "try a longer loading.duration"
 ROUND_OFF = 4e-15
+SCHEMES = {
+    "backward_euler": scheme.BACKWARD_EULER,
+    "bdf2": scheme.BDF2,
+    "newmark": scheme.TRAPEZOIDAL,
+    "static": scheme.BACKWARD_EULER,  # of infinite length
+}
 ADVICE = {
     newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; "
     "try more solver.load_steps or a smaller solver.time_step",
     newton.STALLED: "the energy could not be lowered further; "
     "try a looser solver.tolerance or smaller steps",
     newton.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
+    march.INACCURATE: "no step was short enough for solver.step_error; "
+    "try a larger one or a smaller solver.time_step",
     newton.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
 }
 
 
-@dataclass(frozen=True)
-class Stretch:
+class Stretch(NamedTuple):
     """A stage with its name, for messages."""
 
     name: str
@@ -80,8 +87,8 @@ class _Run:
         n = scene.x_rest.size
         total = sum(s.stage.steps for s in self.stages)
         self.state = march.State(
-            scene.x_rest.copy(), scene.velocity.copy(), np.zeros(march.TIME), np.zeros(n),
-            np.zeros(n), np.zeros(3), np.zeros(2), np.zeros(3),
+            scene.x_rest.copy(), scene.velocity.copy(), np.zeros(march.TIME), np.zeros((2, n)),
+            np.zeros((4, n)), np.zeros(3), np.zeros(2), np.zeros(4),
         )  # fmt: skip
         self.rows = np.zeros((total + 1, march.N_COLUMNS))
         self.probed = np.zeros((total + 1, 2, scene.probes.size))
@@ -102,9 +109,9 @@ class _Run:
         """
         state, terms = self.state, self.scene.terms
         state.stored[0] = spring.evaluate(state.x, terms.spring, np.zeros_like(state.x))
-        state.book[march.STRETCH] = state.stored[0]
-        state.book[march.KINETIC] = inertia.kinetic(state.v, terms.mass)
-        state.book[march.WORK] = state.stored[0] + state.book[march.KINETIC]
+        state.book[book.STRETCH] = state.stored[0]
+        state.book[book.KINETIC] = inertia.kinetic(state.v, terms.mass)
+        state.book[book.WORK] = state.stored[0] + state.book[book.KINETIC]
         self.rows[0, : march.TIME] = state.book
 
     def complete(self) -> tuple[Status, str]:
@@ -156,6 +163,8 @@ class _Run:
             self.scene.probes,
             self.probed[span],
         )
+        if not self.struck:
+            self.state.totals[march.LAST] = 0.0  # what acts changes at once: set out anew
         tolerance = tolerances(self.case, self.scene, stage.dt)
         outcome, written = march.march(
             self.scene.terms, self.scene.unknowns, tolerance, stage, self.state, out, self.control
@@ -221,7 +230,8 @@ def tolerances(case: Case, scene: Scene, dt: float) -> Tolerance:
     force = max(scene.force_scale, np.abs(terms.load * scene.unknowns.lever).max(initial=0.0))
     size = np.ptp(scene.mesh.points)
     rounded = terms.law.modulus * terms.stretch.area.max() * size / terms.stretch.l0.min()
-    rounded += terms.mass.max() * size / dt**2
+    shortest = dt if case.solver.integrator == "backward_euler" else dt * scheme.FIRST
+    rounded += terms.mass.max() * size / shortest**2
     allowed = max(case.solver.tolerance * force, ROUND_OFF * rounded)
     return Tolerance(
         force=allowed,
@@ -233,7 +243,16 @@ def tolerances(case: Case, scene: Scene, dt: float) -> Tolerance:
 
 
 def stages(case: Case, scene: Scene) -> list[Stretch]:
-    """Loading and unloading as stages with linear ramps."""
+    """Loading and unloading as stages with linear ramps, gone through as the solver is told."""
+    chosen = SCHEMES[given(case.solver.integrator)]
+    error = np.inf if case.solver.step_error is None else case.solver.step_error
+    return [
+        Stretch(name, stage._replace(scheme=chosen, error=error))
+        for name, stage in _stages(case, scene)
+    ]
+
+
+def _stages(case: Case, scene: Scene) -> list[Stretch]:
     loading, solver = case.loading, case.solver
     pace = time_step(case)
     dt = np.inf if solver.integrator == "static" else pace
