@@ -10,7 +10,7 @@ smooth, of either sign. The trapezoidal integrator loses no kinetic energy.
 import numpy as np
 
 from kernels import inertia, project
-from kernels.jit import jit_inlined
+from kernels.jit import jit_exact, jit_inlined
 from kernels.newton import reduce
 from kernels.rows import copy, dot
 from kernels.scheme import DAMPING, ELASTIC, RUBBING
@@ -18,6 +18,16 @@ from kernels.step import store
 
 WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR = range(8)
 INJECTED, RESIDUAL = 8, 9
+
+
+@jit_exact
+def _work(force, past, u, theta):
+    """Return the work of a force (n,) along ``u``, which is then the ``past`` one."""
+    value = 0.0
+    for i in range(u.size):
+        value += (theta * force[i] + (1.0 - theta) * past[i]) * u[i]
+        past[i] = force[i]
+    return value
 
 
 @jit_inlined
@@ -43,9 +53,9 @@ def enter(terms, step, unknowns, state, at, work):
     factor = theta * step.factor + (1.0 - theta) * state.held[1]
     book[WORK] += factor * dot(terms.load, at.u)
     book[WORK] += (theta * held + (1.0 - theta) * state.held[0]) * lead
-    book[MATERIAL] += theta * dot(at.material, at.u) + (1.0 - theta) * dot(past[DAMPING], at.u)
-    book[FRICTION] += theta * dot(at.rubbing, at.u) + (1.0 - theta) * dot(past[RUBBING], at.u)
-    loss = theta * dot(at.elastic, at.u) + (1.0 - theta) * dot(past[ELASTIC], at.u)
+    book[MATERIAL] += _work(at.material, past[DAMPING], at.u, theta)
+    book[FRICTION] += _work(at.rubbing, past[RUBBING], at.u, theta)
+    loss = _work(at.elastic, past[ELASTIC], at.u, theta)
     total = 0.0
     for k in range(at.stored.size):
         loss -= at.stored[k] - state.stored[k]
@@ -53,9 +63,6 @@ def enter(terms, step, unknowns, state, at, work):
         book[STRETCH + k] = at.stored[k]
         state.stored[k] = at.stored[k]
     book[INTEGRATOR] += loss
-    copy(at.elastic, past[ELASTIC])
-    copy(at.material, past[DAMPING])
-    copy(at.rubbing, past[RUBBING])
     state.held[0], state.held[1] = held, step.factor
     book[RESIDUAL] = book[WORK] + book[INJECTED] - book[KINETIC] - total
     book[RESIDUAL] -= book[MATERIAL] + book[FRICTION] + book[INTEGRATOR]

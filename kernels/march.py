@@ -13,6 +13,7 @@ from kernels.newton import (
     INTERRUPTED,
     ITERATIONS,
     OUTGROWN,
+    Tolerance,
     largest,
     minimise,
     reduce,
@@ -125,14 +126,15 @@ def _begin(terms, stage, target, driven, state, near, room, todo):
     if h != todo[LENGTH]:  # the next Hessian is another
         todo[LENGTH], work.kept[0] = h, np.inf
     copy(x, before.x0)
-    copy(x, before.y)
     copy(x, way[LAGGED])
-    for i in range(x.size):
-        work.dx[i] = more * at.u[i]
-    if dt < np.inf:
+    if dt == np.inf:
+        copy(x, before.y)
+        for i in range(x.size):
+            work.dx[i] = more * at.u[i]
+    else:
         if driven >= 0 and stage.scheme != BACKWARD_EULER and last == 0.0:
             strike(state, terms.layout, terms.mass, remaining / dt)
-        scheme.set_out(state, dt, h, before.y, way[PREDICTED], work.dx)
+        scheme.set_out(state, dt, h, way[HEAVY], before.y, way[PREDICTED], work.dx)
     if more > 0.0:
         work.dx[driven] = remaining
     ahead = dt - h if h < dt else 0.0
@@ -165,6 +167,16 @@ def _grips_agree(x, terms, step, near, unknowns, tolerance, room, todo):
 
 
 @jit_exact
+def _eased(tolerance, h):
+    """Return the tolerance of a step of length ``h``: a short one rounds its inertia off more."""
+    ease = max(1.0, tolerance.inertia / (h * h * tolerance.force))
+    return Tolerance(
+        ease * tolerance.force, ease * tolerance.decrement, ease * tolerance.friction,
+        tolerance.noise, tolerance.iterations, tolerance.inertia,
+    )  # fmt: skip
+
+
+@jit_exact
 def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo):
     """March on from where ``todo`` (8,) says, until the stage ends or something must be done."""
     before, at, work, grips, way = room
@@ -181,15 +193,16 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
             slip *= todo[LENGTH] / stage.dt
         theta = scheme.weight(todo[LENGTH], dt)
         step = Step(before, way[PREDICTED], todo[LENGTH], factor, grips, slip, theta)
+        allowed = _eased(tolerance, step.dt)
         outcome, spent, todo[MOVE] = minimise(
-            state.x, target, terms, step, near, unknowns, tolerance, at, work, control
+            state.x, target, terms, step, near, unknowns, allowed, at, work, control
         )
         todo[SPENT] += spent
         if outcome == OUTGROWN and todo[SPENT] < GRIP_LOOPS * tolerance.iterations:
             zero(work.dx)
             return outcome
         if outcome == CONVERGED and terms.friction.mu > 0.0:
-            if not _grips_agree(state.x, terms, step, near, unknowns, tolerance, room, todo):
+            if not _grips_agree(state.x, terms, step, near, unknowns, allowed, room, todo):
                 if todo[LOOPS] < GRIP_LOOPS:
                     continue
                 outcome = ITERATIONS

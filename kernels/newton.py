@@ -30,7 +30,7 @@ class Tolerance(NamedTuple):
 
     force: largest residual in N. decrement: largest Newton decrement in J. friction: largest change
     of a lagged friction force in N. noise: energy changes below it are round-off, J. iterations:
-    most for one minimum.
+    most for one minimum. inertia: its round-off in a step of 1 s, N.
     """
 
     force: float
@@ -38,6 +38,7 @@ class Tolerance(NamedTuple):
     friction: float
     noise: float
     iterations: int
+    inertia: float
 
 
 class Unknowns(NamedTuple):

@@ -7,8 +7,7 @@
     trapezoidal rule  h = dt / 2 (r infinite);  x' = v0, v' = a0, the balance at x0
 
 What changes at once has no x', v' to go by: a first step, of backward Euler, is `FIRST` of the
-others. v' is zero for what has no mass (its rate is no acceleration) and for what is led (at a
-constant speed).
+others. What has no mass has no v' either: ``heavy`` (n,) is 0 there, else 1.
 """
 
 import numpy as np
@@ -18,7 +17,8 @@ from kernels.jit import jit_exact
 BACKWARD_EULER, BDF2, TRAPEZOIDAL = range(3)
 FIRST = 2.0**-4  # share of a step: its loss of energy, of first order, is the square of that
 POSITION, VELOCITY = range(2)  # rates
-ELASTIC, DAMPING, RUBBING, INERTIA = range(4)  # gradients at the end of the last step
+ELASTIC, DAMPING, RUBBING = range(3)  # of the past: gradients at the last step
+CHANGE = 3  # of the past: last acceleration; mean velocity in the last step of what has no mass
 
 
 @jit_exact
@@ -30,22 +30,21 @@ def length(scheme, dt, last):
 
 
 @jit_exact
-def _expected(state, i, dt, ahead):
+def _expected(state, i, dt, ahead, heavy):
     """Return how far coordinate ``i`` goes in ``dt`` at its rates."""
-    speed = state.v[i]
-    if ahead > 0.0:
-        speed += 0.5 * dt * state.rates[VELOCITY, i]
-    return dt * speed
+    if ahead > 0.0 and heavy[i] == 0.0:
+        return dt * state.past[CHANGE, i]
+    return dt * (state.v[i] + (0.5 * dt * state.rates[VELOCITY, i] if ahead > 0.0 else 0.0))
 
 
 @jit_exact
-def set_out(state, dt, h, y, x_pred, dx):
+def set_out(state, dt, h, heavy, y, x_pred, dx):
     """Fill y, x~ = y + h w and the move (n,) to begin with."""
     ahead = dt - h
     for i in range(y.size):
         y[i] = state.x[i] + ahead * state.rates[POSITION, i]
         x_pred[i] = y[i] + h * (state.v[i] + ahead * state.rates[VELOCITY, i])
-        dx[i] = _expected(state, i, dt, ahead)
+        dx[i] = _expected(state, i, dt, ahead, heavy)
 
 
 @jit_exact
@@ -56,7 +55,7 @@ def error(state, x0, dt, h, heavy):
     most = 0.0
     for i in range(x0.size):
         if heavy[i] > 0.0:
-            missed = state.x[i] - x0[i] - _expected(state, i, dt, dt - h)
+            missed = state.x[i] - x0[i] - _expected(state, i, dt, dt - h, heavy)
             most = max(most, abs(missed))
     return most / (3.0 if h < dt else 2.0)
 
@@ -67,17 +66,20 @@ def arrive(scheme, state, step, dt, mass, heavy, u):
 
     theta a1 + (1 - theta) a0 times M (x - x0), less the gain of kinetic energy.
     """
-    h, theta, lost = step.dt, step.theta, 0.0
+    by_h, ahead, theta, lost = 1.0 / step.dt, dt - step.dt, step.theta, 0.0
     past, rates, v, x0 = state.past, state.rates, state.v, step.before.x0
     for i in range(u.size):
-        before, v[i], u[i] = v[i], u[i] / h, state.x[i] - x0[i]
-        a = (v[i] - before - (dt - h) * rates[VELOCITY, i]) / h
-        mean = theta * mass[i] * a + (1.0 - theta) * past[INERTIA, i]
-        lost += mean * u[i] - 0.5 * mass[i] * (v[i] - before) * (v[i] + before)
-        past[INERTIA, i] = mass[i] * a
-        rates[POSITION, i], rates[VELOCITY, i] = v[i], heavy[i] * a
+        before, after = v[i], by_h * u[i]
+        a = by_h * (after - before - ahead * rates[VELOCITY, i])
+        v[i], u[i] = after, state.x[i] - x0[i]
+        mean = mass[i] * (theta * a + (1.0 - theta) * past[CHANGE, i])
+        lost += mean * u[i] - 0.5 * mass[i] * (after - before) * (after + before)
+        if scheme == BACKWARD_EULER:
+            continue
+        past[CHANGE, i] = a if heavy[i] > 0.0 else u[i] / dt
+        rates[POSITION, i], rates[VELOCITY, i] = after, heavy[i] * a
         if scheme == BDF2:
-            rates[POSITION, i], rates[VELOCITY, i] = u[i] / dt, heavy[i] * (v[i] - before) / dt
+            rates[POSITION, i], rates[VELOCITY, i] = u[i] / dt, heavy[i] * (after - before) / dt
     return lost
 
 

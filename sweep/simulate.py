@@ -230,15 +230,15 @@ def tolerances(case: Case, scene: Scene, dt: float) -> Tolerance:
     force = max(scene.force_scale, np.abs(terms.load * scene.unknowns.lever).max(initial=0.0))
     size = np.ptp(scene.mesh.points)
     rounded = terms.law.modulus * terms.stretch.area.max() * size / terms.stretch.l0.min()
-    shortest = dt if case.solver.integrator == "backward_euler" else dt * scheme.FIRST
-    rounded += terms.mass.max() * size / shortest**2
-    allowed = max(case.solver.tolerance * force, ROUND_OFF * rounded)
+    inertia = ROUND_OFF * terms.mass.max() * size
+    allowed = max(case.solver.tolerance * force, ROUND_OFF * rounded + inertia / dt**2)
     return Tolerance(
         force=allowed,
         decrement=1e-3 * allowed * case.lattice.wall_thickness,
         friction=1e3 * allowed,
         noise=ROUND_OFF * force * size,
         iterations=case.solver.max_iterations,
+        inertia=inertia,
     )
 
 
