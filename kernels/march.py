@@ -27,6 +27,7 @@ from kernels.step import Step, drift, find_near, holds_crowd, least_gap, rub
 TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP, SPEED = range(10, 17)
 N_COLUMNS = 17
 SMALLEST = 2.0**-12  # share of a step
+FINEST = 2.0**-24  # where the error decides
 LONGER = 0.1  # of the error that is allowed: the next step may be twice as long
 FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 GRIP_LOOPS = 30  # fixed-point iterations of friction
@@ -219,15 +220,14 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
             zero(at.u)
             todo[SHARE] *= 0.5
             work.kept[0] = np.inf
-            if outcome == INTERRUPTED or todo[SHARE] < SMALLEST:
+            least = FINEST if outcome == INACCURATE else SMALLEST
+            if outcome == INTERRUPTED or todo[SHARE] < least:
                 return ITERATIONS if outcome == OUTGROWN else outcome
             continue
         if dt < np.inf:
-            heavy, book = way[HEAVY], state.book
-            book[INTEGRATOR] += scheme.arrive(
-                stage.scheme, state, step, dt, terms.mass, heavy, at.u
-            )
-            book[KINETIC] = inertia.kinetic(state.v, terms.mass)
+            lost = scheme.arrive(stage.scheme, state, step, dt, terms, way[HEAVY], at.u)
+            state.book[INTEGRATOR] += lost
+            state.book[KINETIC] = inertia.kinetic(state.v, terms.mass)
             state.totals[LAST] = dt
         enter(terms, step, unknowns, state, at, work)
         move_apart(terms, step, state, near, at, work)

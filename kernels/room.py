@@ -25,8 +25,8 @@ def _shape(terms):
 @jit_owning
 def make_room(terms, near):
     """Return the arrays of all steps: `Before`, `At`, `Work`, `Grips`, and (4, n): predicted
-    position, where friction was lagged, how far from there the step ended, 1 for what has mass,
-    with what is tied to it, else 0.
+    position, where friction was lagged, how far from there the step ended, 1 for what moves by its
+    mass or by that of what is tied to it, else 0.
     """
     n = terms.mass.size
     shape, stiffness = _shape(terms)
@@ -41,6 +41,7 @@ def make_room(terms, near):
     way, layout = np.zeros((4, n)), terms.layout
     reduce(terms.mass, layout, work.residual)
     for i in range(n):
-        if layout.leader[i] >= 0 and work.residual[layout.leader[i]] > 0.0:
+        leader = layout.leader[i]
+        if leader >= 0 and leader != layout.driven and work.residual[leader] > 0.0:
             way[HEAVY, i] = 1.0
     return before, at, work, grips, way

@@ -7,7 +7,8 @@
     trapezoidal rule  h = dt / 2 (r infinite);  x' = v0, v' = a0, the balance at x0
 
 What changes at once has no x', v' to go by: a first step, of backward Euler, is `FIRST` of the
-others. What has no mass has no v' either: ``heavy`` (n,) is 0 there, else 1.
+others. What has no mass has no v' either, what is led has a constant speed: ``heavy`` (n,) is 0
+there, else 1.
 """
 
 import numpy as np
@@ -18,7 +19,7 @@ BACKWARD_EULER, BDF2, TRAPEZOIDAL = range(3)
 FIRST = 2.0**-4  # share of a step: its loss of energy, of first order, is the square of that
 POSITION, VELOCITY = range(2)  # rates
 ELASTIC, DAMPING, RUBBING = range(3)  # of the past: gradients at the last step
-CHANGE = 3  # of the past: last acceleration; mean velocity in the last step of what has no mass
+CHANGE = 3  # of the past: last acceleration; where not ``heavy``, mean velocity in the last step
 
 
 @jit_exact
@@ -61,25 +62,43 @@ def error(state, x0, dt, h, heavy):
 
 
 @jit_exact
-def arrive(scheme, state, step, dt, mass, heavy, u):
+def _tie(state, layout):
+    """Let what follows another coordinate have its velocity and rates to the last digit.
+
+    No force would damp a difference, which the schemes let grow.
+    """
+    for i in range(layout.leader.size):
+        leader = layout.leader[i]
+        if leader >= 0 and leader != i:
+            state.v[i] = layout.ratio[i] * state.v[leader]
+            for k in range(2):
+                state.rates[k, i] = layout.ratio[i] * state.rates[k, leader]
+            state.past[CHANGE, i] = layout.ratio[i] * state.past[CHANGE, leader]
+
+
+@jit_exact
+def arrive(scheme, state, step, dt, terms, heavy, u):
     """Exchange ``u`` = x - y for x - x0, renew v and the rates; return what inertia lost, in J:
 
     theta a1 + (1 - theta) a0 times M (x - x0), less the gain of kinetic energy.
     """
     by_h, ahead, theta, lost = 1.0 / step.dt, dt - step.dt, step.theta, 0.0
-    past, rates, v, x0 = state.past, state.rates, state.v, step.before.x0
+    past, rates, v, x0, mass = state.past, state.rates, state.v, step.before.x0, terms.mass
     for i in range(u.size):
         before, after = v[i], by_h * u[i]
-        a = by_h * (after - before - ahead * rates[VELOCITY, i])
         v[i], u[i] = after, state.x[i] - x0[i]
-        mean = mass[i] * (theta * a + (1.0 - theta) * past[CHANGE, i])
-        lost += mean * u[i] - 0.5 * mass[i] * (after - before) * (after + before)
         if scheme == BACKWARD_EULER:
+            lost += 0.5 * mass[i] * (after - before) ** 2
             continue
+        a = by_h * (after - before - ahead * rates[VELOCITY, i])
+        mean = theta * a + (1.0 - theta) * past[CHANGE, i] if heavy[i] > 0.0 else 0.0
+        lost += mass[i] * (mean * u[i] - 0.5 * (after - before) * (after + before))
         past[CHANGE, i] = a if heavy[i] > 0.0 else u[i] / dt
         rates[POSITION, i], rates[VELOCITY, i] = after, heavy[i] * a
         if scheme == BDF2:
             rates[POSITION, i], rates[VELOCITY, i] = u[i] / dt, heavy[i] * (after - before) / dt
+    if scheme != BACKWARD_EULER:
+        _tie(state, terms.layout)
     return lost
 
 
