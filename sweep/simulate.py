@@ -21,6 +21,8 @@ IMPACT_FRAMES = 4 * FRAMES  # most impacts are over in a quarter of their durati
 GLANCE = 64  # steps of a striker after which one looks whether it is back
 LONGER = "try a longer loading.duration"
 ROUND_OFF = 4e-15
+GIFT = 0.1
+ADVICE_ON_ENERGY = "(see dissipated_integrator_J); try \"bdf2\", damping or smaller steps"
 SCHEMES = {
     "backward_euler": scheme.BACKWARD_EULER,
     "bdf2": scheme.BDF2,
@@ -129,9 +131,16 @@ class _Run:
                     break
         finally:
             timer.cancel()
+        if self._invents():
+            return Status.STOPPED, f"the integrator made energy out of nothing {ADVICE_ON_ENERGY}"
         if self.struck and self.rows[self.done - 1, march.SPEED] < 0.0:
             return Status.STOPPED, f"the striker still sinks {self._where()}; {LONGER}"
         return Status.CONVERGED, ""
+
+    def _invents(self) -> bool:
+        """Whether an integrator in time has given more than a share `GIFT` of the work done."""
+        made, work = self.rows[: self.done, book.INTEGRATOR], self.rows[: self.done, book.WORK]
+        return not self.case.loading.quasi_static and bool(made.min() < -GIFT * work.max())
 
     def _is_back(self) -> bool:
         """Whether the striker is where it started; what it did beyond is dropped."""
