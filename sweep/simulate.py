@@ -22,7 +22,7 @@ GLANCE = 64  # steps of a striker after which one looks whether it is back
 LONGER = "try a longer loading.duration"
 ROUND_OFF = 4e-15
 GIFT = 0.1
-ADVICE_ON_ENERGY = "(see dissipated_integrator_J); try \"bdf2\", damping or smaller steps"
+ADVICE_ON_ENERGY = '(see dissipated_integrator_J); try "bdf2", damping or smaller steps'
 SCHEMES = {
     "backward_euler": scheme.BACKWARD_EULER,
     "bdf2": scheme.BDF2,

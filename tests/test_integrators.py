@@ -105,15 +105,26 @@ def test_orders_of_a_strike(integrator):
     )
 
 
+def rubbed(steps, integrator):
+    """A plate lies on a grid that creeps under it."""
+    damping = Damping(model="rayleigh", mass=300.0, stiffness=3e-4)
+    return loaded(5e-3, steps, integrator, damping, "contact", 1.0, force=3.0)
+
+
 @HIGHER
 def test_orders_of_contact_and_friction(integrator):
-    """A plate lies on the grid, which creeps under it."""
-    damping = Damping(model="rayleigh", mass=300.0, stiffness=3e-4)
     columns = ["strain", "contact_J", "work_in_J"]
     check_orders(
-        lambda steps: loaded(5e-3, steps, integrator, damping, "contact", 1.0, force=3.0),
+        lambda steps: rubbed(steps, integrator),
         integrator, STEPS_OF_A_PLATE[integrator], columns,
     )  # fmt: skip
+
+
+def test_integrators_agree_on_friction():
+    """It depends on the speed of slip, whatever the length of the steps."""
+    results = [run(rubbed(3200, integrator)) for integrator in ("bdf2", "newmark")]
+    lost = [result.history["dissipated_friction_J"][-1] for result in results]
+    assert lost[0] == pytest.approx(lost[1], rel=5e-3)
 
 
 @HIGHER
