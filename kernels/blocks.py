@@ -4,6 +4,8 @@ Every update knows its target beforehand (George & Liu 1981, Computer Solution o
 Positive Definite Systems, ch. 5).
 """
 
+import math
+
 from kernels.entries import SIZE
 from kernels.jit import jit, jit_exact
 from kernels.rows import zero
@@ -11,6 +13,7 @@ from kernels.rows import zero
 NEUTRAL = 1e-11  # a pivot below this share of its diagonal is round-off around zero
 SOFT = 1e-6  # share of its diagonal that it is given then
 ROUNDED = -1e-7  # so is a negative one above this: what stiff neighbours leave when they cancel
+CONVEX = -math.inf  # and any in a matrix that is positive semi-definite
 
 
 @jit_exact
@@ -29,34 +32,36 @@ def settle(blocks, scale):
 
 
 @jit_exact
-def pivoted(pivot, own, scale):
-    """Return the pivot to use. One that is zero within round-off marks a motion without stiffness:
-    it is given a small share of its own diagonal (or ``scale``), so that the solution moves along
-    it where a force asks for it, and hardly by what forces leave in round-off.
+def pivoted(pivot, own, scale, rounded):
+    """Return the pivot to use. One that is zero within round-off, above ``rounded`` x its diagonal,
+    marks a motion without stiffness: it is given a small share of its own diagonal (or ``scale``),
+    so that the solution moves along it where a force asks for it, and hardly by what forces leave
+    in round-off.
     """
     size = max(abs(own), 1e-3 * scale)
-    return SOFT * max(abs(own), scale) if ROUNDED * size <= pivot <= NEUTRAL * size else pivot
+    return SOFT * max(abs(own), scale) if rounded * size <= pivot <= NEUTRAL * size else pivot
 
 
 @jit_exact
-def _invert(values, at, own, scale):
+def _invert(values, at, own, scale, rounded):
     """Replace the diagonal block at ``at`` by its inverse; return the failed slot and its pivot.
 
     d = diag(a, b, c) and the unit lower triangle l are the block's own LDL^T. Above the diagonal
     stands l^{-T}, so far as it is known, until the block is inverted.
     """
-    a = pivoted(values[at], own[0], scale)
+    a = pivoted(values[at], own[0], scale, rounded)
     if not a > 0.0:
         return 0, a
     l10, l20 = values[at + 3] / a, values[at + 6] / a
     values[at + 1] = -l10
-    b = pivoted(values[at + 4] - l10 * values[at + 3], own[1], scale)
+    b = pivoted(values[at + 4] - l10 * values[at + 3], own[1], scale, rounded)
     if not b > 0.0:
         return 1, b
     l21 = (values[at + 7] - l20 * values[at + 3]) / b
     m20 = l10 * l21 - l20
     values[at + 2], values[at + 5] = m20, -l21
-    c = pivoted(values[at + 8] - l20 * values[at + 6] - l21 * l21 * b, own[2], scale)
+    c = values[at + 8] - l20 * values[at + 6] - l21 * l21 * b
+    c = pivoted(c, own[2], scale, rounded)
     if not c > 0.0:
         return 2, c
     values[at + 8] = 1.0 / c
@@ -100,15 +105,16 @@ def _update(blocks, j, nb, count):
 
 
 @jit_exact
-def factor(blocks, scale):
+def factor(blocks, scale, rounded):
     """Factor in place: A = L D L^T, L D^{-1} below, D^{-1} in the diagonal blocks.
 
-    Return (failed, pivot): home of the first negative pivot, -1 if none.
+    Return (failed, pivot): home of the first negative pivot, -1 if none. ``rounded``: as in
+    `pivoted`.
     """
     nb, count = blocks.start.size - 1, 0
     for j in range(nb):
         own = blocks.own[3 * j : 3 * j + 3]
-        slot, pivot = _invert(blocks.values, SIZE * j, own, scale)
+        slot, pivot = _invert(blocks.values, SIZE * j, own, scale, rounded)
         if slot >= 0:
             return 3 * j + slot, pivot
         _scale_column(blocks, j, nb)

@@ -118,17 +118,18 @@ def _reduce(rows, k, m, inverse, outer):
 
 
 @jit_exact
-def eliminate(rows, diagonal, own, outer, scale):
+def eliminate(rows, diagonal, own, outer, scale, rounded):
     """Eliminate all rows in place; return (failed, pivot): the first negative one, -1 if none.
 
-    ``diagonal`` (m,) is added first; ``own`` (m,) is filled with the diagonal before.
+    ``diagonal`` (m,) is added first; ``own`` (m,) is filled with the diagonal before. ``rounded``:
+    as in `pivoted`.
     """
     m = rows.shape[0]
     for k in range(m):
         rows[k, 0] += diagonal[k]
         own[k] = rows[k, 0]
     for k in range(m):
-        pivot = pivoted(rows[k, 0], own[k], scale)
+        pivot = pivoted(rows[k, 0], own[k], scale, rounded)
         if not pivot > 0.0:
             return k, pivot
         rows[k, 0] = 1.0 / pivot

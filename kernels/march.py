@@ -13,7 +13,7 @@ from kernels.newton import (
     INTERRUPTED,
     ITERATIONS,
     OUTGROWN,
-    Tolerance,
+    allowed,
     largest,
     minimise,
     reduce,
@@ -26,12 +26,12 @@ from kernels.step import Step, drift, find_near, holds_crowd, least_gap, rub
 
 TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP, SPEED = range(10, 17)
 N_COLUMNS = 17
-SMALLEST = 2.0**-12  # share of a step
-FINEST = 2.0**-24  # where the error decides
+SMALLEST = 2.0**-21  # share of a step
 LONGER = 0.1  # of the error that is allowed: the next step may be twice as long
 FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 GRIP_LOOPS = 30  # fixed-point iterations of friction
-ROW, DONE, SHARE, SPENT, LOOPS, MOVE, RELAXED, LENGTH = range(8)  # what is to be done: see `_go`
+# Of what is to be done, see `_go`. SPENT to TRIED: iterations for a row, part of a step, minimum.
+ROW, DONE, SHARE, FAILED, SPENT, EFFORT, TRIED, LOOPS, MOVE, RELAXED, LENGTH = range(11)
 LAST = 3  # of the totals
 INACCURATE = 7  # an outcome, beside those of `newton`
 
@@ -144,7 +144,7 @@ def _begin(terms, stage, target, driven, state, near, room, todo):
     damp.prepare(terms, before, damp.Ahead(ahead, last, rate, work.dx, work.trial, at.shape))
     if terms.friction.mu > 0.0:
         friction.lag(x, terms.contact, near.pairs, drift(x, terms, near), terms.friction, grips)
-    todo[LOOPS], todo[RELAXED] = 0.0, 0.0
+    todo[LOOPS], todo[RELAXED], todo[EFFORT], todo[TRIED] = 0.0, 0.0, 0.0, 0.0
 
 
 @jit_inlined
@@ -158,28 +158,20 @@ def _grips_agree(x, terms, step, near, unknowns, tolerance, room, todo):
     friction.lag(y, terms.contact, near.pairs, drift(y, terms, near), terms.friction, grips)
     rub(terms, step, at)
     reduce(at.g, unknowns, work.residual)
-    agree = largest(work.residual, unknowns) <= tolerance.friction
+    enough = max(tolerance.friction, tolerance.grip * largest(at.rubbing, unknowns))
+    enough = max(enough, allowed(near.system.matrix, tolerance))
+    agree = largest(work.residual, unknowns) <= enough
     if agree:
         copy(work.trial, at.g)
         copy(work.escape, at.rubbing)
-    todo[LOOPS] += 1.0
+    todo[LOOPS], todo[TRIED] = todo[LOOPS] + 1.0, 0.0
     zero(work.dx)
     return agree
 
 
 @jit_exact
-def _eased(tolerance, h):
-    """Return the tolerance of a step of length ``h``: a short one rounds its inertia off more."""
-    ease = max(1.0, tolerance.inertia / (h * h * tolerance.force))
-    return Tolerance(
-        ease * tolerance.force, ease * tolerance.decrement, ease * tolerance.friction,
-        tolerance.noise, tolerance.iterations, tolerance.inertia,
-    )  # fmt: skip
-
-
-@jit_exact
 def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo):
-    """March on from where ``todo`` (8,) says, until the stage ends or something must be done."""
+    """March on from where ``todo`` (11,) says, until the stage ends or something must be done."""
     before, at, work, grips, way = room
     while todo[ROW] < stage.steps:
         if stage.scheme != BACKWARD_EULER and state.totals[LAST] == 0.0:
@@ -194,16 +186,16 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
             slip *= todo[LENGTH] / stage.dt
         theta = scheme.weight(todo[LENGTH], dt)
         step = Step(before, way[PREDICTED], todo[LENGTH], factor, grips, slip, theta)
-        allowed = _eased(tolerance, step.dt)
         outcome, spent, todo[MOVE] = minimise(
-            state.x, target, terms, step, near, unknowns, allowed, at, work, control
+            state.x, target, terms, step, near, unknowns, tolerance, at, work, control
         )
-        todo[SPENT] += spent
-        if outcome == OUTGROWN and todo[SPENT] < GRIP_LOOPS * tolerance.iterations:
+        todo[SPENT], todo[EFFORT] = todo[SPENT] + spent, todo[EFFORT] + spent
+        todo[TRIED] += max(spent, 1)
+        if outcome == OUTGROWN and todo[TRIED] <= tolerance.iterations:
             zero(work.dx)
             return outcome
         if outcome == CONVERGED and terms.friction.mu > 0.0:
-            if not _grips_agree(state.x, terms, step, near, unknowns, allowed, room, todo):
+            if not _grips_agree(state.x, terms, step, near, unknowns, tolerance, room, todo):
                 if todo[LOOPS] < GRIP_LOOPS:
                     continue
                 outcome = ITERATIONS
@@ -218,10 +210,10 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
             copy(before.x0, state.x)
             zero(at.least)  # what was found last was found elsewhere
             zero(at.u)
-            todo[SHARE] *= 0.5
+            todo[FAILED] += 1.0 if outcome != INACCURATE else 0.0
+            todo[SHARE] *= 0.5 ** max(todo[FAILED], 1.0)  # the oftener, the more boldly
             work.kept[0] = np.inf
-            least = FINEST if outcome == INACCURATE else SMALLEST
-            if outcome == INTERRUPTED or todo[SHARE] < least:
+            if outcome == INTERRUPTED or todo[SHARE] < SMALLEST:
                 return ITERATIONS if outcome == OUTGROWN else outcome
             continue
         if dt < np.inf:
@@ -231,10 +223,11 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
             state.totals[LAST] = dt
         enter(terms, step, unknowns, state, at, work)
         move_apart(terms, step, state, near, at, work)
-        todo[DONE] += todo[SHARE]
+        todo[DONE], todo[FAILED] = todo[DONE] + todo[SHARE], 0.0
         if todo[SHARE] < 1.0 or terms.friction.mu > 0.0:  # the next Hessian is another
             work.kept[0] = np.inf
-        if strayed < LONGER and todo[DONE] % (2.0 * todo[SHARE]) == 0.0:
+        easy = strayed < LONGER and todo[EFFORT] <= tolerance.iterations
+        if easy and todo[DONE] % (2.0 * todo[SHARE]) == 0.0:
             todo[SHARE] *= 2.0
         state.totals[1] += 1
         if todo[DONE] == 1.0:
@@ -252,7 +245,7 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
 
     Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts steps done.
     """
-    todo = np.zeros(8)
+    todo = np.zeros(11)
     todo[SHARE], todo[LOOPS] = 1.0, -1.0
     if stage.error < np.inf and state.totals[LAST] > 0.0:
         todo[SHARE] = state.totals[LAST] / stage.dt

@@ -29,16 +29,18 @@ class Tolerance(NamedTuple):
     """What counts as converged.
 
     force: largest residual in N. decrement: largest Newton decrement in J. friction: largest change
-    of a lagged friction force in N. noise: energy changes below it are round-off, J. iterations:
-    most for one minimum. inertia: its round-off in a step of 1 s, N.
+    of a lagged friction force in N. grip: the same as a share of the greatest one. noise: energy
+    changes below it are round-off, J. finest: a move that positions cannot resolve, m. iterations:
+    most for one minimum.
     """
 
     force: float
     decrement: float
     friction: float
+    grip: float
     noise: float
+    finest: float
     iterations: int
-    inertia: float
 
 
 class Unknowns(NamedTuple):
@@ -96,6 +98,18 @@ def largest(residual, unknowns):
             if size != size:
                 return size
     return most
+
+
+@jit_exact
+def allowed(matrix, tolerance):
+    """Return the largest residual in N that counts as none: no less than what the stiffest
+    coordinate of the last factor answers to a move too fine for its position.
+    """
+    stiffest = 0.0
+    for h in range(matrix.own.size):
+        if h % 3 != 2:
+            stiffest = max(stiffest, matrix.own[h])
+    return max(tolerance.force, tolerance.finest * stiffest)
 
 
 @jit_exact
@@ -222,6 +236,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
     setting_out, searching, arrived, free = True, True, False, True
     whole, projected, settled = _arrives(x, work.dx, target, unknowns.driven), False, False
     value, remaining, share, model, escape = 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0)
+    limit = tolerance.force
     place = (-1, -1, 0.0)  # of the first negative pivot of the exact Hessian
     most, before = _longest(work.dx, unknowns), np.inf
     while True:
@@ -258,7 +273,8 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
                 outcome = INTERRUPTED if control[0] != 0 else NOT_FINITE
                 break
             remaining = target - x[unknowns.driven] if unknowns.driven >= 0 else 0.0
-            settled = remaining == 0.0 and size <= tolerance.force
+            limit = allowed(near.system.matrix, tolerance)
+            settled = remaining == 0.0 and size <= limit
             if not settled and size > SLOW * before:
                 kept[0] = np.inf
             before = size
@@ -281,7 +297,11 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
         stable, slope = place[1] < 0, 0.0
         if stable or projected:
             slope = _solve(terms, near, unknowns, at, work, remaining)
-        if settled and stable and -0.5 * slope <= tolerance.decrement:
+        if (
+            settled
+            and stable
+            and -0.5 * slope <= tolerance.decrement * (limit / tolerance.force) ** 2
+        ):
             outcome = CONVERGED
             break
         if iteration == tolerance.iterations:

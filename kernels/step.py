@@ -188,7 +188,7 @@ def factor(x, terms, step, near, at, projected):
             matrix.diagonal[i] += inert * terms.mass[i]
         for i in range(2 * terms.layout.n_nodes):
             matrix.diagonal[i] += drag * terms.mass[i]
-    return system.factor(near.system, terms.layout, terms.walls, at.stiffness)
+    return system.factor(near.system, terms.layout, terms.walls, at.stiffness, projected)
 
 
 @jit_inlined

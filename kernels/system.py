@@ -23,13 +23,14 @@ def _scatter(values, target, rows, outer):
 
 
 @jit_inlined
-def factor(system, layout, walls, stiffness):
+def factor(system, layout, walls, stiffness, projected):
     """Add the walls to what the matrix holds and factor all.
 
     Return (wall, failed, pivot): where the first negative pivot is, failed = -1 if there is none;
     wall = -1 if it is in the block matrix.
     """
     wall, failed, pivot = -1, -1, 0.0
+    rounded = blocks.CONVEX if projected else blocks.ROUNDED
     for w in range(system.kind.size):
         if system.kind[w] == RIGID:
             continue
@@ -39,7 +40,9 @@ def factor(system, layout, walls, stiffness):
         if system.kind[w] == CONDENSED:
             first = 2 * layout.inner[w]
             diagonal = system.matrix.diagonal[first : first + rows.shape[0]]
-            failed, pivot = condense.eliminate(rows, diagonal, own, system.outer, layout.scale)
+            failed, pivot = condense.eliminate(
+                rows, diagonal, own, system.outer, layout.scale, rounded
+            )
             if failed >= 0:
                 wall = w
                 break
@@ -47,7 +50,7 @@ def factor(system, layout, walls, stiffness):
         _scatter(system.matrix.values, targets, rows, system.outer)
     if failed < 0:
         blocks.settle(system.matrix, layout.scale)
-        failed, pivot = blocks.factor(system.matrix, layout.scale)
+        failed, pivot = blocks.factor(system.matrix, layout.scale, rounded)
     return wall, failed, pivot
 
 

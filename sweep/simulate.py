@@ -20,9 +20,10 @@ FRAMES = 40
 IMPACT_FRAMES = 4 * FRAMES  # most impacts are over in a quarter of their duration
 GLANCE = 64  # steps of a striker after which one looks whether it is back
 LONGER = "try a longer loading.duration"
+SAFER = 'try solver.integrator "bdf2", damping or smaller steps'
 ROUND_OFF = 4e-15
-GIFT = 0.1
-ADVICE_ON_ENERGY = '(see dissipated_integrator_J); try "bdf2", damping or smaller steps'
+GRIP = 1e3  # times the tolerance of forces: that of friction, which lags
+GIFT = 0.1  # of the work done: energy that an integrator may make
 SCHEMES = {
     "backward_euler": scheme.BACKWARD_EULER,
     "bdf2": scheme.BDF2,
@@ -132,7 +133,7 @@ class _Run:
         finally:
             timer.cancel()
         if self._invents():
-            return Status.STOPPED, f"the integrator made energy out of nothing {ADVICE_ON_ENERGY}"
+            return Status.STOPPED, f"the integrator made energy out of nothing; {SAFER}"
         if self.struck and self.rows[self.done - 1, march.SPEED] < 0.0:
             return Status.STOPPED, f"the striker still sinks {self._where()}; {LONGER}"
         return Status.CONVERGED, ""
@@ -239,15 +240,17 @@ def tolerances(case: Case, scene: Scene, dt: float) -> Tolerance:
     force = max(scene.force_scale, np.abs(terms.load * scene.unknowns.lever).max(initial=0.0))
     size = np.ptp(scene.mesh.points)
     rounded = terms.law.modulus * terms.stretch.area.max() * size / terms.stretch.l0.min()
-    inertia = ROUND_OFF * terms.mass.max() * size
-    allowed = max(case.solver.tolerance * force, ROUND_OFF * rounded + inertia / dt**2)
+    rounded *= 1.0 + (terms.damp.beta_k + terms.damp.relaxation) / dt
+    rounded += terms.mass.max() * size / dt * (1.0 / dt + terms.damp.alpha_m)
+    allowed = max(case.solver.tolerance * force, ROUND_OFF * rounded)
     return Tolerance(
         force=allowed,
         decrement=1e-3 * allowed * case.lattice.wall_thickness,
-        friction=1e3 * allowed,
+        friction=GRIP * allowed,
+        grip=GRIP * case.solver.tolerance,
         noise=ROUND_OFF * force * size,
+        finest=ROUND_OFF * size,
         iterations=case.solver.max_iterations,
-        inertia=inertia,
     )
 
 

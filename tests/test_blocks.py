@@ -80,7 +80,7 @@ def test_factor_and_solve(seed, scale):
     full = scale * definite(rng, joined)
     matrix, b = made(joined, full, scale), rng.uniform(-1, 1, len(full))
     np.testing.assert_array_equal(by_home(matrix), full)
-    assert blocks.factor(matrix, scale) == (-1, 0.0)
+    assert blocks.factor(matrix, scale, blocks.ROUNDED) == (-1, 0.0)
     np.testing.assert_allclose(full @ solved(matrix, b), b, rtol=0, atol=1e-12)
 
 
@@ -90,7 +90,7 @@ def test_the_factor_times_its_diagonal_times_its_transpose_is_the_matrix(seed):
     joined = random_pattern(rng)
     full = definite(rng, joined)
     matrix = made(joined, full, 1.0)
-    blocks.factor(matrix, 1.0)
+    blocks.factor(matrix, 1.0, blocks.ROUNDED)
     kept = by_home(matrix)
     inside = by_entry(np.eye(NB, dtype=bool))
     lower = np.tril(np.where(inside, 0.0, kept)) + np.eye(len(full))
@@ -163,7 +163,7 @@ def test_a_matrix_that_is_used_again_starts_at_zero():
         R = reduction_to(home, 2)
         expected = R.T @ full @ R + np.diag(np.where(R.any(axis=0), 0.0, scale))
         np.testing.assert_allclose(by_home(matrix), expected, rtol=0, atol=1e-14)
-        assert blocks.factor(matrix, scale)[0] == -1
+        assert blocks.factor(matrix, scale, blocks.ROUNDED)[0] == -1
 
 
 NO_ROOM = [(0, 5, True), (0, 3, False), (0, 7, True), (6, 7, False), (1, 0, False), (9, 0, False)]
@@ -216,7 +216,7 @@ def test_descent_along_a_negative_pivot(seed, slot, scale):
     full[bad, bad] -= np.abs(full[bad]).sum() + rng.uniform(0.01, 3)
     full *= scale
     matrix = made(joined, full, scale)
-    failed, pivot = blocks.factor(matrix, scale)
+    failed, pivot = blocks.factor(matrix, scale, blocks.ROUNDED)
     minors = [np.linalg.eigvalsh(full[:k, :k])[0] for k in range(1, len(full) + 1)]
     assert failed == next(k for k, least in enumerate(minors) if least < 0) == bad
     assert pivot < 0
@@ -239,7 +239,7 @@ def test_descent_leaves_out_a_motion_without_stiffness(loose, bad, noise):
     full[3 + bad, 3 + loose] = full[3 + loose, 3 + bad] = 3.0 * noise
     full[3 + bad, 3 + bad] = -1.0
     matrix = made(np.ones((2, 2), dtype=bool), full, 1.0)
-    failed, pivot = blocks.factor(matrix, 1.0)
+    failed, pivot = blocks.factor(matrix, 1.0, blocks.ROUNDED)
     assert failed == 3 + bad
     blocks.descend(matrix, failed)
     d = matrix.vector
@@ -253,7 +253,7 @@ def test_nan_fails(slot):
     for i in range(3):
         entries.add(matrix, i, i, 1.0 if i != slot else np.nan)
     blocks.settle(matrix, 1.0)
-    failed, pivot = blocks.factor(matrix, 1.0)
+    failed, pivot = blocks.factor(matrix, 1.0, blocks.ROUNDED)
     assert failed == slot
     assert np.isnan(pivot)
 
@@ -266,7 +266,7 @@ def test_motions_without_stiffness_are_not_moved_along(loose, scale):
     half = rng.uniform(-1, 1, (12, 12 - loose))
     full = scale * half @ half.T
     matrix = made(np.ones((4, 4), dtype=bool), full, scale)
-    assert blocks.factor(matrix, scale) == (-1, 0.0)
+    assert blocks.factor(matrix, scale, blocks.ROUNDED) == (-1, 0.0)
     b = full @ rng.uniform(-1, 1, 12)
     y = solved(matrix, b)
     assert np.abs(y).max() < 1e3
@@ -275,7 +275,7 @@ def test_motions_without_stiffness_are_not_moved_along(loose, scale):
 
 def test_a_coordinate_without_any_stiffness_gets_a_share_of_the_scale():
     matrix = made(np.eye(1, dtype=bool), np.diag([4.0, 0.0, 1.0]), 4.0)
-    assert blocks.factor(matrix, 4.0)[0] == -1
+    assert blocks.factor(matrix, 4.0, blocks.ROUNDED)[0] == -1
     np.testing.assert_allclose(solved(matrix, np.full(3, 8.0)), [2.0, 2.0 / blocks.SOFT, 8.0])
 
 
@@ -286,7 +286,7 @@ def test_a_small_but_true_negative_pivot_is_seen(apart):
     full[apart, 0] = full[0, apart] = 1.0
     full[apart, apart] -= 1e-6
     matrix = made(np.ones((2, 2), dtype=bool), full, 1.0)
-    failed, pivot = blocks.factor(matrix, 1.0)
+    failed, pivot = blocks.factor(matrix, 1.0, blocks.ROUNDED)
     assert failed == apart
     assert pivot == pytest.approx(-1e-6, rel=1e-6)
 

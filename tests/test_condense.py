@@ -44,7 +44,9 @@ class Wall:
     def eliminate(self):
         """Place of the first negative pivot, and that pivot."""
         scale = SCALE * self.size
-        return condense.eliminate(self.rows, self.diagonal, self.own, self.outer, scale)
+        return condense.eliminate(
+            self.rows, self.diagonal, self.own, self.outer, scale, blocks.ROUNDED
+        )
 
 
 def mirrored(lower):

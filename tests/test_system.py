@@ -107,7 +107,7 @@ class Problem:
         matrix.diagonal[:] = self.diagonal
         for nodes, half in self.contacts:
             self._contact(nodes, half, lambda i, j, value: entries.add(matrix, i, j, value))
-        return system.factor(self.found, self.layout, self.walls, self.stiffness)
+        return system.factor(self.found, self.layout, self.walls, self.stiffness, False)
 
     def solve(self, b):
         """Solution by coordinate after the factor."""

@@ -38,7 +38,9 @@ def _condense(terms, near, at):
         rows, own = solver.rows[span], solver.own[span]
         first, last = terms.walls.start[w], terms.walls.start[w + 1]
         condense.fill(first, last, w, at.stiffness, rows, solver.outer)
-        failed += condense.eliminate(rows, own, own, solver.outer, terms.layout.scale)[0]
+        failed += condense.eliminate(
+            rows, own, own, solver.outer, terms.layout.scale, blocks.ROUNDED
+        )[0]
     return failed
 
 
