@@ -15,6 +15,7 @@ from kernels.jit import jit, jit_exact, jit_owning
 from kernels.rows import zero
 
 HELD, INNER, DRIVEN = -1, -2, -3  # never moves; eliminated inside its wall; led
+IMAGE = -4  # of the first row of `image`, -5 of the second ...
 SIZE = 9
 
 
@@ -24,9 +25,9 @@ class Blocks(NamedTuple):
     home (n,): of each coordinate. start (nb + 1,), row (nl,): blocks below each diagonal block.
     update (nu,): targets in the order in which `factor` meets them. values (9 (nb + nl) + 1,): the
     last one takes what belongs nowhere. own (3 nb,): diagonal before the factor. diagonal, pull
-    (n,): by coordinate, diagonal entries and couplings with what is led. ratio (n,): as in
-    `pattern.Layout`. vector (3 nb,), column (9 x longest,): scratch. missing (1,): set when an
-    entry has no room.
+    (n,): by coordinate, diagonal entries and couplings with what is led. ratio (n,), images
+    (k, 4): as in `pattern.Layout`. vector (3 nb,), column (9 x longest,): scratch. missing (1,):
+    set when an entry has no room.
     """
 
     home: np.ndarray
@@ -38,6 +39,7 @@ class Blocks(NamedTuple):
     diagonal: np.ndarray
     pull: np.ndarray
     ratio: np.ndarray
+    images: np.ndarray
     vector: np.ndarray
     column: np.ndarray
     missing: np.ndarray
@@ -79,7 +81,7 @@ def updates(start, row):
 
 
 @jit_owning
-def shaped(home, start, row, ratio):
+def shaped(home, start, row, ratio, images):
     """Return a zero matrix with this pattern."""
     nb, n = start.size - 1, home.size
     longest = 0
@@ -87,8 +89,8 @@ def shaped(home, start, row, ratio):
         longest = max(longest, start[j + 1] - start[j])
     return Blocks(
         home, start, row, updates(start, row), np.zeros(SIZE * (nb + row.size) + 1),
-        np.zeros(3 * nb), np.zeros(n), np.zeros(n), ratio, np.zeros(3 * nb),
-        np.zeros(SIZE * longest), np.zeros(1, np.int64),
+        np.zeros(3 * nb), np.zeros(n), np.zeros(n), ratio, images,
+        np.zeros(3 * nb), np.zeros(SIZE * longest), np.zeros(1, np.int64),
     )  # fmt: skip
 
 
@@ -116,7 +118,7 @@ def position(home, start, row, i, j):
 
 @jit
 def add(blocks, i, j, value):
-    """Add a symmetric pair of entries at coordinates ``i``, ``j`` (once where i == j)."""
+    """Add a symmetric pair of entries at ``i``, ``j`` (once where i == j), no images."""
     if i == j:
         blocks.diagonal[i] += value
         return
@@ -135,6 +137,42 @@ def add(blocks, i, j, value):
             blocks.missing[0] = 1
         else:
             blocks.values[at] += 2.0 * value if a == b else value
+
+
+@jit_exact
+def _followed(blocks, c, which):
+    """Return the first or the second coordinate that ``c`` follows, and how many times."""
+    home = blocks.home[c]
+    if home > IMAGE:
+        return c, 1 - which
+    image = blocks.images[IMAGE - home]
+    return (image[2], image[3]) if which == 1 else (max(image[1], 0), 1 if image[1] >= 0 else 0)
+
+
+@jit_exact
+def add_image(blocks, i, j, value, pulls):
+    """Add a pair of entries, or one if i == j, of images: to what each of them follows.
+
+    Without ``pulls`` what is led is left out.
+    """
+    share = 0.5 if i == j else 1.0
+    for k in range(4):
+        p, one = _followed(blocks, i, k // 2)
+        q, two = _followed(blocks, j, k % 2)
+        entry = share * one * two * value
+        if entry != 0.0:
+            if p == q:
+                blocks.diagonal[p] += 2.0 * entry
+            elif pulls or (blocks.home[p] != DRIVEN and blocks.home[q] != DRIVEN):
+                add(blocks, p, q, entry)
+
+
+@jit_exact
+def _add_images(blocks, i, j, block):
+    """Add a block of points of which one is an image at least."""
+    for k in range(4):
+        if k != 1 or i != j:
+            add_image(blocks, i + k // 2, j + k % 2, block[k], True)
 
 
 @jit
@@ -157,6 +195,9 @@ def add_block(blocks, i, j, xx, xy, yx, yy):
         values[at + across] += xy
         values[at + down] += yx
         values[at + 4] += yy
+        return
+    if home[i] <= IMAGE or home[j] <= IMAGE:
+        _add_images(blocks, i, j, (xx, xy, yx, yy))
         return
     add(blocks, i, j, xx)
     add(blocks, i + 1, j, yx)

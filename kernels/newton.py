@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels import chain, system
+from kernels import chain, image, system
 from kernels.jit import jit, jit_exact, jit_inlined
 from kernels.rows import copy, dot, zero, zero_rows
 from kernels.step import covers, evaluate, factor, step_limit
@@ -46,14 +46,15 @@ class Tolerance(NamedTuple):
 class Unknowns(NamedTuple):
     """Which coordinates move, and how far at once.
 
-    leader, ratio (n,): as in `pattern.Layout`. scale (n,): length that turns a coordinate into m, 1
-    for one in m; lever (n,): its inverse. driven: coordinate that is led to a target, -1 if none.
-    cap: longest move in one iteration, m. leap: first move along a direction of negative curvature,
-    m. close: a move so short that stability cannot have been lost on it, m.
+    leader, ratio (n,), images (k, 4): as in `pattern.Layout`. scale (n,): length that turns a
+    coordinate into m, 1 for one in m; lever (n,): its inverse. driven: coordinate that is led to a
+    target, -1 if none. cap: longest move in one iteration, m. leap: first move along a direction of
+    negative curvature, m. close: a move so short that stability cannot have been lost on it, m.
     """
 
     leader: np.ndarray
     ratio: np.ndarray
+    images: np.ndarray
     scale: np.ndarray
     lever: np.ndarray
     driven: int
@@ -85,6 +86,7 @@ def reduce(g, unknowns, residual):
             residual[i] += g[i]
         elif leader >= 0:
             residual[leader] += unknowns.ratio[i] * g[i]
+    image.collect(unknowns.images, residual)
 
 
 @jit_exact
@@ -128,6 +130,7 @@ def _lead(direction, unknowns, remaining):
     for i in range(direction.size):
         if unknowns.leader[i] == unknowns.driven:
             direction[i] = unknowns.ratio[i] * remaining
+    image.spread(unknowns.images, direction)
 
 
 @jit_exact

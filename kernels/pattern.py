@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels import condense, entries, order
-from kernels.entries import DRIVEN, HELD, INNER
+from kernels.entries import DRIVEN, HELD, IMAGE, INNER
 from kernels.jit import jit_exact, jit_owning
 
 CONDENSED, OPEN, RIGID = range(3)
@@ -21,17 +21,20 @@ class Layout(NamedTuple):
 
     leader (n,): the coordinate itself if it moves, the last one (the upper platen) if it is tied to
     that, else -1. ratio (n,): of its move to that of its leader; 1 unless the leader is driven.
-    driven: coordinate that is led to a target, -1 if none. n_nodes, n_joints: joints come first.
-    inner (w,): first inner node of each wall, the others follow along it. wall_of (n_nodes,): wall
-    of an inner node, -1 for a joint. outer (w, 6): coordinates of its joints. scale: stiffness of
-    the stiffest element, N/m.
+    images (k, 4): see `image`; their leader is the coordinate itself. driven: coordinate that is
+    led to a target, -1 if none. n_nodes, n_joints: joints come first. origin (n_nodes,): the node,
+    or of which it is an image. inner (w,): first inner node of each wall, the others follow along
+    it. wall_of (n_nodes,): wall of an inner node, -1 for a joint. outer (w, 6): coordinates of its
+    joints, of which the second may be an image. scale: stiffness of the stiffest element, N/m.
     """
 
     leader: np.ndarray
     ratio: np.ndarray
+    images: np.ndarray
     driven: int
     n_nodes: int
     n_joints: int
+    origin: np.ndarray
     inner: np.ndarray
     wall_of: np.ndarray
     outer: np.ndarray
@@ -63,7 +66,7 @@ def _point(layout, c):
     if leader < 0 or leader == layout.driven:
         return -1
     if leader < 2 * layout.n_nodes:
-        return leader // 2
+        return layout.origin[leader // 2]
     joint = leader - 2 * layout.n_nodes
     return joint if joint < layout.n_joints else layout.n_nodes
 
@@ -98,15 +101,18 @@ def _link(bits, index, points, count):
 
 @jit_exact
 def _points_of(layout, node, points, count):
-    """Append the points that the coordinates of ``node`` (n_nodes: the platen) belong to."""
+    """Append the points that the coordinates of ``node`` (n_nodes: the platen) belong to.
+
+    A free size of a period stands for the platen.
+    """
     platen = layout.leader.size - 1
     if node == layout.n_nodes:
         if _point(layout, platen) >= 0:
             points[count] = node
             count += 1
         return count
-    points[count] = node
-    if _point(layout, 2 * node + 1) == layout.n_nodes:
+    points[count] = layout.origin[node]
+    if points[count] != node or _point(layout, 2 * node + 1) == layout.n_nodes:
         points[count + 1] = layout.n_nodes
         return count + 2
     return count + 1
@@ -163,6 +169,8 @@ def _homes(layout, kind, index, sequence):
             home[c] = 3 * position[index[point]] + slot
         elif point >= 0:
             home[c] = INNER
+    for k in range(layout.images.shape[0]):
+        home[layout.images[k, 0]] = IMAGE - k
     return home
 
 
@@ -227,6 +235,6 @@ def analyse(layout, walls, couplings):
     target_start, target = _targets(layout, row_start, kind, home, start, row)
     return System(
         kind, row_start, np.zeros((row_start[-1], condense.WIDTH)), np.zeros(row_start[-1]),
-        target_start, target, entries.shaped(home, start, row, layout.ratio), np.zeros((6, 6)),
-        np.zeros(6),
+        target_start, target, entries.shaped(home, start, row, layout.ratio, layout.images),
+        np.zeros((6, 6)), np.zeros(6),
     )  # fmt: skip

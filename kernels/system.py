@@ -1,9 +1,9 @@
 """The linear system of a step: walls condensed one by one, then the joints and what touches."""
 
-from kernels import blocks, condense
-from kernels.entries import INNER
+from kernels import blocks, condense, image
+from kernels.entries import IMAGE, INNER, add_image
 from kernels.jit import jit, jit_inlined
-from kernels.pattern import CONDENSED, RIGID
+from kernels.pattern import CONDENSED, OPEN, RIGID
 from kernels.rows import zero
 
 
@@ -22,6 +22,29 @@ def _scatter(values, target, rows, outer):
             t += 1
 
 
+@jit
+def _scatter_image(system, layout, w, rows):
+    """Add the entries of wall ``w`` that belong to the image of a joint at its end.
+
+    Where both ends are one joint, the coupling of their rotations is a second time on the diagonal.
+    An open wall has no room for entries between nodes that are too far apart to couple.
+    """
+    matrix, outer = system.matrix, layout.outer[w]
+    for c in range(condense.OUTER):
+        is_image = matrix.home[outer[c]] <= IMAGE
+        for d in range(c + 1):
+            entry = system.outer[c, d]
+            if entry != 0.0 and (is_image or matrix.home[outer[d]] <= IMAGE):
+                add_image(matrix, outer[c], outer[d], entry, False)
+            elif c != d and outer[c] == outer[d]:
+                matrix.diagonal[outer[c]] += entry
+        if is_image and system.kind[w] == OPEN:
+            for k in range(rows.shape[0]):
+                entry = rows[k, condense.BAND + c]
+                if entry != 0.0:
+                    add_image(matrix, 2 * layout.inner[w] + k, outer[c], entry, False)
+
+
 @jit_inlined
 def factor(system, layout, walls, stiffness, projected):
     """Add the walls to what the matrix holds and factor all.
@@ -29,7 +52,7 @@ def factor(system, layout, walls, stiffness, projected):
     Return (wall, failed, pivot): where the first negative pivot is, failed = -1 if there is none;
     wall = -1 if it is in the block matrix.
     """
-    wall, failed, pivot = -1, -1, 0.0
+    wall, failed, pivot, home = -1, -1, 0.0, system.matrix.home
     rounded = blocks.CONVEX if projected else blocks.ROUNDED
     for w in range(system.kind.size):
         if system.kind[w] == RIGID:
@@ -48,6 +71,8 @@ def factor(system, layout, walls, stiffness, projected):
                 break
         targets = system.target[system.target_start[w] : system.target_start[w + 1]]
         _scatter(system.matrix.values, targets, rows, system.outer)
+        if home[layout.outer[w, 3]] <= IMAGE:
+            _scatter_image(system, layout, w, rows)
     if failed < 0:
         blocks.settle(system.matrix, layout.scale)
         failed, pivot = blocks.factor(system.matrix, layout.scale, rounded)
@@ -70,31 +95,33 @@ def _expand(system, layout, b):
             b[c] = vector[home[c]]
         elif home[c] != INNER:
             b[c] = 0.0
+    image.spread(layout.images, b)
     for w in range(system.kind.size):
         if system.kind[w] == CONDENSED:
             rows = system.rows[system.row_start[w] : system.row_start[w + 1]]
             for c in range(condense.OUTER):
                 joints[c] = b[layout.outer[w, c]]
             condense.backward(rows, b[_inner(system, layout, w)], joints, rows.shape[0])
+    image.spread(layout.images, b)
 
 
 @jit
 def solve(system, layout, b):
     """Solve in place for a right side ``b`` (n,) by coordinate; what is held stays at zero."""
     home, vector, joints = system.matrix.home, system.matrix.vector, system.joints
-    zero(vector)
-    for c in range(b.size):
-        if home[c] >= 0:
-            vector[home[c]] += b[c]
+    image.collect(layout.images, b)
     for w in range(system.kind.size):
         if system.kind[w] == CONDENSED:
             rows = system.rows[system.row_start[w] : system.row_start[w + 1]]
             zero(joints)
             condense.forward(rows, b[_inner(system, layout, w)], joints)
             for c in range(condense.OUTER):
-                h = home[layout.outer[w, c]]
-                if h >= 0:
-                    vector[h] += joints[c]
+                b[layout.outer[w, c]] += joints[c]
+    image.collect(layout.images, b)
+    zero(vector)
+    for c in range(b.size):
+        if home[c] >= 0:
+            vector[home[c]] += b[c]
     blocks.forward(system.matrix)
     blocks.backward(system.matrix, system.matrix.start.size - 1)
     _expand(system, layout, b)
@@ -110,6 +137,7 @@ def descend(system, layout, wall, failed, direction):
         inner = direction[_inner(system, layout, wall)]
         inner[failed] = 1.0
         condense.backward(rows, inner, system.joints, failed)
+        image.spread(layout.images, direction)
     else:
         blocks.descend(system.matrix, failed)
         _expand(system, layout, direction)

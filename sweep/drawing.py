@@ -45,13 +45,13 @@ def joints_and_walls(sketch: Sketch) -> tuple[Floats, Indices]:
     low, high = extent(sketch.kind, sketch.orientation, sketch.cells)
     box = np.array(sketch.box)
     tolerance = TOLERANCE * box.max()
-    segments = (_segments(draw(columns, rows)) - low) * (box / (high - low))
+    segments = (segments_of(draw(columns, rows)) - low) * (box / (high - low))
     segments = _snapped(segments, box, tolerance)
     if sketch.closed or sketch.capped:
         inside = np.all((segments[..., 0] >= 0.0) & (segments[..., 0] <= box[0]), axis=1)
         segments = segments if sketch.closed else segments[inside]
         segments = _outlined(segments, box, [sketch.closed, True])
-    points, walls = _welded(segments, tolerance)
+    points, walls = welded(segments, tolerance)
     points.flags.writeable = walls.flags.writeable = False
     return points, walls
 
@@ -63,9 +63,15 @@ def extent(kind: str, orientation: str | None, cells: tuple[int, int]) -> tuple[
     Two rows show what more of them do.
     """
     draw, (columns, rows) = drawer(kind, orientation), cells
-    wide = _segments(draw(range(columns), range(min(rows, 2))))[..., 0]
-    high = _segments(draw(range(min(columns, 2)), range(rows)))[..., 1]
+    wide = segments_of(draw(range(columns), range(min(rows, 2))))[..., 0]
+    high = segments_of(draw(range(min(columns, 2)), range(rows)))[..., 1]
     return np.array([wide.min(), high.min()]), np.array([wide.max(), high.max()])
+
+
+def pitch(kind: str, orientation: str | None) -> Floats:
+    """Width and height (2,) of a regular cell, in the unit of its family: half of what two take."""
+    (low, high), (less, more) = (extent(kind, orientation, (n, n)) for n in (FEW, FEW + 2))
+    return 0.5 * ((more - less) - (high - low))
 
 
 @lru_cache(maxsize=256)
@@ -109,7 +115,7 @@ def on_outline(points: Floats, walls: Indices, side: float, axis: int) -> NDArra
     return on
 
 
-def _segments(drawing: Drawing) -> Floats:
+def segments_of(drawing: Drawing) -> Floats:
     """All pieces of all polylines, (s, 2, 2)."""
     pieces = [np.stack([lines[:, :-1], lines[:, 1:]], axis=2) for lines in drawing]
     return np.concatenate([piece.reshape(-1, 2, 2) for piece in pieces])
@@ -134,7 +140,7 @@ def _outlined(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
     for axis, side in lines:
         ends = segments[..., axis] == side
         along = np.append(segments[ends][:, 1 - axis], [0.0, box[1 - axis]])
-        at, _ = _clusters(along, tolerance)
+        at, _ = clusters(along, tolerance)
         line = np.full((len(at), 2), side)
         line[:, 1 - axis] = at
         outline.append(np.stack([line[:-1], line[1:]], axis=1))
@@ -154,10 +160,10 @@ def _clipped(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
     return start[inside, None] + share[..., None] * along[inside, None]
 
 
-def _welded(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
+def welded(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
     """Joints and walls of segments, each once."""
-    x, column = _clusters(segments[..., 0].ravel(), tolerance)
-    y, row = _clusters(segments[..., 1].ravel(), tolerance)
+    x, column = clusters(segments[..., 0].ravel(), tolerance)
+    y, row = clusters(segments[..., 1].ravel(), tolerance)
     joint, end = np.unique(row * len(x) + column, return_inverse=True)
     walls = np.unique(np.sort(end.reshape(-1, 2), axis=1), axis=0)
     points = np.column_stack([x[joint % len(x)], y[joint // len(x)]])
@@ -165,7 +171,7 @@ def _welded(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
     return points, walls[np.argsort(~level, kind="stable")]
 
 
-def _clusters(values: Floats, tolerance: float) -> tuple[Floats, Indices]:
+def clusters(values: Floats, tolerance: float) -> tuple[Floats, Indices]:
     """Values that differ, ascending, and which of them each value is."""
     order = np.argsort(values, kind="stable")
     new = np.diff(values[order], prepend=-np.inf) > tolerance

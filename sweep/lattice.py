@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from sweep.drawing import Sketch, joints_and_walls, on_outline, sample
+from sweep.drawing import Sketch, extent, joints_and_walls, on_outline, pitch, sample
 from sweep.silhouette import silhouette
 
 if TYPE_CHECKING:
+    from shapely import Geometry
+
     from sweep.specimen import Lattice
 
 Floats = NDArray[np.float64]
@@ -45,15 +47,29 @@ class Network:
         """
         import shapely
 
-        unit = float(self.wall_thickness.max())
-        loops = silhouette(self.points / unit, self.walls, self.wall_thickness / unit)
-        union = shapely.union_all(shapely.polygons(np.array(loops)), grid_size=GRID)
-        return unit**2 * float(shapely.area(union))
+        return self.unit**2 * float(shapely.area(self.union))
+
+    @property
+    def unit(self) -> float:
+        """Length (m) in which `union` is drawn."""
+        return float(self.wall_thickness.max())
+
+    @property
+    def union(self) -> Geometry:
+        """The print, in units of the thickest wall."""
+        import shapely
+
+        loops = silhouette(self.points / self.unit, self.walls, self.wall_thickness / self.unit)
+        return shapely.union_all(shapely.polygons(np.array(loops)), grid_size=GRID)
 
 
 @lru_cache(maxsize=1024)
 def build_network(lattice: Lattice) -> Network:
     """The infill stretched to the box; within an outline it is cut there and joined to it."""
+    if lattice.boundary == "periodic":
+        from sweep.endless import build_endless
+
+        return build_endless(lattice)
     points, walls = joints_and_walls(sketch(lattice))
     thickness = lattice.wall_thickness * gradient(lattice)
     for on, outline in _outlines(lattice, points, walls):
@@ -67,11 +83,16 @@ def build_network(lattice: Lattice) -> Network:
 
 def sketch(lattice: Lattice, outlined: bool = True) -> Sketch:
     """What is drawn of a lattice; not ``outlined``: its infill alone, as far as cells are whole."""
+    kind, way, cells = lattice.kind, lattice.orientation, (lattice.cells_x, lattice.cells_y)
+    box = lattice.width, lattice.height
+    if lattice.boundary == "periodic":
+        low, high = extent(kind, way, cells)
+        box = tuple((high - low) / (pitch(kind, way) * cells) * box)
     return Sketch(
-        lattice.kind,
-        lattice.orientation,
-        (lattice.cells_x, lattice.cells_y),
-        (lattice.width, lattice.height),
+        kind,
+        way,
+        cells,
+        box,
         closed=outlined and lattice.perimeters > 0,
         capped=outlined and lattice.solid_layers > 0,
     )

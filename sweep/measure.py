@@ -44,13 +44,15 @@ PLATEAU_START = 0.05  # strain from which a plateau is averaged at the earliest
 def history_columns(rows: Floats, scene: Scene, case: Case) -> dict[str, Floats]:
     """Columns of the history from the rows that the march wrote, (rows, N_COLUMNS)."""
     travel = rows[0, march.HEIGHT] - rows[:, march.HEIGHT]
+    endless = case.lattice.boundary == "periodic"  # the same mean stress everywhere
+    below = march.REACTION_TOP if endless else march.REACTION_BOTTOM
     gap = np.where(np.isfinite(rows[:, march.GAP]), rows[:, march.GAP], np.nan)
     return {
         "time_s": rows[:, march.TIME].copy(),
         "strain": travel / (case.lattice.height or np.nan),
         "top_displacement_m": travel,
         "reaction_top_N": rows[:, march.REACTION_TOP].copy(),
-        "reaction_bottom_N": rows[:, march.REACTION_BOTTOM].copy(),
+        "reaction_bottom_N": rows[:, below].copy(),
         **{name: rows[:, column].copy() for name, column in BOOK.items()},
         "newton_iterations": np.diff(rows[:, march.ITERATIONS_DONE], prepend=0.0),
         "min_gap_m": gap,
@@ -170,6 +172,7 @@ def shape_columns(
 ) -> dict[str, float | int]:
     """What the stored shapes say, and the work up to which they are within the model."""
     strains, network = element_strains(frames), scene.network
+    walls = np.concatenate([frames["edges"], scene.around])
     return {
         "residual_strain": shortening(frames, network.bottom, network.top),
         "least_element_strain": float(strains.min()),
@@ -178,5 +181,5 @@ def shape_columns(
         "absorbed_energy_within_model_J": work_within_model(
             frames, loading["time_s"], loading["work_in_J"]
         ),
-        "max_crossings": crossings(frames),
+        "max_crossings": crossings({**frames, "edges": walls}),
     }

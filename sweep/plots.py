@@ -148,18 +148,19 @@ def deformed_shapes(
     chosen = dict(shots(frames, release))
     axes = fig.subplots(1, len(chosen), sharex=True, sharey=True, squeeze=False)[0]
     fig.suptitle(title, x=0.01, ha="left", fontsize="medium")
-    points = 1e3 * frames["position_m"][list(chosen)]
+    points, drawn = 1e3 * frames["position_m"][list(chosen)], np.unique(frames["edges"])
     plates = 1e3 * frames["plate_y_m"][list(chosen)]
     thickness = 1e3 * frames["edge_thickness_m"]
-    ground = points[0, :, 1].min() - 0.5 * thickness.max()
-    low, high = points.min((0, 1)) - thickness.max(), points.max((0, 1)) + thickness.max()
+    ground = points[0, drawn, 1].min() - 0.5 * thickness.max()
+    low, high = (end(points[:, drawn], (0, 1)) for end in (np.min, np.max))
+    low, high = low - thickness.max(), high + thickness.max()
     room = 0.06 * (high - low).max()
     span = low[0] - room, high[0] + room
     for ax, caption, position, plate in zip(axes, chosen.values(), points, plates, strict=True):
         loops = silhouette(position, frames["edges"], thickness)
         walls = Outline.make_compound_path(*(Outline(loop, closed=True) for loop in loops))
         ax.add_patch(PathPatch(walls, facecolor=WALL, edgecolor="none", snap=False))
-        if np.isfinite([plate[0], frames["strain"][0]]).any():
+        if np.isfinite([plate[0], frames["strain"][0]]).any() and not np.isinf(plate[0]):
             _platen(ax, span, (ground if np.isnan(plate[0]) else plate[0]) - room, room)
         if np.isfinite(plate[1]):
             _platen(ax, span, plate[1], room)

@@ -73,6 +73,8 @@ def _loading(loading: Loading, lattice: Lattice, integrator: str | None) -> Load
     if loading.mode == "custom":
         allowed = '"force" or "displacement" unless lattice.kind is "custom"'
         raise refusal("loading.mode", "custom", allowed)
+    if lattice.boundary == "periodic":
+        return _mean(loading, lattice.height, integrator)
     if loading.mode == "force":
         return _force(loading, integrator)
     if loading.mode == "impact":
@@ -166,6 +168,24 @@ def _displacement(loading: Loading, height: float, integrator: str | None) -> Lo
         platen=loading.platen or "glued",
         allowed_forces=loading.allowed_forces,
     )
+
+
+def _mean(loading: Loading, height: float, integrator: str | None) -> Loading:
+    """An endless lattice is led by its mean strain and has no platens.
+
+    At rest: the inertia of its mean motion depends on where one stands.
+    """
+    endless = 'if lattice.boundary is "periodic"'
+    for key, value, allowed in (
+        ("mode", loading.mode, "displacement"),
+        ("platen", loading.platen or "none", "none"),
+    ):
+        if value != allowed:
+            raise refusal(f"loading.{key}", value, f'"{allowed}" {endless}')
+    led = _displacement(loading.model_copy(update={"platen": None}), height, integrator)
+    if not led.quasi_static:
+        raise refusal("loading.quasi_static", False, f"true {endless}")
+    return led.model_copy(update={"platen": "none"})
 
 
 def _stroke_and_strain(loading: Loading, height: float) -> tuple[float, float]:

@@ -44,7 +44,8 @@ class Result:
     summary: column -> float, int or str, names and units in `COLUMNS`.
     history: column -> float64 (rows,), names and units in `HISTORY_COLUMNS`.
     frames: `strain (f,)`, `time_s (f,)`, `position_m (f, n, 2)`, `plate_y_m (f, 2)` (surface of the
-    lower and the upper platen, NaN where there is none), `edges (m, 2)`, `edge_thickness_m (m,)`.
+    lower and the upper platen, NaN where there is none, -inf: no end below), `edges (m, 2)`,
+    `edge_thickness_m (m,)`.
     """
 
     case_id: str
@@ -174,7 +175,9 @@ STRIKER_COLUMNS: dict[str, Column] = {
 FRAME_COLUMNS: dict[str, Column] = {
     "strain": Column("1", "top displacement / height of a frame"),
     "time_s": Column("s", "time of a frame"),
-    "plate_y_m": Column("m", "height of the lower and the upper platen; NaN where there is none"),
+    "plate_y_m": Column(
+        "m", "height of the lower and the upper platen; NaN: none; -inf: no end below"
+    ),
     "position_m": Column("m", "x and y of every node, frame after frame"),
     "edges": Column("", "the two nodes of every element"),
     "edge_thickness_m": Column("m", "wall thickness of every element"),

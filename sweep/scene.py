@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from kernels import chain, damp, friction, newton, pattern, spring, stretch
+from kernels import chain, damp, friction, image, newton, pattern, spring, stretch
 from kernels.step import Terms
 from sweep.joints import bends, build_bend, build_fold
 from sweep.lattice import Network, build_network, mass
@@ -26,6 +26,7 @@ class Scene:
     """A case as arrays. x_rest (n,): m and rad; bottom, top, base, probes: as in `march.Output`.
 
     velocity (n,) at the start. travel: of the driven coordinate where the case does not say, m.
+    around (k, 2): elements of the copies round a period.
     """
 
     mesh: Mesh
@@ -40,6 +41,7 @@ class Scene:
     velocity: Floats
     probes: Ints = field(default_factory=lambda: np.empty(0, np.int64))
     travel: float = 0.0
+    around: Ints = field(default_factory=lambda: np.empty((0, 2), np.int64))
 
 
 def plane_factors(material: Material) -> tuple[float, float]:
@@ -73,9 +75,11 @@ def solved_by(mesh: Mesh, layout: Layout, leader: Ints, case: Case) -> pattern.L
     return pattern.Layout(
         leader=leader,
         ratio=np.ones(layout.size),
+        images=image.NONE,
         driven=layout.high if case.loading.mode == "displacement" else -1,
         n_nodes=layout.n_nodes,
         n_joints=layout.n_joints,
+        origin=np.arange(layout.n_nodes),
         inner=mesh.edges[mesh.start[:-1], 1],
         wall_of=wall_of,
         outer=outer.reshape(-1, 6),
@@ -221,6 +225,7 @@ def unknowns_of(mesh: Mesh, layout: Layout, solved: pattern.Layout, case: Case) 
     return newton.Unknowns(
         leader=solved.leader,
         ratio=solved.ratio,
+        images=solved.images,
         scale=scale,
         lever=1.0 / scale,
         driven=solved.driven,

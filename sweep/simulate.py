@@ -11,6 +11,7 @@ from kernels.newton import Tolerance
 from sweep.measure import history_columns, summarise
 from sweep.mesh import Floats
 from sweep.params import Case, Lattice, Loading, given
+from sweep.periodic import build_periodic
 from sweep.probes import own_columns
 from sweep.result import Result, Status
 from sweep.scene import Scene, build_scene, time_step
@@ -55,7 +56,7 @@ def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
     ``stop``: int64 (2,), set stop[0] to 1 from another thread to interrupt; stop[1] counts steps.
     """
     started = time.thread_time()
-    scene = build_scene(case) if case.lattice.structure is None else build_structure(case)
+    scene = _scene(case)
     run = _Run(scene, case, np.zeros(2, np.int64) if stop is None else stop)
     status, message = run.complete()
     history = history_columns(run.rows[: run.done], scene, case)
@@ -73,6 +74,12 @@ def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
         "cpu_s": time.thread_time() - started,
     }
     return Result(case_id, status, message, summary, history, frames)
+
+
+def _scene(case: Case) -> Scene:
+    if case.lattice.structure is not None:
+        return build_structure(case)
+    return build_periodic(case) if case.lattice.boundary == "periodic" else build_scene(case)
 
 
 def warm_up() -> None:
@@ -214,6 +221,8 @@ class _Run:
         plates = x[:, -2:].copy()
         if self.case.loading.platen == "none":
             plates[:] = np.nan
+        if self.case.lattice.boundary == "periodic":
+            plates[:, 0] = -np.inf
         if structure is not None and structure.floor_y_mm is not None:
             plates[:, 0] = x[:, self.scene.terms.contact.low]
         return {

@@ -38,15 +38,23 @@ class Lattice(Table):
     fill, as slicers count. Instead of `wall_thickness`: `mass`, solved for in `sized`.
     None: not used, or filled in. A custom kind is `structure`, read from `file`, in one piece: box
     and thickness are then what it measures.
+    boundary "periodic": one period of an endless lattice. Width and height are its size; opposite
+    sides are tied to each other, the mean shear is zero, and so is the mean stress sideways.
     """
 
-    neutral: ClassVar[dict[str, Any]] = {"grading": 1.0, "perimeters": 0, "solid_layers": 0}
+    neutral: ClassVar[dict[str, Any]] = {
+        "boundary": "free",
+        "grading": 1.0,
+        "perimeters": 0,
+        "solid_layers": 0,
+    }
     labels: ClassVar[tuple[str, ...]] = ("infill", "mass", "file")
 
     kind: Kind = "square"
     file: str | None = None
     structure: Structure | None = None
     orientation: Literal["pointy", "flat"] | None = None
+    boundary: Literal["free", "periodic"] = "free"
     cells_x: Few = 3
     cells_y: Few = 3
     width: Length = 12.5e-3
@@ -74,6 +82,8 @@ class Lattice(Table):
 
     @model_validator(mode="after")
     def _complete(self) -> Self:
+        if self.boundary == "periodic":
+            repeat(self)
         if self.structure is not None:
             return self._measured(self.structure)
         lines = self.perimeters > 0 or self.infill is not None
@@ -186,7 +196,12 @@ class Lattice(Table):
 
     @property
     def outer_size(self) -> tuple[float, float]:
-        """Width and height over all, of walls of mean thickness where there is no outline, m."""
+        """Width and height over all, of walls of mean thickness where there is no outline, m.
+
+        Those of a period, where the lattice is endless.
+        """
+        if self.boundary == "periodic":
+            return self.width, self.height
         sides, caps = (outline or self.wall_thickness for outline in self.outline)
         return self.width + sides, self.height + caps
 
@@ -207,6 +222,21 @@ def leave_openings(lattice: Lattice) -> None:
             most = int(room / (outline / count))
             allowed = f"at most {most} here, thinner in all than cells are open, {room:.4g} m"
             raise refusal(f"lattice.{key}", count, allowed)
+
+
+def repeat(lattice: Lattice) -> None:
+    """Refuse what cannot be the period of an endless lattice."""
+    endless = 'if lattice.boundary is "periodic"'
+    if lattice.kind == CUSTOM:
+        raise refusal("lattice.boundary", "periodic", '"free" if lattice.kind is "custom"')
+    for key, value in {**lattice.neutral, "infill": None}.items():
+        if key != "boundary" and getattr(lattice, key) != value:
+            wanted = "none" if value is None else f"{value:g}"
+            raise refusal(f"lattice.{key}", getattr(lattice, key), f"{wanted} {endless}")
+    key = "cells_x" if lattice.orientation == "flat" else "cells_y"
+    if trait(lattice.kind, "STAGGERED") and getattr(lattice, key) % 2:
+        allowed = f"an even number {endless}, as every other row of {lattice.kind} is shifted"
+        raise refusal(f"lattice.{key}", getattr(lattice, key), allowed)
 
 
 def sized(lattice: Lattice, density: float) -> Lattice:

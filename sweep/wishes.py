@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from sweep.drawing import FEW, extent
+from sweep.drawing import FEW, pitch
 from sweep.lattice import build_network, infill_walls, mass
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def cells_for(lattice: Lattice, most: int) -> dict[str, int]:
     Empty where one cell fills too much, or more than ``most`` would be needed.
     """
     wanted = lattice.infill or 0.0
-    width, height = _pitch(lattice.kind, lattice.orientation)
+    width, height = pitch(lattice.kind, lattice.orientation)
     beside = lattice.width / lattice.height * height / width
 
     def cells(rows: int) -> dict[str, int]:
@@ -47,13 +47,6 @@ def cells_for(lattice: Lattice, most: int) -> dict[str, int]:
         return {}
     best = min(near, key=missed)
     return cells(best) if missed(best) <= SLACK * wanted else {}
-
-
-def _pitch(kind: str, orientation: str | None) -> tuple[float, float]:
-    """Width and height of a regular cell, in the unit of its family; of two, where they differ."""
-    (low, high), (less, more) = (extent(kind, orientation, (n, n)) for n in (FEW, FEW + 2))
-    width, height = (more - less) - (high - low)
-    return width, height
 
 
 @lru_cache(maxsize=4096)

@@ -15,6 +15,7 @@ from kernels import (
     damp,
     fold,
     friction,
+    image,
     law,
     pairs,
     pattern,
@@ -229,7 +230,7 @@ def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> pattern.Layo
     outer = np.stack([2 * joints, 2 * joints + 1, 2 * n + joints], axis=-1).reshape(-1, 6)
     axial = of.modulus * of.depth * of.thickness / of.l0
     return pattern.Layout(
-        leader, np.ones(size), size - 1 if driven else -1, n, of.joints,
+        leader, np.ones(size), image.NONE, size - 1 if driven else -1, n, of.joints, np.arange(n),
         of.edges[of.start[:-1], 1], wall_of, outer, float(axial.max()),
     )  # fmt: skip
 

@@ -6,7 +6,7 @@ and `system`, which are compared with it.
 
 import numpy as np
 
-from kernels import bend, chain, contact, damp, entries, pairs
+from kernels import bend, chain, contact, damp, entries, image, pairs
 from kernels.entries import Blocks
 from kernels.step import Terms
 
@@ -135,7 +135,7 @@ def full_matrix(n: int) -> Blocks:
     nb = (n + 1) // 2
     start = np.cumsum([0, *range(nb - 1, -1, -1)])
     row = np.concatenate([np.arange(j + 1, nb) for j in range(nb)])
-    return entries.shaped(3 * (c // 2) + c % 2, start, row, np.ones(n))
+    return entries.shaped(3 * (c // 2) + c % 2, start, row, np.ones(n), image.NONE)
 
 
 def by_home(matrix: Blocks) -> np.ndarray:

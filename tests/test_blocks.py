@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels import blocks, entries
+from kernels import blocks, entries, image
 from kernels.entries import DRIVEN, HELD, INNER
 from tests.terms import by_home, dense, full_matrix
 
@@ -31,9 +31,8 @@ def shaped(joined, home=None, ratio=None):
     below = [j + 1 + np.flatnonzero(joined[j + 1 :, j]) for j in range(nb)]
     start = np.cumsum([0, *map(len, below)])
     home = np.arange(3 * nb) if home is None else home
-    return entries.shaped(
-        home, start, np.concatenate(below), np.ones(home.size) if ratio is None else ratio
-    )
+    ratio = np.ones(home.size) if ratio is None else ratio
+    return entries.shaped(home, start, np.concatenate(below), ratio, image.NONE)
 
 
 def put(matrix, full, room=None):

@@ -6,14 +6,15 @@ import numpy as np
 import pytest
 
 from kernels import newton, relax
+from kernels.image import NONE
 
 
 def unknowns(n, leap=1.0):
     """What the iteration knows of its coordinates: lengths of 1 m and 2 m."""
     scale = np.where(np.arange(n) % 2 == 0, 1.0, 2.0)
     return newton.Unknowns(
-        leader=np.arange(n), ratio=np.ones(n), scale=scale, lever=1.0 / scale, driven=-1, cap=1.0,
-        leap=leap, close=1.0,
+        leader=np.arange(n), ratio=np.ones(n), images=NONE, scale=scale, lever=1.0 / scale,
+        driven=-1, cap=1.0, leap=leap, close=1.0,
     )  # fmt: skip
 
 

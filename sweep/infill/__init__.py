@@ -4,6 +4,7 @@ Each has `draw(columns, rows)`: the centre lines of the cells with these numbers
 polylines (n, k, 2) whose vertices are joints, in a unit of its own, y upwards. Columns and rows are
 consecutive and may be negative; what neighbouring cells share may be drawn twice. The drawing is
 stretched to the box. `ORIENTED = True`: it may be turned by a quarter (`lattice.orientation`).
+`STAGGERED = True`: every other row is another; two of them are what repeats.
 
 Numpy is loaded only to draw, so that a config is refused at once.
 """

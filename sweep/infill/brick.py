@@ -10,6 +10,8 @@ import numpy as np
 if TYPE_CHECKING:
     from sweep.infill import Drawing, Floats
 
+STAGGERED = True
+
 
 def draw(columns: Sequence[int], rows: Sequence[int]) -> Drawing:
     """Bricks of side 1, in courses between level lines."""

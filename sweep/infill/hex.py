@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from sweep.infill import Drawing
 
 ORIENTED = True
+STAGGERED = True
 HALF = 0.75**0.5  # of the width of a hexagon of side 1
 CELL = [(0, 0.5), (HALF, 0), (2 * HALF, 0.5), (2 * HALF, 1.5), (HALF, 2), (0, 1.5), (0, 0.5)]
 

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from sweep.infill import Drawing
 
 ORIENTED = True
+STAGGERED = True
 HALF = 0.75**0.5  # of the width of a cell whose slanted walls are 1 long
 CELL = [(0, 0), (HALF, 0.5), (2 * HALF, 0), (2 * HALF, 2), (HALF, 1.5), (0, 2), (0, 0)]
 

@@ -10,6 +10,7 @@ from sweep.infill import tile
 if TYPE_CHECKING:
     from sweep.infill import Drawing
 
+STAGGERED = True
 RISE = 0.75**0.5  # of a regular triangle of side 1
 UP = [(0, 0), (1, 0), (0.5, RISE), (0, 0)]
 DOWN = [(0, RISE), (1, RISE), (0.5, 0), (0, RISE)]
