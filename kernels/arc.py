@@ -17,10 +17,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels import damp, friction, system
+from kernels import bend, friction, system
 from kernels.balance import largest, reduce
+from kernels.book import enter
 from kernels.jit import jit_exact, jit_inlined, jit_owning
-from kernels.march import SMALLEST, enter, write
+from kernels.march import SMALLEST, write
 from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, NOT_FINITE, OUTGROWN, STALLED
 from kernels.room import PREDICTED, make_room
 from kernels.rows import copy, dot, zero
@@ -100,7 +101,7 @@ def _balance(x, terms, before, near, unknowns, tolerance, room, arc, todo):
         todo[LOAD] = todo[AIM] if arrives else todo[LOAD] + share * todo[RISE]
         zero(work.dx)
         todo[RISE], todo[MOVE], todo[SPENT] = 0.0, 0.0, todo[SPENT] + 1.0
-        step = Step(before, way[PREDICTED], np.inf, todo[LOAD], grips)
+        step = Step(before, way[PREDICTED], np.inf, todo[LOAD], grips, terms.friction.slip, 0.5)
         evaluate(x, terms, step, near, at, False)
         reduce(at.g, unknowns, work.residual)
         size = largest(work.residual, unknowns)
@@ -126,7 +127,8 @@ def _set_out(terms, unknowns, state, room, arc, trail, todo):
     """Point dx along the path, for an arc or for what the load lacks, whichever is shorter."""
     before, _, work, _, _ = room
     copy(state.x, before.x0)
-    damp.prepare(terms, before)
+    copy(state.x, before.y)
+    bend.aim(state.x, terms.walls, terms.bend, before.frame)
     tangent, way = trail[TANGENT], trail[WAY]
     todo[SPENT], todo[LOAD], todo[AIM] = 0.0, state.held[1], state.held[1]
     todo[LENGTH], todo[RISE] = 0.0, 0.0
@@ -183,7 +185,7 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, arc,
             if outcome == INTERRUPTED or todo[SHARE] < SMALLEST or todo[ROW] < 0.0:
                 return ITERATIONS if outcome == OUTGROWN else outcome
             continue
-        step = Step(before, way[PREDICTED], np.inf, todo[LOAD], grips)
+        step = Step(before, way[PREDICTED], np.inf, todo[LOAD], grips, terms.friction.slip, 0.5)
         enter(terms, step, unknowns, state, at, work)
         copy(work.escape, trail[TANGENT])
         if todo[ROW] >= 0.0:

@@ -2,8 +2,8 @@
 
     D_f = sum mu lambda f(u),   f(u) = |u|^2/eps - |u|^3/(3 eps^2) + eps/3 for |u| < eps, else |u|
 
-u is the tangential slip within the step, lambda the normal force of a pair at the last iterate of a
-fixed-point loop (Li et al. 2020, eq. 16). Walls have a thickness, so that two walls which turn
+u is the tangential slip since y (`scheme`), lambda the normal force of a pair at the last iterate
+of a fixed-point loop (Li et al. 2020, eq. 16). Walls have a thickness, so that two walls which turn
 together do not slip: with T the tangent, d the distance and w the rotation of the segment,
 
     u = T . (dp - dc) - d w,    linear in the moves of p, a, b with the slopes kept in `Grips`.
@@ -26,7 +26,7 @@ from kernels.rows import pair
 
 
 class Friction(NamedTuple):
-    """mu and the slip eps (m) below which friction is smoothed; mu = 0: no friction."""
+    """mu and the slip eps (m) in a whole step below which friction is smoothed; mu = 0: none."""
 
     mu: float
     slip: float
@@ -157,7 +157,7 @@ def _slip(u, grips, k):
 
 @jit
 def evaluate(u, grips, slip, g):
-    """Return D_f in J for a move ``u`` (n,) in the step, zero at rest; add dD_f/dx to ``g``."""
+    """Return D_f in J for a move ``u`` (n,) from y, zero at rest; add dD_f/dx to ``g``."""
     total = 0.0
     for k in range(grips.count[0]):
         value, slope, _ = smooth(_slip(u, grips, k), slip)

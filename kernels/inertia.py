@@ -1,11 +1,11 @@
-"""Inertia of backward Euler as a potential: E_i = |x - x~|_M^2 / (2 dt^2), lumped masses."""
+"""Inertia of a step as a potential: E_i = |x - x~|_M^2 / (2 h^2), lumped masses (`scheme`)."""
 
 from kernels.jit import jit
 
 
 @jit
 def evaluate(x, x_pred, mass, dt, g):
-    """Return E_i in J and add M (x - x~) / dt^2 to ``g``.
+    """Return E_i in J and add M (x - x~) / dt^2 to ``g``; ``dt``: h.
 
     ``mass`` (n,) in kg by coordinate, zero for rotations.
     """

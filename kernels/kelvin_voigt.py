@@ -1,8 +1,9 @@
 """Viscous stress and moment, proportional to the rates of strain and turn of each element.
 
-    D = rate / 2 [ sum Y A l0 de^2 + sum K dtheta^2 + sum 2 k12 dtheta_1 dtheta_2 ], rate = tau / dt
+    D = rate / 2 [ sum Y A l0 de^2 + sum K dtheta^2 + sum 2 k12 dtheta_1 dtheta_2 ], rate = tau / h
 
-de, dtheta: changes of strain and turn in the step. A rigid motion costs nothing.
+de, dtheta: changes of strain and turn from where rates are measured (`scheme`), of which lengths
+and turns are combined, not places: a rigid motion costs nothing.
 """
 
 from kernels import chain
@@ -55,8 +56,37 @@ def _arms(walls, bend, before, rate, shape, stiffness, projected):
 
 
 @jit
+def foresee(terms, v, time, shape):
+    """Let the lengths and turns of ``shape`` go on for ``time`` at the rates of ``v`` (n,)."""
+    walls, hinges = terms.walls, terms.bend.hinges
+    bearing, stretching = shape.slope[0], shape.slope[1]
+    for k in range(shape.length.size):
+        i, j = 2 * walls.edges[k, 0], 2 * walls.edges[k, 1]
+        ex, ey, tx, ty = v[j] - v[i], v[j + 1] - v[i + 1], shape.t[0, k], shape.t[1, k]
+        stretching[k] = tx * ex + ty * ey
+        bearing[k] = (tx * ey - ty * ex) / shape.length[k]
+    for k in range(shape.length.size):
+        shape.length[k] += time * stretching[k]
+    for k in hinges:
+        shape.hinge_turn[k] += time * (bearing[k + 1] - bearing[k])
+    for a in range(shape.arm_turn.size):
+        turning = bearing[walls.arm_element[a]] - v[walls.rotation[a]]
+        shape.arm_turn[a] += time * turning
+
+
+@jit
+def extrapolate(shape, past, share):
+    """Let the lengths and turns of ``shape`` go on by a share of what they have changed by."""
+    for k in range(shape.length.size):
+        shape.length[k] += share * (shape.length[k] - past.length[k])
+        shape.hinge_turn[k] += share * (shape.hinge_turn[k] - past.hinge_turn[k])
+    for a in range(shape.arm_turn.size):
+        shape.arm_turn[a] += share * (shape.arm_turn[a] - past.arm_turn[a])
+
+
+@jit
 def evaluate(terms, before, rate, shape, stiffness, projected):
-    """Return D in J; add its derivatives. ``before``: the shape at x0."""
+    """Return D in J; add its derivatives. ``before``: the shape that rates are measured from."""
     total = _strain(terms, before, rate, shape, stiffness, projected)
     total += _hinges(terms.bend, before, rate, shape, stiffness, projected)
     return total + _arms(terms.walls, terms.bend, before, rate, shape, stiffness, projected)

@@ -1,38 +1,38 @@
-"""Steps through a stage of loading, with halved steps where one fails, and keeps the energy book.
-
-Backward Euler: v' = (x' - x) / dt, loss 1/2 |v' - v|_M^2 + [grad U(x') . dx - dU].
-Static: no inertia; work and loss by the trapezoidal rule, loss = 1/2 (grad U + grad U') . dx - dU.
-"""
+"""Steps through a stage of loading, shorter ones where one fails or errs, and keeps the book."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from kernels import damp, friction, inertia, project
+from kernels import damp, friction, inertia, scheme
 from kernels.balance import allowed, largest, reduce
+from kernels.book import INTEGRATOR, KINETIC, enter, move_apart, strike
 from kernels.caliper import height
 from kernels.jit import jit_exact, jit_inlined, jit_owning
 from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, OUTGROWN, minimise
 from kernels.relax import approach
-from kernels.room import CHANGE, LAGGED, PREDICTED, make_room
-from kernels.rows import copy, dot, total, zero
-from kernels.step import Step, drift, find_near, holds_crowd, least_gap, rub, store
+from kernels.room import CHANGE, HEAVY, LAGGED, PREDICTED, make_room
+from kernels.rows import copy, total, zero
+from kernels.scheme import BACKWARD_EULER, BDF2, POSITION
+from kernels.step import Step, drift, find_near, holds_crowd, least_gap, rub
 
-WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR = range(8)
-INJECTED, RESIDUAL = 8, 9
 TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP, SPEED = range(10, 17)
 N_COLUMNS = 17
 SMALLEST = 2.0**-21  # share of a step
+LONGER = 0.1  # of the error that is allowed: the next step may be twice as long
 FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 GRIP_LOOPS = 30  # fixed-point iterations of friction
 # Of what is to be done: see `_go`. SPENT, EFFORT, TRIED: iterations for a row, a share, a minimum.
-ROW, DONE, SHARE, FAILED, SPENT, EFFORT, TRIED, LOOPS, MOVE, RELAXED = range(10)
+ROW, DONE, SHARE, FAILED, SPENT, EFFORT, TRIED, LOOPS, MOVE, RELAXED, LENGTH = range(11)
+LAST = 3  # of the totals
+INACCURATE = 7  # an outcome, beside those of `newton`
 
 
 class Stage(NamedTuple):
     """Linear ramps of the load factor and of the driven coordinate (m) from ``*0`` to ``*1``.
 
-    steps: number. dt: duration of one in s, infinite if static. pace: time of one in s.
+    steps: number. dt: duration of one in s, infinite if static. pace: time of one in s. scheme: the
+    integrator. error: allowed to a step by itself, m.
     """
 
     steps: int
@@ -42,21 +42,23 @@ class Stage(NamedTuple):
     factor1: float
     driven0: float
     driven1: float
+    scheme: int = BACKWARD_EULER
+    error: float = np.inf
 
 
 class State(NamedTuple):
     """Where the march is. x, v (n,): position and velocity. book (10,): energy book in J.
 
-    elastic, rubbing (n,), stored (3,), held (2,): gradients of the stored energy and of friction,
-    stored energies, driven reaction (N) and load factor at the last step. totals (3,): iterations,
-    steps, time in s.
+    rates (2, n), past (4, n): of position and velocity, gradients at the last step (`scheme`).
+    stored (3,), held (2,): energies, driven reaction (N) and load factor at the last step. totals
+    (4,): iterations, steps, time in s, duration of the last step, 0 to set out anew.
     """
 
     x: np.ndarray
     v: np.ndarray
     book: np.ndarray
-    elastic: np.ndarray
-    rubbing: np.ndarray
+    rates: np.ndarray
+    past: np.ndarray
     stored: np.ndarray
     held: np.ndarray
     totals: np.ndarray
@@ -77,59 +79,6 @@ class Output(NamedTuple):
     base: np.ndarray
     probes: np.ndarray
     probed: np.ndarray
-
-
-@jit_inlined
-def enter(terms, step, unknowns, state, at, work):
-    """Add one converged step, found by the last `evaluate`, to the energy book."""
-    book, dynamic = state.book, step.dt < np.inf
-    theta = 1.0 if dynamic else 0.5
-    held, lead = 0.0, 0.0
-    if unknowns.driven >= 0:
-        reduce(at.g, unknowns, work.residual)
-        held, lead = work.residual[unknowns.driven], at.u[unknowns.driven]
-    factor = theta * step.factor + (1.0 - theta) * state.held[1]
-    book[WORK] += factor * dot(terms.load, at.u)
-    book[WORK] += (theta * held + (1.0 - theta) * state.held[0]) * lead
-    book[MATERIAL] += dot(at.material, at.u)
-    book[FRICTION] += theta * dot(at.rubbing, at.u) + (1.0 - theta) * dot(state.rubbing, at.u)
-    loss = theta * dot(at.elastic, at.u) + (1.0 - theta) * dot(state.elastic, at.u)
-    total = 0.0
-    for k in range(at.stored.size):
-        loss -= at.stored[k] - state.stored[k]
-        total += at.stored[k]
-        book[STRETCH + k] = at.stored[k]
-        state.stored[k] = at.stored[k]
-    if dynamic:
-        for i in range(at.u.size):
-            change = at.u[i] / step.dt - state.v[i]
-            loss += 0.5 * terms.mass[i] * change * change
-            state.v[i] += change
-        book[KINETIC] = inertia.kinetic(state.v, terms.mass)
-    book[INTEGRATOR] += loss
-    copy(at.elastic, state.elastic)
-    copy(at.rubbing, state.rubbing)
-    state.held[0], state.held[1] = held, step.factor
-    book[RESIDUAL] = book[WORK] + book[INJECTED] - book[KINETIC] - total
-    book[RESIDUAL] -= book[MATERIAL] + book[FRICTION] + book[INTEGRATOR]
-
-
-@jit_inlined
-def _move_apart(terms, step, state, near, at, work):
-    """Move apart what is too near after a step, and book what that adds to the energy."""
-    x, book = state.x, state.book
-    copy(x, work.trial)
-    if not project.move_apart(x, terms.project, near.crowd):
-        return
-    store(x, terms, step, at, True)
-    work.kept[0] = np.inf
-    gained = -book[KINETIC] - book[STRETCH] - book[BEND]
-    way = step.factor * project.hasten(x, work.trial, step.dt, terms.load, state.v)
-    book[KINETIC] = inertia.kinetic(state.v, terms.mass)
-    book[STRETCH], book[BEND] = at.stored[0], at.stored[1]
-    copy(at.stored, state.stored)
-    book[WORK] += way
-    book[INJECTED] += gained + book[KINETIC] + book[STRETCH] + book[BEND] - way
 
 
 @jit_inlined
@@ -161,26 +110,37 @@ def write(out, k, state, terms, near, unknowns, at):
 def _begin(terms, stage, target, driven, state, near, room, todo):
     """Set out on the next step, from where the last one ended and on as that went."""
     before, at, work, grips, way = room
-    x, dt, more = state.x, stage.dt * todo[SHARE], 0.0
+    x, dt, last, more = state.x, stage.dt * todo[SHARE], state.totals[LAST], 0.0
     if driven >= 0:
         remaining = target - x[driven]
         if remaining * at.u[driven] > 0.0 and abs(remaining) <= FURTHER * abs(at.u[driven]):
             more = remaining / at.u[driven]
+    h = scheme.length(stage.scheme, dt, last)
+    if h != todo[LENGTH]:  # the next Hessian is another
+        todo[LENGTH], work.kept[0] = h, np.inf
     copy(x, before.x0)
-    damp.prepare(terms, before)
-    for i in range(x.size):
-        work.dx[i] = dt * state.v[i] if dt < np.inf else more * at.u[i]
-        way[PREDICTED, i] = x[i] + work.dx[i]
-        way[LAGGED, i] = x[i]
+    copy(x, way[LAGGED])
+    if dt == np.inf:
+        copy(x, before.y)
+        for i in range(x.size):
+            work.dx[i] = more * at.u[i]
+    else:
+        if driven >= 0 and stage.scheme != BACKWARD_EULER and last == 0.0:
+            strike(state, terms.layout, terms.mass, remaining / dt)
+        scheme.set_out(state, dt, h, way[HEAVY], before.y, way[PREDICTED], work.dx)
     if more > 0.0:
         work.dx[driven] = remaining
+    ahead = dt - h if h < dt else 0.0
+    last = last if stage.scheme == BDF2 else 0.0
+    rate = state.rates[POSITION]
+    damp.prepare(terms, before, damp.Ahead(ahead, last, rate, work.dx, work.trial, at.shape))
     if terms.friction.mu > 0.0:
         friction.lag(x, terms.contact, near.pairs, drift(x, terms, near), terms.friction, grips)
     todo[LOOPS], todo[RELAXED], todo[EFFORT], todo[TRIED] = 0.0, 0.0, 0.0, 0.0
 
 
 @jit_inlined
-def _grips_agree(x, terms, near, unknowns, tolerance, room, todo):
+def _grips_agree(x, terms, step, near, unknowns, tolerance, room, todo):
     """Lag friction anew; return whether ``x`` is still in balance (then nothing is changed)."""
     _, at, work, grips, way = room
     copy(at.g, work.trial)
@@ -188,7 +148,7 @@ def _grips_agree(x, terms, near, unknowns, tolerance, room, todo):
     y = way[LAGGED]
     todo[RELAXED] = approach(x, y, way[CHANGE], unknowns, todo[RELAXED])
     friction.lag(y, terms.contact, near.pairs, drift(y, terms, near), terms.friction, grips)
-    rub(terms, grips, at)
+    rub(terms, step, at)
     reduce(at.g, unknowns, work.residual)
     enough = max(tolerance.friction, tolerance.grip * largest(at.rubbing, unknowns))
     enough = max(enough, allowed(near.system.matrix, tolerance)[0])
@@ -203,17 +163,21 @@ def _grips_agree(x, terms, near, unknowns, tolerance, room, todo):
 
 @jit_exact
 def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo):
-    """March on from where ``todo`` (10,) says, until the stage ends or something must be done."""
+    """March on from where ``todo`` (11,) says, until the stage ends or something must be done."""
     before, at, work, grips, way = room
     while todo[ROW] < stage.steps:
-        if todo[LOOPS] < 0.0:
-            todo[SHARE] = min(todo[SHARE], 1.0 - todo[DONE])
+        if stage.scheme != BACKWARD_EULER and state.totals[LAST] == 0.0:
+            todo[SHARE] = min(todo[SHARE], scheme.FIRST)
         part = (todo[ROW] + todo[DONE] + todo[SHARE]) / stage.steps
         factor = stage.factor0 + (stage.factor1 - stage.factor0) * part
         target = stage.driven0 + (stage.driven1 - stage.driven0) * part
         if todo[LOOPS] < 0.0:
             _begin(terms, stage, target, unknowns.driven, state, near, room, todo)
-        step = Step(before, way[PREDICTED], stage.dt * todo[SHARE], factor, grips)
+        dt, slip = stage.dt * todo[SHARE], terms.friction.slip
+        if dt < np.inf:
+            slip *= todo[LENGTH] / stage.dt
+        theta = scheme.weight(todo[LENGTH], dt)
+        step = Step(before, way[PREDICTED], todo[LENGTH], factor, grips, slip, theta)
         outcome, spent, todo[MOVE] = minimise(
             state.x, target, terms, step, near, unknowns, tolerance, at, work, control
         )
@@ -223,30 +187,40 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
             zero(work.dx)
             return outcome
         if outcome == CONVERGED and terms.friction.mu > 0.0:
-            if not _grips_agree(state.x, terms, near, unknowns, tolerance, room, todo):
+            if not _grips_agree(state.x, terms, step, near, unknowns, tolerance, room, todo):
                 if todo[LOOPS] < GRIP_LOOPS:
                     continue
                 outcome = ITERATIONS
         if outcome == CONVERGED and not holds_crowd(near, state.x, terms):
             zero(work.dx)
             return OUTGROWN
-        todo[LOOPS] = -1.0
+        todo[LOOPS], strayed = -1.0, 0.0
+        if outcome == CONVERGED and stage.error < np.inf:
+            strayed = scheme.error(state, before.x0, dt, step.dt, way[HEAVY]) / stage.error
+            outcome = INACCURATE if strayed > 1.0 else CONVERGED
         if outcome != CONVERGED:
             copy(before.x0, state.x)
             zero(at.least)  # what was found last was found elsewhere
             zero(at.u)
-            todo[FAILED] += 1.0
-            todo[SHARE] *= 0.5 ** todo[FAILED]  # the oftener, the more boldly
+            todo[FAILED] += 1.0 if outcome != INACCURATE else 0.0
+            todo[SHARE] *= 0.5 ** max(todo[FAILED], 1.0)  # the oftener, the more boldly
             work.kept[0] = np.inf
             if outcome == INTERRUPTED or todo[SHARE] < SMALLEST:
                 return ITERATIONS if outcome == OUTGROWN else outcome
             continue
+        if dt < np.inf:
+            lost = scheme.arrive(stage.scheme, state, step, dt, terms, way[HEAVY], at.u)
+            state.book[INTEGRATOR] += lost
+            state.book[KINETIC] = inertia.kinetic(state.v, terms.mass)
+            state.totals[LAST] = dt
         enter(terms, step, unknowns, state, at, work)
-        _move_apart(terms, step, state, near, at, work)
+        move_apart(terms, step, state, near, at, work)
         todo[DONE], todo[FAILED] = todo[DONE] + todo[SHARE], 0.0
         if todo[SHARE] < 1.0 or terms.friction.mu > 0.0:  # the next Hessian is another
-            todo[SHARE] *= 2.0 if todo[EFFORT] <= tolerance.iterations else 1.0
             work.kept[0] = np.inf
+        easy = strayed < LONGER and todo[EFFORT] <= tolerance.iterations
+        if easy and todo[DONE] % (2.0 * todo[SHARE]) == 0.0:
+            todo[SHARE] *= 2.0
         state.totals[1] += 1
         if todo[DONE] == 1.0:
             state.totals[0] += todo[SPENT]
@@ -254,7 +228,6 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
             write(out, int(todo[ROW]), state, terms, near, unknowns, at)
             control[1] += 1
             todo[ROW], todo[DONE], todo[SPENT] = todo[ROW] + 1.0, 0.0, 0.0
-            todo[SHARE] = min(todo[SHARE], 1.0)
     return CONVERGED
 
 
@@ -264,8 +237,10 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
 
     Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts steps done.
     """
-    todo = np.zeros(10)
+    todo = np.zeros(11)
     todo[SHARE], todo[LOOPS] = 1.0, -1.0
+    if stage.error < np.inf and state.totals[LAST] > 0.0:
+        todo[SHARE] = state.totals[LAST] / stage.dt
     near = find_near(state.x, terms, friction.none(), 0.0)
     room = make_room(terms, near)
     while True:

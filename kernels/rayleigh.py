@@ -1,7 +1,7 @@
-"""Stiffness-proportional damping: D = rate / 2 u^T K u, u = x - x0, rate = beta / dt.
+"""Stiffness-proportional damping: D = rate / 2 u^T K u, u = x - y, rate = beta / h (`scheme`).
 
-K is the stiffness of stretch and bend at x0, projected to be positive semi-definite element by
-element: D is convex, and quadratic in x.
+K is the stiffness of stretch and bend at x0, or of second order where the step is expected to end,
+projected to be positive semi-definite element by element: D is convex, and quadratic in x.
 """
 
 from kernels import chain
@@ -10,7 +10,7 @@ from kernels.jit import jit
 
 @jit
 def evaluate(u, walls, before, rate, shape, stiffness):
-    """Return D in J; add rate K u and rate K. ``before``: the stiffness at x0."""
+    """Return D in J; add rate K u and rate K. ``before``: the stiffness K."""
     chain.product(walls, before, u, shape)
     chain.add_scaled(stiffness, before, rate)
     total = 0.0

@@ -3,12 +3,13 @@
 import numpy as np
 
 from kernels import damp, friction
+from kernels.balance import reduce
 from kernels.chain import Shape, Stiffness
 from kernels.jit import jit_owning
 from kernels.newton import Work
 from kernels.step import At
 
-PREDICTED, LAGGED, CHANGE = range(3)
+PREDICTED, LAGGED, CHANGE, HEAVY = range(4)
 
 
 @jit_owning
@@ -24,17 +25,24 @@ def _shape(terms):
 
 @jit_owning
 def make_room(terms, near):
-    """Return the arrays of all steps: `Before`, `At`, `Work`, `Grips`, and (3, n): predicted
-    position, where friction was lagged, how far from there the step ended.
+    """Return the arrays of all steps: `Before`, `At`, `Work`, `Grips`, and (4, n): predicted
+    position, where friction was lagged, how far from there the step ended, 1 for what moves by its
+    mass or by that of what is tied to it, else 0.
     """
     n = terms.mass.size
     shape, stiffness = _shape(terms)
     frame = np.full((terms.walls.rotation.size, 3), np.inf)  # none yet
-    before = damp.Before(np.zeros(n), frame, shape, stiffness)
+    before = damp.Before(np.zeros(n), np.zeros(n), frame, shape, stiffness)
     shape, stiffness = _shape(terms)
     five = np.zeros((5, n))
     at = At(five[0], five[1], five[2], five[3], five[4], np.zeros(3), np.zeros(2), shape, stiffness)
     more = np.zeros((5, n))
     work = Work(more[0], more[1], more[2], more[3], more[4], np.full(1, np.inf))
     grips = friction.room(near.pairs, terms.contact, terms.friction)
-    return before, at, work, grips, np.zeros((3, n))
+    way, layout = np.zeros((4, n)), terms.layout
+    reduce(terms.mass, layout, work.residual)
+    for i in range(n):
+        leader = layout.leader[i]
+        if leader >= 0 and leader != layout.driven and work.residual[leader] > 0.0:
+            way[HEAVY, i] = 1.0
+    return before, at, work, grips, way

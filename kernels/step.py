@@ -1,9 +1,9 @@
 """What one step minimises: the sum of all terms, with its gradient, Hessian and admissible length.
 
-    E(x) = E_s + E_b + E_f + E_c - f . u + |x - x~|_M^2 / (2 dt^2) + D(u) + D_f(u),   u = x - x0
+    E(x) = E_s + E_b + E_f + E_c - f . u + |x - x~|_M^2 / (2 h^2) + D(u) + D_f(u),   u = x - y
 
-dt is infinite in a static step: inertia and damping vanish. A term that a scene lacks is an empty
-array.
+u / h is the velocity at its end (`scheme`). h is infinite in a static step, y = x0: inertia and
+damping vanish. A term that a scene lacks is an empty array.
 """
 
 from typing import NamedTuple
@@ -26,6 +26,7 @@ from kernels import (
     stretch,
     system,
 )
+from kernels.couplings import couplings
 from kernels.entries import clear
 from kernels.jit import jit_exact, jit_inlined, jit_owning
 from kernels.rows import pair, triple, zero, zero_rows
@@ -35,7 +36,6 @@ SHORTEST, OPENING = range(2)
 LEAST_LENGTH = 0.1  # of an element's length: no step shrinks it further
 MARGIN = 1.0  # of the reach of contact: how much farther pairs are listed
 CROWD = 1.0  # of the thickness: how much farther pairs to be moved apart are listed
-LIKELY = 0.25  # of its contact distance: a pair that much farther away gets room in the matrix
 ADVANCE = 0.9  # share of the way to the first contact that a step may use
 DIAGONAL = 2.0**0.5  # a node may move so many times as far as either of its coordinates
 
@@ -59,13 +59,17 @@ class Terms(NamedTuple):
 
 
 class Step(NamedTuple):
-    """One step: its start, x_pred (n,), duration dt in s, factor of the load, lagged friction."""
+    """One step: its start, x_pred (n,), h in s, factor of the load, lagged friction and its eps,
+    share of its end in the book.
+    """
 
     before: object
     x_pred: np.ndarray
     dt: float
     factor: float
     grips: object
+    slip: float
+    theta: float
 
 
 class Near(NamedTuple):
@@ -85,7 +89,7 @@ class At(NamedTuple):
     """What `evaluate` found at x. g (n,): gradient by coordinate, what supports must supply.
 
     elastic, rubbing, material, u (n,): gradients of the stored energy, of friction and of damping;
-    move from x0. stored (3,): E_s with springs, E_b with folds, E_c in J. least (2,): shortest
+    x - y. stored (3,): E_s with springs, E_b with folds, E_c in J. least (2,): shortest
     element in m, least opening of two arms in rad.
     """
 
@@ -115,7 +119,7 @@ def evaluate(x, terms, step, near, at, projected):
     if step.dt < np.inf:
         total += inertia.evaluate(x, step.x_pred, terms.mass, step.dt, at.g)
         total += _damping(terms, step, at, projected)
-    return total + rub(terms, step.grips, at)
+    return total + rub(terms, step, at)
 
 
 @jit_inlined
@@ -137,7 +141,7 @@ def store(x, terms, step, at, projected):
 @jit_inlined
 def _start(x, step, at):
     for i in range(x.size):
-        at.u[i] = x[i] - step.before.x0[i]
+        at.u[i] = x[i] - step.before.y[i]
         at.elastic[i] = 0.0
         at.material[i] = 0.0
         at.rubbing[i] = 0.0
@@ -156,14 +160,14 @@ def _damping(terms, step, at, projected):
 
 
 @jit_inlined
-def rub(terms, grips, at):
-    """Return D_f of ``grips`` and exchange its gradient in ``at`` for the one there."""
+def rub(terms, step, at):
+    """Return D_f of the grips of ``step``; exchange its gradient in ``at`` for the one there."""
     if terms.friction.mu == 0.0:
         return 0.0
     for i in range(at.g.size):
         at.g[i] -= at.rubbing[i]
         at.rubbing[i] = 0.0
-    total = friction.evaluate(at.u, grips, terms.friction.slip, at.rubbing)
+    total = friction.evaluate(at.u, step.grips, step.slip, at.rubbing)
     for i in range(at.g.size):
         at.g[i] += at.rubbing[i]
     return total
@@ -177,7 +181,7 @@ def factor(x, terms, step, near, at, projected, through):
     fold.hessian(x, terms.fold, matrix, projected)
     spring.hessian(x, terms.spring, matrix, projected)
     contact.hessian(x, terms.contact, near.pairs, matrix, projected)
-    friction.hessian(at.u, step.grips, terms.friction.slip, matrix, projected)
+    friction.hessian(at.u, step.grips, step.slip, matrix, projected)
     if step.dt < np.inf:
         inert, drag = 1.0 / (step.dt * step.dt), terms.damp.alpha_m / step.dt
         for i in range(x.size):
@@ -215,41 +219,6 @@ def _first_fold(x, dx, terms):
     return first
 
 
-@jit_exact
-def _couple(nodes, n, a, b, c):
-    """Write the ``n``-th three nodes; return the next number."""
-    nodes[n, 0], nodes[n, 1], nodes[n, 2] = a, b, c
-    return n + 1
-
-
-@jit_owning
-def _couplings(x, terms, found, grips):
-    """Return (c, 3) nodes of what may soon share a term: contacts, grips, springs, folds."""
-    layout, reach = terms.layout, 1.0 + LIKELY
-    most = found.node.size + grips.count[0] + terms.fold.limit.size
-    most += terms.contact.plate_nodes.size + terms.spring.l0.size
-    nodes, n = np.empty((most, 3), np.int64), 0
-    for k in range(found.node.size):
-        if found.weight[k] > 0.0 and found.distance[k] < reach * found.d_contact[k]:
-            a, b = pair(terms.contact.edges, found.edge[k])
-            n = _couple(nodes, n, found.node[k], a, b)
-    for k in range(grips.count[0]):
-        n = _couple(nodes, n, grips.nodes[k, 0], grips.nodes[k, 1], grips.nodes[k, 2])
-    for k in range(terms.spring.l0.size):
-        a, b = pair(terms.spring.nodes, k)
-        n = _couple(nodes, n, a, a, b)
-    for k in range(terms.fold.limit.size):
-        if fold.opening(x, terms.fold, k) < 2.0 * terms.fold.limit[k]:
-            a, b, c = triple(terms.fold.nodes, k)
-            n = _couple(nodes, n, a, b, c)
-    if layout.leader[terms.contact.high] >= 0 and layout.driven < 0:
-        for p in terms.contact.plate_nodes:
-            gap = x[terms.contact.high] - x[2 * p + 1]
-            if gap < 0.5 * reach * terms.contact.node_thickness[p]:
-                n = _couple(nodes, n, p, p, layout.n_nodes)
-    return nodes[:n]
-
-
 @jit_owning
 def find_near(x, terms, grips, move):
     """Return `Near` at ``x`` for moves up to ``move`` (m): pairs in reach and room for them."""
@@ -258,7 +227,7 @@ def find_near(x, terms, grips, move):
     else:
         margin = max(3.0 * move, MARGIN * terms.contact.reach)
         found = pairs.find(x, terms.contact, terms.contact.reach + margin)
-    solver = pattern.analyse(terms.layout, terms.walls, _couplings(x, terms, found, grips))
+    solver = pattern.analyse(terms.layout, terms.walls, couplings(x, terms, found, grips))
     crowd, touch = pairs.empty(), terms.project.contact
     if touch.edges.shape[0] > 0:
         crowd = pairs.find(x, touch, (1.0 + CROWD) * touch.reach)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from kernels import march
+from kernels import book, march
 from sweep.impact import (
     impact_columns,
     kinetic,
@@ -25,16 +25,16 @@ from sweep.shapes import (
 )
 
 BOOK = {
-    "work_in_J": march.WORK,
-    "kinetic_J": march.KINETIC,
-    "stretch_J": march.STRETCH,
-    "bend_J": march.BEND,
-    "contact_J": march.CONTACT,
-    "dissipated_material_J": march.MATERIAL,
-    "dissipated_friction_J": march.FRICTION,
-    "dissipated_integrator_J": march.INTEGRATOR,
-    "injected_by_projection_J": march.INJECTED,
-    "energy_residual_J": march.RESIDUAL,
+    "work_in_J": book.WORK,
+    "kinetic_J": book.KINETIC,
+    "stretch_J": book.STRETCH,
+    "bend_J": book.BEND,
+    "contact_J": book.CONTACT,
+    "dissipated_material_J": book.MATERIAL,
+    "dissipated_friction_J": book.FRICTION,
+    "dissipated_integrator_J": book.INTEGRATOR,
+    "injected_by_projection_J": book.INJECTED,
+    "energy_residual_J": book.RESIDUAL,
 }
 DISSIPATED = ("dissipated_material_J", "dissipated_friction_J", "dissipated_integrator_J")
 PLATEAU = ("plateau_stress_Pa", "densification_strain", "efficiency")

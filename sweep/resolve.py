@@ -16,6 +16,7 @@ T = TypeVar("T")
 ARCS = "arc_length"
 PASSAGES = 10  # times that the striker takes for the height of the lattice: duration of an impact
 STEPS_OF_PASSAGE = 1000  # in one of these times
+IN_TIME = '"backward_euler", "bdf2" or "newmark"'  # the integrators
 
 
 def resolve(
@@ -25,9 +26,13 @@ def resolve(
     loading, wish = _loading(loading, lattice, solver.integrator), solver.time_step
     solver = _solver(solver, loading, lattice)
     _check_steps(steps(loading, solver), solver, wish)
+    contact = _contact(contact, loading, lattice.structure, solver)
+    if contact.model == "position_based" and solver.integrator != "backward_euler":
+        allowed = '"backward_euler" if contact.model is "position_based"'
+        raise refusal("solver.integrator", solver.integrator, allowed)
     return {
         "loading": loading,
-        "contact": _contact(contact, loading, lattice.structure, solver),
+        "contact": contact,
         "damping": _damping(damping, loading),
         "solver": solver,
     }
@@ -91,7 +96,7 @@ def _own(loading: Loading, structure: Structure, integrator: str | None) -> Load
 
         found = loosest(structure)
         if found:
-            allowed = f'"backward_euler", or more supports: {found}'
+            allowed = f"{IN_TIME}, or more supports: {found}"
             raise refusal("solver.integrator", integrator or "static", allowed)
     if integrator == ARCS and structure.prescribed:
         allowed = '"static", or loads instead of prescribed moves'
@@ -105,7 +110,7 @@ def _own(loading: Loading, structure: Structure, integrator: str | None) -> Load
 def _force(loading: Loading, integrator: str | None) -> Loading:
     """A dead load, put on at once, let go at `release_time`, watched until `duration`."""
     if integrator == "static":
-        raise refusal("solver.integrator", "static", '"backward_euler" if loading.mode is "force"')
+        raise refusal("solver.integrator", "static", f'{IN_TIME} if loading.mode is "force"')
     duration = _given(loading.duration, 0.2)
     release_time = _given(loading.release_time, min(0.138, duration))
     if release_time > duration:
@@ -123,7 +128,7 @@ def _force(loading: Loading, integrator: str | None) -> Loading:
 def _impact(loading: Loading, height: float, integrator: str | None) -> Loading:
     """A striker that is let go at the lattice, watched until `duration`, or until it is back."""
     if integrator == "static":
-        raise refusal("solver.integrator", "static", '"backward_euler" if loading.mode is "impact"')
+        raise refusal("solver.integrator", "static", f'{IN_TIME} if loading.mode is "impact"')
     if loading.platen == "none":
         raise refusal("loading.platen", "none", '"contact" or "glued" if loading.mode is "impact"')
     striker_mass = _given(loading.striker_mass, 0.05)
@@ -158,7 +163,7 @@ def _displacement(loading: Loading, height: float, integrator: str | None) -> Lo
         raise refusal("loading.platen", "none", allowed)
     quasi_static = _given(loading.quasi_static, loading.speed is None or integrator == "static")
     if not quasi_static and integrator == "static":
-        raise refusal("solver.integrator", "static", '"backward_euler" if not quasi_static')
+        raise refusal("solver.integrator", "static", f"{IN_TIME} if not quasi_static")
     if not quasi_static and loading.speed is None:
         raise refusal("loading.speed", None, "a speed if quasi_static is false")
     stroke, strain = _stroke_and_strain(loading, height)
@@ -273,7 +278,10 @@ def _solver(solver: Solver, loading: Loading, lattice: Lattice) -> Solver:
         time = loading.stroke / loading.speed
         load_steps = _given(solver.load_steps, _steps_in(time, solver.time_step))
         step = {"time_step": time / load_steps, "load_steps": load_steps}
-    integrator = "static" if loading.quasi_static else "backward_euler"
+    integrator = "static" if loading.quasi_static else solver.integrator or "backward_euler"
+    if integrator == "static" and solver.step_error is not None:
+        allowed = 'none if solver.integrator is "static"'
+        raise refusal("solver.step_error", solver.step_error, allowed)
     return solver.model_copy(update={"integrator": integrator, "arc_length": None, **step})
 
 

@@ -2,46 +2,38 @@
 
 import threading
 import time
-from dataclasses import dataclass
 
 import numpy as np
 
-from kernels import arc, inertia, march, newton, spring
-from kernels.balance import Tolerance
+from kernels import arc, book, inertia, march, newton, spring
 from sweep.measure import history_columns, summarise
 from sweep.mesh import Floats
-from sweep.params import Case, Lattice, Loading, given
+from sweep.params import Case, Lattice, Loading
 from sweep.path import arc_of, path_columns
 from sweep.periodic import build_periodic
 from sweep.probes import own_columns
 from sweep.result import Result, Status
-from sweep.scene import Scene, build_scene, time_step
+from sweep.scene import Scene, build_scene
+from sweep.stages import stages, tolerances
 from sweep.structure import build_structure
 
 FRAMES = 40
 EARLY_FRAMES = 4 * FRAMES  # most impacts, and many paths, are over in a quarter of their steps
-GLANCE = 64  # steps of a striker after which one looks whether it is back
 LONGER = "try a longer loading.duration"
-ROUND_OFF = 4e-15
-GRIP = 1e3  # times the tolerance of forces: that of friction, which lags
+SAFER = 'try solver.integrator "bdf2", damping or smaller steps'
+GIFT = 0.1  # of the work done: energy that an integrator may make
 ADVICE = {
     newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; "
     "try more solver.load_steps or a smaller solver.time_step",
     newton.STALLED: "the energy could not be lowered further; "
     "try a looser solver.tolerance or smaller steps",
     newton.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
+    march.INACCURATE: "no step was short enough for solver.step_error; "
+    "try a larger one or a smaller solver.time_step",
     newton.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
 }
 
 LOST = "no shape in balance within reach of the shortest arc; try a smaller solver.arc_length"
-
-
-@dataclass(frozen=True)
-class Stretch:
-    """A stage with its name, for messages."""
-
-    name: str
-    stage: march.Stage
 
 
 def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
@@ -92,8 +84,8 @@ class _Run:
         n = scene.x_rest.size
         total = sum(s.stage.steps for s in self.stages)
         self.state = march.State(
-            scene.x_rest.copy(), scene.velocity.copy(), np.zeros(march.TIME), np.zeros(n),
-            np.zeros(n), np.zeros(3), np.zeros(2), np.zeros(3),
+            scene.x_rest.copy(), scene.velocity.copy(), np.zeros(march.TIME), np.zeros((2, n)),
+            np.zeros((4, n)), np.zeros(3), np.zeros(2), np.zeros(4),
         )  # fmt: skip
         self.rows = np.zeros((total + 1, march.N_COLUMNS))
         self.probed = np.zeros((total + 1, 2, scene.probes.size))
@@ -116,9 +108,9 @@ class _Run:
         """
         state, terms = self.state, self.scene.terms
         state.stored[0] = spring.evaluate(state.x, terms.spring, np.zeros_like(state.x))
-        state.book[march.STRETCH] = state.stored[0]
-        state.book[march.KINETIC] = inertia.kinetic(state.v, terms.mass)
-        state.book[march.WORK] = state.stored[0] + state.book[march.KINETIC]
+        state.book[book.STRETCH] = state.stored[0]
+        state.book[book.KINETIC] = inertia.kinetic(state.v, terms.mass)
+        state.book[book.WORK] = state.stored[0] + state.book[book.KINETIC]
         self.rows[0, : march.TIME] = state.book
 
     def complete(self) -> tuple[Status, str]:
@@ -136,9 +128,16 @@ class _Run:
                     break
         finally:
             timer.cancel()
+        if self._invents():
+            return Status.STOPPED, f"the integrator made energy out of nothing; {SAFER}"
         if self.struck and self.rows[self.done - 1, march.SPEED] < 0.0:
             return Status.STOPPED, f"the striker still sinks {self._where()}; {LONGER}"
         return Status.CONVERGED, ""
+
+    def _invents(self) -> bool:
+        """Whether an integrator in time has given more than a share `GIFT` of the work done."""
+        made, work = self.rows[: self.done, book.INTEGRATOR], self.rows[: self.done, book.WORK]
+        return not self.case.loading.quasi_static and bool(made.min() < -GIFT * work.max())
 
     def _is_back(self) -> bool:
         """Whether the striker is where it started; what it did beyond is dropped."""
@@ -170,6 +169,8 @@ class _Run:
             self.scene.probes,
             self.probed[span],
         )
+        if not self.struck:
+            self.state.totals[march.LAST] = 0.0  # what acts changes at once: set out anew
         tolerance = tolerances(self.case, self.scene, stage.dt)
         of = self.scene.terms, self.scene.unknowns, tolerance, stage, self.state, out, self.control
         outcome, written = march.march(*of) if self.arc is None else arc.follow(*of, self.arc)
@@ -230,53 +231,3 @@ def _frames(n_rows: int, frames: int) -> tuple[np.ndarray, int]:
     frame_of = np.full(n_rows, -1)
     frame_of[kept] = np.arange(len(kept))
     return frame_of, len(kept)
-
-
-def tolerances(case: Case, scene: Scene, dt: float) -> Tolerance:
-    """Scale ``solver.tolerance`` to forces and energies, not below what round-off allows."""
-    terms = scene.terms
-    force = max(scene.force_scale, np.abs(terms.load * scene.unknowns.lever).max(initial=0.0))
-    size = np.ptp(scene.mesh.points)
-    rounded = terms.law.modulus * terms.stretch.area.max() * size / terms.stretch.l0.min()
-    rounded *= 1.0 + (terms.damp.beta_k + terms.damp.relaxation) / dt
-    rounded += terms.mass.max() * size / dt * (1.0 / dt + terms.damp.alpha_m)
-    allowed = max(case.solver.tolerance * force, ROUND_OFF * rounded)
-    return Tolerance(
-        force=allowed,
-        decrement=1e-3 * allowed * case.lattice.wall_thickness,
-        friction=GRIP * allowed,
-        grip=GRIP * case.solver.tolerance,
-        noise=ROUND_OFF * force * size,
-        finest=ROUND_OFF * size,
-        iterations=case.solver.max_iterations,
-    )
-
-
-def stages(case: Case, scene: Scene) -> list[Stretch]:
-    """Loading and unloading as stages with linear ramps."""
-    loading, solver = case.loading, case.solver
-    pace = time_step(case)
-    dt = np.inf if loading.quasi_static else pace
-    if loading.mode == "custom":
-        steps = solver.load_steps or max(round(given(loading.duration) / pace), 1)
-        start = 0.0 if loading.quasi_static else 1.0
-        return [Stretch("loading", march.Stage(steps, dt, pace, start, 1.0, 0.0, scene.travel))]
-    rest = float(scene.x_rest[-1])
-    if loading.mode == "displacement":
-        low, steps = rest - given(loading.stroke), given(solver.load_steps)
-        down = march.Stage(steps, dt, pace, 0.0, 0.0, rest, low)
-        up = march.Stage(steps, dt, pace, 0.0, 0.0, low, rest)
-        return [Stretch("loading", down)] + ([Stretch("unloading", up)] if loading.unload else [])
-    if loading.mode == "impact":
-        return _flight(max(round(given(loading.duration) / pace), 1), dt, rest)
-    release, duration = given(loading.release_time), given(loading.duration)
-    hold, free = max(round(release / pace), 1), max(round((duration - release) / pace), 0)
-    held = march.Stage(hold, dt, pace, 1.0, 1.0, rest, rest)
-    released = march.Stage(free, dt, pace, 0.0, 0.0, rest, rest)
-    return [Stretch("loading", held)] + ([Stretch("released", released)] if free else [])
-
-
-def _flight(steps: int, dt: float, rest: float) -> list[Stretch]:
-    """A striker that flies by itself, in stages after which the run may end."""
-    parts = [min(GLANCE, steps - done) for done in range(0, steps, GLANCE)]
-    return [Stretch("struck", march.Stage(n, dt, dt, 0.0, 0.0, rest, rest)) for n in parts]

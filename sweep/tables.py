@@ -184,13 +184,18 @@ class Damping(Table):
 
 
 class Solver(Table):
-    """How the equations are solved. None: chosen by the loading, or not used by it."""
+    """How the equations are solved. None: chosen by the loading, or not used by it.
+
+    newmark: the trapezoidal rule. `step_error`: of a position, that a step may make by itself; the
+    steps then are shares of the time step. None: all are whole.
+    """
 
     labels: ClassVar[tuple[str, ...]] = ("time_limit",)  # raising it makes nothing run again
     neutral: ClassVar[dict[str, Any]] = {"hessian": "exact"}
 
-    integrator: Literal["backward_euler", "static", "arc_length"] | None = None
+    integrator: Literal["backward_euler", "bdf2", "newmark", "static", "arc_length"] | None = None
     time_step: Duration | None = None
+    step_error: Length | None = None
     load_steps: Count | None = None
     arc_length: Length | None = None
     tolerance: Annotated[float, Field(gt=0, lt=1)] = 1e-8

@@ -7,8 +7,8 @@ import numpy as np
 
 from kernels import contact, damp, fold, friction, march, newton, spring, step, system
 from sweep.scene import build_scene
-from sweep.simulate import tolerances
-from tests.terms import assembled, dense, full_matrix, room
+from sweep.stages import tolerances
+from tests.terms import assembled, dense, full_matrix, nowhere, room
 
 RUN = np.zeros(2, dtype=np.int64)  # nobody asks to stop
 
@@ -40,7 +40,7 @@ class Whole(NamedTuple):
         fold.hessian(x, terms.fold, matrix, projected)
         spring.hessian(x, terms.spring, matrix, projected)
         contact.hessian(x, terms.contact, self.near.pairs, matrix, projected)
-        friction.hessian(at.u, self.step.grips, terms.friction.slip, matrix, projected)
+        friction.hessian(at.u, self.step.grips, self.step.slip, matrix, projected)
         inert = (1.0 / dt + terms.damp.alpha_m) / dt * terms.mass
         return assembled(terms.walls, at.stiffness, x.size) + dense(matrix) + np.diag(inert)
 
@@ -83,10 +83,10 @@ def whole(scene, x, x0=None, dt=np.inf, v=None, factor=1.0, reach=0.0):
     terms, x0 = scene.terms, x if x0 is None else x0
     x_pred = x0 if v is None else x0 + dt * v
     frame = np.full((terms.walls.rotation.size, 3), np.inf)
-    before = damp.Before(x0.copy(), frame, *room(terms.walls))
-    damp.prepare(terms, before)
+    before = damp.Before(x0.copy(), x0.copy(), frame, *room(terms.walls))
+    damp.prepare(terms, before, nowhere(terms))
     grips = gripped(x, terms, step.find_near(x, terms, friction.none(), reach))
-    one = step.Step(before, x_pred.copy(), dt, factor, grips)
+    one = step.Step(before, x_pred.copy(), dt, factor, grips, terms.friction.slip, 1.0)
     return Whole(terms, one, step.find_near(x, terms, grips, reach))
 
 
@@ -157,8 +157,8 @@ def at_rest(scene):
     """State of a march that begins."""
     n = scene.x_rest.size
     return march.State(
-        scene.x_rest.copy(), np.zeros(n), np.zeros(march.TIME), np.zeros(n), np.zeros(n),
-        np.zeros(3), np.zeros(2), np.zeros(3),
+        scene.x_rest.copy(), np.zeros(n), np.zeros(march.TIME), np.zeros((2, n)), np.zeros((4, n)),
+        np.zeros(3), np.zeros(2), np.zeros(4),
     )  # fmt: skip
 
 

@@ -20,6 +20,7 @@ MASS = 1190.0 * LENGTH * THICKNESS * DEPTH * MM**3  # of a wall of `LENGTH`, kg
 GRAVITY = 9810.0  # mm/s^2
 APART = Contact(model="none")
 UNDAMPED = Damping(model="none")
+FIRST_ROOT = 1.8751040687119611  # of cos k cosh k = -1: first mode of a cantilever
 CLAMPED = ["x", "y", "rotation"]
 ROD = {"nodes_mm": [[0, 0], [LENGTH, 0]], "walls": [[0, 1]], "probes": [0, 1]}
 BEAM = ROD | {"supports": [{"node": 0, "fix": CLAMPED}], "subdivide": 32}
@@ -53,6 +54,27 @@ def let_go(parts, duration, time_step, contact=APART, damping=UNDAMPED, material
         solver=Solver(time_step=time_step),
     )
     return finished(case)
+
+
+def set_off(walls, amplitude, thickness=THICKNESS):
+    """Period (s) of a cantilever, and its parts, set off in its first mode.
+
+    amplitude: in lengths. thickness: mm.
+    """
+    z, k = np.linspace(0.0, 1.0, walls + 1), FIRST_ROOT
+    ratio = (np.cosh(k) + np.cos(k)) / (np.sinh(k) + np.sin(k))
+    mode = np.cosh(k * z) - np.cos(k * z) - ratio * (np.sinh(k * z) - np.sin(k * z))
+    frequency = thickness / THICKNESS * k**2 * np.sqrt(BENDING / MASS / (LENGTH * MM) ** 3)
+    speed = amplitude * LENGTH * frequency * mode / mode[-1]
+    return 2 * np.pi / frequency, {
+        "nodes_mm": [[LENGTH * a, 0.0] for a in z],
+        "walls": [[i, i + 1] for i in range(walls)],
+        "wall_thickness_mm": thickness,
+        "subdivide": 1,
+        "supports": [{"node": 0, "fix": CLAMPED}],
+        "initial_velocity_mm_s": [[0.0, v] for v in speed],
+        "probes": [walls],
+    }
 
 
 def finished(case):

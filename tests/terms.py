@@ -98,11 +98,22 @@ def bending_of(walls: chain.Walls, bending: bend.Bend, x0=None) -> Term:
     return of_walls(walls, bending, add, x0)
 
 
+def nowhere(terms: Terms) -> damp.Ahead:
+    """Rates are measured from where a step starts."""
+    return damp.Ahead(0.0, 0.0, *np.zeros((3, terms.mass.size)), room(terms.walls)[0])
+
+
+def before_of(terms: Terms, x0: np.ndarray) -> damp.Before:
+    """The start of a step from x0."""
+    walls = terms.walls
+    before = damp.Before(x0, x0, np.full((walls.rotation.size, 3), np.inf), *room(walls))
+    damp.prepare(terms, before, nowhere(terms))
+    return before
+
+
 def damping_of(terms: Terms, x0: np.ndarray, dt: float) -> Term:
     """Damping of a step of ``dt`` from x0, with the Hessian of its mass, which a step adds."""
-    walls = terms.walls
-    before = damp.Before(x0, np.full((walls.rotation.size, 3), np.inf), *room(walls))
-    damp.prepare(terms, before)
+    walls, before = terms.walls, before_of(terms, x0)
 
     def found(x, projected, g):
         shape, stiffness = room(walls)

@@ -9,7 +9,8 @@ import readme
 from kernels import newton, step
 from sweep.params import Case
 from sweep.scene import build_scene
-from sweep.simulate import simulate, stages
+from sweep.simulate import simulate
+from sweep.stages import stages
 from tests.bench import (
     alone,
     cases,

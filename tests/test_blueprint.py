@@ -138,7 +138,10 @@ STATIC = '[solver]\nintegrator = "static"'
 )
 def test_a_mechanism_has_no_equilibrium(lines, parts, loose):
     found = lines(GOOD | parts, STATIC)
-    wanted = 'solver.integrator = "static": does not fit; allowed: "backward_euler", or more'
+    wanted = (
+        'solver.integrator = "static": does not fit; allowed: "backward_euler", "bdf2" or'
+        ' "newmark", or more'
+    )
     assert found == ([f"{wanted} supports: {loose} without resistance"] if loose else [])
     assert lines(GOOD | parts) == []
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels import bend, damp, stretch
+from kernels import bend, chain, damp, kelvin_voigt, stretch
 from tests.frames import (
     carried,
     curve_law,
@@ -14,7 +14,7 @@ from tests.frames import (
     shaken,
     terms_of,
 )
-from tests.terms import Term, damping_of, derivative_error, least_share, of_walls
+from tests.terms import Term, before_of, damping_of, derivative_error, least_share, of_walls
 
 FRAME = joint_of_four()
 DT = 0.02
@@ -146,3 +146,28 @@ def test_viscous_stress_of_a_bar_that_is_pulled():
     force = 0.4 * of.modulus * 0.8 * of.depth * 0.05 / DT
     assert term.gradient(x)[2] == pytest.approx(force)
     assert term.energy(x) == pytest.approx(0.5 * force * 0.1)
+
+
+def measured(terms, x):
+    """Lengths and turns of hinges and arms in a row."""
+    before = before_of(terms, FRAME.rest)
+    chain.measure(x, terms.walls, before.shape)
+    bend.turns(x, terms.walls, terms.bend, before.frame, before.shape)
+    return before.shape
+
+
+def in_a_row(shape):
+    return np.concatenate([shape.length, shape.hinge_turn, shape.arm_turn])
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_rates_of_lengths_and_turns_are_their_derivatives(seed):
+    terms, x, v = damped(FRAME, VISCOUS), shaken(FRAME, seed), shaken(FRAME, 40 + seed)
+    shape = measured(terms, x)
+    start = in_a_row(shape)
+    kelvin_voigt.foresee(terms, v, 0.5, shape)
+    slope = (
+        in_a_row(measured(terms, x + 1e-6 * v)) - in_a_row(measured(terms, x - 1e-6 * v))
+    ) / 2e-6
+    assert np.count_nonzero(slope) > 0.7 * slope.size
+    np.testing.assert_allclose(in_a_row(shape) - start, 0.5 * slope, rtol=0, atol=1e-7)

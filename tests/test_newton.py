@@ -6,7 +6,7 @@ import pytest
 from kernels import newton
 from sweep.params import Case, Contact, Lattice, Loading
 from sweep.scene import build_scene
-from sweep.simulate import tolerances
+from sweep.stages import tolerances
 from tests.figures import MATERIAL
 from tests.scenes import grid, slopes
 from tests.solving import descend, reduction, residual, shaken, whole

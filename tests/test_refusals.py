@@ -51,8 +51,8 @@ CHOICES = {
         'contact.model = "by_position"; "none", "barrier" or "position_based"'
     ),
     '[solver]\nhessian = "tangent"': 'solver.hessian = "tangent"; "exact" or "tangent_modulus"',
-    '[solver]\nintegrator = "newmark"': (
-        'solver.integrator = "newmark"; "backward_euler", "static" or "arc_length"'
+    '[solver]\nintegrator = "bdf3"': (
+        'solver.integrator = "bdf3"; "backward_euler", "bdf2", "newmark", "static" or "arc_length"'
     ),
 }
 
@@ -96,6 +96,17 @@ UNFIT = {
     ),
     "[loading]\nload_steps = 3\n[solver]\nload_steps = 4": (
         "solver.load_steps = 4: set twice; allowed: the same as loading.load_steps = 3"
+    ),
+    '[solver]\nintegrator = "static"': (
+        'solver.integrator = "static": does not fit; allowed: "backward_euler", "bdf2" or "newmark"'
+        ' if loading.mode is "force"'
+    ),
+    '[loading]\nstrain = 0.5\n[solver]\nstep_error = "1 um"': (
+        'solver.step_error = "1 um": does not fit; allowed: none if solver.integrator is "static"'
+    ),
+    '[contact]\nmodel = "position_based"\n[solver]\nintegrator = "newmark"': (
+        'solver.integrator = "newmark": does not fit; allowed: "backward_euler" if contact.model is'
+        ' "position_based"'
     ),
     '[material]\nmodulus = "12 MPa"': (
         "material.density is missing; needed: a density, as no name is given"

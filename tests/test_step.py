@@ -175,7 +175,7 @@ def test_other_grips_are_exchanged_for_those_there():
     x = leaning(scene)
     args, other = (step_to(scene, x, seed) for seed in (0, 1))
     _, at = args.found(x)
-    energy = step.rub(args.terms, other.step.grips, at)
+    energy = step.rub(args.terms, other.step, at)
     exchanged = args._replace(step=args.step._replace(grips=other.step.grips))
     expected, fresh = exchanged.found(x)
     assert energy - args.found(x)[0] != expected

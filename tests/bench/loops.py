@@ -84,7 +84,7 @@ def repeat(which, count, x, dx, most, whole, at, ones):
         elif which == CONTACT_HESSIAN:
             contact.hessian(x, terms.contact, near.pairs, matrix, False)
         elif which == FRICTION:
-            total += step.rub(terms, one.grips, at)
+            total += step.rub(terms, one, at)
         elif which == WALLS:
             total += _condense(terms, near, at)
         elif which == BLOCKS:

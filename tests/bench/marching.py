@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels import march, newton
-from sweep.simulate import stages, tolerances
+from sweep.stages import stages, tolerances
 from tests.bench.clock import seconds
 from tests.solving import at_rest, ramp
 

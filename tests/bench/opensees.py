@@ -13,7 +13,7 @@ import numpy as np
 
 from sweep.params import given
 from sweep.scene import time_step
-from sweep.simulate import stages, tolerances
+from sweep.stages import stages, tolerances
 from tests.bench.clock import seconds
 from tests.bench.marching import Spent
 

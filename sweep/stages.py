@@ -1,0 +1,87 @@
+"""What a march is told: stages of loading, and what counts as converged."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels import march, scheme
+from kernels.balance import Tolerance
+from sweep.params import Case, given
+from sweep.scene import Scene, time_step
+
+GLANCE = 64  # steps of a striker after which one looks whether it is back
+ROUND_OFF = 4e-15
+GRIP = 1e3  # times the tolerance of forces: that of friction, which lags
+SCHEMES = {
+    "backward_euler": scheme.BACKWARD_EULER,
+    "bdf2": scheme.BDF2,
+    "newmark": scheme.TRAPEZOIDAL,
+    "static": scheme.BACKWARD_EULER,  # of infinite length
+    "arc_length": scheme.BACKWARD_EULER,
+}
+
+
+class Stretch(NamedTuple):
+    """A stage with its name, for messages."""
+
+    name: str
+    stage: march.Stage
+
+
+def stages(case: Case, scene: Scene) -> list[Stretch]:
+    """Loading and unloading as stages with linear ramps, gone through as the solver is told."""
+    chosen = SCHEMES[given(case.solver.integrator)]
+    error = np.inf if case.solver.step_error is None else case.solver.step_error
+    return [
+        Stretch(name, stage._replace(scheme=chosen, error=error))
+        for name, stage in _stages(case, scene)
+    ]
+
+
+def _stages(case: Case, scene: Scene) -> list[Stretch]:
+    loading, solver = case.loading, case.solver
+    pace = time_step(case)
+    dt = np.inf if loading.quasi_static else pace
+    if loading.mode == "custom":
+        steps = solver.load_steps or max(round(given(loading.duration) / pace), 1)
+        start = 0.0 if loading.quasi_static else 1.0
+        return [Stretch("loading", march.Stage(steps, dt, pace, start, 1.0, 0.0, scene.travel))]
+    rest = float(scene.x_rest[-1])
+    if loading.mode == "displacement":
+        low, steps = rest - given(loading.stroke), given(solver.load_steps)
+        down = march.Stage(steps, dt, pace, 0.0, 0.0, rest, low)
+        up = march.Stage(steps, dt, pace, 0.0, 0.0, low, rest)
+        return [Stretch("loading", down)] + ([Stretch("unloading", up)] if loading.unload else [])
+    if loading.mode == "impact":
+        return _flight(max(round(given(loading.duration) / pace), 1), dt, rest)
+    release, duration = given(loading.release_time), given(loading.duration)
+    hold, free = max(round(release / pace), 1), max(round((duration - release) / pace), 0)
+    held = march.Stage(hold, dt, pace, 1.0, 1.0, rest, rest)
+    released = march.Stage(free, dt, pace, 0.0, 0.0, rest, rest)
+    return [Stretch("loading", held)] + ([Stretch("released", released)] if free else [])
+
+
+def _flight(steps: int, dt: float, rest: float) -> list[Stretch]:
+    """A striker that flies by itself, in stages after which the run may end."""
+    parts = [min(GLANCE, steps - done) for done in range(0, steps, GLANCE)]
+    return [Stretch("struck", march.Stage(n, dt, dt, 0.0, 0.0, rest, rest)) for n in parts]
+
+
+def tolerances(case: Case, scene: Scene, dt: float) -> Tolerance:
+    """Scale ``solver.tolerance`` to forces and energies, not below what round-off allows."""
+    terms = scene.terms
+    force = max(scene.force_scale, np.abs(terms.load * scene.unknowns.lever).max(initial=0.0))
+    size = np.ptp(scene.mesh.points)
+    rounded = terms.law.modulus * terms.stretch.area.max() * size / terms.stretch.l0.min()
+    rounded *= 1.0 + (terms.damp.beta_k + terms.damp.relaxation) / dt
+    rounded += terms.mass.max() * size / dt * (1.0 / dt + terms.damp.alpha_m)
+    allowed = max(case.solver.tolerance * force, ROUND_OFF * rounded)
+    return Tolerance(
+        force=allowed,
+        decrement=1e-3 * allowed * case.lattice.wall_thickness,
+        friction=GRIP * allowed,
+        grip=GRIP * case.solver.tolerance,
+        noise=ROUND_OFF * force * size,
+        finest=ROUND_OFF * size,
+        iterations=case.solver.max_iterations,
+    )
