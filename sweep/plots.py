@@ -201,8 +201,8 @@ def design_map(fig: Figure, ranking: DataFrame) -> None:
         ax.set_title("\n".join(words), loc="left", fontsize="small")
         ax.set_xlabel(f"mass of the {of}, g")
         ax.set_ylabel(least or f"energy absorbed by the {of}, J")
-        _round_ticks(ax.xaxis, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
-        _round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
+        round_ticks(ax.xaxis, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
+        round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
     _legend(fig, look.legend())
 
 
@@ -218,7 +218,7 @@ def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
             ax.plot(wall, best[per_gram], color=style["c"][0], lw=1.2)
             _dots(ax, wall, best[per_gram], style, best)
         ax.set(xlabel="wall thickness, mm", ylabel="absorbed energy per gram, J/g", yscale="log")
-        _round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
+        round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
     _legend(fig, look.legend(walls=False))
 
 
@@ -268,7 +268,7 @@ def mark(ax: Axes, x: float, words: str) -> None:
                 textcoords="offset points", fontsize="small", color="#555555")  # fmt: skip
 
 
-def _round_ticks(axis: Any, *subs: float) -> None:
+def round_ticks(axis: Any, *subs: float) -> None:
     """Ticks of a log axis at these multiples of the powers of ten."""
     axis.set_major_locator(LogLocator(subs=subs))
     axis.set_major_formatter("{x:g}")

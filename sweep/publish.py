@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pandas import concat
+
 from sweep import plots
+from sweep.accuracy import studies
+from sweep.diagrams import work_precision
 from sweep.patterns import panel_size, pattern_bars
+from sweep.precision import MARKS, accuracy_sheets, scene_title
 from sweep.rank import rank
 from sweep.reactions import probe_reactions
-from sweep.sheets import design_labels, legend, markdown, ranking_sheets
-from sweep.store import read_frames, read_history
+from sweep.sheets import Sheet, design_labels, legend, markdown, ranking_sheets
+from sweep.store import read_frames, read_history, read_summary
 from sweep.storyboard import headline, last_loaded
 
 if TYPE_CHECKING:
@@ -42,6 +47,28 @@ def publish_ranking(
     ranking.to_csv(table, index=False)
     figures = _sweep_figures(file, shown, ranking)
     return [text, table, *(plots.save(fig, folder / f"{name}.png") for name, fig in figures)]
+
+
+def publish_accuracy(file: Path, case_ids: Iterable[str]) -> tuple[list[Sheet], list[Path]]:
+    """Errors of the cases of an accuracy study, as sheets, and beside the results as files.
+
+    The files: the sheets as Markdown, all columns as CSV, work-precision diagrams; nothing where no
+    case has converged.
+    """
+    summary = read_summary(file)
+    found = studies(file, summary[summary["case_id"].isin(list(case_ids))])
+    titled = {scene_title(study, file.stem): study for study in found}
+    sheets = [sheet for title, study in titled.items() for sheet in accuracy_sheets(study, title)]
+    if not sheets:
+        return [], []
+    sheets[-1] = sheets[-1]._replace(notes=(MARKS,))
+    text, table = file.with_suffix(".md"), file.with_suffix(".csv")
+    text.write_text(markdown(sheets), encoding="utf-8")
+    settings = [study.settings.assign(scene=title) for title, study in titled.items()]
+    concat(settings, ignore_index=True).to_csv(table, index=False)
+    figure = plots.blank(13.0, 3.6 * len(titled))
+    work_precision(figure, titled)
+    return sheets, [text, table, plots.save(figure, file.with_suffix(".png"))]
 
 
 def publish_case(file: str, row: Series, folder: Path) -> list[Path]:

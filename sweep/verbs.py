@@ -25,6 +25,7 @@ REFUSALS = {
     "sweep.store": "StoreError",
     "sweep.graph": "GraphError",
     "sweep.rank": "RankError",
+    "sweep.accuracy": "AccuracyError",
 }
 
 
@@ -59,6 +60,24 @@ def run(arguments: Namespace) -> int:
     failed = run_sweep(config, out, arguments.workers, arguments.scheduler, arguments.retry_failed)
     _print_ranking(out, read_summary(out), _question(config.rank.budgets, config.rank.panel))
     return SOME_FAILED if failed else DONE
+
+
+def accuracy(arguments: Namespace) -> int:
+    """Simulate what is missing of a sweep over numerics, then tell error beside run time."""
+    from sweep.accuracy import check_axes
+    from sweep.config import expand, load_config
+    from sweep.publish import publish_accuracy
+    from sweep.run import run_sweep
+
+    config, folder = load_config(arguments.config), Path(arguments.out)
+    cases, out = expand(config), folder / f"{config.name}.h5"
+    check_axes([case.axes for case in cases])
+    failed = run_sweep(config, out, arguments.workers)
+    with _writing(folder):
+        sheets, files = publish_accuracy(out, [case.case_id for case in cases])
+    _print_sheets(sheets)
+    _say_all(files)
+    return _tell_failed(failed, len(cases), str(out))
 
 
 def warm(_: Namespace) -> int:
@@ -135,7 +154,7 @@ def show(arguments: Namespace) -> int:
     return DONE
 
 
-VERBS = {"run": run, "warm": warm, "status": status, "rank": rank, "show": show}
+VERBS = {verb.__name__: verb for verb in (run, accuracy, warm, status, rank, show)}
 
 
 @contextmanager
@@ -192,8 +211,12 @@ def _print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -
         _say(legend(ranking))
     if unranked := ranking.attrs["unranked"]:
         _say(f"{unranked} cases have no {ranking.attrs['by']} and so no place.")
-    if failed:
-        _say(f"{failed} of {len(summary)} cases failed: crumple status {file} lists them")
+    _tell_failed(failed, len(summary), file)
+
+
+def _tell_failed(failed: int, cases: int, file: str) -> int:
+    _say_all([f"{failed} of {cases} cases failed: crumple status {file} lists them"] * bool(failed))
+    return SOME_FAILED if failed else DONE
 
 
 def _heading(question: Mapping[str, Any], ranking: DataFrame) -> str:

@@ -28,7 +28,8 @@ HOMES = {
     "pint": "sweep.config",
 }
 # What reads results, and so must run where nothing is installed that simulates.
-READERS = [f"sweep.{name}" for name in ("store", "rank", "sheets", "plots", "publish", "verbs")]
+READERS = ["store", "rank", "sheets", "accuracy", "precision", "plots", "publish", "verbs"]
+READERS = [f"sweep.{name}" for name in READERS]
 ABSENT = ["kernels", "numba", "llvmlite", "dask", "distributed", "pydantic", "pint", "scipy"]
 ABSENT += ["pydantic_core", "shapely", "tornado"]
 READING = """

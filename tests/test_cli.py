@@ -60,7 +60,7 @@ def test_help_teaches_every_verb_by_an_example():
     done = subprocess.run(
         [sys.executable, "-m", "sweep", "--help"], capture_output=True, text=True, check=True
     )
-    verbs = ("run", "warm", "status", "rank", "show")
+    verbs = ("run", "accuracy", "warm", "status", "rank", "show")
     assert all(f"crumple {verb} " in done.stdout for verb in verbs)
 
 
