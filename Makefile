@@ -48,7 +48,8 @@ validate: setup  ## solve reference problems at three meshes; the table goes to 
 	@$(PYTHON) -m tests.validation results/validation
 
 accuracy: setup  ## tell error against run time; tables and figures go to results/accuracy/
-	@for study in configs/accuracy/*.toml; do $(PYTHON) -m sweep accuracy $$study || exit; done
+	@failed=0; for study in configs/accuracy/*.toml; do $(PYTHON) -m sweep accuracy $$study || failed=$$?; \
+	test $$failed -le 1 || break; done; exit $$failed
 
 bench: setup  ## measure how fast it is; table and figure go to results/bench/
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.bench results/bench

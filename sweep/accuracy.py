@@ -92,7 +92,7 @@ def varies(column: Series) -> bool:
 
 
 def size(key: str, value: float) -> float:
-    """Size of a step or an element, in steps or walls where there are so many."""
+    """What a value of a key stands for: size of a step, or of an element in walls."""
     if key in FINER_IF_SMALLER:
         return value
     return 1.0 / (value + (key == "lattice.nodes_per_wall"))
@@ -105,17 +105,7 @@ def _study(file: str | PathLike[str], rows: DataFrame, refined: list[str]) -> St
     found = {
         method: _references(group, values, refined) for method, group in done.groupby("method")
     }
-    merits = {method: _merit(*each, refined) for method, each in found.items()}
-    best = min(merits, key=lambda method: merits[method])
-    rivals = [
-        references
-        for method, (_, references) in found.items()
-        if merits[method][:EQUALS] == merits[best][:EQUALS]
-    ]
-    finest, references = found[best]
-    references = {
-        name: _doubted(ref, [r[name] for r in rivals]) for name, ref in references.items()
-    }
+    finest, references = _chosen(found, refined)
     errors = DataFrame(
         {
             name: {i: rms(values[name][i] - ref.value) / ref.scale for i in done.index}
@@ -135,6 +125,20 @@ def _study(file: str | PathLike[str], rows: DataFrame, refined: list[str]) -> St
     )
 
 
+def _chosen(
+    found: dict[str, tuple[Series, dict[str, Reference]]], refined: list[str]
+) -> tuple[Series, dict[str, Reference]]:
+    """The best of the methods' references, doubted where its equals have another limit."""
+    merits = {method: _merit(*each, refined) for method, each in found.items()}
+    best = min(merits, key=lambda method: merits[method])
+    equals = [m for m in found if merits[m][:EQUALS] == merits[best][:EQUALS]]
+    finest, references = found[best]
+    return finest, {
+        name: _doubted(ref, [found[method][1][name] for method in equals])
+        for name, ref in references.items()
+    }
+
+
 def _methods(rows: DataFrame) -> Series:
     """What is not refined, in words."""
     parts = [
@@ -150,8 +154,8 @@ def _methods(rows: DataFrame) -> Series:
 
 def _word(key: str, value: object) -> str:
     """A choice in words; numbers with their key."""
-    name = key.split(".")[-1]
-    return value.replace("_", " ") if isinstance(value, str) else f"{name} {value:g}"
+    text = value if isinstance(value, str) else f"{key.split('.')[-1]} {value:g}"
+    return text.replace("_", " ")
 
 
 def _references(
@@ -178,8 +182,8 @@ def _extrapolated(ladders: dict[str, Series], values: dict[int, Floats], finest:
     for key, ladder in ladders.items():
         found = limit(ladder.tolist(), [values[i] for i in ladder.index])
         value, doubt, orders[key] = value + found.correction, doubt + found.doubt, found.order
-    scale = float(np.ptp(value) if len(value) > 1 else np.abs(value[0]))
-    return Reference(value, scale, doubt / scale if scale else np.nan, orders)
+    scale = float(np.ptp(value) if len(value) > 1 else np.abs(value[0])) or np.nan
+    return Reference(value, scale, doubt / scale, orders)
 
 
 def _doubted(reference: Reference, rivals: list[Reference]) -> Reference:

@@ -17,7 +17,7 @@ SIGNS = "osD^vP"
 
 
 def work_precision(fig: Figure, found: dict[str, Study]) -> None:
-    """A row of panels a scene, by its title: the error of each measure, and the greatest."""
+    """A row of panels a scene, by its title: the error of each measure."""
     strips = fig.subfigures(len(found), 1, squeeze=False)[:, 0]
     for strip, (title, study) in zip(strips, found.items(), strict=True):
         strip.suptitle(title, x=0.01, ha="left", fontsize="medium")
