@@ -12,7 +12,7 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test verify validate bench figures lint clean
+.PHONY: help setup sweep rank test verify validate stability bench figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -46,6 +46,9 @@ verify: setup  ## print the numbers of README.md anew, from results/armor.h5 and
 
 validate: setup  ## solve reference problems at three meshes; the table goes to results/validation/
 	@$(PYTHON) -m tests.validation results/validation
+
+stability: setup  ## crush 500 stiff and extreme scenes and look for violations; goes to results/stability/
+	@PYTHONPATH=tests $(PYTHON) -m tests.stability results/stability
 
 bench: setup  ## measure how fast it is; table and figure go to results/bench/
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.bench results/bench

@@ -262,8 +262,10 @@ def _print_sheets(sheets: Iterable[Sheet]) -> None:
     width, console.width = console.width, max(console.width, WIDTH)
     for sheet in sheets:
         _say("")
-        console.print(sheet.title, style="bold", markup=False, highlight=False)
-        console.print(terminal_table(sheet, width))
+        with console.capture() as shown:
+            console.print(sheet.title, style="bold", markup=False, highlight=False)
+            console.print(terminal_table(sheet, width))
+        _say(shown.get(), end="")
         _say_all(sheet.notes)
     _say("")
 

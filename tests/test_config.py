@@ -45,7 +45,7 @@ def test_shipped_configs_expand(name, cases):
 
 
 def test_every_shipped_config_is_pinned():
-    names = {"smoke", "armor", "infills", "thousand", "custom", "seed", "impact"}
+    names = {"smoke", "armor", "infills", "thousand", "custom", "seed", "impact", "extreme"}
     assert {path.stem for path in CONFIGS.glob("*.toml")} == names
 
 
