@@ -17,6 +17,7 @@ ARCS = "arc_length"
 PASSAGES = 10  # times that the striker takes for the height of the lattice: duration of an impact
 STEPS_OF_PASSAGE = 1000  # in one of these times
 IN_TIME = '"backward_euler", "bdf2" or "newmark"'  # the integrators
+PLATENS = '"contact", "glued" or "sliding"'
 
 
 def resolve(
@@ -130,7 +131,7 @@ def _impact(loading: Loading, height: float, integrator: str | None) -> Loading:
     if integrator == "static":
         raise refusal("solver.integrator", "static", f'{IN_TIME} if loading.mode is "impact"')
     if loading.platen == "none":
-        raise refusal("loading.platen", "none", '"contact" or "glued" if loading.mode is "impact"')
+        raise refusal("loading.platen", "none", f'{PLATENS} if loading.mode is "impact"')
     striker_mass = _given(loading.striker_mass, 0.05)
     speed, energy = _speed_and_energy(loading, striker_mass)
     return Loading(
@@ -159,7 +160,7 @@ def _speed_and_energy(loading: Loading, striker_mass: float) -> tuple[float, flo
 def _displacement(loading: Loading, height: float, integrator: str | None) -> Loading:
     """A platen that moves down by `stroke`, and back if `unload`."""
     if loading.platen == "none":
-        allowed = '"contact" or "glued" if loading.mode is "displacement"'
+        allowed = f'{PLATENS} if loading.mode is "displacement"'
         raise refusal("loading.platen", "none", allowed)
     quasi_static = _given(loading.quasi_static, loading.speed is None or integrator == "static")
     if not quasi_static and integrator == "static":
