@@ -7,7 +7,7 @@ the iteration before (Irons & Tuck 1969, Int. J. Numer. Methods Eng. 1, 275).
 from kernels.jit import jit_exact
 
 LEAST, MOST = 0.3, 8.0  # of the way from argument to image
-FURTHER = 0.5  # leaps beyond the image: more is no small change
+FURTHER = 0.5  # leaps beyond the image, or short of it: more is no small change
 
 
 @jit_exact
@@ -28,7 +28,7 @@ def approach(x, y, change, unknowns, relaxed):
     share = 1.0
     if relaxed > 0.0 and square > 0.0:
         share = min(max(-relaxed * turned / square, LEAST), MOST)
-        if (share - 1.0) * most > FURTHER * unknowns.leap:
+        if abs(share - 1.0) * most > FURTHER * unknowns.leap:
             share = 1.0
     for i in range(x.size):
         y[i] += share * change[i] / unknowns.scale[i]
