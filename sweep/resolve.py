@@ -12,6 +12,7 @@ from sweep.specimen import Lattice
 from sweep.tables import Contact, Damping, Loading, Solver, Table, refusal
 
 PASSAGES = 10  # times that the striker takes for the height of the lattice: duration of an impact
+PLATENS = '"contact", "glued" or "sliding"'
 
 
 def resolve(
@@ -95,7 +96,7 @@ def _impact(loading: Loading, height: float, integrator: str | None) -> Loading:
     if integrator == "static":
         raise refusal("solver.integrator", "static", f'{IN_TIME} if loading.mode is "impact"')
     if loading.platen == "none":
-        raise refusal("loading.platen", "none", '"contact" or "glued" if loading.mode is "impact"')
+        raise refusal("loading.platen", "none", f'{PLATENS} if loading.mode is "impact"')
     striker_mass = given_or(loading.striker_mass, 0.05)
     speed, energy = _speed_and_energy(loading, striker_mass)
     return Loading(
@@ -124,7 +125,7 @@ def _speed_and_energy(loading: Loading, striker_mass: float) -> tuple[float, flo
 def _displacement(loading: Loading, height: float, integrator: str | None) -> Loading:
     """A platen that moves down by `stroke`, and back if `unload`."""
     if loading.platen == "none":
-        allowed = '"contact" or "glued" if loading.mode is "displacement"'
+        allowed = f'{PLATENS} if loading.mode is "displacement"'
         raise refusal("loading.platen", "none", allowed)
     quasi_static = given_or(loading.quasi_static, loading.speed is None or integrator == "static")
     if not quasi_static and integrator == "static":
