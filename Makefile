@@ -12,11 +12,11 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test verify validate accuracy bench figures lint clean
+.PHONY: help setup sweep rank test verify validate accuracy stability bench experiment figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-8s  %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-10s  %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
 
 setup: $(STAMP)  ## make the environment: Python 3.11 to 3.13, packages from requirements.lock
 
@@ -51,8 +51,14 @@ accuracy: setup  ## tell error against run time; tables and figures go to result
 	@failed=0; for study in configs/accuracy/*.toml; do $(PYTHON) -m sweep accuracy $$study || failed=$$?; \
 	test $$failed -le 1 || break; done; exit $$failed
 
+stability: setup  ## crush 500 stiff and extreme scenes and look for violations; goes to results/stability/
+	@PYTHONPATH=tests $(PYTHON) -m tests.stability results/stability
+
 bench: setup  ## measure how fast it is; table and figure go to results/bench/
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.bench results/bench
+
+experiment: setup  ## predict a measured crush, and what the answer hangs on: into results/experiment/
+	@$(PYTHON) -m sweep.experiment results/experiment
 
 figures: setup  ## draw the figures of the course report beside ours, with captions, into results/figures/
 	@$(PYTHON) -m sweep.figures results/figures

@@ -39,6 +39,8 @@ def read_structure(path: Path) -> Structure:
         if isinstance(error, StructureError):
             raise
         raise StructureError([f"not JSON ({error})"]) from None
+    except RecursionError:
+        raise StructureError(["not JSON (nested too deeply)"]) from None
     lines = list(_faults(found))
     if lines:
         raise StructureError(lines)
@@ -164,6 +166,13 @@ def _geometry(of: Structure) -> Iterator[str]:
         if of.nodes_mm[a] == of.nodes_mm[b]:
             yield _fault(("walls", k), (a, b), "has no length; allowed: two nodes apart")
             return
+    for k, (a, b) in enumerate(spring.nodes for spring in of.springs):
+        if of.nodes_mm[a] == of.nodes_mm[b]:
+            yield _fault(("springs", k, "nodes"), (a, b), "has no length; allowed: two nodes apart")
+    lowest = float(points[ends, 1].min())
+    if of.floor_y_mm is not None and of.floor_y_mm >= lowest:
+        wrong = f"does not fit; allowed: below all walls, {lowest:g} here"
+        yield _fault(("floor_y_mm",), of.floor_y_mm, wrong)
     lines = linestrings(points[ends])
     one, two = STRtree(lines).query(lines)
     one, two = one[one < two], two[one < two]

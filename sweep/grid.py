@@ -14,6 +14,7 @@ from pydantic_core import ErrorDetails, PydanticCustomError
 
 from sweep.idle import still_idle
 from sweep.keys import ALIASES, case_keys
+from sweep.numerics import check_bending
 from sweep.params import TABLES, Case
 from sweep.resolve import resolve
 from sweep.specimen import sized
@@ -149,6 +150,7 @@ def _drafts(config: Config) -> Iterator[_Draft]:
             if not any(reason["key"].startswith("lattice.") for reason in wrong):
                 tables["lattice"] = weighed(tables["lattice"], tables["material"].density)
             tables |= settled(tables["lattice"], *depending)
+            check_bending(tables["material"], tables["lattice"], tables["solver"])
         except PydanticCustomError as error:
             wrong.append(error.context or {})
         case = Case.model_construct(None, **tables)

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from typing import Any
 
+from sweep.numerics import ARCS
 from sweep.params import Case
-from sweep.resolve import ARCS
 
 
 def still_idle(idle: Mapping[str, str], given: Mapping[str, Any], case: Case) -> dict[str, str]:

@@ -10,6 +10,8 @@ import numpy as np
 
 from sweep.mesh import Ints
 
+BONDED = ("glued", "sliding")  # platens that hold the outer rows, the upper one sideways too or not
+
 
 @dataclass(frozen=True)
 class Layout:
@@ -45,12 +47,13 @@ def held(layout: Layout, platen: str | None) -> Ints:
     """Coordinates that never move: those of clamped rows, and the lower platen."""
     bottom, top = layout.bottom, layout.top
     clamped = [2 * bottom, 2 * bottom + 1, layout.rotation[bottom[bottom < layout.n_joints]]]
-    along = [2 * top, layout.rotation[top[top < layout.n_joints]]]
+    turning = layout.rotation[top[top < layout.n_joints]]
     low, high = np.array([layout.low]), np.array([layout.high])
     if platen == "contact":
         return low
-    if platen == "glued":
-        return np.concatenate([*clamped, *along, low])
+    if platen in BONDED:
+        along = 2 * top if platen == "glued" else top[:0]
+        return np.concatenate([*clamped, along, turning, low])
     return np.concatenate([*clamped, low, high])
 
 

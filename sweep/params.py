@@ -8,7 +8,8 @@ from typing import Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from sweep.resolve import check_section, resolve
+from sweep.numerics import check_bending
+from sweep.resolve import resolve
 from sweep.specimen import Lattice, sized
 from sweep.tables import Contact, Damping, Loading, Material, Solver, Table, canonical
 
@@ -41,10 +42,10 @@ class Case(BaseModel):
     @model_validator(mode="after")
     def _resolve(self) -> Self:
         lattice = sized(self.lattice, self.material.density)
-        check_section(self.material, lattice, self.solver)
         resolved = resolve(lattice, self.loading, self.contact, self.damping, self.solver)
         for name, table in ({"lattice": lattice} | resolved).items():
             object.__setattr__(self, name, table)  # frozen from here on
+        check_bending(self.material, self.lattice, self.solver)
         return self
 
     @property

@@ -4,8 +4,8 @@ import threading
 from collections import deque
 from collections.abc import Iterable
 
+from sweep.numerics import steps
 from sweep.params import Case
-from sweep.resolve import steps
 
 SECONDS = 1.0  # of work in a batch: far above the cost of passing it on, and soon done
 LEAST = 0.1  # of that, when little is left to share out

@@ -69,6 +69,9 @@ def answers(study: Study) -> list[str]:
             lines.append(f"Not resolved: {measure_noun(study, name)}, whose limit {known}.")
     if study.resolved:
         lines += [line for target in TARGETS for line in _cheapest(study, target)]
+    failed = study.settings[study.settings["status"] != Status.CONVERGED]
+    if not failed.empty:
+        lines.append(f"Failed: {len(failed)} settings; the first {failed['message'].iloc[0]}.")
     return lines
 
 

@@ -52,7 +52,7 @@ class Reader:
             zip=tuple(
                 tied for table in self._tables(document, "zip") if (tied := self._zip(table))
             ),
-            exclude=tuple(self._exclude(table) for table in self._tables(document, "exclude")),
+            exclude=tuple(filter(None, map(self._exclude, self._tables(document, "exclude")))),
             rank=self._rank(self._section(document, "rank")),
             path=path,
         )
@@ -144,22 +144,27 @@ class Reader:
         return tied if len({len(values) for values in tied.values()}) == 1 else {}
 
     def _exclude(self, table: dict[str, Any]) -> dict[str, tuple[object, ...]]:
-        """Values of keys that make a case be dropped, as the case would hold them."""
+        """Values of keys that make a case be dropped, as the case would hold them; none if one is
+        wrong.
+        """
         excluded = {}
         for name, raw in table.items():
             raws = raw if isinstance(raw, list) else [raw]
             values = [self._value(name, value, "[[exclude]]") for value in raws]
+            if raws == []:
+                self._refuse(name, raw, "is empty; allowed: at least one value", "[[exclude]]")
             held = [value.value for value in values if value]
             if name == "material.name":
                 held = [Path(value).name.removesuffix(".csv") for value in held]
             if name == "lattice.file":
                 held = [Path(value).name for value in held]
-            excluded[name] = tuple(rounded(value) for value in held)
-        return excluded
+            if held and len(held) == len(raws):
+                excluded[name] = tuple(rounded(value) for value in held)
+        return excluded if len(excluded) == len(table) else {}
 
     def _value(self, name: str, raw: Any, where: str = "") -> Written | None:
         """A value in SI; None, and a fault more, if it cannot be one."""
-        known = table_keys("rank") if name.startswith("rank.") else case_keys()
+        known = case_keys() if where else case_keys() | table_keys("rank")
         if name not in known:
             self._unknown(name, raw, known, where)
             return None

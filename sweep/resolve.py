@@ -4,19 +4,15 @@ Keys that the mode does not use become None, so that equal physics has an equal 
 together is refused. Resolving what is resolved changes nothing.
 """
 
-from math import ceil, hypot, isclose, sqrt
-from typing import TypeVar
+from math import isclose, sqrt
 
 from sweep.custom import Structure
+from sweep.numerics import ARCS, IN_TIME, check_steps, given_or, settle
 from sweep.specimen import Lattice
-from sweep.tables import MAX_STEPS, Contact, Damping, Loading, Material, Solver, Table, refusal
+from sweep.tables import Contact, Damping, Loading, Solver, Table, refusal
 
-T = TypeVar("T")
-
-ARCS = "arc_length"
 PASSAGES = 10  # times that the striker takes for the height of the lattice: duration of an impact
-STEPS_OF_PASSAGE = 1000  # in one of these times
-IN_TIME = '"backward_euler", "bdf2" or "newmark"'  # the integrators
+PLATENS = '"contact", "glued" or "sliding"'
 
 
 def resolve(
@@ -24,8 +20,8 @@ def resolve(
 ) -> dict[str, Table]:
     """The tables that depend on one another and on the lattice, nothing left open."""
     loading, wish = _loading(loading, lattice, solver.integrator), solver.time_step
-    solver = _solver(solver, loading, lattice)
-    _check_steps(steps(loading, solver), solver, wish)
+    solver = settle(solver, loading, lattice)
+    check_steps(solver, loading, wish)
     contact = _contact(contact, loading, lattice.structure, solver)
     if contact.model == "position_based" and solver.integrator != "backward_euler":
         allowed = '"backward_euler" if contact.model is "position_based"'
@@ -38,44 +34,14 @@ def resolve(
     }
 
 
-def check_section(material: Material, lattice: Lattice, solver: Solver) -> None:
-    """A wall of one element bends as an exact beam only where moment is proportional to turn."""
-    if material.bend == "section" and solver.hinges == "exact_beam":
-        cause = "lattice.nodes_per_wall is 0"
-        single = lattice.nodes_per_wall == 0
-        if lattice.structure is not None:
-            cause, single = "subdivide of lattice.file is 1", 1 in lattice.structure.pieces
-        if single:
-            allowed = f'"linear" if {cause} and solver.hinges "exact_beam"'
-            raise refusal("material.bend", "section", allowed)
-
-
-def steps(loading: Loading, solver: Solver) -> float:
-    """Number of steps of a resolved case."""
-    if solver.load_steps is not None:
-        return solver.load_steps * (2 if loading.unload else 1)
-    assert loading.duration is not None
-    assert solver.time_step is not None
-    return loading.duration / solver.time_step
-
-
-def _check_steps(count: float, solver: Solver, time_step: float | None) -> None:
-    """Refuse too many of them; `time_step`: the one that was asked for."""
-    allowed = f"at most {MAX_STEPS:,} steps in all"
-    if count > MAX_STEPS and solver.load_steps is not None and time_step is None:
-        raise refusal("solver.load_steps", solver.load_steps, f"{allowed}, {count:,} here")
-    if count > MAX_STEPS:
-        raise refusal("solver.time_step", time_step or solver.time_step, allowed)
-
-
 def _loading(loading: Loading, lattice: Lattice, integrator: str | None) -> Loading:
     if lattice.structure is not None:
         return _own(loading, lattice.structure, integrator)
     if loading.mode == "custom":
-        allowed = '"force" or "displacement" unless lattice.kind is "custom"'
+        allowed = '"force", "displacement" or "impact" unless lattice.kind is "custom"'
         raise refusal("loading.mode", "custom", allowed)
     if integrator == ARCS:
-        allowed = '"backward_euler" or "static" unless lattice.kind is "custom"'
+        allowed = f'"static" where quasi-static, else {IN_TIME}, unless lattice.kind is "custom"'
         raise refusal("solver.integrator", ARCS, allowed)
     if lattice.boundary == "periodic":
         return _mean(loading, lattice.height, integrator)
@@ -103,7 +69,7 @@ def _own(loading: Loading, structure: Structure, integrator: str | None) -> Load
         raise refusal("solver.integrator", ARCS, allowed)
     if integrator == ARCS and not (structure.loads or any(structure.gravity_mm_s2)):
         raise refusal("solver.integrator", ARCS, '"static" where there are no loads')
-    duration = _given(loading.duration, 1.0 if quasi_static else 0.2)
+    duration = given_or(loading.duration, 1.0 if quasi_static else 0.2)
     return Loading(mode="custom", duration=duration, quasi_static=quasi_static, platen="none")
 
 
@@ -111,13 +77,13 @@ def _force(loading: Loading, integrator: str | None) -> Loading:
     """A dead load, put on at once, let go at `release_time`, watched until `duration`."""
     if integrator == "static":
         raise refusal("solver.integrator", "static", f'{IN_TIME} if loading.mode is "force"')
-    duration = _given(loading.duration, 0.2)
-    release_time = _given(loading.release_time, min(0.138, duration))
+    duration = given_or(loading.duration, 0.2)
+    release_time = given_or(loading.release_time, min(0.138, duration))
     if release_time > duration:
         raise refusal("loading.release_time", release_time, f"up to the duration, {duration:g} s")
     return Loading(
         mode="force",
-        force=_given(loading.force, 10.0),
+        force=given_or(loading.force, 10.0),
         release_time=release_time,
         duration=duration,
         platen=loading.platen or "none",
@@ -130,15 +96,15 @@ def _impact(loading: Loading, height: float, integrator: str | None) -> Loading:
     if integrator == "static":
         raise refusal("solver.integrator", "static", f'{IN_TIME} if loading.mode is "impact"')
     if loading.platen == "none":
-        raise refusal("loading.platen", "none", '"contact" or "glued" if loading.mode is "impact"')
-    striker_mass = _given(loading.striker_mass, 0.05)
+        raise refusal("loading.platen", "none", f'{PLATENS} if loading.mode is "impact"')
+    striker_mass = given_or(loading.striker_mass, 0.05)
     speed, energy = _speed_and_energy(loading, striker_mass)
     return Loading(
         mode="impact",
         striker_mass=striker_mass,
         striker_speed=speed,
         energy=energy,
-        duration=_given(loading.duration, PASSAGES * height / speed),
+        duration=given_or(loading.duration, PASSAGES * height / speed),
         platen=loading.platen or "glued",
         allowed_forces=loading.allowed_forces,
     )
@@ -148,9 +114,9 @@ def _speed_and_energy(loading: Loading, striker_mass: float) -> tuple[float, flo
     """Each from the other: 2 m/s if neither is given."""
     if loading.striker_speed is None and loading.energy is not None:
         return sqrt(2.0 * loading.energy / striker_mass), loading.energy
-    speed = _given(loading.striker_speed, 2.0)
+    speed = given_or(loading.striker_speed, 2.0)
     energy = 0.5 * striker_mass * speed**2
-    if not isclose(_given(loading.energy, energy), energy, rel_tol=1e-9):
+    if not isclose(given_or(loading.energy, energy), energy, rel_tol=1e-9):
         allowed = f"{energy:g} J at the speed given; give one of them"
         raise refusal("loading.energy", loading.energy, allowed)
     return speed, energy
@@ -159,9 +125,9 @@ def _speed_and_energy(loading: Loading, striker_mass: float) -> tuple[float, flo
 def _displacement(loading: Loading, height: float, integrator: str | None) -> Loading:
     """A platen that moves down by `stroke`, and back if `unload`."""
     if loading.platen == "none":
-        allowed = '"contact" or "glued" if loading.mode is "displacement"'
+        allowed = f'{PLATENS} if loading.mode is "displacement"'
         raise refusal("loading.platen", "none", allowed)
-    quasi_static = _given(loading.quasi_static, loading.speed is None or integrator == "static")
+    quasi_static = given_or(loading.quasi_static, loading.speed is None or integrator == "static")
     if not quasi_static and integrator == "static":
         raise refusal("solver.integrator", "static", f"{IN_TIME} if not quasi_static")
     if not quasi_static and loading.speed is None:
@@ -173,7 +139,7 @@ def _displacement(loading: Loading, height: float, integrator: str | None) -> Lo
         strain=strain,
         speed=None if quasi_static else loading.speed,
         quasi_static=quasi_static,
-        unload=_given(loading.unload, True),
+        unload=given_or(loading.unload, True),
         platen=loading.platen or "glued",
         allowed_forces=loading.allowed_forces,
     )
@@ -200,9 +166,9 @@ def _mean(loading: Loading, height: float, integrator: str | None) -> Loading:
 def _stroke_and_strain(loading: Loading, height: float) -> tuple[float, float]:
     """Each from the other: 60 % strain if neither is given."""
     if loading.stroke is None:
-        strain = _given(loading.strain, 0.6)
+        strain = given_or(loading.strain, 0.6)
         return strain * height, strain
-    stroke, strain = loading.stroke, _given(loading.strain, loading.stroke / height)
+    stroke, strain = loading.stroke, given_or(loading.strain, loading.stroke / height)
     if stroke >= height:
         raise refusal("loading.stroke", stroke, f"below the height of the lattice, {height:g} m")
     if not isclose(stroke, strain * height, rel_tol=1e-9):
@@ -228,7 +194,7 @@ def _contact(
     if loading.quasi_static or not contact.friction:
         return contact.model_copy(update={"slip_speed": None})
     reference = loading.speed or loading.striker_speed or 0.1
-    return contact.model_copy(update={"slip_speed": _given(contact.slip_speed, 0.01 * reference)})
+    return contact.model_copy(update={"slip_speed": given_or(contact.slip_speed, 0.01 * reference)})
 
 
 def _by_position(contact: Contact, loading: Loading, structure: Structure | None) -> Contact:
@@ -252,45 +218,3 @@ def _damping(damping: Damping, loading: Loading) -> Damping:
     }
     model = "none" if loading.quasi_static else damping.model
     return damping.model_copy(update={"model": model, **dict.fromkeys(unused[model])})
-
-
-def _solver(solver: Solver, loading: Loading, lattice: Lattice) -> Solver:
-    """A platen moves in `load_steps` equal steps, which set the time step if there is time.
-
-    As many arcs make the diagonal of a structure.
-    """
-    if solver.integrator == ARCS:
-        arcs = _given(solver.load_steps, 200)
-        usual = hypot(lattice.width, lattice.height) / arcs
-        length = _given(solver.arc_length, usual)
-        step = {"time_step": None, "load_steps": arcs, "arc_length": length}
-        return solver.model_copy(update=step)
-    if loading.mode == "force" or (loading.mode == "custom" and not loading.quasi_static):
-        step = {"time_step": _given(solver.time_step, 1e-4), "load_steps": None}
-    elif loading.striker_speed is not None:
-        usual = lattice.height / loading.striker_speed / STEPS_OF_PASSAGE
-        step = {"time_step": _given(solver.time_step, usual), "load_steps": None}
-    elif loading.quasi_static:
-        step = {"time_step": None, "load_steps": _given(solver.load_steps, 200)}
-    else:
-        assert loading.stroke is not None
-        assert loading.speed is not None
-        time = loading.stroke / loading.speed
-        load_steps = _given(solver.load_steps, _steps_in(time, solver.time_step))
-        step = {"time_step": time / load_steps, "load_steps": load_steps}
-    integrator = "static" if loading.quasi_static else solver.integrator or "backward_euler"
-    if integrator == "static" and solver.step_error is not None:
-        allowed = 'none if solver.integrator is "static"'
-        raise refusal("solver.step_error", solver.step_error, allowed)
-    return solver.model_copy(update={"integrator": integrator, "arc_length": None, **step})
-
-
-def _steps_in(time: float, time_step: float | None) -> int:
-    """Steps of at most this length, as many as count; 200 where none is asked for."""
-    if time_step is None:
-        return 200
-    return ceil(min(time / time_step * (1 - 1e-9), MAX_STEPS + 1.0))
-
-
-def _given(value: T | None, default: T) -> T:
-    return default if value is None else value

@@ -70,7 +70,7 @@ COLUMNS: dict[str, Column] = {
     "outer_width_m": Column("m", "width over all, walls included"),
     "material": Column("", 'name of the material; "by numbers" when it has none'),
     "loading_mode": Column("", "force, displacement, impact or custom"),
-    "platen": Column("", "none, contact or glued"),
+    "platen": Column("", "none, contact, glued or sliding"),
     "force_N": Column("N", "dead force on the top; NaN unless the mode is force"),
     "stroke_m": Column("m", "prescribed travel of the top; NaN unless the mode is displacement"),
     "striker_mass_g": Column("g", "mass of the striker; NaN unless the mode is impact"),

@@ -11,7 +11,7 @@ from kernels import balance, chain, damp, friction, image, pattern, spring, stre
 from kernels.step import Terms
 from sweep.joints import bends, build_bend, build_fold
 from sweep.lattice import Network, build_network, mass
-from sweep.layout import Layout, held, leaders
+from sweep.layout import BONDED, Layout, held, leaders
 from sweep.material import as_law, stress_law
 from sweep.mesh import Floats, Ints, Mesh, row_nodes, split_walls
 from sweep.params import Case, Loading, Material, given
@@ -162,7 +162,7 @@ def build_scene(case: Case) -> Scene:
     fixed = held(layout, platen)
     if not bends(case):
         fixed = np.union1d(fixed, layout.rotation)
-    tied = 2 * layout.top + 1 if platen == "glued" else np.empty(0, np.int64)
+    tied = 2 * layout.top + 1 if platen in BONDED else np.empty(0, np.int64)
     follows = solved_by(mesh, layout, leaders(layout, fixed, tied), case)
     masses = masses_of(mesh, layout, printed, case.loading)
     terms = Terms(
@@ -209,7 +209,8 @@ def _reported(layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
     """
     bottom = 2 * layout.bottom + 1
     low, high = np.array([layout.low]), np.array([layout.high])
-    reaction = {"contact": low, "glued": np.append(bottom, low)}.get(loading.platen or "", bottom)
+    bonded = dict.fromkeys(BONDED, np.append(bottom, low))
+    reaction = ({"contact": low} | bonded).get(loading.platen or "", bottom)
     if loading.mode != "force":
         return reaction, high, low
     if loading.platen == "contact":

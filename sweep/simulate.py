@@ -21,6 +21,8 @@ FRAMES = 40
 EARLY_FRAMES = 4 * FRAMES  # most impacts, and many paths, are over in a quarter of their steps
 LONGER = "try a longer loading.duration"
 SAFER = 'try solver.integrator "bdf2", damping or smaller steps'
+SOUNDER = "try a smaller solver.tolerance, and look for values out of all proportion"
+GAP = 1e-3  # of the energy, that may be left over
 GIFT = 0.1  # of the work done: energy that an integrator may make
 ADVICE = {
     newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; "
@@ -130,6 +132,8 @@ class _Run:
             timer.cancel()
         if self._invents():
             return Status.STOPPED, f"the integrator made energy out of nothing; {SAFER}"
+        if not self._balances():
+            return Status.STOPPED, f"work and energies do not balance {self._where()}; {SOUNDER}"
         if self.struck and self.rows[self.done - 1, march.SPEED] < 0.0:
             return Status.STOPPED, f"the striker still sinks {self._where()}; {LONGER}"
         return Status.CONVERGED, ""
@@ -138,6 +142,14 @@ class _Run:
         """Whether an integrator in time has given more than a share `GIFT` of the work done."""
         made, work = self.rows[: self.done, book.INTEGRATOR], self.rows[: self.done, book.WORK]
         return not self.case.loading.quasi_static and bool(made.min() < -GIFT * work.max())
+
+    def _balances(self) -> bool:
+        """Whether the energy book closes but for a share `GAP` of what passes through it."""
+        rows = self.rows[: self.done]
+        left = np.abs(rows[:, book.RESIDUAL]).max()
+        size = np.abs(rows[:, : book.RESIDUAL]).max()
+        moved = self.done * self.scene.force_scale * float(np.ptp(self.scene.mesh.points))
+        return bool(left <= GAP * size + self.case.solver.tolerance * moved)
 
     def _is_back(self) -> bool:
         """Whether the striker is where it started; what it did beyond is dropped."""

@@ -10,7 +10,7 @@ from pydantic_core import PydanticCustomError
 from sweep.blueprint import read_structure
 from sweep.custom import Structure
 from sweep.infill import families, trait
-from sweep.tables import Few, Length, Mass, NonNegative, Table, refusal
+from sweep.tables import Few, Length, Mass, Table, refusal
 
 CUSTOM = "custom"
 LINE_WIDTH, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m, of a 0.4 mm nozzle
@@ -69,7 +69,7 @@ class Lattice(Table):
     solid_layers: Lines = 0
     layer_height: Length | None = None
     nodes_per_wall: Annotated[int, Field(ge=0, le=1000)] = 2
-    imperfection: NonNegative = 0.01
+    imperfection: Annotated[float, Field(ge=0, le=10)] = 0.01
 
     @model_validator(mode="before")
     @classmethod
@@ -241,7 +241,7 @@ def repeat(lattice: Lattice) -> None:
 
 def sized(lattice: Lattice, density: float) -> Lattice:
     """A lattice whose walls are as thick as its `mass` demands."""
-    if lattice.mass is None:
+    if lattice.mass is None or lattice.structure is not None:
         return lattice
     from sweep.wishes import thickness_for
 

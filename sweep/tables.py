@@ -140,7 +140,7 @@ class Loading(Table):
     striker_mass: Mass | None = None
     striker_speed: Speed | None = None
     energy: Energy | None = None
-    platen: Literal["none", "contact", "glued"] | None = None
+    platen: Literal["none", "contact", "glued", "sliding"] | None = None
     allowed_forces: Forces = ()
 
     @model_validator(mode="before")

@@ -3,7 +3,7 @@
 import numpy as np
 
 from kernels import contact, pattern, project, vicinity
-from sweep.layout import Layout
+from sweep.layout import BONDED, Layout
 from sweep.mesh import Floats, Ints, Mesh
 from sweep.params import Case
 
@@ -55,7 +55,7 @@ def _loose(layout: Layout, case: Case) -> Ints:
     nodes = np.arange(layout.n_nodes)
     if case.loading.platen == "contact":
         return nodes
-    if case.loading.platen == "glued" and case.contact.model != "none":
+    if case.loading.platen in BONDED and case.contact.model != "none":
         return np.setdiff1d(nodes, np.union1d(layout.bottom, layout.top))
     return nodes[:0]
 

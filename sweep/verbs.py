@@ -77,7 +77,7 @@ def accuracy(arguments: Namespace) -> int:
         sheets, files = publish_accuracy(out, [case.case_id for case in cases])
     _print_sheets(sheets)
     _say_all(files)
-    return _tell_failed(failed, len(cases), str(out))
+    return SOME_FAILED if failed else DONE
 
 
 def warm(_: Namespace) -> int:
@@ -211,12 +211,8 @@ def _print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -
         _say(legend(ranking))
     if unranked := ranking.attrs["unranked"]:
         _say(f"{unranked} cases have no {ranking.attrs['by']} and so no place.")
-    _tell_failed(failed, len(summary), file)
-
-
-def _tell_failed(failed: int, cases: int, file: str) -> int:
-    _say_all([f"{failed} of {cases} cases failed: crumple status {file} lists them"] * bool(failed))
-    return SOME_FAILED if failed else DONE
+    if failed:
+        _say(f"{failed} of {len(summary)} cases failed: crumple status {file} lists them")
 
 
 def _heading(question: Mapping[str, Any], ranking: DataFrame) -> str:
@@ -285,8 +281,10 @@ def _print_sheets(sheets: Iterable[Sheet]) -> None:
     width, console.width = console.width, max(console.width, WIDTH)
     for sheet in sheets:
         _say("")
-        console.print(sheet.title, style="bold", markup=False, highlight=False)
-        console.print(terminal_table(sheet, width))
+        with console.capture() as shown:
+            console.print(sheet.title, style="bold", markup=False, highlight=False)
+            console.print(terminal_table(sheet, width))
+        _say(shown.get(), end="")
         _say_all(sheet.notes)
     _say("")
 

@@ -46,6 +46,14 @@ WRONG = {
         {"walls": [[0, 1], [1, 2], [2, 2]]},
         "walls[2] = [2, 2]: has no length; allowed: two nodes apart",
     ),
+    "spring without length": (
+        {"springs": [{"nodes": [1, 1], "stiffness_N_mm": 1}]},
+        "springs[0].nodes = [1, 1]: has no length; allowed: two nodes apart",
+    ),
+    "floor above a wall": (
+        {"floor_y_mm": 0},
+        "floor_y_mm = 0.0: does not fit; allowed: below all walls, 0 here",
+    ),
     "same wall twice": (
         {"walls": [[0, 1], [1, 2], [1, 0]]},
         "walls[2] = [1, 0]: lies upon wall 0; allowed: walls in different directions at a node",

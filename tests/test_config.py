@@ -36,6 +36,7 @@ def load(tmp_path):
         ("custom", 1),
         ("seed", 14),
         ("impact", 24),
+        ("khatri_egan_square", 60),
     ],
 )
 def test_shipped_configs_expand(name, cases):
@@ -45,8 +46,9 @@ def test_shipped_configs_expand(name, cases):
 
 
 def test_every_shipped_config_is_pinned():
-    names = {"smoke", "armor", "infills", "thousand", "custom", "seed", "impact"}
-    assert {path.stem for path in CONFIGS.glob("*.toml")} == names
+    studies = {"custom", "seed", "impact", "khatri_egan_square", "extreme"}
+    names = {"smoke", "armor", "infills", "thousand"}
+    assert {path.stem for path in CONFIGS.glob("*.toml")} == names | studies
 
 
 def test_empty_config_is_the_seed(load):

@@ -224,7 +224,7 @@ def test_speed_and_energy_follow_from_one_another():
 @pytest.mark.parametrize(
     ("loading", "solver", "words"),
     [
-        ({"platen": "none"}, {}, r'loading\.platen = none; allowed: "contact" or "glued"'),
+        ({"platen": "none"}, {}, r'loading\.platen = none; allowed: "contact", "glued" or'),
         ({}, {"integrator": "static"}, r"solver\.integrator = static; allowed"),
     ],
 )

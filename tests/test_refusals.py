@@ -102,7 +102,20 @@ UNFIT = {
         ' if loading.mode is "force"'
     ),
     '[loading]\nstrain = 0.5\n[solver]\nstep_error = "1 um"': (
-        'solver.step_error = "1 um": does not fit; allowed: none if solver.integrator is "static"'
+        'solver.step_error = "1 um": does not fit; allowed: none unless solver.integrator is'
+        ' "backward_euler", "bdf2" or "newmark"'
+    ),
+    '[lattice]\nnodes_per_wall = 0\n[material]\nbend = "section"': (
+        'material.bend = "section": does not fit; allowed: "linear" if lattice.nodes_per_wall is 0'
+        ' and solver.hinges "exact_beam"'
+    ),
+    '[material]\nbend = "none"\n[loading]\nstrain = 0.5': (
+        'material.bend = "none": does not fit; allowed: "linear" or "section" if solver.integrator'
+        ' is "static"'
+    ),
+    '[solver]\nintegrator = "arc_length"': (
+        'solver.integrator = "arc_length": does not fit; allowed: "static" where quasi-static, else'
+        ' "backward_euler", "bdf2" or "newmark", unless lattice.kind is "custom"'
     ),
     '[contact]\nmodel = "position_based"\n[solver]\nintegrator = "newmark"': (
         'solver.integrator = "newmark": does not fit; allowed: "backward_euler" if contact.model is'
@@ -139,6 +152,18 @@ AXES = {
         " 1); allowed: lists of equal length"
     ),
     "zip = 3": "zip = 3: not a list of tables; allowed: tables [[zip]]",
+    "[grid]\nlattice.cells = [2, 3]\n[[exclude]]\nlattice.cell = 2": (
+        "[[exclude]] lattice.cell = 2: unknown key; the nearest is lattice.cells"
+    ),
+    "[[exclude]]\nlatice.cells = 2": (
+        "[[exclude]] latice.cells = 2: unknown key; the nearest is lattice.cells"
+    ),
+    "[[exclude]]\nlattice.cells = []": (
+        "[[exclude]] lattice.cells = []: is empty; allowed: at least one value"
+    ),
+    '[[exclude]]\nrank.budgets = ["2 g"]': (
+        '[[exclude]] rank.budgets = "2 g": unknown key; the nearest is solver.hinges'
+    ),
     "[grid]\nlattice.cells = [2, 3]\n[[exclude]]\nlattice.cells = [2, 3]": (
         "[[exclude]] drops all 2 cases; allowed: tables that leave at least one"
     ),

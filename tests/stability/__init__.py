@@ -1,0 +1,1 @@
+"""Five hundred stiff and extreme scenes, each watched by a second model: `make stability`."""

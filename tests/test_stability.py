@@ -1,0 +1,77 @@
+"""Scenes of `configs/extreme.toml` under observation: does the observer see what is wrong?"""
+
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+from sweep.config import load_config
+from sweep.grid import expand
+from tests.scenes import pressed, run
+from tests.solving import whole
+from tests.stability import audit, draw, model
+from tests.stability.__main__ import counted, markdown
+from tests.states import STATES, driven, loaded
+
+FEW, CONVERGED = 40, 14
+
+
+@pytest.fixture(scope="module")
+def drawn():
+    return [draw.scene(number)[1] for number in range(FEW)]
+
+
+def test_the_config_holds_the_scenes_that_are_drawn(drawn):
+    assert (draw.CONFIGS / "extreme.toml").read_text("utf-8") == draw.toml(draw.COUNT)
+    cases = expand(load_config(draw.CONFIGS / "extreme.toml"))
+    assert len(cases) == draw.COUNT
+    assert [case.case_id for case in cases[:FEW]] == [case.case_id for case in drawn]
+
+
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("scene", [loaded(), loaded(1), driven("glued")], ids=["3", "1", "driven"])
+def test_the_second_model_agrees_with_the_kernels(scene, state):
+    x = STATES[state](scene)
+    _, at = whole(scene, x, dt=np.inf).found(x)
+    second = model.stored(x, scene.terms)
+    np.testing.assert_allclose(second.energy, at.stored, rtol=1e-11)
+    np.testing.assert_allclose(second.gradient, at.elastic, atol=1e-13 * second.scale)
+
+
+def test_light_scenes_violate_nothing(drawn):
+    light = [case for case in drawn if case.lattice.walls * (case.lattice.nodes_per_wall + 1) < 200]
+    audits = [audit.audit(case) for case in light]
+    assert [found.violations for found in audits] == [()] * len(light)
+    assert [found.status for found in audits].count("converged") == CONVERGED
+    assert sum(found.balanced for found in audits) > len(light)
+
+
+def test_what_is_wrong_is_seen():
+    case = pressed(3, 0.5, 30, friction=0.3)
+    assert audit.audit(case).violations == ()
+    with patch.object(model, "GUARD", 0.5):
+        assert "second model" in " ".join(audit.audit(case).violations)
+    with patch.object(audit, "LAG", 1e-9):
+        assert "allowed residual" in " ".join(audit.audit(case).violations)
+
+
+def test_arms_that_change_places_are_seen():
+    result = run(pressed(3, 0.5, 30, friction=0.3))
+    frames = dict(result.frames)
+    assert audit._turned_over(frames["position_m"][-1], frames) == 0
+    turned = frames["position_m"][0] * [-1.0, 1.0]
+    assert audit._turned_over(turned, frames) > 0
+
+
+def test_outcomes_are_counted(drawn):
+    cases = drawn[:2]
+    found = audit.Audit("stopped", "stopped while loading: no way; try less", ("wrong",), 2, 0.1)
+    table = counted(cases, [found, found._replace(status="converged", message="", violations=())])
+    assert list(table) == [
+        "stopped: no way",
+        "converged",
+        "violated something",
+        "steps balanced anew",
+    ]
+    assert [row["all"] for row in table.values()] == [1, 1, 1, 4]
+    assert markdown(table)[2].startswith("| stopped: no way | ")
