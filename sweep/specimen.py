@@ -69,7 +69,7 @@ class Lattice(Table):
     solid_layers: Lines = 0
     layer_height: Length | None = None
     nodes_per_wall: Annotated[int, Field(ge=0, le=1000)] = 2
-    imperfection: Annotated[float, Field(ge=0, le=10)] = 0.01
+    imperfection: Annotated[float, Field(ge=0, le=100)] = 0.01
 
     @model_validator(mode="before")
     @classmethod

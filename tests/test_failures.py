@@ -2,6 +2,7 @@
 
 import threading
 import time
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -126,3 +127,12 @@ def test_extremes_raise_nothing_and_cross_nowhere(name):
     else:
         assert result.status == Status.STOPPED
         assert "; try " in result.message
+
+
+def test_a_book_that_does_not_close_is_no_result():
+    with patch("sweep.simulate.GAP", -1.0):
+        result = simulate(pressed(3, 0.2, 10))
+    assert result.status == Status.STOPPED
+    assert result.message.startswith(
+        "work and energies do not balance at strain 0.2 after 10 steps;"
+    )
