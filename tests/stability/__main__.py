@@ -10,6 +10,9 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 
+from rich.console import Console
+from rich.progress import track
+
 from sweep.config import load_config
 from sweep.grid import expand
 from tests.stability.audit import audit
@@ -59,7 +62,8 @@ def main(folder):
     """Print the table; write it and what every scene did."""
     cases = expand(load_config(CONFIGS / "extreme.toml"))
     with ProcessPoolExecutor(WORKERS, get_context("spawn")) as pool:
-        audits = list(pool.map(audit, cases))
+        found = pool.map(audit, cases)
+        audits = list(track(found, "scenes", len(cases), console=Console(stderr=True)))
     lines = markdown(counted(cases, audits))
     sys.stdout.write("\n".join([*lines, ""]))
     folder.mkdir(parents=True, exist_ok=True)
