@@ -68,10 +68,10 @@ def test_outcomes_are_counted(drawn):
     found = audit.Audit("stopped", "stopped while loading: no way; try less", ("wrong",), 2, 0.1)
     table = counted(cases, [found, found._replace(status="converged", message="", violations=())])
     assert list(table) == [
-        "stopped: no way",
         "converged",
+        "stopped: no way",
         "violated something",
         "steps balanced anew",
     ]
     assert [row["all"] for row in table.values()] == [1, 1, 1, 4]
-    assert markdown(table)[2].startswith("| stopped: no way | ")
+    assert markdown(table)[3].startswith("| stopped: no way | ")

@@ -47,7 +47,7 @@ def counted(cases, audits):
             counts.setdefault(VIOLATED, Counter())[kind] += len(found.violations) > 0
             counts.setdefault(BALANCED, Counter())[kind] += found.balanced
     last = [name for name in (VIOLATED, BALANCED) if name in counts]
-    ended = sorted(counts.keys() - set(last), key=lambda name: -counts[name][ALL])
+    ended = sorted(counts.keys() - set(last), key=lambda name: (-counts[name][ALL], name))
     return {name: counts[name] for name in ended + last}
 
 
