@@ -52,15 +52,13 @@ def main(folder):
         sys.stdout.flush()
         return text
 
-    block = study.elastic_joint()
-    names = ("b", "c", "d", "spared")
-    values = (block.square, block.linear, block.constant, block.spared)
-    text = told(table(("joint", *names), [["elastic", *(f"{value:.3f}" for value in values)]]))
-    rows = [study.compared(slenderness, block) for slenderness in study.SLENDER]
+    beyond = study.beyond_beams()
+    text = told(table(("elasticity", *beyond), [["", *(f"{x:.3f}" for x in beyond.values())]]))
+    rows = [study.compared(slenderness, beyond) for slenderness in study.SLENDER]
     units = ["N", *["N"] * len(study.APART), *["mJ"] * len(study.APART)]
     heads = [f"{name}, {unit}" for name, unit in zip(figure.NAMES, units, strict=True)]
     text += told(table(("t / L", "", *heads), slender_table(rows)))
-    sides = list(study.crushed(block))
+    sides = list(study.crushed(beyond))
     heads = [f"{100 * strain:.0f} %" for strain in study.WATCHED]
     text += told(table(("strain", *heads), crush_table(sides, study.WATCHED)))
     save(figure.draw(sides, rows), folder / "continuum.png")

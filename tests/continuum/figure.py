@@ -3,13 +3,14 @@
 from matplotlib.collections import PolyCollection
 
 from sweep.plots import BLUE, GREY, ORANGE, SKY, VERMILION, WALL, blank
-from tests.continuum.study import APART, WATCHED
+from tests.continuum import study
 
 COLORS = (SKY, "#9ecae1", BLUE, ORANGE, GREY, "black")
-SHOWN = {"point joints": BLUE, "elastic blocks": ORANGE, "coarser solid": GREY}
-WATCHED_APART = [f"{what} {100 * e:.0f} %" for what in ("force at", "energy to") for e in APART]
-NAMES = ("stiffness at rest", *WATCHED_APART)
-CURVES = {1: "o-", 3: "s--", 4: "^:"}  # force at the first strain, energies
+SHOWN = {study.POINTS: BLUE, study.BLOCKS: SKY, study.THICK: ORANGE, study.COARSER: GREY}
+MEASURED = ("force at", "energy to")
+APART = [f"{what} {100 * strain:.0f} %" for what in MEASURED for strain in study.APART]
+NAMES = ("stiffness at rest", *APART)
+CURVES = {1: "o-", 4: "s--"}  # force at the first strain, energy to the last
 
 
 def draw(sides, rows):
@@ -40,7 +41,7 @@ def _shape(ax, side):
     ax.add_collection(PolyCollection(quads, facecolor="#dbe6f1", edgecolor=WALL, lw=0.25))
     ax.set_aspect("equal")
     ax.autoscale()
-    ax.set(xlabel="mm", title=f"the finer solid at {100 * WATCHED[-1]:.0f} %")
+    ax.set(xlabel="mm", title=f"the finer solid at {100 * study.WATCHED[-1]:.0f} %")
 
 
 def _errors(ax, rows):

@@ -2,8 +2,8 @@
 
 A cross of four half walls of l thicknesses, of small strain: its half walls yield as 4 l^3 under a
 shear force at their ends, in t / (Y depth), if they are beams that meet at a point. A solid cross
-yields as 4 l^3 + b l^2 + c l + d, as stresses beyond the joint are those of beams. Under a moment
-that goes straight through, a wall of 2 l yields as one of 2 l - spared.
+yields as 4 l^3 + b l^2 + c l + d, as stresses beyond the joint are those of beams. b is what a
+moment at the joint yields less than 12 l^2, spread over a wall of two ends.
 """
 
 import numpy as np
@@ -19,19 +19,9 @@ GROWTH = 1.7  # exponent: elements of the arms become longer outwards
 SIDES = ((0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0))  # axis and sign of the four ends
 
 
-def even(o):
-    """Traction of a force of 1 along the arm."""
-    return np.ones_like(o)
-
-
 def shear(o):
     """Traction of a force of 1 across the arm, over o from -1/2 to 1/2."""
     return 1.5 - 6.0 * o * o
-
-
-def moment(o):
-    """Traction along the arm of a moment of 1."""
-    return -12.0 * o
 
 
 class Cross:
@@ -75,19 +65,15 @@ class Cross:
         force = sum(sign * self.load(axis, sign, 1 - axis, shear) for axis, sign in SIDES)
         return self.work(force) / 4.0
 
-    def spared(self, traction):
-        """Thicknesses by which the wall in y seems shorter under a traction that goes through."""
-        force = self.load(1, 1.0, 1, traction) - self.load(1, -1.0, 1, traction)
-        if traction is moment:
-            return 2.0 * self.arm - self.work(force) / 12.0
-        return 2.0 * self.arm - self.work(force)
-
 
 def coefficients(across, poisson):
-    """b, c, d, and what is spared in bending and in stretching."""
+    """The three numbers b, c, d."""
     crosses = [Cross(arm, across, poisson) for arm in ARMS]
-    arm = np.array(ARMS)
     excess = [cross.sheared() - 4.0 * cross.arm**3 for cross in crosses]
-    fitted = np.linalg.lstsq(np.stack([arm**2, arm, np.ones_like(arm)], axis=1), excess)[0]
-    last = crosses[-1]
-    return np.append(fitted, [last.spared(moment), last.spared(even)])
+    powers = np.array(ARMS)[:, None] ** np.array([2, 1, 0])
+    return np.linalg.lstsq(powers, excess)[0]
+
+
+def spared(across, poisson):
+    """Thicknesses s of a wall that seem not to bend: 4 l^3 - 3 s l^2 of a half wall."""
+    return -coefficients(across, poisson)[0] / 3.0

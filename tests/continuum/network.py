@@ -1,68 +1,62 @@
-"""The same grid as our network of walls: with joints that are points, or elastic blocks.
+"""The same grid as our network of walls: as it is, or with what a solid does beyond beams.
 
-Blocks are numbers of hinges alone. A wall of n elements keeps the flexibilities f_e at its two ends
-and f_i inside; they sum to its length L' in even bending, L (1 - spared t / L), and their squares
-about its middle to q L^3 / 12 in bending by shear, q = (4 l^3 + b l^2 + c l + d) / 4 l^3 at
-l = L / 2 t (see `joint`). Point joints are q = 1 and nothing spared.
+Blocks: walls are stiffer in bending by 1 / (1 - spared t / L), see `joint`. Thick sections: the
+moment is Y I kappa / (1 + softening (kappa t)^2), see `strip`.
 """
 
 from dataclasses import dataclass, replace
 from unittest.mock import patch
 
 import numpy as np
+from scipy.interpolate import CubicHermiteSpline
 
+from sweep.material import StressLaw, as_law
 from sweep.params import Case, Contact, Lattice, Loading, Material, Solver
 from sweep.scene import build_scene
 from sweep.simulate import simulate
 
 MM = 1e-3
+SMALL = 1e-5  # strain, far from buckling
+SURFACE = np.linspace(0.0, 1.0, 301)  # strain of the surface, kappa t / 2
 
 
-@dataclass(frozen=True)
-class Block:
-    """Coefficients of `joint.coefficients`."""
-
-    square: float
-    linear: float
-    constant: float
-    spared: float
-
-    def flexibility(self, slenderness, pieces):
-        """f_e and f_i over L / Y I of walls of t / L = ``slenderness``."""
-        arm = 0.5 / slenderness
-        sheared = 1.0 + (self.square * arm**2 + self.linear * arm + self.constant) / (4 * arm**3)
-        even = 1.0 - self.spared * slenderness
-        at_end = (pieces * sheared - (pieces - 2) * even) / (4 * pieces + 4)
-        if at_end <= 0.0:
-            raise ValueError(f"{pieces} elements are too many for joints as wide as {slenderness}")
-        return at_end, (even - 2.0 * at_end) / (pieces - 1)
+def thick_law(softening):
+    """Moment of a thick section over Y I 2 / t, over the strain of its surface."""
+    below = 1.0 + 4.0 * softening * SURFACE**2
+    slope = (2.0 - below) / below**2
+    spline = CubicHermiteSpline(SURFACE, SURFACE / below, slope)
+    return as_law(StressLaw(spline.x, np.ascontiguousarray(spline.c[::-1].T)), 1.0, 1.0)
 
 
-POINTS = Block(0.0, 0.0, 0.0, 0.0)
-
-
-def built(case, block):
-    """The scene of a case of equal walls with such joints."""
-    scene, pieces = build_scene(case), case.lattice.nodes_per_wall + 1
-    slenderness = case.lattice.wall_thickness * case.lattice.cells_x / case.lattice.width
-    of_points = np.array(POINTS.flexibility(slenderness, pieces))
-    arm, hinge = of_points / block.flexibility(slenderness, pieces)
-    bending = scene.terms.bend
-    stiffened = bending._replace(
-        arm_stiffness=arm * bending.arm_stiffness, hinge_stiffness=hinge * bending.hinge_stiffness
-    )
-    return replace(scene, terms=scene.terms._replace(bend=stiffened))
+def built(case, spared, softening):
+    """The scene of a case of equal walls, its bending changed."""
+    scene, lattice = build_scene(case), case.lattice
+    bending, pitch = scene.terms.bend, lattice.width / lattice.cells_x
+    stiffer = 1.0 / (1.0 - spared * lattice.wall_thickness / pitch)
+    arm, hinge = stiffer * bending.arm_stiffness, stiffer * bending.hinge_stiffness
+    bending = bending._replace(arm_stiffness=arm, hinge_stiffness=hinge)
+    if softening > 0.0:
+        rigidity = stiffer * case.material.modulus * lattice.depth * lattice.wall_thickness**3 / 12
+        surface = 0.5 * lattice.wall_thickness / rigidity  # strain by a moment
+        bending = bending._replace(
+            section=thick_law(softening), arm_surface=surface * arm, hinge_surface=surface * hinge
+        )
+    return replace(scene, terms=scene.terms._replace(bend=bending))
 
 
 @dataclass(frozen=True)
 class Network:
-    """A `Grid` of linear rubber in plane stress as a network of ``pieces`` elements a wall."""
+    """A `Grid` in plane stress as a network of ``pieces`` elements a wall, two or more.
+
+    spared, softening: of blocks and of thick sections.
+    """
 
     grid: object
     rubber: object
     pieces: int = 6
-    block: Block = POINTS
     contact: str = "none"
+    spared: float = 0.0
+    softening: float = 0.0
 
     def crush(self, strain, steps):
         """Strain, force in N and energy in mJ of every step."""
@@ -85,7 +79,8 @@ class Network:
             contact=Contact(model=self.contact, friction=0.0),
             solver=Solver(load_steps=steps),
         )
-        with patch("sweep.simulate.build_scene", lambda case: built(case, self.block)):
+        made = built(case, self.spared, self.softening)
+        with patch("sweep.simulate.build_scene", lambda case: made):
             result = simulate(case)
         if result.status != "converged":
             raise RuntimeError(result.message)
@@ -101,6 +96,3 @@ class Network:
         """Force at rest over the strain, N."""
         strain, force, _ = self.crush(SMALL, 1)
         return float(force[-1] / strain[-1])
-
-
-SMALL = 1e-5  # strain, far from buckling

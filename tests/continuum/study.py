@@ -1,12 +1,12 @@
 """The comparison itself: a crush with contact, and grids of slender to stout walls without."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tests.continuum import joint
+from tests.continuum import joint, strip
 from tests.continuum.grid import Grid
-from tests.continuum.network import POINTS, Block, Network
+from tests.continuum.network import Network
 from tests.continuum.press import Press
 from tests.continuum.rubber import Rubber
 from tests.continuum.solid import Solid
@@ -20,6 +20,8 @@ REACH = 0.006  # of the thickness: gap of surfaces that touch
 STEP = 0.01  # of the strain
 WATCHED = (0.1, 0.3, 0.4, 0.5, 0.6)
 SLENDER = (0.05, 0.1, 0.15, 0.2, 0.3)  # t / L
+COARSER, POINTS, BLOCKS = "coarser solid", "network", "network, elastic blocks"
+THICK = "network, elastic blocks, thick sections"
 APART = (0.1, 0.2)  # strains before walls touch
 
 
@@ -37,10 +39,9 @@ def pressed(press, strain):
     return press.crush(STEP * np.arange(1, round(strain / STEP) + 1))
 
 
-def elastic_joint():
-    """The joint of crossing walls as elasticity has it."""
-    square, linear, constant, spared, _ = joint.coefficients(FINE, RUBBER.poisson)
-    return Block(square, linear, constant, spared)
+def beyond_beams():
+    """What joints spare and by how much thick sections soften, as elasticity has it."""
+    return {"spared": joint.spared(FINE, RUBBER.poisson), "softening": strip.softening(RUBBER)}
 
 
 @dataclass(frozen=True)
@@ -58,15 +59,15 @@ class Side:
         return np.interp(strains, strain, force), np.interp(strains, strain, energy)
 
 
-def crushed(block):
+def crushed(beyond):
     """All sides of the crush to the last strain watched; the finest body comes last."""
-    for pieces, joints, name in (
-        (3, POINTS, "network, 3 elements a wall (default)"),
-        (6, POINTS, "network, 6"),
-        (12, POINTS, "network, 12"),
-        (PIECES, block, "network, 6, joints as elastic blocks"),
+    for pieces, changed, name in (
+        (3, {}, "network, 3 elements a wall (default)"),
+        (6, {}, "network, 6"),
+        (12, {}, "network, 12"),
+        (6, beyond, "network, 6, elastic blocks, thick sections"),
     ):
-        network = Network(Grid(), RUBBER, pieces, joints, "barrier")
+        network = Network(Grid(), RUBBER, pieces, "barrier", **changed)
         yield Side(name, np.array(network.crush(WATCHED[-1], 300)))
     for across in MESHES:
         press = solid(Grid(across=across), True)
@@ -97,14 +98,16 @@ class Body:
         self.stiffness, self.at = self.press.stiffness, pressed(self.press, APART[-1]).at
 
 
-def compared(slenderness, block):
-    """Point joints and elastic blocks beside solids, at a thickness over pitch."""
+def compared(slenderness, beyond):
+    """The network, as it is and changed, beside solids, at a thickness over pitch."""
     coarse, fine = (Grid(thickness=slenderness * Grid().pitch, across=across) for across in MESHES)
     truth = measured(Body(fine))
+    network, blocks = Network(fine, RUBBER, PIECES), {"spared": beyond["spared"]}
     sides = {
-        "coarser solid": Body(coarse),
-        "point joints": Network(fine, RUBBER, PIECES),
-        "elastic blocks": Network(fine, RUBBER, PIECES, block),
+        COARSER: Body(coarse),
+        POINTS: network,
+        BLOCKS: replace(network, **blocks),
+        THICK: replace(network, **beyond),
     }
     errors = {name: 100.0 * (measured(side) / truth - 1.0) for name, side in sides.items()}
     return Compared(slenderness, truth, errors)
