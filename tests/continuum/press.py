@@ -34,7 +34,7 @@ class Curve:
     def at(self, strain):
         """Force and energy at strains up to the last."""
         strains, force, energy = np.array(self.rows).T
-        if np.max(strain) > strains[-1] + 1e-12:
+        if np.max(strain) > strains[-1] + NEAR:
             raise ValueError(f"the crush ended at a strain of {strains[-1]}")
         return np.interp(strain, strains, force), np.interp(strain, strains, energy)
 

@@ -12,7 +12,7 @@ ROOM = 0.8  # of the way to the first touch that a step may go
 
 
 class Touch:
-    """reach: gap in mm at which the barrier starts. stiffness: of the barrier, MPa."""
+    """reach: gap in mm at which the barrier starts. stiffness: a modulus times the depth, N/mm."""
 
     def __init__(self, solid, reach, stiffness):
         ends = solid.basis.mesh.facets[:, solid.mesh.boundary_facets()]
