@@ -101,7 +101,7 @@ def kept(steps):
 
 PROBLEMS = (
     Problem(
-        "rod under a sudden pull: move of its end", wave, 1.5, "d'Alembert",
+        "rod suddenly pulled: move of its end", wave, 1.5, "d'Alembert",
         (200, 400, 800), 0, 1e-5,
     ),
     *(
