@@ -147,7 +147,7 @@ def test_columns_exist():
 
 def test_refusal_reads_so(tmp_path, capsys):
     path = tmp_path / "bumper.toml"
-    path.write_text('[lattice]\nwall_thicknes = "0.8 mm"\ndepth = 12\n')
+    path.write_text('[lattice]\nwall_thicknes = "0.8 mm"\n[loading]\nforce = 12\n')
     assert main(["run", str(path)]) == 2
     assert capsys.readouterr().err in blocks("text")
 
