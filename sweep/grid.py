@@ -182,9 +182,8 @@ def _without_effect(config: Config, idle: dict[str, str]) -> list[Fault]:
 
 def _dropping_none(config: Config, number: int) -> Fault:
     """The fault of an [[exclude]] table that matches no combination."""
-    keys, combinations = ", ".join(config.exclude[number]), f"{case_count(config):,} combinations"
-    line = f"[[exclude]] of {keys}, number {number + 1}: drops none of {combinations}"
-    return Fault("exclude", f"{line}; allowed: tables that match at least one")
+    where = f"[[exclude]] of {', '.join(config.exclude[number])}, number {number + 1}"
+    return Fault("exclude", f"{where}: drops no case; allowed: tables that drop at least one")
 
 
 def _axes(config: Config) -> Iterator[tuple[str, str, tuple[Written, ...]]]:
@@ -240,7 +239,8 @@ def _fault(reason: Reason, given: Values) -> Fault:
         return Fault(key, line)
     if value is None:
         return Fault(key, f"{key} is missing; needed: {allowed}")
-    text = f"{json.dumps(value)} {case_keys()[key].unit or ''}".rstrip()
+    text = f"{value:g}" if isinstance(value, float) else json.dumps(value)
+    text = f"{text} {case_keys()[key].unit or ''}".rstrip()
     why = f", as {reason['since']} is given" if reason.get("since") else " by default"
     return Fault(key, f"{key} = {text}{why}: does not fit; allowed: {allowed}")
 

@@ -6,7 +6,7 @@ import pytest
 
 from sweep.config import ConfigError, load_config
 from sweep.grid import expand
-from tests.structures import BEAM
+from tests.structures import BEAM, ROD
 
 BOTH = '[grid]\nloading.mode = ["force", "displacement"]\n'
 PRESSED = '[loading]\nmode = "displacement"\n'
@@ -152,3 +152,12 @@ def test_what_counts_in_motion_alone_is_refused_in_statics(tmp_path, parts, line
 def test_weights_count_in_statics(tmp_path):
     heavy = {"masses": [{"node": 1, "mass_g": 2}], "gravity_mm_s2": [0, -9810]}
     assert in_statics(tmp_path, ["static"], **heavy)
+
+
+def test_statics_that_another_key_implies_is_refused_with_that_key(load, tmp_path):
+    (tmp_path / "loose.json").write_text(json.dumps(ROD))
+    with pytest.raises(ConfigError) as caught:
+        load('[lattice]\nkind = "custom"\nfile = "loose.json"\n[loading]\nquasi_static = true')
+    assert str(caught.value).startswith(
+        'solver.integrator = "static", as loading.quasi_static is given: does not fit; allowed:'
+    )

@@ -190,8 +190,8 @@ AXES = {
     ),
     "[grid]\nlattice.cells = [2, 3]\n[[exclude]]\nlattice.cells = 2\n"
     "[[exclude]]\nlattice.cells = 4\ncontact.friction = 0.3": (
-        "[[exclude]] of lattice.cells, contact.friction, number 2: drops none of 2 combinations;"
-        " allowed: tables that match at least one"
+        "[[exclude]] of lattice.cells, contact.friction, number 2: drops no case; allowed: tables"
+        " that drop at least one"
     ),
     "[grid]\nlattice.cells = [2, 3]\n[[exclude]]\nlattice.cells = [2, 3]": (
         "[[exclude]] drops all 2 cases; allowed: tables that leave at least one"
