@@ -23,16 +23,16 @@ from kernels.cache import SealedCache
 
 
 class Linked(JITCodeLibrary):
-    """Code that is linked into its callers, where it is optimised in full and made machine code.
+    """Code that is linked into its callers, where it is optimised and made machine code.
 
     Doing so at every level would double the time of a compilation.
     """
 
+    def _optimize_functions(self, ll_module):
+        ll_module.data_layout = self._codegen._data_layout
+
     def _optimize_final_module(self):
-        cheap, timing = self._codegen._module_pass_manager(
-            loop_vectorize=False, slp_vectorize=False, opt=3, cost="cheap"
-        )
-        cheap.run(self._final_module, timing)
+        """Leave it as it is."""
 
     def _finalize_final_module(self):
         self._finalize_dynamic_globals()
