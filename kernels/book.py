@@ -42,6 +42,22 @@ def strike(state, layout, mass, speed):
             state.v[i] = after
 
 
+@jit_exact
+def made(state, at, mass, dt):
+    """Return the energy that a step of backward Euler makes, and all there is, in J.
+
+    Where the potential is not convex its loss may be negative, the more the longer the step.
+    """
+    loss, there = 0.0, state.book[KINETIC]
+    for i in range(mass.size):
+        change = at.u[i] / dt - state.v[i]
+        loss += at.elastic[i] * at.u[i] + 0.5 * mass[i] * change * change
+    for k in range(at.stored.size):
+        loss -= at.stored[k] - state.stored[k]
+        there += max(at.stored[k], state.stored[k])
+    return -loss, max(there, abs(state.book[WORK]))
+
+
 @jit_inlined
 def enter(terms, step, unknowns, state, at, work):
     """Add one converged step, found by the last `evaluate`, to the energy book."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from kernels import damp, friction, inertia, scheme
 from kernels.balance import allowed, largest, reduce
-from kernels.book import INTEGRATOR, KINETIC, enter, move_apart, strike
+from kernels.book import INTEGRATOR, KINETIC, enter, made, move_apart, strike
 from kernels.caliper import height
 from kernels.jit import jit_exact, jit_inlined, jit_owning
 from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, OUTGROWN, minimise
@@ -18,10 +18,13 @@ from kernels.step import Step, drift, find_near, holds_crowd, least_gap, rub
 
 TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP, SPEED = range(10, 17)
 N_COLUMNS = 17
-SMALLEST = 2.0**-21  # share of a step
+SMALLEST = 2.0**-24  # share of a step
 LONGER = 0.1  # of the error that is allowed: the next step may be twice as long
 FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 GRIP_LOOPS = 30  # fixed-point iterations of friction
+EASY_LOOPS = 10  # after more of them the next step is no longer
+GIFT = 2e-3  # of all energy: what backward Euler may make, and once more in all further steps
+SHORT = 2.0**-12  # share of a step that may make more
 # Of what is to be done: see `_go`. SPENT, EFFORT, TRIED: iterations for a row, a share, a minimum.
 ROW, DONE, SHARE, FAILED, SPENT, EFFORT, TRIED, LOOPS, MOVE, RELAXED, LENGTH = range(11)
 LAST = 3  # of the totals
@@ -135,7 +138,10 @@ def _begin(terms, stage, target, driven, state, near, room, todo):
     rate = state.rates[POSITION]
     damp.prepare(terms, before, damp.Ahead(ahead, last, rate, work.dx, work.trial, at.shape))
     if terms.friction.mu > 0.0:
+        held = grips.count[0]
         friction.lag(x, terms.contact, near.pairs, drift(x, terms, near), terms.friction, grips)
+        if held + grips.count[0] > 0:  # the next Hessian is another
+            work.kept[0] = np.inf
     todo[LOOPS], todo[RELAXED], todo[EFFORT], todo[TRIED] = 0.0, 0.0, 0.0, 0.0
 
 
@@ -143,11 +149,14 @@ def _begin(terms, stage, target, driven, state, near, room, todo):
 def _grips_agree(x, terms, step, near, unknowns, tolerance, room, todo):
     """Lag friction anew; return whether ``x`` is still in balance (then nothing is changed)."""
     _, at, work, grips, way = room
+    held = grips.count[0]
     copy(at.g, work.trial)
     copy(at.rubbing, work.escape)
     y = way[LAGGED]
     todo[RELAXED] = approach(x, y, way[CHANGE], unknowns, todo[RELAXED])
     friction.lag(y, terms.contact, near.pairs, drift(y, terms, near), terms.friction, grips)
+    if held + grips.count[0] == 0:
+        return True
     rub(terms, step, at)
     reduce(at.g, unknowns, work.residual)
     enough = max(tolerance.friction, tolerance.grip * largest(at.rubbing, unknowns))
@@ -159,6 +168,14 @@ def _grips_agree(x, terms, step, near, unknowns, tolerance, room, todo):
     todo[LOOPS], todo[TRIED] = todo[LOOPS] + 1.0, 0.0
     zero(work.dx)
     return agree
+
+
+@jit_exact
+def _invents(terms, stage, state, at, share, noise):
+    """Return whether a step of backward Euler makes energy that none was lost for before."""
+    gain, there = made(state, at, terms.mass, stage.dt * share)
+    enough = GIFT * there + noise
+    return gain - state.book[INTEGRATOR] > enough and gain > enough * share / stage.steps
 
 
 @jit_exact
@@ -194,10 +211,13 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
         if outcome == CONVERGED and not holds_crowd(near, state.x, terms):
             zero(work.dx)
             return OUTGROWN
-        todo[LOOPS], strayed = -1.0, 0.0
+        loops, todo[LOOPS], strayed = todo[LOOPS], -1.0, 0.0
         if outcome == CONVERGED and stage.error < np.inf:
             strayed = scheme.error(state, before.x0, dt, step.dt, way[HEAVY]) / stage.error
             outcome = INACCURATE if strayed > 1.0 else CONVERGED
+        if outcome == CONVERGED and step.dt == dt < np.inf and todo[SHARE] > SHORT:
+            if _invents(terms, stage, state, at, todo[SHARE], tolerance.noise):
+                outcome = INACCURATE
         if outcome != CONVERGED:
             copy(before.x0, state.x)
             zero(at.least)  # what was found last was found elsewhere
@@ -216,9 +236,9 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
         enter(terms, step, unknowns, state, at, work)
         move_apart(terms, step, state, near, at, work)
         todo[DONE], todo[FAILED] = todo[DONE] + todo[SHARE], 0.0
-        if todo[SHARE] < 1.0 or terms.friction.mu > 0.0:  # the next Hessian is another
+        if todo[SHARE] < 1.0:  # the next Hessian is another
             work.kept[0] = np.inf
-        easy = strayed < LONGER and todo[EFFORT] <= tolerance.iterations
+        easy = strayed < LONGER and todo[EFFORT] <= tolerance.iterations and loops <= EASY_LOOPS
         if easy and todo[DONE] % (2.0 * todo[SHARE]) == 0.0:
             todo[SHARE] *= 2.0
         state.totals[1] += 1

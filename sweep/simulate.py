@@ -140,8 +140,11 @@ class _Run:
 
     def _invents(self) -> bool:
         """Whether an integrator in time has given more than a share `GIFT` of the work done."""
-        made, work = self.rows[: self.done, book.INTEGRATOR], self.rows[: self.done, book.WORK]
-        return not self.case.loading.quasi_static and bool(made.min() < -GIFT * work.max())
+        if self.case.loading.quasi_static:
+            return False
+        lost, work = self.rows[: self.done, book.INTEGRATOR], self.rows[: self.done, book.WORK]
+        noise = tolerances(self.case, self.scene, self.stages[0].stage.dt).noise
+        return bool(lost.min() < -GIFT * work.max() - noise)
 
     def _balances(self) -> bool:
         """Whether the energy book closes but for a share `GAP` of what passes through it."""

@@ -7,6 +7,7 @@ import pytest
 
 from sweep.config import load_config
 from sweep.grid import expand
+from sweep.simulate import warm_up
 from tests.scenes import pressed, run
 from tests.solving import whole
 from tests.stability import audit, draw, model
@@ -18,6 +19,7 @@ FEW, CONVERGED = 40, 14
 
 @pytest.fixture(scope="module")
 def drawn():
+    warm_up()  # no scene waits for a compiler
     return [draw.scene(number)[1] for number in range(FEW)]
 
 
@@ -44,6 +46,13 @@ def test_light_scenes_violate_nothing(drawn):
     assert [found.violations for found in audits] == [()] * len(light)
     assert [found.status for found in audits].count("converged") == CONVERGED
     assert sum(found.balanced for found in audits) > len(light)
+
+
+@pytest.mark.parametrize("number", [389, 463], ids=["nothing moves", "far too long steps"])
+def test_backward_euler_makes_no_energy(number):
+    warm_up()
+    found = audit.audit(draw.scene(number)[1])
+    assert (found.status, found.violations) == ("converged", ())
 
 
 def test_what_is_wrong_is_seen():

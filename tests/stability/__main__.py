@@ -15,6 +15,7 @@ from rich.progress import track
 
 from sweep.config import load_config
 from sweep.grid import expand
+from sweep.simulate import warm_up
 from tests.stability.audit import audit
 from tests.stability.draw import CONFIGS
 
@@ -61,7 +62,7 @@ def markdown(counts):
 def main(folder):
     """Print the table; write it and what every scene did."""
     cases = expand(load_config(CONFIGS / "extreme.toml"))
-    with ProcessPoolExecutor(WORKERS, get_context("spawn")) as pool:
+    with ProcessPoolExecutor(WORKERS, get_context("spawn"), warm_up) as pool:
         found = pool.map(audit, cases)
         audits = list(track(found, "scenes", len(cases), console=Console(stderr=True)))
     lines = markdown(counted(cases, audits))

@@ -21,7 +21,7 @@ COUNT, SEED = 500, 20
 MOST_NODES = 1200
 CONFIGS = Path(__file__).parents[2] / "configs"
 SWAY = 0.474  # buckling stress of a square grid / (Y' (t / L)^3), rows swaying
-ALIKE = {"solver.time_limit": 20.0, "solver.max_iterations": 500}
+ALIKE = {"solver.time_limit": 40.0, "solver.max_iterations": 500}
 HEAD = """\
 # Five hundred stiff and extreme scenes, for `make stability`.
 #
@@ -29,7 +29,7 @@ HEAD = """\
 name = "extreme"
 
 [solver]
-time_limit = "20 s"
+time_limit = "40 s"
 max_iterations = 500
 
 [[zip]]
