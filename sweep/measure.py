@@ -37,6 +37,7 @@ BOOK = {
     "energy_residual_J": book.RESIDUAL,
 }
 DISSIPATED = ("dissipated_material_J", "dissipated_friction_J", "dissipated_integrator_J")
+TOUCHING = ("contact_J", "injected_by_projection_J")
 PLATEAU = ("plateau_stress_Pa", "densification_strain", "efficiency")
 PLATEAU_START = 0.05  # strain from which a plateau is averaged at the earliest
 
@@ -128,6 +129,7 @@ def summarise(
         "peak_force_N": float(transmitted(case, history).max()),
         "peak_strain": float(history["strain"].max()),
         "min_gap_m": float(gaps.min()) if len(gaps) else np.nan,
+        "touched": int(any(np.any(history[name] != 0.0) for name in TOUCHING)),
         **impact_columns(case, scene, history),
         **crush_columns(case, loading),
         **shape_columns(scene, frames, loading),

@@ -186,6 +186,8 @@ def _contact(
     """
     if contact.model == "position_based":
         return _by_position(contact, loading, structure)
+    if contact.model == "auto":
+        contact = contact.model_copy(update={"model": "barrier"})
     floor = structure is not None and structure.floor_y_mm is not None
     if contact.model == "none" and loading.platen != "contact" and not floor:
         return Contact(model="none", friction=None, stiffness=None)

@@ -132,6 +132,7 @@ COLUMNS: dict[str, Column] = {
     "min_gap_m": Column(
         "m", "least distance of a centre line from others near it and from loose platens, else NaN"
     ),
+    "touched": Column("1", "1 where contact was at work in any row, else 0: there none is needed"),
     "max_crossings": Column("1", "walls that pass through one another in any stored frame"),
     "steps": Column("1", "accepted time or load steps"),
     "newton_iterations": Column("1", "Newton iterations of the whole run"),
@@ -261,5 +262,5 @@ def failed_result(case: Case, status: Status, message: str) -> Result:
     """Row of a case that left nothing to measure: its design, NaN for every measure, no curves."""
     measures = {name: nan for name in COLUMNS if name not in ("case_id", "status", "message")}
     measures |= {absorbed_energy_column(force): nan for force in case.loading.allowed_forces or ()}
-    counts = {"max_crossings": 0, "steps": 0, "newton_iterations": 0}
+    counts = {"touched": 0, "max_crossings": 0, "steps": 0, "newton_iterations": 0}
     return Result(case.case_id, status, message, measures | counts | design_columns(case))

@@ -175,10 +175,12 @@ class Loading(Table):
 class Contact(Table):
     """Wall against wall and wall against platen; `stiffness` is the factor c of the barrier.
 
-    position_based: what is too near is moved apart after each step.
+    auto: the barrier, which acts where walls come within a thickness of one another and costs next
+    to nothing elsewhere; `touched` tells whether it did. position_based: what is too near is moved
+    apart after each step.
     """
 
-    model: Literal["none", "barrier", "position_based"] = "barrier"
+    model: Literal["auto", "none", "barrier", "position_based"] = "auto"
     friction: NonNegative | None = 0.3
     stiffness: Annotated[float, Field(gt=0)] | None = 1.0
     slip_speed: Speed | None = None

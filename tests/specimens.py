@@ -31,6 +31,7 @@ _DEFAULTS = {
     "absorbed_energy_J": 0.05,
     "peak_force_N": 20.0,
     "densification_strain": 0.55,
+    "touched": 1,
     "max_crossings": 0,
     "cpu_s": 2.0,
 }

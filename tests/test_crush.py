@@ -40,6 +40,11 @@ def test_absorbed_energy_against_solid_elements(elements, strain, energy):
     assert absorbed == pytest.approx(energy, rel=0.07 if strain <= 0.4 else 0.10)
 
 
+def test_a_crush_tells_whether_walls_touch():
+    assert run(pressed(3, 0.05, 10)).summary["touched"] == 0
+    assert to_60_percent(6).summary["touched"] == 1
+
+
 @pytest.mark.parametrize(("platen", "unload"), [("glued", True), ("contact", False)])
 def test_number_of_load_steps_changes_nothing(platen, unload):
     """On loose platens the way back passes through snaps, whose moment the steps decide."""

@@ -91,6 +91,13 @@ def test_without_them_the_mode_is_a_force(given):
     assert Case(loading=Loading(**given)) == Case(loading=Loading(mode="force", **given))
 
 
+def test_contact_by_itself_is_the_barrier():
+    assert Contact().model == "auto"
+    case = Case(contact=Contact(model="auto"))
+    assert case.contact.model == "barrier"
+    assert case.case_id == Case(contact=Contact(model="barrier")).case_id == Case().case_id
+
+
 def test_slip_speed_without_friction_does_not_count():
     slow, fast = (
         pressed(speed=1e-3).model_copy(update={"contact": Contact(friction=0.0, slip_speed=v)})

@@ -52,7 +52,7 @@ CHOICES = {
     ),
     '[material]\nbend = "curve"': 'material.bend = "curve"; "linear", "section" or "none"',
     '[contact]\nmodel = "by_position"': (
-        'contact.model = "by_position"; "none", "barrier" or "position_based"'
+        'contact.model = "by_position"; "auto", "none", "barrier" or "position_based"'
     ),
     '[solver]\nhessian = "tangent"': 'solver.hessian = "tangent"; "exact" or "tangent_modulus"',
     '[solver]\nintegrator = "bdf3"': (

@@ -114,4 +114,5 @@ def test_seed_holds_its_numbers(model, hinges, energy, within):
     assert summary["max_crossings"] == 0
     assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
     assert (summary["injected_by_projection_J"] > 0.0) == (model == "position_based")
+    assert summary["touched"] == 1
     assert 1e3 * summary["absorbed_energy_J"] == pytest.approx(energy, rel=within)
