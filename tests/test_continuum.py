@@ -1,13 +1,7 @@
-"""The solid of `make continuum`: its energy, its elements, its contact; and the network beside it.
-
-Skipped where the packages of the extra `continuum` are not installed.
-"""
+"""The solid of `make continuum`: energy, elements, contact; and the network beside it."""
 
 import numpy as np
 import pytest
-
-pytest.importorskip("skfem", reason="the extra `continuum` is not installed")
-
 from skfem import MeshQuad
 
 from tests.continuum.grid import Grid
