@@ -76,6 +76,11 @@ def parser() -> Parser:
     run.add_argument("--workers", type=_count, default=2, metavar="N", help="default: 2")
     run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster: tcp://host:8786")
     run.add_argument("--dry-run", action="store_true", help="estimate time and disk, write nothing")
+    run.add_argument(
+        "--error-bars",
+        action="store_true",
+        help="run each design on another mesh and with longer steps, and estimate its error",
+    )
     run.add_argument("--retry-failed", action="store_true", help="compute failed cases once more")
 
     accuracy = verbs.add_parser(
