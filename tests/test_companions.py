@@ -197,6 +197,13 @@ def test_companion_that_is_a_design_of_the_sweep_runs_once(out, log, logged):
     assert list(read_summary(out)[BAR]) == pytest.approx([1.0 + 0.5, 0.5 + 0.5])
 
 
+def test_companion_that_an_earlier_sweep_left_does_not_run(out, log, logged):
+    run_sweep(config(lattice__nodes_per_wall=(2, 5)), out, simulate=logged)
+    add_error_bars(config(lattice__nodes_per_wall=(2,)), out, simulate=logged)
+    assert len(log) == len(set(log)) == 3
+    assert read_summary(out)[BAR].notna().tolist() == [True, False]
+
+
 def test_failed_companion_leaves_the_design_without_a_bar_and_is_told(out, capsys):
     run_sweep(config(), out, simulate=without_fine_meshes)
     assert add_error_bars(config(), out, simulate=without_fine_meshes) == 1
@@ -233,7 +240,7 @@ def test_error_columns_have_the_unit_of_what_they_are_about():
 
 
 def test_error_bar_covers_the_error_of_a_crush():
-    """A slice of what `tests/coverage.py` measures: a cell pressed to half its height."""
+    """A slice of what `make bars` measures: a cell pressed to half its height."""
     loading = Loading(mode="displacement", strain=0.5, allowed_forces=(5.0,))
     design = Case(
         lattice=Lattice(cells_x=2, cells_y=2), loading=loading, solver=Solver(load_steps=50)
