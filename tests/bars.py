@@ -22,7 +22,7 @@ EVERY = 4  # cases of the sweep: as many of each scene
 CELLS = 4  # across, at most: with twelve elements a wall a larger crush takes ten minutes
 ELEMENTS, STEPS = 12, 4  # of a wall; for one of the design
 PATIENCE = 1800.0  # s for a case
-ROUND_OFF = 1e-6  # share below which there is no error to cover
+DIGITS, ROUND_OFF = 9, 1e-6  # of shares; below the second there is no error to cover
 NAMES = {"displacement": "crushed", "force": "dead load"}
 
 
@@ -41,7 +41,10 @@ def finer(case):
 
 
 def beside_finer(designs, references):
-    """A row for each error bar: what it is of, the bar and the error, as shares of the value."""
+    """A row for each error bar: what it is of, the bar and the error, as shares of the value.
+
+    Columns of a case that say the same, such as energy and energy per gram, count once.
+    """
     rows = []
     for (_, design), (_, fine) in zip(designs.iterrows(), references.iterrows(), strict=True):
         if not design["status"] == fine["status"] == Status.CONVERGED:
@@ -50,9 +53,9 @@ def beside_finer(designs, references):
             value, bar = design[name], design[f"error_{name}"]
             error = abs(value - fine[name])
             if error > ROUND_OFF * abs(value) and bar == bar:
-                row = {"scene": NAMES[design["loading_mode"]], "column": name}
+                row = {"case": design.name, "scene": NAMES[design["loading_mode"]], "column": name}
                 rows.append(row | {"bar": bar / abs(value), "error": error / abs(value)})
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows).round(DIGITS).drop_duplicates(["case", "bar", "error"])
 
 
 def coverage(bars):
