@@ -29,9 +29,9 @@ sweep: setup  ## simulate what CONFIG asks for (finished cases are kept) and ran
 	$(PYTHON) -m sweep rank $(RESULTS) --out $(TABLES) && exit $$status
 
 rank: setup  ## rank the results of CONFIG again, running the sweep first if there are none
-	@test -f $(RESULTS) || $(PYTHON) -m sweep run $(CONFIG) --out $(RESULTS) || test $$? -eq 1
+	@if test -f $(RESULTS); then $(PYTHON) -m sweep rank $(RESULTS); \
+	else $(PYTHON) -m sweep run $(CONFIG) --out $(RESULTS) || test $$? -eq 1; fi
 	@$(PYTHON) -m sweep rank $(RESULTS) --out $(TABLES)
-	@$(PYTHON) -m sweep rank $(RESULTS)
 
 lint: setup  ## check style and types
 	$(PYTHON) -m ruff check

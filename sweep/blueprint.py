@@ -11,6 +11,7 @@ from pydantic import ValidationError
 from sweep.custom import Load, PointMass, Prescribed, SpringPart, Structure, Support
 
 MAX_ELEMENTS = 50_000
+TOUCHING = 1e-9  # of half a wall: round-off
 _PARTS = (Structure, Support, Load, Prescribed, PointMass, SpringPart)
 _EITHER = {"wall_thickness_mm", "subdivide", "initial_velocity_mm_s"}
 _KEYS = list(dict.fromkeys(key for part in _PARTS for key in part.model_fields))
@@ -169,10 +170,8 @@ def _geometry(of: Structure) -> Iterator[str]:
     for k, (a, b) in enumerate(spring.nodes for spring in of.springs):
         if of.nodes_mm[a] == of.nodes_mm[b]:
             yield _fault(("springs", k, "nodes"), (a, b), "has no length; allowed: two nodes apart")
-    lowest = float(points[ends, 1].min())
-    if of.floor_y_mm is not None and of.floor_y_mm >= lowest:
-        wrong = f"does not fit; allowed: below all walls, {lowest:g} here"
-        yield _fault(("floor_y_mm",), of.floor_y_mm, wrong)
+    if of.floor_y_mm is not None:
+        yield from _sunk(of, of.floor_y_mm)
     lines = linestrings(points[ends])
     one, two = STRtree(lines).query(lines)
     one, two = one[one < two], two[one < two]
@@ -186,6 +185,19 @@ def _geometry(of: Structure) -> Iterator[str]:
         if _overlap(points, of.walls[i], of.walls[j]):
             wrong = f"lies upon wall {i}; allowed: walls in different directions at a node"
             yield _fault(("walls", int(j)), of.walls[j], wrong)
+
+
+def _sunk(of: Structure, floor: float) -> Iterator[str]:
+    """The node whose wall reaches farthest into the floor."""
+    reaches = [
+        (of.nodes_mm[node][1] - 0.5 * thickness, node, 0.5 * thickness)
+        for wall, thickness in zip(of.walls, of.thickness_mm, strict=True)
+        for node in wall
+    ]
+    lowest, node, half = min(reaches)
+    if floor > lowest + TOUCHING * half:
+        wrong = f"node {node} is {lowest + half - floor:g} mm above it, half its wall {half:g} mm"
+        yield _fault(("floor_y_mm",), floor, f"{wrong}; allowed: at most {lowest:g} here")
 
 
 def _overlap(points: Any, one: tuple[int, int], two: tuple[int, int]) -> bool:

@@ -57,10 +57,10 @@ class Endless(Network):
         return self.unit**2 * float(shapely.area(inside))
 
 
-def build_endless(lattice: Lattice, cut: tuple[float, float] = (0.0, 0.0)) -> Endless:
-    """The endless lattice of which ``lattice`` is a period; ``cut`` (m): its lower left corner."""
+def build_endless(lattice: Lattice) -> Endless:
+    """The endless lattice of which ``lattice`` is a period."""
     period, cells = np.array([lattice.width, lattice.height]), (lattice.cells_x, lattice.cells_y)
-    points, ends, shift = _walls(lattice, period, np.array(cut))
+    points, ends, shift = _walls(lattice, period)
     away = np.mgrid[-FAR : FAR + 1, -FAR : FAR + 1].reshape(2, -1).T
     middle = 0.5 * (points[ends].sum(axis=1) + shift * period)
     copied, reach = middle + away[:, None] * period, REACH * period / cells
@@ -88,9 +88,9 @@ def build_endless(lattice: Lattice, cut: tuple[float, float] = (0.0, 0.0)) -> En
     )
 
 
-def _walls(lattice: Lattice, period: Floats, cut: Floats) -> tuple[Floats, Indices, Indices]:
-    """Joints (j, 2) of the period from ``cut``, m from there; the two joints of each wall (w, 2),
-    and how many periods away (w, 2) the second one is.
+def _walls(lattice: Lattice, period: Floats) -> tuple[Floats, Indices, Indices]:
+    """Joints (j, 2) of the period, m from its lower left corner; the two joints of each wall (w,
+    2), and how many periods away (w, 2) the second one is.
     """
     drawn = sketch(lattice)
     low, high = extent(drawn.kind, drawn.orientation, drawn.cells)
@@ -98,7 +98,7 @@ def _walls(lattice: Lattice, period: Floats, cut: Floats) -> tuple[Floats, Indic
     segments = segments_of(drawer(drawn.kind, drawn.orientation)(columns, rows))
     tolerance = TOLERANCE * period.max()
     points, walls = welded((segments - low) * (np.array(drawn.box) / (high - low)), tolerance)
-    ends = points[walls] - cut
+    ends = points[walls]
     middle = ends.mean(axis=1)
     ends = ends[np.all((middle >= -tolerance) & (middle < period - tolerance), axis=1)]
     shift = np.floor((ends + tolerance) / period).astype(np.int64)

@@ -1,5 +1,6 @@
 """From a config to its cases: grid x zips, without what is excluded and without doubles."""
 
+import json
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -79,7 +80,8 @@ def case_count(config: Config) -> int:
 def expand(config: Config) -> list[Case]:
     """All cases, the first axis of the grid varying slowest; of equal ones, the first.
 
-    A key that none of them needs is refused: it says something that does not happen.
+    A key that none of them needs is refused: it says something that does not happen. So is a table
+    of [[exclude]] that drops none.
     """
     count = case_count(config)
     if count > MAX_CASES:
@@ -88,8 +90,11 @@ def expand(config: Config) -> list[Case]:
     cases: dict[str, Case] = {}
     refused: dict[str, list[Fault]] = {}
     idle = dict.fromkeys(_spoken_for(config), "")
+    dropped: set[int] = set()
     for draft in _drafts(config):
-        if any(draft.matches(table) for table in config.exclude):
+        matching = {k for k, table in enumerate(config.exclude) if draft.matches(table)}
+        dropped |= matching
+        if matching:
             continue
         for fault in draft.faults:
             refused.setdefault(fault.key, []).append(fault)
@@ -101,8 +106,11 @@ def expand(config: Config) -> list[Case]:
     if not cases:
         line = f"[[exclude]] drops all {count:,} cases; allowed: tables that leave at least one"
         raise ConfigError([Fault("exclude", line)])
+    faults = [_dropping_none(config, k) for k in range(len(config.exclude)) if k not in dropped]
     if any(idle.values()):
-        raise ConfigError(_without_effect(config, idle))
+        faults += _without_effect(config, idle)
+    if faults:
+        raise ConfigError(faults)
     return list(cases.values())
 
 
@@ -164,16 +172,18 @@ def _spoken_for(config: Config) -> list[str]:
 
 
 def _without_effect(config: Config, idle: dict[str, str]) -> list[Fault]:
-    """A fault for each key that no case needs; `idle` holds the reasons."""
+    """A fault for each key that no case needs; `idle` says why."""
     lines = {key: f"{written.name or key} = {written.text}" for key, written in config.base.items()}
     for where, name, values in _axes(config):
         texts = ", ".join(written.text for written in values)
         lines[_keys(name)[0]] = f"{where} {name} = [{texts if len(texts) < 60 else '...'}]"
-    return [
-        Fault(key, f"{line}: has no effect, as {idle[key]}")
-        for key, line in lines.items()
-        if idle.get(key)
-    ]
+    return [Fault(key, f"{line}: {idle[key]}") for key, line in lines.items() if idle.get(key)]
+
+
+def _dropping_none(config: Config, number: int) -> Fault:
+    """The fault of an [[exclude]] table that matches no combination."""
+    where = f"[[exclude]] of {', '.join(config.exclude[number])}, number {number + 1}"
+    return Fault("exclude", f"{where}: drops no case; allowed: tables that drop at least one")
 
 
 def _axes(config: Config) -> Iterator[tuple[str, str, tuple[Written, ...]]]:
@@ -229,8 +239,10 @@ def _fault(reason: Reason, given: Values) -> Fault:
         return Fault(key, line)
     if value is None:
         return Fault(key, f"{key} is missing; needed: {allowed}")
-    default = f"{value} {case_keys()[key].unit or ''}".rstrip()
-    return Fault(key, f"{key} = {default} by default: does not fit; allowed: {allowed}")
+    text = f"{value:g}" if isinstance(value, float) else json.dumps(value)
+    text = f"{text} {case_keys()[key].unit or ''}".rstrip()
+    why = f", as {reason['since']} is given" if reason.get("since") else " by default"
+    return Fault(key, f"{key} = {text}{why}: does not fit; allowed: {allowed}")
 
 
 def _in_unit_of(written: Written, key: str, sentence: str) -> str:

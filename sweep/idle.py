@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
+from sweep.custom import Structure
 from sweep.numerics import ARCS
 from sweep.params import Case
 
@@ -12,8 +13,28 @@ def still_idle(idle: Mapping[str, str], given: Mapping[str, Any], case: Case) ->
 
     given : the values that the case, resolved, is made from, by their dotted keys.
     """
-    reasons = {key: why_idle(key, given, case) for key in idle if key in given}
+    reasons = {key: _clause(key, given, case) for key in idle if key in given}
     return {key: reasons.get(key, why) for key, why in idle.items() if reasons.get(key, "-")}
+
+
+def _clause(key: str, given: Mapping[str, Any], case: Case) -> str:
+    """What of a key has no effect, and why; empty if all of it has."""
+    if key == "lattice.file" and case.lattice.structure is not None:
+        return _idle_part(case.lattice.structure, case)
+    why = why_idle(key, given, case)
+    return f"has no effect, as {why}" if why else ""
+
+
+def _idle_part(of: Structure, case: Case) -> str:
+    """What of a structure's file only counts in motion."""
+    if not case.loading.quasi_static:
+        return ""
+    static = f'solver.integrator is "{case.solver.integrator}"'
+    if any(map(any, of.velocity_mm_s)):
+        return f"its initial_velocity_mm_s has no effect, as {static}"
+    if any(part.mass_g for part in of.masses) and not any(of.gravity_mm_s2):
+        return f"masses in it have no effect, as {static} and there is no gravity"
+    return ""
 
 
 def why_idle(key: str, given: Mapping[str, Any], case: Case) -> str:

@@ -124,6 +124,11 @@ def _words(schema: dict[str, Any]) -> str:
         return "true or false"
     if schema["type"] == "string":
         return "text"
-    bounds = [f"{words} {schema[name]:g}" for name, words in _BOUNDS.items() if name in schema]
+    unit = f" {schema['unit']}" if schema.get("unit", "1") != "1" else ""
+    bounds = [
+        f"{words} {schema[name]:g}{unit if schema[name] else ''}"
+        for name, words in _BOUNDS.items()
+        if name in schema
+    ]
     noun = "a whole number" if schema["type"] == "integer" else "a number"
     return ", ".join([QUANTITIES[schema["unit"]] if "unit" in schema else noun, *bounds])

@@ -147,6 +147,8 @@ class Reader:
         """Values of keys that make a case be dropped, as the case would hold them; none if one is
         wrong.
         """
+        if not table:
+            self._refuse("[[exclude]]", table, "is empty; allowed: at least one key")
         excluded = {}
         for name, raw in table.items():
             raws = raw if isinstance(raw, list) else [raw]

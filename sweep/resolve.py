@@ -63,7 +63,8 @@ def _own(loading: Loading, structure: Structure, integrator: str | None) -> Load
         found = loosest(structure)
         if found:
             allowed = f"{IN_TIME}, or more supports: {found}"
-            raise refusal("solver.integrator", integrator or "static", allowed)
+            since = "loading.quasi_static"
+            raise refusal("solver.integrator", integrator or "static", allowed, since)
     if integrator == ARCS and structure.prescribed:
         allowed = '"static", or loads instead of prescribed moves'
         raise refusal("solver.integrator", ARCS, allowed)
@@ -151,15 +152,14 @@ def _mean(loading: Loading, height: float, integrator: str | None) -> Loading:
     At rest: the inertia of its mean motion depends on where one stands.
     """
     endless = 'if lattice.boundary is "periodic"'
-    for key, value, allowed in (
-        ("mode", loading.mode, "displacement"),
-        ("platen", loading.platen or "none", "none"),
-    ):
-        if value != allowed:
-            raise refusal(f"loading.{key}", value, f'"{allowed}" {endless}')
+    if loading.mode != "displacement":
+        allowed = f'"displacement" {endless}'
+        raise refusal("loading.mode", loading.mode, allowed, loading.says_mode)
+    if loading.platen not in (None, "none"):
+        raise refusal("loading.platen", loading.platen, f'"none" {endless}')
     led = _displacement(loading.model_copy(update={"platen": None}), height, integrator)
     if not led.quasi_static:
-        raise refusal("loading.quasi_static", False, f"true {endless}")
+        raise refusal("loading.quasi_static", False, f"true {endless}", "loading.speed")
     return led.model_copy(update={"platen": "none"})
 
 

@@ -10,12 +10,13 @@ from pydantic_core import PydanticCustomError
 from sweep.blueprint import read_structure
 from sweep.custom import Structure
 from sweep.infill import families, trait
-from sweep.tables import Few, Length, Mass, Table, refusal
+from sweep.tables import Few, Length, Mass, Size, Table, refusal
 
 CUSTOM = "custom"
 LINE_WIDTH, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m, of a 0.4 mm nozzle
 # The factor of 70 000 nodes takes 8 GB, and a step with it minutes.
 MAX_NODES = 50_000
+MAX_ASPECT = 1000.0  # of the box: beyond, walls fall together in the arithmetic of areas
 
 
 def _known(kind: str) -> str:
@@ -57,9 +58,9 @@ class Lattice(Table):
     boundary: Literal["free", "periodic"] = "free"
     cells_x: Few = 3
     cells_y: Few = 3
-    width: Length = 12.5e-3
-    height: Length = 12.5e-3
-    depth: Length = 12e-3
+    width: Size = 12.5e-3
+    height: Size = 12.5e-3
+    depth: Size = 12e-3
     wall_thickness: Length = 0.8e-3
     mass: Mass | None = None
     infill: Share | None = None
@@ -86,6 +87,7 @@ class Lattice(Table):
             repeat(self)
         if self.structure is not None:
             return self._measured(self.structure)
+        be_in_proportion(self)
         lines = self.perimeters > 0 or self.infill is not None
         used = {
             "file": None,
@@ -204,6 +206,16 @@ class Lattice(Table):
             return self.width, self.height
         sides, caps = (outline or self.wall_thickness for outline in self.outline)
         return self.width + sides, self.height + caps
+
+
+def be_in_proportion(lattice: Lattice) -> None:
+    """Refuse a box whose sides are too unlike."""
+    key, other = ("width", "height") if "width" in lattice.model_fields_set else ("height", "width")
+    value, side = getattr(lattice, key), getattr(lattice, other)
+    least, most = side / MAX_ASPECT, side * MAX_ASPECT
+    if not least <= value <= most:
+        allowed = f"from {least:g} m to {most:g} m, a thousandth to a thousand times the {other}"
+        raise refusal(f"lattice.{key}", value, allowed)
 
 
 def leave_openings(lattice: Lattice) -> None:

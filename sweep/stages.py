@@ -21,50 +21,50 @@ SCHEMES = {
 }
 
 
-class Stretch(NamedTuple):
+class Phase(NamedTuple):
     """A stage with its name, for messages."""
 
     name: str
     stage: march.Stage
 
 
-def stages(case: Case, scene: Scene) -> list[Stretch]:
+def stages(case: Case, scene: Scene) -> list[Phase]:
     """Loading and unloading as stages with linear ramps, gone through as the solver is told."""
     chosen = SCHEMES[given(case.solver.integrator)]
     error = np.inf if case.solver.step_error is None else case.solver.step_error
     return [
-        Stretch(name, stage._replace(scheme=chosen, error=error))
+        Phase(name, stage._replace(scheme=chosen, error=error))
         for name, stage in _stages(case, scene)
     ]
 
 
-def _stages(case: Case, scene: Scene) -> list[Stretch]:
+def _stages(case: Case, scene: Scene) -> list[Phase]:
     loading, solver = case.loading, case.solver
     pace = time_step(case)
     dt = np.inf if loading.quasi_static else pace
     if loading.mode == "custom":
         steps = solver.load_steps or max(round(given(loading.duration) / pace), 1)
         start = 0.0 if loading.quasi_static else 1.0
-        return [Stretch("loading", march.Stage(steps, dt, pace, start, 1.0, 0.0, scene.travel))]
+        return [Phase("loading", march.Stage(steps, dt, pace, start, 1.0, 0.0, scene.travel))]
     rest = float(scene.x_rest[-1])
     if loading.mode == "displacement":
         low, steps = rest - given(loading.stroke), given(solver.load_steps)
         down = march.Stage(steps, dt, pace, 0.0, 0.0, rest, low)
         up = march.Stage(steps, dt, pace, 0.0, 0.0, low, rest)
-        return [Stretch("loading", down)] + ([Stretch("unloading", up)] if loading.unload else [])
+        return [Phase("loading", down)] + ([Phase("unloading", up)] if loading.unload else [])
     if loading.mode == "impact":
         return _flight(max(round(given(loading.duration) / pace), 1), dt, rest)
     release, duration = given(loading.release_time), given(loading.duration)
     hold, free = max(round(release / pace), 1), max(round((duration - release) / pace), 0)
     held = march.Stage(hold, dt, pace, 1.0, 1.0, rest, rest)
     released = march.Stage(free, dt, pace, 0.0, 0.0, rest, rest)
-    return [Stretch("loading", held)] + ([Stretch("released", released)] if free else [])
+    return [Phase("loading", held)] + ([Phase("released", released)] if free else [])
 
 
-def _flight(steps: int, dt: float, rest: float) -> list[Stretch]:
+def _flight(steps: int, dt: float, rest: float) -> list[Phase]:
     """A striker that flies by itself, in stages after which the run may end."""
     parts = [min(GLANCE, steps - done) for done in range(0, steps, GLANCE)]
-    return [Stretch("struck", march.Stage(n, dt, dt, 0.0, 0.0, rest, rest)) for n in parts]
+    return [Phase("struck", march.Stage(n, dt, dt, 0.0, 0.0, rest, rest)) for n in parts]
 
 
 def tolerances(case: Case, scene: Scene, dt: float) -> Tolerance:

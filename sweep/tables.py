@@ -13,6 +13,7 @@ BY_NUMBERS = "by numbers"
 SIGNIFICANT = 12  # digits of a number that count in an id: a unit conversion leaves them alone
 
 Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m"})]
+Size = Annotated[float, Field(gt=0, le=1e3, json_schema_extra={"unit": "m"})]
 Duration = Annotated[float, Field(gt=0, json_schema_extra={"unit": "s"})]
 Lag = Annotated[float, Field(ge=0, json_schema_extra={"unit": "s"})]
 Rate = Annotated[float, Field(ge=0, json_schema_extra={"unit": "1/s"})]
@@ -40,9 +41,12 @@ class Table(BaseModel):
     labels: ClassVar[tuple[str, ...]] = ()  # keys that never do
 
 
-def refusal(key: str, value: object, allowed: str) -> PydanticCustomError:
-    """The error of one key whose value does not go with the rest of its case."""
-    context = {"key": key, "value": value, "allowed": allowed}
+def refusal(key: str, value: object, allowed: str, since: str | None = None) -> PydanticCustomError:
+    """The error of one key whose value does not go with the rest of its case.
+
+    since : the key that implies the value, where it need not be given itself.
+    """
+    context = {"key": key, "value": value, "allowed": allowed, "since": since}
     return PydanticCustomError("refused", "{key} = {value}; allowed: {allowed}", context)
 
 
@@ -160,6 +164,12 @@ class Loading(Table):
             keys = f"as loading.{key} needs the one and loading.{also} the other"
             raise refusal("loading.mode", None, f'"{one}" or "{other}", {keys}')
         return {"mode": next(iter(said), "force"), **given}
+
+    @property
+    def says_mode(self) -> str | None:
+        """The first key that is given and implies the mode."""
+        keys = (*MODES.get(self.mode, ()), "duration")
+        return next((f"loading.{key}" for key in keys if getattr(self, key) is not None), None)
 
 
 class Contact(Table):

@@ -1,13 +1,18 @@
-"""The README taken apart: its code blocks, its tables, what it quotes, its examples."""
+"""The README and its two further pages taken apart: code blocks, tables, quotations, examples."""
 
 import re
 from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).parents[1]
-TEXT = (ROOT / "README.md").read_text("utf-8")
+NAMES = ("README.md", "configs/README.md", "kernels/README.md")
+PAGES = {name: (ROOT / name).read_text("utf-8") for name in NAMES}
+TEXT = "\n".join(PAGES.values())
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)
 QUOTED = set(re.findall(r"`([^`\n]+)`", TEXT))
+
+
+NUMBER = r"(?<![\w.])[-+]?\d[\d.]*(?:e[-+]?\d+)?(?![\w.])"
 
 
 class Example(NamedTuple):
@@ -29,6 +34,22 @@ def tables():
     return [[[cell.strip() for cell in row] for row in [t[0], *t[2:]]] for t in rows]
 
 
+def table(first):
+    """The rows of the table whose head begins so, without the head."""
+    (found,) = (rows[1:] for rows in tables() if rows[0][0] == first)
+    return found
+
+
+def numbers(row):
+    """The numbers of a row, but for those of its first cell."""
+    return [float(number) for number in re.findall(NUMBER, " ".join(row[1:]))]
+
+
+def words(row):
+    """The cells of a row, # in place of numbers but in the first."""
+    return [row[0], *(re.sub(NUMBER, "#", cell) for cell in row[1:])]
+
+
 def examples():
     """Rankings that the README shows, each with the command that prints it."""
     shown = [text.splitlines() for text in blocks("text") if text.startswith("$ crumple rank ")]
@@ -36,5 +57,5 @@ def examples():
 
 
 def says(line):
-    """True if the README has this line, however it is wrapped."""
+    """True if a page has this line, however it is wrapped."""
     return " ".join(line.split()) in " ".join(TEXT.split())

@@ -23,6 +23,17 @@ UNDAMPED = Damping(model="none")
 FIRST_ROOT = 1.8751040687119611  # of cos k cosh k = -1: first mode of a cantilever
 CLAMPED = ["x", "y", "rotation"]
 ROD = {"nodes_mm": [[0, 0], [LENGTH, 0]], "walls": [[0, 1]], "probes": [0, 1]}
+TILT = np.radians(10.0)
+PENDULUM = {
+    "nodes_mm": [[0, 0], [LENGTH * np.sin(TILT), -LENGTH * np.cos(TILT)]],
+    "walls": [[0, 1]],
+    "wall_thickness_mm": 4.0,
+    "subdivide": 8,
+    "pins": [0],
+    "supports": [{"node": 0, "fix": ["x", "y"]}],
+    "gravity_mm_s2": [0, -GRAVITY],
+    "probes": [0, 1],
+}
 BEAM = ROD | {"supports": [{"node": 0, "fix": CLAMPED}], "subdivide": 32}
 
 
@@ -75,6 +86,11 @@ def set_off(walls, amplitude, thickness=THICKNESS):
         "initial_velocity_mm_s": [[0.0, v] for v in speed],
         "probes": [walls],
     }
+
+
+def swing(inertia):
+    """Period (s) of the pendulum whose moment of inertia is ``inertia`` m L^2."""
+    return 2.0 * np.pi * np.sqrt(2.0 * inertia * LENGTH / GRAVITY) * (1.0 + TILT**2 / 16.0)
 
 
 def finished(case):

@@ -5,14 +5,16 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+import readme
 from specimens import summary, there_and_back
 from test_cli import config, crumple  # noqa: F401 a fixture
 
 from sweep.accuracy import AccuracyError, energy, path, peak, studies
 from sweep.config import load_config
 from sweep.grid import expand
-from sweep.precision import accuracy_sheets, answers, scene_title
+from sweep.precision import accuracy_sheets, answers, scene_title, setting
 from sweep.result import HISTORY_COLUMNS, Result, Status
+from sweep.run import run_sweep
 from sweep.simulate import simulate
 from sweep.store import read_summary
 from sweep.writer import Writer
@@ -224,6 +226,36 @@ def chosen(name, **values):
         if all(case.axes[keys[key]] == value for key, value in values.items())
     )
     return case
+
+
+# Of every study in the README the file, and which cases are enough for its rows.
+TOLD = {
+    "buckled": ("crush", {"loading.strain": 0.3, "solver.hinges": "exact_beam"}),
+    "packed": ("crush", {"contact.friction": 0.0, "solver.hinges": "exact_beam"}),
+    "force": ("force", {"solver.integrator": "bdf2", "solver.step_error": None}),
+    "impact": ("impact", {"solver.integrator": "newmark"}),
+    "vibration": ("vibration", {"solver.step_error": None}),
+}
+
+
+@pytest.mark.parametrize("name", TOLD)
+def test_readme_tells_what_the_studies_find(name, tmp_path):
+    (file, needed), path = TOLD[name], tmp_path / "study.h5"
+    cases = expand(load_config(CONFIGS / f"{file}.toml"))
+    run_sweep([case for case in cases if needed.items() <= case.axes.items()], path)
+    (found,) = studies(path, read_summary(path))
+    sheet, _ = accuracy_sheets(found, name)
+    first = sheet.heads.index("energy %")
+    words = [setting(found, row).removeprefix("as set, ") for _, row in found.settings.iterrows()]
+    errors = {key: row[first : first + 3] for key, row in zip(words, sheet.rows, strict=True)}
+    told = [row for row in readme.table("study") if row[0] == name]
+    assert len(told) >= 2
+    assert {row[0] for row in readme.table("study")} == TOLD.keys()
+    for _, words, *texts, _ in told:
+        (key,) = (key for key in errors if f", {words}".endswith(f", {key}"))
+        said, shown = ["", *texts], ["", *errors[key]]
+        assert readme.words(said) == readme.words(shown)
+        assert readme.numbers(said) == pytest.approx(readme.numbers(shown), rel=0.1)
 
 
 @pytest.mark.parametrize(

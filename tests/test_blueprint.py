@@ -51,8 +51,14 @@ WRONG = {
         "springs[0].nodes = [1, 1]: has no length; allowed: two nodes apart",
     ),
     "floor above a wall": (
-        {"floor_y_mm": 0},
-        "floor_y_mm = 0.0: does not fit; allowed: below all walls, 0 here",
+        {"floor_y_mm": 1},
+        "floor_y_mm = 1.0: node 0 is -1 mm above it, half its wall 0.4 mm; allowed: at most -0.4"
+        " here",
+    ),
+    "floor within a wall": (
+        {"floor_y_mm": -0.7, "wall_thickness_mm": [1.0, 2.0]},
+        "floor_y_mm = -0.7: node 1 is 0.7 mm above it, half its wall 1 mm; allowed: at most -1"
+        " here",
     ),
     "same wall twice": (
         {"walls": [[0, 1], [1, 2], [1, 0]]},

@@ -13,10 +13,12 @@ from tests.structures import (
     LENGTH,
     MASS,
     MM,
+    PENDULUM,
     ROD,
     let_go,
     momentum,
     probe,
+    swing,
 )
 
 L = LENGTH * MM
@@ -71,24 +73,12 @@ def test_momentum_of_a_free_body():
 
 def test_pendulum():
     """A rod on a pin falls through 10 degrees with the period of its compound pendulum."""
-    tilt = np.radians(10.0)
-    parts = {
-        "nodes_mm": [[0, 0], [LENGTH * np.sin(tilt), -LENGTH * np.cos(tilt)]],
-        "walls": [[0, 1]],
-        "wall_thickness_mm": 4.0,
-        "subdivide": 8,
-        "pins": [0],
-        "supports": [{"node": 0, "fix": ["x", "y"]}],
-        "gravity_mm_s2": [0, -GRAVITY],
-        "probes": [0, 1],
-    }
-    result = let_go(parts, 0.3, 2.5e-4)
+    result = let_go(PENDULUM, 0.3, 2.5e-4)
     x, time = probe(result, 1, "x_m"), result.history["time_s"]
     k = np.flatnonzero(x < 0.0)[0]
     quarter = time[k] - 2.5e-4 * x[k] / (x[k] - x[k - 1])
-    inertia = 1.0 / 3.0 + 1.0 / (6.0 * 8**2)  # of lumped masses, m L^2
-    period = 2.0 * np.pi * np.sqrt(2.0 * inertia * L / G) * (1.0 + tilt**2 / 16.0)
-    assert 4.0 * quarter == pytest.approx(period, rel=5e-3)
+    lumped = 1.0 / 3.0 + 1.0 / (6.0 * PENDULUM["subdivide"] ** 2)
+    assert 4.0 * quarter == pytest.approx(swing(lumped), rel=5e-3)
 
 
 def test_rod_comes_to_rest_on_the_floor():

@@ -1,9 +1,12 @@
 """No key that a user writes is without effect in silence: a sweep that needs it not says so."""
 
+import json
+
 import pytest
 
 from sweep.config import ConfigError, load_config
 from sweep.grid import expand
+from tests.structures import BEAM, ROD
 
 BOTH = '[grid]\nloading.mode = ["force", "displacement"]\n'
 PRESSED = '[loading]\nmode = "displacement"\n'
@@ -114,4 +117,47 @@ def test_keys_of_both_modes_need_the_mode(load):
     assert str(caught.value) == (
         'loading.mode is missing; needed: "force" or "displacement", as loading.force needs the'
         " one and loading.strain the other (2 of 2 combinations)"
+    )
+
+
+def in_statics(folder, integrators, **parts):
+    """Load the sweep of a structure over integrators."""
+    (folder / "one.json").write_text(json.dumps(BEAM | parts))
+    text = '[lattice]\nkind = "custom"\nfile = "one.json"\n[grid]\nsolver.integrator = '
+    (folder / "sweep.toml").write_text(f"{text}{json.dumps(integrators)}")
+    return load_config(folder / "sweep.toml")
+
+
+@pytest.mark.parametrize(
+    ("parts", "line"),
+    [
+        (
+            {"initial_velocity_mm_s": [0, 3]},
+            'its initial_velocity_mm_s has no effect, as solver.integrator is "static"',
+        ),
+        (
+            {"masses": [{"node": 1, "mass_g": 2}]},
+            'masses in it have no effect, as solver.integrator is "static" and there is no gravity',
+        ),
+    ],
+)
+def test_what_counts_in_motion_alone_is_refused_in_statics(tmp_path, parts, line):
+    with pytest.raises(ConfigError) as caught:
+        in_statics(tmp_path, ["static"], **parts)
+    assert str(caught.value) == f'lattice.file = "one.json": {line}'
+    assert in_statics(tmp_path, ["static", "bdf2"], **parts)
+    assert in_statics(tmp_path, ["bdf2"], **parts)
+
+
+def test_weights_count_in_statics(tmp_path):
+    heavy = {"masses": [{"node": 1, "mass_g": 2}], "gravity_mm_s2": [0, -9810]}
+    assert in_statics(tmp_path, ["static"], **heavy)
+
+
+def test_statics_that_another_key_implies_is_refused_with_that_key(load, tmp_path):
+    (tmp_path / "loose.json").write_text(json.dumps(ROD))
+    with pytest.raises(ConfigError) as caught:
+        load('[lattice]\nkind = "custom"\nfile = "loose.json"\n[loading]\nquasi_static = true')
+    assert str(caught.value).startswith(
+        'solver.integrator = "static", as loading.quasi_static is given: does not fit; allowed:'
     )

@@ -1,4 +1,4 @@
-"""What the README says: its commands, files, keys, columns, snippets and figures are real."""
+"""What README and its pages say: commands, files, keys, columns, snippets, figures are real."""
 
 import json
 import os
@@ -10,7 +10,7 @@ import figures
 import matplotlib.pyplot
 import pytest
 import readme
-from readme import QUOTED, ROOT, blocks
+from readme import NUMBER, QUOTED, ROOT, blocks, numbers, words
 
 from sweep.__main__ import main, parser
 from sweep.config import load_config, quantity
@@ -23,15 +23,15 @@ from sweep.result import COLUMNS
 from sweep.simulate import simulate
 from sweep.writer import Writer
 
+FOLDERS = ("", "kernels", "sweep", "configs", "configs/accuracy")
 MADE_BY_RUNNING = {"bumper.toml", "results/bench/bench.md"}
-NUMBER = r"(?<![\w.])[-+]?\d[\d.]*(?:e[-+]?\d+)?(?![\w.])"
 
 
 def test_lines_are_few_and_tables_narrow():
     lines = readme.TEXT.splitlines()
     fenced = [line for text in blocks("text") for line in text.splitlines()]
     wide = [line for line in lines if line.startswith("|") or line in fenced]
-    assert len(lines) < 420
+    assert len(readme.PAGES["README.md"].splitlines()) <= 420
     assert max(map(len, wide)) <= 100
     assert max(map(len, lines)) <= 128
 
@@ -55,10 +55,29 @@ def test_files_exist():
     missing = [
         name
         for name in named - MADE_BY_RUNNING
-        if not any((ROOT / folder / name).is_file() for folder in ("", "kernels", "sweep"))
+        if not any((ROOT / folder / name).is_file() for folder in FOLDERS)
     ]
     assert missing == []
     assert len(named) > 20
+
+
+@pytest.mark.parametrize("page", readme.PAGES)
+def test_links_lead_somewhere(page):
+    links = re.findall(r"\]\((\S+?)\)", readme.PAGES[page])
+    assert [link for link in links if not (ROOT / page).parent.joinpath(link).is_file()] == []
+
+
+def test_further_pages_are_linked():
+    links = re.findall(r"\]\((\S+?)\)", readme.PAGES["README.md"])
+    assert set(links) == readme.PAGES.keys() - {"README.md"}
+
+
+def test_every_config_is_named():
+    named = {row[0].strip("`") for row in readme.table("config")}
+    folder = ROOT / "configs"
+    found = {path for name in named for path in folder.glob(name)}
+    assert found == set(folder.rglob("*.toml"))
+    assert all(any(folder.glob(name)) for name in named)
 
 
 def test_every_term_of_the_energy_is_named():
@@ -80,8 +99,8 @@ def test_example_has_as_many_cases_as_it_says(tmp_path):
 
 
 def keys_of(table):
-    """What the README says of the keys of a table."""
-    (text,) = re.findall(rf"^- `\[{table}\]`: (.*?)(?=^- |\n\n)", readme.TEXT, re.M | re.S)
+    """What is said of the keys of a table."""
+    (text,) = re.findall(rf"^- `\[{table}\]`:\s(.*?)(?=^- |\n\n)", readme.TEXT, re.M | re.S)
     return " ".join(text.split())
 
 
@@ -105,6 +124,22 @@ def test_defaults_are_those_of_a_case(table):
         assert value in [getattr(getattr(case, table), name) for case in modes], name
 
 
+def test_structure_is_that_of_the_config():
+    (drawn,) = blocks("json")
+    assert drawn == (ROOT / "configs/custom.json").read_text("utf-8")
+
+
+def test_every_key_of_a_structure_is_explained_with_its_default():
+    fields = Structure.model_fields
+    said = {row[0].strip("`"): row[2] for row in readme.table("key")}
+    assert list(said) == sorted(fields, key=list(said).index)
+    for name, text in said.items():
+        if text:
+            told = None if text == "none" else json.loads(text)
+            default = fields[name].default
+            assert told == (list(default) or None if isinstance(default, tuple) else default)
+
+
 def test_columns_exist():
     named = {words for words in QUOTED if re.fullmatch(r"[a-z_]+_(J|N|g|m|Pa|s|J_per_g)", words)}
     assert {"mass_g", "absorbed_energy_J"} <= named <= {*COLUMNS, *RECORD, *Structure.model_fields}
@@ -112,7 +147,7 @@ def test_columns_exist():
 
 def test_refusal_reads_so(tmp_path, capsys):
     path = tmp_path / "bumper.toml"
-    path.write_text('[lattice]\nwall_thicknes = "0.8 mm"\ndepth = 12\n')
+    path.write_text('[lattice]\nwall_thicknes = "0.8 mm"\n[loading]\nforce = 12\n')
     assert main(["run", str(path)]) == 2
     assert capsys.readouterr().err in blocks("text")
 
@@ -149,14 +184,6 @@ def test_figures_are_those_of_make_verify():
             assert words(said) == words(row)
             if row[0] not in figures.OF_THIS_RUN:
                 assert numbers(said) == pytest.approx(numbers(row), rel=0.01, abs=0.05), row
-
-
-def numbers(row):
-    return [float(number) for number in re.findall(NUMBER, " ".join(row[1:]))]
-
-
-def words(row):
-    return [row[0], *(re.sub(NUMBER, "#", cell) for cell in row[1:])]
 
 
 def test_worst_book_is_below_a_millionth():

@@ -5,6 +5,9 @@ import pytest
 from sweep.config import ConfigError, load_config
 
 LENGTH = 'a length with a unit, such as "0.8 mm", above 0'
+SIZE = f"{LENGTH}, at most 1000 m"
+PERIODIC = '[lattice]\nboundary = "periodic"\n'
+LED = 'allowed: "displacement" if lattice.boundary is "periodic"'
 CELLS = "a whole number, at least 1, at most 1000"
 MATERIALS = "cheetah, filaflex_60a, ninjaflex, overture_tpu, polymaker_tpu90, ultimaker_tpu95a"
 THOUSAND = [round(0.01 + 1e-4 * i, 6) for i in range(1000)]
@@ -14,14 +17,15 @@ VALUES = {
         'lattice.wall_thicknes = "0.8 mm": unknown key; the nearest is lattice.wall_thickness'
     ),
     '[latice]\nwidth = "1 mm"': 'latice = {"width": "1 mm"}: unknown key; the nearest is lattice',
-    "[lattice]\nwidth = 12.5": f"lattice.width = 12.5: a bare number; allowed: {LENGTH}",
+    "[lattice]\nwidth = 12.5": f"lattice.width = 12.5: a bare number; allowed: {SIZE}",
     '[lattice]\nwidth = "1 kg"': (
-        f'lattice.width = "1 kg": "kg" is a unit of another kind; allowed: {LENGTH}'
+        f'lattice.width = "1 kg": "kg" is a unit of another kind; allowed: {SIZE}'
     ),
-    '[lattice]\nwidth = "1 mmm"': f'lattice.width = "1 mmm": unknown unit "mmm"; allowed: {LENGTH}',
-    '[lattice]\ndepth = "-8 mm"': f'lattice.depth = "-8 mm": out of range; allowed: {LENGTH}',
-    '[lattice]\nwidth = "1e999 mm"': f'lattice.width = "1e999 mm": not finite; allowed: {LENGTH}',
-    "[lattice]\nwidth = true": f"lattice.width = true: no quantity; allowed: {LENGTH}",
+    '[lattice]\nwidth = "1 mmm"': f'lattice.width = "1 mmm": unknown unit "mmm"; allowed: {SIZE}',
+    '[lattice]\ndepth = "-8 mm"': f'lattice.depth = "-8 mm": out of range; allowed: {SIZE}',
+    '[lattice]\nwidth = "1e30 m"': f'lattice.width = "1e30 m": out of range; allowed: {SIZE}',
+    '[lattice]\nwidth = "1e999 mm"': f'lattice.width = "1e999 mm": not finite; allowed: {SIZE}',
+    "[lattice]\nwidth = true": f"lattice.width = true: no quantity; allowed: {SIZE}",
     "[lattice]\ncells_x = true": f"lattice.cells_x = true: wrong type; allowed: {CELLS}",
     "[lattice]\ncells_y = 3.0": f"lattice.cells_y = 3.0: wrong type; allowed: {CELLS}",
     "lattice = 3": "lattice = 3: not a table; allowed: a table [lattice]",
@@ -121,6 +125,25 @@ UNFIT = {
         'solver.integrator = "newmark": does not fit; allowed: "backward_euler" if contact.model is'
         ' "position_based"'
     ),
+    f'{PERIODIC}[loading]\nforce = "3 N"': (
+        f'loading.mode = "force", as loading.force is given: does not fit; {LED}'
+    ),
+    f'{PERIODIC}[loading]\nduration = "1 s"': (
+        f'loading.mode = "force", as loading.duration is given: does not fit; {LED}'
+    ),
+    PERIODIC: f'loading.mode = "force" by default: does not fit; {LED}',
+    f'{PERIODIC}[loading]\nspeed = "1 m/s"': (
+        "loading.quasi_static = false, as loading.speed is given: does not fit; allowed: true if"
+        ' lattice.boundary is "periodic"'
+    ),
+    '[lattice]\nwidth = "40 mm"\nheight = "0.01 mm"': (
+        'lattice.width = "40 mm": does not fit; allowed: from 1e-05 mm to 10 mm, a thousandth to'
+        " a thousand times the height"
+    ),
+    '[lattice]\nheight = "30 m"': (
+        'lattice.height = "30 m": does not fit; allowed: from 1.25e-05 m to 12.5 m, a thousandth'
+        " to a thousand times the width"
+    ),
     '[material]\nmodulus = "12 MPa"': (
         "material.density is missing; needed: a density, as no name is given"
     ),
@@ -158,11 +181,17 @@ AXES = {
     "[[exclude]]\nlatice.cells = 2": (
         "[[exclude]] latice.cells = 2: unknown key; the nearest is lattice.cells"
     ),
+    "[[exclude]]": "[[exclude]] = {}: is empty; allowed: at least one key",
     "[[exclude]]\nlattice.cells = []": (
         "[[exclude]] lattice.cells = []: is empty; allowed: at least one value"
     ),
     '[[exclude]]\nrank.budgets = ["2 g"]': (
         '[[exclude]] rank.budgets = "2 g": unknown key; the nearest is solver.hinges'
+    ),
+    "[grid]\nlattice.cells = [2, 3]\n[[exclude]]\nlattice.cells = 2\n"
+    "[[exclude]]\nlattice.cells = 4\ncontact.friction = 0.3": (
+        "[[exclude]] of lattice.cells, contact.friction, number 2: drops no case; allowed: tables"
+        " that drop at least one"
     ),
     "[grid]\nlattice.cells = [2, 3]\n[[exclude]]\nlattice.cells = [2, 3]": (
         "[[exclude]] drops all 2 cases; allowed: tables that leave at least one"

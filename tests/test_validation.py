@@ -3,8 +3,10 @@
 from math import isnan
 
 import pytest
+import readme
 
 from tests.validation import PROBLEMS
+from tests.validation.__main__ import HEAD, row
 from tests.validation.elastica import cantilever
 from tests.validation.problem import Finding, find
 
@@ -17,6 +19,17 @@ def test_problem_is_solved_with_the_order_of_the_method(problem):
     assert found.error < problem.within
     if problem.order:
         assert found.order == pytest.approx(problem.order, abs=BAND)
+    (told,) = (cells for cells in readme.table(HEAD[0]) if cells[0] == problem.name)
+    shown = row(problem, found)[: len(HEAD)]
+    assert readme.words(told) == readme.words(shown)
+    *values, _ = readme.numbers(shown)
+    assert readme.numbers(told)[: len(values)] == pytest.approx(values, rel=1e-4)
+    assert readme.numbers(told) == pytest.approx(readme.numbers(shown), abs=0.02)
+
+
+def test_every_problem_of_the_readme_is_solved():
+    told = [name for name, *_ in readme.table(HEAD[0])]
+    assert told == [problem.name for problem in PROBLEMS]
 
 
 def test_cantilever_is_that_of_the_literature():

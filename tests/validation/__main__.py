@@ -8,10 +8,11 @@ from math import isnan
 from pathlib import Path
 
 from tests.validation import PROBLEMS
-from tests.validation.problem import find
+from tests.validation.problem import SOURCES, find
 
-HEAD = ("problem", "truth", "source", "values at three meshes", "order", "error at the finest")
-HEAD += ("extrapolated",)
+HEAD = ("problem", "source", "truth", "coarse", "middle", "fine", "order")
+MORE = ("error, %", "extrapolated, %", "meshes")
+NOTES = "\n".join(f"{source}: {more}." for source, more in SOURCES.items())
 
 
 def line(texts):
@@ -19,37 +20,36 @@ def line(texts):
     return f"| {' | '.join(texts)} |"
 
 
-def row(problem):
-    """What a problem says."""
-    found = find(problem)
-    values = zip(problem.meshes, found.values, strict=True)
-    return line(
-        [
-            problem.name,
-            f"{found.truth:.6g}",
-            problem.source,
-            ", ".join(f"{value:.6g} ({mesh})" for mesh, value in values),
-            "-" if isnan(found.order) else f"{found.order:.2f}",
-            f"{100.0 * found.error:.2g} %",
-            f"{100.0 * found.extrapolated:.1g} %",
-        ]
-    )
+def row(problem, found):
+    """What a problem says: the cells of `HEAD`, then those of `MORE`, of the finest mesh."""
+    return [
+        problem.name,
+        problem.source,
+        *(f"{value:.5g}" for value in (found.truth, *found.values)),
+        "-" if isnan(found.order) else f"{found.order:.2f}",
+        f"{100.0 * found.error:.2g}",
+        f"{100.0 * found.extrapolated:.1g}",
+        ", ".join(map(str, problem.meshes)),
+    ]
 
 
 def main(folder):
     """Print the rows as they are found; write them to a folder."""
     lines = []
-    for made in (lambda: line(HEAD), lambda: line(["---"] * len(HEAD)), *map(later, PROBLEMS)):
-        lines.append(made())
-        sys.stdout.write(f"{lines[-1]}\n")
+    for text in table():
+        lines.append(text)
+        sys.stdout.write(f"{text}\n")
         sys.stdout.flush()
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "validation.md").write_text("\n".join([*lines, ""]), "utf-8")
 
 
-def later(problem):
-    """A problem, to be solved when its turn comes."""
-    return lambda: row(problem)
+def table():
+    """Lines, each as soon as its problem is solved."""
+    yield line(HEAD + MORE)
+    yield line(["---"] * len(HEAD + MORE))
+    yield from (line(row(problem, find(problem))) for problem in PROBLEMS)
+    yield f"\n{NOTES}"
 
 
 if __name__ == "__main__":

@@ -5,16 +5,13 @@ import numpy as np
 from tests.structures import BEAM, CLAMPED, LENGTH, MM, THICKNESS, probe, pushed
 from tests.validation.elastica import cantilever, deflection
 from tests.validation.exact import Frame
-from tests.validation.problem import Problem, axial, bending
+from tests.validation.problem import ELASTICA, EULER, RODS, Problem, axial, bending
 
 THIN = 0.5  # mm, so that stretching hardly matters
 L = LENGTH * MM
 BEYOND = 1.5  # times the Euler load
 FORCE = bending(THIN) / L**2
 THINNED = {"wall_thickness_mm": THIN}
-EULER = "Euler, with the column's own shortening"
-RODS = "exact rods by collocation (SciPy)"
-BISSHOPP = "elliptic integrals (Bisshopp & Drucker 1945)"
 SIDEWAYS = 1e-4  # of the Euler load
 
 
@@ -110,11 +107,11 @@ def bent_exactly(clamped):
 
 
 PROBLEMS = (
-    Problem("cantilever, P L^2 = Y I: drop", drop(1.0), cantilever(1.0)[0], BISSHOPP),
-    Problem("cantilever, P L^2 = 10 Y I: drop", drop(10.0), cantilever(10.0)[0], BISSHOPP),
-    Problem("beam rolled up by a moment: width", rolled, 1.0 / np.pi, "circle of length L"),
+    Problem("cantilever, P L^2 = Y I: drop", drop(1.0), cantilever(1.0)[0], ELASTICA),
+    Problem("cantilever, P L^2 = 10 Y I: drop", drop(10.0), cantilever(10.0)[0], ELASTICA),
+    Problem("beam rolled up by a moment: width", rolled, 1.0 / np.pi, "circle"),
     Problem("hinged column: buckling load", critical(False), shortened(False), EULER),
     Problem("clamped column: buckling load", critical(True), shortened(True), EULER),
-    Problem("hinged column at 1.5 of that: deflection", bent(False), bent_exactly(False), RODS),
-    Problem("clamped column at 1.5 of that: deflection", bent(True), bent_exactly(True), RODS),
+    Problem("hinged column at 1.5 of that: bow", bent(False), bent_exactly(False), RODS),
+    Problem("clamped column at 1.5 of that: bow", bent(True), bent_exactly(True), RODS),
 )

@@ -4,9 +4,8 @@ import numpy as np
 
 from tests.structures import AXIAL, CLAMPED, MM, probe, pushed
 from tests.validation.exact import Frame
-from tests.validation.problem import Problem, bending
+from tests.validation.problem import RODS, Problem, bending
 
-RODS = "exact rods by collocation (SciPy)"
 HINGED = ["x", "y"]
 
 PORTAL = {
@@ -146,6 +145,6 @@ PROBLEMS = (
     Problem("portal under 8 Y I / L^2: sway", sway, sway_exactly, RODS),
     Problem("von Mises truss: limit load", truss_limit, truss_exactly, "closed form", order=0),
     Problem("Lee's frame: first limit load", lee_limit, lee_limit_exactly, RODS),
-    Problem("Lee's frame: farthest before it returns", lee_return, lee_return_exactly, RODS),
+    Problem("Lee's frame: where it turns back", lee_return, lee_return_exactly, RODS),
     Problem("Williams' toggle: first limit load", williams_limit, williams_exactly, RODS),
 )

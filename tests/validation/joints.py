@@ -4,7 +4,7 @@ import numpy as np
 
 from tests.structures import AXIAL, BENDING, CLAMPED, MM, probe, pushed
 from tests.validation.exact import Frame
-from tests.validation.problem import Problem, bending
+from tests.validation.problem import RODS, Problem, bending
 
 LENGTHS = (100.0, 60.0, 40.0, 80.0)  # mm
 WAYS = {"L": ((-1, 0), (0, -1)), "T": ((-1, 0), (1, 0), (0, -1))}
@@ -78,7 +78,6 @@ def turned_exactly():
 
 
 BEAMS = "linear beams"
-RODS = "exact rods by collocation (SciPy)"
 PROBLEMS = (
     *(
         Problem(

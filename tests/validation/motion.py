@@ -16,10 +16,13 @@ from tests.structures import (
     MASS,
     MATERIAL,
     MM,
+    PENDULUM,
     ROD,
+    TILT,
     let_go,
     probe,
     structure,
+    swing,
 )
 from tests.validation.problem import Problem
 
@@ -78,18 +81,7 @@ def roots():
     return [brentq(lambda z: np.cos(z) * np.cosh(z) + 1.0, *place) ** 2 for place in places]
 
 
-TILT = np.radians(10.0)
-PENDULUM = {
-    "nodes_mm": [[0, 0], [LENGTH * np.sin(TILT), -LENGTH * np.cos(TILT)]],
-    "walls": [[0, 1]],
-    "wall_thickness_mm": 4.0,
-    "subdivide": 8,
-    "pins": [0],
-    "supports": [{"node": 0, "fix": ["x", "y"]}],
-    "gravity_mm_s2": [0, -GRAVITY],
-    "probes": [0, 1],
-}
-PERIOD = 2.0 * np.pi * np.sqrt(2.0 / 3.0 * L / G) * (1.0 + TILT**2 / 16.0)
+PERIOD = swing(1.0 / 3.0)
 
 
 def kept(steps):
@@ -101,7 +93,7 @@ def kept(steps):
 
 PROBLEMS = (
     Problem(
-        "rod under a sudden pull: move of its end", wave, 1.5, "d'Alembert",
+        "rod suddenly pulled: move of its end", wave, 1.5, "d'Alembert",
         (200, 400, 800), 0, 1e-5,
     ),
     *(

@@ -8,6 +8,13 @@ from tests.structures import DEPTH, MATERIAL, MM
 
 NOISE = 1e-7  # differences below it are the solver's tolerance
 
+ELASTICA, EULER, RODS = "elastica", "Euler", "exact rods"
+SOURCES = {
+    ELASTICA: "by elliptic integrals, Bisshopp & Drucker 1945",
+    EULER: "with the column's own shortening",
+    RODS: "by collocation (SciPy)",
+}
+
 
 @dataclass(frozen=True)
 class Problem:
