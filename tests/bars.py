@@ -1,7 +1,7 @@
-"""Whether error bars cover the error: designs of `configs/armor.toml` beside much finer runs.
+"""Whether error bars cover the error: designs of two sweeps beside much finer runs of the same.
 
-Run by `make bars`: every fourth case of the sweep, the largest lattices left out, with error bars,
-and the same with twelve elements a wall and steps a quarter as long, which stands for the truth.
+Run by `make bars`: every few cases of a sweep, the largest lattices left out, with error bars, and
+the same with twelve elements a wall and steps a quarter as long, which stands for the truth.
 What is finished is kept in the folder given.
 """
 
@@ -17,13 +17,13 @@ from sweep.run import run_sweep
 from sweep.sheets import Sheet, markdown
 from sweep.store import read_summary
 
-CONFIG = Path(__file__).parents[1] / "configs" / "armor.toml"
-EVERY = 4  # cases of the sweep: as many of each scene
+CONFIGS = Path(__file__).parents[1] / "configs"
+EVERY = {"armor.toml": 4, "impact.toml": 3}  # cases: as many of each scene
 CELLS = 4  # across, at most: with twelve elements a wall a larger crush takes ten minutes
 ELEMENTS, STEPS = 12, 4  # of a wall; for one of the design
 PATIENCE = 1800.0  # s for a case
 DIGITS, ROUND_OFF = 9, 1e-6  # of shares; below the second there is no error to cover
-NAMES = {"displacement": "crushed", "force": "dead load"}
+NAMES = {"displacement": "crushed", "force": "dead load", "impact": "struck"}
 
 
 def finer(case):
@@ -76,8 +76,8 @@ def coverage(bars):
 
 def main(folder):
     """Run what is missing, and print the table."""
-    designs = expand(load_config(CONFIG))[::EVERY]
-    designs = [design for design in designs if design.lattice.cells_x <= CELLS]
+    sweeps = [expand(load_config(CONFIGS / name))[::every] for name, every in EVERY.items()]
+    designs = [design for cases in sweeps for design in cases if design.lattice.cells_x <= CELLS]
     references = [finer(design) for design in designs]
     files = folder / "designs.h5", folder / "references.h5"
     run_sweep(designs, files[0])
@@ -87,7 +87,9 @@ def main(folder):
         read_summary(file).set_index("case_id").loc[[case.case_id for case in cases]]
         for file, cases in zip(files, (designs, references), strict=True)
     ]
-    sys.stdout.write(markdown([coverage(beside_finer(*tables))]))
+    bars = beside_finer(*tables)
+    told = f"{bars['case'].nunique()} of {len(designs)} cases; the others did not converge."
+    sys.stdout.write(markdown([coverage(bars)._replace(notes=(told,))]))
 
 
 if __name__ == "__main__":
