@@ -12,7 +12,8 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test verify validate accuracy bars stability bench experiment figures lint clean
+.PHONY: help setup sweep rank test verify validate continuum accuracy bars stability bench experiment \
+        figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -46,6 +47,9 @@ verify: setup  ## print the numbers of README.md anew, from results/armor.h5 and
 
 validate: setup  ## solve reference problems at three meshes; the table goes to results/validation/
 	@$(PYTHON) -m tests.validation results/validation
+
+continuum: setup  ## compare with solid finite elements (extra packages); goes to results/continuum/
+	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.continuum results/continuum
 
 accuracy: setup  ## tell error against run time; tables and figures go to results/accuracy/
 	@failed=0; for study in configs/accuracy/*.toml; do $(PYTHON) -m sweep accuracy $$study || failed=$$?; \

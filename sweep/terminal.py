@@ -28,7 +28,7 @@ def print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) ->
     if not ranking.empty:
         say(legend(ranking))
     if without := ranking.attrs["without_bar"]:
-        say(f"{without} of these have no error bar and count as exact.")
+        say(f"{without} ranked cases have no error bar and count as exact.")
     if unranked := ranking.attrs["unranked"]:
         say(f"{unranked} cases have no {ranking.attrs['by']} and so no place.")
     if failed:

@@ -5,6 +5,7 @@ from math import isnan
 import pytest
 import readme
 
+from tests.continuum import __main__ as continuum
 from tests.validation import PROBLEMS
 from tests.validation.__main__ import HEAD, row
 from tests.validation.elastica import cantilever
@@ -44,3 +45,12 @@ def test_order_and_limit_of_a_sequence():
     assert found.error == pytest.approx(1e-3)
     assert found.extrapolated == pytest.approx(0.0, abs=1e-12)
     assert isnan(Finding((1.0, 1.0, 1.0), 1.0, 2.0).order)
+
+
+def test_comparison_with_a_solid_says_what_it_lacks(monkeypatch):
+    monkeypatch.setattr(continuum, "find_spec", lambda name: None if name == "skfem" else name)
+    assert continuum.lacking() == (
+        "make continuum needs scikit-fem: install with pip or uv into .venv"
+    )
+    monkeypatch.setattr(continuum, "find_spec", lambda name: name)
+    assert continuum.lacking() == ""

@@ -1,0 +1,38 @@
+"""A strip of rubber bent into a circle: the moment that a thick section bears.
+
+A line at z, of -t/2 to t/2, becomes an arc of radius r(z) and is stretched by kappa r along and r'
+across; r makes the energy of the section least. kappa: turn per length at rest.
+"""
+
+import numpy as np
+from scipy.optimize import minimize
+
+LAYERS = 60
+STEP = 0.01  # of the curvature: central difference
+BENT = (0.4, 0.8, 1.2)  # kappa t
+
+
+def energy(rubber, kappa):
+    """Energy of a length of 1 of a strip of thickness 1."""
+
+    def of(q):
+        r = q[0] + np.concatenate([[0.0], np.cumsum(q[1:])]) / LAYERS
+        along, across = kappa * 0.5 * (r[1:] + r[:-1]), q[1:]
+        if min(along.min(), across.min()) <= 0.0:
+            return np.inf
+        return np.mean(rubber.energy(along**2 + across**2, np.log(along * across)))
+
+    start = np.concatenate([[1.0 / kappa - 0.5], np.ones(LAYERS)])
+    return minimize(of, start, method="BFGS", options={"gtol": 1e-9}).fun
+
+
+def moment(rubber, kappa):
+    """Of a strip of thickness 1."""
+    near = 0.5 * STEP * kappa
+    return (energy(rubber, kappa + near) - energy(rubber, kappa - near)) / (2.0 * near)
+
+
+def softening(rubber):
+    """Mean c of Y I kappa / M - 1 = c (kappa t)^2."""
+    found = [rubber.modulus * k / 12.0 / moment(rubber, k) - 1.0 for k in BENT]
+    return float(np.mean(found / np.array(BENT) ** 2))
