@@ -55,7 +55,7 @@ accuracy: setup  ## tell error against run time; tables and figures go to result
 	@failed=0; for study in configs/accuracy/*.toml; do $(PYTHON) -m sweep accuracy $$study || failed=$$?; \
 	test $$failed -le 1 || break; done; exit $$failed
 
-bars: setup  ## measure whether error bars cover the error; results are kept in results/bars/ (20 min)
+bars: setup  ## measure whether error bars cover the error; kept in results/bars/ (10 min)
 	@$(PYTHON) tests/bars.py results/bars
 
 stability: setup  ## crush 500 stiff and extreme scenes and look for violations; goes to results/stability/
