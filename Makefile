@@ -12,7 +12,8 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test verify validate continuum accuracy stability bench experiment figures lint clean
+.PHONY: help setup sweep rank test verify validate continuum accuracy bars stability bench experiment \
+        figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -53,6 +54,9 @@ continuum: setup  ## compare with solid finite elements (extra packages); goes t
 accuracy: setup  ## tell error against run time; tables and figures go to results/accuracy/
 	@failed=0; for study in configs/accuracy/*.toml; do $(PYTHON) -m sweep accuracy $$study || failed=$$?; \
 	test $$failed -le 1 || break; done; exit $$failed
+
+bars: setup  ## measure whether error bars cover the error; kept in results/bars/ (10 min)
+	@$(PYTHON) tests/bars.py results/bars
 
 stability: setup  ## crush 500 stiff and extreme scenes and look for violations; goes to results/stability/
 	@PYTHONPATH=tests $(PYTHON) -m tests.stability results/stability

@@ -14,6 +14,7 @@ ABOUT = "Which printed infill absorbs the most energy per gram?"
 EXAMPLES = """examples:
   crumple run configs/armor.toml --dry-run      how many cases, how long, how much disk
   crumple run configs/armor.toml                simulate; the same command goes on after a stop
+  crumple run configs/armor.toml --error-bars   how sure each number is, which places are ties
   crumple warm                                  compile ahead what the first run would compile
   crumple status results/armor.h5               what is done, what failed and why
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
@@ -25,7 +26,8 @@ exit status: 0 done, 1 some cases failed or interrupted, 2 wrong config, file or
 """
 RUN = """Simulate every case of CONFIG that the results file does not hold yet, then rank.
 Finished cases are never lost and never computed twice: after a stop or a kill, or when the
-grid has grown, run the same command again."""
+grid has grown, run the same command again. With --error-bars every design runs once more on
+another mesh and once more with longer steps: ten times the work where walls have 3 elements."""
 ACCURACY = """Simulate a sweep over numerics, then tell error against run time: a table, the
 observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 what the finest settings of the method of highest order tend to. Cases that differ in anything but
@@ -76,6 +78,11 @@ def parser() -> Parser:
     run.add_argument("--workers", type=_count, default=2, metavar="N", help="default: 2")
     run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster: tcp://host:8786")
     run.add_argument("--dry-run", action="store_true", help="estimate time and disk, write nothing")
+    run.add_argument(
+        "--error-bars",
+        action="store_true",
+        help="estimate the error of mesh and steps",
+    )
     run.add_argument("--retry-failed", action="store_true", help="compute failed cases once more")
 
     accuracy = verbs.add_parser(

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from sweep.result import ABSORBED_AT, COLUMNS, absorbed_energy_column
+from sweep.result import ABSORBED_AT, COLUMNS, absorbed_energy_column, error_column
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -47,7 +47,7 @@ def merits(
 
     Also named: `until`, when energy ceases to count, in words. Added too: `passed_on_N`, the
     greatest force until then; `returned_share`, what is given back of the work of the whole crush;
-    `beyond_model`.
+    `beyond_model`; and error bars of what is added, where the energy has one.
     """
     if missing := [name for name in COLUMNS if name not in finished]:
         raise RankError(f"no {missing[0]}: an older version wrote these results; run them anew")
@@ -61,10 +61,15 @@ def merits(
         "beyond_model": finished[energy] > within,
     }
     names = {"mass": "mass_g", "energy": energy, "per_gram": per_gram, "until": until}
+    if (bar := error_column(energy)) in finished:
+        added[error_column(per_gram)] = finished[bar] / finished["mass_g"]
+        added[error_column("passed_on_N")] = finished[error_column(str(force.name))]
     if panel is not None:
         factor = panel_factor(finished, panel)
         added["panel_mass_g"] = factor * finished["mass_g"]
         added["panel_energy_J"] = factor * finished[energy]
+        if bar in finished:
+            added[error_column("panel_energy_J")] = factor * finished[bar]
         names |= {"mass": "panel_mass_g", "energy": "panel_energy_J"}
     return finished.assign(**added), names
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from itertools import accumulate
 from math import isnan
 
+from sweep.companions import companions_beside, companions_file
 from sweep.graph import Simulate, Stop, run
 from sweep.grid import Config, case_count, expand
 from sweep.params import Case
@@ -39,7 +40,9 @@ class Estimate:
     seconds: float
 
 
-def dry_run(config: Config, out: str, workers: int, retry_failed: bool) -> str:
+def dry_run(
+    config: Config, out: str, workers: int, retry_failed: bool, error_bars: bool = False
+) -> str:
     """How many cases, how long, how much disk: as text. Writes nothing."""
     cases = expand(config)
     done = finished_ids(out, retry_failed)
@@ -48,6 +51,11 @@ def dry_run(config: Config, out: str, workers: int, retry_failed: bool) -> str:
         f"{config.name}: {case_count(config):,} combinations, {len(cases):,} different cases, "
         f"{len(cases) - len(waiting):,} of them finished in {out}"
     )
+    if error_bars:
+        others = companions_beside(cases, out)
+        ready = others.keys() & finished_ids(companions_file(out), retry_failed)
+        waiting += [case for case_id, case in others.items() if case_id not in ready]
+        counts += f"\nerror bars: {len(others):,} companions, {len(ready):,} of them finished"
     if not waiting:
         return f"{counts}\nnothing is left to run"
     found = estimate(waiting, real_simulate())

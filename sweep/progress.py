@@ -19,7 +19,7 @@ SENTENCES = 5  # failures that are told while the sweep runs
 
 def tell(line: str) -> None:
     """Say one thing before there is any progress."""
-    Console().print(line, highlight=False)
+    Console().print(line, markup=False, highlight=False, soft_wrap=True)
 
 
 class Progress:

@@ -116,8 +116,8 @@ def _size(ranking: DataFrame) -> tuple[float, float]:
 
 
 def _winners(file: str, shown: DataFrame, ranking: DataFrame) -> dict[str, dict[str, Any]]:
-    """Frames of the crushed or struck designs in first place, named by budget, scene and design."""
-    first = shown[(shown["place"] == 1) & (shown["loading_mode"] != "force")]
+    """Frames of the best of the crushed or struck designs, named by budget, scene and design."""
+    first = shown[shown["loading_mode"] != "force"].drop_duplicates(["budget_g", "scene"])
     first = first.drop_duplicates("case_id").head(MAX_WINNERS)
     winners = {}
     for (_, row), design in zip(first.iterrows(), design_labels(first, ranking), strict=True):

@@ -16,7 +16,7 @@ import pandas as pd
 from pandas import DataFrame, Series
 
 from sweep.merit import LEAST, Quantity, RankError, in_si, merits
-from sweep.result import Status
+from sweep.result import Status, error_column
 
 NOTHING = "–"
 
@@ -47,9 +47,11 @@ LEADING = [
     "budget_g",
     "scene",
     "place",
+    "tied",
     "pareto",
     "case_id",
     "ranked_by",
+    "ranked_error",
     "panel_mass_g",
     "panel_energy_J",
     "passed_on_N",
@@ -103,14 +105,17 @@ def rank(
     Returns
     -------
     The summary's rows that have a place, led by `budget_g`, `scene`, `place` (equal values share
-    one), `pareto` (True: no design of the scene is lighter without absorbing less, none absorbs
-    more without being heavier; where `LEAST` counts, the same for that), `ranked_by`,
-    with a panel `panel_mass_g` and `panel_energy_J`; and `passed_on_N`, the greatest force while
-    that energy is absorbed, `returned_share` of the work of the whole crush, which was stored and
-    not dissipated, `beyond_model` (True: a wall was squeezed too far while it was absorbed).
+    one, and so do those that error bars cannot tell from the first there: `shared_places`), with
+    error bars `tied` (True: it shares its place) and `ranked_error`; `pareto` (True: no design of
+    the scene is lighter without absorbing less, none absorbs more without being heavier; where
+    `LEAST` counts, the same for that), `ranked_by`, with a panel `panel_mass_g` and
+    `panel_energy_J`; and `passed_on_N`, the greatest force while that energy is absorbed,
+    `returned_share` of the work of the whole crush, which was stored and not dissipated,
+    `beyond_model` (True: a wall was squeezed too far while it was absorbed).
     `attrs`: names of the columns compared (`mass`, `energy`, `per_gram`; `by`: of the crushed
     designs where there are any), the counts `cases`, `failed`, `unranked` (finished, but without a
-    value to sort by), `budgets_g`, and `lightest_g`, the smallest mass of each scene.
+    value to sort by), `without_bar` (of those with a value, where others have one), `budgets_g`,
+    and `lightest_g`, the smallest mass of each scene.
     """
     summary = source if isinstance(source, DataFrame) else _read(source)
     finished = summary[summary["status"] == Status.CONVERGED]
@@ -127,6 +132,7 @@ def rank(
         "cases": len(summary),
         "failed": len(summary) - len(finished),
         "unranked": sum(int(rows[order].isna().sum()) for rows, order in scenes),
+        "without_bar": sum(_without_bar(rows, order) for rows, order in scenes),
         "budgets_g": [limit for limit in limits if np.isfinite(limit)],
         "lightest_g": labelled.groupby("scene", sort=False)[names["mass"]].min().to_dict(),
     }
@@ -179,6 +185,25 @@ def pareto(mass: Series, energy: Series) -> Series:
     return (energy == mass.map(best)) & (energy > mass.map(lighter))
 
 
+def shared_places(values: Series, errors: Series | None = None) -> Series:
+    """Places of values that stand in their order, the best first.
+
+    A value shares the place of the first one before it whose interval, value ± error, it overlaps
+    or touches, and a missing error is none. The first that does not opens the next place, whose
+    number counts all that are before it.
+    """
+    places: list[int] = []
+    best = slack = np.nan
+    widths = np.zeros(len(values)) if errors is None else errors.fillna(0.0)
+    for value, error in zip(values, widths, strict=True):
+        if abs(value - best) <= slack + error:
+            places.append(places[-1])
+        else:
+            best, slack = value, error
+            places.append(len(places) + 1)
+    return Series(places, index=values.index, dtype=int)
+
+
 def short(value: float | str | None) -> str:
     """A number with few digits, anything else as it is; a dash where there is nothing."""
     if pd.isna(value):
@@ -206,20 +231,26 @@ def _with_scene(rows: DataFrame, names: dict[str, str]) -> DataFrame:
 def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | None) -> DataFrame:
     """The first places among the rows of one scene within a budget, best first.
 
-    Equal values share a place and are listed lighter first, then by id: the order never depends on
-    the order of the rows.
+    Of equal values the lighter is listed first, then by id: the order never depends on the order
+    of the rows.
     """
-    upwards = by in LESS_IS_BETTER
-    rows = rows[rows[mass] <= budget_g].dropna(subset=by)
-    rows = rows.assign(
-        budget_g=budget_g if np.isfinite(budget_g) else np.nan,
-        place=rows[by].rank(method="min", ascending=upwards).astype(int),
-        ranked_by=by,
-    )
-    order = ["place", *dict.fromkeys([mass, "case_id"])]
-    rows = rows.sort_values(order).head(len(rows) if top is None else top)
+    order = [*dict.fromkeys([by, mass, "case_id"])]
+    upwards = [name != by or by in LESS_IS_BETTER for name in order]
+    rows = rows[rows[mass] <= budget_g].dropna(subset=by).sort_values(order, ascending=upwards)
+    error = rows.get(error_column(by))
+    place = shared_places(rows[by], error)
+    known = {} if error is None else {"ranked_error": error, "tied": place.duplicated(keep=False)}
+    limit = budget_g if np.isfinite(budget_g) else np.nan
+    rows = rows.assign(budget_g=limit, place=place, ranked_by=by, **known)
+    rows = rows.head(len(rows) if top is None else top)
     first = [name for name in LEADING if name in rows]
     return rows[first + [name for name in rows if name not in first]]
+
+
+def _without_bar(rows: DataFrame, by: str) -> int:
+    """How many rows have a value to sort by, but no error bar of it, where there are any bars."""
+    bar = error_column(by)
+    return int((rows[by].notna() & rows[bar].isna()).sum()) if bar in rows else 0
 
 
 def _column(frame: DataFrame, by: str) -> str:

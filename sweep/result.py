@@ -193,11 +193,17 @@ FRAME_COLUMNS: dict[str, Column] = {
 
 PROBE = re.compile(r"probe_(\d+)_(.+)_(m|rad|N|Nm)")
 ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
+ERROR = re.compile(r"^error_(.+)")
 
 
 def absorbed_energy_column(force: float) -> str:
     """Name of the column of the energy absorbed until `force` (N) is first transmitted."""
     return f"absorbed_energy_at_{force:.10g}N_J"
+
+
+def error_column(name: str) -> str:
+    """Name of the column of the estimated discretisation error of a column."""
+    return f"error_{name}"
 
 
 def describe_array(group: str, name: str) -> Column:
@@ -215,13 +221,16 @@ def describe_history(name: str) -> Column:
 
 def is_grid_key(name: str) -> bool:
     """True for the column of a grid key, such as `lattice.wall_thickness`."""
-    return name not in COLUMNS and not ABSORBED_AT.fullmatch(name)
+    return not (name in COLUMNS or ABSORBED_AT.fullmatch(name) or ERROR.fullmatch(name))
 
 
 def describe_column(name: str) -> Column:
-    """Meaning of a summary column; neither fixed nor an allowed force, it is a grid key."""
+    """Meaning of a summary column; one that is neither fixed nor derived is a grid key."""
     if name in COLUMNS:
         return COLUMNS[name]
+    if match := ERROR.fullmatch(name):
+        units = describe_column(match[1]).units
+        return Column(units, f"estimated discretisation error of {match[1]}, no bound; NaN: none")
     if match := ABSORBED_AT.fullmatch(name):
         return Column("J", f"work done until {match[1]} N is first passed on; all if it never is")
     return Column(_unit_of_key(name), f"grid key {name}")

@@ -13,7 +13,6 @@ from sweep.rank import ASSUMPTIONS, NOTHING, by_scene, scene_label, short
 
 if TYPE_CHECKING:
     from pandas import DataFrame
-    from rich.table import Table
 
 MARKS = "*: on the Pareto front, nothing lighter in its scene does as well. mass: of one specimen."
 CRUSHED = """\
@@ -25,6 +24,10 @@ STRUCK = """\
 force: greatest on the support. left: of the height that closes all voids, at the striker's stop.
 rebound: share of the striker's energy with which it leaves."""
 FIRST = {"peak_strain": ": least sink first", "peak_force_N": ": least force first"}
+TIED = """\
+±: estimated error of what is sorted by, of mesh and steps, in % of it; not a bound. =: shares its
+place, as the value ± error overlaps that of the first in this place; without an error, it counts as
+exact."""
 BEYOND = "!: beyond the model, as a wall is squeezed below 0.7 of its length: not to be trusted."
 
 MILLIMETRES = {
@@ -56,6 +59,11 @@ class Sheet(NamedTuple):
     rows: list[list[str]]
     opens: frozenset[int] = frozenset()
     notes: tuple[str, ...] = ()
+
+    @property
+    def columns(self) -> list[list[str]]:
+        """The texts below each head."""
+        return [[row[i] for row in self.rows] for i in range(len(self.heads))]
 
 
 def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
@@ -98,13 +106,17 @@ def legend(ranking: DataFrame) -> str:
         "force": LOADED,
         "impact": STRUCK,
     }
-    return "\n".join([MARKS, *(words for mode, words in said.items() if mode in modes)])
+    lines = [MARKS, *(words for mode, words in said.items() if mode in modes)]
+    return "\n".join([*lines, TIED] if "ranked_error" in ranking else lines)
 
 
 def _places(rows: DataFrame) -> Series:
-    """Places with the marks of the Pareto front and of the limits of the model."""
+    """Places with the marks of ties, of the Pareto front and of the limits of the model."""
+    places = rows["place"].astype(str)
+    if "tied" in rows:
+        places += rows["tied"].map({True: "="}).fillna("")
     pareto = rows["pareto"].map({True: "*", False: " "})
-    return rows["place"].astype(str) + pareto + rows["beyond_model"].map({True: "!", False: ""})
+    return places + pareto + rows["beyond_model"].map({True: "!", False: ""})
 
 
 def _without_repeats(rows: DataFrame) -> DataFrame:
@@ -112,7 +124,8 @@ def _without_repeats(rows: DataFrame) -> DataFrame:
 
     What is best up to 20 g and up to 50 g is so for all budgets between them.
     """
-    same = rows.groupby("budget_g")["case_id"].agg(" ".join)
+    marked = rows.assign(marked=_places(rows) + rows["case_id"])
+    same = marked.groupby("budget_g")["marked"].agg(" ".join)
     alike = same.index.to_series().groupby(same)
     low, high = alike.transform("min"), alike.transform("max")
     spans = {b: f"{b:g}" if b == high[b] else f"{b:g}-{high[b]:g}" for b in low}
@@ -184,6 +197,8 @@ def _measures(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
         shown |= {names["energy"], names["per_gram"], "densification_strain", "returned_share"}
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
+        if "ranked_error" in rows:
+            columns["± %"] = (rows["ranked_error"] / rows[by].abs()).map(tenths)
     return columns
 
 
@@ -215,34 +230,6 @@ def _crushed(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
     }
 
 
-def terminal_table(sheet: Sheet, width: int) -> Table:
-    """A rich table, without title and notes, that tries to fit into `width` columns.
-
-    The unit of a head goes on a second line; if need be, columns move a space closer together.
-    """
-    from rich import box
-    from rich.table import Table
-
-    heads = ["\n".join(head.rsplit(" ", 1)) for head in sheet.heads]
-    columns = [
-        [*head.split("\n"), *texts] for head, texts in zip(heads, _columns(sheet), strict=True)
-    ]
-    natural = sum(max(map(len, texts)) + 2 for texts in columns) - 2
-    table = Table(
-        box=box.SIMPLE_HEAD,
-        show_edge=False,
-        padding=(0, 1 if natural <= width else 0, 0, 0),
-    )
-    for head, texts in zip(heads, _columns(sheet), strict=True):
-        right = all(text[:1] in f"0123456789->{NOTHING}" and " x " not in text for text in texts)
-        table.add_column(head, justify="right" if right else "left", no_wrap=True)
-    for i, row in enumerate(sheet.rows):
-        if i in sheet.opens and i:
-            table.add_section()
-        table.add_row(*row)
-    return table
-
-
 def markdown(sheets: Iterable[Sheet]) -> str:
     """Sheets in Markdown, a heading each."""
     return "\n".join(_markdown(sheet) for sheet in sheets)
@@ -250,7 +237,7 @@ def markdown(sheets: Iterable[Sheet]) -> str:
 
 def _markdown(sheet: Sheet) -> str:
     """One sheet: heading, table with columns of equal width, notes."""
-    texts = [[head, *texts] for head, texts in zip(sheet.heads, _columns(sheet), strict=True)]
+    texts = [[head, *texts] for head, texts in zip(sheet.heads, sheet.columns, strict=True)]
     widths = [max(len(text) for text in column) for column in texts]
     lines = [
         "| " + " | ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)) + " |"
@@ -280,11 +267,13 @@ def percent(value: float) -> str:
     return f"{100 * value:.0f}" if math.isfinite(value) else NOTHING
 
 
+def tenths(share: float) -> str:
+    """A share in percent, to a tenth where it is small."""
+    if not math.isfinite(share):
+        return NOTHING
+    return f"{100 * share:.1f}" if share < 0.0995 else percent(share)
+
+
 def _varies(frame: DataFrame, *names: str) -> bool:
     """True if one of the columns has more than one value."""
     return any(len(frame[name].unique()) > 1 for name in names)
-
-
-def _columns(sheet: Sheet) -> list[list[str]]:
-    """The texts of each column."""
-    return [[row[i] for row in sheet.rows] for i in range(len(sheet.heads))]

@@ -5,20 +5,19 @@ from __future__ import annotations
 import json
 import sys
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from sweep.terminal import print_ranking, print_sheets, say, say_all
 
 if TYPE_CHECKING:
     from argparse import Namespace
 
     from pandas import DataFrame, Series
 
-    from sweep.sheets import Sheet
-
 DONE, SOME_FAILED = 0, 1
-WIDTH = 120  # a longer line is wrapped by the terminal: better than losing what it says
 TOP, TOP_OF_A_BUDGET = 10, 3
 REFUSALS = {
     "sweep.grid": "ConfigError",
@@ -44,7 +43,10 @@ def refusals() -> tuple[type[Exception], ...]:
 
 
 def run(arguments: Namespace) -> int:
-    """Simulate what is missing, then rank; with --dry-run, only estimate."""
+    """Simulate what is missing, then rank; with --dry-run, only estimate.
+
+    A design without the error bar that was asked for counts as a failure.
+    """
     from sweep.config import load_config
 
     config = load_config(arguments.config)
@@ -52,13 +54,16 @@ def run(arguments: Namespace) -> int:
     if arguments.dry_run:
         from sweep.pilot import dry_run
 
-        _say(dry_run(config, out, arguments.workers, arguments.retry_failed))
+        say(dry_run(config, out, arguments.workers, arguments.retry_failed, arguments.error_bars))
         return DONE
+    from sweep.companions import add_error_bars
     from sweep.run import run_sweep
     from sweep.store import read_summary
 
-    failed = run_sweep(config, out, arguments.workers, arguments.scheduler, arguments.retry_failed)
-    _print_ranking(out, read_summary(out), _question(config.rank.budgets, config.rank.panel))
+    how = arguments.workers, arguments.scheduler, arguments.retry_failed
+    failed = run_sweep(config, out, *how)
+    failed += add_error_bars(config, out, *how) if arguments.error_bars else 0
+    print_ranking(out, read_summary(out), _question(config.rank.budgets, config.rank.panel))
     return SOME_FAILED if failed else DONE
 
 
@@ -75,8 +80,8 @@ def accuracy(arguments: Namespace) -> int:
     failed = run_sweep(config, out, arguments.workers)
     with _writing(folder):
         sheets, files = publish_accuracy(out, [case.case_id for case in cases])
-    _print_sheets(sheets)
-    _say_all(files)
+    print_sheets(sheets)
+    say_all(files)
     return SOME_FAILED if failed else DONE
 
 
@@ -88,7 +93,7 @@ def warm(_: Namespace) -> int:
     done = "compiled the kernels" if is_cold() else "found compiled kernels and loaded them"
     started = time.perf_counter()
     real_simulate()
-    _say(f"{done} in {time.perf_counter() - started:.1f} s; no run has to compile any")
+    say(f"{done} in {time.perf_counter() - started:.1f} s; no run has to compile any")
     return DONE
 
 
@@ -98,13 +103,14 @@ def status(arguments: Namespace) -> int:
 
     summary, about = read_summary(arguments.file), read_attributes(arguments.file)
     counts = summary["status"].value_counts()
-    _say(f"{arguments.file}: {len(summary)} cases")
-    _say_all(f"{count:7d} {name}" for name, count in counts.items())
-    _say_all(_failures(summary))
-    _say(f"{summary['cpu_s'].sum():.4g} s of processor time in all")
+    say(f"{arguments.file}: {len(summary)} cases")
+    say_all(f"{count:7d} {name}" for name, count in counts.items())
+    say_all(_failures(summary))
+    say_all(_bars(summary))
+    say(f"{summary['cpu_s'].sum():.4g} s of processor time in all")
     known = {name.removeprefix("version_"): about[name] for name in about if "version_" in name}
-    _say(f"last run {about.get('created', '?')}, revision {about.get('git_revision', '?')}")
-    _say(", ".join(f"{name} {version}" for name, version in known.items()))
+    say(f"last run {about.get('created', '?')}, revision {about.get('git_revision', '?')}")
+    say(", ".join(f"{name} {version}" for name, version in known.items()))
     return _exit_status(summary)
 
 
@@ -121,15 +127,15 @@ def rank(arguments: Namespace) -> int:
         folder = Path(arguments.out)
         with _writing(folder):
             files = publish_ranking(arguments.file, summary, question, folder)
-        _say_all(files)
+        say_all(files)
     elif arguments.csv:
-        _say(rank(summary, **question).to_csv(index=False), end="")
+        say(rank(summary, **question).to_csv(index=False), end="")
     elif arguments.json:
-        _say(rank(summary, **question).to_json(orient="records", indent=2))
+        say(rank(summary, **question).to_json(orient="records", indent=2))
     elif arguments.markdown:
-        _say(markdown(ranking_sheets(rank(summary, **question), summary)), end="")
+        say(markdown(ranking_sheets(rank(summary, **question), summary)), end="")
     else:
-        _print_ranking(arguments.file, summary, question)
+        print_ranking(arguments.file, summary, question)
     return _exit_status(summary)
 
 
@@ -140,17 +146,17 @@ def show(arguments: Namespace) -> int:
 
     summary = read_summary(arguments.file)
     if arguments.case is None:
-        _print_sheets([case_sheet(summary)])
+        print_sheets([case_sheet(summary)])
         return DONE
     from sweep.publish import publish_case
 
     row = _find_case(summary, arguments.case)
     folder = Path(arguments.out or Path(arguments.file).with_suffix("") / row["case_id"])
-    _say(f"case {row['case_id']}, {describe_case(row, summary)}: {row['status']}")
-    _say_all([row["message"]] if row["message"] else [])
+    say(f"case {row['case_id']}, {describe_case(row, summary)}: {row['status']}")
+    say_all([row["message"]] if row["message"] else [])
     with _writing(folder):
         pictures = publish_case(arguments.file, row, folder)
-    _say_all(pictures or ["nothing to draw: the case left no curves and no shapes"])
+    say_all(pictures or ["nothing to draw: the case left no curves and no shapes"])
     return DONE
 
 
@@ -197,48 +203,6 @@ def _stored_rank(file: str) -> dict[str, Any]:
     return config.get("rank") or {}
 
 
-def _print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -> None:
-    """Tables on the terminal, and aloud what has no place in them."""
-    from sweep.rank import rank
-    from sweep.sheets import legend, ranking_sheets
-
-    ranking = rank(summary, **question)
-    failed = ranking.attrs["failed"]
-    if failed < len(summary):
-        _say(_heading(question, ranking))
-        _print_sheets(ranking_sheets(ranking, summary))
-    if not ranking.empty:
-        _say(legend(ranking))
-    if unranked := ranking.attrs["unranked"]:
-        _say(f"{unranked} cases have no {ranking.attrs['by']} and so no place.")
-    if failed:
-        _say(f"{failed} of {len(summary)} cases failed: crumple status {file} lists them")
-
-
-def _heading(question: Mapping[str, Any], ranking: DataFrame) -> str:
-    """What the tables are about, in a line or two."""
-    from sweep.rank import LESS_IS_BETTER
-
-    names = ranking.attrs
-    by = names["by"]
-    usual = {names["energy"]: "most energy", names["per_gram"]: "most energy per gram"}
-    order = usual.get(by, f"least {by}" if by in LESS_IS_BETTER else f"most {by}")
-    lines = [f"Best first: {order}."]
-    if force := question.get("allowed_force"):
-        lines.append(f"Energy counts until a specimen passes on {force}.")
-    if (budgets := question["budget"]) and len(budgets) == 1:
-        lines.insert(0, f"At most {_written(budgets[0], 1e3, 'g')}.")
-    if panel := question["panel"]:
-        sides = " x ".join(_written(side, 1e3, "mm") for side in panel)
-        lines.insert(0, f"Panel of {sides}, filled with specimens side by side.")
-    return " ".join(lines)
-
-
-def _written(value: float | str, scale: float, unit: str) -> str:
-    """A quantity in the words of the user, or an SI one in a maker's unit."""
-    return value if isinstance(value, str) else f"{scale * value:.4g} {unit}"
-
-
 def _failures(summary: DataFrame) -> list[str]:
     """A line for each kind of failure: how many cases, and what the first of them says."""
     failed = _failed(summary)
@@ -248,6 +212,15 @@ def _failures(summary: DataFrame) -> list[str]:
         + (", ...)" if len(rows) > 3 else ")")
         for _, rows in failed.groupby([failed["status"], kind], sort=False)
     ]
+
+
+def _bars(summary: DataFrame) -> list[str]:
+    """How many cases have an error bar, where any was asked for."""
+    from sweep.result import ERROR
+
+    bars = summary.drop(index=_failed(summary).index).filter(regex=ERROR)
+    count = bars.notna().any(axis=1).sum()
+    return [f"{count} of {len(bars)} finished cases have error bars"] if bars.columns.size else []
 
 
 def _find_case(summary: DataFrame, prefix: str) -> Series:
@@ -269,30 +242,3 @@ def _failed(summary: DataFrame) -> DataFrame:
     from sweep.result import Status
 
     return summary[summary["status"] != Status.CONVERGED]
-
-
-def _print_sheets(sheets: Iterable[Sheet]) -> None:
-    """Tables on the terminal, a blank line above each."""
-    from rich.console import Console
-
-    from sweep.sheets import terminal_table
-
-    console = Console()
-    width, console.width = console.width, max(console.width, WIDTH)
-    for sheet in sheets:
-        _say("")
-        with console.capture() as shown:
-            console.print(sheet.title, style="bold", markup=False, highlight=False)
-            console.print(terminal_table(sheet, width))
-        _say(shown.get(), end="")
-        _say_all(sheet.notes)
-    _say("")
-
-
-def _say(text: object, end: str = "\n") -> None:
-    sys.stdout.write(f"{text}{end}")
-
-
-def _say_all(lines: Iterable[object]) -> None:
-    for line in lines:
-        _say(line)

@@ -249,6 +249,21 @@ def test_dry_run_counts_and_writes_nothing(capsys, config, tmp_path):
     )
 
 
+def test_error_bars_run_companions_in_a_file_of_their_own(capsys, config):
+    _, out, _ = crumple(capsys, "run", config, "--error-bars", "--dry-run")
+    assert "error bars: 6 companions, 0 of them finished" in out
+    assert "estimate for 9 cases" in out
+    status, out, _ = crumple(capsys, "run", config, "--error-bars")
+    assert status == 1
+    assert "error bars of 2 designs: 4 companions, in results/trial.companions.h5" in out
+    assert "1 of 3 cases failed: crumple status results/trial.h5 lists them" in out
+    assert "±: estimated error" in out
+    _, out, _ = crumple(capsys, "status", "results/trial.h5")
+    assert out.startswith("results/trial.h5: 3 cases")
+    assert "2 of 2 finished cases have error bars\n" in out
+    assert len(read_summary("results/trial.companions.h5")) == 4
+
+
 @pytest.mark.parametrize(
     ("stop", "told"),
     [(KeyboardInterrupt(), "interrupted\n"), (Interrupted("it keeps 3 of 4"), "it keeps 3 of 4\n")],

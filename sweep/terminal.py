@@ -1,0 +1,116 @@
+"""What a verb prints: lines, tables that fit the terminal, rankings with all that is said aloud."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+    from rich.table import Table
+
+    from sweep.sheets import Sheet
+
+WIDTH = 120  # a longer line is wrapped by the terminal: better than losing what it says
+
+
+def print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -> None:
+    """Tables on the terminal, and aloud what has no place in them."""
+    from sweep.rank import rank
+    from sweep.sheets import legend, ranking_sheets
+
+    ranking = rank(summary, **question)
+    failed = ranking.attrs["failed"]
+    if failed < len(summary):
+        say(_heading(question, ranking))
+        print_sheets(ranking_sheets(ranking, summary))
+    if not ranking.empty:
+        say(legend(ranking))
+    if without := ranking.attrs["without_bar"]:
+        say(f"{without} ranked cases have no error bar and count as exact.")
+    if unranked := ranking.attrs["unranked"]:
+        say(f"{unranked} cases have no {ranking.attrs['by']} and so no place.")
+    if failed:
+        say(f"{failed} of {len(summary)} cases failed: crumple status {file} lists them")
+
+
+def _heading(question: Mapping[str, Any], ranking: DataFrame) -> str:
+    """What the tables are about, in a line or two."""
+    from sweep.rank import LESS_IS_BETTER
+
+    names = ranking.attrs
+    by = names["by"]
+    usual = {names["energy"]: "most energy", names["per_gram"]: "most energy per gram"}
+    order = usual.get(by, f"least {by}" if by in LESS_IS_BETTER else f"most {by}")
+    lines = [f"Best first: {order}."]
+    if force := question.get("allowed_force"):
+        lines.append(f"Energy counts until a specimen passes on {force}.")
+    if (budgets := question["budget"]) and len(budgets) == 1:
+        lines.insert(0, f"At most {_written(budgets[0], 1e3, 'g')}.")
+    if panel := question["panel"]:
+        sides = " x ".join(_written(side, 1e3, "mm") for side in panel)
+        lines.insert(0, f"Panel of {sides}, filled with specimens side by side.")
+    return " ".join(lines)
+
+
+def _written(value: float | str, scale: float, unit: str) -> str:
+    """A quantity in the words of the user, or an SI one in a maker's unit."""
+    return value if isinstance(value, str) else f"{scale * value:.4g} {unit}"
+
+
+def print_sheets(sheets: Iterable[Sheet]) -> None:
+    """Tables on the terminal, a blank line above each."""
+    from rich.console import Console
+
+    console = Console()
+    width, console.width = console.width, max(console.width, WIDTH)
+    for sheet in sheets:
+        say("")
+        with console.capture() as shown:
+            console.print(sheet.title, style="bold", markup=False, highlight=False)
+            console.print(_terminal_table(sheet, width))
+        say(shown.get(), end="")
+        say_all(sheet.notes)
+    say("")
+
+
+def _terminal_table(sheet: Sheet, width: int) -> Table:
+    """A rich table, without title and notes, that tries to fit into `width` columns.
+
+    The unit of a head goes on a second line; if need be, columns move a space closer together.
+    """
+    from rich import box
+    from rich.table import Table
+
+    from sweep.rank import NOTHING
+
+    heads = ["\n".join(head.rsplit(" ", 1)) for head in sheet.heads]
+    columns = [
+        [*head.split("\n"), *texts] for head, texts in zip(heads, sheet.columns, strict=True)
+    ]
+    natural = sum(max(map(len, texts)) + 2 for texts in columns) - 2
+    table = Table(
+        box=box.SIMPLE_HEAD,
+        show_edge=False,
+        padding=(0, 1 if natural <= width else 0, 0, 0),
+    )
+    for head, texts in zip(heads, sheet.columns, strict=True):
+        right = all(text[:1] in f"0123456789->{NOTHING}" and " x " not in text for text in texts)
+        table.add_column(head, justify="right" if right else "left", no_wrap=True)
+    for i, row in enumerate(sheet.rows):
+        if i in sheet.opens and i:
+            table.add_section()
+        table.add_row(*row)
+    return table
+
+
+def say(text: object, end: str = "\n") -> None:
+    """A line."""
+    sys.stdout.write(f"{text}{end}")
+
+
+def say_all(lines: Iterable[object]) -> None:
+    """Some lines, or none."""
+    for line in lines:
+        say(line)
