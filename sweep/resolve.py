@@ -20,7 +20,7 @@ def resolve(
 ) -> dict[str, Table]:
     """The tables that depend on one another and on the lattice, nothing left open."""
     loading, wish = _loading(loading, lattice, solver.integrator), solver.time_step
-    solver = settle(solver, loading, lattice)
+    solver = settle(solver, loading, lattice, contact.model == "position_based")
     check_steps(solver, loading, wish)
     contact = _contact(contact, loading, lattice.structure, solver)
     if contact.model == "position_based" and solver.integrator != "backward_euler":

@@ -209,6 +209,7 @@ def _impact(draw, lattice, material, buckling):
         "loading.striker_speed": speed,
         "loading.platen": draw.one("glued", "contact"),
         "loading.duration": float(f"{duration:.3g}"),
+        "solver.integrator": "backward_euler",
         "solver.time_step": float(f"{duration / steps:.3g}"),
     }
 
