@@ -11,7 +11,7 @@ from sweep.simulate import warm_up
 from tests.scenes import pressed, run
 from tests.solving import whole
 from tests.stability import audit, draw, model
-from tests.stability.__main__ import counted, markdown
+from tests.stability.__main__ import counted, markdown, outcome
 from tests.states import STATES, driven, loaded
 
 FEW, CONVERGED = 40, 14
@@ -84,3 +84,5 @@ def test_outcomes_are_counted(drawn):
     ]
     assert [row["all"] for row in table.values()] == [1, 1, 1, 4]
     assert markdown(table)[3].startswith("| stopped: no way | ")
+    open_book = found._replace(message="work and energies do not balance at strain 1; try")
+    assert outcome(open_book) == "stopped: work and energies do not balance"

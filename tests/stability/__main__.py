@@ -32,10 +32,11 @@ def kind_of(case):
 
 
 def outcome(found):
-    """Status of a scene, with what it says after the colon where it stopped."""
+    """Status of a scene, with what it says where it stopped, but for the place."""
     if found.status != "stopped":
         return found.status.replace("_", " ")
-    return "stopped: " + found.message.split(":")[-1].split(";")[0].strip()
+    why = found.message.split(":")[-1].split(";")[0].split(" at strain ")[0]
+    return f"stopped: {why.strip()}"
 
 
 def counted(cases, audits):
