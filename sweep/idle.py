@@ -65,8 +65,10 @@ def _counts_anyway(key: str, held: object, given: Mapping[str, Any], case: Case)
     """True for values that count although the case holds another, or none.
 
     A time step is adjusted to a whole number of steps; the speed of a quasi-static crush is a
-    label.
+    label; contact that is "auto" is the barrier.
     """
+    if key == "contact.model":
+        return given[key] == "auto"
     if key == "solver.time_step":
         return held is not None and "solver.load_steps" not in given
     return key == "loading.speed" and case.loading.mode == "displacement"

@@ -58,6 +58,9 @@ def run_sweep(
     if stop.asked and kept < len(cases):
         line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
         raise Interrupted(f"{line}, and the same command runs the rest")
+    others = len(finished_ids(out) - cases.keys()) if isinstance(sweep, Config) else 0
+    if others:
+        tell(f"{out} holds {others} cases more, of other configs: rankings show them too")
     return len(cases.keys() - finished_ids(out, retry_failed=True))
 
 
@@ -89,14 +92,14 @@ def keeping(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
     seal()
 
 
-def real_simulate() -> Simulate:
-    """The real thing, imported when it is needed: it brings the compiled kernels."""
+def real_simulate(arcs: bool = False) -> Simulate:
+    """The real thing, imported when it is needed: it brings the compiled kernels (`warm_up`)."""
     from kernels.cache import is_cold
     from sweep.simulate import simulate, warm_up
 
     if is_cold():
         tell("compiling the kernels, once: this takes about a minute")
-    warm_up()
+    warm_up(arcs)
     return simulate
 
 

@@ -6,9 +6,10 @@ import time
 import numpy as np
 
 from kernels import arc, book, inertia, march, newton, spring
+from sweep.custom import Load, Structure, Support
 from sweep.measure import history_columns, summarise
 from sweep.mesh import Floats
-from sweep.params import Case, Lattice, Loading
+from sweep.params import Case, Lattice, Loading, Solver
 from sweep.path import arc_of, path_columns
 from sweep.periodic import build_periodic
 from sweep.probes import own_columns
@@ -23,7 +24,7 @@ LONGER = "try a longer loading.duration"
 SAFER = 'try solver.integrator "bdf2", damping or smaller steps'
 SOUNDER = "try a smaller solver.tolerance, and look for values out of all proportion"
 GAP = 1e-3  # of the energy, that may be left over
-GIFT = 0.1  # of the work done: energy that an integrator may make
+INVENTED = 0.1  # of the work done: energy that an integrator may make
 ADVICE = {
     newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; "
     "try more solver.load_steps or a smaller solver.time_step",
@@ -71,10 +72,21 @@ def _scene(case: Case) -> Scene:
     return build_periodic(case) if case.lattice.boundary == "periodic" else build_scene(case)
 
 
-def warm_up() -> None:
-    """Load the compiled kernels, or compile them once, so that no case pays for it."""
+def warm_up(arcs: bool = False) -> None:
+    """Load the compiled kernels, or compile them once, so that no case pays for it.
+
+    ``arcs``: those that follow a path too, which few sweeps need.
+    """
     lattice = Lattice(cells_x=1, cells_y=1)
     simulate(Case(lattice=lattice, loading=Loading(release_time=1e-4, duration=2e-4)))
+    if arcs:
+        clamp = Support(node=0, fix=("x", "y", "rotation"))
+        tip = Load(node=1, force_N=(0.0, -1e-3))
+        wall = Structure(
+            nodes_mm=((0, 0), (10, 0)), walls=((0, 1),), supports=(clamp,), loads=(tip,)
+        )
+        path = Solver(integrator="arc_length", load_steps=1)
+        simulate(Case(lattice=Lattice(kind="custom", structure=wall), solver=path))
 
 
 class _Run:
@@ -122,16 +134,16 @@ class _Run:
         timer.daemon = True
         timer.start()
         try:
-            for stretch in self.stages:
-                outcome = self._through(stretch.stage)
+            for phase in self.stages:
+                outcome = self._through(phase.stage)
+                if self._invents() and not late.is_set():
+                    return Status.STOPPED, f"the integrator made energy out of nothing; {SAFER}"
                 if outcome != newton.CONVERGED:
-                    return self._failed(outcome, stretch.name, late.is_set())
+                    return self._failed(outcome, phase.name, late.is_set())
                 if self.struck and self._is_back():
                     break
         finally:
             timer.cancel()
-        if self._invents():
-            return Status.STOPPED, f"the integrator made energy out of nothing; {SAFER}"
         if not self._balances():
             return Status.STOPPED, f"work and energies do not balance {self._where()}; {SOUNDER}"
         if self.struck and self.rows[self.done - 1, march.SPEED] < 0.0:
@@ -139,12 +151,12 @@ class _Run:
         return Status.CONVERGED, ""
 
     def _invents(self) -> bool:
-        """Whether an integrator in time has given more than a share `GIFT` of the work done."""
+        """Whether an integrator in time has given more than a share `INVENTED` of the work done."""
         if self.case.loading.quasi_static:
             return False
         lost, work = self.rows[: self.done, book.INTEGRATOR], self.rows[: self.done, book.WORK]
         noise = tolerances(self.case, self.scene, self.stages[0].stage.dt).noise
-        return bool(lost.min() < -GIFT * work.max() - noise)
+        return bool(lost.min() < -INVENTED * work.max() - noise)
 
     def _balances(self) -> bool:
         """Whether the energy book closes but for a share `GAP` of what passes through it."""

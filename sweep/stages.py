@@ -1,5 +1,6 @@
 """What a march is told: stages of loading, and what counts as converged."""
 
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +12,7 @@ from sweep.scene import Scene, time_step
 
 GLANCE = 64  # steps of a striker after which one looks whether it is back
 ROUND_OFF = 4e-15
+WHOLE = 1e-6  # of a step: what a number of steps may be off a whole one
 GRIP = 1e3  # times the tolerance of forces: that of friction, which lags
 SCHEMES = {
     "backward_euler": scheme.BACKWARD_EULER,
@@ -43,28 +45,42 @@ def _stages(case: Case, scene: Scene) -> list[Phase]:
     pace = time_step(case)
     dt = np.inf if loading.quasi_static else pace
     if loading.mode == "custom":
-        steps = solver.load_steps or max(round(given(loading.duration) / pace), 1)
-        start = 0.0 if loading.quasi_static else 1.0
-        return [Phase("loading", march.Stage(steps, dt, pace, start, 1.0, 0.0, scene.travel))]
+        start, travel = 0.0 if loading.quasi_static else 1.0, scene.travel
+        if solver.load_steps is not None:
+            stage = march.Stage(solver.load_steps, dt, pace, start, 1.0, 0.0, travel)
+        else:
+            stage = _lasting(given(loading.duration), pace, (start, 1.0), (0.0, travel))
+        return [Phase("loading", stage)]
     rest = float(scene.x_rest[-1])
     if loading.mode == "displacement":
         low, steps = rest - given(loading.stroke), given(solver.load_steps)
         down = march.Stage(steps, dt, pace, 0.0, 0.0, rest, low)
         up = march.Stage(steps, dt, pace, 0.0, 0.0, low, rest)
         return [Phase("loading", down)] + ([Phase("unloading", up)] if loading.unload else [])
+    still, release, duration = (rest, rest), loading.release_time, given(loading.duration)
     if loading.mode == "impact":
-        return _flight(max(round(given(loading.duration) / pace), 1), dt, rest)
-    release, duration = given(loading.release_time), given(loading.duration)
-    hold, free = max(round(release / pace), 1), max(round((duration - release) / pace), 0)
-    held = march.Stage(hold, dt, pace, 1.0, 1.0, rest, rest)
-    released = march.Stage(free, dt, pace, 0.0, 0.0, rest, rest)
-    return [Phase("loading", held)] + ([Phase("released", released)] if free else [])
+        return _flight(_lasting(duration, pace, (0.0, 0.0), still))
+    held = _lasting(min(given(release), duration), pace, (1.0, 1.0), still)
+    if duration <= given(release):
+        return [Phase("loading", held)]
+    released = _lasting(duration - given(release), pace, (0.0, 0.0), still)
+    return [Phase("loading", held), Phase("released", released)]
 
 
-def _flight(steps: int, dt: float, rest: float) -> list[Phase]:
+def _lasting(
+    time: float, pace: float, factor: tuple[float, float], driven: tuple[float, float]
+) -> march.Stage:
+    """A stage of so much time, in equal steps of ``pace`` or, so that they fill it, a bit less."""
+    steps = max(ceil(time / pace - WHOLE), 1)
+    dt = pace if abs(steps * pace / time - 1.0) < WHOLE else time / steps
+    return march.Stage(steps, dt, dt, *factor, *driven)
+
+
+def _flight(flight: march.Stage) -> list[Phase]:
     """A striker that flies by itself, in stages after which the run may end."""
-    parts = [min(GLANCE, steps - done) for done in range(0, steps, GLANCE)]
-    return [Phase("struck", march.Stage(n, dt, dt, 0.0, 0.0, rest, rest)) for n in parts]
+    starts = range(0, flight.steps, GLANCE)
+    parts = [min(GLANCE, flight.steps - done) for done in starts]
+    return [Phase("struck", flight._replace(steps=n)) for n in parts]
 
 
 def tolerances(case: Case, scene: Scene, dt: float) -> Tolerance:

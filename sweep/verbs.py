@@ -92,7 +92,7 @@ def warm(_: Namespace) -> int:
 
     done = "compiled the kernels" if is_cold() else "found compiled kernels and loaded them"
     started = time.perf_counter()
-    real_simulate()
+    real_simulate(arcs=True)
     say(f"{done} in {time.perf_counter() - started:.1f} s; no run has to compile any")
     return DONE
 
@@ -131,7 +131,7 @@ def rank(arguments: Namespace) -> int:
     elif arguments.csv:
         say(rank(summary, **question).to_csv(index=False), end="")
     elif arguments.json:
-        say(rank(summary, **question).to_json(orient="records", indent=2))
+        say(rank(summary, **question).to_json(orient="records", indent=2, double_precision=15))
     elif arguments.markdown:
         say(markdown(ranking_sheets(rank(summary, **question), summary)), end="")
     else:

@@ -161,3 +161,11 @@ def test_statics_that_another_key_implies_is_refused_with_that_key(load, tmp_pat
     assert str(caught.value).startswith(
         'solver.integrator = "static", as loading.quasi_static is given: does not fit; allowed:'
     )
+
+
+@pytest.mark.parametrize("loading", [PRESSED, '[loading]\nmode = "impact"\n', ""])
+def test_contact_by_itself_counts_alone(tmp_path, loading):
+    path = tmp_path / "auto.toml"
+    path.write_text(loading + '[contact]\nmodel = "auto"\n', "utf-8")
+    (case,) = expand(load_config(path))
+    assert case.contact.model == "barrier"

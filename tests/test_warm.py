@@ -8,10 +8,12 @@ from pathlib import Path
 
 from sweep.params import Case, Contact, Damping, Lattice, Loading, Material, Solver
 from sweep.simulate import simulate
+from tests.structures import BEAM, structure
 
 PRESSED = {"mode": "displacement", "strain": 0.01}
 BRIEF = {"release_time": 2e-4, "duration": 4e-4}
 TWO = Solver(load_steps=2)
+TIP = {"node": 1, "force_N": [0.0, -1e-3]}
 CASES = {
     "glued": Case(loading=Loading(**PRESSED), solver=TWO),
     "loose": Case(loading=Loading(**PRESSED, platen="contact", unload=False), solver=TWO),
@@ -29,6 +31,10 @@ CASES = {
     "linear": Case(loading=Loading(**BRIEF), material=Material(stretch="linear")),
     "no inner nodes": Case(loading=Loading(**BRIEF), lattice=Lattice(nodes_per_wall=0)),
     "one inner node": Case(loading=Loading(**BRIEF), lattice=Lattice(nodes_per_wall=1)),
+    "an arc": Case(
+        lattice=Lattice(kind="custom", structure=structure(**BEAM, loads=[TIP])),
+        solver=Solver(integrator="arc_length", load_steps=2),
+    ),
     "one cell": Case(loading=Loading(**BRIEF), lattice=Lattice(cells_x=1, cells_y=1)),
 }
 

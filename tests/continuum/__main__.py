@@ -1,6 +1,6 @@
 """Compare the network with a solid of the same grid: `make continuum`.
 
-python -m tests.continuum FOLDER: tables are printed and written there, with a figure. Takes a few
+python -m tests.continuum FOLDER: tables are printed and written there, with a figure. Takes ten
 minutes.
 """
 

@@ -1,6 +1,7 @@
 """Simulate the scenes of `configs/extreme.toml` under observation, and count what became of them.
 
-python -m tests.stability FOLDER: the table is printed and written there, with a line a scene.
+PYTHONPATH=tests python -m tests.stability FOLDER: the table is printed and written there, with a
+line a scene.
 """
 
 import csv
