@@ -21,7 +21,7 @@ from sweep.structure import build_structure
 FRAMES = 40
 EARLY_FRAMES = 4 * FRAMES  # most impacts, and many paths, are over in a quarter of their steps
 LONGER = "try a longer loading.duration"
-SAFER = 'try solver.integrator "bdf2", damping or smaller steps'
+SAFER = 'try smaller steps, damping or solver.integrator "backward_euler"'
 SOUNDER = "try a smaller solver.tolerance, and look for values out of all proportion"
 GAP = 1e-3  # of the energy, that may be left over
 INVENTED = 0.1  # of the work done: energy that an integrator may make

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -27,12 +27,22 @@ def print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) ->
         print_sheets(ranking_sheets(ranking, summary))
     if not ranking.empty:
         say(legend(ranking))
-    if without := ranking.attrs["without_bar"]:
-        say(f"{without} ranked cases have no error bar and count as exact.")
-    if unranked := ranking.attrs["unranked"]:
-        say(f"{unranked} cases have no {ranking.attrs['by']} and so no place.")
-    if failed:
-        say(f"{failed} of {len(summary)} cases failed: crumple status {file} lists them")
+    say_all(aloud(file, len(summary), ranking))
+
+
+def aloud(file: str, cases: int, ranking: DataFrame) -> Iterator[str]:
+    """What must not be missed beside a ranking of so many cases."""
+    names = ranking.attrs
+    if names["without_bar"]:
+        yield f"{_counted(names['without_bar'], 'ranked case')} no error bar, as if exact."
+    if names["unranked"]:
+        yield f"{_counted(names['unranked'], 'case')} no {names['by']} and so no place."
+    if names["failed"]:
+        yield f"{names['failed']} of {cases} cases failed: crumple status {file} lists them"
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"{count} {noun} has" if count == 1 else f"{count} {noun}s have"
 
 
 def _heading(question: Mapping[str, Any], ranking: DataFrame) -> str:

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sweep.terminal import print_ranking, print_sheets, say, say_all
+from sweep.terminal import aloud, print_ranking, print_sheets, say, say_all
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -128,12 +128,15 @@ def rank(arguments: Namespace) -> int:
         with _writing(folder):
             files = publish_ranking(arguments.file, summary, question, folder)
         say_all(files)
-    elif arguments.csv:
-        say(rank(summary, **question).to_csv(index=False), end="")
-    elif arguments.json:
-        say(rank(summary, **question).to_json(orient="records", indent=2, double_precision=15))
-    elif arguments.markdown:
-        say(markdown(ranking_sheets(rank(summary, **question), summary)), end="")
+    elif arguments.csv or arguments.json or arguments.markdown:
+        ranking = rank(summary, **question)
+        if arguments.csv:
+            say(ranking.to_csv(index=False), end="")
+        elif arguments.json:
+            say(ranking.to_json(orient="records", indent=2, double_precision=15))
+        else:
+            say(markdown(ranking_sheets(ranking, summary)), end="")
+        sys.stderr.writelines(f"{line}\n" for line in aloud(arguments.file, len(summary), ranking))
     else:
         print_ranking(arguments.file, summary, question)
     return _exit_status(summary)

@@ -177,7 +177,8 @@ def test_ranking_without_any_finished_case_is_no_ranking(capsys, tmp_path):
 
 
 def test_csv_json_and_markdown_are_clean(capsys, file):
-    status, text, _ = crumple(capsys, "rank", file, "--csv")
+    status, text, errors = crumple(capsys, "rank", file, "--csv")
+    assert errors == f"2 of 5 cases failed: crumple status {file} lists them\n"
     table = pd.read_csv(io.StringIO(text), dtype={"case_id": str})
     assert status == 1
     assert list(table["case_id"]) == [f"{1:016x}", f"{0:016x}"]

@@ -34,12 +34,12 @@ def check_kept(result):
 
 
 def test_time_limit():
-    case = LONG.model_copy(update={"solver": LONG.solver.model_copy(update={"time_limit": 0.3})})
+    case = LONG.model_copy(update={"solver": LONG.solver.model_copy(update={"time_limit": 1.0})})
     begun = time.monotonic()
     result = simulate(case)
-    assert time.monotonic() - begun < 5.0
+    assert time.monotonic() - begun < 6.0
     assert result.status == Status.TIMED_OUT
-    assert result.message.startswith("solver.time_limit of 0.3 s reached while loading, at strain")
+    assert result.message.startswith("solver.time_limit of 1 s reached while loading, at strain")
     assert 1 < check_kept(result) < 2001
 
 
