@@ -96,7 +96,8 @@ def test_energies_of_a_step_are_those_of_where_it_was_moved_to():
     history, frames = result.history, result.frames
     assert len(frames["time_s"]) == len(history["time_s"]) == result.summary["steps"] + 1
     assert history["injected_by_projection_J"].any()
-    step = np.diff(frames["position_m"], axis=0) / 2e-4
+    dt = np.diff(history["time_s"])
+    step = np.diff(frames["position_m"], axis=0) / dt[:, None, None]
     share = scene.terms.mass[: 2 * step.shape[1]].reshape(-1, 2)
     kinetic = 0.5 * np.sum(share * step**2, axis=(1, 2))
     np.testing.assert_allclose(kinetic, history["kinetic_J"][1:], rtol=1e-9)
