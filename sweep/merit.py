@@ -50,7 +50,9 @@ def merits(
     `beyond_model`; and error bars of what is added, where the energy has one.
     """
     if missing := [name for name in COLUMNS if name not in finished]:
-        raise RankError(f"no {missing[0]}: an older version wrote these results; run them anew")
+        raise RankError(
+            f"no {missing[0]}: an older version wrote these results; run them anew into a new file"
+        )
     energy, force, until = _counted(finished, by, allowed_force)
     per_gram = f"{energy}_per_g".replace("absorbed_energy", "specific_absorption")
     within = finished["absorbed_energy_within_model_J"] * (1.0 + ROUND_OFF)
