@@ -26,7 +26,9 @@ from kernels.rows import pair
 
 
 class Friction(NamedTuple):
-    """mu and the slip eps (m) in a whole step below which friction is smoothed; mu = 0: none."""
+    """mu, and the slip below which friction is smoothed: its speed in m/s, or eps in m of a static
+    step. mu = 0: none.
+    """
 
     mu: float
     slip: float

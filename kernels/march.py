@@ -24,7 +24,7 @@ FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 GRIP_LOOPS = 30  # fixed-point iterations of friction
 EASY_LOOPS = 10  # after more of them the next step is no longer
 GIFT = 2e-3  # of all energy: what backward Euler may make, and once more in all further steps
-SHORT = 2.0**-12  # share of a step that may make more
+SHORT = 2.0**-12  # share of a step that may make more: the run is judged at its end
 # Of what is to be done: see `_go`. SPENT, EFFORT, TRIED: iterations for a row, a share, a minimum.
 ROW, DONE, SHARE, FAILED, SPENT, EFFORT, TRIED, LOOPS, MOVE, RELAXED, LENGTH = range(11)
 LAST = 3  # of the totals
@@ -192,7 +192,7 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo
             _begin(terms, stage, target, unknowns.driven, state, near, room, todo)
         dt, slip = stage.dt * todo[SHARE], terms.friction.slip
         if dt < np.inf:
-            slip *= todo[LENGTH] / stage.dt
+            slip *= todo[LENGTH]
         theta = scheme.weight(todo[LENGTH], dt)
         step = Step(before, way[PREDICTED], todo[LENGTH], factor, grips, slip, theta)
         outcome, spent, todo[MOVE] = minimise(

@@ -113,10 +113,10 @@ def _load(layout: Layout, case: Case) -> Floats:
 
 
 def friction_of(case: Case) -> friction.Friction:
-    """Slip speed x time step, or a share of the wall thickness where there is no time."""
+    """Slip speed, or a share of the wall thickness where there is no time."""
     slip = STATIC_SLIP * case.lattice.wall_thickness
     if case.contact.slip_speed is not None:
-        slip = case.contact.slip_speed * time_step(case)
+        slip = case.contact.slip_speed
     return friction.Friction(case.contact.friction or 0.0, slip)
 
 

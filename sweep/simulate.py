@@ -113,7 +113,7 @@ class _Run:
         self.frame_of, kept = _frames(total + 1, EARLY_FRAMES if early else FRAMES)
         self.positions = np.tile(scene.x_rest, (kept, 1))
         self.arc = arc_of(scene, case)
-        self.done = 1
+        self.done, self.noise = 1, 0.0
 
     def _begin(self) -> None:
         """Enter what the scene brings with it as work done: speed, and springs under tension.
@@ -155,8 +155,7 @@ class _Run:
         if self.case.loading.quasi_static:
             return False
         lost, work = self.rows[: self.done, book.INTEGRATOR], self.rows[: self.done, book.WORK]
-        noise = tolerances(self.case, self.scene, self.stages[0].stage.dt).noise
-        return bool(lost.min() < -INVENTED * work.max() - noise)
+        return bool(lost.min() < -INVENTED * work.max() - self.noise)
 
     def _balances(self) -> bool:
         """Whether the energy book closes but for a share `GAP` of what passes through it."""
@@ -199,6 +198,7 @@ class _Run:
         if not self.struck:
             self.state.totals[march.LAST] = 0.0  # what acts changes at once: set out anew
         tolerance = tolerances(self.case, self.scene, stage.dt)
+        self.noise = tolerance.noise
         of = self.scene.terms, self.scene.unknowns, tolerance, stage, self.state, out, self.control
         outcome, written = march.march(*of) if self.arc is None else arc.follow(*of, self.arc)
         self.done += written

@@ -86,7 +86,8 @@ def whole(scene, x, x0=None, dt=np.inf, v=None, factor=1.0, reach=0.0):
     before = damp.Before(x0.copy(), x0.copy(), frame, *room(terms.walls))
     damp.prepare(terms, before, nowhere(terms))
     grips = gripped(x, terms, step.find_near(x, terms, friction.none(), reach))
-    one = step.Step(before, x_pred.copy(), dt, factor, grips, terms.friction.slip, 1.0)
+    slip = terms.friction.slip * (dt if dt < np.inf else 1.0)
+    one = step.Step(before, x_pred.copy(), dt, factor, grips, slip, 1.0)
     return Whole(terms, one, step.find_near(x, terms, grips, reach))
 
 

@@ -5,11 +5,13 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from sweep.params import Case, Contact, Damping, Lattice, Loading, Solver
+from sweep.params import Case, Contact, Damping, Loading, Solver
 from sweep.simulate import simulate
 from tests.figures import MATERIAL
-from tests.scenes import SEED, STORED, UNDAMPED, VISCOUS, pressed, run, slopes, summed, unbalanced
-from tests.structures import APART, GRAVITY, LENGTH, set_off, structure
+from tests.scenes import SEED, UNDAMPED, VISCOUS, pressed, run, slopes, unbalanced
+from tests.structures import APART, set_off
+from tests.validation import energy
+from tests.validation.energy import moving
 
 ORDERS = {"backward_euler": 1, "bdf2": 2, "newmark": 2}
 INTEGRATORS = pytest.mark.parametrize("integrator", ORDERS)
@@ -21,18 +23,6 @@ CREEP = Damping(model="kelvin_voigt", relaxation_time=5e-4)
 SOFT = Damping(model="rayleigh", mass=300.0, stiffness=3e-5)
 TIMES = 25  # at which runs are compared
 STEPS_OF_A_PLATE = {"bdf2": 800, "newmark": 200}
-
-
-def moving(parts, duration, steps, integrator, damping=UNDAMPED, material=MATERIAL, tolerance=1e-8):
-    """A structure that moves for a while, s."""
-    return Case(
-        lattice=Lattice(kind="custom", structure=structure(**parts)),
-        material=material,
-        loading=Loading(duration=duration),
-        contact=APART,
-        damping=damping,
-        solver=Solver(time_step=duration / steps, integrator=integrator, tolerance=tolerance),
-    )
 
 
 def loaded(duration, steps, integrator, damping, platen="none", release=0.5, **loading):
@@ -145,51 +135,27 @@ def test_orders_of_a_platen_that_moves_and_turns(integrator):
 ])  # fmt: skip
 def test_energy_of_a_beam_in_a_hundred_periods(integrator, least, most):
     """Fifty steps a period of the first mode, 1 % of the length wide."""
-    period, parts = set_off(8, 0.01)
-    history = run(moving(parts, 100 * period, 5000, integrator, tolerance=1e-11)).history
-    drift = summed(history, STORED) / history["work_in_J"][0] - 1.0
+    result = energy.cantilever(integrator)
+    drift = energy.gained(result)
     assert least < drift[-1] < most
     assert np.abs(drift).max() < max(abs(least), abs(most))
-    assert unbalanced(history) < 1e-5
-
-
-def pendulum(integrator, modulus):
-    """Twenty swings of a rod that falls from the horizontal, fifty steps each."""
-    parts = {
-        "nodes_mm": [[0, 0], [LENGTH, 0]],
-        "walls": [[0, 1]],
-        "wall_thickness_mm": 4.0,
-        "subdivide": 1,
-        "pins": [0],
-        "supports": [{"node": 0, "fix": ["x", "y"]}],
-        "gravity_mm_s2": [0, -GRAVITY],
-    }
-    period = 1.18 * 2 * np.pi * np.sqrt(2 / 3 * LENGTH / GRAVITY)
-    material = MATERIAL.model_copy(update={"modulus": modulus})
-    return simulate(moving(parts, 20 * period, 1000, integrator, material=material))
-
-
-def gain(result):
-    """Energy at the end less the work of gravity, over the most kinetic energy."""
-    history = result.history
-    left = summed(history, STORED) - history["work_in_J"]
-    return left[-1] / history["kinetic_J"].max()
+    assert unbalanced(result.history) < 1e-5
 
 
 @pytest.mark.parametrize(("integrator", "lost"), [("backward_euler", 1.41), ("bdf2", 0.476)])
 def test_a_stiff_pendulum_is_safe_with_damped_integrators(integrator, lost):
     """They lose the same however stiff it is."""
-    for modulus in (12e6, 12e9):
-        result = pendulum(integrator, modulus)
+    for modulus in (energy.SOFT, energy.STIFF):
+        result = energy.pendulum(integrator, modulus)
         assert result.status == "converged"
-        assert gain(result) == pytest.approx(-lost, rel=0.02)
+        assert energy.gained(result)[-1] == pytest.approx(-lost, rel=0.02)
 
 
 def test_a_stiff_pendulum_is_not_safe_with_newmark():
     """It keeps the energy of a soft one, and makes energy of a stiff one, which is a failure."""
-    soft, stiff = (pendulum("newmark", modulus) for modulus in (12e6, 12e9))
+    soft, stiff = (energy.pendulum("newmark", y) for y in (energy.SOFT, energy.STIFF))
     assert soft.status == "converged"
-    assert abs(gain(soft)) < 0.02
+    assert abs(energy.gained(soft)[-1]) < 0.02
     assert stiff.status == "stopped"
     assert "energy out of nothing" in stiff.message
 

@@ -88,7 +88,7 @@ def test_derivatives_while_walls_slide():
 def potentials(args):
     """The terms of the kernels by name, each of them by itself."""
     terms, one, near = args
-    x0, slip = one.before.x0, terms.friction.slip
+    x0, slip = one.before.x0, one.slip
 
     def stretching(shape, stiffness, projected):
         return stretch.evaluate(terms.stretch, terms.law, shape, stiffness, projected)

@@ -6,7 +6,7 @@ import pytest
 import readme
 
 from tests.continuum import __main__ as continuum
-from tests.validation import PROBLEMS
+from tests.validation import PROBLEMS, energy
 from tests.validation.__main__ import HEAD, row
 from tests.validation.elastica import cantilever
 from tests.validation.problem import Finding, find
@@ -31,6 +31,11 @@ def test_problem_is_solved_with_the_order_of_the_method(problem):
 def test_every_problem_of_the_readme_is_solved():
     told = [name for name, *_ in readme.table(HEAD[0])]
     assert told == [problem.name for problem in PROBLEMS]
+
+
+def test_integrators_keep_the_energy_that_the_readme_says():
+    shown = readme.table(energy.HEAD[0])
+    assert [readme.words(row) for row in shown] == [readme.words(row) for row in energy.rows()]
 
 
 def test_cantilever_is_that_of_the_literature():

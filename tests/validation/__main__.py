@@ -7,7 +7,7 @@ import sys
 from math import isnan
 from pathlib import Path
 
-from tests.validation import PROBLEMS
+from tests.validation import PROBLEMS, energy
 from tests.validation.problem import SOURCES, find
 
 HEAD = ("problem", "source", "truth", "coarse", "middle", "fine", "order")
@@ -49,7 +49,10 @@ def table():
     yield line(HEAD + MORE)
     yield line(["---"] * len(HEAD + MORE))
     yield from (line(row(problem, find(problem))) for problem in PROBLEMS)
-    yield f"\n{NOTES}"
+    yield f"\n{NOTES}\n"
+    yield line(energy.HEAD)
+    yield line(["---"] * len(energy.HEAD))
+    yield from map(line, energy.rows())
 
 
 if __name__ == "__main__":
