@@ -6,8 +6,9 @@ Positive Definite Systems, ch. 5).
 
 import math
 
-from kernels.entries import SIZE
+from kernels.entries import SIZE, STRIDE
 from kernels.jit import jit, jit_exact
+from kernels.lanes import added, load, spread, store, total
 from kernels.rows import zero
 
 NEUTRAL = 1e-11  # a pivot below this share of its diagonal is round-off around zero
@@ -23,10 +24,10 @@ def settle(blocks, scale):
     for i in range(blocks.home.size):
         h = blocks.home[i]
         if h >= 0:
-            blocks.values[SIZE * (h // 3) + 4 * (h % 3)] += blocks.diagonal[i]
+            blocks.values[SIZE * (h // 3) + (STRIDE + 1) * (h % 3)] += blocks.diagonal[i]
             blocks.own[h] = -1.0
     for h in range(blocks.own.size):
-        at = SIZE * (h // 3) + 4 * (h % 3)
+        at = SIZE * (h // 3) + (STRIDE + 1) * (h % 3)
         if blocks.own[h] != -1.0:
             blocks.values[at] = scale
         blocks.own[h] = blocks.values[at]
@@ -53,55 +54,79 @@ def _invert(values, at, own, scale, rounded):
     a = pivoted(values[at], own[0], scale, rounded)
     if not (a > 0.0 or rounded == THROUGH):
         return 0, a
-    l10, l20 = values[at + 3] / a, values[at + 6] / a
-    values[at + 1] = -l10
-    b = pivoted(values[at + 4] - l10 * values[at + 3], own[1], scale, rounded)
+    a10, a20, a21 = values[at + 1], values[at + 2], values[at + 6]
+    l10, l20 = a10 / a, a20 / a
+    values[at + 4] = -l10
+    b = pivoted(values[at + 5] - l10 * a10, own[1], scale, rounded)
     if not (b > 0.0 or rounded == THROUGH):
         return 1, b
-    l21 = (values[at + 7] - l20 * values[at + 3]) / b
+    l21 = (a21 - l20 * a10) / b
     m20 = l10 * l21 - l20
-    values[at + 2], values[at + 5] = m20, -l21
-    c = values[at + 8] - l20 * values[at + 6] - l21 * l21 * b
-    c = pivoted(c, own[2], scale, rounded)
+    values[at + 8], values[at + 9] = m20, -l21
+    c = pivoted(values[at + 10] - l20 * a20 - l21 * l21 * b, own[2], scale, rounded)
     if not (c > 0.0 or rounded == THROUGH):
         return 2, c
-    values[at + 8] = 1.0 / c
-    values[at + 7] = values[at + 5] = -l21 / c
-    values[at + 6] = values[at + 2] = m20 / c
-    values[at + 4] = 1.0 / b + l21 * l21 / c
-    values[at + 3] = values[at + 1] = -l10 / b - l21 * m20 / c
+    values[at + 10] = 1.0 / c
+    values[at + 6] = values[at + 9] = -l21 / c
+    values[at + 2] = values[at + 8] = m20 / c
+    values[at + 5] = 1.0 / b + l21 * l21 / c
+    values[at + 1] = values[at + 4] = -l10 / b - l21 * m20 / c
     values[at] = 1.0 / a + l10 * l10 / b + m20 * m20 / c
     return -1, 0.0
 
 
 @jit
+def _columns(values, at):
+    """Return the columns of the block at ``at``."""
+    return load(values, at), load(values, at + STRIDE), load(values, at + 2 * STRIDE)
+
+
+@jit
+def _weights(x, y, z):
+    return spread(x), spread(y), spread(z)
+
+
+@jit
+def _add_mixed(array, at, columns, weights):
+    """Add to ``array``, from ``at`` on, the ``columns`` times their weights."""
+    sums = load(array, at)
+    for c in range(3):
+        sums = added(sums, columns[c], weights[c])
+    store(array, at, sums)
+
+
+@jit
 def _scale_column(blocks, j, nb):
     """Keep column ``j`` and multiply it by the inverse of its diagonal block."""
-    values, column = blocks.values, blocks.column
-    inverse = values[SIZE * j : SIZE * j + SIZE]
-    for q in range(blocks.start[j], blocks.start[j + 1]):
-        at, kept = SIZE * (nb + q), SIZE * (q - blocks.start[j])
-        for r in range(3):
-            x, y, z = values[at + 3 * r], values[at + 3 * r + 1], values[at + 3 * r + 2]
-            for s in range(3):
-                column[kept + 3 * r + s] = values[at + 3 * r + s]
-                values[at + 3 * r + s] = x * inverse[s] + y * inverse[3 + s] + z * inverse[6 + s]
+    values, column, kept = blocks.values, blocks.column, 0
+    inverse = values[SIZE * j : SIZE * (j + 1)]
+    for at in range(SIZE * (nb + blocks.start[j]), SIZE * (nb + blocks.start[j + 1]), SIZE):
+        columns = _columns(values, at)
+        for s in range(0, SIZE, STRIDE):
+            store(column, kept + s, load(values, at + s))
+            store(values, at + s, spread(0.0))
+        for s in range(0, SIZE, STRIDE):
+            weights = _weights(inverse[s], inverse[s + 1], inverse[s + 2])
+            _add_mixed(values, at + s, columns, weights)
+        kept += SIZE
 
 
 @jit
 def _update(blocks, j, nb, count):
     """Subtract what column ``j`` adds to the blocks behind it; ``count``: its first update."""
-    values, column, update = blocks.values, blocks.column, blocks.update
-    for a in range(blocks.start[j + 1] - blocks.start[j]):
-        left = values[SIZE * (nb + blocks.start[j] + a) : SIZE * (nb + blocks.start[j] + a + 1)]
-        for b in range(a + 1):
-            to, kept = update[count], SIZE * b
+    values, column, update, kept = blocks.values, blocks.column, blocks.update, 0
+    last = SIZE * (nb + blocks.start[j + 1])
+    for first in range(SIZE * (nb + blocks.start[j]), last, SIZE):
+        c = column[kept : kept + SIZE]
+        one, two = _weights(-c[0], -c[4], -c[8]), _weights(-c[1], -c[5], -c[9])
+        three = _weights(-c[2], -c[6], -c[10])
+        for at in range(first, last, SIZE):
+            left, to = _columns(values, at), update[count]
+            _add_mixed(values, to, left, one)
+            _add_mixed(values, to + STRIDE, left, two)
+            _add_mixed(values, to + 2 * STRIDE, left, three)
             count += 1
-            for r in range(3):
-                x, y, z = left[3 * r], left[3 * r + 1], left[3 * r + 2]
-                for s in range(3):
-                    k = kept + 3 * s
-                    values[to + 3 * r + s] -= x * column[k] + y * column[k + 1] + z * column[k + 2]
+        kept += SIZE
     return count
 
 
@@ -129,9 +154,9 @@ def negatives(blocks):
     count, v = 0, blocks.values
     for at in range(0, SIZE * (blocks.start.size - 1), SIZE):
         a = v[at]
-        b = v[at + 4] - v[at + 3] * v[at + 3] / a
-        l21 = (v[at + 7] - v[at + 6] * v[at + 3] / a) / b
-        c = v[at + 8] - v[at + 6] * v[at + 6] / a - l21 * l21 * b
+        b = v[at + 5] - v[at + 1] * v[at + 1] / a
+        l21 = (v[at + 6] - v[at + 2] * v[at + 1] / a) / b
+        c = v[at + 10] - v[at + 2] * v[at + 2] / a - l21 * l21 * b
         count += (a < 0.0) + (b < 0.0) + (c < 0.0)
     return count
 
@@ -143,14 +168,13 @@ def forward(blocks):
     for j in range(nb):
         x, y, z = v[3 * j], v[3 * j + 1], v[3 * j + 2]
         for q in range(blocks.start[j], blocks.start[j + 1]):
-            at, to = SIZE * (nb + q), 3 * blocks.row[q]
+            block = values[SIZE * (nb + q) : SIZE * (nb + q + 1)]
+            to = v[3 * blocks.row[q] : 3 * blocks.row[q] + 3]
             for r in range(3):
-                k = at + 3 * r
-                v[to + r] -= values[k] * x + values[k + 1] * y + values[k + 2] * z
-        at = SIZE * j
+                to[r] -= block[r] * x + block[r + 4] * y + block[r + 8] * z
+        block = values[SIZE * j : SIZE * (j + 1)]
         for r in range(3):
-            k = at + 3 * r
-            v[3 * j + r] = values[k] * x + values[k + 1] * y + values[k + 2] * z
+            v[3 * j + r] = block[r] * x + block[r + 4] * y + block[r + 8] * z
 
 
 @jit
@@ -158,11 +182,15 @@ def backward(blocks, first):
     """Solve L^T y = vector, in place, for the blocks before ``first``."""
     nb, values, v = blocks.start.size - 1, blocks.values, blocks.vector
     for j in range(first - 1, -1, -1):
+        x, y, z = v[3 * j], v[3 * j + 1], v[3 * j + 2]
         for q in range(blocks.start[j], blocks.start[j + 1]):
-            at, of = SIZE * (nb + q), 3 * blocks.row[q]
-            for r in range(3):
-                for s in range(3):
-                    v[3 * j + s] -= values[at + 3 * r + s] * v[of + r]
+            block = values[SIZE * (nb + q) : SIZE * (nb + q + 1)]
+            of = v[3 * blocks.row[q] : 3 * blocks.row[q] + 3]
+            a, b, c = of[0], of[1], of[2]
+            x -= block[0] * a + block[1] * b + block[2] * c
+            y -= block[4] * a + block[5] * b + block[6] * c
+            z -= block[8] * a + block[9] * b + block[10] * c
+        v[3 * j], v[3 * j + 1], v[3 * j + 2] = x, y, z
 
 
 @jit_exact
@@ -176,5 +204,5 @@ def descend(blocks, failed):
     v[failed] = 1.0
     j, slot = failed // 3, failed % 3
     for s in range(slot):
-        v[3 * j + s] = values[SIZE * j + 3 * s + slot]
+        v[3 * j + s] = values[SIZE * j + STRIDE * slot + s]
     backward(blocks, j)

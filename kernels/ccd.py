@@ -2,7 +2,7 @@
 
 In the plane a node meets a segment when cross(b - a, p - a) vanishes, a quadratic in the share s of
 the step. The roots are found in closed form without cancellation; motion along the segment's own
-line is treated apart. All functions return infinity where nothing meets.
+line is treated apart. All functions return infinity where nothing meets within two steps.
 """
 
 import math
@@ -11,6 +11,7 @@ from kernels.jit import jit_exact
 
 TIGHT = 1e-14  # round-off of a discriminant relative to its terms
 RIM = 1e-9  # a hit this far beyond an end still counts, relative to the segment
+FAR = 2.0  # times the step: what meets only later counts as never
 
 
 @jit_exact
@@ -25,6 +26,12 @@ def roots(c0, c1, c2):
         discriminant = 0.0
     q = -0.5 * (c1 + math.copysign(math.sqrt(discriminant), c1))
     return q / c2, (c0 / q if q != 0.0 else math.inf)
+
+
+@jit_exact
+def _keeps_sign(c0, c1, c2):
+    """Return whether c0 + c1 s + c2 s^2 has no root for s up to `FAR`, by a bound."""
+    return abs(c0) > FAR * (abs(c1) + FAR * abs(c2))
 
 
 @jit_exact
@@ -69,6 +76,8 @@ def _head_on(x, dx, p, v):
 def first_contact(x, dx, p, a, b):
     """Return the smallest s >= 0 at which node ``p`` lies on segment a-b, infinity if never."""
     c0, c1, c2 = cross_quadratic(x, dx, a, b, p)
+    if _keeps_sign(c0, c1, c2):
+        return math.inf
     _, l2 = _position_along(x, dx, 0.0, p, a, b)
     if abs(c0) <= TIGHT * l2 and abs(c1) <= TIGHT * l2 and abs(c2) <= TIGHT * l2:
         return min(_head_on(x, dx, p, a), _head_on(x, dx, p, b))
@@ -85,6 +94,8 @@ def first_contact(x, dx, p, a, b):
 def first_fold(x, dx, a, b, c):
     """Return the smallest s >= 0 at which arms b-a and b-c point the same way."""
     c0, c1, c2 = cross_quadratic(x, dx, a, b, c)
+    if _keeps_sign(c0, c1, c2):
+        return math.inf
     first = math.inf
     for s in roots(c0, c1, c2):
         if 0.0 <= s < first:

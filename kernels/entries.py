@@ -2,7 +2,7 @@
 
 A block holds the unknowns of one point: x, y and the rotation of a joint. Blocks are numbered in
 the order of their elimination; the lower half is stored by columns, each diagonal block first in
-`values`, then the blocks below.
+`values`, then the blocks below. A block is three columns of four, of which the last stays zero.
 
 A coordinate has a *home*: 3 x block + slot, or one of the codes below.
 """
@@ -12,25 +12,29 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.jit import jit, jit_exact, jit_owning
+from kernels.lanes import LANES
 from kernels.rows import zero
 
 HELD, INNER, DRIVEN = -1, -2, -3  # never moves; eliminated inside its wall; led
 IMAGE = -4  # of the first row of `image`, -5 of the second ...
-SIZE = 9
+STRIDE = LANES  # of the columns of a block
+SIZE = 3 * STRIDE
 
 
 class Blocks(NamedTuple):
     """Matrix of nb blocks.
 
-    home (n,): of each coordinate. start (nb + 1,), row (nl,): blocks below each diagonal block.
-    update (nu,): targets in the order in which `factor` meets them. values (9 (nb + nl) + 1,): the
-    last one takes what belongs nowhere. own (3 nb,): diagonal before the factor. diagonal, pull
-    (n,): by coordinate, diagonal entries and couplings with what is led. ratio (n,), images
-    (k, 4): as in `pattern.Layout`. vector (3 nb,), column (9 x longest,): scratch. missing (1,):
-    set when an entry has no room.
+    home (n,): of each coordinate. whole (n,): block of a coordinate and the next, -1 if they share
+    none. start (nb + 1,), row (nl,): blocks below each diagonal block. update (nu,): targets in the
+    order in which `factor` meets them. values (12 (nb + nl) + 1,): the last one takes what belongs
+    nowhere. own (3 nb,): diagonal before the factor. diagonal, pull (n,): by coordinate, diagonal
+    entries and couplings with what is led. ratio (n,), images (k, 4): as in `pattern.Layout`.
+    vector (3 nb + 1,), column (12 x longest,): scratch. missing (1,): set when an entry has no
+    room.
     """
 
     home: np.ndarray
+    whole: np.ndarray
     start: np.ndarray
     row: np.ndarray
     update: np.ndarray
@@ -66,18 +70,28 @@ def updates(start, row):
     for j in range(nb):
         height = start[j + 1] - start[j]
         count += height * (height + 1) // 2
-    update, first = np.empty(count, np.int64), 0
+    update, count = np.empty(count, np.int64), 0
     for j in range(nb):
-        height = start[j + 1] - start[j]
-        for b in range(height):
-            update[first + b * (b + 3) // 2] = SIZE * row[start[j] + b]
-            q = start[row[start[j] + b]]  # through the rows of column b, which has all behind b
-            for a in range(b + 1, height):
-                while row[q] < row[start[j] + a]:
+        for b in range(start[j], start[j + 1]):
+            update[count] = SIZE * row[b]
+            count += 1
+            q = start[row[b]]  # through the rows of column b, which has all behind b
+            for a in range(b + 1, start[j + 1]):
+                while row[q] < row[a]:
                     q += 1
-                update[first + a * (a + 1) // 2 + b] = SIZE * (nb + q)
-        first += height * (height + 1) // 2
+                update[count] = SIZE * (nb + q)
+                count += 1
     return update
+
+
+@jit_owning
+def _whole(home):
+    """Return the block of every coordinate that is its first unknown, with the next its second."""
+    whole = np.full(home.size, -1)
+    for i in range(home.size - 1):
+        if home[i] >= 0 and home[i] % 3 == 0 and home[i + 1] == home[i] + 1:
+            whole[i] = home[i] // 3
+    return whole
 
 
 @jit_owning
@@ -88,9 +102,9 @@ def shaped(home, start, row, ratio, images):
     for j in range(nb):
         longest = max(longest, start[j + 1] - start[j])
     return Blocks(
-        home, start, row, updates(start, row), np.zeros(SIZE * (nb + row.size) + 1),
-        np.zeros(3 * nb), np.zeros(n), np.zeros(n), ratio, images,
-        np.zeros(3 * nb), np.zeros(SIZE * longest), np.zeros(1, np.int64),
+        home, _whole(home), start, row, updates(start, row),
+        np.zeros(SIZE * (nb + row.size) + 1), np.zeros(3 * nb), np.zeros(n), np.zeros(n),
+        ratio, images, np.zeros(3 * nb + 1), np.zeros(SIZE * longest), np.zeros(1, np.int64),
     )  # fmt: skip
 
 
@@ -109,11 +123,11 @@ def position(home, start, row, i, j):
     p, q = home[i] // 3, home[j] // 3
     r, s = home[i] - 3 * p, home[j] - 3 * q
     if p == q:
-        return SIZE * p + 3 * max(r, s) + min(r, s)
+        return SIZE * p + STRIDE * min(r, s) + max(r, s)
     if p < q:
         p, q, r, s = q, p, s, r
     found = find(start, row, p, q)
-    return SIZE * (start.size - 1 + found) + 3 * r + s if found >= 0 else -1
+    return SIZE * (start.size - 1 + found) + STRIDE * s + r if found >= 0 else -1
 
 
 @jit
@@ -176,27 +190,33 @@ def _add_images(blocks, i, j, block):
 
 
 @jit
-def _is_whole(home, i):
-    """Return whether x and y of the point whose x is coordinate ``i`` share a block."""
-    return home[i] >= 0 and home[i + 1] == home[i] + 1
-
-
-@jit
 def add_block(blocks, i, j, xx, xy, yx, yy):
     """Add the 2 x 2 block of points whose x are coordinates ``i``, ``j`` (lower half if equal)."""
-    home, values = blocks.home, blocks.values
-    if home[i] != home[j] and _is_whole(home, i) and _is_whole(home, j):
-        at = position(home, blocks.start, blocks.row, i, j)
+    p, q, at = blocks.whole[i], blocks.whole[j], -1
+    if p < 0 or q < 0 or (p == q and i != j):
+        _add_apart(blocks, i, j, xx, xy, yx, yy)
+        return
+    if p == q:
+        at, xy = SIZE * p, 0.0
+    else:
+        at = find(blocks.start, blocks.row, max(p, q), min(p, q))
         if at < 0:
             blocks.missing[0] = 1
             return
-        across, down = (1, 3) if home[i] > home[j] else (3, 1)
-        values[at] += xx
-        values[at + across] += xy
-        values[at + down] += yx
-        values[at + 4] += yy
-        return
-    if home[i] <= IMAGE or home[j] <= IMAGE:
+        at = SIZE * (blocks.start.size - 1 + at)
+    if p < q:
+        xy, yx = yx, xy
+    values = blocks.values
+    values[at] += xx
+    values[at + 1] += yx
+    values[at + STRIDE] += xy
+    values[at + STRIDE + 1] += yy
+
+
+@jit
+def _add_apart(blocks, i, j, xx, xy, yx, yy):
+    """Add a block of points whose coordinates do not share a block, entry by entry."""
+    if blocks.home[i] <= IMAGE or blocks.home[j] <= IMAGE:
         _add_images(blocks, i, j, (xx, xy, yx, yy))
         return
     add(blocks, i, j, xx)

@@ -1,0 +1,90 @@
+"""Four numbers in one register of the processor, which LLVM does not find by itself in a block.
+
+A `Four` lives inside a kernel only: loaded from an array (n,), four sums at a time, stored again.
+"""
+
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic, models, register_model
+from numba.np.arrayobj import make_array
+
+LANES = 4
+VECTOR = ir.VectorType(ir.DoubleType(), LANES)
+INDEX = ir.IntType(32)
+ANYTHING = ir.Constant(VECTOR, ir.Undefined)
+
+
+class Four(types.Type):
+    """Type of four float64."""
+
+    def __init__(self):
+        super().__init__("four")
+
+
+four = Four()
+
+
+@register_model(Four)
+class _Model(models.PrimitiveModel):
+    def __init__(self, manager, kind):
+        super().__init__(manager, kind, VECTOR)
+
+
+def _at(context, builder, kind, array, index):
+    """Pointer to the four entries of ``array`` from ``index`` on."""
+    data = make_array(kind)(context, builder, array).data
+    return builder.bitcast(builder.gep(data, [index]), VECTOR.as_pointer())
+
+
+@intrinsic
+def load(_, array, index):
+    """Return entries ``index`` .. ``index`` + 3 of ``array``."""
+
+    def code(context, builder, signature, args):
+        return builder.load(_at(context, builder, signature.args[0], *args), align=8)
+
+    return four(array, types.intp), code
+
+
+@intrinsic
+def store(_, array, index, value):
+    """Write ``value`` to entries ``index`` .. ``index`` + 3 of ``array``."""
+
+    def code(context, builder, signature, args):
+        builder.store(args[2], _at(context, builder, signature.args[0], *args[:2]), align=8)
+        return context.get_dummy_value()
+
+    return types.none(array, types.intp, value), code
+
+
+@intrinsic
+def spread(_, number):
+    """Return ``number`` four times."""
+
+    def code(context, builder, signature, args):
+        first = builder.insert_element(ANYTHING, args[0], INDEX(0))
+        return builder.shuffle_vector(first, ANYTHING, ir.Constant(ir.VectorType(INDEX, LANES), 0))
+
+    return four(types.float64), code
+
+
+@intrinsic
+def added(_, value, a, b):
+    """Return ``value`` + ``a`` * ``b``, lane by lane."""
+
+    def code(context, builder, signature, args):
+        product = builder.fmul(args[1], args[2], flags=["contract"])
+        return builder.fadd(args[0], product, flags=["contract"])
+
+    return four(four, four, four), code
+
+
+@intrinsic
+def total(_, value):
+    """Return the sum of the four."""
+
+    def code(context, builder, signature, args):
+        one, two, three, last = (builder.extract_element(args[0], INDEX(k)) for k in range(LANES))
+        return builder.fadd(builder.fadd(one, two), builder.fadd(three, last))
+
+    return types.float64(four), code
