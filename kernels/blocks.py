@@ -168,13 +168,13 @@ def forward(blocks):
     for j in range(nb):
         x, y, z = v[3 * j], v[3 * j + 1], v[3 * j + 2]
         for q in range(blocks.start[j], blocks.start[j + 1]):
-            block = values[SIZE * (nb + q) : SIZE * (nb + q + 1)]
-            to = v[3 * blocks.row[q] : 3 * blocks.row[q] + 3]
+            at, to = SIZE * (nb + q), 3 * blocks.row[q]
             for r in range(3):
-                to[r] -= block[r] * x + block[r + 4] * y + block[r + 8] * z
-        block = values[SIZE * j : SIZE * (j + 1)]
+                k = at + r
+                v[to + r] -= values[k] * x + values[k + STRIDE] * y + values[k + 2 * STRIDE] * z
         for r in range(3):
-            v[3 * j + r] = block[r] * x + block[r + 4] * y + block[r + 8] * z
+            k = SIZE * j + r
+            v[3 * j + r] = values[k] * x + values[k + STRIDE] * y + values[k + 2 * STRIDE] * z
 
 
 @jit
@@ -182,15 +182,11 @@ def backward(blocks, first):
     """Solve L^T y = vector, in place, for the blocks before ``first``."""
     nb, values, v = blocks.start.size - 1, blocks.values, blocks.vector
     for j in range(first - 1, -1, -1):
-        x, y, z = v[3 * j], v[3 * j + 1], v[3 * j + 2]
         for q in range(blocks.start[j], blocks.start[j + 1]):
-            block = values[SIZE * (nb + q) : SIZE * (nb + q + 1)]
-            of = v[3 * blocks.row[q] : 3 * blocks.row[q] + 3]
-            a, b, c = of[0], of[1], of[2]
-            x -= block[0] * a + block[1] * b + block[2] * c
-            y -= block[4] * a + block[5] * b + block[6] * c
-            z -= block[8] * a + block[9] * b + block[10] * c
-        v[3 * j], v[3 * j + 1], v[3 * j + 2] = x, y, z
+            at, of = SIZE * (nb + q), 3 * blocks.row[q]
+            for s in range(3):
+                k = at + STRIDE * s
+                v[3 * j + s] -= values[k] * v[of] + values[k + 1] * v[of + 1] + values[k + 2] * v[of + 2]
 
 
 @jit_exact
