@@ -8,7 +8,7 @@ import math
 
 from kernels.entries import SIZE, STRIDE
 from kernels.jit import jit, jit_exact
-from kernels.lanes import added, load, spread, store, total
+from kernels.lanes import added, load, spread, store
 from kernels.rows import zero
 
 NEUTRAL = 1e-11  # a pivot below this share of its diagonal is round-off around zero
@@ -49,7 +49,7 @@ def _invert(values, at, own, scale, rounded):
     """Replace the diagonal block at ``at`` by its inverse; return the failed slot and its pivot.
 
     d = diag(a, b, c) and the unit lower triangle l are the block's own LDL^T. Above the diagonal
-    stands l^{-T}, so far as it is known, until the block is inverted.
+    stands l^{-T}, so far as it is known, until the block is inverted. (Entry r, s is at 4 s + r.)
     """
     a = pivoted(values[at], own[0], scale, rounded)
     if not (a > 0.0 or rounded == THROUGH):
@@ -82,33 +82,34 @@ def _columns(values, at):
 
 
 @jit
-def _weights(x, y, z):
+def _weights(values, at):
+    """Return every fourth entry from ``at`` on, a row of a block, each in all four lanes."""
+    x, y, z = values[at], values[at + STRIDE], values[at + 2 * STRIDE]
     return spread(x), spread(y), spread(z)
 
 
 @jit
-def _add_mixed(array, at, columns, weights):
-    """Add to ``array``, from ``at`` on, the ``columns`` times their weights."""
-    sums = load(array, at)
+def _mixed(sums, columns, weights):
+    """Return ``sums`` + the ``columns`` times their weights."""
     for c in range(3):
         sums = added(sums, columns[c], weights[c])
-    store(array, at, sums)
+    return sums
 
 
 @jit
 def _scale_column(blocks, j, nb):
-    """Keep column ``j`` and multiply it by the inverse of its diagonal block."""
-    values, column, kept = blocks.values, blocks.column, 0
-    inverse = values[SIZE * j : SIZE * (j + 1)]
+    """Keep column ``j`` with its sign changed and multiply it by the inverse of its diagonal."""
+    values, minus, nothing, kept = blocks.values, spread(-1.0), spread(0.0), 0
+    one, two = _weights(values, SIZE * j), _weights(values, SIZE * j + 1)
+    three = _weights(values, SIZE * j + 2)
     for at in range(SIZE * (nb + blocks.start[j]), SIZE * (nb + blocks.start[j + 1]), SIZE):
         columns = _columns(values, at)
-        for s in range(0, SIZE, STRIDE):
-            store(column, kept + s, load(values, at + s))
-            store(values, at + s, spread(0.0))
-        for s in range(0, SIZE, STRIDE):
-            weights = _weights(inverse[s], inverse[s + 1], inverse[s + 2])
-            _add_mixed(values, at + s, columns, weights)
-        kept += SIZE
+        for column in columns:
+            store(blocks.column, kept, added(nothing, minus, column))
+            kept += STRIDE
+        store(values, at, _mixed(nothing, columns, one))
+        store(values, at + STRIDE, _mixed(nothing, columns, two))
+        store(values, at + 2 * STRIDE, _mixed(nothing, columns, three))
 
 
 @jit
@@ -117,14 +118,14 @@ def _update(blocks, j, nb, count):
     values, column, update, kept = blocks.values, blocks.column, blocks.update, 0
     last = SIZE * (nb + blocks.start[j + 1])
     for first in range(SIZE * (nb + blocks.start[j]), last, SIZE):
-        c = column[kept : kept + SIZE]
-        one, two = _weights(-c[0], -c[4], -c[8]), _weights(-c[1], -c[5], -c[9])
-        three = _weights(-c[2], -c[6], -c[10])
+        one, two = _weights(column, kept), _weights(column, kept + 1)
+        three = _weights(column, kept + 2)
         for at in range(first, last, SIZE):
             left, to = _columns(values, at), update[count]
-            _add_mixed(values, to, left, one)
-            _add_mixed(values, to + STRIDE, left, two)
-            _add_mixed(values, to + 2 * STRIDE, left, three)
+            x, y, z = _columns(values, to)
+            store(values, to, _mixed(x, left, one))
+            store(values, to + STRIDE, _mixed(y, left, two))
+            store(values, to + 2 * STRIDE, _mixed(z, left, three))
             count += 1
         kept += SIZE
     return count
@@ -184,9 +185,10 @@ def backward(blocks, first):
     for j in range(first - 1, -1, -1):
         for q in range(blocks.start[j], blocks.start[j + 1]):
             at, of = SIZE * (nb + q), 3 * blocks.row[q]
+            x, y, z = v[of], v[of + 1], v[of + 2]
             for s in range(3):
                 k = at + STRIDE * s
-                v[3 * j + s] -= values[k] * v[of] + values[k + 1] * v[of + 1] + values[k + 2] * v[of + 2]
+                v[3 * j + s] -= values[k] * x + values[k + 1] * y + values[k + 2] * z
 
 
 @jit_exact

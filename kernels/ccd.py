@@ -29,9 +29,9 @@ def roots(c0, c1, c2):
 
 
 @jit_exact
-def _keeps_sign(c0, c1, c2):
+def _keeps_sign(c0, c1, c2, l2):
     """Return whether c0 + c1 s + c2 s^2 has no root for s up to `FAR`, by a bound."""
-    return abs(c0) > FAR * (abs(c1) + FAR * abs(c2))
+    return abs(c0) > FAR * (abs(c1) + FAR * abs(c2)) + TIGHT * l2
 
 
 @jit_exact
@@ -76,9 +76,9 @@ def _head_on(x, dx, p, v):
 def first_contact(x, dx, p, a, b):
     """Return the smallest s >= 0 at which node ``p`` lies on segment a-b, infinity if never."""
     c0, c1, c2 = cross_quadratic(x, dx, a, b, p)
-    if _keeps_sign(c0, c1, c2):
-        return math.inf
     _, l2 = _position_along(x, dx, 0.0, p, a, b)
+    if _keeps_sign(c0, c1, c2, l2):
+        return math.inf
     if abs(c0) <= TIGHT * l2 and abs(c1) <= TIGHT * l2 and abs(c2) <= TIGHT * l2:
         return min(_head_on(x, dx, p, a), _head_on(x, dx, p, b))
     one, two = roots(c0, c1, c2)
@@ -94,7 +94,8 @@ def first_contact(x, dx, p, a, b):
 def first_fold(x, dx, a, b, c):
     """Return the smallest s >= 0 at which arms b-a and b-c point the same way."""
     c0, c1, c2 = cross_quadratic(x, dx, a, b, c)
-    if _keeps_sign(c0, c1, c2):
+    _, l2 = _position_along(x, dx, 0.0, c, b, a)
+    if _keeps_sign(c0, c1, c2, l2):
         return math.inf
     first = math.inf
     for s in roots(c0, c1, c2):

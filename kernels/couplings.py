@@ -6,7 +6,7 @@ from kernels import fold
 from kernels.jit import jit_exact, jit_owning
 from kernels.rows import pair, triple
 
-LIKELY = 0.25  # of its contact distance: a pair that much farther away gets room
+LIKELY = 0.1  # of its contact distance: a pair that much farther away gets room
 
 
 @jit_exact

@@ -17,7 +17,7 @@ from kernels.rows import zero
 
 HELD, INNER, DRIVEN = -1, -2, -3  # never moves; eliminated inside its wall; led
 IMAGE = -4  # of the first row of `image`, -5 of the second ...
-STRIDE = LANES  # of the columns of a block
+STRIDE = LANES  # from one column of a block to the next
 SIZE = 3 * STRIDE
 
 
@@ -29,7 +29,7 @@ class Blocks(NamedTuple):
     order in which `factor` meets them. values (12 (nb + nl) + 1,): the last one takes what belongs
     nowhere. own (3 nb,): diagonal before the factor. diagonal, pull (n,): by coordinate, diagonal
     entries and couplings with what is led. ratio (n,), images (k, 4): as in `pattern.Layout`.
-    vector (3 nb + 1,), column (12 x longest,): scratch. missing (1,): set when an entry has no
+    vector (3 nb,), column (12 x longest,): scratch. missing (1,): set when an entry has no
     room.
     """
 
@@ -104,7 +104,7 @@ def shaped(home, start, row, ratio, images):
     return Blocks(
         home, _whole(home), start, row, updates(start, row),
         np.zeros(SIZE * (nb + row.size) + 1), np.zeros(3 * nb), np.zeros(n), np.zeros(n),
-        ratio, images, np.zeros(3 * nb + 1), np.zeros(SIZE * longest), np.zeros(1, np.int64),
+        ratio, images, np.zeros(3 * nb), np.zeros(SIZE * longest), np.zeros(1, np.int64),
     )  # fmt: skip
 
 

@@ -77,14 +77,3 @@ def added(_, value, a, b):
         return builder.fadd(args[0], product, flags=["contract"])
 
     return four(four, four, four), code
-
-
-@intrinsic
-def total(_, value):
-    """Return the sum of the four."""
-
-    def code(context, builder, signature, args):
-        one, two, three, last = (builder.extract_element(args[0], INDEX(k)) for k in range(LANES))
-        return builder.fadd(builder.fadd(one, two), builder.fadd(three, last))
-
-    return types.float64(four), code

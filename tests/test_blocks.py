@@ -95,6 +95,7 @@ def test_the_factor_times_its_diagonal_times_its_transpose_is_the_matrix(seed):
     lower = np.tril(np.where(inside, 0.0, kept)) + np.eye(len(full))
     diagonal = np.linalg.inv(np.where(inside, kept, 0.0))
     np.testing.assert_allclose(lower @ diagonal @ lower.T, full, rtol=0, atol=1e-13 * len(full))
+    assert not matrix.values[:-1].reshape(-1, entries.STRIDE)[:, 3].any()
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -107,10 +108,10 @@ def test_updates_are_where_the_products_of_a_column_belong(seed):
         for q in range(matrix.start[j], matrix.start[j + 1]):
             place[matrix.row[q], j] = 20 + q
     expected = [
-        9 * place[a, b]
+        entries.SIZE * place[a, b]
         for j in range(20)
-        for a in matrix.row[matrix.start[j] : matrix.start[j + 1]]
         for b in matrix.row[matrix.start[j] : matrix.start[j + 1]]
+        for a in matrix.row[matrix.start[j] : matrix.start[j + 1]]
         if b <= a
     ]
     assert len(expected) > 50
