@@ -21,14 +21,27 @@ from kernels import bend, friction, system
 from kernels.balance import largest, reduce
 from kernels.book import enter
 from kernels.jit import jit_exact, jit_inlined, jit_owning
-from kernels.march import SMALLEST, write
+from kernels.march import SMALLEST
 from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, NOT_FINITE, OUTGROWN, STALLED
 from kernels.room import PREDICTED, make_room
 from kernels.rows import copy, dot, zero
 from kernels.step import Step, covers, evaluate, factor, find_near, step_limit
+from kernels.trace import MINIMISED, NOW, STEPS, write
 
 FACTOR, UNSTABLE = range(2)  # columns of a path
-ROW, DONE, SHARE, LOAD, RISE, AIM, LENGTH, SPENT, MOVE = range(9)  # of what is to be done
+TODO = np.dtype(
+    [
+        ("row", np.int64),  # of the history, which comes next; -1: the start
+        ("done", np.float64),  # share of its arc
+        ("share", np.float64),  # of its arc that is tried now
+        ("length", np.float64),  # of that, m; 0: to the load ``aim``
+        ("aim", np.float64),
+        ("load", np.float64),  # factor, as it is
+        ("rise", np.float64),  # of that in the next iteration
+        ("move", np.float64),  # farthest in that, m
+        ("spent", np.int64),  # iterations; -1: set out
+    ]
+)
 WAY, TANGENT = range(2)  # last move, and that of a unit of load from its end
 TRIES = 20  # Newton iterations of an arc
 ON_ARC = 1e-6  # of the arc: farther off it is another one
@@ -76,9 +89,9 @@ def _combine(r, share, v, unknowns, dx):
 @jit_exact
 def _off(u, r, v, arc, todo):
     """Return the rise of the load that the constraint asks for, and whether it is met."""
-    if todo[LENGTH] == 0.0:
-        return todo[AIM] - todo[LOAD], todo[AIM] == todo[LOAD]
-    square = todo[LENGTH] * todo[LENGTH]
+    if todo.length == 0.0:
+        return todo.aim - todo.load, todo.aim == todo.load
+    square = todo.length * todo.length
     gap = _inner(u, u, arc.weight) - square
     rise = -(0.5 * gap + _inner(u, r, arc.weight)) / _inner(u, v, arc.weight)
     return rise, abs(gap) <= ON_ARC * square
@@ -90,18 +103,18 @@ def _balance(x, terms, before, near, unknowns, tolerance, room, arc, todo):
     _, at, work, grips, way = room
     r, v = work.direction, work.escape
     while True:
-        if not covers(near, x, terms, todo[MOVE]):
+        if not covers(near, x, terms, todo.move):
             return OUTGROWN
-        share = step_limit(x, work.dx, todo[MOVE], terms, near, at)
-        if todo[MOVE] > unknowns.cap:
-            share = min(share, unknowns.cap / todo[MOVE])
+        share = step_limit(x, work.dx, todo.move, terms, near, at)
+        if todo.move > unknowns.cap:
+            share = min(share, unknowns.cap / todo.move)
         for i in range(x.size):
             x[i] += share * work.dx[i]
-        arrives = share == 1.0 and todo[LENGTH] == 0.0
-        todo[LOAD] = todo[AIM] if arrives else todo[LOAD] + share * todo[RISE]
+        arrives = share == 1.0 and todo.length == 0.0
+        todo.load = todo.aim if arrives else todo.load + share * todo.rise
         zero(work.dx)
-        todo[RISE], todo[MOVE], todo[SPENT] = 0.0, 0.0, todo[SPENT] + 1.0
-        step = Step(before, way[PREDICTED], np.inf, todo[LOAD], grips, terms.friction.slip, 0.5)
+        todo.rise, todo.move, todo.spent = 0.0, 0.0, todo.spent + 1
+        step = Step(before, way[PREDICTED], np.inf, todo.load, grips, terms.friction.slip, 0.5)
         evaluate(x, terms, step, near, at, False)
         reduce(at.g, unknowns, work.residual)
         size = largest(work.residual, unknowns)
@@ -117,9 +130,9 @@ def _balance(x, terms, before, near, unknowns, tolerance, room, arc, todo):
         rise, met = _off(at.u, r, v, arc, todo)
         if met and size <= tolerance.force and abs(0.5 * dot(at.g, r)) <= tolerance.decrement:
             return CONVERGED
-        if todo[SPENT] > min(TRIES, tolerance.iterations):
+        if todo.spent > min(TRIES, tolerance.iterations):
             return ITERATIONS
-        todo[RISE], todo[MOVE] = rise, _combine(r, rise, v, unknowns, work.dx)
+        todo.rise, todo.move = rise, _combine(r, rise, v, unknowns, work.dx)
 
 
 @jit_inlined
@@ -130,78 +143,78 @@ def _set_out(terms, unknowns, state, room, arc, trail, todo):
     copy(state.x, before.y)
     bend.aim(state.x, terms.walls, terms.bend, before.frame)
     tangent, way = trail[TANGENT], trail[WAY]
-    todo[SPENT], todo[LOAD], todo[AIM] = 0.0, state.held[1], state.held[1]
-    todo[LENGTH], todo[RISE] = 0.0, 0.0
-    if todo[ROW] >= 0.0:
+    todo.spent, todo.load, todo.aim = 0, state.held[1], state.held[1]
+    todo.length, todo.rise = 0.0, 0.0
+    if todo.row >= 0:
         size = np.sqrt(_inner(tangent, tangent, arc.weight))
-        length = todo[SHARE] * min(arc.length, MOST_LOAD * size)
-        todo[RISE] = length / size * (-1.0 if _inner(tangent, way, arc.weight) < 0.0 else 1.0)
-        todo[LENGTH] = length
-        if todo[RISE] >= 1.0 - todo[LOAD]:
-            todo[RISE], todo[LENGTH], todo[AIM] = 1.0 - todo[LOAD], 0.0, 1.0
+        length = todo.share * min(arc.length, MOST_LOAD * size)
+        todo.rise = length / size * (-1.0 if _inner(tangent, way, arc.weight) < 0.0 else 1.0)
+        todo.length = length
+        if todo.rise >= 1.0 - todo.load:
+            todo.rise, todo.length, todo.aim = 1.0 - todo.load, 0.0, 1.0
     zero(work.residual)
-    todo[MOVE] = _combine(work.residual, todo[RISE], tangent, unknowns, work.dx)
+    todo.move = _combine(work.residual, todo.rise, tangent, unknowns, work.dx)
 
 
 @jit_inlined
 def _return(before, at, state, unknowns, work, todo):
     """Set out from the last point for the full load instead, as an arc has passed it."""
-    share = (1.0 - state.held[1]) / (todo[LOAD] - state.held[1])
+    share = (1.0 - state.held[1]) / (todo.load - state.held[1])
     copy(before.x0, state.x)
     zero(at.least)  # what was found last was found elsewhere
     zero(work.residual)
-    todo[MOVE] = _combine(work.residual, share, at.u, unknowns, work.dx)
-    todo[LOAD], todo[RISE] = state.held[1], 1.0 - state.held[1]
-    state.totals[0] += todo[SPENT]
-    todo[LENGTH], todo[AIM], todo[SPENT] = 0.0, 1.0, 0.0
+    todo.move = _combine(work.residual, share, at.u, unknowns, work.dx)
+    todo.load, todo.rise = state.held[1], 1.0 - state.held[1]
+    state.totals[MINIMISED] += todo.spent
+    todo.length, todo.aim, todo.spent = 0.0, 1.0, 0
 
 
 @jit_exact
 def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, arc, trail, todo):
-    """Follow the path from where ``todo`` (9,) says, to its end or until room is lacking."""
+    """Follow the path from where ``todo`` says, to its end or until room is lacking."""
     before, at, work, grips, way = room
-    while todo[ROW] < stage.steps:
-        if todo[SPENT] < 0.0:
-            todo[SHARE] = min(todo[SHARE], 1.0 - todo[DONE])
+    while todo.row < stage.steps:
+        if todo.spent < 0:
+            todo.share = min(todo.share, 1.0 - todo.done)
             _set_out(terms, unknowns, state, room, arc, trail, todo)
         outcome = _balance(state.x, terms, before, near, unknowns, tolerance, room, arc, todo)
-        if outcome == OUTGROWN and todo[SPENT] <= 2 * TRIES:
+        if outcome == OUTGROWN and todo.spent <= 2 * TRIES:
             return outcome
         if control[0] != 0:
             outcome = INTERRUPTED
-        if outcome == CONVERGED and todo[ROW] >= 0.0:
-            if todo[LENGTH] > 0.0 and todo[LOAD] > 1.0:
+        if outcome == CONVERGED and todo.row >= 0:
+            if todo.length > 0.0 and todo.load > 1.0:
                 _return(before, at, state, unknowns, work, todo)
                 continue
             side = -1.0 if _inner(trail[TANGENT], trail[WAY], arc.weight) < 0.0 else 1.0
             if side * _cosine(at.u, trail[TANGENT], arc.weight) < BEND:
                 outcome = STALLED
-        state.totals[0] += todo[SPENT]
-        todo[SPENT] = -1.0
+        state.totals[MINIMISED] += todo.spent
+        todo.spent = -1
         if outcome != CONVERGED:
             copy(before.x0, state.x)
             zero(at.least)
-            todo[SHARE] *= 0.5
-            if outcome == INTERRUPTED or todo[SHARE] < SMALLEST or todo[ROW] < 0.0:
+            todo.share *= 0.5
+            if outcome == INTERRUPTED or todo.share < SMALLEST or todo.row < 0:
                 return ITERATIONS if outcome == OUTGROWN else outcome
             continue
-        step = Step(before, way[PREDICTED], np.inf, todo[LOAD], grips, terms.friction.slip, 0.5)
+        step = Step(before, way[PREDICTED], np.inf, todo.load, grips, terms.friction.slip, 0.5)
         enter(terms, step, unknowns, state, at, work)
         copy(work.escape, trail[TANGENT])
-        if todo[ROW] >= 0.0:
+        if todo.row >= 0:
             copy(at.u, trail[WAY])
-            todo[DONE] += todo[SHARE]
-            state.totals[1] += 1.0
-            if todo[DONE] < 1.0 and todo[LOAD] != 1.0:
-                todo[SHARE] *= 2.0
+            todo.done += todo.share
+            state.totals[STEPS] += 1
+            if todo.done < 1.0 and todo.load != 1.0:
+                todo.share *= 2.0
                 continue
-            state.totals[2] += stage.pace
-            write(out, int(todo[ROW]), state, terms, near, unknowns, at)
+            state.totals[NOW] += stage.pace
+            write(out, todo.row, state, terms, near, unknowns, at)
             control[1] += 1
-        todo[ROW], todo[DONE], todo[SHARE] = todo[ROW] + 1.0, 0.0, 1.0
-        arc.path[int(todo[ROW]), FACTOR] = todo[LOAD]
-        arc.path[int(todo[ROW]), UNSTABLE] = system.negatives(near.system)
-        if todo[LOAD] == 1.0:
+        todo.row, todo.done, todo.share = todo.row + 1, 0.0, 1.0
+        arc.path[todo.row, FACTOR] = todo.load
+        arc.path[todo.row, UNSTABLE] = system.negatives(near.system)
+        if todo.load == 1.0:
             break
     return CONVERGED
 
@@ -214,13 +227,13 @@ def follow(terms, unknowns, tolerance, stage, state, out, control, arc):
     Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts arcs done.
     """
     todo, trail = np.zeros(9), np.zeros((2, state.x.size))
-    todo[ROW], todo[SHARE], todo[SPENT] = -1.0, 1.0, -1.0
+    todo.row, todo.share, todo.spent = -1, 1.0, -1.0
     near = find_near(state.x, terms, friction.none(), 0.0)
     room = make_room(terms, near)
     while True:
         outcome = _go(
-            terms, unknowns, tolerance, stage, state, out, control, near, room, arc, trail, todo
+            terms, unknowns, tolerance, stage, state, out, control, near, room, arc, trail, todo[0]
         )
         if outcome != OUTGROWN:
-            return outcome, max(int(todo[ROW]), 0)
-        near = find_near(state.x, terms, room[3], todo[MOVE])
+            return outcome, max(todo[0].row, 0)
+        near = find_near(state.x, terms, room.grips, todo[0].move)

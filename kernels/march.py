@@ -7,17 +7,15 @@ import numpy as np
 from kernels import damp, friction, inertia, scheme
 from kernels.balance import allowed, largest, reduce
 from kernels.book import INTEGRATOR, KINETIC, enter, made, move_apart, strike
-from kernels.caliper import height
 from kernels.jit import jit_exact, jit_inlined, jit_owning
 from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, OUTGROWN, minimise
 from kernels.relax import approach
-from kernels.room import CHANGE, HEAVY, LAGGED, PREDICTED, make_room
-from kernels.rows import copy, total, zero
+from kernels.room import CHANGE, HEAVY, LAGGED, PREDICTED, Room, make_room
+from kernels.rows import copy, zero
 from kernels.scheme import BACKWARD_EULER, BDF2, POSITION
-from kernels.step import Step, drift, find_near, holds_crowd, least_gap, rub
+from kernels.step import Step, drift, find_near, holds_crowd, rub
+from kernels.trace import LAST, MINIMISED, NOW, STEPS, write
 
-TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP, SPEED = range(10, 17)
-N_COLUMNS = 17
 SMALLEST = 2.0**-24  # share of a step
 LONGER = 0.1  # of the error that is allowed: the next step may be twice as long
 FURTHER = 2.0  # times the last step: a longer one is not extrapolated
@@ -25,10 +23,23 @@ GRIP_LOOPS = 30  # fixed-point iterations of friction
 EASY_LOOPS = 10  # after more of them the next step is no longer
 GIFT = 2e-3  # of all energy: what backward Euler may make, and once more in all further steps
 SHORT = 2.0**-12  # share of a step that may make more: the run is judged at its end
-# Of what is to be done: see `_go`. SPENT, EFFORT, TRIED: iterations for a row, a share, a minimum.
-ROW, DONE, SHARE, FAILED, SPENT, EFFORT, TRIED, LOOPS, MOVE, RELAXED, LENGTH = range(11)
-LAST = 3  # of the totals
 INACCURATE = 7  # an outcome, beside those of `newton`
+SET_OUT = -1  # no loop of friction, nor any other, has begun
+TODO = np.dtype(
+    [
+        ("row", np.int64),  # of the history, which comes next
+        ("done", np.float64),  # share of its step
+        ("share", np.float64),  # of its step that is tried now
+        ("failed", np.int64),  # tries of it
+        ("spent", np.int64),  # iterations for the row
+        ("effort", np.int64),  # iterations for the share
+        ("tried", np.int64),  # iterations for one minimum of it
+        ("loops", np.int64),  # of friction, or `SET_OUT`
+        ("relaxed", np.float64),  # see `relax`
+        ("move", np.float64),  # in m, for which pairs must be found
+        ("length", np.float64),  # h of the last step in s
+    ]
+)
 
 
 class Stage(NamedTuple):
@@ -49,78 +60,32 @@ class Stage(NamedTuple):
     error: float = np.inf
 
 
-class State(NamedTuple):
-    """Where the march is. x, v (n,): position and velocity. book (10,): energy book in J.
-
-    rates (2, n), past (4, n): of position and velocity, gradients at the last step (`scheme`).
-    stored (3,), held (2,): energies, driven reaction (N) and load factor at the last step. totals
-    (4,): iterations, steps, time in s, duration of the last step, 0 to set out anew.
-    """
-
-    x: np.ndarray
-    v: np.ndarray
-    book: np.ndarray
-    rates: np.ndarray
-    past: np.ndarray
-    stored: np.ndarray
-    held: np.ndarray
-    totals: np.ndarray
+@jit_exact
+def _part(stage, todo):
+    """Return how much of the stage is done at the end of the share that is tried."""
+    return (todo.row + todo.done + todo.share) / stage.steps
 
 
-class Output(NamedTuple):
-    """rows (steps, N_COLUMNS); frame_of (steps,): slot of a step in frames (f, n) or -1.
-
-    bottom: coordinates whose supports make the lower reaction. top, base: see `height`. probed
-    (steps, 2, k): value and reaction of the coordinates ``probes`` (k,).
-    """
-
-    rows: np.ndarray
-    frame_of: np.ndarray
-    frames: np.ndarray
-    bottom: np.ndarray
-    top: np.ndarray
-    base: np.ndarray
-    probes: np.ndarray
-    probed: np.ndarray
+@jit_exact
+def _target(stage, todo):
+    """Return where the driven coordinate is to be then, m."""
+    return stage.driven0 + (stage.driven1 - stage.driven0) * _part(stage, todo)
 
 
 @jit_inlined
-def write(out, k, state, terms, near, unknowns, at):
-    """Write row ``k`` of the history and its frame."""
-    row = out.rows[k]
-    for c in range(TIME):
-        row[c] = state.book[c]
-    row[TIME] = state.totals[2]
-    row[HEIGHT] = height(state.x, out.top, out.base)
-    row[REACTION_BOTTOM] = 0.0
-    for c in out.bottom:
-        row[REACTION_BOTTOM] += at.g[c]
-    row[REACTION_TOP] = -state.held[0]
-    if unknowns.driven < 0:
-        row[REACTION_TOP] = -state.held[1] * total(terms.load)
-    for p in range(out.probes.size):
-        out.probed[k, 0, p] = state.x[out.probes[p]]
-        out.probed[k, 1, p] = at.g[out.probes[p]]
-    row[ITERATIONS_DONE] = state.totals[0]
-    row[SPEED] = state.v[terms.contact.high]
-    row[GAP] = least_gap(state.x, terms, near)
-    if out.frame_of[k] >= 0:
-        for i in range(state.x.size):
-            out.frames[out.frame_of[k], i] = state.x[i]
-
-
-@jit_inlined
-def _begin(terms, stage, target, driven, state, near, room, todo):
-    """Set out on the next step, from where the last one ended and on as that went."""
+def _set_out(terms, stage, driven, state, near, room, todo):
+    """Set out on the next share of a step, from where the last one ended and on as that went."""
+    if stage.scheme != BACKWARD_EULER and state.totals[LAST] == 0.0:
+        todo.share = min(todo.share, scheme.FIRST)
     before, at, work, grips, way = room
-    x, dt, last, more = state.x, stage.dt * todo[SHARE], state.totals[LAST], 0.0
+    x, dt, last, more = state.x, stage.dt * todo.share, state.totals[LAST], 0.0
     if driven >= 0:
-        remaining = target - x[driven]
+        remaining = _target(stage, todo) - x[driven]
         if remaining * at.u[driven] > 0.0 and abs(remaining) <= FURTHER * abs(at.u[driven]):
             more = remaining / at.u[driven]
     h = scheme.length(stage.scheme, dt, last)
-    if h != todo[LENGTH]:  # the next Hessian is another
-        todo[LENGTH], work.kept[0] = h, np.inf
+    if h != todo.length:  # the next Hessian is another
+        todo.length, work.kept[0] = h, np.inf
     copy(x, before.x0)
     copy(x, way[LAGGED])
     if dt == np.inf:
@@ -142,7 +107,18 @@ def _begin(terms, stage, target, driven, state, near, room, todo):
         friction.lag(x, terms.contact, near.pairs, drift(x, terms, near), terms.friction, grips)
         if held + grips.count[0] > 0:  # the next Hessian is another
             work.kept[0] = np.inf
-    todo[LOOPS], todo[RELAXED], todo[EFFORT], todo[TRIED] = 0.0, 0.0, 0.0, 0.0
+    todo.loops, todo.relaxed, todo.effort, todo.tried = 0, 0.0, 0, 0
+
+
+@jit_inlined
+def _step(terms, stage, room, todo):
+    """Return what is minimised."""
+    dt, h, slip = stage.dt * todo.share, todo.length, terms.friction.slip
+    factor = stage.factor0 + (stage.factor1 - stage.factor0) * _part(stage, todo)
+    if dt < np.inf:
+        slip *= h
+    theta = scheme.weight(h, dt)
+    return Step(room.before, room.way[PREDICTED], h, factor, room.grips, slip, theta)
 
 
 @jit_inlined
@@ -153,7 +129,7 @@ def _grips_agree(x, terms, step, near, unknowns, tolerance, room, todo):
     copy(at.g, work.trial)
     copy(at.rubbing, work.escape)
     y = way[LAGGED]
-    todo[RELAXED] = approach(x, y, way[CHANGE], unknowns, todo[RELAXED])
+    todo.relaxed = approach(x, y, way[CHANGE], unknowns, todo.relaxed)
     friction.lag(y, terms.contact, near.pairs, drift(y, terms, near), terms.friction, grips)
     if held + grips.count[0] == 0:
         return True
@@ -165,9 +141,29 @@ def _grips_agree(x, terms, step, near, unknowns, tolerance, room, todo):
     if agree:
         copy(work.trial, at.g)
         copy(work.escape, at.rubbing)
-    todo[LOOPS], todo[TRIED] = todo[LOOPS] + 1.0, 0.0
+    todo.loops, todo.tried = todo.loops + 1, 0
     zero(work.dx)
     return agree
+
+
+@jit_inlined
+def _balance(x, target, terms, step, near, unknowns, tolerance, room, control, todo):
+    """Minimise until friction agrees with where it was lagged; return the outcome."""
+    outcome = CONVERGED
+    while True:
+        outcome, spent, todo.move = minimise(
+            x, target, terms, step, near, unknowns, tolerance, room.at, room.work, control
+        )
+        todo.spent, todo.effort = todo.spent + spent, todo.effort + spent
+        todo.tried += max(spent, 1)
+        if outcome != CONVERGED or terms.friction.mu == 0.0:
+            break
+        if _grips_agree(x, terms, step, near, unknowns, tolerance, room, todo):
+            break
+        if todo.loops >= GRIP_LOOPS:
+            outcome = ITERATIONS
+            break
+    return outcome
 
 
 @jit_exact
@@ -178,76 +174,88 @@ def _invents(terms, stage, state, at, share, noise):
     return gain - state.book[INTEGRATOR] > enough and gain > enough * share / stage.steps
 
 
+@jit_inlined
+def _judged(terms, stage, state, step, noise, room, todo):
+    """Return whether a step is accurate, and its error as a share of what is allowed."""
+    dt, strayed = stage.dt * todo.share, 0.0
+    if stage.error < np.inf:
+        error = scheme.error(state, room.before.x0, dt, step.dt, room.way[HEAVY])
+        strayed = error / stage.error
+    fine = strayed <= 1.0
+    if fine and step.dt == dt < np.inf and todo.share > SHORT:
+        fine = not _invents(terms, stage, state, room.at, todo.share, noise)
+    return fine, strayed
+
+
+@jit_inlined
+def _step_back(outcome, state, room, todo):
+    """Return to where a step set out, for a shorter one."""
+    copy(room.before.x0, state.x)
+    zero(room.at.least)  # what was found last was found elsewhere
+    zero(room.at.u)
+    if outcome != INACCURATE:
+        todo.failed += 1
+    todo.share *= 0.5 ** max(todo.failed, 1)  # the oftener, the more boldly
+    todo.loops, room.work.kept[0] = SET_OUT, np.inf
+
+
+@jit_inlined
+def _settle(terms, unknowns, stage, step, state, near, room, todo):
+    """Stay where a step has led, and book it."""
+    dt, at, work = stage.dt * todo.share, room.at, room.work
+    if dt < np.inf:
+        lost = scheme.arrive(stage.scheme, state, step, dt, terms, room.way[HEAVY], at.u)
+        state.book[INTEGRATOR] += lost
+        state.book[KINETIC] = inertia.kinetic(state.v, terms.mass)
+        state.totals[LAST] = dt
+    enter(terms, step, unknowns, state, at, work)
+    move_apart(terms, step, state, near, at, work)
+    state.totals[STEPS] += 1
+
+
+@jit_inlined
+def _go_on(strayed, iterations, work, todo):
+    """Count a share as done; the next one is twice as long if this was easy and that fits."""
+    easy = strayed < LONGER and todo.effort <= iterations and todo.loops <= EASY_LOOPS
+    todo.done, todo.failed, todo.loops = todo.done + todo.share, 0, SET_OUT
+    if todo.share < 1.0:  # the next Hessian is another
+        work.kept[0] = np.inf
+    if easy and todo.done % (2.0 * todo.share) == 0.0:
+        todo.share *= 2.0
+
+
 @jit_exact
 def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo):
-    """March on from where ``todo`` (11,) says, until the stage ends or something must be done."""
-    before, at, work, grips, way = room
-    while todo[ROW] < stage.steps:
-        if stage.scheme != BACKWARD_EULER and state.totals[LAST] == 0.0:
-            todo[SHARE] = min(todo[SHARE], scheme.FIRST)
-        part = (todo[ROW] + todo[DONE] + todo[SHARE]) / stage.steps
-        factor = stage.factor0 + (stage.factor1 - stage.factor0) * part
-        target = stage.driven0 + (stage.driven1 - stage.driven0) * part
-        if todo[LOOPS] < 0.0:
-            _begin(terms, stage, target, unknowns.driven, state, near, room, todo)
-        dt, slip = stage.dt * todo[SHARE], terms.friction.slip
-        if dt < np.inf:
-            slip *= todo[LENGTH]
-        theta = scheme.weight(todo[LENGTH], dt)
-        step = Step(before, way[PREDICTED], todo[LENGTH], factor, grips, slip, theta)
-        outcome, spent, todo[MOVE] = minimise(
-            state.x, target, terms, step, near, unknowns, tolerance, at, work, control
+    """March on from where ``todo`` says, until the stage ends or something must be done."""
+    while todo.row < stage.steps:
+        if todo.loops == SET_OUT:
+            _set_out(terms, stage, unknowns.driven, state, near, room, todo)
+        step, target = _step(terms, stage, room, todo), _target(stage, todo)
+        outcome = _balance(
+            state.x, target, terms, step, near, unknowns, tolerance, room, control, todo
         )
-        todo[SPENT], todo[EFFORT] = todo[SPENT] + spent, todo[EFFORT] + spent
-        todo[TRIED] += max(spent, 1)
-        if outcome == OUTGROWN and todo[TRIED] <= tolerance.iterations:
-            zero(work.dx)
-            return outcome
-        if outcome == CONVERGED and terms.friction.mu > 0.0:
-            if not _grips_agree(state.x, terms, step, near, unknowns, tolerance, room, todo):
-                if todo[LOOPS] < GRIP_LOOPS:
-                    continue
-                outcome = ITERATIONS
         if outcome == CONVERGED and not holds_crowd(near, state.x, terms):
-            zero(work.dx)
-            return OUTGROWN
-        loops, todo[LOOPS], strayed = todo[LOOPS], -1.0, 0.0
-        if outcome == CONVERGED and stage.error < np.inf:
-            strayed = scheme.error(state, before.x0, dt, step.dt, way[HEAVY]) / stage.error
-            outcome = INACCURATE if strayed > 1.0 else CONVERGED
-        if outcome == CONVERGED and step.dt == dt < np.inf and todo[SHARE] > SHORT:
-            if _invents(terms, stage, state, at, todo[SHARE], tolerance.noise):
-                outcome = INACCURATE
+            outcome, todo.tried = OUTGROWN, 0
+        if outcome == OUTGROWN and todo.tried <= tolerance.iterations:
+            zero(room.work.dx)
+            return outcome
+        strayed = 0.0
+        if outcome == CONVERGED:
+            fine, strayed = _judged(terms, stage, state, step, tolerance.noise, room, todo)
+            outcome = CONVERGED if fine else INACCURATE
         if outcome != CONVERGED:
-            copy(before.x0, state.x)
-            zero(at.least)  # what was found last was found elsewhere
-            zero(at.u)
-            todo[FAILED] += 1.0 if outcome != INACCURATE else 0.0
-            todo[SHARE] *= 0.5 ** max(todo[FAILED], 1.0)  # the oftener, the more boldly
-            work.kept[0] = np.inf
-            if outcome == INTERRUPTED or todo[SHARE] < SMALLEST:
+            _step_back(outcome, state, room, todo)
+            if outcome == INTERRUPTED or todo.share < SMALLEST:
                 return ITERATIONS if outcome == OUTGROWN else outcome
             continue
-        if dt < np.inf:
-            lost = scheme.arrive(stage.scheme, state, step, dt, terms, way[HEAVY], at.u)
-            state.book[INTEGRATOR] += lost
-            state.book[KINETIC] = inertia.kinetic(state.v, terms.mass)
-            state.totals[LAST] = dt
-        enter(terms, step, unknowns, state, at, work)
-        move_apart(terms, step, state, near, at, work)
-        todo[DONE], todo[FAILED] = todo[DONE] + todo[SHARE], 0.0
-        if todo[SHARE] < 1.0:  # the next Hessian is another
-            work.kept[0] = np.inf
-        easy = strayed < LONGER and todo[EFFORT] <= tolerance.iterations and loops <= EASY_LOOPS
-        if easy and todo[DONE] % (2.0 * todo[SHARE]) == 0.0:
-            todo[SHARE] *= 2.0
-        state.totals[1] += 1
-        if todo[DONE] == 1.0:
-            state.totals[0] += todo[SPENT]
-            state.totals[2] += stage.pace
-            write(out, int(todo[ROW]), state, terms, near, unknowns, at)
+        _settle(terms, unknowns, stage, step, state, near, room, todo)
+        _go_on(strayed, tolerance.iterations, room.work, todo)
+        if todo.done == 1.0:
+            state.totals[MINIMISED] += todo.spent
+            state.totals[NOW] += stage.pace
+            write(out, todo.row, state, terms, near, unknowns, room.at)
             control[1] += 1
-            todo[ROW], todo[DONE], todo[SPENT] = todo[ROW] + 1.0, 0.0, 0.0
+            todo.row, todo.done, todo.spent = todo.row + 1, 0.0, 0
     return CONVERGED
 
 
@@ -257,18 +265,19 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
 
     Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts steps done.
     """
-    todo = np.zeros(11)
-    todo[SHARE], todo[LOOPS] = 1.0, -1.0
+    todo = np.zeros(1, TODO)
+    todo[0].share, todo[0].loops = 1.0, SET_OUT
     if stage.error < np.inf and state.totals[LAST] > 0.0:
-        todo[SHARE] = state.totals[LAST] / stage.dt
+        todo[0].share = state.totals[LAST] / stage.dt
     near = find_near(state.x, terms, friction.none(), 0.0)
     room = make_room(terms, near)
     while True:
-        outcome = _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo)
+        outcome = _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo[0])
         if outcome != OUTGROWN:
-            return outcome, int(todo[ROW])
-        near = find_near(state.x, terms, room[3], todo[MOVE])
-        room[2].kept[0] = np.inf
+            return outcome, todo[0].row
+        near = find_near(state.x, terms, room.grips, todo[0].move)
+        room.work.kept[0] = np.inf
         wider = friction.room(near.pairs, terms.contact, terms.friction)
-        if wider.load.size > room[3].load.size:
-            room = room[0], room[1], room[2], friction.moved(room[3], wider), room[4]
+        if wider.load.size > room.grips.load.size:
+            grips = friction.moved(room.grips, wider)
+            room = Room(room.before, room.at, room.work, grips, room.way)

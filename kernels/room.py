@@ -1,5 +1,7 @@
 """The arrays that the steps of a march share, made once."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from kernels import damp, friction
@@ -10,6 +12,20 @@ from kernels.newton import Work
 from kernels.step import At
 
 PREDICTED, LAGGED, CHANGE, HEAVY = range(4)
+
+
+class Room(NamedTuple):
+    """before: `damp.Before`. at: `step.At`. work: `newton.Work`. grips: `friction.Grips`.
+
+    way (4, n): predicted position; where friction was lagged; how far from there the step ended; 1
+    for what moves by its mass or by that of what is tied to it, else 0.
+    """
+
+    before: object
+    at: object
+    work: object
+    grips: object
+    way: np.ndarray
 
 
 @jit_owning
@@ -25,10 +41,7 @@ def _shape(terms):
 
 @jit_owning
 def make_room(terms, near):
-    """Return the arrays of all steps: `Before`, `At`, `Work`, `Grips`, and (4, n): predicted
-    position, where friction was lagged, how far from there the step ended, 1 for what moves by its
-    mass or by that of what is tied to it, else 0.
-    """
+    """Return the arrays of all steps."""
     n = terms.mass.size
     shape, stiffness = _shape(terms)
     frame = np.full((terms.walls.rotation.size, 3), np.inf)  # none yet
@@ -45,4 +58,4 @@ def make_room(terms, near):
         leader = layout.leader[i]
         if leader >= 0 and leader != layout.driven and work.residual[leader] > 0.0:
             way[HEAVY, i] = 1.0
-    return before, at, work, grips, way
+    return Room(before, at, work, grips, way)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from kernels import book, march
+from kernels import book, trace
 from sweep.impact import (
     impact_columns,
     kinetic,
@@ -44,20 +44,20 @@ PLATEAU_START = 0.05  # strain from which a plateau is averaged at the earliest
 
 def history_columns(rows: Floats, scene: Scene, case: Case) -> dict[str, Floats]:
     """Columns of the history from the rows that the march wrote, (rows, N_COLUMNS)."""
-    travel = rows[0, march.HEIGHT] - rows[:, march.HEIGHT]
+    travel = rows[0, trace.HEIGHT] - rows[:, trace.HEIGHT]
     endless = case.lattice.boundary == "periodic"  # the same mean stress everywhere
-    below = march.REACTION_TOP if endless else march.REACTION_BOTTOM
-    gap = np.where(np.isfinite(rows[:, march.GAP]), rows[:, march.GAP], np.nan)
+    below = trace.REACTION_TOP if endless else trace.REACTION_BOTTOM
+    gap = np.where(np.isfinite(rows[:, trace.GAP]), rows[:, trace.GAP], np.nan)
     return {
-        "time_s": rows[:, march.TIME].copy(),
+        "time_s": rows[:, trace.TIME].copy(),
         "strain": travel / (case.lattice.height or np.nan),
         "top_displacement_m": travel,
-        "reaction_top_N": rows[:, march.REACTION_TOP].copy(),
+        "reaction_top_N": rows[:, trace.REACTION_TOP].copy(),
         "reaction_bottom_N": rows[:, below].copy(),
         **{name: rows[:, column].copy() for name, column in BOOK.items()},
-        "newton_iterations": np.diff(rows[:, march.ITERATIONS_DONE], prepend=0.0),
+        "newton_iterations": np.diff(rows[:, trace.ITERATIONS_DONE], prepend=0.0),
         "min_gap_m": gap,
-    } | (striker_curves(rows[:, march.SPEED], case) if case.loading.mode == "impact" else {})
+    } | (striker_curves(rows[:, trace.SPEED], case) if case.loading.mode == "impact" else {})
 
 
 def absorbed_until(force: float, transmitted: Floats, work: Floats) -> float:

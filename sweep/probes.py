@@ -14,7 +14,7 @@ WITHOUT_PLATENS = ("strain", "top_displacement_m", "reaction_top_N")
 def own_columns(
     history: dict[str, Floats], probed: Floats, scene: Scene, case: Case
 ) -> dict[str, Floats]:
-    """The history with what only a structure has. probed (rows, 2, 3 probes): see `march.Output`.
+    """The history with what only a structure has. probed (rows, 2, 3 probes): see `trace.Output`.
 
     Reactions act on the structure; they are zero where it is free.
     """

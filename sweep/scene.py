@@ -23,7 +23,7 @@ NO_SPRINGS = spring.Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
 
 @dataclass(frozen=True)
 class Scene:
-    """A case as arrays. x_rest (n,): m and rad; bottom, top, base, probes: as in `march.Output`.
+    """A case as arrays. x_rest (n,): m and rad; bottom, top, base, probes: as in `trace.Output`.
 
     velocity (n,) at the start. travel: of the driven coordinate where the case does not say, m.
     around (k, 2): elements of the copies round a period.

@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 
-from kernels import arc, book, inertia, march, newton, spring
+from kernels import arc, book, inertia, march, newton, spring, trace
 from sweep.custom import Load, Structure, Support
 from sweep.measure import history_columns, summarise
 from sweep.mesh import Floats
@@ -97,17 +97,17 @@ class _Run:
         self.stages = stages(case, scene)
         n = scene.x_rest.size
         total = sum(s.stage.steps for s in self.stages)
-        self.state = march.State(
-            scene.x_rest.copy(), scene.velocity.copy(), np.zeros(march.TIME), np.zeros((2, n)),
+        self.state = trace.State(
+            scene.x_rest.copy(), scene.velocity.copy(), np.zeros(trace.TIME), np.zeros((2, n)),
             np.zeros((4, n)), np.zeros(3), np.zeros(2), np.zeros(4),
         )  # fmt: skip
-        self.rows = np.zeros((total + 1, march.N_COLUMNS))
+        self.rows = np.zeros((total + 1, trace.N_COLUMNS))
         self.probed = np.zeros((total + 1, 2, scene.probes.size))
         self.probed[0, 0] = scene.x_rest[scene.probes]
         self._begin()
-        self.rows[0, march.SPEED] = scene.velocity[scene.terms.contact.high]
-        self.rows[0, march.HEIGHT] = march.height(scene.x_rest, scene.top, scene.base)
-        self.rows[0, march.GAP] = np.nan
+        self.rows[0, trace.SPEED] = scene.velocity[scene.terms.contact.high]
+        self.rows[0, trace.HEIGHT] = trace.height(scene.x_rest, scene.top, scene.base)
+        self.rows[0, trace.GAP] = np.nan
         self.struck = case.loading.mode == "impact"
         early = self.struck or case.solver.integrator == "arc_length"
         self.frame_of, kept = _frames(total + 1, EARLY_FRAMES if early else FRAMES)
@@ -125,7 +125,7 @@ class _Run:
         state.book[book.STRETCH] = state.stored[0]
         state.book[book.KINETIC] = inertia.kinetic(state.v, terms.mass)
         state.book[book.WORK] = state.stored[0] + state.book[book.KINETIC]
-        self.rows[0, : march.TIME] = state.book
+        self.rows[0, : trace.TIME] = state.book
 
     def complete(self) -> tuple[Status, str]:
         """March through all stages; return the status and its sentence."""
@@ -146,7 +146,7 @@ class _Run:
             timer.cancel()
         if not self._balances():
             return Status.STOPPED, f"work and energies do not balance {self._where()}; {SOUNDER}"
-        if self.struck and self.rows[self.done - 1, march.SPEED] < 0.0:
+        if self.struck and self.rows[self.done - 1, trace.SPEED] < 0.0:
             return Status.STOPPED, f"the striker still sinks {self._where()}; {LONGER}"
         return Status.CONVERGED, ""
 
@@ -167,7 +167,7 @@ class _Run:
 
     def _is_back(self) -> bool:
         """Whether the striker is where it started; what it did beyond is dropped."""
-        height = self.rows[: self.done, march.HEIGHT]
+        height = self.rows[: self.done, trace.HEIGHT]
         back = np.flatnonzero(height[1:] >= height[0])
         self.done = int(back[0]) + 2 if len(back) else self.done
         return len(back) > 0
@@ -176,7 +176,7 @@ class _Run:
     def loading_rows(self) -> int:
         """Rows of the history until release, full stroke, or the striker's stop."""
         if self.struck:
-            return int(np.argmin(self.rows[: self.done, march.HEIGHT])) + 1
+            return int(np.argmin(self.rows[: self.done, trace.HEIGHT])) + 1
         return self.stages[0].stage.steps + 1
 
     def _expire(self, late: threading.Event) -> None:
@@ -185,7 +185,7 @@ class _Run:
 
     def _through(self, stage: march.Stage) -> int:
         span = slice(self.done, self.done + stage.steps)
-        out = march.Output(
+        out = trace.Output(
             self.rows[span],
             self.frame_of[span],
             self.positions,
@@ -196,7 +196,7 @@ class _Run:
             self.probed[span],
         )
         if not self.struck:
-            self.state.totals[march.LAST] = 0.0  # what acts changes at once: set out anew
+            self.state.totals[trace.LAST] = 0.0  # what acts changes at once: set out anew
         tolerance = tolerances(self.case, self.scene, stage.dt)
         self.noise = tolerance.noise
         of = self.scene.terms, self.scene.unknowns, tolerance, stage, self.state, out, self.control
@@ -221,13 +221,13 @@ class _Run:
         steps = f"after {self.done - 1} steps"
         if self.case.lattice.structure is not None:
             return steps
-        return f"at strain {self._strain(self.rows[self.done - 1, march.HEIGHT]):.3g} {steps}"
+        return f"at strain {self._strain(self.rows[self.done - 1, trace.HEIGHT]):.3g} {steps}"
 
     def _strain(self, height: Floats) -> Floats:
         """Strain where the top is ``height`` (m) above the base; NaN for a structure."""
         if self.case.lattice.structure is not None:
             return np.full_like(height, np.nan)
-        return (self.rows[0, march.HEIGHT] - height) / self.case.lattice.height
+        return (self.rows[0, trace.HEIGHT] - height) / self.case.lattice.height
 
     def frames(self) -> dict[str, np.ndarray]:
         """Stored shapes up to the last row that was written."""
@@ -243,8 +243,8 @@ class _Run:
         if structure is not None and structure.floor_y_mm is not None:
             plates[:, 0] = x[:, self.scene.terms.contact.low]
         return {
-            "strain": self._strain(rows[:, march.HEIGHT]),
-            "time_s": rows[:, march.TIME],
+            "strain": self._strain(rows[:, trace.HEIGHT]),
+            "time_s": rows[:, trace.TIME],
             "position_m": x[:, : 2 * n].reshape(len(x), n, 2),
             "plate_y_m": plates,
             "edges": self.scene.mesh.edges,

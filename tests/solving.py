@@ -5,7 +5,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from kernels import contact, damp, fold, friction, march, newton, spring, step, system
+from kernels import contact, damp, fold, friction, march, newton, spring, step, system, trace
 from sweep.scene import build_scene
 from sweep.stages import tolerances
 from tests.terms import assembled, dense, full_matrix, nowhere, room
@@ -157,8 +157,8 @@ def descend(case, scene, start, args, target=None, control=RUN, move=None, **tol
 def at_rest(scene):
     """State of a march that begins."""
     n = scene.x_rest.size
-    return march.State(
-        scene.x_rest.copy(), np.zeros(n), np.zeros(march.TIME), np.zeros((2, n)), np.zeros((4, n)),
+    return trace.State(
+        scene.x_rest.copy(), np.zeros(n), np.zeros(trace.TIME), np.zeros((2, n)), np.zeros((4, n)),
         np.zeros(3), np.zeros(2), np.zeros(4),
     )  # fmt: skip
 
@@ -172,8 +172,8 @@ def ramp(scene, steps, dt=np.inf, factor=(0.0, 0.0), travel=(0.0, 0.0)):
 
 def go_on(case, scene, state, stage, control=RUN, **tolerance):
     """March ``state`` through a stage; return the outcome and the rows written."""
-    out = march.Output(
-        np.zeros((stage.steps, march.N_COLUMNS)), np.full(stage.steps, -1),
+    out = trace.Output(
+        np.zeros((stage.steps, trace.N_COLUMNS)), np.full(stage.steps, -1),
         np.zeros((0, state.x.size)), scene.bottom, scene.top, scene.base,
         scene.probes, np.zeros((stage.steps, 2, scene.probes.size)),
     )  # fmt: skip

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from kernels import inertia, march, newton
+from kernels import inertia, newton, trace
 from sweep.config import load_config
 from sweep.grid import expand
 from sweep.params import Case, Contact, Damping, Lattice, Loading, Solver
@@ -123,7 +123,7 @@ def test_momentum_goes_into_the_support(platen, friction):
     assert outcome == newton.CONVERGED
     gained = np.sum(scene.terms.mass[up] * state.v[up]) - before
     assert gained > 0.01  # N s
-    assert np.sum(rows[:, march.REACTION_BOTTOM]) * dt == pytest.approx(gained, rel=1e-5)
+    assert np.sum(rows[:, trace.REACTION_BOTTOM]) * dt == pytest.approx(gained, rel=1e-5)
 
 
 def test_energy_stays_where_nothing_dissipates():

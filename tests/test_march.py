@@ -6,7 +6,7 @@ import time
 import numpy as np
 import pytest
 
-from kernels import book, inertia, march, newton, pairs
+from kernels import book, inertia, newton, pairs, trace
 from kernels.distance import squared_distance
 from sweep.params import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.scene import build_scene
@@ -130,7 +130,7 @@ def test_contact_energy_and_gap_are_those_of_all_pairs():
         if gap < touch.reach:
             near += 1
             assert energy > 0.0
-            assert rows[-1, march.GAP] == pytest.approx(gap, rel=1e-12)
+            assert rows[-1, trace.GAP] == pytest.approx(gap, rel=1e-12)
     assert near > 2
 
 
@@ -165,7 +165,7 @@ def test_friction_slows_what_slides_by_mu_times_the_forces_on_it():
         assert change[0] == pytest.approx(-0.3 * (3.0 + 3.0 + change[1]), rel=1e-5)
         moves = nodes(scene, state.x - x)[:, 0]
         least, most = least - change[0] * moves.min(), most - change[0] * moves.max()
-    gained = rows[0, : march.TIME] - begun
+    gained = rows[0, : trace.TIME] - begun
     assert 0.0 < least < gained[book.FRICTION] < most
     assert abs(gained[book.RESIDUAL]) < 1e-6 * gained[book.FRICTION]
 
@@ -173,8 +173,8 @@ def test_friction_slows_what_slides_by_mu_times_the_forces_on_it():
 def test_height_is_between_rows_or_the_extent():
     x = np.array([0.3, 0.5, 2.0, 3.0, -1.0])
     top, base, none = np.array([2, 3]), np.array([0, 1]), np.empty(0, np.int64)
-    assert march.height(x, top, base) == pytest.approx(2.5 - 0.4)
-    assert march.height(x, none, np.array([0, 1, 3])) == pytest.approx(3.0 - 0.3)
+    assert trace.height(x, top, base) == pytest.approx(2.5 - 0.4)
+    assert trace.height(x, none, np.array([0, 1, 3])) == pytest.approx(3.0 - 0.3)
 
 
 def crush(steps, speed=None, **solver):

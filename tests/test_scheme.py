@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels import book, march, newton
+from kernels import book, newton, trace
 from sweep.params import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.scene import build_scene
 from sweep.simulate import simulate
@@ -219,7 +219,7 @@ def test_a_static_load_that_grows_does_half_of_its_work():
     assert outcome == newton.CONVERGED
     share = np.array([1, 2, 3]) / 3
     full = 0.5 * 0.2**2 / springs(case)[0]
-    np.testing.assert_allclose(rows[:, march.REACTION_TOP], 0.2 * share, rtol=1e-12)
+    np.testing.assert_allclose(rows[:, trace.REACTION_TOP], 0.2 * share, rtol=1e-12)
     np.testing.assert_allclose(rows[:, book.WORK], full * share**2, rtol=1e-9)
     np.testing.assert_allclose(rows[:, book.STRETCH], full * share**2, rtol=1e-9)
     assert np.abs(rows[:, book.INTEGRATOR]).max() < 1e-9 * full

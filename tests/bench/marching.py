@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels import march, newton
+from kernels import march, newton, trace
 from sweep.stages import stages, tolerances
 from tests.bench.clock import seconds
 from tests.solving import at_rest, ramp
@@ -39,8 +39,8 @@ def go(case, scene, state, ramps):
     """March ``state`` through stages."""
     before, spent = state.totals[0], 0.0
     for stage in ramps:
-        out = march.Output(
-            np.zeros((stage.steps, march.N_COLUMNS)), np.full(stage.steps, -1),
+        out = trace.Output(
+            np.zeros((stage.steps, trace.N_COLUMNS)), np.full(stage.steps, -1),
             np.zeros((0, state.x.size)), scene.bottom, scene.top, scene.base,
             scene.probes, np.zeros((stage.steps, 2, scene.probes.size)),
         )  # fmt: skip
@@ -64,4 +64,4 @@ def sustained(march):
 
 def copied(state):
     """A state to march on from, again and again."""
-    return march.State(*(part.copy() for part in state))
+    return trace.State(*(part.copy() for part in state))
