@@ -226,8 +226,8 @@ def follow(terms, unknowns, tolerance, stage, state, out, control, arc):
 
     Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts arcs done.
     """
-    todo, trail = np.zeros(9), np.zeros((2, state.x.size))
-    todo.row, todo.share, todo.spent = -1, 1.0, -1.0
+    todo, trail = np.zeros(1, TODO), np.zeros((2, state.x.size))
+    todo[0].row, todo[0].share, todo[0].spent = -1, 1.0, -1
     near = find_near(state.x, terms, friction.none(), 0.0)
     room = make_room(terms, near)
     while True:
