@@ -30,17 +30,20 @@ from kernels.trace import MINIMISED, NOW, STEPS, write
 
 FACTOR, UNSTABLE = range(2)  # columns of a path
 TODO = np.dtype(
-    [
-        ("row", np.int64),  # of the history, which comes next; -1: the start
-        ("done", np.float64),  # share of its arc
-        ("share", np.float64),  # of its arc that is tried now
-        ("length", np.float64),  # of that, m; 0: to the load ``aim``
-        ("aim", np.float64),
-        ("load", np.float64),  # factor, as it is
-        ("rise", np.float64),  # of that in the next iteration
-        ("move", np.float64),  # farthest in that, m
-        ("spent", np.int64),  # iterations; -1: set out
-    ]
+    (
+        np.record,
+        [
+            ("row", np.int64),  # of the history, which comes next; -1: the start
+            ("done", np.float64),  # share of its arc
+            ("share", np.float64),  # of its arc that is tried now
+            ("length", np.float64),  # of that, m; 0: to the load ``aim``
+            ("aim", np.float64),
+            ("load", np.float64),  # factor, as it is
+            ("rise", np.float64),  # of that in the next iteration
+            ("move", np.float64),  # farthest in that, m
+            ("spent", np.int64),  # iterations; -1: set out
+        ],
+    )
 )
 WAY, TANGENT = range(2)  # last move, and that of a unit of load from its end
 TRIES = 20  # Newton iterations of an arc

@@ -26,19 +26,22 @@ SHORT = 2.0**-12  # share of a step that may make more: the run is judged at its
 INACCURATE = 7  # an outcome, beside those of `newton`
 SET_OUT = -1  # no loop of friction, nor any other, has begun
 TODO = np.dtype(
-    [
-        ("row", np.int64),  # of the history, which comes next
-        ("done", np.float64),  # share of its step
-        ("share", np.float64),  # of its step that is tried now
-        ("failed", np.int64),  # tries of it
-        ("spent", np.int64),  # iterations for the row
-        ("effort", np.int64),  # iterations for the share
-        ("tried", np.int64),  # iterations for one minimum of it
-        ("loops", np.int64),  # of friction, or `SET_OUT`
-        ("relaxed", np.float64),  # see `relax`
-        ("move", np.float64),  # in m, for which pairs must be found
-        ("length", np.float64),  # h of the last step in s
-    ]
+    (
+        np.record,
+        [
+            ("row", np.int64),  # of the history, which comes next
+            ("done", np.float64),  # share of its step
+            ("share", np.float64),  # of its step that is tried now
+            ("failed", np.int64),  # tries of it
+            ("spent", np.int64),  # iterations for the row
+            ("effort", np.int64),  # iterations for the share
+            ("tried", np.int64),  # iterations for one minimum of it
+            ("loops", np.int64),  # of friction, or `SET_OUT`
+            ("relaxed", np.float64),  # see `relax`
+            ("move", np.float64),  # in m, for which pairs must be found
+            ("length", np.float64),  # h of the last step in s
+        ],
+    )
 )
 
 

@@ -6,7 +6,7 @@ from unittest.mock import patch
 
 from kernels import march, newton
 
-LOOPS = ((march, "march"), (march, "_go"), (newton, "minimise"))
+LOOPS = ((march, "march"), (march, "_go"), (march, "_balance"), (newton, "minimise"))
 WATCHED = {
     "evaluate": (newton, "evaluate"),
     "factor": (newton, "factor"),
