@@ -11,11 +11,14 @@ is kept (`cache`).
 """
 
 import functools
+import gc
 
 import numba
+from llvmlite.binding import Linkage
+from llvmlite.binding.newpassmanagers import create_new_module_pass_manager
 from numba import _dynfunc
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler
+from numba.core.compiler import Compiler, Flags
 from numba.core.compiler_machinery import register_pass
 from numba.core.typed_passes import NativeLowering
 
@@ -23,20 +26,51 @@ from kernels.cache import SealedCache
 
 
 class Linked(JITCodeLibrary):
-    """Code that is linked into its callers, where it is optimised and made machine code.
+    """Code that is linked into the entries that reach it, and becomes machine code there.
 
-    Doing so at every level would double the time of a compilation.
+    Doing so at every level would double the time of a compilation. Here it is only tidied: most of
+    what Numba writes down takes named tuples apart and puts them together again.
     """
 
     def _optimize_functions(self, ll_module):
         ll_module.data_layout = self._codegen._data_layout
+        tidy = create_new_module_pass_manager()
+        tidy.add_aggressive_dce_pass()
+        tidy.add_sroa_pass()
+        tidy.add_instruction_combine_pass()
+        tidy.run(ll_module, self._codegen._pass_builder())
 
-    def _optimize_final_module(self):
-        """Leave it as it is."""
+    def add_llvm_module(self, ll_module):
+        """Take it in, for several to link."""
+        super().add_llvm_module(ll_module)
+        for function in self._final_module.functions:
+            if not function.is_declaration and function.linkage == Linkage.external:
+                function.linkage = "linkonce_odr"
 
-    def _finalize_final_module(self):
-        self._finalize_dynamic_globals()
+    def finalize(self):
+        """Leave it to the entries to link what this calls."""
+        for library in self._linking_libraries:
+            self._reload_init.update(library._reload_init)
         self._finalized = True
+
+    def _reached(self, found):
+        """Add the libraries of all that this calls to the dictionary ``found``; return it."""
+        for library in self._linking_libraries:
+            if library not in found:
+                found[library] = None
+                if isinstance(library, Linked):
+                    library._reached(found)
+        return found
+
+    def _get_module_for_linking(self):
+        """Return its module together with those of all that it calls, callers first."""
+        if self._shared_module is None:
+            self._shared_module = self._final_module.clone()
+            for library in self._reached({}):
+                linked = isinstance(library, Linked)
+                module = library._final_module if linked else library._get_module_for_linking()
+                self._shared_module.link_in(module, preserve=True)
+        return self._shared_module
 
 
 @register_pass(mutates_CFG=True, analysis_only=False)
@@ -61,8 +95,20 @@ class LinkedLowering(NativeLowering):
         return True
 
 
+class QuickFlags(Flags):
+    """Numba's flags, compared by those that are set: Numba compares half a million times."""
+
+    def values(self):
+        """Return what is set."""
+        return self._values
+
+
 class LinkedCompiler(Compiler):
     """Numba's compiler with `LinkedLowering`."""
+
+    def __init__(self, *given):
+        super().__init__(*given)
+        self.state.flags = QuickFlags(self.state.flags)
 
     def define_pipelines(self):
         """Return Numba's passes with the lowering exchanged."""
@@ -92,6 +138,7 @@ class Kernel:
         """The dispatcher for calls from Python, whose machine code is kept."""
         dispatcher = _dispatcher(self.__wrapped__, self.options)
         dispatcher._cache = SealedCache(self.__wrapped__)
+        dispatcher.compile = _uncollected(dispatcher.compile)
         return dispatcher
 
     def __call__(self, *args):
@@ -100,6 +147,22 @@ class Kernel:
 
     def __getattr__(self, name):
         return getattr(self._linked, name)
+
+
+def _uncollected(compile_):
+    """Compile without the garbage collector: it takes a sixth of the time and finds little."""
+
+    @functools.wraps(compile_)
+    def compiled(signature):
+        collects = gc.isenabled()
+        gc.disable()
+        try:
+            return compile_(signature)
+        finally:
+            if collects:
+                gc.enable()
+
+    return compiled
 
 
 def _dispatcher(function, options, **how):
