@@ -95,6 +95,33 @@ class LinkedLowering(NativeLowering):
         return True
 
 
+class Entry(JITCodeLibrary):
+    """Code that Python calls, with all that it calls itself.
+
+    What is linked is known to be called from nowhere else: then LLVM hands over only the arguments
+    that are used, of up to a thousand that named tuples of arrays are taken apart to.
+    """
+
+    def _optimize_final_module(self):
+        for function in self._final_module.functions:
+            if not function.is_declaration and function.linkage == Linkage.linkonce_odr:
+                function.linkage = "internal"
+        super()._optimize_final_module()
+
+
+@register_pass(mutates_CFG=True, analysis_only=False)
+class EntryLowering(NativeLowering):
+    """Numba's lowering to an `Entry`."""
+
+    _name = "entry_lowering"
+
+    def run_pass(self, state):
+        """Lower the function to code that can be kept."""
+        state.library = Entry(state.targetctx.codegen(), state.func_id.func_qualname)
+        state.library.enable_object_caching()
+        return super().run_pass(state)
+
+
 class QuickFlags(Flags):
     """Numba's flags, compared by those that are set: Numba compares half a million times."""
 
@@ -103,8 +130,10 @@ class QuickFlags(Flags):
         return self._values
 
 
-class LinkedCompiler(Compiler):
-    """Numba's compiler with `LinkedLowering`."""
+class EntryCompiler(Compiler):
+    """Numba's compiler with another ``lowering``."""
+
+    lowering = EntryLowering
 
     def __init__(self, *given):
         super().__init__(*given)
@@ -115,12 +144,18 @@ class LinkedCompiler(Compiler):
         passes = super().define_pipelines()
         for manager in passes:
             manager.passes = [
-                (LinkedLowering if step is NativeLowering else step, what)
+                (self.lowering if step is NativeLowering else step, what)
                 for step, what in manager.passes
             ]
             manager._finalized = False
             manager.finalize()
         return passes
+
+
+class LinkedCompiler(EntryCompiler):
+    """The same for what is only linked."""
+
+    lowering = LinkedLowering
 
 
 class Kernel:
@@ -136,7 +171,7 @@ class Kernel:
     @functools.cached_property
     def entry(self):
         """The dispatcher for calls from Python, whose machine code is kept."""
-        dispatcher = _dispatcher(self.__wrapped__, self.options)
+        dispatcher = _dispatcher(self.__wrapped__, self.options, pipeline_class=EntryCompiler)
         dispatcher._cache = SealedCache(self.__wrapped__)
         dispatcher.compile = _uncollected(dispatcher.compile)
         return dispatcher
