@@ -1,0 +1,103 @@
+"""Kernels that others call: tidied, linked once, and compiled without interruption."""
+
+import gc
+from typing import NamedTuple
+
+import numba
+import numpy as np
+import pytest
+from numba.extending import overload
+
+from kernels import jit as home
+from kernels.jit import jit, jit_owning
+
+
+@pytest.fixture(autouse=True)
+def cache(tmp_path, monkeypatch):
+    """Folder that kernels decorated from here on are kept in."""
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
+
+
+class Pair(NamedTuple):
+    """What kernels hand on."""
+
+    first: np.ndarray
+    second: np.ndarray
+
+
+def test_what_several_kernels_call_is_linked_into_their_caller():
+    @jit_owning
+    def ones(n):
+        return Pair(np.ones(n), np.ones(n))
+
+    @jit_owning
+    def left(n):
+        return ones(n).first.sum()
+
+    @jit_owning
+    def right(n):
+        return ones(n + 1).second.sum()
+
+    @jit_owning
+    def both(n):
+        return left(n) + 10.0 * right(n)
+
+    assert both(3) == 43.0
+
+
+def test_linked_kernels_take_no_tuple_apart_in_vain():
+    @jit
+    def dot(pair):
+        total = 0.0
+        for k in range(pair.first.size):
+            total += pair.first[k] * pair.second[k]
+        return total
+
+    @jit
+    def squared(array):
+        return dot(Pair(array, array))
+
+    assert squared(np.arange(3.0)) == 5.0
+    (compiled,) = dot.overloads.values()
+    code = str(compiled.library._final_module)
+    assert "load double" in code
+    assert "insertvalue" not in code
+    assert "alloca {" not in code
+
+
+def test_flags_are_equal_when_the_same_are_set():
+    one, same, other = home.QuickFlags(), home.QuickFlags(), home.QuickFlags()
+    one.nrt, same.nrt, other.nrt = True, True, False
+    assert one == same == one.copy()
+    assert hash(one) == hash(same)
+    assert one != other
+
+
+def probe():
+    """What a kernel calls, so that something is run while it is compiled."""
+
+
+@pytest.mark.parametrize("collects", [True, False])
+def test_compiling_is_not_interrupted_by_the_garbage_collector(collects):
+    seen = []
+
+    @overload(probe)
+    def _(x):
+        seen.append(gc.isenabled())
+        return (lambda x: x) if x == numba.types.float64 else None
+
+    def probed(x):
+        return probe(x)
+
+    was = gc.isenabled()
+    try:
+        (gc.enable if collects else gc.disable)()
+        assert jit(probed)(1.0) == 1.0
+        assert gc.isenabled() is collects
+        with pytest.raises(numba.TypingError):
+            jit(probed)(None)
+        assert gc.isenabled() is collects
+    finally:
+        (gc.enable if was else gc.disable)()
+    assert seen
+    assert not any(seen)
