@@ -20,7 +20,7 @@ import numpy as np
 from kernels import bend, friction, system
 from kernels.balance import largest, reduce
 from kernels.book import enter
-from kernels.jit import jit_exact, jit_inlined, jit_owning
+from kernels.jit import jit_exact, jit_owning
 from kernels.march import SMALLEST
 from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, NOT_FINITE, OUTGROWN, STALLED
 from kernels.room import PREDICTED, make_room
@@ -138,7 +138,7 @@ def _balance(x, terms, before, near, unknowns, tolerance, room, arc, todo):
         todo.rise, todo.move = rise, _combine(r, rise, v, unknowns, work.dx)
 
 
-@jit_inlined
+@jit_exact
 def _set_out(terms, unknowns, state, room, arc, trail, todo):
     """Point dx along the path, for an arc or for what the load lacks, whichever is shorter."""
     before, _, work, _, _ = room
@@ -159,7 +159,7 @@ def _set_out(terms, unknowns, state, room, arc, trail, todo):
     todo.move = _combine(work.residual, todo.rise, tangent, unknowns, work.dx)
 
 
-@jit_inlined
+@jit_exact
 def _return(before, at, state, unknowns, work, todo):
     """Set out from the last point for the full load instead, as an arc has passed it."""
     share = (1.0 - state.held[1]) / (todo.load - state.held[1])

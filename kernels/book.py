@@ -11,7 +11,7 @@ import numpy as np
 
 from kernels import inertia, project
 from kernels.balance import reduce
-from kernels.jit import jit_exact, jit_inlined
+from kernels.jit import jit_exact
 from kernels.rows import copy, dot
 from kernels.scheme import DAMPING, ELASTIC, RUBBING
 from kernels.step import store
@@ -30,7 +30,7 @@ def _work(force, past, u, theta):
     return value
 
 
-@jit_inlined
+@jit_exact
 def strike(state, layout, mass, speed):
     """Give what is led its ``speed`` (m/s) at once, an inelastic blow: half of its work is lost."""
     for i in range(mass.size):
@@ -58,7 +58,7 @@ def made(state, at, mass, dt):
     return -loss, max(there, abs(state.book[WORK]))
 
 
-@jit_inlined
+@jit_exact
 def enter(terms, step, unknowns, state, at, work):
     """Add one converged step, found by the last `evaluate`, to the energy book."""
     book, past, theta = state.book, state.past, step.theta
@@ -84,7 +84,7 @@ def enter(terms, step, unknowns, state, at, work):
     book[RESIDUAL] -= book[MATERIAL] + book[FRICTION] + book[INTEGRATOR]
 
 
-@jit_inlined
+@jit_exact
 def move_apart(terms, step, state, near, at, work):
     """Move apart what is too near after a step, and book what that adds to the energy."""
     x, book = state.x, state.book

@@ -14,148 +14,9 @@ import functools
 import gc
 
 import numba
-from llvmlite.binding import Linkage
-from llvmlite.binding.newpassmanagers import create_new_module_pass_manager
-from numba import _dynfunc
-from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler, Flags
-from numba.core.compiler_machinery import register_pass
-from numba.core.typed_passes import NativeLowering
 
 from kernels.cache import SealedCache
-
-
-class Linked(JITCodeLibrary):
-    """Code that is linked into the entries that reach it, and becomes machine code there.
-
-    Doing so at every level would double the time of a compilation. Here it is only tidied: most of
-    what Numba writes down takes named tuples apart and puts them together again.
-    """
-
-    def _optimize_functions(self, ll_module):
-        ll_module.data_layout = self._codegen._data_layout
-        tidy = create_new_module_pass_manager()
-        tidy.add_aggressive_dce_pass()
-        tidy.add_sroa_pass()
-        tidy.add_instruction_combine_pass()
-        tidy.run(ll_module, self._codegen._pass_builder())
-
-    def add_llvm_module(self, ll_module):
-        """Take it in, for several to link."""
-        super().add_llvm_module(ll_module)
-        for function in self._final_module.functions:
-            if not function.is_declaration and function.linkage == Linkage.external:
-                function.linkage = "linkonce_odr"
-
-    def finalize(self):
-        """Leave it to the entries to link what this calls."""
-        for library in self._linking_libraries:
-            self._reload_init.update(library._reload_init)
-        self._finalized = True
-
-    def _reached(self, found):
-        """Add the libraries of all that this calls to the dictionary ``found``; return it."""
-        for library in self._linking_libraries:
-            if library not in found:
-                found[library] = None
-                if isinstance(library, Linked):
-                    library._reached(found)
-        return found
-
-    def _get_module_for_linking(self):
-        """Return its module together with those of all that it calls, callers first."""
-        if self._shared_module is None:
-            self._shared_module = self._final_module.clone()
-            for library in self._reached({}):
-                linked = isinstance(library, Linked)
-                module = library._final_module if linked else library._get_module_for_linking()
-                self._shared_module.link_in(module, preserve=True)
-        return self._shared_module
-
-
-@register_pass(mutates_CFG=True, analysis_only=False)
-class LinkedLowering(NativeLowering):
-    """Numba's lowering to a library that callers link, with no address of its own."""
-
-    _name = "linked_lowering"
-
-    def run_pass(self, state):
-        """Lower the function and make it known to its callers."""
-        state.library = Linked(state.targetctx.codegen(), state.func_id.func_qualname)
-        state.flags.no_compile = True
-        super().run_pass(state)
-        lowered, context = state["cr"], state.targetctx
-        name = lowered.fndesc.qualname
-        nowhere = 1  # an address that is not called
-        key = _dynfunc.make_function(
-            lowered.fndesc.lookup_module(), name, name, nowhere, lowered.env, (state.library,)
-        )
-        context.insert_user_function(key, lowered.fndesc, [state.library])
-        state["cr"] = lowered._replace(cfunc=key)
-        return True
-
-
-class Entry(JITCodeLibrary):
-    """Code that Python calls, with all that it calls itself.
-
-    What is linked is known to be called from nowhere else: then LLVM hands over only the arguments
-    that are used, of up to a thousand that named tuples of arrays are taken apart to.
-    """
-
-    def _optimize_final_module(self):
-        for function in self._final_module.functions:
-            if not function.is_declaration and function.linkage == Linkage.linkonce_odr:
-                function.linkage = "internal"
-        super()._optimize_final_module()
-
-
-@register_pass(mutates_CFG=True, analysis_only=False)
-class EntryLowering(NativeLowering):
-    """Numba's lowering to an `Entry`."""
-
-    _name = "entry_lowering"
-
-    def run_pass(self, state):
-        """Lower the function to code that can be kept."""
-        state.library = Entry(state.targetctx.codegen(), state.func_id.func_qualname)
-        state.library.enable_object_caching()
-        return super().run_pass(state)
-
-
-class QuickFlags(Flags):
-    """Numba's flags, compared by those that are set: Numba compares half a million times."""
-
-    def values(self):
-        """Return what is set."""
-        return self._values
-
-
-class EntryCompiler(Compiler):
-    """Numba's compiler with another ``lowering``."""
-
-    lowering = EntryLowering
-
-    def __init__(self, *given):
-        super().__init__(*given)
-        self.state.flags = QuickFlags(self.state.flags)
-
-    def define_pipelines(self):
-        """Return Numba's passes with the lowering exchanged."""
-        passes = super().define_pipelines()
-        for manager in passes:
-            manager.passes = [
-                (self.lowering if step is NativeLowering else step, what)
-                for step, what in manager.passes
-            ]
-            manager._finalized = False
-            manager.finalize()
-        return passes
-
-
-class LinkedCompiler(EntryCompiler):
-    """The same for what is only linked."""
-
-    lowering = LinkedLowering
+from kernels.linking import EntryCompiler, LinkedCompiler
 
 
 class Kernel:
@@ -213,14 +74,13 @@ def _dispatcher(function, options, **how):
     return dispatcher
 
 
-def compiler(fastmath, owning=False, inline="never"):
+def compiler(fastmath, owning=False):
     """Decorator that compiles a function for the argument types it meets, and keeps the code.
 
     Without ``owning`` the code counts no references, which costs four times the arithmetic of an
-    assembly; such a function may read and fill arrays but must not make or return any. ``inline``
-    writes it out in its caller, for the few that would otherwise be optimised at every level.
+    assembly; such a function may read and fill arrays but must not make or return any.
     """
-    options = {"fastmath": fastmath, "_nrt": owning, "inline": inline}
+    options = {"fastmath": fastmath, "_nrt": owning}
 
     def decorate(function):
         if numba.config.DISABLE_JIT:
@@ -233,4 +93,3 @@ def compiler(fastmath, owning=False, inline="never"):
 jit = compiler({"contract", "reassoc", "nsz", "arcp"})
 jit_exact = compiler(False)
 jit_owning = compiler(False, owning=True)
-jit_inlined = compiler(False, owning=True, inline="always")

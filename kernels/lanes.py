@@ -1,10 +1,12 @@
 """Four numbers in one register of the processor, which LLVM does not find by itself in a block.
 
 A `Four` lives inside a kernel only: loaded from an array (n,), four sums at a time, stored again.
+Where kernels run as plain Python it is an array.
 """
 
+import numpy as np
 from llvmlite import ir
-from numba import types
+from numba import config, types
 from numba.extending import intrinsic, models, register_model
 from numba.np.arrayobj import make_array
 
@@ -30,13 +32,22 @@ class _Model(models.PrimitiveModel):
         super().__init__(manager, kind, VECTOR)
 
 
+def _instruction(plain):
+    """Decorator of what emits LLVM's instructions for the function ``plain`` of Python."""
+    return (lambda emit: plain) if config.DISABLE_JIT else intrinsic
+
+
+def _write(array, index, value):
+    array[index : index + LANES] = value
+
+
 def _at(context, builder, kind, array, index):
     """Pointer to the four entries of ``array`` from ``index`` on."""
     data = make_array(kind)(context, builder, array).data
     return builder.bitcast(builder.gep(data, [index]), VECTOR.as_pointer())
 
 
-@intrinsic
+@_instruction(lambda array, index: array[index : index + LANES].copy())
 def load(_, array, index):
     """Return entries ``index`` .. ``index`` + 3 of ``array``."""
 
@@ -46,7 +57,7 @@ def load(_, array, index):
     return four(array, types.intp), code
 
 
-@intrinsic
+@_instruction(_write)
 def store(_, array, index, value):
     """Write ``value`` to entries ``index`` .. ``index`` + 3 of ``array``."""
 
@@ -57,7 +68,7 @@ def store(_, array, index, value):
     return types.none(array, types.intp, value), code
 
 
-@intrinsic
+@_instruction(lambda number: np.full(LANES, number))
 def spread(_, number):
     """Return ``number`` four times."""
 
@@ -68,7 +79,7 @@ def spread(_, number):
     return four(types.float64), code
 
 
-@intrinsic
+@_instruction(lambda value, a, b: value + a * b)
 def added(_, value, a, b):
     """Return ``value`` + ``a`` * ``b``, lane by lane."""
 

@@ -7,7 +7,7 @@ import numpy as np
 from kernels import damp, friction, inertia, scheme
 from kernels.balance import allowed, largest, reduce
 from kernels.book import INTEGRATOR, KINETIC, enter, made, move_apart, strike
-from kernels.jit import jit_exact, jit_inlined, jit_owning
+from kernels.jit import jit_exact, jit_owning
 from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, OUTGROWN, minimise
 from kernels.relax import approach
 from kernels.room import CHANGE, HEAVY, LAGGED, PREDICTED, Room, make_room
@@ -75,7 +75,7 @@ def _target(stage, todo):
     return stage.driven0 + (stage.driven1 - stage.driven0) * _part(stage, todo)
 
 
-@jit_inlined
+@jit_exact
 def _set_out(terms, stage, driven, state, near, room, todo):
     """Set out on the next share of a step, from where the last one ended and on as that went."""
     if stage.scheme != BACKWARD_EULER and state.totals[LAST] == 0.0:
@@ -113,7 +113,7 @@ def _set_out(terms, stage, driven, state, near, room, todo):
     todo.loops, todo.relaxed, todo.effort, todo.tried = 0, 0.0, 0, 0
 
 
-@jit_inlined
+@jit_exact
 def _step(terms, stage, room, todo):
     """Return what is minimised."""
     dt, h, slip = stage.dt * todo.share, todo.length, terms.friction.slip
@@ -124,7 +124,7 @@ def _step(terms, stage, room, todo):
     return Step(room.before, room.way[PREDICTED], h, factor, room.grips, slip, theta)
 
 
-@jit_inlined
+@jit_exact
 def _grips_agree(x, terms, step, near, unknowns, tolerance, room, todo):
     """Lag friction anew; return whether ``x`` is still in balance (then nothing is changed)."""
     _, at, work, grips, way = room
@@ -149,7 +149,7 @@ def _grips_agree(x, terms, step, near, unknowns, tolerance, room, todo):
     return agree
 
 
-@jit_inlined
+@jit_exact
 def _balance(x, target, terms, step, near, unknowns, tolerance, room, control, todo):
     """Minimise until friction agrees with where it was lagged; return the outcome."""
     outcome = CONVERGED
@@ -177,7 +177,7 @@ def _invents(terms, stage, state, at, share, noise):
     return gain - state.book[INTEGRATOR] > enough and gain > enough * share / stage.steps
 
 
-@jit_inlined
+@jit_exact
 def _judged(terms, stage, state, step, noise, room, todo):
     """Return whether a step is accurate, and its error as a share of what is allowed."""
     dt, strayed = stage.dt * todo.share, 0.0
@@ -190,7 +190,7 @@ def _judged(terms, stage, state, step, noise, room, todo):
     return fine, strayed
 
 
-@jit_inlined
+@jit_exact
 def _step_back(outcome, state, room, todo):
     """Return to where a step set out, for a shorter one."""
     copy(room.before.x0, state.x)
@@ -202,7 +202,7 @@ def _step_back(outcome, state, room, todo):
     todo.loops, room.work.kept[0] = SET_OUT, np.inf
 
 
-@jit_inlined
+@jit_exact
 def _settle(terms, unknowns, stage, step, state, near, room, todo):
     """Stay where a step has led, and book it."""
     dt, at, work = stage.dt * todo.share, room.at, room.work
@@ -216,7 +216,7 @@ def _settle(terms, unknowns, stage, step, state, near, room, todo):
     state.totals[STEPS] += 1
 
 
-@jit_inlined
+@jit_exact
 def _go_on(strayed, iterations, work, todo):
     """Count a share as done; the next one is twice as long if this was easy and that fits."""
     easy = strayed < LONGER and todo.effort <= iterations and todo.loops <= EASY_LOOPS

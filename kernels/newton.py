@@ -14,7 +14,7 @@ import numpy as np
 
 from kernels import chain, image, system
 from kernels.balance import allowed, largest, reduce
-from kernels.jit import jit_exact, jit_inlined
+from kernels.jit import jit_exact
 from kernels.rows import copy, dot, zero, zero_rows
 from kernels.step import covers, evaluate, factor, step_limit
 
@@ -134,7 +134,7 @@ def _arrives(x, dx, target, driven):
     return driven >= 0 and dx[driven] == target - x[driven]
 
 
-@jit_inlined
+@jit_exact
 def _choose(slope, stable, led, escape, unknowns, remaining, work):
     """Fill dx with the Newton direction, or with the escape where that promises more.
 
@@ -151,7 +151,7 @@ def _choose(slope, stable, led, escape, unknowns, remaining, work):
     return (fall * cut, curvature), max(most * cut, abs(remaining)), cut == 1.0
 
 
-@jit_inlined
+@jit_exact
 def _weigh(x, target, near, unknowns, tolerance, at, work):
     """Return how far the driven coordinate has to go, m, the largest residual in N, and how much of
     that would count as none.

@@ -28,7 +28,7 @@ from kernels import (
 )
 from kernels.couplings import couplings
 from kernels.entries import clear
-from kernels.jit import jit_exact, jit_inlined, jit_owning
+from kernels.jit import jit_exact, jit_owning
 from kernels.rows import pair, triple, zero, zero_rows
 
 STRETCH, BEND, CONTACT = range(3)
@@ -104,7 +104,7 @@ class At(NamedTuple):
     stiffness: object
 
 
-@jit_inlined
+@jit_exact
 def evaluate(x, terms, step, near, at, projected):
     """Return E in J; fill ``at``, with the walls' part of the (``projected``) Hessian."""
     _start(x, step, at)
@@ -122,7 +122,7 @@ def evaluate(x, terms, step, near, at, projected):
     return total + rub(terms, step, at)
 
 
-@jit_inlined
+@jit_exact
 def store(x, terms, step, at, projected):
     """Fill ``at`` with what the walls store at ``x`` and its derivatives; elastic adds up."""
     walls, shape = terms.walls, at.shape
@@ -138,7 +138,7 @@ def store(x, terms, step, at, projected):
     at.least[OPENING] = min(opened, at.least[OPENING])
 
 
-@jit_inlined
+@jit_exact
 def _start(x, step, at):
     for i in range(x.size):
         at.u[i] = x[i] - step.before.y[i]
@@ -147,7 +147,7 @@ def _start(x, step, at):
         at.rubbing[i] = 0.0
 
 
-@jit_inlined
+@jit_exact
 def _damping(terms, step, at, projected):
     zero_rows(at.shape.slope)
     zero(at.shape.moment)
@@ -159,7 +159,7 @@ def _damping(terms, step, at, projected):
     return total
 
 
-@jit_inlined
+@jit_exact
 def rub(terms, step, at):
     """Return D_f of the grips of ``step``; exchange its gradient in ``at`` for the one there."""
     if terms.friction.mu == 0.0:
@@ -173,7 +173,7 @@ def rub(terms, step, at):
     return total
 
 
-@jit_inlined
+@jit_exact
 def factor(x, terms, step, near, at, projected, through):
     """Factor the Hessian at the ``x`` of the last `evaluate`; return as `system.factor` does."""
     matrix = near.system.matrix
@@ -191,7 +191,7 @@ def factor(x, terms, step, near, at, projected, through):
     return system.factor(near.system, terms.layout, terms.walls, at.stiffness, projected, through)
 
 
-@jit_inlined
+@jit_exact
 def step_limit(x, dx, most, terms, near, at):
     """Return the share of ``dx`` (at most 1) that keeps walls apart, open and long enough.
 
@@ -234,7 +234,7 @@ def find_near(x, terms, grips, move):
     return Near(found, x.copy(), margin, solver, crowd)
 
 
-@jit_inlined
+@jit_exact
 def holds_crowd(near, x, terms):
     """Return whether the crowd has all that is near at ``x``, with half of its room to spare."""
     if project.is_absent(terms.project):
@@ -243,7 +243,7 @@ def holds_crowd(near, x, terms):
     return 4.0 * moved <= CROWD * terms.project.contact.reach
 
 
-@jit_inlined
+@jit_exact
 def drift(x, terms, near):
     """Return how far a node has moved since the pairs were listed, m."""
     if terms.contact.edges.shape[0] == 0:
@@ -251,13 +251,13 @@ def drift(x, terms, near):
     return pairs.farthest(x, near.anchor, terms.layout.n_nodes)
 
 
-@jit_inlined
+@jit_exact
 def covers(near, x, terms, reach):
     """Return whether the list holds all that matters while no coordinate moves beyond ``reach``."""
     return 2.0 * (drift(x, terms, near) + DIAGONAL * reach) <= near.margin
 
 
-@jit_inlined
+@jit_exact
 def least_gap(x, terms, near):
     """Return the smallest distance in m between lines that may touch, by either kind of contact."""
     moved = pairs.farthest(x, near.anchor, terms.layout.n_nodes)

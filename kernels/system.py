@@ -2,7 +2,7 @@
 
 from kernels import blocks, condense, image
 from kernels.entries import IMAGE, INNER, add_image
-from kernels.jit import jit, jit_exact, jit_inlined
+from kernels.jit import jit, jit_exact
 from kernels.pattern import CONDENSED, OPEN, RIGID
 from kernels.rows import zero
 
@@ -45,7 +45,7 @@ def _scatter_image(system, layout, w, rows):
                     add_image(matrix, 2 * layout.inner[w] + k, outer[c], entry, False)
 
 
-@jit_inlined
+@jit_exact
 def factor(system, layout, walls, stiffness, projected, through):
     """Add the walls to what the matrix holds and factor all.
 
@@ -92,14 +92,14 @@ def negatives(system):
     return count
 
 
-@jit_inlined
+@jit_exact
 def _inner(system, layout, w):
     """Return the coordinates of the inner unknowns of wall ``w``."""
     first = 2 * layout.inner[w]
     return slice(first, first + system.row_start[w + 1] - system.row_start[w])
 
 
-@jit_inlined
+@jit_exact
 def _expand(system, layout, b):
     """Write the solution of the block matrix to ``b``; solve the condensed walls for the rest."""
     home, vector, joints = system.matrix.home, system.matrix.vector, system.joints

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.caliper import height
-from kernels.jit import jit_inlined
+from kernels.jit import jit_exact
 from kernels.rows import total
 from kernels.step import least_gap
 
@@ -49,7 +49,7 @@ class Output(NamedTuple):
     probed: np.ndarray
 
 
-@jit_inlined
+@jit_exact
 def write(out, k, state, terms, near, unknowns, at):
     """Write row ``k`` of the history and its frame."""
     row = out.rows[k]

@@ -19,8 +19,8 @@ PROGRAM = [module for module in TREES if not module.startswith("tests")]
 KERNELS = [module for module in PROGRAM if module.startswith("kernels")]
 
 HOMES = {
-    "numba": "kernels.jit kernels.cache kernels.lanes",
-    "llvmlite": "kernels.cache kernels.lanes",
+    "numba": "kernels.jit kernels.linking kernels.cache kernels.lanes",
+    "llvmlite": "kernels.linking kernels.cache kernels.lanes",
     "dask": "sweep.graph",
     "distributed": "sweep.graph",
     "h5py": "sweep.store",

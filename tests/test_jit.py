@@ -17,8 +17,9 @@ import pytest
 
 from kernels import cache as kept
 from kernels import jit as home
+from kernels import linking
 from kernels.cache import SealedFiles, fingerprint, open_cache, prune, seal
-from kernels.jit import jit, jit_exact, jit_inlined, jit_owning
+from kernels.jit import jit, jit_exact, jit_owning
 
 DAMAGE = {
     "empty": lambda content: b"",
@@ -54,8 +55,8 @@ def package(tmp_path):
     """Folder with a package `kernels` of a caller and its callee in another file."""
     folder = tmp_path / "kernels"
     folder.mkdir()
-    shutil.copy(home.__file__, folder)
-    shutil.copy(kept.__file__, folder)
+    for module in (home, linking, kept):
+        shutil.copy(module.__file__, folder)
     (folder / "__init__.py").touch()
     (folder / "callee.py").write_text(
         "from kernels.jit import jit\n\n\n@jit\ndef offset(x):\n    return x + 1.0\n"
@@ -107,6 +108,34 @@ def test_edited_callee_and_damaged_files_never_give_an_old_or_wrong_value(packag
 
 def test_kernels_run_as_plain_python_when_numba_is_told_so(package):
     assert run(package, NUMBA_DISABLE_JIT="1") == ["2.5", "plain"]
+
+
+PLAIN = """
+from sweep import simulate
+from sweep.params import Case, Lattice, Loading, Solver
+
+case = Case(
+    lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=1),
+    loading=Loading(mode="displacement", strain=0.02),
+    solver=Solver(load_steps=2),
+)
+result = simulate(case)
+print(result.status, result.summary["newton_iterations"], result.summary["absorbed_energy_J"])
+"""
+
+
+def test_a_simulation_as_plain_python_finds_the_same():
+    found = []
+    for plain in ("0", "1"):
+        environment = os.environ | {"NUMBA_DISABLE_JIT": plain}
+        told = subprocess.run(
+            [sys.executable, "-c", PLAIN], env=environment, capture_output=True, text=True
+        )
+        found.append(told.stdout.split())
+    (status, iterations, energy), plainly = found
+    assert [status, iterations] == plainly[:2]
+    assert status == "converged"
+    assert float(energy) == pytest.approx(float(plainly[2]), rel=1e-9)
 
 
 @pytest.mark.parametrize("damage", DAMAGE)
@@ -268,16 +297,3 @@ def test_only_an_owning_kernel_may_make_an_array(cache):
         with pytest.raises(numba.TypingError, match=r"No implementation of function .*ones"):
             decorator(total)(3)
     assert jit_owning(total)(3) == 3.0
-
-
-def test_inlined_kernels_are_written_out_in_their_callers(cache):
-    inner, called = jit_inlined(product), jit(product)
-
-    @jit
-    def both(x):
-        return inner(x, 2) + called(x, 3)
-
-    assert both(1.0) == 5.0
-    assert inner.signatures == []
-    assert len(called.signatures) == 1
-    assert inner(1.5, 2) == 3.0

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numba.extending import overload
 
-from kernels import jit as home
+from kernels import linking
 from kernels.jit import jit, jit_owning
 
 
@@ -65,8 +65,29 @@ def test_linked_kernels_take_no_tuple_apart_in_vain():
     assert "alloca {" not in code
 
 
+@pytest.mark.parametrize(("large", "calls"), [(0, 1), (10_000, 0)])
+def test_a_large_kernel_is_called_with_the_arguments_it_uses(monkeypatch, large, calls):
+    monkeypatch.setattr(linking, "LARGE", large)
+
+    @jit
+    def first(pair, k):
+        return pair.first[k]
+
+    @jit
+    def doubled(array, k):
+        return 2.0 * first(Pair(array, array), k)
+
+    assert doubled(np.arange(3.0), 2) == 4.0
+    (compiled,) = doubled.entry.overloads.values()
+    code = compiled.library.get_llvm_str()
+    written = [line for line in code.splitlines() if line.startswith("define internal")]
+    handed = [line.count(",") + 1 for line in written if "first" in line]
+    assert len(handed) == calls
+    assert all(count < 7 for count in handed)  # of fourteen
+
+
 def test_flags_are_equal_when_the_same_are_set():
-    one, same, other = home.QuickFlags(), home.QuickFlags(), home.QuickFlags()
+    one, same, other = linking.QuickFlags(), linking.QuickFlags(), linking.QuickFlags()
     one.nrt, same.nrt, other.nrt = True, True, False
     assert one == same == one.copy()
     assert hash(one) == hash(same)
