@@ -10,7 +10,6 @@ import readme
 from kernels import newton, step
 from sweep.scene import build_scene
 from sweep.simulate import simulate
-from sweep.stages import stages
 from tests.bench import (
     alone,
     cases,
@@ -157,19 +156,6 @@ def test_seed_scene_has_a_row_for_what_is_not_installed(monkeypatch):
     table = scenes.seed(2, 2e-3, 1)
     assert table.texts["OpenSees, ProfileSPD", scenes.WHOLE] == "not installed"
     assert table.values[scenes.SEED, scenes.ITERATIONS] > 20.0
-
-
-def test_opensees_moves_as_we_do():
-    pytest.importorskip("openseespy")
-    case = cases.seed(2, 0.02)
-    scene = build_scene(case)
-    peer = opensees.Peer(case, scene, "ProfileSPD")
-    assert peer.whole(released=False).iterations > 100
-    state = at_rest(scene)
-    marching.go(case, scene, state, [stretch.stage for stretch in stages(case, scene)[:1]])
-    joints = np.arange(scene.mesh.n_joints)
-    own = (state.x - scene.x_rest)[: 2 * len(scene.mesh.points)].reshape(-1, 2)[joints, 1]
-    np.testing.assert_allclose(peer.moved()[joints, 1], own, atol=0.02 * np.abs(own).max())
 
 
 def test_growth_is_fitted_over_all_sizes(monkeypatch):

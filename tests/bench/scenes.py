@@ -1,10 +1,11 @@
 """Whole cases: one call of `simulate`, and the march in it by the iteration."""
 
+from contextlib import suppress
 from functools import partial
 
 from sweep.scene import build_scene
 from sweep.simulate import simulate
-from tests.bench import cases, marching, opensees
+from tests.bench import cases, marching, opensees, rods
 from tests.bench.clock import medians, seconds
 from tests.bench.crushes import COLLAPSED, Crush
 from tests.bench.table import Table
@@ -12,6 +13,9 @@ from tests.bench.table import Table
 WHOLE, SCENE, ITERATIONS, EACH = "CPU s", "building, ms", "iterations", "µs an iteration"
 COLUMNS = (WHOLE, SCENE, ITERATIONS, EACH)
 SEED = "no contact"
+NUMPY = "numpy, LAPACK band"
+PEERS = {NUMPY: rods.Peer, "OpenSees, ProfileSPD": partial(opensees.Peer, solver="ProfileSPD")}
+LARGER = {"OpenSees, SparseSYM": partial(opensees.Peer, solver="SparseSYM")}
 ALLOWED = {
     "contact allowed, nothing touches": {"contact": cases.SMOOTH},
     "friction too": {"contact": cases.ROUGH},
@@ -51,19 +55,21 @@ def compared(title, chosen, count, peers=None):
     return found
 
 
-def seed(cells, duration, count, allowed=ALLOWED, solver="ProfileSPD"):
-    """The seed's scene, and OpenSees with it where that is installed."""
+def seed(cells, duration, count, allowed=ALLOWED, beside=PEERS):
+    """The seed's scene, and what is installed of other codes with it."""
     title = f"dead load, {cells} x {cells}, {round(1e4 * duration):,} steps"
-    case, name = cases.seed(cells, duration), f"OpenSees, {solver}"
+    case = cases.seed(cells, duration)
     chosen = {SEED: case}
     chosen |= {what: cases.seed(cells, duration, **given) for what, given in allowed.items()}
-    try:
-        peers = {name: opensees.Peer(case, build_scene(case), solver)}
-    except ImportError:
-        found = compared(title, chosen, count)
-        found.lack(name, "not installed")
-        return found
-    return compared(title, chosen, count, peers)
+    peers, scene = {}, build_scene(case)
+    for name, peer in beside.items():
+        with suppress(ImportError):
+            peers[name] = peer(case, scene)
+    found = compared(title, chosen, count, peers)
+    for name in beside:
+        if name not in peers:
+            found.lack(name, "not installed")
+    return found
 
 
 def crush(steps, count):
