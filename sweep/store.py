@@ -205,7 +205,7 @@ class _Columns(Mapping[str, np.ndarray]):
     """Columns of a sealed file, read when they are asked for."""
 
     def __init__(self, path: Path, group: h5py.Group) -> None:
-        self._path, self._data = path, dict(group)
+        self._path, self._data = path, group
 
     def __getitem__(self, name: str) -> np.ndarray:
         with _undamaged(self._path):
