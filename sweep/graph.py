@@ -100,7 +100,7 @@ def _run_on_threads(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop) -> N
             stop.ask()
 
     while len(plan) and not stop.asked:
-        wave = {number: (next_batch,) for number in range(min(WAVE, len(plan)))}
+        wave = dict.fromkeys(range(min(WAVE, len(plan))), (next_batch,))
         get(wave, list(wave), num_workers=plan.workers)
     if troubles:
         raise troubles[0]
