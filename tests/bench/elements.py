@@ -1,7 +1,7 @@
 """Rods in numpy, element by element, as they are often written: `rods` shows the equations.
 
-Each element, hinge and arm has a small gradient and Hessian of its own, found in one go and added to
-dense ones.
+Each element, hinge and arm has a small gradient and Hessian of its own, found in one go and added
+to dense ones.
 """
 
 import math
