@@ -16,8 +16,6 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from dask.base import compute
-from dask.delayed import delayed
 from dask.threaded import get
 
 from sweep.params import Case
@@ -101,10 +99,9 @@ def _run_on_threads(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop) -> N
             troubles.append(error)
             stop.ask()
 
-    task = delayed(next_batch, pure=False)
     while len(plan) and not stop.asked:
-        wave = [task() for _ in range(min(WAVE, len(plan)))]
-        compute(*wave, scheduler=get, num_workers=plan.workers, optimize_graph=False)
+        wave = dict.fromkeys(range(min(WAVE, len(plan))), (next_batch,))
+        get(wave, list(wave), num_workers=plan.workers)
     if troubles:
         raise troubles[0]
 

@@ -47,7 +47,7 @@ def merits(
 
     Also named: `until`, when energy ceases to count, in words. Added too: `passed_on_N`, the
     greatest force until then; `returned_share`, what is given back of the work of the whole crush;
-    `beyond_model`; and error bars of what is added, where the energy has one.
+    `beyond_model`; `crossed`; and error bars of what is added, where the energy has one.
     """
     if missing := [name for name in COLUMNS if name not in finished]:
         raise RankError(
@@ -61,6 +61,7 @@ def merits(
         "passed_on_N": force,
         "returned_share": finished["returned_energy_J"] / finished["absorbed_energy_J"],
         "beyond_model": finished[energy] > within,
+        "crossed": finished["max_crossings"] > 0,
     }
     names = {"mass": "mass_g", "energy": energy, "per_gram": per_gram, "until": until}
     if (bar := error_column(energy)) in finished:

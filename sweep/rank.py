@@ -52,11 +52,13 @@ LEADING = [
     "case_id",
     "ranked_by",
     "ranked_error",
+    "sharing",
     "panel_mass_g",
     "panel_energy_J",
     "passed_on_N",
     "returned_share",
     "beyond_model",
+    "crossed",
 ]
 
 LESS_IS_BETTER = frozenset(
@@ -106,12 +108,14 @@ def rank(
     -------
     The summary's rows that have a place, led by `budget_g`, `scene`, `place` (equal values share
     one, and so do those that error bars cannot tell from the first there: `shared_places`), with
-    error bars `tied` (True: it shares its place) and `ranked_error`; `pareto` (True: no design of
+    error bars `tied` (True: it shares its place) and `ranked_error`; `sharing`, the number of
+    designs that have this place, beyond the `top` too; `pareto` (True: no design of
     the scene is lighter without absorbing less, none absorbs more without being heavier; where
     `LEAST` counts, the same for that), `ranked_by`, with a panel `panel_mass_g` and
     `panel_energy_J`; and `passed_on_N`, the greatest force while that energy is absorbed,
     `returned_share` of the work of the whole crush, which was stored and not dissipated,
-    `beyond_model` (True: a wall was squeezed too far while it was absorbed).
+    `beyond_model` (True: a wall was squeezed too far while it was absorbed), `crossed` (True: walls
+    passed through one another).
     `attrs`: names of the columns compared (`mass`, `energy`, `per_gram`; `by`: of the crushed
     designs where there are any), the counts `cases`, `failed`, `unranked` (finished, but without a
     value to sort by), `without_bar` (of those with a value, where others have one), `budgets_g`,
@@ -241,7 +245,8 @@ def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | Non
     place = shared_places(rows[by], error)
     known = {} if error is None else {"ranked_error": error, "tied": place.duplicated(keep=False)}
     limit = budget_g if np.isfinite(budget_g) else np.nan
-    rows = rows.assign(budget_g=limit, place=place, ranked_by=by, **known)
+    sharing = place.map(place.value_counts())
+    rows = rows.assign(budget_g=limit, place=place, ranked_by=by, sharing=sharing, **known)
     rows = rows.head(len(rows) if top is None else top)
     first = [name for name in LEADING if name in rows]
     return rows[first + [name for name in rows if name not in first]]

@@ -29,6 +29,7 @@ TIED = """\
 place, as the value ± error overlaps that of the first in this place; without an error, it counts as
 exact."""
 BEYOND = "!: beyond the model, as a wall is squeezed below 0.7 of its length: not to be trusted."
+CROSSED = "x: walls pass through one another, as nothing keeps them apart: not to be trusted."
 
 MILLIMETRES = {
     "wall_thickness_m": "wall mm",
@@ -89,6 +90,8 @@ def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
             opens=frozenset(i for i, text in enumerate(lead.get("up to g", ())) if text),
             notes=(
                 *((BEYOND,) if rows["beyond_model"].any() else ()),
+                *((CROSSED,) if rows["crossed"].any() else ()),
+                *_cut_off(rows),
                 *(
                     f"Nothing weighs {budget:g} g or less: the lightest weighs {lightest:.3g} g."
                     for budget in budgets
@@ -111,12 +114,23 @@ def legend(ranking: DataFrame) -> str:
 
 
 def _places(rows: DataFrame) -> Series:
-    """Places with the marks of ties, of the Pareto front and of the limits of the model."""
+    """Places with the marks of ties, of the Pareto front, and of what is not to be trusted."""
     places = rows["place"].astype(str)
     if "tied" in rows:
         places += rows["tied"].map({True: "="}).fillna("")
     pareto = rows["pareto"].map({True: "*", False: " "})
-    return places + pareto + rows["beyond_model"].map({True: "!", False: ""})
+    beyond = rows["beyond_model"].map({True: "!", False: ""})
+    return places + pareto + beyond + rows["crossed"].map({True: "x", False: ""})
+
+
+def _cut_off(rows: DataFrame) -> Iterator[str]:
+    """What shares the last place that is shown of a budget, and is not shown."""
+    for _, shown in rows.groupby("budget_g", dropna=False, sort=False):
+        last = shown.iloc[-1]
+        left = last["sharing"] - (shown["place"] == last["place"]).sum()
+        within = f"Up to {last['up_to']} g, " if "up_to" in rows else ""
+        if left:
+            yield f"{within}{left} more share{'s' if left == 1 else ''} place {last['place']}."
 
 
 def _without_repeats(rows: DataFrame) -> DataFrame:
@@ -124,7 +138,7 @@ def _without_repeats(rows: DataFrame) -> DataFrame:
 
     What is best up to 20 g and up to 50 g is so for all budgets between them.
     """
-    marked = rows.assign(marked=_places(rows) + rows["case_id"])
+    marked = rows.assign(marked=_places(rows) + rows["case_id"] + rows["sharing"].astype(str))
     same = marked.groupby("budget_g")["marked"].agg(" ".join)
     alike = same.index.to_series().groupby(same)
     low, high = alike.transform("min"), alike.transform("max")

@@ -1,6 +1,5 @@
 """A case in, a result out: build the arrays, march through the stages, measure. No files."""
 
-import threading
 import time
 
 import numpy as np
@@ -17,7 +16,9 @@ from sweep.result import Result, Status
 from sweep.scene import Scene, build_scene
 from sweep.stages import stages, tolerances
 from sweep.structure import build_structure
+from sweep.watch import Watch
 
+WATCH = Watch()
 FRAMES = 40
 EARLY_FRAMES = 4 * FRAMES  # most impacts, and many paths, are over in a quarter of their steps
 LONGER = "try a longer loading.duration"
@@ -113,7 +114,7 @@ class _Run:
         self.frame_of, kept = _frames(total + 1, EARLY_FRAMES if early else FRAMES)
         self.positions = np.tile(scene.x_rest, (kept, 1))
         self.arc = arc_of(scene, case)
-        self.done, self.noise = 1, 0.0
+        self.done, self.noise, self.late = 1, 0.0, False
 
     def _begin(self) -> None:
         """Enter what the scene brings with it as work done: speed, and springs under tension.
@@ -129,21 +130,15 @@ class _Run:
 
     def complete(self) -> tuple[Status, str]:
         """March through all stages; return the status and its sentence."""
-        late = threading.Event()
-        timer = threading.Timer(self.case.solver.time_limit, self._expire, [late])
-        timer.daemon = True
-        timer.start()
-        try:
+        with WATCH.limit(self.case.solver.time_limit, self._expire):
             for phase in self.stages:
                 outcome = self._through(phase.stage)
-                if self._invents() and not late.is_set():
+                if self._invents() and not self.late:
                     return Status.STOPPED, f"the integrator made energy out of nothing; {SAFER}"
                 if outcome != newton.CONVERGED:
-                    return self._failed(outcome, phase.name, late.is_set())
+                    return self._failed(outcome, phase.name)
                 if self.struck and self._is_back():
                     break
-        finally:
-            timer.cancel()
         if not self._balances():
             return Status.STOPPED, f"work and energies do not balance {self._where()}; {SOUNDER}"
         if self.struck and self.rows[self.done - 1, trace.SPEED] < 0.0:
@@ -179,8 +174,8 @@ class _Run:
             return int(np.argmin(self.rows[: self.done, trace.HEIGHT])) + 1
         return self.stages[0].stage.steps + 1
 
-    def _expire(self, late: threading.Event) -> None:
-        late.set()
+    def _expire(self) -> None:
+        self.late = True
         self.control[0] = 1
 
     def _through(self, stage: march.Stage) -> int:
@@ -204,9 +199,9 @@ class _Run:
         self.done += written
         return outcome
 
-    def _failed(self, outcome: int, stage: str, late: bool) -> tuple[Status, str]:
+    def _failed(self, outcome: int, stage: str) -> tuple[Status, str]:
         where = f"while {stage}, {self._where()}"
-        if late:
+        if self.late:
             limit = self.case.solver.time_limit
             return Status.TIMED_OUT, f"solver.time_limit of {limit:g} s reached {where}; raise it"
         if outcome == newton.INTERRUPTED:

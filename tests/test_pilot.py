@@ -39,7 +39,7 @@ def test_each_kind_of_loading_is_scaled_by_its_own_pace():
     found = estimate([*force, *glued], stand_in()[0])
     assert found.cpu == pytest.approx(expected)
     assert found.pilots == 2
-    assert found.disk == pytest.approx(8 * (1000 + 0.75 * 4 * 1000))
+    assert found.disk == pytest.approx(8 * (1000 + 0.9 * 4 * 1000))
 
 
 def test_pilot_stands_in_the_middle_of_the_work():

@@ -8,7 +8,7 @@ import pytest
 from specimens import designs, summary
 
 from sweep.rank import RankError, pareto, rank, scene_label
-from sweep.sheets import BEYOND, LOADED, legend, markdown, ranking_sheets, three_digits
+from sweep.sheets import BEYOND, CROSSED, LOADED, legend, markdown, ranking_sheets, three_digits
 
 NAN = float("nan")
 
@@ -180,6 +180,15 @@ def test_energy_of_the_whole_crush_is_marked_where_the_model_does_not_hold_it():
     assert sheet.notes == (BEYOND,)
     (sheet,) = ranking_sheets(rank(table), table)
     assert sheet.notes == ()
+
+
+def test_walls_that_pass_through_one_another_are_marked():
+    table = summary(CRUSHED_SOLID, SPARSE | {"contact_model": "none", "max_crossings": 3})
+    ranking = rank(table, by="absorbed_energy_J")
+    assert list(ranking["crossed"]) == [False, True]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert [row[0] for row in sheet.rows] == ["1*!", "2 x"]
+    assert sheet.notes == (BEYOND, CROSSED)
 
 
 def test_what_comes_back_and_what_has_not_packed_is_told():

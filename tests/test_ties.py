@@ -53,8 +53,24 @@ def test_ties_are_marked_also_where_the_other_is_not_shown():
     ]
     (sheet,) = ranking_sheets(ranking, table)
     assert [row[0] for row in sheet.rows] == ["1=*", "1= ", "3= "]
+    assert sheet.notes == ("1 more shares place 3.",)
     assert (sheet.heads[-1], [row[-1] for row in sheet.rows]) == ("± %", ["6.0", "6.7", "2.0"])
     assert legend(ranking).endswith(TIED)
+
+
+def test_ties_that_are_cut_off_are_counted_for_each_budget():
+    table = summary(*with_bars([10.0, 9.9, 9.8, 9.7], [0.5] * 4))
+    table["mass_g"] = [3.0, 1.0, 1.0, 1.0]
+
+    def notes(**asked):
+        (sheet,) = ranking_sheets(rank(table, by="absorbed_energy_J", **asked), table)
+        return sheet.notes
+
+    assert notes(top=1) == ("3 more share place 1.",)
+    assert notes(top=4) == notes(top=None) == ()
+    several = notes(top=2, budget=["1 g", "2 g", "3 g"])
+    assert several == ("Up to 1-2 g, 1 more shares place 1.", "Up to 3 g, 2 more share place 1.")
+    assert list(rank(table, by="absorbed_energy_J", top=2)["sharing"]) == [4, 4]
 
 
 def test_without_error_bars_nothing_speaks_of_them():
@@ -95,6 +111,7 @@ def test_budgets_share_a_section_only_where_their_ties_are_alike():
     ranking = rank(table, budget=["1 g", "2 g", "3 g"], top=1)
     (sheet,) = ranking_sheets(ranking, table)
     assert [row[:2] for row in sheet.rows] == [["1-2", "1*"], ["3", "1=*"]]
+    assert sheet.notes == ("Up to 3 g, 1 more shares place 1.",)
 
 
 def test_command_line_tells_ties_and_what_has_no_bar(capsys, tmp_path, monkeypatch):

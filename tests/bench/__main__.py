@@ -27,7 +27,7 @@ def tables():
     """Names and functions of all tables."""
     designs = sweeps.thousand()
     yield "seed", lambda: scenes.seed(3, 0.2, COUNT)
-    yield "seed 20", lambda: scenes.seed(20, 0.01, 3, {}, "SparseSYM")
+    yield "seed 20", lambda: scenes.seed(20, 0.01, 3, {}, scenes.LARGER)
     yield "crush", lambda: scenes.crush(200, COUNT)
     yield "collapse", lambda: scenes.collapse(TWO, COUNT)
     yield "left out", lambda: scenes.left_out(200, COUNT)

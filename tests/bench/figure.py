@@ -1,4 +1,4 @@
-"""The picture of the bench: growth, an iteration taken apart, the seed's scene beside OpenSees."""
+"""The picture of the bench: growth, an iteration taken apart, the seed's scene beside others."""
 
 from sweep.plots import BLUE, GREY, ORANGE, PURPLE, SKY, VERMILION, YELLOW, blank
 from tests.bench import growth, iteration, libraries, scenes
@@ -61,7 +61,8 @@ def _legend_below(ax):
 def _seed(ax, seed):
     """CPU seconds of the seed's scene."""
     spent = {name: s for (name, column), s in seed.values.items() if column == scenes.WHOLE}
-    colors = [GREY if name.startswith("OpenSees") else BLUE for name in spent]
+    own = {scenes.SEED, *scenes.ALLOWED}
+    colors = [BLUE if name in own else GREY for name in spent]
     bars = ax.barh(range(len(spent)), list(spent.values()), color=colors)
     ax.bar_label(bars, [f"{s:.3g} s" for s in spent.values()], padding=3)
     ax.set_yticks(range(len(spent)), [name.replace(", ", ",\n") for name in spent])

@@ -1,10 +1,11 @@
 """Whole cases: one call of `simulate`, and the march in it by the iteration."""
 
+from contextlib import suppress
 from functools import partial
 
 from sweep.scene import build_scene
 from sweep.simulate import simulate
-from tests.bench import cases, marching, opensees
+from tests.bench import cases, descent, elements, marching, opensees
 from tests.bench.clock import medians, seconds
 from tests.bench.crushes import COLLAPSED, Crush
 from tests.bench.table import Table
@@ -12,6 +13,13 @@ from tests.bench.table import Table
 WHOLE, SCENE, ITERATIONS, EACH = "CPU s", "building, ms", "iterations", "µs an iteration"
 COLUMNS = (WHOLE, SCENE, ITERATIONS, EACH)
 SEED = "no contact"
+PEERS = {
+    "OpenSees, ProfileSPD": partial(opensees.Peer, solver="ProfileSPD"),
+    "numpy, all elements together": descent.Peer,
+    "numpy, element by element": partial(descent.Peer, model=elements.Elements),
+}
+LARGER = {"OpenSees, SparseSYM": partial(opensees.Peer, solver="SparseSYM")}
+LONG = 2.0  # s: a peer that takes longer is measured once
 ALLOWED = {
     "contact allowed, nothing touches": {"contact": cases.SMOOTH},
     "friction too": {"contact": cases.ROUGH},
@@ -28,7 +36,7 @@ def compared(title, chosen, count, peers=None):
     """A row for each of the ``chosen`` cases and of the ``peers``, which march; in brackets the
     ratio to the first row.
     """
-    sides, iterations = {}, {}
+    sides, iterations, once = {}, {}, {}
     for name, case in chosen.items():
         scene = build_scene(case)
         march = partial(marching.whole, case, scene)
@@ -37,13 +45,17 @@ def compared(title, chosen, count, peers=None):
         sides[name, SCENE] = partial(seconds, partial(build_scene, case))
         sides[name, EACH] = partial(marching.sustained, march)
     for name, peer in (peers or {}).items():
-        iterations[name] = peer.whole().iterations
-        sides[name, WHOLE] = lambda peer=peer: peer.whole().seconds
-    found, at, first = Table(title, COLUMNS), medians(sides, count), next(iter(chosen))
+        taken, iterations[name] = peer.whole()
+        if taken > LONG:
+            once[name, WHOLE] = taken
+        else:
+            sides[name, WHOLE] = lambda peer=peer: peer.whole().seconds
+    found, at, first = Table(title, COLUMNS), medians(sides, count) | once, next(iter(chosen))
     for name, often in iterations.items():
         each = at.get((name, EACH), at[name, WHOLE] / often)
         whole = at[name, WHOLE]
-        found.put(name, WHOLE, whole, f"{whole / at[first, WHOLE]:.3g} x")
+        said = ", measured once" if (name, WHOLE) in once else ""
+        found.put(name, WHOLE, whole, f"{whole / at[first, WHOLE]:.3g} x{said}")
         if name in chosen:
             found.put(name, SCENE, 1e3 * at[name, SCENE])
         found.put(name, ITERATIONS, often)
@@ -51,19 +63,21 @@ def compared(title, chosen, count, peers=None):
     return found
 
 
-def seed(cells, duration, count, allowed=ALLOWED, solver="ProfileSPD"):
-    """The seed's scene, and OpenSees with it where that is installed."""
+def seed(cells, duration, count, allowed=ALLOWED, beside=PEERS):
+    """The seed's scene, and what is installed of other codes with it."""
     title = f"dead load, {cells} x {cells}, {round(1e4 * duration):,} steps"
-    case, name = cases.seed(cells, duration), f"OpenSees, {solver}"
+    case = cases.seed(cells, duration)
     chosen = {SEED: case}
     chosen |= {what: cases.seed(cells, duration, **given) for what, given in allowed.items()}
-    try:
-        peers = {name: opensees.Peer(case, build_scene(case), solver)}
-    except ImportError:
-        found = compared(title, chosen, count)
-        found.lack(name, "not installed")
-        return found
-    return compared(title, chosen, count, peers)
+    peers, scene = {}, build_scene(case)
+    for name, peer in beside.items():
+        with suppress(ImportError):
+            peers[name] = peer(case, scene)
+    found = compared(title, chosen, count, peers)
+    for name in beside:
+        if name not in peers:
+            found.lack(name, "not installed")
+    return found
 
 
 def crush(steps, count):

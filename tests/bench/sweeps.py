@@ -21,6 +21,7 @@ from tests.bench.table import Table
 CONFIG = Path(__file__).parents[2] / "configs/thousand.toml"
 FINER = 4  # times the load steps, to see what they leave out
 WORKERS = (1, 2)
+RATIO = "(wall - waited) / (CPU / workers)"
 
 
 def thousand():
@@ -77,8 +78,7 @@ def swept(designs, workers):
 
 def overhead(designs, count):
     """Two workers against one."""
-    ratio = "(wall - waited) / (CPU / workers)"
-    columns = ("wall, s", "waited, s", "CPU of cases, s", "other CPU, %", ratio)
+    columns = ("wall, s", "waited, s", "CPU of cases, s", "other CPU, %", RATIO)
     found = Table(f"a sweep of {len(designs)} cases", columns)
     samples = [[swept(designs, workers) for workers in WORKERS] for _ in range(count)]
     for workers, rounds in zip(WORKERS, zip(*samples, strict=True), strict=True):
@@ -105,12 +105,13 @@ def kinds(designs):
 
 def throughput(designs, every):
     """Designs a second with friction and without, and what a sample of them is off by."""
-    columns = ("a second", "wall, s", "waited, s", "CPU of each, ms", "error, % (most)")
+    columns = ("a second", "wall, s", "waited, s", "CPU of each, ms", RATIO, "error, % (most)")
     found = Table(f"{len(designs):,} designs, two workers", columns)
     for name, chosen in kinds(designs).items():
         sweep, off = swept(chosen, 2), 100.0 * errors(chosen[::every])
         each = 1e3 * sweep.own / len(chosen)
-        figures = len(chosen) / sweep.free, sweep.wall, sweep.waited, each
+        ratio = 2.0 * sweep.free / sweep.own
+        figures = len(chosen) / sweep.free, sweep.wall, sweep.waited, each, ratio
         for column, figure in zip(columns, figures, strict=False):
             found.put(name, column, figure)
         found.put(name, columns[-1], float(np.median(off)), f"{off.max():.2g}")

@@ -1,0 +1,56 @@
+"""Time limits: what takes too long is told so, by one thread for all."""
+
+import threading
+import time
+
+import pytest
+
+from sweep.watch import Watch
+
+SOON, LATE = 0.02, 60.0
+
+
+@pytest.fixture
+def watch():
+    return Watch()
+
+
+def test_what_takes_too_long_is_told_in_time(watch):
+    told, started = threading.Event(), time.monotonic()
+    with watch.limit(SOON, told.set):
+        assert told.wait(5.0)
+        assert time.monotonic() - started >= SOON
+    with watch.limit(SOON, told.clear):
+        time.sleep(5 * SOON)
+    assert not told.is_set()
+
+
+def test_what_ends_in_time_is_never_told(watch):
+    told = threading.Event()
+    with watch.limit(SOON, told.set):
+        pass
+    time.sleep(3 * SOON)
+    assert not told.is_set()
+
+
+def test_shorter_limit_is_not_kept_waiting_by_a_longer_one(watch):
+    long, short = threading.Event(), threading.Event()
+    with watch.limit(LATE, long.set), watch.limit(SOON, short.set):
+        assert short.wait(5.0)
+    assert not long.is_set()
+
+
+def test_all_share_one_thread(watch):
+    with watch.limit(LATE, lambda: None):
+        before = threading.active_count()
+        for _ in range(20):
+            with watch.limit(LATE, lambda: None):
+                assert threading.active_count() == before
+
+
+def test_error_in_the_block_passes_and_ends_its_limit(watch):
+    told = threading.Event()
+    with pytest.raises(KeyError), watch.limit(SOON, told.set):
+        raise KeyError
+    time.sleep(3 * SOON)
+    assert not told.is_set()
