@@ -78,7 +78,8 @@ def compiler(fastmath, owning=False):
     """Decorator that compiles a function for the argument types it meets, and keeps the code.
 
     Without ``owning`` the code counts no references, which costs four times the arithmetic of an
-    assembly; such a function may read and fill arrays but must not make or return any.
+    assembly; such a function may read and fill arrays but must not make any, nor return one to
+    Python.
     """
     options = {"fastmath": fastmath, "_nrt": owning}
 

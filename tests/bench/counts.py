@@ -6,7 +6,8 @@ from unittest.mock import patch
 
 from kernels import march, newton
 
-LOOPS = ((march, "march"), (march, "_go"), (march, "_balance"), (newton, "minimise"))
+LOOPS = [(march, name) for name in ("march", "_go", "_step", "_balance")]
+LOOPS += [(newton, "minimise")]
 WATCHED = {
     "evaluate": (newton, "evaluate"),
     "factor": (newton, "factor"),
