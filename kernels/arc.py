@@ -21,27 +21,27 @@ from kernels import bend, friction, system
 from kernels.balance import largest, reduce
 from kernels.book import enter
 from kernels.jit import jit_exact, jit_owning
-from kernels.march import SMALLEST
+from kernels.march import AT_START, SMALLEST
 from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, NOT_FINITE, OUTGROWN, STALLED
 from kernels.room import PREDICTED, make_room
 from kernels.rows import copy, dot, zero
 from kernels.step import Step, covers, evaluate, factor, find_near, step_limit
-from kernels.trace import MINIMISED, NOW, STEPS, write
+from kernels.trace import NOW, SPENT, STEPS, write
 
 FACTOR, UNSTABLE = range(2)  # columns of a path
-TODO = np.dtype(
+PROGRESS = np.dtype(
     (
-        np.record,
+        np.record,  # for attributes in plain Python too
         [
-            ("row", np.int64),  # of the history, which comes next; -1: the start
-            ("done", np.float64),  # share of its arc
-            ("share", np.float64),  # of its arc that is tried now
-            ("length", np.float64),  # of that, m; 0: to the load ``aim``
-            ("aim", np.float64),
-            ("load", np.float64),  # factor, as it is
-            ("rise", np.float64),  # of that in the next iteration
-            ("move", np.float64),  # farthest in that, m
-            ("spent", np.int64),  # iterations; -1: set out
+            ("row", np.int64),  # the next one of the history; -1 at the start of the path
+            ("done", np.float64),  # share of the row's arc that is done
+            ("share", np.float64),  # share of the row's arc that is tried now
+            ("length", np.float64),  # of what is tried, m; 0: straight to the load ``aim``
+            ("aim", np.float64),  # load factor
+            ("load", np.float64),  # load factor reached
+            ("rise", np.float64),  # of the load factor in the next iteration
+            ("move", np.float64),  # farthest of a coordinate in the next iteration, m
+            ("spent", np.int64),  # Newton iterations for what is tried
         ],
     )
 )
@@ -90,34 +90,34 @@ def _combine(r, share, v, unknowns, dx):
 
 
 @jit_exact
-def _off(u, r, v, arc, todo):
+def _off(u, r, v, arc, progress):
     """Return the rise of the load that the constraint asks for, and whether it is met."""
-    if todo.length == 0.0:
-        return todo.aim - todo.load, todo.aim == todo.load
-    square = todo.length * todo.length
+    if progress.length == 0.0:
+        return progress.aim - progress.load, progress.aim == progress.load
+    square = progress.length * progress.length
     gap = _inner(u, u, arc.weight) - square
     rise = -(0.5 * gap + _inner(u, r, arc.weight)) / _inner(u, v, arc.weight)
     return rise, abs(gap) <= ON_ARC * square
 
 
 @jit_exact
-def _balance(x, terms, before, near, unknowns, tolerance, room, arc, todo):
+def _balance(x, terms, before, near, unknowns, tolerance, room, arc, progress):
     """Move ``x`` (n,) on by ``work.dx`` and the load by its rise until both are in balance."""
     _, at, work, grips, way = room
     r, v = work.direction, work.escape
     while True:
-        if not covers(near, x, terms, todo.move):
+        if not covers(near, x, terms, progress.move):
             return OUTGROWN
-        share = step_limit(x, work.dx, todo.move, terms, near, at)
-        if todo.move > unknowns.cap:
-            share = min(share, unknowns.cap / todo.move)
+        share = step_limit(x, work.dx, progress.move, terms, near, at)
+        if progress.move > unknowns.cap:
+            share = min(share, unknowns.cap / progress.move)
         for i in range(x.size):
             x[i] += share * work.dx[i]
-        arrives = share == 1.0 and todo.length == 0.0
-        todo.load = todo.aim if arrives else todo.load + share * todo.rise
+        arrives = share == 1.0 and progress.length == 0.0
+        progress.load = progress.aim if arrives else progress.load + share * progress.rise
         zero(work.dx)
-        todo.rise, todo.move, todo.spent = 0.0, 0.0, todo.spent + 1
-        step = Step(before, way[PREDICTED], np.inf, todo.load, grips, terms.friction.slip, 0.5)
+        progress.rise, progress.move, progress.spent = 0.0, 0.0, progress.spent + 1
+        step = Step(before, way[PREDICTED], np.inf, progress.load, grips, terms.friction.slip, 0.5)
         evaluate(x, terms, step, near, at, False)
         reduce(at.g, unknowns, work.residual)
         size = largest(work.residual, unknowns)
@@ -130,96 +130,99 @@ def _balance(x, terms, before, near, unknowns, tolerance, room, arc, todo):
             r[i], v[i] = -at.g[i], terms.load[i]
         system.solve(near.system, terms.layout, r)
         system.solve(near.system, terms.layout, v)
-        rise, met = _off(at.u, r, v, arc, todo)
+        rise, met = _off(at.u, r, v, arc, progress)
         if met and size <= tolerance.force and abs(0.5 * dot(at.g, r)) <= tolerance.decrement:
             return CONVERGED
-        if todo.spent > min(TRIES, tolerance.iterations):
+        if progress.spent > min(TRIES, tolerance.iterations):
             return ITERATIONS
-        todo.rise, todo.move = rise, _combine(r, rise, v, unknowns, work.dx)
+        progress.rise, progress.move = rise, _combine(r, rise, v, unknowns, work.dx)
 
 
 @jit_exact
-def _set_out(terms, unknowns, state, room, arc, trail, todo):
+def _set_out(terms, unknowns, state, room, arc, trail, progress):
     """Point dx along the path, for an arc or for what the load lacks, whichever is shorter."""
     before, _, work, _, _ = room
     copy(state.x, before.x0)
     copy(state.x, before.y)
     bend.aim(state.x, terms.walls, terms.bend, before.frame)
     tangent, way = trail[TANGENT], trail[WAY]
-    todo.spent, todo.load, todo.aim = 0, state.held[1], state.held[1]
-    todo.length, todo.rise = 0.0, 0.0
-    if todo.row >= 0:
+    progress.spent, progress.load, progress.aim = 0, state.held[1], state.held[1]
+    progress.length, progress.rise = 0.0, 0.0
+    if progress.row >= 0:
         size = np.sqrt(_inner(tangent, tangent, arc.weight))
-        length = todo.share * min(arc.length, MOST_LOAD * size)
-        todo.rise = length / size * (-1.0 if _inner(tangent, way, arc.weight) < 0.0 else 1.0)
-        todo.length = length
-        if todo.rise >= 1.0 - todo.load:
-            todo.rise, todo.length, todo.aim = 1.0 - todo.load, 0.0, 1.0
+        length = progress.share * min(arc.length, MOST_LOAD * size)
+        progress.rise = length / size * (-1.0 if _inner(tangent, way, arc.weight) < 0.0 else 1.0)
+        progress.length = length
+        if progress.rise >= 1.0 - progress.load:
+            progress.rise, progress.length, progress.aim = 1.0 - progress.load, 0.0, 1.0
     zero(work.residual)
-    todo.move = _combine(work.residual, todo.rise, tangent, unknowns, work.dx)
+    progress.move = _combine(work.residual, progress.rise, tangent, unknowns, work.dx)
 
 
 @jit_exact
-def _return(before, at, state, unknowns, work, todo):
+def _return(before, at, state, unknowns, work, progress):
     """Set out from the last point for the full load instead, as an arc has passed it."""
-    share = (1.0 - state.held[1]) / (todo.load - state.held[1])
+    share = (1.0 - state.held[1]) / (progress.load - state.held[1])
     copy(before.x0, state.x)
     zero(at.least)  # what was found last was found elsewhere
     zero(work.residual)
-    todo.move = _combine(work.residual, share, at.u, unknowns, work.dx)
-    todo.load, todo.rise = state.held[1], 1.0 - state.held[1]
-    state.totals[MINIMISED] += todo.spent
-    todo.length, todo.aim, todo.spent = 0.0, 1.0, 0
+    progress.move = _combine(work.residual, share, at.u, unknowns, work.dx)
+    progress.load, progress.rise = state.held[1], 1.0 - state.held[1]
+    state.totals[SPENT] += progress.spent
+    progress.length, progress.aim, progress.spent = 0.0, 1.0, 0
 
 
 @jit_exact
-def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, arc, trail, todo):
-    """Follow the path from where ``todo`` says, to its end or until room is lacking."""
+def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, arc, trail, progress):
+    """Follow the path from where ``progress`` says, to its end or until room is lacking.
+
+    Return the outcome and the rows written.
+    """
     before, at, work, grips, way = room
-    while todo.row < stage.steps:
-        if todo.spent < 0:
-            todo.share = min(todo.share, 1.0 - todo.done)
-            _set_out(terms, unknowns, state, room, arc, trail, todo)
-        outcome = _balance(state.x, terms, before, near, unknowns, tolerance, room, arc, todo)
-        if outcome == OUTGROWN and todo.spent <= 2 * TRIES:
-            return outcome
+    while progress.row < stage.steps:
+        if progress.spent == AT_START:
+            progress.share = min(progress.share, 1.0 - progress.done)
+            _set_out(terms, unknowns, state, room, arc, trail, progress)
+        outcome = _balance(state.x, terms, before, near, unknowns, tolerance, room, arc, progress)
+        if outcome == OUTGROWN and progress.spent <= 2 * TRIES:
+            return outcome, progress.row
         if control[0] != 0:
             outcome = INTERRUPTED
-        if outcome == CONVERGED and todo.row >= 0:
-            if todo.length > 0.0 and todo.load > 1.0:
-                _return(before, at, state, unknowns, work, todo)
+        if outcome == CONVERGED and progress.row >= 0:
+            if progress.length > 0.0 and progress.load > 1.0:
+                _return(before, at, state, unknowns, work, progress)
                 continue
             side = -1.0 if _inner(trail[TANGENT], trail[WAY], arc.weight) < 0.0 else 1.0
             if side * _cosine(at.u, trail[TANGENT], arc.weight) < BEND:
                 outcome = STALLED
-        state.totals[MINIMISED] += todo.spent
-        todo.spent = -1
+        state.totals[SPENT] += progress.spent
+        progress.spent = AT_START
         if outcome != CONVERGED:
             copy(before.x0, state.x)
             zero(at.least)
-            todo.share *= 0.5
-            if outcome == INTERRUPTED or todo.share < SMALLEST or todo.row < 0:
-                return ITERATIONS if outcome == OUTGROWN else outcome
+            progress.share *= 0.5
+            if outcome == INTERRUPTED or progress.share < SMALLEST or progress.row < 0:
+                return (ITERATIONS if outcome == OUTGROWN else outcome), progress.row
             continue
-        step = Step(before, way[PREDICTED], np.inf, todo.load, grips, terms.friction.slip, 0.5)
+        step = Step(before, way[PREDICTED], np.inf, progress.load, grips, terms.friction.slip, 0.5)
         enter(terms, step, unknowns, state, at, work)
         copy(work.escape, trail[TANGENT])
-        if todo.row >= 0:
+        if progress.row >= 0:
             copy(at.u, trail[WAY])
-            todo.done += todo.share
+            progress.done += progress.share
             state.totals[STEPS] += 1
-            if todo.done < 1.0 and todo.load != 1.0:
-                todo.share *= 2.0
+            if progress.done < 1.0 and progress.load != 1.0:
+                progress.share *= 2.0
                 continue
             state.totals[NOW] += stage.pace
-            write(out, todo.row, state, terms, near, unknowns, at)
+            write(out, progress.row, state, terms, near, unknowns, at)
             control[1] += 1
-        todo.row, todo.done, todo.share = todo.row + 1, 0.0, 1.0
-        arc.path[todo.row, FACTOR] = todo.load
-        arc.path[todo.row, UNSTABLE] = system.negatives(near.system)
-        if todo.load == 1.0:
+        progress.row, progress.done, progress.share = progress.row + 1, 0.0, 1.0
+        arc.path[progress.row, FACTOR] = progress.load
+        arc.path[progress.row, UNSTABLE] = system.negatives(near.system)
+        if progress.load == 1.0:
             break
-    return CONVERGED
+    return CONVERGED, progress.row
 
 
 @jit_owning
@@ -229,14 +232,15 @@ def follow(terms, unknowns, tolerance, stage, state, out, control, arc):
 
     Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts arcs done.
     """
-    todo, trail = np.zeros(1, TODO), np.zeros((2, state.x.size))
-    todo[0].row, todo[0].share, todo[0].spent = -1, 1.0, -1
+    progress, trail = np.zeros(1, PROGRESS), np.zeros((2, state.x.size))
+    progress[0].row, progress[0].share, progress[0].spent = -1, 1.0, AT_START
     near = find_near(state.x, terms, friction.none(), 0.0)
     room = make_room(terms, near)
     while True:
-        outcome = _go(
-            terms, unknowns, tolerance, stage, state, out, control, near, room, arc, trail, todo[0]
+        now = progress[0]
+        outcome, rows = _go(
+            terms, unknowns, tolerance, stage, state, out, control, near, room, arc, trail, now
         )
         if outcome != OUTGROWN:
-            return outcome, max(todo[0].row, 0)
-        near = find_near(state.x, terms, room.grips, todo[0].move)
+            return outcome, max(rows, 0)
+        near = find_near(state.x, terms, room.grips, progress[0].move)

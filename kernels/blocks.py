@@ -114,7 +114,10 @@ def _scale_column(blocks, j, nb):
 
 @jit
 def _update(blocks, j, nb, count):
-    """Subtract what column ``j`` adds to the blocks behind it; ``count``: its first update."""
+    """Subtract A_a D^{-1} A_b^T from the blocks (a, b) behind column ``j``, whose blocks are A.
+
+    ``count``: its first update; returned is that of the next column.
+    """
     values, column, update, kept = blocks.values, blocks.column, blocks.update, 0
     last = SIZE * (nb + blocks.start[j + 1])
     for first in range(SIZE * (nb + blocks.start[j]), last, SIZE):

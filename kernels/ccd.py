@@ -2,7 +2,7 @@
 
 In the plane a node meets a segment when cross(b - a, p - a) vanishes, a quadratic in the share s of
 the step. The roots are found in closed form without cancellation; motion along the segment's own
-line is treated apart. All functions return infinity where nothing meets within two steps.
+line is treated apart. Infinity means that nothing meets, at least not within two steps.
 """
 
 import math
@@ -11,7 +11,7 @@ from kernels.jit import jit_exact
 
 TIGHT = 1e-14  # round-off of a discriminant relative to its terms
 RIM = 1e-9  # a hit this far beyond an end still counts, relative to the segment
-FAR = 2.0  # times the step: what meets only later counts as never
+FAR = 2.0  # times the step: what meets only later may be told as never
 
 
 @jit_exact

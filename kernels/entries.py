@@ -2,7 +2,7 @@
 
 A block holds the unknowns of one point: x, y and the rotation of a joint. Blocks are numbered in
 the order of their elimination; the lower half is stored by columns, each diagonal block first in
-`values`, then the blocks below. A block is three columns of four, of which the last stays zero.
+`values`, then the blocks below. A block is three columns of four entries, the fourth of them zero.
 
 A coordinate has a *home*: 3 x block + slot, or one of the codes below.
 """

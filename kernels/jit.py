@@ -14,6 +14,7 @@ import functools
 import gc
 
 import numba
+from numba.core.compiler_lock import global_compiler_lock
 
 from kernels.cache import SealedCache
 from kernels.linking import EntryCompiler, LinkedCompiler
@@ -48,6 +49,7 @@ class Kernel:
 def _uncollected(compile_):
     """Compile without the garbage collector: it takes a sixth of the time and finds little."""
 
+    @global_compiler_lock
     @functools.wraps(compile_)
     def compiled(signature):
         collects = gc.isenabled()
@@ -78,8 +80,8 @@ def compiler(fastmath, owning=False):
     """Decorator that compiles a function for the argument types it meets, and keeps the code.
 
     Without ``owning`` the code counts no references, which costs four times the arithmetic of an
-    assembly; such a function may read and fill arrays but must not make any, nor return one to
-    Python.
+    assembly; such a function may read and fill arrays but must not make any, nor return one but to
+    another that does not count.
     """
     options = {"fastmath": fastmath, "_nrt": owning}
 

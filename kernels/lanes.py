@@ -1,7 +1,7 @@
-"""Four numbers in one register of the processor, which LLVM does not find by itself in a block.
+"""Vectors of four float64, which LLVM does not form by itself from the blocks of a matrix.
 
-A `Four` lives inside a kernel only: loaded from an array (n,), four sums at a time, stored again.
-Where kernels run as plain Python it is an array.
+One register of AVX, two of SSE2 or NEON. A `Four` lives inside a kernel only: loaded from an array
+(n,), computed with, stored. Where kernels run as plain Python it is an array.
 """
 
 import numpy as np
@@ -41,6 +41,11 @@ def _write(array, index, value):
     array[index : index + LANES] = value
 
 
+def _is_vector(array):
+    """Whether an array type is (n,) of float64 without gaps."""
+    return array == types.float64[::1]
+
+
 def _at(context, builder, kind, array, index):
     """Pointer to the four entries of ``array`` from ``index`` on."""
     data = make_array(kind)(context, builder, array).data
@@ -50,6 +55,8 @@ def _at(context, builder, kind, array, index):
 @_instruction(lambda array, index: array[index : index + LANES].copy())
 def load(_, array, index):
     """Return entries ``index`` .. ``index`` + 3 of ``array``."""
+    if not _is_vector(array):
+        return None  # a TypingError
 
     def code(context, builder, signature, args):
         return builder.load(_at(context, builder, signature.args[0], *args), align=8)
@@ -60,12 +67,14 @@ def load(_, array, index):
 @_instruction(_write)
 def store(_, array, index, value):
     """Write ``value`` to entries ``index`` .. ``index`` + 3 of ``array``."""
+    if not _is_vector(array):
+        return None
 
     def code(context, builder, signature, args):
         builder.store(args[2], _at(context, builder, signature.args[0], *args[:2]), align=8)
         return context.get_dummy_value()
 
-    return types.none(array, types.intp, value), code
+    return types.none(array, types.intp, four), code
 
 
 @_instruction(lambda number: np.full(LANES, number))

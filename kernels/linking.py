@@ -11,7 +11,7 @@ from numba.core.compiler import Compiler, Flags
 from numba.core.compiler_machinery import register_pass
 from numba.core.typed_passes import NativeLowering
 
-LARGE = 250  # instructions: more are not written out in a caller, which LLVM takes longer over
+LARGE = 250  # instructions of LLVM: a linked function that has more is not inlined
 
 
 class Linked(JITCodeLibrary):
@@ -89,8 +89,8 @@ class LinkedLowering(NativeLowering):
 class Entry(JITCodeLibrary):
     """Code that Python calls, with all that it calls itself.
 
-    What is linked is known to be called from nowhere else: then LLVM hands over only the arguments
-    that are used, of up to a thousand that named tuples of arrays are taken apart to.
+    Named tuples of arrays are passed as their parts, up to a thousand arguments. What is linked is
+    made known to be called from nowhere else, so that LLVM drops those that are not used.
     """
 
     def _optimize_final_module(self):
@@ -114,11 +114,14 @@ class EntryLowering(NativeLowering):
 
 
 class QuickFlags(Flags):
-    """Numba's flags, compared by those that are set: Numba compares half a million times."""
+    """Numba's flags, compared by those that are set: Numba compares half a million times.
+
+    Flags that differ in a default that is set count as different: one more compilation at most.
+    """
 
     def values(self):
         """Return what is set."""
-        return self._values
+        return dict(self._values)
 
 
 class EntryCompiler(Compiler):

@@ -14,7 +14,7 @@ from kernels.room import CHANGE, HEAVY, LAGGED, PREDICTED, Room, make_room
 from kernels.rows import copy, zero
 from kernels.scheme import BACKWARD_EULER, BDF2, POSITION
 from kernels.step import Step, drift, find_near, holds_crowd, rub
-from kernels.trace import LAST, MINIMISED, NOW, STEPS, write
+from kernels.trace import LAST, NOW, SPENT, STEPS, write
 
 SMALLEST = 2.0**-24  # share of a step
 LONGER = 0.1  # of the error that is allowed: the next step may be twice as long
@@ -24,22 +24,22 @@ EASY_LOOPS = 10  # after more of them the next step is no longer
 GIFT = 2e-3  # of all energy: what backward Euler may make, and once more in all further steps
 SHORT = 2.0**-12  # share of a step that may make more: the run is judged at its end
 INACCURATE = 7  # an outcome, beside those of `newton`
-SET_OUT = -1  # no loop of friction, nor any other, has begun
-TODO = np.dtype(
+AT_START = -1  # loops of friction before `_set_out`
+PROGRESS = np.dtype(
     (
-        np.record,
+        np.record,  # for attributes in plain Python too
         [
-            ("row", np.int64),  # of the history, which comes next
-            ("done", np.float64),  # share of its step
-            ("share", np.float64),  # of its step that is tried now
-            ("failed", np.int64),  # tries of it
-            ("spent", np.int64),  # iterations for the row
-            ("effort", np.int64),  # iterations for the share
-            ("tried", np.int64),  # iterations for one minimum of it
-            ("loops", np.int64),  # of friction, or `SET_OUT`
-            ("relaxed", np.float64),  # see `relax`
-            ("move", np.float64),  # in m, for which pairs must be found
-            ("length", np.float64),  # h of the last step in s
+            ("row", np.int64),  # the next one of the history
+            ("done", np.float64),  # share of the row's step that is done
+            ("share", np.float64),  # share of the row's step that is tried now
+            ("failed", np.int64),  # tries since a share was done
+            ("spent", np.int64),  # Newton iterations for the row
+            ("effort", np.int64),  # Newton iterations for the share
+            ("tried", np.int64),  # Newton iterations for the minimum that is looked for
+            ("loops", np.int64),  # of friction in the share
+            ("relaxed", np.float64),  # share of the last approach (`relax`)
+            ("move", np.float64),  # farthest move that the pairs must cover, m
+            ("length", np.float64),  # h of the last share tried, s
         ],
     )
 )
@@ -64,31 +64,32 @@ class Stage(NamedTuple):
 
 
 @jit_exact
-def _part(stage, todo):
+def _part(stage, progress):
     """Return how much of the stage is done at the end of the share that is tried."""
-    return (todo.row + todo.done + todo.share) / stage.steps
+    return (progress.row + progress.done + progress.share) / stage.steps
 
 
 @jit_exact
-def _target(stage, todo):
+def _target(stage, progress):
     """Return where the driven coordinate is to be then, m."""
-    return stage.driven0 + (stage.driven1 - stage.driven0) * _part(stage, todo)
+    return stage.driven0 + (stage.driven1 - stage.driven0) * _part(stage, progress)
 
 
 @jit_exact
-def _set_out(terms, stage, driven, state, near, room, todo):
+def _set_out(terms, stage, driven, state, near, room, progress):
     """Set out on the next share of a step, from where the last one ended and on as that went."""
     if stage.scheme != BACKWARD_EULER and state.totals[LAST] == 0.0:
-        todo.share = min(todo.share, scheme.FIRST)
+        progress.share = min(progress.share, scheme.FIRST)
     before, at, work, grips, way = room
-    x, dt, last, more = state.x, stage.dt * todo.share, state.totals[LAST], 0.0
+    x, dt, last = state.x, stage.dt * progress.share, state.totals[LAST]
+    more, remaining = 0.0, 0.0
     if driven >= 0:
-        remaining = _target(stage, todo) - x[driven]
+        remaining = _target(stage, progress) - x[driven]
         if remaining * at.u[driven] > 0.0 and abs(remaining) <= FURTHER * abs(at.u[driven]):
             more = remaining / at.u[driven]
     h = scheme.length(stage.scheme, dt, last)
-    if h != todo.length:  # the next Hessian is another
-        todo.length, work.kept[0] = h, np.inf
+    if h != progress.length:  # the next Hessian is another
+        progress.length, work.kept[0] = h, np.inf
     copy(x, before.x0)
     copy(x, way[LAGGED])
     if dt == np.inf:
@@ -110,14 +111,14 @@ def _set_out(terms, stage, driven, state, near, room, todo):
         friction.lag(x, terms.contact, near.pairs, drift(x, terms, near), terms.friction, grips)
         if held + grips.count[0] > 0:  # the next Hessian is another
             work.kept[0] = np.inf
-    todo.loops, todo.relaxed, todo.effort, todo.tried = 0, 0.0, 0, 0
+    progress.loops, progress.relaxed, progress.effort, progress.tried = 0, 0.0, 0, 0
 
 
 @jit_exact
-def _step(terms, stage, room, todo):
-    """Return what is minimised."""
-    dt, h, slip = stage.dt * todo.share, todo.length, terms.friction.slip
-    factor = stage.factor0 + (stage.factor1 - stage.factor0) * _part(stage, todo)
+def _step(terms, stage, room, progress):
+    """Return the `Step` of the share that is tried."""
+    dt, h, slip = stage.dt * progress.share, progress.length, terms.friction.slip
+    factor = stage.factor0 + (stage.factor1 - stage.factor0) * _part(stage, progress)
     if dt < np.inf:
         slip *= h
     theta = scheme.weight(h, dt)
@@ -125,14 +126,14 @@ def _step(terms, stage, room, todo):
 
 
 @jit_exact
-def _grips_agree(x, terms, step, near, unknowns, tolerance, room, todo):
+def _grips_agree(x, terms, step, near, unknowns, tolerance, room, progress):
     """Lag friction anew; return whether ``x`` is still in balance (then nothing is changed)."""
     _, at, work, grips, way = room
     held = grips.count[0]
     copy(at.g, work.trial)
     copy(at.rubbing, work.escape)
     y = way[LAGGED]
-    todo.relaxed = approach(x, y, way[CHANGE], unknowns, todo.relaxed)
+    progress.relaxed = approach(x, y, way[CHANGE], unknowns, progress.relaxed)
     friction.lag(y, terms.contact, near.pairs, drift(y, terms, near), terms.friction, grips)
     if held + grips.count[0] == 0:
         return True
@@ -144,26 +145,26 @@ def _grips_agree(x, terms, step, near, unknowns, tolerance, room, todo):
     if agree:
         copy(work.trial, at.g)
         copy(work.escape, at.rubbing)
-    todo.loops, todo.tried = todo.loops + 1, 0
+    progress.loops, progress.tried = progress.loops + 1, 0
     zero(work.dx)
     return agree
 
 
 @jit_exact
-def _balance(x, target, terms, step, near, unknowns, tolerance, room, control, todo):
+def _balance(x, target, terms, step, near, unknowns, tolerance, room, control, progress):
     """Minimise until friction agrees with where it was lagged; return the outcome."""
     outcome = CONVERGED
     while True:
-        outcome, spent, todo.move = minimise(
+        outcome, spent, progress.move = minimise(
             x, target, terms, step, near, unknowns, tolerance, room.at, room.work, control
         )
-        todo.spent, todo.effort = todo.spent + spent, todo.effort + spent
-        todo.tried += max(spent, 1)
+        progress.spent, progress.effort = progress.spent + spent, progress.effort + spent
+        progress.tried += max(spent, 1)
         if outcome != CONVERGED or terms.friction.mu == 0.0:
             break
-        if _grips_agree(x, terms, step, near, unknowns, tolerance, room, todo):
+        if _grips_agree(x, terms, step, near, unknowns, tolerance, room, progress):
             break
-        if todo.loops >= GRIP_LOOPS:
+        if progress.loops >= GRIP_LOOPS:
             outcome = ITERATIONS
             break
     return outcome
@@ -178,34 +179,34 @@ def _invents(terms, stage, state, at, share, noise):
 
 
 @jit_exact
-def _judged(terms, stage, state, step, noise, room, todo):
+def _judged(terms, stage, state, step, noise, room, progress):
     """Return whether a step is accurate, and its error as a share of what is allowed."""
-    dt, strayed = stage.dt * todo.share, 0.0
+    dt, strayed = stage.dt * progress.share, 0.0
     if stage.error < np.inf:
         error = scheme.error(state, room.before.x0, dt, step.dt, room.way[HEAVY])
         strayed = error / stage.error
     fine = strayed <= 1.0
-    if fine and step.dt == dt < np.inf and todo.share > SHORT:
-        fine = not _invents(terms, stage, state, room.at, todo.share, noise)
+    if fine and step.dt == dt < np.inf and progress.share > SHORT:
+        fine = not _invents(terms, stage, state, room.at, progress.share, noise)
     return fine, strayed
 
 
 @jit_exact
-def _step_back(outcome, state, room, todo):
+def _step_back(outcome, state, room, progress):
     """Return to where a step set out, for a shorter one."""
     copy(room.before.x0, state.x)
     zero(room.at.least)  # what was found last was found elsewhere
     zero(room.at.u)
     if outcome != INACCURATE:
-        todo.failed += 1
-    todo.share *= 0.5 ** max(todo.failed, 1)  # the oftener, the more boldly
-    todo.loops, room.work.kept[0] = SET_OUT, np.inf
+        progress.failed += 1
+    progress.share *= 0.5 ** max(progress.failed, 1)  # the oftener, the more boldly
+    progress.loops, room.work.kept[0] = AT_START, np.inf
 
 
 @jit_exact
-def _settle(terms, unknowns, stage, step, state, near, room, todo):
+def _settle(terms, unknowns, stage, step, state, near, room, progress):
     """Stay where a step has led, and book it."""
-    dt, at, work = stage.dt * todo.share, room.at, room.work
+    dt, at, work = stage.dt * progress.share, room.at, room.work
     if dt < np.inf:
         lost = scheme.arrive(stage.scheme, state, step, dt, terms, room.way[HEAVY], at.u)
         state.book[INTEGRATOR] += lost
@@ -217,49 +218,52 @@ def _settle(terms, unknowns, stage, step, state, near, room, todo):
 
 
 @jit_exact
-def _go_on(strayed, iterations, work, todo):
+def _advance(strayed, iterations, work, progress):
     """Count a share as done; the next one is twice as long if this was easy and that fits."""
-    easy = strayed < LONGER and todo.effort <= iterations and todo.loops <= EASY_LOOPS
-    todo.done, todo.failed, todo.loops = todo.done + todo.share, 0, SET_OUT
-    if todo.share < 1.0:  # the next Hessian is another
+    easy = strayed < LONGER and progress.effort <= iterations and progress.loops <= EASY_LOOPS
+    progress.done, progress.failed, progress.loops = progress.done + progress.share, 0, AT_START
+    if progress.share < 1.0:  # the next Hessian is another
         work.kept[0] = np.inf
-    if easy and todo.done % (2.0 * todo.share) == 0.0:
-        todo.share *= 2.0
+    if easy and progress.done % (2.0 * progress.share) == 0.0:
+        progress.share *= 2.0
 
 
 @jit_exact
-def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo):
-    """March on from where ``todo`` says, until the stage ends or something must be done."""
-    while todo.row < stage.steps:
-        if todo.loops == SET_OUT:
-            _set_out(terms, stage, unknowns.driven, state, near, room, todo)
-        step, target = _step(terms, stage, room, todo), _target(stage, todo)
+def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, progress):
+    """March on from where ``progress`` says, until the stage ends or pairs must be found anew.
+
+    Return the outcome and the rows written.
+    """
+    while progress.row < stage.steps:
+        if progress.loops == AT_START:
+            _set_out(terms, stage, unknowns.driven, state, near, room, progress)
+        step, target = _step(terms, stage, room, progress), _target(stage, progress)
         outcome = _balance(
-            state.x, target, terms, step, near, unknowns, tolerance, room, control, todo
+            state.x, target, terms, step, near, unknowns, tolerance, room, control, progress
         )
         if outcome == CONVERGED and not holds_crowd(near, state.x, terms):
-            outcome, todo.tried = OUTGROWN, 0
-        if outcome == OUTGROWN and todo.tried <= tolerance.iterations:
+            outcome, progress.tried = OUTGROWN, 0
+        if outcome == OUTGROWN and progress.tried <= tolerance.iterations:
             zero(room.work.dx)
-            return outcome
+            return outcome, progress.row
         strayed = 0.0
         if outcome == CONVERGED:
-            fine, strayed = _judged(terms, stage, state, step, tolerance.noise, room, todo)
+            fine, strayed = _judged(terms, stage, state, step, tolerance.noise, room, progress)
             outcome = CONVERGED if fine else INACCURATE
         if outcome != CONVERGED:
-            _step_back(outcome, state, room, todo)
-            if outcome == INTERRUPTED or todo.share < SMALLEST:
-                return ITERATIONS if outcome == OUTGROWN else outcome
+            _step_back(outcome, state, room, progress)
+            if outcome == INTERRUPTED or progress.share < SMALLEST:
+                return (ITERATIONS if outcome == OUTGROWN else outcome), progress.row
             continue
-        _settle(terms, unknowns, stage, step, state, near, room, todo)
-        _go_on(strayed, tolerance.iterations, room.work, todo)
-        if todo.done == 1.0:
-            state.totals[MINIMISED] += todo.spent
+        _settle(terms, unknowns, stage, step, state, near, room, progress)
+        _advance(strayed, tolerance.iterations, room.work, progress)
+        if progress.done == 1.0:
+            state.totals[SPENT] += progress.spent
             state.totals[NOW] += stage.pace
-            write(out, todo.row, state, terms, near, unknowns, room.at)
+            write(out, progress.row, state, terms, near, unknowns, room.at)
             control[1] += 1
-            todo.row, todo.done, todo.spent = todo.row + 1, 0.0, 0
-    return CONVERGED
+            progress.row, progress.done, progress.spent = progress.row + 1, 0.0, 0
+    return CONVERGED, progress.row
 
 
 @jit_owning
@@ -268,17 +272,19 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
 
     Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts steps done.
     """
-    todo = np.zeros(1, TODO)
-    todo[0].share, todo[0].loops = 1.0, SET_OUT
+    progress = np.zeros(1, PROGRESS)
+    progress[0].share, progress[0].loops = 1.0, AT_START
     if stage.error < np.inf and state.totals[LAST] > 0.0:
-        todo[0].share = state.totals[LAST] / stage.dt
+        progress[0].share = state.totals[LAST] / stage.dt
     near = find_near(state.x, terms, friction.none(), 0.0)
     room = make_room(terms, near)
     while True:
-        outcome = _go(terms, unknowns, tolerance, stage, state, out, control, near, room, todo[0])
+        outcome, rows = _go(
+            terms, unknowns, tolerance, stage, state, out, control, near, room, progress[0]
+        )
         if outcome != OUTGROWN:
-            return outcome, todo[0].row
-        near = find_near(state.x, terms, room.grips, todo[0].move)
+            return outcome, rows
+        near = find_near(state.x, terms, room.grips, progress[0].move)
         room.work.kept[0] = np.inf
         wider = friction.room(near.pairs, terms.contact, terms.friction)
         if wider.load.size > room.grips.load.size:

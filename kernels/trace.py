@@ -11,7 +11,7 @@ from kernels.step import least_gap
 
 TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP, SPEED = range(10, 17)
 N_COLUMNS = 17
-MINIMISED, STEPS, NOW, LAST = range(4)  # of the totals
+SPENT, STEPS, NOW, LAST = range(4)  # totals: iterations, steps, time, duration of a step
 
 
 class State(NamedTuple):
@@ -66,7 +66,7 @@ def write(out, k, state, terms, near, unknowns, at):
     for p in range(out.probes.size):
         out.probed[k, 0, p] = state.x[out.probes[p]]
         out.probed[k, 1, p] = at.g[out.probes[p]]
-    row[ITERATIONS_DONE] = state.totals[MINIMISED]
+    row[ITERATIONS_DONE] = state.totals[SPENT]
     row[SPEED] = state.v[terms.contact.high]
     row[GAP] = least_gap(state.x, terms, near)
     if out.frame_of[k] >= 0:

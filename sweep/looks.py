@@ -1,6 +1,6 @@
 """How designs stand in a chart: what they look like, what they are worth, which of them win.
 
-Colour = cells, sign = material, size = wall thickness, open = beyond the model: the same in every
+Colour = cells, sign = material, size = wall thickness, open = not to be trusted: the same in every
 panel.
 """
 
@@ -29,7 +29,7 @@ class Looks(NamedTuple):
     colors: dict[tuple[int, int], str]
     signs: dict[str, str]
     areas: dict[float, float]
-    beyond_model: bool
+    doubtful: bool
 
     def of(self, points: DataFrame) -> dict[str, Any]:
         """Keywords of a scatter plot for designs of one material."""
@@ -47,14 +47,14 @@ class Looks(NamedTuple):
             "material": {name: {"marker": sign} for name, sign in self.signs.items()},
             "wall": {f"{1e3 * t:.3g} mm": {"ms": area**0.5} for t, area in self.areas.items()},
         }
-        beyond = {**PLAIN, "mfc": "white", "label": "beyond the model"}
+        beyond = {**PLAIN, "mfc": "white", "label": "not to be trusted"}
         shown = [name for name in groups if len(groups[name]) > 1 and (walls or name != "wall")]
         entries = [
             {**PLAIN, **look, "label": label}
             for name in shown
             for label, look in [(name, {"marker": ""}), *groups[name].items()]
         ]
-        return entries + [beyond] * self.beyond_model
+        return entries + [beyond] * self.doubtful
 
 
 def looks(designs: DataFrame) -> Looks:
@@ -65,8 +65,13 @@ def looks(designs: DataFrame) -> Looks:
         dict(zip(cells, _ramp(len(cells)), strict=True)),
         dict(zip(sorted(designs["material"].unique()), cycle(SIGNS), strict=False)),
         dict(zip(walls, np.linspace(*AREAS, len(walls)), strict=True)),
-        bool(designs["beyond_model"].any()),
+        bool(doubtful(designs).any()),
     )
+
+
+def doubtful(designs: DataFrame) -> Series:
+    """Which designs are not to be trusted: beyond the model, or with walls that cross."""
+    return designs["beyond_model"] | designs["crossed"]
 
 
 def merits(rows: DataFrame, energy: str) -> Series:
@@ -98,7 +103,8 @@ def _words(won: DataFrame, merit: float, ranking: DataFrame) -> str:
     }
     worth = worths.get(won["loading_mode"].item(), energy_text(merit))
     beyond = ", beyond the model" if won["beyond_model"].item() else ""
-    return f"{design}, {worth}{beyond}"
+    crossed = ", walls cross" if won["crossed"].item() else ""
+    return f"{design}, {worth}{beyond}{crossed}"
 
 
 def energy_text(joules: float) -> str:

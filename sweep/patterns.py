@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from sweep.looks import doubtful
 from sweep.sheets import design_labels
 
 if TYPE_CHECKING:
@@ -12,15 +13,15 @@ if TYPE_CHECKING:
 
 
 def pattern_bars(fig: Figure, ranking: DataFrame) -> None:
-    """Energy per gram of every design, the best on top, a panel a scene; beyond the model: open."""
+    """Energy per gram of every design, the best on top, by scene; open: not to be trusted."""
     per_gram = ranking.attrs["per_gram"]
     scenes = ranking.groupby("scene", sort=False)
     axes = fig.subplots(len(scenes), 1, squeeze=False).ravel()
     for ax, (scene, rows) in zip(axes, scenes, strict=True):
         ordered = rows.sort_values([per_gram, "case_id"])
         bars = ax.barh(range(len(ordered)), ordered[per_gram], color="#3b528b", ec="#3b528b")
-        for bar, beyond in zip(bars, ordered["beyond_model"], strict=True):
-            bar.set(fill=not beyond)
+        for bar, doubt in zip(bars, doubtful(ordered), strict=True):
+            bar.set(fill=not doubt)
         ax.set_yticks(range(len(ordered)), design_labels(ordered, ranking), fontsize="small")
         ax.set_title(scene, loc="left", fontsize="medium")
         ax.set_xlabel("absorbed energy per gram, J/g")

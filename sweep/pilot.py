@@ -21,7 +21,7 @@ from sweep.run import Interrupted, interruptible, real_simulate
 from sweep.store import finished_ids
 
 BYTES = 4  # of a stored number: single precision
-PACKED = 0.9  # what compression leaves of curves and shapes
+PACKED = 0.9  # what is left of curves, which are compressed, and shapes, which are not
 ROW = 1000  # bytes of the summary of a case
 
 

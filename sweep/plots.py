@@ -18,7 +18,7 @@ from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path as Outline
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from sweep.looks import budget_winners, energy_text, looks, merits
+from sweep.looks import budget_winners, doubtful, energy_text, looks, merits
 from sweep.sheets import three_digits
 from sweep.silhouette import silhouette
 from sweep.storyboard import headline, last_loaded, shots
@@ -223,10 +223,10 @@ def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
 
 
 def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
-    """Designs of one material; open where they are beyond the model."""
+    """Designs of one material; open where they are not to be trusted."""
     dots = ax.scatter(x, y, lw=1.2, zorder=2, **style)
     colors = dots.get_facecolor()
-    beyond = points["beyond_model"].to_numpy()[:, None]
+    beyond = doubtful(points).to_numpy()[:, None]
     faces: Any = np.where(beyond, to_rgba("white"), colors)
     dots.set(edgecolor=colors, facecolor=faces)
 

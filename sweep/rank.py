@@ -108,8 +108,8 @@ def rank(
     -------
     The summary's rows that have a place, led by `budget_g`, `scene`, `place` (equal values share
     one, and so do those that error bars cannot tell from the first there: `shared_places`), with
-    error bars `tied` (True: it shares its place) and `ranked_error`; `sharing`, the number of
-    designs that have this place, beyond the `top` too; `pareto` (True: no design of
+    error bars `tied` (True: it shares its place) and `ranked_error`; `sharing`, how many
+    designs share this place, those cut off by `top` included; `pareto` (True: no design of
     the scene is lighter without absorbing less, none absorbs more without being heavier; where
     `LEAST` counts, the same for that), `ranked_by`, with a panel `panel_mass_g` and
     `panel_energy_J`; and `passed_on_N`, the greatest force while that energy is absorbed,

@@ -16,9 +16,8 @@ from sweep.result import Result, Status
 from sweep.scene import Scene, build_scene
 from sweep.stages import stages, tolerances
 from sweep.structure import build_structure
-from sweep.watch import Watch
+from sweep.watch import WATCH
 
-WATCH = Watch()
 FRAMES = 40
 EARLY_FRAMES = 4 * FRAMES  # most impacts, and many paths, are over in a quarter of their steps
 LONGER = "try a longer loading.duration"
@@ -60,8 +59,8 @@ def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
         "case_id": case_id,
         "status": str(status),
         "message": message,
-        "steps": int(run.state.totals[1]),
-        "newton_iterations": int(run.state.totals[0]),
+        "steps": int(run.state.totals[trace.STEPS]),
+        "newton_iterations": int(run.state.totals[trace.SPENT]),
         "cpu_s": time.thread_time() - started,
     }
     return Result(case_id, status, message, summary, history, frames)
@@ -114,7 +113,7 @@ class _Run:
         self.frame_of, kept = _frames(total + 1, EARLY_FRAMES if early else FRAMES)
         self.positions = np.tile(scene.x_rest, (kept, 1))
         self.arc = arc_of(scene, case)
-        self.done, self.noise, self.late = 1, 0.0, False
+        self.done, self.noise, self.expired = 1, 0.0, False
 
     def _begin(self) -> None:
         """Enter what the scene brings with it as work done: speed, and springs under tension.
@@ -133,7 +132,7 @@ class _Run:
         with WATCH.limit(self.case.solver.time_limit, self._expire):
             for phase in self.stages:
                 outcome = self._through(phase.stage)
-                if self._invents() and not self.late:
+                if self._invents() and not self.expired:
                     return Status.STOPPED, f"the integrator made energy out of nothing; {SAFER}"
                 if outcome != newton.CONVERGED:
                     return self._failed(outcome, phase.name)
@@ -175,7 +174,7 @@ class _Run:
         return self.stages[0].stage.steps + 1
 
     def _expire(self) -> None:
-        self.late = True
+        self.expired = True
         self.control[0] = 1
 
     def _through(self, stage: march.Stage) -> int:
@@ -201,7 +200,7 @@ class _Run:
 
     def _failed(self, outcome: int, stage: str) -> tuple[Status, str]:
         where = f"while {stage}, {self._where()}"
-        if self.late:
+        if self.expired:
             limit = self.case.solver.time_limit
             return Status.TIMED_OUT, f"solver.time_limit of {limit:g} s reached {where}; raise it"
         if outcome == newton.INTERRUPTED:

@@ -3,18 +3,23 @@
 A thread for each case would let the case wait for milliseconds until a busy core has started it.
 """
 
+import os
 import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-LONGEST = 3600.0  # seconds without a look
+IDLE = 10.0  # seconds without a limit after which the thread ends
 
 
 class Watch:
     """Calls what is to be done when a block has taken longer than it may."""
 
     def __init__(self) -> None:
+        self._clear()
+
+    def _clear(self) -> None:
+        self._process = os.getpid()
         self._changed = threading.Condition()
         self._limits: dict[object, tuple[float, Callable[[], None]]] = {}
         self._thread: threading.Thread | None = None
@@ -22,16 +27,19 @@ class Watch:
 
     @contextmanager
     def limit(self, seconds: float, expire: Callable[[], None]) -> Iterator[None]:
-        """Let another thread call `expire` if the block takes longer than that."""
+        """Let another thread call `expire`, which must not raise, if the block takes longer."""
+        if self._process != os.getpid():  # forked: the thread is the parent's
+            self._clear()
         key, due = object(), time.monotonic() + seconds
-        with self._changed:
-            self._limits[key] = due, expire
-            if self._thread is None or not self._thread.is_alive():  # as after a fork
-                self._thread = threading.Thread(target=self._look, daemon=True)
-                self._thread.start()
-            elif due < self._next:
-                self._changed.notify()
         try:
+            with self._changed:
+                self._limits[key] = due, expire
+                if self._thread is None:
+                    thread = threading.Thread(target=self._look, daemon=True)
+                    thread.start()
+                    self._thread = thread
+                elif due < self._next:
+                    self._changed.notify()
             yield
         finally:
             with self._changed:
@@ -43,5 +51,11 @@ class Watch:
                 now = time.monotonic()
                 for key in [key for key, (due, _) in self._limits.items() if due <= now]:
                     self._limits.pop(key)[1]()
-                self._next = min([now + LONGEST, *(due for due, _ in self._limits.values())])
+                self._next = min([now + IDLE, *(due for due, _ in self._limits.values())])
                 self._changed.wait(self._next - now)
+                if not self._limits and time.monotonic() >= self._next:
+                    self._thread = None
+                    return
+
+
+WATCH = Watch()

@@ -171,6 +171,17 @@ def test_first_fold_of_random_motions():
     assert closed > 100
 
 
+@pytest.mark.parametrize("share", [0.2, 1.05, 1.9])
+def test_what_meets_a_little_after_the_step_is_told(share):
+    """A step goes no farther than to a share of the way to it."""
+    x = np.array([0.5, 1.0, 0.0, 0.0, 1.0, 0.0])
+    falling = np.array([0.0, -1.0, 0, 0, 0, 0]) / share
+    assert ccd.first_contact(x, falling, 0, 1, 2) == pytest.approx(share)
+    arms = np.array([-1.0, 1.0, 0, 0, 1.0, 1.0])
+    closing = np.array([1.0, 0, 0, 0, -1.0, 0]) / share
+    assert ccd.first_fold(arms, closing, 0, 1, 2) == pytest.approx(share)
+
+
 def test_a_straight_hinge_is_no_fold():
     x, dx = np.array([-1.0, 0, 0, 0, 1, 0]), np.array([0.0, 0, 0, 0.5, 0, 0])
     assert ccd.first_fold(x, dx, 0, 1, 2) == np.inf

@@ -110,34 +110,6 @@ def test_kernels_run_as_plain_python_when_numba_is_told_so(package):
     assert run(package, NUMBA_DISABLE_JIT="1") == ["2.5", "plain"]
 
 
-PLAIN = """
-from sweep import simulate
-from sweep.params import Case, Lattice, Loading, Solver
-
-case = Case(
-    lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=1),
-    loading=Loading(mode="displacement", strain=0.02),
-    solver=Solver(load_steps=2),
-)
-result = simulate(case)
-print(result.status, result.summary["newton_iterations"], result.summary["absorbed_energy_J"])
-"""
-
-
-def test_a_simulation_as_plain_python_finds_the_same():
-    found = []
-    for plain in ("0", "1"):
-        environment = os.environ | {"NUMBA_DISABLE_JIT": plain}
-        told = subprocess.run(
-            [sys.executable, "-c", PLAIN], env=environment, capture_output=True, text=True
-        )
-        found.append(told.stdout.split())
-    (status, iterations, energy), plainly = found
-    assert [status, iterations] == plainly[:2]
-    assert status == "converged"
-    assert float(energy) == pytest.approx(float(plainly[2]), rel=1e-9)
-
-
 @pytest.mark.parametrize("damage", DAMAGE)
 @pytest.mark.parametrize("suffix", ["nbi", "nbc"])
 def test_damaged_file_costs_one_compilation(cache, suffix, damage):

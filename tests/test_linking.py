@@ -1,6 +1,9 @@
-"""Kernels that others call: tidied, linked once, and compiled without interruption."""
+"""Kernels that others call: tidied, linked, and compiled without interruption."""
 
 import gc
+import threading
+import time
+from contextlib import suppress
 from typing import NamedTuple
 
 import numba
@@ -122,3 +125,32 @@ def test_compiling_is_not_interrupted_by_the_garbage_collector(collects):
         (gc.enable if was else gc.disable)()
     assert seen
     assert not any(seen)
+
+
+def test_the_collector_is_on_again_after_two_threads_have_compiled():
+    """One that starts while the other is at it must not take the pause for the rule."""
+    compiling, go_on = threading.Event(), threading.Event()
+
+    @overload(probe)
+    def _(x):
+        compiling.set()
+        go_on.wait(1.0)
+
+    def probed(x):
+        return probe(x)
+
+    def slowly():
+        with suppress(numba.TypingError):
+            jit(probed)("text")
+
+    assert gc.isenabled()
+    first = threading.Thread(target=slowly)
+    first.start()
+    assert compiling.wait(5.0)
+    second = threading.Thread(target=lambda: jit_owning(lambda x: x + 1.0)(1.0))
+    second.start()
+    time.sleep(0.05)  # it waits
+    go_on.set()
+    first.join()
+    second.join()
+    assert gc.isenabled()

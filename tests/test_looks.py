@@ -41,7 +41,8 @@ def test_legend_lists_what_varies_under_headings(ranking):
 
 
 def test_legend_explains_open_signs_where_there_are_any(ranking):
-    assert entries(ranking.assign(beyond_model=[False, True] * 2))[-1] == "beyond the model"
+    for mark in ("beyond_model", "crossed"):
+        assert entries(ranking.assign(**{mark: [False, True] * 2}))[-1] == "not to be trusted"
 
 
 def test_materials_have_signs(ranking):
@@ -62,6 +63,8 @@ def test_winners_of_budgets_are_the_most_that_is_light_enough(ranking):
 def test_without_a_budget_the_best_of_all_wins(ranking):
     ((words, *point),) = budget_winners(ranking.assign(beyond_model=True), ranking)
     assert words == "best: cells 2 x 2, wall 0.8 mm, 1.60 J, beyond the model"
+    ((words, *point),) = budget_winners(ranking.assign(crossed=True), ranking)
+    assert words == "best: cells 2 x 2, wall 0.8 mm, 1.60 J, walls cross"
     assert point == [4.0, 1.6]
 
 

@@ -95,13 +95,13 @@ def test_what_nothing_holds_keeps_its_momentum(damping, friction):
     case, scene, state = loose(damping, friction, 150.0)
     kept, whole, touched = 1.0 / (1.0 + (case.damping.mass or 0.0) * DT), 0, 0.0
     for _ in range(12):
-        before, taken = momentum(scene, state), state.totals[1]
+        before, taken = momentum(scene, state), state.totals[trace.STEPS]
         tight = {"force": 1e-9, "friction": 1e-8, "grip": 0.0}
         outcome, rows = go_on(case, scene, state, ramp(scene, 1, DT), **tight)
         assert outcome == newton.CONVERGED
         assert abs(rows[0, book.RESIDUAL]) < 1e-9 * rows[0, book.KINETIC]
         touched = max(touched, rows[0, book.CONTACT])
-        if state.totals[1] > taken + 1:
+        if state.totals[trace.STEPS] > taken + 1:
             continue
         whole += 1
         after = momentum(scene, state)
@@ -214,8 +214,8 @@ def test_halved_steps_take_half_the_time():
     stage = ramp(scene, 1, dt, travel=(0.0, 10.0 * dt))
     outcome, _ = go_on(case, scene, state, stage, iterations=6)
     assert outcome == newton.CONVERGED
-    assert state.totals[1] > 1
-    assert state.totals[2] == pytest.approx(dt)
+    assert state.totals[trace.STEPS] > 1
+    assert state.totals[trace.NOW] == pytest.approx(dt)
     assert state.v[-1] == pytest.approx(-10.0, rel=1e-9)
 
 

@@ -6,6 +6,7 @@ from unittest.mock import patch
 
 from kernels import march, newton
 
+# Whatever stands between these, and `_step`, which returns arrays to code that counts none.
 LOOPS = [(march, name) for name in ("march", "_go", "_step", "_balance")]
 LOOPS += [(newton, "minimise")]
 WATCHED = {

@@ -18,6 +18,7 @@ class Step:
     """What the steps of a stage minimise, each from its own x~."""
 
     def __init__(self, case, scene, rods, stage):
+        assert stage.factor0 == stage.factor1, "the load must be dead"
         self.rods, self.allowed = rods, tolerances(case, scene, stage.dt)
         self.inert = scene.terms.mass[rods.free] / stage.dt**2
         self.load = stage.factor1 * scene.terms.load[rods.free]

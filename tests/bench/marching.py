@@ -37,7 +37,7 @@ def press(case, scene, state, strain, steps):
 
 def go(case, scene, state, ramps):
     """March ``state`` through stages."""
-    before, spent = state.totals[0], 0.0
+    before, spent = state.totals[trace.SPENT], 0.0
     for stage in ramps:
         out = trace.Output(
             np.zeros((stage.steps, trace.N_COLUMNS)), np.full(stage.steps, -1),
@@ -50,7 +50,7 @@ def go(case, scene, state, ramps):
         spent += seconds(lambda given=given, out=outcomes: out.append(march.march(*given)))
         if outcomes[0][0] != newton.CONVERGED:
             raise RuntimeError(f"the march of {case.case_id} did not converge: {outcomes[0]}")
-    return Spent(spent, int(state.totals[0] - before))
+    return Spent(spent, int(state.totals[trace.SPENT] - before))
 
 
 def sustained(march):

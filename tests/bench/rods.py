@@ -1,4 +1,4 @@
-"""Discrete elastic rods in numpy: what our walls store as long as nothing touches.
+"""Discrete elastic rods in numpy: what linear walls store that neither touch nor fold.
 
     E = sum k_s (l - l0)^2 / 2 + theta . K theta / 2
 
@@ -8,8 +8,7 @@ theta = D (beta, phi) - theta0. With n = (-t_y, t_x), dl/de = t and dbeta/de = n
     dE/de = T t + M q,   T = k_s (l - l0),   (M, dE/dphi) = D^T K theta,   C = D^T K D
     d2E/de de' = C q q'^T + [k_s t t^T + T / l n n^T - M / l^2 (t n^T + n t^T)] (if e is e')
 
-All elements at once, the Hessian by a linear map found before into a band for LAPACK's Cholesky: as
-fast as numpy gets at this size.
+All elements at once, the Hessian by a linear map found before into a band for LAPACK's Cholesky.
 """
 
 from typing import NamedTuple

@@ -12,7 +12,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from kernels import balance, march, newton
+from kernels import balance, march, newton, trace
 from sweep.simulate import simulate
 from tests.scenes import LOST, STORED, summed
 from tests.solving import whole
@@ -56,14 +56,14 @@ class Watch:
         written = 0
         self.noise += stage.steps * tolerance.force * np.ptp(state.x[: 2 * terms.layout.n_nodes])
         for piece, rows in _pieces(stage):
-            x0, v0, steps = state.x.copy(), state.v.copy(), state.totals[1]
+            x0, v0, steps = state.x.copy(), state.v.copy(), state.totals[trace.STEPS]
             outcome, more = MARCH(
                 terms, unknowns, tolerance, piece, state, _part(out, rows), control
             )
             written += more
             if outcome != newton.CONVERGED:
                 return outcome, written
-        undivided = state.totals[1] == steps + 1
+        undivided = state.totals[trace.STEPS] == steps + 1
         self.seen.append(
             Seen(terms, unknowns, tolerance, piece.factor1, piece.dt, x0, v0, state.x.copy(),
                  state.stored.copy(), undivided)
