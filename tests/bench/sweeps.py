@@ -106,7 +106,7 @@ def kinds(designs):
 def throughput(designs, every):
     """Designs a second with friction and without, and what a sample of them is off by."""
     columns = ("a second", "wall, s", "waited, s", "CPU of each, ms", RATIO, "error, % (most)")
-    found = Table(f"{len(designs):,} designs, two workers", columns)
+    found = Table(f"{len(designs):,} designs", columns)
     for name, chosen in kinds(designs).items():
         sweep, off = swept(chosen, 2), 100.0 * errors(chosen[::every])
         each = 1e3 * sweep.own / len(chosen)
