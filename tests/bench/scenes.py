@@ -19,7 +19,7 @@ PEERS = {
     "numpy, element by element": partial(descent.Peer, model=elements.Elements),
 }
 LARGER = {"OpenSees, SparseSYM": partial(opensees.Peer, solver="SparseSYM")}
-LONG = 5.0  # s: a peer that takes longer is measured once
+LONG = 10.0  # s: a peer that takes longer is measured once
 ALLOWED = {
     "contact allowed, nothing touches": {"contact": cases.SMOOTH},
     "friction too": {"contact": cases.ROUGH},
