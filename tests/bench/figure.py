@@ -63,9 +63,12 @@ def _seed(ax, seed):
     spent = {name: s for (name, column), s in seed.values.items() if column == scenes.WHOLE}
     own = {scenes.SEED, *scenes.ALLOWED}
     colors = [BLUE if name in own else GREY for name in spent]
-    bars = ax.barh(range(len(spent)), list(spent.values()), color=colors)
-    ax.bar_label(bars, [f"{s:.3g} s" for s in spent.values()], padding=3)
+    ax.scatter(list(spent.values()), range(len(spent)), color=colors)
+    for row, taken in enumerate(spent.values()):
+        ax.annotate(f"{taken:.3g} s", (taken, row), (6, -3), textcoords="offset points")
+    ax.set_xscale("log")
+    ax.grid(axis="x", alpha=0.3)
     ax.set_yticks(range(len(spent)), [name.replace(", ", ",\n") for name in spent])
     ax.invert_yaxis()
-    ax.margins(x=0.2)
+    ax.margins(x=0.25)
     ax.set(xlabel="CPU s of a whole run", title=seed.title)
