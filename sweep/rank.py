@@ -245,7 +245,7 @@ def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | Non
     place = shared_places(rows[by], error)
     known = {} if error is None else {"ranked_error": error, "tied": place.duplicated(keep=False)}
     limit = budget_g if np.isfinite(budget_g) else np.nan
-    sharing = place.map(place.value_counts())
+    sharing = place.map(place.value_counts()).astype(int)  # where nothing is, too
     rows = rows.assign(budget_g=limit, place=place, ranked_by=by, sharing=sharing, **known)
     rows = rows.head(len(rows) if top is None else top)
     first = [name for name in LEADING if name in rows]

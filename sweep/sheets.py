@@ -29,7 +29,7 @@ TIED = """\
 place, as the value ± error overlaps that of the first in this place; without an error, it counts as
 exact."""
 BEYOND = "!: beyond the model, as a wall is squeezed below 0.7 of its length: not to be trusted."
-CROSSED = "x: walls pass through one another, as nothing keeps them apart: not to be trusted."
+CROSSED = "x: walls pass through one another, as no contact stops them: not to be trusted."
 
 MILLIMETRES = {
     "wall_thickness_m": "wall mm",

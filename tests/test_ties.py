@@ -70,6 +70,7 @@ def test_ties_that_are_cut_off_are_counted_for_each_budget():
     assert notes(top=4) == notes(top=None) == ()
     several = notes(top=2, budget=["1 g", "2 g", "3 g"])
     assert several == ("Up to 1-2 g, 1 more shares place 1.", "Up to 3 g, 2 more share place 1.")
+    assert notes(top=1, budget=["0.1 g", "3 g"])[0] == "Up to 3 g, 3 more share place 1."
     assert list(rank(table, by="absorbed_energy_J", top=2)["sharing"]) == [4, 4]
 
 
