@@ -274,7 +274,8 @@ def test_figure_draws_what_is_there():
     left, middle, right = drawn.axes
     assert [list(line.get_ydata()) for line in left.lines] == [[5.0, 200.0], [2.0, 90.0]]
     assert [bar.get_width() for bar in middle.patches] == [40.0, 60.0]
-    assert [bar.get_width() for bar in right.patches] == [0.05]
+    (points,) = right.collections
+    assert points.get_offsets().tolist() == [[0.05, 0.0]]
 
 
 def test_readme_shows_rows_of_the_bench():
