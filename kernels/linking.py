@@ -3,22 +3,27 @@
 Numba would optimise and link every function at every level again.
 """
 
+import functools
+
 from llvmlite.binding import Linkage
 from llvmlite.binding.newpassmanagers import create_new_module_pass_manager
 from numba import _dynfunc
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler, Flags
 from numba.core.compiler_machinery import register_pass
+from numba.core.lowering import Lower
 from numba.core.typed_passes import NativeLowering
 
-LARGE = 250  # instructions of LLVM: a linked function that has more is not inlined
+from kernels.calling import ShortLower, insert, is_short
+
+WRAPPER = "_ZN7cpython"  # so begin the names of what Python calls
+LARGE = 250  # lines of LLVM: a linked function that has more is not inlined
 
 
-class Linked(JITCodeLibrary):
-    """Code that is linked into the entries that reach it, and becomes machine code there.
+class Tidied(JITCodeLibrary):
+    """Code that is only tidied before it is linked.
 
-    Here it is only tidied: most of what Numba writes down takes named tuples apart and puts them
-    together again.
+    Most of what Numba writes down takes named tuples apart and puts them together again.
     """
 
     def _optimize_functions(self, ll_module):
@@ -29,13 +34,17 @@ class Linked(JITCodeLibrary):
         tidy.add_instruction_combine_pass()
         tidy.run(ll_module, self._codegen._pass_builder())
 
+
+class Linked(Tidied):
+    """Code that is linked into the entries that reach it, and becomes machine code there."""
+
     def add_llvm_module(self, ll_module):
         """Take it in, for several to link."""
         super().add_llvm_module(ll_module)
         for function in self._final_module.functions:
             if not function.is_declaration and function.linkage == Linkage.external:
                 function.linkage = "linkonce_odr"
-                if sum(1 for block in function.blocks for _ in block.instructions) > LARGE:
+                if str(function).count("\n") > LARGE:
                     function.add_function_attribute("noinline")
 
     def finalize(self):
@@ -64,8 +73,19 @@ class Linked(JITCodeLibrary):
         return self._shared_module
 
 
+class Lowering(NativeLowering):
+    """Numba's lowering but for how arguments are handed on."""
+
+    lowering_class = Lower
+
+    def run_pass(self, state):
+        """Lower the function."""
+        self.lowering_class = ShortLower if is_short(state.flags) else Lower
+        return super().run_pass(state)
+
+
 @register_pass(mutates_CFG=True, analysis_only=False)
-class LinkedLowering(NativeLowering):
+class LinkedLowering(Lowering):
     """Numba's lowering to a library that callers link, with no address of its own."""
 
     _name = "linked_lowering"
@@ -81,7 +101,7 @@ class LinkedLowering(NativeLowering):
         key = _dynfunc.make_function(
             lowered.fndesc.lookup_module(), name, name, nowhere, lowered.env, (state.library,)
         )
-        context.insert_user_function(key, lowered.fndesc, [state.library])
+        insert(context, key, lowered.fndesc, [state.library], is_short(state.flags))
         state["cr"] = lowered._replace(cfunc=key)
         return True
 
@@ -89,9 +109,19 @@ class LinkedLowering(NativeLowering):
 class Entry(JITCodeLibrary):
     """Code that Python calls, with all that it calls itself.
 
-    Named tuples of arrays are passed as their parts, up to a thousand arguments. What is linked is
-    made known to be called from nowhere else, so that LLVM drops those that are not used.
+    Named tuples of arrays are passed as their parts, hundreds of arguments. What is linked is made
+    known to be called from nowhere else, so that LLVM drops those that are not used. What takes
+    arguments from Python is not optimised: it runs once a call and is as long as many kernels.
     """
+
+    def _optimize_functions(self, ll_module):
+        written = [function for function in ll_module.functions if not function.is_declaration]
+        wrappers = [function for function in written if function.name.startswith(WRAPPER)]
+        for function in wrappers:
+            function.add_function_attribute("optnone")
+            function.add_function_attribute("noinline")
+        if wrappers != written:
+            super()._optimize_functions(ll_module)
 
     def _optimize_final_module(self):
         for function in self._final_module.functions:
@@ -101,7 +131,7 @@ class Entry(JITCodeLibrary):
 
 
 @register_pass(mutates_CFG=True, analysis_only=False)
-class EntryLowering(NativeLowering):
+class EntryLowering(Lowering):
     """Numba's lowering to an `Entry`."""
 
     _name = "entry_lowering"
@@ -124,6 +154,12 @@ class QuickFlags(Flags):
         return dict(self._values)
 
 
+@functools.cache
+def _size(kind, target):
+    """Return the bytes of a value: llvmlite has a module parsed whenever it is asked."""
+    return kind.get_abi_size(target)
+
+
 class EntryCompiler(Compiler):
     """Numba's compiler with another ``lowering``."""
 
@@ -132,6 +168,8 @@ class EntryCompiler(Compiler):
     def __init__(self, *given):
         super().__init__(*given)
         self.state.flags = QuickFlags(self.state.flags)
+        context = self.state.targetctx
+        context.get_abi_sizeof = lambda kind: _size(kind, context.target_data)
 
     def define_pipelines(self):
         """Return Numba's passes with the lowering exchanged."""
