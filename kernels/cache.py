@@ -126,13 +126,16 @@ class SealedFiles(IndexDataCacheFile):
 
 
 class SealedCache(FunctionCache):
-    """Cache of one function. What cannot be read or written costs a compilation, never a result."""
+    """Cache of one function. What cannot be read or written costs a compilation, never a result.
 
-    def __init__(self, function):
+    ``kind``: of its code, if there are several.
+    """
+
+    def __init__(self, function, kind=""):
         super().__init__(function)
         self._cache_file = SealedFiles(
             cache_path=self._cache_path,
-            filename_base=self._impl.filename_base,
+            filename_base=self._impl.filename_base + kind,
             source_stamp=self._impl.locator.get_source_stamp(),
         )
 
@@ -149,9 +152,15 @@ class SealedCache(FunctionCache):
             super().save_overload(sig, data)
 
 
+def is_lasting():
+    """Return whether what is kept is there for other processes."""
+    return Path(numba.config.CACHE_DIR).parent == cache_home()
+
+
 def is_cold():
     """Return whether nothing is kept yet for these sources: the first call will compile."""
-    return not any(Path(numba.config.CACHE_DIR).rglob("*.nbi"))
+    kept = Path(numba.config.CACHE_DIR).rglob("*.nbi")
+    return not (numba.config.DISABLE_JIT or any(kept))
 
 
 numba.config.CACHE_DIR = str(open_cache(Path(__file__).parent))

@@ -4,10 +4,13 @@ One register of AVX, two of SSE2 or NEON. A `Four` lives inside a kernel only: l
 (n,), computed with, stored. Where kernels run as plain Python it is an array.
 """
 
+import functools
+
 import numpy as np
 from llvmlite import ir
-from numba import config, types
-from numba.extending import intrinsic, models, register_model
+from numba import types
+from numba.core.typing.templates import make_intrinsic_template
+from numba.extending import models, register_model
 from numba.np.arrayobj import make_array
 
 LANES = 4
@@ -32,9 +35,22 @@ class _Model(models.PrimitiveModel):
         super().__init__(manager, kind, VECTOR)
 
 
+class _Instruction:
+    """Instructions of LLVM, for kernels to call; Python calls the function ``plain`` instead."""
+
+    def __init__(self, plain, emit):
+        template = make_intrinsic_template(self, emit, emit.__name__)
+        self._numba_type_ = types.Function(template)
+        functools.update_wrapper(self, emit)
+        self.plain = plain
+
+    def __call__(self, *args):
+        return self.plain(*args)
+
+
 def _instruction(plain):
-    """Decorator of what emits LLVM's instructions for the function ``plain`` of Python."""
-    return (lambda emit: plain) if config.DISABLE_JIT else intrinsic
+    """Decorator of what emits the instructions for a function of Python."""
+    return functools.partial(_Instruction, plain)
 
 
 def _write(array, index, value):

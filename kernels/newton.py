@@ -14,7 +14,7 @@ import numpy as np
 
 from kernels import chain, image, system
 from kernels.balance import allowed, largest, reduce
-from kernels.jit import jit_exact
+from kernels.jit import jit_exact, separate
 from kernels.rows import copy, dot, zero, zero_rows
 from kernels.step import covers, evaluate, factor, step_limit
 
@@ -162,6 +162,7 @@ def _weigh(x, target, near, unknowns, tolerance, at, work):
     return remaining, size, allowed(near.system.matrix, tolerance)
 
 
+@separate
 @jit_exact
 def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, control):
     """Descend from ``x`` (n,), in place, to a minimum with the driven coordinate at ``target``.

@@ -28,7 +28,7 @@ from kernels import (
 )
 from kernels.couplings import couplings
 from kernels.entries import clear
-from kernels.jit import jit_exact, jit_owning
+from kernels.jit import jit_exact, jit_owning, separate
 from kernels.rows import pair, triple, zero, zero_rows
 
 STRETCH, BEND, CONTACT = range(3)
@@ -219,6 +219,7 @@ def _first_fold(x, dx, terms):
     return first
 
 
+@separate
 @jit_owning
 def find_near(x, terms, grips, move):
     """Return `Near` at ``x`` for moves up to ``move`` (m): pairs in reach and room for them."""

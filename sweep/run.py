@@ -95,12 +95,19 @@ def keeping(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
 def real_simulate(arcs: bool = False) -> Simulate:
     """The real thing, imported when it is needed: it brings the compiled kernels (`warm_up`)."""
     from kernels.cache import is_cold
-    from sweep.simulate import simulate, warm_up
+
+    def load() -> Simulate:
+        from sweep.simulate import simulate, warm_up
+
+        warm_up(arcs)
+        return simulate
 
     if is_cold():
-        tell("compiling the kernels, once: this takes about a minute")
-    warm_up(arcs)
-    return simulate
+        from kernels.ahead import compile_ahead
+
+        tell("compiling the kernels, once: this takes about half a minute")
+        compile_ahead(load)
+    return load()
 
 
 @contextmanager

@@ -4,20 +4,16 @@ import errno
 import math
 import os
 import pickle
-import shutil
-import subprocess
-import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numba
 import numpy as np
+import packages
 import pytest
 
 from kernels import cache as kept
-from kernels import jit as home
-from kernels import linking
 from kernels.cache import SealedFiles, fingerprint, open_cache, prune, seal
 from kernels.jit import jit, jit_exact, jit_owning
 
@@ -53,19 +49,12 @@ def cache(tmp_path, monkeypatch):
 @pytest.fixture
 def package(tmp_path):
     """Folder with a package `kernels` of a caller and its callee in another file."""
-    folder = tmp_path / "kernels"
-    folder.mkdir()
-    for module in (home, linking, kept):
-        shutil.copy(module.__file__, folder)
-    (folder / "__init__.py").touch()
-    (folder / "callee.py").write_text(
-        "from kernels.jit import jit\n\n\n@jit\ndef offset(x):\n    return x + 1.0\n"
+    return packages.make(
+        tmp_path,
+        callee="from kernels.jit import jit\n\n\n@jit\ndef offset(x):\n    return x + 1.0\n",
+        caller="from kernels.callee import offset\nfrom kernels.jit import jit\n\n\n"
+        "@jit\ndef value(x):\n    return offset(x) + 0.5\n",
     )
-    (folder / "caller.py").write_text(
-        "from kernels.callee import offset\nfrom kernels.jit import jit\n\n\n"
-        "@jit\ndef value(x):\n    return offset(x) + 0.5\n"
-    )
-    return folder
 
 
 VALUE = (
@@ -77,19 +66,7 @@ VALUE = (
 
 def run(package, script=VALUE, **environment):
     """What a new process prints: the value at 1, and how often its code came from the cache."""
-    done = subprocess.run(
-        [sys.executable, "-c", script],
-        cwd=package.parent,
-        env=os.environ
-        | {"CRUMPLE_CACHE_DIR": str(package.parent / "cache"), "PYTHONDONTWRITEBYTECODE": "1"}
-        | environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.stderr == ""
-    assert done.returncode == 0
-    return done.stdout.split()
+    return packages.run(package, script, **environment)
 
 
 def test_edited_callee_and_damaged_files_never_give_an_old_or_wrong_value(package):

@@ -1,6 +1,7 @@
 """Kernels that others call: tidied, linked, and compiled without interruption."""
 
 import gc
+import resource
 import threading
 import time
 from contextlib import suppress
@@ -12,7 +13,7 @@ import pytest
 from numba.extending import overload
 
 from kernels import linking
-from kernels.jit import jit, jit_owning
+from kernels.jit import _undisturbed, jit, jit_owning
 
 
 @pytest.fixture(autouse=True)
@@ -154,3 +155,20 @@ def test_the_collector_is_on_again_after_two_threads_have_compiled():
     first.join()
     second.join()
     assert gc.isenabled()
+
+
+def test_deep_calls_while_compiling_take_no_memory_from_the_system_again_and_again():
+    def leaf():
+        """One call of many."""
+
+    def deeper(depth):
+        for _ in range(300):
+            leaf()
+        return deeper(depth - 1) if depth else None
+
+    leaf.__code__ = leaf.__code__.replace(co_stacksize=100)
+    compiled = _undisturbed(deeper)
+    compiled(200)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+    compiled(200)
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before < 100

@@ -41,10 +41,10 @@ CASES = {
 
 SCRIPT = """
 from sweep.__main__ import main
-from test_warm import added
+from test_warm import added, unforeseen
 
 assert main(["warm"]) == 0
-print(*added(), sep="\\n")
+print(*added(), *unforeseen(), sep="\\n")
 """
 
 
@@ -55,7 +55,7 @@ def versions():
     modules = [module for name, module in sys.modules.items() if name.startswith("kernels.")]
     kernels = {id(k): k for m in modules for k in vars(m).values() if isinstance(k, Kernel)}
     return {
-        f"{kernel.__module__}.{kernel.__qualname__}": len(kernel._linked.signatures)
+        f"{kernel.__module__}.{kernel.__qualname__}": len(kernel.linked.signatures)
         + len(kernel.entry.signatures if "entry" in vars(kernel) else ())
         for kernel in kernels.values()
     }
@@ -69,6 +69,20 @@ def added():
         simulate(case)
         found += [f"{kernel} {name}" for kernel, n in versions().items() if n > before[kernel]]
     return found
+
+
+def unforeseen():
+    """Kernels that a rehearsal in plain Python foresees with other types than they have."""
+    from kernels.ahead import rehearse
+    from sweep.simulate import warm_up
+
+    foreseen = rehearse(lambda: warm_up(arcs=True))
+    loaded = [(address, address.compiled()) for address in foreseen]
+    return [
+        address.name
+        for address, compiled in loaded
+        if compiled.metadata is not None or compiled.signature.return_type != address.returns
+    ]
 
 
 def test_after_warm_no_run_compiles_or_loads_anything():
