@@ -15,6 +15,7 @@ from shapely import (
     STRtree,
     area,
     buffer,
+    get_parts,
     intersects,
     line_merge,
     linestrings,
@@ -65,10 +66,10 @@ def kept_area(frames: Frames) -> float:
 def _covered(position: Floats, frames: Frames) -> float:
     lines, thickness = linestrings(position[frames["edges"]]), frames["edge_thickness_m"]
     walls = [
-        buffer(line_merge(multilinestrings(lines[thickness == t])), 0.5 * t, quad_segs=4)
+        buffer(get_parts(line_merge(multilinestrings(lines[thickness == t]))), 0.5 * t, quad_segs=4)
         for t in np.unique(thickness)
     ]
-    return float(area(union_all(walls)))
+    return float(area(union_all(np.concatenate(walls))))
 
 
 def shortening(frames: Frames, bottom: NDArray[np.int64], top: NDArray[np.int64]) -> float:

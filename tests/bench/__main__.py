@@ -17,6 +17,7 @@ from tests.bench import (
     libraries,
     lockstep,
     scenes,
+    starts,
     sweeps,
 )
 
@@ -26,6 +27,7 @@ SIZES, TWO, COUNT = (3, 5, 10, 20, 40), (3, 20), 7
 def tables():
     """Names and functions of all tables."""
     designs = sweeps.thousand()
+    yield "starts", starts.table
     yield "seed", lambda: scenes.seed(3, 0.2, COUNT)
     yield "seed 20", lambda: scenes.seed(20, 0.01, 3, {}, scenes.LARGER)
     yield "crush", lambda: scenes.crush(200, COUNT)

@@ -1,0 +1,41 @@
+"""From `crumple run` to the end of a small sweep in a new process: all that is to be loaded."""
+
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from tests.bench.table import Table
+
+ROOT = Path(__file__).parents[2]
+CONFIG = ROOT / "configs/smoke.toml"
+CACHES = ("no kernel compiled", "all compiled", "once more")
+
+
+def run(cache, out):
+    """Seconds on the clock and CPU seconds of a run that keeps its kernels in the folder cache."""
+    before, started = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    subprocess.run(
+        [sys.executable, "-m", "sweep", "run", CONFIG, "--out", out],
+        env=os.environ | {"CRUMPLE_CACHE_DIR": str(cache)},
+        cwd=ROOT,
+        stdout=subprocess.DEVNULL,
+        check=True,
+    )
+    wall, after = time.perf_counter() - started, resource.getrusage(resource.RUSAGE_CHILDREN)
+    used = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return wall, used
+
+
+def table():
+    """A row for what is compiled before."""
+    columns = ("wall, s", "CPU, s")
+    found = Table("`crumple run configs/smoke.toml`", columns)
+    with tempfile.TemporaryDirectory() as folder:
+        for name in CACHES:
+            for column, figure in zip(columns, run(folder, f"{folder}/{name}.h5"), strict=True):
+                found.put(name, column, figure)
+    return found
