@@ -14,6 +14,7 @@ from sweep.result import Result, Status
 
 PERIOD = 5.0  # seconds between plain lines
 RECENT = 60.0  # seconds that the pace is taken from
+FIRM = 4.0  # of them at least, before it says what time is left: the first cases are the shortest
 SENTENCES = 5  # failures that are told while the sweep runs
 
 
@@ -89,15 +90,17 @@ class Progress:
         return ", ".join([*parts, f"{self.failed} failed"] if self.failed else parts)
 
     def _pace(self) -> list[str]:
-        """Cases a second and time left, once there are two moments to compare."""
+        """Cases a second, once there are two moments to compare, and time left."""
         if len(self._recent) < 2:
             return []
         (begin, done_then, left_then), (now, done, left) = self._recent[0], self._recent[-1]
         if now == begin or left_then <= left:
             return []
         pace = f"{(done - done_then) / (now - begin):.3g} a second"
+        if self.done == self.total or now - begin < FIRM:
+            return [pace]
         seconds = round(left * (now - begin) / (left_then - left))
-        return [pace, f"{timedelta(seconds=seconds)} left"] if self.done < self.total else [pace]
+        return [pace, f"{timedelta(seconds=seconds)} left"]
 
     def _say(self, line: str) -> None:
         self.console.print(line, markup=False, highlight=False, soft_wrap=True)

@@ -34,7 +34,7 @@ def aloud(file: str, cases: int, ranking: DataFrame) -> Iterator[str]:
     """What must not be missed beside a ranking of so many cases."""
     names = ranking.attrs
     if names["without_bar"]:
-        yield f"{_counted(names['without_bar'], 'ranked case')} no error bar, as if exact."
+        yield f"{_counted(names['without_bar'], 'ranked case')} no error bar: taken for exact."
     if names["unranked"]:
         yield f"{_counted(names['unranked'], 'case')} no {names['by']} and so no place."
     if names["failed"]:

@@ -8,10 +8,8 @@ import pytest
 import readme
 
 from kernels import newton, step
-from kernels.cache import cache_home
 from sweep.scene import build_scene
 from sweep.simulate import simulate
-from sweep.store import read_summary
 from tests.bench import (
     alone,
     cases,
@@ -28,7 +26,6 @@ from tests.bench import (
     marching,
     opensees,
     scenes,
-    starts,
     sweeps,
 )  # fmt: skip
 from tests.bench.crushes import COLLAPSED, Crush
@@ -75,20 +72,6 @@ def test_table_is_markdown():
         "| a | 1,234 (2 x) | 1 |",
         "| b | not installed |  |",
     ]
-
-
-def test_a_start_is_a_whole_run_in_a_process_of_its_own(tmp_path):
-    wall, used = starts.run(cache_home(), tmp_path / "smoke.h5")
-    assert 0.0 < used < 3.0 * wall  # with two workers
-    assert (read_summary(tmp_path / "smoke.h5")["status"] == "converged").all()
-
-
-def test_starts_find_first_nothing_and_then_what_the_first_has_compiled(monkeypatch):
-    folders = []
-    monkeypatch.setattr(starts, "run", lambda cache, out: folders.append(cache) or (2.0, 3.0))
-    assert positive(starts.table(), starts.CACHES)
-    assert len(folders) == 3
-    assert len(set(folders)) == 1
 
 
 def test_march_takes_the_iterations_of_a_simulation():

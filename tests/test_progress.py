@@ -36,6 +36,8 @@ def test_time_left_is_weighed_by_cost(clock):
         for begin in range(0, 20, 4):
             clock.now += 2.0
             told.advance([simulate(case) for case in batch[begin : begin + 4]])
+            if begin == 4:  # two seconds after the first
+                assert told._line() == "8/40 cases, 2 a second, 1 failed"
     assert "20/40 cases, 2 a second, 0:01:40 left, 1 failed" in out.getvalue().splitlines()
 
 

@@ -124,7 +124,7 @@ def test_command_line_tells_ties_and_what_has_no_bar(capsys, tmp_path, monkeypat
     text = capsys.readouterr().out
     assert "1=*" in text
     assert TIED in text
-    assert "1 ranked case has no error bar, as if exact." in text
+    assert "1 ranked case has no error bar: taken for exact." in text
     assert max(len(line) for line in text.splitlines()) <= 100
 
     main([*question, "--csv"])
