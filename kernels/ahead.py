@@ -8,19 +8,28 @@ run itself.
 import gc
 import os
 import pickle
-import signal
 import subprocess
 import sys
-from contextlib import suppress
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager, suppress
+from queue import SimpleQueue
+from threading import Thread
 from types import ModuleType
 
 from numba.core.typing.typeof import Purpose, typeof
 
 from kernels.cache import is_lasting
 from kernels.jit import Kernel, rehearsal
-from kernels.separate import Address, elsewhere
+from kernels.separate import Version, foreseen
 
-PROCESSES = 3  # more would wait for the largest kernel
+PROCESSES = 3  # more would wait for the largest kernels, a march and its minima: a third each
+PROGRAM = """
+import signal, sys
+signal.signal(signal.SIGINT, signal.SIG_IGN)
+sys.path[:] = {path}
+from kernels.ahead import help_out
+help_out()
+"""
 
 
 class Rehearsal:
@@ -40,21 +49,21 @@ class Rehearsal:
         finally:
             self._inside = not outside
         if outside or kernel.is_separate:
-            types = tuple(typeof(value, Purpose.argument) for value in args)
+            met = tuple(typeof(value, Purpose.argument) for value in args)
             returns = typeof(returned, Purpose.argument)
-            self.noted[Address(kernel.__module__, kernel.__name__, types, returns)] = kernel
+            self.noted[Version(kernel.__module__, kernel.__name__, met, returns)] = kernel
         return returned
 
 
 def rehearse(run):
-    """Return the addresses of what ``run()`` would compile, the largest first."""
+    """Return the versions of kernels that ``run()`` would compile, the largest first."""
     found = Rehearsal()
     token = rehearsal.set(found)
     try:
         run()
     finally:
         rehearsal.reset(token)
-    return sorted(found.noted, key=lambda address: -_size(found.noted[address], set()))
+    return sorted(found.noted, key=lambda version: -_size(found.noted[version], set()))
 
 
 def _size(kernel, counted):
@@ -71,47 +80,68 @@ def _size(kernel, counted):
 
 
 def compile_ahead(run):
-    """Compile what ``run()`` needs. What fails here is compiled when it is called."""
-    count = min(os.cpu_count() or 1, PROCESSES)
+    """Compile what ``run()`` needs, or some of it: what fails here is compiled when it is called,
+    which tells why.
+    """
+    count = min(len(os.sched_getaffinity(0)), PROCESSES)
     if count == 1 or not is_lasting():
         return
-    claims, offer = os.pipe()
-    helpers = [_start(claims) for _ in range(count)]
-    try:
-        with open(offer, "wb") as numbers:
-            addresses = rehearse(run)
-            numbers.write(bytes(range(len(addresses))))
+    with suppress(Exception), ThreadPoolExecutor(count) as threads, ExitStack() as held:
+        helpers = [held.enter_context(_helper()) for _ in range(count)]
+        versions, idle = rehearse(run), SimpleQueue()
         for helper in helpers:
-            with suppress(BrokenPipeError), helper.stdin as told:
-                pickle.dump(addresses, told)
-        for helper in helpers:
-            helper.wait()
-    finally:
-        os.close(claims)
-        for helper in helpers:
-            helper.kill()
-            helper.wait()
+            _tell(helper, versions)
+            idle.put(helper)
+
+        def compile_one(version):
+            helper = idle.get()
+            with suppress(OSError):  # it was killed: the others go on
+                _tell(helper, version)
+                helper.stdout.read(1)
+            idle.put(helper)
+
+        list(threads.map(compile_one, versions))
 
 
-def _start(claims):
-    """Start a process that is told all addresses, and takes from the pipe ``claims`` which one to
-    compile next.
-    """
-    path = os.pathsep.join(folder or os.getcwd() for folder in sys.path)
-    return subprocess.Popen(
-        [sys.executable, "-P", "-c", f"from kernels.ahead import help_out; help_out({claims})"],
+@contextmanager
+def _helper():
+    """A process that does `help_out`, for as long as it is wanted."""
+    path = [folder or os.getcwd() for folder in sys.path]
+    with subprocess.Popen(
+        [sys.executable, "-P", "-c", PROGRAM.format(path=path)],
         stdin=subprocess.PIPE,
-        pass_fds=[claims],
-        env=os.environ | {"PYTHONPATH": path},
-    )
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    ) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
 
 
-def help_out(claims):
-    """Compile what it is told, one after the other until all are taken, and end the process."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever started this ends it
+def _tell(helper, what):
+    helper.stdin.write(pickle.dumps(what))
+    helper.stdin.flush()
+
+
+def help_out():
+    """Be told all versions, then compile one after the other and say so; end when nobody is there
+    to tell.
+    """
+    told = SimpleQueue()
+
+    def listen():
+        try:
+            while True:
+                told.put(pickle.load(sys.stdin.buffer))
+        finally:
+            os._exit(0)
+
+    Thread(target=listen, daemon=True).start()
     gc.disable()
-    addresses = pickle.load(sys.stdin.buffer)
-    elsewhere.set({(a.module, a.name, a.args): a.returns for a in addresses})
-    while claim := os.read(claims, 1):
-        addresses[claim[0]].compiled()
-    os._exit(0)
+    foreseen.set({(v.module, v.name, v.args): v.returns for v in told.get()})
+    while True:
+        version = told.get()
+        with suppress(Exception):
+            version.compiled()
+        os.write(sys.stdout.fileno(), b".")

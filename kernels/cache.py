@@ -24,6 +24,7 @@ import numba
 import numpy as np
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 
+FOLDER = "kernels-"  # and the hash of the sources
 FOLDERS_KEPT = 8
 SECONDS_KEPT = 7 * 24 * 3600.0
 SEAL_BYTES = 16
@@ -62,7 +63,7 @@ def prune(home):
 
     A process that still runs on a removed folder loses nothing: it makes the folder anew.
     """
-    folders = sorted(home.glob("kernels-*"), key=last_used, reverse=True)
+    folders = sorted(home.glob(f"{FOLDER}*"), key=last_used, reverse=True)
     for folder in folders[FOLDERS_KEPT:]:
         if last_used(folder) < time.time() - SECONDS_KEPT:
             shutil.rmtree(folder, ignore_errors=True)
@@ -72,7 +73,7 @@ def open_cache(sources):
     """Folder for the machine code of these sources; a temporary one if that is not writable."""
     try:
         home = cache_home()
-        folder = home / f"kernels-{fingerprint(sources)}"
+        folder = home / f"{FOLDER}{fingerprint(sources)}"
         folder.mkdir(parents=True, exist_ok=True)
         tempfile.TemporaryFile(dir=folder).close()
         os.utime(folder)
@@ -153,14 +154,23 @@ class SealedCache(FunctionCache):
 
 
 def is_lasting():
-    """Return whether what is kept is there for other processes."""
-    return Path(numba.config.CACHE_DIR).parent == cache_home()
+    """Return whether what is kept is there for other processes: in no temporary folder."""
+    return Path(numba.config.CACHE_DIR).name.startswith(FOLDER)
 
 
-def is_cold():
-    """Return whether nothing is kept yet for these sources: the first call will compile."""
-    kept = Path(numba.config.CACHE_DIR).rglob("*.nbi")
-    return not (numba.config.DISABLE_JIT or any(kept))
+def _mark(name):
+    return Path(numba.config.CACHE_DIR) / f"{name}.warm"
+
+
+def is_cold(*names):
+    """Return whether something may have to be compiled, as none of these was ever warmed up."""
+    return not (numba.config.DISABLE_JIT or any(_mark(name).exists() for name in names))
+
+
+def warmed_up(name):
+    """Note that all code of this name is kept."""
+    with contextlib.suppress(OSError):
+        _mark(name).touch()
 
 
 numba.config.CACHE_DIR = str(open_cache(Path(__file__).parent))

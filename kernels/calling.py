@@ -2,7 +2,7 @@
 
 Numba hands on seven words for a vector and nine for a matrix: the owner too, which is of no use
 where references are not counted, and what follows from the shape where an array is contiguous. Of
-the thousand arguments of a step, named tuples of arrays, a third are left. So is less to compile.
+the thousand arguments of a step, named tuples of arrays, a third are left to compile.
 """
 
 import functools
@@ -95,14 +95,14 @@ def _packer(manager, kinds):
 
 
 class _Convention(CPUCallConv):
-    """Numba's calls but for the arguments."""
+    """Numba's calls but for the arguments, on both sides."""
 
     def _get_arg_packer(self, argtypes):
         return _packer(self.context.data_model_manager, tuple(argtypes))
 
 
 class _Context:
-    """Numba's target but for its calls."""
+    """Numba's target but for its calls: what declares and calls a function asks it how."""
 
     declare_function = BaseContext.declare_function
 
@@ -133,7 +133,7 @@ def is_short(flags):
     return flags.no_cpython_wrapper and not flags.nrt
 
 
-def insert(context, key, description, libraries, short):
+def register(context, key, description, libraries, short):
     """Make a function known to its callers, by a key."""
     if not short:
         context.insert_user_function(key, description, libraries)

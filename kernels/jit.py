@@ -20,7 +20,7 @@ from numba.core.sigutils import normalize_signature
 
 from kernels.cache import SealedCache
 from kernels.linking import EntryCompiler, LinkedCompiler
-from kernels.separate import insert
+from kernels.separate import link
 
 FRAME = 70_000  # words: more than half of a chunk of a megabyte, see `_undisturbed`
 rehearsal = ContextVar("rehearsal", default=None)
@@ -44,7 +44,7 @@ class Kernel:
         args, _ = normalize_signature(signature)
         if args not in self.linked.overloads:
             if self.is_separate:
-                insert(self, args)
+                link(self, args)
             else:
                 self.linked.add_overload(self.linked._compiler.compile(args, None))
         return self.linked.overloads[args].entry_point
@@ -82,8 +82,10 @@ class Kernel:
 
 
 def separate(kernel):
-    """Have other kernels call the machine code of ``kernel`` where it is."""
-    if isinstance(kernel, Kernel):
+    """Have other kernels call the machine code of ``kernel``, one of a module, where it is."""
+    if "<locals>" in kernel.__qualname__:
+        raise TypeError(f"{kernel.__qualname__}: allowed are kernels that can be imported")
+    if isinstance(kernel, Kernel):  # else all is plain Python
         kernel.is_separate = True
     return kernel
 

@@ -14,9 +14,10 @@ from numba.core.compiler_machinery import register_pass
 from numba.core.lowering import Lower
 from numba.core.typed_passes import NativeLowering
 
-from kernels.calling import ShortLower, insert, is_short
+from kernels.calling import ShortLower, is_short, register
 
 WRAPPER = "_ZN7cpython"  # so begin the names of what Python calls
+NOWHERE = 1  # an address that is not called
 LARGE = 250  # lines of LLVM: a linked function that has more is not inlined
 
 
@@ -97,11 +98,10 @@ class LinkedLowering(Lowering):
         super().run_pass(state)
         lowered, context = state["cr"], state.targetctx
         name = lowered.fndesc.qualname
-        nowhere = 1  # an address that is not called
         key = _dynfunc.make_function(
-            lowered.fndesc.lookup_module(), name, name, nowhere, lowered.env, (state.library,)
+            lowered.fndesc.lookup_module(), name, name, NOWHERE, lowered.env, (state.library,)
         )
-        insert(context, key, lowered.fndesc, [state.library], is_short(state.flags))
+        register(context, key, lowered.fndesc, [state.library], is_short(state.flags))
         state["cr"] = lowered._replace(cfunc=key)
         return True
 

@@ -9,6 +9,7 @@ import hashlib
 from contextvars import ContextVar
 from dataclasses import dataclass
 from importlib import import_module
+from types import MappingProxyType
 
 from llvmlite.binding import add_symbol
 from numba.core import types
@@ -17,20 +18,28 @@ from numba.core.funcdesc import FunctionDescriptor
 from numba.core.typing import Signature
 
 from kernels import calling
-from kernels.linking import Linked
+from kernels.linking import NOWHERE, Linked
 
-NOWHERE = 1  # an address that is not called
-elsewhere = ContextVar("elsewhere", default={})  # noqa: B039  (never changed)
+foreseen = ContextVar("foreseen", default=MappingProxyType({}))
 """Return types of what another process compiles, by module, name and types of the arguments: code
 that calls it is compiled to be kept, not to be run.
 """
 
 
-@dataclass(frozen=True)
-class Address:
-    """Where the code of a kernel is, for arguments of these types.
+def _spelled(kind):
+    """Return a name of a type that no other has: numba's does not tell where a tuple is from."""
+    if not isinstance(kind, types.BaseTuple):
+        return repr(kind)
+    made = getattr(kind, "instance_class", tuple)
+    names = f"{made.__module__}.{made.__qualname__}{getattr(made, '_fields', ())}"
+    return f"{names}({', '.join(map(_spelled, kind))})"
 
-    What is kept of a caller's code has it with it, and calls it when it is loaded.
+
+@dataclass(frozen=True)
+class Version:
+    """A kernel for arguments of these types.
+
+    What is kept of the code that calls it has it with it: numba calls it before it loads that.
     """
 
     module: str
@@ -40,24 +49,24 @@ class Address:
 
     @property
     def symbol(self):
-        """The name by which callers know it."""
-        digest = hashlib.blake2b(repr(self.args).encode(), digest_size=8).hexdigest()
-        return f"{self.module}.{self.name}.{digest}"
+        """The name by which callers know its code, the same in all processes."""
+        spelled = " ".join(map(_spelled, self.args)).encode()
+        return f"{self.module}.{self.name}.{hashlib.blake2b(spelled, digest_size=8).hexdigest()}"
 
     def compiled(self):
         """Return numba's result for it, from what is kept if it is there."""
         return getattr(import_module(self.module), self.name).compiled(self.args)
 
     def __call__(self):
-        """Tell the address of the code."""
+        """Let code that calls it find it, or refuse: then that is compiled anew."""
         compiled = self.compiled()
         if compiled.signature.return_type != self.returns:
             raise TypeError(f"{self.symbol} returns {compiled.signature.return_type}")
         name = compiled.fndesc.llvm_func_name
         add_symbol(self.symbol, compiled.library.get_pointer_to_function(name))
 
-    def insert(self, dispatcher):
-        """Tell the compiler of it, by the ``dispatcher`` that callers meet."""
+    def declare(self, dispatcher):
+        """Tell numba of it, by the ``dispatcher`` that callers meet."""
         context, code = dispatcher.targetctx, dispatcher.py_func.__code__
         description = FunctionDescriptor(
             True, self.module, self.name, self.symbol, "", {}, self.returns, {},
@@ -67,20 +76,21 @@ class Address:
         library = Linked(context.codegen(), self.symbol)
         library._reload_init.add(self)
         library.finalize()
-        calling.insert(context, self, description, [library], not dispatcher.targetoptions["_nrt"])
+        short = not dispatcher.targetoptions["_nrt"]  # as `calling.is_short` has it
+        calling.register(context, self, description, [library], short)
         known = dict.fromkeys(CompileResult._fields)
         known |= {"signature": Signature(self.returns, self.args, None), "entry_point": self}
         dispatcher.overloads[self.args] = CompileResult(**known)
 
 
-def insert(kernel, args):
-    """Let another kernel call ``kernel`` with arguments of these types."""
+def link(kernel, args):
+    """Let another kernel call the code of ``kernel`` for arguments of these types."""
     known = kernel.__module__, kernel.__name__, args
-    returns = elsewhere.get().get(known)
+    returns = foreseen.get().get(known)
     if returns is None:
-        address = Address(*known, kernel.compiled(args).signature.return_type)
-        address()
+        version = Version(*known, kernel.compiled(args).signature.return_type)
+        version()
     else:
-        address = Address(*known, returns)
-        add_symbol(address.symbol, NOWHERE)
-    address.insert(kernel.linked)
+        version = Version(*known, returns)
+        add_symbol(version.symbol, NOWHERE)
+    version.declare(kernel.linked)

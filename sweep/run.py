@@ -94,7 +94,7 @@ def keeping(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
 
 def real_simulate(arcs: bool = False) -> Simulate:
     """The real thing, imported when it is needed: it brings the compiled kernels (`warm_up`)."""
-    from kernels.cache import is_cold
+    from kernels.cache import is_cold, warmed_up
 
     def load() -> Simulate:
         from sweep.simulate import simulate, warm_up
@@ -102,12 +102,16 @@ def real_simulate(arcs: bool = False) -> Simulate:
         warm_up(arcs)
         return simulate
 
-    if is_cold():
-        from kernels.ahead import compile_ahead
+    what = "arcs" if arcs else "marches"
+    if not is_cold("arcs", what):
+        return load()
+    from kernels.ahead import compile_ahead
 
-        tell("compiling the kernels, once: this takes about half a minute")
-        compile_ahead(load)
-    return load()
+    tell("compiling the kernels, once: this takes half a minute to one")
+    compile_ahead(load)
+    loaded = load()
+    warmed_up(what)
+    return loaded
 
 
 @contextmanager

@@ -238,7 +238,8 @@ def _crushed(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
         "J/g": numerals(rows[names["per_gram"]]),
         "peak N": numerals(rows["passed_on_N"]),
         "pack %": packed.map(percent).where(
-            packed.notna() | rows["peak_strain"].isna(), "> " + rows["peak_strain"].map(percent)
+            packed.notna() | rows["peak_strain"].isna(),
+            rows["peak_strain"].map(lambda strain: f"> {percent(strain)}"),
         ),
         "back %": rows["returned_share"].map(percent),
     }

@@ -90,7 +90,7 @@ def warm(_: Namespace) -> int:
     from kernels.cache import is_cold
     from sweep.run import real_simulate
 
-    done = "compiled the kernels" if is_cold() else "found compiled kernels and loaded them"
+    done = "compiled the kernels" if is_cold("arcs") else "found compiled kernels and loaded them"
     started = time.perf_counter()
     real_simulate(arcs=True)
     say(f"{done} in {time.perf_counter() - started:.1f} s; no run has to compile any")

@@ -1,7 +1,12 @@
 """Kernels that others call where they are, and what several processes compile beforehand."""
 
+import time
+from pathlib import Path
+
 import packages
 import pytest
+
+from kernels.jit import jit_exact, separate
 
 CALLEE = """
 from typing import NamedTuple
@@ -62,13 +67,13 @@ MISTAKEN = """
 from numba import types
 from kernels import ahead, caller, separate
 
-addresses = ahead.rehearse(lambda: caller.value(4))
+versions = ahead.rehearse(lambda: caller.value(4))
 returns = {"dot": types.%s}
-separate.elsewhere.set(
-    {(a.module, a.name, a.args): returns.get(a.name, a.returns) for a in addresses}
+separate.foreseen.set(
+    {(v.module, v.name, v.args): returns.get(v.name, v.returns) for v in versions}
 )
 caller.value.compiled((types.int64,))
-print(*sorted(a.name for a in addresses))
+print(*sorted(v.name for v in versions))
 """
 
 
@@ -111,6 +116,88 @@ def test_plain_python_runs_separate_kernels_too(package):
 def test_code_that_foresaw_another_type_is_not_used(package, foreseen, compiled):
     assert packages.run(package, MISTAKEN % foreseen) == ["dot", "pair", "value"]
     assert packages.run(package, COUNTS)[:3] == ["18.0", str(1 - compiled), str(compiled)]
+
+
+CLASH = """
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels import callee
+from kernels.jit import jit_exact
+
+
+class Pair(NamedTuple):
+    second: np.ndarray
+    first: np.ndarray
+
+
+@jit_exact
+def both(vector, matrix, n):
+    return callee.dot(callee.Pair(vector, matrix), n), callee.dot(Pair(matrix, vector), n)
+"""
+
+
+def test_tuples_of_one_name_and_other_fields_are_not_taken_for_each_other(package):
+    (package / "clash.py").write_text(CLASH)
+    script = """
+import numpy as np
+from kernels.clash import both
+print(*both(np.arange(4.0), np.full((4, 2), 3.0), 4))
+"""
+    assert packages.run(package, script) == ["18.0", "18.0"]
+    assert packages.run(package, script) == ["18.0", "18.0"]
+
+
+BROKEN = """
+import subprocess
+from kernels import ahead, caller
+
+{trouble}
+ahead.compile_ahead(lambda: caller.value(4))
+print(caller.value(4))
+"""
+TROUBLES = {
+    "no second process": """
+starts = iter([subprocess.Popen, None])
+subprocess.Popen = lambda *given, **more: next(starts)(*given, **more)
+""",
+    "a rehearsal that fails": "ahead.Rehearsal.__call__ = None",
+    "helpers that end": "ahead.PROGRAM = 'raise SystemExit'",
+    "a helper that is told nonsense": "ahead.pickle.dumps = lambda what: b'.'",
+}
+
+
+@pytest.mark.parametrize("trouble", TROUBLES.values(), ids=TROUBLES)
+def test_what_cannot_be_compiled_ahead_is_compiled_when_it_is_called(package, trouble):
+    assert packages.run(package, BROKEN.format(trouble=trouble)) == ["18.0"]
+
+
+ORPHANED = """
+import os
+from kernels import ahead
+
+with ahead._helper() as process:
+    print(process.pid, flush=True)
+    os._exit(0)
+"""
+
+
+def test_a_helper_ends_with_whoever_started_it(package):
+    (number,) = packages.run(package, ORPHANED)
+    process, patience = Path(f"/proc/{number}"), time.monotonic() + 10.0
+    while process.exists() and time.monotonic() < patience:
+        time.sleep(0.05)
+    assert not process.exists()
+
+
+def test_kernels_that_cannot_be_imported_are_not_separate():
+    @jit_exact
+    def local(x):
+        return x
+
+    with pytest.raises(TypeError, match="allowed are kernels that can be imported"):
+        separate(local)
 
 
 def test_nothing_is_compiled_ahead_where_it_cannot_be_kept(package, tmp_path):

@@ -77,11 +77,11 @@ def unforeseen():
     from sweep.simulate import warm_up
 
     foreseen = rehearse(lambda: warm_up(arcs=True))
-    loaded = [(address, address.compiled()) for address in foreseen]
+    loaded = [(version, version.compiled()) for version in foreseen]
     return [
-        address.name
-        for address, compiled in loaded
-        if compiled.metadata is not None or compiled.signature.return_type != address.returns
+        version.name
+        for version, compiled in loaded
+        if compiled.metadata is not None or compiled.signature.return_type != version.returns
     ]
 
 
