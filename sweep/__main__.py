@@ -34,8 +34,8 @@ what the finest settings of the method of highest order tend to. Cases that diff
 numerics are studied apart. A method is solver.integrator, solver.hinges, contact.model and the
 like; solver.time_step, .load_steps, .step_error and lattice.nodes_per_wall refine it."""
 WARM = """Compile the kernels now, so that the next run starts at once; else the first run does it.
-It takes half a minute to one, and again after an update of Crumple or of its packages. The code is kept
-in CRUMPLE_CACHE_DIR, else in ~/.cache/crumple: one call serves all machines of a cluster that
+It takes half a minute to one, and again after an update of Crumple or of its packages. The code is
+kept in CRUMPLE_CACHE_DIR, else in ~/.cache/crumple: one call serves all machines of a cluster that
 share this folder and have the same processor."""
 RANK = """List the designs that absorb the most energy, one table for each loading scene.
 Budgets and panel that are not given here are those of the config, [rank]; --by alone ranks
