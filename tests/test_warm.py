@@ -97,4 +97,4 @@ def test_after_warm_no_run_compiles_or_loads_anything():
     )
     *_, said, then = done.stdout.splitlines()
     assert (done.stderr, then) == ("", "then")
-    assert re.fullmatch(r".* kernels .* in \d+\.\d s; no run has to compile any", said)
+    assert re.fullmatch(r".* kernels .*in \d+\.\d s; no run has to compile any", said)
