@@ -46,7 +46,7 @@ verify: setup  ## print the numbers of README.md anew, from results/armor.h5 and
 	@$(PYTHON) tests/figures.py results/armor.h5
 
 validate: setup  ## solve reference problems at three meshes; the table goes to results/validation/
-	@$(PYTHON) -m tests.validation results/validation
+	@PYTHONPATH=tests $(PYTHON) -m tests.validation results/validation
 
 continuum: setup  ## compare with solid finite elements (extra packages); goes to results/continuum/
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.continuum results/continuum

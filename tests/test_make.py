@@ -1,8 +1,10 @@
 """The Makefile, with a program in place of Python that says what it is asked for."""
 
 import os
+import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -38,3 +40,16 @@ def test_rank_prints_one_ranking_with_results_and_without(checkout):
             command, cwd=checkout, env=quiet, capture_output=True, text=True, check=True
         )
         assert done.stdout.split() == ["ranking", "files"]
+
+
+@pytest.mark.parametrize("target", ["validate", "bench", "stability", "continuum"])
+def test_what_a_target_runs_finds_all_that_it_imports(target, checkout):
+    words = ["make", "-n", target, f"PYTHON={sys.executable}", "STAMP=stamp"]
+    told = subprocess.run(words, cwd=checkout, capture_output=True, text=True, check=True).stdout
+    (command,) = [line for line in told.splitlines() if "-m tests." in line]
+    imported = re.sub(r"-m (tests\.\w+) .*", r"-c 'import \1.__main__'", command)
+    usual = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+    done = subprocess.run(
+        imported, shell=True, cwd=ROOT, env=usual, capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
