@@ -181,7 +181,7 @@ def shape_columns(
         "greatest_element_strain": float(strains.max()),
         "kept_area": kept_area(frames),
         "absorbed_energy_within_model_J": work_within_model(
-            frames, loading["time_s"], loading["work_in_J"]
+            strains, frames["time_s"], loading["time_s"], loading["work_in_J"]
         ),
         "max_crossings": crossings({**frames, "edges": walls}),
     }

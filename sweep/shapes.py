@@ -11,44 +11,38 @@ from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import (
-    STRtree,
-    area,
-    buffer,
-    get_parts,
-    intersects,
-    line_merge,
-    linestrings,
-    multilinestrings,
-    union_all,
-)
+from shapely import STRtree, intersects, linestrings
+
+from sweep.cover import covered_area
 
 Floats = NDArray[np.float64]
 Frames = Mapping[str, np.ndarray]
 
 SQUEEZED = -0.3  # element strain beyond which a wall is a block
 SWEPT = 1 << 14  # elements x shapes whose boxes are joined: small lattices in one go
-TOGETHER = 1 << 17  # pairs of boxes that are compared at a time
+TOGETHER = 1 << 15  # pairs of boxes that are compared at a time: more leave the cache
 
 
 def element_strains(frames: Frames) -> Floats:
     """Nominal strain of every element in every stored shape, (f, m)."""
     start, end = np.moveaxis(frames["position_m"][:, frames["edges"]], 2, 0)
-    length = np.linalg.norm(end - start, axis=-1)
+    axis = end - start
+    length = np.hypot(axis[..., 0], axis[..., 1])
     return length / length[0] - 1.0
 
 
-def work_within_model(frames: Frames, time: Floats, work: Floats) -> float:
+def work_within_model(strains: Floats, stored: Floats, time: Floats, work: Floats) -> float:
     """Work in J done until an element is squeezed below `SQUEEZED`; all of it if none is.
 
+    strains (f, m): of the elements in the shapes that were stored at the times stored (f,), s.
     time (rows,) s, work (rows,) J: of the loading. Interpolated between stored shapes.
     """
-    least = element_strains(frames).min(axis=1)
+    least = strains.min(axis=1)
     beyond = np.flatnonzero(least < SQUEEZED)
     if len(beyond) == 0:
         return float(work[-1])
     at = slice(beyond[0] - 1, beyond[0] + 1)
-    moment = np.interp(-SQUEEZED, -least[at], frames["time_s"][at])
+    moment = np.interp(-SQUEEZED, -least[at], stored[at])
     return float(np.interp(moment, time, work))
 
 
@@ -60,16 +54,8 @@ def kept_area(frames: Frames) -> float:
     if np.isnan(frames["strain"]).any():
         return float("nan")
     rest, deepest = frames["position_m"][[0, int(np.argmax(frames["strain"]))]]
-    return _covered(deepest, frames) / _covered(rest, frames)
-
-
-def _covered(position: Floats, frames: Frames) -> float:
-    lines, thickness = linestrings(position[frames["edges"]]), frames["edge_thickness_m"]
-    walls = [
-        buffer(get_parts(line_merge(multilinestrings(lines[thickness == t]))), 0.5 * t, quad_segs=4)
-        for t in np.unique(thickness)
-    ]
-    return float(area(union_all(np.concatenate(walls))))
+    walls = frames["edges"], frames["edge_thickness_m"]
+    return covered_area(deepest, *walls) / covered_area(rest, *walls)
 
 
 def shortening(frames: Frames, bottom: NDArray[np.int64], top: NDArray[np.int64]) -> float:
@@ -93,31 +79,33 @@ def crossings(frames: Frames) -> int:
     Independent of the solver: shapely's exact predicates on the centre lines, asked only of
     elements without a common node whose boxes overlap.
     """
-    ends = frames["position_m"][:, frames["edges"]]
-    parts = np.array_split(ends, 1 + ends.shape[0] * ends.shape[1] // SWEPT)
-    return max(_most_crossings(part, frames["edges"]) for part in parts if len(part) > 0)
+    ends = np.ascontiguousarray(frames["position_m"].T)[:, frames["edges"]]
+    parts = np.array_split(ends, 1 + ends[0, :, 0].size // SWEPT, axis=-1)
+    return max(_most_crossings(part, frames["edges"]) for part in parts if part.size > 0)
 
 
 def _most_crossings(ends: Floats, edges: NDArray[np.int64]) -> int:
-    """The same of a few shapes; ends (f, m, 2, 2), edges (m, 2)."""
-    low, high = ends.min(axis=2), ends.max(axis=2)
-    met = _ever_near(low, high)
-    nodes = edges[met]
-    apart = ~np.any(nodes[:, 0, :, None] == nodes[:, 1, None], axis=(1, 2))
-    crossed = np.zeros(len(ends), np.int64)
-    for one, two in np.array_split(met[apart].T, 1 + len(met) * len(ends) // TOGETHER, axis=1):
+    """The same of a few shapes; ends (2, m, 2, f): x and y of both ends, edges (m, 2)."""
+    low, high = np.minimum(*(sides := np.moveaxis(ends, 2, 0))), np.maximum(*sides)
+    near = _ever_near(low, high)
+    start, end = np.moveaxis(edges[near], 2, 0)
+    shared = (start[:, 0] == start[:, 1]) | (end[:, 0] == end[:, 1])
+    shared |= (start[:, 0] == end[:, 1]) | (end[:, 0] == start[:, 1])
+    crossed = np.zeros(ends.shape[-1], np.int64)
+    apart = near[~shared].T
+    for one, two in np.array_split(apart, 1 + low[0, apart[0]].size // TOGETHER, axis=1):
         overlap = (low[:, one] <= high[:, two]) & (low[:, two] <= high[:, one])
-        shape, pair = np.nonzero(overlap[..., 0] & overlap[..., 1])
-        lines = linestrings(ends[shape, one[pair]]), linestrings(ends[shape, two[pair]])
-        crossed += np.bincount(shape[intersects(*lines)], minlength=len(ends))
+        pair, shape = np.nonzero(overlap[0] & overlap[1])
+        lines = (np.swapaxes(ends[:, which[pair], :, shape], 1, 2) for which in (one, two))
+        crossed += np.bincount(shape[intersects(*map(linestrings, lines))], minlength=len(crossed))
     return int(crossed.max())
 
 
 def _ever_near(low: Floats, high: Floats) -> NDArray[np.int64]:
     """Pairs of elements, (k, 2), where the boxes of all that they sweep over overlap.
 
-    low, high (f, m, 2): corners of the box of every element in every shape.
+    low, high (2, m, f): corners of the box of every element in every shape.
     """
-    swept = linestrings(np.stack([low.min(axis=0), high.max(axis=0)], axis=1))
+    swept = linestrings(np.stack([low.min(axis=2), high.max(axis=2)]).transpose(2, 0, 1))
     one, two = STRtree(swept).query(swept)
     return np.column_stack([one, two])[one < two]

@@ -1,0 +1,63 @@
+"""The area that walls cover, against closed forms and against shapely."""
+
+import numpy as np
+import pytest
+import shapely
+
+from sweep import cover
+from sweep.cover import covered_area
+
+WALL = np.array([[0, 1]])
+
+
+def by_shapely(points, edges, thickness):
+    lines = shapely.linestrings(points[edges])
+    return shapely.area(shapely.union_all(shapely.buffer(lines, 0.5 * thickness, quad_segs=200)))
+
+
+def tangle(count=30):
+    """Walls of any thickness over one another, far off the origin."""
+    random = np.random.default_rng(3)
+    edges = np.column_stack([np.arange(count), np.arange(1, count + 1)])
+    return random.random((count + 1, 2)) - 7.0, edges, random.uniform(0.02, 0.06, count)
+
+
+@pytest.mark.parametrize("turn", np.append(np.linspace(0.0, 3.0, 13), [-0.4, 0.5 * np.pi - 0.4]))
+def test_a_wall_has_round_ends(turn):
+    """However it lies, along the lines and across them too."""
+    points = np.array([[0.0, 0.0], [np.cos(turn), np.sin(turn)]])
+    exact = 0.1 + np.pi * 0.05**2
+    assert covered_area(points, WALL, np.array([0.1])) == pytest.approx(exact, rel=4e-3)
+
+
+def test_a_wall_much_longer_than_thick():
+    points = np.array([[2.0, 3.0], [5.0, 7.0]])
+    exact = 5e-3 + np.pi * 0.25e-6
+    assert covered_area(points, WALL, np.array([1e-3])) == pytest.approx(exact, rel=1e-5)
+
+
+def test_walls_that_cross_are_counted_once():
+    points = np.array([[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]])
+    exact = 2 * (0.2 + np.pi * 0.05**2) - 0.01
+    found = covered_area(points, np.array([[0, 1], [2, 3]]), np.full(2, 0.1))
+    assert found == pytest.approx(exact, rel=1e-3)
+
+
+def test_a_node_without_walls_covers_nothing():
+    points = np.array([[0.0, 0.0], [1.0, 0.0], [5.0, 5.0]])
+    thickness = np.array([0.1])
+    assert covered_area(points, WALL, thickness) == covered_area(points[:2], WALL, thickness)
+
+
+def test_a_tangle_has_the_area_that_shapely_finds():
+    walls = tangle()
+    assert covered_area(*walls) == pytest.approx(by_shapely(*walls), rel=3e-4)
+
+
+def test_the_error_falls_with_the_lines(monkeypatch):
+    """Of order 3/2 at least, which is that of a disc."""
+    exact, errors, lines = by_shapely(*tangle()), [], (4, 64)
+    for count in lines:
+        monkeypatch.setattr(cover, "LINES", count)
+        errors.append(abs(covered_area(*tangle()) / exact - 1.0))
+    assert np.log(errors[0] / errors[1]) / np.log(lines[1] / lines[0]) > 1.5
