@@ -11,6 +11,8 @@ import numpy as np
 from sweep.result import COLUMNS, is_grid_key
 
 Columns = dict[str, np.ndarray]
+Axes = Mapping[str, Mapping[str, Any]]
+"""Grid values of every case: case id -> dotted key -> value."""
 
 _FIXED = list(COLUMNS)
 _HEAD = ("case_id", "status", "message")
@@ -34,7 +36,7 @@ def stack(tables: Sequence[Columns]) -> Columns:
     return {name: _join([table.get(name) for table in tables], lengths) for name in names}
 
 
-def relabel(table: Columns, axes: Mapping[str, Mapping[str, Any]]) -> Columns:
+def relabel(table: Columns, axes: Axes) -> Columns:
     """Table with the grid values of the cases in `axes` (by case id) written anew.
 
     A case that an earlier sweep computed belongs to this one too, under the keys of this grid;

@@ -7,7 +7,6 @@ batch twice.
 
 import os
 import re
-from collections.abc import Callable
 from io import FileIO
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -59,23 +58,16 @@ def parts_to_merge(parts: list[Part]) -> list[Part]:
     return tail if len(tail) == MERGE_AT else []
 
 
-def seal(target: Path, write: Callable[[FileIO], None]) -> None:
-    """Let `write` fill a file and give it its name only when it is safe on the disk."""
-    temporary = target.with_name(target.name + _TEMPORARY)
-    with _Patient(temporary, "w+") as file:
-        try:
-            write(file)
-        finally:
-            file.complain()
-        os.fsync(file.fileno())
-    os.replace(temporary, target)
-    _synchronise(target.parent)
+class Unsealed(FileIO):
+    """A file that gets its name only when it is safe on the disk.
 
+    It keeps an error of the disk to itself until HDF5, which crashes on it, is done.
+    """
 
-class _Patient(FileIO):
-    """A file that keeps an error of the disk to itself until HDF5, which crashes on it, is done."""
-
-    _error: OSError | None = None
+    def __init__(self, target: Path) -> None:
+        self._target, self._temporary = target, target.with_name(target.name + _TEMPORARY)
+        self._error: OSError | None = None
+        super().__init__(self._temporary, "w+")
 
     def write(self, data: "ReadableBuffer", /) -> int:
         """Write all of it, or pretend to."""
@@ -87,10 +79,32 @@ class _Patient(FileIO):
             self._error = error
         return memoryview(data).nbytes
 
+    def truncate(self, size: int | None = None, /) -> int:
+        """Cut or stretch it, or pretend to."""
+        try:
+            return super().truncate(size)
+        except OSError as error:
+            self._error = self._error or error
+        return size or 0
+
     def complain(self) -> None:
         """Raise the first error."""
         if self._error is not None:
             raise self._error
+
+    def seal(self) -> None:
+        """Give it its name."""
+        self.complain()
+        os.fsync(self.fileno())
+        self.close()
+        os.replace(self._temporary, self._target)
+        _synchronise(self._target.parent)
+
+    def abandon(self) -> None:
+        """Throw it away, unless it is sealed."""
+        if not self.closed:
+            self.close()
+            self._temporary.unlink(missing_ok=True)
 
 
 def make_folder(folder: Path) -> None:

@@ -3,6 +3,7 @@
 import os
 import signal
 from collections.abc import Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from threading import current_thread, main_thread
 
@@ -48,12 +49,13 @@ def run_sweep(
         waiting = {case_id: case for case_id, case in cases.items() if case_id not in done}
         chosen = simulate or real_simulate() if waiting else None
         with interruptible(stop):
-            if chosen:
+            if not chosen:
+                writer.fold()
+            else:
                 plan = Plan(waiting.values(), workers)
                 costs = {case_id: cost(case) for case_id, case in waiting.items()}
                 with Progress(costs, len(done)) as told, keeping(writer, plan, told) as keep:
                     run(plan, chosen, keep, stop, scheduler)
-            writer.fold()
     kept = len(cases.keys() & finished_ids(out, retry_failed))
     if stop.asked and kept < len(cases):
         line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
@@ -68,28 +70,40 @@ def run_sweep(
 def keeping(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
     """A sink that seals results and then counts them aloud: the first at once, as a sign of life.
 
-    Later ones wait until they are worth it: a part takes about 50 ms to seal and to fold.
+    Later ones wait until they are worth it: a part takes about 80 ms to write. A thread of its own
+    does so, as much of that is waiting for the disk. The last ones need no part: all is folded.
     """
     unsealed: list[Result] = []
-    begun = progress.done
+    seals: list[Future[None]] = []
 
-    def seal() -> None:
-        batch, unsealed[:] = unsealed[:], []
+    def write(batch: list[Result]) -> None:
         writer.append(batch)
         progress.advance(batch)
+
+    def seal() -> None:
+        settle()
+        seals.append(clerk.submit(write, unsealed[:]))
+        unsealed.clear()
+
+    def settle() -> None:
+        if seals:
+            seals[-1].result()
 
     def keep(results: list[Result]) -> None:
         unsealed.extend(results)
         worth = sum(float(result.summary["cpu_s"]) for result in unsealed)
-        if progress.done == begun or not worth < AT_RISK * plan.workers:  # NaN: cannot be told
+        if not seals or not worth < AT_RISK * plan.workers:  # NaN: cannot be told
             seal()
 
-    try:
-        yield keep
-    except Exception:
-        seal()
-        raise
-    seal()
+    with ThreadPoolExecutor(1, "clerk") as clerk:
+        try:
+            yield keep
+            settle()
+        except Exception:
+            seal()
+            raise
+    writer.fold(unsealed)
+    progress.advance(unsealed)
 
 
 def real_simulate(arcs: bool = False) -> Simulate:

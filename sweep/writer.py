@@ -2,11 +2,16 @@
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Self
 
+import numpy as np
+
+from sweep.block import Block, block_of
+from sweep.columns import Axes
+from sweep.growing import About, Growing, seal_blocks
 from sweep.lock import LockedError, exclusive
 from sweep.parts import (
     Part,
@@ -19,17 +24,7 @@ from sweep.parts import (
     remove_folder,
 )
 from sweep.result import Result
-from sweep.store import (
-    About,
-    Axes,
-    StoreError,
-    exists,
-    folded_batches,
-    is_labelled,
-    seal_parts,
-    seal_results,
-    seal_union,
-)
+from sweep.store import StoreError, exists, folded_batches, is_labelled, open_sealed
 
 
 class Writer:
@@ -37,6 +32,9 @@ class Writer:
 
     axes: case id -> grid values (dotted key -> value in SI) of every case of the sweep, in the
     order that the rows shall have. attributes: what to say about the run (sweep/provenance.py).
+
+    What is appended is sealed as a part, and also added to the file that is to hold everything in
+    the end: little is left to do then.
     """
 
     def __init__(
@@ -47,7 +45,9 @@ class Writer:
     ) -> None:
         self.path = Path(path)
         self._about = About(axes or {}, attributes or {})
-        self._parts: list[Part] = []
+        self._found: list[Part] = []
+        self._sealed: list[Part] = []
+        self._growing: Growing | None = None
         self._held = ExitStack()
 
     def __enter__(self) -> Self:
@@ -58,8 +58,8 @@ class Writer:
             held.enter_context(_only_writer(self.path))
             folded = folded_batches(self.path)
             clear_leftovers(self.path, folded)
-            self._parts = list_parts(self.path)
-            self._count(max([folded, *(part.last for part in self._parts)]))
+            self._found = list_parts(self.path)
+            self._count(max([folded, *(part.last for part in self._found)]))
             self._held = held.pop_all()
         return self
 
@@ -71,32 +71,56 @@ class Writer:
         if not results:
             return
         number = self._about.last + 1
-        part = new_part(self.path, number, number)
+        part, block = new_part(self.path, number, number), block_of(results)
         with _writing(self.path):
             make_folder(part.path.parent)
-            seal_results(part.path, results, self._about)
-            self._parts.append(part)
+            seal_blocks(part.path, [block], self._about, packed=False)
+            self._sealed.append(part)
             self._count(number)
+            self._grown().add(block, np.arange(len(results)))
             self._merge()
 
-    def fold(self) -> None:
-        """Bring all parts into the one file, and its rows into the order of `axes`."""
+    def fold(self, last: Sequence[Result] = ()) -> None:
+        """Bring all parts into the one file, and its rows into the order of `axes`.
+
+        last: results that come straight into the file, without a part of their own.
+        """
+        parts = [*self._found, *self._sealed]
         with _writing(self.path):
-            if self._parts or (exists(self.path) and not is_labelled(self.path, self._about.axes)):
-                seal_union(self.path, self._about)
-            discard(self._parts)
+            if last:
+                self._grown().add(block_of(last), np.arange(len(last)))
+            if parts or last or not self._is_labelled():
+                with ExitStack() as held:
+                    self._grown().add_older(self._older(held))
+                    self._grown().seal(self._about)
+            discard(parts)
             remove_folder(self.path)
-        self._parts = []
+        self._found, self._sealed, self._growing = [], [], None
+
+    def _is_labelled(self) -> bool:
+        return not exists(self.path) or is_labelled(self.path, self._about.axes)
 
     def _count(self, last: int) -> None:
         self._about = replace(self._about, last=last)
 
+    def _grown(self) -> Growing:
+        if self._growing is None:
+            self._growing = self._held.enter_context(closing(Growing(self.path, packed=True)))
+        return self._growing
+
+    def _older(self, held: ExitStack) -> list[Block]:
+        """What was there before anything was appended, held open."""
+        whole = [self.path] if self.path.exists() else []
+        return [open_sealed(path, held) for path in (*whole, *(p.path for p in self._found))]
+
     def _merge(self) -> None:
-        while parts := parts_to_merge(self._parts):
+        while parts := parts_to_merge(self._sealed):
             merged = new_part(self.path, parts[0].first, parts[-1].last)
-            seal_parts(merged.path, [part.path for part in parts], self._about)
+            with ExitStack() as held:
+                blocks = [open_sealed(part.path, held) for part in parts]
+                seal_blocks(merged.path, blocks, self._about, packed=True)
             discard(parts)
-            self._parts[-len(parts) :] = [merged]
+            self._sealed[-len(parts) :] = [merged]
 
 
 @contextmanager

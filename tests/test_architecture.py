@@ -24,7 +24,7 @@ HOMES = {
     "llvmlite": "kernels.linking kernels.calling kernels.separate kernels.cache kernels.lanes",
     "dask": "sweep.graph",
     "distributed": "sweep.graph",
-    "h5py": "sweep.store",
+    "h5py": "sweep.store sweep.growing",
     "matplotlib": "sweep.plots",
     "pint": "sweep.config",
 }

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 
@@ -123,9 +124,9 @@ def test_interruption_in_this_process(tmp_path):
 def test_interruption_after_the_last_case_loses_nothing_and_is_no_failure(tmp_path, monkeypatch):
     fold = Writer.fold
 
-    def pressed(writer):
+    def pressed(writer, last):
         os.kill(os.getpid(), signal.SIGINT)
-        fold(writer)
+        fold(writer, last)
 
     monkeypatch.setattr(Writer, "fold", pressed)
     out = tmp_path / "sweep.h5"
@@ -163,8 +164,30 @@ def took(share, numbers):
     return [replace(r, summary=r.summary | {"cpu_s": share * AT_RISK}) for r in found]
 
 
-def test_first_result_is_sealed_at_once_and_later_ones_when_they_are_worth_it(tmp_path, told):
+class AtOnce:
+    """A pool of threads that does in this one what it is asked to."""
+
+    def __init__(self, *_):
+        pass
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        pass
+
+    def submit(self, function, *arguments):
+        """Do it."""
+        done = Future()
+        done.set_result(function(*arguments))
+        return done
+
+
+def test_first_result_is_sealed_at_once_and_later_ones_when_they_are_worth_it(
+    tmp_path, told, monkeypatch
+):
     """Two workers: what is at risk is at most twice as much. NaN might be any time."""
+    monkeypatch.setattr("sweep.run.ThreadPoolExecutor", AtOnce)
     out, sealed = tmp_path / "sweep.h5", []
     batches = [(0.1, [0]), (0.9, [1, 2]), (0.3, [3]), (1.9, [4]), (np.nan, [5]), (0.1, [6])]
     with Writer(out) as writer, keeping(writer, Plan([], workers=2), told) as keep:
@@ -172,9 +195,27 @@ def test_first_result_is_sealed_at_once_and_later_ones_when_they_are_worth_it(tm
             keep(took(share, numbers))
             sealed.append(len(read_summary(out)))
             assert told.done == sealed[-1]
+        assert len(parts_of(out)) == 3
     assert sealed == [1, 1, 4, 4, 6, 6]
     assert len(read_summary(out)) == told.done == 7
-    assert len(parts_of(out)) == 4
+    assert [entry.name for entry in tmp_path.iterdir()] == ["sweep.h5"]
+
+
+def test_error_of_the_clerk_ends_the_sweep_and_keeps_what_is_sealed(tmp_path, monkeypatch):
+    """A disk that is full from the second part on."""
+    append = Writer.append
+
+    def full(writer, results):
+        if parts_of(out):
+            raise StoreError("no space left")
+        append(writer, results)
+
+    out = tmp_path / "sweep.h5"
+    monkeypatch.setattr("sweep.run.AT_RISK", 0.0)
+    monkeypatch.setattr(Writer, "append", full)
+    with pytest.raises(StoreError, match="no space left"):
+        run_sweep(cases(40), out, workers=2, simulate=lambda case, stop: simulate(case))
+    assert 0 < len(read_summary(out)) < 40
 
 
 def test_error_in_the_middle_of_a_sweep_loses_no_result_that_has_come_in(tmp_path, told):
