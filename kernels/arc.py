@@ -25,7 +25,7 @@ from kernels.march import AT_START, SMALLEST
 from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, NOT_FINITE, OUTGROWN, STALLED
 from kernels.room import PREDICTED, make_room
 from kernels.rows import copy, dot, zero
-from kernels.step import Step, covers, evaluate, factor, find_near, step_limit
+from kernels.step import Step, covers, evaluate, factor, find_near, renew, step_limit
 from kernels.trace import NOW, SPENT, STEPS, write
 
 FACTOR, UNSTABLE = range(2)  # columns of a path
@@ -243,4 +243,4 @@ def follow(terms, unknowns, tolerance, stage, state, out, control, arc):
         )
         if outcome != OUTGROWN:
             return outcome, max(rows, 0)
-        near = find_near(state.x, terms, room.grips, progress[0].move)
+        near = renew(near, state.x, terms, room.grips, progress[0].move)

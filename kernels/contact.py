@@ -25,7 +25,7 @@ from kernels.distance import (
 )
 from kernels.entries import add
 from kernels.jit import jit, jit_exact
-from kernels.pairs import within
+from kernels.pairs import counted, within
 from kernels.rows import pair
 
 
@@ -34,7 +34,7 @@ class Contact(NamedTuple):
 
     stiffness: c Y' depth, N/m. reach: largest contact distance. edges (m, 2). tributary (n,): l_p.
     node_thickness (n,), edge_thickness (m,). subtract (m, 2): ends counted by another segment.
-    special_*: pairs near a joint or near at rest, by node (start (n + 1,)): edge, weight, distance
+    special_*: pairs near a joint or near at rest, by edge (start (m + 1,)): node, weight, distance
     of contact, subtract. plate_nodes (k,): nodes that may touch a platen. low, high: coordinates
     of the surfaces of the lower and the upper platen.
     """
@@ -47,7 +47,7 @@ class Contact(NamedTuple):
     edge_thickness: np.ndarray
     subtract: np.ndarray
     special_start: np.ndarray
-    special_edge: np.ndarray
+    special_node: np.ndarray
     special_weight: np.ndarray
     special_distance: np.ndarray
     special_subtract: np.ndarray
@@ -65,10 +65,13 @@ def _law(contact, weight, d_contact, d):
 
 
 @jit
-def cancelled(pairs, k, tau, inside):
-    """Return which end (0, 1) of segment ``k`` is closest and taken off again; -1 if none is."""
+def cancelled(tau, inside, first, second):
+    """Return which end (0, 1) of a segment is closest and taken off again; -1 if none is.
+
+    first, second: as `pairs.counted` returns them.
+    """
     end = 0 if tau == 0.0 else 1
-    return -1 if inside or pairs.subtract[k, end] == 0.0 else end
+    return -1 if inside or (first, second)[end] == 0.0 else end
 
 
 @jit
@@ -88,9 +91,9 @@ def evaluate(x, contact, pairs, drift, g):
     total = _plates(x, contact, g)
     pairs.count[0] = 0
     for k in range(within(pairs, contact.reach + 2.0 * drift)):
-        if pairs.weight[k] == 0.0:
-            continue
         p, dc = pairs.node[k], pairs.d_contact[k]
+        if dc == 0.0:
+            continue
         a, b = pair(contact.edges, pairs.edge[k])
         tau, inside = closest(x, p, a, b)
         _, _, d = normal(x, p, a, b, tau)
@@ -100,13 +103,14 @@ def evaluate(x, contact, pairs, drift, g):
             return np.inf
         pairs.touching[pairs.count[0]] = k
         pairs.count[0] += 1
-        weight, off = 0.5 * pairs.weight[k], cancelled(pairs, k, tau, inside)
+        length, first, second = counted(pairs, k, contact)
+        weight, off = 0.5 * length, cancelled(tau, inside, first, second)
         if off < 0:
             value, slope, _ = _law(contact, weight, dc, d)
             total += value
             push(g, x, p, a, b, slope)
-        for side, v in ((0, a), (1, b)):
-            if pairs.subtract[k, side] != 0.0 and side != off:
+        for side, v, elsewhere in ((0, a, first), (1, b, second)):
+            if elsewhere != 0.0 and side != off:
                 _, _, dv = direction(x, v, p)
                 if dv < dc:
                     value, slope, _ = _law(contact, weight, dc, dv)
@@ -125,14 +129,15 @@ def hessian(x, contact, pairs, matrix, projected):
         a, b = pair(contact.edges, pairs.edge[k])
         tau, inside = closest(x, p, a, b)
         _, _, d = normal(x, p, a, b, tau)
-        weight, off = 0.5 * pairs.weight[k], cancelled(pairs, k, tau, inside)
+        length, first, second = counted(pairs, k, contact)
+        weight, off = 0.5 * length, cancelled(tau, inside, first, second)
         if off < 0:
             _, slope, curvature = _law(contact, weight, dc, d)
             push_stiffen(matrix, x, p, a, b, curvature, 0.0 if projected else slope)
         if projected:
             continue
-        for side, v in ((0, a), (1, b)):
-            if pairs.subtract[k, side] != 0.0 and side != off:
+        for side, v, elsewhere in ((0, a, first), (1, b, second)):
+            if elsewhere != 0.0 and side != off:
                 _, _, dv = direction(x, v, p)
                 if dv < dc:
                     _, slope, curvature = _law(contact, weight, dc, dv)
@@ -192,7 +197,7 @@ def least_gap(x, contact, pairs, drift):
     for k in range(pairs.node.size):
         if pairs.distance[k] - 2.0 * drift >= least:
             break  # all others are farther away
-        if pairs.weight[k] > 0.0:
+        if pairs.d_contact[k] > 0.0:
             a, b = pair(contact.edges, pairs.edge[k])
             least = min(least, _segment_distance(x, pairs.node[k], a, b))
     for p in contact.plate_nodes:

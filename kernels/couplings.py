@@ -25,7 +25,7 @@ def couplings(x, terms, found, grips):
     most += terms.contact.plate_nodes.size + terms.spring.l0.size
     nodes, n = np.empty((most, 3), np.int64), 0
     for k in range(found.node.size):
-        if found.weight[k] > 0.0 and found.distance[k] < reach * found.d_contact[k]:
+        if found.distance[k] < reach * found.d_contact[k]:
             a, b = pair(terms.contact.edges, found.edge[k])
             n = _couple(nodes, n, found.node[k], a, b)
     for k in range(grips.count[0]):

@@ -21,7 +21,7 @@ from kernels.contact import cancelled
 from kernels.distance import closest, direction, normal
 from kernels.entries import add_block
 from kernels.jit import jit, jit_exact, jit_owning
-from kernels.pairs import within
+from kernels.pairs import counted, within
 from kernels.rows import pair
 
 
@@ -108,21 +108,26 @@ def _normal_force(contact, weight, dc, d):
 @jit_exact
 def lag(x, contact, pairs, drift, friction, grips):
     """Fill ``grips`` with all pairs in contact at ``x``. ``drift``: as in `contact.evaluate`."""
-    n = 0
+    n, grips.count[0] = 0, 0
+    if friction.mu == 0.0:
+        return
     for k in range(within(pairs, contact.reach + 2.0 * drift)):
-        p, dc, weight = pairs.node[k], pairs.d_contact[k], 0.5 * friction.mu * pairs.weight[k]
+        p, dc = pairs.node[k], pairs.d_contact[k]
+        if dc == 0.0:
+            continue
         a, b = pair(contact.edges, pairs.edge[k])
         tau, inside = closest(x, p, a, b)
         _, _, d = normal(x, p, a, b, tau)
-        if weight == 0.0 or d >= dc:
+        if d >= dc:
             continue
-        off = cancelled(pairs, k, tau, inside)
+        length, first, second = counted(pairs, k, contact)
+        weight, off = 0.5 * friction.mu * length, cancelled(tau, inside, first, second)
         if off < 0:
             load = _normal_force(contact, weight, dc, d)
             n = _grip_segment(x, grips, n, (p, a, b), tau, load)
-        for side, end in ((0, 0.0), (1, 1.0)):
+        for side, end, elsewhere in ((0, 0.0, first), (1, 1.0, second)):
             _, _, d = normal(x, p, a, b, end)
-            if pairs.subtract[k, side] != 0.0 and d < dc and side != off:
+            if elsewhere != 0.0 and d < dc and side != off:
                 load = -_normal_force(contact, weight, dc, d)
                 n = _grip_segment(x, grips, n, (p, a, b), end, load)
     for p in contact.plate_nodes:

@@ -13,7 +13,7 @@ from kernels.relax import approach
 from kernels.room import CHANGE, HEAVY, LAGGED, PREDICTED, Room, make_room
 from kernels.rows import copy, zero
 from kernels.scheme import BACKWARD_EULER, BDF2, POSITION
-from kernels.step import Step, drift, find_near, holds_crowd, rub
+from kernels.step import Step, drift, find_near, holds_crowd, renew, rub
 from kernels.trace import LAST, NOW, SPENT, STEPS, write
 
 SMALLEST = 2.0**-24  # share of a step
@@ -284,7 +284,7 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
         )
         if outcome != OUTGROWN:
             return outcome, rows
-        near = find_near(state.x, terms, room.grips, progress[0].move)
+        near = renew(near, state.x, terms, room.grips, progress[0].move)
         room.work.kept[0] = np.inf
         wider = friction.room(near.pairs, terms.contact, terms.friction)
         if wider.load.size > room.grips.load.size:

@@ -12,24 +12,23 @@ from kernels.jit import jit_exact, jit_owning
 from kernels.rows import grouped, pair
 
 SHELLS = 64  # steps in which distances are told apart
+FINER = 3.0  # times smaller than the radius is a cell: large ones hold much that is too far
 
 
 class Pairs(NamedTuple):
     """Node-segment pairs that share no node.
 
     node (n,), edge (n,): indices. distance (n,): at least so far apart were they when they were
-    listed, m, ascending. weight (n,):
-    contact length in m, 0 where only crossing is watched. d_contact (n,): distance at which contact
-    starts, m. subtract (n, 2): 1 where the contribution of that end of the segment is counted by
-    another segment already. touching (n,), count (1,): those in contact when last evaluated.
+    listed, m, ascending. d_contact (n,): distance at which contact starts, m; 0 where only crossing
+    is watched. rule (n,): their number among the special pairs of `contact.Contact`, -1 if none.
+    touching (n,), count (1,): those in contact when last evaluated.
     """
 
     node: np.ndarray
     edge: np.ndarray
     distance: np.ndarray
-    weight: np.ndarray
     d_contact: np.ndarray
-    subtract: np.ndarray
+    rule: np.ndarray
     touching: np.ndarray
     count: np.ndarray
 
@@ -66,15 +65,34 @@ def _span(x, c, a, b, radius, low, cell, most):
 
 
 @jit_exact
-def _list(x, edges, radius, grid, bins, node, edge, distance):
-    """Write the pairs as far as there is room; return their number."""
+def _cells(x, a, b, radius, grid):
+    """Return the columns and rows of cells, first and last, within ``radius`` of segment a-b."""
     low_x, low_y, cell, nx, ny = grid
-    start, order = bins
-    count = 0
+    left, right = _span(x, 0, a, b, radius, low_x, cell, nx)
+    down, up = _span(x, 1, a, b, radius, low_y, cell, ny)
+    return left, right, down, up
+
+
+@jit_exact
+def _room(x, edges, radius, grid, start):
+    """Return how many pairs there are at most: of segments and nodes in cells that they reach."""
+    count, nx = 0, grid[3]
     for k in range(edges.shape[0]):
         a, b = pair(edges, k)
-        left, right = _span(x, 0, a, b, radius, low_x, cell, nx)
-        down, up = _span(x, 1, a, b, radius, low_y, cell, ny)
+        left, right, down, up = _cells(x, a, b, radius, grid)
+        for row in range(down, up + 1):
+            count += start[row * nx + right + 1] - start[row * nx + left]
+    return count
+
+
+@jit_exact
+def _list(x, edges, radius, grid, bins, node, edge, distance):
+    """Write the pairs, edge by edge; return their number."""
+    start, order = bins
+    count, nx = 0, grid[3]
+    for k in range(edges.shape[0]):
+        a, b = pair(edges, k)
+        left, right, down, up = _cells(x, a, b, radius, grid)
         for row in range(down, up + 1):
             for q in range(start[row * nx + left], start[row * nx + right + 1]):
                 p = order[q]
@@ -82,51 +100,79 @@ def _list(x, edges, radius, grid, bins, node, edge, distance):
                     continue
                 d2 = squared_distance(x, p, a, b)
                 if d2 < radius * radius:
-                    if count < node.size:
-                        node[count], edge[count], distance[count] = p, k, np.sqrt(d2)
+                    node[count], edge[count], distance[count] = p, k, np.sqrt(d2)
                     count += 1
     return count
 
 
 @jit_owning
 def near(x, n_nodes, edges, radius):
-    """Return (node, edge, distance) of the pairs closer than ``radius`` (m) that share no node."""
-    grid = _grid(x, n_nodes, radius)
+    """Return (node, edge, distance) of the pairs closer than ``radius`` (m) that share no node,
+    in ascending order of their edges.
+    """
+    grid = _grid(x, n_nodes, radius / FINER)
     bins = _binned(x, n_nodes, grid)
-    count = 8 * n_nodes
-    while True:
-        node, edge = np.empty(count, np.int64), np.empty(count, np.int64)
-        distance = np.empty(count)
-        count = _list(x, edges, radius, grid, bins, node, edge, distance)
-        if count <= node.size:
-            return node[:count], edge[:count], distance[:count]
+    room = _room(x, edges, radius, grid, bins[0])
+    node, edge, distance = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room)
+    count = _list(x, edges, radius, grid, bins, node, edge, distance)
+    return node[:count], edge[:count], distance[:count]
+
+
+@jit_exact
+def _look_up(node, edge, contact, at, rule):
+    """Fill ``rule`` of pairs in ascending order of ``edge``; ``at`` (n_nodes,): -1 throughout."""
+    k = 0
+    for e in range(contact.edges.shape[0]):
+        start, end = contact.special_start[e], contact.special_start[e + 1]
+        for q in range(start, end):
+            at[contact.special_node[q]] = q
+        while k < edge.size and edge[k] == e:
+            rule[k] = at[node[k]]
+            k += 1
+        for q in range(start, end):
+            at[contact.special_node[q]] = -1
+
+
+@jit_exact
+def _distance(contact, p, e, rule):
+    """Return the distance at which a pair touches, 0 if it never does."""
+    if rule >= 0:
+        return contact.special_distance[rule] if contact.special_weight[rule] > 0.0 else 0.0
+    mean = 0.5 * (contact.node_thickness[p] + contact.edge_thickness[e])
+    return mean if contact.tributary[p] > 0.0 else 0.0
 
 
 @jit_owning
 def find(x, contact, radius):
-    """Return the `Pairs` closer than ``radius`` at ``x``, with the weights of ``contact``."""
+    """Return the `Pairs` closer than ``radius`` at ``x``, with the rules of ``contact``."""
     listed = near(x, contact.tributary.size, contact.edges, radius)
     n = listed[0].size
-    shell = np.empty(n, np.int64)
+    shell, found = np.empty(n, np.int64), np.empty(n, np.int64)
+    _look_up(listed[0], listed[1], contact, np.full(contact.tributary.size, -1), found)
     for k in range(n):
         shell[k] = min(int(listed[2][k] / radius * SHELLS), SHELLS - 1)
     _, nearest = grouped(shell, SHELLS)
     node, edge, distance = np.empty(n, np.int64), np.empty(n, np.int64), np.empty(n)
-    weight, d_contact, subtract = np.empty(n), np.empty(n), np.empty((n, 2))
+    d_contact, rule = np.empty(n), np.empty(n, np.int64)
     for k in range(n):
-        p, e = listed[0][nearest[k]], listed[1][nearest[k]]
-        node[k], edge[k], distance[k] = p, e, shell[nearest[k]] * radius / SHELLS
-        weight[k] = contact.tributary[p]
-        d_contact[k] = 0.5 * (contact.node_thickness[p] + contact.edge_thickness[e])
-        subtract[k, 0], subtract[k, 1] = contact.subtract[e, 0], contact.subtract[e, 1]
-        for q in range(contact.special_start[p], contact.special_start[p + 1]):
-            if contact.special_edge[q] == e:
-                weight[k] = contact.special_weight[q]
-                d_contact[k] = contact.special_distance[q]
-                subtract[k, 0] = contact.special_subtract[q, 0]
-                subtract[k, 1] = contact.special_subtract[q, 1]
+        q = nearest[k]
+        node[k], edge[k], rule[k] = listed[0][q], listed[1][q], found[q]
+        distance[k] = shell[q] * radius / SHELLS
+        d_contact[k] = _distance(contact, node[k], edge[k], rule[k])
     touching, count = np.empty(n, np.int64), np.zeros(1, np.int64)
-    return Pairs(node, edge, distance, weight, d_contact, subtract, touching, count)
+    return Pairs(node, edge, distance, d_contact, rule, touching, count)
+
+
+@jit_exact
+def counted(pairs, k, contact):
+    """Return the contact length of pair ``k`` in m, and for both ends of its segment 1 where the
+    contribution of that end is counted by another segment already.
+    """
+    q, e = pairs.rule[k], pairs.edge[k]
+    if q >= 0:
+        ends = contact.special_subtract
+        return contact.special_weight[q], ends[q, 0], ends[q, 1]
+    return contact.tributary[pairs.node[k]], contact.subtract[e, 0], contact.subtract[e, 1]
 
 
 @jit_exact
@@ -146,8 +192,7 @@ def within(pairs, radius):
 def empty():
     """Return no pairs."""
     none, nothing = np.empty(0, np.int64), np.empty(0)
-    count = np.zeros(1, np.int64)
-    return Pairs(none, none, nothing, nothing, nothing, np.empty((0, 2)), none, count)
+    return Pairs(none, none, nothing, nothing, none, none, np.zeros(1, np.int64))
 
 
 @jit_exact

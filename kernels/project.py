@@ -78,7 +78,7 @@ def move_apart(x, projection, pairs):
     for _ in range(SWEEPS):
         close = _off_platens(x, contact, ease)
         for k in range(pairs.node.size):
-            if pairs.weight[k] > 0.0:
+            if pairs.d_contact[k] > 0.0:
                 a, b = pair(contact.edges, pairs.edge[k])
                 if _part(x, ease, pairs.node[k], a, b, pairs.d_contact[k]):
                     close = True

@@ -221,18 +221,42 @@ def _first_fold(x, dx, terms):
 
 @separate
 @jit_owning
-def find_near(x, terms, grips, move):
-    """Return `Near` at ``x`` for moves up to ``move`` (m): pairs in reach and room for them."""
+def list_near(x, terms, move):
+    """Return (pairs, margin, crowd) of `Near` at ``x`` for moves up to ``move`` (m)."""
     if terms.contact.edges.shape[0] == 0:
         found, margin = pairs.empty(), np.inf
     else:
         margin = max(3.0 * move, MARGIN * terms.contact.reach)
         found = pairs.find(x, terms.contact, terms.contact.reach + margin)
-    solver = pattern.analyse(terms.layout, terms.walls, couplings(x, terms, found, grips))
     crowd, touch = pairs.empty(), terms.project.contact
     if touch.edges.shape[0] > 0:
         crowd = pairs.find(x, touch, (1.0 + CROWD) * touch.reach)
-    return Near(found, x.copy(), margin, solver, crowd)
+    return found, margin, crowd
+
+
+@separate
+@jit_owning
+def make_system(x, terms, found, grips):
+    """Return the system with room for all that may soon share a term."""
+    return pattern.analyse(terms.layout, terms.walls, couplings(x, terms, found, grips))
+
+
+@jit_owning
+def find_near(x, terms, grips, move):
+    """Return `Near` at ``x`` for moves up to ``move`` (m): pairs in reach and room for them."""
+    found, margin, crowd = list_near(x, terms, move)
+    return Near(found, x.copy(), margin, make_system(x, terms, found, grips), crowd)
+
+
+@jit_owning
+def renew(near, x, terms, grips, move):
+    """Return `Near` for a ``move`` (m) beyond the listed pairs, which may do with the same system;
+    if that is 0, the system lacked room.
+    """
+    if move == 0.0:
+        return find_near(x, terms, grips, move)
+    found, margin, crowd = list_near(x, terms, move)
+    return Near(found, x.copy(), margin, near.system, crowd)
 
 
 @jit_exact

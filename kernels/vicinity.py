@@ -40,12 +40,12 @@ class Pairs(NamedTuple):
 
 
 class Rules(NamedTuple):
-    """Rules of node p: start[p] .. start[p + 1]. edge, weight (m), distance (m) (s,); subtract
-    (s, 2): as in `pairs.Pairs`.
+    """Rules of edge e: start[e] .. start[e + 1]. node, weight (m: length of contact), distance (m:
+    where contact starts) (s,); subtract (s, 2): as in `pairs.counted`.
     """
 
     start: np.ndarray
-    edge: np.ndarray
+    node: np.ndarray
     weight: np.ndarray
     distance: np.ndarray
     subtract: np.ndarray
@@ -223,24 +223,26 @@ def special_pairs(x, edges, l0, node_thickness, edge_thickness, tributary):
     start, order = grouped(node, n)
     close = start, order, edge, length
     weight, listed = np.full(m, UNLISTED), np.empty(m, np.int64)
-    first = np.zeros(n + 1, np.int64)
+    first = np.zeros(m + 1, np.int64)
     for p in range(n):
-        count = _entries(p, graph, tributary, reduced, close, weight, listed)
-        first[p + 1] = first[p] + count
-        for i in range(count):
+        for i in range(_entries(p, graph, tributary, reduced, close, weight, listed)):
+            first[listed[i] + 1] += 1
             weight[listed[i]] = UNLISTED
-    size = first[n]
+    for e in range(m):
+        first[e + 1] += first[e]
+    size, free = first[m], first.copy()
     rules = Rules(
         first, np.empty(size, np.int64), np.empty(size), np.empty(size), np.empty((size, 2))
     )
     for p in range(n):
         count = _entries(p, graph, tributary, reduced, close, weight, listed)
         for i in range(count):
-            e, k = listed[i], first[p] + i
+            e, k = listed[i], free[listed[i]]
+            free[e] += 1
             a, b = pair(edges, e)
             t = 0.5 * (node_thickness[p] + edge_thickness[e])
             rest = np.sqrt(squared_distance(x, p, a, b))
-            rules.edge[k], rules.weight[k] = e, weight[e]
+            rules.node[k], rules.weight[k] = p, weight[e]
             rules.distance[k] = t if rest >= t else REST_SHARE * rest
             rules.subtract[k, 0] = 1.0 if _is_counted(p, e, a, graph, weight) else 0.0
             rules.subtract[k, 1] = 1.0 if _is_counted(p, e, b, graph, weight) else 0.0

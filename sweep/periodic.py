@@ -172,8 +172,7 @@ def _masses(mesh: Mesh, layout: Repeated, total: float) -> Floats:
 
 def _seen(touch: contact.Contact, layout: Repeated) -> contact.Contact:
     """Contact as the nodes of the period see it: images have no length, each pair counts once."""
-    at = np.repeat(layout.own, np.diff(touch.special_start))
     return touch._replace(
         tributary=np.where(layout.own, touch.tributary, 0.0),
-        special_weight=np.where(at, touch.special_weight, 0.0),
+        special_weight=np.where(layout.own[touch.special_node], touch.special_weight, 0.0),
     )

@@ -8,10 +8,10 @@ from sweep.mesh import Floats, Ints, Mesh
 from sweep.params import Case
 
 
-def _no_special_pairs(n_nodes: int) -> tuple[Ints, Ints, Floats, Floats, Floats]:
+def _no_special_pairs() -> tuple[Ints, Ints, Floats, Floats, Floats]:
     """What `vicinity.special_pairs` returns where walls never touch."""
-    start, edge = np.zeros(n_nodes + 1, np.int64), np.empty(0, np.int64)
-    return start, edge, np.empty(0), np.empty(0), np.empty((0, 2))
+    start, node = np.zeros(1, np.int64), np.empty(0, np.int64)
+    return start, node, np.empty(0), np.empty(0), np.empty((0, 2))
 
 
 def contact_of(
@@ -26,7 +26,7 @@ def contact_of(
     node_thickness = mesh.tributary(mesh.thickness) / tributary
     walls = acts and case.contact.model != "none"
     edges, thickness = mesh.edges[: None if walls else 0], mesh.thickness[: None if walls else 0]
-    special = _no_special_pairs(layout.n_nodes)
+    special = _no_special_pairs()
     if walls:
         special = vicinity.special_pairs(
             mesh.points.ravel(), edges, mesh.rest_length, node_thickness, thickness, tributary
@@ -40,7 +40,7 @@ def contact_of(
         edge_thickness=thickness,
         subtract=vicinity.owners(layout.n_nodes, edges),
         special_start=special[0],
-        special_edge=special[1],
+        special_node=special[1],
         special_weight=special[2],
         special_distance=special[3],
         special_subtract=special[4],

@@ -125,8 +125,9 @@ def test_contact_energy_and_gap_are_those_of_all_pairs():
         everything = pairs.find(state.x, touch, case.lattice.width)
         energy = touch_of(touch, everything, state.x).energy(state.x)
         assert state.book[book.CONTACT] == pytest.approx(energy, rel=1e-12, abs=1e-18)
-        listed = zip(everything.node, touch.edges[everything.edge], everything.weight, strict=True)
-        gap = min(squared_distance(state.x, p, *ends) for p, ends, w in listed if w > 0.0) ** 0.5
+        ends, start = touch.edges[everything.edge], everything.d_contact
+        listed = zip(everything.node, ends, start, strict=True)
+        gap = min(squared_distance(state.x, p, *ends) for p, ends, dc in listed if dc > 0.0) ** 0.5
         if gap < touch.reach:
             near += 1
             assert energy > 0.0

@@ -85,28 +85,30 @@ def test_find_gives_ordinary_pairs_their_own_length_and_thickness():
     contact = contact_of(of)
     listed = pairs.find(of.rest, contact, 1.5)
     assert len(listed.node) > 10
-    across = (listed.node == 4) & (listed.edge >= 2)
-    assert np.all(listed.weight[across] == 2.0)
+    across = np.flatnonzero((listed.node == 4) & (listed.edge >= 2))
     np.testing.assert_allclose(listed.d_contact[across], 0.6)
-    np.testing.assert_array_equal(listed.subtract[across], contact.subtract[listed.edge[across]])
+    for k in across:
+        assert pairs.counted(listed, k, contact) == (2.0, *contact.subtract[listed.edge[k]])
 
 
 def test_find_gives_special_pairs_their_own_rules():
     of = joint_of_four()
     contact = contact_of(of)
     listed = pairs.find(of.rest, contact, 2.0)
+    owner = np.repeat(np.arange(len(of.edges)), np.diff(contact.special_start))
     seen = 0
-    columns = listed.node, listed.edge, listed.weight, listed.d_contact, listed.subtract
-    for p, e, weight, d, subtract in zip(*columns, strict=True):
-        at = np.arange(contact.special_start[p], contact.special_start[p + 1])
-        at = at[contact.special_edge[at] == e]
+    for k, (p, e) in enumerate(zip(listed.node, listed.edge, strict=True)):
+        (at,) = np.nonzero((contact.special_node == p) & (owner == e))
+        length, *subtract = pairs.counted(listed, k, contact)
+        assert listed.rule[k] == (at[0] if len(at) else -1)
+        assert (listed.d_contact[k] > 0.0) == (length > 0.0)
         if len(at):
             seen += 1
-            assert weight == contact.special_weight[at[0]]
-            assert d == contact.special_distance[at[0]]
+            assert length == contact.special_weight[at[0]]
+            assert listed.d_contact[k] == (contact.special_distance[at[0]] if length else 0.0)
             np.testing.assert_array_equal(subtract, contact.special_subtract[at[0]])
         else:
-            assert weight == contact.tributary[p]
+            assert length == contact.tributary[p]
     assert 5 < seen < len(listed.node) + 1
 
 

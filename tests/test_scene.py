@@ -184,7 +184,7 @@ def test_stiffness_of_contact_is_c_times_that_of_a_wall():
 def test_without_contact_its_arrays_are_empty():
     terms = scene_of(contact=Contact(model="none")).terms
     touch = terms.contact
-    empty = ("edges", "edge_thickness", "subtract", "special_edge", "special_weight",
+    empty = ("edges", "edge_thickness", "subtract", "special_node", "special_weight",
              "special_distance", "special_subtract", "plate_nodes")  # fmt: skip
     assert {name: getattr(touch, name).size for name in empty} == dict.fromkeys(empty, 0)
     assert touch.reach == 0.0

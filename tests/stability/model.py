@@ -183,8 +183,8 @@ def _weighed(node, edge, contact):
     weight, off = contact.tributary[node].copy(), contact.subtract[edge].copy()
     start = 0.5 * (contact.node_thickness[node] + contact.edge_thickness[edge])
     m = len(contact.edges)
-    owner = np.repeat(np.arange(len(contact.tributary)), np.diff(contact.special_start))
-    special = {key: k for k, key in enumerate((owner * m + contact.special_edge).tolist())}
+    owner = np.repeat(np.arange(m), np.diff(contact.special_start))
+    special = {key: k for k, key in enumerate((contact.special_node * m + owner).tolist())}
     at = np.array([special.get(key, -1) for key in (node * m + edge).tolist()], int)
     own = at >= 0
     weight[own] = contact.special_weight[at[own]]
