@@ -104,7 +104,7 @@ def test_parts_are_counted_as_they_are_called(collapsed):
     called = {part: share * spent.iterations for part, share in often.items()}
     assert called["evaluate"] >= spent.iterations + collapsed.steps  # each step sets out with one
     assert 0.0 < called["factor"] <= called["solve"] <= called["evaluate"]
-    assert 1.0 <= called["find"] < called["limit"]
+    assert 1.0 <= called["room"] <= called["list"] < called["limit"]
     assert hasattr(newton.minimise, "__wrapped__")  # compiled again
 
 

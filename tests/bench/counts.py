@@ -4,17 +4,18 @@ from collections import Counter
 from contextlib import ExitStack
 from unittest.mock import patch
 
-from kernels import march, newton
+from kernels import march, newton, step
 
 # Whatever stands between these, and `_step`, which returns arrays to code that counts none.
 LOOPS = [(march, name) for name in ("march", "_go", "_step", "_balance")]
-LOOPS += [(newton, "minimise")]
+LOOPS += [(newton, "minimise"), (step, "renew"), (step, "find_near")]
 WATCHED = {
     "evaluate": (newton, "evaluate"),
     "factor": (newton, "factor"),
     "solve": (newton, "_solve"),
     "limit": (newton, "step_limit"),
-    "find": (march, "find_near"),
+    "list": (step, "list_near"),
+    "room": (step, "make_system"),
 }
 
 

@@ -13,12 +13,22 @@ STATES = {"buckled": (cases.APART, BUCKLED), "collapsed": (cases.SMOOTH, COLLAPS
 WHOLE, SEARCH, REST = "an iteration", "line search", "the rest"
 
 
-def split(crush, count):
-    """Seconds an iteration of the whole and of its parts, by name."""
-    spot, often = Spot(crush.scene, crush.state.x, crush.move), counted(crush)
+def _sides(spot):
     names = ("EVALUATE", "FACTOR", "SOLVE", "LIMIT", "CONTACT", "CONTACT_HESSIAN")
     sides = {name: partial(spot.each, getattr(loops, name)) for name in names}
-    at = medians(sides | {"SEARCH": spot.search, WHOLE: crush.each}, count)
+    return sides | {"SEARCH": spot.search, "ANALYSE": spot.analyse}
+
+
+def split(crush, count):
+    """Seconds an iteration of the whole and of its parts, by name.
+
+    The parts are timed where the crush sets out and where it ends.
+    """
+    often, ends = counted(crush), (crush.state.x, crush.onwards()[1].x)
+    spots = [Spot(crush.scene, x, crush.move) for x in ends]
+    sides = {(k, name): side for k in (0, 1) for name, side in _sides(spots[k]).items()}
+    times = medians(sides | {WHOLE: crush.each}, count)
+    at = {name: 0.5 * (times[0, name] + times[1, name]) for name in _sides(spots[0])}
     evaluation = at["EVALUATE"] - at["CONTACT"]
     parts = {
         "evaluation of walls and joints": evaluation,
@@ -28,9 +38,9 @@ def split(crush, count):
         "contact: energy and Hessian": often["evaluate"] * at["CONTACT"]
         + often["factor"] * at["CONTACT_HESSIAN"],
         "how far a step may go": often["limit"] * at["LIMIT"],
-        "near pairs and pattern anew": often["find"] * at["SEARCH"],
+        "near pairs and pattern anew": often["list"] * at["SEARCH"] + often["room"] * at["ANALYSE"],
     }
-    return {WHOLE: at[WHOLE], **parts, REST: at[WHOLE] - sum(parts.values())}
+    return {WHOLE: times[WHOLE], **parts, REST: times[WHOLE] - sum(parts.values())}
 
 
 def table(sizes, count):

@@ -94,9 +94,18 @@ def repeat(which, count, x, dx, most, whole, at, ones):
 
 
 @jit_owning
-def search(count, x, terms):
-    """Find pairs and analyse the pattern of the matrix ``count`` times."""
+def search(count, x, terms, move):
+    """List the pairs for moves up to ``move`` (m) ``count`` times."""
     found = 0
     for _ in range(count):
-        found += step.find_near(x, terms, friction.none(), 0.0).pairs.node.size
+        found += step.list_near(x, terms, move)[0].node.size
     return found
+
+
+@jit_owning
+def analyse(count, x, terms, pairs):
+    """Make the system of the matrix, with room for ``pairs``, ``count`` times."""
+    made = 0
+    for _ in range(count):
+        made += step.make_system(x, terms, pairs, friction.none()).target.size
+    return made

@@ -15,7 +15,7 @@ class Spot:
 
     def __init__(self, scene, x, move, dt=np.inf):
         self.x, self.move, self.whole = x, move, whole(scene, x, dt=dt)
-        self.most = np.abs(move).max()
+        self.most = np.abs(move[: 2 * len(scene.mesh.points)]).max()
         self.at = self.whole.found(x)[1]
         matrix = self.whole.near.system.matrix
         self.ones = np.zeros(matrix.values.size)  # a factor of ones takes as long as any other
@@ -30,8 +30,14 @@ class Spot:
         return self._each(which, lambda count: self._repeat(which, count))
 
     def search(self):
-        """Seconds of one search for pairs, with the pattern of the matrix."""
-        return self._each("search", lambda count: loops.search(count, self.x, self.whole.terms))
+        """Seconds of one search for the pairs that a step can bring near."""
+        given = self.x, self.whole.terms, self.most
+        return self._each("search", lambda count: loops.search(count, *given))
+
+    def analyse(self):
+        """Seconds of one analysis of the matrix."""
+        given = self.x, self.whole.terms, self.whole.near.pairs
+        return self._each("analyse", lambda count: loops.analyse(count, *given))
 
     def _repeat(self, which, count):
         given = tuple(self.whole), self.at, self.ones
@@ -40,6 +46,7 @@ class Spot:
     def _each(self, name, calls):
         if name not in self.counts:
             self.counts[name] = 1
+            calls(1)  # which may have to be compiled
             while seconds(lambda: calls(self.counts[name])) < SAMPLE:
                 self.counts[name] *= 2
         idle = seconds(lambda: calls(0))
