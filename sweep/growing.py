@@ -67,9 +67,11 @@ class Growing:
 
     def add_older(self, blocks: Sequence[Block]) -> None:
         """Add the rows of some blocks, oldest first, whose cases are not there yet."""
+        newer, self._known = self._known, {}
         for block, rows in zip(blocks, newest_rows(blocks), strict=True):
             ids = block.summary["case_id"][rows]
-            self.add(block, rows[[case_id not in self._known for case_id in ids]])
+            self.add(block, rows[[case_id not in newer for case_id in ids]])
+        self._known |= newer
 
     def seal(self, about: About) -> None:
         """Write the table, its rows in the order of `about.axes`, and give the file its name."""
@@ -135,17 +137,17 @@ class _Ragged:
             maxshape=(None, *like.shape[1:]),
             chunks=(CHUNK if self._packed else min(max(rows, 1), CHUNK), *like.shape[1:]),
             **_digits(like.dtype),
-            **_check(self._packed and name != "position_m"),
+            **_filters(self._packed and name != "position_m"),
         )
 
 
 def _digits(dtype: np.dtype) -> dict[str, Any]:
-    """Half of them."""
+    """Half of those that were computed; what is lacking is NaN, or 0 among whole numbers."""
     real = dtype.kind == "f"
     return {"dtype": np.float32 if real else np.int32, "fillvalue": np.nan if real else 0}
 
 
-def _check(packed: bool) -> dict[str, Any]:
+def _filters(packed: bool) -> dict[str, Any]:
     """Compressed, or no more than a checksum that zeros do not pass.
 
     Positions would shrink by a third only, and take most of the time.

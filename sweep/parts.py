@@ -1,4 +1,4 @@
-"""Sealed parts beside a results file: names, order, and a way of writing that survives a kill.
+"""Sealed parts beside a results file: names, order, and files that survive a kill.
 
 Part `FIRST-LAST.h5` holds the batches numbered FIRST to LAST of the results file's life. Merging
 parts 1-1 to 64-64 makes 1-64, which covers them: should the deletion be cut short, nobody reads a
@@ -52,6 +52,11 @@ def list_parts(path: Path) -> list[Part]:
     return parts
 
 
+def too_many(parts: list[Part]) -> bool:
+    """True if they had better be one: a reader holds all of them open."""
+    return len(parts) >= MERGE_AT
+
+
 def parts_to_merge(parts: list[Part]) -> list[Part]:
     """The last parts, if there are enough of one size to be merged."""
     tail = [part for part in parts[-MERGE_AT:] if part.size == parts[-1].size]
@@ -96,8 +101,8 @@ class Unsealed(FileIO):
         """Give it its name."""
         self.complain()
         os.fsync(self.fileno())
-        self.close()
         os.replace(self._temporary, self._target)
+        self.close()
         _synchronise(self._target.parent)
 
     def abandon(self) -> None:

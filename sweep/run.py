@@ -3,7 +3,7 @@
 import os
 import signal
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from threading import current_thread, main_thread
 
@@ -14,7 +14,7 @@ from sweep.plan import Plan, cost
 from sweep.progress import Progress, tell
 from sweep.provenance import config_text, describe_run
 from sweep.result import Result
-from sweep.store import finished_ids
+from sweep.store import StoreError, finished_ids
 from sweep.writer import Writer
 
 AT_RISK = 2.0  # seconds of each worker's time in results that a kill may take
@@ -50,7 +50,8 @@ def run_sweep(
         chosen = simulate or real_simulate() if waiting else None
         with interruptible(stop):
             if not chosen:
-                writer.fold()
+                with clerk() as pool:
+                    pool.submit(writer.fold).result()
             else:
                 plan = Plan(waiting.values(), workers)
                 costs = {case_id: cost(case) for case_id, case in waiting.items()}
@@ -67,11 +68,33 @@ def run_sweep(
 
 
 @contextmanager
+def clerk() -> Iterator[ThreadPoolExecutor]:
+    """A thread that writes files while others compute.
+
+    Signals never interrupt it, which HDF5 would not survive, and it ends before what it writes to
+    is closed, however often someone presses Ctrl-C.
+    """
+    pool = ThreadPoolExecutor(1, "clerk")
+    try:
+        yield pool
+    finally:
+        last, interrupted = pool.submit(lambda: None), None
+        while not last.done():
+            try:
+                wait([last])  # CPython may take a thread for ended whose join was interrupted
+            except KeyboardInterrupt as again:
+                interrupted = again
+        pool.shutdown()
+        if interrupted:
+            raise interrupted
+
+
+@contextmanager
 def keeping(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
     """A sink that seals results and then counts them aloud: the first at once, as a sign of life.
 
-    Later ones wait until they are worth it: a part takes about 80 ms to write. A thread of its own
-    does so, as much of that is waiting for the disk. The last ones need no part: all is folded.
+    Later ones wait until they are worth it: a part takes about 80 ms to write. The last ones need
+    no part: in the end all is folded.
     """
     unsealed: list[Result] = []
     seals: list[Future[None]] = []
@@ -80,9 +103,17 @@ def keeping(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
         writer.append(batch)
         progress.advance(batch)
 
+    def fold() -> None:
+        try:
+            writer.fold(unsealed)
+        except StoreError:
+            writer.append(unsealed)
+            raise
+        progress.advance(unsealed)
+
     def seal() -> None:
         settle()
-        seals.append(clerk.submit(write, unsealed[:]))
+        seals.append(pool.submit(write, unsealed[:]))
         unsealed.clear()
 
     def settle() -> None:
@@ -95,15 +126,14 @@ def keeping(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
         if not seals or not worth < AT_RISK * plan.workers:  # NaN: cannot be told
             seal()
 
-    with ThreadPoolExecutor(1, "clerk") as clerk:
+    with clerk() as pool:
         try:
             yield keep
             settle()
         except Exception:
             seal()
             raise
-    writer.fold(unsealed)
-    progress.advance(unsealed)
+        pool.submit(fold).result()
 
 
 def real_simulate(arcs: bool = False) -> Simulate:

@@ -1,9 +1,10 @@
 """The results file: HDF5 that a kill cannot hurt and that can be read while it grows.
 
 A finished batch is sealed as a file of its own, a part in `NAME.parts/` beside `NAME.h5`: written
-under a temporary name, synchronised, renamed, never touched again. Parts are folded into the one
-file at the end. A results file and a part have the same layout, and what is read back is the union
-of them all; of two rows with the same case id, the newer one.
+under a temporary name, synchronised, renamed, never touched again. The one file grows meanwhile as
+`NAME.h5.tmp`, and gets its name at the end, when the parts are deleted. A results file and a part
+have the same layout, and what is read back is the union of them all; of two rows with the same case
+id, the newer one.
 
     /summary/COLUMN            (n,) a row per case; attributes `units` and `description`
     /histories/values/COLUMN   (sum of rows,) float32, the curves of all cases end to end

@@ -22,6 +22,7 @@ from sweep.parts import (
     new_part,
     parts_to_merge,
     remove_folder,
+    too_many,
 )
 from sweep.result import Result
 from sweep.store import StoreError, exists, folded_batches, is_labelled, open_sealed
@@ -58,8 +59,9 @@ class Writer:
             held.enter_context(_only_writer(self.path))
             folded = folded_batches(self.path)
             clear_leftovers(self.path, folded)
-            self._found = list_parts(self.path)
-            self._count(max([folded, *(part.last for part in self._found)]))
+            found = list_parts(self.path)
+            self._count(max([folded, *(part.last for part in found)]))
+            self._found = [self._merged(found)] if too_many(found) else found
             self._held = held.pop_all()
         return self
 
@@ -115,12 +117,15 @@ class Writer:
 
     def _merge(self) -> None:
         while parts := parts_to_merge(self._sealed):
-            merged = new_part(self.path, parts[0].first, parts[-1].last)
-            with ExitStack() as held:
-                blocks = [open_sealed(part.path, held) for part in parts]
-                seal_blocks(merged.path, blocks, self._about, packed=True)
-            discard(parts)
-            self._sealed[-len(parts) :] = [merged]
+            self._sealed[-len(parts) :] = [self._merged(parts)]
+
+    def _merged(self, parts: list[Part]) -> Part:
+        merged = new_part(self.path, parts[0].first, parts[-1].last)
+        with ExitStack() as held:
+            blocks = [open_sealed(part.path, held) for part in parts]
+            seal_blocks(merged.path, blocks, self._about, packed=True)
+        discard(parts)
+        return merged
 
 
 @contextmanager

@@ -54,6 +54,33 @@ def test_a_tangle_has_the_area_that_shapely_finds():
     assert covered_area(*walls) == pytest.approx(by_shapely(*walls), rel=3e-4)
 
 
+def test_a_tangle_in_bands_has_the_same_area(monkeypatch):
+    at_once = covered_area(*tangle())
+    monkeypatch.setattr(cover, "TOGETHER", 100)
+    assert covered_area(*tangle()) == pytest.approx(at_once, rel=1e-12)
+
+
+def test_a_tangle_a_kilometre_away_has_the_same_area():
+    points, edges, thickness = tangle()
+    assert covered_area(points + 1e3, edges, thickness) == pytest.approx(
+        covered_area(points, edges, thickness), rel=1e-9
+    )
+
+
+def test_walls_without_length_and_points_that_are_none():
+    points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 0.0]])
+    exact = 0.1 + np.pi * 0.05**2
+    found = covered_area(points, np.array([[0, 1], [1, 2]]), np.full(2, 0.1))
+    assert found == pytest.approx(exact, rel=4e-3)
+    assert np.isnan(covered_area(np.full((2, 2), np.nan), WALL, np.array([0.1])))
+
+
+def test_a_wall_much_thinner_than_another_takes_no_more_lines_than_there_may_be():
+    points = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 0.5], [1.0, 0.5]])
+    found = covered_area(points, np.array([[0, 1], [2, 3]]), np.array([0.1, 1e-7]))
+    assert found == pytest.approx(0.1 + np.pi * 0.05**2, rel=1e-4)
+
+
 def test_the_error_falls_with_the_lines(monkeypatch):
     """Of order 3/2 at least, which is that of a disc."""
     exact, errors, lines = by_shapely(*tangle()), [], (4, 64)

@@ -135,6 +135,35 @@ def test_interruption_after_the_last_case_loses_nothing_and_is_no_failure(tmp_pa
     assert len(read_summary(out)) == 3
 
 
+def test_the_results_file_is_finished_however_often_it_is_interrupted(tmp_path, monkeypatch):
+    """The first signal is a wish, the second ends the run: not in the midst of HDF5."""
+    fold = Writer.fold
+
+    def pressed(writer, last):
+        for _ in range(4):
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(0.05)
+        fold(writer, last)
+
+    monkeypatch.setattr(Writer, "fold", pressed)
+    out = tmp_path / "sweep.h5"
+    with pytest.raises(KeyboardInterrupt):
+        run_sweep(cases(3), out, simulate=lambda case, stop: simulate(case))
+    assert [path.name for path in tmp_path.iterdir()] == ["sweep.h5"]
+    assert len(read_summary(out)) == 3
+
+
+def test_last_results_become_a_part_where_the_one_file_cannot_be_finished(tmp_path, monkeypatch):
+    def full(writer, last):
+        raise StoreError("no space left")
+
+    out = tmp_path / "sweep.h5"
+    monkeypatch.setattr(Writer, "fold", full)
+    with pytest.raises(StoreError, match="no space left"):
+        run_sweep(cases(3), out, simulate=lambda case, stop: simulate(case))
+    assert len(read_summary(out)) == 3
+
+
 def test_scheduler_that_cannot_be_is_refused_before_anything_is_written(tmp_path):
     with pytest.raises(GraphError, match="nonsense"):
         run_sweep(cases(3), tmp_path / "new" / "sweep.h5", scheduler="nonsense", simulate=slow)
@@ -170,11 +199,8 @@ class AtOnce:
     def __init__(self, *_):
         pass
 
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        pass
+    def shutdown(self):
+        """Nothing is at work."""
 
     def submit(self, function, *arguments):
         """Do it."""

@@ -107,6 +107,28 @@ def test_many_parts_are_merged_on_the_way(path, monkeypatch):
     assert set(read_summary(path)["case_id"]) == {case.case_id for case in batch}
 
 
+def test_parts_that_killed_runs_have_left_become_one(path, monkeypatch):
+    monkeypatch.setattr(parts, "MERGE_AT", 3)
+    for first in (0, 2, 4):
+        write(path, cases(2, first), size=1)
+    assert [part.name[7:-3] for part in parts_of(path)] == [
+        "1-00000004",
+        "5-00000005",
+        "6-00000006",
+    ]
+    assert list(read_summary(path)["case_id"]) == [case.case_id for case in cases(6)]
+
+
+def test_rows_without_an_order_stay_in_that_of_the_runs(path):
+    batch = cases(5)
+    for begin in (0, 2):
+        with Writer(path) as writer:
+            writer.append([simulate(case) for case in batch[begin : begin + 2]])
+    with Writer(path) as writer:
+        writer.fold([simulate(batch[4])])
+    assert list(read_summary(path)["case_id"]) == [case.case_id for case in batch]
+
+
 def test_parts_that_a_merged_one_covers_are_ignored_and_cleared(path):
     write(path, cases(4), size=1)
     first, second, *_ = parts_of(path)

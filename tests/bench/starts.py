@@ -33,7 +33,7 @@ def run(cache, out):
             if first is None and RESULT.match(line):
                 first = time.perf_counter() - started
     wall, after = time.perf_counter() - started, resource.getrusage(resource.RUSAGE_CHILDREN)
-    if process.returncode != 0:
+    if process.returncode != 0 or first is None:
         raise RuntimeError("the run that is to be timed failed")
     used = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     return first, wall, used
