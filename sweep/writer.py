@@ -92,12 +92,13 @@ class Writer:
             if last:
                 self._grown().add(block_of(last), np.arange(len(last)))
             if parts or last or not self._is_labelled():
+                growing, self._growing = self._grown(), None  # of no use again, even if this fails
                 with ExitStack() as held:
-                    self._grown().add_older(self._older(held))
-                    self._grown().seal(self._about)
+                    growing.add_older(self._older(held))
+                    growing.seal(self._about)
             discard(parts)
             remove_folder(self.path)
-        self._found, self._sealed, self._growing = [], [], None
+        self._found, self._sealed = [], []
 
     def _is_labelled(self) -> bool:
         return not exists(self.path) or is_labelled(self.path, self._about.axes)

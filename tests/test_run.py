@@ -14,11 +14,12 @@ import pandas as pd
 import pytest
 from standin import cases, number_of, parts_of, simulate, slow
 
+from sweep.clerk import AT_RISK, keeping
 from sweep.graph import GraphError
 from sweep.grid import Config, Written
 from sweep.plan import Plan
 from sweep.progress import Progress
-from sweep.run import AT_RISK, Interrupted, keeping, run_sweep
+from sweep.run import Interrupted, run_sweep
 from sweep.store import StoreError, exists, read_attributes, read_frames, read_history, read_summary
 from sweep.writer import Writer
 
@@ -154,14 +155,20 @@ def test_the_results_file_is_finished_however_often_it_is_interrupted(tmp_path, 
 
 
 def test_last_results_become_a_part_where_the_one_file_cannot_be_finished(tmp_path, monkeypatch):
-    def full(writer, last):
-        raise StoreError("no space left")
+    """Somebody has removed the file that grows."""
+    fold, out = Writer.fold, tmp_path / "sweep.h5"
 
-    out = tmp_path / "sweep.h5"
-    monkeypatch.setattr(Writer, "fold", full)
-    with pytest.raises(StoreError, match="no space left"):
-        run_sweep(cases(3), out, simulate=lambda case, stop: simulate(case))
-    assert len(read_summary(out)) == 3
+    def robbed(writer, last):
+        out.with_name("sweep.h5.tmp").unlink()
+        fold(writer, last)
+
+    monkeypatch.setattr(Writer, "fold", robbed)
+    with pytest.raises(StoreError, match="cannot be written: No such file"):
+        run_sweep(cases(30), out, simulate=lambda case, stop: simulate(case))
+    assert len(read_summary(out)) == 30
+    monkeypatch.undo()
+    run_sweep(cases(30), out)
+    assert [path.name for path in tmp_path.iterdir()] == ["sweep.h5"]
 
 
 def test_scheduler_that_cannot_be_is_refused_before_anything_is_written(tmp_path):
@@ -213,7 +220,7 @@ def test_first_result_is_sealed_at_once_and_later_ones_when_they_are_worth_it(
     tmp_path, told, monkeypatch
 ):
     """Two workers: what is at risk is at most twice as much. NaN might be any time."""
-    monkeypatch.setattr("sweep.run.ThreadPoolExecutor", AtOnce)
+    monkeypatch.setattr("sweep.clerk.ThreadPoolExecutor", AtOnce)
     out, sealed = tmp_path / "sweep.h5", []
     batches = [(0.1, [0]), (0.9, [1, 2]), (0.3, [3]), (1.9, [4]), (np.nan, [5]), (0.1, [6])]
     with Writer(out) as writer, keeping(writer, Plan([], workers=2), told) as keep:
@@ -237,7 +244,7 @@ def test_error_of_the_clerk_ends_the_sweep_and_keeps_what_is_sealed(tmp_path, mo
         append(writer, results)
 
     out = tmp_path / "sweep.h5"
-    monkeypatch.setattr("sweep.run.AT_RISK", 0.0)
+    monkeypatch.setattr("sweep.clerk.AT_RISK", 0.0)
     monkeypatch.setattr(Writer, "append", full)
     with pytest.raises(StoreError, match="no space left"):
         run_sweep(cases(40), out, workers=2, simulate=lambda case, stop: simulate(case))
