@@ -163,6 +163,7 @@ def test_last_results_become_a_part_where_the_one_file_cannot_be_finished(tmp_pa
         fold(writer, last)
 
     monkeypatch.setattr(Writer, "fold", robbed)
+    monkeypatch.setattr("sweep.clerk.AT_RISK", np.inf)
     with pytest.raises(StoreError, match="cannot be written: No such file"):
         run_sweep(cases(30), out, simulate=lambda case, stop: simulate(case))
     assert len(read_summary(out)) == 30
