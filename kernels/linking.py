@@ -3,18 +3,16 @@
 Numba would optimise and link every function at every level again.
 """
 
-import functools
-
 from llvmlite.binding import Linkage
 from llvmlite.binding.newpassmanagers import create_new_module_pass_manager
 from numba import _dynfunc
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler, Flags
 from numba.core.compiler_machinery import register_pass
 from numba.core.lowering import Lower
 from numba.core.typed_passes import NativeLowering
 
 from kernels.calling import ShortLower, is_short, register
+from kernels.quick import QuickCompiler
 
 WRAPPER = "_ZN7cpython"  # so begin the names of what Python calls
 NOWHERE = 1  # an address that is not called
@@ -94,7 +92,6 @@ class LinkedLowering(Lowering):
     def run_pass(self, state):
         """Lower the function and make it known to its callers."""
         state.library = Linked(state.targetctx.codegen(), state.func_id.func_qualname)
-        state.flags.no_compile = True
         super().run_pass(state)
         lowered, context = state["cr"], state.targetctx
         name = lowered.fndesc.qualname
@@ -143,48 +140,17 @@ class EntryLowering(Lowering):
         return super().run_pass(state)
 
 
-class QuickFlags(Flags):
-    """Numba's flags, compared by those that are set: Numba compares half a million times.
-
-    Flags that differ in a default that is set count as different: one more compilation at most.
-    """
-
-    def values(self):
-        """Return what is set."""
-        return dict(self._values)
-
-
-@functools.cache
-def _size(kind, target):
-    """Return the bytes of a value: llvmlite has a module parsed whenever it is asked."""
-    return kind.get_abi_size(target)
-
-
-class EntryCompiler(Compiler):
-    """Numba's compiler with another ``lowering``."""
+class EntryCompiler(QuickCompiler):
+    """Compiles what Python calls."""
 
     lowering = EntryLowering
 
-    def __init__(self, *given):
-        super().__init__(*given)
-        self.state.flags = QuickFlags(self.state.flags)
-        context = self.state.targetctx
-        context.get_abi_sizeof = lambda kind: _size(kind, context.target_data)
 
-    def define_pipelines(self):
-        """Return Numba's passes with the lowering exchanged."""
-        passes = super().define_pipelines()
-        for manager in passes:
-            manager.passes = [
-                (self.lowering if step is NativeLowering else step, what)
-                for step, what in manager.passes
-            ]
-            manager._finalized = False
-            manager.finalize()
-        return passes
-
-
-class LinkedCompiler(EntryCompiler):
-    """The same for what is only linked."""
+class LinkedCompiler(QuickCompiler):
+    """Compiles what is only linked."""
 
     lowering = LinkedLowering
+
+    def __init__(self, *given):
+        super().__init__(*given)
+        self.state.flags.no_compile = True

@@ -20,7 +20,7 @@ KERNELS = [module for module in PROGRAM if module.startswith("kernels")]
 
 HOMES = {
     "numba": "kernels.jit kernels.linking kernels.calling kernels.separate kernels.ahead "
-    "kernels.cache kernels.lanes",
+    "kernels.cache kernels.lanes kernels.quick",
     "llvmlite": "kernels.linking kernels.calling kernels.separate kernels.cache kernels.lanes",
     "dask": "sweep.graph",
     "distributed": "sweep.graph",

@@ -90,14 +90,6 @@ def test_a_large_kernel_is_called_with_the_arguments_it_uses(monkeypatch, large,
     assert all(count < 7 for count in handed)  # of fourteen
 
 
-def test_flags_are_equal_when_the_same_are_set():
-    one, same, other = linking.QuickFlags(), linking.QuickFlags(), linking.QuickFlags()
-    one.nrt, same.nrt, other.nrt = True, True, False
-    assert one == same == one.copy()
-    assert hash(one) == hash(same)
-    assert one != other
-
-
 def probe():
     """What a kernel calls, so that something is run while it is compiled."""
 
