@@ -25,7 +25,7 @@ from kernels.march import AT_START, SMALLEST
 from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, NOT_FINITE, OUTGROWN, STALLED
 from kernels.room import PREDICTED, make_room
 from kernels.rows import copy, dot, zero
-from kernels.step import Step, covers, evaluate, factor, find_near, renew, step_limit
+from kernels.step import Step, covers, evaluate, factor, find_near, renew, step_limit, travel
 from kernels.trace import NOW, SPENT, STEPS, write
 
 FACTOR, UNSTABLE = range(2)  # columns of a path
@@ -106,9 +106,10 @@ def _balance(x, terms, before, near, unknowns, tolerance, room, arc, progress):
     _, at, work, grips, way = room
     r, v = work.direction, work.escape
     while True:
-        if not covers(near, x, terms, progress.move):
+        far = travel(work.dx, terms)
+        if not covers(near, x, terms, far):
             return OUTGROWN
-        share = step_limit(x, work.dx, progress.move, terms, near, at)
+        share = step_limit(x, work.dx, far, terms, near, at)
         if progress.move > unknowns.cap:
             share = min(share, unknowns.cap / progress.move)
         for i in range(x.size):
@@ -243,4 +244,4 @@ def follow(terms, unknowns, tolerance, stage, state, out, control, arc):
         )
         if outcome != OUTGROWN:
             return outcome, max(rows, 0)
-        near = renew(near, state.x, terms, room.grips, progress[0].move)
+        near = renew(near, state.x, terms, room.grips, travel(room.work.dx, terms))

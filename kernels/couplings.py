@@ -6,7 +6,7 @@ from kernels import fold
 from kernels.jit import jit_exact, jit_owning
 from kernels.rows import pair, triple
 
-LIKELY = 0.1  # of its contact distance: a pair that much farther away gets room; more fills the
+LIKELY = 0.2  # of its contact distance: a pair that much farther away gets room; more fills the
 # matrix, less has it analysed anew more often
 
 

@@ -38,7 +38,7 @@ PROGRESS = np.dtype(
             ("tried", np.int64),  # Newton iterations for the minimum that is looked for
             ("loops", np.int64),  # of friction in the share
             ("relaxed", np.float64),  # share of the last approach (`relax`)
-            ("move", np.float64),  # farthest move that the pairs must cover, m
+            ("move", np.float64),  # of the nodes, at most, that the pairs must cover, m
             ("length", np.float64),  # h of the last share tried, s
         ],
     )

@@ -16,7 +16,7 @@ from kernels import chain, image, system
 from kernels.balance import allowed, largest, reduce
 from kernels.jit import jit_exact, separate
 from kernels.rows import copy, dot, zero, zero_rows
-from kernels.step import covers, evaluate, factor, step_limit
+from kernels.step import covers, evaluate, factor, step_limit, travel
 
 CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
 ARMIJO = 1e-4
@@ -167,10 +167,10 @@ def _weigh(x, target, near, unknowns, tolerance, at, work):
 def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, control):
     """Descend from ``x`` (n,), in place, to a minimum with the driven coordinate at ``target``.
 
-    Start from ``x`` + ``work.dx`` as far as admissible; return (outcome, iterations, most).
-    OUTGROWN: ``near`` does not hold all that a move of ``most`` m could bring near; find it anew
-    and go on. ``control[0]`` != 0 interrupts. Every turn of the loop evaluates at one point, a
-    trial of the search or the same point for another Hessian; ``at`` holds what it found last.
+    Start from ``x`` + ``work.dx`` as far as admissible; return (outcome, iterations, far).
+    OUTGROWN: ``near`` lacks what a move of a node by ``far`` m could bring near, or room in its
+    matrix; renew it and go on. ``control[0]`` != 0 interrupts. Every turn of the loop evaluates at
+    one point, a trial or the same point for another Hessian; ``at`` holds what it found last.
     """
     outcome, iteration, halvings, kept = ITERATIONS, -1, 0, work.kept
     setting_out, searching, arrived, free = True, True, False, True
@@ -178,13 +178,14 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
     value, remaining, share, model, escape = 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0)
     limit = (0.0, 0.0)  # what counts as none
     place = (-1, -1, 0.0)  # of the first negative pivot of the exact Hessian
-    most, before = _longest(work.dx, unknowns), np.inf
+    most, far, before = _longest(work.dx, unknowns), 0.0, np.inf
     while True:
         if setting_out:
-            if not covers(near, x, terms, most):
+            far = travel(work.dx, terms)
+            if not covers(near, x, terms, far):
                 outcome = OUTGROWN
                 break
-            share = step_limit(x, work.dx, most, terms, near, at)
+            share = step_limit(x, work.dx, far, terms, near, at)
             if share < LEAST_SHARE:
                 outcome = STALLED
                 break
@@ -218,7 +219,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
         if kept[0] > unknowns.close:
             found = factor(x, terms, step, near, at, projected, False)
             if near.system.matrix.missing[0] != 0:
-                outcome, most, kept[0] = OUTGROWN, 0.0, np.inf
+                outcome, kept[0] = OUTGROWN, np.inf
                 break
             if projected and found[1] >= 0:
                 outcome = SINGULAR
@@ -242,4 +243,4 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
         free, projected = remaining != 0.0, False
         model, most, whole = _choose(slope, stable, free, escape, unknowns, remaining, work)
         setting_out = True
-    return outcome, max(iteration, 0), most
+    return outcome, max(iteration, 0), far

@@ -196,6 +196,16 @@ def empty():
 
 
 @jit_exact
+def longest(move, n_nodes):
+    """Return the largest distance that a node goes in a ``move`` (n,)."""
+    most = 0.0
+    for p in range(n_nodes):
+        mx, my = move[2 * p], move[2 * p + 1]
+        most = max(most, mx * mx + my * my)
+    return np.sqrt(most)
+
+
+@jit_exact
 def farthest(x, other, n_nodes):
     """Return the largest distance that a node has moved between ``x`` and ``other``."""
     most = 0.0

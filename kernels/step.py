@@ -37,7 +37,7 @@ LEAST_LENGTH = 0.1  # of an element's length: no step shrinks it further
 MARGIN = 1.0  # of the reach of contact: how much farther pairs are listed
 CROWD = 1.0  # of the thickness: how much farther pairs to be moved apart are listed
 ADVANCE = 0.9  # share of the way to the first contact that a step may use
-DIAGONAL = 2.0**0.5  # a node may move so many times as far as either of its coordinates
+AHEAD = 2.2  # times a move: how much farther pairs are listed; 2 would hold no other move
 
 
 class Terms(NamedTuple):
@@ -195,13 +195,13 @@ def factor(x, terms, step, near, at, projected, through):
 def step_limit(x, dx, most, terms, near, at):
     """Return the share of ``dx`` (at most 1) that keeps walls apart, open and long enough.
 
-    ``most``: farthest move of a coordinate in m. A bound tells first whether a check is needed.
+    ``most``: farthest move of a node in m. A bound tells first whether a check is needed.
     """
-    contacts, shortest, farthest = terms.contact, np.inf, DIAGONAL * most
-    first = contact.step_limit(x, dx, farthest, contacts, near.pairs, drift(x, terms, near))
-    if np.pi * 2.0 * farthest >= at.least[OPENING] * at.least[SHORTEST]:
+    shortest = np.inf
+    first = contact.step_limit(x, dx, most, terms.contact, near.pairs, drift(x, terms, near))
+    if np.pi * 2.0 * most >= at.least[OPENING] * at.least[SHORTEST]:
         first = min(first, _first_fold(x, dx, terms))
-    if 2.0 * farthest >= (1.0 - LEAST_LENGTH) * at.least[SHORTEST]:
+    if 2.0 * most >= (1.0 - LEAST_LENGTH) * at.least[SHORTEST]:
         for k in range(terms.walls.edges.shape[0]):
             i, j = pair(terms.walls.edges, k)
             shortest = min(shortest, ccd.first_shrink(x, dx, i, j, LEAST_LENGTH))
@@ -222,11 +222,11 @@ def _first_fold(x, dx, terms):
 @separate
 @jit_owning
 def list_near(x, terms, move):
-    """Return (pairs, margin, crowd) of `Near` at ``x`` for moves up to ``move`` (m)."""
+    """Return (pairs, margin, crowd) of `Near` at ``x`` for a ``move`` (m) of the nodes."""
     if terms.contact.edges.shape[0] == 0:
         found, margin = pairs.empty(), np.inf
     else:
-        margin = max(3.0 * move, MARGIN * terms.contact.reach)
+        margin = max(AHEAD * move, MARGIN * terms.contact.reach)
         found = pairs.find(x, terms.contact, terms.contact.reach + margin)
     crowd, touch = pairs.empty(), terms.project.contact
     if touch.edges.shape[0] > 0:
@@ -243,20 +243,21 @@ def make_system(x, terms, found, grips):
 
 @jit_owning
 def find_near(x, terms, grips, move):
-    """Return `Near` at ``x`` for moves up to ``move`` (m): pairs in reach and room for them."""
+    """Return `Near` at ``x`` for a ``move`` (m): pairs in reach and room for them."""
     found, margin, crowd = list_near(x, terms, move)
     return Near(found, x.copy(), margin, make_system(x, terms, found, grips), crowd)
 
 
 @jit_owning
 def renew(near, x, terms, grips, move):
-    """Return `Near` for a ``move`` (m) beyond the listed pairs, which may do with the same system;
-    if that is 0, the system lacked room.
+    """Return `Near` with what was lacking at ``x``: room in the matrix, or pairs for a ``move`` (m)
+    beyond those listed.
     """
-    if move == 0.0:
-        return find_near(x, terms, grips, move)
     found, margin, crowd = list_near(x, terms, move)
-    return Near(found, x.copy(), margin, near.system, crowd)
+    solver = near.system
+    if solver.matrix.missing[0] != 0:
+        solver = make_system(x, terms, found, grips)
+    return Near(found, x.copy(), margin, solver, crowd)
 
 
 @jit_exact
@@ -277,9 +278,15 @@ def drift(x, terms, near):
 
 
 @jit_exact
-def covers(near, x, terms, reach):
-    """Return whether the list holds all that matters while no coordinate moves beyond ``reach``."""
-    return 2.0 * (drift(x, terms, near) + DIAGONAL * reach) <= near.margin
+def travel(dx, terms):
+    """Return how far a node goes at most in a move, m."""
+    return pairs.longest(dx, terms.layout.n_nodes)
+
+
+@jit_exact
+def covers(near, x, terms, most):
+    """Return whether the list holds all that matters while no node goes farther than ``most`` m."""
+    return 2.0 * (drift(x, terms, near) + most) <= near.margin
 
 
 @jit_exact
