@@ -11,16 +11,15 @@ from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import STRtree, intersects, linestrings
+from shapely import intersects, linestrings
 
+from kernels import crossing
 from sweep.cover import covered_area
 
 Floats = NDArray[np.float64]
 Frames = Mapping[str, np.ndarray]
 
 SQUEEZED = -0.3  # element strain beyond which a wall is a block
-SWEPT = 1 << 14  # elements x shapes whose boxes are joined: small lattices in one go
-TOGETHER = 1 << 15  # pairs of boxes that are compared at a time: more leave the cache
 
 
 def element_strains(frames: Frames) -> Floats:
@@ -76,36 +75,18 @@ def shortening(frames: Frames, bottom: NDArray[np.int64], top: NDArray[np.int64]
 def crossings(frames: Frames) -> int:
     """Largest number of pairs of elements that pass through one another in any stored shape.
 
-    Independent of the solver: shapely's exact predicates on the centre lines, asked only of
-    elements without a common node whose boxes overlap.
+    Independent of the solver. Where rounding might tell, shapely's exact predicates do.
     """
-    ends = np.ascontiguousarray(frames["position_m"].T)[:, frames["edges"]]
-    parts = np.array_split(ends, 1 + ends[0, :, 0].size // SWEPT, axis=-1)
-    return max(_most_crossings(part, frames["edges"]) for part in parts if part.size > 0)
-
-
-def _most_crossings(ends: Floats, edges: NDArray[np.int64]) -> int:
-    """The same of a few shapes; ends (2, m, 2, f): x and y of both ends, edges (m, 2)."""
-    low, high = np.minimum(*(sides := np.moveaxis(ends, 2, 0))), np.maximum(*sides)
-    near = _ever_near(low, high)
-    start, end = np.moveaxis(edges[near], 2, 0)
-    shared = (start[:, 0] == start[:, 1]) | (end[:, 0] == end[:, 1])
-    shared |= (start[:, 0] == end[:, 1]) | (end[:, 0] == start[:, 1])
-    crossed = np.zeros(ends.shape[-1], np.int64)
-    apart = near[~shared].T
-    for one, two in np.array_split(apart, 1 + low[0, apart[0]].size // TOGETHER, axis=1):
-        overlap = (low[:, one] <= high[:, two]) & (low[:, two] <= high[:, one])
-        pair, shape = np.nonzero(overlap[0] & overlap[1])
-        lines = (np.swapaxes(ends[:, which[pair], :, shape], 1, 2) for which in (one, two))
-        crossed += np.bincount(shape[intersects(*map(linestrings, lines))], minlength=len(crossed))
+    edges = frames["edges"]
+    ends = np.ascontiguousarray(frames["position_m"].T)[:, edges]
+    low, high = ends.min(axis=2), ends.max(axis=2)
+    swept = np.array([low.min(axis=2), high.max(axis=2)])
+    given = ends, low, high, swept, np.argsort(swept[0, 0]), edges
+    crossed, unsure = np.empty(ends.shape[3], np.int64), np.empty((0, 3), np.int64)
+    while (count := crossing.count(*given, crossed, unsure)) > len(unsure):
+        unsure = np.empty((count, 3), np.int64)
+    if len(unsure) > 0:
+        *pair, shape = unsure.T
+        lines = (linestrings(np.swapaxes(ends[:, which, :, shape], 1, 2)) for which in pair)
+        crossed += np.bincount(shape[intersects(*lines)], minlength=len(crossed))
     return int(crossed.max())
-
-
-def _ever_near(low: Floats, high: Floats) -> NDArray[np.int64]:
-    """Pairs of elements, (k, 2), where the boxes of all that they sweep over overlap.
-
-    low, high (2, m, f): corners of the box of every element in every shape.
-    """
-    swept = linestrings(np.stack([low.min(axis=2), high.max(axis=2)]).transpose(2, 0, 1))
-    one, two = STRtree(swept).query(swept)
-    return np.column_stack([one, two])[one < two]

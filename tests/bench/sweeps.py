@@ -1,5 +1,6 @@
 """Whole sweeps on two cores: what comes on top of the cases, and designs a second."""
 
+import os
 import tempfile
 import time
 from contextlib import redirect_stdout
@@ -21,6 +22,7 @@ from tests.bench.table import Table
 CONFIG = Path(__file__).parents[2] / "configs/thousand.toml"
 FINER = 4  # times the load steps, to see what they leave out
 WORKERS = (1, 2)
+IDLE, WAITING = 3, 4  # columns of /proc/stat
 RATIO = "times the ideal"  # wall clock, had no other program run, over CPU of the cases / workers
 
 
@@ -37,19 +39,20 @@ def changed(case, **tables):
 
 
 class Swept(NamedTuple):
-    """Seconds of a sweep: on the clock, those that a worker waited for a core that another program
-    had, CPU of the process, CPU of the cases alone.
+    """Seconds of a sweep: on the clock, of processors that other programs had meanwhile, and so of
+    the clock that they took; CPU of the process, CPU of the cases alone.
     """
 
     wall: float
-    waited: float
+    others: float
+    lost: float
     spent: float
     own: float
 
     @property
     def free(self):
         """On the clock, had no other program run."""
-        return self.wall - self.waited
+        return self.wall - self.lost
 
     @property
     def other(self):
@@ -57,32 +60,34 @@ class Swept(NamedTuple):
         return 100.0 * (self.spent / self.own - 1.0)
 
 
-def delay():
-    """Seconds that all threads of this process have waited for a core so far."""
-    tasks = Path("/proc/self/task").glob("*/schedstat")
-    return 1e-9 * sum(int(task.read_text("utf-8").split()[1]) for task in tasks)
+def busy():
+    """CPU seconds that all programs of this machine have had so far, with what its host took."""
+    ticks = [int(word) for word in Path("/proc/stat").read_text("utf-8").split()[1:9]]
+    return (sum(ticks) - ticks[IDLE] - ticks[WAITING]) / os.sysconf("SC_CLK_TCK")
 
 
 def swept(designs, workers):
     """Sweep through designs into a file that is thrown away."""
     with tempfile.TemporaryDirectory() as folder:
-        file, wall, before = f"{folder}/bench.h5", time.perf_counter(), delay()
+        file, wall, before = f"{folder}/bench.h5", time.perf_counter(), busy()
         with redirect_stdout(StringIO()):  # its progress
             spent = seconds(lambda: run_sweep(designs, file, workers=workers))
-        wall, waited = time.perf_counter() - wall, (delay() - before) / workers
+        wall, others = time.perf_counter() - wall, max(busy() - before - spent, 0.0)
         summary = read_summary(file)
     if not (summary["status"] == "converged").all():
         raise RuntimeError(f"a sweep of {len(designs)} cases left some that did not converge")
-    return Swept(wall, waited, spent, float(summary["cpu_s"].sum()))
+    cores = os.cpu_count()
+    lost = max(others - (cores - workers) * wall, 0.0) / cores  # beyond what no worker used
+    return Swept(wall, others, lost, spent, float(summary["cpu_s"].sum()))
 
 
 def overhead(designs, count):
     """Two workers against one."""
-    columns = ("wall, s", "waited, s", "CPU of cases, s", "other CPU, %", RATIO)
+    columns = ("wall, s", "others, s", "CPU of cases, s", "more CPU, %", RATIO)
     found = Table(f"a sweep of {len(designs)} cases", columns)
     samples = [[swept(designs, workers) for workers in WORKERS] for _ in range(count)]
     for workers, rounds in zip(WORKERS, zip(*samples, strict=True), strict=True):
-        figures = [(s.wall, s.waited, s.own, s.other, s.free * workers / s.own) for s in rounds]
+        figures = [(s.wall, s.others, s.own, s.other, s.free * workers / s.own) for s in rounds]
         for column, figure in zip(columns, np.median(figures, axis=0), strict=True):
             found.put(f"{workers} worker{'s' * (workers > 1)}", column, float(figure))
     return found
@@ -105,13 +110,13 @@ def kinds(designs):
 
 def throughput(designs, every):
     """Designs a second with friction and without, and what a sample of them is off by."""
-    columns = ("a second", "wall, s", "waited, s", "CPU of each, ms", RATIO, "error, % (most)")
+    columns = ("a second", "wall, s", "others, s", "CPU of each, ms", RATIO, "error, % (most)")
     found = Table(f"{len(designs):,} designs", columns)
     for name, chosen in kinds(designs).items():
         sweep, off = swept(chosen, 2), 100.0 * errors(chosen[::every])
         each = 1e3 * sweep.own / len(chosen)
         ratio = 2.0 * sweep.free / sweep.own
-        figures = len(chosen) / sweep.free, sweep.wall, sweep.waited, each, ratio
+        figures = len(chosen) / sweep.free, sweep.wall, sweep.others, each, ratio
         for column, figure in zip(columns, figures, strict=False):
             found.put(name, column, figure)
         found.put(name, columns[-1], float(np.median(off)), f"{off.max():.2g}")
