@@ -44,7 +44,7 @@ def contact_of(
         special_weight=special[2],
         special_distance=special[3],
         special_subtract=special[4],
-        plate_nodes=_loose(layout, case)[: None if acts else 0],
+        plate_nodes=_loose(layout, case) if acts else np.empty(0, np.int64),
         low=layout.low,
         high=layout.high,
     )
