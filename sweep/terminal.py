@@ -38,7 +38,7 @@ def aloud(file: str, cases: int, ranking: DataFrame) -> Iterator[str]:
     if names["unranked"]:
         yield f"{_counted(names['unranked'], 'case')} no {names['by']} and so no place."
     if names["failed"]:
-        yield f"{names['failed']} of {cases} cases failed: crumple status {file} lists them"
+        yield f"{names['failed']} of {cases} cases failed: crumple status {file} says why"
 
 
 def _counted(count: int, noun: str) -> str:
