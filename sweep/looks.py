@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from sweep.digits import three_digits
 from sweep.merit import LEAST
-from sweep.sheets import design_labels, three_digits
+from sweep.sheets import design_labels
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series

@@ -18,8 +18,8 @@ from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path as Outline
 from matplotlib.ticker import LogLocator, NullFormatter
 
+from sweep.digits import three_digits
 from sweep.looks import budget_winners, doubtful, energy_text, looks, merits
-from sweep.sheets import three_digits
 from sweep.silhouette import silhouette
 from sweep.storyboard import headline, last_loaded, shots
 

@@ -15,10 +15,9 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
+from sweep.digits import short
 from sweep.merit import LEAST, Quantity, RankError, in_si, merits
 from sweep.result import Status, error_column
-
-NOTHING = "–"
 
 SCENE = ["loading_mode", "platen", "force_N", "striker_mass_g", "striker_speed_m_per_s"]
 
@@ -53,6 +52,7 @@ LEADING = [
     "ranked_by",
     "ranked_error",
     "sharing",
+    "contenders",
     "panel_mass_g",
     "panel_energy_J",
     "passed_on_N",
@@ -109,7 +109,8 @@ def rank(
     The summary's rows that have a place, led by `budget_g`, `scene`, `place` (equal values share
     one, and so do those that error bars cannot tell from the first there: `shared_places`), with
     error bars `tied` (True: it shares its place) and `ranked_error`; `sharing`, how many
-    designs share this place, those cut off by `top` included; `pareto` (True: no design of
+    designs share this place, and `contenders`, how many have any place there, both with those
+    cut off by `top`; `pareto` (True: no design of
     the scene is lighter without absorbing less, none absorbs more without being heavier; where
     `LEAST` counts, the same for that), `ranked_by`, with a panel `panel_mass_g` and
     `panel_energy_J`; and `passed_on_N`, the greatest force while that energy is absorbed,
@@ -208,13 +209,6 @@ def shared_places(values: Series, errors: Series | None = None) -> Series:
     return Series(places, index=values.index, dtype=int)
 
 
-def short(value: float | str | None) -> str:
-    """A number with few digits, anything else as it is; a dash where there is nothing."""
-    if pd.isna(value):
-        return NOTHING
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
-
-
 def _order(rows: DataFrame, by: str | None, usual: str) -> str:
     """The column by which the rows of one scene are sorted."""
     return by or _least(rows) or usual
@@ -246,7 +240,8 @@ def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | Non
     known = {} if error is None else {"ranked_error": error, "tied": place.duplicated(keep=False)}
     limit = budget_g if np.isfinite(budget_g) else np.nan
     sharing = place.map(place.value_counts()).astype(int)  # where nothing is, too
-    rows = rows.assign(budget_g=limit, place=place, ranked_by=by, sharing=sharing, **known)
+    known |= {"sharing": sharing, "contenders": len(rows)}
+    rows = rows.assign(budget_g=limit, place=place, ranked_by=by, **known)
     rows = rows.head(len(rows) if top is None else top)
     first = [name for name in LEADING if name in rows]
     return rows[first + [name for name in rows if name not in first]]

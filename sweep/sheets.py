@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pandas import Series
 
+from sweep.digits import numerals, percent, short, tenths
 from sweep.merit import LEAST
-from sweep.rank import ASSUMPTIONS, NOTHING, by_scene, scene_label, short
+from sweep.rank import ASSUMPTIONS, by_scene, scene_label
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -71,7 +71,7 @@ def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
     """One sheet a loading scene, budgets one below the other; designs as they vary in `summary`."""
     budgets = ranking.attrs["budgets_g"]
     for scene, lightest in ranking.attrs["lightest_g"].items():
-        rows = ranking[ranking["scene"] == scene]
+        placed = rows = ranking[ranking["scene"] == scene]
         lead = {}
         if len(budgets) > 1:
             rows = _without_repeats(rows)
@@ -92,6 +92,7 @@ def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
                 *((BEYOND,) if rows["beyond_model"].any() else ()),
                 *((CROSSED,) if rows["crossed"].any() else ()),
                 *_cut_off(rows),
+                *_not_shown(placed),
                 *(
                     f"Nothing weighs {budget:g} g or less: the lightest weighs {lightest:.3g} g."
                     for budget in budgets
@@ -131,6 +132,19 @@ def _cut_off(rows: DataFrame) -> Iterator[str]:
         within = f"Up to {last['up_to']} g, " if "up_to" in rows else ""
         if left:
             yield f"{within}{left} more share{'s' if left == 1 else ''} place {last['place']}."
+
+
+def _not_shown(rows: DataFrame) -> Iterator[str]:
+    """How many designs of each budget have a place beyond the last that is shown."""
+    groups = rows.groupby("budget_g", dropna=False, sort=False)["contenders"]
+    of, shown = groups.max(), groups.size()
+    more = [
+        f"{of[budget] - count} more" + (f" up to {budget:g} g" if len(of) > 1 else "")
+        for budget, count in shown.items()
+        if count < of[budget]
+    ]
+    if more:
+        yield f"Not shown: {', '.join(more)}; crumple rank --top {of.max()} lists all."
 
 
 def _without_repeats(rows: DataFrame) -> DataFrame:
@@ -262,31 +276,6 @@ def _markdown(sheet: Sheet) -> str:
     heading = [f"### {sheet.title}", ""] if sheet.title else []
     notes = [line for note in sheet.notes for line in ("", note)]
     return "\n".join([*heading, lines[0], rule, *lines[1:], *notes, ""])
-
-
-def numerals(values: Series) -> Series:
-    """Numbers with three significant digits, never in powers of ten."""
-    return values.map(three_digits)
-
-
-def three_digits(value: float) -> str:
-    """A number with at least three significant digits: 0.0123, 1.23, 1234."""
-    if not math.isfinite(value):
-        return NOTHING
-    decimals = 2 - math.floor(math.log10(abs(value))) if value else 0
-    return f"{value:.{max(decimals, 0)}f}"
-
-
-def percent(value: float) -> str:
-    """A strain as whole percent."""
-    return f"{100 * value:.0f}" if math.isfinite(value) else NOTHING
-
-
-def tenths(share: float) -> str:
-    """A share in percent, to a tenth where it is small."""
-    if not math.isfinite(share):
-        return NOTHING
-    return f"{100 * share:.1f}" if share < 0.0995 else percent(share)
 
 
 def _varies(frame: DataFrame, *names: str) -> bool:

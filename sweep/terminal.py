@@ -93,7 +93,7 @@ def _terminal_table(sheet: Sheet, width: int) -> Table:
     from rich import box
     from rich.table import Table
 
-    from sweep.rank import NOTHING
+    from sweep.digits import NOTHING
 
     heads = ["\n".join(head.rsplit(" ", 1)) for head in sheet.heads]
     columns = [

@@ -8,7 +8,7 @@ import pytest
 from specimens import designs, summary
 
 from sweep.rank import RankError, pareto, rank, scene_label
-from sweep.sheets import BEYOND, CROSSED, LOADED, legend, markdown, ranking_sheets, three_digits
+from sweep.sheets import BEYOND, CROSSED, LOADED, legend, markdown, ranking_sheets
 
 NAN = float("nan")
 
@@ -285,12 +285,6 @@ def test_budgets_stand_one_below_the_other_in_markdown():
         "|         | 2* | 3 x 3 | 1.00   | 100        | 0.100 | 20.0   | 55     | 0      |\n\n"
         "Nothing weighs 0.5 g or less: the lightest weighs 1 g.\n"
     )
-
-
-def test_numbers_show_three_digits():
-    numbers = [0.01234, 0.5, 9.996, 12345.6, -7.0, 0.0, NAN, float("inf")]
-    expected = ["0.0123", "0.500", "10.00", "12346", "-7.00", "0", "–", "–"]
-    assert [three_digits(number) for number in numbers] == expected
 
 
 def test_budgets_with_the_same_places_share_a_section():
