@@ -108,19 +108,18 @@ def rank(
     -------
     The summary's rows that have a place, led by `budget_g`, `scene`, `place` (equal values share
     one, and so do those that error bars cannot tell from the first there: `shared_places`), with
-    error bars `tied` (True: it shares its place) and `ranked_error`; `sharing`, how many
-    designs share this place, and `contenders`, how many have any place there, both with those
-    cut off by `top`; `pareto` (True: no design of
-    the scene is lighter without absorbing less, none absorbs more without being heavier; where
-    `LEAST` counts, the same for that), `ranked_by`, with a panel `panel_mass_g` and
-    `panel_energy_J`; and `passed_on_N`, the greatest force while that energy is absorbed,
-    `returned_share` of the work of the whole crush, which was stored and not dissipated,
+    error bars `tied` (True: it shares its place) and `ranked_error`; `sharing`, how many designs
+    share this place, and `contenders`, how many have any, both with those cut off by `top`;
+    `pareto` (True: no design of the scene is lighter without absorbing less, none absorbs more
+    without being heavier; where `LEAST` counts, the same for that), `ranked_by`, with a panel
+    `panel_mass_g` and `panel_energy_J`; and `passed_on_N`, the greatest force while that energy is
+    absorbed, `returned_share` of the work of the whole crush, which was stored and not dissipated,
     `beyond_model` (True: a wall was squeezed too far while it was absorbed), `crossed` (True: walls
     passed through one another).
     `attrs`: names of the columns compared (`mass`, `energy`, `per_gram`; `by`: of the crushed
-    designs where there are any), the counts `cases`, `failed`, `unranked` (finished, but without a
-    value to sort by), `without_bar` (of those with a value, where others have one), `budgets_g`,
-    and `lightest_g`, the smallest mass of each scene.
+    designs where there are any), `limited` (True: energy counts up to a force), the counts `cases`,
+    `failed`, `unranked` (finished, but without a value to sort by), `without_bar` (of those with a
+    value, where others have one), `budgets_g`, and `lightest_g`, the smallest mass of each scene.
     """
     summary = source if isinstance(source, DataFrame) else _read(source)
     finished = summary[summary["status"] == Status.CONVERGED]
@@ -134,6 +133,7 @@ def rank(
     labelled = pd.concat([rows for rows, _ in scenes])
     ranking.attrs = names | {
         "by": next((o for _, o in scenes if by or o not in LEAST.values()), scenes[0][1]),
+        "limited": allowed_force is not None,
         "cases": len(summary),
         "failed": len(summary) - len(finished),
         "unranked": sum(int(rows[order].isna().sum()) for rows, order in scenes),

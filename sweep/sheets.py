@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 MARKS = "*: on the Pareto front, nothing lighter in its scene does as well. mass: of one specimen."
-CRUSHED = """\
-peak: greatest force that one specimen passes on. It and the energy count {until}.
+CRUSHED = "peak: greatest force that one specimen passes on. It and the energy count {until}."
+WHOLE = """\
 pack: strain at which the lattice has packed down.
 back: share of the work of the whole crush that comes back when let up: stored, not dissipated."""
 LOADED = "sink: greatest strain under the load, its swing included."
@@ -110,6 +110,8 @@ def legend(ranking: DataFrame) -> str:
         "force": LOADED,
         "impact": STRUCK,
     }
+    if not ranking.attrs["limited"]:
+        said["displacement"] += f"\n{WHOLE}"
     lines = [MARKS, *(words for mode, words in said.items() if mode in modes)]
     return "\n".join([*lines, TIED] if "ranked_error" in ranking else lines)
 
@@ -222,7 +224,10 @@ def _measures(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
         shown |= {LEAST[mode]}
     else:
         columns |= _crushed(rows, names)
-        shown |= {names["energy"], names["per_gram"], "densification_strain", "returned_share"}
+        shown |= {names["energy"], names["per_gram"]}
+        if not names["limited"]:
+            columns |= _whole(rows)
+            shown |= {"densification_strain", "returned_share"}
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
         if "ranked_error" in rows:
@@ -246,11 +251,17 @@ def _struck(rows: DataFrame) -> dict[str, Series]:
 def _crushed(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
     energy, whole = rows[names["energy"]], "panel" if "panel_mass_g" in rows else "absorbs"
     unit, scale = ("mJ", 1e3) if energy.max() < 1.0 else ("J", 1.0)
-    packed = rows["densification_strain"]
     return {
         f"{whole} {unit}": numerals(energy * scale),
         "J/g": numerals(rows[names["per_gram"]]),
         "peak N": numerals(rows["passed_on_N"]),
+    }
+
+
+def _whole(rows: DataFrame) -> dict[str, Series]:
+    """What tells of the whole crush: nothing of one that an allowed force cuts short."""
+    packed = rows["densification_strain"]
+    return {
         "pack %": packed.map(percent).where(
             packed.notna() | rows["peak_strain"].isna(),
             rows["peak_strain"].map(lambda strain: f"> {percent(strain)}"),

@@ -145,6 +145,12 @@ def test_energy_counts_up_to_the_allowed_force():
     assert list(ranking["pareto"]) == [True, False]
 
     assert list(ranking["passed_on_N"]) == [20.0, 20.0]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sheet.heads == ["#", "mass g", "absorbs mJ", "J/g", "peak N"]
+    assert not {"pack", "back"} & {line.partition(":")[0] for line in legend(ranking).splitlines()}
+    packed = rank(table, by="densification_strain", allowed_force="50 N")
+    (sheet,) = ranking_sheets(packed, table)
+    assert sheet.heads[-1] == "densification_strain"
     strong = table.assign(peak_force_N=80.0, peak_force_at_densification_N=30.0)
     assert list(rank(strong, allowed_force="50 N")["passed_on_N"]) == [50.0, 50.0]
 
