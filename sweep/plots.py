@@ -1,17 +1,16 @@
-"""Pictures: a case (its force, its energies, its shapes) and a sweep (what to print, and why).
+"""Pictures of a case: its force, its energies, its shapes; and what all pictures are made with.
 
 Functions draw into figures or axes that they are given. Lengths are drawn in mm. Kinds have the
-colours of Okabe and Ito, ordered values those of viridis: nobody need tell red from green.
+colours of Okabe and Ito: nobody need tell red from green.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch, Rectangle
@@ -19,20 +18,19 @@ from matplotlib.path import Path as Outline
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from sweep.digits import three_digits
-from sweep.looks import budget_winners, doubtful, energy_text, looks, merits
+from sweep.looks import energy_text
 from sweep.silhouette import silhouette
 from sweep.storyboard import headline, last_loaded, shots
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import SubFigure
-    from pandas import DataFrame, Series
+    from pandas import DataFrame
 
 BLUE, SKY, ORANGE = "#0072b2", "#56b4e9", "#e69f00"
 VERMILION, PURPLE, YELLOW, GREY = "#d55e00", "#cc79a7", "#f0e442", "#8a8a8a"
 WALL, PLATEN, GRID = "#2b4c6f", "#c9c9c9", "#e6e6e6"
 
-LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
 ENERGIES = {
     "stretch_J": ("stretching", BLUE),
     "bend_J": ("bending", SKY),
@@ -172,65 +170,6 @@ def deformed_shapes(
     _scale_bar(axes[0], span[0], below)
 
 
-def design_map(fig: Figure, ranking: DataFrame) -> None:
-    """What to print: merit against mass, a panel a scene, the winner of each budget named.
-
-    ranking : all places (`top=None`), of one mode. Merit: absorbed energy, how little a load sinks,
-    or the force that a striker leaves on the support. The stairs are the best that any mass offers;
-    where they meet a budget stands its winner.
-    """
-    mass = ranking.attrs["mass"]
-    of = "panel" if mass == "panel_mass_g" else "specimen"
-    look = looks(ranking)
-    for ax, rows in _scene_axes(fig, ranking.round({mass: 9})):  # equal by design is equal
-        merit = merits(rows, ranking.attrs["energy"])
-        least = LEAST_SHOWN.get(rows["loading_mode"].iloc[0])
-        for _, points in rows.groupby("material"):
-            _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
-        front = rows[rows["pareto"]].sort_values(mass)
-        stairs = front[mass], merit.loc[front.index]
-        ax.plot(*stairs, color="black", lw=0.9, zorder=1, drawstyle="steps-post")
-        ax.set(xscale="log", yscale="log")
-        ax.margins(0.1, 0.15)
-        for budget in ranking.attrs["budgets_g"]:
-            mark(ax, budget, f"{budget:g} g")
-        words = [ax.get_title("left")]
-        for said, x, y in budget_winners(rows, ranking):
-            ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")
-            words.append(said)
-        ax.set_title("\n".join(words), loc="left", fontsize="small")
-        ax.set_xlabel(f"mass of the {of}, g")
-        ax.set_ylabel(least or f"energy absorbed by the {of}, J")
-        round_ticks(ax.xaxis, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
-        round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
-    _legend(fig, look.legend())
-
-
-def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
-    """Energy per gram against wall thickness, a panel a scene."""
-    per_gram = ranking.attrs["per_gram"]
-    look = looks(ranking)
-    for ax, rows in _scene_axes(fig, ranking):
-        for _, points in rows.groupby(["cells_x", "cells_y", "material"]):
-            best = points.loc[points.groupby("wall_thickness_m")[per_gram].idxmax()]
-            style = look.of(best) | {"s": 28.0}
-            wall = 1e3 * best["wall_thickness_m"]
-            ax.plot(wall, best[per_gram], color=style["c"][0], lw=1.2)
-            _dots(ax, wall, best[per_gram], style, best)
-        ax.set(xlabel="wall thickness, mm", ylabel="absorbed energy per gram, J/g", yscale="log")
-        round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
-    _legend(fig, look.legend(walls=False))
-
-
-def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
-    """Designs of one material; open where they are not to be trusted."""
-    dots = ax.scatter(x, y, lw=1.2, zorder=2, **style)
-    colors = dots.get_facecolor()
-    beyond = doubtful(points).to_numpy()[:, None]
-    faces: Any = np.where(beyond, to_rgba("white"), colors)
-    dots.set(edgecolor=colors, facecolor=faces)
-
-
 def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:
     """Six shapes each of several cases, one below the other: what it is -> its frames."""
     strips = fig.subfigures(len(cases), 1, squeeze=False)[:, 0]
@@ -238,23 +177,7 @@ def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:
         deformed_shapes(strip, name, frames)
 
 
-def _scene_axes(fig: Figure, ranking: DataFrame) -> Iterator[tuple[Axes, DataFrame]]:
-    """One set of axes a scene, at most two a row."""
-    scenes = ranking.groupby("scene", sort=False)
-    columns = min(2, len(scenes))
-    rows = -(-len(scenes) // columns)
-    axes = fig.subplots(rows, columns, squeeze=False).ravel()
-    for ax in axes[len(scenes) :]:
-        ax.remove()
-    for ax, (scene, group) in zip(axes, scenes, strict=False):
-        ax.set_title(scene, loc="left", fontsize="medium")
-        ax.grid(color=GRID, lw=0.6)
-        ax.set_axisbelow(True)
-        plain(ax)
-        yield ax, group
-
-
-def _legend(fig: Figure, entries: list[dict[str, Any]]) -> None:
+def legend(fig: Figure, entries: list[dict[str, Any]]) -> None:
     """One legend for all axes, to the right of them."""
     handles = [Line2D([], [], **entry) for entry in entries]
     if handles:
