@@ -23,8 +23,8 @@ def design_map(fig: Figure, ranking: DataFrame) -> None:
     """What to print: merit against mass, a panel a scene, the winner of each budget named.
 
     ranking : all places (`top=None`), of one mode. Merit: absorbed energy, how little a load sinks,
-    or the force that a striker leaves on the support. The stairs are the best that any mass offers;
-    where they meet a budget stands its winner.
+    or the force that a striker leaves on the support. The stairs are the best that any mass offers,
+    the Pareto front, whose designs are drawn on top; where they meet a budget stands its winner.
     """
     mass = ranking.attrs["mass"]
     of = "panel" if mass == "panel_mass_g" else "specimen"
@@ -32,11 +32,11 @@ def design_map(fig: Figure, ranking: DataFrame) -> None:
     for ax, rows in _scene_axes(fig, ranking.round({mass: 9})):  # equal by design is equal
         merit = merits(rows, ranking.attrs["energy"])
         least = LEAST_SHOWN.get(rows["loading_mode"].iloc[0])
-        for _, points in rows.groupby("material"):
+        for _, points in rows[::-1].groupby(["pareto", "material"]):  # the best comes last
             _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
         front = rows[rows["pareto"]].sort_values(mass)
-        stairs = front[mass], merit.loc[front.index]
-        ax.plot(*stairs, color="black", lw=0.9, zorder=1, drawstyle="steps-post")
+        stairs: dict[str, Any] = {"color": "black", "lw": 0.9, "drawstyle": "steps-post"}
+        _line(ax, front[mass], merit.loc[front.index], stairs, front)
         ax.set(xscale="log", yscale="log")
         ax.margins(0.1, 0.15)
         for budget in ranking.attrs["budgets_g"]:
@@ -62,11 +62,19 @@ def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
             best = points.loc[points.groupby("wall_thickness_m")[per_gram].idxmax()]
             style = look.of(best) | {"s": 28.0}
             wall = 1e3 * best["wall_thickness_m"]
-            ax.plot(wall, best[per_gram], color=style["c"][0], lw=1.2)
+            _line(ax, wall, best[per_gram], {"color": style["c"][0], "lw": 1.2}, best)
             _dots(ax, wall, best[per_gram], style, best)
         ax.set(xlabel="wall thickness, mm", ylabel="absorbed energy per gram, J/g", yscale="log")
         round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
     legend(fig, look.legend(walls=False))
+
+
+def _line(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
+    """A line through designs; dashed to and from those that are not to be trusted."""
+    beyond = doubtful(points)
+    ax.plot(x, y.mask(beyond), zorder=1, **style)
+    if beyond.any():
+        ax.plot(x, y, zorder=1, ls="--", **style)
 
 
 def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:

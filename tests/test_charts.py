@@ -47,16 +47,38 @@ def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
     design_map(figure, loaded)
     ax = figure.axes[0]
     assert ax.get_ylabel() == "sink, %"
-    np.testing.assert_allclose(sorted(ax.collections[0].get_offsets()[:, 1]), [10.0, 20.0, 30.0])
+    sinks = [y for dots in ax.collections[:2] for _, y in dots.get_offsets()]
+    np.testing.assert_allclose(sorted(sinks), [10.0, 20.0, 30.0])
 
 
 def test_designs_beyond_the_model_are_open(ranking):
     ranking["beyond_model"] = ranking["wall_thickness_m"] > 1e-3
     figure = blank(8, 4)
     design_map(figure, ranking)
-    dots = figure.axes[0].collections[0]
-    is_open = (dots.get_facecolor() == 1.0).all(axis=1)
-    np.testing.assert_array_equal(is_open, dots.get_offsets()[:, 0] == 3.0)
+    for dots in figure.axes[0].collections[:2]:
+        is_open = (dots.get_facecolor() == 1.0).all(axis=1)
+        np.testing.assert_array_equal(is_open, dots.get_offsets()[:, 0] == 3.0)
+
+
+def test_stairs_and_trends_are_dashed_to_and_from_what_is_not_to_be_trusted(ranking):
+    ranking["crossed"] = ranking["wall_thickness_m"].between(0.7e-3, 0.9e-3)
+    for draw, y in ((design_map, [0.1, 0.3]), (thickness_trends, [0.1, 0.15, 0.2 / 3.0])):
+        figure = blank(8, 4)
+        draw(figure, ranking)
+        solid, dashed = figure.axes[0].get_lines()
+        assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
+        np.testing.assert_allclose(dashed.get_ydata(), y)
+        np.testing.assert_allclose(solid.get_ydata(), [y[0], np.nan, *y[2:]])
+        assert solid.get_drawstyle() == dashed.get_drawstyle()
+
+
+def test_designs_on_the_front_are_drawn_on_top_the_best_last(ranking):
+    ranking["material"] = np.where(ranking["pareto"], "cheetah", "ninjaflex")
+    figure = blank(8, 4)
+    design_map(figure, ranking)
+    others, front = figure.axes[0].collections[:2]
+    assert [tuple(point) for point in others.get_offsets()] == [(3.0, 0.2)]
+    assert [tuple(point) for point in front.get_offsets()] == [(1.0, 0.1), (2.0, 0.3)]
 
 
 def test_trend_follows_the_wall_thickness(ranking):
