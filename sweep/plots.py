@@ -65,12 +65,12 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     turn = last_loaded(history, row)
     down, back = slice(turn + 1), slice(turn, None)
     dead = row["loading_mode"] == "force"
-    absorbed, per_gram = row["absorbed_energy_J"], row["specific_absorption_J_per_g"]
+    absorbed = row["absorbed_energy_J"]
     given_back = f"gives back {100.0 * row['returned_energy_J'] / absorbed:.0f} %"
     words = ("load on", "load off") if dead else ("loading", f"unloading,\n{given_back}")
     style: Any = "steps-pre" if dead else "default"
     sky: dict[str, Any] = {"color": SKY, "alpha": 0.3, "lw": 0, "step": "pre" if dead else None}
-    whole = f"absorbs {energy_text(absorbed)},\n{three_digits(per_gram)} J/g"
+    whole = f"absorbs in all\n{_energy(absorbed, row)}"
     ax.fill_between(strain[down], force[down], label=whole, **sky)
     ax.plot(strain[down], force[down], drawstyle=style, color=BLUE, lw=2.2, label=words[0])
     if turn + 1 < len(history):
@@ -91,18 +91,26 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
 
 
 def _plateau(ax: Axes, row: Mapping[str, Any]) -> None:
-    """Height of the plateau, up to the strain of densification or of the stroke."""
+    """Height of the plateau, up to the strain of densification, with the energy that is ranked, or
+    of the stroke.
+    """
     area = row["outer_width_m"] * row["depth_m"]
     plateau, packed = area * row["plateau_stress_Pa"], 100.0 * row["densification_strain"]
     if row["loading_mode"] != "displacement" or np.isnan(plateau):
         return
     packs = np.isfinite(packed)
     end = packed if packs else 100.0 * row["peak_strain"]
-    words = f"packed at {packed:.0f} %" if packs else "not packed"
+    by_then = _energy(row["absorbed_energy_at_densification_J"], row)
+    words = f"packed at {packed:.0f} %, by then\n{by_then}" if packs else "not packed"
     stairs = [0.0, end, end], [plateau, plateau, 0.0]
     ax.plot(
         *stairs, color="black", lw=1.0, ls=":", label=f"plateau {three_digits(plateau)} N,\n{words}"
     )
+
+
+def _energy(joules: float, row: Mapping[str, Any]) -> str:
+    """An energy of a case, and the same per gram."""
+    return f"{energy_text(joules)}, {three_digits(joules / row['mass_g'])} J/g"
 
 
 def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:

@@ -18,6 +18,7 @@ def row():
             "plateau_stress_Pa": 0.2e6,
             "densification_strain": 0.3,
             "absorbed_energy_J": 0.096,
+            "absorbed_energy_at_densification_J": 0.066,
             "returned_energy_J": 0.048,
             "peak_strain": 0.4,
         }
@@ -50,7 +51,7 @@ def test_shaded_area_is_the_absorbed_energy(row):
     history = there_and_back()
     ax = axes_of(plots.force_displacement, history, row)
     assert area(ax.collections[0]) == pytest.approx(history["work_in_J"].max())
-    assert labels(ax)[0] == "absorbs 96.0 mJ,\n0.0960 J/g"
+    assert labels(ax)[0] == "absorbs in all\n96.0 mJ, 0.0960 J/g"
 
 
 def test_way_down_and_way_back_are_told_apart(row):
@@ -67,7 +68,7 @@ def test_plateau_is_the_mean_force_up_to_densification(row):
     dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
     assert dotted.get_xdata()[-1] == pytest.approx(30.0)
     assert dotted.get_ydata()[0] == pytest.approx(0.2e6 * 11e-3 * 10e-3)
-    assert labels(ax)[-1] == "plateau 22.0 N,\npacked at 30 %"
+    assert labels(ax)[-1] == "plateau 22.0 N,\npacked at 30 %, by then\n66.0 mJ, 0.0660 J/g"
 
 
 def test_plateau_without_densification_goes_to_the_stroke(row):
