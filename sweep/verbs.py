@@ -173,6 +173,8 @@ VERBS = {verb.__name__: verb for verb in (run, accuracy, warm, status, rank, sho
 def _writing(folder: Path) -> Iterator[None]:
     try:
         yield
+    except (FileExistsError, NotADirectoryError) as error:
+        raise ArgumentError(f"{folder} is or lies in a file; allowed: a folder") from error
     except OSError as error:
         raise ArgumentError(f"{folder} cannot be written: {error.strerror or error}") from error
 

@@ -83,17 +83,22 @@ REFUSED = [
     (["run", "nowhere.toml"], "nowhere.toml"),
     (["run", "nowhere.toml", "--workers", "none"], "1 or more"),
     (["run", "nowhere.toml", "--out", ""], "an empty path"),
+    (["run", "nowhere.toml", "--out", "/dev/full"], "argument --out: '/dev/full'; allowed: a file"),
     (["rank", "FILE", "--out", ""], "an empty path"),
     (["rank", ""], "an empty path"),
-    (["rank", "FILE", "--out", "FILE"], "trial.h5 cannot be written: File exists"),
+    (["rank", "FILE", "--out", "FILE"], "trial.h5 is or lies in a file; allowed: a folder\n"),
+    (["run", "nowhere.toml", "--out", "LINK"], "a.h5'; allowed: a file whose name ends in .h5"),
+    (["rank", "FILE", "--out", "/dev/full/x"], "/dev/full/x is or lies in a file; allowed: a "),
     (["rank", "FILE", "--out", "/proc/x"], "/proc/x cannot be written: "),
     (["rank", "/proc"], "/proc cannot be read: Is a directory"),
 ]
 
 
 @pytest.mark.parametrize(("arguments", "expected"), REFUSED)
-def test_refusals_take_two_lines_and_exit_with_2(capsys, file, arguments, expected):
-    words = [file if word == "FILE" else word for word in arguments]
+def test_refusals_take_two_lines_and_exit_with_2(capsys, file, tmp_path, arguments, expected):
+    link = tmp_path / "a.h5"
+    link.symlink_to("/dev/null")
+    words = [{"FILE": file, "LINK": str(link)}.get(word, word) for word in arguments]
     status, out, err = crumple(capsys, *words)
     assert (status, out) == (2, "")
     assert expected in err
@@ -102,9 +107,13 @@ def test_refusals_take_two_lines_and_exit_with_2(capsys, file, arguments, expect
 
 def test_pictures_need_a_folder(capsys, tmp_path):
     file = write(tmp_path / "trial.h5", summary({"case_id": "ab"}))
-    for folder, why in {file: "File exists", "/proc/x": "No such file or directory"}.items():
+    refused = {
+        file: "is or lies in a file; allowed: a folder",
+        "/proc/x": "cannot be written: No such file or directory",
+    }
+    for folder, why in refused.items():
         status, _, err = crumple(capsys, "show", file, "ab", "--out", folder)
-        assert (status, err) == (2, f"crumple show: {folder} cannot be written: {why}\n")
+        assert (status, err) == (2, f"crumple show: {folder} {why}\n")
 
 
 @pytest.mark.parametrize("words", [["status"], ["rank"], ["show"], ["rank", "--csv"]])
