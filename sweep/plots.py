@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -40,6 +40,8 @@ ENERGIES = {
     "dissipated_friction_J": ("lost to friction", PURPLE),
     "dissipated_integrator_J": ("lost by the time steps", GREY),
 }
+PANEL, GAP = 1.9, 0.1  # inches: the longer side of the picture of a shape; between two
+LETTER, LINE = 0.075, 0.2  # inches: the width of a letter of a title, the height of a line
 NEGLIGIBLE = 0.005  # share of the work below which an energy is not worth a colour
 
 
@@ -147,6 +149,43 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     plain(ax)
 
 
+class Stage(NamedTuple):
+    """What the picture of each shape of a case shows, in mm; room: the height of a platen."""
+
+    left: float
+    right: float
+    below: float
+    top: float
+    ground: float
+    room: float
+
+
+def _stage(frames: Mapping[str, Any], chosen: list[int]) -> Stage:
+    """A stage for these frames, with their platens."""
+    points, drawn = 1e3 * frames["position_m"][chosen], np.unique(frames["edges"])
+    plates, thickness = 1e3 * frames["plate_y_m"][chosen], 1e3 * frames["edge_thickness_m"].max()
+    ground = points[0, drawn, 1].min() - 0.5 * thickness
+    low, high = (end(points[:, drawn], (0, 1)) for end in (np.min, np.max))
+    low, high = low - thickness, high + thickness
+    room = 0.06 * (high - low).max()
+    top = max(high[1], np.nanmax(plates, initial=high[1]) + room)
+    below = min(low[1], ground - room) - room
+    return Stage(low[0] - room, high[0] + room, below, top, ground, room)
+
+
+def shapes_size(
+    title: str, frames: Mapping[str, Any], release: float | None = None
+) -> tuple[float, float]:
+    """Width and height (inches) of a figure of shapes that leaves nothing blank between them."""
+    chosen = dict(shots(frames, release))
+    stage = _stage(frames, list(chosen))
+    width, height = stage.right - stage.left, stage.top - stage.below
+    scale = PANEL / max(width, height)
+    lines = 3 + max(words.count("\n") for words in chosen.values())  # also title and scale bar
+    row = len(chosen) * (scale * width + GAP)
+    return max(row, LETTER * len(title)), scale * height + LINE * lines + GAP
+
+
 def deformed_shapes(
     fig: Figure | SubFigure, title: str, frames: Mapping[str, Any], release: float | None = None
 ) -> None:
@@ -154,33 +193,31 @@ def deformed_shapes(
     chosen = dict(shots(frames, release))
     axes = fig.subplots(1, len(chosen), sharex=True, sharey=True, squeeze=False)[0]
     fig.suptitle(title, x=0.01, ha="left", fontsize="medium")
-    points, drawn = 1e3 * frames["position_m"][list(chosen)], np.unique(frames["edges"])
-    plates = 1e3 * frames["plate_y_m"][list(chosen)]
-    thickness = 1e3 * frames["edge_thickness_m"]
-    ground = points[0, drawn, 1].min() - 0.5 * thickness.max()
-    low, high = (end(points[:, drawn], (0, 1)) for end in (np.min, np.max))
-    low, high = low - thickness.max(), high + thickness.max()
-    room = 0.06 * (high - low).max()
-    span = low[0] - room, high[0] + room
+    stage = _stage(frames, list(chosen))
+    points, plates = (1e3 * frames[name][list(chosen)] for name in ("position_m", "plate_y_m"))
     for ax, caption, position, plate in zip(axes, chosen.values(), points, plates, strict=True):
-        loops = silhouette(position, frames["edges"], thickness)
+        loops = silhouette(position, frames["edges"], 1e3 * frames["edge_thickness_m"])
         walls = Outline.make_compound_path(*(Outline(loop, closed=True) for loop in loops))
         ax.add_patch(PathPatch(walls, facecolor=WALL, edgecolor="none", snap=False))
         if np.isfinite([plate[0], frames["strain"][0]]).any() and not np.isinf(plate[0]):
-            _platen(ax, span, (ground if np.isnan(plate[0]) else plate[0]) - room, room)
+            _platen(ax, stage, (stage.ground if np.isnan(plate[0]) else plate[0]) - stage.room)
         if np.isfinite(plate[1]):
-            _platen(ax, span, plate[1], room)
+            _platen(ax, stage, plate[1])
         ax.set_title(caption, fontsize="medium")
         ax.set_aspect("equal")
         ax.set_axis_off()
-    below = min(low[1], ground - room) - room
-    axes[0].set(xlim=span, ylim=(below, max(high[1], np.nanmax(plates, initial=high[1]) + room)))
-    _scale_bar(axes[0], span[0], below)
+    axes[0].set(xlim=(stage.left, stage.right), ylim=(stage.below, stage.top))
+    _scale_bar(axes[0], stage.left, stage.below)
 
 
 def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:
-    """Six shapes each of several cases, one below the other: what it is -> its frames."""
-    strips = fig.subfigures(len(cases), 1, squeeze=False)[:, 0]
+    """Six shapes each of several cases, one below the other: what it is -> its frames.
+
+    The figure becomes as large as they are.
+    """
+    widths, heights = zip(*(shapes_size(*case) for case in cases.items()), strict=True)
+    fig.set_size_inches(max(widths), sum(heights))
+    strips = fig.subfigures(len(cases), 1, squeeze=False, height_ratios=heights)[:, 0]
     for strip, (name, frames) in zip(strips, cases.items(), strict=True):
         deformed_shapes(strip, name, frames)
 
@@ -206,12 +243,11 @@ def round_ticks(axis: Any, *subs: float) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def _platen(ax: Axes, span: tuple[float, float], bottom: float, height: float) -> None:
+def _platen(ax: Axes, stage: Stage, bottom: float) -> None:
     """A plate over the width of the picture, from `bottom` upwards."""
-    left, right = span
-    ax.add_patch(
-        Rectangle((left, bottom), right - left, height, facecolor=PLATEN, edgecolor="none")
-    )
+    width = stage.right - stage.left
+    plate = Rectangle((stage.left, bottom), width, stage.room, facecolor=PLATEN, edgecolor="none")
+    ax.add_patch(plate)
 
 
 def _scale_bar(ax: Axes, left: float, below: float) -> None:

@@ -143,6 +143,7 @@ def _case_figures(file: str, row: Series) -> Named:
     if frames:
         dead = row["loading_mode"] == "force"
         release = history["time_s"][last_loaded(history, row)] if dead else None
-        figure = plots.blank(12.0, 2.8)
-        plots.deformed_shapes(figure, headline(row).replace("\n", ", "), frames, release)
+        drawn = headline(row).replace("\n", ", "), frames, release
+        figure = plots.blank(*plots.shapes_size(*drawn))
+        plots.deformed_shapes(figure, *drawn)
         yield "shapes", figure

@@ -145,6 +145,32 @@ def test_without_platens_only_the_ground_is_drawn():
     assert [len(ax.patches) for ax in figure.axes] == [2] * 6
 
 
+FLAT, TALL = [4.0, 3.8, 3.6, 3.4, 3.2], [40.0, 38.0, 36.0, 34.0, 32.0]
+
+
+@pytest.mark.parametrize("heights", [FLAT, TALL])
+def test_nothing_is_left_blank_between_shapes(heights):
+    frames = squeezed_cell(heights=heights)
+    figure = plots.blank(*plots.shapes_size("a cell", frames))
+    plots.deformed_shapes(figure, "a cell", frames)
+    figure.draw_without_rendering()
+    boxes = [ax.get_window_extent() for ax in figure.axes]
+    between = figure.bbox.width - sum(box.width for box in boxes)
+    above_and_below = figure.bbox.height - boxes[0].height
+    assert between < 0.15 * len(boxes) * figure.dpi  # inches
+    assert above_and_below < 0.9 * figure.dpi  # a title, a caption, the scale bar
+
+
+def test_winners_are_as_high_as_their_shapes():
+    figure = plots.blank(12, 6)
+    cells = [squeezed_cell(heights=heights) for heights in (FLAT, TALL)]
+    plots.winners(figure, dict(zip(["flat", "tall"], cells, strict=True)))
+    figure.draw_without_rendering()
+    heights = [strip.bbox.height / figure.dpi for strip in figure.subfigs]
+    asked = [plots.shapes_size("", frames)[1] for frames in cells]
+    np.testing.assert_allclose(heights, asked, rtol=0.02)
+
+
 def test_pictures_are_png_files(tmp_path):
     figure = plots.blank(12, 6)
     plots.winners(figure, {"one": squeezed_cell(), "two": squeezed_cell(platens=False)})
