@@ -8,6 +8,7 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import NoReturn
 
 ABOUT = "Which printed infill absorbs the most energy per gram?"
@@ -73,7 +74,7 @@ def parser() -> Parser:
         "config", type=_path, metavar="CONFIG", help="TOML file with the case and its [grid]"
     )
     run.add_argument(
-        "--out", type=_path, metavar="F.h5", help="results file (default: results/NAME.h5)"
+        "--out", type=_results, metavar="F.h5", help="results file (default: results/NAME.h5)"
     )
     run.add_argument("--workers", type=_count, default=2, metavar="N", help="default: 2")
     run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster: tcp://host:8786")
@@ -151,6 +152,14 @@ def _path(text: str) -> str:
     if text:
         return text
     raise argparse.ArgumentTypeError("an empty path; allowed: the name of a file or a folder")
+
+
+def _results(text: str) -> str:
+    """A path that may become a results file."""
+    in_the_way = os.path.exists(text) and not os.path.isfile(text)  # neither ever raises
+    if Path(_path(text)).suffix == ".h5" and not in_the_way:
+        return text
+    raise argparse.ArgumentTypeError(f"{text!r}; allowed: a file whose name ends in .h5")
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from sweep import plots
+from sweep.digits import three_digits
 from sweep.figures.panels import dress, legend
-from sweep.sheets import Sheet, markdown, three_digits
+from sweep.sheets import Sheet, markdown
 from sweep.store import read_history, read_summary
 
 if TYPE_CHECKING:

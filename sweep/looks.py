@@ -1,7 +1,7 @@
 """How designs stand in a chart: what they look like, what they are worth, which of them win.
 
-Colour = cells, sign = material, size = wall thickness, open = not to be trusted: the same in every
-panel.
+Colour = cells, sign = material, size = wall thickness, open and dashed = not to be trusted: the
+same in every panel.
 """
 
 from __future__ import annotations
@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from sweep.digits import three_digits
 from sweep.merit import LEAST
-from sweep.sheets import design_labels, three_digits
+from sweep.sheets import design_labels
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -47,7 +48,7 @@ class Looks(NamedTuple):
             "material": {name: {"marker": sign} for name, sign in self.signs.items()},
             "wall": {f"{1e3 * t:.3g} mm": {"ms": area**0.5} for t, area in self.areas.items()},
         }
-        beyond = {**PLAIN, "mfc": "white", "label": "not to be trusted"}
+        beyond = {**PLAIN, "mfc": "white", "ls": "--", "label": "not to be trusted"}
         shown = [name for name in groups if len(groups[name]) > 1 and (walls or name != "wall")]
         entries = [
             {**PLAIN, **look, "label": label}

@@ -1,38 +1,36 @@
-"""Pictures: a case (its force, its energies, its shapes) and a sweep (what to print, and why).
+"""Pictures of a case: its force, its energies, its shapes; and what all pictures are made with.
 
 Functions draw into figures or axes that they are given. Lengths are drawn in mm. Kinds have the
-colours of Okabe and Ito, ordered values those of viridis: nobody need tell red from green.
+colours of Okabe and Ito: nobody need tell red from green.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path as Outline
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from sweep.looks import budget_winners, doubtful, energy_text, looks, merits
-from sweep.sheets import three_digits
+from sweep.digits import three_digits
+from sweep.looks import energy_text
 from sweep.silhouette import silhouette
 from sweep.storyboard import headline, last_loaded, shots
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import SubFigure
-    from pandas import DataFrame, Series
+    from pandas import DataFrame
 
 BLUE, SKY, ORANGE = "#0072b2", "#56b4e9", "#e69f00"
 VERMILION, PURPLE, YELLOW, GREY = "#d55e00", "#cc79a7", "#f0e442", "#8a8a8a"
 WALL, PLATEN, GRID = "#2b4c6f", "#c9c9c9", "#e6e6e6"
 
-LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
 ENERGIES = {
     "stretch_J": ("stretching", BLUE),
     "bend_J": ("bending", SKY),
@@ -42,6 +40,8 @@ ENERGIES = {
     "dissipated_friction_J": ("lost to friction", PURPLE),
     "dissipated_integrator_J": ("lost by the time steps", GREY),
 }
+PANEL, GAP = 1.9, 0.1  # inches: the longer side of the picture of a shape; between two
+LETTER, LINE = 0.075, 0.2  # inches: the width of a letter of a title, the height of a line
 NEGLIGIBLE = 0.005  # share of the work below which an energy is not worth a colour
 
 
@@ -67,12 +67,12 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     turn = last_loaded(history, row)
     down, back = slice(turn + 1), slice(turn, None)
     dead = row["loading_mode"] == "force"
-    absorbed, per_gram = row["absorbed_energy_J"], row["specific_absorption_J_per_g"]
+    absorbed = row["absorbed_energy_J"]
     given_back = f"gives back {100.0 * row['returned_energy_J'] / absorbed:.0f} %"
     words = ("load on", "load off") if dead else ("loading", f"unloading,\n{given_back}")
     style: Any = "steps-pre" if dead else "default"
     sky: dict[str, Any] = {"color": SKY, "alpha": 0.3, "lw": 0, "step": "pre" if dead else None}
-    whole = f"absorbs {energy_text(absorbed)},\n{three_digits(per_gram)} J/g"
+    whole = f"absorbs in all\n{_energy(absorbed, row)}"
     ax.fill_between(strain[down], force[down], label=whole, **sky)
     ax.plot(strain[down], force[down], drawstyle=style, color=BLUE, lw=2.2, label=words[0])
     if turn + 1 < len(history):
@@ -93,18 +93,26 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
 
 
 def _plateau(ax: Axes, row: Mapping[str, Any]) -> None:
-    """Height of the plateau, up to the strain of densification or of the stroke."""
+    """Height of the plateau, up to the strain of densification, with the energy that is ranked, or
+    of the stroke.
+    """
     area = row["outer_width_m"] * row["depth_m"]
     plateau, packed = area * row["plateau_stress_Pa"], 100.0 * row["densification_strain"]
     if row["loading_mode"] != "displacement" or np.isnan(plateau):
         return
     packs = np.isfinite(packed)
     end = packed if packs else 100.0 * row["peak_strain"]
-    words = f"packed at {packed:.0f} %" if packs else "not packed"
+    by_then = _energy(row["absorbed_energy_at_densification_J"], row)
+    words = f"packed at {packed:.0f} %, by then\n{by_then}" if packs else "not packed"
     stairs = [0.0, end, end], [plateau, plateau, 0.0]
     ax.plot(
         *stairs, color="black", lw=1.0, ls=":", label=f"plateau {three_digits(plateau)} N,\n{words}"
     )
+
+
+def _energy(joules: float, row: Mapping[str, Any]) -> str:
+    """An energy of a case, and the same per gram."""
+    return f"{energy_text(joules)}, {three_digits(joules / row['mass_g'])} J/g"
 
 
 def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
@@ -141,6 +149,43 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     plain(ax)
 
 
+class Stage(NamedTuple):
+    """What the picture of each shape of a case shows, in mm; room: the height of a platen."""
+
+    left: float
+    right: float
+    below: float
+    top: float
+    ground: float
+    room: float
+
+
+def _stage(frames: Mapping[str, Any], chosen: list[int]) -> Stage:
+    """A stage for these frames, with their platens."""
+    points, drawn = 1e3 * frames["position_m"][chosen], np.unique(frames["edges"])
+    plates, thickness = 1e3 * frames["plate_y_m"][chosen], 1e3 * frames["edge_thickness_m"].max()
+    ground = points[0, drawn, 1].min() - 0.5 * thickness
+    low, high = (end(points[:, drawn], (0, 1)) for end in (np.min, np.max))
+    low, high = low - thickness, high + thickness
+    room = 0.06 * (high - low).max()
+    top = max(high[1], np.nanmax(plates, initial=high[1]) + room)
+    below = min(low[1], ground - room) - room
+    return Stage(low[0] - room, high[0] + room, below, top, ground, room)
+
+
+def shapes_size(
+    title: str, frames: Mapping[str, Any], release: float | None = None
+) -> tuple[float, float]:
+    """Width and height (inches) of a figure of shapes that leaves nothing blank between them."""
+    chosen = dict(shots(frames, release))
+    stage = _stage(frames, list(chosen))
+    width, height = stage.right - stage.left, stage.top - stage.below
+    scale = PANEL / max(width, height)
+    lines = 3 + max(words.count("\n") for words in chosen.values())  # also title and scale bar
+    row = len(chosen) * (scale * width + GAP)
+    return max(row, LETTER * len(title)), scale * height + LINE * lines + GAP
+
+
 def deformed_shapes(
     fig: Figure | SubFigure, title: str, frames: Mapping[str, Any], release: float | None = None
 ) -> None:
@@ -148,113 +193,36 @@ def deformed_shapes(
     chosen = dict(shots(frames, release))
     axes = fig.subplots(1, len(chosen), sharex=True, sharey=True, squeeze=False)[0]
     fig.suptitle(title, x=0.01, ha="left", fontsize="medium")
-    points, drawn = 1e3 * frames["position_m"][list(chosen)], np.unique(frames["edges"])
-    plates = 1e3 * frames["plate_y_m"][list(chosen)]
-    thickness = 1e3 * frames["edge_thickness_m"]
-    ground = points[0, drawn, 1].min() - 0.5 * thickness.max()
-    low, high = (end(points[:, drawn], (0, 1)) for end in (np.min, np.max))
-    low, high = low - thickness.max(), high + thickness.max()
-    room = 0.06 * (high - low).max()
-    span = low[0] - room, high[0] + room
+    stage = _stage(frames, list(chosen))
+    points, plates = (1e3 * frames[name][list(chosen)] for name in ("position_m", "plate_y_m"))
     for ax, caption, position, plate in zip(axes, chosen.values(), points, plates, strict=True):
-        loops = silhouette(position, frames["edges"], thickness)
+        loops = silhouette(position, frames["edges"], 1e3 * frames["edge_thickness_m"])
         walls = Outline.make_compound_path(*(Outline(loop, closed=True) for loop in loops))
         ax.add_patch(PathPatch(walls, facecolor=WALL, edgecolor="none", snap=False))
         if np.isfinite([plate[0], frames["strain"][0]]).any() and not np.isinf(plate[0]):
-            _platen(ax, span, (ground if np.isnan(plate[0]) else plate[0]) - room, room)
+            _platen(ax, stage, (stage.ground if np.isnan(plate[0]) else plate[0]) - stage.room)
         if np.isfinite(plate[1]):
-            _platen(ax, span, plate[1], room)
+            _platen(ax, stage, plate[1])
         ax.set_title(caption, fontsize="medium")
         ax.set_aspect("equal")
         ax.set_axis_off()
-    below = min(low[1], ground - room) - room
-    axes[0].set(xlim=span, ylim=(below, max(high[1], np.nanmax(plates, initial=high[1]) + room)))
-    _scale_bar(axes[0], span[0], below)
-
-
-def design_map(fig: Figure, ranking: DataFrame) -> None:
-    """What to print: merit against mass, a panel a scene, the winner of each budget named.
-
-    ranking : all places (`top=None`), of one mode. Merit: absorbed energy, how little a load sinks,
-    or the force that a striker leaves on the support. The stairs are the best that any mass offers;
-    where they meet a budget stands its winner.
-    """
-    mass = ranking.attrs["mass"]
-    of = "panel" if mass == "panel_mass_g" else "specimen"
-    look = looks(ranking)
-    for ax, rows in _scene_axes(fig, ranking.round({mass: 9})):  # equal by design is equal
-        merit = merits(rows, ranking.attrs["energy"])
-        least = LEAST_SHOWN.get(rows["loading_mode"].iloc[0])
-        for _, points in rows.groupby("material"):
-            _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
-        front = rows[rows["pareto"]].sort_values(mass)
-        stairs = front[mass], merit.loc[front.index]
-        ax.plot(*stairs, color="black", lw=0.9, zorder=1, drawstyle="steps-post")
-        ax.set(xscale="log", yscale="log")
-        ax.margins(0.1, 0.15)
-        for budget in ranking.attrs["budgets_g"]:
-            mark(ax, budget, f"{budget:g} g")
-        words = [ax.get_title("left")]
-        for said, x, y in budget_winners(rows, ranking):
-            ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")
-            words.append(said)
-        ax.set_title("\n".join(words), loc="left", fontsize="small")
-        ax.set_xlabel(f"mass of the {of}, g")
-        ax.set_ylabel(least or f"energy absorbed by the {of}, J")
-        round_ticks(ax.xaxis, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
-        round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
-    _legend(fig, look.legend())
-
-
-def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
-    """Energy per gram against wall thickness, a panel a scene."""
-    per_gram = ranking.attrs["per_gram"]
-    look = looks(ranking)
-    for ax, rows in _scene_axes(fig, ranking):
-        for _, points in rows.groupby(["cells_x", "cells_y", "material"]):
-            best = points.loc[points.groupby("wall_thickness_m")[per_gram].idxmax()]
-            style = look.of(best) | {"s": 28.0}
-            wall = 1e3 * best["wall_thickness_m"]
-            ax.plot(wall, best[per_gram], color=style["c"][0], lw=1.2)
-            _dots(ax, wall, best[per_gram], style, best)
-        ax.set(xlabel="wall thickness, mm", ylabel="absorbed energy per gram, J/g", yscale="log")
-        round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
-    _legend(fig, look.legend(walls=False))
-
-
-def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
-    """Designs of one material; open where they are not to be trusted."""
-    dots = ax.scatter(x, y, lw=1.2, zorder=2, **style)
-    colors = dots.get_facecolor()
-    beyond = doubtful(points).to_numpy()[:, None]
-    faces: Any = np.where(beyond, to_rgba("white"), colors)
-    dots.set(edgecolor=colors, facecolor=faces)
+    axes[0].set(xlim=(stage.left, stage.right), ylim=(stage.below, stage.top))
+    _scale_bar(axes[0], stage.left, stage.below)
 
 
 def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:
-    """Six shapes each of several cases, one below the other: what it is -> its frames."""
-    strips = fig.subfigures(len(cases), 1, squeeze=False)[:, 0]
+    """Six shapes each of several cases, one below the other: what it is -> its frames.
+
+    The figure becomes as large as they are.
+    """
+    widths, heights = zip(*(shapes_size(*case) for case in cases.items()), strict=True)
+    fig.set_size_inches(max(widths), sum(heights))
+    strips = fig.subfigures(len(cases), 1, squeeze=False, height_ratios=heights)[:, 0]
     for strip, (name, frames) in zip(strips, cases.items(), strict=True):
         deformed_shapes(strip, name, frames)
 
 
-def _scene_axes(fig: Figure, ranking: DataFrame) -> Iterator[tuple[Axes, DataFrame]]:
-    """One set of axes a scene, at most two a row."""
-    scenes = ranking.groupby("scene", sort=False)
-    columns = min(2, len(scenes))
-    rows = -(-len(scenes) // columns)
-    axes = fig.subplots(rows, columns, squeeze=False).ravel()
-    for ax in axes[len(scenes) :]:
-        ax.remove()
-    for ax, (scene, group) in zip(axes, scenes, strict=False):
-        ax.set_title(scene, loc="left", fontsize="medium")
-        ax.grid(color=GRID, lw=0.6)
-        ax.set_axisbelow(True)
-        plain(ax)
-        yield ax, group
-
-
-def _legend(fig: Figure, entries: list[dict[str, Any]]) -> None:
+def legend(fig: Figure, entries: list[dict[str, Any]]) -> None:
     """One legend for all axes, to the right of them."""
     handles = [Line2D([], [], **entry) for entry in entries]
     if handles:
@@ -275,12 +243,11 @@ def round_ticks(axis: Any, *subs: float) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def _platen(ax: Axes, span: tuple[float, float], bottom: float, height: float) -> None:
+def _platen(ax: Axes, stage: Stage, bottom: float) -> None:
     """A plate over the width of the picture, from `bottom` upwards."""
-    left, right = span
-    ax.add_patch(
-        Rectangle((left, bottom), right - left, height, facecolor=PLATEN, edgecolor="none")
-    )
+    width = stage.right - stage.left
+    plate = Rectangle((stage.left, bottom), width, stage.room, facecolor=PLATEN, edgecolor="none")
+    ax.add_patch(plate)
 
 
 def _scale_bar(ax: Axes, left: float, below: float) -> None:

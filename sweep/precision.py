@@ -10,10 +10,11 @@ import numpy as np
 import pandas as pd
 
 from sweep.accuracy import REFINED, TARGETS, Study, varies
+from sweep.digits import NOTHING, short, three_digits
 from sweep.looks import energy_text
-from sweep.rank import HELD_BY_SCENE, NOTHING, scene_keys, scene_label, short
+from sweep.rank import HELD_BY_SCENE, scene_keys, scene_label
 from sweep.result import Status
-from sweep.sheets import Sheet, three_digits
+from sweep.sheets import Sheet
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series

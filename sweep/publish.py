@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from pandas import concat
 
-from sweep import plots
+from sweep import charts, plots
 from sweep.accuracy import studies
 from sweep.diagrams import work_precision
 from sweep.patterns import panel_size, pattern_bars
@@ -88,7 +88,7 @@ def _sweep_figures(file: str, shown: DataFrame, ranking: DataFrame) -> Named:
     for name, rows in drawn.items():
         if not rows.empty:
             figure = plots.blank(*_size(rows))
-            plots.design_map(figure, rows)
+            charts.design_map(figure, rows)
             yield name, figure
     if len(crushed["lattice_kind"].unique()) > 1:
         figure = plots.blank(*panel_size(crushed))
@@ -96,7 +96,7 @@ def _sweep_figures(file: str, shown: DataFrame, ranking: DataFrame) -> Named:
         yield "patterns", figure
     if len(crushed["wall_thickness_m"].unique()) > 1:
         figure = plots.blank(*_size(crushed))
-        plots.thickness_trends(figure, crushed)
+        charts.thickness_trends(figure, crushed)
         yield "wall_thickness", figure
     if winners := _winners(file, shown, ranking):
         figure = plots.blank(12.0, 2.6 * len(winners))
@@ -143,6 +143,7 @@ def _case_figures(file: str, row: Series) -> Named:
     if frames:
         dead = row["loading_mode"] == "force"
         release = history["time_s"][last_loaded(history, row)] if dead else None
-        figure = plots.blank(12.0, 2.8)
-        plots.deformed_shapes(figure, headline(row).replace("\n", ", "), frames, release)
+        drawn = headline(row).replace("\n", ", "), frames, release
+        figure = plots.blank(*plots.shapes_size(*drawn))
+        plots.deformed_shapes(figure, *drawn)
         yield "shapes", figure

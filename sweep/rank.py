@@ -15,10 +15,9 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
+from sweep.digits import short
 from sweep.merit import LEAST, Quantity, RankError, in_si, merits
 from sweep.result import Status, error_column
-
-NOTHING = "–"
 
 SCENE = ["loading_mode", "platen", "force_N", "striker_mass_g", "striker_speed_m_per_s"]
 
@@ -53,6 +52,7 @@ LEADING = [
     "ranked_by",
     "ranked_error",
     "sharing",
+    "contenders",
     "panel_mass_g",
     "panel_energy_J",
     "passed_on_N",
@@ -108,18 +108,18 @@ def rank(
     -------
     The summary's rows that have a place, led by `budget_g`, `scene`, `place` (equal values share
     one, and so do those that error bars cannot tell from the first there: `shared_places`), with
-    error bars `tied` (True: it shares its place) and `ranked_error`; `sharing`, how many
-    designs share this place, those cut off by `top` included; `pareto` (True: no design of
-    the scene is lighter without absorbing less, none absorbs more without being heavier; where
-    `LEAST` counts, the same for that), `ranked_by`, with a panel `panel_mass_g` and
-    `panel_energy_J`; and `passed_on_N`, the greatest force while that energy is absorbed,
-    `returned_share` of the work of the whole crush, which was stored and not dissipated,
+    error bars `tied` (True: it shares its place) and `ranked_error`; `sharing`, how many designs
+    share this place, and `contenders`, how many have any, both with those cut off by `top`;
+    `pareto` (True: no design of the scene is lighter without absorbing less, none absorbs more
+    without being heavier; where `LEAST` counts, the same for that), `ranked_by`, with a panel
+    `panel_mass_g` and `panel_energy_J`; and `passed_on_N`, the greatest force while that energy is
+    absorbed, `returned_share` of the work of the whole crush, which was stored and not dissipated,
     `beyond_model` (True: a wall was squeezed too far while it was absorbed), `crossed` (True: walls
     passed through one another).
     `attrs`: names of the columns compared (`mass`, `energy`, `per_gram`; `by`: of the crushed
-    designs where there are any), the counts `cases`, `failed`, `unranked` (finished, but without a
-    value to sort by), `without_bar` (of those with a value, where others have one), `budgets_g`,
-    and `lightest_g`, the smallest mass of each scene.
+    designs where there are any), `limited` (True: energy counts up to a force), the counts `cases`,
+    `failed`, `unranked` (finished, but without a value to sort by), `without_bar` (of those with a
+    value, where others have one), `budgets_g`, and `lightest_g`, the smallest mass of each scene.
     """
     summary = source if isinstance(source, DataFrame) else _read(source)
     finished = summary[summary["status"] == Status.CONVERGED]
@@ -133,6 +133,7 @@ def rank(
     labelled = pd.concat([rows for rows, _ in scenes])
     ranking.attrs = names | {
         "by": next((o for _, o in scenes if by or o not in LEAST.values()), scenes[0][1]),
+        "limited": allowed_force is not None,
         "cases": len(summary),
         "failed": len(summary) - len(finished),
         "unranked": sum(int(rows[order].isna().sum()) for rows, order in scenes),
@@ -208,13 +209,6 @@ def shared_places(values: Series, errors: Series | None = None) -> Series:
     return Series(places, index=values.index, dtype=int)
 
 
-def short(value: float | str | None) -> str:
-    """A number with few digits, anything else as it is; a dash where there is nothing."""
-    if pd.isna(value):
-        return NOTHING
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
-
-
 def _order(rows: DataFrame, by: str | None, usual: str) -> str:
     """The column by which the rows of one scene are sorted."""
     return by or _least(rows) or usual
@@ -246,7 +240,8 @@ def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | Non
     known = {} if error is None else {"ranked_error": error, "tied": place.duplicated(keep=False)}
     limit = budget_g if np.isfinite(budget_g) else np.nan
     sharing = place.map(place.value_counts()).astype(int)  # where nothing is, too
-    rows = rows.assign(budget_g=limit, place=place, ranked_by=by, sharing=sharing, **known)
+    known |= {"sharing": sharing, "contenders": len(rows)}
+    rows = rows.assign(budget_g=limit, place=place, ranked_by=by, **known)
     rows = rows.head(len(rows) if top is None else top)
     first = [name for name in LEADING if name in rows]
     return rows[first + [name for name in rows if name not in first]]

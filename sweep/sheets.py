@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pandas import Series
 
+from sweep.digits import numerals, percent, short, tenths
 from sweep.merit import LEAST
-from sweep.rank import ASSUMPTIONS, NOTHING, by_scene, scene_label, short
+from sweep.rank import ASSUMPTIONS, by_scene, scene_label
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
 MARKS = "*: on the Pareto front, nothing lighter in its scene does as well. mass: of one specimen."
-CRUSHED = """\
-peak: greatest force that one specimen passes on. It and the energy count {until}.
+CRUSHED = "peak: greatest force that one specimen passes on. It and the energy count {until}."
+WHOLE = """\
 pack: strain at which the lattice has packed down.
 back: share of the work of the whole crush that comes back when let up: stored, not dissipated."""
 LOADED = "sink: greatest strain under the load, its swing included."
@@ -71,7 +71,7 @@ def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
     """One sheet a loading scene, budgets one below the other; designs as they vary in `summary`."""
     budgets = ranking.attrs["budgets_g"]
     for scene, lightest in ranking.attrs["lightest_g"].items():
-        rows = ranking[ranking["scene"] == scene]
+        placed = rows = ranking[ranking["scene"] == scene]
         lead = {}
         if len(budgets) > 1:
             rows = _without_repeats(rows)
@@ -92,6 +92,7 @@ def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
                 *((BEYOND,) if rows["beyond_model"].any() else ()),
                 *((CROSSED,) if rows["crossed"].any() else ()),
                 *_cut_off(rows),
+                *_not_shown(placed),
                 *(
                     f"Nothing weighs {budget:g} g or less: the lightest weighs {lightest:.3g} g."
                     for budget in budgets
@@ -109,6 +110,8 @@ def legend(ranking: DataFrame) -> str:
         "force": LOADED,
         "impact": STRUCK,
     }
+    if not ranking.attrs["limited"]:
+        said["displacement"] += f"\n{WHOLE}"
     lines = [MARKS, *(words for mode, words in said.items() if mode in modes)]
     return "\n".join([*lines, TIED] if "ranked_error" in ranking else lines)
 
@@ -131,6 +134,19 @@ def _cut_off(rows: DataFrame) -> Iterator[str]:
         within = f"Up to {last['up_to']} g, " if "up_to" in rows else ""
         if left:
             yield f"{within}{left} more share{'s' if left == 1 else ''} place {last['place']}."
+
+
+def _not_shown(rows: DataFrame) -> Iterator[str]:
+    """How many designs of each budget have a place beyond the last that is shown."""
+    groups = rows.groupby("budget_g", dropna=False, sort=False)["contenders"]
+    of, shown = groups.max(), groups.size()
+    more = [
+        f"{of[budget] - count} more" + (f" up to {budget:g} g" if len(of) > 1 else "")
+        for budget, count in shown.items()
+        if count < of[budget]
+    ]
+    if more:
+        yield f"Not shown: {', '.join(more)}; crumple rank --top {of.max()} lists all."
 
 
 def _without_repeats(rows: DataFrame) -> DataFrame:
@@ -208,7 +224,10 @@ def _measures(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
         shown |= {LEAST[mode]}
     else:
         columns |= _crushed(rows, names)
-        shown |= {names["energy"], names["per_gram"], "densification_strain", "returned_share"}
+        shown |= {names["energy"], names["per_gram"]}
+        if not names["limited"]:
+            columns |= _whole(rows)
+            shown |= {"densification_strain", "returned_share"}
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
         if "ranked_error" in rows:
@@ -232,11 +251,17 @@ def _struck(rows: DataFrame) -> dict[str, Series]:
 def _crushed(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
     energy, whole = rows[names["energy"]], "panel" if "panel_mass_g" in rows else "absorbs"
     unit, scale = ("mJ", 1e3) if energy.max() < 1.0 else ("J", 1.0)
-    packed = rows["densification_strain"]
     return {
         f"{whole} {unit}": numerals(energy * scale),
         "J/g": numerals(rows[names["per_gram"]]),
         "peak N": numerals(rows["passed_on_N"]),
+    }
+
+
+def _whole(rows: DataFrame) -> dict[str, Series]:
+    """What tells of the whole crush: nothing of one that an allowed force cuts short."""
+    packed = rows["densification_strain"]
+    return {
         "pack %": packed.map(percent).where(
             packed.notna() | rows["peak_strain"].isna(),
             rows["peak_strain"].map(lambda strain: f"> {percent(strain)}"),
@@ -262,31 +287,6 @@ def _markdown(sheet: Sheet) -> str:
     heading = [f"### {sheet.title}", ""] if sheet.title else []
     notes = [line for note in sheet.notes for line in ("", note)]
     return "\n".join([*heading, lines[0], rule, *lines[1:], *notes, ""])
-
-
-def numerals(values: Series) -> Series:
-    """Numbers with three significant digits, never in powers of ten."""
-    return values.map(three_digits)
-
-
-def three_digits(value: float) -> str:
-    """A number with at least three significant digits: 0.0123, 1.23, 1234."""
-    if not math.isfinite(value):
-        return NOTHING
-    decimals = 2 - math.floor(math.log10(abs(value))) if value else 0
-    return f"{value:.{max(decimals, 0)}f}"
-
-
-def percent(value: float) -> str:
-    """A strain as whole percent."""
-    return f"{100 * value:.0f}" if math.isfinite(value) else NOTHING
-
-
-def tenths(share: float) -> str:
-    """A share in percent, to a tenth where it is small."""
-    if not math.isfinite(share):
-        return NOTHING
-    return f"{100 * share:.1f}" if share < 0.0995 else percent(share)
 
 
 def _varies(frame: DataFrame, *names: str) -> bool:

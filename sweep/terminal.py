@@ -38,7 +38,7 @@ def aloud(file: str, cases: int, ranking: DataFrame) -> Iterator[str]:
     if names["unranked"]:
         yield f"{_counted(names['unranked'], 'case')} no {names['by']} and so no place."
     if names["failed"]:
-        yield f"{names['failed']} of {cases} cases failed: crumple status {file} lists them"
+        yield f"{names['failed']} of {cases} cases failed: crumple status {file} says why"
 
 
 def _counted(count: int, noun: str) -> str:
@@ -93,7 +93,7 @@ def _terminal_table(sheet: Sheet, width: int) -> Table:
     from rich import box
     from rich.table import Table
 
-    from sweep.rank import NOTHING
+    from sweep.digits import NOTHING
 
     heads = ["\n".join(head.rsplit(" ", 1)) for head in sheet.heads]
     columns = [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 import time
 from collections.abc import Iterable, Iterator
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
 DONE, SOME_FAILED = 0, 1
 TOP, TOP_OF_A_BUDGET = 10, 3
+IDS = 3  # of each kind of failure
+FIGURE = re.compile(r"(?:(?<!\w)-)?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 REFUSALS = {
     "sweep.grid": "ConfigError",
     "sweep.store": "StoreError",
@@ -105,7 +108,7 @@ def status(arguments: Namespace) -> int:
     counts = summary["status"].value_counts()
     say(f"{arguments.file}: {len(summary)} cases")
     say_all(f"{count:7d} {name}" for name, count in counts.items())
-    say_all(_failures(summary))
+    say_all(_failures(arguments.file, summary))
     say_all(_bars(summary))
     say(f"{summary['cpu_s'].sum():.4g} s of processor time in all")
     known = {name.removeprefix("version_"): about[name] for name in about if "version_" in name}
@@ -170,6 +173,8 @@ VERBS = {verb.__name__: verb for verb in (run, accuracy, warm, status, rank, sho
 def _writing(folder: Path) -> Iterator[None]:
     try:
         yield
+    except (FileExistsError, NotADirectoryError) as error:
+        raise ArgumentError(f"{folder} is or lies in a file; allowed: a folder") from error
     except OSError as error:
         raise ArgumentError(f"{folder} cannot be written: {error.strerror or error}") from error
 
@@ -206,15 +211,24 @@ def _stored_rank(file: str) -> dict[str, Any]:
     return config.get("rank") or {}
 
 
-def _failures(summary: DataFrame) -> list[str]:
-    """A line for each kind of failure: how many cases, and what the first of them says."""
+def _failures(file: str, summary: DataFrame) -> Iterator[str]:
+    """A line for each kind of failure, with the first of its cases, and where the others are."""
     failed = _failed(summary)
-    kind = failed["message"].str.replace(r"\d[\d.e+-]*", "#", regex=True)
-    return [
-        f"{len(rows)} x {rows['message'].iloc[0]} (case {', '.join(rows['case_id'].head(3))}"
-        + (", ...)" if len(rows) > 3 else ")")
-        for _, rows in failed.groupby([failed["status"], kind], sort=False)
-    ]
+    kind = failed["message"].str.replace(FIGURE, "#", regex=True)
+    for _, rows in failed.groupby([failed["status"], kind], sort=False):
+        cases = ", ".join(rows["case_id"].head(IDS))
+        more = f" and {len(rows) - IDS} more" if len(rows) > IDS else ""
+        yield f"{len(rows)} x {_in_common(list(rows['message']))} (case {cases}{more})"
+    if len(failed):
+        yield f"crumple show {file} lists all ids with their status; with an id, it says why"
+
+
+def _in_common(messages: list[str]) -> str:
+    """One sentence for several that differ only in figures: each becomes its range."""
+    columns = zip(*map(FIGURE.findall, messages), strict=True)
+    ranges = (sorted({*figures}, key=float) for figures in columns)
+    told = (f"{found[0]} to {found[-1]}" if len(found) > 1 else found[0] for found in ranges)
+    return FIGURE.sub(lambda _: next(told), messages[0])
 
 
 def _bars(summary: DataFrame) -> list[str]:

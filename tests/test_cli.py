@@ -30,8 +30,8 @@ budgets = ["5 g", "20 g"]
 def file(tmp_path_factory):
     """Five designs, two of which failed in the same way."""
     rows = designs([1.0, 2.0, 4.0, 1.0, 1.0], [0.1, 0.3, 0.4, 0.0, 0.0])
-    for row, strain in zip(rows[3:], ["0.41", "0.5"], strict=True):
-        row |= {"status": "stopped", "message": f"stopped at strain {strain}: smaller steps"}
+    for row, strain in zip(rows[3:], ["0.5", "0.41"], strict=True):
+        row |= {"status": "stopped", "message": f"stopped at strain {strain} in 4: smaller steps"}
     config = {"rank": {"budgets": [0.002], "panel": None}}
     attributes = {"config": json.dumps(config), "git_revision": "abc123", "version_numpy": "9.9"}
     return write(tmp_path_factory.mktemp("cli") / "trial.h5", summary(*rows), attributes)
@@ -83,17 +83,22 @@ REFUSED = [
     (["run", "nowhere.toml"], "nowhere.toml"),
     (["run", "nowhere.toml", "--workers", "none"], "1 or more"),
     (["run", "nowhere.toml", "--out", ""], "an empty path"),
+    (["run", "nowhere.toml", "--out", "/dev/full"], "argument --out: '/dev/full'; allowed: a file"),
     (["rank", "FILE", "--out", ""], "an empty path"),
     (["rank", ""], "an empty path"),
-    (["rank", "FILE", "--out", "FILE"], "trial.h5 cannot be written: File exists"),
+    (["rank", "FILE", "--out", "FILE"], "trial.h5 is or lies in a file; allowed: a folder\n"),
+    (["run", "nowhere.toml", "--out", "LINK"], "a.h5'; allowed: a file whose name ends in .h5"),
+    (["rank", "FILE", "--out", "/dev/full/x"], "/dev/full/x is or lies in a file; allowed: a "),
     (["rank", "FILE", "--out", "/proc/x"], "/proc/x cannot be written: "),
     (["rank", "/proc"], "/proc cannot be read: Is a directory"),
 ]
 
 
 @pytest.mark.parametrize(("arguments", "expected"), REFUSED)
-def test_refusals_take_two_lines_and_exit_with_2(capsys, file, arguments, expected):
-    words = [file if word == "FILE" else word for word in arguments]
+def test_refusals_take_two_lines_and_exit_with_2(capsys, file, tmp_path, arguments, expected):
+    link = tmp_path / "a.h5"
+    link.symlink_to("/dev/null")
+    words = [{"FILE": file, "LINK": str(link)}.get(word, word) for word in arguments]
     status, out, err = crumple(capsys, *words)
     assert (status, out) == (2, "")
     assert expected in err
@@ -102,9 +107,13 @@ def test_refusals_take_two_lines_and_exit_with_2(capsys, file, arguments, expect
 
 def test_pictures_need_a_folder(capsys, tmp_path):
     file = write(tmp_path / "trial.h5", summary({"case_id": "ab"}))
-    for folder, why in {file: "File exists", "/proc/x": "No such file or directory"}.items():
+    refused = {
+        file: "is or lies in a file; allowed: a folder",
+        "/proc/x": "cannot be written: No such file or directory",
+    }
+    for folder, why in refused.items():
         status, _, err = crumple(capsys, "show", file, "ab", "--out", folder)
-        assert (status, err) == (2, f"crumple show: {folder} cannot be written: {why}\n")
+        assert (status, err) == (2, f"crumple show: {folder} {why}\n")
 
 
 @pytest.mark.parametrize("words", [["status"], ["rank"], ["show"], ["rank", "--csv"]])
@@ -127,7 +136,7 @@ def test_ranking_counts_failures_aloud(capsys, file):
     status, out, _ = crumple(capsys, "rank", file, "--by", "specific_absorption_J_per_g")
     assert status == 1
     assert "Best first: most energy per gram." in out
-    assert f"2 of 5 cases failed: crumple status {file} lists them" in out
+    assert f"2 of 5 cases failed: crumple status {file} says why" in out
     table = out.partition("──\n")[2].splitlines()
     assert [line[:2] for line in table[:3]] == ["1*", "2*", "2*"]
 
@@ -173,12 +182,12 @@ def test_budget_that_nothing_meets_is_told(capsys, file):
 def test_ranking_without_any_finished_case_is_no_ranking(capsys, tmp_path):
     file = write(tmp_path / "trial.h5", summary({"status": "stopped"}, {"status": "timed_out"}))
     status, out, _ = crumple(capsys, "rank", file)
-    assert (status, out) == (1, f"2 of 2 cases failed: crumple status {file} lists them\n")
+    assert (status, out) == (1, f"2 of 2 cases failed: crumple status {file} says why\n")
 
 
 def test_csv_json_and_markdown_are_clean(capsys, file):
     status, text, errors = crumple(capsys, "rank", file, "--csv")
-    assert errors == f"2 of 5 cases failed: crumple status {file} lists them\n"
+    assert errors == f"2 of 5 cases failed: crumple status {file} says why\n"
     table = pd.read_csv(io.StringIO(text), dtype={"case_id": str})
     assert status == 1
     assert list(table["case_id"]) == [f"{1:016x}", f"{0:016x}"]
@@ -201,10 +210,22 @@ def test_status_gathers_failures_of_one_kind(capsys, file):
     status, out, _ = crumple(capsys, "status", file)
     assert status == 1
     assert "      3 converged\n      2 stopped\n" in out
-    assert "2 x stopped at strain 0.41: smaller steps (case 0000000000000003, 00000" in out
+    kind = "2 x stopped at strain 0.41 to 0.5 in 4: smaller steps"
+    assert f"{kind} (case 0000000000000003, 0000000000000004)\ncrumple show {file} lists" in out
     assert "10 s of processor time" in out
     assert "abc123" in out
     assert "numpy 9.9" in out
+
+
+def test_status_tells_how_many_cases_it_does_not_name(capsys, tmp_path):
+    sentences = ["at -2e-3 of 9", "at 5 of 9", "at 10 of 9", "at 0.5 of 9", "lost"]
+    rows = [{"status": "stopped", "message": text} for text in sentences]
+    file = write(tmp_path / "trial.h5", summary(*rows))
+    _, out, _ = crumple(capsys, "status", file)
+    assert "4 x at -2e-3 to 10 of 9 (case 0000000000000000, 0000000000000001, " in out
+    assert "000000000002 and 1 more)\n1 x lost (case 0000000000000004)\n" in out
+    file = write(tmp_path / "done.h5", summary({}))
+    assert "crumple show" not in crumple(capsys, "status", file)[1]
 
 
 def test_show_draws_the_case_whose_id_begins_so(capsys, tmp_path):
@@ -232,7 +253,7 @@ def test_show_without_a_case_lists_what_makes_them_differ(capsys, tmp_path):
 def test_run_simulates_ranks_and_tells_of_failures(capsys, config):
     status, out, _ = crumple(capsys, "run", config)
     assert status == 1
-    assert "1 of 3 cases failed: crumple status results/trial.h5 lists them" in out
+    assert "1 of 3 cases failed: crumple status results/trial.h5 says why" in out
     assert "Nothing weighs 5 g or less: the lightest weighs 6 g." in out
     assert list(read_summary("results/trial.h5")["status"]) == ["converged", "stopped", "converged"]
 
@@ -257,7 +278,7 @@ def test_error_bars_run_companions_in_a_file_of_their_own(capsys, config):
     status, out, _ = crumple(capsys, "run", config, "--error-bars")
     assert status == 1
     assert "error bars of 2 designs: 4 companions, in results/trial.companions.h5" in out
-    assert "1 of 3 cases failed: crumple status results/trial.h5 lists them" in out
+    assert "1 of 3 cases failed: crumple status results/trial.h5 says why" in out
     assert "±: estimated error" in out
     _, out, _ = crumple(capsys, "status", "results/trial.h5")
     assert out.startswith("results/trial.h5: 3 cases")

@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-from specimens import HEIGHT, T, designs, squeezed_cell, summary, there_and_back, under_dead_load
+from specimens import HEIGHT, T, squeezed_cell, summary, there_and_back, under_dead_load
 
 from sweep import plots
-from sweep.rank import rank
 
 
 @pytest.fixture
@@ -19,6 +18,7 @@ def row():
             "plateau_stress_Pa": 0.2e6,
             "densification_strain": 0.3,
             "absorbed_energy_J": 0.096,
+            "absorbed_energy_at_densification_J": 0.066,
             "returned_energy_J": 0.048,
             "peak_strain": 0.4,
         }
@@ -51,7 +51,7 @@ def test_shaded_area_is_the_absorbed_energy(row):
     history = there_and_back()
     ax = axes_of(plots.force_displacement, history, row)
     assert area(ax.collections[0]) == pytest.approx(history["work_in_J"].max())
-    assert labels(ax)[0] == "absorbs 96.0 mJ,\n0.0960 J/g"
+    assert labels(ax)[0] == "absorbs in all\n96.0 mJ, 0.0960 J/g"
 
 
 def test_way_down_and_way_back_are_told_apart(row):
@@ -68,7 +68,7 @@ def test_plateau_is_the_mean_force_up_to_densification(row):
     dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
     assert dotted.get_xdata()[-1] == pytest.approx(30.0)
     assert dotted.get_ydata()[0] == pytest.approx(0.2e6 * 11e-3 * 10e-3)
-    assert labels(ax)[-1] == "plateau 22.0 N,\npacked at 30 %"
+    assert labels(ax)[-1] == "plateau 22.0 N,\npacked at 30 %, by then\n66.0 mJ, 0.0660 J/g"
 
 
 def test_plateau_without_densification_goes_to_the_stroke(row):
@@ -145,62 +145,30 @@ def test_without_platens_only_the_ground_is_drawn():
     assert [len(ax.patches) for ax in figure.axes] == [2] * 6
 
 
-@pytest.fixture
-def ranking():
-    rows = designs([1.0, 2.0, 3.0], [0.1, 0.3, 0.2])
-    for row, wall in zip(rows, [0.4e-3, 0.8e-3, 1.2e-3], strict=True):
-        row["wall_thickness_m"] = wall
-    glued = summary(*rows, *[row | {"platen": "contact"} for row in rows])
-    return rank(glued, top=None)
+FLAT, TALL = [4.0, 3.8, 3.6, 3.4, 3.2], [40.0, 38.0, 36.0, 34.0, 32.0]
 
 
-def test_map_has_a_panel_a_scene_and_stairs_along_the_pareto_front(ranking):
-    figure = plots.blank(8, 4)
-    plots.design_map(figure, ranking)
-    scenes = [ax.get_title("left").splitlines()[0] for ax in figure.axes]
-    assert scenes == list(ranking["scene"].unique())
-    stairs = figure.axes[0].get_lines()[0]
-    np.testing.assert_allclose(stairs.get_xydata(), [[1.0, 0.1], [2.0, 0.3]])
-    assert stairs.get_drawstyle() == "steps-post"
+@pytest.mark.parametrize("heights", [FLAT, TALL])
+def test_nothing_is_left_blank_between_shapes(heights):
+    frames = squeezed_cell(heights=heights)
+    figure = plots.blank(*plots.shapes_size("a cell", frames))
+    plots.deformed_shapes(figure, "a cell", frames)
+    figure.draw_without_rendering()
+    boxes = [ax.get_window_extent() for ax in figure.axes]
+    between = figure.bbox.width - sum(box.width for box in boxes)
+    above_and_below = figure.bbox.height - boxes[0].height
+    assert between < 0.15 * len(boxes) * figure.dpi  # inches
+    assert above_and_below < 0.9 * figure.dpi  # a title, a caption, the scale bar
 
 
-def test_map_names_and_rings_the_winner_of_each_budget(ranking):
-    ranking.attrs["budgets_g"] = [1.5, 3.0]
-    figure = plots.blank(8, 4)
-    plots.design_map(figure, ranking)
-    ax = figure.axes[0]
-    said = ax.get_title("left").splitlines()[1:]
-    assert said == ["up to 1.5 g: wall 0.4 mm, 100 mJ", "up to 3 g: wall 0.8 mm, 300 mJ"]
-    assert [text.get_text() for text in ax.texts] == ["1.5 g", "3 g"]
-    rings = [tuple(dots.get_offsets()[0]) for dots in ax.collections[-2:]]
-    assert rings == [(1.0, 0.1), (2.0, 0.3)]
-
-
-def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
-    loaded = ranking.assign(loading_mode="force", peak_strain=[0.3, 0.2, 0.1] * 2)
-    loaded.attrs = ranking.attrs
-    figure = plots.blank(8, 4)
-    plots.design_map(figure, loaded)
-    ax = figure.axes[0]
-    assert ax.get_ylabel() == "sink, %"
-    np.testing.assert_allclose(sorted(ax.collections[0].get_offsets()[:, 1]), [10.0, 20.0, 30.0])
-
-
-def test_designs_beyond_the_model_are_open(ranking):
-    ranking["beyond_model"] = ranking["wall_thickness_m"] > 1e-3
-    figure = plots.blank(8, 4)
-    plots.design_map(figure, ranking)
-    dots = figure.axes[0].collections[0]
-    is_open = (dots.get_facecolor() == 1.0).all(axis=1)
-    np.testing.assert_array_equal(is_open, dots.get_offsets()[:, 0] == 3.0)
-
-
-def test_trend_follows_the_wall_thickness(ranking):
-    figure = plots.blank(8, 4)
-    plots.thickness_trends(figure, ranking)
-    line = figure.axes[0].get_lines()[0]
-    np.testing.assert_allclose(line.get_xdata(), [0.4, 0.8, 1.2])
-    np.testing.assert_allclose(line.get_ydata(), [0.1, 0.15, 0.2 / 3.0])
+def test_winners_are_as_high_as_their_shapes():
+    figure = plots.blank(12, 6)
+    cells = [squeezed_cell(heights=heights) for heights in (FLAT, TALL)]
+    plots.winners(figure, dict(zip(["flat", "tall"], cells, strict=True)))
+    figure.draw_without_rendering()
+    heights = [strip.bbox.height / figure.dpi for strip in figure.subfigs]
+    asked = [plots.shapes_size("", frames)[1] for frames in cells]
+    np.testing.assert_allclose(heights, asked, rtol=0.02)
 
 
 def test_pictures_are_png_files(tmp_path):

@@ -8,7 +8,7 @@ import pytest
 from specimens import designs, summary
 
 from sweep.rank import RankError, pareto, rank, scene_label
-from sweep.sheets import BEYOND, CROSSED, LOADED, legend, markdown, ranking_sheets, three_digits
+from sweep.sheets import BEYOND, CROSSED, LOADED, legend, markdown, ranking_sheets
 
 NAN = float("nan")
 
@@ -145,6 +145,12 @@ def test_energy_counts_up_to_the_allowed_force():
     assert list(ranking["pareto"]) == [True, False]
 
     assert list(ranking["passed_on_N"]) == [20.0, 20.0]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sheet.heads == ["#", "mass g", "absorbs mJ", "J/g", "peak N"]
+    assert not {"pack", "back"} & {line.partition(":")[0] for line in legend(ranking).splitlines()}
+    packed = rank(table, by="densification_strain", allowed_force="50 N")
+    (sheet,) = ranking_sheets(packed, table)
+    assert sheet.heads[-1] == "densification_strain"
     strong = table.assign(peak_force_N=80.0, peak_force_at_densification_N=30.0)
     assert list(rank(strong, allowed_force="50 N")["passed_on_N"]) == [50.0, 50.0]
 
@@ -285,12 +291,6 @@ def test_budgets_stand_one_below_the_other_in_markdown():
         "|         | 2* | 3 x 3 | 1.00   | 100        | 0.100 | 20.0   | 55     | 0      |\n\n"
         "Nothing weighs 0.5 g or less: the lightest weighs 1 g.\n"
     )
-
-
-def test_numbers_show_three_digits():
-    numbers = [0.01234, 0.5, 9.996, 12345.6, -7.0, 0.0, NAN, float("inf")]
-    expected = ["0.0123", "0.500", "10.00", "12346", "-7.00", "0", "–", "–"]
-    assert [three_digits(number) for number in numbers] == expected
 
 
 def test_budgets_with_the_same_places_share_a_section():

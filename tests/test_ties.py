@@ -53,7 +53,7 @@ def test_ties_are_marked_also_where_the_other_is_not_shown():
     ]
     (sheet,) = ranking_sheets(ranking, table)
     assert [row[0] for row in sheet.rows] == ["1=*", "1= ", "3= "]
-    assert sheet.notes == ("1 more shares place 3.",)
+    assert sheet.notes == ("1 more shares place 3.", not_shown("1 more", 4))
     assert (sheet.heads[-1], [row[-1] for row in sheet.rows]) == ("± %", ["6.0", "6.7", "2.0"])
     assert legend(ranking).endswith(TIED)
 
@@ -64,7 +64,7 @@ def test_ties_that_are_cut_off_are_counted_for_each_budget():
 
     def notes(**asked):
         (sheet,) = ranking_sheets(rank(table, by="absorbed_energy_J", **asked), table)
-        return sheet.notes
+        return tuple(note for note in sheet.notes if "share" in note)
 
     assert notes(top=1) == ("3 more share place 1.",)
     assert notes(top=4) == notes(top=None) == ()
@@ -112,7 +112,29 @@ def test_budgets_share_a_section_only_where_their_ties_are_alike():
     ranking = rank(table, budget=["1 g", "2 g", "3 g"], top=1)
     (sheet,) = ranking_sheets(ranking, table)
     assert [row[:2] for row in sheet.rows] == [["1-2", "1*"], ["3", "1=*"]]
-    assert sheet.notes == ("Up to 3 g, 1 more shares place 1.",)
+    more = not_shown("1 more up to 3 g", 2)
+    assert sheet.notes == ("Up to 3 g, 1 more shares place 1.", more)
+
+
+def test_what_is_not_shown_is_counted_for_each_budget():
+    table = summary(*designs([1.0, 2.0, 2.5, 3.0], [0.4, 0.3, 0.2, 0.1]))
+
+    def notes(**asked):
+        ranking = rank(table, **asked)
+        (sheet,) = ranking_sheets(ranking, table)
+        return list(ranking["contenders"].unique()), sheet.notes
+
+    assert notes() == ([4], ())
+    assert notes(top=3) == ([4], (not_shown("1 more", 4),))
+    assert notes(top=1, budget="2 g") == ([2], (not_shown("1 more", 2),))
+    of, told = notes(top=2, budget=["1 g", "2 g", "2.5 g", "3 g"])
+    assert of == [1, 2, 3, 4]
+    assert told == (not_shown("1 more up to 2.5 g, 2 more up to 3 g", 4),)
+
+
+def not_shown(count, all_of_them):
+    """The note below a table that does not show them all."""
+    return f"Not shown: {count}; crumple rank --top {all_of_them} lists all."
 
 
 def test_command_line_tells_ties_and_what_has_no_bar(capsys, tmp_path, monkeypatch):

@@ -1,0 +1,102 @@
+"""Charts of a sweep: what to print, and why. Ordered values have the colours of viridis."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sweep.looks import budget_winners, doubtful, looks, merits
+from sweep.plots import GRID, legend, mark, plain, round_ticks
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from pandas import DataFrame, Series
+
+LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
+WHITE = (1.0, 1.0, 1.0, 1.0)
+
+
+def design_map(fig: Figure, ranking: DataFrame) -> None:
+    """What to print: merit against mass, a panel a scene, the winner of each budget named.
+
+    ranking : all places (`top=None`), of one mode. Merit: absorbed energy, how little a load sinks,
+    or the force that a striker leaves on the support. The stairs are the best that any mass offers,
+    the Pareto front, whose designs are drawn on top; where they meet a budget stands its winner.
+    """
+    mass = ranking.attrs["mass"]
+    of = "panel" if mass == "panel_mass_g" else "specimen"
+    look = looks(ranking)
+    for ax, rows in _scene_axes(fig, ranking.round({mass: 9})):  # equal by design is equal
+        merit = merits(rows, ranking.attrs["energy"])
+        least = LEAST_SHOWN.get(rows["loading_mode"].iloc[0])
+        for _, points in rows[::-1].groupby(["pareto", "material"]):  # the best comes last
+            _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
+        front = rows[rows["pareto"]].sort_values(mass)
+        stairs: dict[str, Any] = {"color": "black", "lw": 0.9, "drawstyle": "steps-post"}
+        _line(ax, front[mass], merit.loc[front.index], stairs, front)
+        ax.set(xscale="log", yscale="log")
+        ax.margins(0.1, 0.15)
+        for budget in ranking.attrs["budgets_g"]:
+            mark(ax, budget, f"{budget:g} g")
+        words = [ax.get_title("left")]
+        for said, x, y in budget_winners(rows, ranking):
+            ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")
+            words.append(said)
+        ax.set_title("\n".join(words), loc="left", fontsize="small")
+        ax.set_xlabel(f"mass of the {of}, g")
+        ax.set_ylabel(least or f"energy absorbed by the {of}, J")
+        round_ticks(ax.xaxis, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
+        round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
+    legend(fig, look.legend())
+
+
+def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
+    """Energy per gram against wall thickness, a panel a scene."""
+    per_gram = ranking.attrs["per_gram"]
+    look = looks(ranking)
+    for ax, rows in _scene_axes(fig, ranking):
+        for _, points in rows.groupby(["cells_x", "cells_y", "material"]):
+            best = points.loc[points.groupby("wall_thickness_m")[per_gram].idxmax()]
+            style = look.of(best) | {"s": 28.0}
+            wall = 1e3 * best["wall_thickness_m"]
+            _line(ax, wall, best[per_gram], {"color": style["c"][0], "lw": 1.2}, best)
+            _dots(ax, wall, best[per_gram], style, best)
+        ax.set(xlabel="wall thickness, mm", ylabel="absorbed energy per gram, J/g", yscale="log")
+        round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
+    legend(fig, look.legend(walls=False))
+
+
+def _line(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
+    """A line through designs; dashed to and from those that are not to be trusted."""
+    beyond = doubtful(points)
+    ax.plot(x, y.mask(beyond), zorder=1, **style)
+    if beyond.any():
+        ax.plot(x, y, zorder=1, ls="--", **style)
+
+
+def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
+    """Designs of one material; open where they are not to be trusted."""
+    dots = ax.scatter(x, y, lw=1.2, zorder=2, **style)
+    colors = dots.get_facecolor()
+    beyond = doubtful(points).to_numpy()[:, None]
+    faces: Any = np.where(beyond, WHITE, colors)
+    dots.set(edgecolor=colors, facecolor=faces)
+
+
+def _scene_axes(fig: Figure, ranking: DataFrame) -> Iterator[tuple[Axes, DataFrame]]:
+    """One set of axes a scene, at most two a row."""
+    scenes = ranking.groupby("scene", sort=False)
+    columns = min(2, len(scenes))
+    rows = -(-len(scenes) // columns)
+    axes = fig.subplots(rows, columns, squeeze=False).ravel()
+    for ax in axes[len(scenes) :]:
+        ax.remove()
+    for ax, (scene, group) in zip(axes, scenes, strict=False):
+        ax.set_title(scene, loc="left", fontsize="medium")
+        ax.grid(color=GRID, lw=0.6)
+        ax.set_axisbelow(True)
+        plain(ax)
+        yield ax, group

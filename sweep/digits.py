@@ -1,0 +1,45 @@
+"""Numbers as text, with as many digits as a reader needs."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+if TYPE_CHECKING:
+    from pandas import Series
+
+NOTHING = "–"
+
+
+def short(value: float | str | None) -> str:
+    """A number with few digits, anything else as it is; a dash where there is nothing."""
+    if pd.isna(value):
+        return NOTHING
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def numerals(values: Series) -> Series:
+    """Numbers with three significant digits, never in powers of ten."""
+    return values.map(three_digits)
+
+
+def three_digits(value: float) -> str:
+    """A number with at least three significant digits: 0.0123, 1.23, 1234."""
+    if not math.isfinite(value):
+        return NOTHING
+    decimals = 2 - math.floor(math.log10(abs(value))) if value else 0
+    return f"{value:.{max(decimals, 0)}f}"
+
+
+def percent(value: float) -> str:
+    """A strain as whole percent."""
+    return f"{100 * value:.0f}" if math.isfinite(value) else NOTHING
+
+
+def tenths(share: float) -> str:
+    """A share in percent, to a tenth where it is small."""
+    if not math.isfinite(share):
+        return NOTHING
+    return f"{100 * share:.1f}" if share < 0.0995 else percent(share)

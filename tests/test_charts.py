@@ -1,0 +1,89 @@
+"""Charts of a ranking: every design at its place, the best of them marked."""
+
+import numpy as np
+import pytest
+from specimens import designs, summary
+
+from sweep.charts import design_map, thickness_trends
+from sweep.plots import blank
+from sweep.rank import rank
+
+
+@pytest.fixture
+def ranking():
+    rows = designs([1.0, 2.0, 3.0], [0.1, 0.3, 0.2])
+    for row, wall in zip(rows, [0.4e-3, 0.8e-3, 1.2e-3], strict=True):
+        row["wall_thickness_m"] = wall
+    glued = summary(*rows, *[row | {"platen": "contact"} for row in rows])
+    return rank(glued, top=None)
+
+
+def test_map_has_a_panel_a_scene_and_stairs_along_the_pareto_front(ranking):
+    figure = blank(8, 4)
+    design_map(figure, ranking)
+    scenes = [ax.get_title("left").splitlines()[0] for ax in figure.axes]
+    assert scenes == list(ranking["scene"].unique())
+    stairs = figure.axes[0].get_lines()[0]
+    np.testing.assert_allclose(stairs.get_xydata(), [[1.0, 0.1], [2.0, 0.3]])
+    assert stairs.get_drawstyle() == "steps-post"
+
+
+def test_map_names_and_rings_the_winner_of_each_budget(ranking):
+    ranking.attrs["budgets_g"] = [1.5, 3.0]
+    figure = blank(8, 4)
+    design_map(figure, ranking)
+    ax = figure.axes[0]
+    said = ax.get_title("left").splitlines()[1:]
+    assert said == ["up to 1.5 g: wall 0.4 mm, 100 mJ", "up to 3 g: wall 0.8 mm, 300 mJ"]
+    assert [text.get_text() for text in ax.texts] == ["1.5 g", "3 g"]
+    rings = [tuple(dots.get_offsets()[0]) for dots in ax.collections[-2:]]
+    assert rings == [(1.0, 0.1), (2.0, 0.3)]
+
+
+def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
+    loaded = ranking.assign(loading_mode="force", peak_strain=[0.3, 0.2, 0.1] * 2)
+    loaded.attrs = ranking.attrs
+    figure = blank(8, 4)
+    design_map(figure, loaded)
+    ax = figure.axes[0]
+    assert ax.get_ylabel() == "sink, %"
+    sinks = [y for dots in ax.collections[:2] for _, y in dots.get_offsets()]
+    np.testing.assert_allclose(sorted(sinks), [10.0, 20.0, 30.0])
+
+
+def test_designs_beyond_the_model_are_open(ranking):
+    ranking["beyond_model"] = ranking["wall_thickness_m"] > 1e-3
+    figure = blank(8, 4)
+    design_map(figure, ranking)
+    for dots in figure.axes[0].collections[:2]:
+        is_open = (dots.get_facecolor() == 1.0).all(axis=1)
+        np.testing.assert_array_equal(is_open, dots.get_offsets()[:, 0] == 3.0)
+
+
+def test_stairs_and_trends_are_dashed_to_and_from_what_is_not_to_be_trusted(ranking):
+    ranking["crossed"] = ranking["wall_thickness_m"].between(0.7e-3, 0.9e-3)
+    for draw, y in ((design_map, [0.1, 0.3]), (thickness_trends, [0.1, 0.15, 0.2 / 3.0])):
+        figure = blank(8, 4)
+        draw(figure, ranking)
+        solid, dashed = figure.axes[0].get_lines()
+        assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
+        np.testing.assert_allclose(dashed.get_ydata(), y)
+        np.testing.assert_allclose(solid.get_ydata(), [y[0], np.nan, *y[2:]])
+        assert solid.get_drawstyle() == dashed.get_drawstyle()
+
+
+def test_designs_on_the_front_are_drawn_on_top_the_best_last(ranking):
+    ranking["material"] = np.where(ranking["pareto"], "cheetah", "ninjaflex")
+    figure = blank(8, 4)
+    design_map(figure, ranking)
+    others, front = figure.axes[0].collections[:2]
+    assert [tuple(point) for point in others.get_offsets()] == [(3.0, 0.2)]
+    assert [tuple(point) for point in front.get_offsets()] == [(1.0, 0.1), (2.0, 0.3)]
+
+
+def test_trend_follows_the_wall_thickness(ranking):
+    figure = blank(8, 4)
+    thickness_trends(figure, ranking)
+    line = figure.axes[0].get_lines()[0]
+    np.testing.assert_allclose(line.get_xdata(), [0.4, 0.8, 1.2])
+    np.testing.assert_allclose(line.get_ydata(), [0.1, 0.15, 0.2 / 3.0])
