@@ -41,6 +41,7 @@ PROGRESS = np.dtype(
             ("load", np.float64),  # load factor reached
             ("rise", np.float64),  # of the load factor in the next iteration
             ("move", np.float64),  # farthest of a coordinate in the next iteration, m
+            ("far", np.float64),  # that a node goes of it at most, m
             ("spent", np.int64),  # Newton iterations for what is tried
         ],
     )
@@ -106,12 +107,11 @@ def _balance(x, terms, before, near, unknowns, tolerance, room, arc, progress):
     _, at, work, grips, way = room
     r, v = work.direction, work.escape
     while True:
-        far = travel(work.dx, terms)
-        if not covers(near, x, terms, far):
+        cut = unknowns.cap / max(progress.move, unknowns.cap)
+        progress.far = cut * travel(work.dx, terms)
+        if not covers(near, x, terms, progress.far):
             return OUTGROWN
-        share = step_limit(x, work.dx, far, terms, near, at)
-        if progress.move > unknowns.cap:
-            share = min(share, unknowns.cap / progress.move)
+        share = min(cut, step_limit(x, work.dx, progress.far, terms, near, at))
         for i in range(x.size):
             x[i] += share * work.dx[i]
         arrives = share == 1.0 and progress.length == 0.0
@@ -244,4 +244,4 @@ def follow(terms, unknowns, tolerance, stage, state, out, control, arc):
         )
         if outcome != OUTGROWN:
             return outcome, max(rows, 0)
-        near = renew(near, state.x, terms, room.grips, travel(room.work.dx, terms))
+        near = renew(near, state.x, terms, room.grips, progress[0].far)

@@ -13,7 +13,7 @@ from kernels.relax import approach
 from kernels.room import CHANGE, HEAVY, LAGGED, PREDICTED, Room, make_room
 from kernels.rows import copy, zero
 from kernels.scheme import BACKWARD_EULER, BDF2, POSITION
-from kernels.step import Step, drift, find_near, holds_crowd, renew, rub
+from kernels.step import Step, covers, drift, find_near, holds_crowd, renew, rub
 from kernels.trace import LAST, NOW, SPENT, STEPS, write
 
 SMALLEST = 2.0**-24  # share of a step
@@ -38,7 +38,7 @@ PROGRESS = np.dtype(
             ("tried", np.int64),  # Newton iterations for the minimum that is looked for
             ("loops", np.int64),  # of friction in the share
             ("relaxed", np.float64),  # share of the last approach (`relax`)
-            ("move", np.float64),  # of the nodes, at most, that the pairs must cover, m
+            ("far", np.float64),  # that a node goes in a move which the pairs must cover, m
             ("length", np.float64),  # h of the last share tried, s
         ],
     )
@@ -155,7 +155,7 @@ def _balance(x, target, terms, step, near, unknowns, tolerance, room, control, p
     """Minimise until friction agrees with where it was lagged; return the outcome."""
     outcome = CONVERGED
     while True:
-        outcome, spent, progress.move = minimise(
+        outcome, spent, progress.far = minimise(
             x, target, terms, step, near, unknowns, tolerance, room.at, room.work, control
         )
         progress.spent, progress.effort = progress.spent + spent, progress.effort + spent
@@ -236,6 +236,9 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, prog
     """
     while progress.row < stage.steps:
         if progress.loops == AT_START:
+            if not covers(near, state.x, terms, 0.0):  # after a step back
+                progress.far = 0.0
+                return OUTGROWN, progress.row
             _set_out(terms, stage, unknowns.driven, state, near, room, progress)
         step, target = _step(terms, stage, room, progress), _target(stage, progress)
         outcome = _balance(
@@ -284,7 +287,7 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
         )
         if outcome != OUTGROWN:
             return outcome, rows
-        near = renew(near, state.x, terms, room.grips, progress[0].move)
+        near = renew(near, state.x, terms, room.grips, progress[0].far)
         room.work.kept[0] = np.inf
         wider = friction.room(near.pairs, terms.contact, terms.friction)
         if wider.load.size > room.grips.load.size:

@@ -58,8 +58,9 @@ def covered(center, axis, along, across, order, spacing, band):
     """Return the length in m that k shapes cover on the lines of a ``band``: first, last + 1.
 
     center (k, 2), axis (k, 2): unit vector; along, across (k,): half of a rectangle's length and
-    width, m. A shape without an axis is a disc of radius ``across``. order (k,): from left to
-    right, roughly. The lines are level, ``spacing`` m apart.
+    width, m. A shape without an axis is a disc of radius ``across``. The lines are level,
+    ``spacing`` m apart. ``order`` (k,): from left to right, nearly as they begin on each line, as
+    small shapes do; else the time goes with the square of their number on a line.
     """
     start = np.zeros(band[1] - band[0] + 1, np.int64)
     for k in order:

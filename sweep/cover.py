@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Band = tuple[int, int]
 
-LINES = 16  # within the thickness of the thinnest wall: an error of 3e-4 where walls are many
+LINES = 16  # within the thinnest wall: an error of 3e-4 where walls are many, 1e-3 for one of them
 MOST_LINES = 1 << 17  # of all: where walls are much thinner than the lattice is high, fewer of each
 TOGETHER = 1 << 19  # intervals that are in memory at a time
 ANGLE = 0.4  # of the lines: along a wall, as drawn ones often lie, the rule would be of first order
@@ -44,7 +44,7 @@ def covered_area(points: Floats, edges: Ints, thickness: Floats) -> float:
     across = np.concatenate([radius, 0.5 * thickness])
     order = np.argsort(center[:, 0] - along)
     spacing = float(max(thickness.min() / LINES, np.ptp(turned[:, 1]) / MOST_LINES))
-    extent = np.where(axis.any(axis=1), along * np.abs(axis[:, 1]), 0.0) + across
+    extent = along * np.abs(axis[:, 1]) + across
     shapes = center, axis, along, across, order, spacing
     bands = _bands(center[:, 1], extent, spacing)
     return float(spacing * sum(scanline.covered(*shapes, band) for band in bands))

@@ -20,6 +20,7 @@ Floats = NDArray[np.float64]
 Frames = Mapping[str, np.ndarray]
 
 SQUEEZED = -0.3  # element strain beyond which a wall is a block
+TOGETHER = 1 << 16  # pairs that shapely is asked for at a time
 
 
 def element_strains(frames: Frames) -> Floats:
@@ -85,8 +86,8 @@ def crossings(frames: Frames) -> int:
     crossed, unsure = np.empty(ends.shape[3], np.int64), np.empty((0, 3), np.int64)
     while (count := crossing.count(*given, crossed, unsure)) > len(unsure):
         unsure = np.empty((count, 3), np.int64)
-    if len(unsure) > 0:
-        *pair, shape = unsure.T
+    for part in np.array_split(unsure, 1 + len(unsure) // TOGETHER):
+        *pair, shape = part.T
         lines = (linestrings(np.swapaxes(ends[:, which, :, shape], 1, 2)) for which in pair)
         crossed += np.bincount(shape[intersects(*lines)], minlength=len(crossed))
     return int(crossed.max())

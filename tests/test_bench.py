@@ -204,35 +204,6 @@ def test_absent_library_is_a_row(monkeypatch):
     assert table.values[libraries.OURS, 2] > 0.0
 
 
-def test_thousand_designs_are_a_thousand():
-    designs = sweeps.thousand()
-    lattices = [case.lattice for case in designs]
-    assert len({case.case_id for case in designs}) == 1000
-    assert {case.material.name for case in designs} == {"ninjaflex", "ultimaker_tpu95a"}
-    assert {(cells.cells_x, cells.cells_y) for cells in lattices} >= {(3, 3), (5, 5)}
-    assert all(case.contact.model == "barrier" for case in designs)
-    assert {case.loading.strain for case in designs} == {0.6}
-
-
-def test_sweeps_are_timed_and_checked():
-    few = [cases.crush(cells, 0.1, 5) for cells in (1, 2)]
-    overhead = sweeps.overhead(few, 1)
-    for workers in ("1 worker", "2 workers"):
-        found = overhead.row(workers)
-        assert found["wall, s"] > 0.5 * found["CPU of cases, s"] > 0.0
-        assert found["more CPU, %"] > 0.0
-    rough = sweeps.errors([cases.crush(2, 0.3, 4)])
-    fine = sweeps.errors([cases.crush(2, 0.3, 64)])
-    assert rough > 4.0 * fine > 0.0
-    smooth = [cases.crush(2, 0.1, 5, contact) for contact in (cases.SMOOTH, cases.ROUGH)]
-    throughput = sweeps.throughput(smooth, 1)
-    assert throughput.values["with friction", "a second"] > 1.0
-    found = throughput.row("with friction")
-    taken = 0.5e-3 * found["CPU of each, ms"] * found[sweeps.RATIO]
-    assert found["a second"] == pytest.approx(1.0 / taken)
-    assert throughput.values["without friction", "error, % (most)"] > 0.0
-
-
 def test_lanes_are_alike_and_wait_for_the_slowest():
     groups = list(lockstep.lanes(sweeps.thousand()))
     assert len(groups) >= 100

@@ -6,12 +6,14 @@ import numba
 import numpy as np
 import pytest
 from numba.core import types
+from numba.core.compiler import Flags
 from numba.core.errors import TypingError, UnsupportedError
 from numba.core.registry import cpu_target
 from numba.core.targetconfig import ConfigStack
+from numba.extending import overload
 
 from kernels import quick
-from kernels.jit import jit, jit_owning
+from kernels.jit import jit, jit_exact, jit_owning
 
 
 @pytest.fixture(autouse=True)
@@ -27,45 +29,105 @@ def resolve(function, *args):
     return context.resolve_value_type(function).get_call_type(context, args, {})
 
 
-def test_a_signature_is_looked_for_once_for_the_same_types():
-    searches = []
+class Searched:
+    """A function whose signatures are numbered as they are found."""
 
-    def find(function, context, args, kws):
-        searches.append((function, args, kws))
-        return len(searches)
+    def __init__(self):
+        self.searches, self._impl_keys = 0, {}
 
-    found = quick._remembered(find)
-    assert [found("f", None, (types.int64,), {}) for _ in range(3)] == [1, 1, 1]
-    assert found("f", None, [types.int64], {}) == 1
-    assert found("f", None, (types.float64,), {}) == 2
-    assert found("g", None, (types.int64,), {}) == 3
-    assert [found("f", None, (types.int64,), {"k": 1}) for _ in range(2)] == [4, 5]
+    def find(self, context, args, kws):
+        """Search, and note which code belongs to what is found."""
+        self.searches += 1
+        if args == (types.none,):
+            raise TypingError("none")
+        signature = numba.core.typing.signature(types.int64, *args)
+        self._impl_keys[signature.args] = f"code {self.searches}"
+        return signature
+
+    def get_impl_key(self, signature):
+        """The code that was noted last."""
+        return self._impl_keys[signature.args]
+
+    def code(self, found, *args, **kws):
+        """The code for some types, by a search of `quick`."""
+        return self.get_impl_key(found(self, None, args, kws))
 
 
-def test_a_signature_found_under_other_flags_does_not_count():
-    flags = quick.QuickFlags()
-    found = quick._remembered(lambda *_: [])
-    plain = found("f", None, (), {})
-    with ConfigStack().enter(flags):
-        owning = found("f", None, (), {})
-        assert found("f", None, (), {}) is owning is not plain
-    with ConfigStack().enter(flags.copy()):
-        assert found("f", None, (), {}) is owning
+FOUND = quick._remembered(Searched.find)
+
+
+def test_a_kernel_has_a_signature_looked_for_once_for_the_same_types():
+    function, other = Searched(), Searched()
+    with ConfigStack().enter(quick.QuickFlags()):
+        assert [function.code(FOUND, types.int64) for _ in range(3)] == ["code 1"] * 3
+        assert function.code(FOUND, types.float64) == "code 2"
+        assert other.code(FOUND, types.int64) == "code 1"
+        assert [function.code(FOUND, types.int64, k=1) for _ in range(2)] == ["code 3", "code 4"]
+
+
+def test_what_is_found_under_other_flags_is_other_code():
+    function, exact, fast = Searched(), quick.QuickFlags(), quick.QuickFlags()
+    fast.fastmath = True
+    for _ in range(2):
+        for flags, code in ((exact, "code 1"), (fast, "code 2"), (exact.copy(), "code 1")):
+            with ConfigStack().enter(flags):
+                assert function.code(FOUND, types.int64) == code
+
+
+def test_what_is_no_kernel_is_compiled_as_ever():
+    function = Searched()
+    codes = [function.code(FOUND, types.int64)]
+    with ConfigStack().enter(Flags()):
+        codes.append(function.code(FOUND, types.int64))
+    assert codes == ["code 1", "code 2"]
 
 
 def test_a_search_in_vain_is_made_again():
-    answers = [TypingError("not yet"), "found"]
+    function = Searched()
+    with ConfigStack().enter(quick.QuickFlags()):
+        for _ in range(2):
+            with pytest.raises(TypingError):
+                function.code(FOUND, types.none)
+    assert function.searches == 2
 
-    def find(function, context, args, kws):
-        answer = answers.pop(0)
-        if isinstance(answer, Exception):
-            raise answer
-        return answer
 
-    found = quick._remembered(find)
-    with pytest.raises(TypingError):
-        found("f", None, (), {})
-    assert found("f", None, (), {}) == "found"
+def total(values):
+    """Has one code for arithmetic as written and another for quick arithmetic."""
+    return sum(values)
+
+
+@overload(total)
+def _total(values):
+    def add(values):
+        value = 0.0
+        for k in range(values.size):
+            value += values[k]
+        return value
+
+    return add
+
+
+def test_exact_kernels_stay_exact_beside_quick_ones():
+    random = np.random.default_rng(0)
+    values = np.concatenate([1e3 * random.random(1000), random.random(1000)])
+    as_written = float(sum(values.tolist()))
+
+    @jit_exact
+    def exact(values):
+        return total(values)
+
+    @jit
+    def quickly(values):
+        return total(values)
+
+    @jit_exact
+    def again(values):
+        return total(values) * 1.0
+
+    assert exact(values) == as_written
+    assert quickly(values) != as_written
+    assert quickly(values) == pytest.approx(as_written, rel=1e-12)
+    assert again(values) == as_written
 
 
 def test_what_is_remembered_goes_by_the_types():

@@ -55,7 +55,7 @@ class Swept(NamedTuple):
         return self.wall - self.lost
 
     @property
-    def other(self):
+    def more(self):
         """CPU that the cases have not taken, in % of theirs."""
         return 100.0 * (self.spent / self.own - 1.0)
 
@@ -64,6 +64,13 @@ def busy():
     """CPU seconds that all programs of this machine have had so far, with what its host took."""
     ticks = [int(word) for word in Path("/proc/stat").read_text("utf-8").split()[1:9]]
     return (sum(ticks) - ticks[IDLE] - ticks[WAITING]) / os.sysconf("SC_CLK_TCK")
+
+
+def lost(others, wall, workers, cores):
+    """Seconds of a time ``wall`` that workers lose to other programs, which used processors for
+    ``others`` s, those first that no worker needs.
+    """
+    return max(others - (cores - workers) * wall, 0.0) / workers
 
 
 def swept(designs, workers):
@@ -76,9 +83,8 @@ def swept(designs, workers):
         summary = read_summary(file)
     if not (summary["status"] == "converged").all():
         raise RuntimeError(f"a sweep of {len(designs)} cases left some that did not converge")
-    cores = os.cpu_count()
-    lost = max(others - (cores - workers) * wall, 0.0) / cores  # beyond what no worker used
-    return Swept(wall, others, lost, spent, float(summary["cpu_s"].sum()))
+    taken = lost(others, wall, workers, os.cpu_count())
+    return Swept(wall, others, taken, spent, float(summary["cpu_s"].sum()))
 
 
 def overhead(designs, count):
@@ -87,7 +93,7 @@ def overhead(designs, count):
     found = Table(f"a sweep of {len(designs)} cases", columns)
     samples = [[swept(designs, workers) for workers in WORKERS] for _ in range(count)]
     for workers, rounds in zip(WORKERS, zip(*samples, strict=True), strict=True):
-        figures = [(s.wall, s.others, s.own, s.other, s.free * workers / s.own) for s in rounds]
+        figures = [(s.wall, s.others, s.own, s.more, s.free * workers / s.own) for s in rounds]
         for column, figure in zip(columns, np.median(figures, axis=0), strict=True):
             found.put(f"{workers} worker{'s' * (workers > 1)}", column, float(figure))
     return found
