@@ -56,10 +56,12 @@ def _remembered(find):
         if kws or not isinstance(flags, QuickFlags):  # not ours
             return find(function, context, args, kws)
         what = id(function), context, tuple(args), flags
-        if what not in known:
+        remembered = known.get(what)
+        if remembered is None:
             signature = find(function, context, args, kws)
-            known[what] = signature, function.get_impl_key(signature), function
-        signature, code, _ = known[what]
+            # with the function, so that its id is no other's
+            remembered = known[what] = signature, function.get_impl_key(signature), function
+        signature, code, _ = remembered
         function._impl_keys[signature.args] = code
         return signature
 
