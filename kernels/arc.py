@@ -107,6 +107,8 @@ def _balance(x, terms, before, near, unknowns, tolerance, room, arc, progress):
     _, at, work, grips, way = room
     r, v = work.direction, work.escape
     while True:
+        if not progress.move < np.inf:
+            return NOT_FINITE
         cut = unknowns.cap / max(progress.move, unknowns.cap)
         progress.far = cut * travel(work.dx, terms)
         if not covers(near, x, terms, progress.far):

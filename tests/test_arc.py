@@ -1,11 +1,12 @@
 """Paths through limit points along arcs: closed forms, stability, balance, refusals."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from kernels import newton
+from kernels import arc, newton
 from sweep.config import load_config
 from sweep.grid import ConfigError, expand
 from sweep.params import Case, Contact, Lattice, Loading, Solver
@@ -201,3 +202,12 @@ def test_length_of_arcs_says_nothing_elsewhere(tmp_path):
     (tmp_path / "lee.toml").write_text(f'{text}arc_length = "2 mm"')
     with pytest.raises(ConfigError, match=r'solver.integrator is "static"'):
         expand(load_config(tmp_path / "lee.toml"))
+
+
+@pytest.mark.parametrize("move", [np.inf, np.nan])
+def test_a_move_out_of_the_range_of_numbers_ends_an_arc(move):
+    """Nothing else is looked at: pairs for such a move would be listed for ever."""
+    balance = getattr(arc._balance, "__wrapped__", arc._balance)
+    found = balance(*[None] * 6, [None, None, SimpleNamespace(direction=0, escape=0), None, None],
+                    None, SimpleNamespace(move=move))  # fmt: skip
+    assert found == newton.NOT_FINITE
