@@ -127,11 +127,12 @@ def _ragged(cases: Sequence[Mapping[str, np.ndarray]]) -> Ragged:
 
 
 def _end_to_end(name: str, cases: Sequence[Mapping], rows: np.ndarray) -> np.ndarray:
-    """One array of all cases; NaN for a case with rows that lacks it."""
+    """One array of all cases, as precise as a file holds it; NaN for a case that lacks it."""
     like = next(case[name] for case in cases if name in case)
     values = [
         case[name] if name in case else np.full((n, *like.shape[1:]), np.nan)
         for case, n in zip(cases, rows, strict=True)
         if case
     ]
-    return np.concatenate(values or [like[:0]])
+    digits = np.float32 if like.dtype.kind == "f" else np.int32
+    return np.concatenate(values or [like[:0]], dtype=digits, casting="same_kind")

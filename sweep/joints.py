@@ -3,7 +3,7 @@
 import numpy as np
 
 from kernels import bend, fold
-from sweep.material import as_law, section_law
+from sweep.material import law_in_bending
 from sweep.mesh import Floats, Ints, Mesh, openings
 from sweep.params import Case
 
@@ -47,7 +47,7 @@ def build_bend(mesh: Mesh, rigidity: Floats, case: Case) -> bend.Bend:
         arm_rest=on[end],
         arm_stiffness=(at_end * rigidity / length)[end],
         coupling=np.where(single, 2.0 * (rigidity / length)[end[::2]], 0.0),
-        section=as_law(section_law(material), 1.0 / material.modulus, material.modulus),
+        section=law_in_bending(material),
         hinge_surface=(0.5 * mesh.thickness[before] / between)[through],
         arm_surface=(mesh.thickness / length)[end][through],
     )

@@ -62,6 +62,18 @@ def stress_law(material: Material) -> StressLaw:
 
 
 @lru_cache(maxsize=64)
+def law_in_stretch(material: Material, factor: float) -> Law:
+    """What kernels need of that law, all stresses times ``factor``."""
+    return as_law(stress_law(material), factor, material.modulus)
+
+
+@lru_cache(maxsize=64)
+def law_in_bending(material: Material) -> Law:
+    """What kernels need of `section_law`, over the modulus."""
+    return as_law(section_law(material), 1.0 / material.modulus, material.modulus)
+
+
+@lru_cache(maxsize=64)
 def section_law(material: Material) -> StressLaw:
     """3/2 m(s) over 0 <= s (Pa), the stress of a linear curve with the same moment.
 
@@ -88,12 +100,13 @@ def section_law(material: Material) -> StressLaw:
 
 def as_law(curve: StressLaw, factor: float, modulus: float) -> Law:
     """A law with its integral for kernels, all stresses times ``factor``."""
-    coefficients = factor * np.ascontiguousarray(curve.coefficients)
-    width = np.diff(curve.knots)[:, None] ** np.arange(1, 5)
-    gained = np.sum(coefficients * width / np.arange(1, 5), axis=1)
+    knots, coefficients = curve.knots, factor * np.ascontiguousarray(curve.coefficients)
+    powers = np.arange(1, 5)
+    gained = np.sum(coefficients / powers * np.diff(knots)[:, None] ** powers, axis=1)
     energy = np.concatenate([[0.0], np.cumsum(gained)])
-    raw = Law(curve.knots, coefficients, energy, factor * modulus)
-    return raw._replace(energy=energy - uniaxial(raw, 0.0)[0])
+    at = np.clip(np.searchsorted(knots, 0.0, side="right") - 1, 0, len(coefficients) - 1)
+    energy -= energy[at] + np.sum(coefficients[at] / powers * (-knots[at]) ** powers)
+    return Law(knots, coefficients, energy, factor * modulus)
 
 
 def _spline(knots: Floats, values: Floats, slopes: Floats) -> StressLaw:

@@ -41,7 +41,8 @@ class Mesh:
     @cached_property
     def start(self) -> Ints:
         """First element of every wall and the end of the last, (w + 1,)."""
-        return np.flatnonzero(np.diff(self.wall, prepend=-1, append=self.wall[-1] + 1))
+        changes = 1 + np.flatnonzero(self.wall[1:] != self.wall[:-1])
+        return np.concatenate([[0], changes, [len(self.wall)]])
 
     @cached_property
     def arm_element(self) -> Ints:
@@ -54,9 +55,19 @@ class Mesh:
         first, last = self.start[:-1], self.start[1:] - 1
         return np.column_stack([self.edges[first, 0], self.edges[last, 1]]).ravel()
 
-    def tributary(self, per_length: Floats) -> Floats:
-        """Half of every element's length x ``per_length`` (m,), summed at its two nodes: (n,)."""
-        half = 0.5 * self.rest_length * per_length
+    @cached_property
+    def node_length(self) -> Floats:
+        """Half of the length of every element at a node, (n,) m."""
+        return self._halves(self.rest_length)
+
+    @cached_property
+    def node_area(self) -> Floats:
+        """Half of the area of every element at a node, (n,) m^2."""
+        return self._halves(self.rest_length * self.thickness)
+
+    def _halves(self, of: Floats) -> Floats:
+        """Half of ``of`` (m,) of every element, summed at its two nodes: (n,)."""
+        half = 0.5 * of
         shared = np.bincount(self.edges.ravel(), np.repeat(half, 2), minlength=len(self.points))
         return shared.astype(np.float64)
 
@@ -94,8 +105,11 @@ def split_walls(network: Network, pieces: int | Ints, imperfection: float) -> Me
 
 def row_nodes(network: Network, mesh: Mesh, joints: Ints) -> Ints:
     """Nodes of an outer row: its joints and the nodes inside the walls between them."""
-    start, end = np.isin(network.walls, joints).T
-    return np.union1d(joints, mesh.edges[(start & end)[mesh.wall]].ravel())
+    on = np.zeros(len(mesh.points), np.bool_)
+    on[joints] = True
+    start, end = on[network.walls].T
+    on[mesh.edges[(start & end)[mesh.wall]]] = True
+    return np.flatnonzero(on)
 
 
 def openings(mesh: Mesh) -> tuple[Ints, Floats, Ints]:

@@ -13,7 +13,7 @@ def arc_of(scene: Scene, case: Case) -> arc.Arc | None:
     if case.solver.integrator != "arc_length":
         return None
     mesh = scene.mesh
-    share = mesh.tributary(np.ones(len(mesh.edges)))
+    share = mesh.node_length
     weight = np.zeros(scene.x_rest.size)
     weight[: 2 * len(share)] = np.repeat(share / share.sum(), 2)
     path = np.zeros((given(case.solver.load_steps) + 1, 2))

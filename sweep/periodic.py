@@ -13,7 +13,7 @@ from sweep.endless import Endless
 from sweep.joints import bends, build_bend, build_fold
 from sweep.lattice import build_network, mass
 from sweep.layout import Layout
-from sweep.material import as_law, stress_law
+from sweep.material import law_in_stretch
 from sweep.mesh import Floats, Ints, Mesh, split_walls
 from sweep.params import Case, Lattice
 from sweep.scene import (
@@ -78,7 +78,7 @@ def build_periodic(case: Case) -> Scene:
     touching = in_stretch * material.modulus * depth * (case.contact.stiffness or 0.0)
     masses = _masses(mesh, layout, mass(network, depth, material.density))
     terms = Terms(
-        law=as_law(stress_law(material), in_stretch, material.modulus),
+        law=law_in_stretch(material, in_stretch),
         walls=walls_of(mesh, layout),
         stretch=stretch_of(mesh, case),
         bend=bending,
@@ -164,7 +164,7 @@ def _wall_of(mesh: Mesh, layout: Repeated) -> Ints:
 
 def _masses(mesh: Mesh, layout: Repeated, total: float) -> Floats:
     """Lumped mass of each coordinate, kg: images have none."""
-    share = np.bincount(layout.origin, mesh.tributary(mesh.thickness), layout.n_nodes)
+    share = np.bincount(layout.origin, mesh.node_area, layout.n_nodes)
     masses = np.zeros(layout.size)
     masses[: 2 * layout.n_nodes] = np.repeat(total * share / share.sum(), 2)
     return masses

@@ -8,7 +8,7 @@ from sweep.numerics import steps
 from sweep.params import Case
 
 SECONDS = 1.0  # of work in a batch: far above the cost of passing it on, and soon done
-LEAST = 0.1  # of that, when little is left to share out
+LEAST = 0.05  # of that, when little is left to share out
 MOST = 500  # cases in a batch
 MEMORY = 0.5  # weight of what is known of the pace against the newest batch: compiling is forgotten
 

@@ -13,7 +13,8 @@ from sweep.params import Case
 from sweep.plan import Plan, cost
 from sweep.progress import Progress, tell
 from sweep.provenance import config_text, describe_run
-from sweep.store import finished_ids
+from sweep.result import Status
+from sweep.store import finished_ids, read_statuses
 from sweep.writer import Writer
 
 
@@ -54,14 +55,16 @@ def run_sweep(
                 costs = {case_id: cost(case) for case_id, case in waiting.items()}
                 with Progress(costs, len(done)) as told, keeping(writer, plan, told) as keep:
                     run(plan, chosen, keep, stop, scheduler)
-    kept = len(cases.keys() & finished_ids(out, retry_failed))
+    statuses = read_statuses(out)
+    converged = sum(statuses.get(case_id) == Status.CONVERGED for case_id in cases)
+    kept = converged if retry_failed else len(cases.keys() & statuses.keys())
     if stop.asked and kept < len(cases):
         line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
         raise Interrupted(f"{line}, and the same command runs the rest")
-    others = len(finished_ids(out) - cases.keys()) if isinstance(sweep, Config) else 0
+    others = len(statuses.keys() - cases.keys()) if isinstance(sweep, Config) else 0
     if others:
         tell(f"{out} holds {others} cases more, of other configs: rankings show them too")
-    return len(cases.keys() - finished_ids(out, retry_failed=True))
+    return len(cases) - converged
 
 
 def real_simulate(arcs: bool = False) -> Simulate:

@@ -12,7 +12,7 @@ from kernels.step import Terms
 from sweep.joints import bends, build_bend, build_fold
 from sweep.lattice import Network, build_network, mass
 from sweep.layout import BONDED, Layout, held, leaders
-from sweep.material import as_law, stress_law
+from sweep.material import law_in_stretch
 from sweep.mesh import Floats, Ints, Mesh, row_nodes, split_walls
 from sweep.params import Case, Loading, Material, given
 from sweep.touch import contact_of, projection_of
@@ -89,7 +89,7 @@ def solved_by(mesh: Mesh, layout: Layout, leader: Ints, case: Case) -> pattern.L
 
 def masses_of(mesh: Mesh, layout: Layout, total: float, loading: Loading) -> Floats:
     """Lumped mass of each coordinate, kg; in each direction nodes sum to ``total``."""
-    share = mesh.tributary(mesh.thickness)
+    share = mesh.node_area
     masses = np.zeros(layout.size)
     masses[: 2 * layout.n_nodes] = np.repeat(total * share / share.sum(), 2)
     masses[layout.high] = loading.striker_mass or 0.0
@@ -166,7 +166,7 @@ def build_scene(case: Case) -> Scene:
     follows = solved_by(mesh, layout, leaders(layout, fixed, tied), case)
     masses = masses_of(mesh, layout, printed, case.loading)
     terms = Terms(
-        law=as_law(stress_law(case.material), in_stretch, case.material.modulus),
+        law=law_in_stretch(case.material, in_stretch),
         walls=walls_of(mesh, layout),
         stretch=stretch_of(mesh, case),
         bend=bending,

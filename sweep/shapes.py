@@ -25,9 +25,9 @@ TOGETHER = 1 << 16  # pairs that shapely is asked for at a time
 
 def element_strains(frames: Frames) -> Floats:
     """Nominal strain of every element in every stored shape, (f, m)."""
-    start, end = np.moveaxis(frames["position_m"][:, frames["edges"]], 2, 0)
-    axis = end - start
-    length = np.hypot(axis[..., 0], axis[..., 1])
+    x, y = np.ascontiguousarray(frames["position_m"].T)
+    start, end = frames["edges"].T
+    length = np.sqrt((x[end] - x[start]) ** 2 + (y[end] - y[start]) ** 2).T
     return length / length[0] - 1.0
 
 
@@ -78,16 +78,14 @@ def crossings(frames: Frames) -> int:
 
     Independent of the solver. Where rounding might tell, shapely's exact predicates do.
     """
-    edges = frames["edges"]
-    ends = np.ascontiguousarray(frames["position_m"].T)[:, edges]
-    low, high = ends.min(axis=2), ends.max(axis=2)
-    swept = np.array([low.min(axis=2), high.max(axis=2)])
-    given = ends, low, high, swept, np.argsort(swept[0, 0]), edges
-    crossed, unsure = np.empty(ends.shape[3], np.int64), np.empty((0, 3), np.int64)
+    position, edges = frames["position_m"], frames["edges"]
+    low, high = position.min(axis=0)[edges].min(axis=1), position.max(axis=0)[edges].max(axis=1)
+    given = np.ascontiguousarray(position.T), low, high, np.argsort(low[:, 0]), edges
+    crossed, unsure = np.empty(len(position), np.int64), np.empty((0, 3), np.int64)
     while (count := crossing.count(*given, crossed, unsure)) > len(unsure):
         unsure = np.empty((count, 3), np.int64)
-    for part in np.array_split(unsure, 1 + len(unsure) // TOGETHER):
-        *pair, shape = part.T
-        lines = (linestrings(np.swapaxes(ends[:, which, :, shape], 1, 2)) for which in pair)
+    for begin in range(0, len(unsure), TOGETHER):
+        *pair, shape = unsure[begin : begin + TOGETHER].T
+        lines = (linestrings(position[shape[:, None], edges[which]]) for which in pair)
         crossed += np.bincount(shape[intersects(*lines)], minlength=len(crossed))
     return int(crossed.max())

@@ -50,14 +50,19 @@ def read_summary(path: str | os.PathLike[str]) -> "DataFrame":
         return DataFrame(arrange(newest(blocks)))
 
 
-def finished_ids(path: str | os.PathLike[str], retry_failed: bool = False) -> set[str]:
-    """Ids of the cases that need not run again; none where there is no file."""
+def read_statuses(path: str | os.PathLike[str]) -> dict[str, str]:
+    """Status of every finished case, by its id; empty where there is no file."""
     if not exists(path):
-        return set()
+        return {}
     with _union(Path(path)) as blocks:
         table = newest(blocks, ("case_id", "status"))
-    done = table["status"] == Status.CONVERGED if retry_failed else slice(None)
-    return set(table["case_id"][done])
+    return dict(zip(table["case_id"], table["status"], strict=True))
+
+
+def finished_ids(path: str | os.PathLike[str], retry_failed: bool = False) -> set[str]:
+    """Ids of the cases that need not run again; none where there is no file."""
+    statuses = read_statuses(path)
+    return {i for i, status in statuses.items() if not retry_failed or status == Status.CONVERGED}
 
 
 def read_attributes(path: str | os.PathLike[str]) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from sweep.custom import Structure
 from sweep.joints import bends, build_bend, build_fold
 from sweep.lattice import Network, mass
 from sweep.layout import Layout
-from sweep.material import as_law, stress_law
+from sweep.material import law_in_stretch
 from sweep.mesh import Floats, Ints, Mesh, split_walls
 from sweep.params import Case, given
 from sweep.scene import (
@@ -89,7 +89,7 @@ def build_structure(case: Case) -> Scene:
     printed = mass(network, depth, material.density)
     masses = _masses(of, masses_of(mesh, layout, printed, case.loading))
     terms = Terms(
-        law=as_law(stress_law(material), in_stretch, material.modulus),
+        law=law_in_stretch(material, in_stretch),
         walls=walls_of(mesh, layout),
         stretch=stretch_of(mesh, case),
         bend=_unpinned(bending, mesh, of.pins),

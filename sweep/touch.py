@@ -22,8 +22,7 @@ def contact_of(
     Of the two kinds, ``by_force`` and by position, the one that the case has not is absent.
     """
     acts = by_force == (case.contact.model != "position_based")
-    tributary = mesh.tributary(np.ones(len(mesh.edges)))
-    node_thickness = mesh.tributary(mesh.thickness) / tributary
+    tributary, node_thickness = mesh.node_length, mesh.node_area / mesh.node_length
     walls = acts and case.contact.model != "none"
     edges, thickness = mesh.edges[: None if walls else 0], mesh.thickness[: None if walls else 0]
     special = _no_special_pairs()
@@ -52,12 +51,10 @@ def contact_of(
 
 def _loose(layout: Layout, case: Case) -> Ints:
     """Nodes that a platen can meet: all of them; those that are not glued to it, if walls touch."""
-    nodes = np.arange(layout.n_nodes)
-    if case.loading.platen == "contact":
-        return nodes
-    if case.loading.platen in BONDED and case.contact.model != "none":
-        return np.setdiff1d(nodes, np.union1d(layout.bottom, layout.top))
-    return nodes[:0]
+    bonded = case.loading.platen in BONDED
+    loose = np.full(layout.n_nodes, bonded and case.contact.model != "none")
+    loose[layout.bottom] = loose[layout.top] = False
+    return np.flatnonzero(loose | (case.loading.platen == "contact"))
 
 
 def projection_of(

@@ -18,7 +18,7 @@ from sweep.store import StoreError
 
 resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
 try:
-    write({path!r}, cases({count}))
+    write({path!r}, cases({count}), size={size})
 except StoreError as error:
     print(error)
 """
@@ -29,10 +29,10 @@ def path(tmp_path):
     return tmp_path / "results" / "armor.h5"
 
 
-def fill(path, count, limit):
-    """Write results of some cases where no file may be longer than `limit` bytes."""
+def fill(path, count, limit, size=2):
+    """Write results of cases, `size` at a time, where no file may be longer than `limit` bytes."""
     done = subprocess.run(
-        [sys.executable, "-c", PROGRAM.format(path=str(path), count=count, limit=limit)],
+        [sys.executable, "-c", PROGRAM.format(path=str(path), count=count, limit=limit, size=size)],
         env=os.environ | {"PYTHONPATH": os.pathsep.join([str(ROOT), str(ROOT / "tests")])},
         capture_output=True,
         text=True,
@@ -49,8 +49,8 @@ def test_no_part_fits(path, limit):
 
 
 def test_the_one_file_that_grows_does_not_fit(path):
-    fill(path, 99, 150_000)
+    fill(path, 400, 250_000, size=5)
     assert not path.with_name("armor.h5.tmp").exists()
-    assert 2 < len(finished_ids(path)) < 99
+    assert 100 < len(finished_ids(path)) < 400
     write(path, [], fold=True)
     assert not parts_of(path)
