@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from kernels.intervals import covered, insert
 from kernels.jit import jit_exact, jit_owning
 from kernels.rows import grouped, pair
 
@@ -113,25 +114,6 @@ def _lines(shapes, k, spacing, band):
     return max(int(first), band[0]), min(int(last), band[1])
 
 
-@jit_exact
-def _insert(left, right, at, first, begin, end):
-    """Put an interval in its place among those from ``first`` to ``at`` that begin in order."""
-    while at > first and left[at - 1] > begin:
-        left[at], right[at] = left[at - 1], right[at - 1]
-        at -= 1
-    left[at], right[at] = begin, end
-
-
-@jit_exact
-def _union(left, right):
-    """Return the length of intervals that begin in order, where they overlap but once."""
-    total, reached = 0.0, -np.inf
-    for k in range(left.size):
-        total += max(right[k] - max(left[k], reached), 0.0)
-        reached = max(reached, right[k])
-    return total
-
-
 @jit_owning
 def _covered(shapes, order, spacing, band):
     """Return the length in m that shapes cover on the lines of a ``band``: first, last + 1.
@@ -155,11 +137,11 @@ def _covered(shapes, order, spacing, band):
             at = line - band[0]
             height = spacing * line - y
             begin, end = _interval(height, ux, uy, shapes.along[k], shapes.across[k])
-            _insert(left, right, free[at], start[at], x + begin, x + end)
+            insert(left, right, free[at], start[at], x + begin, x + end)
             free[at] += 1
     total = 0.0
     for line in range(start.size - 1):
-        total += _union(left[start[line] : start[line + 1]], right[start[line] : start[line + 1]])
+        total += covered(left, right, start[line], start[line + 1])
     return total
 
 

@@ -23,7 +23,7 @@ from sweep.drawing import (
     welded,
 )
 from sweep.infill import drawer
-from sweep.lattice import GRID, Network, sketch
+from sweep.lattice import Network, sketch
 
 if TYPE_CHECKING:
     from sweep.specimen import Lattice
@@ -50,11 +50,11 @@ class Endless(Network):
     @cached_property
     def printed_area(self) -> float:
         """Area of the walls within one period, m^2."""
-        import shapely
+        from sweep.cover import united_area
 
-        box = shapely.box(0.0, 0.0, *(self.period / self.unit))
-        inside = shapely.intersection(self.union, box, grid_size=GRID)
-        return self.unit**2 * float(shapely.area(inside))
+        box = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]) * self.period
+        with_box = np.concatenate([self.loops, [box]])
+        return united_area(self.loops) + float(np.prod(self.period)) - united_area(with_box)
 
 
 def build_endless(lattice: Lattice) -> Endless:

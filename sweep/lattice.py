@@ -13,15 +13,10 @@ from sweep.drawing import Sketch, extent, joints_and_walls, on_outline, pitch, s
 from sweep.silhouette import silhouette
 
 if TYPE_CHECKING:
-    from shapely import Geometry
-
     from sweep.specimen import Lattice
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
-
-
-GRID = 2.0**-40  # of a wall thickness: without it GEOS loses a corner here and there
 
 
 @dataclass(frozen=True)
@@ -45,22 +40,14 @@ class Network:
 
         Corners sharper than 60 degrees are blunt.
         """
-        import shapely
+        from sweep.cover import united_area
 
-        return self.unit**2 * float(shapely.area(self.union))
-
-    @property
-    def unit(self) -> float:
-        """Length (m) in which `union` is drawn."""
-        return float(self.wall_thickness.max())
+        return united_area(self.loops)
 
     @property
-    def union(self) -> Geometry:
-        """The print, in units of the thickest wall."""
-        import shapely
-
-        loops = silhouette(self.points / self.unit, self.walls, self.wall_thickness / self.unit)
-        return shapely.union_all(shapely.polygons(np.array(loops)), grid_size=GRID)
+    def loops(self) -> Floats:
+        """The print as overlapping polygons (k, 5, 2), m."""
+        return np.array(silhouette(self.points, self.walls, self.wall_thickness))
 
 
 @lru_cache(maxsize=1024)
@@ -71,7 +58,9 @@ def build_network(lattice: Lattice) -> Network:
 
         return build_endless(lattice)
     points, walls = joints_and_walls(sketch(lattice))
-    thickness = lattice.wall_thickness * gradient(lattice)
+    thickness = np.full(len(walls), lattice.wall_thickness)
+    if lattice.grading != 1.0:
+        thickness *= gradient(lattice)
     for on, outline in _outlines(lattice, points, walls):
         thickness[on] = outline
     thickness.flags.writeable = False

@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from sweep import cover
-from sweep.cover import covered_area
+from sweep.cover import covered_area, united_area
 
 WALL = np.array([[0, 1]])
 
@@ -88,3 +88,47 @@ def test_the_error_falls_with_the_lines(monkeypatch):
         monkeypatch.setattr(cover, "LINES", count)
         errors.append(abs(covered_area(*tangle()) / exact - 1.0))
     assert np.log(errors[0] / errors[1]) / np.log(lines[1] / lines[0]) > 1.5
+
+
+def closed(*corners):
+    return np.array([*corners, corners[0]], float)
+
+
+def rectangle(left, bottom, right, top):
+    return closed((left, bottom), (right, bottom), (right, top), (left, top))
+
+
+SQUARE = rectangle(0, 0, 1, 1)
+UNIONS = {
+    "alone": ([SQUARE], 1.0),
+    "twice": ([SQUARE, SQUARE], 1.0),
+    "inside another": ([SQUARE, rectangle(0.2, 0.3, 0.4, 0.5)], 1.0),
+    "on a side": ([SQUARE, rectangle(1, 0.25, 2, 0.75)], 1.5),
+    "at a corner": ([SQUARE, rectangle(1, 1, 3, 3)], 5.0),
+    "apart, above": ([SQUARE, rectangle(0, 2, 1, 3)], 2.0),
+    "across": ([rectangle(-2, 0, 3, 1), rectangle(0, -2, 1, 3)], 9.0),
+    "without area": ([SQUARE, closed((0.5, 0.5), (0.5, 0.5), (2, 2), (2, 2))], 1.0),
+}
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3, np.pi / 4])
+@pytest.mark.parametrize("case", UNIONS)
+def test_united_area_by_hand(case, turn):
+    loops, expected = UNIONS[case]
+    turned = np.array(loops) @ [[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]]
+    assert united_area(turned) == pytest.approx(expected, rel=1e-13)
+    far = turned[::-1] + np.array([1e3, -1e3])
+    assert united_area(far) == pytest.approx(expected, rel=1e-10)
+
+
+@pytest.mark.parametrize("count", [3, 30, 200])
+@pytest.mark.parametrize("corners", [3, 4, 7])
+def test_polygons_in_a_heap_have_the_area_that_shapely_finds(count, corners):
+    """Each with its corners on a circle, so that it is convex; of 200, there are many heights."""
+    random = np.random.default_rng(count)
+    angle = np.sort(random.uniform(0.0, 2.0 * np.pi, (count, corners)), axis=1)
+    circle = np.stack([np.cos(angle), np.sin(angle)], axis=2)
+    heap = random.uniform(0.5, 2.0, (count, 1, 1)) * circle + random.uniform(-3, 3, (count, 1, 2))
+    heap = np.concatenate([heap, heap[:, :1]], axis=1)
+    expected = shapely.area(shapely.union_all(shapely.polygons(heap)))
+    assert united_area(heap) == pytest.approx(expected, rel=1e-12)
