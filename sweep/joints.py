@@ -4,7 +4,7 @@ import numpy as np
 
 from kernels import bend, fold
 from sweep.material import law_in_bending
-from sweep.mesh import Floats, Ints, Mesh, openings
+from sweep.mesh import Floats, Ints, Mesh
 from sweep.params import Case
 
 
@@ -55,7 +55,7 @@ def build_bend(mesh: Mesh, rigidity: Floats, case: Case) -> bend.Bend:
 
 def build_fold(mesh: Mesh, bending: bend.Bend, case: Case) -> fold.Fold:
     """Fold barrier between neighbouring arms of every joint; K that of the two in series."""
-    nodes, opened, arms = (a[: None if bends(case) else 0] for a in openings(mesh))
+    nodes, opened, arms = (a[: None if bends(case) else 0] for a in mesh.openings)
     limit = np.minimum(bend.FOLD_LIMIT, 0.5 * opened)
     one, two = bending.arm_stiffness[arms].T
     return fold.Fold(nodes, limit, one * two / (one + two) * (0.5 * opened) ** 2)

@@ -1,12 +1,13 @@
 """From a network of walls to nodes, elements, hinges, arms and folds: indices and rest geometry."""
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sweep.lattice import Network
+from sweep.lattice import Network, build_network
+from sweep.params import Lattice
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -56,6 +57,28 @@ class Mesh:
         return np.column_stack([self.edges[first, 0], self.edges[last, 1]]).ravel()
 
     @cached_property
+    def openings(self) -> tuple[Ints, Floats, Ints]:
+        """Openings between neighbouring arms of every joint.
+
+        Nodes (f, 3), anticlockwise from arm 1-0 to arm 1-2; the rest opening (f,) in rad; the two
+        arms (f, 2), numbered as in `arm_joint`.
+        """
+        node, at_start = self.arm_joint, np.arange(2 * len(self.start) - 2) % 2 == 0
+        first, second = self.edges[self.arm_element].T
+        other = np.where(at_start, second, first)
+        arm = self.points[other] - self.points[node]
+        bearing = np.arctan2(arm[:, 1], arm[:, 0])
+        order = np.lexsort([bearing, node])
+        node, other, bearing = node[order], other[order], bearing[order]
+        start = np.searchsorted(node, node, side="left")
+        count = np.searchsorted(node, node, side="right") - start
+        following = start + (np.arange(len(node)) - start + 1) % count
+        opened = np.mod(bearing[following] - bearing, 2 * np.pi)
+        kept = count > 1
+        nodes = np.column_stack([other, node, other[following]])
+        return nodes[kept], opened[kept], np.column_stack([order, order[following]])[kept]
+
+    @cached_property
     def node_length(self) -> Floats:
         """Half of the length of every element at a node, (n,) m."""
         return self._halves(self.rest_length)
@@ -70,6 +93,13 @@ class Mesh:
         half = 0.5 * of
         shared = np.bincount(self.edges.ravel(), np.repeat(half, 2), minlength=len(self.points))
         return shared.astype(np.float64)
+
+
+@lru_cache(maxsize=16)
+def build_mesh(lattice: Lattice) -> Mesh:
+    """The walls of a lattice in elements: often those of the case before, too."""
+    shift = lattice.imperfection * lattice.wall_thickness
+    return split_walls(build_network(lattice), lattice.nodes_per_wall + 1, shift)
 
 
 def split_walls(network: Network, pieces: int | Ints, imperfection: float) -> Mesh:
@@ -110,25 +140,3 @@ def row_nodes(network: Network, mesh: Mesh, joints: Ints) -> Ints:
     start, end = on[network.walls].T
     on[mesh.edges[(start & end)[mesh.wall]]] = True
     return np.flatnonzero(on)
-
-
-def openings(mesh: Mesh) -> tuple[Ints, Floats, Ints]:
-    """Openings between neighbouring arms of every joint.
-
-    Returns nodes (f, 3), anticlockwise from arm 1-0 to arm 1-2; the rest opening (f,) in rad;
-    the two arms (f, 2), numbered as in `Mesh.arm_joint`.
-    """
-    node, at_start = mesh.arm_joint, np.arange(2 * len(mesh.start) - 2) % 2 == 0
-    first, second = mesh.edges[mesh.arm_element].T
-    other = np.where(at_start, second, first)
-    arm = mesh.points[other] - mesh.points[node]
-    bearing = np.arctan2(arm[:, 1], arm[:, 0])
-    order = np.lexsort([bearing, node])
-    node, other, bearing = node[order], other[order], bearing[order]
-    start = np.searchsorted(node, node, side="left")
-    count = np.searchsorted(node, node, side="right") - start
-    following = start + (np.arange(len(node)) - start + 1) % count
-    opened = np.mod(bearing[following] - bearing, 2 * np.pi)
-    kept = count > 1
-    nodes = np.column_stack([other, node, other[following]])
-    return nodes[kept], opened[kept], np.column_stack([order, order[following]])[kept]

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from sweep.numerics import steps
 from sweep.params import Case
+from sweep.tables import canonical
 
 SECONDS = 1.0  # of work in a batch: far above the cost of passing it on, and soon done
 LEAST = 0.05  # of that, when little is left to share out
@@ -22,13 +23,15 @@ def cost(case: Case) -> float:
 class Plan:
     """Cases that wait, the longest first, so that no worker is left with a long one at the end.
 
-    The first to go is the shortest, for a result at once and a first measure of the pace. Batches
-    hold about `SECONDS` of work, and less towards the end. Threads may share a plan.
+    The first to go is the shortest, for a result at once and a first measure of the pace. Of those
+    as long, the ones of a lattice follow one another: it is built once. Batches hold about
+    `SECONDS` of work, and less towards the end. Threads may share a plan.
     """
 
     def __init__(self, cases: Iterable[Case], workers: int) -> None:
         self.workers = workers
-        self._waiting = deque(sorted(cases, key=cost, reverse=True))
+        ordered = sorted(cases, key=lambda case: (-cost(case), canonical(case.lattice)))
+        self._waiting = deque(ordered)
         self._left = sum(map(cost, self._waiting))
         self._seconds = self._done = 0.0  # of recent batches: time taken, cost
         self._lock = threading.Lock()

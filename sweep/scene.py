@@ -13,7 +13,7 @@ from sweep.joints import bends, build_bend, build_fold
 from sweep.lattice import Network, build_network, mass
 from sweep.layout import BONDED, Layout, held, leaders
 from sweep.material import law_in_stretch
-from sweep.mesh import Floats, Ints, Mesh, row_nodes, split_walls
+from sweep.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
 from sweep.params import Case, Loading, Material, given
 from sweep.touch import contact_of, projection_of
 
@@ -143,10 +143,7 @@ def damp_of(case: Case) -> damp.Damp:
 def build_scene(case: Case) -> Scene:
     """Build the arrays of ``case``."""
     lattice, platen = case.lattice, case.loading.platen
-    network = build_network(lattice)
-    mesh = split_walls(
-        network, lattice.nodes_per_wall + 1, lattice.imperfection * lattice.wall_thickness
-    )
+    network, mesh = build_network(lattice), build_mesh(lattice)
     layout = Layout(
         len(mesh.points),
         mesh.n_joints,
