@@ -81,8 +81,10 @@ def table_keys(table: str) -> dict[str, Key]:
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
-    """The known name that looks most like this one."""
-    return difflib.get_close_matches(name, list(known), n=1, cutoff=0.0)[0]
+    """The known name that begins like this one, or else looks most like it."""
+    names = list(known)
+    begun = [other for other in names if other.startswith(name)]
+    return difflib.get_close_matches(name, begun or names, n=1, cutoff=0.0)[0]
 
 
 def _key(name: str, model: type[Table], field: str, schema: dict[str, Any]) -> Key:

@@ -60,7 +60,7 @@ def merits(
         per_gram: finished[energy] / finished["mass_g"],
         "passed_on_N": force,
         "returned_share": finished["returned_energy_J"] / finished["absorbed_energy_J"],
-        "beyond_model": finished[energy] > within,
+        "beyond_model": (finished[energy] > within) | _through_solid(finished),
         "crossed": finished["max_crossings"] > 0,
     }
     names = {"mass": "mass_g", "energy": energy, "per_gram": per_gram, "until": until}
@@ -75,6 +75,12 @@ def merits(
             added[error_column("panel_energy_J")] = factor * finished[bar]
         names |= {"mass": "panel_mass_g", "energy": "panel_energy_J"}
     return finished.assign(**added), names
+
+
+def _through_solid(finished: DataFrame) -> Series:
+    """Which lattices are pressed into less height than their solid has, or through the ground."""
+    sunk = (finished["loading_mode"] == "force") & (finished["peak_strain"] >= 1.0)
+    return sunk | (finished["stroke_left_m"] < 0.0)
 
 
 def panel_factor(frame: DataFrame, panel: Sequence[Quantity]) -> Series:

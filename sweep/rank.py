@@ -114,8 +114,8 @@ def rank(
     without being heavier; where `LEAST` counts, the same for that), `ranked_by`, with a panel
     `panel_mass_g` and `panel_energy_J`; and `passed_on_N`, the greatest force while that energy is
     absorbed, `returned_share` of the work of the whole crush, which was stored and not dissipated,
-    `beyond_model` (True: a wall was squeezed too far while it was absorbed), `crossed` (True: walls
-    passed through one another).
+    `beyond_model` (True: a wall was squeezed too far while it was absorbed, or the lattice into
+    less height than its solid has), `crossed` (True: walls passed through one another).
     `attrs`: names of the columns compared (`mass`, `energy`, `per_gram`; `by`: of the crushed
     designs where there are any), `limited` (True: energy counts up to a force), the counts `cases`,
     `failed`, `unranked` (finished, but without a value to sort by), `without_bar` (of those with a
@@ -126,7 +126,7 @@ def rank(
     compared, names = merits(finished, by, panel, allowed_force)
     usual = names["energy" if budget is not None or panel is not None else "per_gram"]
     by = by and _column(compared, by)
-    limits = [in_si(mass, "kg") * 1e3 for mass in _several(budget)] or [np.inf]
+    limits = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in _several(budget))] or [np.inf]
     scenes = [(_with_scene(rows, names), _order(rows, by, usual)) for rows in by_scene(compared)]
     parts = [_places(rows, names["mass"], order, g, top) for rows, order in scenes for g in limits]
     ranking = pd.concat(parts, ignore_index=True)

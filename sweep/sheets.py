@@ -26,9 +26,12 @@ rebound: share of the striker's energy with which it leaves."""
 FIRST = {"peak_strain": ": least sink first", "peak_force_N": ": least force first"}
 TIED = """\
 ±: estimated error of what is sorted by, of mesh and steps, in % of it; not a bound. =: shares its
-place, as the value ± error overlaps that of the first in this place; without an error, it counts as
-exact."""
-BEYOND = "!: beyond the model, as a wall is squeezed below 0.7 of its length: not to be trusted."
+place, as the value ± error overlaps that of the first in this place. ?: no error is known, and the
+place is that of the value alone."""
+BEYOND = """\
+!: beyond the model, as a wall is squeezed below 0.7 of its length, or the lattice into less height
+than its solid has: not to be trusted."""
+EARLY = ">: at least, as the crush ended before that force was passed on: a longer one tells more."
 CROSSED = "x: walls pass through one another, as no contact stops them: not to be trusted."
 
 MILLIMETRES = {
@@ -91,6 +94,7 @@ def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
             notes=(
                 *((BEYOND,) if rows["beyond_model"].any() else ()),
                 *((CROSSED,) if rows["crossed"].any() else ()),
+                *((EARLY,) if _stops_early(rows, ranking.attrs).any() else ()),
                 *_cut_off(rows),
                 *_not_shown(placed),
                 *(
@@ -146,7 +150,7 @@ def _not_shown(rows: DataFrame) -> Iterator[str]:
         if count < of[budget]
     ]
     if more:
-        yield f"Not shown: {', '.join(more)}; crumple rank --top {of.max()} lists all."
+        yield f"Not shown: {', '.join(more)}; with --top {of.max()}, rank lists all."
 
 
 def _without_repeats(rows: DataFrame) -> DataFrame:
@@ -231,7 +235,8 @@ def _measures(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
         if "ranked_error" in rows:
-            columns["± %"] = (rows["ranked_error"] / rows[by].abs()).map(tenths)
+            share = rows["ranked_error"] / rows[by].abs()
+            columns["± %"] = share.map(tenths).where(share.notna(), "?")
     return columns
 
 
@@ -251,11 +256,18 @@ def _struck(rows: DataFrame) -> dict[str, Series]:
 def _crushed(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
     energy, whole = rows[names["energy"]], "panel" if "panel_mass_g" in rows else "absorbs"
     unit, scale = ("mJ", 1e3) if energy.max() < 1.0 else ("J", 1.0)
+    more = _stops_early(rows, names).map({True: "> ", False: ""})
     return {
-        f"{whole} {unit}": numerals(energy * scale),
-        "J/g": numerals(rows[names["per_gram"]]),
+        f"{whole} {unit}": more + numerals(energy * scale),
+        "J/g": more + numerals(rows[names["per_gram"]]),
         "peak N": numerals(rows["passed_on_N"]),
     }
+
+
+def _stops_early(rows: DataFrame, names: dict[Any, Any]) -> Series:
+    """Which crushes ended before the allowed force was passed on: they would absorb more yet."""
+    crushed = rows["loading_mode"] == "displacement"
+    return crushed & names["limited"] & (rows["peak_force_N"] <= rows["passed_on_N"])
 
 
 def _whole(rows: DataFrame) -> dict[str, Series]:

@@ -34,7 +34,8 @@ def aloud(file: str, cases: int, ranking: DataFrame) -> Iterator[str]:
     """What must not be missed beside a ranking of so many cases."""
     names = ranking.attrs
     if names["without_bar"]:
-        yield f"{_counted(names['without_bar'], 'ranked case')} no error bar: taken for exact."
+        cases_have = _counted(names["without_bar"], "ranked case")
+        yield f"{cases_have} no error bar: placed by value alone."
     if names["unranked"]:
         yield f"{_counted(names['unranked'], 'case')} no {names['by']} and so no place."
     if names["failed"]:
@@ -54,7 +55,8 @@ def _heading(question: Mapping[str, Any], ranking: DataFrame) -> str:
     usual = {names["energy"]: "most energy", names["per_gram"]: "most energy per gram"}
     order = usual.get(by, f"least {by}" if by in LESS_IS_BETTER else f"most {by}")
     lines = [f"Best first: {order}."]
-    if force := question.get("allowed_force"):
+    crushed = (ranking["loading_mode"] == "displacement").any()
+    if (force := question.get("allowed_force")) and crushed:
         lines.append(f"Energy counts until a specimen passes on {force}.")
     if (budgets := question["budget"]) and len(budgets) == 1:
         lines.insert(0, f"At most {_written(budgets[0], 1e3, 'g')}.")
@@ -106,7 +108,7 @@ def _terminal_table(sheet: Sheet, width: int) -> Table:
         padding=(0, 1 if natural <= width else 0, 0, 0),
     )
     for head, texts in zip(heads, sheet.columns, strict=True):
-        right = all(text[:1] in f"0123456789->{NOTHING}" and " x " not in text for text in texts)
+        right = all(text[:1] in f"0123456789->?{NOTHING}" and " x " not in text for text in texts)
         table.add_column(head, justify="right" if right else "left", no_wrap=True)
     for i, row in enumerate(sheet.rows):
         if i in sheet.opens and i:

@@ -4,12 +4,13 @@ import os
 import socket
 import threading
 import time
+from itertools import groupby
 
 import pytest
 from standin import cases, number_of, simulate
 
 from sweep.graph import GraphError, Stop, check_scheduler, run
-from sweep.params import Case, Lattice, Solver
+from sweep.params import Case, Lattice, Material, Solver
 from sweep.plan import Plan, cost
 from sweep.result import Status
 
@@ -152,6 +153,25 @@ def test_shortest_case_first_then_the_longest():
     plan.learn([first], 1.0)
     order = [case for batch in iter(plan.take, []) for case in batch]
     assert order == [with_work(steps) for steps in (800, 400, 200, 100)]
+
+
+def test_cases_of_a_lattice_follow_one_another():
+    """So that it is built once; those that take longer go first none the less."""
+    made = [
+        Case(
+            lattice=Lattice(width=0.01 * w, cells_x=n),
+            material=Material(modulus=1e6 * y, density=1e3),
+        )
+        for y in (1, 2, 3)
+        for w in (1, 2)
+        for n in (3, 4)
+    ]
+    plan = Plan(made, workers=2)
+    plan.take()
+    plan.learn(made[:1], 1.0)
+    order = [case.lattice for batch in iter(plan.take, []) for case in batch]
+    assert [lattice.cells_x for lattice in order] == [4] * 6 + [3] * 5
+    assert [len(list(run)) for _, run in groupby(order)] in ([3, 3, 3, 2], [3, 3, 2, 3])
 
 
 def test_batches_hold_about_a_second_and_shrink_towards_the_end():

@@ -90,7 +90,7 @@ def test_missing_error_bar_hides_nothing_and_is_counted():
     assert list(ranking["place"]) == [1, 2]
     assert ranking.attrs["without_bar"] == 1
     (sheet,) = ranking_sheets(ranking, table)
-    assert [row[-1] for row in sheet.rows] == ["0.1", "–"]
+    assert [row[-1] for row in sheet.rows] == ["0.1", "?"]
 
 
 def test_error_bars_follow_into_what_is_derived():
@@ -134,7 +134,7 @@ def test_what_is_not_shown_is_counted_for_each_budget():
 
 def not_shown(count, all_of_them):
     """The note below a table that does not show them all."""
-    return f"Not shown: {count}; crumple rank --top {all_of_them} lists all."
+    return f"Not shown: {count}; with --top {all_of_them}, rank lists all."
 
 
 def test_command_line_tells_ties_and_what_has_no_bar(capsys, tmp_path, monkeypatch):
@@ -146,7 +146,7 @@ def test_command_line_tells_ties_and_what_has_no_bar(capsys, tmp_path, monkeypat
     text = capsys.readouterr().out
     assert "1=*" in text
     assert TIED in text
-    assert "1 ranked case has no error bar: taken for exact." in text
+    assert "1 ranked case has no error bar: placed by value alone." in text
     assert max(len(line) for line in text.splitlines()) <= 100
 
     main([*question, "--csv"])
