@@ -1,6 +1,9 @@
 """What is timed: the seed's scene and crushes of square cells, all cells of one size."""
 
+from sweep.lattice import build_network
+from sweep.mesh import build_mesh
 from sweep.params import Case, Contact, Damping, Lattice, Loading, Material, Solver
+from sweep.scene import build_scene
 
 PITCH = 12.5e-3 / 3
 MATERIAL = Material(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
@@ -8,6 +11,13 @@ UNDAMPED = Damping(model="none")
 APART = Contact(model="none")
 SMOOTH, ROUGH = Contact(friction=0.0), Contact(friction=0.3)
 SPEED = 0.5  # m/s
+
+
+def new_scene(case):
+    """The scene of a case whose lattice none before it had."""
+    build_network.cache_clear()
+    build_mesh.cache_clear()
+    return build_scene(case)
 
 
 def lattice(cells):

@@ -44,7 +44,7 @@ def table(sizes, steps, count):
         often = march().iterations
         sides = {
             EACH: partial(marching.sustained, march),
-            SCENE: partial(seconds, partial(build_scene, case)),
+            SCENE: partial(seconds, partial(cases.new_scene, case)),
             PATTERN: partial(seconds, partial(_search, scene)),
         }
         at = medians(sides, count)

@@ -42,7 +42,7 @@ def compared(title, chosen, count, peers=None):
         march = partial(marching.whole, case, scene)
         iterations[name] = march().iterations
         sides[name, WHOLE] = partial(seconds, partial(simulate, case))
-        sides[name, SCENE] = partial(seconds, partial(build_scene, case))
+        sides[name, SCENE] = partial(seconds, partial(cases.new_scene, case))
         sides[name, EACH] = partial(marching.sustained, march)
     for name, peer in (peers or {}).items():
         taken, iterations[name] = peer.whole()
