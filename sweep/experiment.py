@@ -15,7 +15,8 @@ import numpy as np
 from sweep import plots
 from sweep.digits import three_digits
 from sweep.figures.panels import dress, legend
-from sweep.sheets import Sheet, markdown
+from sweep.markdown import markdown
+from sweep.sheets import Sheet
 from sweep.store import read_history, read_summary
 
 if TYPE_CHECKING:

@@ -12,11 +12,12 @@ from pandas import concat
 from sweep import charts, plots
 from sweep.accuracy import studies
 from sweep.diagrams import work_precision
+from sweep.markdown import markdown
 from sweep.patterns import panel_size, pattern_bars
 from sweep.precision import MARKS, accuracy_sheets, scene_title
 from sweep.rank import rank
 from sweep.reactions import probe_reactions
-from sweep.sheets import Sheet, design_labels, legend, markdown, ranking_sheets
+from sweep.sheets import Sheet, design_labels, legend, ranking_sheets
 from sweep.store import read_frames, read_history, read_summary
 from sweep.storyboard import headline, last_loaded
 

@@ -1,8 +1,8 @@
-"""Rankings and lists of cases as text: for a terminal of 80 columns, and in Markdown."""
+"""Rankings and lists of cases as tables of text that fit a terminal of 80 columns."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pandas import Series
@@ -280,25 +280,6 @@ def _whole(rows: DataFrame) -> dict[str, Series]:
         ),
         "back %": rows["returned_share"].map(percent),
     }
-
-
-def markdown(sheets: Iterable[Sheet]) -> str:
-    """Sheets in Markdown, a heading each."""
-    return "\n".join(_markdown(sheet) for sheet in sheets)
-
-
-def _markdown(sheet: Sheet) -> str:
-    """One sheet: heading, table with columns of equal width, notes."""
-    texts = [[head, *texts] for head, texts in zip(sheet.heads, sheet.columns, strict=True)]
-    widths = [max(len(text) for text in column) for column in texts]
-    lines = [
-        "| " + " | ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)) + " |"
-        for row in zip(*texts, strict=True)
-    ]
-    rule = "| " + " | ".join("-" * width for width in widths) + " |"
-    heading = [f"### {sheet.title}", ""] if sheet.title else []
-    notes = [line for note in sheet.notes for line in ("", note)]
-    return "\n".join([*heading, lines[0], rule, *lines[1:], *notes, ""])
 
 
 def _varies(frame: DataFrame, *names: str) -> bool:

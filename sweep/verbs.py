@@ -119,8 +119,9 @@ def status(arguments: Namespace) -> int:
 
 def rank(arguments: Namespace) -> int:
     """The ranking, as tables on the terminal, as text for other programs, or into a folder."""
+    from sweep.markdown import markdown
     from sweep.rank import rank
-    from sweep.sheets import markdown, ranking_sheets
+    from sweep.sheets import ranking_sheets
     from sweep.store import read_summary
 
     summary, question = read_summary(arguments.file), _asked(arguments)

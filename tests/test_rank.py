@@ -7,8 +7,9 @@ import pandas as pd
 import pytest
 from specimens import designs, summary
 
+from sweep.markdown import markdown
 from sweep.rank import RankError, pareto, rank, scene_label
-from sweep.sheets import BEYOND, CROSSED, EARLY, LOADED, legend, markdown, ranking_sheets
+from sweep.sheets import BEYOND, CROSSED, EARLY, LOADED, legend, ranking_sheets
 
 NAN = float("nan")
 
