@@ -37,6 +37,18 @@ _DEFAULTS = {
 }
 
 
+CRUSHED_SOLID = {
+    "absorbed_energy_J": 0.9,
+    "absorbed_energy_at_densification_J": 0.2,
+    "absorbed_energy_within_model_J": 0.5,
+    "peak_force_N": 900.0,
+    "peak_force_at_densification_N": 30.0,
+    "returned_energy_J": 0.81,
+}
+SPARSE = {"absorbed_energy_J": 0.3, "returned_energy_J": 0.285, "densification_strain": np.nan}
+SPARSE |= {"peak_strain": 0.5, "peak_force_N": 25.0}
+
+
 def summary(*rows):
     """Table with a row for each dict of what differs from a 3 x 3 grid crushed to one half.
 
