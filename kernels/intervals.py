@@ -7,11 +7,15 @@ from kernels.jit import jit_exact
 
 @jit_exact
 def insert(left, right, at, first, begin, end):
-    """Put an interval in its place among those from ``first`` to ``at`` that begin in order."""
+    """Put an interval in its place among those from ``first`` to ``at`` that begin in order.
+
+    Return the place.
+    """
     while at > first and left[at - 1] > begin:
         left[at], right[at] = left[at - 1], right[at - 1]
         at -= 1
     left[at], right[at] = begin, end
+    return at
 
 
 @jit_exact

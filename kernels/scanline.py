@@ -156,8 +156,9 @@ def covered_area(points, edges, thickness, lines, together):
     low, high, sum_of_extents = np.inf, -np.inf, 0.0
     for k in range(shapes.along.size):
         y, extent = shapes.center[k, 1], _extent(shapes, k)
-        low, high = min(low, y - extent), max(high, y + extent)
-        sum_of_extents += extent
+        if extent > 0.0:
+            low, high = min(low, y - extent), max(high, y + extent)
+            sum_of_extents += extent
     spacing = max(thickness.min() / lines, (high - low) / MOST_LINES)
     first, last = int(np.floor(low / spacing)), int(np.ceil(high / spacing)) + 1
     bands = 1 + int(2.0 * sum_of_extents / spacing / together)

@@ -92,8 +92,10 @@ def area(loops, low, high, levels):
             k = active[i]
             if high[k, 1] > y:
                 begin, end = _interval(loops, k, y)
-                insert(left, right, kept, 0, begin, end)
-                active[kept] = k
+                place = insert(left, right, kept, 0, begin, end)
+                for j in range(kept, place, -1):  # in the order that the next slab nearly has
+                    active[j] = active[j - 1]
+                active[place] = k
                 kept += 1
         count = kept
         total += (top - bottom) * covered(left, right, 0, kept)

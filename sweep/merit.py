@@ -80,7 +80,7 @@ def merits(
 def _through_solid(finished: DataFrame) -> Series:
     """Which lattices are pressed into less height than their solid has, or through the ground."""
     sunk = (finished["loading_mode"] == "force") & (finished["peak_strain"] >= 1.0)
-    return sunk | (finished["stroke_left_m"] < 0.0)
+    return sunk | (finished["stroke_left_m"] < -ROUND_OFF)
 
 
 def panel_factor(frame: DataFrame, panel: Sequence[Quantity]) -> Series:

@@ -256,7 +256,7 @@ def _struck(rows: DataFrame) -> dict[str, Series]:
 def _crushed(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
     energy, whole = rows[names["energy"]], "panel" if "panel_mass_g" in rows else "absorbs"
     unit, scale = ("mJ", 1e3) if energy.max() < 1.0 else ("J", 1.0)
-    more = _stops_early(rows, names).map({True: "> ", False: ""})
+    more = (_stops_early(rows, names) & energy.notna()).map({True: "> ", False: ""})
     return {
         f"{whole} {unit}": more + numerals(energy * scale),
         "J/g": more + numerals(rows[names["per_gram"]]),

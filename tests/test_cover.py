@@ -49,6 +49,15 @@ def test_a_node_without_walls_covers_nothing():
     assert covered_area(points, WALL, thickness) == covered_area(points[:2], WALL, thickness)
 
 
+@pytest.mark.parametrize("away", [1e9, 1e155, 1e308])
+def test_walls_without_measure_have_no_area(away):
+    points = np.array([[0.0, 0.0], [1.0, 0.0], [away, 0.0]])
+    found = covered_area(points, np.array([[0, 1], [1, 2]]), np.full(2, 0.1))
+    assert np.isnan(found)
+    lone = covered_area(points, WALL, np.array([0.1]))
+    assert lone == pytest.approx(0.1 + np.pi * 0.05**2, rel=4e-3)
+
+
 def test_a_tangle_has_the_area_that_shapely_finds():
     walls = tangle()
     assert covered_area(*walls) == pytest.approx(by_shapely(*walls), rel=3e-4)
