@@ -53,8 +53,8 @@ class Endless(Network):
         from sweep.cover import united_area
 
         box = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]) * self.period
-        with_box = np.concatenate([self.loops, [box]])
-        return united_area(self.loops) + float(np.prod(self.period)) - united_area(with_box)
+        walls, inside = self.loops, float(np.prod(self.period))
+        return united_area(walls) + inside - united_area(np.concatenate([walls, [box]]))
 
 
 def build_endless(lattice: Lattice) -> Endless:
