@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sweep.looks import budget_winners, doubtful, looks, merits
-from sweep.plots import GRID, legend, mark, plain, round_ticks
+from sweep.looks import budget_winners, doubtful, errors_of, looks, merit_errors, merits
+from sweep.plots import GREY, GRID, legend, mark, plain, round_ticks
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,21 +17,25 @@ if TYPE_CHECKING:
     from pandas import DataFrame, Series
 
 LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
+TITLE = 72  # letters in a line above a panel
 WHITE = (1.0, 1.0, 1.0, 1.0)
+LEAST_LOW = 0.1  # of a value: where its error bar ends at the latest, as no log axis has a zero
 
 
 def design_map(fig: Figure, ranking: DataFrame) -> None:
     """What to print: merit against mass, a panel a scene, the winner of each budget named.
 
     ranking : all places (`top=None`), of one mode. Merit: absorbed energy, how little a load sinks,
-    or the force that a striker leaves on the support. The stairs are the best that any mass offers,
-    the Pareto front, whose designs are drawn on top; where they meet a budget stands its winner.
+    or the force that a striker leaves on the support, with its error bar. The stairs are the best
+    that any mass offers, the Pareto front, whose designs are drawn on top; where they meet a budget
+    stands its winner.
     """
     mass = ranking.attrs["mass"]
     of = "panel" if mass == "panel_mass_g" else "specimen"
     look = looks(ranking)
     for ax, rows in _scene_axes(fig, ranking.round({mass: 9})):  # equal by design is equal
-        merit = merits(rows, ranking.attrs["energy"])
+        energy = ranking.attrs["energy"]
+        merit, error = merits(rows, energy), merit_errors(rows, energy)
         least = LEAST_SHOWN.get(rows["loading_mode"].iloc[0])
         for _, points in rows[::-1].groupby(["pareto", "material"]):  # the best comes last
             _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
@@ -39,17 +44,18 @@ def design_map(fig: Figure, ranking: DataFrame) -> None:
         _line(ax, front[mass], merit.loc[front.index], stairs, front)
         ax.set(xscale="log", yscale="log")
         ax.margins(0.1, 0.15)
+        _error_bars(ax, rows[mass], merit, error)
         for budget in ranking.attrs["budgets_g"]:
             mark(ax, budget, f"{budget:g} g")
         words = [ax.get_title("left")]
         for said, x, y in budget_winners(rows, ranking):
             ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")
-            words.append(said)
+            words.append(_in_lines(said))
         ax.set_title("\n".join(words), loc="left", fontsize="small")
         ax.set_xlabel(f"mass of the {of}, g")
         ax.set_ylabel(least or f"energy absorbed by the {of}, J")
-        round_ticks(ax.xaxis, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
-        round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
+        round_ticks(ax.xaxis)
+        round_ticks(ax.yaxis)
     legend(fig, look.legend())
 
 
@@ -64,9 +70,16 @@ def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
             wall = 1e3 * best["wall_thickness_m"]
             _line(ax, wall, best[per_gram], {"color": style["c"][0], "lw": 1.2}, best)
             _dots(ax, wall, best[per_gram], style, best)
+            _error_bars(ax, wall, best[per_gram], errors_of(best, per_gram), style["c"][0])
         ax.set(xlabel="wall thickness, mm", ylabel="absorbed energy per gram, J/g", yscale="log")
-        round_ticks(ax.yaxis, 1.0, 2.0, 5.0)
+        round_ticks(ax.yaxis)
     legend(fig, look.legend(walls=False))
+
+
+def _in_lines(words: str) -> str:
+    """A title whose lines end behind commas."""
+    one_piece = words.replace(" ", "\xa0").replace(",\xa0", ", ")
+    return fill(one_piece, TITLE, subsequent_indent="    ").replace("\xa0", " ")
 
 
 def _line(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
@@ -84,6 +97,14 @@ def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFra
     beyond = doubtful(points).to_numpy()[:, None]
     faces: Any = np.where(beyond, WHITE, colors)
     dots.set(edgecolor=colors, facecolor=faces)
+
+
+def _error_bars(ax: Axes, x: Series, y: Series, error: Series, color: str = GREY) -> None:
+    """Value ± error as a thin line behind each design whose error is known."""
+    known = error.notna()
+    if known.any():
+        low, high = (y - error).clip(lower=LEAST_LOW * y), y + error
+        ax.vlines(x[known], low[known], high[known], color=color, lw=0.8, zorder=0)
 
 
 def _scene_axes(fig: Figure, ranking: DataFrame) -> Iterator[tuple[Axes, DataFrame]]:

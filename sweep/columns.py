@@ -50,6 +50,11 @@ def relabel(table: Columns, axes: Axes) -> Columns:
     return table | fresh
 
 
+def beyond(table: Mapping[str, np.ndarray], axes: Axes) -> int:
+    """Number of rows whose case `axes`, unless it is empty, does not know."""
+    return sum(case_id not in axes for case_id in table["case_id"]) if axes else 0
+
+
 def arrange(table: Columns) -> Columns:
     """Columns in the order of a reader: who and how, the grid, the fixed ones, the others."""
     return {name: table[name] for name in sorted(table, key=_place)}

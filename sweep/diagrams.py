@@ -33,8 +33,8 @@ def _scene(fig: SubFigure, study: Study) -> None:
         ax.set_axisbelow(True)
         plain(ax)
         _lines(ax, study, name)
-        round_ticks(ax.xaxis, 1.0, 3.0)
-        round_ticks(ax.yaxis, 1.0)
+        round_ticks(ax.xaxis)
+        round_ticks(ax.yaxis)
     handles, labels = axes[0].get_legend_handles_labels()
     fig.legend(handles, labels, loc="outside right upper", frameon=False)
 

@@ -43,3 +43,8 @@ def tenths(share: float) -> str:
     if not math.isfinite(share):
         return NOTHING
     return f"{100 * share:.1f}" if share < 0.0995 else percent(share)
+
+
+def energy_text(joules: float) -> str:
+    """An energy with its unit."""
+    return f"{three_digits(joules)} J" if joules >= 1.0 else f"{three_digits(1e3 * joules)} mJ"

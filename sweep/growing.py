@@ -14,7 +14,7 @@ import numpy as np
 from h5py import h5d, h5s, h5t
 
 from sweep.block import GROUPS, Block, Ragged, newest_rows
-from sweep.columns import Axes, Columns, arrange, relabel, rows_in_order, stack, take
+from sweep.columns import Axes, Columns, arrange, beyond, relabel, rows_in_order, stack, take
 from sweep.parts import Unsealed
 from sweep.result import Column, describe_array, describe_column
 
@@ -29,7 +29,8 @@ class About:
     """What a sealed file says besides its rows.
 
     axes: case id -> grid values (dotted key -> value in SI), in the order that the rows shall have.
-    attributes: config, versions and the like. last: number of the last batch in it.
+    attributes: config, versions and the like. last: number of the last batch in it. Also counted:
+    cases that `axes` does not know, of other configs.
     """
 
     axes: Axes = field(default_factory=dict)
@@ -83,13 +84,15 @@ class Growing:
         places = rows_in_order(newest, dict.fromkeys([*about.axes, *self._known]))
         order = np.array(list(newest.values()), dtype=np.int64)[places]
         summary = self._file.create_group("summary", track_order=True)
-        for name, column in arrange(relabel(take(table, order), about.axes)).items():
+        rows = relabel(take(table, order), about.axes)
+        for name, column in arrange(rows).items():
             data = _write_column(summary, name, column)
             if self._packed:
                 _describe(data, describe_column(name))
         for ragged in self._ragged.values():
             ragged.finish(order)
-        self._file.attrs.update({**about.attributes, "format": FORMAT, "folded": about.last})
+        counts = {"folded": about.last, "other_cases": beyond(rows, about.axes)}
+        self._file.attrs.update({**about.attributes, "format": FORMAT, **counts})
         self._file.close()
         self._disk.seal()
 

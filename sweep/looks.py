@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from sweep.digits import three_digits
+from sweep.digits import energy_text, tenths, three_digits
 from sweep.merit import LEAST
+from sweep.rank import LESS_IS_BETTER, shared_places
+from sweep.result import error_column
 from sweep.sheets import design_labels
 
 if TYPE_CHECKING:
@@ -77,8 +79,26 @@ def doubtful(designs: DataFrame) -> Series:
 
 def merits(rows: DataFrame, energy: str) -> Series:
     """What the designs of one scene are compared by: sink in %, force in N, or energy in J."""
+    name, scale = _compared(rows, energy)
+    return scale * rows[name]
+
+
+def merit_errors(rows: DataFrame, energy: str) -> Series:
+    """The error bars of `merits`; NaN where none is known."""
+    name, scale = _compared(rows, energy)
+    return scale * errors_of(rows, name)
+
+
+def errors_of(rows: DataFrame, name: str) -> Series:
+    """The error bars of a column; NaN where none is known."""
+    known = rows.get(error_column(name))
+    return rows[name] * np.nan if known is None else known
+
+
+def _compared(rows: DataFrame, energy: str) -> tuple[str, float]:
+    """The column by which the designs of one scene are compared, and what it is shown times."""
     least = LEAST.get(rows["loading_mode"].iloc[0])
-    return rows[least or energy] * (100.0 if least == "peak_strain" else 1.0)
+    return least or energy, 100.0 if least == "peak_strain" else 1.0
 
 
 def budget_winners(rows: DataFrame, ranking: DataFrame) -> list[tuple[str, float, float]]:
@@ -91,8 +111,21 @@ def budget_winners(rows: DataFrame, ranking: DataFrame) -> list[tuple[str, float
         if not won.empty:
             limit = f"up to {budget:g} g" if np.isfinite(budget) else "best"
             merit = merits(won, energy).item()
-            winners.append((f"{limit}: {_words(won, merit, ranking)}", won[mass].item(), merit))
+            words = _words(won, merit, ranking) + _ties(rows[rows[mass] <= budget], energy)
+            winners.append((f"{limit}: {words}", won[mass].item(), merit))
     return winners
+
+
+def _ties(rows: DataFrame, energy: str) -> str:
+    """How sure the best of some designs of one scene is, where error bars tell."""
+    name, _ = _compared(rows, energy)
+    ordered = rows.sort_values([name, "case_id"], ascending=name in LESS_IS_BETTER)
+    values, errors = ordered[name], errors_of(ordered, name)
+    if np.isnan(errors.iloc[0]):
+        return ""
+    others = int((shared_places(values, errors) == 1).sum()) - 1
+    share = f" ± {tenths(errors.iloc[0] / values.iloc[0])} %"
+    return f"{share}, a tie of {others + 1}" if others else share
 
 
 def _words(won: DataFrame, merit: float, ranking: DataFrame) -> str:
@@ -106,11 +139,6 @@ def _words(won: DataFrame, merit: float, ranking: DataFrame) -> str:
     beyond = ", beyond the model" if won["beyond_model"].item() else ""
     crossed = ", walls cross" if won["crossed"].item() else ""
     return f"{design}, {worth}{beyond}{crossed}"
-
-
-def energy_text(joules: float) -> str:
-    """An energy with its unit."""
-    return f"{three_digits(joules)} J" if joules >= 1.0 else f"{three_digits(1e3 * joules)} mJ"
 
 
 def _ramp(count: int) -> list[str]:

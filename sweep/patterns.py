@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sweep.looks import doubtful
+from sweep.looks import doubtful, errors_of
 from sweep.sheets import design_labels
 
 if TYPE_CHECKING:
@@ -13,7 +13,10 @@ if TYPE_CHECKING:
 
 
 def pattern_bars(fig: Figure, ranking: DataFrame) -> None:
-    """Energy per gram of every design, the best on top, by scene; open: not to be trusted."""
+    """Energy per gram of every design with its error bar, the best on top, a panel a scene.
+
+    Open: not to be trusted.
+    """
     per_gram = ranking.attrs["per_gram"]
     scenes = ranking.groupby("scene", sort=False)
     axes = fig.subplots(len(scenes), 1, squeeze=False).ravel()
@@ -22,6 +25,8 @@ def pattern_bars(fig: Figure, ranking: DataFrame) -> None:
         bars = ax.barh(range(len(ordered)), ordered[per_gram], color="#3b528b", ec="#3b528b")
         for bar, doubt in zip(bars, doubtful(ordered), strict=True):
             bar.set(fill=not doubt)
+        errors = errors_of(ordered, per_gram)
+        ax.errorbar(ordered[per_gram], range(len(ordered)), xerr=errors, fmt="none", ecolor="black")
         ax.set_yticks(range(len(ordered)), design_labels(ordered, ranking), fontsize="small")
         ax.set_title(scene, loc="left", fontsize="medium")
         ax.set_xlabel("absorbed energy per gram, J/g")

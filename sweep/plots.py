@@ -15,10 +15,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path as Outline
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
-from sweep.digits import three_digits
-from sweep.looks import energy_text
+from sweep.digits import energy_text, three_digits
 from sweep.silhouette import silhouette
 from sweep.storyboard import headline, last_loaded, shots
 
@@ -42,6 +41,8 @@ ENERGIES = {
 }
 PANEL, GAP = 1.9, 0.1  # inches: the longer side of the picture of a shape; between two
 LETTER, LINE = 0.075, 0.2  # inches: the width of a letter of a title, the height of a line
+TICKS = 3  # labels of a log axis at least
+ROUND = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))  # by powers of ten
 NEGLIGIBLE = 0.005  # share of the work below which an energy is not worth a colour
 
 
@@ -236,9 +237,14 @@ def mark(ax: Axes, x: float, words: str) -> None:
                 textcoords="offset points", fontsize="small", color="#555555")  # fmt: skip
 
 
-def round_ticks(axis: Any, *subs: float) -> None:
-    """Ticks of a log axis at these multiples of the powers of ten."""
-    axis.set_major_locator(LogLocator(subs=subs))
+def round_ticks(axis: Any) -> None:
+    """Ticks of a log axis at round numbers, as far apart as leaves `TICKS` of them in view."""
+    low, high = axis.get_view_interval()
+    for locator in (*(LogLocator(subs=subs) for subs in ROUND), MaxNLocator(2 * TICKS)):
+        axis.set_major_locator(locator)
+        places = locator.tick_values(low, high)
+        if ((low <= places) & (places <= high)).sum() >= TICKS:
+            break
     axis.set_major_formatter("{x:g}")
     axis.set_minor_formatter(NullFormatter())
 

@@ -10,8 +10,7 @@ import numpy as np
 import pandas as pd
 
 from sweep.accuracy import REFINED, TARGETS, Study, varies
-from sweep.digits import NOTHING, short, three_digits
-from sweep.looks import energy_text
+from sweep.digits import NOTHING, energy_text, short, three_digits
 from sweep.rank import HELD_BY_SCENE, scene_keys, scene_label
 from sweep.result import Status
 from sweep.sheets import Sheet

@@ -15,7 +15,7 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
-from sweep.digits import short
+from sweep.digits import energy_text, short
 from sweep.merit import LEAST, Quantity, RankError, in_si, merits
 from sweep.result import Status, error_column
 
@@ -168,7 +168,8 @@ def scene_label(rows: DataFrame) -> str:
         words = ["loaded as its file says"]
     elif first["loading_mode"] == "impact":
         struck = short(float(first["striker_mass_g"])), short(float(first["striker_speed_m_per_s"]))
-        words = [f"struck by {struck[0]} g at {struck[1]} m/s"]
+        energy = energy_text(float(first["impact_energy_J"]))
+        words = [f"struck by {struck[0]} g at {struck[1]} m/s ({energy})"]
     elif len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
         words = [f"crushed to {100 * strains[0]:g} %"]
         said |= {"loading.strain", "loading.stroke"}

@@ -61,9 +61,6 @@ def run_sweep(
     if stop.asked and kept < len(cases):
         line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
         raise Interrupted(f"{line}, and the same command runs the rest")
-    others = len(statuses.keys() - cases.keys()) if isinstance(sweep, Config) else 0
-    if others:
-        tell(f"{out} holds {others} cases more, of other configs: rankings show them too")
     return len(cases) - converged
 
 

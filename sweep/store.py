@@ -22,7 +22,7 @@ import h5py
 import numpy as np
 
 from sweep.block import FRAME_GROUPS, GROUPS, Block, Ragged, newest
-from sweep.columns import Axes, arrange, relabel, rows_in_order, take
+from sweep.columns import Axes, arrange, beyond, relabel, rows_in_order, take
 from sweep.parts import list_parts
 from sweep.result import HISTORY_COLUMNS, Status
 
@@ -94,12 +94,12 @@ def folded_batches(path: Path) -> int:
 
 
 def is_labelled(path: Path, axes: Axes) -> bool:
-    """True if the rows have the order and the grid values of `axes` already."""
+    """True if the rows have the order and the grid values of `axes` already, and their count."""
     with _union(path) as blocks:
-        table = newest(blocks)
+        table, others = newest(blocks), blocks[-1].attributes.get("other_cases", 0)
     wanted = relabel(take(table, rows_in_order(table["case_id"], axes)), axes)
     same = (np.array_equal(table[n], c, equal_nan=c.dtype != object) for n, c in wanted.items())
-    return wanted.keys() == table.keys() and all(same)
+    return wanted.keys() == table.keys() and all(same) and others == beyond(table, axes)
 
 
 @contextmanager

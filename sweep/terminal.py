@@ -32,7 +32,14 @@ def print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) ->
 
 def aloud(file: str, cases: int, ranking: DataFrame) -> Iterator[str]:
     """What must not be missed beside a ranking of so many cases."""
+    from sweep.store import read_attributes
+
     names = ranking.attrs
+    if others := read_attributes(file).get("other_cases", 0):
+        yield (
+            f"{others} of {cases} cases are of other configs than the last run's, and are ranked "
+            "too: give the next config another --out, or name, to keep them apart."
+        )
     if names["without_bar"]:
         cases_have = _counted(names["without_bar"], "ranked case")
         yield f"{cases_have} no error bar: placed by value alone."

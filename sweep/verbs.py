@@ -110,6 +110,8 @@ def status(arguments: Namespace) -> int:
     say_all(f"{count:7d} {name}" for name, count in counts.items())
     say_all(_failures(arguments.file, summary))
     say_all(_bars(summary))
+    if others := about.get("other_cases", 0):
+        say(f"{others} cases are of other configs than the last run's")
     say(f"{summary['cpu_s'].sum():.4g} s of processor time in all")
     known = {name.removeprefix("version_"): about[name] for name in about if "version_" in name}
     say(f"last run {about.get('created', '?')}, revision {about.get('git_revision', '?')}")

@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+from matplotlib.collections import LineCollection
 from specimens import designs, summary
 
-from sweep.charts import design_map, thickness_trends
-from sweep.plots import blank
+from sweep.charts import TITLE, design_map, thickness_trends
+from sweep.patterns import pattern_bars
+from sweep.plots import TICKS, blank, round_ticks
 from sweep.rank import rank
 
 
@@ -87,3 +89,54 @@ def test_trend_follows_the_wall_thickness(ranking):
     line = figure.axes[0].get_lines()[0]
     np.testing.assert_allclose(line.get_xdata(), [0.4, 0.8, 1.2])
     np.testing.assert_allclose(line.get_ydata(), [0.1, 0.15, 0.2 / 3.0])
+
+
+def bars_of(ax):
+    lines = [c for c in ax.collections if isinstance(c, LineCollection)]
+    return [segment for line in lines for segment in line.get_segments()]
+
+
+def test_designs_have_their_error_bars_which_end_above_zero(ranking):
+    assert not any(map(bars_of, drawn(ranking).axes))
+    error = f"error_{ranking.attrs['energy']}"
+    sure = with_attrs(ranking, **{error: [0.01, 0.5, np.nan] * 2})
+    ends = [bar[:, 1] for bar in bars_of(drawn(sure).axes[0])]
+    best, second = ranking["absorbed_energy_J"][:2]
+    np.testing.assert_allclose(ends, [[best - 0.01, best + 0.01], [0.1 * second, second + 0.5]])
+
+
+def test_trends_and_patterns_have_the_error_bars_of_energy_per_gram(ranking):
+    per_gram = ranking.attrs["per_gram"]
+    sure = with_attrs(ranking, **{f"error_{per_gram}": 0.02})
+    for draw, across in ((thickness_trends, 1), (pattern_bars, 0)):
+        widths = [np.ptp(bar[:, across]) for bar in bars_of(drawn(sure, draw).axes[0])]
+        np.testing.assert_allclose(widths, [0.04] * 3)
+
+
+def test_titles_break_behind_commas_only(ranking):
+    ranking["material"] = [f"a rather long-winded name of a material, number {k}" for k in range(6)]
+    for line in drawn(ranking).axes[0].get_title("left").splitlines()[1:]:
+        assert len(line) <= TITLE
+        assert line.endswith((",", "J"))
+
+
+@pytest.mark.parametrize("view", [(1e-6, 1.0), (0.05, 30.0), (0.8, 2.2), (0.9, 1.02), (38.0, 71.0)])
+def test_a_log_axis_has_enough_round_labels_and_not_too_many(view):
+    ax = blank(4, 3).subplots()
+    ax.set(xscale="log", xlim=view)
+    round_ticks(ax.xaxis)
+    seen = [tick for tick in ax.get_xticks() if view[0] <= tick <= view[1]]
+    assert TICKS <= len(seen) <= 3 * TICKS
+    np.testing.assert_allclose(seen, [float(f"{tick:.3g}") for tick in seen], rtol=1e-9)
+
+
+def drawn(ranking, draw=design_map):
+    figure = blank(8, 4)
+    draw(figure, ranking)
+    return figure
+
+
+def with_attrs(ranking, **columns):
+    changed = ranking.assign(**columns)
+    changed.attrs = ranking.attrs
+    return changed

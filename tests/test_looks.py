@@ -1,5 +1,6 @@
 """One design looks the same wherever it is drawn; the legend says how; the winners are named."""
 
+import numpy as np
 import pytest
 from specimens import designs, summary
 
@@ -75,3 +76,14 @@ def test_under_a_dead_load_the_least_sink_wins():
     ranking = rank(summary(*rows), top=None)
     assert budget_winners(ranking, ranking) == [("best: wall 0.8 mm, sinks 20.0 %", 2.0, 20.0)]
     assert merits(ranking, "absorbed_energy_J").tolist() == [20.0, 30.0, 50.0]
+
+
+def test_winners_say_how_sure_they_are_and_whom_they_tie_with(ranking):
+    energy = ranking.attrs["energy"]
+    ranking.attrs["budgets_g"] = [1.5, 3.0, 9.0]
+    sure = ranking.assign(**{f"error_{energy}": [0.01, 0.06, 0.05, np.nan]})
+    assert [words for words, *_ in budget_winners(sure, sure)] == [
+        "up to 1.5 g: cells 10 x 10, wall 0.8 mm, 100 mJ ± 10 %",
+        "up to 3 g: cells 2 x 2, wall 0.4 mm, 400 mJ ± 15 %, a tie of 2",
+        "up to 9 g: cells 2 x 2, wall 0.8 mm, 1.60 J",
+    ]

@@ -25,8 +25,8 @@ def test_under_a_striker_the_least_force_wins():
     )
     ranking = rank(table)
     assert list(ranking["scene"]) == [
-        *["struck by 50 g at 2 m/s, glued platens"] * 3,
-        "struck by 50 g at 2.828 m/s, glued platens",
+        *["struck by 50 g at 2 m/s (100 mJ), glued platens"] * 3,
+        "struck by 50 g at 2.828 m/s (200 mJ), glued platens",
     ]
     assert list(ranking["peak_force_N"]) == [40.0, 60.0, 70.0, 90.0]
     assert list(ranking["pareto"]) == [True, True, False, True]
