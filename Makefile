@@ -2,7 +2,7 @@
 #   make sweep CONFIG=configs/smoke.toml      another sweep than the default
 
 CONFIG ?= configs/armor.toml
-NAME = $(basename $(notdir $(CONFIG)))
+NAME = $(shell basename "$(CONFIG)" .toml)
 RESULTS ?= results/$(NAME).h5
 TABLES ?= results/$(NAME)
 
@@ -26,13 +26,13 @@ $(STAMP): requirements.lock pyproject.toml .ci/setup
 	@touch $@
 
 sweep: setup  ## simulate what CONFIG asks for (finished cases are kept) and rank it
-	@$(PYTHON) -m sweep run $(CONFIG) --out $(RESULTS); status=$$?; test $$status -le 1 || exit $$status; \
-	$(PYTHON) -m sweep rank $(RESULTS) --out $(TABLES) && exit $$status
+	@$(PYTHON) -m sweep run "$(CONFIG)" --out "$(RESULTS)"; status=$$?; test $$status -le 1 || exit $$status; \
+	$(PYTHON) -m sweep rank "$(RESULTS)" --out "$(TABLES)" && exit $$status
 
 rank: setup  ## rank the results of CONFIG again, running the sweep first if there are none
-	@if test -f $(RESULTS); then $(PYTHON) -m sweep rank $(RESULTS); \
-	else $(PYTHON) -m sweep run $(CONFIG) --out $(RESULTS) || test $$? -eq 1; fi
-	@$(PYTHON) -m sweep rank $(RESULTS) --out $(TABLES)
+	@if test -f "$(RESULTS)"; then $(PYTHON) -m sweep rank "$(RESULTS)"; \
+	else $(PYTHON) -m sweep run "$(CONFIG)" --out "$(RESULTS)" || test $$? -eq 1; fi
+	@$(PYTHON) -m sweep rank "$(RESULTS)" --out "$(TABLES)"
 
 lint: setup  ## check style and types
 	$(PYTHON) -m ruff check

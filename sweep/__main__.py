@@ -92,7 +92,7 @@ def parser() -> Parser:
     accuracy.add_argument("config", type=_path, metavar="CONFIG", help="TOML file with a [grid]")
     accuracy.add_argument(
         "--out",
-        type=_path,
+        type=_folder,
         metavar="DIR",
         default="results/accuracy",
         help="results, tables and figure (default: results/accuracy)",
@@ -113,14 +113,14 @@ def parser() -> Parser:
     for name, what in {"csv": "all columns", "json": "all columns", "markdown": "tables"}.items():
         shape.add_argument(f"--{name}", action="store_true", help=f"{what}, as {name} on stdout")
     shape.add_argument(
-        "--out", type=_path, metavar="DIR", help="write tables and figures into a folder"
+        "--out", type=_folder, metavar="DIR", help="write tables and figures into a folder"
     )
 
     show = verbs.add_parser("show", help="draw a case", description=SHOW, formatter_class=raw)
     show.add_argument("file", type=_path, metavar="F.h5")
     show.add_argument("case", metavar="CASE", nargs="?", help="id, or the beginning of one")
     show.add_argument(
-        "--out", type=_path, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
+        "--out", type=_folder, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
     )
     return main
 
@@ -152,6 +152,13 @@ def _path(text: str) -> str:
     if text:
         return text
     raise argparse.ArgumentTypeError("an empty path; allowed: the name of a file or a folder")
+
+
+def _folder(text: str) -> str:
+    """A path that may become a folder."""
+    if os.path.exists(_path(text)) and not os.path.isdir(text):  # neither ever raises
+        raise argparse.ArgumentTypeError(f"{text!r} is a file; allowed: a folder")
+    return text
 
 
 def _results(text: str) -> str:

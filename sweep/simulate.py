@@ -26,8 +26,7 @@ SOUNDER = "try a smaller solver.tolerance, and look for values out of all propor
 GAP = 1e-3  # of the energy, that may be left over
 INVENTED = 0.1  # of the work done: energy that an integrator may make
 ADVICE = {
-    newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; "
-    "try more solver.load_steps or a smaller solver.time_step",
+    newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {shorter}",
     newton.STALLED: "the energy could not be lowered further; "
     "try a looser solver.tolerance or smaller steps",
     newton.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
@@ -205,7 +204,10 @@ class _Run:
             return Status.TIMED_OUT, f"solver.time_limit of {limit:g} s reached {where}; raise it"
         if outcome == newton.INTERRUPTED:
             return Status.STOPPED, f"interrupted {where}; run again to complete it"
-        advice = ADVICE[outcome].format(limit=self.case.solver.max_iterations)
+        solver = self.case.solver
+        timed = solver.load_steps is None
+        shorter = "a smaller solver.time_step" if timed else "more solver.load_steps"
+        advice = ADVICE[outcome].format(limit=solver.max_iterations, shorter=shorter)
         if self.arc is not None:
             advice = LOST
         return Status.STOPPED, f"stopped {where}: {advice}"

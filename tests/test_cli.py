@@ -86,7 +86,9 @@ REFUSED = [
     (["run", "nowhere.toml", "--out", "/dev/full"], "argument --out: '/dev/full'; allowed: a file"),
     (["rank", "FILE", "--out", ""], "an empty path"),
     (["rank", ""], "an empty path"),
-    (["rank", "FILE", "--out", "FILE"], "trial.h5 is or lies in a file; allowed: a folder\n"),
+    (["rank", "FILE", "--out", "FILE"], "trial.h5' is a file; allowed: a folder\n"),
+    (["show", "FILE", "zz", "--out", "FILE"], "trial.h5' is a file; allowed: a folder\n"),
+    (["accuracy", "nowhere.toml", "--out", "FILE"], "trial.h5' is a file; allowed: a folder\n"),
     (["run", "nowhere.toml", "--out", "LINK"], "a.h5'; allowed: a file whose name ends in .h5"),
     (["rank", "FILE", "--out", "/dev/full/x"], "/dev/full/x is or lies in a file; allowed: a "),
     (["rank", "FILE", "--out", "/proc/x"], "/proc/x cannot be written: "),
@@ -108,7 +110,7 @@ def test_refusals_take_two_lines_and_exit_with_2(capsys, file, tmp_path, argumen
 def test_pictures_need_a_folder(capsys, tmp_path):
     file = write(tmp_path / "trial.h5", summary({"case_id": "ab"}))
     refused = {
-        file: "is or lies in a file; allowed: a folder",
+        f"{file}/x": "is or lies in a file; allowed: a folder",
         "/proc/x": "cannot be written: No such file or directory",
     }
     for folder, why in refused.items():

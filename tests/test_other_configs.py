@@ -28,7 +28,7 @@ def test_other_configs_are_told_of(tmp_path, monkeypatch, capsys, verb):
     monkeypatch.setattr(import_module("sweep.simulate"), "simulate", simulate)
     monkeypatch.chdir(tmp_path)
     config = tmp_path / "trial.toml"
-    for values, others in (([0.001, 0.002, 0.003], ""), ([0.003, 0.004], "2 of 4 cases are of oth")):
+    for values, others in (([0.1, 0.2, 0.3], ""), ([0.3, 0.4], "2 of 4 cases are of other")):
         config.write_text(CONFIG.format(values=values))
         assert main(["run", str(config)]) == 0
         if verb != "run":
