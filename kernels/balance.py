@@ -84,3 +84,17 @@ def allowed(matrix, tolerance):
             stiffest = max(stiffest, matrix.own[h])
     force = max(tolerance.force, tolerance.finest * stiffest)
     return force, tolerance.decrement * (force / tolerance.force) ** 2
+
+
+@jit
+def loosened(tolerance, times):
+    """Return the tolerance of a minimum that may miss by ``times`` as much."""
+    return Tolerance(
+        times * tolerance.force,
+        times * times * tolerance.decrement,
+        tolerance.friction,
+        tolerance.grip,
+        tolerance.noise,
+        tolerance.finest,
+        tolerance.iterations,
+    )

@@ -10,6 +10,11 @@ together do not slip: with T the tangent, d the distance and w the rotation of t
 
 A share that the contact sum counts twice is taken off here with a negative force, so that friction
 sees the same normal force as contact.
+
+f'' is nothing but a spike at u = 0, which Newton's method leaps over, to and fro. So f' is an
+unknown of its own, the dual w: with f' = u / psi(u), what is linearised is psi(u) w = u, and
+(1 - w psi') / psi stands for f'', which it is as soon as w = f' (Chan, Golub & Mulet 1999, SIAM J.
+Sci. Comput. 20, 1964). A contact whose slip changes its sign is held, as w knows the old one.
 """
 
 from typing import NamedTuple
@@ -23,6 +28,8 @@ from kernels.entries import add_block
 from kernels.jit import jit, jit_exact, jit_owning
 from kernels.pairs import counted, within
 from kernels.rows import pair
+
+UNKNOWN = 2.0  # as a dual
 
 
 class Friction(NamedTuple):
@@ -38,12 +45,13 @@ class Grips(NamedTuple):
     """Lagged contacts: nodes (n, 3) p, a, b; slopes (n, 3, 2) of the slip in them; load (n,).
 
     load is mu * lambda in N. A rigid platen does not move sideways: a = b = p with slope zero.
-    count (1,): how many there are, with room for more.
+    dual (n,): w so far, or `UNKNOWN`, then f'. count (1,): how many there are, with room for more.
     """
 
     nodes: np.ndarray
     slopes: np.ndarray
     load: np.ndarray
+    dual: np.ndarray
     count: np.ndarray
 
 
@@ -51,8 +59,9 @@ class Grips(NamedTuple):
 def room(pairs, contact, friction):
     """Return no grips, with room for all pairs and platens in contact."""
     most = 3 * pairs.node.size + 2 * contact.plate_nodes.size if friction.mu > 0.0 else 0
+    count = np.zeros(1, np.int64)
     return Grips(
-        np.empty((most, 3), np.int64), np.empty((most, 3, 2)), np.empty(most), np.zeros(1, np.int64)
+        np.empty((most, 3), np.int64), np.empty((most, 3, 2)), np.empty(most), np.empty(most), count
     )
 
 
@@ -60,7 +69,7 @@ def room(pairs, contact, friction):
 def none():
     """Return no grips."""
     count = np.zeros(1, np.int64)
-    return Grips(np.empty((0, 3), np.int64), np.empty((0, 3, 2)), np.empty(0), count)
+    return Grips(np.empty((0, 3), np.int64), np.empty((0, 3, 2)), np.empty(0), np.empty(0), count)
 
 
 @jit_owning
@@ -68,7 +77,7 @@ def moved(grips, larger):
     """Return ``larger`` with what is in ``grips``."""
     larger.count[0] = min(grips.count[0], larger.load.size)
     for n in range(larger.count[0]):
-        larger.load[n] = grips.load[n]
+        larger.load[n], larger.dual[n] = grips.load[n], grips.dual[n]
         for k in range(3):
             larger.nodes[n, k] = grips.nodes[n, k]
             larger.slopes[n, k, 0] = grips.slopes[n, k, 0]
@@ -79,7 +88,7 @@ def moved(grips, larger):
 @jit_exact
 def _put(grips, n, nodes, load):
     grips.nodes[n, 0], grips.nodes[n, 1], grips.nodes[n, 2] = nodes
-    grips.load[n] = load
+    grips.load[n], grips.dual[n] = load, UNKNOWN
     for v in range(3):
         grips.slopes[n, v, 0], grips.slopes[n, v, 1] = 0.0, 0.0
     return n + 1
@@ -141,16 +150,30 @@ def lag(x, contact, pairs, drift, friction, grips):
 
 @jit
 def smooth(u, slip):
-    """Return f, f' and f'' of the smoothed |u|."""
+    """Return f and f' of the smoothed |u|."""
     size = abs(u)
     if size >= slip:
-        return size, (1.0 if u > 0.0 else -1.0), 0.0
+        return size, 1.0 if u > 0.0 else -1.0
     s = size / slip
-    return (
-        slip * (s * s * (1.0 - s / 3.0) + 1.0 / 3.0),
-        u / slip * (2.0 - s),
-        (2.0 - 2.0 * s) / slip,
-    )
+    return slip * (s * s * (1.0 - s / 3.0) + 1.0 / 3.0), u / slip * (2.0 - s)
+
+
+@jit
+def _stretched(u, slip):
+    """Return psi with f' = u / psi, and psi'."""
+    s, sign = abs(u) / slip, 1.0 if u > 0.0 else -1.0
+    if s >= 1.0:
+        return abs(u), sign
+    return slip / (2.0 - s), sign / (2.0 - s) ** 2
+
+
+@jit
+def curvature(u, w, slip):
+    """Return (1 - w psi') / psi: f'' where the dual ``w`` is f', or is not known."""
+    psi, slope = _stretched(u, slip)
+    if w == UNKNOWN:
+        w = u / psi
+    return (1.0 - w * slope) / psi
 
 
 @jit
@@ -167,7 +190,7 @@ def evaluate(u, grips, slip, g):
     """Return D_f in J for a move ``u`` (n,) from y, zero at rest; add dD_f/dx to ``g``."""
     total = 0.0
     for k in range(grips.count[0]):
-        value, slope, _ = smooth(_slip(u, grips, k), slip)
+        value, slope = smooth(_slip(u, grips, k), slip)
         total += grips.load[k] * (value - slip / 3.0)
         for v in range(3):
             i = 2 * grips.nodes[k, v]
@@ -177,11 +200,20 @@ def evaluate(u, grips, slip, g):
 
 
 @jit
-def hessian(u, grips, slip, matrix, projected):
-    """Add d2D_f/dx2; ``projected`` leaves out shares with a negative force."""
+def follow(u, dx, share, grips, slip):
+    """Take the duals all along a Newton step ``dx`` (n,), ``share`` of which has led to ``u``."""
     for k in range(grips.count[0]):
-        _, _, curvature = smooth(_slip(u, grips, k), slip)
-        weight = grips.load[k] * curvature
+        move = _slip(dx, grips, k)
+        before = _slip(u, grips, k) - share * move
+        w = before / _stretched(before, slip)[0] + curvature(before, grips.dual[k], slip) * move
+        grips.dual[k] = min(max(w, -1.0), 1.0)
+
+
+@jit
+def hessian(u, grips, slip, matrix, projected):
+    """Add d2D_f/dx2, or what stands for it; ``projected``: without shares of negative force."""
+    for k in range(grips.count[0]):
+        weight = grips.load[k] * curvature(_slip(u, grips, k), grips.dual[k], slip)
         if weight == 0.0 or (projected and weight < 0.0):
             continue
         last = 3 if grips.nodes[k, 1] != grips.nodes[k, 0] else 1

@@ -4,23 +4,21 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels import damp, friction, inertia, scheme
-from kernels.balance import allowed, largest, reduce
+from kernels import damp, friction, inertia, lagging, scheme
+from kernels.balance import loosened
 from kernels.book import INTEGRATOR, KINETIC, enter, made, move_apart, strike
 from kernels.jit import jit_exact, jit_owning
 from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, OUTGROWN, minimise
-from kernels.relax import approach
-from kernels.room import CHANGE, HEAVY, LAGGED, PREDICTED, Room, make_room
+from kernels.room import HEAVY, LAGGED, PREDICTED, Room, make_room
 from kernels.rows import copy, zero
 from kernels.scheme import BACKWARD_EULER, BDF2, POSITION
-from kernels.step import Step, covers, drift, find_near, holds_crowd, renew, rub
+from kernels.step import Step, covers, drift, find_near, holds_crowd, renew
 from kernels.trace import LAST, NOW, SPENT, STEPS, write
 
 SMALLEST = 2.0**-24  # share of a step
 LONGER = 0.1  # of the error that is allowed: the next step may be twice as long
 FURTHER = 2.0  # times the last step: a longer one is not extrapolated
-GRIP_LOOPS = 30  # fixed-point iterations of friction
-EASY_LOOPS = 10  # after more of them the next step is no longer
+EASY_LOOPS = 10  # of friction: after more of them the next step is no longer
 GIFT = 2e-3  # of all energy: what backward Euler may make, and once more in all further steps
 SHORT = 2.0**-12  # share of a step that may make more: the run is judged at its end
 INACCURATE = 7  # an outcome, beside those of `newton`
@@ -38,6 +36,9 @@ PROGRESS = np.dtype(
             ("tried", np.int64),  # Newton iterations for the minimum that is looked for
             ("loops", np.int64),  # of friction in the share
             ("relaxed", np.float64),  # share of the last approach (`relax`)
+            ("nearest", np.float64),  # least residual when friction was lagged anew, N
+            ("circles", np.int64),  # loops since then
+            ("rough", np.float64),  # times the tolerance to which the next minimum is found
             ("far", np.float64),  # that a node goes in a move which the pairs must cover, m
             ("length", np.float64),  # h of the last share tried, s
         ],
@@ -111,7 +112,8 @@ def _set_out(terms, stage, driven, state, near, room, progress):
         friction.lag(x, terms.contact, near.pairs, drift(x, terms, near), terms.friction, grips)
         if held + grips.count[0] > 0:  # the next Hessian is another
             work.kept[0] = np.inf
-    progress.loops, progress.relaxed, progress.effort, progress.tried = 0, 0.0, 0, 0
+    progress.effort, progress.tried = 0, 0
+    lagging.begin(progress)
 
 
 @jit_exact
@@ -126,45 +128,22 @@ def _step(terms, stage, room, progress):
 
 
 @jit_exact
-def _grips_agree(x, terms, step, near, unknowns, tolerance, room, progress):
-    """Lag friction anew; return whether ``x`` is still in balance (then nothing is changed)."""
-    _, at, work, grips, way = room
-    held = grips.count[0]
-    copy(at.g, work.trial)
-    copy(at.rubbing, work.escape)
-    y = way[LAGGED]
-    progress.relaxed = approach(x, y, way[CHANGE], unknowns, progress.relaxed)
-    friction.lag(y, terms.contact, near.pairs, drift(y, terms, near), terms.friction, grips)
-    if held + grips.count[0] == 0:
-        return True
-    rub(terms, step, at)
-    reduce(at.g, unknowns, work.residual)
-    enough = max(tolerance.friction, tolerance.grip * largest(at.rubbing, unknowns))
-    enough = max(enough, allowed(near.system.matrix, tolerance)[0])
-    agree = largest(work.residual, unknowns) <= enough
-    if agree:
-        copy(work.trial, at.g)
-        copy(work.escape, at.rubbing)
-    progress.loops, progress.tried = progress.loops + 1, 0
-    zero(work.dx)
-    return agree
-
-
-@jit_exact
 def _balance(x, target, terms, step, near, unknowns, tolerance, room, control, progress):
     """Minimise until friction agrees with where it was lagged; return the outcome."""
-    outcome = CONVERGED
+    outcome, there = CONVERGED, False
     while True:
+        rough = loosened(tolerance, progress.rough)
         outcome, spent, progress.far = minimise(
-            x, target, terms, step, near, unknowns, tolerance, room.at, room.work, control
+            x, target, terms, step, near, unknowns, rough, room.at, room.work, control, there
         )
+        there = True
         progress.spent, progress.effort = progress.spent + spent, progress.effort + spent
         progress.tried += max(spent, 1)
         if outcome != CONVERGED or terms.friction.mu == 0.0:
             break
-        if _grips_agree(x, terms, step, near, unknowns, tolerance, room, progress):
+        if lagging.agrees(x, terms, step, near, unknowns, tolerance, room, progress):
             break
-        if progress.loops >= GRIP_LOOPS:
+        if lagging.in_vain(progress):
             outcome = ITERATIONS
             break
     return outcome
@@ -246,8 +225,8 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, prog
         )
         if outcome == CONVERGED and not holds_crowd(near, state.x, terms):
             outcome, progress.tried = OUTGROWN, 0
-        if outcome == OUTGROWN and progress.tried <= tolerance.iterations:
             zero(room.work.dx)
+        if outcome == OUTGROWN and progress.tried <= tolerance.iterations:
             return outcome, progress.row
         strayed = 0.0
         if outcome == CONVERGED:

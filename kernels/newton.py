@@ -12,11 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels import chain, image, system
+from kernels import chain, friction, image, system
 from kernels.balance import allowed, largest, reduce
 from kernels.jit import jit_exact, separate
 from kernels.rows import copy, dot, zero, zero_rows
-from kernels.step import covers, evaluate, factor, step_limit, travel
+from kernels.step import WHOLE, covers, evaluate, factor, step_limit, travel
 
 CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
 ARMIJO = 1e-4
@@ -108,6 +108,14 @@ def _advance(x, work, share):
 
 
 @jit_exact
+def _move(x, step, at, work, share, most):
+    """Go to the trial, a share of dx, which is ``most`` m long."""
+    copy(work.trial, x)
+    friction.follow(at.u, work.dx, share, step.grips, step.slip)
+    work.kept[0] += share * most
+
+
+@jit_exact
 def _falls(reached, start, share, model, noise):
     """Return whether the energy fell as the quadratic ``model`` (slope, curvature) lets expect."""
     slope, curvature = model
@@ -164,22 +172,20 @@ def _weigh(x, target, near, unknowns, tolerance, at, work):
 
 @separate
 @jit_exact
-def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, control):
+def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, control, there):
     """Descend from ``x`` (n,), in place, to a minimum with the driven coordinate at ``target``.
 
-    Start from ``x`` + ``work.dx`` as far as admissible; return (outcome, iterations, far).
-    OUTGROWN: ``near`` lacks what a move of a node by ``far`` m could bring near, or room in its
-    matrix; renew it and go on. ``control[0]`` != 0 interrupts. Every turn of the loop evaluates at
-    one point, a trial or the same point for another Hessian; ``at`` holds what it found last.
+    Start from ``x`` + ``work.dx`` as far as admissible or, if ``there``, from ``x``, of which
+    ``at`` tells; return (outcome, iterations, far). OUTGROWN: ``near`` lacks what a move by ``far``
+    m could bring near, or room in its matrix; renew it and go on. ``control[0]`` != 0 interrupts.
     """
-    outcome, iteration, halvings, kept = ITERATIONS, -1, 0, work.kept
-    setting_out, searching, arrived, free = True, True, False, True
+    outcome, iteration, halvings, kept = ITERATIONS, 0 if there else -1, 0, work.kept
+    setting_out, searching, arrived, free = not there, not there, there, True
     whole, projected, settled = _arrives(x, work.dx, target, unknowns.driven), False, False
     value, remaining, share, model, escape = 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0)
-    limit = (0.0, 0.0)  # what counts as none
-    place = (-1, -1, 0.0)  # of the first negative pivot of the exact Hessian
+    limit, place = (0.0, 0.0), (-1, -1, 0.0)  # what counts as none; first negative exact pivot
     most, far, before = _longest(work.dx, unknowns), 0.0, np.inf
-    while True:
+    while True:  # each turn evaluates at one point, a trial or the same for another Hessian
         if setting_out:
             far = travel(work.dx, terms)
             if not covers(near, x, terms, far):
@@ -191,7 +197,9 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
                 break
             setting_out, searching, halvings = False, True, 0
             _advance(x, work, share)
-        reached = evaluate(work.trial, terms, step, near, at, projected)
+        if not there:
+            evaluate(work.trial, terms, step, near, at, projected)
+        reached, there = at.sum[WHOLE], False
         if searching:
             fine = free or _falls(reached, value, share, model, tolerance.noise)
             if not (fine and reached < np.inf):
@@ -201,8 +209,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
                     break
                 _advance(x, work, share)
                 continue
-            copy(work.trial, x)
-            kept[0] += share * most
+            _move(x, step, at, work, share, most)
             if free and whole and share == 1.0:
                 x[unknowns.driven] = target
             iteration, searching, arrived = iteration + 1, False, True
@@ -232,9 +239,8 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
                     projected = not settled
                     if projected:
                         continue
-        stable, slope = place[1] < 0, 0.0
-        if stable or projected:
-            slope = _solve(terms, near, unknowns, at, work, remaining)
+        stable, aimed = place[1] < 0, place[1] < 0 or projected
+        slope = _solve(terms, near, unknowns, at, work, remaining) if aimed else 0.0
         if settled and stable and -0.5 * slope <= limit[1]:
             outcome = CONVERGED
             break
@@ -243,4 +249,6 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
         free, projected = remaining != 0.0, False
         model, most, whole = _choose(slope, stable, free, escape, unknowns, remaining, work)
         setting_out = True
+    if outcome == OUTGROWN and iteration >= 0:
+        zero(work.dx)
     return outcome, max(iteration, 0), far

@@ -25,6 +25,13 @@ def copy(source, to):
 
 
 @jit
+def add(source, to):
+    """Add ``source`` (n,) to ``to`` (n,)."""
+    for i in range(source.size):
+        to[i] += source[i]
+
+
+@jit
 def zero(vector):
     """Fill ``vector`` (n,) with zeros."""
     for i in range(vector.size):

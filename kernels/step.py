@@ -29,10 +29,10 @@ from kernels import (
 from kernels.couplings import couplings
 from kernels.entries import clear
 from kernels.jit import jit_exact, jit_owning, separate
-from kernels.rows import pair, triple, zero, zero_rows
+from kernels.rows import add, pair, triple, zero, zero_rows
 
 STRETCH, BEND, CONTACT = range(3)
-SHORTEST, OPENING = range(2)
+(SHORTEST, OPENING), (WHOLE, RUBBED) = range(2), range(2)
 LEAST_LENGTH = 0.1  # of an element's length: no step shrinks it further
 MARGIN = 1.0  # of the reach of contact: how much farther pairs are listed
 CROWD = 1.0  # of the thickness: how much farther pairs to be moved apart are listed
@@ -89,8 +89,8 @@ class At(NamedTuple):
     """What `evaluate` found at x. g (n,): gradient by coordinate, what supports must supply.
 
     elastic, rubbing, material, u (n,): gradients of the stored energy, of friction and of damping;
-    x - y. stored (3,): E_s with springs, E_b with folds, E_c in J. least (2,): shortest
-    element in m, least opening of two arms in rad.
+    x - y. stored (3,): E_s with springs, E_b with folds, E_c in J. sum (2,): E and D_f, J. least
+    (2,): shortest element in m, least opening of two arms in rad.
     """
 
     g: np.ndarray
@@ -99,6 +99,7 @@ class At(NamedTuple):
     material: np.ndarray
     u: np.ndarray
     stored: np.ndarray
+    sum: np.ndarray
     least: np.ndarray
     shape: object
     stiffness: object
@@ -119,7 +120,8 @@ def evaluate(x, terms, step, near, at, projected):
     if step.dt < np.inf:
         total += inertia.evaluate(x, step.x_pred, terms.mass, step.dt, at.g)
         total += _damping(terms, step, at, projected)
-    return total + rub(terms, step, at)
+    at.sum[WHOLE], at.sum[RUBBED] = total, 0.0
+    return rub(terms, step, at)
 
 
 @jit_exact
@@ -142,9 +144,8 @@ def store(x, terms, step, at, projected):
 def _start(x, step, at):
     for i in range(x.size):
         at.u[i] = x[i] - step.before.y[i]
-        at.elastic[i] = 0.0
-        at.material[i] = 0.0
-        at.rubbing[i] = 0.0
+    for part in (at.elastic, at.material, at.rubbing):
+        zero(part)
 
 
 @jit_exact
@@ -154,23 +155,23 @@ def _damping(terms, step, at, projected):
     total = damp.evaluate(
         at.u, terms, step.before, step.dt, at.shape, at.stiffness, projected, at.material
     )
-    for i in range(at.g.size):
-        at.g[i] += at.material[i]
+    add(at.material, at.g)
     return total
 
 
 @jit_exact
 def rub(terms, step, at):
-    """Return D_f of the grips of ``step``; exchange its gradient in ``at`` for the one there."""
+    """Exchange D_f and its gradient in ``at`` for those of the grips of ``step``; return E."""
     if terms.friction.mu == 0.0:
-        return 0.0
+        return at.sum[WHOLE]
     for i in range(at.g.size):
         at.g[i] -= at.rubbing[i]
         at.rubbing[i] = 0.0
-    total = friction.evaluate(at.u, step.grips, step.slip, at.rubbing)
-    for i in range(at.g.size):
-        at.g[i] += at.rubbing[i]
-    return total
+    rubbed = friction.evaluate(at.u, step.grips, step.slip, at.rubbing)
+    add(at.rubbing, at.g)
+    at.sum[WHOLE] += rubbed - at.sum[RUBBED]
+    at.sum[RUBBED] = rubbed
+    return at.sum[WHOLE]
 
 
 @jit_exact

@@ -22,7 +22,7 @@ class Whole(NamedTuple):
 
     def found(self, x, projected=False):
         """Energy and what else `evaluate` finds at ``x``."""
-        at = step.At(*np.zeros((5, x.size)), np.zeros(3), np.zeros(2), *room(self.terms.walls))
+        at = step.At(*np.zeros((5, x.size)), *map(np.zeros, (3, 2, 2)), *room(self.terms.walls))
         return step.evaluate(x, self.terms, self.step, self.near, at, projected), at
 
     def energy(self, x):
@@ -138,14 +138,14 @@ def descend(case, scene, start, args, target=None, control=RUN, move=None, **tol
     """Minimise from ``start``, moved by ``move``, with the platen at ``target`` (where it is)."""
     terms, one, _ = args
     x, work = start.copy(), scratch(start.size)
-    at = step.At(*np.zeros((5, x.size)), np.zeros(3), np.zeros(2), *room(terms.walls))
+    at = step.At(*np.zeros((5, x.size)), *map(np.zeros, (3, 2, 2)), *room(terms.walls))
     allowed = tolerances(case, scene, one.dt)._replace(**tolerance)
     target, done, near = x[-1] if target is None else target, 0, args.near
     work.dx[:] = 0.0 if move is None else move
     while True:
         outcome, iterations, reach = newton.minimise(
             x, target, terms, one, near, scene.unknowns,
-            allowed._replace(iterations=allowed.iterations - done), at, work, control,
+            allowed._replace(iterations=allowed.iterations - done), at, work, control, False,
         )  # fmt: skip
         done += iterations
         if outcome != newton.OUTGROWN:

@@ -27,7 +27,7 @@ def lagged(x, touch, listed, mu=MU):
     grips = friction.room(listed, touch, rubbing)
     friction.lag(x, touch, listed, np.inf, rubbing, grips)
     n = grips.count[0]
-    return friction.Grips(grips.nodes[:n], grips.slopes[:n], grips.load[:n], grips.count)
+    return friction.Grips(*(part[:n] for part in grips[:-1]), grips.count)
 
 
 def term_of(x0, grips, slip) -> Term:
@@ -58,12 +58,14 @@ def normal_force(gap, of=WALLS):
 @pytest.mark.parametrize("slip", [1.0, 1e-6])
 @pytest.mark.parametrize("u", [0.0, 1e-3, -0.3, 0.999, -0.999, 1.001, -1.001, 7.0])
 def test_smooth_size_and_its_derivatives(u, slip):
-    value, slope, curvature = friction.smooth(u * slip, slip)
+    value, slope = friction.smooth(u * slip, slip)
+    curvature = friction.curvature(u * slip, friction.UNKNOWN, slip)
     at, step = np.array([u * slip]), np.array([1e-4 * slip])
     by_value = differences(lambda x: friction.smooth(x[0], slip)[0], at, step)[0]
     by_slope = differences(lambda x: friction.smooth(x[0], slip)[1], at, step)[0]
     assert by_value == pytest.approx(slope, abs=1e-9)
     assert by_slope == pytest.approx(curvature, abs=5e-4 / slip if u == 0.0 else 1e-8 / slip)
+    assert friction.curvature(u * slip, slope, slip) == pytest.approx(curvature, abs=1e-12 / slip)
     assert value >= abs(u * slip) - 1e-15
     assert abs(slope) <= 1.0
     assert curvature >= 0.0
@@ -72,8 +74,32 @@ def test_smooth_size_and_its_derivatives(u, slip):
 def test_smooth_size_joins_the_size_at_the_slip():
     inside, outside = friction.smooth(1.0 - 1e-12, 1.0), friction.smooth(1.0, 1.0)
     assert inside == pytest.approx(outside, abs=1e-11)
-    assert outside == (1.0, 1.0, 0.0)
-    assert friction.smooth(0.0, 2.0) == pytest.approx((2 / 3, 0.0, 1.0))
+    assert outside == (1.0, 1.0)
+    assert friction.curvature(1.0, friction.UNKNOWN, 1.0) == 0.0
+    assert friction.smooth(0.0, 2.0) == pytest.approx((2 / 3, 0.0))
+    assert friction.curvature(0.0, friction.UNKNOWN, 2.0) == 1.0
+
+
+@pytest.mark.parametrize("start", [3.0, 0.02, -0.4, -50.0])
+@pytest.mark.parametrize(("pull", "most"), [(0.0, 15), (0.9, 15), (-0.9, 15), (5.0, 15), (1.0, 30)])
+def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
+    """At the least of u^2 / 2 + |u| - pull u; with f'' alone it leaps to and fro for ever."""
+    slip, steps, u = 1e-4, 0, np.array([start, 0.0])
+    grips = friction.Grips(
+        np.zeros((1, 3), np.int64), np.eye(3, 2)[None], np.ones(1), np.full(1, friction.UNKNOWN),
+        np.ones(1, np.int64),
+    )  # fmt: skip
+    grips.slopes[0, 1] = 0.0
+
+    def force():
+        return u[0] + friction.smooth(u[0], slip)[1] - pull
+
+    while abs(force()) > 1e-12:
+        move = -force() / (1.0 + friction.curvature(u[0], grips.dual[0], slip))
+        u[0] += move
+        friction.follow(u, np.array([move, 0.0]), 1.0, grips, slip)
+        steps += 1
+    assert steps <= most
 
 
 @pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])

@@ -84,7 +84,8 @@ def repeat(which, count, x, dx, most, whole, at, ones):
         elif which == CONTACT_HESSIAN:
             contact.hessian(x, terms.contact, near.pairs, matrix, False)
         elif which == FRICTION:
-            total += step.rub(terms, one, at)
+            step.rub(terms, one, at)
+            total += at.sum[step.RUBBED]
         elif which == WALLS:
             total += _condense(terms, near, at)
         elif which == BLOCKS:
