@@ -30,6 +30,7 @@ from kernels.pairs import counted, within
 from kernels.rows import pair
 
 UNKNOWN = 2.0  # as a dual
+FIT = 0.1  # of the load: a dual that is farther off is not what it should be
 
 
 class Friction(NamedTuple):
@@ -201,12 +202,18 @@ def evaluate(u, grips, slip, g):
 
 @jit
 def follow(u, dx, share, grips, slip):
-    """Take the duals all along a Newton step ``dx`` (n,), ``share`` of which has led to ``u``."""
+    """Take the duals all along a Newton step ``dx`` (n,), ``share`` of which has led to ``u``.
+
+    Return whether they are what they should be there, so that `hessian` is the second derivative.
+    """
+    fit = True
     for k in range(grips.count[0]):
-        move = _slip(dx, grips, k)
-        before = _slip(u, grips, k) - share * move
+        move, at = _slip(dx, grips, k), _slip(u, grips, k)
+        before = at - share * move
         w = before / _stretched(before, slip)[0] + curvature(before, grips.dual[k], slip) * move
         grips.dual[k] = min(max(w, -1.0), 1.0)
+        fit = fit and abs(grips.dual[k] - at / _stretched(at, slip)[0]) < FIT
+    return fit
 
 
 @jit

@@ -109,10 +109,12 @@ def _advance(x, work, share):
 
 @jit_exact
 def _move(x, step, at, work, share, most):
-    """Go to the trial, a share of dx, which is ``most`` m long."""
+    """Go to the trial, a share of dx, which is ``most`` m long; return whether a factor from there
+    may be kept.
+    """
     copy(work.trial, x)
-    friction.follow(at.u, work.dx, share, step.grips, step.slip)
     work.kept[0] += share * most
+    return friction.follow(at.u, work.dx, share, step.grips, step.slip)
 
 
 @jit_exact
@@ -182,7 +184,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
     outcome, iteration, halvings, kept = ITERATIONS, 0 if there else -1, 0, work.kept
     setting_out, searching, arrived, free = not there, not there, there, True
     whole, projected, settled = _arrives(x, work.dx, target, unknowns.driven), False, False
-    value, remaining, share, model, escape = 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0)
+    value, remaining, share, model, escape, fit = 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0), True
     limit, place = (0.0, 0.0), (-1, -1, 0.0)  # what counts as none; first negative exact pivot
     most, far, before = _longest(work.dx, unknowns), 0.0, np.inf
     while True:  # each turn evaluates at one point, a trial or the same for another Hessian
@@ -209,7 +211,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
                     break
                 _advance(x, work, share)
                 continue
-            _move(x, step, at, work, share, most)
+            fit = _move(x, step, at, work, share, most)
             if free and whole and share == 1.0:
                 x[unknowns.driven] = target
             iteration, searching, arrived = iteration + 1, False, True
@@ -233,7 +235,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
                 break
             if not projected:
                 place = found
-                kept[0] = 0.0 if found[1] < 0 else np.inf
+                kept[0] = 0.0 if found[1] < 0 and fit else np.inf
                 if place[1] >= 0:
                     escape = _aim_off(terms, near, unknowns, at, work, place)
                     projected = not settled

@@ -97,9 +97,12 @@ def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
     while abs(force()) > 1e-12:
         move = -force() / (1.0 + friction.curvature(u[0], grips.dual[0], slip))
         u[0] += move
-        friction.follow(u, np.array([move, 0.0]), 1.0, grips, slip)
+        fit = friction.follow(u, np.array([move, 0.0]), 1.0, grips, slip)
         steps += 1
+        off = abs(grips.dual[0] - friction.smooth(u[0], slip)[1])
+        assert fit == (off < friction.FIT)
     assert steps <= most
+    assert fit
 
 
 @pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
