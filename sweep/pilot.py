@@ -1,7 +1,7 @@
 """What a sweep will cost, before it starts: a few of its cases are run and scaled to all.
 
-The time of a case is taken to grow with `plan.cost`; kinds of loading are measured one by one. Good
-to a factor of two or so: how often walls meet cannot be known before they do.
+The time of a case is taken to grow with `plan.cost`; kinds of loading and of mesh are measured one
+by one. Good to a factor of two or so: how often walls meet cannot be known before they do.
 """
 
 import time
@@ -76,8 +76,8 @@ def dry_run(
 
 
 def estimate(cases: Sequence[Case], simulate: Simulate) -> Estimate:
-    """Run one case of each kind of loading and scale it to the others of its kind."""
-    kinds: dict[tuple[str, ...], list[Case]] = {}
+    """Run one case of each kind of loading and mesh and scale it to the others of its kind."""
+    kinds: dict[tuple[str | int, ...], list[Case]] = {}
     for case in cases:
         kinds.setdefault(_kind(case), []).append(case)
     pilots = [(_middle(alike), alike) for alike in kinds.values()]
@@ -112,9 +112,10 @@ def duration(seconds: float) -> str:
     return f"{float(f'{seconds:.2g}'):g} s"
 
 
-def _kind(case: Case) -> tuple[str, ...]:
+def _kind(case: Case) -> tuple[str | int, ...]:
     """What changes the pace of the solver most, besides the number of elements and steps."""
-    return (case.loading.mode, str(case.loading.platen), case.contact.model)
+    loading = case.loading.mode, str(case.loading.platen), case.contact.model
+    return *loading, case.lattice.nodes_per_wall
 
 
 def _middle(cases: Sequence[Case]) -> Case:
