@@ -1,8 +1,8 @@
 """The fixed-point loop of friction: lag the normal forces anew until a step ends where they are.
 
 How far off friction still is tells how well the next minimum need be found: each brings it nearer
-by about as much. The first decides which way a lattice folds, and is found to the end; so is the
-last.
+by about as much. The first mostly decides which way a lattice folds, and is found to the end; so is
+the last.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ from kernels.jit import jit_exact
 from kernels.relax import approach
 from kernels.room import CHANGE, LAGGED
 from kernels.rows import copy, zero
-from kernels.step import drift, rub
+from kernels.step import RUBBED, WHOLE, drift, rub
 
 MOST = 30  # loops
 STUCK = 8  # of them without coming nearer: it goes round in circles
@@ -30,12 +30,12 @@ def begin(progress):
 
 @jit_exact
 def agrees(x, terms, step, near, unknowns, tolerance, room, progress):
-    """Lag friction anew; return whether ``x`` is still in balance (then nothing is changed).
+    """Lag friction anew; return whether ``x`` is still in balance: then ``room.at`` is as it was.
 
-    Otherwise ``room.at`` tells of ``x`` with the friction that is lagged now.
+    Otherwise it, and ``room.work.trial``, tell of ``x`` with the friction that is lagged now.
     """
     _, at, work, grips, way = room
-    held = grips.count[0]
+    held, whole, rubbed = grips.count[0], at.sum[WHOLE], at.sum[RUBBED]
     copy(at.g, work.trial)
     copy(at.rubbing, work.escape)
     y = way[LAGGED]
@@ -52,7 +52,9 @@ def agrees(x, terms, step, near, unknowns, tolerance, room, progress):
     if agree:
         copy(work.trial, at.g)
         copy(work.escape, at.rubbing)
+        at.sum[WHOLE], at.sum[RUBBED] = whole, rubbed
     _count(off, enough, tolerance.force, progress)
+    copy(x, work.trial)
     zero(work.dx)
     return agree
 

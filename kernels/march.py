@@ -227,6 +227,8 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, prog
             outcome, progress.tried = OUTGROWN, 0
             zero(room.work.dx)
         if outcome == OUTGROWN and progress.tried <= tolerance.iterations:
+            if stage.dt < np.inf:
+                zero(room.work.dx)  # where it was is the better guess
             return outcome, progress.row
         strayed = 0.0
         if outcome == CONVERGED:

@@ -108,13 +108,13 @@ def _advance(x, work, share):
 
 
 @jit_exact
-def _move(x, step, at, work, share, most):
+def _move(x, step, at, work, share, most, guessed):
     """Go to the trial, a share of dx, which is ``most`` m long; return whether a factor from there
-    may be kept.
+    may be kept. ``guessed``: dx is no step of Newton's, and tells nothing of friction.
     """
     copy(work.trial, x)
     work.kept[0] += share * most
-    return friction.follow(at.u, work.dx, share, step.grips, step.slip)
+    return guessed or friction.follow(at.u, work.dx, share, step.grips, step.slip)
 
 
 @jit_exact
@@ -177,9 +177,9 @@ def _weigh(x, target, near, unknowns, tolerance, at, work):
 def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, control, there):
     """Descend from ``x`` (n,), in place, to a minimum with the driven coordinate at ``target``.
 
-    Start from ``x`` + ``work.dx`` as far as admissible or, if ``there``, from ``x``, of which
-    ``at`` tells; return (outcome, iterations, far). OUTGROWN: ``near`` lacks what a move by ``far``
-    m could bring near, or room in its matrix; renew it and go on. ``control[0]`` != 0 interrupts.
+    Start from ``x`` + ``work.dx`` as far as admissible or, if ``there``, from ``x``, of which at
+    and work.trial tell; return (outcome, iterations, far). OUTGROWN: ``near`` lacks what a move by
+    ``far`` m could bring near, or room in its matrix: renew it. ``control[0]`` != 0 interrupts.
     """
     outcome, iteration, halvings, kept = ITERATIONS, 0 if there else -1, 0, work.kept
     setting_out, searching, arrived, free = not there, not there, there, True
@@ -211,7 +211,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
                     break
                 _advance(x, work, share)
                 continue
-            fit = _move(x, step, at, work, share, most)
+            fit = _move(x, step, at, work, share, most, iteration < 0)
             if free and whole and share == 1.0:
                 x[unknowns.driven] = target
             iteration, searching, arrived = iteration + 1, False, True

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from textwrap import fill
+from textwrap import TextWrapper
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
 TITLE = 72  # letters in a line above a panel
 WHITE = (1.0, 1.0, 1.0, 1.0)
-LEAST_LOW = 0.1  # of a value: where its error bar ends at the latest, as no log axis has a zero
+ENDS = 0.1, 10.0  # of a value: where its error bar ends at the latest, as no log axis has a zero
 
 
 def design_map(fig: Figure, ranking: DataFrame) -> None:
@@ -47,7 +47,7 @@ def design_map(fig: Figure, ranking: DataFrame) -> None:
         _error_bars(ax, rows[mass], merit, error)
         for budget in ranking.attrs["budgets_g"]:
             mark(ax, budget, f"{budget:g} g")
-        words = [ax.get_title("left")]
+        words = [_in_lines(ax.get_title("left"))]
         for said, x, y in budget_winners(rows, ranking):
             ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")
             words.append(_in_lines(said))
@@ -79,7 +79,10 @@ def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
 def _in_lines(words: str) -> str:
     """A title whose lines end behind commas."""
     one_piece = words.replace(" ", "\xa0").replace(",\xa0", ", ")
-    return fill(one_piece, TITLE, subsequent_indent="    ").replace("\xa0", " ")
+    wrapper = TextWrapper(
+        TITLE, subsequent_indent="    ", break_on_hyphens=False, break_long_words=False
+    )
+    return wrapper.fill(one_piece).replace("\xa0", " ")
 
 
 def _line(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
@@ -103,7 +106,7 @@ def _error_bars(ax: Axes, x: Series, y: Series, error: Series, color: str = GREY
     """Value ± error as a thin line behind each design whose error is known."""
     known = error.notna()
     if known.any():
-        low, high = (y - error).clip(lower=LEAST_LOW * y), y + error
+        low, high = (end.clip(*(share * y for share in ENDS)) for end in (y - error, y + error))
         ax.vlines(x[known], low[known], high[known], color=color, lw=0.8, zorder=0)
 
 

@@ -10,6 +10,7 @@ from itertools import cycle
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from pandas import concat
 
 from sweep.digits import energy_text, tenths, three_digits
 from sweep.merit import LEAST
@@ -111,21 +112,22 @@ def budget_winners(rows: DataFrame, ranking: DataFrame) -> list[tuple[str, float
         if not won.empty:
             limit = f"up to {budget:g} g" if np.isfinite(budget) else "best"
             merit = merits(won, energy).item()
-            words = _words(won, merit, ranking) + _ties(rows[rows[mass] <= budget], energy)
+            words = _words(won, merit, ranking) + _ties(rows[rows[mass] <= budget], won, energy)
             winners.append((f"{limit}: {words}", won[mass].item(), merit))
     return winners
 
 
-def _ties(rows: DataFrame, energy: str) -> str:
+def _ties(rows: DataFrame, won: DataFrame, energy: str) -> str:
     """How sure the best of some designs of one scene is, where error bars tell."""
     name, _ = _compared(rows, energy)
-    ordered = rows.sort_values([name, "case_id"], ascending=name in LESS_IS_BETTER)
-    values, errors = ordered[name], errors_of(ordered, name)
-    if np.isnan(errors.iloc[0]):
+    error = errors_of(won, name).item()
+    if not (np.isfinite(error) and won[name].item()):
         return ""
-    others = int((shared_places(values, errors) == 1).sum()) - 1
-    share = f" ± {tenths(errors.iloc[0] / values.iloc[0])} %"
-    return f"{share}, a tie of {others + 1}" if others else share
+    others = rows.drop(index=won.index).sort_values(name, ascending=name in LESS_IS_BETTER)
+    ordered = concat([won, others])
+    count = int((shared_places(ordered[name], errors_of(ordered, name)) == 1).sum())
+    share = f" ± {tenths(error / abs(won[name].item()))} %"
+    return f"{share}, a tie of {count}" if count > 1 else share
 
 
 def _words(won: DataFrame, merit: float, ranking: DataFrame) -> str:

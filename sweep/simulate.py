@@ -32,7 +32,7 @@ ADVICE = {
     "try a looser solver.tolerance or smaller steps",
     newton.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
     march.INACCURATE: "no step was short enough for solver.step_error; "
-    "try a larger one or a smaller solver.time_step",
+    "try a larger one or {shorter}",
     newton.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
 }
 

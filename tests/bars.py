@@ -12,9 +12,10 @@ import pandas as pd
 
 from sweep.companions import add_error_bars
 from sweep.config import expand, load_config
+from sweep.markdown import markdown
 from sweep.result import ERROR, Status
 from sweep.run import run_sweep
-from sweep.sheets import Sheet, markdown
+from sweep.sheets import Sheet
 from sweep.store import read_summary
 
 CONFIGS = Path(__file__).parents[1] / "configs"

@@ -134,23 +134,31 @@ def scratch(n):
     return newton.Work(*np.zeros((5, n)), np.full(1, np.inf))
 
 
-def descend(case, scene, start, args, target=None, control=RUN, move=None, **tolerance):
-    """Minimise from ``start``, moved by ``move``, with the platen at ``target`` (where it is)."""
+def descend(
+    case, scene, start, args, target=None, control=RUN, move=None, there=False, **tolerance
+):
+    """Minimise from ``start``, moved by ``move``, with the platen at ``target`` (where it is).
+
+    ``there``: ``start`` has been evaluated before.
+    """
     terms, one, _ = args
     x, work = start.copy(), scratch(start.size)
     at = step.At(*np.zeros((5, x.size)), *map(np.zeros, (3, 2, 2)), *room(terms.walls))
     allowed = tolerances(case, scene, one.dt)._replace(**tolerance)
     target, done, near = x[-1] if target is None else target, 0, args.near
     work.dx[:] = 0.0 if move is None else move
+    if there:
+        work.trial[:] = x
+        step.evaluate(x, terms, one, near, at, False)
     while True:
         outcome, iterations, reach = newton.minimise(
             x, target, terms, one, near, scene.unknowns,
-            allowed._replace(iterations=allowed.iterations - done), at, work, control, False,
+            allowed._replace(iterations=allowed.iterations - done), at, work, control, there,
         )  # fmt: skip
         done += iterations
         if outcome != newton.OUTGROWN:
             return Descent(outcome, done, x)
-        near = step.find_near(x, terms, one.grips, reach)
+        near, there = step.find_near(x, terms, one.grips, reach), False
         work.dx[:], work.kept[0] = 0.0, np.inf
 
 

@@ -58,6 +58,19 @@ def test_a_straight_column_is_left_once_it_buckles():
     assert args.energy(found.x) < 0.75 * args.energy(start)
 
 
+def test_it_goes_on_from_what_was_evaluated_before():
+    """From a saddle, where the projected Hessian is that of the same place."""
+    case = column()
+    scene = build_scene(case)
+    start = straight(scene, BUCKLED)
+    start[::2] += 1e-4 * np.linspace(0.0, 1.0, start[::2].size)
+    args = whole(scene, start)
+    anew, on = (descend(case, scene, start, args, there=there) for there in (False, True))
+    assert on.outcome == newton.CONVERGED
+    assert on.iterations == anew.iterations
+    np.testing.assert_array_equal(on.x, anew.x)
+
+
 @pytest.mark.parametrize("thickness", [4e-4, 8e-4, 8.5e-4, 9e-4, 1e-3])
 @pytest.mark.parametrize("cells_y", [3, 4])
 def test_a_loose_lattice_at_rest_is_not_unstable(cells_y, thickness):
