@@ -184,3 +184,28 @@ def test_help_and_a_refused_config_need_no_heavy_imports():
     done = python(script)
     assert done.stderr == ""
     assert done.stdout.split() == []
+
+
+def defined(tree):
+    """Names that a module binds at its top, in branches of it too."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            yield node.name
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            yield from (alias.asname or alias.name for alias in node.names)
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+
+
+def test_what_is_imported_of_our_own_is_there():
+    """In the programs of slow studies too, which no test runs."""
+    missing = [
+        f"{module}: {node.module}.{alias.name}"
+        for module, tree in TREES.items()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and node.module in TREES
+        for alias in node.names
+        if alias.name not in {*defined(TREES[node.module])}
+        and f"{node.module}.{alias.name}" not in TREES
+    ]
+    assert missing == []

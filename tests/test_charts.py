@@ -103,6 +103,8 @@ def test_designs_have_their_error_bars_which_end_above_zero(ranking):
     ends = [bar[:, 1] for bar in bars_of(drawn(sure).axes[0])]
     best, second = ranking["absorbed_energy_J"][:2]
     np.testing.assert_allclose(ends, [[best - 0.01, best + 0.01], [0.1 * second, second + 0.5]])
+    wild = with_attrs(ranking, **{error: 1e6})
+    assert drawn(wild).axes[0].get_ylim()[1] < 100.0 * best
 
 
 def test_trends_and_patterns_have_the_error_bars_of_energy_per_gram(ranking):
@@ -114,10 +116,11 @@ def test_trends_and_patterns_have_the_error_bars_of_energy_per_gram(ranking):
 
 
 def test_titles_break_behind_commas_only(ranking):
-    ranking["material"] = [f"a rather long-winded name of a material, number {k}" for k in range(6)]
-    for line in drawn(ranking).axes[0].get_title("left").splitlines()[1:]:
-        assert len(line) <= TITLE
-        assert line.endswith((",", "J"))
+    names = "a rather long-winded name of a self-made material", "x" * (TITLE + 1)
+    ranking["material"] = [names[k % 2] for k in range(6)]
+    lines = [line.strip() for line in drawn(ranking).axes[0].get_title("left").splitlines()]
+    assert len(lines) > 2
+    assert all(line.endswith((",", "J", "platens")) for line in lines)
 
 
 @pytest.mark.parametrize("view", [(1e-6, 1.0), (0.05, 30.0), (0.8, 2.2), (0.9, 1.02), (38.0, 71.0)])

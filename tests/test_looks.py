@@ -87,3 +87,14 @@ def test_winners_say_how_sure_they_are_and_whom_they_tie_with(ranking):
         "up to 3 g: cells 2 x 2, wall 0.4 mm, 400 mJ ± 15 %, a tie of 2",
         "up to 9 g: cells 2 x 2, wall 0.8 mm, 1.60 J",
     ]
+
+
+def test_of_equal_winners_the_one_named_tells_its_own_error():
+    rows = designs([1.0, 2.0], [0.3, 0.3])
+    error = "error_absorbed_energy_at_densification_J"
+    force = {"error_peak_force_at_densification_N": 0.0}
+    rows[0] |= {"case_id": "f" * 16, error: 0.01} | force
+    rows[1] |= {"case_id": "0" * 16, error: 0.1} | force
+    ranking = rank(summary(*rows), top=None, budget="9 g")
+    ((words, *_),) = budget_winners(ranking, ranking)
+    assert words.endswith("300 mJ ± 3.3 %, a tie of 2")
