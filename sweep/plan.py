@@ -2,7 +2,7 @@
 
 import threading
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from sweep.numerics import steps
 from sweep.params import Case
@@ -25,7 +25,8 @@ class Plan:
 
     The first to go is the shortest, for a result at once and a first measure of the pace. Of those
     as long, the ones of a lattice follow one another: it is built once. Batches hold about
-    `SECONDS` of work, and less towards the end. Threads may share a plan.
+    `SECONDS` of work, and less towards the end; no more cases than have told of the pace, as the
+    first of them says little of it. Threads may share a plan.
     """
 
     def __init__(self, cases: Iterable[Case], workers: int) -> None:
@@ -34,6 +35,7 @@ class Plan:
         self._waiting = deque(ordered)
         self._left = sum(map(cost, self._waiting))
         self._seconds = self._done = 0.0  # of recent batches: time taken, cost
+        self._known = 0  # cases that have told of the pace
         self._lock = threading.Lock()
 
     def __len__(self) -> int:
@@ -46,9 +48,10 @@ class Plan:
             self._left -= sum(map(cost, batch))
             return batch
 
-    def learn(self, batch: Iterable[Case], seconds: float) -> None:
+    def learn(self, batch: Sequence[Case], seconds: float) -> None:
         """Note how long a batch took on its worker."""
         with self._lock:
+            self._known += len(batch)
             self._seconds = MEMORY * self._seconds + seconds
             self._done = MEMORY * self._done + sum(map(cost, batch))
 
@@ -59,7 +62,7 @@ class Plan:
         room = max(min(full, self._left / (2 * self.workers)), LEAST * full)
         batch = [self._waiting.popleft()]
         weight = cost(batch[0])
-        while self._waiting and len(batch) < MOST:
+        while self._waiting and len(batch) < min(MOST, self._known):
             weight += cost(self._waiting[0])
             if weight > room:
                 break
