@@ -94,7 +94,7 @@ def folded_batches(path: Path) -> int:
 
 
 def is_labelled(path: Path, axes: Axes) -> bool:
-    """True if the rows have the order and the grid values of `axes` already, and their count."""
+    """True if rows have the order and the grid values of `axes`, and others are counted right."""
     with _union(path) as blocks:
         table, others = newest(blocks), blocks[-1].attributes.get("other_cases", 0)
     wanted = relabel(take(table, rows_in_order(table["case_id"], axes)), axes)
