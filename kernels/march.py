@@ -12,7 +12,7 @@ from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, OUTGROWN, minimis
 from kernels.room import HEAVY, LAGGED, PREDICTED, Room, make_room
 from kernels.rows import copy, zero
 from kernels.scheme import BACKWARD_EULER, BDF2, POSITION
-from kernels.step import Step, covers, drift, find_near, holds_crowd, renew
+from kernels.step import Step, covers, drift, find_near, holds_crowd, renew, travel
 from kernels.trace import LAST, NOW, SPENT, STEPS, write
 
 SMALLEST = 2.0**-24  # share of a step
@@ -77,13 +77,13 @@ def _target(stage, progress):
 
 
 @jit_exact
-def _set_out(terms, stage, driven, state, near, room, progress):
+def _set_out(terms, stage, unknowns, state, near, room, progress):
     """Set out on the next share of a step, from where the last one ended and on as that went."""
     if stage.scheme != BACKWARD_EULER and state.totals[LAST] == 0.0:
         progress.share = min(progress.share, scheme.FIRST)
     before, at, work, grips, way = room
     x, dt, last = state.x, stage.dt * progress.share, state.totals[LAST]
-    more, remaining = 0.0, 0.0
+    driven, more, remaining = unknowns.driven, 0.0, 0.0
     if driven >= 0:
         remaining = _target(stage, progress) - x[driven]
         if remaining * at.u[driven] > 0.0 and abs(remaining) <= FURTHER * abs(at.u[driven]):
@@ -95,6 +95,8 @@ def _set_out(terms, stage, driven, state, near, room, progress):
     copy(x, way[LAGGED])
     if dt == np.inf:
         copy(x, before.y)
+        if more * travel(at.u, terms) > unknowns.cap:
+            more = 0.0  # it snapped
         for i in range(x.size):
             work.dx[i] = more * at.u[i]
     else:
@@ -218,7 +220,7 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, prog
             if not covers(near, state.x, terms, 0.0):  # after a step back
                 progress.far = 0.0
                 return OUTGROWN, progress.row
-            _set_out(terms, stage, unknowns.driven, state, near, room, progress)
+            _set_out(terms, stage, unknowns, state, near, room, progress)
         step, target = _step(terms, stage, room, progress), _target(stage, progress)
         outcome = _balance(
             state.x, target, terms, step, near, unknowns, tolerance, room, control, progress
@@ -269,7 +271,6 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
         if outcome != OUTGROWN:
             return outcome, rows
         near = renew(near, state.x, terms, room.grips, progress[0].far)
-        room.work.kept[0] = np.inf
         wider = friction.room(near.pairs, terms.contact, terms.friction)
         if wider.load.size > room.grips.load.size:
             grips = friction.moved(room.grips, wider)
