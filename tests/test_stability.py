@@ -35,9 +35,22 @@ def test_the_config_holds_the_scenes_that_are_drawn(drawn):
 def test_the_second_model_agrees_with_the_kernels(scene, state):
     x = STATES[state](scene)
     _, at = whole(scene, x, dt=np.inf).found(x)
-    second = model.stored(x, scene.terms)
+    second = model.stored(x, scene.terms, x)
     np.testing.assert_allclose(second.energy, at.stored, rtol=1e-11)
     np.testing.assert_allclose(second.gradient, at.elastic, atol=1e-13 * second.scale)
+
+
+@pytest.mark.parametrize("turn", [-3.3, 3.3])
+def test_the_second_model_follows_a_joint_that_turns_by_more_than_half(turn):
+    scene = loaded()
+    x0 = STATES["bent"](scene)
+    x = x0.copy()
+    x[scene.terms.walls.rotation[len(scene.terms.walls.rotation) // 2]] += turn
+    _, at = whole(scene, x, x0).found(x)
+    second = model.stored(x, scene.terms, x0)
+    np.testing.assert_allclose(second.energy, at.stored, rtol=1e-11)
+    np.testing.assert_allclose(second.gradient, at.elastic, atol=1e-13 * second.scale)
+    assert model.stored(x, scene.terms, x).energy[1] < 0.9 * second.energy[1]
 
 
 def test_light_scenes_violate_nothing(drawn):

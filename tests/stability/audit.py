@@ -181,7 +181,7 @@ def _balance(seen):
         allowed += LAG * max(seen.tolerance.friction, seen.tolerance.grip * rubbing)
     if not size <= 1.01 * allowed:
         yield f"{size / allowed:.1e} of the allowed residual"
-    second = stored(seen.x, seen.terms)
+    second = stored(seen.x, seen.terms, seen.x0)
     error = np.abs(second.gradient - at.elastic).max()
     if not error <= SAME * second.scale + allowed:
         yield f"forces differ by {error / second.scale:.1e} from the second model"

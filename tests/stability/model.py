@@ -21,8 +21,8 @@ class Stored(NamedTuple):
     scale: float
 
 
-def stored(x, terms):
-    """What the walls of a scene store at ``x`` (n,)."""
+def stored(x, terms, x0):
+    """What the walls of a scene store at ``x`` (n,) in a step from ``x0``, see `_bending`."""
     g, edges = np.zeros_like(x), terms.walls.edges
     vector = np.diff(x[: 2 * terms.layout.n_nodes].reshape(-1, 2)[edges], axis=1)[:, 0]
     length = np.hypot(*vector.T)
@@ -31,7 +31,7 @@ def stored(x, terms):
     tension = terms.stretch.area * stress
     stretching = np.sum(terms.stretch.area * terms.stretch.l0 * density)
     bearing = np.arctan2(vector[:, 1], vector[:, 0])
-    bending, moment = _bending(x, bearing, terms, g)
+    bending, moment = _bending(x, x0, bearing, terms, g)
     along, across = vector / length[:, None], moment / length
     force = tension[:, None] * along + across[:, None] * np.column_stack(
         [-along[:, 1], along[:, 0]]
@@ -93,8 +93,11 @@ def _curvature(measure, turn):
     return turn, np.ones_like(turn)
 
 
-def _bending(x, bearing, terms, g):
-    """Energy, and the moment on the bearing of every element; rotations get theirs in ``g``."""
+def _bending(x, x0, bearing, terms, g):
+    """Energy, and the moment on the bearing of every element; rotations get theirs in ``g``.
+
+    An arm turns less than half round from where its joint held it when the step began.
+    """
     bend, moment, before = terms.bend, np.zeros_like(bearing), terms.bend.hinges
     angle = _wrapped(bearing[before + 1] - bearing[before])
     kappa, slope = _curvature(bend.measure, angle - bend.hinge_angle)
@@ -109,7 +112,8 @@ def _bending(x, bearing, terms, g):
 
     element, rotation = terms.walls.arm_element, terms.walls.rotation
     rest = np.arctan2(*bend.arm_rest.T[::-1])
-    kappa, slope = _curvature(bend.measure, _wrapped(bearing[element] - rest - x[rotation]))
+    turn = _wrapped(bearing[element] - rest - x0[rotation]) - (x[rotation] - x0[rotation])
+    kappa, slope = _curvature(bend.measure, turn)
     value, response = _response(bend.section, bend.arm_surface, kappa)
     coupled, other = np.repeat(bend.coupling, 2), kappa.reshape(-1, 2)[:, ::-1].ravel()
     turning = (bend.arm_stiffness * response + coupled * other) * slope
