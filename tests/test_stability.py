@@ -43,7 +43,7 @@ def test_the_second_model_agrees_with_the_kernels(scene, state):
 @pytest.mark.parametrize("turn", [-3.3, 3.3])
 def test_the_second_model_follows_a_joint_that_turns_by_more_than_half(turn):
     scene = loaded()
-    x0 = STATES["bent"](scene)
+    x0 = scene.x_rest
     x = x0.copy()
     x[scene.terms.walls.rotation[len(scene.terms.walls.rotation) // 2]] += turn
     _, at = whole(scene, x, x0).found(x)
