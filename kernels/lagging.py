@@ -19,6 +19,7 @@ MOST = 30  # loops
 STUCK = 8  # of them without coming nearer: it goes round in circles
 CAREFUL = 6  # after so many every minimum is found to the end
 ROUGHLY = 0.1  # of what friction is off by: what the next minimum may leave
+UNSETTLED = 8  # an outcome, beside those of `newton` and `march`
 
 
 @jit_exact

@@ -21,7 +21,7 @@ FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 EASY_LOOPS = 10  # of friction: after more of them the next step is no longer
 GIFT = 2e-3  # of all energy: what backward Euler may make, and once more in all further steps
 SHORT = 2.0**-12  # share of a step that may make more: the run is judged at its end
-INACCURATE = 7  # an outcome, beside those of `newton`
+INACCURATE = 7  # an outcome, beside those of `newton` and `lagging`
 AT_START = -1  # loops of friction before `_set_out`
 PROGRESS = np.dtype(
     (
@@ -146,7 +146,7 @@ def _balance(x, target, terms, step, near, unknowns, tolerance, room, control, p
         if lagging.agrees(x, terms, step, near, unknowns, tolerance, room, progress):
             break
         if lagging.in_vain(progress):
-            outcome = ITERATIONS
+            outcome = lagging.UNSETTLED
             break
     return outcome
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from kernels import arc, book, inertia, march, newton, spring, trace
+from kernels import arc, book, inertia, lagging, march, newton, spring, trace
 from sweep.custom import Load, Structure, Support
 from sweep.measure import history_columns, summarise
 from sweep.mesh import Floats
@@ -28,6 +28,7 @@ GAP = 1e-3  # of the energy, that may be left over
 INVENTED = 0.1  # of the work done: energy that an integrator may make
 ADVICE = {
     newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {shorter}",
+    lagging.UNSETTLED: "friction did not settle; try {shorter} or a smaller contact.friction",
     newton.STALLED: "the energy could not be lowered further; "
     "try a looser solver.tolerance or smaller steps",
     newton.SINGULAR: "the lattice found no stable shape; check its supports or add damping",

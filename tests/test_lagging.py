@@ -7,6 +7,7 @@ from kernels import lagging, march
 from sweep.params import Case, Contact, Lattice, Loading, Solver
 from sweep.simulate import simulate
 from tests.figures import MATERIAL
+from tests.stability import draw
 
 
 def crushed(strain, contact, steps, tolerance=1e-8):
@@ -62,3 +63,11 @@ def test_a_loop_is_given_up_once_it_goes_in_circles():
     circle = [1.0, *[2.0, 1.0] * (lagging.STUCK // 2)]
     assert not lagging.in_vain(looped(*circle[:-1]))
     assert lagging.in_vain(looped(*circle))
+
+
+def test_a_loop_that_does_not_settle_is_told():
+    found = simulate(draw.scene(492)[1])
+    assert found.status == "stopped"
+    assert found.message.endswith(
+        "friction did not settle; try a smaller solver.time_step or a smaller contact.friction"
+    )
