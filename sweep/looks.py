@@ -103,23 +103,29 @@ def _compared(rows: DataFrame, energy: str) -> tuple[str, float]:
 
 
 def budget_winners(rows: DataFrame, ranking: DataFrame) -> list[tuple[str, float, float]]:
-    """Words, mass and merit of the best of one scene for each budget; without any, of the best."""
+    """Words, mass and merit of the best of one scene for each budget; without any, of the first."""
     mass, energy = ranking.attrs["mass"], ranking.attrs["energy"]
-    front = rows[rows["pareto"]].sort_values(mass)
-    winners = []
-    for budget in ranking.attrs["budgets_g"] or [np.inf]:
-        won = front[front[mass] <= budget].tail(1)
-        if not won.empty:
-            limit = f"up to {budget:g} g" if np.isfinite(budget) else "best"
-            merit = merits(won, energy).item()
-            words = _words(won, merit, ranking) + _ties(rows[rows[mass] <= budget], won, energy)
-            winners.append((f"{limit}: {words}", won[mass].item(), merit))
-    return winners
+    front, (name, _) = rows[rows["pareto"]].sort_values(mass), _compared(rows, energy)
+    winners = [
+        (f"up to {budget:g} g", front[front[mass] <= budget].tail(1), rows[rows[mass] <= budget])
+        for budget in ranking.attrs["budgets_g"]
+    ]
+    if not winners:
+        best = rows[rows["place"] == 1].head(1)
+        winners, name = [("best", best, rows)], best["ranked_by"].item()
+    return [
+        (
+            f"{limit}: {_words(won, ranking)}{_ties(others, won, name)}",
+            won[mass].item(),
+            merits(won, energy).item(),
+        )
+        for limit, won, others in winners
+        if not won.empty
+    ]
 
 
-def _ties(rows: DataFrame, won: DataFrame, energy: str) -> str:
+def _ties(rows: DataFrame, won: DataFrame, name: str) -> str:
     """How sure the best of some designs of one scene is, where error bars tell."""
-    name, _ = _compared(rows, energy)
     error = errors_of(won, name).item()
     if not (np.isfinite(error) and won[name].item()):
         return ""
@@ -130,14 +136,17 @@ def _ties(rows: DataFrame, won: DataFrame, energy: str) -> str:
     return f"{share}, a tie of {count}" if count > 1 else share
 
 
-def _words(won: DataFrame, merit: float, ranking: DataFrame) -> str:
+def _words(won: DataFrame, ranking: DataFrame) -> str:
     """A design and what it is worth, such as "cells 3 x 3, wall 0.8 mm, 13.4 J"."""
-    (design,) = design_labels(won, ranking)
+    (design,), merit = design_labels(won, ranking), merits(won, ranking.attrs["energy"]).item()
     worths = {
         "force": f"sinks {three_digits(merit)} %",
         "impact": f"passes {three_digits(merit)} N on",
     }
     worth = worths.get(won["loading_mode"].item(), energy_text(merit))
+    per_gram = ranking.attrs["per_gram"]
+    if not ranking.attrs["budgets_g"] and won["ranked_by"].item() == per_gram:
+        worth += f", {three_digits(won[per_gram].item())} J/g"
     beyond = ", beyond the model" if won["beyond_model"].item() else ""
     crossed = ", walls cross" if won["crossed"].item() else ""
     return f"{design}, {worth}{beyond}{crossed}"

@@ -120,7 +120,7 @@ def test_titles_break_behind_commas_only(ranking):
     ranking["material"] = [names[k % 2] for k in range(6)]
     lines = [line.strip() for line in drawn(ranking).axes[0].get_title("left").splitlines()]
     assert len(lines) > 2
-    assert all(line.endswith((",", "J", "platens")) for line in lines)
+    assert all(line.endswith((",", "J/g", "platens")) for line in lines)
 
 
 @pytest.mark.parametrize("view", [(1e-6, 1.0), (0.05, 30.0), (0.8, 2.2), (0.9, 1.02), (38.0, 71.0)])

@@ -61,12 +61,17 @@ def test_winners_of_budgets_are_the_most_that_is_light_enough(ranking):
     ]
 
 
-def test_without_a_budget_the_best_of_all_wins(ranking):
+def test_without_a_budget_the_first_in_the_table_wins(ranking):
     ((words, *point),) = budget_winners(ranking.assign(beyond_model=True), ranking)
-    assert words == "best: cells 2 x 2, wall 0.8 mm, 1.60 J, beyond the model"
+    assert words == "best: cells 2 x 2, wall 0.8 mm, 1.60 J, 0.400 J/g, beyond the model"
     ((words, *point),) = budget_winners(ranking.assign(crossed=True), ranking)
-    assert words == "best: cells 2 x 2, wall 0.8 mm, 1.60 J, walls cross"
+    assert words == "best: cells 2 x 2, wall 0.8 mm, 1.60 J, 0.400 J/g, walls cross"
     assert point == [4.0, 1.6]
+    sparing = rank(summary(*designs([1.0, 3.0, 2.0], [0.3, 0.6, 0.5])), top=None)
+    per_gram = sparing.assign(**{f"error_{sparing.attrs['per_gram']}": 0.03})
+    ((words, *point),) = budget_winners(per_gram, per_gram)  # the least J
+    assert words == "best: ninjaflex, 300 mJ, 0.300 J/g ± 10 %, a tie of 2"
+    assert point == [1.0, 0.3]
 
 
 def test_under_a_dead_load_the_least_sink_wins():
