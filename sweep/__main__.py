@@ -76,7 +76,9 @@ def parser() -> Parser:
     run.add_argument(
         "--out", type=_results, metavar="F.h5", help="results file (default: results/NAME.h5)"
     )
-    run.add_argument("--workers", type=_count, default=2, metavar="N", help="default: 2")
+    run.add_argument(
+        "--workers", type=_count, default=2, metavar="N", help="threads: 2; a cluster has its own"
+    )
     run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster: tcp://host:8786")
     run.add_argument("--dry-run", action="store_true", help="estimate time and disk, write nothing")
     run.add_argument(

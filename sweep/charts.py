@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sweep.looks import budget_winners, doubtful, errors_of, looks, merit_errors, merits
+from sweep.looks import budget_winners, doubtful, errors_of, looks, merit_errors, merits, until
 from sweep.plots import GREY, GRID, legend, mark, plain, round_ticks
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
 TITLE = 72  # letters in a line above a panel
 WHITE = (1.0, 1.0, 1.0, 1.0)
+VARIANT = ["lattice_kind", "cells_x", "cells_y", "material"]  # of which walls differ
 ENDS = 0.1, 10.0  # of a value: where its error bar ends at the latest, as no log axis has a zero
 
 
@@ -53,7 +54,7 @@ def design_map(fig: Figure, ranking: DataFrame) -> None:
             words.append(_in_lines(said))
         ax.set_title("\n".join(words), loc="left", fontsize="small")
         ax.set_xlabel(f"mass of the {of}, g")
-        ax.set_ylabel(least or f"energy absorbed by the {of}, J")
+        ax.set_ylabel(least or f"energy absorbed by the {of}{until(ranking)}, J")
         round_ticks(ax.xaxis)
         round_ticks(ax.yaxis)
     legend(fig, look.legend())
@@ -64,16 +65,22 @@ def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
     per_gram = ranking.attrs["per_gram"]
     look = looks(ranking)
     for ax, rows in _scene_axes(fig, ranking):
-        for _, points in rows.groupby(["cells_x", "cells_y", "material"]):
+        for _, points in rows.groupby(VARIANT):
             best = points.loc[points.groupby("wall_thickness_m")[per_gram].idxmax()]
             style = look.of(best) | {"s": 28.0}
             wall = 1e3 * best["wall_thickness_m"]
             _line(ax, wall, best[per_gram], {"color": style["c"][0], "lw": 1.2}, best)
             _dots(ax, wall, best[per_gram], style, best)
             _error_bars(ax, wall, best[per_gram], errors_of(best, per_gram), style["c"][0])
-        ax.set(xlabel="wall thickness, mm", ylabel="absorbed energy per gram, J/g", yscale="log")
+        what = f"absorbed energy per gram{until(ranking)}, J/g"
+        ax.set(xlabel="wall thickness, mm", ylabel=what, yscale="log")
         round_ticks(ax.yaxis)
     legend(fig, look.legend(walls=False))
+
+
+def has_trends(ranking: DataFrame) -> bool:
+    """Whether anything is there with walls of several thicknesses."""
+    return not ranking.empty and ranking.groupby(VARIANT)["wall_thickness_m"].nunique().max() > 1
 
 
 def _in_lines(words: str) -> str:

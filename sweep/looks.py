@@ -102,6 +102,11 @@ def _compared(rows: DataFrame, energy: str) -> tuple[str, float]:
     return least or energy, 100.0 if least == "peak_strain" else 1.0
 
 
+def until(ranking: DataFrame) -> str:
+    """When energy ceases to count, on a line of its own, where a force was allowed."""
+    return f"\n{ranking.attrs['until']}" if ranking.attrs["limited"] else ""
+
+
 def budget_winners(rows: DataFrame, ranking: DataFrame) -> list[tuple[str, float, float]]:
     """Words, mass and merit of the best of one scene for each budget; without any, of the first."""
     mass, energy = ranking.attrs["mass"], ranking.attrs["energy"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sweep.looks import doubtful, errors_of
+from sweep.looks import doubtful, errors_of, until
 from sweep.sheets import design_labels
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ def pattern_bars(fig: Figure, ranking: DataFrame) -> None:
         ax.errorbar(ordered[per_gram], range(len(ordered)), xerr=errors, fmt="none", ecolor="black")
         ax.set_yticks(range(len(ordered)), design_labels(ordered, ranking), fontsize="small")
         ax.set_title(scene, loc="left", fontsize="medium")
-        ax.set_xlabel("absorbed energy per gram, J/g")
+        ax.set_xlabel(f"absorbed energy per gram{until(ranking)}, J/g")
         ax.spines[["top", "right"]].set_visible(False)
 
 

@@ -95,7 +95,7 @@ def _sweep_figures(file: str, shown: DataFrame, ranking: DataFrame) -> Named:
         figure = plots.blank(*panel_size(crushed))
         pattern_bars(figure, crushed)
         yield "patterns", figure
-    if len(crushed["wall_thickness_m"].unique()) > 1:
+    if charts.has_trends(crushed):
         figure = plots.blank(*_size(crushed))
         charts.thickness_trends(figure, crushed)
         yield "wall_thickness", figure

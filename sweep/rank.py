@@ -259,7 +259,7 @@ def _column(frame: DataFrame, by: str) -> str:
     allowed = [name for name in frame.select_dtypes("number") if "." not in name]
     if by in allowed:
         return by
-    nearest = difflib.get_close_matches(by, allowed, n=1, cutoff=0.4)
+    nearest = difflib.get_close_matches(by, allowed, n=1, cutoff=0.5)
     hint = f"did you mean {nearest[0]}? " if nearest else ""
     raise RankError(f'cannot sort by "{by}"; {hint}allowed: {", ".join(allowed)}')
 

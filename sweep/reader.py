@@ -123,7 +123,8 @@ class Reader:
         elif key.is_list:
             self._refuse(name, raw, "a list itself, no axis; allowed: keys with one value", where)
         elif not isinstance(raw, list) or not raw:
-            self._refuse(name, raw, f"no values; allowed: a list, each {key.allowed}", where)
+            wrong = "no values" if raw == [] else "not a list"
+            self._refuse(name, raw, f"{wrong}; allowed: a list, each {key.allowed}", where)
         elif other := next((self.varied[t] for t in key.targets if t in self.varied), None):
             self._refuse(name, raw, f"varied in {other} too; allowed: one of them", where)
         else:

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.collections import LineCollection
 from specimens import designs, summary
 
-from sweep.charts import TITLE, design_map, thickness_trends
+from sweep.charts import TITLE, design_map, has_trends, thickness_trends
 from sweep.patterns import pattern_bars
 from sweep.plots import TICKS, blank, round_ticks
 from sweep.rank import rank
@@ -51,6 +51,13 @@ def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
     assert ax.get_ylabel() == "sink, %"
     sinks = [y for dots in ax.collections[:2] for _, y in dots.get_offsets()]
     np.testing.assert_allclose(sorted(sinks), [10.0, 20.0, 30.0])
+
+
+def test_charts_say_up_to_which_force_energy_counts():
+    rows = [row | {"absorbed_energy_at_50N_J": 0.1} for row in designs([1.0, 2.0], [0.1, 0.3])]
+    ranking = rank(summary(*rows), top=None, allowed_force="50 N")
+    for draw in design_map, thickness_trends:
+        assert "\nuntil 50 N are passed on, J" in drawn(ranking, draw).axes[0].get_ylabel()
 
 
 def test_designs_beyond_the_model_are_open(ranking):
@@ -143,3 +150,14 @@ def with_attrs(ranking, **columns):
     changed = ranking.assign(**columns)
     changed.attrs = ranking.attrs
     return changed
+
+
+def test_trends_are_of_one_pattern_each(ranking):
+    assert has_trends(ranking)
+    ranking["lattice_kind"] = ["square", "hex", "square"] * 2
+    assert has_trends(ranking)
+    lines = drawn(ranking, thickness_trends).axes[0].get_lines()
+    assert sorted(len(line.get_xdata()) for line in lines) == [1, 2]
+    ranking["lattice_kind"] = ["square", "hex", "triangle"] * 2
+    assert not has_trends(ranking)
+    assert not has_trends(ranking.head(0))

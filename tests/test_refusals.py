@@ -154,7 +154,7 @@ AXES = {
         f"[grid] lattice.cells = []: no values; allowed: a list, each {CELLS}"
     ),
     "[grid]\nlattice.cells = 3": (
-        f"[grid] lattice.cells = 3: no values; allowed: a list, each {CELLS}"
+        f"[grid] lattice.cells = 3: not a list; allowed: a list, each {CELLS}"
     ),
     "[grid]\nlattice.cels = [1]": (
         "[grid] lattice.cels = [1]: unknown key; the nearest is lattice.cells"
