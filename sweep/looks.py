@@ -28,12 +28,16 @@ PLAIN = {"ls": "", "marker": "o", "ms": 6.0, "color": "#8a8a8a"}
 
 
 class Looks(NamedTuple):
-    """Colours by cells (x, y), signs by material, areas by wall thickness (m)."""
+    """Colours by cells (x, y), signs by material, areas by wall thickness (m).
+
+    doubtful: some are not to be trusted; barred: some have error bars.
+    """
 
     colors: dict[tuple[int, int], str]
     signs: dict[str, str]
     areas: dict[float, float]
     doubtful: bool
+    barred: bool
 
     def of(self, points: DataFrame) -> dict[str, Any]:
         """Keywords of a scatter plot for designs of one material."""
@@ -58,7 +62,8 @@ class Looks(NamedTuple):
             for name in shown
             for label, look in [(name, {"marker": ""}), *groups[name].items()]
         ]
-        return entries + [beyond] * self.doubtful
+        bar = {**PLAIN, "marker": "|", "ms": 12.0, "label": "± estimated error"}
+        return entries + [bar] * self.barred + [beyond] * self.doubtful
 
 
 def looks(designs: DataFrame) -> Looks:
@@ -70,6 +75,7 @@ def looks(designs: DataFrame) -> Looks:
         dict(zip(sorted(designs["material"].unique()), cycle(SIGNS), strict=False)),
         dict(zip(walls, np.linspace(*AREAS, len(walls)), strict=True)),
         bool(doubtful(designs).any()),
+        "ranked_error" in designs and bool(designs["ranked_error"].notna().any()),
     )
 
 

@@ -46,6 +46,11 @@ def test_legend_explains_open_signs_where_there_are_any(ranking):
         assert entries(ranking.assign(**{mark: [False, True] * 2}))[-1] == "not to be trusted"
 
 
+def test_legend_explains_error_bars_where_there_are_any(ranking):
+    assert entries(ranking.assign(ranked_error=[np.nan, 0.1] * 2))[-1] == "± estimated error"
+    assert entries(ranking.assign(ranked_error=np.nan)) == entries(ranking)
+
+
 def test_materials_have_signs(ranking):
     signs = looks(ranking.assign(material=["cheetah", "ninjaflex"] * 2)).signs
     assert list(signs) == ["cheetah", "ninjaflex"]
