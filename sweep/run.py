@@ -17,6 +17,8 @@ from sweep.result import Status
 from sweep.store import finished_ids, read_statuses
 from sweep.writer import Writer
 
+UNWRITABLE = "CRUMPLE_CACHE_DIR, else ~/.cache/crumple, is no folder that can be written to"
+
 
 class Interrupted(KeyboardInterrupt):
     """A sweep that was told to stop; the text says what is kept and how to go on."""
@@ -66,7 +68,7 @@ def run_sweep(
 
 def real_simulate(arcs: bool = False) -> Simulate:
     """The real thing, imported when it is needed: it brings the compiled kernels (`warm_up`)."""
-    from kernels.cache import is_cold, warmed_up
+    from kernels.cache import is_cold, is_lasting, warmed_up
 
     def load() -> Simulate:
         from sweep.simulate import simulate, warm_up
@@ -80,6 +82,8 @@ def real_simulate(arcs: bool = False) -> Simulate:
     from kernels.ahead import compile_ahead
 
     tell("compiling the kernels, once: this takes half a minute to one")
+    if not is_lasting():
+        tell(f"for this run alone: {UNWRITABLE}")
     compile_ahead(load)
     loaded = load()
     warmed_up(what)

@@ -32,7 +32,7 @@ REFUSALS = {
 
 
 class ArgumentError(ValueError):
-    """An argument that does not go with the results file."""
+    """What was asked for does not go with what is there."""
 
 
 def refusals() -> tuple[type[Exception], ...]:
@@ -90,9 +90,11 @@ def accuracy(arguments: Namespace) -> int:
 
 def warm(_: Namespace) -> int:
     """Compile the kernels ahead of the first run."""
-    from kernels.cache import is_cold
-    from sweep.run import real_simulate
+    from kernels.cache import is_cold, is_lasting
+    from sweep.run import UNWRITABLE, real_simulate
 
+    if not is_lasting():
+        raise ArgumentError(UNWRITABLE)
     done = "compiled the kernels" if is_cold("arcs") else "found compiled kernels and loaded them"
     started = time.perf_counter()
     real_simulate(arcs=True)

@@ -1,6 +1,8 @@
 """What `make bench` measures of a start."""
 
 from kernels.cache import cache_home
+from sweep.__main__ import main
+from sweep.run import real_simulate
 from sweep.store import read_summary
 from tests.bench import starts
 
@@ -23,3 +25,14 @@ def test_starts_find_first_nothing_and_then_what_the_first_has_compiled(monkeypa
     }
     assert len(folders) == 2
     assert len(set(folders)) == 1
+
+
+def test_code_that_cannot_be_kept_is_told(capsys, monkeypatch):
+    monkeypatch.setattr("kernels.cache.is_lasting", lambda: False)
+    assert main(["warm"]) == 2
+    assert "CRUMPLE_CACHE_DIR, else ~/.cache/crumple, is no folder" in capsys.readouterr().err
+    monkeypatch.setattr("kernels.cache.is_cold", lambda *_: True)
+    monkeypatch.setattr("kernels.cache.warmed_up", lambda _: None)
+    monkeypatch.setattr("kernels.ahead.compile_ahead", lambda _: None)
+    real_simulate()
+    assert "for this run alone: CRUMPLE_CACHE_DIR, else" in capsys.readouterr().out
