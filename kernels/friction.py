@@ -217,6 +217,13 @@ def follow(u, dx, share, grips, slip):
 
 
 @jit
+def forget(grips):
+    """Take no dual for known: `hessian` is the second derivative then."""
+    for k in range(grips.count[0]):
+        grips.dual[k] = UNKNOWN
+
+
+@jit
 def hessian(u, grips, slip, matrix, projected):
     """Add d2D_f/dx2, or what stands for it; ``projected``: without shares of negative force."""
     for k in range(grips.count[0]):

@@ -21,6 +21,7 @@ from kernels.step import WHOLE, covers, evaluate, factor, step_limit, travel
 CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
 ARMIJO = 1e-4
 HALVINGS = 40
+MISLED = 3  # halvings, by the duals of friction
 SLOW = 0.1  # a kept factor that shrinks the residual by less is renewed
 LEAST_SHARE = 1e-12  # of a step: less is standing still
 RESOLVED = 1e-11  # an energy change below this share of the energy is lost in round-off
@@ -108,12 +109,17 @@ def _advance(x, work, share):
 
 
 @jit_exact
-def _move(x, step, at, work, share, most, guessed):
+def _move(x, step, at, work, share, most, guessed, halvings):
     """Go to the trial, a share of dx, which is ``most`` m long; return whether a factor from there
     may be kept. ``guessed``: dx is no step of Newton's, and tells nothing of friction.
+
+    The duals of friction are forgotten where they have misled: the step fell far short.
     """
     copy(work.trial, x)
     work.kept[0] += share * most
+    if halvings > MISLED:
+        friction.forget(step.grips)
+        return True
     return guessed or friction.follow(at.u, work.dx, share, step.grips, step.slip)
 
 
@@ -211,7 +217,7 @@ def minimise(x, target, terms, step, near, unknowns, tolerance, at, work, contro
                     break
                 _advance(x, work, share)
                 continue
-            fit = _move(x, step, at, work, share, most, iteration < 0)
+            fit = _move(x, step, at, work, share, most, iteration < 0, halvings)
             if free and whole and share == 1.0:
                 x[unknowns.driven] = target
             iteration, searching, arrived = iteration + 1, False, True

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels import lagging, march
-from sweep.params import Case, Contact, Lattice, Loading, Solver
+from sweep.params import Case, Contact, Lattice, Loading, Material, Solver
 from sweep.simulate import simulate
 from tests.figures import MATERIAL
 from tests.stability import draw
@@ -63,6 +63,18 @@ def test_a_loop_is_given_up_once_it_goes_in_circles():
     circle = [1.0, *[2.0, 1.0] * (lagging.STUCK // 2)]
     assert not lagging.in_vain(looped(*circle[:-1]))
     assert lagging.in_vain(looped(*circle))
+
+
+def test_duals_that_mislead_are_forgotten():
+    """Stout walls snap: Newton goes on by a hundredth of a step at a time if it keeps them."""
+    case = Case(
+        lattice=Lattice(wall_thickness=1.2e-3, nodes_per_wall=8),
+        material=Material(name="ultimaker_tpu95a"),
+        loading=Loading(mode="displacement", strain=0.6, unload=False, platen="glued"),
+        contact=Contact(friction=1.0),
+        solver=Solver(load_steps=100),
+    )
+    assert simulate(case).status == "converged"
 
 
 def test_a_loop_that_does_not_settle_is_told():
