@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from textwrap import TextWrapper
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +20,8 @@ LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
 TITLE = 72  # letters in a line above a panel
 WHITE = (1.0, 1.0, 1.0, 1.0)
 VARIANT = ["lattice_kind", "cells_x", "cells_y", "material"]  # of which walls differ
+SHAPED, THICK = ("lattice.", "material."), ("lattice.wall_thickness", "lattice.mass")
+NARROW, MARGIN = 1.2, 0.1  # of the axis of mass: its least ratio, and the room at either end
 ENDS = 0.1, 10.0  # of a value: where its error bar ends at the latest, as no log axis has a zero
 
 
@@ -44,7 +46,8 @@ def design_map(fig: Figure, ranking: DataFrame) -> None:
         stairs: dict[str, Any] = {"color": "black", "lw": 0.9, "drawstyle": "steps-post"}
         _line(ax, front[mass], merit.loc[front.index], stairs, front)
         ax.set(xscale="log", yscale="log")
-        ax.margins(0.1, 0.15)
+        ax.set_xlim(_span([*rows[mass], *ranking.attrs["budgets_g"]]))
+        ax.margins(y=0.15)
         _error_bars(ax, rows[mass], merit, error)
         for budget in ranking.attrs["budgets_g"]:
             mark(ax, budget, f"{budget:g} g")
@@ -78,9 +81,18 @@ def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
     legend(fig, look.legend(walls=False))
 
 
+def _span(values: Sequence[float]) -> tuple[float, float]:
+    """Ends of a log axis with room for all values, which may be the same but for round-off."""
+    low, high = min(values), max(values)
+    middle, half = (low * high) ** 0.5, max(high / low, NARROW) ** (0.5 + MARGIN)
+    return middle / half, middle * half
+
+
 def has_trends(ranking: DataFrame) -> bool:
-    """Whether anything is there with walls of several thicknesses."""
-    return not ranking.empty and ranking.groupby(VARIANT)["wall_thickness_m"].nunique().max() > 1
+    """Whether designs are there that differ in nothing but the thickness of their walls."""
+    others = [key for key in ranking if key.startswith(SHAPED) and key not in THICK]
+    alike = ranking.groupby(["scene", *VARIANT, *others], dropna=False)
+    return not ranking.empty and alike["wall_thickness_m"].nunique().max() > 1
 
 
 def _in_lines(words: str) -> str:

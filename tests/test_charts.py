@@ -152,12 +152,21 @@ def with_attrs(ranking, **columns):
     return changed
 
 
+def test_designs_that_all_weigh_the_same_have_an_axis():
+    rows = designs([1.4, 1.4 + 1e-14, 1.4 - 1e-14], [0.1, 0.3, 0.2])
+    axis = drawn(rank(summary(*rows), top=None)).axes[0].xaxis
+    low, high = axis.get_view_interval()
+    assert 1.1 < high / low < 2.0
+    assert low < 1.4 < high
+    assert 2 < np.sum((axis.get_ticklocs() >= low) & (axis.get_ticklocs() <= high)) < 12
+
+
 def test_trends_are_of_one_pattern_each(ranking):
     assert has_trends(ranking)
     ranking["lattice_kind"] = ["square", "hex", "square"] * 2
     assert has_trends(ranking)
     lines = drawn(ranking, thickness_trends).axes[0].get_lines()
     assert sorted(len(line.get_xdata()) for line in lines) == [1, 2]
-    ranking["lattice_kind"] = ["square", "hex", "triangle"] * 2
+    ranking["lattice.grading"] = [1.0, 1.0, 2.0] * 2
     assert not has_trends(ranking)
     assert not has_trends(ranking.head(0))
