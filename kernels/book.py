@@ -18,6 +18,7 @@ from kernels.step import store
 
 WORK, KINETIC, STRETCH, BEND, CONTACT, MATERIAL, FRICTION, INTEGRATOR = range(8)
 INJECTED, RESIDUAL = 8, 9
+LEFT = 1e-3  # of all energy: more must not be left over in a step
 
 
 @jit_exact
@@ -56,6 +57,26 @@ def made(state, at, mass, dt):
         loss -= at.stored[k] - state.stored[k]
         there += max(at.stored[k], state.stored[k])
     return -loss, max(there, abs(state.book[WORK]))
+
+
+@jit_exact
+def unbalanced(unknowns, tolerance, state, at, work):
+    """Return whether what a step leaves out of balance does work that counts along it.
+
+    Where elements or openings are so small that positions cannot resolve them, the forces that
+    count as none (`balance.allowed`) know no bound.
+    """
+    left, noise, there = 0.0, 0.0, 0.0
+    reduce(at.g, unknowns, work.residual)
+    for i in range(at.u.size):
+        if unknowns.leader[i] == i and i != unknowns.driven:
+            left += work.residual[i] * at.u[i]
+            noise += tolerance.force * abs(at.u[i]) * unknowns.scale[i]
+    for energy in state.book[:RESIDUAL]:
+        there = max(there, abs(energy))
+    for energy in at.stored:
+        there = max(there, energy)
+    return abs(left) > LEFT * there + noise
 
 
 @jit_exact

@@ -6,7 +6,7 @@ import numpy as np
 
 from kernels import damp, friction, inertia, lagging, scheme
 from kernels.balance import loosened
-from kernels.book import INTEGRATOR, KINETIC, enter, made, move_apart, strike
+from kernels.book import INTEGRATOR, KINETIC, enter, made, move_apart, strike, unbalanced
 from kernels.jit import jit_exact, jit_owning
 from kernels.newton import CONVERGED, INTERRUPTED, ITERATIONS, OUTGROWN, minimise
 from kernels.room import HEAVY, LAGGED, PREDICTED, Room, make_room
@@ -21,7 +21,7 @@ FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 EASY_LOOPS = 10  # of friction: after more of them the next step is no longer
 GIFT = 2e-3  # of all energy: what backward Euler may make, and once more in all further steps
 SHORT = 2.0**-12  # share of a step that may make more: the run is judged at its end
-INACCURATE = 7  # an outcome, beside those of `newton` and `lagging`
+INACCURATE, UNBALANCED = 7, 9  # outcomes, beside those of `newton` and `lagging`
 AT_START = -1  # loops of friction before `_set_out`
 PROGRESS = np.dtype(
     (
@@ -236,6 +236,8 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, prog
         if outcome == CONVERGED:
             fine, strayed = _judged(terms, stage, state, step, tolerance.noise, room, progress)
             outcome = CONVERGED if fine else INACCURATE
+            if fine and unbalanced(unknowns, tolerance, state, room.at, room.work):
+                outcome = UNBALANCED
         if outcome != CONVERGED:
             _step_back(outcome, state, room, progress)
             if outcome == INTERRUPTED or progress.share < SMALLEST:

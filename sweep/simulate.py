@@ -34,6 +34,7 @@ ADVICE = {
     newton.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
     march.INACCURATE: "no step was short enough for solver.step_error; "
     "try a larger one or {shorter}",
+    march.UNBALANCED: f"work and energies do not balance; {SOUNDER}",
     newton.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
 }
 

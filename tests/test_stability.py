@@ -61,7 +61,10 @@ def test_light_scenes_violate_nothing(drawn):
     assert sum(found.balanced for found in audits) > len(light)
 
 
-@pytest.mark.parametrize("number", [389, 463], ids=["nothing moves", "far too long steps"])
+EXTREMES = {"nothing moves": 389, "far too long steps": 463, "folded beyond resolution": 55}
+
+
+@pytest.mark.parametrize("number", EXTREMES.values(), ids=EXTREMES)
 def test_backward_euler_makes_no_energy(number):
     warm_up()
     found = audit.audit(draw.scene(number)[1])
