@@ -60,18 +60,19 @@ def made(state, at, mass, dt):
 
 
 @jit_exact
-def unbalanced(unknowns, tolerance, state, at, work):
-    """Return whether what a step leaves out of balance does work that counts along it.
+def unbalanced(x0, unknowns, tolerance, state, at, work):
+    """Return whether what a step from ``x0`` leaves out of balance does work that counts.
 
     Where elements or openings are so small that positions cannot resolve them, the forces that
     count as none (`balance.allowed`) know no bound.
     """
     left, noise, there = 0.0, 0.0, 0.0
     reduce(at.g, unknowns, work.residual)
-    for i in range(at.u.size):
+    for i in range(x0.size):
         if unknowns.leader[i] == i and i != unknowns.driven:
-            left += work.residual[i] * at.u[i]
-            noise += tolerance.force * abs(at.u[i]) * unknowns.scale[i]
+            move = state.x[i] - x0[i]
+            left += work.residual[i] * move
+            noise += tolerance.force * abs(move) * unknowns.scale[i]
     for energy in state.book[:RESIDUAL]:
         there = max(there, abs(energy))
     for energy in at.stored:

@@ -218,7 +218,7 @@ def follow(u, dx, share, grips, slip):
 
 @jit
 def forget(grips):
-    """Take no dual for known: `hessian` is the second derivative then."""
+    """Forget all duals: `hessian` is then the second derivative."""
     for k in range(grips.count[0]):
         grips.dual[k] = UNKNOWN
 

@@ -78,7 +78,9 @@ def _target(stage, progress):
 
 @jit_exact
 def _set_out(terms, stage, unknowns, state, near, room, progress):
-    """Set out on the next share of a step, from where the last one ended and on as that went."""
+    """Set out on the next share of a step, from where the last one ended and, unless that snapped,
+    on as it went.
+    """
     if stage.scheme != BACKWARD_EULER and state.totals[LAST] == 0.0:
         progress.share = min(progress.share, scheme.FIRST)
     before, at, work, grips, way = room
@@ -95,7 +97,7 @@ def _set_out(terms, stage, unknowns, state, near, room, progress):
     copy(x, way[LAGGED])
     if dt == np.inf:
         copy(x, before.y)
-        if more * travel(at.u, terms) > unknowns.cap:
+        if more * travel(at.u, terms) > max(unknowns.cap, FURTHER * abs(remaining)):
             more = 0.0  # it snapped
         for i in range(x.size):
             work.dx[i] = more * at.u[i]
@@ -236,7 +238,8 @@ def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, prog
         if outcome == CONVERGED:
             fine, strayed = _judged(terms, stage, state, step, tolerance.noise, room, progress)
             outcome = CONVERGED if fine else INACCURATE
-            if fine and unbalanced(unknowns, tolerance, state, room.at, room.work):
+            x0, at, work = room.before.x0, room.at, room.work
+            if fine and unbalanced(x0, unknowns, tolerance, state, at, work):
                 outcome = UNBALANCED
         if outcome != CONVERGED:
             _step_back(outcome, state, room, progress)
@@ -272,7 +275,8 @@ def march(terms, unknowns, tolerance, stage, state, out, control):
         )
         if outcome != OUTGROWN:
             return outcome, rows
-        near = renew(near, state.x, terms, room.grips, progress[0].far)
+        near = renew(near, state.x, terms, room.grips, progress[0].far)  # a factor is kept, unless
+        # the matrix lacked room: then it is known to be of no use
         wider = friction.room(near.pairs, terms.contact, terms.friction)
         if wider.load.size > room.grips.load.size:
             grips = friction.moved(room.grips, wider)

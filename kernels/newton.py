@@ -21,7 +21,7 @@ from kernels.step import WHOLE, covers, evaluate, factor, step_limit, travel
 CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
 ARMIJO = 1e-4
 HALVINGS = 40
-MISLED = 3  # halvings, by the duals of friction
+MISLED = 3  # halvings: after more, the duals of friction are forgotten
 SLOW = 0.1  # a kept factor that shrinks the residual by less is renewed
 LEAST_SHARE = 1e-12  # of a step: less is standing still
 RESOLVED = 1e-11  # an energy change below this share of the energy is lost in round-off
@@ -29,7 +29,8 @@ RESOLVED = 1e-11  # an energy change below this share of the energy is lost in r
 
 class Work(NamedTuple):
     """Scratch arrays by coordinate; kept (1,): how far x may have moved, m, since an exact Hessian
-    was factored without a negative pivot (infinite: no such factor is at hand).
+    was factored without a negative pivot (infinite: no such factor is at hand); friction may have
+    been lagged anew since then.
     """
 
     dx: np.ndarray

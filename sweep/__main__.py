@@ -77,7 +77,11 @@ def parser() -> Parser:
         "--out", type=_results, metavar="F.h5", help="results file (default: results/NAME.h5)"
     )
     run.add_argument(
-        "--workers", type=_count, default=2, metavar="N", help="threads: 2; a cluster has its own"
+        "--workers",
+        type=_count,
+        default=2,
+        metavar="N",
+        help="threads, 2 by default",
     )
     run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster: tcp://host:8786")
     run.add_argument("--dry-run", action="store_true", help="estimate time and disk, write nothing")

@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
 TITLE = 72  # letters in a line above a panel
 WHITE = (1.0, 1.0, 1.0, 1.0)
-VARIANT = ["lattice_kind", "cells_x", "cells_y", "material"]  # of which walls differ
-SHAPED, THICK = ("lattice.", "material."), ("lattice.wall_thickness", "lattice.mass")
+VARIANT = ["lattice_kind", "cells_x", "cells_y", "material"]  # the same along a line of trends
+SHAPED = "lattice.", "material."  # keys that make a design, of which these set the walls:
+THICK = tuple(f"lattice.{key}" for key in ("wall_thickness", "mass", "line_width", "infill"))
 NARROW, MARGIN = 1.2, 0.1  # of the axis of mass: its least ratio, and the room at either end
 ENDS = 0.1, 10.0  # of a value: where its error bar ends at the latest, as no log axis has a zero
 
@@ -36,8 +37,8 @@ def design_map(fig: Figure, ranking: DataFrame) -> None:
     mass = ranking.attrs["mass"]
     of = "panel" if mass == "panel_mass_g" else "specimen"
     look = looks(ranking)
+    energy = ranking.attrs["energy"]
     for ax, rows in _scene_axes(fig, ranking.round({mass: 9})):  # equal by design is equal
-        energy = ranking.attrs["energy"]
         merit, error = merits(rows, energy), merit_errors(rows, energy)
         least = LEAST_SHOWN.get(rows["loading_mode"].iloc[0])
         for _, points in rows[::-1].groupby(["pareto", "material"]):  # the best comes last
@@ -60,7 +61,7 @@ def design_map(fig: Figure, ranking: DataFrame) -> None:
         ax.set_ylabel(least or f"energy absorbed by the {of}{until(ranking)}, J")
         round_ticks(ax.xaxis)
         round_ticks(ax.yaxis)
-    legend(fig, look.legend())
+    legend(fig, look.legend(barred=bool(merit_errors(ranking, energy).notna().any())))
 
 
 def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
@@ -78,7 +79,8 @@ def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
         what = f"absorbed energy per gram{until(ranking)}, J/g"
         ax.set(xlabel="wall thickness, mm", ylabel=what, yscale="log")
         round_ticks(ax.yaxis)
-    legend(fig, look.legend(walls=False))
+    barred = bool(errors_of(ranking, per_gram).notna().any())
+    legend(fig, look.legend(walls=False, barred=barred))
 
 
 def _span(values: Sequence[float]) -> tuple[float, float]:

@@ -30,14 +30,13 @@ PLAIN = {"ls": "", "marker": "o", "ms": 6.0, "color": "#8a8a8a"}
 class Looks(NamedTuple):
     """Colours by cells (x, y), signs by material, areas by wall thickness (m).
 
-    doubtful: some are not to be trusted; barred: some have error bars.
+    doubtful: some are not to be trusted.
     """
 
     colors: dict[tuple[int, int], str]
     signs: dict[str, str]
     areas: dict[float, float]
     doubtful: bool
-    barred: bool
 
     def of(self, points: DataFrame) -> dict[str, Any]:
         """Keywords of a scatter plot for designs of one material."""
@@ -48,8 +47,11 @@ class Looks(NamedTuple):
             "marker": self.signs[points["material"].iloc[0]],
         }
 
-    def legend(self, walls: bool = True) -> list[dict[str, Any]]:
-        """Keywords of an empty line for each entry: what varies under a heading each."""
+    def legend(self, walls: bool = True, barred: bool = False) -> list[dict[str, Any]]:
+        """Keywords of an empty line for each entry: what varies under a heading each.
+
+        barred: some have error bars.
+        """
         groups = {
             "cells": {f"{x} x {y}": {"color": color} for (x, y), color in self.colors.items()},
             "material": {name: {"marker": sign} for name, sign in self.signs.items()},
@@ -63,7 +65,7 @@ class Looks(NamedTuple):
             for label, look in [(name, {"marker": ""}), *groups[name].items()]
         ]
         bar = {**PLAIN, "marker": "|", "ms": 12.0, "label": "± estimated error"}
-        return entries + [bar] * self.barred + [beyond] * self.doubtful
+        return entries + [bar] * barred + [beyond] * self.doubtful
 
 
 def looks(designs: DataFrame) -> Looks:
@@ -75,7 +77,6 @@ def looks(designs: DataFrame) -> Looks:
         dict(zip(sorted(designs["material"].unique()), cycle(SIGNS), strict=False)),
         dict(zip(walls, np.linspace(*AREAS, len(walls)), strict=True)),
         bool(doubtful(designs).any()),
-        "ranked_error" in designs and bool(designs["ranked_error"].notna().any()),
     )
 
 
@@ -126,13 +127,34 @@ def budget_winners(rows: DataFrame, ranking: DataFrame) -> list[tuple[str, float
         winners, name = [("best", best, rows)], best["ranked_by"].item()
     return [
         (
-            f"{limit}: {_words(won, ranking)}{_ties(others, won, name)}",
+            f"{limit}: {_words(won, others, ranking, name)}",
             won[mass].item(),
             merits(won, energy).item(),
         )
         for limit, won, others in winners
-        if not won.empty
+        if not won.empty and merits(won, energy).notna().item()
     ]
+
+
+def _words(won: DataFrame, among: DataFrame, ranking: DataFrame, name: str) -> str:
+    """A design, what it is worth, and how sure that is, as "cells 3 x 3, wall 0.8 mm, 13.4 J".
+
+    name: the column by which it has won `among` others; its value comes last.
+    """
+    (design,), energy = design_labels(won, ranking), ranking.attrs["energy"]
+    merit, value = merits(won, energy).item(), three_digits(won[name].item())
+    worths = {
+        "force": f"sinks {three_digits(merit)} %",
+        "impact": f"passes {three_digits(merit)} N on",
+    }
+    worth = worths.get(won["loading_mode"].item(), energy_text(merit))
+    if name == ranking.attrs["per_gram"]:
+        worth += f", {value} J/g"
+    elif name != _compared(won, energy)[0]:
+        worth += f", {name} {value}"
+    beyond = ", beyond the model" if won["beyond_model"].item() else ""
+    crossed = ", walls cross" if won["crossed"].item() else ""
+    return f"{design}, {worth}{_ties(among, won, name)}{beyond}{crossed}"
 
 
 def _ties(rows: DataFrame, won: DataFrame, name: str) -> str:
@@ -145,22 +167,6 @@ def _ties(rows: DataFrame, won: DataFrame, name: str) -> str:
     count = int((shared_places(ordered[name], errors_of(ordered, name)) == 1).sum())
     share = f" ± {tenths(error / abs(won[name].item()))} %"
     return f"{share}, a tie of {count}" if count > 1 else share
-
-
-def _words(won: DataFrame, ranking: DataFrame) -> str:
-    """A design and what it is worth, such as "cells 3 x 3, wall 0.8 mm, 13.4 J"."""
-    (design,), merit = design_labels(won, ranking), merits(won, ranking.attrs["energy"]).item()
-    worths = {
-        "force": f"sinks {three_digits(merit)} %",
-        "impact": f"passes {three_digits(merit)} N on",
-    }
-    worth = worths.get(won["loading_mode"].item(), energy_text(merit))
-    per_gram = ranking.attrs["per_gram"]
-    if not ranking.attrs["budgets_g"] and won["ranked_by"].item() == per_gram:
-        worth += f", {three_digits(won[per_gram].item())} J/g"
-    beyond = ", beyond the model" if won["beyond_model"].item() else ""
-    crossed = ", walls cross" if won["crossed"].item() else ""
-    return f"{design}, {worth}{beyond}{crossed}"
 
 
 def _ramp(count: int) -> list[str]:

@@ -17,7 +17,7 @@ from sweep.result import Status
 from sweep.store import finished_ids, read_statuses
 from sweep.writer import Writer
 
-UNWRITABLE = "CRUMPLE_CACHE_DIR, else ~/.cache/crumple, is no folder that can be written to"
+UNWRITABLE = "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is no folder that can be written to"
 
 
 class Interrupted(KeyboardInterrupt):

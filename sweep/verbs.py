@@ -32,7 +32,7 @@ REFUSALS = {
 
 
 class ArgumentError(ValueError):
-    """What was asked for does not go with what is there."""
+    """What was asked for cannot be done here."""
 
 
 def refusals() -> tuple[type[Exception], ...]:

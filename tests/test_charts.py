@@ -53,6 +53,15 @@ def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
     np.testing.assert_allclose(sorted(sinks), [10.0, 20.0, 30.0])
 
 
+def test_legends_explain_error_bars_where_any_are_drawn(ranking):
+    for name, draw in (("energy", design_map), ("per_gram", thickness_trends)):
+        bars = ranking.assign(**{f"error_{ranking.attrs[name]}": [np.nan, 0.1] * 3})
+        for shown, known in ((ranking, False), (bars, True)):
+            legends = drawn(shown, draw).legends
+            texts = [text.get_text() for each in legends for text in each.get_texts()]
+            assert ("± estimated error" in texts) == known
+
+
 def test_charts_say_up_to_which_force_energy_counts():
     rows = [row | {"absorbed_energy_at_50N_J": 0.1} for row in designs([1.0, 2.0], [0.1, 0.3])]
     ranking = rank(summary(*rows), top=None, allowed_force="50 N")

@@ -47,8 +47,7 @@ def test_legend_explains_open_signs_where_there_are_any(ranking):
 
 
 def test_legend_explains_error_bars_where_there_are_any(ranking):
-    assert entries(ranking.assign(ranked_error=[np.nan, 0.1] * 2))[-1] == "± estimated error"
-    assert entries(ranking.assign(ranked_error=np.nan)) == entries(ranking)
+    assert entries(ranking, barred=True) == [*entries(ranking), "± estimated error"]
 
 
 def test_materials_have_signs(ranking):
@@ -77,6 +76,19 @@ def test_without_a_budget_the_first_in_the_table_wins(ranking):
     ((words, *point),) = budget_winners(per_gram, per_gram)  # the least J
     assert words == "best: ninjaflex, 300 mJ, 0.300 J/g ± 10 %, a tie of 2"
     assert point == [1.0, 0.3]
+
+
+def test_who_is_first_by_another_column_is_named_with_that():
+    rows = designs([1.0, 3.0, 2.0], [0.3, 0.6, 0.5])
+    for row, force in zip(rows, [20.0, 10.0, 30.0], strict=True):
+        row["peak_force_N"] = force
+    ranking = rank(summary(*rows), top=None, by="peak_force_N")
+    sure = ranking.assign(error_peak_force_N=1.0, error_absorbed_energy_J=0.5)
+    ((words, *point),) = budget_winners(sure.assign(beyond_model=True), sure)
+    assert words == "best: ninjaflex, 600 mJ, peak_force_N 10.0 ± 10 %, beyond the model"
+    assert point == [3.0, 0.6]
+    nothing = ranking.assign(**{ranking.attrs["energy"]: np.nan})
+    assert budget_winners(nothing, ranking) == []
 
 
 def test_under_a_dead_load_the_least_sink_wins():
