@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from sweep.params import Case, Loading, Solver
+from sweep.simulate import simulate
 from tests.figures import FRAME, SOLID
 from tests.scenes import at, is_sound, pressed, run, summed, trapezoid, unbalanced
 
@@ -126,3 +128,15 @@ def test_work_of_a_static_crush_is_the_area_under_its_curve():
     assert history["work_in_J"][-1] == pytest.approx(trapezoid(history), rel=1e-9)
     kept = summed(history, ("stretch_J", "bend_J", "contact_J", "dissipated_friction_J"))[-1]
     assert kept == pytest.approx(trapezoid(history), rel=1e-3)
+
+
+def test_steps_too_few_to_balance_are_refused():
+    case = Case(
+        loading=Loading(mode="displacement", strain=0.6, platen="contact"),
+        solver=Solver(load_steps=4),
+    )
+    found = simulate(case)
+    assert found.status == "stopped"
+    assert found.message.endswith("made energy out of nothing; try more solver.load_steps")
+    more = Case(loading=case.loading, solver=Solver(load_steps=20))
+    assert simulate(more).status == "converged"
