@@ -28,7 +28,7 @@ exit status: 0 done, 1 some cases failed or interrupted, 2 wrong config, file or
 RUN = """Simulate every case of CONFIG that the results file does not hold yet, then rank.
 Finished cases are never lost and never computed twice: after a stop or a kill, or when the
 grid has grown, run the same command again. With --error-bars every design runs once more on
-another mesh and once more with longer steps: ten times the work where walls have 3 elements."""
+another mesh and once more with longer steps: 3 to 11 times the work where walls have 3 elements."""
 ACCURACY = """Simulate a sweep over numerics, then tell error against run time: a table, the
 observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 what the finest settings of the method of highest order tend to. Cases that differ in anything but

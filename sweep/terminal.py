@@ -65,6 +65,8 @@ def _heading(question: Mapping[str, Any], ranking: DataFrame) -> str:
     crushed = (ranking["loading_mode"] == "displacement").any()
     if (force := question.get("allowed_force")) and crushed:
         lines.append(f"Energy counts until a specimen passes on {force}.")
+    elif force:
+        lines.append(f"{force} are of no account: without a crush no energy is ranked.")
     if (budgets := question["budget"]) and len(budgets) == 1:
         lines.insert(0, f"At most {_written(budgets[0], 1e3, 'g')}.")
     if panel := question["panel"]:

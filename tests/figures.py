@@ -196,3 +196,4 @@ if __name__ == "__main__":
         unsaid += [] if is_said(line) else [line]
     verdict = "README.md says otherwise of:" if unsaid else "README.md says so."
     sys.stdout.write("\n".join(["", verdict, *unsaid, ""]))
+    sys.exit(len(unsaid) > 0)

@@ -13,7 +13,6 @@ from specimens import designs, summary, write
 from standin import simulate
 
 from sweep.__main__ import main
-from sweep.result import absorbed_energy_column
 from sweep.run import Interrupted
 from sweep.store import read_summary
 
@@ -167,12 +166,6 @@ def test_tables_fit_a_terminal_of_80_columns(capsys, file, monkeypatch):
     assert "Panel of 100 mm x 50 mm" in out
     assert max(len(line) for line in out.splitlines() if "crumple status" not in line) <= 100
     assert "…" not in out
-
-
-def test_heading_says_up_to_which_force_energy_counts(capsys, tmp_path):
-    file = write(tmp_path / "trial.h5", summary({absorbed_energy_column(50.0): 0.01}))
-    _, out, _ = crumple(capsys, "rank", file, "--allowed-force", "0.05 kN")
-    assert "Energy counts until a specimen passes on 0.05 kN." in out
 
 
 def test_budget_that_nothing_meets_is_told(capsys, file):

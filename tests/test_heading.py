@@ -1,0 +1,21 @@
+"""What stands above a ranking."""
+
+import pytest
+from specimens import summary, write
+
+from sweep.__main__ import main
+from sweep.result import absorbed_energy_column
+
+
+@pytest.mark.parametrize(
+    ("mode", "told"),
+    [
+        ("displacement", "Energy counts until a specimen passes on 0.05 kN."),
+        ("force", "0.05 kN are of no account: without a crush no energy is ranked."),
+        ("impact", "0.05 kN are of no account: without a crush no energy is ranked."),
+    ],
+)
+def test_what_an_allowed_force_is_for_is_told(capsys, tmp_path, mode, told):
+    row = {absorbed_energy_column(50.0): 0.01, "loading_mode": mode}
+    main(["rank", write(tmp_path / "trial.h5", summary(row)), "--allowed-force", "0.05 kN"])
+    assert told in capsys.readouterr().out
