@@ -13,7 +13,7 @@ from sweep.params import Case, Lattice, Loading, Solver
 
 crush = Case(
     lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=1),
-    loading=Loading(mode="displacement", strain=0.02),
+    loading=Loading(mode="displacement", strain=0.005),
     solver=Solver(load_steps=2),
 )
 clamp = Support(node=0, fix=("x", "y", "rotation"))
