@@ -1,6 +1,8 @@
 """Crumple: which printed infill absorbs the most energy per gram.
 
-    from sweep import load_config, expand, simulate, read_summary, read_history, rank
+    from sweep import load_config, expand, read_summary, read_history
+    from sweep.simulation import simulate
+    from sweep.ranking import rank
 
 Each name is loaded when it is first used, so that importing `sweep` costs next to nothing.
 """
@@ -11,21 +13,21 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from sweep.config import load_config
-    from sweep.grid import expand
-    from sweep.rank import rank
-    from sweep.simulate import simulate
-    from sweep.store import read_history, read_summary
+    from sweep.config.units import load_config
+    from sweep.config.grid import expand
+    from sweep.ranking.rank import rank
+    from sweep.simulation.simulate import simulate
+    from sweep.store.read import read_history, read_summary
 
 __all__ = ["expand", "load_config", "rank", "read_history", "read_summary", "simulate"]
 
 _HOME = {
-    "load_config": "sweep.config",
-    "expand": "sweep.grid",
-    "simulate": "sweep.simulate",
-    "read_summary": "sweep.store",
-    "read_history": "sweep.store",
-    "rank": "sweep.rank",
+    "load_config": "sweep.config.units",
+    "expand": "sweep.config.grid",
+    "simulate": "sweep.simulation.simulate",
+    "read_summary": "sweep.store.read",
+    "read_history": "sweep.store.read",
+    "rank": "sweep.ranking.rank",
 }
 
 

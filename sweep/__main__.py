@@ -178,7 +178,7 @@ def _results(text: str) -> str:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one verb and return the exit status."""
     arguments = parser().parse_args(argv)
-    from sweep import verbs
+    from sweep.cli import verbs
 
     sys.stdout = sys.stdout or os.fdopen(_nowhere(), "w")  # there is none if it was closed
     sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # ASCII has no dash

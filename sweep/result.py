@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from sweep.params import Case
+    from sweep.config.case import Case
 
 
 class Status(StrEnum):
@@ -237,7 +237,7 @@ def describe_column(name: str) -> Column:
 
 
 def _unit_of_key(name: str) -> str:
-    from sweep.keys import case_keys
+    from sweep.config.keys import case_keys
 
     key = case_keys().get(name)
     return (key and key.unit) or ""

@@ -1,0 +1,240 @@
+"""Which unknowns a linear system has, in which order, and where every entry goes.
+
+A wall that nothing touches is condensed on its two joints. A wall in contact is open: its inner
+nodes stand in the block matrix beside the joints. Order and pattern are analysed once for a set of
+open walls and couplings.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels.linear import condense, block_matrix as entries, minimum_degree as order
+from kernels.linear.block_matrix import DRIVEN, HELD, IMAGE, INNER
+from kernels.compile.jit import jit_exact, jit_owning
+
+CONDENSED, OPEN, RIGID = range(3)
+
+
+class Layout(NamedTuple):
+    """Coordinates: x and y of every node, rotations of joints, lower and upper platen.
+
+    leader (n,): the coordinate itself if it moves, the last one (the upper platen) if it is tied to
+    that, else -1. ratio (n,): of its move to that of its leader; 1 unless the leader is driven.
+    images (k, 4): see `image`; their leader is the coordinate itself. driven: coordinate that is
+    led to a target, -1 if none. n_nodes, n_joints: joints come first. origin (n_nodes,): the node,
+    or of which it is an image. inner (w,): first inner node of each wall, the others follow along
+    it. wall_of (n_nodes,): wall of an inner node, -1 for a joint. outer (w, 6): coordinates of its
+    joints, of which the second may be an image. scale: stiffness of the stiffest element, N/m.
+    """
+
+    leader: np.ndarray
+    ratio: np.ndarray
+    images: np.ndarray
+    driven: int
+    n_nodes: int
+    n_joints: int
+    origin: np.ndarray
+    inner: np.ndarray
+    wall_of: np.ndarray
+    outer: np.ndarray
+    scale: float
+
+
+class System(NamedTuple):
+    """kind (w,) of each wall. row_start (w + 1,), rows (r, 12), own (r,): see `condense`.
+
+    target_start (w + 1,), target: where the entries of a wall go in the values of ``matrix``.
+    outer (6, 6), joints (6,): scratch.
+    """
+
+    kind: np.ndarray
+    row_start: np.ndarray
+    rows: np.ndarray
+    own: np.ndarray
+    target_start: np.ndarray
+    target: np.ndarray
+    matrix: object
+    outer: np.ndarray
+    joints: np.ndarray
+
+
+@jit_exact
+def _point(layout, c):
+    """Return the point whose unknown coordinate ``c`` is (n_nodes: the platen), -1 if none."""
+    leader = layout.leader[c]
+    if leader < 0 or leader == layout.driven:
+        return -1
+    if leader < 2 * layout.n_nodes:
+        return layout.origin[leader // 2]
+    joint = leader - 2 * layout.n_nodes
+    return joint if joint < layout.n_joints else layout.n_nodes
+
+
+@jit_exact
+def _is_fixed(layout, c):
+    return layout.leader[c] != c or c == layout.driven
+
+
+@jit_exact
+def _kind(layout, w, m, touched):
+    """Return how wall ``w`` with ``m`` inner unknowns enters the system."""
+    inside, ends, first = 0, 0, 2 * layout.inner[w]
+    for c in range(first, first + m):
+        inside += _is_fixed(layout, c)
+    for c in layout.outer[w]:
+        ends += _is_fixed(layout, c)
+    together = layout.leader[layout.outer[w, 1]] == layout.leader[layout.outer[w, 4]]
+    if inside + ends == m + condense.OUTER and together:
+        return RIGID
+    return CONDENSED if inside == 0 and not touched else OPEN
+
+
+@jit_exact
+def _link(bits, index, points, count):
+    """Join all numbered ``points``."""
+    for a in range(count):
+        for b in range(a):
+            if index[points[a]] >= 0 and index[points[b]] >= 0:
+                order.connect(bits, index[points[a]], index[points[b]])
+
+
+@jit_exact
+def _points_of(layout, node, points, count):
+    """Append the points that the coordinates of ``node`` (n_nodes: the platen) belong to.
+
+    A free size of a period stands for the platen.
+    """
+    platen = layout.leader.size - 1
+    if node == layout.n_nodes:
+        if _point(layout, platen) >= 0:
+            points[count] = node
+            count += 1
+        return count
+    points[count] = layout.origin[node]
+    if points[count] != node or _point(layout, 2 * node + 1) == layout.n_nodes:
+        points[count + 1] = layout.n_nodes
+        return count + 2
+    return count + 1
+
+
+@jit_owning
+def _graph(layout, walls, kind, couplings):
+    """Return (index (n_nodes + 1,), bits): each point's number, -1 if none, and who couples."""
+    index = np.full(layout.n_nodes + 1, -1)
+    count = 0
+    for c in range(layout.leader.size):
+        p = _point(layout, c)
+        if p >= 0 and index[p] < 0:
+            w = layout.wall_of[p] if p < layout.n_nodes else -1
+            if w < 0 or kind[w] == OPEN:
+                index[p] = count
+                count += 1
+    bits = order.graph(count)
+    points = np.empty(8, np.int64)
+    for w in range(kind.size):
+        first, last = walls.start[w], walls.start[w + 1]
+        if kind[w] == CONDENSED:
+            n = _points_of(layout, walls.edges[first, 0], points, 0)
+            n = _points_of(layout, walls.edges[last - 1, 1], points, n)
+            _link(bits, index, points, n)
+        elif kind[w] == OPEN:
+            for k in range(first, last):
+                n = _points_of(layout, walls.edges[k, 0], points, 0)
+                n = _points_of(layout, walls.edges[k, 1], points, n)
+                if k + 1 < last:
+                    n = _points_of(layout, walls.edges[k + 1, 1], points, n)
+                _link(bits, index, points, n)
+    for k in range(couplings.shape[0]):
+        n = 0
+        for node in couplings[k]:
+            n = _points_of(layout, node, points, n)
+        _link(bits, index, points, n)
+    return index, bits
+
+
+@jit_owning
+def _homes(layout, kind, index, sequence):
+    """Return the home of every coordinate."""
+    position = np.empty(sequence.size, np.int64)
+    for p in range(sequence.size):
+        position[sequence[p]] = p
+    home = np.full(layout.leader.size, HELD)
+    for c in range(home.size):
+        leader, point = layout.leader[c], _point(layout, c)
+        if leader >= 0 and leader == layout.driven:
+            home[c] = DRIVEN
+        elif point >= 0 and index[point] >= 0:
+            slot = 0 if point == layout.n_nodes else (c % 2 if c < 2 * layout.n_nodes else 2)
+            home[c] = 3 * position[index[point]] + slot
+        elif point >= 0:
+            home[c] = INNER
+    for k in range(layout.images.shape[0]):
+        home[layout.images[k, 0]] = IMAGE - k
+    return home
+
+
+@jit_exact
+def _coordinate(layout, w, m, i):
+    """Return the coordinate of local unknown ``i`` of wall ``w``: inner ones, then the joints'."""
+    return 2 * layout.inner[w] + i if i < m else layout.outer[w, i - m]
+
+
+@jit_owning
+def _targets(layout, row_start, kind, home, start, row):
+    """Return (target_start, target): where `_scatter` puts the entries of each wall."""
+    target_start = np.zeros(kind.size + 1, np.int64)
+    for w in range(kind.size):
+        m = row_start[w + 1] - row_start[w]
+        size = 0 if kind[w] == RIGID else 21 + (condense.WIDTH * m if kind[w] == OPEN else 0)
+        target_start[w + 1] = target_start[w] + size
+    nowhere = entries.SIZE * (start.size - 1 + row.size)
+    target = np.full(target_start[-1], nowhere)
+    for w in range(kind.size):
+        m, t = row_start[w + 1] - row_start[w], target_start[w]
+        if kind[w] == OPEN:
+            for k in range(m):
+                for c in range(condense.WIDTH):
+                    other = k + c if c < condense.BAND else m + c - condense.BAND
+                    if other < m or c >= condense.BAND:
+                        i, j = _coordinate(layout, w, m, k), _coordinate(layout, w, m, other)
+                        if home[i] >= 0 and home[j] >= 0:
+                            at = entries.position(home, start, row, i, j)
+                            target[t] = at if at >= 0 else nowhere
+                    t += 1
+        if kind[w] != RIGID:
+            for c in range(condense.OUTER):
+                for d in range(c + 1):
+                    i, j = layout.outer[w, c], layout.outer[w, d]
+                    if home[i] >= 0 and home[j] >= 0:
+                        at = entries.position(home, start, row, i, j)
+                        target[t] = at if at >= 0 else nowhere
+                    t += 1
+    return target_start, target
+
+
+@jit_owning
+def analyse(layout, walls, couplings):
+    """Return a `System` with room for ``couplings`` (c, k): nodes that share a term (n_nodes: the
+    upper platen; a node may be repeated).
+    """
+    n_walls = walls.start.size - 1
+    touched = np.zeros(n_walls, np.bool_)
+    for node in couplings.flat:
+        if node < layout.n_nodes and layout.wall_of[node] >= 0:
+            touched[layout.wall_of[node]] = True
+    kind, row_start = np.empty(n_walls, np.int64), np.zeros(n_walls + 1, np.int64)
+    for w in range(n_walls):
+        m = 2 * (walls.start[w + 1] - walls.start[w] - 1)
+        row_start[w + 1] = row_start[w] + m
+        kind[w] = _kind(layout, w, m, touched[w])
+    index, bits = _graph(layout, walls, kind, couplings)
+    sequence = order.minimum_degree(bits)
+    start, row = order.columns(bits, sequence)
+    home = _homes(layout, kind, index, sequence)
+    target_start, target = _targets(layout, row_start, kind, home, start, row)
+    return System(
+        kind, row_start, np.zeros((row_start[-1], condense.WIDTH)), np.zeros(row_start[-1]),
+        target_start, target, entries.shaped(home, start, row, layout.ratio, layout.images),
+        np.zeros((6, 6)), np.zeros(6),
+    )  # fmt: skip

@@ -1,0 +1,209 @@
+"""LDL^T factor of a matrix of 3 x 3 blocks, in place, and its solves.
+
+Every update knows its target beforehand (George & Liu 1981, Computer Solution of Large Sparse
+Positive Definite Systems, ch. 5).
+"""
+
+import math
+
+from kernels.linear.block_matrix import SIZE, STRIDE
+from kernels.compile.jit import jit, jit_exact
+from kernels.compile.simd import added, load, spread, store
+from kernels.arrays import zero
+
+NEUTRAL = 1e-11  # a pivot below this share of its diagonal is round-off around zero
+SOFT = 1e-6  # share of its diagonal that it is given then
+ROUNDED = -1e-7  # so is a negative one above this: what stiff neighbours leave when they cancel
+CONVEX = -math.inf  # and any in a matrix that is positive semi-definite
+THROUGH = math.inf  # none is, and negative ones are no failure: see `negatives`
+
+
+@jit_exact
+def settle(blocks, scale):
+    """Add the diagonal entries of the coordinates to their blocks; unused slots become 1."""
+    for i in range(blocks.home.size):
+        h = blocks.home[i]
+        if h >= 0:
+            blocks.values[SIZE * (h // 3) + (STRIDE + 1) * (h % 3)] += blocks.diagonal[i]
+            blocks.own[h] = -1.0
+    for h in range(blocks.own.size):
+        at = SIZE * (h // 3) + (STRIDE + 1) * (h % 3)
+        if blocks.own[h] != -1.0:
+            blocks.values[at] = scale
+        blocks.own[h] = blocks.values[at]
+
+
+@jit_exact
+def pivoted(pivot, own, scale, rounded):
+    """Return the pivot to use. One that is zero within round-off, above ``rounded`` x its diagonal,
+    marks a motion without stiffness: it is given a small share of its own diagonal (or ``scale``),
+    so that the solution moves along it where a force asks for it, and hardly by what forces leave
+    in round-off. `THROUGH` limit points, where true pivots are as small, it stays as it is.
+    """
+    size = max(abs(own), 1e-3 * scale)
+    return SOFT * max(abs(own), scale) if rounded * size <= pivot <= NEUTRAL * size else pivot
+
+
+@jit_exact
+def _invert(values, at, own, scale, rounded):
+    """Replace the diagonal block at ``at`` by its inverse; return the failed slot and its pivot.
+
+    d = diag(a, b, c) and the unit lower triangle l are the block's own LDL^T. Above the diagonal
+    stands l^{-T}, so far as it is known, until the block is inverted. (Entry r, s is at 4 s + r.)
+    """
+    a = pivoted(values[at], own[0], scale, rounded)
+    if not (a > 0.0 or rounded == THROUGH):
+        return 0, a
+    a10, a20, a21 = values[at + 1], values[at + 2], values[at + 6]
+    l10, l20 = a10 / a, a20 / a
+    values[at + 4] = -l10
+    b = pivoted(values[at + 5] - l10 * a10, own[1], scale, rounded)
+    if not (b > 0.0 or rounded == THROUGH):
+        return 1, b
+    l21 = (a21 - l20 * a10) / b
+    m20 = l10 * l21 - l20
+    values[at + 8], values[at + 9] = m20, -l21
+    c = pivoted(values[at + 10] - l20 * a20 - l21 * l21 * b, own[2], scale, rounded)
+    if not (c > 0.0 or rounded == THROUGH):
+        return 2, c
+    values[at + 10] = 1.0 / c
+    values[at + 6] = values[at + 9] = -l21 / c
+    values[at + 2] = values[at + 8] = m20 / c
+    values[at + 5] = 1.0 / b + l21 * l21 / c
+    values[at + 1] = values[at + 4] = -l10 / b - l21 * m20 / c
+    values[at] = 1.0 / a + l10 * l10 / b + m20 * m20 / c
+    return -1, 0.0
+
+
+@jit
+def _columns(values, at):
+    """Return the columns of the block at ``at``."""
+    return load(values, at), load(values, at + STRIDE), load(values, at + 2 * STRIDE)
+
+
+@jit
+def _weights(values, at):
+    """Return every fourth entry from ``at`` on, a row of a block, each in all four lanes."""
+    x, y, z = values[at], values[at + STRIDE], values[at + 2 * STRIDE]
+    return spread(x), spread(y), spread(z)
+
+
+@jit
+def _mixed(sums, columns, weights):
+    """Return ``sums`` + the ``columns`` times their weights."""
+    for c in range(3):
+        sums = added(sums, columns[c], weights[c])
+    return sums
+
+
+@jit
+def _scale_column(blocks, j, nb):
+    """Keep column ``j`` with its sign changed and multiply it by the inverse of its diagonal."""
+    values, minus, nothing, kept = blocks.values, spread(-1.0), spread(0.0), 0
+    one, two = _weights(values, SIZE * j), _weights(values, SIZE * j + 1)
+    three = _weights(values, SIZE * j + 2)
+    for at in range(SIZE * (nb + blocks.start[j]), SIZE * (nb + blocks.start[j + 1]), SIZE):
+        columns = _columns(values, at)
+        for column in columns:
+            store(blocks.column, kept, added(nothing, minus, column))
+            kept += STRIDE
+        store(values, at, _mixed(nothing, columns, one))
+        store(values, at + STRIDE, _mixed(nothing, columns, two))
+        store(values, at + 2 * STRIDE, _mixed(nothing, columns, three))
+
+
+@jit
+def _update(blocks, j, nb, count):
+    """Subtract A_a D^{-1} A_b^T from the blocks (a, b) behind column ``j``, whose blocks are A.
+
+    ``count``: its first update; returned is that of the next column.
+    """
+    values, column, update, kept = blocks.values, blocks.column, blocks.update, 0
+    last = SIZE * (nb + blocks.start[j + 1])
+    for first in range(SIZE * (nb + blocks.start[j]), last, SIZE):
+        one, two = _weights(column, kept), _weights(column, kept + 1)
+        three = _weights(column, kept + 2)
+        for at in range(first, last, SIZE):
+            left, to = _columns(values, at), update[count]
+            x, y, z = _columns(values, to)
+            store(values, to, _mixed(x, left, one))
+            store(values, to + STRIDE, _mixed(y, left, two))
+            store(values, to + 2 * STRIDE, _mixed(z, left, three))
+            count += 1
+        kept += SIZE
+    return count
+
+
+@jit_exact
+def factor(blocks, scale, rounded):
+    """Factor in place: A = L D L^T, L D^{-1} below, D^{-1} in the diagonal blocks.
+
+    Return (failed, pivot): home of the first negative pivot, -1 if none. ``rounded``: as in
+    `pivoted`.
+    """
+    nb, count = blocks.start.size - 1, 0
+    for j in range(nb):
+        own = blocks.own[3 * j : 3 * j + 3]
+        slot, pivot = _invert(blocks.values, SIZE * j, own, scale, rounded)
+        if slot >= 0:
+            return 3 * j + slot, pivot
+        _scale_column(blocks, j, nb)
+        count = _update(blocks, j, nb, count)
+    return -1, 0.0
+
+
+@jit_exact
+def negatives(blocks):
+    """Return how many pivots of the factor are negative, from the inverses of its blocks."""
+    count, v = 0, blocks.values
+    for at in range(0, SIZE * (blocks.start.size - 1), SIZE):
+        a = v[at]
+        b = v[at + 5] - v[at + 1] * v[at + 1] / a
+        l21 = (v[at + 6] - v[at + 2] * v[at + 1] / a) / b
+        c = v[at + 10] - v[at + 2] * v[at + 2] / a - l21 * l21 * b
+        count += (a < 0.0) + (b < 0.0) + (c < 0.0)
+    return count
+
+
+@jit
+def forward(blocks):
+    """Solve L D y = vector, in place."""
+    nb, values, v = blocks.start.size - 1, blocks.values, blocks.vector
+    for j in range(nb):
+        x, y, z = v[3 * j], v[3 * j + 1], v[3 * j + 2]
+        for q in range(blocks.start[j], blocks.start[j + 1]):
+            at, to = SIZE * (nb + q), 3 * blocks.row[q]
+            for r in range(3):
+                k = at + r
+                v[to + r] -= values[k] * x + values[k + STRIDE] * y + values[k + 2 * STRIDE] * z
+        for r in range(3):
+            k = SIZE * j + r
+            v[3 * j + r] = values[k] * x + values[k + STRIDE] * y + values[k + 2 * STRIDE] * z
+
+
+@jit
+def backward(blocks, first):
+    """Solve L^T y = vector, in place, for the blocks before ``first``."""
+    nb, values, v = blocks.start.size - 1, blocks.values, blocks.vector
+    for j in range(first - 1, -1, -1):
+        for q in range(blocks.start[j], blocks.start[j + 1]):
+            at, of = SIZE * (nb + q), 3 * blocks.row[q]
+            x, y, z = v[of], v[of + 1], v[of + 2]
+            for s in range(3):
+                k = at + STRIDE * s
+                v[3 * j + s] -= values[k] * x + values[k + 1] * y + values[k + 2] * z
+
+
+@jit_exact
+def descend(blocks, failed):
+    """Fill ``vector`` with d such that d^T A d is the negative pivot at home ``failed``.
+
+    With A = [[A1, a], [a^T, c]] the vector (-A1^{-1} a, 1, 0 ...) has d^T A d = c - a^T A1^{-1} a.
+    """
+    v, values = blocks.vector, blocks.values
+    zero(v)
+    v[failed] = 1.0
+    j, slot = failed // 3, failed % 3
+    for s in range(slot):
+        v[3 * j + s] = values[SIZE * j + STRIDE * slot + s]
+    backward(blocks, j)

@@ -1,0 +1,156 @@
+"""The linear system of a step: walls condensed one by one, then the joints and what touches."""
+
+from kernels.linear import block_ldlt as blocks, condense, periodic_images as image
+from kernels.linear.block_matrix import IMAGE, INNER, add_image
+from kernels.compile.jit import jit, jit_exact
+from kernels.linear.analysis import CONDENSED, OPEN, RIGID
+from kernels.arrays import zero
+
+
+@jit
+def _scatter(values, target, rows, outer):
+    """Add the entries of a wall to the block matrix: its ``rows`` too where they have targets."""
+    t = 0
+    if target.size > 21:
+        for k in range(rows.shape[0]):
+            for c in range(condense.WIDTH):
+                values[target[t]] += rows[k, c]
+                t += 1
+    for c in range(condense.OUTER):
+        for d in range(c + 1):
+            values[target[t]] += outer[c, d]
+            t += 1
+
+
+@jit
+def _scatter_image(system, layout, w, rows):
+    """Add the entries of wall ``w`` that belong to the image of a joint at its end.
+
+    Where both ends are one joint, the coupling of their rotations is a second time on the diagonal.
+    An open wall has no room for entries between nodes that are too far apart to couple.
+    """
+    matrix, outer = system.matrix, layout.outer[w]
+    for c in range(condense.OUTER):
+        is_image = matrix.home[outer[c]] <= IMAGE
+        for d in range(c + 1):
+            entry = system.outer[c, d]
+            if entry != 0.0 and (is_image or matrix.home[outer[d]] <= IMAGE):
+                add_image(matrix, outer[c], outer[d], entry, False)
+            elif c != d and outer[c] == outer[d]:
+                matrix.diagonal[outer[c]] += entry
+        if is_image and system.kind[w] == OPEN:
+            for k in range(rows.shape[0]):
+                entry = rows[k, condense.BAND + c]
+                if entry != 0.0:
+                    add_image(matrix, 2 * layout.inner[w] + k, outer[c], entry, False)
+
+
+@jit_exact
+def factor(system, layout, walls, stiffness, projected, through):
+    """Add the walls to what the matrix holds and factor all.
+
+    Return (wall, failed, pivot): where the first negative pivot is, failed = -1 if there is none;
+    wall = -1 if it is in the block matrix. ``through``: they do not stop it, see `negatives`.
+    """
+    wall, failed, pivot, home = -1, -1, 0.0, system.matrix.home
+    rounded = blocks.CONVEX if projected else blocks.ROUNDED
+    if through:
+        rounded = blocks.THROUGH
+    for w in range(system.kind.size):
+        if system.kind[w] == RIGID:
+            continue
+        span = slice(system.row_start[w], system.row_start[w + 1])
+        rows, own = system.rows[span], system.own[span]
+        condense.fill(walls.start[w], walls.start[w + 1], w, stiffness, rows, system.outer)
+        if system.kind[w] == CONDENSED:
+            first = 2 * layout.inner[w]
+            diagonal = system.matrix.diagonal[first : first + rows.shape[0]]
+            failed, pivot = condense.eliminate(
+                rows, diagonal, own, system.outer, layout.scale, rounded
+            )
+            if failed >= 0:
+                wall = w
+                break
+        targets = system.target[system.target_start[w] : system.target_start[w + 1]]
+        _scatter(system.matrix.values, targets, rows, system.outer)
+        if home[layout.outer[w, 3]] <= IMAGE:
+            _scatter_image(system, layout, w, rows)
+    if failed < 0:
+        blocks.settle(system.matrix, layout.scale)
+        failed, pivot = blocks.factor(system.matrix, layout.scale, rounded)
+    return wall, failed, pivot
+
+
+@jit_exact
+def negatives(system):
+    """Return how many pivots of the factor are negative: as many as eigenvalues (Sylvester)."""
+    count = blocks.negatives(system.matrix)
+    for w in range(system.kind.size):
+        if system.kind[w] == CONDENSED:
+            for k in range(system.row_start[w], system.row_start[w + 1]):
+                count += system.rows[k, 0] < 0.0
+    return count
+
+
+@jit_exact
+def _inner(system, layout, w):
+    """Return the coordinates of the inner unknowns of wall ``w``."""
+    first = 2 * layout.inner[w]
+    return slice(first, first + system.row_start[w + 1] - system.row_start[w])
+
+
+@jit_exact
+def _expand(system, layout, b):
+    """Write the solution of the block matrix to ``b``; solve the condensed walls for the rest."""
+    home, vector, joints = system.matrix.home, system.matrix.vector, system.joints
+    for c in range(b.size):
+        if home[c] >= 0:
+            b[c] = vector[home[c]]
+        elif home[c] != INNER:
+            b[c] = 0.0
+    image.spread(layout.images, b)
+    for w in range(system.kind.size):
+        if system.kind[w] == CONDENSED:
+            rows = system.rows[system.row_start[w] : system.row_start[w + 1]]
+            for c in range(condense.OUTER):
+                joints[c] = b[layout.outer[w, c]]
+            condense.backward(rows, b[_inner(system, layout, w)], joints, rows.shape[0])
+    image.spread(layout.images, b)
+
+
+@jit
+def solve(system, layout, b):
+    """Solve in place for a right side ``b`` (n,) by coordinate; what is held stays at zero."""
+    home, vector, joints = system.matrix.home, system.matrix.vector, system.joints
+    image.collect(layout.images, b)
+    for w in range(system.kind.size):
+        if system.kind[w] == CONDENSED:
+            rows = system.rows[system.row_start[w] : system.row_start[w + 1]]
+            zero(joints)
+            condense.forward(rows, b[_inner(system, layout, w)], joints)
+            for c in range(condense.OUTER):
+                b[layout.outer[w, c]] += joints[c]
+    image.collect(layout.images, b)
+    zero(vector)
+    for c in range(b.size):
+        if home[c] >= 0:
+            vector[home[c]] += b[c]
+    blocks.forward(system.matrix)
+    blocks.backward(system.matrix, system.matrix.start.size - 1)
+    _expand(system, layout, b)
+
+
+@jit
+def descend(system, layout, wall, failed, direction):
+    """Fill ``direction`` (n,) with d such that d^T A d is the negative pivot of `factor`."""
+    zero(direction)
+    if wall >= 0:
+        rows = system.rows[system.row_start[wall] : system.row_start[wall + 1]]
+        zero(system.joints)
+        inner = direction[_inner(system, layout, wall)]
+        inner[failed] = 1.0
+        condense.backward(rows, inner, system.joints, failed)
+        image.spread(layout.images, direction)
+    else:
+        blocks.descend(system.matrix, failed)
+        _expand(system, layout, direction)

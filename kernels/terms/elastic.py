@@ -1,0 +1,70 @@
+"""Uniaxial law: nominal stress as a piecewise cubic of nominal strain, and its exact integral.
+
+    sigma(e) = c0 + c1 s + c2 s^2 + c3 s^3,   s = e - knot_i,      W(e) = integral_0^e sigma
+
+Beyond either end the last tangent continues. Below ``GUARD`` a C2 barrier rises to infinity at
+e = -1, so that no element can be crushed to nothing or turned over.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels.terms.barrier import barrier
+from kernels.compile.jit import jit
+
+GUARD = -0.7
+
+
+class Law(NamedTuple):
+    """Stress-strain curve.
+
+    knots (k,): nominal strain. coefficients (k - 1, 4): Pa. energy (k,): W at the knots, J/m^3.
+    modulus: slope at the origin, Pa; the scale of the guard.
+    """
+
+    knots: np.ndarray
+    coefficients: np.ndarray
+    energy: np.ndarray
+    modulus: float
+
+
+@jit
+def _piece(knots, strain):
+    """Return the index of the cubic that holds ``strain`` (beyond the ends: the last one there)."""
+    low, high = 0, knots.size - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if knots[middle] <= strain:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+@jit
+def curve(law, strain):
+    """Return W, sigma and its tangent on the measured part, continued by tangents."""
+    i = _piece(law.knots, strain)
+    inside = min(max(strain, law.knots[0]), law.knots[-1])
+    s = inside - law.knots[i]
+    c = law.coefficients[i]
+    tangent = c[1] + s * (2.0 * c[2] + s * 3.0 * c[3])
+    stress = c[0] + s * (c[1] + s * (c[2] + s * c[3]))
+    density = law.energy[i] + s * (c[0] + s * (c[1] / 2 + s * (c[2] / 3 + s * c[3] / 4)))
+    beyond = strain - inside
+    density += beyond * (stress + 0.5 * beyond * tangent)
+    return density, stress + beyond * tangent, tangent
+
+
+@jit
+def uniaxial(law, strain):
+    """Return energy density W (J/m^3), nominal stress sigma (Pa) and tangent (Pa) at ``strain``."""
+    density, stress, tangent = curve(law, strain)
+    if strain < GUARD:
+        width = 1.0 + GUARD
+        value, slope, curvature = barrier((1.0 + strain) / width)
+        density += law.modulus * width * width * value
+        stress += law.modulus * width * slope
+        tangent += law.modulus * curvature
+    return density, stress, tangent

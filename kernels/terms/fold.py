@@ -1,0 +1,118 @@
+"""Fold barrier at joints: two neighbouring arms never close onto one another.
+
+For every opening g between arms that are adjacent round a joint (rest opening g0):
+
+    E_f = K (g0 / 2)^2 b(g / g_f)   for g < g_f = min(20 degrees, g0 / 2),   else 0
+
+With u, v the arms and psi = arg v - arg u: d arg(v) = (-v_y, v_x) / r^2 =: q, and
+d2 arg(v) = [[-2 q_x q_y, q_x^2 - q_y^2], [., 2 q_x q_y]]. (Folds of hinges are in `bend`.)
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels.terms.barrier import barrier
+from kernels.linear.block_matrix import add_block
+from kernels.compile.jit import jit
+from kernels.arrays import triple
+
+
+class Fold(NamedTuple):
+    """Openings: nodes (f, 3), counted anticlockwise from arm 1-0 to arm 1-2.
+
+    limit (f,): g_f in rad. stiffness (f,): K (g0 / 2)^2 in N m.
+    """
+
+    nodes: np.ndarray
+    limit: np.ndarray
+    stiffness: np.ndarray
+
+
+@jit
+def _cross_dot(x, a, b, c):
+    """Return (cross, dot) of arm b-a with arm b-c."""
+    ux, uy = x[2 * a] - x[2 * b], x[2 * a + 1] - x[2 * b + 1]
+    vx, vy = x[2 * c] - x[2 * b], x[2 * c + 1] - x[2 * b + 1]
+    return ux * vy - uy * vx, ux * vx + uy * vy
+
+
+@jit
+def opening(x, fold, k):
+    """Return the opening g up to 45 degrees, which is beyond any limit, and 45 degrees above."""
+    a, b, c = triple(fold.nodes, k)
+    cross, dot = _cross_dot(x, a, b, c)
+    if cross < 0.0 or dot <= cross:
+        return 0.25 * math.pi
+    return math.atan2(cross, dot)
+
+
+@jit
+def _bearing_slope(x, b, c):
+    """Return d arg(c - b) / dc, two numbers in 1/m (minus the same with respect to b)."""
+    vx, vy = x[2 * c] - x[2 * b], x[2 * c + 1] - x[2 * b + 1]
+    r2 = vx * vx + vy * vy
+    return -vy / r2, vx / r2
+
+
+@jit
+def evaluate(x, fold, g):
+    """Return E_f in J and the least `opening` in rad (pi without any); add dE_f/dx to ``g``."""
+    total, least = 0.0, math.pi
+    for k in range(fold.limit.size):
+        opened = opening(x, fold, k)
+        least = min(least, opened)
+        if opened < fold.limit[k]:
+            value, slope, _ = barrier(opened / fold.limit[k])
+            total += fold.stiffness[k] * value
+            moment = fold.stiffness[k] / fold.limit[k] * slope
+            a, b, c = triple(fold.nodes, k)
+            px, py = _bearing_slope(x, b, a)
+            qx, qy = _bearing_slope(x, b, c)
+            g[2 * a] -= moment * px
+            g[2 * a + 1] -= moment * py
+            g[2 * c] += moment * qx
+            g[2 * c + 1] += moment * qy
+            g[2 * b] += moment * (px - qx)
+            g[2 * b + 1] += moment * (py - qy)
+    return total, least
+
+
+@jit
+def _outer(matrix, i, j, weight, px, py, qx, qy):
+    i, j = 2 * i, 2 * j
+    add_block(matrix, i, j, weight * px * qx, weight * px * qy, weight * py * qx, weight * py * qy)
+
+
+@jit
+def _curl(matrix, b, c, moment, qx, qy):
+    """Add moment * d2 arg(c - b); (qx, qy) is `_bearing_slope`, whose products are its entries."""
+    xx, xy = -2.0 * moment * qx * qy, moment * (qx * qx - qy * qy)
+    add_block(matrix, 2 * c, 2 * c, xx, xy, xy, -xx)
+    add_block(matrix, 2 * b, 2 * b, xx, xy, xy, -xx)
+    add_block(matrix, 2 * c, 2 * b, -xx, -xy, -xy, xx)
+
+
+@jit
+def hessian(x, fold, matrix, projected):
+    """Add d2E_f/dx2; ``projected`` drops the curvature of the angle."""
+    for k in range(fold.limit.size):
+        opened = opening(x, fold, k)
+        if opened < fold.limit[k]:
+            _, slope, curvature = barrier(opened / fold.limit[k])
+            scale = fold.stiffness[k] / fold.limit[k]
+            rigidity = scale / fold.limit[k] * curvature
+            a, b, c = triple(fold.nodes, k)
+            px, py = _bearing_slope(x, b, a)
+            qx, qy = _bearing_slope(x, b, c)
+            rx, ry = px - qx, py - qy
+            _outer(matrix, a, a, rigidity, px, py, px, py)
+            _outer(matrix, b, b, rigidity, rx, ry, rx, ry)
+            _outer(matrix, c, c, rigidity, qx, qy, qx, qy)
+            _outer(matrix, a, b, -rigidity, px, py, rx, ry)
+            _outer(matrix, c, b, rigidity, qx, qy, rx, ry)
+            _outer(matrix, a, c, -rigidity, px, py, qx, qy)
+            if not projected:
+                _curl(matrix, b, c, scale * slope, qx, qy)
+                _curl(matrix, b, a, -scale * slope, px, py)

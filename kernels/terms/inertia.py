@@ -1,0 +1,26 @@
+"""Inertia of a step as a potential: E_i = |x - x~|_M^2 / (2 h^2), lumped masses (`scheme`)."""
+
+from kernels.compile.jit import jit
+
+
+@jit
+def evaluate(x, x_pred, mass, dt, g):
+    """Return E_i in J and add M (x - x~) / dt^2 to ``g``; ``dt``: h.
+
+    ``mass`` (n,) in kg by coordinate, zero for rotations.
+    """
+    total = 0.0
+    for i in range(mass.size):
+        force = mass[i] * (x[i] - x_pred[i]) / (dt * dt)
+        total += force * (x[i] - x_pred[i])
+        g[i] += force
+    return 0.5 * total
+
+
+@jit
+def kinetic(v, mass):
+    """Return 1/2 |v|_M^2 in J."""
+    total = 0.0
+    for i in range(mass.size):
+        total += mass[i] * v[i] * v[i]
+    return 0.5 * total

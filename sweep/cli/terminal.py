@@ -1,0 +1,137 @@
+"""What a verb prints: lines, tables that fit the terminal, rankings with all that is said aloud."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+    from rich.table import Table
+
+    from sweep.report.sheets import Sheet
+
+WIDTH = 120  # a longer line is wrapped by the terminal: better than losing what it says
+
+
+def print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -> None:
+    """Tables on the terminal, and aloud what has no place in them."""
+    from sweep.ranking.rank import rank
+    from sweep.report.sheets import legend, ranking_sheets
+
+    ranking = rank(summary, **question)
+    failed = ranking.attrs["failed"]
+    if failed < len(summary):
+        say(_heading(question, ranking))
+        print_sheets(ranking_sheets(ranking, summary))
+    if not ranking.empty:
+        say(legend(ranking))
+    say_all(aloud(file, len(summary), ranking))
+
+
+def aloud(file: str, cases: int, ranking: DataFrame) -> Iterator[str]:
+    """What must not be missed beside a ranking of so many cases."""
+    from sweep.store.read import read_attributes
+
+    names = ranking.attrs
+    if others := read_attributes(file).get("other_cases", 0):
+        yield (
+            f"{others} of {cases} cases are of other configs than the last run's, and are ranked "
+            "too: give the next config another --out, or name, to keep them apart."
+        )
+    if names["without_bar"]:
+        cases_have = _counted(names["without_bar"], "ranked case")
+        yield f"{cases_have} no error bar: placed by value alone."
+    if names["unranked"]:
+        yield f"{_counted(names['unranked'], 'case')} no {names['by']} and so no place."
+    if names["failed"]:
+        yield f"{names['failed']} of {cases} cases failed: crumple status {file} says why"
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"{count} {noun} has" if count == 1 else f"{count} {noun}s have"
+
+
+def _heading(question: Mapping[str, Any], ranking: DataFrame) -> str:
+    """What the tables are about, in a line or two."""
+    from sweep.ranking.rank import LESS_IS_BETTER
+
+    names = ranking.attrs
+    by = names["by"]
+    usual = {names["energy"]: "most energy", names["per_gram"]: "most energy per gram"}
+    order = usual.get(by, f"least {by}" if by in LESS_IS_BETTER else f"most {by}")
+    lines = [f"Best first: {order}."]
+    crushed = (ranking["loading_mode"] == "displacement").any()
+    if (force := question.get("allowed_force")) and crushed:
+        lines.append(f"Energy counts until a specimen passes on {force}.")
+    elif force:
+        lines.append(f"{force} are of no account: without a crush no energy is ranked.")
+    if (budgets := question["budget"]) and len(budgets) == 1:
+        lines.insert(0, f"At most {_written(budgets[0], 1e3, 'g')}.")
+    if panel := question["panel"]:
+        sides = " x ".join(_written(side, 1e3, "mm") for side in panel)
+        lines.insert(0, f"Panel of {sides}, filled with specimens side by side.")
+    return " ".join(lines)
+
+
+def _written(value: float | str, scale: float, unit: str) -> str:
+    """A quantity in the words of the user, or an SI one in a maker's unit."""
+    return value if isinstance(value, str) else f"{scale * value:.4g} {unit}"
+
+
+def print_sheets(sheets: Iterable[Sheet]) -> None:
+    """Tables on the terminal, a blank line above each."""
+    from rich.console import Console
+
+    console = Console()
+    width, console.width = console.width, max(console.width, WIDTH)
+    for sheet in sheets:
+        say("")
+        with console.capture() as shown:
+            console.print(sheet.title, style="bold", markup=False, highlight=False)
+            console.print(_terminal_table(sheet, width))
+        say(shown.get(), end="")
+        say_all(sheet.notes)
+    say("")
+
+
+def _terminal_table(sheet: Sheet, width: int) -> Table:
+    """A rich table, without title and notes, that tries to fit into `width` columns.
+
+    The unit of a head goes on a second line; if need be, columns move a space closer together.
+    """
+    from rich import box
+    from rich.table import Table
+
+    from sweep.numbers import NOTHING
+
+    heads = ["\n".join(head.rsplit(" ", 1)) for head in sheet.heads]
+    columns = [
+        [*head.split("\n"), *texts] for head, texts in zip(heads, sheet.columns, strict=True)
+    ]
+    natural = sum(max(map(len, texts)) + 2 for texts in columns) - 2
+    table = Table(
+        box=box.SIMPLE_HEAD,
+        show_edge=False,
+        padding=(0, 1 if natural <= width else 0, 0, 0),
+    )
+    for head, texts in zip(heads, sheet.columns, strict=True):
+        right = all(text[:1] in f"0123456789->?{NOTHING}" and " x " not in text for text in texts)
+        table.add_column(head, justify="right" if right else "left", no_wrap=True)
+    for i, row in enumerate(sheet.rows):
+        if i in sheet.opens and i:
+            table.add_section()
+        table.add_row(*row)
+    return table
+
+
+def say(text: object, end: str = "\n") -> None:
+    """A line."""
+    sys.stdout.write(f"{text}{end}")
+
+
+def say_all(lines: Iterable[object]) -> None:
+    """Some lines, or none."""
+    for line in lines:
+        say(line)

@@ -1,0 +1,266 @@
+"""What each verb of the command line does: arguments in, text on the terminal, exit status out."""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+import time
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from sweep.cli.terminal import aloud, print_ranking, print_sheets, say, say_all
+
+if TYPE_CHECKING:
+    from argparse import Namespace
+
+    from pandas import DataFrame, Series
+
+DONE, SOME_FAILED = 0, 1
+TOP, TOP_OF_A_BUDGET = 10, 3
+IDS = 3  # of each kind of failure
+FIGURE = re.compile(r"(?:(?<!\w)-)?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+REFUSALS = {
+    "sweep.config.grid": "ConfigError",
+    "sweep.store.read": "StoreError",
+    "sweep.running.dask_graph": "GraphError",
+    "sweep.ranking.rank": "RankError",
+    "sweep.ranking.accuracy": "AccuracyError",
+}
+
+
+class ArgumentError(ValueError):
+    """What was asked for cannot be done here."""
+
+
+def refusals() -> tuple[type[Exception], ...]:
+    """Errors that say what is wrong with a config, a file or an argument.
+
+    Of our own, only those of modules that are loaded: no other can have been raised.
+    """
+    loaded = [(sys.modules[name], error) for name, error in REFUSALS.items() if name in sys.modules]
+    ours = [getattr(module, error) for module, error in loaded]
+    return (ArgumentError, ModuleNotFoundError, *ours)
+
+
+def run(arguments: Namespace) -> int:
+    """Simulate what is missing, then rank; with --dry-run, only estimate.
+
+    A design without the error bar that was asked for counts as a failure.
+    """
+    from sweep.config.units import load_config
+
+    config = load_config(arguments.config)
+    out = arguments.out or f"results/{config.name}.h5"
+    if arguments.dry_run:
+        from sweep.running.estimate import dry_run
+
+        say(dry_run(config, out, arguments.workers, arguments.retry_failed, arguments.error_bars))
+        return DONE
+    from sweep.running.error_bars import add_error_bars
+    from sweep.running.sweep import run_sweep
+    from sweep.store.read import read_summary
+
+    how = arguments.workers, arguments.scheduler, arguments.retry_failed
+    failed = run_sweep(config, out, *how)
+    failed += add_error_bars(config, out, *how) if arguments.error_bars else 0
+    print_ranking(out, read_summary(out), _question(config.rank.budgets, config.rank.panel))
+    return SOME_FAILED if failed else DONE
+
+
+def accuracy(arguments: Namespace) -> int:
+    """Simulate what is missing of a sweep over numerics, then tell error beside run time."""
+    from sweep.ranking.accuracy import check_axes
+    from sweep.config.units import expand, load_config
+    from sweep.report.publish import publish_accuracy
+    from sweep.running.sweep import run_sweep
+
+    config, folder = load_config(arguments.config), Path(arguments.out)
+    cases, out = expand(config), folder / f"{config.name}.h5"
+    check_axes([case.axes for case in cases])
+    failed = run_sweep(config, out, arguments.workers)
+    with _writing(folder):
+        sheets, files = publish_accuracy(out, [case.case_id for case in cases])
+    print_sheets(sheets)
+    say_all(files)
+    return SOME_FAILED if failed else DONE
+
+
+def warm(_: Namespace) -> int:
+    """Compile the kernels ahead of the first run."""
+    from kernels.compile.cache import is_cold, is_lasting
+    from sweep.running.sweep import UNWRITABLE, real_simulate
+
+    if not is_lasting():
+        raise ArgumentError(UNWRITABLE)
+    done = "compiled the kernels" if is_cold("arcs") else "found compiled kernels and loaded them"
+    started = time.perf_counter()
+    real_simulate(arcs=True)
+    say(f"{done} in {time.perf_counter() - started:.1f} s; no run has to compile any")
+    return DONE
+
+
+def status(arguments: Namespace) -> int:
+    """Counts, failures with their sentences, time and origin of a results file."""
+    from sweep.store.read import read_attributes, read_summary
+
+    summary, about = read_summary(arguments.file), read_attributes(arguments.file)
+    counts = summary["status"].value_counts()
+    say(f"{arguments.file}: {len(summary)} cases")
+    say_all(f"{count:7d} {name}" for name, count in counts.items())
+    say_all(_failures(arguments.file, summary))
+    say_all(_bars(summary))
+    if others := about.get("other_cases", 0):
+        say(f"{others} cases are of other configs than the last run's")
+    say(f"{summary['cpu_s'].sum():.4g} s of processor time in all")
+    known = {name.removeprefix("version_"): about[name] for name in about if "version_" in name}
+    say(f"last run {about.get('created', '?')}, revision {about.get('git_revision', '?')}")
+    say(", ".join(f"{name} {version}" for name, version in known.items()))
+    return _exit_status(summary)
+
+
+def rank(arguments: Namespace) -> int:
+    """The ranking, as tables on the terminal, as text for other programs, or into a folder."""
+    from sweep.report.markdown import markdown
+    from sweep.ranking.rank import rank
+    from sweep.report.sheets import ranking_sheets
+    from sweep.store.read import read_summary
+
+    summary, question = read_summary(arguments.file), _asked(arguments)
+    if arguments.out:
+        from sweep.report.publish import publish_ranking
+
+        folder = Path(arguments.out)
+        with _writing(folder):
+            files = publish_ranking(arguments.file, summary, question, folder)
+        say_all(files)
+    elif arguments.csv or arguments.json or arguments.markdown:
+        ranking = rank(summary, **question)
+        if arguments.csv:
+            say(ranking.to_csv(index=False), end="")
+        elif arguments.json:
+            say(ranking.to_json(orient="records", indent=2, double_precision=15))
+        else:
+            say(markdown(ranking_sheets(ranking, summary)), end="")
+        sys.stderr.writelines(f"{line}\n" for line in aloud(arguments.file, len(summary), ranking))
+    else:
+        print_ranking(arguments.file, summary, question)
+    return _exit_status(summary)
+
+
+def show(arguments: Namespace) -> int:
+    """Pictures of one case, or the list of all."""
+    from sweep.report.sheets import case_sheet, describe_case
+    from sweep.store.read import read_summary
+
+    summary = read_summary(arguments.file)
+    if arguments.case is None:
+        print_sheets([case_sheet(summary)])
+        return DONE
+    from sweep.report.publish import publish_case
+
+    row = _find_case(summary, arguments.case)
+    folder = Path(arguments.out or Path(arguments.file).with_suffix("") / row["case_id"])
+    say(f"case {row['case_id']}, {describe_case(row, summary)}: {row['status']}")
+    say_all([row["message"]] if row["message"] else [])
+    with _writing(folder):
+        pictures = publish_case(arguments.file, row, folder)
+    say_all(pictures or ["nothing to draw: the case left no curves and no shapes"])
+    return DONE
+
+
+VERBS = {verb.__name__: verb for verb in (run, accuracy, warm, status, rank, show)}
+
+
+@contextmanager
+def _writing(folder: Path) -> Iterator[None]:
+    try:
+        yield
+    except (FileExistsError, NotADirectoryError) as error:
+        raise ArgumentError(f"{folder} is or lies in a file; allowed: a folder") from error
+    except OSError as error:
+        raise ArgumentError(f"{folder} cannot be written: {error.strerror or error}") from error
+
+
+def _asked(arguments: Namespace) -> dict[str, Any]:
+    """The keywords of `rank` from the command line and, where it is silent, from the config.
+
+    The config's budgets stand unless --budget or --by is given; its panel, where there are budgets.
+    """
+    stored = _stored_rank(arguments.file)
+    budgets, panel = stored.get("budgets"), stored.get("panel")
+    if arguments.by and not arguments.budget:
+        budgets = panel = None
+    question = _question(arguments.budget or budgets, arguments.panel or panel)
+    question |= {"by": arguments.by, "allowed_force": arguments.allowed_force}
+    return question | ({"top": arguments.top} if arguments.top else {})
+
+
+def _question(budgets: Iterable[Any] | None, panel: Iterable[Any] | None) -> dict[str, Any]:
+    """The keywords of `rank`: several budgets leave room for fewer places each."""
+    masses, sides = list(budgets or ()), list(panel or ())
+    top = TOP_OF_A_BUDGET if len(masses) > 1 else TOP
+    return {"budget": masses or None, "panel": sides or None, "top": top}
+
+
+def _stored_rank(file: str) -> dict[str, Any]:
+    """The [rank] of the config that a results file was made from."""
+    from sweep.store.read import read_attributes
+
+    try:
+        config: dict[str, Any] = json.loads(read_attributes(file).get("config") or "{}")
+    except ValueError:
+        raise ArgumentError(f"{file} is damaged: the config in it is no JSON") from None
+    return config.get("rank") or {}
+
+
+def _failures(file: str, summary: DataFrame) -> Iterator[str]:
+    """A line for each kind of failure, with the first of its cases, and where the others are."""
+    failed = _failed(summary)
+    kind = failed["message"].str.replace(FIGURE, "#", regex=True)
+    for _, rows in failed.groupby([failed["status"], kind], sort=False):
+        cases = ", ".join(rows["case_id"].head(IDS))
+        more = f" and {len(rows) - IDS} more" if len(rows) > IDS else ""
+        yield f"{len(rows)} x {_in_common(list(rows['message']))} (case {cases}{more})"
+    if len(failed):
+        yield f"crumple show {file} lists all ids with their status; with an id, it says why"
+
+
+def _in_common(messages: list[str]) -> str:
+    """One sentence for several that differ only in figures: each becomes its range."""
+    columns = zip(*map(FIGURE.findall, messages), strict=True)
+    ranges = (sorted({*figures}, key=float) for figures in columns)
+    told = (f"{found[0]} to {found[-1]}" if len(found) > 1 else found[0] for found in ranges)
+    return FIGURE.sub(lambda _: next(told), messages[0])
+
+
+def _bars(summary: DataFrame) -> list[str]:
+    """How many cases have an error bar, where any was asked for."""
+    from sweep.result import ERROR
+
+    bars = summary.drop(index=_failed(summary).index).filter(regex=ERROR)
+    count = bars.notna().any(axis=1).sum()
+    return [f"{count} of {len(bars)} finished cases have error bars"] if bars.columns.size else []
+
+
+def _find_case(summary: DataFrame, prefix: str) -> Series:
+    """The one row whose id begins like this."""
+    found = summary[summary["case_id"].str.startswith(prefix)]
+    if len(found) == 1:
+        return found.iloc[0]
+    if found.empty:
+        raise ArgumentError(f'no case "{prefix}"; without CASE, show lists all {len(summary)} ids')
+    ids = ", ".join(found["case_id"].head(4)) + (" ..." if len(found) > 4 else "")
+    raise ArgumentError(f'"{prefix}" begins {len(found)} ids: {ids}')
+
+
+def _exit_status(summary: DataFrame) -> int:
+    return DONE if _failed(summary).empty else SOME_FAILED
+
+
+def _failed(summary: DataFrame) -> DataFrame:
+    from sweep.result import Status
+
+    return summary[summary["status"] != Status.CONVERGED]

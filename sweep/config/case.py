@@ -1,0 +1,75 @@
+"""The parameters of one case.
+
+A `Case` is resolved when it is made (sweep/resolve.py), so that equal physics has an equal id.
+"""
+
+from hashlib import blake2b
+from typing import Self, TypeVar
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from sweep.config.solver_defaults import check_bending
+from sweep.config.resolve import resolve
+from sweep.config.lattice_table import Lattice, sized
+from sweep.config.tables import Contact, Damping, Loading, Material, Solver, Table, canonical
+
+__all__ = [
+    "TABLES",
+    "Case",
+    "Contact",
+    "Damping",
+    "Lattice",
+    "Loading",
+    "Material",
+    "Solver",
+    "given",
+]
+
+
+class Case(BaseModel):
+    """One simulation. `axes` are its values along the grid of its sweep: labels, not physics."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    lattice: Lattice = Field(default_factory=Lattice)
+    material: Material = Field(default_factory=Material)
+    loading: Loading = Field(default_factory=Loading)
+    contact: Contact = Field(default_factory=Contact)
+    damping: Damping = Field(default_factory=Damping)
+    solver: Solver = Field(default_factory=Solver)
+    axes: dict[str, float | int | str | None] = {}
+
+    @model_validator(mode="after")
+    def _resolve(self) -> Self:
+        lattice = sized(self.lattice, self.material.density)
+        resolved = resolve(lattice, self.loading, self.contact, self.damping, self.solver)
+        for name, table in ({"lattice": lattice} | resolved).items():
+            object.__setattr__(self, name, table)  # frozen from here on
+        check_bending(self.material, self.lattice, self.solver)
+        return self
+
+    @property
+    def case_id(self) -> str:
+        """Hash of every parameter but the labels: 16 hexadecimal digits."""
+        tables = ",".join(f'"{name}":{canonical(getattr(self, name))}' for name in sorted(TABLES))
+        return blake2b(f"{{{tables}}}".encode(), digest_size=8).hexdigest()
+
+
+TABLES: dict[str, type[Table]] = {
+    "lattice": Lattice,
+    "material": Material,
+    "loading": Loading,
+    "contact": Contact,
+    "damping": Damping,
+    "solver": Solver,
+}
+
+
+T = TypeVar("T")
+
+
+def given(value: T | None) -> T:
+    """Return a parameter that every resolved case of its mode has."""
+    if value is None:
+        raise ValueError("a resolved case has this parameter; this one was not resolved")
+    return value

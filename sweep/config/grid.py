@@ -1,0 +1,263 @@
+"""From a config to its cases: grid x zips, without what is excluded and without doubles."""
+
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cache
+from itertools import product
+from math import prod
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails, PydanticCustomError
+
+from sweep.config.unused_keys import still_idle
+from sweep.config.keys import ALIASES, case_keys
+from sweep.config.solver_defaults import check_bending
+from sweep.config.case import TABLES, Case
+from sweep.config.resolve import resolve
+from sweep.config.lattice_table import sized
+from sweep.config.tables import Rank, Table, rounded
+
+MAX_CASES = 1_000_000
+_QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
+FACTS = ("material.poisson",)  # of a material: may be stated where plane stress needs none
+
+
+class Fault(NamedTuple):
+    """One thing wrong: the key it is about, and one line with key, value and what is allowed."""
+
+    key: str
+    line: str
+
+
+class ConfigError(ValueError):
+    """A config that cannot be run, with everything that is wrong with it, a line each."""
+
+    def __init__(self, faults: list[Fault]) -> None:
+        super().__init__("\n".join(fault.line for fault in faults))
+        self.faults = faults
+
+
+class Written(NamedTuple):
+    """A value in SI (None: left at its default), and the words of the file for it and its key."""
+
+    value: Any
+    text: str
+    name: str = ""
+
+
+Reason = dict[str, Any]  # key, value, allowed
+Values = dict[str, Written]
+Axes = dict[str, tuple[Written, ...]]
+
+
+@dataclass(frozen=True)
+class Config:
+    """A sweep: one case, and the axes along which it varies; keys are dotted.
+
+    `exclude`: of each table, the values (rounded) that a case must have at all its keys to be
+    dropped.
+    """
+
+    name: str
+    base: Values = field(default_factory=dict)
+    grid: Axes = field(default_factory=dict)
+    zip: tuple[Axes, ...] = ()
+    exclude: tuple[dict[str, tuple[object, ...]], ...] = ()
+    rank: Rank = field(default_factory=Rank)
+    path: Path | None = None
+
+
+def case_count(config: Config) -> int:
+    """Number of combinations, before any are excluded or found to be equal."""
+    lengths = [len(values) for values in config.grid.values()]
+    return prod(lengths + [len(next(iter(tied.values()))) for tied in config.zip])
+
+
+def expand(config: Config) -> list[Case]:
+    """All cases, the first axis of the grid varying slowest; of equal ones, the first.
+
+    A key that none of them needs is refused: it says something that does not happen. So is a table
+    of [[exclude]] that drops none.
+    """
+    count = case_count(config)
+    if count > MAX_CASES:
+        line = f"[grid] makes {count:,} cases; allowed: at most {MAX_CASES:,} in one sweep"
+        raise ConfigError([Fault("grid", line)])
+    cases: dict[str, Case] = {}
+    refused: dict[str, list[Fault]] = {}
+    idle = dict.fromkeys(_spoken_for(config), "")
+    dropped: set[int] = set()
+    for draft in _drafts(config):
+        matching = {k for k, table in enumerate(config.exclude) if draft.matches(table)}
+        dropped |= matching
+        if matching:
+            continue
+        for fault in draft.faults:
+            refused.setdefault(fault.key, []).append(fault)
+        if not draft.faults:
+            cases.setdefault(draft.case.case_id, draft.labelled())
+            idle = still_idle(idle, draft.given, draft.case) if idle else idle
+    if refused:
+        raise ConfigError([_merged(faults, count) for faults in refused.values()])
+    if not cases:
+        line = f"[[exclude]] drops all {count:,} cases; allowed: tables that leave at least one"
+        raise ConfigError([Fault("exclude", line)])
+    faults = [_dropping_none(config, k) for k in range(len(config.exclude)) if k not in dropped]
+    if any(idle.values()):
+        faults += _without_effect(config, idle)
+    if faults:
+        raise ConfigError(faults)
+    return list(cases.values())
+
+
+@dataclass(frozen=True)
+class _Draft:
+    """One combination: its values along the axes, the case that it makes, what is wrong with it."""
+
+    chosen: Values
+    given: dict[str, Any]
+    case: Case
+    faults: list[Fault]
+
+    def value(self, key: str) -> Any:
+        """The value of the resolved case; of an alias, the one that all its targets share."""
+        targets = [target.split(".") for target in _keys(key)]
+        first, *others = [getattr(getattr(self.case, table), name) for table, name in targets]
+        return first if all(other == first for other in others) else None
+
+    def matches(self, table: dict[str, tuple[object, ...]]) -> bool:
+        """True if the case has one of the values of every key of an [[exclude]] table."""
+        return all(rounded(self.value(key)) in values for key, values in table.items())
+
+    def labelled(self) -> Case:
+        """The case with its values along the axes."""
+        values = {key: self.value(key) for key in self.chosen}
+        axes = {key: int(v) if isinstance(v, bool) else v for key, v in values.items()}
+        return self.case.model_copy(update={"axes": axes})
+
+
+def _drafts(config: Config) -> Iterator[_Draft]:
+    # Most cases share most of their tables.
+    made, settled, weighed = cache(_table), cache(resolve), cache(sized)
+    for chosen in _combinations(config):
+        written = config.base | _targets(chosen)
+        given = {key: value for key, (value, *_) in written.items()}
+        values = [(*key.split("."), value) for key, value in given.items()]
+        tables: dict[str, Any] = {}
+        wrong: list[Reason] = []
+        for name in TABLES:
+            items = tuple((field, value) for table, field, value in values if table == name)
+            tables[name], reasons = made(name, items)
+            wrong += reasons
+        depending = [tables[name] for name in ("loading", "contact", "damping", "solver")]
+        try:
+            if not any(reason["key"].startswith("lattice.") for reason in wrong):
+                tables["lattice"] = weighed(tables["lattice"], tables["material"].density)
+            tables |= settled(tables["lattice"], *depending)
+            check_bending(tables["material"], tables["lattice"], tables["solver"])
+        except PydanticCustomError as error:
+            wrong.append(error.context or {})
+        case = Case.model_construct(None, **tables)
+        yield _Draft(chosen, given, case, [_fault(reason, written) for reason in wrong])
+
+
+def _spoken_for(config: Config) -> list[str]:
+    """The keys of a case that a config sets; a fact of its material may stand unused."""
+    stated = [key for key in config.base if key not in FACTS]
+    return stated + [target for _, name, _ in _axes(config) for target in _keys(name)]
+
+
+def _without_effect(config: Config, idle: dict[str, str]) -> list[Fault]:
+    """A fault for each key that no case needs; `idle` says why."""
+    lines = {key: f"{written.name or key} = {written.text}" for key, written in config.base.items()}
+    for where, name, values in _axes(config):
+        texts = ", ".join(written.text for written in values)
+        lines[_keys(name)[0]] = f"{where} {name} = [{texts if len(texts) < 60 else '...'}]"
+    return [Fault(key, f"{line}: {idle[key]}") for key, line in lines.items() if idle.get(key)]
+
+
+def _dropping_none(config: Config, number: int) -> Fault:
+    """The fault of an [[exclude]] table that matches no combination."""
+    where = f"[[exclude]] of {', '.join(config.exclude[number])}, number {number + 1}"
+    return Fault("exclude", f"{where}: drops no case; allowed: tables that drop at least one")
+
+
+def _axes(config: Config) -> Iterator[tuple[str, str, tuple[Written, ...]]]:
+    """Every axis: where it stands, its key, its values."""
+    for where, axes in [("[grid]", config.grid), *(("[[zip]]", tied) for tied in config.zip)]:
+        yield from ((where, name, values) for name, values in axes.items())
+
+
+def _combinations(config: Config) -> Iterator[Values]:
+    """Values along the axes: every value of the grid with every row of each zip."""
+    parts = [[{key: value} for value in values] for key, values in config.grid.items()]
+    for tied in config.zip:
+        rows = zip(*tied.values(), strict=True)
+        parts.append([dict(zip(tied, row, strict=True)) for row in rows])
+    for choice in product(*parts):
+        yield {key: written for part in choice for key, written in part.items()}
+
+
+def _targets(chosen: Values) -> Values:
+    """The keys of a case that are set, aliases replaced."""
+    set_here = {key: written for key, written in chosen.items() if written.value is not None}
+    return {target: written for key, written in set_here.items() for target in _keys(key)}
+
+
+def _keys(name: str) -> tuple[str, ...]:
+    """The keys of a case that a key of a config sets."""
+    return ALIASES.get(name, (name,))
+
+
+def _table(name: str, items: tuple[tuple[str, Any], ...]) -> tuple[Table, list[Reason]]:
+    """A table of these values, and why it cannot be used."""
+    try:
+        return TABLES[name].model_validate(dict(items)), []
+    except ValidationError as error:
+        table = TABLES[name].model_construct(None, **dict(items))
+        return table, [_reason(name, wrong) for wrong in error.errors()]
+
+
+def _reason(table: str, wrong: ErrorDetails) -> Reason:
+    """The reason of a refusal, or of a number of a record that is out of range."""
+    if wrong["type"] == "refused":
+        return wrong["ctx"]
+    key = f"{table}.{wrong['loc'][0]}"
+    return {"key": key, "value": wrong["input"], "allowed": case_keys()[key].allowed}
+
+
+def _fault(reason: Reason, given: Values) -> Fault:
+    """What is wrong with one case, in the words of the file where they are there."""
+    key, value, allowed = reason["key"], reason["value"], reason["allowed"]
+    if key in given:
+        written, allowed = given[key], _in_unit_of(given[key], key, allowed)
+        line = f"{written.name or key} = {written.text}: does not fit; allowed: {allowed}"
+        return Fault(key, line)
+    if value is None:
+        return Fault(key, f"{key} is missing; needed: {allowed}")
+    text = f"{value:g}" if isinstance(value, float) else json.dumps(value)
+    text = f"{text} {case_keys()[key].unit or ''}".rstrip()
+    why = f", as {reason['since']} is given" if reason.get("since") else " by default"
+    return Fault(key, f"{key} = {text}{why}: does not fit; allowed: {allowed}")
+
+
+def _in_unit_of(written: Written, key: str, sentence: str) -> str:
+    """A sentence whose quantities, in SI, are of the kind of a key: in the unit of the file."""
+    unit, match = case_keys()[key].unit, _QUANTITY.fullmatch(written.text)
+    if unit is None or match is None:
+        return sentence
+    scale = float(match[1]) / written.value
+    in_si = re.compile(rf"([\d.e+-]+) {re.escape(unit)}(?![\w/^])")
+    return in_si.sub(lambda found: f"{float(found[1]) * scale:.4g} {match[2]}", sentence)
+
+
+def _merged(faults: list[Fault], count: int) -> Fault:
+    """One fault for all cases that share it, in the words of the first."""
+    key, line = faults[0]
+    if count > 1:
+        line += f" ({len(faults):,} of {count:,} combinations)"
+    return Fault(key, line)

@@ -1,0 +1,136 @@
+"""The keys of a config: what each one accepts, said in words, and the nearest to a misspelt one.
+
+All of it is read off the tables (sweep/tables.py), so that a new key needs no second entry.
+"""
+
+import difflib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from pydantic import ConfigDict, TypeAdapter
+
+from sweep.config.case import TABLES
+from sweep.config.material_file import available
+from sweep.config.tables import Rank, Table
+
+ALIASES = {
+    "lattice.cells": ("lattice.cells_x", "lattice.cells_y"),
+    "loading.load_steps": ("solver.load_steps",),
+}
+RESOLVED = {
+    "lattice.structure",
+    "material.curve_strain",
+    "material.curve_stress",
+}  # part of a case, not of a config
+QUANTITIES = {
+    "m": 'a length with a unit, such as "0.8 mm"',
+    "s": 'a time with a unit, such as "0.2 s"',
+    "1/s": 'a rate with a unit, such as "5 1/s"',
+    "m/s": 'a speed with a unit, such as "100 mm/min"',
+    "N": 'a force with a unit, such as "10 N"',
+    "J": 'an energy with a unit, such as "0.1 J"',
+    "Pa": 'a stress with a unit, such as "12 MPa"',
+    "kg": 'a mass with a unit, such as "25 g"',
+    "1": 'a share in percent, such as "20 %"',
+    "kg/m^3": 'a density with a unit, such as "1190 kg/m^3"',
+}
+_BOUNDS = {
+    "exclusiveMinimum": "above",
+    "minimum": "at least",
+    "exclusiveMaximum": "below",
+    "maximum": "at most",
+}
+
+
+@dataclass(frozen=True)
+class Key:
+    """One key: the keys of a case that it sets, its SI unit, and what it accepts.
+
+    `adapter` checks a value in SI.
+    """
+
+    targets: tuple[str, ...]
+    unit: str | None
+    is_list: bool
+    allowed: str
+    adapter: TypeAdapter[Any]
+
+
+@cache
+def case_keys() -> dict[str, Key]:
+    """The keys of a case by their dotted names, aliases included."""
+    known = {name: key for table in TABLES for name, key in table_keys(table).items()}
+    return known | {
+        alias: Key(targets, *_accepts(known[targets[0]])) for alias, targets in ALIASES.items()
+    }
+
+
+@cache
+def table_keys(table: str) -> dict[str, Key]:
+    """The keys of one table by their dotted names."""
+    model = Rank if table == "rank" else TABLES[table]
+    schema = model.model_json_schema()["properties"]
+    names = {field: f"{table}.{field}" for field in schema}
+    return {
+        name: _key(name, model, field, _plain(schema[field]))
+        for field, name in names.items()
+        if name not in RESOLVED
+    }
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """The known name that begins like this one, or else looks most like it."""
+    names = list(known)
+    begun = [other for other in names if other.startswith(name)]
+    return difflib.get_close_matches(name, begun or names, n=1, cutoff=0.0)[0]
+
+
+def _key(name: str, model: type[Table], field: str, schema: dict[str, Any]) -> Key:
+    is_list = schema.get("type") == "array"
+    item = _item(schema) if is_list else schema
+    allowed = _words(schema)
+    if name == "material.name":
+        allowed = f"{', '.join(available())}, or the path of a .csv file"
+    info = model.model_fields[field]
+    config = ConfigDict(strict=True, allow_inf_nan=False)
+    adapter = TypeAdapter(info.rebuild_annotation(), config=config)
+    return Key((name,), item.get("unit"), is_list, allowed, adapter)
+
+
+def _accepts(key: Key) -> tuple[str | None, bool, str, TypeAdapter[Any]]:
+    return key.unit, key.is_list, key.allowed, key.adapter
+
+
+def _plain(schema: dict[str, Any]) -> dict[str, Any]:
+    """The schema of a value that is given: without null."""
+    return next((arm for arm in schema.get("anyOf", []) if arm["type"] != "null"), schema)
+
+
+def _item(schema: dict[str, Any]) -> dict[str, Any]:
+    """The schema of the items of a list."""
+    item: dict[str, Any] = schema["prefixItems"][0] if "prefixItems" in schema else schema["items"]
+    return item
+
+
+def _words(schema: dict[str, Any]) -> str:
+    """What a schema accepts, in words."""
+    if "enum" in schema or "const" in schema:
+        *others, last = [f'"{name}"' for name in schema.get("enum", [schema.get("const")])]
+        return f"{', '.join(others)} or {last}" if others else last
+    if schema["type"] == "array":
+        length = f"{schema['maxItems']} values" if "maxItems" in schema else "values"
+        return f"a list of {length}, each {_words(_item(schema))}"
+    if schema["type"] == "boolean":
+        return "true or false"
+    if schema["type"] == "string":
+        return "text"
+    unit = f" {schema['unit']}" if schema.get("unit", "1") != "1" else ""
+    bounds = [
+        f"{words} {schema[name]:g}{unit if schema[name] else ''}"
+        for name, words in _BOUNDS.items()
+        if name in schema
+    ]
+    noun = "a whole number" if schema["type"] == "integer" else "a number"
+    return ", ".join([QUANTITIES[schema["unit"]] if "unit" in schema else noun, *bounds])

@@ -1,0 +1,270 @@
+"""The table `lattice`: the specimen, and what of it follows from the rest."""
+
+from math import isclose, isnan
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import AfterValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from sweep.config.structure_file import read_structure
+from sweep.config.structure import Structure
+from sweep.design.infill import families, trait
+from sweep.config.tables import Few, Length, Mass, Size, Table, refusal
+
+CUSTOM = "custom"
+LINE_WIDTH, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m, of a 0.4 mm nozzle
+# The factor of 70 000 nodes takes 8 GB, and a step with it minutes.
+MAX_NODES = 50_000
+MAX_ASPECT = 1000.0  # of the box: beyond, walls fall together in the arithmetic of areas
+
+
+def _known(kind: str) -> str:
+    if kind not in (*families(), CUSTOM):
+        raise PydanticCustomError("literal_error", "no family of infill")
+    return kind
+
+
+Kind = Annotated[
+    str, AfterValidator(_known), Field(json_schema_extra={"enum": list[Any]([*families(), CUSTOM])})
+]
+Lines = Annotated[int, Field(ge=0, le=100)]
+Share = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})]
+
+
+class Lattice(Table):
+    """The specimen: outer size over centre lines, its infill, its outline, the mesh of its walls.
+
+    Instead of cells and `wall_thickness`: `infill`, the share of the box that lines of `line_width`
+    fill, as slicers count. Instead of `wall_thickness`: `mass`, solved for in `sized`.
+    None: not used, or filled in. A custom kind is `structure`, read from `file`, in one piece: box
+    and thickness are then what it measures.
+    boundary "periodic": one period of an endless lattice. Width and height are its size; opposite
+    sides are tied to each other, the mean shear is zero, and so is the mean stress sideways.
+    """
+
+    neutral: ClassVar[dict[str, Any]] = {
+        "boundary": "free",
+        "grading": 1.0,
+        "perimeters": 0,
+        "solid_layers": 0,
+    }
+    labels: ClassVar[tuple[str, ...]] = ("infill", "mass", "file")
+
+    kind: Kind = "square"
+    file: str | None = None
+    structure: Structure | None = None
+    orientation: Literal["pointy", "flat"] | None = None
+    boundary: Literal["free", "periodic"] = "free"
+    cells_x: Few = 3
+    cells_y: Few = 3
+    width: Size = 12.5e-3
+    height: Size = 12.5e-3
+    depth: Size = 12e-3
+    wall_thickness: Length = 0.8e-3
+    mass: Mass | None = None
+    infill: Share | None = None
+    grading: Annotated[float, Field(gt=0)] = 1.0
+    perimeters: Lines = 0
+    line_width: Length | None = None
+    solid_layers: Lines = 0
+    layer_height: Length | None = None
+    nodes_per_wall: Annotated[int, Field(ge=0, le=1000)] = 2
+    imperfection: Annotated[float, Field(ge=0, le=100)] = 0.01
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read(cls, given: Any) -> Any:
+        if not isinstance(given, dict) or given.get("kind") != CUSTOM or "structure" in given:
+            return given
+        if given.get("file") is None:
+            raise refusal("lattice.file", None, "the path of a .json file, as the kind is custom")
+        return {**given, "structure": read_structure(Path(given["file"]))}
+
+    @model_validator(mode="after")
+    def _complete(self) -> Self:
+        if self.boundary == "periodic":
+            repeat(self)
+        if self.structure is not None:
+            return self._measured(self.structure)
+        be_in_proportion(self)
+        lines = self.perimeters > 0 or self.infill is not None
+        used = {
+            "file": None,
+            "orientation": (self.orientation or "pointy") if trait(self.kind, "ORIENTED") else None,
+            "line_width": (self.line_width or LINE_WIDTH) if lines else None,
+            "layer_height": (self.layer_height or LAYER_HEIGHT) if self.solid_layers else None,
+        }
+        for key, value in used.items():
+            object.__setattr__(self, key, value)  # frozen from here on
+        if self.infill is not None:
+            self._fill(self.infill)
+        self._be_small_enough()
+        if self.mass is None or "wall_thickness" in self.model_fields_set:
+            leave_openings(self)
+        return self
+
+    def _measured(self, structure: Structure) -> Self:
+        """The box, the mean thickness and the depth of a structure, in m."""
+        width, height = structure.size_mm
+        thickness = structure.thickness_mm
+        measures = {
+            "file": Path(self.file).name if self.file else None,
+            "cells_x": 1,
+            "cells_y": 1,
+            "width": 1e-3 * width,
+            "height": 1e-3 * height,
+            "depth": 1e-3 * structure.depth_mm,
+            "wall_thickness": 1e-3 * sum(thickness) / len(thickness),
+            "nodes_per_wall": 0,
+            "imperfection": 0.0,
+        }
+        for key, value in measures.items():
+            object.__setattr__(self, key, value)  # frozen from here on
+        return self
+
+    def _fill(self, share: float) -> None:
+        """Cells and wall thickness of a share of infill."""
+        if self.mass is not None:
+            raise refusal("lattice.mass", self.mass, "none where lattice.infill is given")
+        wished = f"as lattice.infill is {100 * share:g} %; give one of them"
+        self._follow("wall_thickness", self.line_width, f"{self.line_width:g} m, {wished}")
+        from sweep.design.sizing import cells_for
+
+        cells = cells_for(self, MAX_NODES)
+        if not cells:
+            allowed = f"a share that 1 to {MAX_NODES:,} cells fill with lines of "
+            raise refusal("lattice.infill", share, f"{allowed}{self.line_width:g} m in this box")
+        for key, value in cells.items():
+            self._follow(key, value, f"{value}, {wished}")
+
+    def _follow(self, key: str, value: Any, allowed: str) -> None:
+        """Fill in a value that follows from others, unless another one is given."""
+        if key in self.model_fields_set and getattr(self, key) != value:
+            raise refusal(f"lattice.{key}", getattr(self, key), allowed)
+        object.__setattr__(self, key, value)
+
+    def _be_small_enough(self) -> None:
+        joints, walls = self._counts
+        nodes = joints + walls * self.nodes_per_wall
+        if nodes > MAX_NODES:
+            values = {key: getattr(self, key) for key in ("cells_x", "cells_y", "nodes_per_wall")}
+            key = max(values, key=values.__getitem__)
+            if self.infill is not None:
+                key, values = "infill", {"infill": self.infill}
+            allowed = f"at most {MAX_NODES:,} nodes in all, {nodes:,} here"
+            raise refusal(f"lattice.{key}", values[key], allowed)
+
+    @property
+    def walls(self) -> int:
+        """Number of walls between joints."""
+        return self._counts[1]
+
+    @property
+    def _counts(self) -> tuple[int, int]:
+        """Numbers of joints and walls; of a structure, its elements."""
+        if self.structure is not None:
+            return len(self.structure.nodes_mm), sum(self.structure.pieces)
+        if known := trait(self.kind, "counts"):
+            return known(self.cells_x, self.cells_y)
+        from sweep.design.drawing import counts
+        from sweep.design.network import sketch
+
+        return counts(sketch(self))
+
+    @property
+    def opening(self) -> float:
+        """Clear width between the centre lines of the narrowest cell that is whole, m."""
+        if known := trait(self.kind, "opening"):
+            return known(self.width / self.cells_x, self.height / self.cells_y)
+        from sweep.design.network import opening, sketch
+
+        return opening(sketch(self, outlined=False))
+
+    @property
+    def thickest(self) -> float:
+        """Wall thickness (m) with which the narrowest opening is as wide as its walls are thick."""
+        if self.grading == 1.0:
+            return 0.5 * self.opening
+        from sweep.design.network import gradient
+
+        return 0.5 * self.opening / float(gradient(self).max())
+
+    @property
+    def outline(self) -> tuple[float, float]:
+        """Thickness (m) of the walls round the infill: left and right, above and below; 0: none."""
+        sides = self.perimeters * (self.line_width or 0.0)
+        return sides, self.solid_layers * (self.layer_height or 0.0) or sides
+
+    @property
+    def outer_size(self) -> tuple[float, float]:
+        """Width and height over all, of walls of mean thickness where there is no outline, m.
+
+        Those of a period, where the lattice is endless.
+        """
+        if self.boundary == "periodic":
+            return self.width, self.height
+        sides, caps = (outline or self.wall_thickness for outline in self.outline)
+        return self.width + sides, self.height + caps
+
+
+def be_in_proportion(lattice: Lattice) -> None:
+    """Refuse a box whose sides are too unlike."""
+    key, other = ("width", "height") if "width" in lattice.model_fields_set else ("height", "width")
+    value, side = getattr(lattice, key), getattr(lattice, other)
+    least, most = side / MAX_ASPECT, side * MAX_ASPECT
+    if not least <= value <= most:
+        allowed = f"from {least:g} m to {most:g} m, a thousandth to a thousand times the {other}"
+        raise refusal(f"lattice.{key}", value, allowed)
+
+
+def leave_openings(lattice: Lattice) -> None:
+    """Refuse walls that leave no sensible opening between them, and an outline that fills cells."""
+    limit, thickness = lattice.thickest, lattice.wall_thickness
+    if thickness >= limit * (1.0 - 1e-12):
+        if lattice.infill is not None:
+            allowed = "a share that leaves cells at least twice as wide as their walls"
+            raise refusal("lattice.infill", lattice.infill, allowed)
+        allowed = f"below half the width of the narrowest cell, {limit:.4g} m here"
+        raise refusal("lattice.wall_thickness", thickness, allowed)
+    room = lattice.opening - thickness
+    for axis, key in enumerate(("perimeters", "solid_layers")):
+        outline, count = lattice.outline[axis], getattr(lattice, key)
+        if count and outline >= room:
+            most = int(room / (outline / count))
+            allowed = f"at most {most} here, thinner in all than cells are open, {room:.4g} m"
+            raise refusal(f"lattice.{key}", count, allowed)
+
+
+def repeat(lattice: Lattice) -> None:
+    """Refuse what cannot be the period of an endless lattice."""
+    endless = 'if lattice.boundary is "periodic"'
+    if lattice.kind == CUSTOM:
+        raise refusal("lattice.boundary", "periodic", '"free" if lattice.kind is "custom"')
+    for key, value in {**lattice.neutral, "infill": None}.items():
+        if key != "boundary" and getattr(lattice, key) != value:
+            wanted = "none" if value is None else f"{value:g}"
+            raise refusal(f"lattice.{key}", getattr(lattice, key), f"{wanted} {endless}")
+    key = "cells_x" if lattice.orientation == "flat" else "cells_y"
+    if trait(lattice.kind, "STAGGERED") and getattr(lattice, key) % 2:
+        allowed = f"an even number {endless}, as every other row of {lattice.kind} is shifted"
+        raise refusal(f"lattice.{key}", getattr(lattice, key), allowed)
+
+
+def sized(lattice: Lattice, density: float) -> Lattice:
+    """A lattice whose walls are as thick as its `mass` demands."""
+    if lattice.mass is None or lattice.structure is not None:
+        return lattice
+    from sweep.design.sizing import thickness_for
+
+    thickness, light, heavy = thickness_for(lattice, density)
+    if isnan(thickness):
+        allowed = f"between {light:.4g} kg and {heavy:.4g} kg with these cells"
+        raise refusal("lattice.mass", lattice.mass, allowed)
+    told = "wall_thickness" in lattice.model_fields_set
+    if told and not isclose(lattice.wall_thickness, thickness, rel_tol=1e-9):
+        allowed = f"{thickness:.6g} m at the mass given; give one of them"
+        raise refusal("lattice.wall_thickness", lattice.wall_thickness, allowed)
+    made = lattice.model_copy(update={"wall_thickness": thickness})
+    leave_openings(made)
+    return made

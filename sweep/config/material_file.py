@@ -1,0 +1,116 @@
+"""Material records: the tables under `configs/materials/`, read as they stand, in SI.
+
+A record is a csv file. Its comment lines hold the source and, one a line, `# key: value` for
+`density_kg_m3`, `poisson` and, optionally, `modulus_Pa`; then come the columns `strain,stress_Pa`
+(nominal, tension positive, strains increasing; the origin is implied and may be left out).
+Rows of negative strain, where there are any, are the material's own compression branch.
+"""
+
+import csv
+import re
+from dataclasses import dataclass
+from itertools import pairwise
+from math import isfinite
+from pathlib import Path
+
+Numbers = tuple[float, ...]
+
+FOLDER = Path(__file__).parents[2] / "configs" / "materials"
+COLUMNS = ["strain", "stress_Pa"]
+TOE = 0.01  # strain below which a record is replaced by a straight line from the origin
+SECANT = (0.01, 0.04)  # strains between which the modulus of a curve is taken
+
+_HEADER = re.compile(r"#\s*(density_kg_m3|poisson|modulus_Pa):\s*([\d.eE+-]+)\s*")
+
+
+class RecordError(ValueError):
+    """A record that cannot be used; the text is one line that names the file and the fault."""
+
+
+class UnknownMaterialError(RecordError):
+    """A name that is neither a shipped material nor a file."""
+
+
+@dataclass(frozen=True)
+class Record:
+    """One material: nominal strain and stress (k,) in Pa, and its numbers in SI."""
+
+    name: str
+    strain: Numbers
+    stress: Numbers
+    density: float
+    poisson: float
+    modulus: float
+
+
+def available() -> list[str]:
+    """Names of the records that come with the project."""
+    return sorted(path.stem for path in FOLDER.glob("*.csv"))
+
+
+def locate(name: str, folder: Path | None = None) -> Path:
+    """The file of a shipped material, or of a user's own csv, relative to `folder`."""
+    if name.endswith(".csv"):
+        path = (folder or Path()) / name
+        if path.is_file():
+            return path
+    elif name in available():
+        return FOLDER / f"{name}.csv"
+    names = ", ".join(available())
+    raise UnknownMaterialError(
+        f'"{name}" is no material; allowed: {names}, or the path of a .csv file'
+    )
+
+
+def read_record(path: Path) -> Record:
+    """Read and check one record. Modulus: as stated, else the secant between 1 and 4 %."""
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+        stated = {match[1]: float(match[2]) for line in lines if (match := _HEADER.fullmatch(line))}
+        strain, stress = _columns(lines)
+        check_curve(strain, stress)
+    except (OSError, ValueError) as error:
+        raise RecordError(f"{path.name}: {error}") from None
+    if "density_kg_m3" not in stated or "poisson" not in stated:
+        raise RecordError(f"{path.name}: needs the lines # density_kg_m3: ... and # poisson: ...")
+    modulus = stated.get("modulus_Pa", secant_modulus(strain, stress))
+    density, poisson = stated["density_kg_m3"], stated["poisson"]
+    return Record(path.stem, strain, stress, density, poisson, modulus)
+
+
+def _columns(lines: list[str]) -> tuple[Numbers, Numbers]:
+    """Strain and stress below the header."""
+    rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))
+    if not rows or [word.strip() for word in rows[0]] != COLUMNS:
+        raise RecordError(f"the first row must read {','.join(COLUMNS)}")
+    if any(len(row) != 2 for row in rows):
+        raise RecordError("every row must hold two numbers")
+    return tuple(float(row[0]) for row in rows[1:]), tuple(float(row[1]) for row in rows[1:])
+
+
+def check_curve(strain: Numbers, stress: Numbers) -> None:
+    """Refuse a curve that is no function of strain, or that starts flat or falling."""
+    if len(strain) != len(stress) or not all(map(isfinite, strain + stress)):
+        raise RecordError("a curve needs a stress for every strain, all of them finite")
+    if any(b <= a for a, b in pairwise(strain)) or min(strain, default=0.0) <= -1.0:
+        raise RecordError("the strains of a curve must increase, from above -1")
+    if max(strain, default=0.0) < SECANT[1]:
+        raise RecordError(f"a curve must reach a strain of {SECANT[1]:g}")
+    if stress_at(TOE, strain, stress) <= 0.0:
+        raise RecordError("the stress of a curve must be positive at 1 % strain")
+
+
+def secant_modulus(strain: Numbers, stress: Numbers) -> float:
+    """Slope of the record between 1 and 4 % tension (Pa)."""
+    low, high = SECANT
+    rise = stress_at(high, strain, stress) - stress_at(low, strain, stress)
+    return rise / (high - low)
+
+
+def stress_at(at: float, strain: Numbers, stress: Numbers) -> float:
+    """Stress (Pa) at a tensile strain, straight between the points of the record and the origin."""
+    points = [(0.0, 0.0), *((e, s) for e, s in zip(strain, stress, strict=True) if e > 0.0)]
+    for (e0, s0), (e1, s1) in pairwise(points):
+        if at <= e1:
+            return s0 + (s1 - s0) * (at - e0) / (e1 - e0)
+    raise RecordError(f"the record ends below a strain of {at:g}")

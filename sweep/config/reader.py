@@ -1,0 +1,248 @@
+"""Reads a document, table by table, into a sweep; every fault becomes one line.
+
+Knows no units: whoever makes a reader gives it the conversion.
+"""
+
+import json
+import re
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from sweep.config.structure_file import StructureError, read_structure
+from sweep.config.grid import Axes, Config, Fault, Values, Written
+from sweep.config.keys import ALIASES, Key, case_keys, nearest, table_keys
+from sweep.config.case import TABLES
+from sweep.config.material_file import UnknownMaterialError, locate, read_record
+from sweep.config.tables import Rank, rounded
+
+_REASONS = {
+    "literal_error": "unknown choice",
+    "finite_number": "not finite",
+    "missing": "too few values",
+    "too_long": "too many values",
+}
+_NAME = re.compile(r"\w[\w.-]*")
+
+
+class Reader:
+    """Turns a document into a config, and collects what is wrong with it on the way.
+
+    `folder` is where the files named in it are; `to_si(quantity, unit)` converts.
+    """
+
+    def __init__(self, folder: Path, to_si: Callable[[Any, str], float]) -> None:
+        self.folder = folder
+        self.to_si = to_si
+        self.faults: list[Fault] = []
+        self.varied: dict[str, str] = {}  # keys of a case that vary, and where they are said to
+
+    def config(self, document: dict[str, Any], path: Path) -> Config:
+        """All of a document."""
+        sections = ["name", *TABLES, "grid", "zip", "exclude", "rank"]
+        for section in document:
+            if section not in sections:
+                self._unknown(section, document[section], sections)
+        return Config(
+            name=self._name(document["name"]) if "name" in document else path.stem,
+            base=self._base(document),
+            grid=self._axes(_flat(self._section(document, "grid")), "[grid]"),
+            zip=tuple(
+                tied for table in self._tables(document, "zip") if (tied := self._zip(table))
+            ),
+            exclude=tuple(filter(None, map(self._exclude, self._tables(document, "exclude")))),
+            rank=self._rank(self._section(document, "rank")),
+            path=path,
+        )
+
+    def trusts(self, fault: Fault) -> bool:
+        """False if what is wrong with a case may only follow from a fault that is known."""
+        founded_on = {
+            "lattice": {"lattice"},
+            "material": {"material"},
+            "grid": set(),
+            "exclude": {*TABLES, "exclude", "grid", "zip"},
+        }.get(_table(fault.key), TABLES.keys() - {"material"})
+        return not founded_on & {_table(known.key) for known in self.faults}
+
+    def _name(self, name: object) -> str:
+        if isinstance(name, str) and _NAME.fullmatch(name):
+            return name
+        self._refuse(
+            "name", name, "not a name; allowed: letters, digits, dots, dashes, underscores"
+        )
+        return ""
+
+    def _section(self, document: dict[str, Any], name: str) -> dict[str, Any]:
+        section = document.get(name, {})
+        if isinstance(section, dict):
+            return section
+        self._refuse(name, section, f"not a table; allowed: a table [{name}]")
+        return {}
+
+    def _tables(self, document: dict[str, Any], name: str) -> list[dict[str, Any]]:
+        tables = document.get(name, [])
+        if isinstance(tables, list) and all(isinstance(table, dict) for table in tables):
+            return [_flat(table) for table in tables]
+        self._refuse(name, tables, f"not a list of tables; allowed: tables [[{name}]]")
+        return []
+
+    def _base(self, document: dict[str, Any]) -> Values:
+        """The case from which the sweep starts."""
+        base: Values = {}
+        names: dict[str, str] = {}  # under which each key of the case is given
+        for table in TABLES:
+            for field, raw in self._section(document, table).items():
+                name = f"{table}.{field}"
+                if (written := self._value(name, raw)) is None:
+                    continue
+                for target in ALIASES.get(name, (name,)):
+                    first = base.setdefault(target, written)
+                    other = names.setdefault(target, name)
+                    if first.value != written.value:
+                        wrong = f"set twice; allowed: the same as {other} = {first.text}"
+                        self._refuse(name, raw, wrong)
+        return base
+
+    def _rank(self, section: dict[str, Any]) -> Rank:
+        read = {field: self._value(f"rank.{field}", raw) for field, raw in section.items()}
+        return Rank(**{field: written.value for field, written in read.items() if written})
+
+    def _axes(self, axes: dict[str, Any], where: str) -> Axes:
+        """Keys that vary, each with its list of values."""
+        return {
+            name: values for name, raw in axes.items() if (values := self._axis(name, raw, where))
+        }
+
+    def _axis(self, name: str, raw: Any, where: str) -> tuple[Written, ...]:
+        key = case_keys().get(name)
+        if key is None:
+            self._unknown(name, raw, case_keys(), where)
+        elif key.is_list:
+            self._refuse(name, raw, "a list itself, no axis; allowed: keys with one value", where)
+        elif not isinstance(raw, list) or not raw:
+            wrong = "no values" if raw == [] else "not a list"
+            self._refuse(name, raw, f"{wrong}; allowed: a list, each {key.allowed}", where)
+        elif other := next((self.varied[t] for t in key.targets if t in self.varied), None):
+            self._refuse(name, raw, f"varied in {other} too; allowed: one of them", where)
+        else:
+            self.varied |= dict.fromkeys(key.targets, where)
+            values = [self._value(name, value, where) for value in raw]
+            return tuple(value for value in values if value)
+        return ()
+
+    def _zip(self, table: dict[str, Any]) -> Axes:
+        """Keys that advance together; an empty text leaves a key as it is in that row."""
+        tied = self._axes(table, "[[zip]]")
+        lengths = {name: len(raw) for name, raw in table.items() if isinstance(raw, list)}
+        if len(set(lengths.values())) > 1:
+            name = max(lengths, key=lengths.__getitem__)
+            counts = ", ".join(f"{name} has {length}" for name, length in lengths.items())
+            wrong = f"lengths differ ({counts}); allowed: lists of equal length"
+            self._refuse(name, table[name], wrong, "[[zip]]")
+        return tied if len({len(values) for values in tied.values()}) == 1 else {}
+
+    def _exclude(self, table: dict[str, Any]) -> dict[str, tuple[object, ...]]:
+        """Values of keys that make a case be dropped, as the case would hold them; none if one is
+        wrong.
+        """
+        if not table:
+            self._refuse("[[exclude]]", table, "is empty; allowed: at least one key")
+        excluded = {}
+        for name, raw in table.items():
+            raws = raw if isinstance(raw, list) else [raw]
+            values = [self._value(name, value, "[[exclude]]") for value in raws]
+            if raws == []:
+                self._refuse(name, raw, "is empty; allowed: at least one value", "[[exclude]]")
+            held = [value.value for value in values if value]
+            if name == "material.name":
+                held = [Path(value).name.removesuffix(".csv") for value in held]
+            if name == "lattice.file":
+                held = [Path(value).name for value in held]
+            if held and len(held) == len(raws):
+                excluded[name] = tuple(rounded(value) for value in held)
+        return excluded if len(excluded) == len(table) else {}
+
+    def _value(self, name: str, raw: Any, where: str = "") -> Written | None:
+        """A value in SI; None, and a fault more, if it cannot be one."""
+        known = case_keys() if where else case_keys() | table_keys("rank")
+        if name not in known:
+            self._unknown(name, raw, known, where)
+            return None
+        if raw == "" and where == "[[zip]]":
+            return Written(None, '""')
+        try:
+            return Written(self._checked(known[name], raw), in_words(raw), name)
+        except StructureError as error:
+            for line in error.lines:
+                self._refuse(name, raw, line, where)
+            return None
+        except ValueError as error:
+            self._refuse(name, raw, f"{error}; allowed: {known[name].allowed}", where)
+            return None
+
+    def _unknown(self, name: str, raw: Any, known: Iterable[str], where: str = "") -> None:
+        near = nearest(name, known)
+        self._refuse(name, raw, f"unknown key; the nearest is {near}", where, about=near)
+
+    def _refuse(self, name: str, raw: Any, wrong: str, where: str = "", about: str = "") -> None:
+        line = f"{where} {_one_line(name)} = {in_words(raw)}: {wrong}".lstrip()
+        self.faults.append(Fault(about or name, line))
+
+    def _checked(self, key: Key, raw: Any) -> Any:
+        """A value in SI, or ValueError with the reason."""
+        if key.targets == ("material.name",) and isinstance(raw, str):
+            return _material(raw, self.folder)
+        if key.targets == ("lattice.file",) and isinstance(raw, str):
+            return _structure(self.folder / raw)
+        many = isinstance(raw, list)
+        value: Any = raw
+        if key.unit:
+            value = [self.to_si(v, key.unit) for v in raw] if many else self.to_si(raw, key.unit)
+        try:
+            return key.adapter.validate_python(tuple(value) if many else value)
+        except ValidationError as error:
+            kind = error.errors()[0]["type"]
+            wrong_type = "wrong type" if kind.endswith("_type") else "out of range"
+            raise ValueError(_REASONS.get(kind, wrong_type)) from None
+
+
+def _material(name: str, folder: Path) -> str:
+    """A shipped name as it is; a user's own record as its whole path."""
+    try:
+        path = locate(name, folder)
+    except UnknownMaterialError:
+        raise ValueError("unknown material") from None
+    read_record(path)
+    return str(path.resolve()) if name.endswith(".csv") else name
+
+
+def _structure(path: Path) -> str:
+    """The whole path of a user's own structure."""
+    read_structure(path)
+    return str(path.resolve())
+
+
+def _flat(table: dict[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Dotted keys of nested tables: "lattice.cells" = ... and lattice.cells = ... are the same."""
+    flat: dict[str, Any] = {}
+    for name, value in table.items():
+        inner = _flat(value, f"{prefix}{name}.") if isinstance(value, dict) else None
+        flat |= inner or {f"{prefix}{name}": value}
+    return flat
+
+
+def _table(key: str) -> str:
+    return key.split(".")[0]
+
+
+def in_words(raw: object) -> str:
+    """A value as TOML writes it, in one line and not too long."""
+    text = json.dumps(raw, default=str, ensure_ascii=False)
+    return _one_line(text if len(text) <= 60 else f"{text[:57]}...")
+
+
+def _one_line(text: str) -> str:
+    return "".join(char if char.isprintable() else "?" for char in text)

@@ -1,0 +1,222 @@
+"""What a case leaves open, filled in: defaults that depend on its mode.
+
+Keys that the mode does not use become None, so that equal physics has an equal id; what cannot go
+together is refused. Resolving what is resolved changes nothing.
+"""
+
+from math import isclose, sqrt
+
+from sweep.config.structure import Structure
+from sweep.config.solver_defaults import ARCS, IN_TIME, check_steps, given_or, settle
+from sweep.config.lattice_table import Lattice
+from sweep.config.tables import Contact, Damping, Loading, Solver, Table, refusal
+
+PASSAGES = 10  # times that the striker takes for the height of the lattice: duration of an impact
+PLATENS = '"contact", "glued" or "sliding"'
+
+
+def resolve(
+    lattice: Lattice, loading: Loading, contact: Contact, damping: Damping, solver: Solver
+) -> dict[str, Table]:
+    """The tables that depend on one another and on the lattice, nothing left open."""
+    loading, wish = _loading(loading, lattice, solver.integrator), solver.time_step
+    solver = settle(solver, loading, lattice, contact.model == "position_based")
+    check_steps(solver, loading, wish)
+    contact = _contact(contact, loading, lattice.structure, solver)
+    if contact.model == "position_based" and solver.integrator != "backward_euler":
+        allowed = '"backward_euler" if contact.model is "position_based"'
+        raise refusal("solver.integrator", solver.integrator, allowed)
+    return {
+        "loading": loading,
+        "contact": contact,
+        "damping": _damping(damping, loading),
+        "solver": solver,
+    }
+
+
+def _loading(loading: Loading, lattice: Lattice, integrator: str | None) -> Loading:
+    if lattice.structure is not None:
+        return _own(loading, lattice.structure, integrator)
+    if loading.mode == "custom":
+        allowed = '"force", "displacement" or "impact" unless lattice.kind is "custom"'
+        raise refusal("loading.mode", "custom", allowed)
+    if integrator == ARCS:
+        allowed = f'"static" where quasi-static, else {IN_TIME}, unless lattice.kind is "custom"'
+        raise refusal("solver.integrator", ARCS, allowed)
+    if lattice.boundary == "periodic":
+        return _mean(loading, lattice.height, integrator)
+    if loading.mode == "force":
+        return _force(loading, integrator)
+    if loading.mode == "impact":
+        return _impact(loading, lattice.height, integrator)
+    return _displacement(loading, lattice.height, integrator)
+
+
+def _own(loading: Loading, structure: Structure, integrator: str | None) -> Loading:
+    """What the file of a structure says, for a time, or without one in equal increments."""
+    quasi_static = integrator in ("static", ARCS) or bool(loading.quasi_static)
+    if quasi_static and integrator not in (None, "static", ARCS):
+        raise refusal("solver.integrator", integrator, '"static" if quasi_static')
+    if quasi_static and structure.floor_y_mm is None:
+        from sweep.config.mechanism import loosest
+
+        found = loosest(structure)
+        if found:
+            allowed = f"{IN_TIME}, or more supports: {found}"
+            since = "loading.quasi_static"
+            raise refusal("solver.integrator", integrator or "static", allowed, since)
+    if integrator == ARCS and structure.prescribed:
+        allowed = '"static", or loads instead of prescribed moves'
+        raise refusal("solver.integrator", ARCS, allowed)
+    if integrator == ARCS and not (structure.loads or any(structure.gravity_mm_s2)):
+        raise refusal("solver.integrator", ARCS, '"static" where there are no loads')
+    duration = given_or(loading.duration, 1.0 if quasi_static else 0.2)
+    return Loading(mode="custom", duration=duration, quasi_static=quasi_static, platen="none")
+
+
+def _force(loading: Loading, integrator: str | None) -> Loading:
+    """A dead load, put on at once, let go at `release_time`, watched until `duration`."""
+    if integrator == "static":
+        raise refusal("solver.integrator", "static", f'{IN_TIME} if loading.mode is "force"')
+    duration = given_or(loading.duration, 0.2)
+    release_time = given_or(loading.release_time, min(0.138, duration))
+    if release_time > duration:
+        raise refusal("loading.release_time", release_time, f"up to the duration, {duration:g} s")
+    return Loading(
+        mode="force",
+        force=given_or(loading.force, 10.0),
+        release_time=release_time,
+        duration=duration,
+        platen=loading.platen or "none",
+        allowed_forces=loading.allowed_forces,
+    )
+
+
+def _impact(loading: Loading, height: float, integrator: str | None) -> Loading:
+    """A striker that is let go at the lattice, watched until `duration`, or until it is back."""
+    if integrator == "static":
+        raise refusal("solver.integrator", "static", f'{IN_TIME} if loading.mode is "impact"')
+    if loading.platen == "none":
+        raise refusal("loading.platen", "none", f'{PLATENS} if loading.mode is "impact"')
+    striker_mass = given_or(loading.striker_mass, 0.05)
+    speed, energy = _speed_and_energy(loading, striker_mass)
+    return Loading(
+        mode="impact",
+        striker_mass=striker_mass,
+        striker_speed=speed,
+        energy=energy,
+        duration=given_or(loading.duration, PASSAGES * height / speed),
+        platen=loading.platen or "glued",
+        allowed_forces=loading.allowed_forces,
+    )
+
+
+def _speed_and_energy(loading: Loading, striker_mass: float) -> tuple[float, float]:
+    """Each from the other: 2 m/s if neither is given."""
+    if loading.striker_speed is None and loading.energy is not None:
+        return sqrt(2.0 * loading.energy / striker_mass), loading.energy
+    speed = given_or(loading.striker_speed, 2.0)
+    energy = 0.5 * striker_mass * speed**2
+    if not isclose(given_or(loading.energy, energy), energy, rel_tol=1e-9):
+        allowed = f"{energy:g} J at the speed given; give one of them"
+        raise refusal("loading.energy", loading.energy, allowed)
+    return speed, energy
+
+
+def _displacement(loading: Loading, height: float, integrator: str | None) -> Loading:
+    """A platen that moves down by `stroke`, and back if `unload`."""
+    if loading.platen == "none":
+        allowed = f'{PLATENS} if loading.mode is "displacement"'
+        raise refusal("loading.platen", "none", allowed)
+    quasi_static = given_or(loading.quasi_static, loading.speed is None or integrator == "static")
+    if not quasi_static and integrator == "static":
+        raise refusal("solver.integrator", "static", f"{IN_TIME} if not quasi_static")
+    if not quasi_static and loading.speed is None:
+        raise refusal("loading.speed", None, "a speed if quasi_static is false")
+    stroke, strain = _stroke_and_strain(loading, height)
+    return Loading(
+        mode="displacement",
+        stroke=stroke,
+        strain=strain,
+        speed=None if quasi_static else loading.speed,
+        quasi_static=quasi_static,
+        unload=given_or(loading.unload, True),
+        platen=loading.platen or "glued",
+        allowed_forces=loading.allowed_forces,
+    )
+
+
+def _mean(loading: Loading, height: float, integrator: str | None) -> Loading:
+    """An endless lattice is led by its mean strain and has no platens.
+
+    At rest: the inertia of its mean motion depends on where one stands.
+    """
+    endless = 'if lattice.boundary is "periodic"'
+    if loading.mode != "displacement":
+        allowed = f'"displacement" {endless}'
+        raise refusal("loading.mode", loading.mode, allowed, loading.says_mode)
+    if loading.platen not in (None, "none"):
+        raise refusal("loading.platen", loading.platen, f'"none" {endless}')
+    led = _displacement(loading.model_copy(update={"platen": None}), height, integrator)
+    if not led.quasi_static:
+        raise refusal("loading.quasi_static", False, f"true {endless}", "loading.speed")
+    return led.model_copy(update={"platen": "none"})
+
+
+def _stroke_and_strain(loading: Loading, height: float) -> tuple[float, float]:
+    """Each from the other: 60 % strain if neither is given."""
+    if loading.stroke is None:
+        strain = given_or(loading.strain, 0.6)
+        return strain * height, strain
+    stroke, strain = loading.stroke, given_or(loading.strain, loading.stroke / height)
+    if stroke >= height:
+        raise refusal("loading.stroke", stroke, f"below the height of the lattice, {height:g} m")
+    if not isclose(stroke, strain * height, rel_tol=1e-9):
+        allowed = f"{strain * height:g} m at the strain given; give one of them"
+        raise refusal("loading.stroke", stroke, allowed)
+    return stroke, strain
+
+
+def _contact(
+    contact: Contact, loading: Loading, structure: Structure | None, solver: Solver
+) -> Contact:
+    """A platen that is not glued needs the barrier even where walls do not see each other.
+
+    Along a path that is not taken in reality nothing rubs.
+    """
+    if contact.model == "position_based":
+        return _by_position(contact, loading, structure)
+    if contact.model == "auto":
+        contact = contact.model_copy(update={"model": "barrier"})
+    floor = structure is not None and structure.floor_y_mm is not None
+    if contact.model == "none" and loading.platen != "contact" and not floor:
+        return Contact(model="none", friction=None, stiffness=None)
+    if solver.integrator == ARCS:
+        return contact.model_copy(update={"friction": 0.0, "slip_speed": None})
+    if loading.quasi_static or not contact.friction:
+        return contact.model_copy(update={"slip_speed": None})
+    reference = loading.speed or loading.striker_speed or 0.1
+    return contact.model_copy(update={"slip_speed": given_or(contact.slip_speed, 0.01 * reference)})
+
+
+def _by_position(contact: Contact, loading: Loading, structure: Structure | None) -> Contact:
+    """Moving walls apart exerts no force: none that holds a platen up, and none that rubs."""
+    allowed = '"none" or "barrier" if '
+    if loading.quasi_static:
+        raise refusal("contact.model", contact.model, f"{allowed}loading.quasi_static")
+    if loading.platen == "contact":
+        raise refusal("contact.model", contact.model, f'{allowed}loading.platen is "contact"')
+    if structure is not None:
+        raise refusal("contact.model", contact.model, f'{allowed}lattice.kind is "custom"')
+    return contact.model_copy(update={"friction": None, "stiffness": None, "slip_speed": None})
+
+
+def _damping(damping: Damping, loading: Loading) -> Damping:
+    """Without time there is nothing to damp."""
+    unused = {
+        "none": ("mass", "stiffness", "relaxation_time"),
+        "rayleigh": ("relaxation_time",),
+        "kelvin_voigt": ("mass", "stiffness"),
+    }
+    model = "none" if loading.quasi_static else damping.model
+    return damping.model_copy(update={"model": model, **dict.fromkeys(unused[model])})

@@ -1,0 +1,94 @@
+"""The table `solver` of a case: steps of loading, of time or along a path."""
+
+from math import ceil, hypot
+from typing import TypeVar
+
+from sweep.config.lattice_table import Lattice
+from sweep.config.tables import MAX_STEPS, Loading, Material, Solver, refusal
+
+T = TypeVar("T")
+
+ARCS = "arc_length"
+STEPS_OF_PASSAGE = 1000  # in which a striker would pass the height of the lattice
+IN_TIME = '"backward_euler", "bdf2" or "newmark"'  # the integrators
+
+
+def check_bending(material: Material, lattice: Lattice, solver: Solver) -> None:
+    """Without bending nothing stands in statics. A wall of one element bends as an exact beam only
+    where moment is proportional to turn.
+    """
+    if material.bend == "none" and solver.integrator in ("static", ARCS):
+        allowed = f'"linear" or "section" if solver.integrator is "{solver.integrator}"'
+        raise refusal("material.bend", "none", allowed)
+    if material.bend == "section" and solver.hinges == "exact_beam":
+        cause = "lattice.nodes_per_wall is 0"
+        single = lattice.nodes_per_wall == 0
+        if lattice.structure is not None:
+            cause, single = "subdivide of lattice.file is 1", 1 in lattice.structure.pieces
+        if single:
+            allowed = f'"linear" if {cause} and solver.hinges "exact_beam"'
+            raise refusal("material.bend", "section", allowed)
+
+
+def steps(loading: Loading, solver: Solver) -> float:
+    """Number of steps of a resolved case."""
+    if solver.load_steps is not None:
+        return solver.load_steps * (2 if loading.unload else 1)
+    assert loading.duration is not None
+    assert solver.time_step is not None
+    return loading.duration / solver.time_step
+
+
+def check_steps(solver: Solver, loading: Loading, time_step: float | None) -> None:
+    """Refuse too many of them; `time_step`: the one that was asked for."""
+    count = steps(loading, solver)
+    allowed = f"at most {MAX_STEPS:,} steps in all"
+    if count > MAX_STEPS and solver.load_steps is not None and time_step is None:
+        raise refusal("solver.load_steps", solver.load_steps, f"{allowed}, {count:,} here")
+    if count > MAX_STEPS:
+        raise refusal("solver.time_step", time_step or solver.time_step, allowed)
+
+
+def settle(solver: Solver, loading: Loading, lattice: Lattice, by_position: bool) -> Solver:
+    """A platen moves in `load_steps` equal steps, which set the time step if there is time.
+
+    As many arcs make the diagonal of a structure. A striker flies by bdf2, a tenth as far off as
+    backward Euler in the same steps, but where walls are moved apart after each.
+    """
+    if solver.step_error is not None and (loading.quasi_static or solver.integrator == ARCS):
+        allowed = f"none unless solver.integrator is {IN_TIME}"
+        raise refusal("solver.step_error", solver.step_error, allowed)
+    if solver.integrator == ARCS:
+        arcs = given_or(solver.load_steps, 200)
+        usual = hypot(lattice.width, lattice.height) / arcs
+        length = given_or(solver.arc_length, usual)
+        step = {"time_step": None, "load_steps": arcs, "arc_length": length}
+        return solver.model_copy(update=step)
+    if loading.mode == "force" or (loading.mode == "custom" and not loading.quasi_static):
+        step = {"time_step": given_or(solver.time_step, 1e-4), "load_steps": None}
+    elif loading.striker_speed is not None:
+        usual = lattice.height / loading.striker_speed / STEPS_OF_PASSAGE
+        step = {"time_step": given_or(solver.time_step, usual), "load_steps": None}
+    elif loading.quasi_static:
+        step = {"time_step": None, "load_steps": given_or(solver.load_steps, 200)}
+    else:
+        assert loading.stroke is not None
+        assert loading.speed is not None
+        time = loading.stroke / loading.speed
+        load_steps = given_or(solver.load_steps, _steps_in(time, solver.time_step))
+        step = {"time_step": time / load_steps, "load_steps": load_steps}
+    scheme = "bdf2" if loading.mode == "impact" and not by_position else "backward_euler"
+    integrator = "static" if loading.quasi_static else solver.integrator or scheme
+    return solver.model_copy(update={"integrator": integrator, "arc_length": None, **step})
+
+
+def _steps_in(time: float, time_step: float | None) -> int:
+    """Steps of at most this length, as many as count; 200 where none is asked for."""
+    if time_step is None:
+        return 200
+    return ceil(min(time / time_step * (1 - 1e-9), MAX_STEPS + 1.0))
+
+
+def given_or(value: T | None, default: T) -> T:
+    """A value, or what stands for it where none is given."""
+    return default if value is None else value

@@ -1,0 +1,125 @@
+"""From TOML to a sweep in SI. The only place that converts units."""
+
+import re
+import sys
+import tomllib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import lru_cache
+from math import isfinite
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from sweep.config.grid import MAX_CASES, Config, ConfigError, Fault, case_count, expand
+from sweep.config.keys import QUANTITIES
+from sweep.config.reader import Reader, in_words
+
+__all__ = ["MAX_CASES", "Config", "ConfigError", "case_count", "expand", "load_config", "quantity"]
+
+_UNITS = """
+micro- = 1e-6 = µ- = u-
+milli- = 1e-3 = m-
+centi- = 1e-2 = c-
+kilo- = 1e3 = k-
+mega- = 1e6 = M-
+giga- = 1e9 = G-
+meter = [length] = m = metre
+second = [time] = s = sec
+gram = [mass] = g
+minute = 60 * second = min
+hour = 60 * minute = h
+inch = 0.0254 * meter = in = inches
+thou = 1e-3 * inch
+foot = 12 * inch = ft = feet
+ounce = 28.349523125 * gram = oz
+pound = 16 * ounce = lb
+newton = kilogram * meter / second ** 2 = N
+kilogram_force = 9.80665 * newton = kgf
+pound_force = 4.4482216152605 * newton = lbf
+pascal = newton / meter ** 2 = Pa
+joule = newton * meter = J
+bar = 1e5 * pascal
+psi = pound_force / inch ** 2
+percent = 0.01 = %
+"""
+_NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+
+
+def load_config(path: str | PathLike[str]) -> Config:
+    """Read a sweep and check every case of it; `ConfigError` holds all that is wrong."""
+    path = Path(path)
+    reader = Reader(path.parent, _converted)
+    config = reader.config(_document(path), path)
+    try:
+        expand(config)
+    except ConfigError as error:
+        reader.faults += [fault for fault in error.faults if reader.trusts(fault)]
+    if reader.faults:
+        raise ConfigError(reader.faults)
+    return config
+
+
+def quantity(text: object, unit: str) -> float:
+    """A quantity such as "25 g" in the SI unit given, rounded to 15 digits."""
+    try:
+        return _converted(text, unit)
+    except ValueError as error:
+        line = f"{in_words(text)}: {error}; allowed: {QUANTITIES[unit]}"
+        raise ConfigError([Fault(unit, line)]) from None
+
+
+def _document(path: Path) -> dict[str, Any]:
+    """The TOML of a file."""
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        wrong = f"cannot be read ({error.strerror}); needed: a TOML file"
+    except (ValueError, RecursionError) as error:
+        wrong = f"not TOML ({error})"
+    raise ConfigError([Fault("path", f"{path}: {wrong}")])
+
+
+def _converted(text: object, unit: str) -> float:
+    """A number with a unit in SI, or ValueError with the reason."""
+    if isinstance(text, bool) or not isinstance(text, str | int | float):
+        raise ValueError("no quantity")
+    match = _NUMBER_AND_UNIT.fullmatch(str(text))
+    if match is None:
+        raise ValueError("not a number with a unit")
+    number, written = match.groups()
+    if not written:
+        raise ValueError("a bare number")
+    registry = _registry()
+    try:
+        found = registry.parse_units(f"1{written}" if written.startswith("/") else written)
+    except Exception:  # noqa: BLE001 whatever pint stumbles over, it is no unit
+        raise ValueError(f"unknown unit {in_words(written)}") from None
+    if found.dimensionality != registry.parse_units(unit).dimensionality:
+        raise ValueError(f"{in_words(written)} is a unit of another kind")
+    value = registry.Quantity(float(number), found).m_as(unit)
+    if not isfinite(value):
+        raise ValueError("not finite")
+    return float(f"{value:.15g}")
+
+
+@lru_cache(maxsize=1)
+def _registry() -> Any:
+    """The units that builders use; pint's own list takes 0.15 s to read."""
+    with _without("numpy", "dask"):
+        import pint
+    registry: Any = pint.UnitRegistry(None)
+    registry.load_definitions(_UNITS.splitlines())
+    return registry
+
+
+@contextmanager
+def _without(*names: str) -> Iterator[None]:
+    """Hide libraries that are not loaded yet: pint would load them (0.3 s), for arrays only."""
+    hidden = [name for name in names if name not in sys.modules]
+    sys.modules.update(dict.fromkeys(hidden))  # type: ignore[arg-type]
+    try:
+        yield
+    finally:
+        for name in hidden:
+            del sys.modules[name]

@@ -1,0 +1,180 @@
+"""Centre lines as joints and walls: a drawing stretched to its box, clipped, outlined, welded."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sweep.design.infill import drawer
+
+if TYPE_CHECKING:
+    from sweep.design.infill import Drawing
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+TOLERANCE = 1e-9  # of the box: what is nearer than that is one point
+FEW = 4  # cells in a row that show what more of them do
+SPILL = 1  # cells drawn beyond the box on each side, for an outline to cut
+
+
+class Sketch(NamedTuple):
+    """What to draw: a family in a box (m). closed: outlined all round; capped: above and below."""
+
+    kind: str
+    orientation: str | None
+    cells: tuple[int, int]
+    box: tuple[float, float]
+    closed: bool = False
+    capped: bool = False
+
+
+@lru_cache(maxsize=256)
+def joints_and_walls(sketch: Sketch) -> tuple[Floats, Indices]:
+    """Joints (j, 2) in m, row by row from below, and walls (w, 2), the level ones first."""
+    draw = drawer(sketch.kind, sketch.orientation)
+    columns, rows = (range(n) for n in sketch.cells)
+    if sketch.closed or sketch.capped:
+        rows = range(-SPILL, len(rows) + SPILL)
+    if sketch.closed:
+        columns = range(-SPILL, len(columns) + SPILL)
+    low, high = extent(sketch.kind, sketch.orientation, sketch.cells)
+    box = np.array(sketch.box)
+    tolerance = TOLERANCE * box.max()
+    segments = (segments_of(draw(columns, rows)) - low) * (box / (high - low))
+    segments = _snapped(segments, box, tolerance)
+    if sketch.closed or sketch.capped:
+        inside = np.all((segments[..., 0] >= 0.0) & (segments[..., 0] <= box[0]), axis=1)
+        segments = segments if sketch.closed else segments[inside]
+        segments = _outlined(segments, box, [sketch.closed, True])
+    points, walls = welded(segments, tolerance)
+    points.flags.writeable = walls.flags.writeable = False
+    return points, walls
+
+
+@lru_cache(maxsize=256)
+def extent(kind: str, orientation: str | None, cells: tuple[int, int]) -> tuple[Floats, Floats]:
+    """Least and greatest x and y (2,) of so many whole cells, in the unit of the family.
+
+    Two rows show what more of them do.
+    """
+    draw, (columns, rows) = drawer(kind, orientation), cells
+    wide = segments_of(draw(range(columns), range(min(rows, 2))))[..., 0]
+    high = segments_of(draw(range(min(columns, 2)), range(rows)))[..., 1]
+    return np.array([wide.min(), high.min()]), np.array([wide.max(), high.max()])
+
+
+def pitch(kind: str, orientation: str | None) -> Floats:
+    """Width and height (2,) of a regular cell, in the unit of its family: half of what two take."""
+    (low, high), (less, more) = (extent(kind, orientation, (n, n)) for n in (FEW, FEW + 2))
+    return 0.5 * ((more - less) - (high - low))
+
+
+@lru_cache(maxsize=256)
+def counts(sketch: Sketch) -> tuple[int, int]:
+    """Numbers of joints and walls, without drawing them all.
+
+    Both are linear in the number of columns, and of rows, of equal parity.
+    """
+    for axis, n in enumerate(sketch.cells):
+        if n > FEW + 3:
+            few = FEW + n % 2
+            one, two = (counts(_with_cells(sketch, axis, k)) for k in (few, few + 2))
+            joints, walls = (a + (b - a) * (n - few) // 2 for a, b in zip(one, two, strict=True))
+            return joints, walls
+    drawn = joints_and_walls(sketch)
+    return len(drawn[0]), len(drawn[1])
+
+
+def sample(sketch: Sketch) -> Sketch:
+    """The same cells, but few of them."""
+    for axis, n in enumerate(sketch.cells):
+        if n > FEW:
+            sketch = _with_cells(sketch, axis, FEW)
+    return sketch
+
+
+def _with_cells(sketch: Sketch, axis: int, n: int) -> Sketch:
+    """A sketch with ``n`` columns (axis 0) or rows of the same cells."""
+    columns, rows = sketch.cells
+    cells = (n, rows) if axis == 0 else (columns, n)
+    (low, high), (less, more) = (
+        extent(sketch.kind, sketch.orientation, some) for some in (sketch.cells, cells)
+    )
+    width, height = np.array(sketch.box) * (more - less) / (high - low)
+    return sketch._replace(cells=cells, box=(float(width), float(height)))
+
+
+def on_outline(points: Floats, walls: Indices, side: float, axis: int) -> NDArray[np.bool_]:
+    """Which walls lie on the line x (axis 0) or y (axis 1) = ``side``, (w,)."""
+    on: NDArray[np.bool_] = np.all(points[walls][..., axis] == side, axis=1)
+    return on
+
+
+def segments_of(drawing: Drawing) -> Floats:
+    """All pieces of all polylines, (s, 2, 2)."""
+    pieces = [np.stack([lines[:, :-1], lines[:, 1:]], axis=2) for lines in drawing]
+    return np.concatenate([piece.reshape(-1, 2, 2) for piece in pieces])
+
+
+def _snapped(segments: Floats, box: Floats, tolerance: float) -> Floats:
+    """What is near the lines of the box is on them."""
+    for line in (np.zeros(2), box):
+        segments = np.where(np.abs(segments - line) < tolerance, line, segments)
+    return segments
+
+
+def _outlined(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
+    """Segments clipped by the box, in x and in y where ``axes`` say so, and its lines there.
+
+    The outline has joints at its corners and wherever a segment ends on it.
+    """
+    tolerance = TOLERANCE * box.max()
+    segments = _snapped(_clipped(segments, box, axes), box, tolerance)
+    lines = [(axis, side) for axis in (0, 1) if axes[axis] for side in (0.0, box[axis])]
+    outline = []
+    for axis, side in lines:
+        ends = segments[..., axis] == side
+        along = np.append(segments[ends][:, 1 - axis], [0.0, box[1 - axis]])
+        at, _ = clusters(along, tolerance)
+        line = np.full((len(at), 2), side)
+        line[:, 1 - axis] = at
+        outline.append(np.stack([line[:-1], line[1:]], axis=1))
+    return np.concatenate([segments, *outline])
+
+
+def _clipped(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
+    """The parts of segments within the box; none of those along its lines."""
+    start, along = segments[:, 0], segments[:, 1] - segments[:, 0]
+    enter, leave = np.zeros(len(segments)), np.ones(len(segments))
+    for axis in np.flatnonzero(axes):
+        with np.errstate(divide="ignore", invalid="ignore"):
+            one, two = ((side - start[:, axis]) / along[:, axis] for side in (0.0, box[axis]))
+        enter, leave = np.maximum(enter, np.fmin(one, two)), np.minimum(leave, np.fmax(one, two))
+    inside = (leave - enter) * np.linalg.norm(along, axis=1) > TOLERANCE * box.max()
+    share = np.column_stack([enter, leave])[inside]
+    return start[inside, None] + share[..., None] * along[inside, None]
+
+
+def welded(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
+    """Joints and walls of segments, each once."""
+    x, column = clusters(segments[..., 0].ravel(), tolerance)
+    y, row = clusters(segments[..., 1].ravel(), tolerance)
+    joint, end = np.unique(row * len(x) + column, return_inverse=True)
+    walls = np.unique(np.sort(end.reshape(-1, 2), axis=1), axis=0)
+    points = np.column_stack([x[joint % len(x)], y[joint // len(x)]])
+    level = points[walls[:, 0], 1] == points[walls[:, 1], 1]
+    return points, walls[np.argsort(~level, kind="stable")]
+
+
+def clusters(values: Floats, tolerance: float) -> tuple[Floats, Indices]:
+    """Values that differ, ascending, and which of them each value is."""
+    order = np.argsort(values, kind="stable")
+    new = np.diff(values[order], prepend=-np.inf) > tolerance
+    which = np.empty(len(values), np.int64)
+    which[order] = np.cumsum(new) - 1
+    return values[order][new], which

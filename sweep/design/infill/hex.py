@@ -1,0 +1,21 @@
+"""Honeycomb: staggered rows of hexagons on their corners; flat: columns of hexagons on a side."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from sweep.design.infill import tile
+
+if TYPE_CHECKING:
+    from sweep.design.infill import Drawing
+
+ORIENTED = True
+STAGGERED = True
+HALF = 0.75**0.5  # of the width of a hexagon of side 1
+CELL = [(0, 0.5), (HALF, 0), (2 * HALF, 0.5), (2 * HALF, 1.5), (HALF, 2), (0, 1.5), (0, 0.5)]
+
+
+def draw(columns: Sequence[int], rows: Sequence[int]) -> Drawing:
+    """Regular hexagons of side 1: width (columns + 1/2) pitches, height 1.5 rows + 0.5."""
+    return [tile(CELL, columns, rows, (2 * HALF, 1.5), stagger=0.5)]

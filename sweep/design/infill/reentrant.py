@@ -1,0 +1,24 @@
+"""Auxetic honeycomb: bow ties, in staggered rows, that draw in sideways when pressed.
+
+Upright walls twice as long as the slanted ones, which rise by 30 degrees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from sweep.design.infill import tile
+
+if TYPE_CHECKING:
+    from sweep.design.infill import Drawing
+
+ORIENTED = True
+STAGGERED = True
+HALF = 0.75**0.5  # of the width of a cell whose slanted walls are 1 long
+CELL = [(0, 0), (HALF, 0.5), (2 * HALF, 0), (2 * HALF, 2), (HALF, 1.5), (0, 2), (0, 0)]
+
+
+def draw(columns: Sequence[int], rows: Sequence[int]) -> Drawing:
+    """Cells whose upper and lower corners point inwards."""
+    return [tile(CELL, columns, rows, (2 * HALF, 1.5), stagger=0.5)]

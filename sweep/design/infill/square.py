@@ -1,0 +1,28 @@
+"""Square grid. Its closed forms spare the most common lattice a drawing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from sweep.design.infill import tile
+
+if TYPE_CHECKING:
+    from sweep.design.infill import Drawing
+
+CELL = [(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)]
+
+
+def draw(columns: Sequence[int], rows: Sequence[int]) -> Drawing:
+    """Squares of side 1."""
+    return [tile(CELL, columns, rows)]
+
+
+def counts(columns: int, rows: int) -> tuple[int, int]:
+    """Numbers of joints and walls: known without drawing them."""
+    return (columns + 1) * (rows + 1), columns * (rows + 1) + rows * (columns + 1)
+
+
+def opening(width: float, height: float) -> float:
+    """Clear width of cells of this pitch."""
+    return min(width, height)

@@ -1,0 +1,29 @@
+"""Triangles in rows between level lines; the sides of the lattice are zigzags."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from sweep.design.infill import tile
+
+if TYPE_CHECKING:
+    from sweep.design.infill import Drawing
+
+STAGGERED = True
+RISE = 0.75**0.5  # of a regular triangle of side 1
+UP = [(0, 0), (1, 0), (0.5, RISE), (0, 0)]
+DOWN = [(0, RISE), (1, RISE), (0.5, 0), (0, RISE)]
+TIE = [(0.5, 0), (1.5, 0)]
+
+
+def draw(columns: Sequence[int], rows: Sequence[int]) -> Drawing:
+    """A row of triangles on their sides, one on their corners, and so on; corners are tied."""
+    pitch = (1.0, RISE)
+    even, odd = ([row for row in rows if row % 2 == parity] for parity in (0, 1))
+    tied = sorted({*odd, *(row + 1 for row in even)})
+    return [
+        tile(UP, columns, even, pitch),
+        tile(DOWN, columns, odd, pitch),
+        tile(TIE, columns[:-1], tied, pitch),
+    ]

@@ -1,0 +1,110 @@
+"""An endless lattice: the walls of one period, and copies of those that they may touch.
+
+Walls touch only round an opening between them, as none passes through another. So copies are needed
+of the walls round the openings next to a period, and of no others, however far it is crushed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sweep.design.drawing import (
+    SPILL,
+    TOLERANCE,
+    Floats,
+    Indices,
+    clusters,
+    extent,
+    segments_of,
+    welded,
+)
+from sweep.design.infill import drawer
+from sweep.design.network import Network, sketch
+
+if TYPE_CHECKING:
+    from sweep.config.lattice_table import Lattice
+
+REACH = 1.5  # pitches: no opening of any family is wider or higher
+FAR = 3  # periods away, the farthest copy that may be within reach of a period of one cell
+
+
+@dataclass(frozen=True)
+class Endless(Network):
+    """The walls of a period, then copies; all start at its joints, or copies of them, likewise.
+
+    period (2,) m. own: number of walls of the period. original (w,): the wall that is copied.
+    origin (j,), shift (j, 2): the joint of which it is an image, and how many periods away; the
+    joints of the period come first. bottom, top: a joint and its image a period above.
+    """
+
+    period: Floats
+    own: int
+    original: Indices
+    origin: Indices
+    shift: Indices
+
+    @cached_property
+    def printed_area(self) -> float:
+        """Area of the walls within one period, m^2."""
+        from sweep.design.area import united_area
+
+        box = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]) * self.period
+        walls, inside = self.loops, float(np.prod(self.period))
+        return united_area(walls) + inside - united_area(np.concatenate([walls, [box]]))
+
+
+def build_endless(lattice: Lattice) -> Endless:
+    """The endless lattice of which ``lattice`` is a period."""
+    period, cells = np.array([lattice.width, lattice.height]), (lattice.cells_x, lattice.cells_y)
+    points, ends, shift = _walls(lattice, period)
+    away = np.mgrid[-FAR : FAR + 1, -FAR : FAR + 1].reshape(2, -1).T
+    middle = 0.5 * (points[ends].sum(axis=1) + shift * period)
+    copied, reach = middle + away[:, None] * period, REACH * period / cells
+    near = (copied >= middle.min(axis=0) - reach) & (copied <= middle.max(axis=0) + reach)
+    copy, of = np.nonzero(np.all(near, axis=2) & np.any(away, axis=1, keepdims=True))
+    original = np.concatenate([np.arange(len(ends)), of])
+    start = np.concatenate([np.zeros_like(shift), away[copy]])
+    end = np.column_stack([start + shift[original], ends[original, 1]])
+    start = np.column_stack([start, ends[original, 0]])
+    named, joint = np.unique(np.concatenate([start, end]), axis=0, return_inverse=True)
+    order = np.argsort(named[:, :2].any(axis=1), kind="stable")
+    shift, origin = named[order, :2], named[order, 2]
+    above = np.flatnonzero((shift == (0, 1)).all(axis=1))[:1]
+    return Endless(
+        points=points[origin] + shift * period,
+        walls=np.argsort(order)[joint].reshape(2, -1).T,
+        wall_thickness=np.full(len(original), lattice.wall_thickness),
+        bottom=origin[above],
+        top=above,
+        period=period,
+        own=len(ends),
+        original=original,
+        origin=origin,
+        shift=shift,
+    )
+
+
+def _walls(lattice: Lattice, period: Floats) -> tuple[Floats, Indices, Indices]:
+    """Joints (j, 2) of the period, m from its lower left corner; the two joints of each wall (w,
+    2), and how many periods away (w, 2) the second one is.
+    """
+    drawn = sketch(lattice)
+    low, high = extent(drawn.kind, drawn.orientation, drawn.cells)
+    columns, rows = (range(-2 * SPILL, n + 2 * SPILL) for n in drawn.cells)
+    segments = segments_of(drawer(drawn.kind, drawn.orientation)(columns, rows))
+    tolerance = TOLERANCE * period.max()
+    points, walls = welded((segments - low) * (np.array(drawn.box) / (high - low)), tolerance)
+    ends = points[walls]
+    middle = ends.mean(axis=1)
+    ends = ends[np.all((middle >= -tolerance) & (middle < period - tolerance), axis=1)]
+    shift = np.floor((ends + tolerance) / period).astype(np.int64)
+    phase = ends - shift * period
+    x, column = clusters(phase[..., 0].ravel(), tolerance)
+    y, row = clusters(phase[..., 1].ravel(), tolerance)
+    joint, end = np.unique(row * len(x) + column, return_inverse=True)
+    points = np.column_stack([x[joint % len(x)], y[joint // len(x)]])
+    return points, end.reshape(-1, 2), shift[:, 1] - shift[:, 0]

@@ -1,0 +1,1 @@
+"""Who wins: rankings, Pareto fronts, ties, and error against run time, from results alone."""

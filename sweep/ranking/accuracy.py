@@ -1,0 +1,266 @@
+"""Error against run time: a sweep over numerics, compared with what its finest settings tend to.
+
+A method is what cannot be refined (integrator, hinges, contact model ...); it is refined in time
+step, load steps or error of a step, and in elements a wall. Cases that differ in anything but
+numerics are scenes of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+from pandas import DataFrame, Series
+
+from sweep.result import Status
+from sweep.ranking.richardson import Floats, limit, rms
+from sweep.store.read import read_history
+
+MEASURES = ("energy", "peak", "path")
+TARGETS = (0.01, 0.001)  # errors that one may ask for, as shares
+FINER_IF_SMALLER = ("solver.time_step", "solver.step_error")
+FINER_IF_GREATER = ("solver.load_steps", "loading.load_steps", "lattice.nodes_per_wall")
+REFINED = (*FINER_IF_SMALLER, *FINER_IF_GREATER)
+HAIR = 0.05  # of an error: a gain that nobody would pay for
+EQUALS = 4  # numbers of `_merit`
+_ANY_OF = ", ".join(REFINED)
+METHOD = ("solver.", "contact.model")
+FORMAL_ORDER = {"newmark": 2, "bdf2": 2, "backward_euler": 1}
+STORED = ("kinetic_J", "stretch_J", "bend_J", "contact_J")
+
+
+class Reference(NamedTuple):
+    """What a measure tends to, in SI; shares of `scale`: its doubt. Observed orders by key."""
+
+    value: Floats
+    scale: float
+    doubt: float
+    orders: dict[str, float]
+
+
+class Study(NamedTuple):
+    """One scene. `settings`: a row a case, in the order of the sweep.
+
+    The rows of the summary with `method`, the errors `energy`, `peak` and `path` as shares, the
+    greatest that can be told `worst`, and `front`: True where nothing as cheap has a smaller one.
+    finest : its row that the references extrapolate. orders : method -> measure -> key -> order.
+    resolved : measures whose reference is sure enough to tell the coarsest target.
+    """
+
+    settings: DataFrame
+    finest: Series
+    references: dict[str, Reference]
+    orders: dict[str, dict[str, dict[str, float]]]
+    resolved: tuple[str, ...]
+
+
+class AccuracyError(ValueError):
+    """A sweep that is no accuracy study."""
+
+
+def studies(file: str | PathLike[str], summary: DataFrame) -> list[Study]:
+    """A study of every scene of a sweep of which a case has converged.
+
+    summary : the rows of its cases, of any status.
+    """
+    refined = refined_keys(summary)
+    keys = [key for key in summary if "." in key and not key.startswith(METHOD + REFINED)]
+    scenes = summary.groupby(keys, dropna=False, sort=False) if keys else [(None, summary)]
+    converged = [rows for _, rows in scenes if (rows["status"] == Status.CONVERGED).any()]
+    return [_study(file, rows, refined) for rows in converged]
+
+
+def check_axes(axes: Sequence[Mapping[str, object]]) -> None:
+    """Refuse a sweep that is no accuracy study before it runs; `axes`: those of its cases."""
+    refined_keys(DataFrame(axes))
+
+
+def refined_keys(axes: DataFrame) -> list[str]:
+    """Grid keys of a sweep that refine; without any it is no accuracy study."""
+    refined = [key for key in REFINED if key in axes and varies(axes[key])]
+    if not refined:
+        raise AccuracyError(f"[grid] refines nothing; allowed: two values or more of {_ANY_OF}")
+    return refined
+
+
+def varies(column: Series) -> bool:
+    """True if a column has more than one value, or a value in some rows only."""
+    return len(column.unique()) > 1
+
+
+def size(key: str, value: float) -> float:
+    """What a value of a key stands for: size of a step, or of an element in walls."""
+    if key in FINER_IF_SMALLER:
+        return value
+    return 1.0 / (value + (key == "lattice.nodes_per_wall"))
+
+
+def _study(file: str | PathLike[str], rows: DataFrame, refined: list[str]) -> Study:
+    rows = rows.assign(method=_methods(rows))
+    done = rows[rows["status"] == Status.CONVERGED]
+    values = _values(file, done)
+    found = {
+        method: _references(group, values, refined) for method, group in done.groupby("method")
+    }
+    finest, references = _chosen(found, refined)
+    errors = DataFrame(
+        {
+            name: {i: rms(values[name][i] - ref.value) / ref.scale for i in done.index}
+            for name, ref in references.items()
+        }
+    )
+    resolved = tuple(name for name in MEASURES if references[name].doubt < TARGETS[0])
+    told = [errors[name].clip(lower=references[name].doubt) for name in resolved]
+    worst = np.max(told, axis=0) if told else np.nan
+    settings = rows.join(errors.assign(worst=worst))
+    orders = {
+        method: {name: ref.orders for name, ref in each.items()}
+        for method, (_, each) in found.items()
+    }
+    return Study(
+        settings.assign(front=front(settings, "worst")), finest, references, orders, resolved
+    )
+
+
+def _chosen(
+    found: dict[str, tuple[Series, dict[str, Reference]]], refined: list[str]
+) -> tuple[Series, dict[str, Reference]]:
+    """The best of the methods' references, doubted where its equals have another limit."""
+    merits = {method: _merit(*each, refined) for method, each in found.items()}
+    best = min(merits, key=lambda method: merits[method])
+    equals = [m for m in found if merits[m][:EQUALS] == merits[best][:EQUALS]]
+    finest, references = found[best]
+    return finest, {
+        name: _doubted(ref, [found[method][1][name] for method in equals])
+        for name, ref in references.items()
+    }
+
+
+def _methods(rows: DataFrame) -> Series:
+    """What is not refined, in words."""
+    parts = [
+        rows[key].map(lambda value, key=key: _word(key, value))
+        for key in rows
+        if key.startswith(METHOD) and key not in REFINED and varies(rows[key])
+    ]
+    if "solver.step_error" in rows and rows["solver.step_error"].isna().any():
+        parts.append(rows["solver.step_error"].map(lambda v: "" if pd.isna(v) else "by error"))
+    words = [", ".join(filter(None, texts)) for texts in zip(*parts, strict=True)]
+    return Series(words or "as set", index=rows.index)
+
+
+def _word(key: str, value: object) -> str:
+    """A choice in words; numbers with their key."""
+    text = value if isinstance(value, str) else f"{key.split('.')[-1]} {value:g}"
+    return text.replace("_", " ")
+
+
+def _references(
+    rows: DataFrame, values: dict[str, dict[int, Floats]], refined: list[str]
+) -> tuple[Series, dict[str, Reference]]:
+    """The finest setting of a method, and what its measures tend to from there."""
+    keys = [key for key in refined if varies(rows[key].dropna())]
+    sizes = DataFrame({key: rows[key].map(lambda v, key=key: size(key, v)) for key in keys})
+    finest = sizes.sort_values(keys).index[0] if keys else rows.index[-1]
+    ladders = {}
+    for key in keys:
+        others = sizes.drop(columns=key)
+        ladder = sizes[(others == others.loc[finest]).all(axis=1)].sort_values(key, ascending=False)
+        if len(ladder) > 1:
+            ladders[key] = ladder[key]
+    return rows.loc[finest], {
+        name: _extrapolated(ladders, values[name], finest) for name in MEASURES
+    }
+
+
+def _extrapolated(ladders: dict[str, Series], values: dict[int, Floats], finest: int) -> Reference:
+    """The finest value, taken to its limit along every ladder of sizes."""
+    value, doubt, orders = values[finest], 0.0 if ladders else np.inf, {}
+    for key, ladder in ladders.items():
+        found = limit(ladder.tolist(), [values[i] for i in ladder.index])
+        value, doubt, orders[key] = value + found.correction, doubt + found.doubt, found.order
+    scale = float(np.ptp(value) if len(value) > 1 else np.abs(value[0])) or np.nan
+    return Reference(value, scale, doubt / scale, orders)
+
+
+def _doubted(reference: Reference, rivals: list[Reference]) -> Reference:
+    """The reference, not surer than methods that should have the same limit agree."""
+    gaps = [rms(rival.value - reference.value) / reference.scale - rival.doubt for rival in rivals]
+    return reference._replace(doubt=max([reference.doubt, *gaps]))
+
+
+def _merit(
+    finest: Series, references: dict[str, Reference], refined: list[str]
+) -> tuple[float, ...]:
+    """What makes a method the reference, least first: refined in all, of high order, sure.
+
+    Methods whose first `EQUALS` numbers agree should have the same limit.
+    """
+    steps_by_error = "solver.step_error" in finest and np.isfinite(finest["solver.step_error"])
+    doubts = [ref.doubt for ref in references.values()]
+    return (
+        float(steps_by_error),
+        -float(sum(key in references["energy"].orders for key in refined)),
+        -float(FORMAL_ORDER.get(finest.get("solver.integrator", ""), 0)),
+        float(finest.get("contact.model") not in ("auto", "barrier")),
+        float(finest.get("solver.hinges") != "exact_beam"),
+        float(finest.get("solver.tolerance", 0.0)),
+        float(np.nansum(np.minimum(doubts, 1.0))),
+    )
+
+
+def front(settings: DataFrame, error: str) -> Series:
+    """True where nothing as cheap has an error (a column) that is as small, but for a hair."""
+    ordered = settings.sort_values(["cpu_s", error])[error]
+    cheaper = ordered.cummin().shift(fill_value=np.inf)
+    return (ordered < (1.0 - HAIR) * cheaper).reindex(settings.index)
+
+
+def _values(file: str | PathLike[str], rows: DataFrame) -> dict[str, dict[int, Floats]]:
+    """Every measure of every row; paths at the same places."""
+    curves = {i: read_history(file, row["case_id"]) for i, row in rows.iterrows()}
+    paths = {i: path(rows.loc[i, "loading_mode"], curve) for i, curve in curves.items()}
+    coarsest = min((way for way, _ in paths.values()), key=len)
+    end = min(way[-1] for way, _ in paths.values())
+    at = coarsest[coarsest <= end * (1 + 1e-6)]
+    return {
+        "energy": {i: np.array([energy(rows.loc[i], curves[i])]) for i in rows.index},
+        "peak": {i: np.array([peak(rows.loc[i], curves[i])]) for i in rows.index},
+        "path": {
+            i: np.concatenate([np.interp(at, way, curve) for curve in moves] or [[np.nan]])
+            for i, (way, moves) in paths.items()
+        },
+    }
+
+
+def energy(row: Series, history: DataFrame) -> float:
+    """Energy absorbed (J); of a structure of one's own, what it still has at the end."""
+    if row["loading_mode"] == "custom":
+        return float(history[list(STORED)].iloc[-1].sum())
+    return float(row["absorbed_energy_J"])
+
+
+def peak(row: Series, history: DataFrame) -> float:
+    """Greatest force (N); of a structure of one's own, at its supports that are probes."""
+    if row["loading_mode"] != "custom":
+        return float(row["peak_force_N"])
+    across, along = (history.filter(regex=f"_reaction_{way}_N$").to_numpy() for way in "xy")
+    return float(np.hypot(across, along).max()) if across.size else np.nan
+
+
+def path(mode: str, history: DataFrame) -> tuple[Floats, list[Floats]]:
+    """What is compared along the way, (rows,) each, and the way: travel of a platen, or time.
+
+    The force on a platen, the strain of what falls or is struck, the probes of a structure.
+    """
+    if mode == "displacement":
+        travel = history["top_displacement_m"].diff().abs().cumsum().fillna(0.0)
+        return travel.to_numpy(), [history["reaction_top_N"].to_numpy()]
+    time = history["time_s"].to_numpy()
+    if mode == "custom":
+        places = history.filter(regex=r"^probe_\d+_[xy]_m$").to_numpy().T
+        return time, [place - place[0] for place in places if np.ptp(place) > 0.0]
+    return time, [history["strain"].to_numpy()]

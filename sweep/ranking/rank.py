@@ -1,0 +1,278 @@
+"""Which design absorbs the most energy: per gram, within a weight budget, below an allowed force.
+
+Only cases of the same loading scene are compared: a block under a dead load of 5 N and one crushed
+to half its height absorb energies that answer different questions. Under a dead load the design
+that sinks least is the best, under a striker the one that passes the least force on.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Sequence
+from os import PathLike
+
+import numpy as np
+import pandas as pd
+from pandas import DataFrame, Series
+
+from sweep.numbers import energy_text, short
+from sweep.ranking.merit import LEAST, Quantity, RankError, in_si, merits
+from sweep.result import Status, error_column
+
+SCENE = ["loading_mode", "platen", "force_N", "striker_mass_g", "striker_speed_m_per_s"]
+
+HELD_BY_SCENE = tuple(
+    f"loading.{key}"
+    for key in (
+        *("mode", "platen", "force", "allowed_forces"),
+        *("striker_mass", "striker_speed", "energy"),
+    )
+)
+ASSUMPTIONS = (
+    "loading.",
+    "contact.",
+    "damping.",
+    "solver.",
+    "lattice.nodes_per_wall",
+    "lattice.imperfection",
+    "material.stretch",
+    "material.bend",
+    "material.plane",
+    "material.poisson",
+)
+"""Grid keys that say how a design was tested, not what it is: each value is a scene of its own."""
+
+LEADING = [
+    "budget_g",
+    "scene",
+    "place",
+    "tied",
+    "pareto",
+    "case_id",
+    "ranked_by",
+    "ranked_error",
+    "sharing",
+    "contenders",
+    "panel_mass_g",
+    "panel_energy_J",
+    "passed_on_N",
+    "returned_share",
+    "beyond_model",
+    "crossed",
+]
+
+LESS_IS_BETTER = frozenset(
+    {
+        "mass_g",
+        "panel_mass_g",
+        "relative_density",
+        "passed_on_N",
+        "peak_force_N",
+        "peak_force_at_densification_N",
+        "peak_strain",
+        "returned_energy_J",
+        "returned_share",
+        "residual_strain",
+        "cpu_s",
+    }
+)
+"""Columns that `by` sorts upwards; all others count the greatest as the best."""
+
+
+def rank(
+    source: str | PathLike[str] | DataFrame,
+    budget: Quantity | Sequence[Quantity] | None = None,
+    panel: Sequence[Quantity] | None = None,
+    by: str | None = None,
+    top: int | None = 10,
+    allowed_force: Quantity | None = None,
+) -> DataFrame:
+    """Best designs of each loading scene, best first.
+
+    Parameters
+    ----------
+    source : results file, or a summary as `read_summary` gives it.
+    budget : greatest mass (kg, or text with a unit) of the panel, or of the specimen without one.
+        Several budgets give a ranking each, told apart by the column `budget_g`.
+    panel : the two lengths (m, or text with a unit) of the area that the specimens fill.
+    by : column to sort by. Default: under a dead load the greatest strain, under a striker the
+        greatest force on the support, least first (`merit.LEAST`); else the
+        energy absorbed until the lattice has packed down where a budget or a panel is given (a
+        budget is there to be spent), else that energy per gram. By `absorbed_energy_J` or
+        `specific_absorption_J_per_g`, energy is counted to the end of the stroke.
+    top : places kept for each scene and budget; None keeps all.
+    allowed_force : count energy only up to this force (N, or text) passed on by one specimen, which
+        needs the column `absorbed_energy_at_..N_J`.
+
+    Returns
+    -------
+    The summary's rows that have a place, led by `budget_g`, `scene`, `place` (equal values share
+    one, and so do those that error bars cannot tell from the first there: `shared_places`), with
+    error bars `tied` (True: it shares its place) and `ranked_error`; `sharing`, how many designs
+    share this place, and `contenders`, how many have any, both with those cut off by `top`;
+    `pareto` (True: no design of the scene is lighter without absorbing less, none absorbs more
+    without being heavier; where `LEAST` counts, the same for that), `ranked_by`, with a panel
+    `panel_mass_g` and `panel_energy_J`; and `passed_on_N`, the greatest force while that energy is
+    absorbed, `returned_share` of the work of the whole crush, which was stored and not dissipated,
+    `beyond_model` (True: a wall was squeezed too far while it was absorbed, or the lattice into
+    less height than its solid has), `crossed` (True: walls passed through one another).
+    `attrs`: names of the columns compared (`mass`, `energy`, `per_gram`; `by`: of the crushed
+    designs where there are any), `limited` (True: energy counts up to a force), the counts `cases`,
+    `failed`, `unranked` (finished, but without a value to sort by), `without_bar` (of those with a
+    value, where others have one), `budgets_g`, and `lightest_g`, the smallest mass of each scene.
+    """
+    summary = source if isinstance(source, DataFrame) else _read(source)
+    finished = summary[summary["status"] == Status.CONVERGED]
+    compared, names = merits(finished, by, panel, allowed_force)
+    usual = names["energy" if budget is not None or panel is not None else "per_gram"]
+    by = by and _column(compared, by)
+    limits = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in _several(budget))] or [np.inf]
+    scenes = [(_with_scene(rows, names), _order(rows, by, usual)) for rows in by_scene(compared)]
+    parts = [_places(rows, names["mass"], order, g, top) for rows, order in scenes for g in limits]
+    ranking = pd.concat(parts, ignore_index=True)
+    labelled = pd.concat([rows for rows, _ in scenes])
+    ranking.attrs = names | {
+        "by": next((o for _, o in scenes if by or o not in LEAST.values()), scenes[0][1]),
+        "limited": allowed_force is not None,
+        "cases": len(summary),
+        "failed": len(summary) - len(finished),
+        "unranked": sum(int(rows[order].isna().sum()) for rows, order in scenes),
+        "without_bar": sum(_without_bar(rows, order) for rows, order in scenes),
+        "budgets_g": [limit for limit in limits if np.isfinite(limit)],
+        "lightest_g": labelled.groupby("scene", sort=False)[names["mass"]].min().to_dict(),
+    }
+    return ranking
+
+
+def by_scene(frame: DataFrame) -> list[DataFrame]:
+    """The rows of each loading scene, in the order in which scenes first appear."""
+    groups = frame.groupby(scene_keys(frame), dropna=False, sort=False)
+    return [rows for _, rows in groups] or [frame]
+
+
+def scene_keys(frame: DataFrame) -> list[str]:
+    """Columns whose values make a loading scene: never compare rows that differ in one."""
+    assumed = [key for key in frame if key.startswith(ASSUMPTIONS) and key not in HELD_BY_SCENE]
+    return [key for key in SCENE if key in frame] + assumed
+
+
+def scene_label(rows: DataFrame) -> str:
+    """What was done to these cases of one scene, in words; different for every scene."""
+    if rows.empty:
+        return ""
+    first = rows.iloc[0]
+    said = set(SCENE)
+    if first["loading_mode"] == "force":
+        words = [f"dead load of {first['force_N']:g} N"]
+    elif first["loading_mode"] == "custom":
+        words = ["loaded as its file says"]
+    elif first["loading_mode"] == "impact":
+        struck = short(float(first["striker_mass_g"])), short(float(first["striker_speed_m_per_s"]))
+        energy = energy_text(float(first["impact_energy_J"]))
+        words = [f"struck by {struck[0]} g at {struck[1]} m/s ({energy})"]
+    elif len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
+        words = [f"crushed to {100 * strains[0]:g} %"]
+        said |= {"loading.strain", "loading.stroke"}
+    else:
+        words = ["crushed"]
+    platen = first["platen"]
+    if first["loading_mode"] != "custom":
+        words.append("no platens" if platen in ("none", "") else f"{platen} platens")
+    others = [key for key in scene_keys(rows) if key not in said]
+    words += [f"{key.replace('.', ' ').replace('_', ' ')} {short(first[key])}" for key in others]
+    return ", ".join(words)
+
+
+def pareto(mass: Series, energy: Series) -> Series:
+    """True where nothing lighter absorbs as much and nothing as light absorbs more."""
+    mass = mass.round(9)  # what weighs the same by design does so but for round-off
+    best = energy.groupby(mass).max()
+    lighter = best.cummax().shift(fill_value=-np.inf)
+    return (energy == mass.map(best)) & (energy > mass.map(lighter))
+
+
+def shared_places(values: Series, errors: Series | None = None) -> Series:
+    """Places of values that stand in their order, the best first.
+
+    A value shares the place of the first one before it whose interval, value ± error, it overlaps
+    or touches, and a missing error is none. The first that does not opens the next place, whose
+    number counts all that are before it.
+    """
+    places: list[int] = []
+    best = slack = np.nan
+    widths = np.zeros(len(values)) if errors is None else errors.fillna(0.0)
+    for value, error in zip(values, widths, strict=True):
+        if abs(value - best) <= slack + error:
+            places.append(places[-1])
+        else:
+            best, slack = value, error
+            places.append(len(places) + 1)
+    return Series(places, index=values.index, dtype=int)
+
+
+def _order(rows: DataFrame, by: str | None, usual: str) -> str:
+    """The column by which the rows of one scene are sorted."""
+    return by or _least(rows) or usual
+
+
+def _least(rows: DataFrame) -> str | None:
+    """The column of `LEAST` for the rows of one scene."""
+    return None if rows.empty else LEAST.get(rows["loading_mode"].iloc[0])
+
+
+def _with_scene(rows: DataFrame, names: dict[str, str]) -> DataFrame:
+    """Rows of one scene with its label and their Pareto flag."""
+    least = _least(rows)
+    merit = rows[names["energy"]] if least is None else -rows[least]
+    return rows.assign(scene=scene_label(rows), pareto=pareto(rows[names["mass"]], merit))
+
+
+def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | None) -> DataFrame:
+    """The first places among the rows of one scene within a budget, best first.
+
+    Of equal values the lighter is listed first, then by id: the order never depends on the order
+    of the rows.
+    """
+    order = [*dict.fromkeys([by, mass, "case_id"])]
+    upwards = [name != by or by in LESS_IS_BETTER for name in order]
+    rows = rows[rows[mass] <= budget_g].dropna(subset=by).sort_values(order, ascending=upwards)
+    error = rows.get(error_column(by))
+    place = shared_places(rows[by], error)
+    known = {} if error is None else {"ranked_error": error, "tied": place.duplicated(keep=False)}
+    limit = budget_g if np.isfinite(budget_g) else np.nan
+    sharing = place.map(place.value_counts()).astype(int)  # where nothing is, too
+    known |= {"sharing": sharing, "contenders": len(rows)}
+    rows = rows.assign(budget_g=limit, place=place, ranked_by=by, **known)
+    rows = rows.head(len(rows) if top is None else top)
+    first = [name for name in LEADING if name in rows]
+    return rows[first + [name for name in rows if name not in first]]
+
+
+def _without_bar(rows: DataFrame, by: str) -> int:
+    """How many rows have a value to sort by, but no error bar of it, where there are any bars."""
+    bar = error_column(by)
+    return int((rows[by].notna() & rows[bar].isna()).sum()) if bar in rows else 0
+
+
+def _column(frame: DataFrame, by: str) -> str:
+    """The column to sort by, refused with the nearest one unless it holds numbers."""
+    allowed = [name for name in frame.select_dtypes("number") if "." not in name]
+    if by in allowed:
+        return by
+    nearest = difflib.get_close_matches(by, allowed, n=1, cutoff=0.5)
+    hint = f"did you mean {nearest[0]}? " if nearest else ""
+    raise RankError(f'cannot sort by "{by}"; {hint}allowed: {", ".join(allowed)}')
+
+
+def _several(budget: Quantity | Sequence[Quantity] | None) -> list[Quantity]:
+    """No, one or several budgets as a list."""
+    if budget is None:
+        return []
+    return [budget] if isinstance(budget, float | int | str) else list(budget)
+
+
+def _read(path: str | PathLike[str]) -> DataFrame:
+    """The summary of a results file; only here is the store needed."""
+    from sweep.store.read import read_summary
+
+    return read_summary(path)

@@ -1,0 +1,1 @@
+"""Tables, Markdown and pictures of results; the only matplotlib."""

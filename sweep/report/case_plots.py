@@ -1,0 +1,269 @@
+"""Pictures of a case: its force, its energies, its shapes; and what all pictures are made with.
+
+Functions draw into figures or axes that they are given. Lengths are drawn in mm. Kinds have the
+colours of Okabe and Ito: nobody need tell red from green.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import PathPatch, Rectangle
+from matplotlib.path import Path as Outline
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
+
+from sweep.numbers import energy_text, three_digits
+from sweep.design.silhouette import silhouette
+from sweep.report.storyboard import headline, last_loaded, shots
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import SubFigure
+    from pandas import DataFrame
+
+BLUE, SKY, ORANGE = "#0072b2", "#56b4e9", "#e69f00"
+VERMILION, PURPLE, YELLOW, GREY = "#d55e00", "#cc79a7", "#f0e442", "#8a8a8a"
+WALL, PLATEN, GRID = "#2b4c6f", "#c9c9c9", "#e6e6e6"
+
+ENERGIES = {
+    "stretch_J": ("stretching", BLUE),
+    "bend_J": ("bending", SKY),
+    "contact_J": ("contact", ORANGE),
+    "kinetic_J": ("motion", YELLOW),
+    "dissipated_material_J": ("lost in the material", VERMILION),
+    "dissipated_friction_J": ("lost to friction", PURPLE),
+    "dissipated_integrator_J": ("lost by the time steps", GREY),
+}
+PANEL, GAP = 1.9, 0.1  # inches: the longer side of the picture of a shape; between two
+LETTER, LINE = 0.075, 0.2  # inches: the width of a letter of a title, the height of a line
+TICKS = 3  # labels of a log axis at least
+ROUND = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))  # by powers of ten
+NEGLIGIBLE = 0.005  # share of the work below which an energy is not worth a colour
+
+
+def blank(width: float, height: float) -> Figure:
+    """An empty figure (inches) that makes room for its labels."""
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def save(figure: Figure, path: Path) -> Path:
+    """Write a figure as PNG."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=160, facecolor="white")
+    return path
+
+
+def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
+    """Force on the top against strain: the way down, the way back, and what lies beneath.
+
+    history : as `read_history` gives it; row : the case's row of the summary. A dead load is there
+    and gone in a step.
+    """
+    strain, force = 100.0 * history["strain"], history["reaction_top_N"]
+    turn = last_loaded(history, row)
+    down, back = slice(turn + 1), slice(turn, None)
+    dead = row["loading_mode"] == "force"
+    absorbed = row["absorbed_energy_J"]
+    given_back = f"gives back {100.0 * row['returned_energy_J'] / absorbed:.0f} %"
+    words = ("load on", "load off") if dead else ("loading", f"unloading,\n{given_back}")
+    style: Any = "steps-pre" if dead else "default"
+    sky: dict[str, Any] = {"color": SKY, "alpha": 0.3, "lw": 0, "step": "pre" if dead else None}
+    whole = f"absorbs in all\n{_energy(absorbed, row)}"
+    ax.fill_between(strain[down], force[down], label=whole, **sky)
+    ax.plot(strain[down], force[down], drawstyle=style, color=BLUE, lw=2.2, label=words[0])
+    if turn + 1 < len(history):
+        dashes: dict[str, Any] = {"color": ORANGE, "lw": 1.6, "ls": "--", "drawstyle": style}
+        ax.plot(strain[back], force[back], label=words[1], **dashes)
+    bottom = history["reaction_bottom_N"]
+    if np.abs(bottom - force).max() > 0.02 * np.abs(force).max():
+        ax.plot(strain, bottom, color=GREY, lw=1.0, zorder=1, label="on the support")
+    _plateau(ax, row)
+    ax.set(xlabel="strain, %", ylabel="force, N")
+    ax.set_title(headline(row), loc="left", fontsize="medium")
+    ax.set(xlim=(0.0, 1.02 * strain.max()), ylim=(min(0.0, force[down].min()), None))
+    scale = 10.0 * row["height_m"]  # mm of travel for one percent
+    travel = ax.secondary_xaxis("top", functions=(lambda x: x * scale, lambda x: x / scale))
+    travel.set_xlabel("travel of the top, mm")
+    ax.legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
+    plain(ax, top=True)
+
+
+def _plateau(ax: Axes, row: Mapping[str, Any]) -> None:
+    """Height of the plateau, up to the strain of densification, with the energy that is ranked, or
+    of the stroke.
+    """
+    area = row["outer_width_m"] * row["depth_m"]
+    plateau, packed = area * row["plateau_stress_Pa"], 100.0 * row["densification_strain"]
+    if row["loading_mode"] != "displacement" or np.isnan(plateau):
+        return
+    packs = np.isfinite(packed)
+    end = packed if packs else 100.0 * row["peak_strain"]
+    by_then = _energy(row["absorbed_energy_at_densification_J"], row)
+    words = f"packed at {packed:.0f} %, by then\n{by_then}" if packs else "not packed"
+    stairs = [0.0, end, end], [plateau, plateau, 0.0]
+    ax.plot(
+        *stairs, color="black", lw=1.0, ls=":", label=f"plateau {three_digits(plateau)} N,\n{words}"
+    )
+
+
+def _energy(joules: float, row: Mapping[str, Any]) -> str:
+    """An energy of a case, and the same per gram."""
+    return f"{energy_text(joules)}, {three_digits(joules / row['mass_g'])} J/g"
+
+
+def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
+    """Where the work done is: stored in the walls, moving, or lost, stacked in mJ.
+
+    Against time for a dead load; otherwise against the way the platen has gone, down and back.
+    """
+    work = 1e3 * history["work_in_J"]
+    turn = last_loaded(history, row)
+    if row["loading_mode"] == "displacement":
+        way = 1e3 * history["top_displacement_m"].diff().abs().cumsum().fillna(0.0)
+        words = "path of the platen, down and back up, mm", "turns"
+    else:
+        way = 1e3 * history["time_s"]
+        words = "time, ms", "load off" if row["loading_mode"] == "force" else "stops"
+    ax.set_xlabel(words[0])
+    if turn + 1 < len(history):
+        mark(ax, way[turn], words[1])
+    parts = {
+        label: (1e3 * history[name], color)
+        for name, (label, color) in ENERGIES.items()
+        if history[name].abs().max() > NEGLIGIBLE * history["work_in_J"].abs().max()
+    }
+    values, colors = zip(*parts.values(), strict=True) if parts else ((), ())
+    ax.stackplot(way, *values, colors=colors, labels=list(parts), linewidth=0)
+    paid = "brought by the striker" if row["loading_mode"] == "impact" else "work done"
+    ax.plot(way, work, color="black", lw=1.4, label=paid)
+    ax.set_ylabel("energy, mJ")
+    ax.set_title(headline(row), loc="left", fontsize="medium")
+    ax.margins(x=0.0, y=0.1)
+    ax.set_ylim(bottom=min(0.0, work.min()))
+    handles, labels = ax.get_legend_handles_labels()
+    ax.legend(handles[::-1], labels[::-1], frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
+    plain(ax)
+
+
+class Stage(NamedTuple):
+    """What the picture of each shape of a case shows, in mm; room: the height of a platen."""
+
+    left: float
+    right: float
+    below: float
+    top: float
+    ground: float
+    room: float
+
+
+def _stage(frames: Mapping[str, Any], chosen: list[int]) -> Stage:
+    """A stage for these frames, with their platens."""
+    points, drawn = 1e3 * frames["position_m"][chosen], np.unique(frames["edges"])
+    plates, thickness = 1e3 * frames["plate_y_m"][chosen], 1e3 * frames["edge_thickness_m"].max()
+    ground = points[0, drawn, 1].min() - 0.5 * thickness
+    low, high = (end(points[:, drawn], (0, 1)) for end in (np.min, np.max))
+    low, high = low - thickness, high + thickness
+    room = 0.06 * (high - low).max()
+    top = max(high[1], np.nanmax(plates, initial=high[1]) + room)
+    below = min(low[1], ground - room) - room
+    return Stage(low[0] - room, high[0] + room, below, top, ground, room)
+
+
+def shapes_size(
+    title: str, frames: Mapping[str, Any], release: float | None = None
+) -> tuple[float, float]:
+    """Width and height (inches) of a figure of shapes that leaves nothing blank between them."""
+    chosen = dict(shots(frames, release))
+    stage = _stage(frames, list(chosen))
+    width, height = stage.right - stage.left, stage.top - stage.below
+    scale = PANEL / max(width, height)
+    lines = 3 + max(words.count("\n") for words in chosen.values())  # also title and scale bar
+    row = len(chosen) * (scale * width + GAP)
+    return max(row, LETTER * len(title)), scale * height + LINE * lines + GAP
+
+
+def deformed_shapes(
+    fig: Figure | SubFigure, title: str, frames: Mapping[str, Any], release: float | None = None
+) -> None:
+    """Up to six shapes in a row with walls as thick as they are, chosen by `shots`."""
+    chosen = dict(shots(frames, release))
+    axes = fig.subplots(1, len(chosen), sharex=True, sharey=True, squeeze=False)[0]
+    fig.suptitle(title, x=0.01, ha="left", fontsize="medium")
+    stage = _stage(frames, list(chosen))
+    points, plates = (1e3 * frames[name][list(chosen)] for name in ("position_m", "plate_y_m"))
+    for ax, caption, position, plate in zip(axes, chosen.values(), points, plates, strict=True):
+        loops = silhouette(position, frames["edges"], 1e3 * frames["edge_thickness_m"])
+        walls = Outline.make_compound_path(*(Outline(loop, closed=True) for loop in loops))
+        ax.add_patch(PathPatch(walls, facecolor=WALL, edgecolor="none", snap=False))
+        if np.isfinite([plate[0], frames["strain"][0]]).any() and not np.isinf(plate[0]):
+            _platen(ax, stage, (stage.ground if np.isnan(plate[0]) else plate[0]) - stage.room)
+        if np.isfinite(plate[1]):
+            _platen(ax, stage, plate[1])
+        ax.set_title(caption, fontsize="medium")
+        ax.set_aspect("equal")
+        ax.set_axis_off()
+    axes[0].set(xlim=(stage.left, stage.right), ylim=(stage.below, stage.top))
+    _scale_bar(axes[0], stage.left, stage.below)
+
+
+def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:
+    """Six shapes each of several cases, one below the other: what it is -> its frames.
+
+    The figure becomes as large as they are.
+    """
+    widths, heights = zip(*(shapes_size(*case) for case in cases.items()), strict=True)
+    fig.set_size_inches(max(widths), sum(heights))
+    strips = fig.subfigures(len(cases), 1, squeeze=False, height_ratios=heights)[:, 0]
+    for strip, (name, frames) in zip(strips, cases.items(), strict=True):
+        deformed_shapes(strip, name, frames)
+
+
+def legend(fig: Figure, entries: list[dict[str, Any]]) -> None:
+    """One legend for all axes, to the right of them."""
+    handles = [Line2D([], [], **entry) for entry in entries]
+    if handles:
+        fig.legend(handles=handles, loc="outside right upper", frameon=False)
+
+
+def mark(ax: Axes, x: float, words: str) -> None:
+    """A dotted line across the axes, and what it is at its upper end."""
+    ax.axvline(x, color=GREY, lw=1.0, ls=":")
+    ax.annotate(words, (x, 1.0), (-3, -2), xycoords=ax.get_xaxis_transform(), ha="right", va="top",
+                textcoords="offset points", fontsize="small", color="#555555")  # fmt: skip
+
+
+def round_ticks(axis: Any) -> None:
+    """Ticks of a log axis at round numbers, as far apart as leaves `TICKS` of them in view."""
+    low, high = axis.get_view_interval()
+    for locator in (*(LogLocator(subs=subs) for subs in ROUND), MaxNLocator(2 * TICKS)):
+        axis.set_major_locator(locator)
+        places = locator.tick_values(low, high)
+        if ((low <= places) & (places <= high)).sum() >= TICKS:
+            break
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _platen(ax: Axes, stage: Stage, bottom: float) -> None:
+    """A plate over the width of the picture, from `bottom` upwards."""
+    width = stage.right - stage.left
+    plate = Rectangle((stage.left, bottom), width, stage.room, facecolor=PLATEN, edgecolor="none")
+    ax.add_patch(plate)
+
+
+def _scale_bar(ax: Axes, left: float, below: float) -> None:
+    """A length of 5 mm under the first shape."""
+    ax.plot([left, left + 5.0], [below, below], color="black", lw=1.5, clip_on=False)
+    ax.annotate("5 mm", (left + 2.5, below), (0, -3), va="top", ha="center", fontsize="small",
+                textcoords="offset points", annotation_clip=False)  # fmt: skip
+
+
+def plain(ax: Axes, top: bool = False) -> None:
+    """Axes without a box."""
+    ax.spines["right"].set_visible(False)
+    ax.spines["top"].set_visible(top)

@@ -1,0 +1,147 @@
+"""Charts of a sweep: what to print, and why. Ordered values have the colours of viridis."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from textwrap import TextWrapper
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sweep.report.design_style import budget_winners, doubtful, errors_of, looks, merit_errors, merits, until
+from sweep.report.case_plots import GREY, GRID, legend, mark, plain, round_ticks
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from pandas import DataFrame, Series
+
+LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
+TITLE = 72  # letters in a line above a panel
+WHITE = (1.0, 1.0, 1.0, 1.0)
+VARIANT = ["lattice_kind", "cells_x", "cells_y", "material"]  # the same along a line of trends
+SHAPED = "lattice.", "material."  # keys that make a design, of which these set the walls:
+THICK = tuple(f"lattice.{key}" for key in ("wall_thickness", "mass", "line_width", "infill"))
+NARROW, MARGIN = 1.2, 0.1  # of the axis of mass: its least ratio, and the room at either end
+ENDS = 0.1, 10.0  # of a value: where its error bar ends at the latest, as no log axis has a zero
+
+
+def design_map(fig: Figure, ranking: DataFrame) -> None:
+    """What to print: merit against mass, a panel a scene, the winner of each budget named.
+
+    ranking : all places (`top=None`), of one mode. Merit: absorbed energy, how little a load sinks,
+    or the force that a striker leaves on the support, with its error bar. The stairs are the best
+    that any mass offers, the Pareto front, whose designs are drawn on top; where they meet a budget
+    stands its winner.
+    """
+    mass = ranking.attrs["mass"]
+    of = "panel" if mass == "panel_mass_g" else "specimen"
+    look = looks(ranking)
+    energy = ranking.attrs["energy"]
+    for ax, rows in _scene_axes(fig, ranking.round({mass: 9})):  # equal by design is equal
+        merit, error = merits(rows, energy), merit_errors(rows, energy)
+        least = LEAST_SHOWN.get(rows["loading_mode"].iloc[0])
+        for _, points in rows[::-1].groupby(["pareto", "material"]):  # the best comes last
+            _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
+        front = rows[rows["pareto"]].sort_values(mass)
+        stairs: dict[str, Any] = {"color": "black", "lw": 0.9, "drawstyle": "steps-post"}
+        _line(ax, front[mass], merit.loc[front.index], stairs, front)
+        ax.set(xscale="log", yscale="log")
+        ax.set_xlim(_span([*rows[mass], *ranking.attrs["budgets_g"]]))
+        ax.margins(y=0.15)
+        _error_bars(ax, rows[mass], merit, error)
+        for budget in ranking.attrs["budgets_g"]:
+            mark(ax, budget, f"{budget:g} g")
+        words = [_in_lines(ax.get_title("left"))]
+        for said, x, y in budget_winners(rows, ranking):
+            ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")
+            words.append(_in_lines(said))
+        ax.set_title("\n".join(words), loc="left", fontsize="small")
+        ax.set_xlabel(f"mass of the {of}, g")
+        ax.set_ylabel(least or f"energy absorbed by the {of}{until(ranking)}, J")
+        round_ticks(ax.xaxis)
+        round_ticks(ax.yaxis)
+    legend(fig, look.legend(barred=bool(merit_errors(ranking, energy).notna().any())))
+
+
+def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
+    """Energy per gram against wall thickness, a panel a scene."""
+    per_gram = ranking.attrs["per_gram"]
+    look = looks(ranking)
+    for ax, rows in _scene_axes(fig, ranking):
+        for _, points in rows.groupby(VARIANT):
+            best = points.loc[points.groupby("wall_thickness_m")[per_gram].idxmax()]
+            style = look.of(best) | {"s": 28.0}
+            wall = 1e3 * best["wall_thickness_m"]
+            _line(ax, wall, best[per_gram], {"color": style["c"][0], "lw": 1.2}, best)
+            _dots(ax, wall, best[per_gram], style, best)
+            _error_bars(ax, wall, best[per_gram], errors_of(best, per_gram), style["c"][0])
+        what = f"absorbed energy per gram{until(ranking)}, J/g"
+        ax.set(xlabel="wall thickness, mm", ylabel=what, yscale="log")
+        round_ticks(ax.yaxis)
+    barred = bool(errors_of(ranking, per_gram).notna().any())
+    legend(fig, look.legend(walls=False, barred=barred))
+
+
+def _span(values: Sequence[float]) -> tuple[float, float]:
+    """Ends of a log axis with room for all values, which may be the same but for round-off."""
+    low, high = min(values), max(values)
+    middle, half = (low * high) ** 0.5, max(high / low, NARROW) ** (0.5 + MARGIN)
+    return middle / half, middle * half
+
+
+def has_trends(ranking: DataFrame) -> bool:
+    """Whether designs are there that differ in nothing but the thickness of their walls."""
+    others = [key for key in ranking if key.startswith(SHAPED) and key not in THICK]
+    alike = ranking.groupby(["scene", *VARIANT, *others], dropna=False)
+    return not ranking.empty and alike["wall_thickness_m"].nunique().max() > 1
+
+
+def _in_lines(words: str) -> str:
+    """A title whose lines end behind commas."""
+    one_piece = words.replace(" ", "\xa0").replace(",\xa0", ", ")
+    wrapper = TextWrapper(
+        TITLE, subsequent_indent="    ", break_on_hyphens=False, break_long_words=False
+    )
+    return wrapper.fill(one_piece).replace("\xa0", " ")
+
+
+def _line(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
+    """A line through designs; dashed to and from those that are not to be trusted."""
+    beyond = doubtful(points)
+    ax.plot(x, y.mask(beyond), zorder=1, **style)
+    if beyond.any():
+        ax.plot(x, y, zorder=1, ls="--", **style)
+
+
+def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
+    """Designs of one material; open where they are not to be trusted."""
+    dots = ax.scatter(x, y, lw=1.2, zorder=2, **style)
+    colors = dots.get_facecolor()
+    beyond = doubtful(points).to_numpy()[:, None]
+    faces: Any = np.where(beyond, WHITE, colors)
+    dots.set(edgecolor=colors, facecolor=faces)
+
+
+def _error_bars(ax: Axes, x: Series, y: Series, error: Series, color: str = GREY) -> None:
+    """Value ± error as a thin line behind each design whose error is known."""
+    known = error.notna()
+    if known.any():
+        low, high = (end.clip(*(share * y for share in ENDS)) for end in (y - error, y + error))
+        ax.vlines(x[known], low[known], high[known], color=color, lw=0.8, zorder=0)
+
+
+def _scene_axes(fig: Figure, ranking: DataFrame) -> Iterator[tuple[Axes, DataFrame]]:
+    """One set of axes a scene, at most two a row."""
+    scenes = ranking.groupby("scene", sort=False)
+    columns = min(2, len(scenes))
+    rows = -(-len(scenes) // columns)
+    axes = fig.subplots(rows, columns, squeeze=False).ravel()
+    for ax in axes[len(scenes) :]:
+        ax.remove()
+    for ax, (scene, group) in zip(axes, scenes, strict=False):
+        ax.set_title(scene, loc="left", fontsize="medium")
+        ax.grid(color=GRID, lw=0.6)
+        ax.set_axisbelow(True)
+        plain(ax)
+        yield ax, group

@@ -1,0 +1,287 @@
+"""Rankings and lists of cases as tables of text that fit a terminal of 80 columns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from pandas import Series
+
+from sweep.numbers import numerals, percent, short, tenths
+from sweep.ranking.merit import LEAST
+from sweep.ranking.rank import ASSUMPTIONS, by_scene, scene_label
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+MARKS = "*: on the Pareto front, nothing lighter in its scene does as well. mass: of one specimen."
+CRUSHED = "peak: greatest force that one specimen passes on. It and the energy count {until}."
+WHOLE = """\
+pack: strain at which the lattice has packed down.
+back: share of the work of the whole crush that comes back when let up: stored, not dissipated."""
+LOADED = "sink: greatest strain under the load, its swing included."
+STRUCK = """\
+force: greatest on the support. left: of the height that closes all voids, at the striker's stop.
+rebound: share of the striker's energy with which it leaves."""
+FIRST = {"peak_strain": ": least sink first", "peak_force_N": ": least force first"}
+TIED = """\
+±: estimated error of what is sorted by, of mesh and steps, in % of it; not a bound. =: shares its
+place, as the value ± error overlaps that of the first in this place. ?: no error is known, and the
+place is that of the value alone."""
+BEYOND = """\
+!: beyond the model, as a wall is squeezed below 0.7 of its length, or the lattice into less height
+than its solid has: not to be trusted."""
+EARLY = ">: at least, as the crush ended before that force was passed on: a longer one tells more."
+CROSSED = "x: walls pass through one another, as no contact stops them: not to be trusted."
+
+MILLIMETRES = {
+    "wall_thickness_m": "wall mm",
+    "width_m": "width mm",
+    "height_m": "height mm",
+    "depth_m": "depth mm",
+}
+SHOWN_BY_NAME = {
+    "lattice.kind",
+    "lattice.mass",
+    "lattice.cells",
+    "lattice.cells_x",
+    "lattice.cells_y",
+    "lattice.wall_thickness",
+    "lattice.width",
+    "lattice.height",
+    "lattice.depth",
+    "material.name",
+}
+"""Grid keys whose values have a column of the summary to themselves."""
+
+
+class Sheet(NamedTuple):
+    """A table of text. `opens` are the rows that begin a section, `notes` the lines below."""
+
+    title: str
+    heads: list[str]
+    rows: list[list[str]]
+    opens: frozenset[int] = frozenset()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def columns(self) -> list[list[str]]:
+        """The texts below each head."""
+        return [[row[i] for row in self.rows] for i in range(len(self.heads))]
+
+
+def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
+    """One sheet a loading scene, budgets one below the other; designs as they vary in `summary`."""
+    budgets = ranking.attrs["budgets_g"]
+    for scene, lightest in ranking.attrs["lightest_g"].items():
+        placed = rows = ranking[ranking["scene"] == scene]
+        lead = {}
+        if len(budgets) > 1:
+            rows = _without_repeats(rows)
+            lead["up to g"] = rows["up_to"].where(~rows["up_to"].duplicated(), "")
+        columns = {
+            **lead,
+            "#": _places(rows),
+            **design_text(rows, summary),
+            **_measures(rows, ranking.attrs),
+        }
+        order = "" if rows.empty else FIRST.get(rows["ranked_by"].iloc[0], "")
+        yield Sheet(
+            title=f"{scene}{order}",
+            heads=list(columns),
+            rows=[list(row) for row in zip(*columns.values(), strict=True)],
+            opens=frozenset(i for i, text in enumerate(lead.get("up to g", ())) if text),
+            notes=(
+                *((BEYOND,) if rows["beyond_model"].any() else ()),
+                *((CROSSED,) if rows["crossed"].any() else ()),
+                *((EARLY,) if _stops_early(rows, ranking.attrs).any() else ()),
+                *_cut_off(rows),
+                *_not_shown(placed),
+                *(
+                    f"Nothing weighs {budget:g} g or less: the lightest weighs {lightest:.3g} g."
+                    for budget in budgets
+                    if budget < lightest
+                ),
+            ),
+        )
+
+
+def legend(ranking: DataFrame) -> str:
+    """What the marks and the heads of the sheets of a ranking mean."""
+    modes = set(ranking["loading_mode"])
+    said = {
+        "displacement": CRUSHED.format(until=ranking.attrs["until"]),
+        "force": LOADED,
+        "impact": STRUCK,
+    }
+    if not ranking.attrs["limited"]:
+        said["displacement"] += f"\n{WHOLE}"
+    lines = [MARKS, *(words for mode, words in said.items() if mode in modes)]
+    return "\n".join([*lines, TIED] if "ranked_error" in ranking else lines)
+
+
+def _places(rows: DataFrame) -> Series:
+    """Places with the marks of ties, of the Pareto front, and of what is not to be trusted."""
+    places = rows["place"].astype(str)
+    if "tied" in rows:
+        places += rows["tied"].map({True: "="}).fillna("")
+    pareto = rows["pareto"].map({True: "*", False: " "})
+    beyond = rows["beyond_model"].map({True: "!", False: ""})
+    return places + pareto + beyond + rows["crossed"].map({True: "x", False: ""})
+
+
+def _cut_off(rows: DataFrame) -> Iterator[str]:
+    """What shares the last place that is shown of a budget, and is not shown."""
+    for _, shown in rows.groupby("budget_g", dropna=False, sort=False):
+        last = shown.iloc[-1]
+        left = last["sharing"] - (shown["place"] == last["place"]).sum()
+        within = f"Up to {last['up_to']} g, " if "up_to" in rows else ""
+        if left:
+            yield f"{within}{left} more share{'s' if left == 1 else ''} place {last['place']}."
+
+
+def _not_shown(rows: DataFrame) -> Iterator[str]:
+    """How many designs of each budget have a place beyond the last that is shown."""
+    groups = rows.groupby("budget_g", dropna=False, sort=False)["contenders"]
+    of, shown = groups.max(), groups.size()
+    more = [
+        f"{of[budget] - count} more" + (f" up to {budget:g} g" if len(of) > 1 else "")
+        for budget, count in shown.items()
+        if count < of[budget]
+    ]
+    if more:
+        yield f"Not shown: {', '.join(more)}; with --top {of.max()}, rank lists all."
+
+
+def _without_repeats(rows: DataFrame) -> DataFrame:
+    """Rows of several budgets, where those with the same places share one section, `up_to`.
+
+    What is best up to 20 g and up to 50 g is so for all budgets between them.
+    """
+    marked = rows.assign(marked=_places(rows) + rows["case_id"] + rows["sharing"].astype(str))
+    same = marked.groupby("budget_g")["marked"].agg(" ".join)
+    alike = same.index.to_series().groupby(same)
+    low, high = alike.transform("min"), alike.transform("max")
+    spans = {b: f"{b:g}" if b == high[b] else f"{b:g}-{high[b]:g}" for b in low}
+    kept = rows[rows["budget_g"].isin(low)]
+    return kept.assign(up_to=kept["budget_g"].map(spans))
+
+
+def case_sheet(summary: DataFrame) -> Sheet:
+    """All cases with what makes them differ and how they ended."""
+    columns = {"case": summary["case_id"], **design_text(summary, summary)}
+    scene = Series(index=summary.index, dtype=object)
+    for rows in by_scene(summary):
+        scene.loc[rows.index] = scene_label(rows)
+    columns |= {"scene": scene, "status": summary["status"]}
+    return Sheet("", list(columns), [list(row) for row in zip(*columns.values(), strict=True)])
+
+
+def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
+    """What tells designs apart: columns of `frame` that vary `among` all, in a maker's units."""
+    columns = {}
+    if _varies(among, "lattice_kind"):
+        columns["pattern"] = frame["lattice_kind"].astype(str)
+    if _varies(among, "cells_x", "cells_y"):
+        columns["cells"] = frame["cells_x"].astype(str) + " x " + frame["cells_y"].astype(str)
+    for name, head in MILLIMETRES.items():
+        if _varies(among, name):
+            columns[head] = (frame[name] * 1e3).map("{:.3g}".format)
+    if _varies(among, "material"):
+        columns["material"] = frame["material"].astype(str)
+    for key in frame:
+        if "." in key and key not in SHOWN_BY_NAME and not key.startswith(ASSUMPTIONS):
+            columns[key.split(".")[-1].replace("_", " ")] = frame[key].map(short)
+    return columns
+
+
+def describe_case(row: Series, among: DataFrame) -> str:
+    """The scene and the design of one case of a summary, in words."""
+    rows = among.loc[[row.name]]
+    return f"{scene_label(rows)}, {design_labels(rows, among)[0]}"
+
+
+def design_labels(frame: DataFrame, among: DataFrame) -> list[str]:
+    """The same as one text a design, such as "cells 3 x 3, wall 0.8 mm, ninjaflex"."""
+    columns = design_text(frame, among) or {"material": frame["material"].astype(str)}
+    return [
+        ", ".join(_with_noun(head, text) for head, text in zip(columns, texts, strict=True) if text)
+        for texts in zip(*columns.values(), strict=True)
+    ]
+
+
+def _with_noun(head: str, text: str) -> str:
+    """A value with the head of its column: "wall mm", "0.8" -> "wall 0.8 mm"."""
+    if head in MILLIMETRES.values():
+        return f"{head.removesuffix('mm')}{text} mm"
+    return text if head in ("material", "pattern") else f"{head} {text}"
+
+
+def _measures(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
+    """Columns of what was found; the column sorted by is always among them."""
+    columns = {"mass g": numerals(rows["mass_g"])}
+    if "panel_mass_g" in rows:
+        columns["panel g"] = numerals(rows["panel_mass_g"])
+    mode, shown = "" if rows.empty else rows["loading_mode"].iloc[0], {"mass_g", "panel_mass_g"}
+    if mode in LEAST:
+        columns |= _under_load(rows) if mode == "force" else _struck(rows)
+        shown |= {LEAST[mode]}
+    else:
+        columns |= _crushed(rows, names)
+        shown |= {names["energy"], names["per_gram"]}
+        if not names["limited"]:
+            columns |= _whole(rows)
+            shown |= {"densification_strain", "returned_share"}
+    for by in rows["ranked_by"].unique():
+        columns |= {} if by in shown else {by: numerals(rows[by])}
+        if "ranked_error" in rows:
+            share = rows["ranked_error"] / rows[by].abs()
+            columns["± %"] = share.map(tenths).where(share.notna(), "?")
+    return columns
+
+
+def _under_load(rows: DataFrame) -> dict[str, Series]:
+    return {"sink %": numerals(100.0 * rows["peak_strain"])}
+
+
+def _struck(rows: DataFrame) -> dict[str, Series]:
+    return {
+        "force N": numerals(rows["peak_force_N"]),
+        "sink %": numerals(100.0 * rows["peak_strain"]),
+        "left mm": numerals(1e3 * rows["stroke_left_m"]),
+        "rebound %": rows["rebound_share"].map(percent),
+    }
+
+
+def _crushed(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
+    energy, whole = rows[names["energy"]], "panel" if "panel_mass_g" in rows else "absorbs"
+    unit, scale = ("mJ", 1e3) if energy.max() < 1.0 else ("J", 1.0)
+    more = (_stops_early(rows, names) & energy.notna()).map({True: "> ", False: ""})
+    return {
+        f"{whole} {unit}": more + numerals(energy * scale),
+        "J/g": more + numerals(rows[names["per_gram"]]),
+        "peak N": numerals(rows["passed_on_N"]),
+    }
+
+
+def _stops_early(rows: DataFrame, names: dict[Any, Any]) -> Series:
+    """Which crushes ended before the allowed force was passed on: they would absorb more yet."""
+    crushed = rows["loading_mode"] == "displacement"
+    return crushed & names["limited"] & (rows["peak_force_N"] <= rows["passed_on_N"])
+
+
+def _whole(rows: DataFrame) -> dict[str, Series]:
+    """What tells of the whole crush: nothing of one that an allowed force cuts short."""
+    packed = rows["densification_strain"]
+    return {
+        "pack %": packed.map(percent).where(
+            packed.notna() | rows["peak_strain"].isna(),
+            rows["peak_strain"].map(lambda strain: f"> {percent(strain)}"),
+        ),
+        "back %": rows["returned_share"].map(percent),
+    }
+
+
+def _varies(frame: DataFrame, *names: str) -> bool:
+    """True if one of the columns has more than one value."""
+    return any(len(frame[name].unique()) > 1 for name in names)

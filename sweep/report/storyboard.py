@@ -1,0 +1,71 @@
+"""Which shapes of a case to draw, and what to write above them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pandas import DataFrame
+
+from sweep.ranking.rank import scene_label
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+SHAPES = 6
+LET_GO = 0.01  # strain below which a specimen is free again
+FLOWN = 0.5  # of its height above its place at rest: a shape beyond is not worth drawing
+
+
+def headline(row: Mapping[str, Any]) -> str:
+    """Design and scene of a case, a line each; row : its row of the summary."""
+    pattern, cells = row["lattice_kind"], f", {row['cells_x']} x {row['cells_y']} cells"
+    if row["loading_mode"] == "custom":
+        cells = ""
+    wall = f"wall {1e3 * row['wall_thickness_m']:.3g} mm"
+    return f"{pattern}{cells}, {wall}, {row['material']}\n{scene_label(DataFrame([row]))}"
+
+
+def last_loaded(history: DataFrame, row: Mapping[str, Any]) -> int:
+    """Number of the row of a history after which the platen turns or the dead load lets go."""
+    if row["loading_mode"] == "force":
+        return int(np.flatnonzero(history["reaction_top_N"]).max(initial=0))
+    if row["loading_mode"] == "custom":
+        return len(history) - 1
+    return int(history["strain"].argmax())
+
+
+def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple[int, str]]:
+    """Frames worth drawing, with captions: at even strains down, then the last one back up.
+
+    frames : as `read_frames` gives them; release : time (s) until which a dead load is on. Where
+    strain has no meaning, at even times.
+    """
+    strain, time = frames["strain"], frames["time_s"]
+    if np.isnan(strain).all():
+        return [(i, f"{time[i]:.3g} s") for i in dict.fromkeys(_even(time, SHAPES))]
+    turn = int(strain.argmax()) if release is None else int((time <= release).sum()) - 1
+    back = _last_standing(frames["position_m"], turn)
+    room = SHAPES - len(back) - (release is not None)
+    down = sorted({*_even(strain[: turn + 1], room), turn})
+    free = release is not None or strain[-1] < LET_GO
+    captions = {i: f"{100 * strain[i]:.0f} %" for i in [*down, *back]}
+    captions |= dict.fromkeys(back if free else [], "released")
+    clock = "" if release is None else "\n{:.0f} ms"
+    return [(i, text + clock.format(1e3 * time[i])) for i, text in captions.items()]
+
+
+def _even(strain: NDArray[np.float64], count: int) -> list[int]:
+    """Frames nearest to even strains up to the greatest."""
+    wanted = np.linspace(strain[0], strain.max(), count)
+    frames: list[int] = np.abs(strain[:, None] - wanted).argmin(0).tolist()
+    return frames
+
+
+def _last_standing(position: NDArray[np.float64], turn: int) -> list[int]:
+    """The last frame after `turn` before the specimen (f, n, 2) has flown off; none if none is."""
+    height = np.ptp(position[0, :, 1])
+    lift = position[turn + 1 :, :, 1].min(1) - position[0, :, 1].min()
+    standing = int(np.append(lift > FLOWN * height, True).argmax())
+    return [turn + standing] if standing else []

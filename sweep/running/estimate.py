@@ -1,0 +1,131 @@
+"""What a sweep will cost, before it starts: a few of its cases are run and scaled to all.
+
+The time of a case is taken to grow with `plan.cost`; kinds of loading and of mesh are measured one
+by one. Good to a factor of two or so: how often walls meet cannot be known before they do.
+"""
+
+import time
+from bisect import bisect
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+from math import isnan
+
+from sweep.running.error_bars import companions_beside, companions_file
+from sweep.running.dask_graph import Simulate, Stop, run
+from sweep.config.grid import Config, case_count, expand
+from sweep.config.case import Case
+from sweep.running.batches import Plan, cost
+from sweep.result import Result, Status
+from sweep.running.sweep import Interrupted, interruptible, real_simulate
+from sweep.store.read import finished_ids
+
+BYTES = 4  # of a stored number: single precision
+PACKED = 0.9  # what is left of curves, which are compressed, and shapes, which are not
+ROW = 1000  # bytes of the summary of a case
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Processor time (s) and disk (bytes) of a sweep, from `pilots` cases that took `seconds`.
+
+    The time is NaN if a pilot left nothing to measure; `failures` are the sentences of those that
+    did not converge.
+    """
+
+    cpu: float
+    disk: float
+    pilots: int
+    failures: list[str]
+    seconds: float
+
+
+def dry_run(
+    config: Config, out: str, workers: int, retry_failed: bool, error_bars: bool = False
+) -> str:
+    """How many cases, how long, how much disk: as text. Writes nothing."""
+    cases = expand(config)
+    done = finished_ids(out, retry_failed)
+    waiting = [case for case in cases if case.case_id not in done]
+    counts = (
+        f"{config.name}: {case_count(config):,} combinations, {len(cases):,} different cases, "
+        f"{len(cases) - len(waiting):,} of them finished in {out}"
+    )
+    if error_bars:
+        others = companions_beside(cases, out)
+        ready = others.keys() & finished_ids(companions_file(out), retry_failed)
+        waiting += [case for case_id, case in others.items() if case_id not in ready]
+        counts += f"\nerror bars: {len(others):,} companions, {len(ready):,} of them finished"
+    if not waiting:
+        return f"{counts}\nnothing is left to run"
+    found = estimate(waiting, real_simulate())
+    wall = found.cpu / min(workers, len(waiting))
+    lines = [
+        counts,
+        f"estimate for {len(waiting):,} cases, after running {found.pilots} of them "
+        f"({found.seconds:.1f} s); it may be off by a factor of two:",
+        f"  processor time  {duration(found.cpu)}",
+        f"  wall time       {duration(wall)} on {workers} workers",
+        f"  disk            {found.disk / 1e6:.2g} MB",
+        "nothing was written",
+    ]
+    if found.failures:
+        count = f"{len(found.failures)} of the pilot cases did not converge"
+        lines.insert(-1, f"  {count}: {found.failures[0]}")
+    return "\n".join(lines)
+
+
+def estimate(cases: Sequence[Case], simulate: Simulate) -> Estimate:
+    """Run one case of each kind of loading and mesh and scale it to the others of its kind."""
+    kinds: dict[tuple[str | int, ...], list[Case]] = {}
+    for case in cases:
+        kinds.setdefault(_kind(case), []).append(case)
+    pilots = [(_middle(alike), alike) for alike in kinds.values()]
+    started = time.perf_counter()
+    results = _run_all([pilot for pilot, _ in pilots], simulate)
+    cpu = disk = 0.0
+    for pilot, alike in pilots:
+        result = results[pilot.case_id]
+        cpu += float(result.summary["cpu_s"]) * sum(map(cost, alike)) / cost(pilot)
+        disk += len(alike) * _stored(result)
+    failures = [r.message for r in results.values() if r.status is not Status.CONVERGED]
+    return Estimate(cpu, disk, len(pilots), failures, time.perf_counter() - started)
+
+
+def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
+    """Results by their case, one case at a time, as a sweep would have them."""
+    stop, results = Stop(), list[Result]()
+    with interruptible(stop):
+        run(Plan(pilots, workers=1), simulate, results.extend, stop)
+    if stop.asked:
+        raise Interrupted("interrupted; nothing was written")
+    return {result.case_id: result for result in results}
+
+
+def duration(seconds: float) -> str:
+    """A time that is only roughly known, if at all."""
+    if isnan(seconds):
+        return "unknown"
+    for unit, length in {"h": 3600.0, "min": 60.0}.items():
+        if seconds >= 2.0 * length:
+            return f"{float(f'{seconds / length:.2g}'):g} {unit}"
+    return f"{float(f'{seconds:.2g}'):g} s"
+
+
+def _kind(case: Case) -> tuple[str | int, ...]:
+    """What changes the pace of the solver most, besides the number of elements and steps."""
+    loading = case.loading.mode, str(case.loading.platen), case.contact.model
+    return *loading, case.lattice.nodes_per_wall
+
+
+def _middle(cases: Sequence[Case]) -> Case:
+    """The case in the order of their costs before which half of all the work is done."""
+    ordered = sorted(cases, key=cost)
+    done = list(accumulate(map(cost, ordered)))
+    return ordered[bisect(done, 0.5 * done[-1])]
+
+
+def _stored(result: Result) -> float:
+    """Bytes that a case takes in the results file."""
+    arrays = [*result.history.values(), *result.frames.values()]
+    return ROW + PACKED * BYTES * sum(array.size for array in arrays)

@@ -1,0 +1,64 @@
+"""Where results come from: what a results file says about the run that wrote it."""
+
+import json
+import subprocess
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from platform import platform, python_version
+from typing import Any
+
+from sweep.config.grid import Config, Written
+from sweep.config.case import Case
+
+PACKAGES = ("crumple", "numpy", "numba", "h5py", "dask")
+
+
+def describe_run(config: str) -> dict[str, str]:
+    """Attributes of a results file; `config` is the resolved configuration as text."""
+    versions = {f"version_{name}": _version(name) for name in PACKAGES}
+    return {
+        "config": config,
+        "seed": "none: nothing in a case is random",
+        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "git_revision": git_revision(),
+        "platform": platform(),
+        "version_python": python_version(),
+    } | versions
+
+
+def config_text(sweep: Config | Sequence[Case], first: Case) -> str:
+    """A sweep as JSON, in SI: the axes, [rank], and every parameter of its first case."""
+    text: dict[str, Any] = {"first_case": first.model_dump(exclude={"axes"})}
+    if isinstance(sweep, Config):
+        text |= {
+            "name": sweep.name,
+            "grid": _axes(sweep.grid),
+            "zip": [_axes(tied) for tied in sweep.zip],
+            "exclude": sweep.exclude,
+            "rank": sweep.rank.model_dump(),
+        }
+    return json.dumps(text)
+
+
+def git_revision() -> str:
+    """Commit of the source tree, "-dirty" if it was changed since; "unknown" outside of one."""
+    root = Path(__file__).parents[2]
+    command = ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=40"]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=5, check=True)
+    except (OSError, subprocess.SubprocessError):
+        return "unknown"
+    return done.stdout.strip()
+
+
+def _axes(axes: Mapping[str, Sequence[Written]]) -> dict[str, list[Any]]:
+    return {key: [value.value for value in values] for key, values in axes.items()}
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return "unknown"

@@ -1,0 +1,114 @@
+"""A sweep from its cases to its results file: skip what is there, run the rest, fold."""
+
+import os
+import signal
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from threading import current_thread, main_thread
+
+from sweep.running.writer_thread import clerk, keeping
+from sweep.running.dask_graph import Simulate, Stop, check_scheduler, run
+from sweep.config.grid import Config, expand
+from sweep.config.case import Case
+from sweep.running.batches import Plan, cost
+from sweep.running.progress import Progress, tell
+from sweep.running.provenance import config_text, describe_run
+from sweep.result import Status
+from sweep.store.read import finished_ids, read_statuses
+from sweep.store.write import Writer
+
+UNWRITABLE = "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is no folder that can be written to"
+
+
+class Interrupted(KeyboardInterrupt):
+    """A sweep that was told to stop; the text says what is kept and how to go on."""
+
+
+def run_sweep(
+    sweep: Config | Sequence[Case],
+    out: str | os.PathLike[str],
+    workers: int = 2,
+    scheduler: str | None = None,
+    retry_failed: bool = False,
+    simulate: Simulate | None = None,
+) -> int:
+    """Run the cases that `out` does not hold yet; return how many of the sweep did not converge.
+
+    scheduler: address of a Dask scheduler; without one, `workers` threads of this process.
+    retry_failed: run those that did not converge once more. Ctrl-C (or SIGTERM) keeps what is
+    finished and raises Interrupted.
+    """
+    drafts = expand(sweep) if isinstance(sweep, Config) else sweep
+    cases = {case.case_id: case for case in drafts}
+    axes = {case_id: case.axes for case_id, case in cases.items()}
+    stop = Stop()
+    if scheduler is not None:
+        check_scheduler(scheduler)
+    with Writer(out, axes, describe_run(config_text(sweep, drafts[0]))) as writer:
+        done = cases.keys() & finished_ids(out, retry_failed)
+        waiting = {case_id: case for case_id, case in cases.items() if case_id not in done}
+        chosen = simulate or real_simulate() if waiting else None
+        with interruptible(stop):
+            if not chosen:
+                with clerk() as pool:
+                    pool.submit(writer.fold).result()
+            else:
+                plan = Plan(waiting.values(), workers)
+                costs = {case_id: cost(case) for case_id, case in waiting.items()}
+                with Progress(costs, len(done)) as told, keeping(writer, plan, told) as keep:
+                    run(plan, chosen, keep, stop, scheduler)
+    statuses = read_statuses(out)
+    converged = sum(statuses.get(case_id) == Status.CONVERGED for case_id in cases)
+    kept = converged if retry_failed else len(cases.keys() & statuses.keys())
+    if stop.asked and kept < len(cases):
+        line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
+        raise Interrupted(f"{line}, and the same command runs the rest")
+    return len(cases) - converged
+
+
+def real_simulate(arcs: bool = False) -> Simulate:
+    """The real thing, imported when it is needed: it brings the compiled kernels (`warm_up`)."""
+    from kernels.compile.cache import is_cold, is_lasting, warmed_up
+
+    def load() -> Simulate:
+        from sweep.simulation.simulate import simulate, warm_up
+
+        warm_up(arcs)
+        return simulate
+
+    what = "arcs" if arcs else "marches"
+    if not is_cold("arcs", what):
+        return load()
+    from kernels.compile.precompile import compile_ahead
+
+    tell("compiling the kernels, once: this takes half a minute to one")
+    if not is_lasting():
+        tell(f"for this run alone: {UNWRITABLE}")
+    compile_ahead(load)
+    loaded = load()
+    warmed_up(what)
+    return loaded
+
+
+@contextmanager
+def interruptible(stop: Stop) -> Iterator[None]:
+    """Turn the first Ctrl-C into a wish to stop; the next one has its usual effect."""
+    if current_thread() is not main_thread():
+        yield  # no other thread may listen to signals
+        return
+    usual = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+
+    def restore() -> None:
+        for number, handler in usual.items():
+            signal.signal(number, handler)
+
+    def ask(*_: object) -> None:
+        restore()
+        stop.ask()
+
+    for number in usual:
+        signal.signal(number, ask)
+    try:
+        yield
+    finally:
+        restore()

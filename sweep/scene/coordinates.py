@@ -1,0 +1,65 @@
+"""Where the coordinates of a scene are, and which of them move.
+
+Coordinates: x and y of every node, then the rotations of the joints, then the surfaces of the lower
+and the upper platen.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sweep.scene.mesh import Ints
+
+BONDED = ("glued", "sliding")  # platens that hold the outer rows, the upper one sideways too or not
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where the coordinates are. bottom, top: nodes of the outer rows."""
+
+    n_nodes: int
+    n_joints: int
+    bottom: Ints
+    top: Ints
+
+    @property
+    def rotation(self) -> Ints:
+        """Coordinates of the joints' rotations, (n_joints,)."""
+        return 2 * self.n_nodes + np.arange(self.n_joints)
+
+    @property
+    def low(self) -> int:
+        """Coordinate of the lower platen's surface."""
+        return 2 * self.n_nodes + self.n_joints
+
+    @property
+    def high(self) -> int:
+        """Coordinate of the upper platen's surface."""
+        return self.low + 1
+
+    @property
+    def size(self) -> int:
+        """Number of coordinates."""
+        return self.high + 1
+
+
+def held(layout: Layout, platen: str | None) -> Ints:
+    """Coordinates that never move: those of clamped rows, and the lower platen."""
+    bottom, top = layout.bottom, layout.top
+    clamped = [2 * bottom, 2 * bottom + 1, layout.rotation[bottom[bottom < layout.n_joints]]]
+    turning = layout.rotation[top[top < layout.n_joints]]
+    low, high = np.array([layout.low]), np.array([layout.high])
+    if platen == "contact":
+        return low
+    if platen in BONDED:
+        along = 2 * top if platen == "glued" else top[:0]
+        return np.concatenate([*clamped, along, turning, low])
+    return np.concatenate([*clamped, low, high])
+
+
+def leaders(layout: Layout, held: Ints, tied: Ints) -> Ints:
+    """What each coordinate follows, (size,): itself, the upper platen where tied, -1 if held."""
+    leader = np.arange(layout.size)
+    leader[tied] = layout.high
+    leader[held] = -1
+    return leader

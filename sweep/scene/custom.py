@@ -1,0 +1,231 @@
+"""The arrays of a user's own structure: its walls, what holds, loads and leads it, its floor.
+
+All prescribed moves follow one coordinate, the lead, which goes from 0 to the largest of them as
+the load factor goes from 0 to 1; each has its own ratio to it.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from kernels.terms import bend, contact, spring
+from kernels.linear import analysis as pattern
+from kernels.planar.potential import Terms
+from sweep.config.structure import Structure
+from sweep.scene.bending import bends, build_bend, build_fold
+from sweep.design.network import Network, mass
+from sweep.scene.coordinates import Layout
+from sweep.scene.material import law_in_stretch
+from sweep.scene.mesh import Floats, Ints, Mesh, split_walls
+from sweep.config.case import Case, given
+from sweep.scene.terms import (
+    Scene,
+    damp_of,
+    force_scale,
+    friction_of,
+    masses_of,
+    plane_factors,
+    solved_by,
+    stretch_of,
+    unknowns_of,
+    walls_of,
+)
+from sweep.scene.contact import contact_of, projection_of
+
+MM = 1e-3
+SUDDEN = 5e-3  # of t^2 / size: a slender column shortens by 0.8 t^2 / L and buckles
+FAR = 1e3  # times the size of a structure: where the ceiling is that no contact may miss
+WAYS = ("x", "y", "rotation")
+
+
+@dataclass(frozen=True)
+class Ground(Layout):
+    """Layout with a floor, a ceiling out of reach, and the lead as the last coordinate."""
+
+    @property
+    def ceiling(self) -> int:
+        """Coordinate of a surface that nothing reaches."""
+        return self.low + 1
+
+    @property
+    def high(self) -> int:
+        """Coordinate of the lead."""
+        return self.low + 2
+
+    def coordinate(self, node: int, way: str) -> int:
+        """Coordinate of a node of the file."""
+        return (2 * node, 2 * node + 1, 2 * self.n_nodes + node)[WAYS.index(way)]
+
+
+def network_of(structure: Structure) -> Network:
+    """Centre lines in m; there are no rows that a platen could hold."""
+    none = np.empty(0, np.int64)
+    return Network(
+        MM * np.array(structure.nodes_mm),
+        np.array(structure.walls),
+        MM * np.array(structure.thickness_mm),
+        none,
+        none,
+    )
+
+
+def build_structure(case: Case) -> Scene:
+    """Build the arrays of a ``case`` with a structure of its own."""
+    of, material = given(case.lattice.structure), case.material
+    network = network_of(of)
+    mesh = split_walls(network, np.array(of.pieces), 0.0)
+    none = np.empty(0, np.int64)
+    layout = Ground(len(mesh.points), mesh.n_joints, none, none)
+    in_stretch, in_bend = plane_factors(material)
+    depth = case.lattice.depth
+    rigidity = in_bend * material.modulus * depth * mesh.thickness**3 / 12
+    bending = build_bend(mesh, rigidity, case)
+    touching = in_stretch * material.modulus * depth * (case.contact.stiffness or 0.0)
+    leader = _leaders(of, layout)
+    if not bends(case):
+        leader[layout.rotation] = -1
+    follows, travel = _led(of, solved_by(mesh, layout, leader, case), layout, mesh)
+    touch = contact_of(mesh, layout, touching, case, by_force=True)
+    printed = mass(network, depth, material.density)
+    masses = _masses(of, masses_of(mesh, layout, printed, case.loading))
+    terms = Terms(
+        law=law_in_stretch(material, in_stretch),
+        walls=walls_of(mesh, layout),
+        stretch=stretch_of(mesh, case),
+        bend=_unpinned(bending, mesh, of.pins),
+        fold=build_fold(mesh, bending, case),
+        spring=_springs(of),
+        contact=_on_floor(touch, of, layout),
+        friction=friction_of(case),
+        damp=damp_of(case),
+        mass=masses,
+        load=_load(of, layout, masses),
+        layout=follows,
+        project=projection_of(mesh, layout, follows, masses, case),
+    )
+    size = np.hypot(*np.ptp(network.points, axis=0))
+    span = max(MM * _distances(of, of.walls).max(), 0.25 * size)
+    unknowns = unknowns_of(mesh, layout, follows, case)
+    close = min(unknowns.close, SUDDEN * mesh.thickness.min() ** 2 / size)
+    unknowns = unknowns._replace(cap=0.25 * span, close=close)
+    return Scene(
+        mesh, network, terms, unknowns, _rest(of, mesh, layout),
+        bottom=np.array([layout.low]),
+        top=none,
+        base=2 * np.arange(layout.n_nodes) + 1,
+        force_scale=force_scale(network, rigidity),
+        velocity=_velocity(of, mesh, follows),
+        probes=np.array([layout.coordinate(n, way) for n in of.probes for way in WAYS], np.int64),
+        travel=travel,
+    )  # fmt: skip
+
+
+def _distances(of: Structure, pairs: Iterable[tuple[int, int]]) -> Floats:
+    """Distances of pairs of nodes, mm."""
+    ends = np.array(of.nodes_mm)[np.array(list(pairs), np.int64).reshape(-1, 2)]
+    return np.asarray(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
+
+
+def _leaders(of: Structure, layout: Ground) -> Ints:
+    """What each coordinate follows: itself, the lead, -1 where held or, a pin, without rotation."""
+    leader = np.arange(layout.size)
+    leader[[layout.low, layout.ceiling]] = -1
+    for node, way in of.held:
+        leader[layout.coordinate(node, way)] = -1
+    for node in of.pins:
+        leader[layout.coordinate(node, "rotation")] = -1
+    for part in of.prescribed:
+        leader[layout.coordinate(part.node, part.direction)] = layout.high
+    if not of.prescribed:
+        leader[layout.high] = -1
+    return leader
+
+
+def _led(
+    of: Structure, solved: pattern.Layout, layout: Ground, mesh: Mesh
+) -> tuple[pattern.Layout, float]:
+    """The layout with what is led, and the way of the lead, m: the largest prescribed move."""
+    moves = {
+        layout.coordinate(part.node, part.direction): MM * given(part.displacement_mm)
+        if part.direction != "rotation"
+        else given(part.angle_rad)
+        for part in of.prescribed
+    }
+    lever = mesh.rest_length.mean()
+    ways = [abs(move) * (lever if c >= 2 * layout.n_nodes else 1.0) for c, move in moves.items()]
+    travel = max(ways, default=0.0)
+    if travel == 0.0:  # all are held where they are
+        leader = solved.leader.copy()
+        leader[[*moves, layout.high]] = -1
+        return solved._replace(leader=leader, driven=-1), 0.0
+    ratio = solved.ratio.copy()
+    for c, move in moves.items():
+        ratio[c] = move / travel
+    return solved._replace(ratio=ratio, driven=layout.high), travel
+
+
+def _unpinned(bending: bend.Bend, mesh: Mesh, pins: tuple[int, ...]) -> bend.Bend:
+    """Arms at pins bear no moment; of a single element the other end keeps 3 Y I / l."""
+    free = np.isin(mesh.arm_joint, pins)
+    other = free.reshape(-1, 2)[:, ::-1].ravel()
+    coupled = np.repeat(bending.coupling, 2) > 0.0
+    stiffness = np.where(coupled & other, 0.75 * bending.arm_stiffness, bending.arm_stiffness)
+    return bending._replace(
+        arm_stiffness=np.where(free, 0.0, stiffness),
+        coupling=np.where(free.reshape(-1, 2).any(axis=1), 0.0, bending.coupling),
+    )
+
+
+def _springs(of: Structure) -> spring.Spring:
+    nodes = [part.nodes for part in of.springs]
+    rest = zip(of.springs, _distances(of, nodes), strict=True)
+    return spring.Spring(
+        np.array(nodes, np.int64).reshape(-1, 2),
+        np.array([part.stiffness_N_mm / MM for part in of.springs]),
+        np.array([MM * float(part.rest_length_mm or apart) for part, apart in rest]),
+    )
+
+
+def _on_floor(touch: contact.Contact, of: Structure, layout: Ground) -> contact.Contact:
+    """Contact of all nodes with the floor, where there is one."""
+    nodes = np.arange(layout.n_nodes if of.floor_y_mm is not None else 0)
+    return touch._replace(plate_nodes=nodes, low=layout.low, high=layout.ceiling)
+
+
+def _masses(of: Structure, masses: Floats) -> Floats:
+    """Masses of the coordinates with those at nodes, kg."""
+    for part in of.masses:
+        masses[[2 * part.node, 2 * part.node + 1]] += MM * part.mass_g
+    return masses
+
+
+def _load(of: Structure, layout: Ground, masses: Floats) -> Floats:
+    """Weight, forces (N) and moments (N m) by coordinate."""
+    load = np.zeros(layout.size)
+    for axis, gravity in enumerate(of.gravity_mm_s2):
+        nodes = slice(axis, 2 * layout.n_nodes, 2)
+        load[nodes] = MM * gravity * masses[nodes]
+    for part in of.loads:
+        load[[2 * part.node, 2 * part.node + 1]] += part.force_N
+        load[layout.coordinate(part.node, "rotation")] += MM * part.moment_Nmm
+    return load
+
+
+def _rest(of: Structure, mesh: Mesh, layout: Ground) -> Floats:
+    floor = MM * (of.floor_y_mm or 0.0)
+    far = mesh.points[:, 1].max() + FAR * np.ptp(mesh.points)
+    return np.concatenate([mesh.points.ravel(), np.zeros(layout.n_joints), [floor, far, 0.0]])
+
+
+def _velocity(of: Structure, mesh: Mesh, solved: pattern.Layout) -> Floats:
+    """Velocity at the start by coordinate, linear along walls; zero where held or led."""
+    nodes = MM * np.array(of.velocity_mm_s)
+    network = Network(
+        nodes, np.array(of.walls), np.zeros(len(of.walls)), *2 * [np.empty(0, np.int64)]
+    )
+    moving = split_walls(network, np.array(of.pieces), 0.0).points.ravel()
+    velocity = np.zeros(solved.leader.size)
+    free = solved.leader[: moving.size] == np.arange(moving.size)
+    velocity[: moving.size] = np.where(free, moving, 0.0)
+    return velocity

@@ -1,0 +1,103 @@
+"""What a march is told: stages of loading, and what counts as converged."""
+
+from math import ceil
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels.solve import march, integrators as scheme
+from kernels.solve.residual import Tolerance
+from sweep.config.case import Case, given
+from sweep.scene.terms import Scene, time_step
+
+GLANCE = 64  # steps of a striker after which one looks whether it is back
+ROUND_OFF = 4e-15
+WHOLE = 1e-6  # of a step: what a number of steps may be off a whole one
+GRIP = 1e3  # times the tolerance of forces: that of friction, which lags
+SCHEMES = {
+    "backward_euler": scheme.BACKWARD_EULER,
+    "bdf2": scheme.BDF2,
+    "newmark": scheme.TRAPEZOIDAL,
+    "static": scheme.BACKWARD_EULER,  # of infinite length
+    "arc_length": scheme.BACKWARD_EULER,
+}
+
+
+class Phase(NamedTuple):
+    """A stage with its name, for messages."""
+
+    name: str
+    stage: march.Stage
+
+
+def stages(case: Case, scene: Scene) -> list[Phase]:
+    """Loading and unloading as stages with linear ramps, gone through as the solver is told."""
+    chosen = SCHEMES[given(case.solver.integrator)]
+    error = np.inf if case.solver.step_error is None else case.solver.step_error
+    return [
+        Phase(name, stage._replace(scheme=chosen, error=error))
+        for name, stage in _stages(case, scene)
+    ]
+
+
+def _stages(case: Case, scene: Scene) -> list[Phase]:
+    loading, solver = case.loading, case.solver
+    pace = time_step(case)
+    dt = np.inf if loading.quasi_static else pace
+    if loading.mode == "custom":
+        start, travel = 0.0 if loading.quasi_static else 1.0, scene.travel
+        if solver.load_steps is not None:
+            stage = march.Stage(solver.load_steps, dt, pace, start, 1.0, 0.0, travel)
+        else:
+            stage = _lasting(given(loading.duration), pace, (start, 1.0), (0.0, travel))
+        return [Phase("loading", stage)]
+    rest = float(scene.x_rest[-1])
+    if loading.mode == "displacement":
+        low, steps = rest - given(loading.stroke), given(solver.load_steps)
+        down = march.Stage(steps, dt, pace, 0.0, 0.0, rest, low)
+        up = march.Stage(steps, dt, pace, 0.0, 0.0, low, rest)
+        return [Phase("loading", down)] + ([Phase("unloading", up)] if loading.unload else [])
+    still, release, duration = (rest, rest), loading.release_time, given(loading.duration)
+    if loading.mode == "impact":
+        return _flight(_lasting(duration, pace, (0.0, 0.0), still))
+    held = _lasting(min(given(release), duration), pace, (1.0, 1.0), still)
+    if duration <= given(release):
+        return [Phase("loading", held)]
+    released = _lasting(duration - given(release), pace, (0.0, 0.0), still)
+    return [Phase("loading", held), Phase("released", released)]
+
+
+def _lasting(
+    time: float, pace: float, factor: tuple[float, float], driven: tuple[float, float]
+) -> march.Stage:
+    """A stage of so much time, in equal steps of ``pace`` or, so that they fill it, a bit less."""
+    steps = max(ceil(time / pace - WHOLE), 1)
+    dt = pace if abs(steps * pace / time - 1.0) < WHOLE else time / steps
+    return march.Stage(steps, dt, dt, *factor, *driven)
+
+
+def _flight(flight: march.Stage) -> list[Phase]:
+    """A striker that flies by itself, in stages after which the run may end."""
+    starts = range(0, flight.steps, GLANCE)
+    parts = [min(GLANCE, flight.steps - done) for done in starts]
+    return [Phase("struck", flight._replace(steps=n)) for n in parts]
+
+
+def tolerances(case: Case, scene: Scene, dt: float) -> Tolerance:
+    """Scale ``solver.tolerance`` to forces and energies, not below what round-off allows."""
+    terms = scene.terms
+    force = max(scene.force_scale, np.abs(terms.load * scene.unknowns.lever).max(initial=0.0))
+    size = np.ptp(scene.mesh.points)
+    rounded = terms.law.modulus * terms.stretch.area.max() * size / terms.stretch.l0.min()
+    rounded *= 1.0 + (terms.damp.beta_k + terms.damp.relaxation) / dt
+    rounded += terms.mass.max() * size / dt * (1.0 / dt + terms.damp.alpha_m)
+    allowed = max(case.solver.tolerance * force, ROUND_OFF * rounded)
+    return Tolerance(
+        force=allowed,
+        decrement=1e-3 * allowed * case.lattice.wall_thickness,
+        friction=GRIP * allowed,
+        grip=GRIP * case.solver.tolerance,
+        noise=ROUND_OFF * force * size,
+        finest=ROUND_OFF * size,
+        iterations=case.solver.max_iterations,
+    )

@@ -1,0 +1,167 @@
+"""The uniaxial law of a material: nominal stress over nominal strain, a C1 piecewise cubic.
+
+Tension: the record, shape-preserving (pchip); below 1 % a straight line from the origin, since the
+toe of a record is slack and grip. Compression: the material's own branch where its record has one,
+else `0.7 lower + 0.3 upper` with the tension curve P, nominal strain e < 0 and stretch s = 1 + e:
+
+    lower(e) = -P(-e)                    stress odd in nominal strain
+    upper(e) = -P(1/s - 1) / s^2         Cauchy stress odd in log strain, incompressible
+
+(weights from one moulded grade; good to about 30 % beyond 15 % compression).
+
+Bending through the curve: strain s eta at the share eta of half the thickness from the centroid,
+s at the surface, gives a wall of depth b and thickness t the moment b t^2 / 4 m(s),
+
+    m(s) = integral over eta in -1..1 of sigma(s eta) eta,    odd in s;  2/3 Y s for a linear curve.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kernels.terms.elastic import Law, uniaxial
+from sweep.config.case import Material
+from sweep.config.material_file import TOE, stress_at
+
+Floats = NDArray[np.float64]
+
+SURFACE_STEPS = 70  # of the table of moments, within the toe and in all
+LOWER_WEIGHT, UPPER_WEIGHT = 0.7, 0.3
+COMPRESSION = -np.array(
+    [
+        *(0.7, 0.65, 0.6, 0.55, 0.5, 0.45, 0.4, 0.35, 0.3, 0.25),
+        *(0.2, 0.15, 0.125, 0.1, 0.075, 0.05, 0.04, 0.03, 0.02, TOE),
+    ]
+)
+
+
+@dataclass(frozen=True)
+class StressLaw:
+    """Stress (Pa) = c0 + c1 s + c2 s^2 + c3 s^3, with s = strain - knots[i] in interval i.
+
+    knots (k,) increase; coefficients (k - 1, 4). Beyond the ends: the last tangent.
+    """
+
+    knots: Floats
+    coefficients: Floats
+
+
+def linear_law(slope: float) -> StressLaw:
+    """Stress in proportion to strain."""
+    return StressLaw(np.array([0.0, 1.0]), np.array([[0.0, slope, 0.0, 0.0]]))
+
+
+@lru_cache(maxsize=64)
+def stress_law(material: Material) -> StressLaw:
+    """The law of a material under uniaxial stress; the plane-strain factor is not in it."""
+    if material.stretch == "linear":
+        return linear_law(material.modulus)
+    return _spline(*_knots(material.curve_strain, material.curve_stress))
+
+
+@lru_cache(maxsize=64)
+def law_in_stretch(material: Material, factor: float) -> Law:
+    """What kernels need of that law, all stresses times ``factor``."""
+    return as_law(stress_law(material), factor, material.modulus)
+
+
+@lru_cache(maxsize=64)
+def law_in_bending(material: Material) -> Law:
+    """What kernels need of `section_law`, over the modulus."""
+    return as_law(section_law(material), 1.0 / material.modulus, material.modulus)
+
+
+@lru_cache(maxsize=64)
+def section_law(material: Material) -> StressLaw:
+    """3/2 m(s) over 0 <= s (Pa), the stress of a linear curve with the same moment.
+
+    With d(u) = sigma(u) - sigma(-u):  m = 1/s^2 integral_0^s d(u) u du,  m' = (d(s) - 2 m) / s.
+    Beyond the table, where the inner surface is crushed to 0.3 of its length: the last tangent.
+    """
+    if material.bend != "section":
+        return linear_law(material.modulus)
+    knots, values, slopes = _knots(material.curve_strain, material.curve_stress)
+    curve = as_law(_spline(knots, values, slopes), 1.0, material.modulus)
+    odd = np.vectorize(lambda u: uniaxial(curve, u)[1] - uniaxial(curve, -u)[1])
+    end = -COMPRESSION[0]
+    even = [np.linspace(0.0, reach, SURFACE_STEPS + 1) for reach in (TOE, end)]
+    s = np.unique(np.concatenate([np.abs(knots), *even]).round(12))
+    s = s[s <= end]
+    at, weight = np.polynomial.legendre.leggauss(3)  # exact: d is cubic between knots
+    u = s[:-1, None] + 0.5 * np.diff(s)[:, None] * (1.0 + at)
+    gained = 0.5 * np.diff(s) * (odd(u) * u @ weight)
+    moment = np.cumsum(gained) / s[1:] ** 2
+    slope = (odd(s[1:]) - 2.0 * moment) / s[1:]
+    start = uniaxial(curve, 0.0)[2]
+    return _spline(s, 1.5 * np.r_[0.0, moment], np.r_[start, 1.5 * slope])
+
+
+def as_law(curve: StressLaw, factor: float, modulus: float) -> Law:
+    """A law with its integral for kernels, all stresses times ``factor``."""
+    knots, coefficients = curve.knots, factor * np.ascontiguousarray(curve.coefficients)
+    powers = np.arange(1, 5)
+    gained = np.sum(coefficients / powers * np.diff(knots)[:, None] ** powers, axis=1)
+    energy = np.concatenate([[0.0], np.cumsum(gained)])
+    at = np.clip(np.searchsorted(knots, 0.0, side="right") - 1, 0, len(coefficients) - 1)
+    energy -= energy[at] + np.sum(coefficients[at] / powers * (-knots[at]) ** powers)
+    return Law(knots, coefficients, energy, factor * modulus)
+
+
+def _spline(knots: Floats, values: Floats, slopes: Floats) -> StressLaw:
+    from scipy.interpolate import CubicHermiteSpline
+
+    spline = CubicHermiteSpline(knots, values, slopes)
+    return StressLaw(spline.x, np.ascontiguousarray(spline.c[::-1].T))
+
+
+def _knots(
+    curve_strain: tuple[float, ...], curve_stress: tuple[float, ...]
+) -> tuple[Floats, Floats, Floats]:
+    """Strains (k,), stresses (k,) and slopes (k,) of the law."""
+    strain, stress = np.array(curve_strain), np.array(curve_stress)
+    own, above = strain < 0.0, strain > TOE
+    toe = stress_at(TOE, curve_strain, curve_stress)
+    knots = np.r_[strain[own], 0.0, TOE, strain[above]]
+    values = np.r_[stress[own], 0.0, toe, stress[above]]
+    slopes = _shape_preserving_slopes(knots, values)
+    slopes[own.sum() : own.sum() + 2] = toe / TOE  # both ends of the straight line
+    if own.any():
+        return knots, values, slopes
+    values_below, slopes_below = _compression(COMPRESSION, knots, values, slopes)
+    return (
+        np.r_[COMPRESSION, knots],
+        np.r_[values_below, values],
+        np.r_[slopes_below, slopes],
+    )
+
+
+def _shape_preserving_slopes(knots: Floats, values: Floats) -> Floats:
+    from scipy.interpolate import PchipInterpolator
+
+    return np.asarray(PchipInterpolator(knots, values).derivative()(knots))
+
+
+def _compression(
+    strain: Floats, knots: Floats, values: Floats, slopes: Floats
+) -> tuple[Floats, Floats]:
+    """Stress and slope at compressive strains, from the tension curve through the knots."""
+    stretch = 1.0 + strain
+    lower, lower_slope = _tension(-strain, knots, values, slopes)
+    cauchy, cauchy_slope = _tension(1.0 / stretch - 1.0, knots, values, slopes)
+    stress = -LOWER_WEIGHT * lower - UPPER_WEIGHT * cauchy / stretch**2
+    upper_slope = cauchy_slope / stretch**4 + 2.0 * cauchy / stretch**3
+    return stress, LOWER_WEIGHT * lower_slope + UPPER_WEIGHT * upper_slope
+
+
+def _tension(
+    strain: Floats, knots: Floats, values: Floats, slopes: Floats
+) -> tuple[Floats, Floats]:
+    """Stress and slope of the tension curve; beyond its end it goes on with the last tangent."""
+    from scipy.interpolate import CubicHermiteSpline
+
+    curve = CubicHermiteSpline(knots, values, slopes)
+    inside = np.minimum(strain, knots[-1])
+    tangent = curve(inside, 1)
+    return curve(inside) + tangent * (strain - inside), tangent

@@ -1,0 +1,142 @@
+"""From a network of walls to nodes, elements, hinges, arms and folds: indices and rest geometry."""
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sweep.design.network import Network, build_network
+from sweep.config.case import Lattice
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Walls split into equal elements. The joints of the network come first among the nodes.
+
+    points (n, 2) m, at rest. edges (m, 2): along their wall. wall (m,): wall of an element.
+    pieces (m,): elements in that wall. thickness (m,) m.
+    """
+
+    points: Floats
+    edges: Ints
+    wall: Ints
+    pieces: Ints
+    thickness: Floats
+    n_joints: int
+
+    @cached_property
+    def rest_length(self) -> Floats:
+        """Length of every element, (m,) m."""
+        return np.linalg.norm(self.points[self.edges[:, 1]] - self.points[self.edges[:, 0]], axis=1)
+
+    @cached_property
+    def inner(self) -> Ints:
+        """Nodes inside walls, with the elements before and after: (h, 3) element, node, element."""
+        at_end = np.flatnonzero(self.wall[1:] == self.wall[:-1])
+        return np.column_stack([at_end, self.edges[at_end, 1], at_end + 1])
+
+    @cached_property
+    def start(self) -> Ints:
+        """First element of every wall and the end of the last, (w + 1,)."""
+        changes = 1 + np.flatnonzero(self.wall[1:] != self.wall[:-1])
+        return np.concatenate([[0], changes, [len(self.wall)]])
+
+    @cached_property
+    def arm_element(self) -> Ints:
+        """Elements at both ends of every wall, (2 w,)."""
+        return np.column_stack([self.start[:-1], self.start[1:] - 1]).ravel()
+
+    @cached_property
+    def arm_joint(self) -> Ints:
+        """Joints at both ends of every wall, (2 w,)."""
+        first, last = self.start[:-1], self.start[1:] - 1
+        return np.column_stack([self.edges[first, 0], self.edges[last, 1]]).ravel()
+
+    @cached_property
+    def openings(self) -> tuple[Ints, Floats, Ints]:
+        """Openings between neighbouring arms of every joint.
+
+        Nodes (f, 3), anticlockwise from arm 1-0 to arm 1-2; the rest opening (f,) in rad; the two
+        arms (f, 2), numbered as in `arm_joint`.
+        """
+        node, at_start = self.arm_joint, np.arange(2 * len(self.start) - 2) % 2 == 0
+        first, second = self.edges[self.arm_element].T
+        other = np.where(at_start, second, first)
+        arm = self.points[other] - self.points[node]
+        bearing = np.arctan2(arm[:, 1], arm[:, 0])
+        order = np.lexsort([bearing, node])
+        node, other, bearing = node[order], other[order], bearing[order]
+        start = np.searchsorted(node, node, side="left")
+        count = np.searchsorted(node, node, side="right") - start
+        following = start + (np.arange(len(node)) - start + 1) % count
+        opened = np.mod(bearing[following] - bearing, 2 * np.pi)
+        kept = count > 1
+        nodes = np.column_stack([other, node, other[following]])
+        return nodes[kept], opened[kept], np.column_stack([order, order[following]])[kept]
+
+    @cached_property
+    def node_length(self) -> Floats:
+        """Half of the length of every element at a node, (n,) m."""
+        return self._halves(self.rest_length)
+
+    @cached_property
+    def node_area(self) -> Floats:
+        """Half of the area of every element at a node, (n,) m^2."""
+        return self._halves(self.rest_length * self.thickness)
+
+    def _halves(self, of: Floats) -> Floats:
+        """Half of ``of`` (m,) of every element, summed at its two nodes: (n,)."""
+        half = 0.5 * of
+        shared = np.bincount(self.edges.ravel(), np.repeat(half, 2), minlength=len(self.points))
+        return shared.astype(np.float64)
+
+
+@lru_cache(maxsize=16)
+def build_mesh(lattice: Lattice) -> Mesh:
+    """The walls of a lattice in elements: often those of the case before, too."""
+    shift = lattice.imperfection * lattice.wall_thickness
+    return split_walls(build_network(lattice), lattice.nodes_per_wall + 1, shift)
+
+
+def split_walls(network: Network, pieces: int | Ints, imperfection: float) -> Mesh:
+    """Split every wall into equal elements and shift all points sideways.
+
+    pieces: elements of a wall, or of each (w,). The stress-free shift in x is ``imperfection`` (m)
+    x sin(pi y / height).
+    """
+    pieces = np.broadcast_to(np.asarray(pieces), len(network.walls))
+    inside = pieces - 1
+    of_wall = np.repeat(np.arange(len(pieces)), inside)
+    number = np.arange(len(of_wall)) - np.repeat(np.cumsum(inside) - inside, inside) + 1
+    share = (number / pieces[of_wall])[:, None]
+    start, end = network.points[network.walls[of_wall]].swapaxes(0, 1)
+    points = np.concatenate([network.points, start + share * (end - start)])
+    if imperfection > 0.0:
+        height = np.ptp(network.points[:, 1])
+        points[:, 0] += imperfection * np.sin(np.pi * (points[:, 1] - points[:, 1].min()) / height)
+    wall = np.repeat(np.arange(len(pieces)), pieces)
+    last = np.cumsum(pieces)
+    node = len(network.points) + np.arange(len(wall)) - wall  # inner node at an element's end
+    before, after = node - 1, node
+    before[last - pieces], after[last - 1] = network.walls.T
+    return Mesh(
+        points=points,
+        edges=np.column_stack([before, after]),
+        wall=wall,
+        pieces=pieces[wall],
+        thickness=np.repeat(network.wall_thickness, pieces),
+        n_joints=len(network.points),
+    )
+
+
+def row_nodes(network: Network, mesh: Mesh, joints: Ints) -> Ints:
+    """Nodes of an outer row: its joints and the nodes inside the walls between them."""
+    on = np.zeros(len(mesh.points), np.bool_)
+    on[joints] = True
+    start, end = on[network.walls].T
+    on[mesh.edges[(start & end)[mesh.wall]]] = True
+    return np.flatnonzero(on)

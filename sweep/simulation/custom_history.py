@@ -1,0 +1,35 @@
+"""History columns of a structure of a user's own: its probes, and how far it is loaded."""
+
+import numpy as np
+
+from sweep.scene.mesh import Floats
+from sweep.config.case import Case, given
+from sweep.scene.terms import Scene
+
+MOVES = ("x_m", "y_m", "rotation_rad")
+REACTIONS = ("reaction_x_N", "reaction_y_N", "reaction_moment_Nm")
+WITHOUT_PLATENS = ("strain", "top_displacement_m", "reaction_top_N")
+
+
+def own_columns(
+    history: dict[str, Floats], probed: Floats, scene: Scene, case: Case
+) -> dict[str, Floats]:
+    """The history with what only a structure has. probed (rows, 2, 3 probes): see `trace.Output`.
+
+    Reactions act on the structure; they are zero where it is free.
+    """
+    structure = given(case.lattice.structure)
+    blank = np.full(len(probed), np.nan)
+    history = history | dict.fromkeys(WITHOUT_PLATENS, blank)
+    if structure.floor_y_mm is None:
+        history["reaction_bottom_N"] = blank
+    if case.solver.integrator == "static":
+        history["load_factor"] = history["time_s"] / given(case.loading.duration)
+    free = scene.unknowns.leader[scene.probes] == scene.probes
+    reactions = np.where(free, 0.0, probed[:, 1])
+    for k, node in enumerate(structure.probes):
+        for way in range(3):
+            history[f"probe_{node}_{MOVES[way]}"] = probed[:, 0, 3 * k + way].copy()
+        for way in range(3):
+            history[f"probe_{node}_{REACTIONS[way]}"] = reactions[:, 3 * k + way].copy()
+    return history

@@ -1,0 +1,271 @@
+"""A case in, a result out: build the arrays, march through the stages, measure. No files."""
+
+import time
+from dataclasses import replace
+
+import numpy as np
+
+from kernels.solve import arc_length as arc, energy_book as book, friction_loop as lagging, march, newton
+from kernels.terms import inertia, spring
+from kernels.planar import rows as trace
+from sweep.config.structure import Load, Structure, Support
+from sweep.simulation.summary import history_columns, summarise
+from sweep.scene.mesh import Floats
+from sweep.config.case import Case, Lattice, Loading, Solver
+from sweep.scene.arcs import arc_of, path_columns
+from sweep.scene.periodic import build_periodic
+from sweep.simulation.custom_history import own_columns
+from sweep.result import Result, Status
+from sweep.scene.terms import Scene, build_scene
+from sweep.scene.loading import stages, tolerances
+from sweep.scene.custom import build_structure
+from sweep.simulation.time_limit import WATCH
+
+FRAMES = 40
+EARLY_FRAMES = 4 * FRAMES  # most impacts, and many paths, are over in a quarter of their steps
+LONGER = "try a longer loading.duration"
+SAFER = 'try smaller steps, damping or solver.integrator "backward_euler"'
+FINER = "try more solver.load_steps"
+SOUNDER = "try a smaller solver.tolerance, and look for values out of all proportion"
+GAP = 1e-3  # of the energy, that may be left over
+INVENTED = 0.1  # of the work done: energy that an integrator may make
+ADVICE = {
+    newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {shorter}",
+    lagging.UNSETTLED: "friction did not settle; try {shorter} or a smaller contact.friction",
+    newton.STALLED: "the energy could not be lowered further; "
+    "try a looser solver.tolerance or smaller steps",
+    newton.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
+    march.INACCURATE: "no step was short enough for solver.step_error; "
+    "try a larger one or {shorter}",
+    march.UNBALANCED: f"work and energies do not balance; {SOUNDER}",
+    newton.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
+}
+
+LOST = "no shape in balance within reach of the shortest arc; try a smaller solver.arc_length"
+
+
+def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
+    """Simulate ``case`` and return its `Result`; a numerical failure is a status, not an exception.
+
+    ``stop``: int64 (2,), set stop[0] to 1 from another thread to interrupt; stop[1] counts steps.
+    """
+    started = time.thread_time()
+    result = _simulated(case, np.zeros(2, np.int64) if stop is None else stop)
+    spent = time.thread_time() - started  # giving back the memory of it all counts too
+    return replace(result, summary={**result.summary, "cpu_s": spent})
+
+
+def _simulated(case: Case, stop: np.ndarray) -> Result:
+    scene = _scene(case)
+    run = _Run(scene, case, stop)
+    status, message = run.complete()
+    history = history_columns(run.rows[: run.done], scene, case)
+    if case.lattice.structure is not None:
+        history = own_columns(history, run.probed[: run.done], scene, case)
+        history |= path_columns(run.arc, run.done)
+    frames = run.frames()
+    summary = summarise(case, scene, history, frames, run.loading_rows)
+    case_id = case.case_id
+    summary |= {
+        "case_id": case_id,
+        "status": str(status),
+        "message": message,
+        "steps": int(run.state.totals[trace.STEPS]),
+        "newton_iterations": int(run.state.totals[trace.SPENT]),
+    }
+    return Result(case_id, status, message, summary, history, frames)
+
+
+def _scene(case: Case) -> Scene:
+    if case.lattice.structure is not None:
+        return build_structure(case)
+    return build_periodic(case) if case.lattice.boundary == "periodic" else build_scene(case)
+
+
+def warm_up(arcs: bool = False) -> None:
+    """Load the compiled kernels, or compile them once, so that no case pays for it.
+
+    ``arcs``: those that follow a path too, which few sweeps need.
+    """
+    lattice = Lattice(cells_x=1, cells_y=1)
+    simulate(Case(lattice=lattice, loading=Loading(release_time=1e-4, duration=2e-4)))
+    if arcs:
+        clamp = Support(node=0, fix=("x", "y", "rotation"))
+        tip = Load(node=1, force_N=(0.0, -1e-3))
+        wall = Structure(
+            nodes_mm=((0, 0), (10, 0)), walls=((0, 1),), supports=(clamp,), loads=(tip,)
+        )
+        path = Solver(integrator="arc_length", load_steps=1)
+        simulate(Case(lattice=Lattice(kind="custom", structure=wall), solver=path))
+
+
+class _Run:
+    """The march of one scene: its state, what it has written, and its clock."""
+
+    def __init__(self, scene: Scene, case: Case, control: np.ndarray):
+        self.scene, self.case, self.control = scene, case, control
+        self.stages = stages(case, scene)
+        n = scene.x_rest.size
+        total = sum(s.stage.steps for s in self.stages)
+        self.state = trace.State(
+            scene.x_rest.copy(), scene.velocity.copy(), np.zeros(trace.TIME), np.zeros((2, n)),
+            np.zeros((4, n)), np.zeros(3), np.zeros(2), np.zeros(4),
+        )  # fmt: skip
+        self.rows = np.zeros((total + 1, trace.N_COLUMNS))
+        self.probed = np.zeros((total + 1, 2, scene.probes.size))
+        self.probed[0, 0] = scene.x_rest[scene.probes]
+        self._begin()
+        self.rows[0, trace.SPEED] = scene.velocity[scene.terms.contact.high]
+        self.rows[0, trace.HEIGHT] = trace.height(scene.x_rest, scene.top, scene.base)
+        self.rows[0, trace.GAP] = np.nan
+        self.struck = case.loading.mode == "impact"
+        early = self.struck or case.solver.integrator == "arc_length"
+        self.frame_of, kept = _frames(total + 1, EARLY_FRAMES if early else FRAMES)
+        self.positions = np.tile(scene.x_rest, (kept, 1))
+        self.arc = arc_of(scene, case)
+        self.done, self.noise, self.expired = 1, 0.0, False
+
+    def _begin(self) -> None:
+        """Enter what the scene brings with it as work done: speed, and springs under tension.
+
+        What is out of balance then is let go in the first increment, like a snap.
+        """
+        state, terms = self.state, self.scene.terms
+        state.stored[0] = spring.evaluate(state.x, terms.spring, np.zeros_like(state.x))
+        state.book[book.STRETCH] = state.stored[0]
+        state.book[book.KINETIC] = inertia.kinetic(state.v, terms.mass)
+        state.book[book.WORK] = state.stored[0] + state.book[book.KINETIC]
+        self.rows[0, : trace.TIME] = state.book
+
+    def complete(self) -> tuple[Status, str]:
+        """March through all stages; return the status and its sentence."""
+        with WATCH.limit(self.case.solver.time_limit, self._expire):
+            for phase in self.stages:
+                outcome = self._through(phase.stage)
+                if self._invents() and not self.expired:
+                    advice = FINER if self.case.loading.quasi_static else SAFER
+                    return Status.STOPPED, f"the integrator made energy out of nothing; {advice}"
+                if outcome != newton.CONVERGED:
+                    return self._failed(outcome, phase.name)
+                if self.struck and self._is_back():
+                    break
+        if not self._balances():
+            return Status.STOPPED, f"work and energies do not balance {self._where()}; {SOUNDER}"
+        if self.struck and self.rows[self.done - 1, trace.SPEED] < 0.0:
+            return Status.STOPPED, f"the striker still sinks {self._where()}; {LONGER}"
+        return Status.CONVERGED, ""
+
+    def _invents(self) -> bool:
+        """Whether the steps have given more than a share `INVENTED` of the work done.
+
+        A structure at rest at the end of a few steps is as sought, whatever they have given.
+        """
+        if self.case.loading.quasi_static and self.case.lattice.structure is not None:
+            return False
+        lost, work = self.rows[: self.done, book.INTEGRATOR], self.rows[: self.done, book.WORK]
+        return bool(lost.min() < -INVENTED * work.max() - self.noise)
+
+    def _balances(self) -> bool:
+        """Whether the energy book closes but for a share `GAP` of what passes through it."""
+        rows = self.rows[: self.done]
+        left = np.abs(rows[:, book.RESIDUAL]).max()
+        size = np.abs(rows[:, : book.RESIDUAL]).max()
+        moved = self.done * self.scene.force_scale * float(np.ptp(self.scene.mesh.points))
+        return bool(left <= GAP * size + self.case.solver.tolerance * moved)
+
+    def _is_back(self) -> bool:
+        """Whether the striker is where it started; what it did beyond is dropped."""
+        height = self.rows[: self.done, trace.HEIGHT]
+        back = np.flatnonzero(height[1:] >= height[0])
+        self.done = int(back[0]) + 2 if len(back) else self.done
+        return len(back) > 0
+
+    @property
+    def loading_rows(self) -> int:
+        """Rows of the history until release, full stroke, or the striker's stop."""
+        if self.struck:
+            return int(np.argmin(self.rows[: self.done, trace.HEIGHT])) + 1
+        return self.stages[0].stage.steps + 1
+
+    def _expire(self) -> None:
+        self.expired = True
+        self.control[0] = 1
+
+    def _through(self, stage: march.Stage) -> int:
+        span = slice(self.done, self.done + stage.steps)
+        out = trace.Output(
+            self.rows[span],
+            self.frame_of[span],
+            self.positions,
+            self.scene.bottom,
+            self.scene.top,
+            self.scene.base,
+            self.scene.probes,
+            self.probed[span],
+        )
+        if not self.struck:
+            self.state.totals[trace.LAST] = 0.0  # what acts changes at once: set out anew
+        tolerance = tolerances(self.case, self.scene, stage.dt)
+        self.noise = tolerance.noise
+        of = self.scene.terms, self.scene.unknowns, tolerance, stage, self.state, out, self.control
+        outcome, written = march.march(*of) if self.arc is None else arc.follow(*of, self.arc)
+        self.done += written
+        return outcome
+
+    def _failed(self, outcome: int, stage: str) -> tuple[Status, str]:
+        where = f"while {stage}, {self._where()}"
+        if self.expired:
+            limit = self.case.solver.time_limit
+            return Status.TIMED_OUT, f"solver.time_limit of {limit:g} s reached {where}; raise it"
+        if outcome == newton.INTERRUPTED:
+            return Status.STOPPED, f"interrupted {where}; run again to complete it"
+        solver = self.case.solver
+        timed = solver.load_steps is None
+        shorter = "a smaller solver.time_step" if timed else "more solver.load_steps"
+        advice = ADVICE[outcome].format(limit=solver.max_iterations, shorter=shorter)
+        if self.arc is not None:
+            advice = LOST
+        return Status.STOPPED, f"stopped {where}: {advice}"
+
+    def _where(self) -> str:
+        """How far it came, in words."""
+        steps = f"after {self.done - 1} steps"
+        if self.case.lattice.structure is not None:
+            return steps
+        return f"at strain {self._strain(self.rows[self.done - 1, trace.HEIGHT]):.3g} {steps}"
+
+    def _strain(self, height: Floats) -> Floats:
+        """Strain where the top is ``height`` (m) above the base; NaN for a structure."""
+        if self.case.lattice.structure is not None:
+            return np.full_like(height, np.nan)
+        return (self.rows[0, trace.HEIGHT] - height) / self.case.lattice.height
+
+    def frames(self) -> dict[str, np.ndarray]:
+        """Stored shapes up to the last row that was written."""
+        steps = np.flatnonzero(self.frame_of[: self.done] >= 0)
+        rows, x = self.rows[steps], self.positions[: len(steps)]
+        n = len(self.scene.mesh.points)
+        structure = self.case.lattice.structure
+        plates = x[:, -2:].copy()
+        if self.case.loading.platen == "none":
+            plates[:] = np.nan
+        if self.case.lattice.boundary == "periodic":
+            plates[:, 0] = -np.inf
+        if structure is not None and structure.floor_y_mm is not None:
+            plates[:, 0] = x[:, self.scene.terms.contact.low]
+        return {
+            "strain": self._strain(rows[:, trace.HEIGHT]),
+            "time_s": rows[:, trace.TIME],
+            "position_m": x[:, : 2 * n].reshape(len(x), n, 2),
+            "plate_y_m": plates,
+            "edges": self.scene.mesh.edges,
+            "edge_thickness_m": self.scene.mesh.thickness,
+        }
+
+
+def _frames(n_rows: int, frames: int) -> tuple[np.ndarray, int]:
+    """Slot of every row among some even ``frames`` (-1: not kept), and their number."""
+    kept = np.unique(np.linspace(0, n_rows - 1, min(frames + 1, n_rows)).round().astype(int))
+    frame_of = np.full(n_rows, -1)
+    frame_of[kept] = np.arange(len(kept))
+    return frame_of, len(kept)

@@ -1,0 +1,188 @@
+"""What a crush was worth: history columns, energies, plateau, densification."""
+
+import numpy as np
+
+from kernels.solve import energy_book as book
+from kernels.planar import rows as trace
+from sweep.simulation.striker import (
+    impact_columns,
+    kinetic,
+    rebound_speed,
+    striker_curves,
+    work_on_lattice,
+)
+from sweep.design.network import mass, relative_density
+from sweep.scene.mesh import Floats
+from sweep.config.case import Case, Lattice
+from sweep.result import absorbed_energy_column, design_columns
+from sweep.scene.terms import Scene
+from sweep.simulation.shape_checks import (
+    Frames,
+    crossings,
+    element_strains,
+    kept_area,
+    shortening,
+    work_within_model,
+)
+
+BOOK = {
+    "work_in_J": book.WORK,
+    "kinetic_J": book.KINETIC,
+    "stretch_J": book.STRETCH,
+    "bend_J": book.BEND,
+    "contact_J": book.CONTACT,
+    "dissipated_material_J": book.MATERIAL,
+    "dissipated_friction_J": book.FRICTION,
+    "dissipated_integrator_J": book.INTEGRATOR,
+    "injected_by_projection_J": book.INJECTED,
+    "energy_residual_J": book.RESIDUAL,
+}
+DISSIPATED = ("dissipated_material_J", "dissipated_friction_J", "dissipated_integrator_J")
+TOUCHING = ("contact_J", "injected_by_projection_J")
+PLATEAU = ("plateau_stress_Pa", "densification_strain", "efficiency")
+PLATEAU_START = 0.05  # strain from which a plateau is averaged at the earliest
+
+
+def history_columns(rows: Floats, scene: Scene, case: Case) -> dict[str, Floats]:
+    """Columns of the history from the rows that the march wrote, (rows, N_COLUMNS)."""
+    travel = rows[0, trace.HEIGHT] - rows[:, trace.HEIGHT]
+    endless = case.lattice.boundary == "periodic"  # the same mean stress everywhere
+    below = trace.REACTION_TOP if endless else trace.REACTION_BOTTOM
+    gap = np.where(np.isfinite(rows[:, trace.GAP]), rows[:, trace.GAP], np.nan)
+    return {
+        "time_s": rows[:, trace.TIME].copy(),
+        "strain": travel / (case.lattice.height or np.nan),
+        "top_displacement_m": travel,
+        "reaction_top_N": rows[:, trace.REACTION_TOP].copy(),
+        "reaction_bottom_N": rows[:, below].copy(),
+        **{name: rows[:, column].copy() for name, column in BOOK.items()},
+        "newton_iterations": np.diff(rows[:, trace.ITERATIONS_DONE], prepend=0.0),
+        "min_gap_m": gap,
+    } | (striker_curves(rows[:, trace.SPEED], case) if case.loading.mode == "impact" else {})
+
+
+def absorbed_until(force: float, transmitted: Floats, work: Floats) -> float:
+    """Work in J done until ``transmitted`` (rows,) first exceeds ``force`` (N), interpolated."""
+    over = np.flatnonzero(transmitted > force)
+    if len(over) == 0:
+        return float(work[-1])
+    k = over[0]
+    if k == 0:
+        return float(work[0])
+    share = (force - transmitted[k - 1]) / (transmitted[k] - transmitted[k - 1])
+    return float(work[k - 1] + share * (work[k] - work[k - 1]))
+
+
+def efficiency(stress: Floats, work_density: Floats) -> Floats:
+    """Energy-absorption efficiency: work density / largest stress so far, (rows,).
+
+    Its maximum marks densification (Miltz & Gruenbaum 1981; Li, Magkiriadis & Harrigan 2006).
+    """
+    largest = np.maximum.accumulate(np.abs(stress))
+    safe = np.where(largest > 0, largest, 1.0)
+    return np.where(largest > 0, work_density / safe, 0.0)
+
+
+def plateau(
+    lattice: Lattice, strain: Floats, force: Floats, work: Floats
+) -> tuple[int, dict[str, float]]:
+    """The row up to which a crush is counted, and the columns `PLATEAU` at it.
+
+    That is where the efficiency is greatest and the lattice has packed down. If that is the last
+    row, nothing says that it has: a longer crush might be more efficient still.
+
+    strain, force (N), work (J): (rows,), of the way down.
+    """
+    area = lattice.outer_size[0] * lattice.depth
+    stress, density = force / area, work / (area * lattice.height)
+    gained = efficiency(stress, density)
+    best, last = int(np.argmax(gained)), len(strain) - 1
+    packs = 0 < best < last
+    row = best if packs else last
+    begun = int(np.searchsorted(strain, min(PLATEAU_START, 0.5 * strain[row])))
+    mean = np.nan
+    if strain[row] > strain[begun]:
+        mean = (density[row] - density[begun]) / (strain[row] - strain[begun])
+    packed = strain[row] if packs else np.nan
+    return row, dict(zip(PLATEAU, map(float, (mean, packed, gained[row])), strict=True))
+
+
+def summarise(
+    case: Case, scene: Scene, history: dict[str, Floats], frames: Frames, loading_rows: int
+) -> dict[str, float | int | str]:
+    """Summary columns of a run, of whose history the first ``loading_rows`` rows are loading."""
+    curves = history | {"work_in_J": work_on_lattice(case, history)}
+    loading = {name: column[:loading_rows] for name, column in curves.items()}
+    grams = 1e3 * mass(scene.network, case.lattice.depth, case.material.density)
+    absorbed = float(loading["work_in_J"][-1])
+    gaps = history["min_gap_m"][np.isfinite(history["min_gap_m"])]
+    return {
+        **design_columns(case),
+        "mass_g": grams,
+        "relative_density": relative_density(scene.network, case.lattice),
+        "absorbed_energy_J": absorbed,
+        "returned_energy_J": returned(case, history, loading_rows),
+        "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),
+        "dissipated_integrator_J": float(history["dissipated_integrator_J"][-1]),
+        "injected_by_projection_J": float(history["injected_by_projection_J"][-1]),
+        "energy_residual_J": float(history["energy_residual_J"][-1]),
+        "specific_absorption_J_per_g": absorbed / grams,
+        "peak_force_N": float(transmitted(case, history).max()),
+        "peak_strain": float(history["strain"].max()),
+        "min_gap_m": float(gaps.min()) if len(gaps) else np.nan,
+        "touched": int(any(np.any(history[name] != 0.0) for name in TOUCHING)),
+        **impact_columns(case, scene, history),
+        **crush_columns(case, loading),
+        **shape_columns(scene, frames, loading),
+    }
+
+
+def returned(case: Case, history: dict[str, Floats], loading_rows: int) -> float:
+    """Work given back to a platen or a striker that moves back up (J); NaN where none does."""
+    if case.loading.mode == "impact":
+        return float(kinetic(case, rebound_speed(history)))
+    work = history["work_in_J"]
+    if case.loading.mode == "force" or len(work) <= loading_rows:
+        return np.nan
+    return float(work[loading_rows - 1] - work[-1])
+
+
+def transmitted(case: Case, history: dict[str, Floats]) -> Floats:
+    """The greater of the forces on the two platens; that on the support if struck, (rows,) N."""
+    if case.loading.mode == "impact":
+        return history["reaction_bottom_N"]
+    return np.fmax(history["reaction_top_N"], history["reaction_bottom_N"])
+
+
+def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
+    """What the force-displacement curve of the loading says; a dead load has no plateau."""
+    strain, work, passed_on = loading["strain"], loading["work_in_J"], transmitted(case, loading)
+    row, found = len(strain) - 1, dict.fromkeys(PLATEAU, np.nan)
+    if case.loading.mode == "displacement":
+        row, found = plateau(case.lattice, strain, loading["reaction_top_N"], work)
+    found |= {
+        "absorbed_energy_at_densification_J": float(work[row]),
+        "peak_force_at_densification_N": float(passed_on[: row + 1].max()),
+    }
+    return found | {
+        absorbed_energy_column(allowed): absorbed_until(allowed, passed_on, work)
+        for allowed in case.loading.allowed_forces
+    }
+
+
+def shape_columns(
+    scene: Scene, frames: Frames, loading: dict[str, Floats]
+) -> dict[str, float | int]:
+    """What the stored shapes say, and the work up to which they are within the model."""
+    strains, network = element_strains(frames), scene.network
+    walls = np.concatenate([frames["edges"], scene.around])
+    return {
+        "residual_strain": shortening(frames, network.bottom, network.top),
+        "least_element_strain": float(strains.min()),
+        "greatest_element_strain": float(strains.max()),
+        "kept_area": kept_area(frames),
+        "absorbed_energy_within_model_J": work_within_model(
+            strains, frames["time_s"], loading["time_s"], loading["work_in_J"]
+        ),
+        "max_crossings": crossings({**frames, "edges": walls}),
+    }

@@ -1,0 +1,138 @@
+"""Rows of a results file, in memory or in a sealed file, and the union of several such blocks.
+
+The curves and shapes of the cases are ragged: all arrays of a name lie end to end, and `start` and
+`rows` say which stretch belongs to which case.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from sweep.store.columns import Columns, stack, tabulate, take
+from sweep.result import Result
+
+FRAME_GROUPS = {
+    "frames": ("strain", "time_s", "plate_y_m"),
+    "points": ("position_m",),
+    "edges": ("edges", "edge_thickness_m"),
+}
+"""Arrays of `Result.frames` by what a row of them is: a frame, a node of a frame, an element."""
+
+GROUPS = ("histories", *FRAME_GROUPS)
+
+STRETCH = 1 << 18  # rows that are copied at a time
+
+
+@dataclass(frozen=True)
+class Ragged:
+    """Arrays end to end: the case in row i of the summary has `start[i]` to `start[i] + rows[i]`.
+
+    start, rows: int64 (n,). arrays: name -> array or dataset (sum of rows, ...).
+    """
+
+    start: np.ndarray
+    rows: np.ndarray
+    arrays: Mapping[str, Any]
+
+    def is_whole(self) -> bool:
+        """True if every stretch lies within every array."""
+        end = (self.start + self.rows).max(initial=0)
+        return min(self.start.min(initial=0), self.rows.min(initial=0)) >= 0 and all(
+            array.shape[0] >= end for array in self.arrays.values()
+        )
+
+    def case(self, row: int) -> dict[str, np.ndarray]:
+        """The arrays of one case."""
+        begin = self.start[row]
+        end = begin + self.rows[row]
+        return {name: array[begin:end] for name, array in self.arrays.items()}
+
+    def stretches(self, kept: np.ndarray) -> Iterator[tuple[int, int]]:
+        """Begin and end of every stretch of values that holds the kept cases, one after another."""
+        begins, ends = self.start[kept], self.start[kept] + self.rows[kept]
+        breaks = np.flatnonzero(begins[1:] != ends[:-1]) + 1
+        for run in np.split(np.arange(len(kept)), breaks) if len(kept) else []:
+            end = int(ends[run[-1]])
+            for begin in range(int(begins[run[0]]), end, STRETCH):
+                yield begin, min(begin + STRETCH, end)
+
+
+@dataclass(frozen=True)
+class Block:
+    """The rows of one sealed file, or of one batch in memory."""
+
+    summary: Mapping[str, np.ndarray]
+    ragged: Mapping[str, Ragged]
+    attributes: Mapping[str, Any]
+
+    def table(self, names: Iterable[str] = ()) -> Columns:
+        """The summary in memory, or the named columns of it."""
+        return {name: self.summary[name] for name in names or self.summary}
+
+    def as_stored(self, rows: np.ndarray) -> np.ndarray:
+        """Row numbers in the order in which their curves lie in the file."""
+        return rows[np.argsort(self.ragged["histories"].start[rows], kind="stable")]
+
+
+def block_of(results: Sequence[Result]) -> Block:
+    """A finished batch, in the form of a sealed file."""
+    who = [{"case_id": r.case_id, "status": str(r.status), "message": r.message} for r in results]
+    table = tabulate([row | dict(r.summary) for row, r in zip(who, results, strict=True)])
+    ragged = {"histories": _ragged([result.history for result in results])}
+    for group, names in FRAME_GROUPS.items():
+        ragged[group] = _ragged([_flat_frames(result, names) for result in results])
+    return Block(table, ragged, {})
+
+
+def newest_rows(blocks: Sequence[Block]) -> list[np.ndarray]:
+    """Rows of each block (oldest first) that no later row has anew."""
+    newest = {
+        case_id: (number, row)
+        for number, block in enumerate(blocks)
+        for row, case_id in enumerate(block.summary["case_id"])
+    }
+    rows: list[list[int]] = [[] for _ in blocks]
+    for number, row in newest.values():
+        rows[number].append(row)
+    return [np.array(sorted(numbers), dtype=np.int64) for numbers in rows]
+
+
+def joined(
+    blocks: Sequence[Block], rows: Sequence[np.ndarray], names: Iterable[str] = ()
+) -> Columns:
+    """One table of these rows of the blocks, with all columns or the named ones."""
+    pairs = zip(blocks, rows, strict=True)
+    return stack([take(block.table(names), kept) for block, kept in pairs])
+
+
+def newest(blocks: Sequence[Block], names: Iterable[str] = ()) -> Columns:
+    """The summary of the union, or the named columns of it."""
+    return joined(blocks, newest_rows(blocks), names)
+
+
+def _flat_frames(result: Result, names: Iterable[str]) -> dict[str, np.ndarray]:
+    arrays = {name: np.asarray(result.frames[name]) for name in names if name in result.frames}
+    if "position_m" in arrays:
+        arrays["position_m"] = arrays["position_m"].reshape(-1, 2)
+    return arrays
+
+
+def _ragged(cases: Sequence[Mapping[str, np.ndarray]]) -> Ragged:
+    rows = np.array([len(next(iter(case.values()), ())) for case in cases], dtype=np.int64)
+    names = dict.fromkeys(name for case in cases for name in case)
+    values = {name: _end_to_end(name, cases, rows) for name in names}
+    return Ragged(np.cumsum(rows) - rows, rows, values)
+
+
+def _end_to_end(name: str, cases: Sequence[Mapping], rows: np.ndarray) -> np.ndarray:
+    """One array of all cases, as precise as a file holds it; NaN for a case that lacks it."""
+    like = next(case[name] for case in cases if name in case)
+    values = [
+        case[name] if name in case else np.full((n, *like.shape[1:]), np.nan)
+        for case, n in zip(cases, rows, strict=True)
+        if case
+    ]
+    digits = np.float32 if like.dtype.kind == "f" else np.int32
+    return np.concatenate(values or [like[:0]], dtype=digits, casting="same_kind")

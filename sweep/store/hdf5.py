@@ -1,0 +1,180 @@
+"""A results file while it is written: values are added at the end, the table comes last.
+
+Its layout is that of sweep/store.py. It bears a temporary name until it is sealed.
+"""
+
+from collections.abc import Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+from h5py import h5d, h5s, h5t
+
+from sweep.store.batch import GROUPS, Block, Ragged, newest_rows
+from sweep.store.columns import Axes, Columns, arrange, beyond, relabel, rows_in_order, stack, take
+from sweep.store.parts import Unsealed
+from sweep.result import Column, describe_array, describe_column
+
+FORMAT = 1  # of the layout
+CHUNK = 4096  # rows of a piece that is compressed and checked by itself
+LARGE_CHUNK = 16384  # of one that is only checked
+AHEAD = 1 << 18  # bytes of an array that wait for more of a piece: the others are written at once
+
+
+@dataclass(frozen=True)
+class About:
+    """What a sealed file says besides its rows.
+
+    axes: case id -> grid values (dotted key -> value in SI), in the order that the rows shall have.
+    attributes: config, versions and the like. last: number of the last batch in it. Also counted:
+    cases that `axes` does not know, of other configs.
+    """
+
+    axes: Axes = field(default_factory=dict)
+    attributes: Mapping[str, Any] = field(default_factory=dict)
+    last: int = 0
+
+
+def seal_blocks(target: Path, blocks: Sequence[Block], about: About, packed: bool) -> None:
+    """Seal the union of some blocks, oldest first, under the name `target`."""
+    with closing(Growing(target, packed)) as growing:
+        for block, rows in zip(blocks, newest_rows(blocks), strict=True):
+            growing.add(block, rows)
+        growing.seal(about)
+
+
+class Growing:
+    """The file that is to be sealed as `target`.
+
+    packed: compressed, and with a description of every array, as befits what stays.
+    """
+
+    def __init__(self, target: Path, packed: bool) -> None:
+        self._packed = packed
+        self._disk = Unsealed(target)
+        self._file = h5py.File(self._disk, "w", libver=("v110", "v110"), rdcc_nbytes=AHEAD)
+        self._tables: list[Columns] = []
+        self._known: dict[str, None] = {}  # the ids, in the order of the blocks' tables
+        self._ragged = {name: _Ragged(self._file.create_group(name), packed) for name in GROUPS}
+
+    def add(self, block: Block, rows: np.ndarray) -> None:
+        """Add rows of a block, by their numbers. They count for more than those added before."""
+        self._known |= dict.fromkeys(block.summary["case_id"][rows])
+        stored = block.as_stored(rows)
+        self._tables.append(take(block.table(), stored))
+        for name, ragged in self._ragged.items():
+            ragged.add(block.ragged[name], stored)
+        self._disk.complain()
+
+    def add_older(self, blocks: Sequence[Block]) -> None:
+        """Add the rows of some blocks, oldest first, whose cases are not there yet."""
+        newer, self._known = self._known, {}
+        for block, rows in zip(blocks, newest_rows(blocks), strict=True):
+            ids = block.summary["case_id"][rows]
+            self.add(block, rows[[case_id not in newer for case_id in ids]])
+        self._known |= newer
+
+    def seal(self, about: About) -> None:
+        """Write the table, its rows in the order of `about.axes`, and give the file its name."""
+        table = stack(self._tables)
+        newest = {case_id: row for row, case_id in enumerate(table["case_id"])}
+        places = rows_in_order(newest, dict.fromkeys([*about.axes, *self._known]))
+        order = np.array(list(newest.values()), dtype=np.int64)[places]
+        summary = self._file.create_group("summary", track_order=True)
+        rows = relabel(take(table, order), about.axes)
+        for name, column in arrange(rows).items():
+            data = _write_column(summary, name, column)
+            if self._packed:
+                _describe(data, describe_column(name))
+        for ragged in self._ragged.values():
+            ragged.finish(order)
+        counts = {"folded": about.last, "other_cases": beyond(rows, about.axes)}
+        self._file.attrs.update({**about.attributes, "format": FORMAT, **counts})
+        self._file.close()
+        self._disk.seal()
+
+    def close(self) -> None:
+        """Throw the file away if it is not sealed."""
+        self._file.close()
+        self._disk.abandon()
+
+
+class _Ragged:
+    """A group of arrays, in which those of the cases lie end to end."""
+
+    def __init__(self, group: h5py.Group, packed: bool) -> None:
+        self._group, self._packed = group, packed
+        self._values = group.create_group("values", track_order=True)
+        self._data: dict[str, h5py.Dataset] = {}
+        self._rows: list[np.ndarray] = []
+        self._total = 0
+
+    def add(self, ragged: Ragged, kept: np.ndarray) -> None:
+        """Copy the stretches of the kept cases; what a block lacks stays NaN."""
+        rows = ragged.rows[kept]
+        at, self._total = self._total, self._total + int(rows.sum())
+        self._rows.append(rows)
+        for name, array in ragged.arrays.items():
+            data = self._array(name, array, self._total - at)
+            data.resize(self._total, axis=0)
+            end = at
+            for first, last in ragged.stretches(kept):
+                end += last - first
+                data[end - last + first : end] = array[first:last]
+
+    def finish(self, order: np.ndarray) -> None:
+        """Say which stretch belongs to which case, in the order of the table."""
+        rows = np.concatenate(self._rows)
+        self._group["start"] = (np.cumsum(rows) - rows)[order]
+        self._group["rows"] = rows[order]
+        for name, data in self._data.items():
+            if len(data) < self._total:
+                data.resize(self._total, axis=0)
+            if self._packed:
+                _describe(data, describe_array(self._group.name, name))
+        self._data.clear()  # a file takes long to close where datasets are open
+
+    def _array(self, name: str, like: Any, rows: int) -> h5py.Dataset:
+        if name not in self._data:
+            packed = self._packed and name != "position_m"
+            piece = CHUNK if packed else LARGE_CHUNK
+            self._data[name] = self._values.create_dataset(
+                name,
+                (0, *like.shape[1:]),
+                maxshape=(None, *like.shape[1:]),
+                chunks=(piece if self._packed else min(max(rows, 1), piece), *like.shape[1:]),
+                **_digits(like.dtype),
+                **_filters(packed),
+            )
+        return self._data[name]
+
+
+def _digits(dtype: np.dtype) -> dict[str, Any]:
+    """Half of those that were computed; what is lacking is NaN, or 0 among whole numbers."""
+    real = dtype.kind == "f"
+    return {"dtype": np.float32 if real else np.int32, "fillvalue": np.nan if real else 0}
+
+
+def _filters(packed: bool) -> dict[str, Any]:
+    """Compressed, or no more than a checksum that zeros do not pass.
+
+    Positions would shrink by a third only, and take most of the time.
+    """
+    return {"compression": "gzip", "compression_opts": int(packed), "shuffle": packed}
+
+
+def _write_column(group: h5py.Group, name: str, column: np.ndarray) -> h5py.Dataset:
+    if column.dtype == object:
+        return group.create_dataset(name, data=column, dtype=h5py.string_dtype("utf-8"))
+    # As create_dataset does, but without its many questions, which take four times as long.
+    kind, space = h5t.py_create(column.dtype, logical=True), h5s.create_simple(column.shape)
+    data = h5d.create(group.id, name.encode(), kind, space)
+    data.write(h5s.ALL, h5s.ALL, np.ascontiguousarray(column))
+    return h5py.Dataset(data)
+
+
+def _describe(data: h5py.Dataset, column: Column) -> None:
+    data.attrs.update({"units": column.units, "description": column.description})

@@ -1,0 +1,147 @@
+"""The one writer of a results file: seals batches as parts, merges them, folds them in."""
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, closing, contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+
+from sweep.store.batch import Block, block_of
+from sweep.store.columns import Axes
+from sweep.store.hdf5 import About, Growing, seal_blocks
+from sweep.store.lock import LockedError, exclusive
+from sweep.store.parts import (
+    Part,
+    clear_leftovers,
+    discard,
+    list_parts,
+    make_folder,
+    new_part,
+    parts_to_merge,
+    remove_folder,
+    too_many,
+)
+from sweep.result import Result
+from sweep.store.read import StoreError, exists, folded_batches, is_labelled, open_sealed
+
+
+class Writer:
+    """Writes into a results file, alone, from the beginning to the end of a `with` block.
+
+    axes: case id -> grid values (dotted key -> value in SI) of every case of the sweep, in the
+    order that the rows shall have. attributes: what to say about the run (sweep/provenance.py).
+
+    What is appended is sealed as a part, and also added to the file that is to hold everything in
+    the end: little is left to do then.
+    """
+
+    def __init__(
+        self,
+        path: str | os.PathLike[str],
+        axes: Axes | None = None,
+        attributes: Mapping[str, Any] | None = None,
+    ) -> None:
+        self.path = Path(path)
+        self._about = About(axes or {}, attributes or {})
+        self._found: list[Part] = []
+        self._sealed: list[Part] = []
+        self._growing: Growing | None = None
+        self._held = ExitStack()
+
+    def __enter__(self) -> Self:
+        if self.path.suffix != ".h5":  # with another name it would share its parts with NAME.h5
+            raise StoreError(f"{self.path} cannot be written: allowed are names that end in .h5.")
+        with _writing(self.path), ExitStack() as held:
+            make_folder(self.path.parent)
+            held.enter_context(_only_writer(self.path))
+            folded = folded_batches(self.path)
+            clear_leftovers(self.path, folded)
+            found = list_parts(self.path)
+            self._count(max([folded, *(part.last for part in found)]))
+            self._found = [self._merged(found)] if too_many(found) else found
+            self._held = held.pop_all()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._held.close()
+
+    def append(self, results: Sequence[Result]) -> None:
+        """Seal a batch as a part: from here on no kill can lose it."""
+        if not results:
+            return
+        number = self._about.last + 1
+        part, block = new_part(self.path, number, number), block_of(results)
+        with _writing(self.path):
+            make_folder(part.path.parent)
+            seal_blocks(part.path, [block], self._about, packed=False)
+            self._sealed.append(part)
+            self._count(number)
+            self._grown().add(block, np.arange(len(results)))
+            self._merge()
+
+    def fold(self, last: Sequence[Result] = ()) -> None:
+        """Bring all parts into the one file, and its rows into the order of `axes`.
+
+        last: results that come straight into the file, without a part of their own.
+        """
+        parts = [*self._found, *self._sealed]
+        with _writing(self.path):
+            if last:
+                self._grown().add(block_of(last), np.arange(len(last)))
+            if parts or last or not self._is_labelled():
+                growing, self._growing = self._grown(), None  # of no use again, even if this fails
+                with ExitStack() as held:
+                    growing.add_older(self._older(held))
+                    growing.seal(self._about)
+            discard(parts)
+            remove_folder(self.path)
+        self._found, self._sealed = [], []
+
+    def _is_labelled(self) -> bool:
+        return not exists(self.path) or is_labelled(self.path, self._about.axes)
+
+    def _count(self, last: int) -> None:
+        self._about = replace(self._about, last=last)
+
+    def _grown(self) -> Growing:
+        if self._growing is None:
+            self._growing = self._held.enter_context(closing(Growing(self.path, packed=True)))
+        return self._growing
+
+    def _older(self, held: ExitStack) -> list[Block]:
+        """What was there before anything was appended, held open."""
+        whole = [self.path] if self.path.exists() else []
+        return [open_sealed(path, held) for path in (*whole, *(p.path for p in self._found))]
+
+    def _merge(self) -> None:
+        while parts := parts_to_merge(self._sealed):
+            self._sealed[-len(parts) :] = [self._merged(parts)]
+
+    def _merged(self, parts: list[Part]) -> Part:
+        merged = new_part(self.path, parts[0].first, parts[-1].last)
+        with ExitStack() as held:
+            blocks = [open_sealed(part.path, held) for part in parts]
+            seal_blocks(merged.path, blocks, self._about, packed=True)
+        discard(parts)
+        return merged
+
+
+@contextmanager
+def _writing(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise StoreError(f"{path} cannot be written: {error.strerror or error}.") from error
+
+
+@contextmanager
+def _only_writer(path: Path) -> Iterator[None]:
+    try:
+        with exclusive(path.with_name(f".{path.name}.lock")):
+            yield
+    except LockedError as error:
+        holder = f" (process {error.holder})" if error.holder else ""
+        raise StoreError(f"Another run is writing into {path}{holder}.") from None

@@ -1,0 +1,49 @@
+"""The undeformed grid and its collapse, walls as thick as they are."""
+
+from pathlib import Path
+
+from sweep.report import case_plots as plots
+from sweep.studies.course_report.cases import ours, report, run, varied
+from sweep.studies.course_report.springs import SHORT
+from sweep.config.case import Case
+
+
+def draw(folder: Path) -> tuple[str, ...]:
+    """Its Figs. 5 and 6."""
+    frames = run(report()).frames
+    rest = {key: values[:1] for key, values in frames.items() if not key.startswith("edge")}
+    figure = plots.blank(3.0, 3.2)
+    plots.deformed_shapes(figure, "at rest", {**frames, **rest})
+    plots.save(figure, folder / "fig05_undeformed.png")
+    by_position, barrier = varied(report(), loading=SHORT), varied(ours(), loading=SHORT)
+    cases = {
+        "without contact": varied(report(), contact={"model": "none"}, loading=SHORT),
+        "contact by position: the report's model": by_position,
+        "barrier: our model": barrier,
+    }
+    figure = plots.blank(10.0, 7.0)
+    strips = figure.subfigures(len(cases), 1, squeeze=False)[:, 0]
+    for strip, (name, case) in zip(strips, cases.items(), strict=True):
+        plots.deformed_shapes(strip, name, run(case).frames, SHORT["duration"])
+    plots.save(figure, folder / "fig06_collapse.png")
+    rows = [
+        f"{name}: strain up to {run(case).summary['peak_strain']:.2f}, walls through one another "
+        f"{run(case).summary['max_crossings']} times"
+        for name, case in cases.items()
+    ]
+    return (
+        "Fig. 5 shows the grid of 3 x 3 cells with two nodes on each edge, Fig. 6 frames of its "
+        "collapse under the load on the top row.",
+        f"In the first {1e3 * SHORT['duration']:.0f} ms, {'; '.join(rows)}. The walls are "
+        f"{1e3 * report().lattice.wall_thickness:g} mm thick; by position they come as close as "
+        f"{_gap(by_position):.2f} mm, centre line to centre line, with the barrier "
+        f"{_gap(barrier):.2f} mm.",
+        "Without a floor and without contact the top row ends below the bottom row. With contact "
+        "the rows come to lie on one another, sideways, as the top row is free to sway. Only the "
+        "bottom row is held: the grey bar is drawn, and nothing rests on it.",
+    )
+
+
+def _gap(case: Case) -> float:
+    """Least distance of centre lines, mm."""
+    return 1e3 * float(run(case).summary["min_gap_m"])

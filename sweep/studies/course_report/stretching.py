@@ -1,0 +1,92 @@
+"""Linear against nonlinear stretching, under force and under displacement."""
+
+from pathlib import Path
+
+import numpy as np
+from pandas import DataFrame
+
+from sweep.report import case_plots as plots
+from sweep.studies.course_report.cases import HELD, at, history, ours, report, varied
+from sweep.studies.course_report.panels import curves, legend, title
+from sweep.config.case import Case
+
+LAWS = ("nonlinear", "linear")
+PRESSED = {"mode": "displacement", "strain": 0.6, "unload": False, "platen": "glued"}
+
+
+def draw(folder: Path) -> tuple[str, ...]:
+    """Its Figs. 9 and 10."""
+    forced, pressed = _pair(report()), _pair(varied(ours(), loading=PRESSED))
+    steady = _pair(ours())
+    figure = plots.blank(9.0, 3.4)
+    ax = figure.subplots()
+    lines = {f"{law}, the report's model": _way(past) for law, past in forced.items()}
+    curves(ax, lines | {f"{law}, our model": _way(past) for law, past in steady.items()},
+           "time, ms", "strain, %")  # fmt: skip
+    legend(ax)
+    plots.save(figure, folder / "fig09_stretching_strain.png")
+    figure = plots.blank(10.0, 3.6)
+    left, right = figure.subplots(1, 2)
+    for ax, pasts, x in ((left, forced, "time_s"), (right, pressed, "strain")):
+        factor, words = (1e3, "time, ms") if x == "time_s" else (100.0, "strain, %")
+        lines = {
+            f"{label}, {law}": (factor * past[x], 1e3 * past[key])
+            for key, label in (("bend_J", "bending"), ("stretch_J", "stretching"))
+            for law, past in pasts.items()
+        }
+        curves(ax, lines, words, "energy, mJ")
+    title(left, f"under a force of {report().loading.force:g} N, the report's model")
+    title(right, "under displacement, our model")
+    legend(right)
+    plots.save(figure, folder / "fig10_stretching_energies.png")
+    said = {name: _words(pasts, "time_s") for name, pasts in (("r", forced), ("o", steady))}
+    bend_held, bend_way = _settled(steady, "bend_J"), _apart(pressed, "bend_J", "strain")
+    return (
+        "Figs. 9 and 10 compare linear and nonlinear stretching under a force; the report expected "
+        "them to diverge more under displacement.",
+        f"Greatest differences, as shares of the greatest value. Under the force, report's model: "
+        f"{said['r']}; ours: {said['o']}. Settled, at {1e3 * HELD:.0f} ms: strain "
+        f"{_settled(forced, 'strain'):.1f} %, bending {_settled(forced, 'bend_J'):.1f} % and "
+        f"stretching {_settled(forced, 'stretch_J'):.1f} % in the report's model; "
+        f"{_settled(steady, 'strain'):.1f} %, {bend_held:.1f} % and "
+        f"{_settled(steady, 'stretch_J'):.1f} % in ours. Under displacement, ours, pressed to 60 % "
+        f"between glued platens: {_words(pressed, 'strain')}, force on the top "
+        f"{_apart(pressed, 'reaction_top_N', 'strain'):.1f} %.",
+        f"To the report's question: {_answer(bend_way, bend_held)}. The bending energies part by "
+        f"{bend_way:.1f} % at most when the displacement is prescribed: walls that bend hardly "
+        "stretch, and bending is linear in both. Under a force they part for a while, by "
+        f"{_apart(steady, 'bend_J', 'time_s'):.0f} %, as the softer law buckles earlier; at rest "
+        f"again {bend_held:.1f} % is left.",
+    )
+
+
+def _pair(case: Case) -> dict[str, DataFrame]:
+    return {law: history(varied(case, material={"stretch": law})) for law in LAWS}
+
+
+def _way(past: DataFrame) -> tuple[DataFrame, DataFrame]:
+    return 1e3 * past["time_s"], 100.0 * past["strain"]
+
+
+def _apart(pasts: dict[str, DataFrame], column: str, x: str) -> float:
+    """Greatest difference of a column between the laws, % of its greatest value."""
+    one, other = (pasts[law] for law in LAWS)
+    gap = np.abs(one[column] - np.interp(one[x], other[x], other[column]))
+    return 100.0 * float(gap.max() / one[column].max())
+
+
+def _settled(pasts: dict[str, DataFrame], column: str) -> float:
+    """Difference of a column between the laws under the load at rest, %."""
+    one, other = (at(pasts[law], column) for law in LAWS)
+    return 100.0 * abs(one / other - 1.0)
+
+
+def _words(pasts: dict[str, DataFrame], x: str) -> str:
+    strain = "" if x == "strain" else f"strain {_apart(pasts, 'strain', x):.1f} %, "
+    bend, stretch = (_apart(pasts, name, x) for name in ("bend_J", "stretch_J"))
+    return f"{strain}bending {bend:.1f} %, stretching {stretch:.1f} %"
+
+
+def _answer(way: float, held: float) -> str:
+    """Whether the laws part more when the displacement is prescribed."""
+    return "no, not to speak of" if way < max(1.0, held) else "yes"

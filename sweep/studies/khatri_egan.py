@@ -1,0 +1,261 @@
+"""A measured crush and what is predicted of it: a table, a tornado chart, curves.
+
+`make experiment` runs `configs/khatri_egan_square.toml`, whose first case between each kind of
+platens is the base case and every other one changes one thing, and reads its results.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from sweep.report import case_plots as plots
+from sweep.numbers import three_digits
+from sweep.studies.course_report.panels import dress, legend
+from sweep.report.markdown import markdown
+from sweep.report.sheets import Sheet
+from sweep.store.read import read_history, read_summary
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from pandas import DataFrame, Series
+
+CONFIG = Path(__file__).parents[2] / "configs" / "khatri_egan_square.toml"
+# N. R. Khatri and P. F. Egan 2024, mean and scatter of three specimens.
+MEASURED, SCATTER = 0.12, 0.018  # J
+MEASURED_PEAKS = 3
+DROP = 0.05  # of its own height, after which a load has had a peak
+SHOWN_FORCE = 50.0  # N
+VISIBLE = 0.005  # share of the base below which a change needs no words
+
+PLATENS = {
+    "contact": ("loose", plots.BLUE),
+    "sliding": ("stuck, upper slides", plots.SKY),
+    "glued": ("stuck", plots.ORANGE),
+}
+
+
+class Factor(NamedTuple):
+    """What a changed key is called, and the unit of its values, of which one is `scale` in SI."""
+
+    name: str
+    unit: str = ""
+    scale: float = 1.0
+
+    def said(self, value: Any) -> str:
+        """A value in words."""
+        return value if isinstance(value, str) else f"{value / self.scale:g} {self.unit}".strip()
+
+
+FACTORS = {
+    "contact.friction": Factor("friction"),
+    "contact.stiffness": Factor("stiffness of contact"),
+    "material.modulus": Factor("modulus", "MPa", 1e6),
+    "material.plane": Factor("plane"),
+    "material.bend": Factor("bending"),
+    "material.stretch": Factor("stretching"),
+    "lattice.imperfection": Factor("bow, in wall thicknesses"),
+    "lattice.grading": Factor("wall at top / at bottom"),
+    "lattice.nodes_per_wall": Factor("nodes inside a wall"),
+    "solver.load_steps": Factor("load steps"),
+    "damping.relaxation_time": Factor("real speed, relaxation time", "s"),
+}
+
+
+def predictions(path: Path) -> DataFrame:
+    """The summary of a results file, with the key and the value that each case changes.
+
+    Columns besides: `factor` and `value` in words ("" in the base case), `peaks`: of the load.
+    """
+    table = read_summary(path)
+    said = [_change(row, table.iloc[0]) for _, row in table.iterrows()]
+    loads = [read_history(path, case_id)["reaction_top_N"] for case_id in table["case_id"]]
+    return table.assign(
+        factor=[factor for factor, _ in said],
+        value=[value for _, value in said],
+        peaks=[load_peaks(load.to_numpy()) for load in loads],
+    )
+
+
+def _change(row: Series, base: Series) -> tuple[str, str]:
+    """The name of what a case changes, and its value in words."""
+    for key, factor in FACTORS.items():
+        if row[key] == row[key] and row[key] != base[key]:
+            return factor.name, factor.said(row[key])
+    return "", ""
+
+
+def load_peaks(force: np.ndarray) -> int:
+    """How many times a load (rows,) drops by `DROP` of its height before it goes higher again."""
+    from scipy.signal import find_peaks
+
+    peaks, found = find_peaks(force, prominence=0.0)
+    return int(np.sum(found["prominences"] >= DROP * force[peaks]))
+
+
+def sheet(table: DataFrame) -> Sheet:
+    """All cases, a row each."""
+    columns = {
+        "platens": [PLATENS[name][0] for name in table["platen"]],
+        "changed": [f"{row.factor} {row.value}".strip() or "base" for row in table.itertuples()],
+        "absorbed, J": _digits(table["absorbed_energy_J"]),
+        "/ measured": _digits(table["absorbed_energy_J"] / MEASURED),
+        "load peaks": [str(count) for count in table["peaks"]],
+        "packed at, mm": _digits(1e3 * table["densification_strain"] * table["height_m"]),
+        "greatest force, N": _digits(table["peak_force_N"]),
+        "within the model, J": _digits(table["absorbed_energy_within_model_J"]),
+        "least element strain": [f"{strain:.2f}" for strain in table["least_element_strain"]],
+        "kept area": [f"{share:.2f}" for share in table["kept_area"]],
+        "status": [row.message or row.status for row in table.itertuples()],
+    }
+    rows = [list(row) for row in zip(*columns.values(), strict=True)]
+    return Sheet("", list(columns), rows, notes=(verdict(table),))
+
+
+def _digits(values: Series) -> list[str]:
+    return [three_digits(value) for value in values]
+
+
+def verdict(table: DataFrame) -> str:
+    """The range of what is predicted, beside what was measured."""
+    done = _converged(table)
+    energy, base = done["absorbed_energy_J"], _bases(done)
+    ranges = energy.groupby(done["platen"]).agg(["min", "max"])
+    said = "; ".join(
+        f"{PLATENS[name][0]}: {base[name]:.3f} J in the base case, {low:.3f} to {high:.3f} J in all"
+        for name, (low, high) in zip(ranges.index, ranges.to_numpy(), strict=True)
+    )
+    hits = int((abs(energy - MEASURED) <= SCATTER).sum())
+    return (
+        f"Absorbed up to {_stroke(table)}, platens {said}. Measured: {MEASURED:g} +/- {SCATTER:g} "
+        f"J, where {hits} of {len(table)} cases lie; {len(table) - len(done)} did not converge. "
+        f"Load peaks: {done['peaks'].min()} to {done['peaks'].max()}; measured: {MEASURED_PEAKS}. "
+        f"A crush by {100 * done['peak_strain'].max():.0f} % is beyond what has been checked: the "
+        f"element squeezed most keeps {1 + done['least_element_strain'].min():.2f} of its length, "
+        f"the print at least {done['kept_area'].min():.2f} of its area."
+    )
+
+
+def _stroke(table: DataFrame) -> str:
+    return f"{1e3 * table['stroke_m'].iloc[0]:g} mm"
+
+
+def _converged(table: DataFrame) -> DataFrame:
+    return table[table["status"] == "converged"]
+
+
+def _bases(table: DataFrame) -> Series:
+    """Energy of the base case for each kind of platens."""
+    return table[table["factor"] == ""].set_index("platen")["absorbed_energy_J"]
+
+
+def tornado(ax: Axes, table: DataFrame) -> None:
+    """A bar a factor and kind of platens: the energies absorbed in the cases that change it."""
+    done = _converged(table)
+    base, changed = _bases(done), done[done["factor"] != ""]
+    off = (changed["absorbed_energy_J"] - changed["platen"].map(base)).abs()
+    factors = off.groupby(changed["factor"]).max().sort_values().index
+    band: Any = {"color": plots.PLATEN, "label": f"measured, {MEASURED:g} ± {SCATTER:g} J"}
+    ax.axvspan(MEASURED - SCATTER, MEASURED + SCATTER, lw=0, **band)
+    for row, (platen, (words, color)) in enumerate(PLATENS.items()):
+        ax.axvline(base[platen], color=color, lw=1.2, zorder=1)
+        for place, factor in enumerate(factors):
+            rows = changed[(changed["platen"] == platen) & (changed["factor"] == factor)]
+            energies = rows.set_index("value")["absorbed_energy_J"]
+            _bar(ax, place + 0.27 * (1 - row), energies, base[platen], color)
+        ax.plot([], [], lw=6.0, color=color, label=f"platens {words}; line: base case")
+    dress(ax, f"energy absorbed up to {_stroke(table)}, J", "")
+    ax.set_yticks(range(len(factors)), [f"{name}{_base_value(table, name)}" for name in factors])
+    ax.grid(visible=False, axis="y")
+    ax.set(xlim=(0.0, 1.12 * done["absorbed_energy_J"].max()), ylim=(-0.6, len(factors) - 0.4))
+
+
+def _base_value(table: DataFrame, name: str) -> str:
+    """The value of a factor in the base case, where it has one."""
+    key = next(key for key, factor in FACTORS.items() if factor.name == name)
+    value = table[key].iloc[0]
+    return f": {FACTORS[key].said(value)}" if value == value else ""
+
+
+def _bar(ax: Axes, y: float, energies: Series, base: float, color: str) -> None:
+    """A bar from the least to the greatest energy, base included, and which values these are."""
+    low, high = min(base, energies.min()), max(base, energies.max())
+    ax.barh(y, high - low, left=low, height=0.25, color=color)
+    for end, value, side, shift in (
+        (low, energies.idxmin(), "right", -3),
+        (high, energies.idxmax(), "left", 3),
+    ):
+        if abs(end - base) > VISIBLE * base:
+            ax.annotate(value, (end, y), (shift, 0), textcoords="offset points", ha=side,
+                        va="center", fontsize="x-small")  # fmt: skip
+
+
+def curves(axes: tuple[Axes, Axes], path: Path, table: DataFrame) -> None:
+    """Load and absorbed energy against travel: the base cases, the extremes, and all others."""
+    done = _converged(table)
+    energy = done["absorbed_energy_J"]
+    bases = done[done["factor"] == ""]
+    named = {
+        row.case_id: (f"platens {PLATENS[row.platen][0]}", PLATENS[row.platen][1])
+        for row in bases.itertuples()
+    }
+    for place, color in ((energy.idxmin(), plots.PURPLE), (energy.idxmax(), plots.VERMILION)):
+        row = done.loc[place]
+        words = f"{PLATENS[row['platen']][0]}, {row['factor']} {row['value']}"
+        named.setdefault(row["case_id"], (words, color))
+    for case_id in done["case_id"]:
+        past = read_history(path, case_id)
+        words, color = named.get(case_id, ("", plots.PLATEN))
+        look: Any = {"color": color, "lw": 2.0 if words else 0.7, "zorder": 3 if words else 2}
+        travel = 1e3 * past["top_displacement_m"]
+        axes[0].plot(travel, past["reaction_top_N"], label=words or None, **look)
+        axes[1].plot(travel, past["work_in_J"], **look)
+    _measured(axes, float(table["stroke_m"].iloc[0]))
+
+
+def _measured(axes: tuple[Axes, Axes], stroke: float) -> None:
+    """What was measured, and the names of the axes."""
+    load, work = axes
+    mean = MEASURED / stroke
+    load.axhline(mean, color="black", lw=1.0, ls=":", label=f"measured mean, {mean:.3g} N")
+    whole = f"measured, {MEASURED:g} ± {SCATTER:g} J"
+    look: Any = {"fmt": "o", "color": "black", "capsize": 4, "zorder": 4, "label": whole}
+    work.errorbar(1e3 * stroke, MEASURED, SCATTER, **look)
+    dress(load, "travel of the platen, mm", "load, N")
+    dress(work, "travel of the platen, mm", "absorbed energy, J")
+    load.set_ylim(0.0, SHOWN_FORCE)
+    work.set_ylim(bottom=0.0)
+
+
+def report(path: Path) -> str:
+    """Draw the pictures of a results file beside it, write the table there, and return it."""
+    table, folder = predictions(path), path.parent
+    text = markdown([sheet(table)])
+    (folder / "experiment.md").write_text(text, encoding="utf-8")
+    chart = plots.blank(9.0, 7.0)
+    tornado(ax := chart.subplots(), table)
+    legend(ax, loc="lower left", bbox_to_anchor=(0, 1), ncols=2)
+    plots.save(chart, folder / "tornado.png")
+    figure = plots.blank(9.0, 4.4)
+    curves(tuple(figure.subplots(1, 2)), path, table)
+    figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize="small")
+    plots.save(figure, folder / "force_displacement.png")
+    return text
+
+
+def main(folder: Path) -> None:
+    """Simulate what a folder lacks, and report."""
+    from sweep.config.units import load_config
+    from sweep.running.sweep import run_sweep
+
+    config = load_config(CONFIG)
+    path = folder / f"{config.name}.h5"
+    run_sweep(config, path)
+    sys.stdout.write(report(path))
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

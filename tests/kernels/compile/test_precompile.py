@@ -1,0 +1,100 @@
+"""`crumple warm`: what it compiles is all that a run needs."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
+from sweep.simulation.simulate import simulate
+from tests.structures import BEAM, structure
+
+PRESSED = {"mode": "displacement", "strain": 0.01}
+BRIEF = {"release_time": 2e-4, "duration": 4e-4}
+TWO = Solver(load_steps=2)
+TIP = {"node": 1, "force_N": [0.0, -1e-3]}
+CASES = {
+    "glued": Case(loading=Loading(**PRESSED), solver=TWO),
+    "loose": Case(loading=Loading(**PRESSED, platen="contact", unload=False), solver=TWO),
+    "at a speed": Case(loading=Loading(**PRESSED, speed=0.1), solver=TWO),
+    "classical": Case(
+        loading=Loading(**PRESSED),
+        solver=Solver(load_steps=2, hinges="classical", bend_measure="tangent"),
+    ),
+    "dead load": Case(loading=Loading(**BRIEF)),
+    "dead load on a platen": Case(loading=Loading(**BRIEF, platen="glued")),
+    "without contact": Case(loading=Loading(**BRIEF), contact=Contact(model="none")),
+    "without friction": Case(loading=Loading(**BRIEF), contact=Contact(friction=0.0)),
+    "without damping": Case(loading=Loading(**BRIEF), damping=Damping(model="none")),
+    "viscous": Case(loading=Loading(**BRIEF), damping=Damping(model="kelvin_voigt")),
+    "linear": Case(loading=Loading(**BRIEF), material=Material(stretch="linear")),
+    "no inner nodes": Case(loading=Loading(**BRIEF), lattice=Lattice(nodes_per_wall=0)),
+    "one inner node": Case(loading=Loading(**BRIEF), lattice=Lattice(nodes_per_wall=1)),
+    "an arc": Case(
+        lattice=Lattice(kind="custom", structure=structure(**BEAM, loads=[TIP])),
+        solver=Solver(integrator="arc_length", load_steps=2),
+    ),
+    "one cell": Case(loading=Loading(**BRIEF), lattice=Lattice(cells_x=1, cells_y=1)),
+}
+
+
+SCRIPT = """
+from sweep.__main__ import main
+from test_warm import added, unforeseen
+
+assert main(["warm"]) == 0
+print("then", *added(), *unforeseen())
+"""
+
+
+def versions():
+    """How many compiled versions of each kernel this process has loaded."""
+    from kernels.compile.jit import Kernel
+
+    modules = [module for name, module in sys.modules.items() if name.startswith("kernels.")]
+    kernels = {id(k): k for m in modules for k in vars(m).values() if isinstance(k, Kernel)}
+    return {
+        f"{kernel.__module__}.{kernel.__qualname__}": len(kernel.linked.signatures)
+        + len(kernel.entry.signatures if "entry" in vars(kernel) else ())
+        for kernel in kernels.values()
+    }
+
+
+def added():
+    """Kernels of which a case needed a version that the cases before it did not, with the case."""
+    found = []
+    for name, case in CASES.items():
+        before = versions()
+        simulate(case)
+        found += [f"{kernel} {name}" for kernel, n in versions().items() if n > before[kernel]]
+    return found
+
+
+def unforeseen():
+    """Kernels that a rehearsal in plain Python foresees with other types than they have."""
+    from kernels.compile.precompile import rehearse
+    from sweep.simulation.simulate import warm_up
+
+    foreseen = rehearse(lambda: warm_up(arcs=True))
+    loaded = [(version, version.compiled()) for version in foreseen]
+    return [
+        version.name
+        for version, compiled in loaded
+        if compiled.metadata is not None or compiled.signature.return_type != version.returns
+    ]
+
+
+def test_after_warm_no_run_compiles_or_loads_anything():
+    """In a process of its own: no other test has loaded anything there."""
+    tests = Path(__file__).parent
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", SCRIPT],
+        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(tests), str(tests.parent)])},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    *_, said, then = done.stdout.splitlines()
+    assert (done.stderr, then) == ("", "then")
+    assert re.fullmatch(r".* kernels .*in \d+\.\d s; no run has to compile any", said)

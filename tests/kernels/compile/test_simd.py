@@ -1,0 +1,52 @@
+"""Vectors of four: what they load, compute and store, and what they refuse."""
+
+import numba
+import numpy as np
+import pytest
+
+from kernels.linear import block_ldlt as blocks, block_matrix as entries, periodic_images as image
+from kernels.compile.jit import jit
+from kernels.compile.simd import added, load, spread, store
+
+
+@pytest.fixture(autouse=True)
+def cache(tmp_path, monkeypatch):
+    """Folder that kernels decorated from here on are kept in."""
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
+
+
+def combined(array, at, factor, to):
+    store(array, to, added(load(array, to), spread(factor), load(array, at)))
+
+
+@pytest.mark.parametrize(("at", "to"), [(0, 4), (3, 4), (1, 0), (4, 4)])
+def test_four_entries_are_loaded_computed_with_and_stored(at, to):
+    rng = np.random.default_rng(at)
+    array = rng.uniform(-1, 1, 8)  # the last four end with it
+    expected = array.copy()
+    expected[to : to + 4] += 3.0 * array[at : at + 4]
+    jit(combined)(array, at, 3.0, to)
+    np.testing.assert_allclose(array, expected, rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    "array",
+    [np.zeros(8, np.float32), np.zeros(8, np.int64), np.zeros((8, 8)), np.zeros(16)[::2]],
+    ids=["single", "integer", "plane", "gaps"],
+)
+def test_only_a_vector_of_float64_without_gaps_is_taken(array):
+    with pytest.raises(numba.TypingError, match="load"):
+        jit(combined)(array, 0, 3.0, 0)
+
+
+def test_blocks_are_updated_four_numbers_at_a_time():
+    pattern = np.array([0, 1, 1]), np.array([1])
+    matrix = entries.shaped(np.arange(6), *pattern, np.ones(6), image.NONE)
+
+    @jit
+    def update(matrix):
+        return blocks._update(matrix, 0, 2, 0)
+
+    assert update(matrix) == 1
+    (compiled,) = update.entry.overloads.values()
+    assert "fmul contract <4 x double>" in compiled.library.get_llvm_str()

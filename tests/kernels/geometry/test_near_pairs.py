@@ -1,0 +1,137 @@
+"""Broad phase: every near pair is found, and none that is far or shares a node."""
+
+import numpy as np
+import pytest
+
+from kernels.geometry import near_pairs as pairs
+from kernels.geometry.distance import squared_distance
+from tests.frames import contact_of, frame, joint_of_four, shaken
+
+
+def brute_force(x, edges, radius):
+    n = x.size // 2
+    return {
+        (p, k)
+        for k, (a, b) in enumerate(edges)
+        for p in range(n)
+        if p not in (a, b) and squared_distance(x, p, a, b) < radius**2
+    }
+
+
+def random_segments(rng, n, reach):
+    """``n`` nodes and 2 n segments between nodes near in number."""
+    first = rng.integers(0, n, 2 * n)
+    second = (first + rng.integers(1, reach, 2 * n)) % n
+    return np.column_stack([first, second])
+
+
+def found(x, edges, radius):
+    node, edge, distance = pairs.near(x, x.size // 2, edges, radius)
+    for p, k, d in zip(node, edge, distance, strict=True):
+        assert d == np.sqrt(squared_distance(x, p, *edges[k]))
+    listed = list(zip(node.tolist(), edge.tolist(), strict=True))
+    assert len(listed) == len(set(listed))
+    return set(listed)
+
+
+@pytest.mark.parametrize("radius", [1e-3, 0.05, 0.3, 1.0, 10.0])
+@pytest.mark.parametrize("seed", range(3))
+def test_near_against_brute_force(seed, radius):
+    rng = np.random.default_rng(seed)
+    x, edges = rng.uniform(-1, 1, 80), random_segments(rng, 40, 5)
+    expected = brute_force(x, edges, radius)
+    assert found(x, edges, radius) == expected
+    if radius == 0.3:
+        assert 50 < len(expected) < 80 * 38
+
+
+@pytest.mark.parametrize("length", [1e-3, 1e3])
+def test_near_in_other_units_and_far_from_the_origin(length):
+    rng = np.random.default_rng(9)
+    x, edges = rng.uniform(-1, 1, 80), random_segments(rng, 40, 5)
+    expected = brute_force(x, edges, 0.2)
+    assert found(length * (x + 3.0), edges, 0.2 * length) == expected
+
+
+@pytest.mark.parametrize("flat", [0, 1])
+def test_near_on_a_line(flat):
+    rng = np.random.default_rng(flat)
+    x, edges = rng.uniform(-1, 1, 60), random_segments(rng, 30, 3)
+    x[flat::2] = 0.25
+    assert found(x, edges, 0.1) == brute_force(x, edges, 0.1)
+
+
+def test_near_where_nodes_are_crowded_in_two_far_clusters():
+    rng = np.random.default_rng(3)
+    x, edges = 1e-3 * rng.uniform(-1, 1, 80), random_segments(rng, 40, 4)
+    x[40:] += 1.0
+    assert found(x, edges, 2e-4) == brute_force(x, edges, 2e-4)
+
+
+def test_near_grows_beyond_its_first_allocation():
+    rng = np.random.default_rng(6)
+    x, edges = rng.uniform(-1, 1, 40), random_segments(rng, 20, 9)
+    assert len(found(x, edges, 10.0)) == 40 * 18
+
+
+def test_a_pair_at_the_radius_is_not_near():
+    x = np.array([0.0, 0, 1, 0, 0.5, 0.25])
+    assert found(x, np.array([[0, 1]]), 0.25) == set()
+    assert found(x, np.array([[0, 1]]), np.nextafter(0.25, 1)) == {(2, 0)}
+
+
+def test_find_gives_ordinary_pairs_their_own_length_and_thickness():
+    of = frame([(0, 0), (4, 0), (0, 1), (4, 1)], [(0, 1), (2, 3)], [2, 4], [0.8, 0.4])
+    contact = contact_of(of)
+    listed = pairs.find(of.rest, contact, 1.5)
+    assert len(listed.node) > 10
+    across = np.flatnonzero((listed.node == 4) & (listed.edge >= 2))
+    np.testing.assert_allclose(listed.d_contact[across], 0.6)
+    for k in across:
+        assert pairs.counted(listed, k, contact) == (2.0, *contact.subtract[listed.edge[k]])
+
+
+def test_find_gives_special_pairs_their_own_rules():
+    of = joint_of_four()
+    contact = contact_of(of)
+    listed = pairs.find(of.rest, contact, 2.0)
+    owner = np.repeat(np.arange(len(of.edges)), np.diff(contact.special_start))
+    seen = 0
+    for k, (p, e) in enumerate(zip(listed.node, listed.edge, strict=True)):
+        (at,) = np.nonzero((contact.special_node == p) & (owner == e))
+        length, *subtract = pairs.counted(listed, k, contact)
+        assert listed.rule[k] == (at[0] if len(at) else -1)
+        assert (listed.d_contact[k] > 0.0) == (length > 0.0)
+        if len(at):
+            seen += 1
+            assert length == contact.special_weight[at[0]]
+            assert listed.d_contact[k] == (contact.special_distance[at[0]] if length else 0.0)
+            np.testing.assert_array_equal(subtract, contact.special_subtract[at[0]])
+        else:
+            assert length == contact.tributary[p]
+    assert 5 < seen < len(listed.node) + 1
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_find_lists_the_nearest_first(seed):
+    of = joint_of_four()
+    x = shaken(of, seed)
+    listed = pairs.find(x, contact_of(of), 3.0)
+    assert len(listed.node) > 20
+    assert np.all(np.diff(listed.distance) >= 0.0)
+    for p, k, d in zip(listed.node, listed.edge, listed.distance, strict=True):
+        assert d <= np.sqrt(squared_distance(x, p, *of.edges[k])) < d + 3.1 / pairs.SHELLS
+    for radius in (0.0, 0.5, 2.0, np.inf):
+        ahead = pairs.within(listed, radius)
+        assert np.all(listed.distance[:ahead] < radius)
+        assert np.all(listed.distance[ahead:] >= radius)
+    assert set(zip(listed.node.tolist(), listed.edge.tolist(), strict=True)) == brute_force(
+        x[: 2 * len(of.points)], of.edges, 3.0
+    )
+
+
+def test_farthest_is_the_largest_move_of_a_node():
+    x = np.zeros(9)
+    moved = np.array([0.0, 0.1, 3.0, 4.0, 1.0, -1.0, 50.0, 0.0, 0.0])
+    assert pairs.farthest(moved, x, 3) == pytest.approx(5.0)
+    assert pairs.empty().node.size == 0

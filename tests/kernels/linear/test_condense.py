@@ -1,0 +1,138 @@
+"""Condensation: a wall on its two joints, against dense algebra, for any number of elements."""
+
+import numpy as np
+import pytest
+
+from kernels.linear import block_ldlt as blocks, condense
+from tests.frames import frame, walls_of
+from tests.terms import assembled, room
+
+PIECES = [1, 2, 3, 4, 12]
+SCALE = 7.0
+
+
+class Wall:
+    """The second one of two walls, of random stiffness, with ``diagonal`` more inside it."""
+
+    def __init__(self, pieces, seed=0, size=1.0):
+        of = frame([(0, 0), (3, 0), (4, 3)], [(0, 1), (1, 2)], [2, pieces])
+        rng = np.random.default_rng(seed)
+        walls = walls_of(of)
+        _, stiffness = room(walls)
+        for part in stiffness:
+            part[:] = size * rng.uniform(-1, 1, part.shape)
+        stiffness.own[[0, 2]] += 5.0 * size
+        stiffness.next[:, walls.start[1:] - 1] = 0.0
+        for part in (stiffness.own, stiffness.next):
+            part[:, :2] = 0.0
+        stiffness.arm[:, :2] = stiffness.twist[0] = 0.0
+        inner = np.arange(6 + 2, 6 + 2 * pieces)
+        n = 2 * len(of.points)
+        outer = np.array([2, 3, n + 1, 4, 5, n + 2])
+        self.m, self.size = inner.size, size
+        self.diagonal = size * rng.uniform(0.5, 1.0, self.m)
+        full = assembled(walls, stiffness, of.rest.size)
+        self.full = full[np.ix_([*inner, *outer], [*inner, *outer])]
+        self.rows, self.own = np.full((self.m, 12), np.nan), np.full(self.m, np.nan)
+        self.outer = np.full((6, 6), np.nan)
+        condense.fill(walls.start[1], walls.start[2], 1, stiffness, self.rows, self.outer)
+
+    def dense(self):
+        """Hessian (m + 6, m + 6): inner unknowns, then those of the joints."""
+        return self.full + np.diag([*self.diagonal, *np.zeros(6)])
+
+    def eliminate(self):
+        """Place of the first negative pivot, and that pivot."""
+        scale = SCALE * self.size
+        return condense.eliminate(
+            self.rows, self.diagonal, self.own, self.outer, scale, blocks.ROUNDED
+        )
+
+
+def mirrored(lower):
+    """Symmetric array from its lower half."""
+    return np.tril(lower) + np.tril(lower, -1).T
+
+
+@pytest.mark.parametrize("pieces", PIECES)
+def test_fill_writes_the_hessian_of_a_wall(pieces):
+    wall = Wall(pieces)
+    m, full = wall.m, np.zeros_like(wall.full)
+    for k in range(m):
+        band = min(6, m - k)
+        full[k : k + band, k] = wall.rows[k, :band]
+        assert not wall.rows[k, band:6].any()
+    full[m:, :m] = wall.rows[:, 6:].T
+    full[m:, m:] = np.tril(wall.outer)
+    np.testing.assert_allclose(mirrored(full), wall.full, rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("size", [1.0, 1e9, 1e-9])
+@pytest.mark.parametrize("pieces", PIECES)
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_left_is_the_schur_complement(seed, pieces, size):
+    wall = Wall(pieces, seed, size)
+    full, m = wall.dense(), wall.m
+    assert wall.eliminate() == (-1, 0.0)
+    inner, mixed = full[:m, :m], full[:m, m:]
+    expected = full[m:, m:] - mixed.T @ np.linalg.solve(inner, mixed)
+    np.testing.assert_allclose(mirrored(wall.outer), expected, rtol=0, atol=1e-12 * size)
+    np.testing.assert_allclose(wall.own, np.diag(full)[:m], rtol=1e-14)
+
+
+@pytest.mark.parametrize("pieces", PIECES)
+@pytest.mark.parametrize("seed", range(3))
+def test_forward_and_backward_solve_for_what_is_inside(seed, pieces):
+    """With forces on inner unknowns and on joints, and with joints that move."""
+    wall, rng = Wall(pieces, seed), np.random.default_rng(seed)
+    full, m = wall.dense(), wall.m
+    inner, mixed = full[:m, :m], full[:m, m:]
+    wall.eliminate()
+    b, joints = rng.uniform(-1, 1, m), rng.uniform(-1, 1, 6)
+    carried, y = joints.copy(), b.copy()
+    condense.forward(wall.rows, y, carried)
+    np.testing.assert_allclose(
+        carried, joints - mixed.T @ np.linalg.solve(inner, b), rtol=0, atol=1e-12
+    )
+    moved = rng.uniform(-1, 1, 6)
+    condense.backward(wall.rows, y, moved, m)
+    np.testing.assert_allclose(inner @ y + mixed @ moved, b, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("pieces", [2, 3, 4, 12])
+@pytest.mark.parametrize("seed", range(4))
+def test_descent_along_a_negative_pivot(seed, pieces):
+    """From rest at the first negative pivot: d^T A d is that pivot."""
+    wall = Wall(pieces, seed)
+    bad = int(np.random.default_rng(seed).integers(0, wall.m))
+    wall.diagonal[bad] -= 1.5 * wall.dense()[bad, bad]
+    failed, pivot = wall.eliminate()
+    assert 0 <= failed <= bad
+    assert pivot < 0.0
+    d = np.zeros(wall.m)
+    d[failed] = 1.0
+    condense.backward(wall.rows, d, np.zeros(6), failed)
+    assert d @ wall.dense()[: wall.m, : wall.m] @ d == pytest.approx(pivot, rel=1e-9)
+    assert not d[failed + 1 :].any()
+
+
+def test_what_has_no_stiffness_inside_has_a_little():
+    """A node that nothing holds across: it is given a share of the scale."""
+    wall = Wall(2)
+    for part in (wall.rows, wall.full):
+        part[:] = 0.0
+    wall.rows[0, 0] = wall.full[0, 0] = 3.0
+    wall.diagonal[:] = 0.0
+    assert wall.eliminate() == (-1, 0.0)
+    y = np.array([6.0, 6.0])
+    condense.forward(wall.rows, y, np.zeros(6))
+    condense.backward(wall.rows, y, np.zeros(6), 2)
+    np.testing.assert_allclose(y, [2.0, 6.0 / (blocks.SOFT * SCALE)])
+
+
+def test_nan_fails():
+    wall = Wall(3)
+    wall.rows[1, 0] = np.nan
+    failed, pivot = wall.eliminate()
+    assert failed == 1
+    assert np.isnan(pivot)

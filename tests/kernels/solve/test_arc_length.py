@@ -1,0 +1,213 @@
+"""Paths through limit points along arcs: closed forms, stability, balance, refusals."""
+
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from kernels.solve import arc_length as arc, newton
+from sweep.config.units import load_config
+from sweep.config.grid import ConfigError, expand
+from sweep.config.case import Case, Contact, Lattice, Loading, Solver
+from sweep.scene.arcs import arc_of
+from sweep.simulation.simulate import simulate
+from sweep.scene.custom import build_structure
+from tests.scenes import unbalanced
+from tests.solving import whole
+from tests.structures import AXIAL, BENDING, CLAMPED, MATERIAL, MM, finished, probe, structure
+from tests.validation.frames import LEE, TRUSS, followed, lee, truss_force
+
+
+def case_of(parts, arcs=200, contact="none", **solver):
+    return Case(
+        lattice=Lattice(kind="custom", structure=structure(**parts)),
+        material=MATERIAL,
+        contact=Contact(model=contact),
+        solver=Solver(integrator="arc_length", load_steps=arcs, **solver),
+    )
+
+
+def test_truss_follows_its_closed_form_through_both_limit_points():
+    result = finished(case_of(TRUSS | {"subdivide": 1}, arc_length=1e-3))
+    factor, height = result.history["load_factor"], probe(result, 1, "y_m")
+    force = truss_force(height)
+    np.testing.assert_allclose(4e-3 * AXIAL * factor, force, atol=1e-9 * AXIAL)
+    assert factor[-1] == 1.0
+    assert factor.min() < -0.7
+    slope = np.gradient(force, -height)
+    steady = np.abs(slope) > 0.1 * np.abs(slope).max()
+    falls = (slope < 0.0).astype(float)
+    np.testing.assert_array_equal(result.history["unstable_modes"][steady], falls[steady])
+    assert 0.0 < falls.sum() < len(falls)
+    assert result.history["work_in_J"][-1] == pytest.approx(result.history["stretch_J"][-1], 1e-2)
+    assert unbalanced(result.history) < 1e-9
+
+
+def test_frame_of_lee_snaps_back():
+    """Load and sinking each have a greatest value on the way, and the load a lowest."""
+    result = finished(case_of(lee(32)))
+    factor = result.history["load_factor"]
+    sunk = 0.12 - probe(result, 2, "y_m")
+    first, lowest, farthest = np.argmax(factor[:100]), np.argmin(factor), np.argmax(sunk[:120])
+    assert 0 < first < farthest < lowest < len(factor) - 1
+    assert 20.0 * factor[first] == pytest.approx(18.55, rel=1e-3)
+    assert 20.0 * factor[lowest] == pytest.approx(-9.3, abs=0.1)
+    assert sunk[farthest : lowest - 5].min() < sunk[farthest] - 0.08 * 0.12
+    modes = result.history["unstable_modes"]
+    assert not modes[:first].any()
+    assert (modes[first + 1 : lowest] == 1.0).all()
+    assert not modes[lowest + 1 :].any()
+    assert factor[-1] == 1.0
+    assert unbalanced(result.history) < 1e-9
+
+
+@pytest.mark.parametrize("length", [2e-3, 4e-2])
+def test_arcs_of_any_length_lie_on_the_same_path(length):
+    """The longer ones are halved where they miss it."""
+    fine, coarse = followed(lee(16)), followed(lee(16), arc_length=length)
+    for there, here in zip(fine, coarse, strict=True):
+        assert here.max() == pytest.approx(there.max(), abs=0.05 * np.ptp(there))
+    k = np.argmax(coarse[0] < -0.1)
+    near = np.argmin(np.hypot(fine[1] - coarse[1][k], fine[2] - coarse[2][k]))
+    assert coarse[0][k] == pytest.approx(fine[0][near], abs=0.05)
+
+
+def test_points_are_in_balance_and_as_stable_as_they_say():
+    """By an evaluation of its own: every node of a frame of single elements is a probe."""
+    legs = [[0, 24 * k] for k in range(6)] + [[24 * k, 120] for k in range(1, 6)]
+    parts = {
+        "nodes_mm": [*legs[:5], [0, 120], *legs[6:]],
+        "walls": [[k, k + 1] for k in range(10)],
+        "subdivide": 1,
+        "supports": [{"node": node, "fix": ["x", "y"]} for node in (0, 10)],
+        "loads": [{"node": 6, "force_N": LEE["loads"][0]["force_N"]}],
+        "probes": list(range(11)),
+    }
+    case = case_of(parts)
+    result, scene = finished(case), build_structure(case)
+    factor = result.history["load_factor"]
+    free = np.flatnonzero(scene.unknowns.leader == np.arange(scene.x_rest.size))
+    assert factor.min() < -0.2
+    for row in range(0, len(factor), 10):
+        x = scene.x_rest.copy()
+        for node in range(11):
+            at = [probe(result, node, what)[row] for what in ("x_m", "y_m", "rotation_rad")]
+            x[[2 * node, 2 * node + 1, 22 + node]] = at
+        left = elastic(scene, x)[free] - factor[row] * scene.terms.load[free]
+        assert np.abs(left).max() < 1e-6 * np.abs(scene.terms.load).max()
+        hessian = whole(scene, scene.x_rest).hessian(x)[np.ix_(free, free)]
+        assert result.history["unstable_modes"][row] == np.sum(np.linalg.eigvalsh(hessian) < 0.0)
+
+
+def elastic(scene, x):
+    """Gradient (n,) of what is stored at ``x``."""
+    return whole(scene, scene.x_rest).found(x)[1].elastic
+
+
+def test_arcs_end_at_the_full_load_or_with_their_number():
+    few = simulate(case_of(lee(8), 5))
+    assert (few.status, len(few.history["load_factor"])) == ("converged", 6)
+    assert few.history["load_factor"][-1] < 0.9
+    small = lee(8) | {"loads": [{"node": 2, "force_N": [0.0, -1e-3 * BENDING / 0.12**2]}]}
+    assert list(simulate(case_of(small)).history["load_factor"][[0, -1]]) == [0.0, 1.0]
+
+
+def test_loads_grow_by_a_twentieth_at_most():
+    """However far an arc would go along a path as stiff as this."""
+    pulled = {"nodes_mm": [[0, 0], [100, 0]], "walls": [[0, 1]], "probes": [1]}
+    pulled |= {"supports": [{"node": 0, "fix": CLAMPED}]}
+    result = finished(case_of(pulled | {"loads": [{"node": 1, "force_N": [0.01, 0.0]}]}))
+    np.testing.assert_allclose(result.history["load_factor"], np.linspace(0.0, 1.0, 21), atol=1e-5)
+
+
+def test_length_of_an_arc_is_that_of_all_points():
+    """Whatever the mesh: the root of the mean square of their moves."""
+    for pieces in (4, 16):
+        case = case_of(lee(pieces), arc_length=1e-3)
+        weight = arc_of(build_structure(case), case).weight
+        assert weight.sum() == pytest.approx(2.0)
+        assert weight[2 * 4 + 1] == weight[2 * 4] > 0.0
+    assert case_of(LEE).solver.arc_length == pytest.approx(MM * 120 * 2**0.5 / 200)
+
+
+def test_walls_that_meet_on_the_way_touch():
+    """Two fingers of a clamp, pressed together by forces, meet over their thickness."""
+    clamp = {
+        "nodes_mm": [[0, 0], [0, 10], [60, 0], [60, 10]],
+        "walls": [[0, 1], [0, 2], [1, 3]],
+        "subdivide": [4, 24, 24],
+        "supports": [{"node": node, "fix": CLAMPED} for node in (0, 1)],
+        "loads": [
+            {"node": node, "force_N": [0.0, side * 6.0 * BENDING / 0.06**2]}
+            for node, side in ((2, 1.0), (3, -1.0))
+        ],
+        "probes": [2, 3],
+    }
+    result = finished(case_of(clamp, 60, "barrier"))
+    assert result.history["load_factor"][-1] == 1.0
+    assert result.history["contact_J"][-1] > 0.0
+    assert 0.5 * MM < result.history["min_gap_m"][-1] < MM
+    assert unbalanced(result.history) < 1e-6
+
+
+def test_interruption_is_told():
+    stop = np.array([1, 0])
+    result = simulate(case_of(lee(8)), stop)
+    assert result.status == "stopped"
+    assert "interrupted" in result.message
+
+
+def test_a_path_that_is_lost_is_told(monkeypatch):
+    monkeypatch.setattr("kernels.arc.follow", lambda *_: (newton.STALLED, 0))
+    result = simulate(case_of(lee(8)))
+    assert result.status == "stopped"
+    assert "try a smaller solver.arc_length" in result.message
+
+
+def test_lattices_have_no_arcs():
+    with pytest.raises(ValueError, match=r'unless lattice.kind is "custom"'):
+        Case(loading=Loading(force=1.0), solver=Solver(integrator="arc_length"))
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"prescribed": [{"node": 2, "direction": "y", "displacement_mm": -1.0}]}, "prescribed"),
+        ({"loads": []}, "no loads"),
+        ({"supports": [{"node": 0, "fix": ["x", "y"]}]}, "without resistance"),
+    ],
+)
+def test_refusals(changes, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        case_of(LEE | changes)
+
+
+def test_friction_is_left_out_and_refused_where_it_is_asked_for(tmp_path):
+    (tmp_path / "lee.json").write_text(json.dumps(LEE))
+    lines = ["[lattice]", 'kind = "custom"', 'file = "lee.json"', "[solver]"]
+    lines += ['integrator = "arc_length"', 'arc_length = "2 mm"', "[contact]"]
+    config = tmp_path / "lee.toml"
+    config.write_text("\n".join(lines))
+    (case,) = expand(load_config(config))
+    assert (case.contact.friction, case.solver.arc_length) == (0.0, 2e-3)
+    config.write_text("\n".join([*lines, "friction = 0.2"]))
+    with pytest.raises(ConfigError, match=r'has no effect, as solver.integrator is "arc_length"'):
+        expand(load_config(config))
+
+
+def test_length_of_arcs_says_nothing_elsewhere(tmp_path):
+    (tmp_path / "lee.json").write_text(json.dumps(LEE))
+    text = '[lattice]\nkind = "custom"\nfile = "lee.json"\n[solver]\nintegrator = "static"\n'
+    (tmp_path / "lee.toml").write_text(f'{text}arc_length = "2 mm"')
+    with pytest.raises(ConfigError, match=r'solver.integrator is "static"'):
+        expand(load_config(tmp_path / "lee.toml"))
+
+
+@pytest.mark.parametrize("move", [np.inf, np.nan])
+def test_a_move_out_of_the_range_of_numbers_ends_an_arc(move):
+    """Nothing else is looked at: pairs for such a move would be listed for ever."""
+    balance = getattr(arc._balance, "__wrapped__", arc._balance)
+    found = balance(*[None] * 6, [None, None, SimpleNamespace(direction=0, escape=0), None, None],
+                    None, SimpleNamespace(move=move))  # fmt: skip
+    assert found == newton.NOT_FINITE

@@ -1,0 +1,69 @@
+"""The factor of a step: of all its terms, with room for what is near; the projected one."""
+
+import numpy as np
+import pytest
+
+from kernels.terms import friction
+from kernels.planar import potential as step
+from sweep.config.case import Contact
+from tests.solving import reduction, whole
+from tests.states import DT, RAYLEIGH, SCENES, SIZE, STATES, VISCOUS, loaded, step_to, unit
+
+
+@pytest.mark.parametrize("dt", [DT, np.inf])
+@pytest.mark.parametrize("projected", [False, True])
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("name", SCENES)
+def test_the_factor_is_that_of_the_sum_of_all_terms(name, state, projected, dt):
+    """All that is free has room. What is tied moves together, what is held not at all.
+
+    Where a pivot is negative the direction that comes with it has that curvature.
+    """
+    scene = SCENES[name]()
+    x = STATES[state](scene)
+    args, R = step_to(scene, x, 0, dt), reduction(scene)
+    (wall, failed, pivot), missing = args.factor(x, projected)
+    assert not missing
+    full = R.T @ args.hessian(x, projected) @ R
+    size = np.abs(full).max()
+    definite = np.linalg.eigvalsh(full)[0] > -1e-12 * size
+    assert definite == (failed < 0)
+    assert failed < 0 or not projected
+    if failed < 0:
+        b = full @ np.random.default_rng(3).uniform(-1, 1, len(full))  # that is borne
+        y = args.solve(np.linalg.lstsq(R.T, b)[0])
+        short = np.linalg.lstsq(R, y)[0]
+        np.testing.assert_allclose(R @ short, y, rtol=0, atol=1e-12 * np.abs(y).max())
+        np.testing.assert_allclose(full @ short, b, rtol=0, atol=1e-9 * np.abs(b).max())
+    else:
+        d = args.escape((wall, failed, pivot))
+        short = np.linalg.lstsq(R, d)[0]
+        np.testing.assert_allclose(R @ short, d, rtol=0, atol=1e-12 * np.abs(d).max())
+        assert short @ full @ short == pytest.approx(pivot, rel=1e-6)
+
+
+@pytest.mark.parametrize("state", ["pinched", "leaning"])
+def test_what_has_come_near_needs_room_and_gets_it(state):
+    """A system found at rest has none for contacts that came later; one found there has."""
+    scene = loaded(contact=Contact(friction=0.0))
+    x = STATES[state](scene)
+    args = whole(scene, x)
+    at_rest = step.find_near(scene.x_rest, scene.terms, friction.none(), SIZE)
+    assert args._replace(near=at_rest).energy(x) == pytest.approx(args.energy(x), rel=1e-12)
+    assert args._replace(near=at_rest).factor(x, True)[1]
+    assert not args.factor(x, True)[1]
+    assert np.any(args.near.system.kind != at_rest.system.kind)
+
+
+@pytest.mark.parametrize("dt", [DT, np.inf])
+@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("seed", range(3))
+def test_projected_hessian_is_semi_definite(seed, state, damping, dt):
+    scene = loaded(damping=damping)
+    x = STATES[state](scene, seed)
+    args, size = step_to(scene, x, seed, dt), unit(scene)
+    exact, projected = (args.hessian(x, how) * np.outer(size, size) for how in (False, True))
+    values = np.linalg.eigvalsh(projected)
+    assert values[0] > -1e-12 * values[-1]
+    assert np.abs(projected - exact).max() > 1e-5 * values[-1]

@@ -1,0 +1,85 @@
+"""The loop of friction: where it ends, when it is given up, and that nothing is paid without it."""
+
+import numpy as np
+import pytest
+
+from kernels.solve import friction_loop as lagging, march
+from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
+from sweep.simulation.simulate import simulate
+from tests.figures import MATERIAL
+from tests.stability import draw
+
+
+def crushed(strain, contact, steps, tolerance=1e-8):
+    """Summary of a 3 x 3 grid pressed between glued platens."""
+    case = Case(
+        lattice=Lattice(wall_thickness=0.6e-3),
+        material=MATERIAL,
+        loading=Loading(mode="displacement", strain=strain, unload=False, platen="glued"),
+        contact=contact,
+        solver=Solver(load_steps=steps, tolerance=tolerance),
+    )
+    return simulate(case).summary
+
+
+def looped(*residuals):
+    """Progress of a loop in which friction was off by these (N); 1e-6 are enough."""
+    progress = np.zeros(1, march.PROGRESS)[0]
+    lagging.begin(progress)
+    for off in residuals:
+        lagging._count(off, 1e-6, 1e-9, progress)
+    return progress
+
+
+def test_contact_that_nothing_touches_takes_no_iteration():
+    """Though its list of pairs is renewed in each of the long steps."""
+    summary, bare = (crushed(0.1, Contact(model=model), 10) for model in ("barrier", "none"))
+    assert not summary["touched"]
+    assert summary["newton_iterations"] == bare["newton_iterations"]
+    assert summary["absorbed_energy_J"] == pytest.approx(bare["absorbed_energy_J"], rel=1e-12)
+
+
+def test_rough_minima_end_where_those_found_to_the_end_do():
+    energies = [
+        crushed(0.6, Contact(friction=0.3), 60, tolerance)["absorbed_energy_J"]
+        for tolerance in (1e-8, 1e-11)
+    ]
+    assert energies[0] == pytest.approx(energies[1], rel=1e-7)
+
+
+def test_a_minimum_is_found_as_well_as_friction_is_known():
+    assert looped().rough == 1.0
+    assert looped(1.0).rough == pytest.approx(0.1 / 1e-9)
+    assert looped(1.0, 1e-3).rough == pytest.approx(1e-4 / 1e-9)
+    assert looped(1.0, 9e-6).rough == 1.0  # the next may be the last
+    assert looped(*np.geomspace(1.0, 1e-3, lagging.CAREFUL + 1)).rough == 1.0
+    assert looped(np.nan).rough == looped(np.inf).rough == 1.0
+
+
+def test_a_loop_is_given_up_once_it_goes_in_circles():
+    falling = np.geomspace(1.0, 0.1, lagging.MOST - 1)
+    assert not lagging.in_vain(looped(*falling))
+    assert lagging.in_vain(looped(*falling, 0.05))
+    circle = [1.0, *[2.0, 1.0] * (lagging.STUCK // 2)]
+    assert not lagging.in_vain(looped(*circle[:-1]))
+    assert lagging.in_vain(looped(*circle))
+
+
+def test_duals_that_mislead_are_forgotten():
+    """Stout walls snap: Newton goes on by a hundredth of a step at a time if it keeps them."""
+    case = Case(
+        lattice=Lattice(wall_thickness=1.2e-3, nodes_per_wall=8),
+        material=Material(name="ultimaker_tpu95a"),
+        loading=Loading(mode="displacement", strain=0.6, unload=False, platen="glued"),
+        contact=Contact(friction=1.0),
+        solver=Solver(load_steps=100),
+    )
+    assert simulate(case).status == "converged"
+
+
+def test_a_loop_that_does_not_settle_is_told():
+    found = simulate(draw.scene(492)[1])
+    assert found.status == "stopped"
+    assert found.message.endswith(
+        "friction did not settle; try a smaller solver.time_step or a smaller contact.friction"
+    )

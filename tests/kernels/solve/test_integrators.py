@@ -1,0 +1,247 @@
+"""Integrators in time: their orders, what becomes of the energy, steps chosen by their error."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case, Contact, Damping, Loading, Solver
+from sweep.simulation.simulate import simulate
+from tests.figures import MATERIAL
+from tests.scenes import SEED, UNDAMPED, VISCOUS, pressed, run, slopes, unbalanced
+from tests.structures import APART, set_off
+from tests.validation import energy
+from tests.validation.energy import moving
+
+ORDERS = {"backward_euler": 1, "bdf2": 2, "newmark": 2}
+INTEGRATORS = pytest.mark.parametrize("integrator", ORDERS)
+HIGHER = pytest.mark.parametrize("integrator", ["bdf2", "newmark"])
+NAMES = ["none", "drag", "rayleigh", "viscous"]
+DRAG = Damping(model="rayleigh", mass=100.0, stiffness=0.0)
+STIFF = Damping(model="rayleigh", mass=0.0, stiffness=5e-4)
+CREEP = Damping(model="kelvin_voigt", relaxation_time=5e-4)
+SOFT = Damping(model="rayleigh", mass=300.0, stiffness=3e-5)
+TIMES = 25  # at which runs are compared
+STEPS_OF_A_PLATE = {"bdf2": 800, "newmark": 200}
+
+
+def loaded(duration, steps, integrator, damping, platen="none", release=0.5, **loading):
+    """A grid under a dead load, let go after a share of the duration; friction on a platen."""
+    loads = Loading(platen=platen, duration=duration, release_time=release * duration, **loading)
+    touch = {"none": APART, "contact": Contact(friction=0.3, slip_speed=0.5)}[platen]
+    solver = Solver(time_step=duration / steps, integrator=integrator, tolerance=1e-10)
+    return Case(
+        material=MATERIAL, loading=loads, contact=touch, damping=damping, solver=solver
+    )  # fmt: skip
+
+
+def struck(integrator, steps, duration, friction=None, damping=SOFT, **loading):
+    """A grid that 50 g hit, glued where there is no friction."""
+    touch = APART if friction is None else Contact(friction=friction)
+    loads = Loading(striker_mass=0.05, duration=duration, **loading)
+    solver = Solver(time_step=duration / steps, integrator=integrator)
+    return Case(material=MATERIAL, loading=loads, contact=touch, damping=damping, solver=solver)
+
+
+def orders(cases, column):
+    """Slopes of the differences of runs with 1, 2, 4... times as many steps, rms over time."""
+    results = [run(case) for case in cases]
+    assert {result.status for result in results} == {"converged"}
+    values = [result.history[column] for result in results]
+    seen = [column[:: (len(column) - 1) // TIMES] for column in values]
+    return slopes([np.sqrt(np.mean((b - a) ** 2)) for a, b in pairwise(seen)])
+
+
+def check_orders(case, integrator, steps, columns):
+    """case(steps): as many as ``steps`` and 2 and 4 times as many, or 8 times of first order."""
+    finer = 4 // ORDERS[integrator]
+    cases = [case(n * steps * finer) for n in (1, 2, 4)]
+    for column in columns:
+        found = orders(cases, column)
+        np.testing.assert_allclose(found, ORDERS[integrator], atol=0.15, err_msg=column)
+
+
+MOTION = ["probe_3_x_m", "probe_3_y_m", "probe_3_rotation_rad"]
+ENERGIES = ["stretch_J", "bend_J", "kinetic_J", "dissipated_integrator_J"]
+
+
+@INTEGRATORS
+@pytest.mark.parametrize("damping", [UNDAMPED, DRAG, STIFF, CREEP], ids=NAMES)
+def test_orders_of_a_beam_that_swings_far(damping, integrator):
+    """A quarter of a period of a beam so thick that its steps resolve its length's too."""
+    period, parts = set_off(3, 0.2, 20.0)
+
+    def case(steps):
+        return moving(parts, 0.25 * period, steps, integrator, damping)
+
+    lost = ["dissipated_material_J"] if damping != UNDAMPED else []
+    check_orders(case, integrator, 200, [*MOTION, *ENERGIES, *lost])
+
+
+@INTEGRATORS
+def test_orders_of_a_load_that_comes_and_goes_at_once(integrator):
+    columns = ["strain", *ENERGIES, "work_in_J", "reaction_bottom_N"]
+    check_orders(
+        lambda steps: loaded(4e-4, steps, integrator, SOFT, force=5.0), integrator, 200, columns
+    )
+
+
+@INTEGRATORS
+def test_orders_of_a_strike(integrator):
+    """Until the striker turns, with what it carries along and without."""
+    columns = ["strain", "striker_speed_m_per_s", "stretch_J", "bend_J", "kinetic_J"]
+    check_orders(
+        lambda steps: struck(integrator, steps, 2.5e-3, striker_speed=0.5), integrator, 100, columns
+    )
+
+
+def rubbed(steps, integrator):
+    """A plate lies on a grid that creeps under it."""
+    damping = Damping(model="rayleigh", mass=300.0, stiffness=3e-4)
+    return loaded(5e-3, steps, integrator, damping, "contact", 1.0, force=3.0)
+
+
+@HIGHER
+def test_orders_of_contact_and_friction(integrator):
+    columns = ["strain", "contact_J", "work_in_J"]
+    check_orders(
+        lambda steps: rubbed(steps, integrator),
+        integrator, STEPS_OF_A_PLATE[integrator], columns,
+    )  # fmt: skip
+
+
+def test_integrators_agree_on_friction():
+    """It depends on the speed of slip, whatever the length of the steps."""
+    results = [run(rubbed(3200, integrator)) for integrator in ("bdf2", "newmark")]
+    lost = [result.history["dissipated_friction_J"][-1] for result in results]
+    assert lost[0] == pytest.approx(lost[1], rel=5e-3)
+
+
+@HIGHER
+def test_orders_of_a_platen_that_moves_and_turns(integrator):
+    """It has its speed at once, which costs what an inelastic blow does."""
+
+    def case(steps):
+        numerics = {"integrator": integrator, "tolerance": 1e-10}
+        there = {"speed": 0.1, "unload": True, "damping": SOFT}
+        return pressed(3, 0.01, steps, contact="none", solver=numerics, **there)
+
+    columns = ["reaction_top_N", "reaction_bottom_N", "stretch_J", "kinetic_J"]
+    check_orders(case, integrator, 200, columns)
+
+
+@pytest.mark.parametrize(("integrator", "least", "most"), [
+    ("backward_euler", -1.01, -0.99), ("bdf2", -0.5, -0.4), ("newmark", -1e-4, 1e-4),
+])  # fmt: skip
+def test_energy_of_a_beam_in_a_hundred_periods(integrator, least, most):
+    """Fifty steps a period of the first mode, 1 % of the length wide."""
+    result = energy.cantilever(integrator)
+    drift = energy.gained(result)
+    assert least < drift[-1] < most
+    assert np.abs(drift).max() < max(abs(least), abs(most))
+    assert unbalanced(result.history) < 1e-5
+
+
+@pytest.mark.parametrize(("integrator", "lost"), [("backward_euler", 1.41), ("bdf2", 0.476)])
+def test_a_stiff_pendulum_is_safe_with_damped_integrators(integrator, lost):
+    """They lose the same however stiff it is."""
+    for modulus in (energy.SOFT, energy.STIFF):
+        result = energy.pendulum(integrator, modulus)
+        assert result.status == "converged"
+        assert energy.gained(result)[-1] == pytest.approx(-lost, rel=0.02)
+
+
+def test_a_stiff_pendulum_is_not_safe_with_newmark():
+    """It keeps the energy of a soft one, and makes energy of a stiff one, which is a failure."""
+    soft, stiff = (energy.pendulum("newmark", y) for y in (energy.SOFT, energy.STIFF))
+    assert soft.status == "converged"
+    assert abs(energy.gained(soft)[-1]) < 0.02
+    assert stiff.status == "stopped"
+    assert "energy out of nothing" in stiff.message
+
+
+SCENES = {
+    "dead load": lambda how, damping, friction: Case(
+        material=MATERIAL,
+        loading=Loading(force=10.0, platen="contact", release_time=0.05, duration=0.1),
+        contact=Contact(friction=friction),
+        damping=damping,
+        solver=Solver(time_step=1e-4, integrator=how),
+    ),
+    "platen": lambda how, damping, friction: pressed(
+        3, 0.5, 100, "contact", friction, unload=True, speed=0.1, damping=damping,
+        solver={"integrator": how},
+    ),
+    "striker": lambda how, damping, friction: struck(
+        how, 2000, 0.06, friction, damping, platen="contact"
+    ),
+}  # fmt: skip
+
+
+@HIGHER
+@pytest.mark.parametrize("damping", [SEED, VISCOUS], ids=["rayleigh", "viscous"])
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("scene", SCENES)
+def test_book_closes(scene, friction, damping, integrator):
+    result = run(SCENES[scene](integrator, damping, friction))
+    history = result.history
+    assert result.status == "converged"
+    assert unbalanced(history) < 1e-6
+    for name, acts in (("dissipated_material_J", True), ("dissipated_friction_J", friction > 0.0)):
+        assert (history[name][-1] > 0.0) == acts
+    assert history["contact_J"].max() > 0.0
+    assert abs(history["dissipated_integrator_J"][-1]) < 0.15 * history["work_in_J"].max()
+
+
+@HIGHER
+@pytest.mark.parametrize("scene", ["platen", "striker"])
+def test_book_closes_without_damping(scene, integrator):
+    """However much energy is lost, or comes from nowhere, the book says so."""
+    assert unbalanced(run(SCENES[scene](integrator, UNDAMPED, 0.0)).history) < 1e-6
+
+
+@HIGHER
+def test_book_closes_over_halved_steps(integrator):
+    """A step that fails is made in parts, each a step of its own length."""
+    few = {"integrator": integrator, "max_iterations": 3}
+    result = run(pressed(3, 0.3, 10, unload=True, speed=0.1, damping=SEED, solver=few))
+    assert result.status == "converged"
+    assert result.summary["steps"] > 40
+    assert unbalanced(result.history) < 1e-6
+
+
+def released(integrator, time_step, step_error=None, damping=CREEP):
+    """A grid under 5 N, let go."""
+    numerics = {"integrator": integrator, "step_error": step_error, "tolerance": 1e-9}
+    return Case(
+        material=MATERIAL,
+        loading=Loading(force=5.0, release_time=0.01, duration=0.02),
+        contact=APART,
+        damping=damping,
+        solver=Solver(time_step=time_step, **numerics),
+    )
+
+
+def missed(result, exact):
+    """Error of the strain, rms over the rows, as a share of its range."""
+    strain = np.interp(result.history["time_s"], exact["time_s"], exact["strain"])
+    return np.sqrt(np.mean((result.history["strain"] - strain) ** 2)) / np.ptp(strain)
+
+
+@INTEGRATORS
+def test_steps_by_their_error(integrator):
+    """The error falls with what is allowed; twice as many fixed steps leave more of it."""
+    exact = run(released("newmark", 2e-6)).history
+    kept = [run(released(integrator, 1e-3, allowed)) for allowed in (1e-5, 1e-6, 1e-7)]
+    assert all(unbalanced(result.history) < 1e-9 for result in kept)
+    assert {len(result.history["strain"]) for result in kept} == {21}
+    errors = [missed(result, exact) for result in kept]
+    assert errors[0] > 2.0 * errors[1] > 4.0 * errors[2]
+    fixed = run(released(integrator, 0.02 / (2 * kept[-1].summary["steps"])))
+    assert missed(fixed, exact) > 1.5 * errors[2]
+
+
+def test_error_that_no_step_can_keep_is_a_failure():
+    result = simulate(released("bdf2", 1e-3, 1e-30))
+    assert result.status == "stopped"
+    assert "no step was short enough for solver.step_error" in result.message

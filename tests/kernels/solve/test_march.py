@@ -1,0 +1,296 @@
+"""Steps through a stage: what falls, flies and slides; halved steps; interruptions."""
+
+import threading
+import time
+
+import numpy as np
+import pytest
+
+from kernels.solve import energy_book as book, newton
+from kernels.terms import inertia
+from kernels.geometry import near_pairs as pairs
+from kernels.planar import rows as trace
+from kernels.geometry.distance import squared_distance
+from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
+from sweep.scene.terms import build_scene
+from sweep.simulation.simulate import simulate
+from tests.figures import MATERIAL
+from tests.scenes import UNDAMPED, unbalanced
+from tests.solving import at_rest, floating, go_on, ramp
+from tests.terms import touch_of
+
+DT = 5e-5
+RAYLEIGH = Damping(model="rayleigh", mass=2000.0, stiffness=3e-5)
+VISCOUS = Damping(model="kelvin_voigt", relaxation_time=3e-5)
+DAMPINGS = pytest.mark.parametrize(
+    "damping", [UNDAMPED, RAYLEIGH, VISCOUS], ids=lambda damping: damping.model
+)
+GRAVITY = 1e4  # m/s^2
+
+
+def loose(damping=UNDAMPED, friction=0.0, speed=0.0):
+    """A floating 2 x 2 grid; the side walls of its lower left cell fly at one another."""
+    case = Case(
+        lattice=Lattice(cells_x=2, cells_y=2, wall_thickness=1.2e-3),
+        material=MATERIAL,
+        loading=Loading(force=1.0),
+        contact=Contact(friction=friction, slip_speed=0.1),
+        damping=damping,
+        solver=Solver(time_step=DT),
+    )
+    scene = floating(case)
+    scene.terms.load[:] = 0.0
+    state, points = at_rest(scene), scene.mesh.points / (case.lattice.width, case.lattice.height)
+    for side, way in ((0.0, 1.2), (0.5, -1.0)):
+        inner = (abs(points[:, 0] - side) < 0.05) & (points[:, 1] > 0.05) & (points[:, 1] < 0.45)
+        state.v[2 * np.flatnonzero(inner)] = way * speed
+        state.v[2 * np.flatnonzero(inner) + 1] = 0.3 * way * speed
+    state.book[book.WORK] = inertia.kinetic(state.v, scene.terms.mass)  # what set it off
+    return case, scene, state
+
+
+@pytest.mark.parametrize("drag", [0.0, 300.0])
+def test_free_fall_follows_the_recurrence_of_backward_euler(drag):
+    """Nothing in the lattice stirs: v' = (v + a dt) / (1 + drag dt), y' = y + v' dt."""
+    damping = Damping(model="rayleigh", mass=drag, stiffness=1e-4) if drag else UNDAMPED
+    case, scene, state = loose(damping)
+    mass, upwards = 0.5 * scene.terms.mass.sum(), slice(1, 2 * len(scene.mesh.points), 2)
+    scene.terms.load[upwards] = -GRAVITY * scene.terms.mass[upwards]
+    outcome, rows = go_on(case, scene, state, ramp(scene, 12, DT, (1.0, 1.0)), force=1e-10)
+    assert outcome == newton.CONVERGED
+    v, y, speeds, falls = 0.0, 0.0, [], []
+    for _ in range(12):
+        v = (v + GRAVITY * DT) / (1.0 + drag * DT)
+        y += v * DT
+        speeds.append(v)
+        falls.append(y)
+    v, y = np.array(speeds), np.array(falls)
+    np.testing.assert_allclose(state.v[upwards], -v[-1], rtol=1e-8)
+    fallen = scene.x_rest.copy()
+    fallen[upwards] -= y[-1]
+    np.testing.assert_allclose(state.x, fallen, rtol=0, atol=1e-9 * y[-1])
+    for column, expected in (
+        (book.WORK, GRAVITY * mass * y),
+        (book.KINETIC, 0.5 * mass * v**2),
+        (book.INTEGRATOR, 0.5 * mass * np.cumsum(np.diff(v, prepend=0.0) ** 2)),
+        (book.MATERIAL, drag * DT * mass * np.cumsum(v**2)),
+    ):
+        np.testing.assert_allclose(rows[:, column], expected, rtol=1e-7, atol=1e-20)
+
+
+def nodes(scene, of_all):
+    """The nodes (n, 2) among all coordinates."""
+    return of_all[: 2 * len(scene.mesh.points)].reshape(-1, 2)
+
+
+def momentum(scene, state):
+    return nodes(scene, scene.terms.mass * state.v)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@DAMPINGS
+def test_what_nothing_holds_keeps_its_momentum(damping, friction):
+    """Walls collide in flight. Drag on the mass alone slows it, by 1 / (1 + alpha dt) a step.
+
+    Forces of walls on walls, taken where a step ends, have no moment either; only Rayleigh's are
+    those of the place where it began.
+    """
+    case, scene, state = loose(damping, friction, 150.0)
+    kept, whole, touched = 1.0 / (1.0 + (case.damping.mass or 0.0) * DT), 0, 0.0
+    for _ in range(12):
+        before, taken = momentum(scene, state), state.totals[trace.STEPS]
+        tight = {"force": 1e-9, "friction": 1e-8, "grip": 0.0}
+        outcome, rows = go_on(case, scene, state, ramp(scene, 1, DT), **tight)
+        assert outcome == newton.CONVERGED
+        assert abs(rows[0, book.RESIDUAL]) < 1e-9 * rows[0, book.KINETIC]
+        touched = max(touched, rows[0, book.CONTACT])
+        if state.totals[trace.STEPS] > taken + 1:
+            continue
+        whole += 1
+        after = momentum(scene, state)
+        allowed = 1e-9 * np.abs(before).sum()
+        drift = after.sum(axis=0) - kept * before.sum(axis=0)
+        np.testing.assert_allclose(drift, 0.0, atol=allowed)
+        (x, y), (px, py) = nodes(scene, state.x).T, (after - before).T
+        spin = np.sum(x * py - y * px) if damping.model != "rayleigh" else 0.0
+        assert abs(spin) < allowed * case.lattice.height
+    assert whole > 8
+    assert touched > 1e-3 * rows[0, book.BEND]
+    assert (rows[0, book.FRICTION] > 0.0) == (friction > 0.0)
+
+
+def test_contact_energy_and_gap_are_those_of_all_pairs():
+    """Pairs are listed anew before any that matters is missed."""
+    case, scene, state = loose(speed=150.0)
+    touch, near = scene.terms.contact, 0
+    for _ in range(12):
+        _, rows = go_on(case, scene, state, ramp(scene, 3, DT))
+        everything = pairs.find(state.x, touch, case.lattice.width)
+        energy = touch_of(touch, everything, state.x).energy(state.x)
+        assert state.book[book.CONTACT] == pytest.approx(energy, rel=1e-12, abs=1e-18)
+        ends, start = touch.edges[everything.edge], everything.d_contact
+        listed = zip(everything.node, ends, start, strict=True)
+        gap = min(squared_distance(state.x, p, *ends) for p, ends, dc in listed if dc > 0.0) ** 0.5
+        if gap < touch.reach:
+            near += 1
+            assert energy > 0.0
+            assert rows[-1, trace.GAP] == pytest.approx(gap, rel=1e-12)
+    assert near > 2
+
+
+def sliding():
+    """A grid between the platens, under 3 N, that slides along both at 2 m/s."""
+    case = Case(
+        lattice=Lattice(cells_x=2, cells_y=2, wall_thickness=1.2e-3),
+        material=MATERIAL,
+        loading=Loading(force=3.0, platen="contact"),
+        contact=Contact(friction=0.3, slip_speed=1e-3),
+        damping=UNDAMPED,
+        solver=Solver(time_step=DT),
+    )
+    scene = build_scene(case)
+    state = at_rest(scene)
+    outcome, _ = go_on(case, scene, state, ramp(scene, 5, factor=(0.0, 1.0)))
+    assert outcome == newton.CONVERGED
+    state.v[: 2 * len(scene.mesh.points) : 2] = 2.0
+    state.book[book.WORK] += inertia.kinetic(state.v, scene.terms.mass)
+    return case, scene, state
+
+
+def test_friction_slows_what_slides_by_mu_times_the_forces_on_it():
+    """3 N from above; from below what is left of it once the grid has been accelerated."""
+    case, scene, state = sliding()
+    least, most, begun = 0.0, 0.0, state.book.copy()
+    for _ in range(5):
+        before, x = momentum(scene, state).sum(axis=0), state.x.copy()
+        outcome, rows = go_on(case, scene, state, ramp(scene, 1, DT, (1.0, 1.0)))
+        assert outcome == newton.CONVERGED
+        change = (momentum(scene, state).sum(axis=0) - before) / DT
+        assert change[0] == pytest.approx(-0.3 * (3.0 + 3.0 + change[1]), rel=1e-5)
+        moves = nodes(scene, state.x - x)[:, 0]
+        least, most = least - change[0] * moves.min(), most - change[0] * moves.max()
+    gained = rows[0, : trace.TIME] - begun
+    assert 0.0 < least < gained[book.FRICTION] < most
+    assert abs(gained[book.RESIDUAL]) < 1e-6 * gained[book.FRICTION]
+
+
+def test_height_is_between_rows_or_the_extent():
+    x = np.array([0.3, 0.5, 2.0, 3.0, -1.0])
+    top, base, none = np.array([2, 3]), np.array([0, 1]), np.empty(0, np.int64)
+    assert trace.height(x, top, base) == pytest.approx(2.5 - 0.4)
+    assert trace.height(x, none, np.array([0, 1, 3])) == pytest.approx(3.0 - 0.3)
+
+
+def crush(steps, speed=None, **solver):
+    """A 3 x 3 grid pressed to 30 % without contact."""
+    return Case(
+        material=MATERIAL,
+        loading=Loading(mode="displacement", strain=0.3, speed=speed, unload=False),
+        contact=Contact(model="none"),
+        damping=UNDAMPED,
+        solver=Solver(load_steps=steps, **solver),
+    )
+
+
+@pytest.mark.parametrize("speed", [None, 10.0])
+def test_a_step_that_fails_is_halved_and_the_stage_ends_on_time(speed):
+    case = crush(3, speed, max_iterations=6)
+    result = simulate(case)
+    history = result.history
+    assert result.status == "converged"
+    assert result.summary["steps"] > 3
+    stroke = 0.3 * case.lattice.height
+    np.testing.assert_allclose(
+        history["top_displacement_m"], stroke * np.arange(4) / 3, rtol=0, atol=1e-15
+    )
+    np.testing.assert_allclose(np.diff(history["time_s"]), history["time_s"][-1] / 3, rtol=1e-12)
+    if speed is not None:
+        assert history["time_s"][-1] == pytest.approx(stroke / speed, rel=1e-12)
+    assert unbalanced(history) < 1e-9
+
+
+def test_halved_steps_take_half_the_time():
+    """Whatever the parts of a step, the platen has moved through each of them at its speed."""
+    case = crush(2, 10.0)
+    scene = build_scene(case)
+    state = at_rest(scene)
+    dt = 0.15 * case.lattice.height / 10.0
+    stage = ramp(scene, 1, dt, travel=(0.0, 10.0 * dt))
+    outcome, _ = go_on(case, scene, state, stage, iterations=6)
+    assert outcome == newton.CONVERGED
+    assert state.totals[trace.STEPS] > 1
+    assert state.totals[trace.NOW] == pytest.approx(dt)
+    assert state.v[-1] == pytest.approx(-10.0, rel=1e-9)
+
+
+def test_steps_grow_again_once_they_succeed():
+    """Where the walls buckle an eighth of a step is needed, and nowhere else."""
+    result = simulate(crush(20, max_iterations=5))
+    assert result.status == "converged"
+    assert 20 < result.summary["steps"] < 40
+
+
+def test_a_step_that_fails_at_any_length_leaves_the_state_before_it():
+    case = crush(4)
+    scene = build_scene(case)
+    state = at_rest(scene)
+    travel = 0.05 * case.lattice.height
+    assert go_on(case, scene, state, ramp(scene, 1, travel=(0.0, travel)))[0] == newton.CONVERGED
+    kept = [part.copy() for part in state]
+    stage = ramp(scene, 3, travel=(travel, 3 * travel))
+    outcome, rows = go_on(case, scene, state, stage, iterations=0)
+    assert (outcome, len(rows)) == (newton.ITERATIONS, 0)
+    for part, before in zip(state, kept, strict=True):
+        np.testing.assert_array_equal(part, before)
+
+
+def test_an_interruption_keeps_what_is_done():
+    case = crush(10)
+    scene = build_scene(case)
+    state, control = at_rest(scene), np.zeros(2, dtype=np.int64)
+    travel = 0.1 * case.lattice.height
+    outcome, rows = go_on(case, scene, state, ramp(scene, 4, travel=(0.0, travel)), control)
+    assert (outcome, len(rows), list(control)) == (newton.CONVERGED, 4, [0, 4])
+    kept = [part.copy() for part in state]
+    control[0] = 1
+    outcome, rows = go_on(case, scene, state, ramp(scene, 4, travel=(travel, 0.0)), control)
+    assert (outcome, len(rows), list(control)) == (newton.INTERRUPTED, 0, [1, 4])
+    for part, before in zip(state, kept, strict=True):
+        np.testing.assert_array_equal(part, before)
+
+
+def test_an_interruption_in_the_middle_stops_early():
+    case = crush(20000)
+    control, results = np.zeros(2, dtype=np.int64), []
+    worker = threading.Thread(target=lambda: results.append(simulate(case, control)))
+    worker.start()
+    limit = time.monotonic() + 30.0
+    while control[1] < 3 and time.monotonic() < limit:
+        time.sleep(0.001)
+    control[0] = 1
+    worker.join(10.0)
+    history = results[0].history
+    done = int(control[1])
+    assert results[0].status == "stopped"
+    assert 3 <= done < 20000
+    assert len(history["time_s"]) == done + 1
+    np.testing.assert_allclose(history["strain"], 0.3 * np.arange(done + 1) / 20000, atol=1e-12)
+
+
+@pytest.mark.parametrize("steps", [8, 400])
+def test_buckling_is_seen_however_small_the_steps(steps):
+    """A straight column at twice its critical strain: a factor is not kept for ever."""
+    case = Case(
+        lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=5, imperfection=0.0),
+        material=MATERIAL,
+        loading=Loading(mode="displacement", strain=0.03),
+        contact=Contact(model="none"),
+    )
+    scene = build_scene(case)
+    state, travel = at_rest(scene), 0.03 * case.lattice.height
+    outcome, rows = go_on(case, scene, state, ramp(scene, steps, travel=(0.0, travel)))
+    assert outcome == newton.CONVERGED
+    bent, stretched = rows[-1, [book.BEND, book.STRETCH]]
+    assert bent > 0.5 * stretched
+    before = rows[steps // 8, book.BEND]
+    assert before < 1e-12 * bent

@@ -1,0 +1,66 @@
+"""How far a minimisation goes at once: no wall passes another, and none is left short of it."""
+
+import numpy as np
+import pytest
+
+from kernels.solve import newton
+from sweep.config.case import Case, Lattice, Loading
+from sweep.scene.terms import build_scene
+from tests.scenes import grid
+from tests.solving import descend, floating, shaken, whole
+
+
+def test_a_wall_that_lies_upon_another_is_stuck():
+    """No move is admissible, however small, although contact does not press: joints are near."""
+    case = grid(2.0, "contact", "barrier", 20)
+    scene = build_scene(case)
+    x, h = scene.x_rest.copy(), scene.mesh.rest_length.mean()
+    above = np.argmin(np.linalg.norm(scene.mesh.points - (0.0, 2.0 * h), axis=1))
+    x[2 * above : 2 * above + 2] = 1.5 * h, 0.0
+    found = descend(case, scene, x, whole(scene, scene.x_rest))
+    assert found.outcome == newton.STALLED
+    np.testing.assert_array_equal(found.x, x)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_the_first_move_goes_as_far_as_is_admissible(seed):
+    """Whatever its direction: two walls that fly at one another on a diagonal do not pass."""
+    case = grid(2.0, "contact", "barrier")
+    scene = build_scene(case)
+    rng = np.random.default_rng(seed)
+    start, bearing = shaken(scene, scene.x_rest, seed, 0.1), rng.uniform(-np.pi, np.pi)
+    start[[-2, -1]] += -1e-3, 1e-3
+    move = np.zeros_like(start)
+    points = 2 * len(scene.mesh.points)
+    move[:points] = rng.choice([-1.0, 1.0], points // 2).repeat(2) * np.tile(
+        [np.cos(bearing), np.sin(bearing)], points // 2
+    )
+    move *= 10.0 ** rng.uniform(-3.5, -2)
+    args = whole(scene, start, reach=3e-2)
+    share = args.limit(start, move)
+    found = descend(case, scene, start, args, move=move, iterations=0)
+    assert found.outcome == newton.ITERATIONS
+    np.testing.assert_allclose(found.x, start + share * move, rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.5, np.pi / 4, 1.0])
+def test_walls_that_fly_at_one_another_do_not_pass(angle):
+    """Whichever way they go: a node is faster than either of its coordinates."""
+    size, reach = 6e-3, 3.4e-3
+    case = Case(
+        lattice=Lattice(cells_x=1, cells_y=1, width=size, height=size, imperfection=0.0),
+        loading=Loading(force=1.0),
+    )
+    scene = floating(case)
+    points, across = scene.mesh.points, np.array([np.cos(angle), np.sin(angle)])
+    turn = np.array([across, [-across[1], across[0]]])
+    start, move = scene.x_rest.copy(), np.zeros_like(scene.x_rest)
+    start[: points.size] = (points @ turn).ravel()
+    start[points.size : -2] += angle
+    for side, way in ((0.0, 1.0), (size, -1.0)):
+        inside = (points[:, 0] == side) & (points[:, 1] > 0.0) & (points[:, 1] < size)
+        move[: points.size].reshape(-1, 2)[inside] = way * reach * across
+    args = whole(scene, start, reach=3e-2)
+    found = descend(case, scene, start, args, move=move, iterations=0)
+    expected = start + 0.9 * 0.5 * size / reach * move
+    np.testing.assert_allclose(found.x, expected, rtol=0, atol=1e-12)

@@ -1,0 +1,247 @@
+"""Newton: it ends at a minimum and nowhere else, or says why not."""
+
+import numpy as np
+import pytest
+
+from kernels.solve import newton
+from sweep.config.case import Case, Contact, Lattice, Loading
+from sweep.scene.terms import build_scene
+from sweep.scene.loading import tolerances
+from tests.figures import MATERIAL
+from tests.scenes import grid, slopes
+from tests.solving import descend, reduction, residual, shaken, whole
+
+HEIGHT = 12.5e-3
+ROUND_OFF = 1e-9  # N
+BUCKLED = 0.03  # strain, beyond that of a clamped wall, (2 pi)^2 / 12 (t / H)^2 = 0.0135
+
+
+def column(elements=6):
+    """One cell of perfectly straight walls between glued platens."""
+    return Case(
+        lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=elements - 1, imperfection=0.0),
+        material=MATERIAL,
+        loading=Loading(mode="displacement", strain=BUCKLED),
+        contact=Contact(model="none"),
+    )
+
+
+def straight(scene, strain):
+    """The column compressed evenly: an equilibrium at any strain."""
+    x = scene.x_rest.copy()
+    x[1 : 2 * len(scene.mesh.points) : 2] *= 1.0 - strain
+    x[-1] -= strain * HEIGHT
+    return x
+
+
+def is_minimum(case, scene, x, dt, args):
+    """Balanced, and with no negative curvature in any direction; both from pairs found anew."""
+    R = reduction(scene)
+    curvature = np.linalg.eigvalsh(R.T @ args.hessian(x) @ R)
+    allowed = tolerances(case, scene, dt).force
+    balanced = np.abs(residual(scene, x, args)).max() <= allowed
+    return balanced and curvature[0] > -1e-9 * curvature[-1]
+
+
+def test_a_straight_column_is_left_once_it_buckles():
+    """Every force is balanced there: only the negative pivot tells."""
+    case = column()
+    scene = build_scene(case)
+    start = straight(scene, BUCKLED)
+    args = whole(scene, start)
+    assert np.abs(residual(scene, start, args)).max() < 1e-9
+    assert not is_minimum(case, scene, start, np.inf, args)
+    found = descend(case, scene, start, args)
+    assert found.outcome == newton.CONVERGED
+    assert is_minimum(case, scene, found.x, np.inf, args)
+    assert np.abs(found.x - start)[: 2 * len(scene.mesh.points)].max() > 1e-3
+    assert args.energy(found.x) < 0.75 * args.energy(start)
+
+
+def test_it_goes_on_from_what_was_evaluated_before():
+    """From a saddle, where the projected Hessian is that of the same place."""
+    case = column()
+    scene = build_scene(case)
+    start = straight(scene, BUCKLED)
+    start[::2] += 1e-4 * np.linspace(0.0, 1.0, start[::2].size)
+    args = whole(scene, start)
+    anew, on = (descend(case, scene, start, args, there=there) for there in (False, True))
+    assert on.outcome == newton.CONVERGED
+    assert on.iterations == anew.iterations
+    np.testing.assert_array_equal(on.x, anew.x)
+
+
+@pytest.mark.parametrize("thickness", [4e-4, 8e-4, 8.5e-4, 9e-4, 1e-3])
+@pytest.mark.parametrize("cells_y", [3, 4])
+def test_a_loose_lattice_at_rest_is_not_unstable(cells_y, thickness):
+    """It may slide and rock: pivots of zero, and what stiff walls leave of them in round-off."""
+    case = Case(
+        lattice=Lattice(cells_x=3, cells_y=cells_y, wall_thickness=thickness),
+        loading=Loading(mode="displacement", strain=0.1, platen="contact"),
+    )
+    scene = build_scene(case)
+    args = whole(scene, scene.x_rest)
+    for projected in (False, True):
+        (_, failed, _), missing = args.factor(scene.x_rest, projected)
+        assert (failed, missing) == (-1, False)
+
+
+def test_a_straight_column_stays_straight_before_it_buckles():
+    case = column()
+    scene = build_scene(case)
+    start = straight(scene, 0.01)
+    found = descend(case, scene, start, whole(scene, start))
+    assert (found.outcome, found.iterations) == (newton.CONVERGED, 0)
+    np.testing.assert_array_equal(found.x, start)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_same_minimum_from_all_around(seed):
+    case = grid(2.0)
+    scene = build_scene(case)
+    args = whole(scene, scene.x_rest)
+    expected = descend(case, scene, scene.x_rest, args)
+    found = descend(case, scene, shaken(scene, scene.x_rest, seed, 0.1), args)
+    assert found.outcome == expected.outcome == newton.CONVERGED
+    np.testing.assert_allclose(found.x, expected.x, rtol=0, atol=1e-6 * HEIGHT)
+    assert np.abs(expected.x - scene.x_rest).max() > 1e-4 * HEIGHT
+
+
+@pytest.mark.parametrize("loose", ["force", "decrement"])
+def test_either_tolerance_alone_brings_it_to_the_minimum(loose):
+    """Balanced within a large force is not enough where a small one would still move walls far."""
+    case = grid(2.0)
+    scene = build_scene(case)
+    args = whole(scene, scene.x_rest)
+    expected = descend(case, scene, scene.x_rest, args, force=1e-9, decrement=1e-20)
+    tight = {"force": 1e-9, "decrement": 1e-20} | {loose: 1e9}
+    found = descend(case, scene, scene.x_rest, args, **tight)
+    assert found.outcome == newton.CONVERGED
+    np.testing.assert_allclose(found.x, expected.x, rtol=0, atol=1e-7 * HEIGHT)
+
+
+@pytest.mark.parametrize(("share", "settled"), [(0.9, False), (1.1, True)])
+def test_a_moment_counts_as_the_force_that_it_is_over_an_element(share, settled):
+    """A joint that is turned: the moment on it is larger, so measured, than all forces."""
+    case = grid(2.0)
+    scene = build_scene(case)
+    x = scene.x_rest.copy()
+    x[2 * len(scene.mesh.points) + 4] += 1e-3  # the joint in the middle
+    args = whole(scene, x, factor=0.0)
+    sizes, lever = np.abs(residual(scene, x, args)), reduction(scene).T @ scene.unknowns.lever
+    assert lever[np.argmax(sizes)] == pytest.approx(1.0 / scene.mesh.rest_length.mean())
+    allowed = share * sizes.max()
+    assert sizes[lever == 1.0].max() < 0.5 * allowed
+    found = descend(case, scene, x, args, force=allowed, decrement=1.0)
+    assert found.outcome == newton.CONVERGED
+    assert (found.iterations == 0) == settled
+
+
+@pytest.mark.parametrize("dt", [1e-3, np.inf])
+@pytest.mark.parametrize("seed", range(4))
+def test_no_iteration_raises_the_energy(seed, dt):
+    """From a crumpled start, between platens and with contact, one iteration after another."""
+    case = grid(5.0, "contact", "barrier")
+    scene = build_scene(case)
+    args = whole(scene, scene.x_rest, dt=dt)
+    x = shaken(scene, scene.x_rest, seed, 0.3)
+    x[[-2, -1]] += -1e-3, 1e-3
+    energies, outcome = [whole(scene, x, scene.x_rest, dt).energy(x)], newton.ITERATIONS
+    while outcome == newton.ITERATIONS and len(energies) < 300:
+        outcome, _, x = descend(case, scene, x, args, iterations=1)
+        energies.append(whole(scene, x, scene.x_rest, dt).energy(x))
+    assert outcome == newton.CONVERGED
+    noise = 2.0 * newton.RESOLVED * np.abs(energies[:-1])
+    assert np.all(np.diff(energies) <= noise + tolerances(case, scene, dt).noise)
+    assert is_minimum(case, scene, x, dt, whole(scene, x, scene.x_rest, dt))
+
+
+@pytest.mark.parametrize(
+    ("force", "contact", "dt"), [(2.0, "none", 1e-3), (20.0, "barrier", np.inf)]
+)
+def test_it_ends_quadratically(force, contact, dt):
+    """Order log(r'' / r') / log(r' / r) of the last residuals that are more than round-off."""
+    case = grid(force, "contact", contact)
+    scene = build_scene(case)
+    args = whole(scene, scene.x_rest, dt=dt)
+    x, sizes, outcome = scene.x_rest, [], newton.ITERATIONS
+    while outcome == newton.ITERATIONS:
+        outcome, _, x = descend(case, scene, x, args, iterations=1)
+        sizes.append(np.abs(residual(scene, x, whole(scene, x, scene.x_rest, dt))).max())
+    falls = np.diff(np.log([size for size in sizes if size > ROUND_OFF][-3:]))
+    assert falls[1] / falls[0] > 1.75
+
+
+def test_the_platen_ends_exactly_at_its_target():
+    case = column()
+    scene = build_scene(case)
+    start, target = straight(scene, 0.004), (1.0 - 0.012) * HEIGHT + scene.x_rest[-1] - HEIGHT
+    found = descend(case, scene, start, whole(scene, start), target)
+    assert found.outcome == newton.CONVERGED
+    assert found.x[-1] == target
+    np.testing.assert_allclose(found.x, straight(scene, 0.012), rtol=0, atol=1e-9 * HEIGHT)
+
+
+def test_what_is_held_does_not_move():
+    case = grid(2.0)
+    scene = build_scene(case)
+    args = whole(scene, scene.x_rest)
+    found = descend(case, scene, shaken(scene, scene.x_rest, 0, 0.1), args)
+    held = scene.unknowns.leader < 0
+    assert held.sum() > 10
+    np.testing.assert_array_equal(found.x[held], scene.x_rest[held])
+    reaction = -args.gradient(found.x)[scene.bottom].sum()
+    assert reaction == pytest.approx(-2.0, rel=1e-6)
+
+
+@pytest.mark.parametrize("most", [1, 2, 3])
+def test_too_few_iterations_are_a_failure(most):
+    case = column()
+    scene = build_scene(case)
+    start = shaken(scene, straight(scene, BUCKLED), 0, 0.05)
+    args = whole(scene, start)
+    found = descend(case, scene, start, args, iterations=most)
+    assert (found.outcome, found.iterations) == (newton.ITERATIONS, most)
+    assert not is_minimum(case, scene, found.x, np.inf, args)
+    on = descend(case, scene, found.x, args)
+    whole_way = descend(case, scene, start, args)
+    assert on.outcome == whole_way.outcome == newton.CONVERGED
+    assert on.iterations + most == whole_way.iterations
+
+
+def test_an_interruption_leaves_everything_where_it_is():
+    case = grid(2.0)
+    scene = build_scene(case)
+    args = whole(scene, scene.x_rest)
+    found = descend(case, scene, scene.x_rest, args, control=np.array([1, 0]))
+    assert (found.outcome, found.iterations) == (newton.INTERRUPTED, 0)
+    np.testing.assert_array_equal(found.x, scene.x_rest)
+
+
+def test_nodes_in_one_place_leave_the_range_of_numbers():
+    case = grid(2.0)
+    scene = build_scene(case)
+    one, two = scene.mesh.edges[-1]
+    x = scene.x_rest.copy()
+    x[2 * one : 2 * one + 2] = x[2 * two : 2 * two + 2]
+    found = descend(case, scene, x, whole(scene, scene.x_rest))
+    assert found.outcome == newton.NOT_FINITE
+
+
+@pytest.mark.parametrize("platen", ["glued", "contact"])
+def test_a_driven_platen_takes_the_others_along(platen):
+    """To where the quadratic model is stationary: what is left falls with the square of the way."""
+    case = Case(
+        lattice=Lattice(cells_x=2, cells_y=2),
+        material=MATERIAL,
+        loading=Loading(mode="displacement", strain=0.1, platen=platen),
+        contact=Contact(friction=0.0),
+    )
+    scene = build_scene(case)
+    start, left = descend(case, scene, scene.x_rest, whole(scene, scene.x_rest)), []
+    for way in (4e-6, 2e-6, 1e-6):
+        args = whole(scene, start.x)
+        found = descend(case, scene, start.x, args, start.x[-1] - way, iterations=1)
+        assert found.x[-1] == start.x[-1] - way
+        left.append(np.abs(residual(scene, found.x, whole(scene, found.x))).max())
+    np.testing.assert_allclose(slopes(left), 2.0, atol=0.2)

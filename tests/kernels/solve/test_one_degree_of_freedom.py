@@ -1,0 +1,233 @@
+"""One degree of freedom by hand: every column of the history is that of the scheme's recurrence."""
+
+import numpy as np
+import pytest
+
+from kernels.solve import energy_book as book, newton
+from kernels.planar import rows as trace
+from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
+from sweep.scene.terms import build_scene
+from sweep.simulation.simulate import simulate
+from tests.figures import MATERIAL
+from tests.scenes import UNDAMPED, pressed, unbalanced
+from tests.solving import at_rest, go_on, ramp
+
+DT = 5e-5
+RAYLEIGH = Damping(model="rayleigh", mass=2000.0, stiffness=3e-5)
+VISCOUS = Damping(model="kelvin_voigt", relaxation_time=3e-5)
+DAMPINGS = pytest.mark.parametrize(
+    "damping", [UNDAMPED, RAYLEIGH, VISCOUS], ids=lambda damping: damping.model
+)
+EXACT = {"force": 1e-13, "decrement": 1e-25}
+
+
+def single(loading, damping=UNDAMPED, **solver):
+    """One cell of single elements, straight: its top row goes up and down on two springs."""
+    return Case(
+        lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=0, imperfection=0.0),
+        material=MATERIAL,
+        loading=loading,
+        contact=Contact(model="none"),
+        damping=damping,
+        solver=Solver(tolerance=1e-12, **solver),
+    )
+
+
+def springs(case):
+    """Stiffness (N/m) of the two walls upwards, and the mass (kg) that they carry."""
+    lattice, scene = case.lattice, build_scene(case)
+    top = 2 * np.flatnonzero(scene.mesh.points[:, 1] > 0.5 * lattice.height) + 1
+    stiffness = 2 * MATERIAL.modulus * lattice.depth * lattice.wall_thickness / lattice.height
+    return stiffness, scene.terms.mass[top].sum()
+
+
+def drag_of(damping, stiffness, mass):
+    """Damping constants (N s/m) of what moves alone, and of what acts between top and bottom."""
+    return {
+        "none": (0.0, 0.0),
+        "rayleigh": (RAYLEIGH.mass * mass, RAYLEIGH.stiffness * stiffness),
+        "kelvin_voigt": (0.0, VISCOUS.relaxation_time * stiffness),
+    }[damping.model]
+
+
+def oscillation(case, force, steps):
+    """Columns y, v of backward Euler for M y'' + C y' + K y = F, all downwards; F of every step."""
+    stiffness, mass = springs(case)
+    drag = sum(drag_of(case.damping, stiffness, mass))
+    y, v, rows = 0.0, 0.0, [(0.0, 0.0)]
+    for k in range(steps):
+        before = y
+        inert = mass / DT**2
+        y = (inert * (y + DT * v) + drag / DT * y + force(k)) / (inert + drag / DT + stiffness)
+        v = (y - before) / DT
+        rows.append((y, v))
+    return np.array(rows).T
+
+
+def running(gains):
+    """Sums so far, with the 0 they start from."""
+    return np.concatenate([[0.0], np.cumsum(gains)])
+
+
+@DAMPINGS
+def test_book_of_an_oscillator_is_the_closed_form_of_the_scheme(damping):
+    """A load on two springs, taken off again: every row and column by hand."""
+    force, held, steps = 0.2, 25, 60
+    loading = Loading(force=force, release_time=held * DT, duration=steps * DT)
+    case = single(loading, damping, time_step=DT)
+    history = simulate(case).history
+    y, v = oscillation(case, lambda k: force if k < held else 0.0, steps)
+    stiffness, mass = springs(case)
+    alone, between = drag_of(damping, stiffness, mass)
+    dy, dv = np.diff(y), np.diff(v)
+    pushed = np.where(np.arange(steps) < held, force, 0.0)
+    expected = {
+        "top_displacement_m": y,
+        "kinetic_J": 0.5 * mass * v**2,
+        "stretch_J": 0.5 * stiffness * y**2,
+        "bend_J": 0.0 * y,
+        "work_in_J": running(pushed * dy),
+        "dissipated_material_J": running((alone + between) * dy**2 / DT),
+        "dissipated_integrator_J": running(0.5 * mass * dv**2 + 0.5 * stiffness * dy**2),
+        "reaction_top_N": np.append(0.0, pushed),
+        "reaction_bottom_N": stiffness * y + between * v,
+        "energy_residual_J": 0.0 * y,
+        "time_s": np.arange(steps + 1) * DT,
+        "newton_iterations": np.minimum(np.arange(steps + 1), 1),  # as all is linear
+    }
+    assert np.ptp(v) * DT > 0.1 * np.ptp(y)
+    for name, column in expected.items():
+        size = np.abs(column).max() or expected["work_in_J"].max()
+        np.testing.assert_allclose(history[name], column, rtol=0, atol=1e-8 * size, err_msg=name)
+
+
+SHARES = (1 / 16, 1 / 16, 1 / 8, 1 / 4, 1 / 2)  # of the first step after a sudden change
+
+
+def stiffly(scheme, past, dt, last, system, force):
+    """The next (y, v, a) of M y'' + C y' + K y = F by the formulas of textbooks; last: dt before.
+
+    The first step is backward Euler's. BDF2: Hairer, Norsett & Wanner, Solving Ordinary
+    Differential Equations I, III.5, of variable step. newmark: beta 1/4, gamma 1/2.
+    """
+    mass, drag, stiffness = system
+    (y, v, a), (older_y, older_v, _) = past[-1], past[-2]
+    if scheme == "newmark" and last:
+        ahead, rate = y + dt * v + dt**2 / 4 * a, v + dt / 2 * a
+        a = (force - drag * rate - stiffness * ahead) / (
+            mass + drag * dt / 2 + stiffness * dt**2 / 4
+        )
+        return ahead + dt**2 / 4 * a, rate + dt / 2 * a, a
+    r = dt / last if last else 0.0
+    now, before, oldest = (1 + 2 * r) / (1 + r) / dt, (1 + r) / dt, r**2 / (1 + r) / dt
+    rest_y, rest_v = oldest * older_y - before * y, oldest * older_v - before * v
+    push = force - mass * (now * rest_y + rest_v) - drag * rest_y
+    y = push / (mass * now**2 + drag * now + stiffness)
+    v = now * y + rest_y
+    return y, v, now * v + rest_v
+
+
+@pytest.mark.parametrize("scheme", ["bdf2", "newmark"])
+@DAMPINGS
+def test_book_of_an_oscillator_by_schemes_of_second_order(damping, scheme):
+    """A load on two springs, taken off again; work and losses by trapezoids but in first steps."""
+    force, held, steps = 0.2, 20, 30
+    loading = Loading(force=force, release_time=held * DT, duration=steps * DT)
+    case = single(loading, damping, time_step=DT, integrator=scheme)
+    history = simulate(case).history
+    stiffness, mass = springs(case)
+    drag = sum(drag_of(damping, stiffness, mass))
+    past, books = [(0.0, 0.0, 0.0)] * 2, [np.zeros(3)]
+    rows, last = [(0.0, 0.0, *books[0])], 0.0
+    for k in range(steps):
+        sudden = k in (0, held)
+        last = 0.0 if sudden else last
+        for share in SHARES if sudden else (1.0,):
+            dt = share * DT
+            push = force if k < held else 0.0
+            past.append(stiffly(scheme, past, dt, last, (mass, drag, stiffness), push))
+            (y0, v0, a0), (y, v, a) = past[-2:]
+            w = 0.5 if last else 1.0
+            lost = drag * (w * v + (1 - w) * v0) * (y - y0)
+            inert = mass * (w * a + (1 - w) * a0) * (y - y0) - 0.5 * mass * (v**2 - v0**2)
+            sprung = stiffness * ((w * y + (1 - w) * y0) * (y - y0) - 0.5 * (y**2 - y0**2))
+            books.append(books[-1] + (push * (y - y0), lost, inert + sprung))
+            last = dt
+        rows.append((y, v, *books[-1]))
+    y, v, work, lost, integrator = np.array(rows).T
+    expected = {
+        "top_displacement_m": y,
+        "kinetic_J": 0.5 * mass * v**2,
+        "stretch_J": 0.5 * stiffness * y**2,
+        "work_in_J": work,
+        "dissipated_material_J": lost,
+        "dissipated_integrator_J": integrator,
+        "energy_residual_J": 0.0 * y,
+    }
+    for name, column in expected.items():
+        size = np.abs(column).max() or work.max()
+        size = work.max() if name == "dissipated_integrator_J" else size
+        np.testing.assert_allclose(history[name], column, rtol=0, atol=1e-8 * size, err_msg=name)
+
+
+@DAMPINGS
+def test_book_of_a_driven_row_is_the_closed_form_of_the_scheme(damping):
+    """The platen starts at its full speed: mass, springs and damping all push back."""
+    speed, steps = 0.1, 20
+    loading = Loading(mode="displacement", stroke=speed * steps * DT, speed=speed, unload=True)
+    case = single(loading, damping, load_steps=steps)
+    history = simulate(case).history
+    y = np.concatenate([np.arange(steps + 1), np.arange(steps)[::-1]]) * speed * DT
+    v = np.append(0.0, np.diff(y) / DT)
+    stiffness, mass = springs(case)
+    alone, between = drag_of(damping, stiffness, mass)
+    force = stiffness * y + (alone + between) * v + mass * np.diff(v, prepend=0.0) / DT
+    expected = {
+        "top_displacement_m": y,
+        "reaction_top_N": force,
+        "reaction_bottom_N": stiffness * y + between * v,
+        "kinetic_J": 0.5 * mass * v**2,
+        "stretch_J": 0.5 * stiffness * y**2,
+        "work_in_J": running(force[1:] * np.diff(y)),
+        "dissipated_material_J": running((alone + between) * np.diff(y) ** 2 / DT),
+        "time_s": np.arange(2 * steps + 1) * DT,
+    }
+    for name, column in expected.items():
+        size = np.abs(column).max() or 1.0
+        np.testing.assert_allclose(history[name], column, rtol=0, atol=1e-8 * size, err_msg=name)
+    assert unbalanced(history) < 1e-9
+
+
+def test_book_of_a_static_spring_is_exact():
+    """Trapezoids: a straight line loses nothing, whatever the number of steps."""
+    stroke = 5e-5
+    case = single(Loading(mode="displacement", stroke=stroke, unload=True), load_steps=4)
+    history = simulate(case).history
+    stiffness, _ = springs(case)
+    y = np.array([0, 1, 2, 3, 4, 3, 2, 1, 0]) / 4 * stroke
+    energy = 0.5 * stiffness * y**2
+    np.testing.assert_allclose(history["reaction_top_N"], stiffness * y, atol=1e-9)
+    for name, column in {"work_in_J": energy, "stretch_J": energy, "kinetic_J": 0.0 * y}.items():
+        np.testing.assert_allclose(history[name], column, rtol=0, atol=1e-9 * energy.max())
+    assert np.abs(history["dissipated_integrator_J"]).max() < 1e-9 * energy.max()
+
+
+def test_a_static_load_that_grows_does_half_of_its_work():
+    case = single(Loading(force=0.2))
+    scene = build_scene(case)
+    state = at_rest(scene)
+    outcome, rows = go_on(case, scene, state, ramp(scene, 3, factor=(0.0, 1.0)), **EXACT)
+    assert outcome == newton.CONVERGED
+    share = np.array([1, 2, 3]) / 3
+    full = 0.5 * 0.2**2 / springs(case)[0]
+    np.testing.assert_allclose(rows[:, trace.REACTION_TOP], 0.2 * share, rtol=1e-12)
+    np.testing.assert_allclose(rows[:, book.WORK], full * share**2, rtol=1e-9)
+    np.testing.assert_allclose(rows[:, book.STRETCH], full * share**2, rtol=1e-9)
+    assert np.abs(rows[:, book.INTEGRATOR]).max() < 1e-9 * full
+
+
+def test_book_of_static_friction_closes():
+    """Friction is booked by trapezoids as the work is: halves of either would not match."""
+    history = simulate(pressed(3, 0.1, 10, "contact", 0.3)).history
+    assert unbalanced(history) < 1e-9
+    assert history["dissipated_friction_J"][-1] > 1e-5 * history["work_in_J"][-1]

@@ -1,0 +1,146 @@
+"""Orders of accuracy, as slopes: hinges in the length of elements, steps in time, Newton."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from kernels.terms import friction
+from kernels.solve import newton
+from sweep.config.case import Case, Loading
+from sweep.scene.terms import build_scene
+from tests.scenes import SEED, VISCOUS, loaded, pressed, run, slopes
+from tests.solving import descend, residual, whole
+
+ROUND_OFF = 1e-11  # N
+
+
+def buckled_force(elements, hinges):
+    """Force (N) at 5 % without contact, past buckling, where every wall bends."""
+    case = pressed(elements, 0.05, 8, contact="none", solver={"hinges": hinges})
+    return run(case).history["reaction_top_N"][-1]
+
+
+@cache
+def converged_force():
+    coarse, fine = (buckled_force(elements, "exact_beam") for elements in (24, 48))
+    return fine + (fine - coarse) / 3
+
+
+@pytest.mark.parametrize("hinges", ["exact_beam", "classical"])
+def test_hinges_are_of_second_order(hinges):
+    errors = [buckled_force(n, hinges) - converged_force() for n in (6, 12, 24)]
+    np.testing.assert_allclose(slopes(errors), 2.0, atol=0.06)
+
+
+def test_exact_beam_hinges_err_far_less():
+    exact, classical = (buckled_force(6, hinges) for hinges in ("exact_beam", "classical"))
+    assert abs(exact - converged_force()) < 0.05 * abs(classical - converged_force())
+
+
+@pytest.mark.parametrize("damping", [SEED, VISCOUS], ids=["rayleigh", "kelvin_voigt"])
+@pytest.mark.parametrize("column", ["strain", "stretch_J"])
+def test_backward_euler_is_of_first_order(damping, column):
+    """In the first 0.4 ms after the load has come, while the grid is still going down."""
+    time = 4e-4
+    cases = [
+        loaded(5.0, time_step=time / n, damping=damping, release_time=time, duration=time)
+        for n in (200, 400, 800, 1600)
+    ]
+    values = np.array([run(case).history[column][-1] for case in cases])
+    np.testing.assert_allclose(slopes(np.diff(values)), 1.0, atol=0.05)
+
+
+def crushed(**solver):
+    """Glued, pressed to 40 %: buckled, and walls touch."""
+    descent = Descent(pressed(3, 0.4, 1, solver=solver), np.inf)
+    height = descent.scene.x_rest[-1]
+    for strain in np.linspace(0.0, 0.4, 41)[1:]:
+        descent.go_on(400, height - 12.5e-3 * strain)
+    return descent
+
+
+def folded():
+    """A measured curve under a dead load that its walls do not bear, in one step of 1 ms."""
+    return Descent(Case(loading=Loading(mode="force", force=20.0)), 1e-3)
+
+
+class Descent:
+    """One step of a scene from rest, iteration by iteration; dt: its duration, infinite: static."""
+
+    def __init__(self, case, dt):
+        self.case, self.dt, self.scene = case, dt, build_scene(case)
+        self.x = self.scene.x_rest.copy()
+
+    def whole(self):
+        """What is minimised, from pairs found anew and without friction."""
+        found = whole(self.scene, self.x, self.scene.x_rest, self.dt)
+        return found._replace(step=found.step._replace(grips=friction.none()))
+
+    def residual(self):
+        """Largest force out of balance, N."""
+        return np.abs(residual(self.scene, self.x, self.whole())).max()
+
+    def go_on(self, iterations, target=None):
+        """Iterate and return the outcome; target: of the platen (m), where it is if None."""
+        found = descend(self.case, self.scene, self.x, self.whole(), target, iterations=iterations)
+        self.x = found.x
+        return found.outcome
+
+    def shake(self, amount):
+        """Move all that is free at random, by up to ``amount`` (m)."""
+        leader, scale = self.scene.unknowns.leader, self.scene.unknowns.scale
+        free = (leader == np.arange(leader.size)) & (leader != self.scene.unknowns.driven)
+        move = np.random.default_rng(5).uniform(-amount, amount, self.x.size)
+        self.x[free] += (move / scale)[free]
+
+
+@pytest.mark.parametrize("scene", [crushed, folded])
+def test_newton_is_quadratic_near_a_minimum(scene):
+    """What one iteration leaves of a disturbance falls with its square."""
+    descent = scene()
+    assert descent.go_on(100) == newton.CONVERGED
+    minimum, left = descent.x.copy(), []
+    for amount in (1e-7, 5e-8, 2.5e-8, 1.25e-8):
+        descent.x = minimum.copy()
+        descent.shake(amount)
+        descent.go_on(1)
+        left.append(descent.residual())
+    np.testing.assert_allclose(slopes(left), 2.0, atol=0.05)
+
+
+@pytest.mark.parametrize("travel", [3e-4, 4e-4, 5e-4])
+def test_newton_ends_a_smooth_step_quadratically(travel):
+    """Order log(r'' / r') / log(r' / r) of the last residuals above round-off."""
+    descent, residuals = crushed(), []
+    target = descent.x[-1] - travel
+    outcome = newton.ITERATIONS
+    while outcome == newton.ITERATIONS:
+        outcome = descent.go_on(1, target)
+        residuals.append(descent.residual())
+    falls = np.diff(np.log([size for size in residuals if size > ROUND_OFF]))
+    assert residuals[-1] < 1e-9
+    assert falls[-1] / falls[-2] == pytest.approx(2.0, abs=0.05)
+
+
+def test_newton_with_the_tangent_modulus_is_of_first_order():
+    """Its last residuals fall by one factor, each time."""
+    descent, residuals = crushed(hessian="tangent_modulus"), []
+    target = descent.x[-1] - 3e-4
+    while descent.go_on(1, target) == newton.ITERATIONS:
+        residuals.append(descent.residual())
+    falls = np.diff(np.log(residuals))[-6:]
+    np.testing.assert_allclose(falls[1:] / falls[:-1], 1.0, atol=0.02)
+    assert 0.2 < np.exp(falls[-1]) < 0.8
+
+
+def test_tangent_modulus_finds_the_same_minima_in_more_iterations():
+    exact, tangent = (
+        run(pressed(3, 0.4, 80, solver={"hessian": hessian, "max_iterations": 400}))
+        for hessian in ("exact", "tangent_modulus")
+    )
+    for name in ("reaction_top_N", "bend_J", "contact_J"):
+        scale = np.abs(exact.history[name]).max()
+        np.testing.assert_allclose(tangent.history[name], exact.history[name], atol=1e-6 * scale)
+    iterations = [result.summary["newton_iterations"] for result in (exact, tangent)]
+    assert 5 < iterations[1] / iterations[0] < 9

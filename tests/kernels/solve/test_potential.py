@@ -1,0 +1,193 @@
+"""What a step minimises: the sum of all its terms, and its derivatives."""
+
+import numpy as np
+import pytest
+
+from kernels.terms import bend, fold, friction, stretch
+from kernels.planar import potential as step
+from sweep.config.case import Solver
+from tests.figures import MATERIAL
+from tests.solving import whole
+from tests.states import (
+    CURVE,
+    DT,
+    RAYLEIGH,
+    SLIDE,
+    STATES,
+    VISCOUS,
+    driven,
+    leaning,
+    loaded,
+    shaken,
+    step_to,
+    unit,
+)
+from tests.terms import damping_of, derivative_error, of_points, of_walls, touch_of
+
+
+def error(scene, x, args, step=1e-5):
+    return derivative_error(args, x, unit(scene), step)
+
+
+@pytest.mark.parametrize("dt", [DT, np.inf])
+@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("seed", range(2))
+def test_derivatives(seed, state, damping, dt):
+    scene = loaded(damping=damping)
+    x = STATES[state](scene, seed)
+    assert error(scene, x, step_to(scene, x, seed, dt)) < 1e-9
+
+
+@pytest.mark.parametrize("dt", [DT, np.inf])
+@pytest.mark.parametrize("elements", [1, 3])
+def test_derivatives_at_rest(elements, dt):
+    """Of a linear material: a measured curve has a kink in its tangent there."""
+    scene = loaded(elements, "none", material=MATERIAL)
+    assert error(scene, scene.x_rest, whole(scene, scene.x_rest, dt=dt), 1e-4) < 1e-9
+
+
+@pytest.mark.parametrize("measure", ["angle", "tangent"])
+@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+@pytest.mark.parametrize("state", ["bent", "leaning"])
+def test_derivatives_of_single_elements(state, damping, measure):
+    scene = loaded(1, damping=damping, solver=Solver(time_step=DT, bend_measure=measure))
+    x = STATES[state](scene)
+    assert error(scene, x, step_to(scene, x, 0)) < 1e-9
+
+
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize(("platen", "elements"), [("glued", 1), ("contact", 3)])
+def test_derivatives_under_a_driven_platen(platen, elements, state):
+    scene = driven(platen, elements)
+    x = STATES[state](scene)
+    assert error(scene, x, step_to(scene, x, 0, np.inf)) < 1e-9
+
+
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize(
+    ("size", "material"),
+    [
+        (1e3, CURVE),
+        (1e-3, CURVE),
+        (1.0, MATERIAL.model_copy(update={"modulus": 12e15})),
+    ],
+    ids=["12 m", "12 um", "12 PPa"],
+)
+def test_derivatives_in_other_units(size, material, state):
+    scene = loaded(size=size, material=material, damping=VISCOUS)
+    x = STATES[state](scene)
+    assert error(scene, x, step_to(scene, x, 0)) < 1e-9
+
+
+def test_derivatives_while_walls_slide():
+    """Beyond the smoothing only the size of friction is left: |u| has no curvature."""
+    scene = loaded(contact=SLIDE)
+    x = leaning(scene)
+    assert error(scene, x, step_to(scene, x, 0)) < 1e-9
+
+
+def potentials(args):
+    """The terms of the kernels by name, each of them by itself."""
+    terms, one, near = args
+    x0, slip = one.before.x0, one.slip
+
+    def stretching(shape, stiffness, projected):
+        return stretch.evaluate(terms.stretch, terms.law, shape, stiffness, projected)
+
+    def bending(shape, stiffness, projected):
+        return bend.evaluate(terms.walls, terms.bend, shape, stiffness, projected)
+
+    found = {
+        "stretch": of_walls(terms.walls, terms.bend, stretching),
+        "bend": of_walls(terms.walls, terms.bend, bending),
+        "fold": of_points(
+            lambda x, g: fold.evaluate(x, terms.fold, g)[0],
+            lambda x, matrix, projected: fold.hessian(x, terms.fold, matrix, projected),
+        ),
+        "contact": touch_of(terms.contact, near.pairs, near.anchor),
+        "friction": of_points(
+            lambda x, g: friction.evaluate(x - x0, one.grips, slip, g),
+            lambda x, matrix, projected: friction.hessian(
+                x - x0, one.grips, slip, matrix, projected
+            ),
+        ),
+    }
+    if np.isfinite(one.dt):
+        found["damp"] = damping_of(terms, x0, one.dt)
+    return found
+
+
+@pytest.mark.parametrize("projected", [False, True])
+@pytest.mark.parametrize("dt", [DT, np.inf])
+@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+def test_the_sum_has_all_terms_and_each_of_them_counts(damping, dt, projected):
+    scene = loaded(damping=damping)
+    x = leaning(scene)
+    args = step_to(scene, x, 0, dt)
+    terms, one, _ = args
+    found = potentials(args)
+    shares = {name: term.energy(x) for name, term in found.items()}
+    shares["load"] = -0.7 * terms.load @ (x - one.before.x0)
+    force = {name: term.gradient(x) for name, term in found.items()}
+    force["load"] = -0.7 * terms.load
+    stiffness = [term.hessian(x, projected) for term in found.values()]
+    if np.isfinite(dt):
+        off = x - one.x_pred
+        shares["inertia"] = 0.5 * np.sum(terms.mass * off**2) / dt**2
+        force["inertia"] = terms.mass * off / dt**2
+        stiffness.append(np.diag(terms.mass) / dt**2)
+    assert min(np.abs(list(shares.values()))) > 1e-5 * max(shares.values())
+    assert args.energy(x) == pytest.approx(sum(shares.values()), rel=1e-12)
+    for found, expected in (
+        (args.gradient(x), sum(force.values())),
+        (args.hessian(x, projected), sum(stiffness)),
+    ):
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("dt", [DT, np.inf])
+@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+def test_what_evaluate_tells_the_book(damping, dt):
+    """Energies that are stored, and the forces by what they come from."""
+    scene = loaded(damping=damping)
+    x = leaning(scene)
+    args = step_to(scene, x, 0, dt)
+    found, (_, at) = potentials(args), args.found(x)
+    stored = [
+        found["stretch"].energy(x),
+        found["bend"].energy(x) + found["fold"].energy(x),
+        found["contact"].energy(x),
+    ]
+    np.testing.assert_allclose(at.stored, stored, rtol=1e-12)
+    elastic = sum(found[name].gradient(x) for name in ("stretch", "bend", "fold", "contact"))
+    material = found["damp"].gradient(x) if np.isfinite(dt) else np.zeros_like(x)
+    for part, expected in (
+        (at.elastic, elastic),
+        (at.rubbing, found["friction"].gradient(x)),
+        (at.material, material),
+        (at.u, x - args.step.before.x0),
+    ):
+        np.testing.assert_allclose(part, expected, rtol=0, atol=1e-12 * np.abs(elastic).max())
+
+
+def test_other_grips_are_exchanged_for_those_there():
+    """The gradient is that of the sum with the new ones, whatever was rubbing before."""
+    scene = loaded()
+    x = leaning(scene)
+    args, other = step_to(scene, x, 0), step_to(scene, shaken(scene, x, 1, 0.01), 0)
+    exchanged = args._replace(step=args.step._replace(grips=other.step.grips))
+    (energy, at), (expected, fresh) = args.found(x), exchanged.found(x)
+    assert energy != pytest.approx(expected, rel=1e-6)
+    assert step.rub(args.terms, exchanged.step, at) == pytest.approx(expected, rel=1e-12)
+    np.testing.assert_allclose(at.g, fresh.g, rtol=0, atol=1e-12 * np.abs(fresh.g).max())
+    np.testing.assert_allclose(at.rubbing, fresh.rubbing, rtol=1e-12)
+
+
+@pytest.mark.parametrize("platen", ["none", "contact"])
+@pytest.mark.parametrize("elements", [1, 3, 6])
+def test_at_rest_there_is_nothing_but_the_load(elements, platen):
+    scene = loaded(elements, platen)
+    args = whole(scene, scene.x_rest, dt=DT)
+    assert abs(args.energy(scene.x_rest)) < 1e-15
+    np.testing.assert_allclose(args.gradient(scene.x_rest), -scene.terms.load, rtol=0, atol=1e-9)

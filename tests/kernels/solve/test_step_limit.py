@@ -1,0 +1,92 @@
+"""How far a step may go: nothing meets, folds or shrinks to nothing, however far it wants to."""
+
+import numpy as np
+import pytest
+
+from kernels.geometry import ccd, near_pairs as pairs
+from kernels.planar import potential as step
+from sweep.config.case import Case, Contact, Lattice, Loading
+from sweep.scene.terms import build_scene
+from tests.solving import whole
+from tests.states import GRIP, STATES, loaded, nodes, unit
+
+
+def moving(scene, which, by):
+    """A move of one node by (dx, dy), or of the upper platen by dy."""
+    dx = np.zeros(scene.x_rest.size)
+    if which is None:
+        dx[-1] = by
+    else:
+        nodes(scene, dx)[which] = by
+    return dx
+
+
+def node_at(scene, x, y):
+    return np.argmin(np.linalg.norm(scene.mesh.points - (x, y), axis=1))
+
+
+def one_cell(platen):
+    """A cell of 10 mm with walls of two elements; without a platen, without contact."""
+    return build_scene(
+        Case(
+            lattice=Lattice(
+                cells_x=1, cells_y=1, nodes_per_wall=1, width=0.01, height=0.01, imperfection=0.0
+            ),
+            loading=Loading(platen=platen),
+            contact=Contact(model="none" if platen == "none" else "barrier"),
+        )
+    )
+
+
+@pytest.mark.parametrize(
+    ("platen", "start", "by", "share"),
+    [
+        ("contact", (0.0, 5e-3), (1e-3, 0.0), 1.0),  # nothing in the way
+        ("contact", (0.0, 5e-3), (20e-3, 0.0), 0.9 * 0.5),  # to the opposite wall
+        ("none", (0.0, 5e-3), (20e-3, 0.0), 1.0),  # through it
+        ("none", (0.0, 5e-3), (0.0, 10e-3), 0.9 * 0.5),  # along its wall: a tenth is left
+        ("none", (0.0, 5e-3), (10e-3, -10e-3), 0.9 * 0.5),  # until a corner closes
+        ("contact", (5e-3, 0.0), (0.0, -8e-4), 0.9 * 0.5),  # through the lower platen
+        ("contact", None, -8e-4, 0.9 * 0.5),  # the upper platen through a wall
+    ],
+)
+def test_limits_of_a_step(platen, start, by, share):
+    scene = one_cell(platen)
+    which = None if start is None else node_at(scene, *start)
+    args, dx = whole(scene, scene.x_rest, reach=0.03), moving(scene, which, by)
+    assert args.limit(scene.x_rest, dx) == pytest.approx(share, rel=1e-9)
+
+
+def hits(scene, x, dx):
+    """Shares at which anything of a scene meets or folds, and those at which elements are short."""
+    terms, high, low = scene.terms, x.size - 1, x.size - 2
+    everything = pairs.find(x, terms.contact, 1.0) if len(terms.contact.edges) else pairs.empty()
+    near = zip(everything.node, terms.contact.edges[everything.edge], strict=True)
+    met = [ccd.first_contact(x, dx, p, a, b) for p, (a, b) in near]
+    edges, hinges = terms.walls.edges, terms.bend.hinges
+    corners = [*terms.fold.nodes, *np.column_stack([edges[hinges], edges[hinges + 1, 1]])]
+    met += [ccd.first_fold(x, dx, a, b, c) for a, b, c in corners]
+    for p in terms.contact.plate_nodes:
+        gaps = x[2 * p + 1] - x[low], x[high] - x[2 * p + 1]
+        closing = dx[low] - dx[2 * p + 1], dx[2 * p + 1] - dx[high]
+        met += [gap / way for gap, way in zip(gaps, closing, strict=True) if way > 0.0]
+    short = [ccd.first_shrink(x, dx, a, b, step.LEAST_LENGTH) for a, b in edges]
+    return np.array(met), np.array(short)
+
+
+@pytest.mark.parametrize("contact", [GRIP, Contact(model="none")], ids=["contact", "no contact"])
+@pytest.mark.parametrize("state", ["rest", *STATES])
+def test_the_bounds_of_a_step_miss_nothing(state, contact):
+    """Of walls that meet, corners that close and elements that shrink, for moves of any size."""
+    scene = loaded(contact=contact, platen="none" if contact.model == "none" else "contact")
+    x = scene.x_rest if state == "rest" else STATES[state](scene)
+    args, limited = whole(scene, x, reach=0.1), 0
+    for seed in range(60):
+        rng = np.random.default_rng(seed)
+        dx = unit(scene) * 10.0 ** rng.uniform(-2.5, 0.5) * rng.uniform(-1, 1, x.size)
+        met, short = hits(scene, x, dx)
+        least = min(1.0, step.ADVANCE * met.min(), short.min())
+        most = min(1.0, step.ADVANCE * met[met <= 1.0].min(initial=np.inf), short.min())
+        assert least * (1 - 1e-12) <= args.limit(x, dx) <= most * (1 + 1e-12)
+        limited += most < 1.0
+    assert 5 < limited < 60

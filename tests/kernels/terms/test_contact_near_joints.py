@@ -1,0 +1,201 @@
+"""Joints are not contacts: free of force at rest, weighted along the network, counted once."""
+
+import numpy as np
+import pytest
+
+from kernels.terms import contact, contact_near_joints as vicinity
+from kernels.geometry import near_pairs as pairs
+from kernels.terms.barrier import barrier
+from tests.frames import carried, contact_of, frame, grid, joint_of_four, only, scaled
+from tests.terms import touch_of
+
+T = 0.8
+
+
+def star(*bearings, pieces=3, thickness=T):
+    """Walls of 4 mm that leave one joint in these directions (degrees)."""
+    ends = [(4 * np.cos(np.radians(b)), 4 * np.sin(np.radians(b))) for b in bearings]
+    return frame([(0, 0), *ends], [(0, i + 1) for i in range(len(ends))], pieces, thickness)
+
+
+def zigzag(pieces):
+    """Walls that are nearer to one another at rest than they are thick."""
+    return frame(
+        [(0, 0), (4, 0), (4, 0.3), (0, 0.5)], [(0, 1), (1, 2), (2, 3)], [pieces, 1, pieces]
+    )
+
+
+FRAMES = {
+    "L": lambda n: star(0, 90, pieces=n),
+    "T": lambda n: star(0, 180, 90, pieces=n),
+    "X": lambda n: star(0, 90, 180, 270, pieces=n),
+    "acute 60": lambda n: star(0, 60, pieces=n),
+    "acute 30": lambda n: star(0, 30, pieces=n),
+    "acute 15": lambda n: star(0, 15, 30, pieces=n),
+    "mixed": lambda n: star(0, 45, 200, pieces=[n, 2 * n, n], thickness=[0.8, 0.4, 1.2]),
+    "zigzag": zigzag,
+    "grid": lambda n: grid(3, 12.5, n),
+}
+
+
+def rules(touch, p):
+    """Weight, distance of contact and subtraction of node ``p`` against every element."""
+    weight = np.full(len(touch.edges), touch.tributary[p])
+    distance = 0.5 * (touch.node_thickness[p] + touch.edge_thickness)
+    subtract = touch.subtract.copy()
+    own = touch.special_node == p
+    e = np.repeat(np.arange(len(touch.edges)), np.diff(touch.special_start))[own]
+    weight[e], distance[e] = touch.special_weight[own], touch.special_distance[own]
+    subtract[e] = touch.special_subtract[own]
+    return weight, distance, subtract
+
+
+@pytest.mark.parametrize("pieces", [1, 3, 12])
+@pytest.mark.parametrize("name", FRAMES)
+def test_the_rest_state_is_free_of_contact(name, pieces):
+    of = FRAMES[name](pieces)
+    touch = contact_of(of)
+    for turn in (0.0, 0.3):
+        x = carried(of, of.rest, turn)
+        listed = pairs.find(x, touch, 2.0 * touch.reach)
+        assert np.any(listed.d_contact > 0) or pieces == 1
+        assert touch_of(touch, listed, x).energy(x) == 0.0
+        assert not touch_of(touch, listed, x).gradient(x).any()
+    assert contact.least_gap(of.rest, touch, listed, 0.0) > 0
+
+
+@pytest.mark.parametrize("pieces", [1, 2, 3, 5, 12])
+@pytest.mark.parametrize("name", FRAMES)
+def test_every_vertex_is_counted_once_by_its_heaviest_element(name, pieces):
+    """Left aside: the ends of a node's own elements where these are longer than 3 t.
+
+    There nothing is reduced, and the end is nearer than t only when two thirds are crushed away.
+    """
+    of = FRAMES[name](pieces)
+    touch = contact_of(of)
+    checked = 0
+    for p in range(len(of.points)):
+        weight, _, subtract = rules(touch, p)
+        own = np.any(of.edges == p, axis=1)
+        long = own & (of.l0 > 3 * 0.5 * (touch.node_thickness[p] + of.thickness))
+        for v in set(range(len(of.points))) - {p, *of.edges[long].ravel().tolist()}:
+            element, side = np.nonzero((of.edges == v) & ~own[:, None])
+            if element.size:
+                kept = element[subtract[element, side] == 0.0]
+                assert len(kept) == 1
+                assert weight[kept[0]] == weight[element].max()
+                checked += 1
+    assert checked > 10 or pieces < 3
+
+
+def far_share(of, p, e, radius, samples=400):
+    """Tributary length of node ``p`` farther than ``radius`` along the network from ``e``."""
+    far = np.full(len(of.points), np.inf)
+    far[of.edges[e]] = 0.0
+    for _ in of.points:
+        for k, (a, b) in enumerate(of.edges):
+            far[a], far[b] = min(far[a], far[b] + of.l0[k]), min(far[b], far[a] + of.l0[k])
+    total = 0.0
+    for k in np.flatnonzero(np.any(of.edges == p, axis=1)):
+        other = of.edges[k].sum() - p
+        s = (np.arange(samples) + 0.5) / samples * 0.5 * of.l0[k]
+        away = np.minimum(far[p] + s, far[other] + of.l0[k] - s)
+        total += 0.5 * of.l0[k] * np.mean(away > radius)
+    return total
+
+
+@pytest.mark.parametrize("of", [joint_of_four(), star(0, 30, 90, pieces=[1, 4, 9]), zigzag(5)])
+def test_weights_against_distances_along_the_network(of):
+    touch = contact_of(of)
+    reduced = 0
+    for p in range(len(of.points)):
+        weight, _, _ = rules(touch, p)
+        for e in np.flatnonzero(~np.any(of.edges == p, axis=1)):
+            radius = 1.5 * 0.5 * (touch.node_thickness[p] + touch.edge_thickness[e])
+            expected = far_share(of, p, e, radius)
+            assert weight[e] == pytest.approx(expected, abs=2.0 * of.l0.max() / 400)
+            reduced += expected < 0.99 * touch.tributary[p]
+    assert reduced > 10
+
+
+def test_a_pair_near_at_rest_starts_at_nine_tenths_of_its_distance():
+    of = frame([(0, 0), (4, 0), (0, 0.5), (4, 0.5)], [(0, 1), (2, 3)], [3, 4])
+    touch = contact_of(of)
+    for gap, expected in ((0.46, 0.0), (0.44, barrier(0.44 / 0.45)[0])):
+        x = of.rest.copy()
+        x[2 * np.unique(of.edges[3:]) + 1] = gap
+        energy = touch_of(touch, pairs.find(x, touch, 2.0), x).energy(x)
+        assert energy == pytest.approx(4.0 * of.modulus * of.depth * 0.45 * expected, rel=1e-3)
+
+
+def test_what_is_far_along_the_network_touches_with_its_full_length():
+    """Legs of a U of thick walls are apart by more than t, and may touch but near the bend."""
+    of = frame([(0, 0), (6, 0), (6, 1.0), (0, 1.0)], [(0, 1), (1, 2), (2, 3)], [12, 2, 12])
+    touch = contact_of(of)
+    weight, distance, _ = rules(touch, 0)
+    assert weight[-1] == touch.tributary[0]
+    assert distance[-1] == T
+    bend = np.flatnonzero(np.any(of.edges == 2, axis=1))
+    assert np.all(rules(touch, 1)[0][bend[1:]] < touch.tributary[1])
+
+
+@pytest.mark.parametrize("of", [joint_of_four(), grid(2, 8.0, 4), star(0, 10, 20)])
+def test_every_node_has_one_owner(of):
+    subtract = vicinity.owners(len(of.points), of.edges)
+    owned = np.bincount(of.edges.ravel(), (1.0 - subtract).ravel(), len(of.points))
+    np.testing.assert_array_equal(owned, 1.0)
+
+
+def test_units_change_nothing():
+    of = star(0, 45, 200, pieces=[3, 6, 3], thickness=[0.8, 0.4, 1.2])
+    metre = contact_of(scaled(of, 1e-3))
+    touch = contact_of(of)
+    assert len(touch.special_node) > 20
+    np.testing.assert_array_equal(metre.special_node, touch.special_node)
+    np.testing.assert_array_equal(metre.special_subtract, touch.special_subtract)
+    np.testing.assert_allclose(metre.special_weight, 1e-3 * touch.special_weight, atol=1e-15)
+    np.testing.assert_allclose(metre.special_distance, 1e-3 * touch.special_distance)
+
+
+def polyline(rng, rise):
+    """A wall of unequal elements with stubs below, and a node (the last joint but one) above it.
+
+    ``rise``: how far inner points of the wall are above its ends (convex towards the node).
+    """
+    along = np.concatenate([[0.0], np.sort(rng.uniform(0.5, 9.5, 6)), [10.0]])
+    line = [(s, rise * s * (10.0 - s)) for s in along]
+    stubs = [(s, y - 3.0) for s, y in line[2:5]]
+    walls = [(i, i + 1) for i in range(7)] + [(i + 2, 8 + i) for i in range(3)]
+    order = rng.permutation(len(walls))
+    mover = [(5.0, 40.0), (5.0, 43.0)]
+    walls = [walls[i] for i in order] + [(11, 12)]
+    pieces = [*rng.integers(1, 4, len(walls) - 1), 1]
+    return frame([*line, *stubs, *mover], walls, pieces), 11
+
+
+@pytest.mark.parametrize("rise", [0.0, 0.04])
+@pytest.mark.parametrize("seed", range(6))
+def test_a_node_that_slides_along_a_wall_is_counted_once(seed, rise):
+    """Total = 1/2 l_p phi(nearest), over vertices, unequal elements and joints with stubs."""
+    rng = np.random.default_rng(seed)
+    of, p = polyline(rng, rise)
+    touch = contact_of(of)
+    half = 0.5 * touch.tributary[p] * touch.stiffness
+    met = set()
+    for s in np.linspace(0.5, 9.5, 120):
+        x = of.rest.copy()
+        x[2 * p : 2 * p + 2] = s, rise * s * (10.0 - s) + rng.uniform(0.2, 0.6)
+        listed = only(pairs.find(x, touch, 2.0), p)
+        nearest = least_distance(of, x, p)
+        met.update(listed.edge.tolist())
+        expected = half * T * barrier(nearest / T)[0]
+        assert touch_of(touch, listed, x).energy(x) == pytest.approx(expected, rel=1e-9)
+    assert len(met) > 7
+
+
+def least_distance(of, x, p):
+    a, b = (x[: 2 * len(of.points)].reshape(-1, 2)[of.edges[:, side]] for side in (0, 1))
+    u, w = b - a, x[2 * p : 2 * p + 2] - a
+    tau = np.clip(np.sum(u * w, axis=1) / np.sum(u * u, axis=1), 0, 1)
+    away = np.linalg.norm(w - tau[:, None] * u, axis=1)
+    return away[~np.any(of.edges == p, axis=1)].min()

@@ -1,0 +1,173 @@
+"""Damping: Rayleigh is the quadratic form of the projected Hessian, Kelvin-Voigt is objective."""
+
+import numpy as np
+import pytest
+
+from kernels.terms import bend, elements as chain, damping as damp, kelvin_voigt, stretch
+from tests.frames import (
+    carried,
+    curve_law,
+    frame,
+    joint_of_four,
+    linear_law,
+    scaled,
+    shaken,
+    terms_of,
+)
+from tests.terms import Term, before_of, damping_of, derivative_error, least_share, of_walls
+
+FRAME = joint_of_four()
+DT = 0.02
+MASS, RAYLEIGH, VISCOUS = damp.Damp(3.0, 0, 0), damp.Damp(3.0, 0.5, 0), damp.Damp(0, 0, 0.4)
+ALL = damp.Damp(3.0, 0.5, 0.4)
+MODELS = [MASS, RAYLEIGH, VISCOUS, ALL]
+MEASURES = [bend.ANGLE, bend.TANGENT]
+
+
+def damped(of, damping, measure=bend.ANGLE, law=curve_law):
+    return terms_of(of, law(of.modulus), measure, damp.Damp(*map(float, damping)))
+
+
+def term_of(terms, x0) -> Term:
+    return damping_of(terms, x0, DT)
+
+
+def elastic(terms, x, projected=False):
+    """Hessian of stretching and bending."""
+
+    def add(shape, stiffness, projected):
+        value = stretch.evaluate(terms.stretch, terms.law, shape, stiffness, projected)
+        return value + bend.evaluate(terms.walls, terms.bend, shape, stiffness, projected)
+
+    return of_walls(terms.walls, terms.bend, add).hessian(x, projected)
+
+
+@pytest.mark.parametrize("measure", MEASURES)
+@pytest.mark.parametrize("damping", MODELS)
+@pytest.mark.parametrize("seed", range(2))
+def test_derivatives_in_random_states(seed, damping, measure):
+    term = term_of(damped(FRAME, damping, measure), shaken(FRAME, 10 + seed))
+    assert derivative_error(term, shaken(FRAME, seed), FRAME.unit, 3e-4) < 1e-7
+
+
+@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS])
+@pytest.mark.parametrize("length", [1e-3, 1e3])
+def test_derivatives_in_other_units(damping, length):
+    of = scaled(FRAME, length)
+    term = term_of(damped(of, damping), shaken(of, 10))
+    assert derivative_error(term, shaken(of, 1), of.unit, 3e-4) < 1e-7
+
+
+@pytest.mark.parametrize("damping", MODELS)
+def test_a_step_that_stays_costs_nothing(damping):
+    x = shaken(FRAME, 2)
+    term = term_of(damped(FRAME, damping), x)
+    assert term.energy(x) < 1e-20
+    assert np.abs(term.gradient(x)).max() < 1e-10
+    assert derivative_error(term, x, FRAME.unit, 3e-4) < 1e-7
+
+
+@pytest.mark.parametrize("measure", MEASURES)
+@pytest.mark.parametrize("seed", range(3))
+def test_rayleigh_is_mass_and_projected_stiffness(seed, measure):
+    """C / dt = (alpha M + beta K) / dt with the very K that stretch and bend project at x0."""
+    x0, x = shaken(FRAME, seed, 0.3), shaken(FRAME, 20)
+    terms = damped(FRAME, RAYLEIGH, measure)
+    term = term_of(terms, x0)
+    expected = (3.0 * np.diag(terms.mass) + 0.5 * elastic(terms, x0, True)) / DT
+    np.testing.assert_allclose(
+        term.hessian(x), expected, rtol=0, atol=1e-12 * np.abs(expected).max()
+    )
+    move = x - x0
+    assert term.energy(x) == pytest.approx(0.5 * move @ expected @ move, rel=1e-12)
+    assert term.gradient(x) @ move == pytest.approx(2 * term.energy(x))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_viscous_stiffness_at_rest_is_the_elastic_one(seed):
+    """Kelvin-Voigt: relaxation time x the stiffness of the straight frame, couplings included."""
+    terms = damped(FRAME, VISCOUS, law=linear_law)
+    term = term_of(terms, FRAME.rest)
+    expected = 0.4 / DT * elastic(terms, FRAME.rest)
+    np.testing.assert_allclose(
+        term.hessian(FRAME.rest), expected, rtol=0, atol=1e-12 * np.abs(expected).max()
+    )
+    small = 1e-5 * (shaken(FRAME, seed) - FRAME.rest)
+    work = term.gradient(FRAME.rest + small) @ small
+    assert work == pytest.approx(small @ expected @ small, rel=1e-3)
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3, 2.5])
+def test_a_rigid_motion_has_no_viscous_cost(turn):
+    """Of less than half a turn: arms are measured against the start of the step."""
+    x0 = shaken(FRAME, 4)
+    x = carried(FRAME, x0, turn)
+    term = term_of(damped(FRAME, VISCOUS), x0)
+    apart = term.energy(shaken(FRAME, 5))
+    assert apart > 1.0
+    assert term.energy(x) < 1e-20 * apart
+    assert np.abs(term.gradient(x)).max() < 1e-9
+
+
+@pytest.mark.parametrize("turn", [0.5, 2.5])
+def test_viscous_cost_is_objective(turn):
+    terms, x0, x = damped(FRAME, VISCOUS), shaken(FRAME, 4), shaken(FRAME, 5)
+    plain = term_of(terms, x0).energy(x)
+    both = term_of(terms, carried(FRAME, x0, 1.0)).energy(carried(FRAME, x, turn))
+    assert both == pytest.approx(plain, rel=1e-11)
+
+
+@pytest.mark.parametrize("damping", MODELS)
+@pytest.mark.parametrize("seed", range(3))
+def test_projected_hessian_is_semi_definite(seed, damping):
+    term = term_of(damped(FRAME, damping), shaken(FRAME, seed + 30, 0.4))
+    assert least_share(term, shaken(FRAME, seed, 0.4), FRAME.unit) > -1e-12
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_projected_viscous_moments_are_semi_definite_without_stretch(seed):
+    terms = damped(FRAME, VISCOUS)
+    soft = terms._replace(law=terms.law._replace(modulus=0.0))
+    term, x = term_of(soft, shaken(FRAME, seed + 30, 0.4)), shaken(FRAME, seed, 0.4)
+    assert np.linalg.eigvalsh(term.hessian(x))[0] < -1.0
+    assert least_share(term, x, FRAME.unit) > -1e-12
+
+
+def test_the_exact_viscous_hessian_can_be_indefinite():
+    term, x = term_of(damped(FRAME, VISCOUS), shaken(FRAME, 30, 0.4)), shaken(FRAME, 0, 0.4)
+    assert np.linalg.eigvalsh(term.hessian(x))[0] < -1.0
+
+
+def test_viscous_stress_of_a_bar_that_is_pulled():
+    of = frame([(0, 0), (2.0, 0)], [(0, 1)], 1)
+    x = of.rest.copy()
+    x[2] = 2.1
+    term = term_of(damped(of, VISCOUS), of.rest)
+    force = 0.4 * of.modulus * 0.8 * of.depth * 0.05 / DT
+    assert term.gradient(x)[2] == pytest.approx(force)
+    assert term.energy(x) == pytest.approx(0.5 * force * 0.1)
+
+
+def measured(terms, x):
+    """Lengths and turns of hinges and arms in a row."""
+    before = before_of(terms, FRAME.rest)
+    chain.measure(x, terms.walls, before.shape)
+    bend.turns(x, terms.walls, terms.bend, before.frame, before.shape)
+    return before.shape
+
+
+def in_a_row(shape):
+    return np.concatenate([shape.length, shape.hinge_turn, shape.arm_turn])
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_rates_of_lengths_and_turns_are_their_derivatives(seed):
+    terms, x, v = damped(FRAME, VISCOUS), shaken(FRAME, seed), shaken(FRAME, 40 + seed)
+    shape = measured(terms, x)
+    start = in_a_row(shape)
+    kelvin_voigt.foresee(terms, v, 0.5, shape)
+    slope = (
+        in_a_row(measured(terms, x + 1e-6 * v)) - in_a_row(measured(terms, x - 1e-6 * v))
+    ) / 2e-6
+    assert np.count_nonzero(slope) > 0.7 * slope.size
+    np.testing.assert_allclose(in_a_row(shape) - start, 0.5 * slope, rtol=0, atol=1e-7)

@@ -1,0 +1,231 @@
+"""Friction: smoothed Coulomb law, limits of sticking and sliding, the normal force of contact."""
+
+import numpy as np
+import pytest
+
+from kernels.terms import friction
+from kernels.geometry import near_pairs as pairs
+from kernels.terms.barrier import barrier
+from tests.frames import carried, only, scaled, shaken, touching, two_walls
+from tests.terms import Term, derivative_error, differences, least_share, of_points, touch_of
+
+MU, T = 0.3, 0.8
+WALLS = two_walls(0.5, (3, 2))
+UPPER = np.unique(WALLS.edges[3:])
+
+
+def grips_of(of, x, mu=MU, node=None):
+    touch = touching(of)
+    listed = pairs.find(x, touch, 2.0 * touch.reach)
+    if node is not None:
+        listed = only(listed, node)
+    return lagged(x, touch, listed, mu), touch, listed
+
+
+def lagged(x, touch, listed, mu=MU):
+    """What is gripped at ``x``."""
+    rubbing = friction.Friction(mu, 1.0)
+    grips = friction.room(listed, touch, rubbing)
+    friction.lag(x, touch, listed, np.inf, rubbing, grips)
+    n = grips.count[0]
+    return friction.Grips(*(part[:n] for part in grips[:-1]), grips.count)
+
+
+def term_of(x0, grips, slip) -> Term:
+    """Friction of a step from x0."""
+    return of_points(
+        lambda x, g: friction.evaluate(x - x0, grips, slip, g),
+        lambda x, matrix, projected: friction.hessian(x - x0, grips, slip, matrix, projected),
+    )
+
+
+def slid(amount):
+    """Two walls after the upper one has moved by ``amount`` along both."""
+    x = WALLS.rest.copy()
+    x[2 * UPPER] += amount
+    return x
+
+
+def moment(g, x):
+    """Return the moment of nodal forces about the origin."""
+    n = 2 * len(WALLS.points)
+    return float(np.sum(x[0:n:2] * g[1:n:2] - x[1:n:2] * g[0:n:2]))
+
+
+def normal_force(gap, of=WALLS):
+    return -of.modulus * of.depth * barrier(gap / T)[1]
+
+
+@pytest.mark.parametrize("slip", [1.0, 1e-6])
+@pytest.mark.parametrize("u", [0.0, 1e-3, -0.3, 0.999, -0.999, 1.001, -1.001, 7.0])
+def test_smooth_size_and_its_derivatives(u, slip):
+    value, slope = friction.smooth(u * slip, slip)
+    curvature = friction.curvature(u * slip, friction.UNKNOWN, slip)
+    at, step = np.array([u * slip]), np.array([1e-4 * slip])
+    by_value = differences(lambda x: friction.smooth(x[0], slip)[0], at, step)[0]
+    by_slope = differences(lambda x: friction.smooth(x[0], slip)[1], at, step)[0]
+    assert by_value == pytest.approx(slope, abs=1e-9)
+    assert by_slope == pytest.approx(curvature, abs=5e-4 / slip if u == 0.0 else 1e-8 / slip)
+    assert friction.curvature(u * slip, slope, slip) == pytest.approx(curvature, abs=1e-12 / slip)
+    assert value >= abs(u * slip) - 1e-15
+    assert abs(slope) <= 1.0
+    assert curvature >= 0.0
+
+
+def test_smooth_size_joins_the_size_at_the_slip():
+    inside, outside = friction.smooth(1.0 - 1e-12, 1.0), friction.smooth(1.0, 1.0)
+    assert inside == pytest.approx(outside, abs=1e-11)
+    assert outside == (1.0, 1.0)
+    assert friction.curvature(1.0, friction.UNKNOWN, 1.0) == 0.0
+    assert friction.smooth(0.0, 2.0) == pytest.approx((2 / 3, 0.0))
+    assert friction.curvature(0.0, friction.UNKNOWN, 2.0) == 1.0
+
+
+@pytest.mark.parametrize("start", [3.0, 0.02, -0.4, -50.0])
+@pytest.mark.parametrize(("pull", "most"), [(0.0, 15), (0.9, 15), (-0.9, 15), (5.0, 15), (1.0, 30)])
+def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
+    """At the least of u^2 / 2 + |u| - pull u; with f'' alone it leaps to and fro for ever."""
+    slip, steps, u = 1e-4, 0, np.array([start, 0.0])
+    grips = friction.Grips(
+        np.zeros((1, 3), np.int64), np.eye(3, 2)[None], np.ones(1), np.full(1, friction.UNKNOWN),
+        np.ones(1, np.int64),
+    )  # fmt: skip
+    grips.slopes[0, 1] = 0.0
+
+    def force():
+        return u[0] + friction.smooth(u[0], slip)[1] - pull
+
+    while abs(force()) > 1e-12:
+        move = -force() / (1.0 + friction.curvature(u[0], grips.dual[0], slip))
+        u[0] += move
+        fit = friction.follow(u, np.array([move, 0.0]), 1.0, grips, slip)
+        steps += 1
+        off = abs(grips.dual[0] - friction.smooth(u[0], slip)[1])
+        assert fit == (off < friction.FIT)
+    assert steps <= most
+    assert fit
+
+
+@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
+@pytest.mark.parametrize("slip", [0.5, 5e-3])
+@pytest.mark.parametrize("seed", range(3))
+def test_derivatives_in_random_states(seed, slip, length):
+    of = scaled(WALLS, length)
+    x0 = shaken(of, seed, 0.1)
+    grips, _, _ = grips_of(of, x0)
+    assert len(grips.load) > 5
+    term = term_of(x0, grips, slip * length)
+    assert derivative_error(term, shaken(of, seed + 9, 0.1), of.unit, 1e-5) < 1e-6
+
+
+@pytest.mark.parametrize("amount", [0.0, 0.002, -0.009, 0.011, 0.5])
+def test_derivatives_while_sticking_and_sliding(amount):
+    grips, _, _ = grips_of(WALLS, WALLS.rest)
+    error = derivative_error(term_of(WALLS.rest, grips, 0.01), slid(amount), WALLS.unit, 1e-6)
+    assert error < (1e-3 if amount == 0.0 else 1e-6)  # |u|^3 has a kink in its third derivative
+
+
+def test_walls_that_turn_together_do_not_slip():
+    grips, _, _ = grips_of(WALLS, WALLS.rest)
+    small = carried(WALLS, WALLS.rest, 1e-6)
+    term = term_of(WALLS.rest, grips, 1e-3)
+    assert term.energy(small) < 1e-9 * term.energy(slid(1e-6))
+
+
+def test_a_step_that_stays_costs_nothing():
+    x = shaken(WALLS, 1, 0.1)
+    grips, _, _ = grips_of(WALLS, x)
+    assert term_of(x, grips, 0.01).energy(x) == 0.0
+    assert not term_of(x, grips, 0.01).gradient(x).any()
+
+
+@pytest.mark.parametrize("pieces", [(1, 1), (3, 2), (12, 7), (24, 24)])
+@pytest.mark.parametrize("gap", [0.2, 0.6])
+def test_the_load_is_mu_times_the_normal_force_of_contact(gap, pieces):
+    """Counted once at any mesh, half of it from each side."""
+    of = two_walls(gap, pieces)
+    grips, touch, listed = grips_of(of, of.rest)
+    upper = np.unique(of.edges[pieces[0] :])
+    lift = touch_of(touch, listed, of.rest).gradient(of.rest)[2 * upper + 1].sum()
+    assert grips.load.sum() == pytest.approx(-MU * lift, rel=1e-11)
+    assert grips.load.sum() == pytest.approx(MU * 4.0 * normal_force(gap), rel=1e-11)
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_sliding_walls_resist_with_mu_times_the_normal_force(way):
+    grips, _, _ = grips_of(WALLS, WALLS.rest)
+    limit = MU * 4.0 * normal_force(0.5)
+    g = term_of(WALLS.rest, grips, 1e-3).gradient(slid(0.1 * way))
+    assert g[2 * UPPER].sum() == pytest.approx(way * limit, rel=1e-11)
+    assert g[0 : 2 * len(WALLS.points) : 2].sum() == pytest.approx(0.0, abs=1e-9)
+    assert abs(moment(g, WALLS.rest)) < 1e-9 * limit
+    energy = term_of(WALLS.rest, grips, 1e-3).energy(slid(0.1 * way))
+    assert energy == pytest.approx(limit * (0.1 - 1e-3 / 3), rel=1e-11)
+
+
+@pytest.mark.parametrize("share", [1e-3, 0.1, 0.5, 0.9])
+def test_sticking_walls_resist_with_less_than_the_limit(share):
+    grips, _, _ = grips_of(WALLS, WALLS.rest)
+    limit = MU * 4.0 * normal_force(0.5)
+    g = term_of(WALLS.rest, grips, 1e-3).gradient(slid(share * 1e-3))
+    assert g[2 * UPPER].sum() == pytest.approx(limit * share * (2 - share), rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_force_exceeds_the_load_whatever_the_motion(seed):
+    grips, _, _ = grips_of(WALLS, WALLS.rest, node=2)
+    assert np.all(grips.load > 0)
+    for x in (shaken(WALLS, seed, 1e-4), shaken(WALLS, seed, 1.0)):
+        g = term_of(WALLS.rest, grips, 1e-3).gradient(x)
+        assert np.linalg.norm(g[4:6]) <= grips.load.sum() * (1 + 1e-12)
+
+
+def test_motion_along_the_normal_meets_no_friction():
+    x = WALLS.rest.copy()
+    x[2 * UPPER + 1] += 0.1
+    grips, _, _ = grips_of(WALLS, WALLS.rest)
+    assert np.abs(term_of(WALLS.rest, grips, 1e-3).gradient(x)).max() < 1e-9
+
+
+def test_a_common_translation_costs_nothing():
+    grips, _, _ = grips_of(WALLS, WALLS.rest)
+    x = carried(WALLS, WALLS.rest, 0.0, (0.8, -0.3))
+    assert term_of(WALLS.rest, grips, 1e-3).energy(x) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_no_friction_or_no_contact_means_no_force():
+    assert not np.any(grips_of(WALLS, WALLS.rest, mu=0.0)[0].load)
+    apart = two_walls(0.9, (3, 2))
+    assert grips_of(apart, apart.rest)[0].load.size == 0
+    assert term_of(WALLS.rest, friction.none(), 1.0).energy(slid(0.1)) == 0.0
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_projected_hessian_is_semi_definite(seed):
+    """Shares that are taken off have a negative force: they are left out."""
+    of = two_walls(0.5, (12, 7))
+    x0 = shaken(of, seed, 0.1)
+    grips, _, _ = grips_of(of, x0)
+    assert grips.load.min() < 0
+    term, x = term_of(x0, grips, 0.5), shaken(of, seed + 20, 0.1)
+    assert least_share(term, x) > -1e-12
+    exact, projected = (term.hessian(x, p) for p in (False, True))
+    assert np.abs(projected - exact).max() > 1e-3
+
+
+@pytest.mark.parametrize(("low", "high", "side"), [(-0.2, 30.0, 0), (-30.0, 0.75, 1)])
+def test_a_wall_that_slides_on_a_platen(low, high, side):
+    """Platens do not move sideways; they press with their whole force, not half of it."""
+    x0 = WALLS.rest.copy()
+    x0[-2:] = low, high
+    touch = touching(WALLS)
+    grips = lagged(x0, touch, pairs.empty())
+    assert lagged(x0, touch, pairs.empty(), 0.0).load.size == 0
+    press = -4.0 * WALLS.modulus * WALLS.depth * barrier((0.2, 0.25)[side] / 0.4)[1]
+    assert grips.load.sum() == pytest.approx(MU * press, rel=1e-11)
+    x = x0.copy()
+    x[0 : 2 * len(WALLS.points)] += 0.5
+    g = term_of(x0, grips, 1e-3).gradient(x)
+    assert g[0::2][: len(WALLS.points)].sum() == pytest.approx(MU * press, rel=1e-11)
+    assert not g[1::2].any()
+    assert derivative_error(term_of(x0, grips, 2.0), x, WALLS.unit, 1e-4) < 1e-6

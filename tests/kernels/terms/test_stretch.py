@@ -1,0 +1,120 @@
+"""Stretching: derivatives in every part of the curve, geometric stiffness, rigid motions."""
+
+import numpy as np
+import pytest
+
+from kernels.terms import stretch
+from tests.frames import (
+    bend_of,
+    carried,
+    curve_law,
+    frame,
+    joint_of_four,
+    linear_law,
+    scaled,
+    shaken,
+    stretch_of,
+    walls_of,
+)
+from tests.terms import Term, derivative_error, least_share, of_walls
+
+BAR = frame([(0, 0), (2.0, 1.0)], [(0, 1)], 1)
+FRAME = joint_of_four()
+
+
+def term_of(of, law=curve_law) -> Term:
+    elements, curve = stretch_of(of), law(of.modulus)
+
+    def add(shape, stiffness, projected):
+        return stretch.evaluate(elements, curve, shape, stiffness, projected)
+
+    return of_walls(walls_of(of), bend_of(of), add)
+
+
+def stretched(of, strain):
+    """All elements at one strain."""
+    x = of.rest.copy()
+    x[: 2 * len(of.points)] *= 1.0 + strain
+    return x
+
+
+@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
+@pytest.mark.parametrize("strain", [0.001, -0.01, 0.0999, 0.1001, 0.25, 1.4, -0.499, -0.501, -0.69])
+def test_derivatives_along_the_curve(strain, length):
+    bar = scaled(BAR, length)
+    assert derivative_error(term_of(bar), stretched(bar, strain), bar.unit, 1e-4) < 1e-7
+
+
+@pytest.mark.parametrize("strain", [-0.5, 0.0, 0.1, 1.0])
+def test_derivatives_at_a_knot(strain):
+    """The slope of the tangent jumps there: differences are right to the first order only."""
+    error = derivative_error(term_of(BAR), stretched(BAR, strain), BAR.unit, 1e-4)
+    assert error < 2e-4
+
+
+@pytest.mark.parametrize("strain", [-0.701, -0.71, -0.8, -0.95])
+def test_derivatives_under_the_guard(strain):
+    error = derivative_error(term_of(BAR), stretched(BAR, strain), BAR.unit, 1e-5)
+    assert error < 1e-6
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_derivatives_in_random_states(seed):
+    x = shaken(FRAME, seed)
+    assert derivative_error(term_of(FRAME), x, FRAME.unit, 1e-4) < 1e-7
+
+
+@pytest.mark.parametrize("strain", [-0.9, -0.3, 0.0, 0.2, 0.8])
+def test_stiffness_of_a_bar_along_and_across(strain):
+    bar = frame([(0, 0), (2.0, 0)], [(0, 1)], 1)
+    k = term_of(bar, linear_law).hessian(stretched(bar, strain))
+    area, length = 0.8 * bar.depth, 2.0 * (1 + strain)
+    if strain > -0.7:
+        assert k[2, 2] == pytest.approx(bar.modulus * area / 2.0)
+        assert k[3, 3] == pytest.approx(bar.modulus * area * strain / length, abs=1e-12)
+    else:
+        assert k[2, 2] > 2 * bar.modulus * area / 2.0
+        assert k[3, 3] < 1.5 * bar.modulus * area * strain / length
+
+
+def test_energy_and_force_of_a_bar():
+    x = stretched(BAR, 0.3)
+    area, l0 = 0.8 * BAR.depth, np.sqrt(5.0)
+    energy = term_of(BAR, linear_law).energy(x)
+    assert energy == pytest.approx(0.5 * BAR.modulus * area / l0 * (0.3 * l0) ** 2)
+    pull = term_of(BAR, linear_law).gradient(x)[2:4]
+    np.testing.assert_allclose(pull, BAR.modulus * area * 0.3 * np.array([2.0, 1.0]) / l0)
+
+
+@pytest.mark.parametrize("strain", [-0.95, -0.4, 0.0, 0.3, 0.7])
+def test_projected_hessian_is_semi_definite(strain):
+    x = stretched(FRAME, strain)
+    assert least_share(term_of(FRAME), x) > -1e-12
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_projected_hessian_is_semi_definite_in_random_states(seed):
+    x = shaken(FRAME, seed, 0.4)
+    assert np.linalg.eigvalsh(term_of(FRAME).hessian(x))[0] < -1.0
+    assert least_share(term_of(FRAME), x) > -1e-12
+
+
+def test_projection_changes_nothing_in_tension():
+    x = stretched(FRAME, 0.08)
+    exact, projected = (term_of(FRAME).hessian(x, p) for p in (False, True))
+    np.testing.assert_array_equal(projected, exact)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.4, np.pi / 2, 3.0])
+def test_a_rigid_motion_changes_no_energy(angle):
+    x = shaken(FRAME, 7)
+    before, after = (term_of(FRAME).energy(y) for y in (x, carried(FRAME, x, angle)))
+    assert before > 1.0
+    assert after == pytest.approx(before, rel=1e-12)
+
+
+def test_units_change_nothing():
+    metre = scaled(FRAME, 1e-3)
+    x = shaken(FRAME, 3)
+    in_mm, in_m = term_of(FRAME).energy(x), term_of(metre).energy(1e-3 * x)
+    assert in_m == pytest.approx(1e-3 * in_mm, rel=1e-12)

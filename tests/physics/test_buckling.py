@@ -1,0 +1,91 @@
+"""A sudden dead load on the grid: where it gives way, and that no load brings the solver down."""
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case, Loading, Material, Solver
+from tests.scenes import (
+    HEAVY,
+    SEED,
+    UNDAMPED,
+    VISCOUS,
+    is_sound,
+    loaded,
+    misshapen,
+    run,
+    unbalanced,
+)
+
+WATCHED = 0.137  # s
+LOADS = (8.0, 10.0, 20.0, 40.0)
+RELEASE, REST = 0.138, 0.1  # s: until the load goes, and then to come to rest
+
+
+def strain_under(force, hinges, damping):
+    result = run(loaded(force, damping=damping, hinges=hinges))
+    assert result.status == "converged"
+    return np.interp(WATCHED, result.history["time_s"], result.history["strain"])
+
+
+def on_platens(force, time_step, damping, friction):
+    case = loaded(force, "contact", friction, time_step, damping, RELEASE, RELEASE + REST)
+    return run(case)
+
+
+@pytest.mark.parametrize("damping", [UNDAMPED, SEED], ids=lambda damping: damping.model)
+def test_grid_bears_7_newtons_and_no_7_and_a_half(damping):
+    """The exact frame loses stability at 7.35 N."""
+    assert strain_under(7.0, "exact_beam", damping) < 0.025
+    assert strain_under(7.5, "exact_beam", damping) > 0.04
+
+
+@pytest.mark.parametrize("damping", [UNDAMPED, SEED], ids=lambda damping: damping.model)
+def test_classical_hinges_give_way_too_early(damping):
+    assert strain_under(6.6, "exact_beam", damping) < 0.025
+    assert strain_under(6.6, "classical", damping) > 0.1
+
+
+@pytest.mark.parametrize("force", LOADS)
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("damping", [UNDAMPED, HEAVY, VISCOUS], ids=["none", "rayleigh", "viscous"])
+def test_no_load_on_platens_is_too_much(force, friction, damping):
+    result = on_platens(force, 1e-3, damping, friction)
+    assert is_sound(result)
+    assert result.summary["peak_strain"] < 1.0
+    assert unbalanced(result.history) < 1e-6
+
+
+@pytest.mark.parametrize("force", LOADS)
+@pytest.mark.parametrize("damping", [HEAVY, VISCOUS], ids=["rayleigh", "viscous"])
+def test_damped_lattice_recovers_once_released(force, damping):
+    """The strain is that of its extent, and it may turn as it jumps off: so compare shapes too."""
+    result = on_platens(force, 1e-3, damping, 0.3)
+    assert result.history["time_s"][-1] == pytest.approx(RELEASE + REST)
+    assert result.summary["residual_strain"] < 0.02
+    assert misshapen(result) < 0.02
+
+
+@pytest.mark.parametrize("force", [10.0, 40.0])
+def test_steps_of_a_tenth_of_a_millisecond(force):
+    result = on_platens(force, 1e-4, HEAVY, 0.3)
+    assert is_sound(result)
+    assert result.summary["peak_strain"] < 1.0
+    assert result.summary["residual_strain"] < 0.02
+    assert misshapen(result) < 0.02
+
+
+@pytest.mark.parametrize("damping", [UNDAMPED, SEED, VISCOUS], ids=["none", "rayleigh", "viscous"])
+@pytest.mark.parametrize("material", ["ninjaflex", "ultimaker_tpu95a"])
+def test_rest_is_found_again(material, damping):
+    """At rest all energies are round-off: no search may wait for them to fall."""
+    case = Case(
+        material=Material(name=material),
+        loading=Loading(force=10.0),
+        damping=damping,
+        solver=Solver(time_step=1e-3),
+    )
+    result = run(case)
+    assert result.status == "converged"
+    assert result.history["newton_iterations"].max() < 10
+    # Of its strain under load, 0.1 s of this damping leaves next to nothing.
+    assert abs(result.summary["residual_strain"]) < 1e-3 * result.summary["peak_strain"]

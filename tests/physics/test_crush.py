@@ -1,0 +1,142 @@
+"""Crushing with contact: against solid finite elements, and what any crush must obey."""
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case, Loading, Solver
+from sweep.simulation.simulate import simulate
+from tests.figures import FRAME, SOLID
+from tests.scenes import at, is_sound, pressed, run, summed, trapezoid, unbalanced
+
+SCENES = [(platen, friction) for platen in ("glued", "contact") for friction in (0.0, 0.3)]
+STEPS = (50, 200, 800)
+
+
+def to_60_percent(elements, friction=0.0):
+    return run(pressed(elements, 0.6, 120, friction=friction))
+
+
+def there_and_back(platen, friction, steps=200, elements=3):
+    return run(pressed(elements, 0.6, steps, platen, friction, unload=True))
+
+
+def forces(platen, friction, elements, unload):
+    """Force at the rows that 50, 200 and 800 load steps have in common, (3, rows) N."""
+    cases = [pressed(elements, 0.6, n, platen, friction, unload=unload) for n in STEPS]
+    histories = [run(case).history for case in cases]
+    return np.array(
+        [past["reaction_top_N"][:: n // 50] for past, n in zip(histories, STEPS, strict=True)]
+    )
+
+
+def test_references_are_those_of_the_solid_model():
+    assert SOLID == {0.1: 13.65, 0.3: 47.5, 0.4: 66.0, 0.5: 95.3, 0.6: 138.3}
+
+
+@pytest.mark.parametrize(("strain", "energy"), SOLID.items())
+@pytest.mark.parametrize("elements", [6, 12])
+def test_absorbed_energy_against_solid_elements(elements, strain, energy):
+    result = to_60_percent(elements)
+    assert is_sound(result)
+    absorbed = 1e3 * at(result, strain, "work_in_J")
+    assert absorbed == pytest.approx(energy, rel=0.07 if strain <= 0.4 else 0.10)
+
+
+def test_a_crush_tells_whether_walls_touch():
+    assert run(pressed(3, 0.05, 10)).summary["touched"] == 0
+    assert to_60_percent(6).summary["touched"] == 1
+
+
+@pytest.mark.parametrize(("platen", "unload"), [("glued", True), ("contact", False)])
+def test_number_of_load_steps_changes_nothing(platen, unload):
+    """On loose platens the way back passes through snaps, whose moment the steps decide."""
+    force = forces(platen, 0.0, 6, unload)
+    assert np.ptp(force, axis=0).max() < 1e-5 * force.max()
+
+
+@pytest.mark.parametrize("platen", ["glued", "contact"])
+def test_number_of_load_steps_hardly_matters_with_friction(platen):
+    force = forces(platen, 0.3, 3, unload=True)
+    assert np.ptp(force, axis=0).max() < 0.01 * force.max()
+
+
+@pytest.mark.parametrize(("platen", "friction"), SCENES)
+def test_every_crush_is_sound(platen, friction):
+    result = there_and_back(platen, friction)
+    assert is_sound(result)
+    assert unbalanced(result.history) < 1e-6
+    assert result.summary["min_gap_m"] > 0.0
+
+
+@pytest.mark.parametrize(("platen", "friction"), SCENES)
+def test_reactions_of_both_platens_agree(platen, friction):
+    history = there_and_back(platen, friction).history
+    off = np.abs(history["reaction_top_N"] - history["reaction_bottom_N"])
+    assert off.max() < 1e-6 * history["reaction_top_N"].max()
+
+
+def test_unloading_returns_all_energy_without_friction():
+    """Glued, nothing snaps: the curve back is the curve there. (At three elements a wall, one does
+    at 58 %.)
+    """
+    result = there_and_back("glued", 0.0, elements=6)
+    summary, force = result.summary, result.history["reaction_top_N"]
+    assert summary["returned_energy_J"] == pytest.approx(summary["absorbed_energy_J"], rel=1e-6)
+    assert summary["residual_strain"] == pytest.approx(0.0, abs=1e-9)
+    np.testing.assert_allclose(force, force[::-1], atol=1e-6 * force.max())
+
+
+@pytest.mark.parametrize("platen", ["glued", "contact"])
+def test_friction_keeps_some_energy(platen):
+    result = there_and_back(platen, 0.3)
+    rubbed = result.history["dissipated_friction_J"]
+    # The trapezoidal rule can turn back by its own error where a wall begins to slide back.
+    assert np.diff(rubbed).min() >= -1e-4 * rubbed[-1]
+    kept = result.summary["absorbed_energy_J"] - result.summary["returned_energy_J"]
+    assert kept == pytest.approx(rubbed[-1], rel=0.01)
+    assert kept > 0.01 * result.summary["absorbed_energy_J"]
+
+
+def test_loose_platens_without_friction():
+    """Free to spread, the grid bears less than a glued one; it stays between the platens."""
+    loose = [run(pressed(elements, 0.6, 60, "contact")) for elements in (6, 12)]
+    assert all(is_sound(result) and unbalanced(result.history) < 1e-6 for result in loose)
+    coarse, fine = (at(result, 0.05) for result in loose)
+    assert coarse == pytest.approx(fine, rel=0.01)
+    assert 0.5 * FRAME[0.05] < fine < 0.8 * FRAME[0.05]
+    low, high = loose[1].frames["plate_y_m"].T[:, :, None]
+    y = loose[1].frames["position_m"][:, :, 1]
+    assert np.all((low < y) & (y < high))
+
+
+@pytest.mark.parametrize(("platen", "contact"), [("glued", "none"), ("contact", "barrier")])
+def test_perfect_grid_buckles(platen, contact):
+    """Nothing but a negative pivot tells a perfect grid to leave the straight branch."""
+    perfect, flawed = (
+        run(pressed(6, 0.3, 30, platen, contact=contact, imperfection=size)) for size in (0.0, 0.01)
+    )
+    assert perfect.status == "converged"
+    straight = at(perfect, 0.01) * 5
+    assert at(perfect, 0.05) < 0.6 * straight
+    for strain in (0.05, 0.1, 0.3):
+        assert at(perfect, strain) == pytest.approx(at(flawed, strain), rel=0.01)
+
+
+def test_work_of_a_static_crush_is_the_area_under_its_curve():
+    result = to_60_percent(6, friction=0.3)
+    history = result.history
+    assert history["work_in_J"][-1] == pytest.approx(trapezoid(history), rel=1e-9)
+    kept = summed(history, ("stretch_J", "bend_J", "contact_J", "dissipated_friction_J"))[-1]
+    assert kept == pytest.approx(trapezoid(history), rel=1e-3)
+
+
+def test_steps_too_few_to_balance_are_refused():
+    case = Case(
+        loading=Loading(mode="displacement", strain=0.6, platen="contact"),
+        solver=Solver(load_steps=4),
+    )
+    found = simulate(case)
+    assert found.status == "stopped"
+    assert found.message.endswith("made energy out of nothing; try more solver.load_steps")
+    more = Case(loading=case.loading, solver=Solver(load_steps=20))
+    assert simulate(more).status == "converged"

@@ -1,0 +1,118 @@
+"""Every config of the repository runs; each is held by a number."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from sweep.config.units import load_config
+from sweep.config.grid import expand
+from sweep.ranking.rank import rank
+from sweep.running.sweep import run_sweep
+from sweep.simulation.simulate import simulate
+from sweep.store.read import read_frames, read_history, read_summary
+
+CONFIGS = Path(__file__).parents[1] / "configs"
+
+
+def test_no_config_is_forgotten():
+    """`thousand` is held by the bench, `others` by tests of their own."""
+    names = {path.stem for path in CONFIGS.glob("*.toml")}
+    others = {"custom", "extreme", "impact", "khatri_egan_square"}
+    assert names == others | {"armor", "infills", "seed", "smoke", "thousand"}
+
+
+def test_smoke_runs_from_end_to_end(tmp_path):
+    out, config = tmp_path / "smoke.h5", load_config(CONFIGS / "smoke.toml")
+    assert run_sweep(config, out) == 0
+    table = read_summary(out).set_index(["lattice.cells", "loading.mode", "loading.platen"])
+    assert len(table) == len(expand(config)) == 6
+    assert set(table["status"]) == {"converged"}
+    assert not table["max_crossings"].any()
+    assert (abs(table["energy_residual_J"]) < 1e-6 * table["absorbed_energy_J"]).all()
+    pinned = table.loc[(3, "displacement", "glued")]
+    assert 1e3 * pinned["absorbed_energy_J"] == pytest.approx(134.1, rel=1e-3)
+    case_id = pinned["case_id"]
+    assert read_history(out, case_id)["strain"].max() == pytest.approx(0.4)
+    assert read_frames(out, case_id)["position_m"].shape[1:] == (64, 2)
+    assert set(rank(out)["case_id"]) == set(table["case_id"])
+
+
+@pytest.mark.parametrize(
+    ("mode", "platen", "force", "energy"),
+    [
+        ("displacement", "glued", None, 92.98),
+        ("displacement", "contact", None, 70.83),
+        ("force", "contact", 20.0, 175.0),
+    ],
+)
+def test_armor_holds_its_numbers(mode, platen, force, energy):
+    """The grid of 2 x 2 cells with walls of 0.8 mm, printed in NinjaFlex."""
+    found = [
+        case
+        for case in expand(load_config(CONFIGS / "armor.toml"))
+        if (case.lattice.cells_x, case.lattice.wall_thickness) == (2, 0.8e-3)
+        and case.material.name == "ninjaflex"
+        and (case.loading.mode, case.loading.platen) == (mode, platen)
+        and case.loading.force == force
+    ]
+    assert len(found) == 1
+    summary = simulate(found[0]).summary
+    assert summary["status"] == "converged"
+    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
+    assert 1e3 * summary["absorbed_energy_J"] == pytest.approx(energy, rel=1e-3)
+
+
+def infills():
+    """The cases of infills.toml by pattern, orientation and lines all round."""
+    cases = expand(load_config(CONFIGS / "infills.toml"))
+    return {
+        (case.lattice.kind, case.lattice.orientation, case.lattice.perimeters): case
+        for case in cases
+        if case.lattice.grading == 1.0
+    }
+
+
+@pytest.mark.parametrize(
+    ("design", "energy"), [(("hex", "flat", 0), 162.5), (("diamond", None, 0), 102.2)]
+)
+def test_infills_hold_their_numbers(design, energy):
+    result = simulate(infills()[design])
+    summary, frames = result.summary, result.frames
+    assert summary["status"] == "converged"
+    assert summary["max_crossings"] == 0
+    y, plates = frames["position_m"][..., 1], frames["plate_y_m"]
+    assert np.all((y > plates[:, :1]) & (y < plates[:, 1:]))
+    assert summary["mass_g"] == pytest.approx(1.4, rel=1e-12)
+    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
+    assert 1e3 * summary["absorbed_energy_J"] == pytest.approx(energy, rel=1e-3)
+
+
+def test_infills_are_twelve_designs_and_more():
+    assert len(infills()) == 12
+
+
+def seed(model, hinges):
+    """Result of the case of seed.toml in steps of 20 us, nonlinear, Newton exact."""
+    (case,) = (
+        case
+        for case in expand(load_config(CONFIGS / "seed.toml"))
+        if (case.contact.model, case.solver.hinges) == (model, hinges)
+        and (case.material.stretch, case.solver.hessian) == ("nonlinear", "exact")
+    )
+    return simulate(case)
+
+
+@pytest.mark.parametrize(
+    ("model", "hinges", "energy", "within"),
+    [("position_based", "classical", 122.0, 1e-2), ("barrier", "exact_beam", 132.3, 1e-3)],
+)
+def test_seed_holds_its_numbers(model, hinges, energy, within):
+    """What is moved apart in another order comes to rest a little elsewhere."""
+    summary = seed(model, hinges).summary
+    assert summary["status"] == "converged"
+    assert summary["max_crossings"] == 0
+    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
+    assert (summary["injected_by_projection_J"] > 0.0) == (model == "position_based")
+    assert summary["touched"] == 1
+    assert 1e3 * summary["absorbed_energy_J"] == pytest.approx(energy, rel=within)

@@ -1,0 +1,226 @@
+"""What README and its pages say: commands, files, keys, columns, snippets, figures are real."""
+
+import json
+import os
+import re
+import shlex
+from functools import cache
+
+import figures
+import matplotlib.pyplot
+import pytest
+import readme
+from readme import NUMBER, QUOTED, ROOT, blocks, numbers, words
+
+from sweep.__main__ import main, parser
+from sweep.config.units import load_config, quantity
+from sweep.config.structure import Structure
+from sweep.config.grid import expand
+from sweep.config.keys import case_keys, table_keys
+from sweep.config.case import TABLES, Case, Damping, Loading
+from sweep.config.material_file import COLUMNS as RECORD
+from sweep.result import COLUMNS
+from sweep.simulation.simulate import simulate
+from sweep.store.write import Writer
+
+FOLDERS = ("", "kernels", "sweep", "configs", "configs/accuracy")
+MADE_BY_RUNNING = {"bumper.toml", "results/bench/bench.md"}
+
+
+def test_lines_are_few_and_tables_narrow():
+    lines = readme.TEXT.splitlines()
+    fenced = [line for text in blocks("text") for line in text.splitlines()]
+    wide = [line for line in lines if line.startswith("|") or line in fenced]
+    assert len(readme.PAGES["README.md"].splitlines()) <= 470
+    assert max(map(len, wide)) <= 104
+    assert max(map(len, lines)) <= 128
+
+
+def test_make_targets_exist():
+    typed = re.findall(r"^make (\w+)", "\n".join(blocks("sh")), re.MULTILINE)
+    quoted = [words.split()[1] for words in QUOTED if words.startswith("make ")]
+    targets = re.findall(r"^(\w+):", (ROOT / "Makefile").read_text("utf-8"), re.MULTILINE)
+    assert {"sweep", "test", "verify"} <= {*typed, *quoted} <= set(targets)
+
+
+def test_commands_are_accepted():
+    text = "\n".join([*blocks("sh"), *blocks("text")])
+    commands = re.findall(r"^(?:\$ )?crumple (\w+ .*)", text, re.MULTILINE)
+    verbs = [parser().parse_args(shlex.split(words, comments=True)).verb for words in commands]
+    assert {*verbs} == {"run", "rank", "status", "show"}
+
+
+def test_files_exist():
+    quoted = {words.removeprefix("error_") for words in QUOTED}
+    named = {words for words in quoted if re.fullmatch(r"[\w./]+\.(py|toml|cff|md)", words)}
+    missing = [
+        name
+        for name in named - MADE_BY_RUNNING
+        if not any((ROOT / folder / name).is_file() for folder in FOLDERS)
+    ]
+    assert missing == []
+    assert len(named) > 20
+
+
+@pytest.mark.parametrize("page", readme.PAGES)
+def test_links_lead_somewhere(page):
+    links = re.findall(r"\]\((\S+?)\)", readme.PAGES[page])
+    assert [link for link in links if not (ROOT / page).parent.joinpath(link).is_file()] == []
+
+
+def test_further_pages_are_linked():
+    links = re.findall(r"\]\((\S+?)\)", readme.PAGES["README.md"])
+    assert set(links) == readme.PAGES.keys() - {"README.md"}
+
+
+def test_every_config_is_named():
+    named = {row[0].strip("`") for row in readme.table("config")}
+    folder = ROOT / "configs"
+    found = {path for name in named for path in folder.glob(name)}
+    assert found == set(folder.rglob("*.toml"))
+    assert all(any(folder.glob(name)) for name in named)
+
+
+def test_every_term_of_the_energy_is_named():
+    paths = (ROOT / "kernels").glob("*.py")
+    terms = {path.name for path in paths if "def evaluate(" in path.read_text("utf-8")}
+    assert len(terms) > 8
+    assert terms - {"step.py"} <= QUOTED
+    assert "kernels/step.py" in QUOTED
+
+
+def test_example_has_as_many_cases_as_it_says(tmp_path):
+    path = tmp_path / "bumper.toml"
+    path.write_text(blocks("toml")[0])
+    config = load_config(path)
+    (shown,) = re.findall(r"^crumple show \S+ (\w+)", "\n".join(blocks("sh")), re.MULTILINE)
+    cases = expand(config)
+    assert (config.name, len(cases)) == ("bumper", 8)
+    assert sum(case.case_id.startswith(shown) for case in cases) == 1
+
+
+def keys_of(table):
+    """What is said of the keys of a table."""
+    (text,) = re.findall(rf"^- `\[{table}\]`:\s(.*?)(?=^- |\n\n)", readme.TEXT, re.M | re.S)
+    return " ".join(text.split())
+
+
+@pytest.mark.parametrize("table", [*TABLES, "rank"])
+def test_every_key_is_explained(table):
+    known = table_keys(table) if table == "rank" else case_keys()
+    fields = {name.split(".")[1] for name in known if name.startswith(f"{table}.")}
+    assert fields - {"load_steps"} - set(re.findall(r"`(\w+)`", keys_of(table))) == set()
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_defaults_are_those_of_a_case(table):
+    said = re.findall(r'`(\w+)` ("[^"]+"|true|[\d.e-]+\d)', keys_of(table))
+    modes = [Case(loading=Loading(mode=mode)) for mode in ("force", "displacement", "impact")]
+    modes.append(Case(damping=Damping(model="kelvin_voigt")))
+    assert len(said) >= 2
+    for name, text in said:
+        unit = case_keys()[f"{table}.{name}"].unit
+        value = json.loads(text)
+        value = quantity(value, unit) if unit else value
+        assert value in [getattr(getattr(case, table), name) for case in modes], name
+
+
+def test_structure_is_that_of_the_config():
+    (drawn,) = blocks("json")
+    assert drawn == (ROOT / "configs/custom.json").read_text("utf-8")
+
+
+def test_every_key_of_a_structure_is_explained_with_its_default():
+    fields = Structure.model_fields
+    said = {row[0].strip("`"): row[2] for row in readme.table("key")}
+    assert list(said) == sorted(fields, key=list(said).index)
+    for name, text in said.items():
+        if text:
+            told = None if text == "none" else json.loads(text)
+            default = fields[name].default
+            assert told == (list(default) or None if isinstance(default, tuple) else default)
+
+
+def test_columns_exist():
+    quoted = {words.removeprefix("error_") for words in QUOTED}
+    named = {words for words in quoted if re.fullmatch(r"[a-z_]+_(J|N|g|m|Pa|s|J_per_g)", words)}
+    assert {"mass_g", "absorbed_energy_J"} <= named <= {*COLUMNS, *RECORD, *Structure.model_fields}
+
+
+def test_refusal_reads_so(tmp_path, capsys):
+    path = tmp_path / "bumper.toml"
+    path.write_text('[lattice]\nwall_thicknes = "0.8 mm"\n[loading]\nforce = 12\n')
+    assert main(["run", str(path)]) == 2
+    assert capsys.readouterr().err in blocks("text")
+
+
+def test_failure_reads_so():
+    without_numbers = re.sub(NUMBER, "#", " ".join(readme.TEXT.split()))
+    assert re.sub(NUMBER, "#", figures.failure()) in without_numbers
+
+
+def test_snippets_run(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "configs").symlink_to(ROOT / "configs")
+    assert main(["run", "configs/smoke.toml"]) == 0
+    capsys.readouterr()
+    names = {}
+    for snippet in blocks("python"):
+        exec(snippet, names)
+    matplotlib.pyplot.close("all")
+    assert capsys.readouterr().out.startswith("converged")
+    assert len(names["table"]) == len(names["summary"]) == 6
+
+
+@cache
+def figures_now():
+    """Tables of figures by their first cell."""
+    found = [list(table()) for table in figures.TABLES]
+    return {rows[0][0]: rows for rows in found}
+
+
+def test_figures_are_those_of_make_verify():
+    told = {rows[0][0]: rows for rows in readme.tables()}
+    for head, rows in figures_now().items():
+        for said, row in zip(told[head], rows, strict=True):
+            assert words(said) == words(row)
+            if row[0] not in figures.OF_THIS_RUN:
+                assert numbers(said) == pytest.approx(numbers(row), rel=0.01, abs=0.05), row
+
+
+def test_worst_book_is_below_a_millionth():
+    rows = {row[0]: row[1:] for row in figures_now()["3 elements a wall, contact, loose platens"]}
+    left = rows["energy left over / absorbed"]
+    assert all(float(share) < 1e-6 for share in left)
+    assert rows["walls that cross"] == ["0"] * len(left)
+    assert rows["status"] == ["converged"] * len(left)
+
+
+@pytest.fixture(scope="module")
+def quick_armor(tmp_path_factory):
+    """A folder with the results of those designs of armor.toml that take no time."""
+    folder = tmp_path_factory.mktemp("readme")
+    config = load_config(ROOT / "configs/armor.toml")
+    cases = [case for case in expand(config) if is_quick(case)]
+    ranked = {"rank": {"budgets": config.rank.budgets, "panel": config.rank.panel}}
+    with Writer(folder / "results/armor.h5", attributes={"config": json.dumps(ranked)}) as writer:
+        writer.append([simulate(case) for case in cases])
+        writer.fold()
+    return folder
+
+
+def is_quick(case):
+    lattice, thin = case.lattice, case.lattice.wall_thickness < 1e-3
+    return case.loading.platen == "glued" and lattice.cells_x <= (3 if thin else 2)
+
+
+@pytest.mark.parametrize("example", readme.examples(), ids=lambda example: example.command)
+def test_rankings_are_those_of_the_sweep(example, quick_armor, monkeypatch):
+    monkeypatch.chdir(quick_armor)
+    monkeypatch.setitem(os.environ, "COLUMNS", "80")
+    printed = [line.split() for line in figures.answer(example) if line]
+    told = [line.split() for line in example.lines if "3 x 3" in line or "2 x 2" in line]
+    assert len(told) >= 2
+    for said in told:
+        same = [numbers(line) for line in printed if words(line) == words(said)]
+        assert pytest.approx(numbers(said), rel=0.01) in same

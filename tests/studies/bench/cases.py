@@ -1,0 +1,56 @@
+"""What is timed: the seed's scene and crushes of square cells, all cells of one size."""
+
+from sweep.design.network import build_network
+from sweep.scene.mesh import build_mesh
+from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
+from sweep.scene.terms import build_scene
+
+PITCH = 12.5e-3 / 3
+MATERIAL = Material(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
+UNDAMPED = Damping(model="none")
+APART = Contact(model="none")
+SMOOTH, ROUGH = Contact(friction=0.0), Contact(friction=0.3)
+SPEED = 0.5  # m/s
+
+
+def new_scene(case):
+    """The scene of a case whose lattice none before it had."""
+    build_network.cache_clear()
+    build_mesh.cache_clear()
+    return build_scene(case)
+
+
+def lattice(cells):
+    """Cells by cells, walls of 0.8 mm in three elements each."""
+    return Lattice(cells_x=cells, cells_y=cells, width=cells * PITCH, height=cells * PITCH)
+
+
+def seed(cells=3, duration=0.2, contact=APART):
+    """A dead load, 5 N on three cells a side, let go later; undamped, steps of 0.1 ms."""
+    force, release = 5.0 * cells / 3, 0.69 * duration
+    return Case(
+        lattice=lattice(cells),
+        material=MATERIAL,
+        loading=Loading(force=force, release_time=release, duration=duration, platen="none"),
+        contact=contact,
+        damping=UNDAMPED,
+        solver=Solver(time_step=1e-4),
+    )
+
+
+def crush(cells, strain, steps, contact=APART):
+    """Quasi-static crush to ``strain`` between glued platens."""
+    return Case(
+        lattice=lattice(cells),
+        material=MATERIAL,
+        loading=Loading(mode="displacement", strain=strain, unload=False),
+        contact=contact,
+        solver=Solver(load_steps=steps),
+    )
+
+
+def blow(cells=3, strain=0.6, steps=200, **left_out):
+    """Crush at a speed with all there is: measured curve, contact, friction, damping."""
+    chosen = {"material": Material(), "contact": ROUGH, "damping": Damping()} | left_out
+    loading = Loading(mode="displacement", strain=strain, unload=False, speed=SPEED)
+    return Case(lattice=lattice(cells), loading=loading, solver=Solver(load_steps=steps), **chosen)

@@ -1,0 +1,27 @@
+"""A large lattice crushed until it has packed down, with contact: how long, with what memory."""
+
+from sweep.scene.terms import build_scene
+from tests.bench import cases, marching
+from tests.bench.alone import MEMORY, alone
+from tests.bench.sweeps import changed
+from tests.bench.table import Table
+
+PATIENCE = 4 * 3600.0  # s
+COLUMNS = ("CPU s", "march, s", "iterations", "ms of each", "memory, MB", "packed at %")
+
+
+def table(cells, strain, steps):
+    """One row; why there is none, if the crush did not get through."""
+    found = Table(f"{cells} x {cells}, with contact", COLUMNS)
+    case = cases.crush(cells, strain, steps, cases.SMOOTH)
+    summary = alone(changed(case, solver={"time_limit": PATIENCE}))
+    row = f"to {100 * strain:.0f} % in {steps} steps"
+    if summary["status"] != "converged":
+        found.lack(row, summary["message"])
+        return found
+    march, packed = marching.whole(case, build_scene(case)), 100.0 * summary["densification_strain"]
+    each, memory = 1e3 * march.each, summary[MEMORY]
+    figures = summary["cpu_s"], march.seconds, march.iterations, each, memory, packed
+    for column, figure in zip(COLUMNS, figures, strict=True):
+        found.put(row, column, figure)
+    return found

@@ -1,0 +1,48 @@
+"""Every kernel of an iteration, in a lattice that has collapsed, with all there is switched on."""
+
+from functools import partial
+
+from sweep.scene.terms import build_scene, time_step
+from tests.bench import cases, loops
+from tests.bench.clock import medians
+from tests.bench.crushes import COLLAPSED, Crush
+from tests.bench.spot import Spot
+from tests.bench.table import Table
+
+PARTS = {
+    "an evaluation": loops.EVALUATE,
+    "- shape of the elements": loops.SHAPE,
+    "- stretch": loops.STRETCH,
+    "- bend": loops.BEND,
+    "- fold": loops.FOLD,
+    "- inertia": loops.INERTIA,
+    "- damp": loops.DAMP,
+    "- contact": loops.CONTACT,
+    "- friction": loops.FRICTION,
+    "a factor": loops.FACTOR,
+    "- contact's Hessian": loops.CONTACT_HESSIAN,
+    "- condense the walls": loops.WALLS,
+    "- factor the blocks": loops.BLOCKS,
+    "a solution": loops.SOLVE,
+    "how far a step may go": loops.LIMIT,
+}
+
+
+def spot(cells):
+    """A crush at a speed, at the first strain of `COLLAPSED`."""
+    crushed, full = Crush(cells, cases.SMOOTH, COLLAPSED), cases.blow(cells)
+    return Spot(build_scene(full), crushed.state.x, crushed.move, time_step(full))
+
+
+def table(sizes, count):
+    """µs a call, and % of the evaluation or the factor that it is part of."""
+    found = Table("every kernel at 55 % strain, µs a call (% of its whole)", sizes)
+    for cells in sizes:
+        at = spot(cells)
+        sides = {name: partial(at.each, which) for name, which in PARTS.items()}
+        times, of = medians(sides, count), 0.0
+        for name, time in times.items():
+            part = name.startswith("-")
+            of = of if part else time
+            found.put(name, cells, 1e6 * time, f"{100 * time / of:.0f}" if part else "")
+    return found

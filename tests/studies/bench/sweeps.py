@@ -1,0 +1,129 @@
+"""Whole sweeps on two cores: what comes on top of the cases, and designs a second."""
+
+import os
+import tempfile
+import time
+from contextlib import redirect_stdout
+from io import StringIO
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from sweep.config.units import load_config
+from sweep.config.grid import expand
+from sweep.config.case import Case
+from sweep.running.sweep import run_sweep
+from sweep.simulation.simulate import simulate
+from sweep.store.read import read_summary
+from tests.bench.clock import seconds
+from tests.bench.table import Table
+
+CONFIG = Path(__file__).parents[2] / "configs/thousand.toml"
+FINER = 4  # times the load steps, to see what they leave out
+WORKERS = (1, 2)
+IDLE, WAITING = 3, 4  # columns of /proc/stat
+RATIO = "times the ideal"  # wall clock, had no other program run, over CPU of the cases / workers
+
+
+def thousand():
+    """All designs of the config."""
+    return expand(load_config(CONFIG))
+
+
+def changed(case, **tables):
+    """A case with some keys of some tables changed."""
+    given = {name: getattr(case, name).model_copy(update=keys) for name, keys in tables.items()}
+    kept = {name: getattr(case, name) for name in Case.model_fields if name not in given}
+    return Case(**kept, **given)
+
+
+class Swept(NamedTuple):
+    """Seconds of a sweep: on the clock, of processors that other programs had meanwhile, and so of
+    the clock that they took; CPU of the process, CPU of the cases alone.
+    """
+
+    wall: float
+    others: float
+    lost: float
+    spent: float
+    own: float
+
+    @property
+    def free(self):
+        """On the clock, had no other program run."""
+        return self.wall - self.lost
+
+    @property
+    def more(self):
+        """CPU that the cases have not taken, in % of theirs."""
+        return 100.0 * (self.spent / self.own - 1.0)
+
+
+def busy():
+    """CPU seconds that all programs of this machine have had so far, with what its host took."""
+    ticks = [int(word) for word in Path("/proc/stat").read_text("utf-8").split()[1:9]]
+    return (sum(ticks) - ticks[IDLE] - ticks[WAITING]) / os.sysconf("SC_CLK_TCK")
+
+
+def lost(others, wall, workers, cores):
+    """Seconds of a time ``wall`` that workers lose to other programs, which used processors for
+    ``others`` s, those first that no worker needs.
+    """
+    return max(others - (cores - workers) * wall, 0.0) / workers
+
+
+def swept(designs, workers):
+    """Sweep through designs into a file that is thrown away."""
+    with tempfile.TemporaryDirectory() as folder:
+        file, wall, before = f"{folder}/bench.h5", time.perf_counter(), busy()
+        with redirect_stdout(StringIO()):  # its progress
+            spent = seconds(lambda: run_sweep(designs, file, workers=workers))
+        wall, others = time.perf_counter() - wall, max(busy() - before - spent, 0.0)
+        summary = read_summary(file)
+    if not (summary["status"] == "converged").all():
+        raise RuntimeError(f"a sweep of {len(designs)} cases left some that did not converge")
+    taken = lost(others, wall, workers, os.cpu_count())
+    return Swept(wall, others, taken, spent, float(summary["cpu_s"].sum()))
+
+
+def overhead(designs, count):
+    """Two workers against one."""
+    columns = ("wall, s", "others, s", "CPU of cases, s", "more CPU, %", RATIO)
+    found = Table(f"a sweep of {len(designs)} cases", columns)
+    samples = [[swept(designs, workers) for workers in WORKERS] for _ in range(count)]
+    for workers, rounds in zip(WORKERS, zip(*samples, strict=True), strict=True):
+        figures = [(s.wall, s.others, s.own, s.more, s.free * workers / s.own) for s in rounds]
+        for column, figure in zip(columns, np.median(figures, axis=0), strict=True):
+            found.put(f"{workers} worker{'s' * (workers > 1)}", column, float(figure))
+    return found
+
+
+def errors(sample):
+    """Share by which the absorbed energy of each design changes with `FINER` times its steps."""
+    energies = []
+    for factor in (1, FINER):
+        finer = [changed(c, solver={"load_steps": factor * c.solver.load_steps}) for c in sample]
+        energies.append([simulate(case).summary["absorbed_energy_J"] for case in finer])
+    return np.abs(np.divide(*energies) - 1.0)
+
+
+def kinds(designs):
+    """The designs with friction and without."""
+    smooth = [changed(case, contact={"friction": 0.0}) for case in designs]
+    return {"with friction": designs, "without friction": smooth}
+
+
+def throughput(designs, every):
+    """Designs a second with friction and without, and what a sample of them is off by."""
+    columns = ("a second", "wall, s", "others, s", "CPU of each, ms", RATIO, "error, % (most)")
+    found = Table(f"{len(designs):,} designs", columns)
+    for name, chosen in kinds(designs).items():
+        sweep, off = swept(chosen, 2), 100.0 * errors(chosen[::every])
+        each = 1e3 * sweep.own / len(chosen)
+        ratio = 2.0 * sweep.free / sweep.own
+        figures = len(chosen) / sweep.free, sweep.wall, sweep.others, each, ratio
+        for column, figure in zip(columns, figures, strict=False):
+            found.put(name, column, figure)
+        found.put(name, columns[-1], float(np.median(off)), f"{off.max():.2g}")
+    return found

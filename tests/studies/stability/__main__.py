@@ -1,0 +1,86 @@
+"""Simulate the scenes of `configs/extreme.toml` under observation, and count what became of them.
+
+PYTHONPATH=tests python -m tests.stability FOLDER: the table is printed and written there, with a
+line a scene.
+"""
+
+import csv
+import sys
+from collections import Counter
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import track
+
+from sweep.config.units import load_config
+from sweep.config.grid import expand
+from sweep.simulation.simulate import warm_up
+from tests.stability.audit import audit
+from tests.stability.draw import CONFIGS
+
+WORKERS = 2
+ALL, VIOLATED, BALANCED = "all", "violated something", "steps balanced anew"
+KINDS = ("static crush", "crush in time", "dead load", "impact", ALL)
+
+
+def kind_of(case):
+    """What is done to the lattice of a case, in words."""
+    if case.loading.mode == "displacement":
+        return "static crush" if case.loading.quasi_static else "crush in time"
+    return {"force": "dead load", "impact": "impact"}[case.loading.mode]
+
+
+def outcome(found):
+    """Status of a scene, with what it says where it stopped, but for the place."""
+    if found.status != "stopped":
+        return found.status.replace("_", " ")
+    why = found.message.split(":")[-1].split(";")[0].split(" at strain ")[0]
+    return f"stopped: {why.strip()}"
+
+
+def counted(cases, audits):
+    """Rows of the table: how many scenes of each kind ended in which way, and what they violate."""
+    counts = {}
+    for case, found in zip(cases, audits, strict=True):
+        for kind in (kind_of(case), ALL):
+            row = counts.setdefault(outcome(found), Counter())
+            row[kind] += 1
+            counts.setdefault(VIOLATED, Counter())[kind] += len(found.violations) > 0
+            counts.setdefault(BALANCED, Counter())[kind] += found.balanced
+    last = [name for name in (VIOLATED, BALANCED) if name in counts]
+    ended = sorted(counts.keys() - set(last), key=lambda name: (-counts[name][ALL], name))
+    return {name: counts[name] for name in ended + last}
+
+
+def markdown(counts):
+    """The table, a line of text each."""
+    rows = [("scenes that", *KINDS), ("---",) * 6]
+    rows += [(name, *(row[kind] for kind in KINDS)) for name, row in counts.items()]
+    return [f"| {' | '.join(map(str, row))} |" for row in rows]
+
+
+def main(folder):
+    """Print the table; write it and what every scene did."""
+    cases = expand(load_config(CONFIGS / "extreme.toml"))
+    with ProcessPoolExecutor(WORKERS, get_context("spawn"), warm_up) as pool:
+        found = pool.map(audit, cases)
+        audits = list(track(found, "scenes", len(cases), console=Console(stderr=True)))
+    lines = markdown(counted(cases, audits))
+    sys.stdout.write("\n".join([*lines, ""]))
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "stability.md").write_text("\n".join([*lines, ""]), "utf-8")
+    with (folder / "scenes.csv").open("w", newline="", encoding="utf-8") as file:
+        rows = csv.writer(file)
+        rows.writerow(("scene", "case_id", "status", "cpu_s", "violations", "message"))
+        for number, (case, found) in enumerate(zip(cases, audits, strict=True)):
+            violations = "; ".join(found.violations)
+            rows.writerow(
+                (number, case.case_id, found.status, found.cpu_s, violations, found.message)
+            )
+    return any(found.violations for found in audits)
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1])))

@@ -1,0 +1,191 @@
+"""Simulate a scene under observation, and name whatever it violates.
+
+The last step of every stage of loading is taken by itself, with what was before and after it kept:
+the balance there is computed anew, with contact listed afresh and friction lagged at the end of the
+step, and what the walls store is compared with `model`.
+"""
+
+import time
+from types import SimpleNamespace
+from typing import NamedTuple
+from unittest.mock import patch
+
+import numpy as np
+
+from kernels.solve import residual as balance, march, newton
+from kernels.planar import rows as trace
+from sweep.simulation.simulate import simulate
+from tests.scenes import LOST, STORED, summed
+from tests.solving import whole
+from tests.stability.model import stored
+
+MARCH = march.march
+GRACE = 10.0  # s beyond its limit that a case may take
+LAG = 10.0  # times what a lagged force may be off: it lagged at an extrapolated place
+SAME = 1e-9  # of the largest force: two sums of the same forces
+EARNED = 1e-6  # of the work done: what an energy may be off
+MADE = 5e-3  # of the work done: what backward Euler may make
+SAID = "the integrator made energy", "work and energies do not balance"
+
+
+class Seen(NamedTuple):
+    """One step: its scene, allowed residuals, load factor, duration, what was before and after."""
+
+    terms: object
+    unknowns: object
+    tolerance: object
+    factor: float
+    dt: float
+    x0: np.ndarray
+    v0: np.ndarray
+    x: np.ndarray
+    stored: np.ndarray
+    whole: bool
+
+
+class Watch:
+    """Marches as `march` does, and keeps the last step of every stage.
+
+    noise: energy in J that residuals may add up to, each along the size of the lattice.
+    """
+
+    def __init__(self):
+        self.seen, self.noise = [], 0.0
+
+    def __call__(self, terms, unknowns, tolerance, stage, state, out, control):
+        """March through a stage."""
+        written = 0
+        self.noise += stage.steps * tolerance.force * np.ptp(state.x[: 2 * terms.layout.n_nodes])
+        for piece, rows in _pieces(stage):
+            x0, v0, steps = state.x.copy(), state.v.copy(), state.totals[trace.STEPS]
+            outcome, more = MARCH(
+                terms, unknowns, tolerance, piece, state, _part(out, rows), control
+            )
+            written += more
+            if outcome != newton.CONVERGED:
+                return outcome, written
+        undivided = state.totals[trace.STEPS] == steps + 1
+        self.seen.append(
+            Seen(terms, unknowns, tolerance, piece.factor1, piece.dt, x0, v0, state.x.copy(),
+                 state.stored.copy(), undivided)
+        )  # fmt: skip
+        return outcome, written
+
+
+def _pieces(stage):
+    """All steps but the last, and the last; with their rows."""
+    before = stage.steps - 1
+    share = before / stage.steps
+    driven = stage.driven0 + (stage.driven1 - stage.driven0) * share
+    factor = stage.factor0 + (stage.factor1 - stage.factor0) * share
+    if before > 0:
+        yield stage._replace(steps=before, driven1=driven, factor1=factor), slice(0, before)
+    yield stage._replace(steps=1, driven0=driven, factor0=factor), slice(before, None)
+
+
+def _part(out, rows):
+    return out._replace(rows=out.rows[rows], frame_of=out.frame_of[rows], probed=out.probed[rows])
+
+
+class Audit(NamedTuple):
+    """Status and message of a scene, what it violates, how many steps were balanced, its CPU."""
+
+    status: str
+    message: str
+    violations: tuple[str, ...]
+    balanced: int
+    cpu_s: float
+
+
+def audit(case):
+    """Simulate ``case`` and look for what must not be."""
+    watch, started = Watch(), time.perf_counter()
+    with patch("kernels.march.march", watch):
+        result = simulate(case)
+    seconds = time.perf_counter() - started
+    found = [*_numbers(result), *_shapes(result, case), *_energies(result, case, watch.noise)]
+    if seconds > case.solver.time_limit + GRACE:
+        found.append(f"hung for {seconds:.0f} s")
+    checked = [seen for seen in watch.seen if seen.whole]
+    for seen in checked:
+        found += _balance(seen)
+    return Audit(
+        str(result.status), result.message, tuple(found), len(checked), result.summary["cpu_s"]
+    )
+
+
+def _numbers(result):
+    for name, column in result.history.items():
+        if name != "min_gap_m" and not np.all(np.isfinite(column)):
+            yield f"{name} is not finite"
+    if not np.all(np.isfinite(result.frames["position_m"])):
+        yield "positions are not finite"
+
+
+def _shapes(result, case):
+    """Walls that cross, and elements that turn over at their joint."""
+    if result.summary["max_crossings"] > 0 and case.contact.model == "barrier":
+        yield f"{result.summary['max_crossings']} crossings"
+    if result.summary["least_element_strain"] <= -1.0:
+        yield "an element without length"
+    worst = max(_turned_over(shape, result.frames) for shape in result.frames["position_m"])
+    if worst > 0:
+        yield f"arms of {worst} joints have changed places"
+
+
+def _turned_over(shape, frames):
+    """Number of nodes whose arms are not in the order that they have at rest."""
+    ends = np.concatenate([frames["edges"], frames["edges"][:, ::-1]])
+    first, now = (_bearings(x, ends) for x in (frames["position_m"][0], shape))
+    order = np.lexsort([first, ends[:, 0]])
+    node, now = ends[order, 0], now[order]
+    begun = np.searchsorted(node, node, side="left")
+    count = np.searchsorted(node, node, side="right") - begun
+    following = begun + (np.arange(len(node)) - begun + 1) % count
+    opened = np.mod(now[following] - now, 2.0 * np.pi)
+    turns = np.bincount(node, np.where(count > 1, opened, np.pi)) / (2.0 * np.pi)
+    return int(np.sum(turns[np.bincount(node) > 1] > 1.5))
+
+
+def _bearings(x, ends):
+    vector = x[ends[:, 1]] - x[ends[:, 0]]
+    return np.arctan2(vector[:, 1], vector[:, 0])
+
+
+def _energies(result, case, noise):
+    """Energy that nobody has brought in, unless the scene was stopped for that."""
+    if result.message.startswith(SAID):
+        return
+    book = result.history
+    paid = book["work_in_J"] + book["injected_by_projection_J"]
+    held, lost = summed(book, STORED), summed(book, LOST)
+    size = max(np.abs(paid).max(), held.max(), np.abs(lost).max(), 1e-300)
+    if np.abs(book["energy_residual_J"]).max() > EARNED * size + noise:
+        yield f"{np.abs(book['energy_residual_J']).max() / size:.1e} of the energy is left over"
+    if case.solver.integrator == "backward_euler" and (held - paid).max() > MADE * size + noise:
+        yield f"{(held - paid).max() / size:.1e} of the energy out of nothing"
+
+
+def _balance(seen):
+    """The residual of a step and its energies, computed anew."""
+    scene = SimpleNamespace(terms=seen.terms, unknowns=seen.unknowns)
+    v0 = seen.v0 if seen.dt < np.inf else None
+    step = whole(scene, seen.x, seen.x0, seen.dt, v0, seen.factor)
+    step.factor(seen.x)
+    _, at = step.found(seen.x)
+    residual = np.zeros_like(seen.x)
+    balance.reduce(at.g, seen.unknowns, residual)
+    size = balance.largest(residual, seen.unknowns)
+    allowed = balance.allowed(step.near.system.matrix, seen.tolerance)[0]
+    if seen.terms.friction.mu > 0.0:
+        rubbing = balance.largest(at.rubbing, seen.unknowns)
+        allowed += LAG * max(seen.tolerance.friction, seen.tolerance.grip * rubbing)
+    if not size <= 1.01 * allowed:
+        yield f"{size / allowed:.1e} of the allowed residual"
+    second = stored(seen.x, seen.terms, seen.x0)
+    error = np.abs(second.gradient - at.elastic).max()
+    if not error <= SAME * second.scale + allowed:
+        yield f"forces differ by {error / second.scale:.1e} from the second model"
+    gap = np.abs(second.energy - seen.stored).max()
+    if not gap <= SAME * second.energy.max() + allowed * np.ptp(seen.x):
+        yield f"energies differ by {gap / second.energy.max():.1e} from the second model"

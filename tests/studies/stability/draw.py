@@ -1,0 +1,243 @@
+"""Draw the scenes of `configs/extreme.toml`: python -m tests.stability.draw FILE
+
+Every scene is drawn by a generator of its own, from its number; what no lattice can be is drawn
+again.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+from pydantic import ValidationError
+
+from sweep.design.infill import families
+from sweep.config.keys import case_keys
+from sweep.design.network import build_network, mass
+from sweep.config.case import TABLES, Case
+from sweep.config.material_file import available
+from sweep.config.lattice_table import Lattice
+
+COUNT, SEED = 500, 20
+MOST_NODES = 1200
+CONFIGS = Path(__file__).parents[2] / "configs"
+SWAY = 0.474  # buckling stress of a square grid / (Y' (t / L)^3), rows swaying
+ALIKE = {"solver.time_limit": 40.0, "solver.max_iterations": 500}
+HEAD = """\
+# Five hundred stiff and extreme scenes, for `make stability`.
+#
+# Written by `python -m tests.stability.draw configs/extreme.toml`: the ranges stand there.
+name = "extreme"
+
+[solver]
+time_limit = "40 s"
+max_iterations = 500
+
+[[zip]]
+"""
+
+
+class Draws:
+    """Random choices of one scene."""
+
+    def __init__(self, number):
+        self.rng = np.random.default_rng([SEED, number])
+
+    def one(self, *choices):
+        """One of some values."""
+        return choices[self.rng.integers(len(choices))]
+
+    def chance(self, share):
+        """True in this share of all draws."""
+        return self.rng.random() < share
+
+    def between(self, low, high):
+        """A number whose logarithm is even, to three digits."""
+        return float(f"{low * (high / low) ** self.rng.random():.3g}")
+
+    def whole(self, low, high):
+        """A whole number up to ``high``; small ones are likelier."""
+        return min(int(self.between(low + 1.0, high + 2.0)) - 1, high)
+
+
+def scene(number):
+    """Keys of one scene with their values in SI, and its case."""
+    draw = Draws(number)
+    while True:
+        keys = _material(draw) | _lattice(draw) | _contact(draw) | _damping(draw) | _solver(draw)
+        try:
+            keys |= _loading(draw, keys)
+            return keys, case_of(keys)
+        except ValidationError:
+            continue
+
+
+def case_of(keys):
+    """The case that these keys make."""
+    keys = dict(keys)
+    if keys.get("material.name", "").endswith(".csv"):
+        keys["material.name"] = str(CONFIGS / keys["material.name"])
+    return Case(**{name: _table(ALIKE | keys, name) for name in TABLES})
+
+
+def _table(keys, name):
+    rows = [(key.split("."), value) for key, value in keys.items()]
+    return TABLES[name](**{key: value for (table, key), value in rows if table == name})
+
+
+def _material(draw):
+    """From foam to steel by numbers, or a measured curve, or one with a plateau or softening."""
+    plane = {"material.plane": draw.one("strain", "stress", "strain_bending")}
+    if draw.chance(0.6):
+        return plane | {
+            "material.modulus": draw.between(1e3, 2e11),
+            "material.density": draw.between(50.0, 8000.0),
+            "material.poisson": draw.one(0.0, 0.3, 0.48, 0.4999),
+        }
+    made_up = "extreme/plateau.csv", "extreme/softening.csv"
+    name = draw.one(*made_up) if draw.chance(0.3) else draw.one(*available())
+    return plane | {"material.name": name, "material.bend": draw.one("linear", "section")}
+
+
+def _lattice(draw):
+    """1 x 1 to 30 x 30 cells, slender to stout, at most `MOST_NODES` nodes."""
+    kind = "square" if draw.chance(0.5) else draw.one(*families())
+    cells_x, cells_y = draw.whole(1, 30), draw.whole(1, 30)
+    pitch, aspect = draw.between(5e-4, 5e-2), draw.between(1 / 3, 3.0)
+    keys = {
+        "kind": kind,
+        "cells_x": cells_x,
+        "cells_y": cells_y,
+        "width": float(f"{cells_x * pitch * aspect:.3g}"),
+        "height": float(f"{cells_y * pitch:.3g}"),
+        "depth": draw.between(1e-3, 0.1),
+        "nodes_per_wall": draw.whole(0, 30),
+        "grading": draw.between(0.3, 3.0) if draw.chance(0.1) else 1.0,
+        "imperfection": 0.0 if draw.chance(0.5) else draw.between(1e-6, 1.0),
+    }
+    thin = Lattice(**keys, wall_thickness=1e-4 * min(keys["width"] / cells_x, pitch))
+    joints, walls = thin._counts
+    if joints + walls * keys["nodes_per_wall"] > MOST_NODES:
+        keys["nodes_per_wall"] = max(0, (MOST_NODES - joints) // walls)
+    keys["wall_thickness"] = float(f"{2.0 * thin.thickest * draw.between(0.02, 0.45):.3g}")
+    return {f"lattice.{key}": value for key, value in keys.items()}
+
+
+def _contact(draw):
+    model = "barrier" if draw.chance(0.95) else "none"
+    if model != "barrier":
+        return {"contact.model": model}
+    return {
+        "contact.model": model,
+        "contact.friction": draw.one(0.0, 0.3, 1.0, 2.0),
+        "contact.stiffness": draw.between(0.1, 10.0) if draw.chance(0.2) else 1.0,
+    }
+
+
+def _damping(draw):
+    """None to overdamped."""
+    model = draw.one("none", "rayleigh", "kelvin_voigt")
+    return {
+        "none": {"damping.model": model},
+        "rayleigh": {
+            "damping.model": model,
+            "damping.mass": draw.one(0.0, draw.between(1e-2, 1e5)),
+            "damping.stiffness": draw.one(0.0, draw.between(1e-8, 1.0)),
+        },
+        "kelvin_voigt": {
+            "damping.model": model,
+            "damping.relaxation_time": draw.between(1e-8, 10.0),
+        },
+    }[model]
+
+
+def _solver(draw):
+    return {
+        "solver.hinges": "classical" if draw.chance(0.15) else "exact_beam",
+        "solver.bend_measure": "tangent" if draw.chance(0.15) else "angle",
+    }
+
+
+def _loading(draw, keys):
+    lattice, material = _table(keys, "lattice"), _material_of(keys)
+    slenderness = lattice.wall_thickness / (lattice.height / lattice.cells_y)
+    buckling = SWAY * slenderness**3 * material.modulus * lattice.width * lattice.depth
+    mode = draw.one("slow", "fast", "force", "force", "impact", "slow")
+    if mode == "force":
+        return _force(draw, buckling)
+    if mode == "impact":
+        return _impact(draw, lattice, material, buckling)
+    keys = {
+        "loading.mode": "displacement",
+        "loading.strain": draw.between(0.05, 0.97),
+        "loading.platen": draw.one("glued", "contact"),
+        "loading.unload": draw.chance(0.5),
+        "solver.load_steps": draw.whole(5, 100),
+    }
+    return keys | ({"loading.speed": draw.between(1e-3, 300.0)} if mode == "fast" else {})
+
+
+def _material_of(keys):
+    name = keys.get("material.name", "")
+    return _table(
+        keys | {"material.name": str(CONFIGS / name)} if "/" in name else keys, "material"
+    )
+
+
+def _force(draw, buckling):
+    """A thousandth to ten thousand times the load under which rows sway."""
+    step, steps = draw.between(1e-8, 1.0), draw.whole(10, 80)
+    return {
+        "loading.mode": "force",
+        "loading.force": float(f"{buckling * draw.between(1e-3, 1e4):.3g}"),
+        "loading.platen": draw.one("none", "contact", "glued"),
+        "loading.duration": float(f"{step * steps:.6g}"),
+        "loading.release_time": float(f"{step * draw.whole(1, steps):.6g}"),
+        "solver.time_step": step,
+    }
+
+
+def _impact(draw, lattice, material, buckling):
+    """A striker of a hundredth to a thousand times the mass, long enough that it comes back."""
+    own = mass(build_network(lattice), lattice.depth, material.density)
+    striker, speed = own * draw.between(0.01, 1000.0), draw.between(0.1, 300.0)
+    softest = np.pi * np.sqrt(striker * lattice.height / buckling)
+    steps = draw.whole(40, 200)
+    duration = 4.0 * min(10.0 * lattice.height / speed, lattice.height / speed + softest)
+    return {
+        "loading.mode": "impact",
+        "loading.striker_mass": float(f"{striker:.3g}"),
+        "loading.striker_speed": speed,
+        "loading.platen": draw.one("glued", "contact"),
+        "loading.duration": float(f"{duration:.3g}"),
+        "solver.integrator": "backward_euler",
+        "solver.time_step": float(f"{duration / steps:.3g}"),
+    }
+
+
+def toml(count):
+    """The config of the first ``count`` scenes."""
+    rows = [scene(number)[0] for number in range(count)]
+    keys = sorted({key for row in rows for key in row})
+    return HEAD + "".join(_axis(key, [row.get(key) for row in rows]) for key in keys)
+
+
+def _axis(key, values):
+    """One key with its values, ten a line; nothing where a scene does not use it."""
+    words = [_word(key, value) for value in values]
+    lines = [", ".join(words[k : k + 10]) for k in range(0, len(words), 10)]
+    return f'"{key}" = [\n' + "".join(f"    {line},\n" for line in lines) + "]\n"
+
+
+def _word(key, value):
+    unit = case_keys()[key].unit
+    if value is None:
+        return '""'
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str) or unit is None:
+        return f'"{value}"' if isinstance(value, str) else repr(value)
+    return f'"{value:.6g} {unit}"'
+
+
+if __name__ == "__main__":
+    Path(sys.argv[1]).write_text(toml(COUNT), "utf-8")

@@ -1,0 +1,104 @@
+"""Scenes of `configs/extreme.toml` under observation: does the observer see what is wrong?"""
+
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+from sweep.config.units import load_config
+from sweep.config.grid import expand
+from sweep.simulation.simulate import warm_up
+from tests.scenes import pressed, run
+from tests.solving import whole
+from tests.stability import audit, draw, model
+from tests.stability.__main__ import counted, markdown, outcome
+from tests.states import STATES, driven, loaded
+
+FEW, CONVERGED = 40, 14
+
+
+@pytest.fixture(scope="module")
+def drawn():
+    warm_up()  # no scene waits for a compiler
+    return [draw.scene(number)[1] for number in range(FEW)]
+
+
+def test_the_config_holds_the_scenes_that_are_drawn(drawn):
+    assert (draw.CONFIGS / "extreme.toml").read_text("utf-8") == draw.toml(draw.COUNT)
+    cases = expand(load_config(draw.CONFIGS / "extreme.toml"))
+    assert len(cases) == draw.COUNT
+    assert [case.case_id for case in cases[:FEW]] == [case.case_id for case in drawn]
+
+
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("scene", [loaded(), loaded(1), driven("glued")], ids=["3", "1", "driven"])
+def test_the_second_model_agrees_with_the_kernels(scene, state):
+    x = STATES[state](scene)
+    _, at = whole(scene, x, dt=np.inf).found(x)
+    second = model.stored(x, scene.terms, x)
+    np.testing.assert_allclose(second.energy, at.stored, rtol=1e-11)
+    np.testing.assert_allclose(second.gradient, at.elastic, atol=1e-13 * second.scale)
+
+
+@pytest.mark.parametrize("turn", [-3.3, 3.3])
+def test_the_second_model_follows_a_joint_that_turns_by_more_than_half(turn):
+    scene = loaded()
+    x0 = scene.x_rest
+    x = x0.copy()
+    x[scene.terms.walls.rotation[len(scene.terms.walls.rotation) // 2]] += turn
+    _, at = whole(scene, x, x0).found(x)
+    second = model.stored(x, scene.terms, x0)
+    np.testing.assert_allclose(second.energy, at.stored, rtol=1e-11)
+    np.testing.assert_allclose(second.gradient, at.elastic, atol=1e-13 * second.scale)
+    assert model.stored(x, scene.terms, x).energy[1] < 0.9 * second.energy[1]
+
+
+def test_light_scenes_violate_nothing(drawn):
+    light = [case for case in drawn if case.lattice.walls * (case.lattice.nodes_per_wall + 1) < 200]
+    audits = [audit.audit(case) for case in light]
+    assert [found.violations for found in audits] == [()] * len(light)
+    assert [found.status for found in audits].count("converged") == CONVERGED
+    assert sum(found.balanced for found in audits) > len(light)
+
+
+EXTREMES = {"nothing moves": 389, "far too long steps": 463, "folded beyond resolution": 55}
+
+
+@pytest.mark.parametrize("number", EXTREMES.values(), ids=EXTREMES)
+def test_backward_euler_makes_no_energy(number):
+    warm_up()
+    found = audit.audit(draw.scene(number)[1])
+    assert (found.status, found.violations) == ("converged", ())
+
+
+def test_what_is_wrong_is_seen():
+    case = pressed(3, 0.5, 30, friction=0.3)
+    assert audit.audit(case).violations == ()
+    with patch.object(model, "GUARD", 0.5):
+        assert "second model" in " ".join(audit.audit(case).violations)
+    with patch.object(audit, "LAG", 1e-9):
+        assert "allowed residual" in " ".join(audit.audit(case).violations)
+
+
+def test_arms_that_change_places_are_seen():
+    result = run(pressed(3, 0.5, 30, friction=0.3))
+    frames = dict(result.frames)
+    assert audit._turned_over(frames["position_m"][-1], frames) == 0
+    turned = frames["position_m"][0] * [-1.0, 1.0]
+    assert audit._turned_over(turned, frames) > 0
+
+
+def test_outcomes_are_counted(drawn):
+    cases = drawn[:2]
+    found = audit.Audit("stopped", "stopped while loading: no way; try less", ("wrong",), 2, 0.1)
+    table = counted(cases, [found, found._replace(status="converged", message="", violations=())])
+    assert list(table) == [
+        "converged",
+        "stopped: no way",
+        "violated something",
+        "steps balanced anew",
+    ]
+    assert [row["all"] for row in table.values()] == [1, 1, 1, 4]
+    assert markdown(table)[3].startswith("| stopped: no way | ")
+    open_book = found._replace(message="work and energies do not balance at strain 1; try")
+    assert outcome(open_book) == "stopped: work and energies do not balance"

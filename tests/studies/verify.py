@@ -1,0 +1,199 @@
+"""What the README says in numbers, as it says it.
+
+Run by `make verify` with the results of `configs/armor.toml`: the tables of its examples, and how
+far to trust a crush, beside independent references. These are for the 3 x 3 grid of the default
+case (12.5 mm over centre lines, walls of 0.8 mm) of a linear material, Y = 12 MPa, nu = 0.48, plane
+stress, and were computed outside this repository with other programs:
+
+FRAME: geometrically exact beams, converged, without contact; glued platens; force in N.
+SOLID: plane finite elements with true walls, neo-Hookean, with self-contact, converged; energy, mJ.
+CRITICAL: dead load in N at which the exact frame, clamped below, loses stability; the ten nodes of
+its top row bear equal shares.
+"""
+
+import io
+import os
+import shlex
+import sys
+from contextlib import redirect_stdout
+
+import numpy as np
+import readme
+
+from sweep.__main__ import main
+from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
+from sweep.ranking.rank import rank
+from sweep.simulation.simulate import simulate
+from sweep.store.read import read_summary
+
+FRAME = {0.05: 11.62, 0.1: 12.04, 0.3: 13.93}
+SOLID = {0.1: 13.65, 0.3: 47.5, 0.4: 66.0, 0.5: 95.3, 0.6: 138.3}
+CRITICAL = 7.35
+LOADS = (6.6, 7.0, 7.5)
+WATCHED = 0.137  # s
+
+MATERIAL = Material(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
+ROD = {"hinges": "classical", "bend_measure": "tangent"}
+
+
+def pressed(pieces, strain, contact, **solver):
+    """Result of a quasi-static crush between glued platens, ``pieces`` elements a wall."""
+    case = Case(
+        lattice=Lattice(nodes_per_wall=pieces - 1),
+        material=MATERIAL,
+        loading=Loading(mode="displacement", strain=strain, unload=False),
+        contact=Contact(model=contact, friction=0.0),
+        solver=Solver(load_steps=round(100 * strain), **solver),
+    )
+    return simulate(case)
+
+
+def loaded(force, contact="none", platen="none", **solver):
+    """Result of a sudden dead load, three elements a wall, steps of 1 ms, undamped."""
+    case = Case(
+        material=MATERIAL,
+        loading=Loading(mode="force", force=force, platen=platen),
+        contact=Contact(model=contact, friction=0.0),
+        damping=Damping(model="none"),
+        solver=Solver(time_step=1e-3, **solver),
+    )
+    return simulate(case)
+
+
+def beside(name, found, reference, digits):
+    """A row of what was found, each with its error against the reference."""
+    errors = [round(100.0 * (a / b - 1.0), 1) + 0.0 for a, b in zip(found, reference, strict=True)]
+    cells = zip(found, errors, strict=True)
+    return [name, *(f"{value:.{digits}f} ({error:+.1f} %)" for value, error in cells)]
+
+
+def frame_rows():
+    """Force without contact against the exact frame."""
+    reference = list(FRAME.values())
+    yield ["force in N at a strain of", *(f"{100 * strain:.0f} %" for strain in FRAME)]
+    yield ["exact frame", *(f"{force:.2f}" for force in reference)]
+    for name, pieces, solver in (
+        ("12 elements a wall", 12, {}),
+        ("3 elements a wall (default)", 3, {}),
+        ("3, classical hinges, tangent measure", 3, ROD),
+    ):
+        history = pressed(pieces, 0.3, "none", **solver).history
+        force = np.interp(list(FRAME), history["strain"], history["reaction_top_N"])
+        yield beside(name, force, reference, 2)
+
+
+def solid_rows():
+    """Absorbed energy with contact against solid finite elements."""
+    reference = list(SOLID.values())
+    yield [
+        "absorbed energy in mJ up to",
+        *(f"{100 * strain:.0f} %" for strain in SOLID),
+    ]
+    yield ["solid finite elements", *(f"{energy:.1f}" for energy in reference)]
+    for pieces in (12, 6, 3):
+        history = pressed(pieces, 0.6, "barrier").history
+        energy = np.interp(list(SOLID), history["strain"], 1e3 * history["work_in_J"])
+        yield beside(f"{pieces} elements", energy, reference, 1)
+
+
+def buckling_rows():
+    """Strain under a sudden dead load below and above the one that the exact frame bears."""
+    yield ["strain after 0.137 s under a dead load of", *(f"{force} N" for force in LOADS)]
+    yield ["exact frame", *("stands" if force < CRITICAL else "gives way" for force in LOADS)]
+    for name, solver in (("exact-beam hinges", {}), ("classical hinges", {"hinges": "classical"})):
+        histories = [loaded(force, **solver).history for force in LOADS]
+        strains = [np.interp(WATCHED, past["time_s"], past["strain"]) for past in histories]
+        yield [name, *(f"{strain:.3f}" for strain in strains)]
+
+
+def soundness_rows():
+    """Whether crushed far beyond buckling the book closes and no wall passes through another."""
+    yield ["3 elements a wall, contact, loose platens", "10 N", "20 N", "40 N"]
+    results = [loaded(force, "barrier", "contact") for force in (10.0, 20.0, 40.0)]
+    summaries = [result.summary for result in results]
+    yield ["status", *(result.status for result in results)]
+    yield ["greatest strain", *(f"{summary['peak_strain']:.2f}" for summary in summaries)]
+    yield ["walls that cross", *(f"{summary['max_crossings']}" for summary in summaries)]
+    lost = [100.0 * row["dissipated_integrator_J"] / row["absorbed_energy_J"] for row in summaries]
+    yield ["taken out by the time steps, %", *(f"{share:.0f}" for share in lost)]
+    left = [abs(row["energy_residual_J"]) / row["absorbed_energy_J"] for row in summaries]
+    yield ["energy left over / absorbed", *(f"{share:.0e}" for share in left)]
+    yield ["processor time, s", *(f"{row['cpu_s']:.2f}" for row in summaries)]
+
+
+def crush_rows(file):
+    """Spread over the crushes of a sweep of what tells whether its energies mean something."""
+    summary = read_summary(file)
+    crushes = summary[summary["loading_mode"] == "displacement"]
+    yield [f"the {len(crushes)} crushes of `make sweep`", "least", "median", "greatest"]
+    returned = 100.0 * crushes["returned_energy_J"] / crushes["absorbed_energy_J"]
+    squeezed = 1.0 + crushes["least_element_strain"]
+    for name, values, digits in (
+        ("work given back when let up, %", returned, 0),
+        ("printed area still covered at 60 %, %", 100.0 * crushes["kept_area"], 0),
+        ("shortest element, in its length at rest", squeezed, 2),
+        ("walls that cross", crushes["max_crossings"], 0),
+    ):
+        spread = values.min(), values.median(), values.max()
+        yield [name, *(f"{value:.{digits}f}" for value in spread)]
+
+
+def beyond(file):
+    """How many crushes of a sweep are beyond the model."""
+    ranked = {by: rank(file, top=None, by=by) for by in (None, "absorbed_energy_J")}
+    packed, whole = (int(ranking["beyond_model"].sum()) for ranking in ranked.values())
+    return f"{packed} designs are beyond the model before they have packed, {whole} before 60 %"
+
+
+def failure():
+    """What a case says that may not iterate enough."""
+    solver = Solver(load_steps=20, max_iterations=4)
+    case = Case(loading=Loading(mode="displacement"), solver=solver)
+    result = simulate(case)
+    return f'`{result.status}`, "{result.message}"'
+
+
+def answer(example):
+    """What the command of an example prints below its title now, up to the next empty line."""
+    with redirect_stdout(io.TextIOWrapper(io.BytesIO(), "utf-8")) as output:
+        main(shlex.split(example.command)[1:])
+    output.seek(0)
+    lines = output.read().splitlines()
+    begun = lines.index(example.title)
+    return [line.rstrip() for line in lines[begun : lines.index("", begun)]]
+
+
+TABLES = (frame_rows, solid_rows, buckling_rows, soundness_rows)
+OF_THIS_RUN = ("energy left over / absorbed", "processor time, s")  # round-off and the machine
+
+
+def markdown(rows):
+    """Lines of a table whose first row is its head."""
+    lines = [f"| {' | '.join(row)} |" for row in rows]
+    return [lines[0], "|---" * (lines[0].count("|") - 1) + "|", *lines[1:]]
+
+
+def everything(file):
+    """All lines, in the order of the README."""
+    for example in readme.examples():
+        yield from (f"$ {example.command}", *answer(example), "")
+    for table in TABLES:
+        yield from (*markdown(table()), "")
+    yield from (*markdown(crush_rows(file)), "", beyond(file), "", failure())
+
+
+def is_said(line):
+    """True if the README has a line, or one that differs from run to run."""
+    return readme.says(line) or any(line.startswith(f"| {name}") for name in OF_THIS_RUN)
+
+
+if __name__ == "__main__":
+    os.environ["COLUMNS"] = "80"  # as wide as the tables of the README, whatever the terminal
+    loaded(1.0, "barrier", "contact")  # compiled kernels are loaded before any clock starts
+    unsaid = []
+    for line in everything(sys.argv[1]):
+        sys.stdout.write(f"{line}\n")
+        unsaid += [] if is_said(line) else [line]
+    verdict = "README.md says otherwise of:" if unsaid else "README.md says so."
+    sys.stdout.write("\n".join(["", verdict, *unsaid, ""]))
+    sys.exit(len(unsaid) > 0)

@@ -1,0 +1,258 @@
+"""Small frames of straight walls for tests of kernels: geometry, and the terms that belong to it.
+
+Lengths in mm, pressures in MPa, forces in N and so energies in mJ, unless ``scaled`` to others.
+"""
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from kernels.terms import bend, elements as chain, contact, damping as damp, fold, friction, elastic as law, position_based as project, spring, stretch, contact_near_joints as vicinity
+from kernels.linear import periodic_images as image, analysis as pattern
+from kernels.geometry import near_pairs as pairs
+from kernels.planar.potential import Terms
+
+MODULUS, DEPTH = 12.0, 10.0
+NO_SPRINGS = spring.Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Nodes and elements; the joints come first among the nodes, single walls are one element.
+
+    points (n, 2). edges (m, 2). pieces (m,): elements in the wall of an element. thickness (m,).
+    """
+
+    points: np.ndarray
+    edges: np.ndarray
+    pieces: np.ndarray
+    thickness: np.ndarray
+    joints: int
+    modulus: float = MODULUS
+    depth: float = DEPTH
+    millimetre: float = 1.0
+
+    @property
+    def l0(self) -> np.ndarray:
+        """Rest length of every element, (m,)."""
+        return np.linalg.norm(self.points[self.edges[:, 1]] - self.points[self.edges[:, 0]], axis=1)
+
+    @property
+    def rigidity(self) -> np.ndarray:
+        """Y I of every element, (m,)."""
+        return self.modulus * self.depth * self.thickness**3 / 12
+
+    @property
+    def start(self) -> np.ndarray:
+        """First element of every wall and the end of the last, (w + 1,)."""
+        return np.append(np.flatnonzero(self.edges[:, 0] < self.joints), len(self.edges))
+
+    @property
+    def arm_element(self) -> np.ndarray:
+        """Elements at both ends of every wall, (2 w,)."""
+        return np.column_stack([self.start[:-1], self.start[1:] - 1]).ravel()
+
+    @property
+    def arm_joint(self) -> np.ndarray:
+        """Joints at both ends of every wall, (2 w,)."""
+        first, last = self.start[:-1], self.start[1:] - 1
+        return np.column_stack([self.edges[first, 0], self.edges[last, 1]]).ravel()
+
+    @property
+    def rest(self) -> np.ndarray:
+        """Coordinates: nodes, rotations of the joints, lower and upper platen far away."""
+        far = 100.0 * self.millimetre
+        return np.concatenate([self.points.ravel(), np.zeros(self.joints), [-far, far]])
+
+    @property
+    def unit(self) -> np.ndarray:
+        """Size of a coordinate: 1 mm, or 1 rad."""
+        unit = np.full(self.rest.size, self.millimetre)
+        unit[2 * len(self.points) : -2] = 1.0
+        return unit
+
+
+def frame(joints, walls, pieces, thickness=0.8) -> Frame:
+    """Frame of ``walls`` (pairs of joints), each split into its number of ``pieces``."""
+    joints = np.array(joints, dtype=float)
+    pieces = np.broadcast_to(pieces, len(walls))
+    points, edges = list(joints), []
+    for (a, b), n in zip(walls, pieces, strict=True):
+        inside = list(range(len(points), len(points) + n - 1))
+        points += [joints[a] + s * (joints[b] - joints[a]) for s in np.arange(1, n) / n]
+        chain = [a, *inside, b]
+        edges += pairwise(chain)
+    return Frame(
+        points=np.array(points),
+        edges=np.array(edges),
+        pieces=np.repeat(pieces, pieces),
+        thickness=np.repeat(np.broadcast_to(thickness, len(walls)), pieces).astype(float),
+        joints=len(joints),
+    )
+
+
+def grid(cells: int, size: float, pieces: int, thickness=0.8) -> Frame:
+    """Square grid of ``cells`` x ``cells`` cells, ``size`` over centre lines."""
+    n = cells + 1
+    joints = [(size * i / cells, size * j / cells) for j in range(n) for i in range(n)]
+    along = [(n * j + i, n * j + i + 1) for j in range(n) for i in range(cells)]
+    up = [(n * j + i, n * j + i + n) for j in range(cells) for i in range(n)]
+    return frame(joints, along + up, pieces, thickness)
+
+
+def joint_of_four() -> Frame:
+    """Four walls at one joint: two in line, one across, one in three pieces at an angle."""
+    joints = [(0, 0), (3, 0), (-2.5, 0), (0.3, 2.2), (-2.0, -1.4)]
+    return frame(joints, [(0, 1), (2, 0), (0, 3), (0, 4)], [2, 1, 1, 3], [0.8, 0.8, 0.5, 0.6])
+
+
+def scaled(of: Frame, length: float) -> Frame:
+    """The same frame in a unit of length of which ``length`` make a millimetre (forces in N)."""
+    return replace(
+        of,
+        points=of.points * length,
+        thickness=of.thickness * length,
+        modulus=of.modulus / length**2,
+        depth=of.depth * length,
+        millimetre=of.millimetre * length,
+    )
+
+
+def shaken(of: Frame, seed: int, amount: float = 0.2) -> np.ndarray:
+    """Rest state with all but the platens moved at random, by ``amount`` of a coordinate's unit."""
+    move = amount * of.unit * np.random.default_rng(seed).uniform(-1, 1, of.unit.size)
+    move[-2:] = 0.0
+    return of.rest + move
+
+
+def carried(of: Frame, x: np.ndarray, angle: float, shift=(0.7, -0.4)) -> np.ndarray:
+    """State ``x`` after a rigid motion of all nodes and joints."""
+    n = 2 * len(of.points)
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    nodes = x[:n].reshape(-1, 2) @ turn.T + of.millimetre * np.array(shift)
+    return np.concatenate([nodes.ravel(), x[n:-2] + angle, x[-2:]])
+
+
+def linear_law(modulus: float) -> law.Law:
+    """Stress = modulus x strain."""
+    knots, slopes = np.array([-1.0, 1.0]), np.array([[-modulus, modulus, 0.0, 0.0]])
+    return law.Law(knots, slopes, np.full(2, 0.5 * modulus), modulus)
+
+
+def curve_law(modulus: float) -> law.Law:
+    """Curve with a rise, a plateau that falls a little, and a branch in compression; C1."""
+    knots = np.array([-0.5, 0.0, 0.1, 0.4, 1.0])
+    stress = modulus * np.array([-0.8, 0.0, 0.07, 0.065, 0.3])
+    slope = modulus * np.array([2.2, 1.0, 0.3, -0.1, 0.8])
+    width = np.diff(knots)
+    secant = np.diff(stress) / width
+    square = (3 * secant - 2 * slope[:-1] - slope[1:]) / width
+    cube = (slope[:-1] + slope[1:] - 2 * secant) / width**2
+    pieces = np.column_stack([stress[:-1], slope[:-1], square, cube])
+    gained = np.sum(pieces * width[:, None] ** np.arange(1, 5) / np.arange(1, 5), axis=1)
+    energy = np.concatenate([[0.0], np.cumsum(gained)])
+    return law.Law(knots, pieces, energy - energy[1], modulus)
+
+
+def walls_of(of: Frame) -> chain.Walls:
+    return chain.Walls(of.edges, of.start, of.arm_element, 2 * len(of.points) + of.arm_joint)
+
+
+def stretch_of(of: Frame) -> stretch.Stretch:
+    return stretch.Stretch(of.l0, of.depth * of.thickness, True)
+
+
+def bend_of(of: Frame, measure: int = bend.ANGLE, exact: bool = True) -> bend.Bend:
+    """Hinges inside walls, arms at joints, couplings of single elements, exact-beam weights.
+
+    K = YI/h (1 - 1/n^2) inside, k = 2 YI/h (1 + 1/n) at ends; YI/h and 2 YI/h if not ``exact``.
+    """
+    n, per_length = of.pieces, of.rigidity / of.l0
+    inside = per_length * (1 - 1 / n**2 if exact else 1.0)
+    at_end = 2 * per_length * (1 + 1 / n if exact else 1.0)
+    before = np.flatnonzero(of.edges[:, 1] >= of.joints)
+    along = (of.points[of.edges[:, 1]] - of.points[of.edges[:, 0]]) / of.l0[:, None]
+    one, two = along[before], along[before + 1]
+    cosine, sine = np.sum(one * two, axis=1), one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+    single = exact & (n[of.start[:-1]] == 1)
+    return bend.Bend(
+        measure=measure,
+        hinges=before,
+        hinge_angle=np.arctan2(sine, cosine),
+        hinge_stiffness=inside[before],
+        arm_rest=along[of.arm_element],
+        arm_stiffness=at_end[of.arm_element],
+        coupling=np.where(single, 2 * per_length[of.start[:-1]], 0.0),
+        section=linear_law(1.0),
+        hinge_surface=np.empty(0),
+        arm_surface=np.empty(0),
+    )
+
+
+def contact_of(of: Frame, stiffness: float = 1.0) -> contact.Contact:
+    """Contact of all walls with one another and of all nodes with two platens; c: ``stiffness``."""
+    n = len(of.points)
+    half = np.repeat(0.5 * of.l0, 2)
+    tributary = np.bincount(of.edges.ravel(), half, n)
+    node_thickness = np.bincount(of.edges.ravel(), half * np.repeat(of.thickness, 2), n) / tributary
+    mesh = of.points.ravel(), of.edges, of.l0, node_thickness, of.thickness, tributary
+    return contact.Contact(
+        stiffness * of.modulus * of.depth, of.thickness.max(), of.edges, tributary,
+        node_thickness, of.thickness, vicinity.owners(n, of.edges), *vicinity.special_pairs(*mesh),
+        np.arange(n), of.rest.size - 2, of.rest.size - 1,
+    )  # fmt: skip
+
+
+def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> pattern.Layout:
+    """``held`` coordinates and the lower platen do not move, ``tied`` ones follow the upper one."""
+    n, size = len(of.points), of.rest.size
+    leader = np.arange(size)
+    leader[list(tied)] = size - 1
+    leader[[*held, size - 2]] = -1
+    wall_of = np.full(n, -1)
+    inside = np.flatnonzero(of.edges[:, 1] >= of.joints)
+    wall_of[of.edges[inside, 1]] = np.searchsorted(of.start, inside, "right") - 1
+    joints = of.arm_joint.reshape(-1, 2)
+    outer = np.stack([2 * joints, 2 * joints + 1, 2 * n + joints], axis=-1).reshape(-1, 6)
+    axial = of.modulus * of.depth * of.thickness / of.l0
+    return pattern.Layout(
+        leader, np.ones(size), image.NONE, size - 1 if driven else -1, n, of.joints, np.arange(n),
+        of.edges[of.start[:-1], 1], wall_of, outer, float(axial.max()),
+    )  # fmt: skip
+
+
+def terms_of(of: Frame, curve: law.Law, measure: int, damping: damp.Damp) -> Terms:
+    """What damping reads: law, walls, stretch, bend, damp and mass; no folds and no contact."""
+    share = np.bincount(of.edges.ravel(), np.repeat(of.l0 * of.thickness, 2), len(of.points))
+    mass = np.zeros(of.rest.size)
+    mass[: 2 * len(of.points)] = np.repeat(share, 2)
+    none = np.empty(0)
+    return Terms(
+        curve, walls_of(of), stretch_of(of), bend_of(of, measure),
+        fold.Fold(np.empty((0, 3), np.int64), none, none), NO_SPRINGS, contact_of(of),
+        friction.Friction(0.0, 1.0), damping, mass, none, layout_of(of),
+        project.Projection(contact_of(of), none),
+    )  # fmt: skip
+
+
+def two_walls(gap: float, pieces=(3, 3), length=4.0, slope=0.0, shift=0.0) -> Frame:
+    """Two walls along x, the upper one ``gap`` above the lower; joints 0, 1 and 2, 3."""
+    joints = [(0, 0), (length, 0), (shift, gap), (length + shift, gap + slope * length)]
+    return frame(joints, [(0, 1), (2, 3)], pieces)
+
+
+def touching(of: Frame, apart: float = 50.0) -> contact.Contact:
+    """Contact of two walls that are not near each other at rest, so that no rule reduces it."""
+    moved = of.points.copy()
+    upper = np.unique(of.edges[of.pieces[0] :])
+    moved[upper, 1] += apart * of.millimetre
+    return contact_of(replace(of, points=moved))
+
+
+def only(listed: pairs.Pairs, node: int) -> pairs.Pairs:
+    """The pairs of one node."""
+    columns = listed._asdict()
+    count = columns.pop("count")
+    chosen = {name: column[listed.node == node] for name, column in columns.items()}
+    return pairs.Pairs(**chosen, count=count)

@@ -1,0 +1,126 @@
+"""Results made by hand, for tests of what reads them."""
+
+from itertools import count
+
+import numpy as np
+import pandas as pd
+
+from sweep.result import COLUMNS, HISTORY_COLUMNS, Result, Status
+from sweep.store.write import Writer
+
+HEIGHT, T = 10e-3, 1e-3  # of the squeezed cell
+
+_DEFAULTS = {
+    "status": "converged",
+    "message": "",
+    "lattice_kind": "square",
+    "cells_x": 3,
+    "cells_y": 3,
+    "wall_thickness_m": 0.8e-3,
+    "width_m": 12.2e-3,
+    "height_m": 12.2e-3,
+    "depth_m": 10e-3,
+    "outer_width_m": 13e-3,
+    "material": "ninjaflex",
+    "loading_mode": "displacement",
+    "platen": "glued",
+    "force_N": float("nan"),
+    "stroke_m": 6.1e-3,
+    "contact_model": "barrier",
+    "mass_g": 1.0,
+    "absorbed_energy_J": 0.05,
+    "peak_force_N": 20.0,
+    "densification_strain": 0.55,
+    "touched": 1,
+    "max_crossings": 0,
+    "cpu_s": 2.0,
+}
+
+
+CRUSHED_SOLID = {
+    "absorbed_energy_J": 0.9,
+    "absorbed_energy_at_densification_J": 0.2,
+    "absorbed_energy_within_model_J": 0.5,
+    "peak_force_N": 900.0,
+    "peak_force_at_densification_N": 30.0,
+    "returned_energy_J": 0.81,
+}
+SPARSE = {"absorbed_energy_J": 0.3, "returned_energy_J": 0.285, "densification_strain": np.nan}
+SPARSE |= {"peak_strain": 0.5, "peak_force_N": 25.0}
+
+
+def summary(*rows):
+    """Table with a row for each dict of what differs from a 3 x 3 grid crushed to one half.
+
+    Ids count from 0...0; J/g follows from energy and mass; energy and force until packed down, and
+    energy within the model, are those of the whole crush; columns not named are 0.
+    """
+    ids = count()
+    full = [{"case_id": f"{next(ids):016x}"} | _DEFAULTS | dict(row) for row in rows]
+    for row in full:
+        row["specific_absorption_J_per_g"] = row["absorbed_energy_J"] / row["mass_g"]
+        for name in ("absorbed_energy_at_densification_J", "absorbed_energy_within_model_J"):
+            row.setdefault(name, row["absorbed_energy_J"])
+        row.setdefault("peak_force_at_densification_N", row["peak_force_N"])
+    names = dict.fromkeys([*COLUMNS, *(name for row in full for name in row)])
+    return pd.DataFrame({name: [row.get(name, 0.0) for row in full] for name in names})
+
+
+def designs(masses, energies, **common):
+    """Rows with these masses (g) and absorbed energies (J)."""
+    pairs = zip(masses, energies, strict=True)
+    return [{"mass_g": mass, "absorbed_energy_J": energy} | common for mass, energy in pairs]
+
+
+def there_and_back(rows=21):
+    """A block of 10 mm pressed by 4 mm at a rising force and let up at half of it."""
+    travel = 4e-3 * np.concatenate([np.linspace(0, 1, rows), np.linspace(1, 0, rows)[1:]])
+    force = 20.0 + 2e3 * travel
+    force[rows:] *= 0.5
+    work = np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(travel)))
+    history = pd.DataFrame(0.0, index=range(len(travel)), columns=list(HISTORY_COLUMNS))
+    history["top_displacement_m"], history["strain"] = travel, travel / HEIGHT
+    history["reaction_top_N"] = history["reaction_bottom_N"] = force
+    history["work_in_J"], history["time_s"] = work, np.arange(len(travel)) * 1e-3
+    history["bend_J"], history["dissipated_friction_J"] = 0.7 * work, 0.3 * work
+    history["kinetic_J"] = 1e-4 * work
+    return history
+
+
+def under_dead_load():
+    """A block that sinks to 4 mm under 20 N while they are on, and rises when they are off."""
+    history = there_and_back()
+    loaded = np.arange(len(history)) <= history["strain"].idxmax()
+    history["reaction_top_N"] = np.where(loaded & (history["time_s"] > 0.0), 20.0, 0.0)
+    history["reaction_bottom_N"] = history["reaction_top_N"]
+    history["work_in_J"] = 20.0 * history["top_displacement_m"].cummax()
+    return history
+
+
+def squeezed_cell(platens=True, heights=(10.0, 9.0, 8.0, 7.0, 6.0, 5.0, 7.0, 10.0)):
+    """A single cell, 10 mm square with walls of 1 mm, squeezed flat and let up."""
+    position = np.array([[[0, 0], [10, 0], [10, h], [0, h]] for h in heights]) * 1e-3
+    top = np.array(heights) * 1e-3
+    plates = np.column_stack([np.full(len(top), -0.5 * T), top + 0.5 * T])
+    return {
+        "strain": 1.0 - top / HEIGHT,
+        "time_s": np.arange(len(top)) * 0.01,
+        "position_m": position,
+        "edges": np.array([[0, 1], [1, 2], [2, 3], [3, 0]]),
+        "edge_thickness_m": np.full(4, T),
+        "plate_y_m": plates if platens else np.full_like(plates, np.nan),
+    }
+
+
+def write(path, table, attributes=None):
+    """A results file with these rows; finished cases have curves and shapes."""
+    history = {name: column.to_numpy() for name, column in there_and_back().items()}
+    results = []
+    for row in table.to_dict("records"):
+        case_id, status, message = (row.pop(name) for name in ("case_id", "status", "message"))
+        ran = (history, squeezed_cell()) if status == "converged" else ({}, {})
+        results.append(Result(case_id, Status(status), message, row, *ran))
+    with Writer(path, attributes=attributes) as writer:
+        writer.append(results)
+        writer.fold()
+    return str(path)

@@ -1,0 +1,85 @@
+"""Cases that cost nothing and a `simulate` that invents their results, to test what lies around."""
+
+import os
+import time
+from pathlib import Path
+
+import numpy as np
+
+from sweep.config.case import Case, Lattice
+from sweep.result import (
+    COLUMNS,
+    HISTORY_COLUMNS,
+    Result,
+    Status,
+    absorbed_energy_column,
+    design_columns,
+)
+from sweep.store.write import Writer
+
+NODES = 5
+
+
+def cases(count, first=0):
+    """Cases that differ in one number, which is also their only grid key."""
+    values = [0.001 * number for number in range(first, first + count)]
+    axes = [{"lattice.imperfection": value} for value in values]
+    return [
+        Case(lattice=Lattice(imperfection=v), axes=a) for v, a in zip(values, axes, strict=True)
+    ]
+
+
+def number_of(case):
+    return round(case.lattice.imperfection / 0.001)
+
+
+def simulate(case, stop=None):
+    """A result whose every number follows from the case; case 7 fails."""
+    number = number_of(case)
+    measures = dict.fromkeys(list(COLUMNS)[3:], float(number)) | design_columns(case)
+    measures |= {"steps": 10 + number, "newton_iterations": 3, absorbed_energy_column(50): 0.5}
+    failed = number == 7
+    return Result(
+        case.case_id,
+        Status.STOPPED if failed else Status.CONVERGED,
+        "No step was short enough: try a smaller time_step." if failed else "",
+        measures,
+        {name: number + np.linspace(0.0, 1.0, 10 + number) for name in HISTORY_COLUMNS},
+        frames(number),
+    )
+
+
+def frames(number):
+    """Three frames, or four where the number of the case is odd."""
+    count = 3 + number % 2
+    points = np.arange(count * NODES * 2, dtype=np.float64).reshape(count, NODES, 2)
+    return {
+        "strain": np.linspace(0.0, 0.6, count),
+        "time_s": np.linspace(0.0, 0.1, count),
+        "position_m": 1e-3 * (points + number),
+        "edges": np.column_stack([np.arange(NODES - 1), np.arange(1, NODES)]),
+        "edge_thickness_m": np.full(NODES - 1, 8e-4),
+        "plate_y_m": np.full((count, 2), np.nan),
+    }
+
+
+def slow(case, stop=None):
+    """Like `simulate`, in 20 ms, and with a line in the file that $EXECUTIONS names."""
+    time.sleep(0.02)
+    with Path(os.environ["EXECUTIONS"]).open("a") as file:
+        file.write(f"{case.case_id}\n")
+    return simulate(case)
+
+
+def write(path, batch, fold=False, size=2, **about):
+    """Append results of a batch in pieces, as one run."""
+    with Writer(path, {case.case_id: case.axes for case in batch}, about) as writer:
+        for begin in range(0, len(batch), size):
+            writer.append([simulate(case) for case in batch[begin : begin + size]])
+        if fold:
+            writer.fold()
+
+
+def parts_of(path):
+    """The sealed parts of a results file, in order."""
+    return sorted(path.with_suffix(".parts").glob("*"))

@@ -1,0 +1,111 @@
+"""States of a 2 x 2 grid in which every term of a step acts, and steps that end there."""
+
+import numpy as np
+
+from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
+from sweep.scene.terms import build_scene
+from tests.solving import whole
+
+DT = 1e-3
+RAYLEIGH = Damping(model="rayleigh", mass=300.0, stiffness=1e-3)
+VISCOUS = Damping(model="kelvin_voigt", relaxation_time=1e-3)
+CURVE = Material(name="ninjaflex")
+SIZE = 12.5e-3
+GRIP = Contact(friction=0.3, slip_speed=0.1)  # smoothed below 0.1 mm in a step
+SLIDE = Contact(friction=0.3, slip_speed=1e-4)
+
+
+def loaded(elements=3, platen="contact", damping=RAYLEIGH, size=1.0, **tables):
+    """A 2 x 2 grid, ``size`` times as large as the usual one, under as much stress as by 3 N."""
+    lattice = Lattice(
+        cells_x=2, cells_y=2, nodes_per_wall=elements - 1, width=size * SIZE, height=size * SIZE,
+        depth=size * 12e-3, wall_thickness=size * 1.2e-3,
+    )  # fmt: skip
+    loading = Loading(force=3.0 * size**2, platen=platen, duration=0.01)
+    chosen = {"material": CURVE, "contact": GRIP, "solver": Solver(time_step=DT)} | tables
+    return build_scene(Case(lattice=lattice, loading=loading, damping=damping, **chosen))
+
+
+def driven(platen, elements=3):
+    """The same grid, pressed quasi-statically."""
+    return build_scene(
+        Case(
+            lattice=Lattice(cells_x=2, cells_y=2, nodes_per_wall=elements - 1),
+            loading=Loading(mode="displacement", strain=0.5, platen=platen),
+            material=CURVE,
+        )
+    )
+
+
+def unit(scene):
+    """Size of a coordinate (n,): the length of an element, 1 rad."""
+    size = np.full(scene.x_rest.size, scene.mesh.rest_length.mean())
+    size[2 * len(scene.mesh.points) : -2] = 1.0
+    return size
+
+
+def nodes(scene, x):
+    """View of the nodes (n, 2) of a state."""
+    return x[: 2 * len(scene.mesh.points)].reshape(-1, 2)
+
+
+def shaken(scene, x, seed, amount):
+    """State ``x`` with all but the platens moved at random, in units of each coordinate."""
+    move = amount * np.random.default_rng(seed).uniform(-1, 1, x.size)
+    move[-2:] = 0.0
+    return x + unit(scene) * move
+
+
+def bent(scene, seed=0):
+    return pressed(scene, shaken(scene, scene.x_rest, seed, 0.2))
+
+
+def pinched(scene, seed=0):
+    """The side walls of the lower left cell bulge inwards until they touch; platens press."""
+    x, t = scene.x_rest.copy(), scene.mesh.thickness[0]
+    points = nodes(scene, x)
+    size = np.ptp(points, axis=0)
+    for side, way in ((0.0, 1.0), (0.5, -1.0)):
+        high = points[:, 1] / size[1]
+        inner = (abs(points[:, 0] / size[0] - side) < 0.05) & (high > 0.1) & (high < 0.4)
+        points[inner, 0] += way * (0.25 * size[0] - 0.35 * t)
+    return pressed(scene, shaken(scene, x, seed, 0.03))
+
+
+def leaning(scene, seed=0):
+    """Cells sheared until their corners open by 11 degrees: folds act, and walls touch."""
+    x = scene.x_rest.copy()
+    points, lean = nodes(scene, x), np.radians(79.0)
+    points[:] = np.column_stack(
+        [points[:, 0] + points[:, 1] * np.sin(lean), points[:, 1] * np.cos(lean)]
+    )
+    return pressed(scene, shaken(scene, x, seed, 0.02))
+
+
+def pressed(scene, x):
+    """The platens moved to where they touch the outer nodes."""
+    y, t = nodes(scene, x)[:, 1], scene.mesh.thickness[0]
+    x[-2:] = y.min() - 0.3 * t, y.max() + 0.3 * t
+    return x
+
+
+STATES = {"bent": bent, "pinched": pinched, "leaning": leaning}
+
+
+def step_to(scene, x, seed, dt=DT):
+    """A step that ends in ``x``: from nearby, at a random velocity."""
+    x0 = shaken(scene, x, 100 + seed, 0.02)
+    x0[-2:] += 0.02 * unit(scene)[-2:]
+    v = 200.0 * unit(scene) * np.random.default_rng(200 + seed).uniform(-1, 1, x.size)
+    return whole(scene, x, x0, dt, v if np.isfinite(dt) else None, 0.7)
+
+
+SCENES = {
+    "free top": lambda: loaded(platen="none"),
+    "loose platen": loaded,
+    "loose and glued": lambda: loaded(platen="glued"),
+    "loose and glued, 1": lambda: loaded(1, "glued"),
+    "driven and glued": lambda: driven("glued"),
+    "driven and loose": lambda: driven("contact"),
+    "driven and loose, 6": lambda: driven("contact", 6),
+}

@@ -1,0 +1,217 @@
+"""Energies with dense derivatives, for tests of kernels, and these derivatives against differences.
+
+The Hessian of walls is put together here from the motions of their elements, apart from `condense`
+and `system`, which are compared with it.
+"""
+
+import numpy as np
+
+from kernels.terms import bend, elements as chain, contact, damping as damp
+from kernels.linear import block_matrix as entries, periodic_images as image
+from kernels.geometry import near_pairs as pairs
+from kernels.linear.block_matrix import Blocks
+from kernels.planar.potential import Terms
+
+
+class Term:
+    """An energy of the coordinates x (n,).
+
+    ``slope(x, g)`` adds its gradient to g and returns it; ``second(x, projected)``: Hessian (n, n).
+    """
+
+    def __init__(self, slope, second):
+        self.slope, self.second = slope, second
+
+    def energy(self, x: np.ndarray) -> float:
+        """Energy at ``x``."""
+        return self.slope(x, np.zeros_like(x))
+
+    def gradient(self, x: np.ndarray) -> np.ndarray:
+        """Gradient (n,) at ``x``."""
+        g = np.zeros_like(x)
+        self.slope(x, g)
+        return g
+
+    def hessian(self, x: np.ndarray, projected: bool = False) -> np.ndarray:
+        """Hessian (n, n) at ``x``, exact or ``projected``."""
+        return self.second(x, projected)
+
+
+def room(walls: chain.Walls) -> tuple[chain.Shape, chain.Stiffness]:
+    """Zero shape and stiffness of ``walls``."""
+    m, arms = len(walls.edges), walls.rotation.size
+    shape = chain.Shape(*map(np.zeros, ((2, m), m, m, arms, (2, m), arms)))
+    return shape, chain.Stiffness(*map(np.zeros, ((3, m), (4, m), (3, arms), arms // 2)))
+
+
+def motions(walls: chain.Walls, n: int) -> np.ndarray:
+    """Motion (2 m + 2 w, n) of every element vector and of the rotation of every arm's joint."""
+    m = len(walls.edges)
+    moved = np.zeros((2 * m + walls.rotation.size, n))
+    for k, (i, j) in enumerate(walls.edges):
+        moved[2 * k : 2 * k + 2, 2 * i : 2 * i + 2] = -np.eye(2)
+        moved[2 * k : 2 * k + 2, 2 * j : 2 * j + 2] = np.eye(2)
+    moved[2 * m + np.arange(walls.rotation.size), walls.rotation] = 1.0
+    return moved
+
+
+def assembled(walls: chain.Walls, stiffness: chain.Stiffness, n: int) -> np.ndarray:
+    """Hessian (n, n) of walls from what their elements, arms and hinges have."""
+    m, arms = len(walls.edges), walls.rotation.size
+    half = np.zeros((2 * m + arms, 2 * m + arms))  # diagonal blocks halved: the rest is mirrored
+    for k, (xx, xy, yy) in enumerate(stiffness.own.T):
+        half[2 * k : 2 * k + 2, 2 * k : 2 * k + 2] = [[0.5 * xx, 0.5 * xy], [0.5 * xy, 0.5 * yy]]
+    for k in range(m - 1):
+        half[2 * k : 2 * k + 2, 2 * k + 2 : 2 * k + 4] = stiffness.next[:, k].reshape(2, 2)
+    for a, (k, (x, y, phi)) in enumerate(zip(walls.arm_element, stiffness.arm.T, strict=True)):
+        half[2 * m + a, 2 * k : 2 * k + 2] = x, y
+        half[2 * m + a, 2 * m + a] = 0.5 * phi
+    for w, twist in enumerate(stiffness.twist):
+        half[2 * m + 2 * w, 2 * m + 2 * w + 1] = twist
+    moved = motions(walls, n)
+    return moved.T @ (half + half.T) @ moved
+
+
+def of_walls(walls: chain.Walls, bending: bend.Bend, add, x0=None) -> Term:
+    """Term of walls that ``add(shape, stiffness, projected)`` adds; turns count from x0 (or x)."""
+
+    def found(x, projected):
+        shape, stiffness = room(walls)
+        frame = np.full((walls.rotation.size, 3), np.inf)
+        bend.aim(x if x0 is None else x0, walls, bending, frame)
+        chain.measure(x, walls, shape)
+        bend.turns(x, walls, bending, frame, shape)
+        return add(shape, stiffness, projected), shape, stiffness
+
+    def slope(x, g):
+        value, shape, _ = found(x, False)
+        chain.gather(walls, shape, g)
+        return value
+
+    return Term(slope, lambda x, projected: assembled(walls, found(x, projected)[2], x.size))
+
+
+def bending_of(walls: chain.Walls, bending: bend.Bend, x0=None) -> Term:
+    """Bending with the folds of hinges; turns count from x0 (or x)."""
+
+    def add(shape, stiffness, projected):
+        return bend.evaluate(walls, bending, shape, stiffness, projected)
+
+    return of_walls(walls, bending, add, x0)
+
+
+def nowhere(terms: Terms) -> damp.Ahead:
+    """Rates are measured from where a step starts."""
+    return damp.Ahead(0.0, 0.0, *np.zeros((3, terms.mass.size)), room(terms.walls)[0])
+
+
+def before_of(terms: Terms, x0: np.ndarray) -> damp.Before:
+    """The start of a step from x0."""
+    walls = terms.walls
+    before = damp.Before(x0, x0, np.full((walls.rotation.size, 3), np.inf), *room(walls))
+    damp.prepare(terms, before, nowhere(terms))
+    return before
+
+
+def damping_of(terms: Terms, x0: np.ndarray, dt: float) -> Term:
+    """Damping of a step of ``dt`` from x0, with the Hessian of its mass, which a step adds."""
+    walls, before = terms.walls, before_of(terms, x0)
+
+    def found(x, projected, g):
+        shape, stiffness = room(walls)
+        chain.measure(x, walls, shape)
+        bend.turns(x, walls, terms.bend, before.frame, shape)
+        value = damp.evaluate(x - x0, terms, before, dt, shape, stiffness, projected, g)
+        return value, stiffness
+
+    def second(x, projected):
+        _, stiffness = found(x, projected, np.zeros_like(x))
+        return assembled(walls, stiffness, x.size) + np.diag(terms.damp.alpha_m / dt * terms.mass)
+
+    return Term(lambda x, g: found(x, False, g)[0], second)
+
+
+def full_matrix(n: int) -> Blocks:
+    """Matrix with room for every pair of ``n`` coordinates, two of them in a block."""
+    c = np.arange(n)
+    nb = (n + 1) // 2
+    start = np.cumsum([0, *range(nb - 1, -1, -1)])
+    row = np.concatenate([np.arange(j + 1, nb) for j in range(nb)])
+    return entries.shaped(3 * (c // 2) + c % 2, start, row, np.ones(n), image.NONE)
+
+
+def by_home(matrix: Blocks) -> np.ndarray:
+    """Symmetric (3 nb, 3 nb) array of the blocks of a matrix."""
+    nb = matrix.start.size - 1
+    cells = matrix.values[:-1].reshape(-1, 3, entries.STRIDE)[:, :, :3].transpose(0, 2, 1)
+    full = np.zeros((nb, nb, 3, 3))
+    full[np.arange(nb), np.arange(nb)] = cells[:nb]
+    full[matrix.row, np.repeat(np.arange(nb), np.diff(matrix.start))] = cells[nb:]
+    lower = np.tril(full.transpose(0, 2, 1, 3).reshape(3 * nb, 3 * nb))
+    return lower + np.tril(lower, -1).T
+
+
+def dense(matrix: Blocks) -> np.ndarray:
+    """Symmetric (n, n) array by coordinate of a matrix in which each has a home of its own."""
+    return by_home(matrix)[np.ix_(matrix.home, matrix.home)] + np.diag(matrix.diagonal)
+
+
+def of_points(slope, add) -> Term:
+    """Term with ``slope(x, g)`` as in `Term`, whose Hessian ``add(x, matrix, projected)`` adds."""
+
+    def second(x, projected):
+        matrix = full_matrix(x.size)
+        add(x, matrix, projected)
+        assert matrix.missing[0] == 0
+        return dense(matrix)
+
+    return Term(slope, second)
+
+
+def touch_of(contacts: contact.Contact, listed: pairs.Pairs, anchor: np.ndarray) -> Term:
+    """Contact with the pairs that were listed at ``anchor`` (n,)."""
+
+    def slope(x, g):
+        drift = pairs.farthest(x, anchor, contacts.tributary.size)
+        return contact.evaluate(x, contacts, listed, drift, g)
+
+    def add(x, matrix, projected):
+        slope(x, np.zeros_like(x))
+        contact.hessian(x, contacts, listed, matrix, projected)
+
+    return of_points(slope, add)
+
+
+def differences(function, x: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """Fourth-order central differences of ``function`` at ``x`` in steps of each coordinate."""
+    rows = []
+    for i in range(x.size):
+        e = np.zeros_like(x)
+        e[i] = step[i]
+        close = function(x + e) - function(x - e)
+        far = function(x + 2 * e) - function(x - 2 * e)
+        rows.append((8 * close - far) / (12 * step[i]))
+    return np.array(rows)
+
+
+def derivative_error(term, x: np.ndarray, unit=1.0, step: float = 1e-3) -> float:
+    """Largest error of gradient and exact Hessian against differences, relative to their size.
+
+    unit: size of a coordinate, a number or (n,); step: of the differences, in that unit.
+    """
+    unit = np.broadcast_to(unit, x.shape)
+    slope = term.gradient(x) * unit
+    curvature = term.hessian(x) * np.outer(unit, unit)
+    by_energy = differences(term.energy, x, step * unit) * unit
+    by_slope = differences(term.gradient, x, step * unit) * np.outer(unit, unit)
+    stiffest, steepest = np.abs(curvature).max(), np.abs(slope).max()
+    in_slope = np.abs(slope - by_energy).max() / (steepest + step * stiffest or 1.0)
+    in_curvature = np.abs(curvature - by_slope).max() / (stiffest or steepest or 1.0)
+    return max(in_slope, in_curvature)
+
+
+def least_share(term, x: np.ndarray, unit=1.0) -> float:
+    """Smallest eigenvalue of the projected Hessian as a share of the largest one."""
+    unit = np.broadcast_to(unit, x.shape)
+    values = np.linalg.eigvalsh(term.hessian(x, True) * np.outer(unit, unit))
+    return values[0] / np.abs(values).max()

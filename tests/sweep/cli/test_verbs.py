@@ -1,0 +1,293 @@
+"""The command line: what it answers, what it refuses, and with which exit status."""
+
+import io
+import json
+import subprocess
+import sys
+from importlib import import_module
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from specimens import designs, summary, write
+from standin import simulate
+
+from sweep.__main__ import main
+from sweep.running.sweep import Interrupted
+from sweep.store.read import read_summary
+
+CONFIG = """
+name = "trial"
+[grid]
+"lattice.imperfection" = {values}
+[rank]
+budgets = ["5 g", "20 g"]
+"""
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    """Five designs, two of which failed in the same way."""
+    rows = designs([1.0, 2.0, 4.0, 1.0, 1.0], [0.1, 0.3, 0.4, 0.0, 0.0])
+    for row, strain in zip(rows[3:], ["0.5", "0.41"], strict=True):
+        row |= {"status": "stopped", "message": f"stopped at strain {strain} in 4: smaller steps"}
+    config = {"rank": {"budgets": [0.002], "panel": None}}
+    attributes = {"config": json.dumps(config), "git_revision": "abc123", "version_numpy": "9.9"}
+    return write(tmp_path_factory.mktemp("cli") / "trial.h5", summary(*rows), attributes)
+
+
+@pytest.fixture
+def config(tmp_path, monkeypatch):
+    """A sweep of three cases on the stand-in of tests/standin.py, of which one fails."""
+    monkeypatch.setattr(import_module("sweep.simulation.simulate"), "simulate", simulate)
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "trial.toml"
+    path.write_text(CONFIG.format(values=[0.006, 0.007, 0.008]))
+    return str(path)
+
+
+def crumple(capsys, *arguments):
+    """Exit status, stdout and stderr of a call."""
+    try:
+        status = main(arguments)
+    except SystemExit as stop:
+        status = stop.code
+    return status, *capsys.readouterr()
+
+
+def test_help_teaches_every_verb_by_an_example():
+    done = subprocess.run(
+        [sys.executable, "-m", "sweep", "--help"], capture_output=True, text=True, check=True
+    )
+    verbs = ("run", "accuracy", "warm", "status", "rank", "show")
+    assert all(f"crumple {verb} " in done.stdout for verb in verbs)
+
+
+REFUSED = [
+    ([], "required: VERB"),
+    (["fly"], "invalid choice"),
+    (["rank"], "required: F.h5"),
+    (["rank", "nowhere.h5"], "nowhere.h5"),
+    (["status", "nowhere.h5"], "nowhere.h5"),
+    (["rank", "FILE", "--budget", "25"], "a bare number"),
+    (["rank", "FILE", "--budget", "25 mm"], "another kind"),
+    (["rank", "FILE", "--budget", "-1 oz"], "-1 oz: budgets, panels and forces must be above zero"),
+    (["rank", "FILE", "--panel", "100 mm"], "expected 2 arguments"),
+    (["rank", "FILE", "--by", "peak_forse_N"], "did you mean peak_force_N?"),
+    (["rank", "FILE", "--allowed-force", "50 N"], "set loading.allowed_forces"),
+    (["rank", "FILE", "--top", "0"], "1 or more"),
+    (["rank", "FILE", "--csv", "--json"], "not allowed with"),
+    (["show", "FILE", "zz"], 'no case "zz"'),
+    (["show", "FILE", "0"], "begins 5 ids: 0000000000000000"),
+    (["run", "nowhere.toml"], "nowhere.toml"),
+    (["run", "nowhere.toml", "--workers", "none"], "1 or more"),
+    (["run", "nowhere.toml", "--out", ""], "an empty path"),
+    (["run", "nowhere.toml", "--out", "/dev/full"], "argument --out: '/dev/full'; allowed: a file"),
+    (["rank", "FILE", "--out", ""], "an empty path"),
+    (["rank", ""], "an empty path"),
+    (["rank", "FILE", "--out", "FILE"], "trial.h5' is a file; allowed: a folder\n"),
+    (["show", "FILE", "zz", "--out", "FILE"], "trial.h5' is a file; allowed: a folder\n"),
+    (["accuracy", "nowhere.toml", "--out", "FILE"], "trial.h5' is a file; allowed: a folder\n"),
+    (["run", "nowhere.toml", "--out", "LINK"], "a.h5'; allowed: a file whose name ends in .h5"),
+    (["rank", "FILE", "--out", "/dev/full/x"], "/dev/full/x is or lies in a file; allowed: a "),
+    (["rank", "FILE", "--out", "/proc/x"], "/proc/x cannot be written: "),
+    (["rank", "/proc"], "/proc cannot be read: Is a directory"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "expected"), REFUSED)
+def test_refusals_take_two_lines_and_exit_with_2(capsys, file, tmp_path, arguments, expected):
+    link = tmp_path / "a.h5"
+    link.symlink_to("/dev/null")
+    words = [{"FILE": file, "LINK": str(link)}.get(word, word) for word in arguments]
+    status, out, err = crumple(capsys, *words)
+    assert (status, out) == (2, "")
+    assert expected in err
+    assert err.count("\n") <= 2
+
+
+def test_pictures_need_a_folder(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({"case_id": "ab"}))
+    refused = {
+        f"{file}/x": "is or lies in a file; allowed: a folder",
+        "/proc/x": "cannot be written: No such file or directory",
+    }
+    for folder, why in refused.items():
+        status, _, err = crumple(capsys, "show", file, "ab", "--out", folder)
+        assert (status, err) == (2, f"crumple show: {folder} {why}\n")
+
+
+@pytest.mark.parametrize("words", [["status"], ["rank"], ["show"], ["rank", "--csv"]])
+def test_damaged_file_is_refused_in_one_line(capsys, tmp_path, words):
+    file = Path(write(tmp_path / "trial.h5", summary({"case_id": "ab"})))
+    file.write_bytes(file.read_bytes()[:-1000])
+    status, out, err = crumple(capsys, words[0], str(file), *words[1:])
+    assert (status, out) == (2, "")
+    assert err.startswith(f"crumple {words[0]}: {file} is not a results file of Crumple, or is dam")
+    assert err.count("\n") == 1
+
+
+def test_config_of_a_file_that_cannot_be_read(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({}), {"config": "{"})
+    status, _, err = crumple(capsys, "rank", file)
+    assert (status, err) == (2, f"crumple rank: {file} is damaged: the config in it is no JSON\n")
+
+
+def test_ranking_counts_failures_aloud(capsys, file):
+    status, out, _ = crumple(capsys, "rank", file, "--by", "specific_absorption_J_per_g")
+    assert status == 1
+    assert "Best first: most energy per gram." in out
+    assert f"2 of 5 cases failed: crumple status {file} says why" in out
+    table = out.partition("──\n")[2].splitlines()
+    assert [line[:2] for line in table[:3]] == ["1*", "2*", "2*"]
+
+
+def test_ranking_without_options_is_that_of_the_config(capsys, file):
+    _, out, _ = crumple(capsys, "rank", file)
+    assert "At most 2 g. Best first: most energy." in out
+
+
+def test_config_speaks_where_the_arguments_are_silent(capsys, tmp_path):
+    config = {"rank": {"budgets": [0.5], "panel": [0.1, 0.05]}}
+    file = write(tmp_path / "trial.h5", summary({}), {"config": json.dumps(config)})
+    heading = "Panel of 100 mm x 50 mm, filled with specimens side by side. At most {} g. Best"
+    assert heading.format(500) in crumple(capsys, "rank", file)[1]
+    assert heading.format(200) in crumple(capsys, "rank", file, "--budget", "200 g")[1]
+    other = heading.replace("100 mm x 50 mm", "4 in x 2in").format(500)
+    assert other in crumple(capsys, "rank", file, "--panel", "4 in", "2in")[1]
+    assert "At most 2 oz. Best" in crumple(capsys, "rank", file, "--budget", "2 oz")[1]
+    assert crumple(capsys, "rank", file, "--by", "mass_g")[1].startswith("Best first: least mass_g")
+
+
+def test_tables_fit_a_terminal_of_80_columns(capsys, file, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    panel = ["--panel", "100 mm", "50 mm"]
+    _, out, _ = crumple(capsys, "rank", file, *panel, "--budget", "200 g", "400 g")
+    assert "Panel of 100 mm x 50 mm" in out
+    assert max(len(line) for line in out.splitlines() if "crumple status" not in line) <= 100
+    assert "…" not in out
+
+
+def test_budget_that_nothing_meets_is_told(capsys, file):
+    status, out, _ = crumple(capsys, "rank", file, "--budget", "0.5 g")
+    assert status == 1
+    assert "Nothing weighs 0.5 g or less: the lightest weighs 1 g." in out
+
+
+def test_ranking_without_any_finished_case_is_no_ranking(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({"status": "stopped"}, {"status": "timed_out"}))
+    status, out, _ = crumple(capsys, "rank", file)
+    assert (status, out) == (1, f"2 of 2 cases failed: crumple status {file} says why\n")
+
+
+def test_csv_json_and_markdown_are_clean(capsys, file):
+    status, text, errors = crumple(capsys, "rank", file, "--csv")
+    assert errors == f"2 of 5 cases failed: crumple status {file} says why\n"
+    table = pd.read_csv(io.StringIO(text), dtype={"case_id": str})
+    assert status == 1
+    assert list(table["case_id"]) == [f"{1:016x}", f"{0:016x}"]
+    records = json.loads(crumple(capsys, "rank", file, "--json")[1])
+    assert [record["place"] for record in records] == [1, 2]
+    lines = crumple(capsys, "rank", file, "--markdown")[1].splitlines()
+    assert {line[0] for line in lines[2:]} == {"|"}
+
+
+def test_folder_holds_tables_and_figures(capsys, file, tmp_path):
+    folder = tmp_path / "trial"
+    _, out, _ = crumple(capsys, "rank", file, "--out", str(folder))
+    names = ["ranking.md", "ranking.csv", "absorption.png", "winners.png"]
+    assert out.split() == [str(folder / name) for name in names]
+    assert all((folder / name).stat().st_size > 200 for name in names)
+    assert len(pd.read_csv(folder / "ranking.csv")) == 3
+
+
+def test_status_gathers_failures_of_one_kind(capsys, file):
+    status, out, _ = crumple(capsys, "status", file)
+    assert status == 1
+    assert "      3 converged\n      2 stopped\n" in out
+    kind = "2 x stopped at strain 0.41 to 0.5 in 4: smaller steps"
+    assert f"{kind} (case 0000000000000003, 0000000000000004)\ncrumple show {file} lists" in out
+    assert "10 s of processor time" in out
+    assert "abc123" in out
+    assert "numpy 9.9" in out
+
+
+def test_status_tells_how_many_cases_it_does_not_name(capsys, tmp_path):
+    sentences = ["at -2e-3 of 9", "at 5 of 9", "at 10 of 9", "at 0.5 of 9", "lost"]
+    rows = [{"status": "stopped", "message": text} for text in sentences]
+    file = write(tmp_path / "trial.h5", summary(*rows))
+    _, out, _ = crumple(capsys, "status", file)
+    assert "4 x at -2e-3 to 10 of 9 (case 0000000000000000, 0000000000000001, " in out
+    assert "000000000002 and 1 more)\n1 x lost (case 0000000000000004)\n" in out
+    file = write(tmp_path / "done.h5", summary({}))
+    assert "crumple show" not in crumple(capsys, "status", file)[1]
+
+
+def test_show_draws_the_case_whose_id_begins_so(capsys, tmp_path):
+    table = summary(
+        {"case_id": "ab01"}, {"case_id": "ab02"}, {"case_id": "cd", "status": "stopped"}
+    )
+    file = write(tmp_path / "trial.h5", table)
+    status, out, _ = crumple(capsys, "show", file, "ab02")
+    pictures = [Path(line) for line in out.splitlines()[1:]]
+    assert status == 0
+    assert [path.name for path in pictures] == ["force.png", "energies.png", "shapes.png"]
+    assert {path.parent for path in pictures} == {tmp_path / "trial" / "ab02"}
+    assert all(path.read_bytes().startswith(b"\x89PNG") for path in pictures)
+    assert "nothing to draw" in crumple(capsys, "show", file, "cd")[1]
+
+
+def test_show_without_a_case_lists_what_makes_them_differ(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({"cells_x": 2}, {"platen": "contact"}))
+    _, out, _ = crumple(capsys, "show", file)
+    rows = [line.split() for line in out.splitlines() if line.startswith("0")]
+    assert [row[1:4] for row in rows] == [["2", "x", "3"], ["3", "x", "3"]]
+    assert "contact platens" in out
+
+
+def test_run_simulates_ranks_and_tells_of_failures(capsys, config):
+    status, out, _ = crumple(capsys, "run", config)
+    assert status == 1
+    assert "1 of 3 cases failed: crumple status results/trial.h5 says why" in out
+    assert "Nothing weighs 5 g or less: the lightest weighs 6 g." in out
+    assert list(read_summary("results/trial.h5")["status"]) == ["converged", "stopped", "converged"]
+
+
+def test_dry_run_counts_and_writes_nothing(capsys, config, tmp_path):
+    status, out, _ = crumple(capsys, "run", config, "--dry-run")
+    assert status == 0
+    assert "3 different cases, 0 of them finished in results/trial.h5" in out
+    assert "estimate" in out
+    assert [path.name for path in tmp_path.iterdir()] == ["trial.toml"]
+    crumple(capsys, "run", config)
+    assert "nothing is left to run" in crumple(capsys, "run", config, "--dry-run")[1]
+    assert (
+        "estimate for 1 cases" in crumple(capsys, "run", config, "--dry-run", "--retry-failed")[1]
+    )
+
+
+def test_error_bars_run_companions_in_a_file_of_their_own(capsys, config):
+    _, out, _ = crumple(capsys, "run", config, "--error-bars", "--dry-run")
+    assert "error bars: 6 companions, 0 of them finished" in out
+    assert "estimate for 9 cases" in out
+    status, out, _ = crumple(capsys, "run", config, "--error-bars")
+    assert status == 1
+    assert "error bars of 2 designs: 4 companions, in results/trial.companions.h5" in out
+    assert "1 of 3 cases failed: crumple status results/trial.h5 says why" in out
+    assert "±: estimated error" in out
+    _, out, _ = crumple(capsys, "status", "results/trial.h5")
+    assert out.startswith("results/trial.h5: 3 cases")
+    assert "2 of 2 finished cases have error bars\n" in out
+    assert len(read_summary("results/trial.companions.h5")) == 4
+
+
+@pytest.mark.parametrize(
+    ("stop", "told"),
+    [(KeyboardInterrupt(), "interrupted\n"), (Interrupted("it keeps 3 of 4"), "it keeps 3 of 4\n")],
+)
+def test_interruption_says_what_is_kept(capsys, config, monkeypatch, stop, told):
+    def interrupt(*_):
+        raise stop
+
+    monkeypatch.setattr("sweep.run.run_sweep", interrupt)
+    assert crumple(capsys, "run", config) == (1, "", told)

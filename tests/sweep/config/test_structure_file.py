@@ -1,0 +1,185 @@
+"""What is wrong with the file of a structure is said in one line each."""
+
+import json
+
+import pytest
+
+from sweep.config.units import ConfigError, load_config
+from sweep.config.grid import expand
+
+GOOD = {"nodes_mm": [[0, 0], [10, 0], [10, 5]], "walls": [[0, 1], [1, 2]]}
+FIXED = [{"node": 0, "fix": ["x", "y", "rotation"]}]
+
+WRONG = {
+    "unknown key": ({"wals": []}, "wals: unknown key; the nearest is walls"),
+    "unknown key inside": (
+        {"supports": [{"node": 0, "fixed": ["x"]}]},
+        "supports[0].fixed: unknown key; the nearest is fix",
+    ),
+    "no such node": ({"probes": [0, 3]}, "probes[1] = 3: no such node; allowed: 0 to 2"),
+    "no such end": ({"walls": [[0, 1], [1, 7]]}, "walls[1][1] = 7: no such node; allowed: 0 to 2"),
+    "wrong way": (
+        {"supports": [{"node": 0, "fix": ["z"]}]},
+        "supports[0].fix[0] = \"z\": does not fit; allowed: 'x', 'y' or 'rotation'",
+    ),
+    "thickness": (
+        {"wall_thickness_mm": 0},
+        "wall_thickness_mm = 0: does not fit; allowed: greater than 0",
+    ),
+    "thickness in a list": (
+        {"wall_thickness_mm": [1.0, -1.0]},
+        "wall_thickness_mm[1] = -1.0: does not fit; allowed: greater than 0",
+    ),
+    "length of a list": (
+        {"subdivide": [4]},
+        "subdivide = [4]: 1 values; allowed: one value, or one for each wall, 2 here",
+    ),
+    "text for a number": (
+        {"depth_mm": "10 mm"},
+        'depth_mm = "10 mm": does not fit; allowed: a valid number',
+    ),
+    "rest angles": (
+        {"rest_angles": "round"},
+        "rest_angles = \"round\": does not fit; allowed: 'as_drawn'",
+    ),
+    "wall without length": (
+        {"walls": [[0, 1], [1, 2], [2, 2]]},
+        "walls[2] = [2, 2]: has no length; allowed: two nodes apart",
+    ),
+    "spring without length": (
+        {"springs": [{"nodes": [1, 1], "stiffness_N_mm": 1}]},
+        "springs[0].nodes = [1, 1]: has no length; allowed: two nodes apart",
+    ),
+    "floor above a wall": (
+        {"floor_y_mm": 1},
+        "floor_y_mm = 1.0: node 0 is -1 mm above it, half its wall 0.4 mm; allowed: at most -0.4"
+        " here",
+    ),
+    "floor within a wall": (
+        {"floor_y_mm": -0.7, "wall_thickness_mm": [1.0, 2.0]},
+        "floor_y_mm = -0.7: node 1 is 0.7 mm above it, half its wall 1 mm; allowed: at most -1"
+        " here",
+    ),
+    "same wall twice": (
+        {"walls": [[0, 1], [1, 2], [1, 0]]},
+        "walls[2] = [1, 0]: lies upon wall 0; allowed: walls in different directions at a node",
+    ),
+    "crossing": (
+        {
+            "nodes_mm": [[0, 0], [10, 0], [10, 5], [0, 5]],
+            "walls": [[0, 2], [1, 2], [1, 3]],
+        },
+        "walls[2] = [1, 3]: meets wall 0 without a common node; allowed: walls that meet at nodes",
+    ),
+    "loose node": (
+        {"nodes_mm": [[0, 0], [10, 0], [10, 5], [99, 9]]},
+        "nodes_mm[3] = [99.0, 9.0]: no wall ends here; allowed: nodes of walls",
+    ),
+    "two pieces": (
+        {"nodes_mm": [[0, 0], [10, 0], [10, 5], [0, 5]], "walls": [[0, 1], [2, 3]]},
+        "walls[1] = [2, 3]: not connected with wall 0; allowed: a structure in one piece",
+    ),
+    "led and held": (
+        {"supports": FIXED, "prescribed": [{"node": 0, "direction": "x", "displacement_mm": 1}]},
+        'prescribed[0].direction = "x": held or led already; allowed: one support or one prescribed'
+        " move of each",
+    ),
+    "angle of a move": (
+        {"prescribed": [{"node": 0, "direction": "x", "angle_rad": 1}]},
+        'prescribed[0].direction = "x": does not fit; allowed: displacement_mm, and no angle_rad,'
+        " with this direction",
+    ),
+    "moment at a pin": (
+        {"pins": [1], "loads": [{"node": 1, "moment_Nmm": 2}]},
+        "pins[0] = 1: has no rotation to fix, lead or load; allowed: nodes without",
+    ),
+}
+
+
+@pytest.fixture
+def lines(tmp_path):
+    """What is said about a config of a structure with these parts, a list of lines."""
+
+    def said(parts, more=""):
+        (tmp_path / "own.json").write_text(parts if isinstance(parts, str) else json.dumps(parts))
+        path = tmp_path / "own.toml"
+        path.write_text(f'[lattice]\nkind = "custom"\nfile = "own.json"\n{more}')
+        try:
+            assert len(expand(load_config(path))) == 1
+        except ConfigError as error:
+            return str(error).splitlines()
+        return []
+
+    return said
+
+
+def test_a_sound_file_is_read(lines):
+    assert lines(GOOD) == []
+
+
+@pytest.mark.parametrize("what", WRONG)
+def test_a_mistake_is_a_line(lines, what):
+    parts, wanted = WRONG[what]
+    assert lines(GOOD | parts) == [f'lattice.file = "own.json": {wanted}']
+
+
+def test_all_mistakes_are_told(lines):
+    found = lines(GOOD | {"depth_mm": -1, "floor_y_mm": "low", "probes": [-1]})
+    assert len(found) == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [("{", "not JSON ("), ("[]", "not a JSON object"), ('{"walls": [[0, 1]]}', "nodes_mm is miss")],
+)
+def test_what_is_no_structure(lines, text, wanted):
+    (line,) = lines(text)
+    assert line.startswith(f'lattice.file = "own.json": {wanted}')
+
+
+STATIC = '[solver]\nintegrator = "static"'
+
+
+@pytest.mark.parametrize(
+    ("parts", "loose"),
+    [
+        ({}, "node 1 can move in y"),
+        ({"supports": [{"node": 0, "fix": ["x", "y"]}]}, "node 1 can move in y"),
+        ({"supports": FIXED, "pins": [1]}, "node 2 can move in x"),
+        ({"supports": FIXED}, ""),
+        ({"supports": [{"node": 0, "fix": ["x", "y"]}, {"node": 2, "fix": ["y"]}]}, ""),
+    ],
+)
+def test_a_mechanism_has_no_equilibrium(lines, parts, loose):
+    found = lines(GOOD | parts, STATIC)
+    wanted = (
+        'solver.integrator = "static": does not fit; allowed: "backward_euler", "bdf2" or'
+        ' "newmark", or more'
+    )
+    assert found == ([f"{wanted} supports: {loose} without resistance"] if loose else [])
+    assert lines(GOOD | parts) == []
+
+
+def test_file_and_kind_go_together(lines, tmp_path):
+    (tmp_path / "square.toml").write_text('[lattice]\nfile = "own.json"')
+    lines(GOOD)
+    with pytest.raises(ConfigError, match=r'has no effect, as lattice\.kind is "square"'):
+        load_config(tmp_path / "square.toml")
+    (tmp_path / "bare.toml").write_text('[lattice]\nkind = "custom"')
+    with pytest.raises(ConfigError, match=r"lattice.file is missing; needed: the path of a .json"):
+        load_config(tmp_path / "bare.toml")
+
+
+@pytest.mark.parametrize(
+    "more", ['width = "9 mm"', '[loading]\nforce = "3 N"', '[loading]\nplaten = "glued"']
+)
+def test_keys_of_other_lattices_have_no_effect(lines, more):
+    (line,) = lines(GOOD, more)
+    assert line.endswith('has no effect, as lattice.kind is "custom"')
+    assert len(lines(GOOD, '[loading]\nmode = "custom"\nduration = "5 ms"')) == 0
+
+
+def test_mode_of_a_structure_is_its_own(tmp_path):
+    (tmp_path / "square.toml").write_text('[loading]\nmode = "custom"')
+    with pytest.raises(ConfigError, match=r'unless lattice\.kind is "custom"'):
+        load_config(tmp_path / "square.toml")

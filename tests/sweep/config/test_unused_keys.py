@@ -1,0 +1,171 @@
+"""No key that a user writes is without effect in silence: a sweep that needs it not says so."""
+
+import json
+
+import pytest
+
+from sweep.config.units import ConfigError, load_config
+from sweep.config.grid import expand
+from tests.structures import BEAM, ROD
+
+BOTH = '[grid]\nloading.mode = ["force", "displacement"]\n'
+PRESSED = '[loading]\nmode = "displacement"\n'
+STATIC = "as the crush is quasi-static"
+LOADED = 'as loading.mode is "force"'
+
+IDLE = {
+    PRESSED + 'force = "3 N"': 'loading.force = "3 N": as loading.mode is "displacement"',
+    '[loading]\nforce = "3 N"\nload_steps = 9': f"loading.load_steps = 9: {LOADED}",
+    '[loading]\nmode = "force"\nstrain = 0.5': f"loading.strain = 0.5: {LOADED}",
+    PRESSED + '[damping]\nmass = "5 1/s"': f'damping.mass = "5 1/s": {STATIC}',
+    PRESSED + '[damping]\nmodel = "kelvin_voigt"': f'damping.model = "kelvin_voigt": {STATIC}',
+    PRESSED + '[solver]\ntime_step = "1 ms"': f'solver.time_step = "1 ms": {STATIC}',
+    PRESSED + '[solver]\nintegrator = "backward_euler"': (
+        f'solver.integrator = "backward_euler": {STATIC}'
+    ),
+    PRESSED + '[contact]\nslip_speed = "1 mm/s"': f'contact.slip_speed = "1 mm/s": {STATIC}',
+    '[contact]\nslip_speed = "1 mm/s"\nfriction = 0.0': (
+        'contact.slip_speed = "1 mm/s": as contact.friction is 0'
+    ),
+    '[contact]\nmodel = "none"\nfriction = 0.2': (
+        'contact.friction = 0.2: as contact.model is "none"'
+    ),
+    '[damping]\nrelaxation_time = "1 ms"': (
+        'damping.relaxation_time = "1 ms": as damping.model is "rayleigh"'
+    ),
+    '[loading]\nspeed = "1 m/s"\n[solver]\nload_steps = 9\ntime_step = "1 ms"': (
+        'solver.time_step = "1 ms": as solver.load_steps sets it'
+    ),
+    PRESSED + '[grid]\nloading.force = ["1 N", "2 N"]': (
+        '[grid] loading.force = ["1 N", "2 N"]: as loading.mode is "displacement"'
+    ),
+    "[[zip]]\nlattice.cells = [2, 3]\nloading.load_steps = [9, 8]": (
+        f"[[zip]] loading.load_steps = [9, 8]: {LOADED}"
+    ),
+    '[material]\nplane = "stress"\n[grid]\nmaterial.poisson = [0.3, 0.4]': (
+        '[grid] material.poisson = [0.3, 0.4]: as material.plane is "stress"'
+    ),
+    '[[zip]]\nloading.mode = ["displacement", "displacement"]\nloading.force = ["", "5 N"]': (
+        '[[zip]] loading.force = ["", "5 N"]: as loading.mode is "displacement"'
+    ),
+    PRESSED + 'force = "3 N"\n[[zip]]\ncontact.friction = [0.1]\nloading.load_steps = [""]': (
+        'loading.force = "3 N": as loading.mode is "displacement"'
+    ),
+    BOTH + f"contact.stiffness = {[0.1 + 0.01 * i for i in range(20)]}\n"
+    '[contact]\nmodel = "none"': '[grid] contact.stiffness = [...]: as contact.model is "none"',
+    BOTH + '[[exclude]]\nloading.mode = "force"\n[loading]\nforce = "3 N"': (
+        'loading.force = "3 N": as loading.mode is "displacement"'
+    ),
+}
+
+NEEDED = [
+    BOTH + '[loading]\nforce = "3 N"\nstrain = 0.5\nload_steps = 9\n[damping]\nmass = "1 1/s"',
+    '[loading]\nquasi_static = true\nspeed = "100 mm/min"',  # a label
+    '[loading]\nspeed = "1 m/s"\n[solver]\ntime_step = "0.17 ms"',  # made to fit the stroke
+    '[loading]\nspeed = "1 m/s"\n[damping]\nmass = "1 1/s"\n[contact]\nslip_speed = "1 m/s"',
+    '[[zip]]\nloading.mode = ["force", "displacement"]\nloading.force = ["3 N", ""]',
+    '[[zip]]\nloading.mode = ["displacement", "displacement"]\nloading.force = ["", ""]',
+    '[material]\nplane = "stress"\npoisson = 0.4\n[loading]\nallowed_forces = ["1 N"]',
+    '[contact]\nmodel = "none"\nfriction = 0.2\n[loading]\nplaten = "contact"',
+    PRESSED + '[damping]\nmodel = "none"\n[solver]\nintegrator = "static"',
+    "[lattice]\ncells = 3\n[grid]\nlattice.cells = [2, 3]",
+]
+
+
+@pytest.fixture
+def load(tmp_path):
+    def loaded(text):
+        path = tmp_path / "sweep.toml"
+        path.write_text(text)
+        return load_config(path)
+
+    return loaded
+
+
+@pytest.mark.parametrize("text", IDLE)
+def test_a_key_that_no_case_needs_is_refused_with_the_reason(load, text):
+    with pytest.raises(ConfigError) as caught:
+        load(text)
+    key, why = IDLE[text].split(": as")
+    assert str(caught.value) == f"{key}: has no effect, as{why}"
+
+
+@pytest.mark.parametrize("text", NEEDED)
+def test_a_key_that_some_case_needs_is_fine(load, text):
+    assert len(expand(load(text))) > 0
+
+
+def test_all_idle_keys_are_told_at_once_and_after_a_misspelt_one_none(load):
+    text = PRESSED + '[damping]\nmass = "5 1/s"\n[solver]\ntime_step = "1 ms"\n'
+    with pytest.raises(ConfigError, match=r"(?s)damping\.mass.*\n.*time_step.*quasi-static$"):
+        load(text)
+    with pytest.raises(ConfigError, match=r"^lattice\.cels [^\n]*$"):
+        load(text + "[lattice]\ncels = 3")
+
+
+def test_mode_is_inferred_in_a_sweep_too(load):
+    cases = expand(load("[grid]\nloading.strain = [0.3, 0.5]"))
+    assert [(case.loading.mode, case.loading.strain) for case in cases] == [
+        ("displacement", 0.3),
+        ("displacement", 0.5),
+    ]
+
+
+def test_keys_of_both_modes_need_the_mode(load):
+    with pytest.raises(ConfigError) as caught:
+        load('[loading]\nstrain = 0.5\n[grid]\nloading.force = ["3 N", "4 N"]')
+    assert str(caught.value) == (
+        'loading.mode is missing; needed: "force" or "displacement", as loading.force needs the'
+        " one and loading.strain the other (2 of 2 combinations)"
+    )
+
+
+def in_statics(folder, integrators, **parts):
+    """Load the sweep of a structure over integrators."""
+    (folder / "one.json").write_text(json.dumps(BEAM | parts))
+    text = '[lattice]\nkind = "custom"\nfile = "one.json"\n[grid]\nsolver.integrator = '
+    (folder / "sweep.toml").write_text(f"{text}{json.dumps(integrators)}")
+    return load_config(folder / "sweep.toml")
+
+
+@pytest.mark.parametrize(
+    ("parts", "line"),
+    [
+        (
+            {"initial_velocity_mm_s": [0, 3]},
+            'its initial_velocity_mm_s has no effect, as solver.integrator is "static"',
+        ),
+        (
+            {"masses": [{"node": 1, "mass_g": 2}]},
+            'masses in it have no effect, as solver.integrator is "static" and there is no gravity',
+        ),
+    ],
+)
+def test_what_counts_in_motion_alone_is_refused_in_statics(tmp_path, parts, line):
+    with pytest.raises(ConfigError) as caught:
+        in_statics(tmp_path, ["static"], **parts)
+    assert str(caught.value) == f'lattice.file = "one.json": {line}'
+    assert in_statics(tmp_path, ["static", "bdf2"], **parts)
+    assert in_statics(tmp_path, ["bdf2"], **parts)
+
+
+def test_weights_count_in_statics(tmp_path):
+    heavy = {"masses": [{"node": 1, "mass_g": 2}], "gravity_mm_s2": [0, -9810]}
+    assert in_statics(tmp_path, ["static"], **heavy)
+
+
+def test_statics_that_another_key_implies_is_refused_with_that_key(load, tmp_path):
+    (tmp_path / "loose.json").write_text(json.dumps(ROD))
+    with pytest.raises(ConfigError) as caught:
+        load('[lattice]\nkind = "custom"\nfile = "loose.json"\n[loading]\nquasi_static = true')
+    assert str(caught.value).startswith(
+        'solver.integrator = "static", as loading.quasi_static is given: does not fit; allowed:'
+    )
+
+
+@pytest.mark.parametrize("loading", [PRESSED, '[loading]\nmode = "impact"\n', ""])
+def test_contact_by_itself_counts_alone(tmp_path, loading):
+    path = tmp_path / "auto.toml"
+    path.write_text(loading + '[contact]\nmodel = "auto"\n', "utf-8")
+    (case,) = expand(load_config(path))
+    assert case.contact.model == "barrier"

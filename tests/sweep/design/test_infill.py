@@ -1,0 +1,206 @@
+"""Families of infill: what they draw, how much of it, and that it rests."""
+
+import numpy as np
+import pytest
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+import sweep.design.infill
+from sweep.design.drawing import Sketch, counts, extent, joints_and_walls
+from sweep.design.infill import families, trait
+from sweep.design.network import build_network, relative_density, sketch
+from sweep.config.case import Case, Lattice, Loading
+from sweep.scene.terms import build_scene
+from tests.solving import whole
+
+WAYS = {None: ["pointy"], True: ["pointy", "flat"]}
+KINDS = [(kind, way) for kind in families() for way in WAYS[trait(kind, "ORIENTED")]]
+EDGES = {"free": {}, "closed": {"perimeters": 2}, "capped": {"solid_layers": 3}}
+
+
+def lattice_of(kind, way="pointy", cells=(3, 3), **changes):
+    box = {"width": 20e-3, "height": 18e-3, "wall_thickness": 0.2e-3}
+    oriented = {"orientation": way} if trait(kind, "ORIENTED") else {}
+    return Lattice(kind=kind, **oriented, cells_x=cells[0], cells_y=cells[1], **box | changes)
+
+
+def levels(*joints):
+    """Numbers of joints and of level walls of lines with so many joints."""
+    return sum(joints), sum(joints) - len(joints)
+
+
+def staggered(columns, rows):
+    joints, slanted = levels(*[2 * columns + 1] * 2, *[2 * columns + 2] * (rows - 1))
+    return joints, slanted + rows * (columns + 1)
+
+
+def brick(columns, rows):
+    last = columns + 1 if rows % 2 else columns + 2
+    joints, level = levels(columns + 1, *[2 * columns + 1] * (rows - 1), last)
+    return joints, level + rows * (columns + 1) + rows // 2
+
+
+def triangle(columns, rows):
+    joints, level = levels(*[columns + 1 - k % 2 for k in range(rows + 1)])
+    return joints, level + 2 * columns * rows
+
+
+def kagome(columns, rows):
+    joints, level = levels(2 * columns, *[2 * columns + 1] * (rows - 1), 2 * columns)
+    return joints + columns * rows, level + 4 * columns * rows
+
+
+def circle(columns, rows):
+    touching = columns * (rows - 1) + rows * (columns - 1)
+    return 12 * columns * rows - touching, 12 * columns * rows
+
+
+COUNTS = {
+    "square": lambda n, m: ((n + 1) * (m + 1), n * (m + 1) + m * (n + 1)),
+    "brick": brick,
+    "hex": staggered,
+    "reentrant": staggered,
+    "diamond": lambda n, m: (n * (m + 1) + m * (n + 1), 4 * n * m),
+    "circle": circle,
+    "triangle": triangle,
+    "kagome": kagome,
+}
+
+
+@pytest.mark.parametrize("cells", [(1, 1), (1, 4), (3, 1), (3, 3), (4, 5), (11, 2), (12, 13)])
+@pytest.mark.parametrize(("kind", "way"), KINDS)
+def test_joints_and_walls_are_as_many_as_closed_forms_say(kind, way, cells):
+    drawn = Sketch(kind, way, cells, (1.0, 2.0))
+    points, walls = joints_and_walls(drawn)
+    expected = COUNTS[kind](*(cells if way == "pointy" else cells[::-1]))
+    assert (len(points), len(walls)) == counts(drawn) == expected
+
+
+@pytest.mark.parametrize("edge", EDGES)
+@pytest.mark.parametrize(("kind", "way"), KINDS)
+def test_counts_are_known_without_drawing(kind, way, edge):
+    drawn = sketch(lattice_of(kind, way, (13, 14), width=0.1, height=0.1, **EDGES[edge]))
+    assert counts(drawn) == tuple(map(len, joints_and_walls(drawn)))
+
+
+@pytest.mark.parametrize("edge", EDGES)
+@pytest.mark.parametrize("cells", [(1, 1), (3, 3), (2, 4)])
+@pytest.mark.parametrize(("kind", "way"), KINDS)
+def test_a_lattice_fills_its_box_and_hangs_together(kind, way, cells, edge):
+    """No wall ends in the air but those of solid layers, which end with the box."""
+    network = build_network(lattice_of(kind, way, cells, **EDGES[edge]))
+    points, walls = network.points, network.walls
+    assert points.min(axis=0).tolist() == [0.0, 0.0]
+    np.testing.assert_allclose(points.max(axis=0), [20e-3, 18e-3], rtol=1e-12)
+    n = len(points)
+    graph = coo_array((np.ones(len(walls)), walls.T), shape=(n, n))
+    assert connected_components(graph, directed=False)[0] == 1
+    ends = np.bincount(walls.ravel(), minlength=n) < 2
+    corners = np.isin(points[:, 0], [0.0, 20e-3]) & np.isin(points[:, 1], [0.0, points[:, 1].max()])
+    assert not np.any(ends & ~(corners if edge == "capped" else False))
+    for row, y in ((network.bottom, 0.0), (network.top, points[:, 1].max())):
+        np.testing.assert_array_equal(row, np.flatnonzero(points[:, 1] == y))
+        assert np.all(np.diff(points[row, 0]) > 0.0)
+
+
+def overlaps(points, walls):
+    """Sum over all openings g between neighbouring arms of cot(g / 2)."""
+    total = 0.0
+    for joint in range(len(points)):
+        others = walls[(walls == joint).any(axis=1)].sum(axis=1) - joint
+        arms = points[others] - points[joint]
+        bearing = np.sort(np.arctan2(arms[:, 1], arms[:, 0]))
+        total += np.sum(1.0 / np.tan(0.5 * np.diff(bearing, append=bearing[0] + 2 * np.pi)))
+    return total
+
+
+@pytest.mark.parametrize("t", [0.02e-3, 0.2e-3])
+@pytest.mark.parametrize(("kind", "way"), KINDS)
+def test_printed_area_counts_joints_once(kind, way, t):
+    """T L - t^2/4 sum cot(g/2): what two arms share between them, or lack outside a corner."""
+    low, high = extent(kind, way, (3, 3))
+    width, height = 4e-3 * (high - low)  # regular: no corner is sharper than 60 degrees
+    network = build_network(lattice_of(kind, way, width=width, height=height, wall_thickness=t))
+    ends = network.points[network.walls]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
+    expected = t * length - 0.25 * t**2 * overlaps(network.points, network.walls)
+    assert network.printed_area == pytest.approx(expected, rel=1e-11)
+
+
+def test_regular_honeycomb_in_closed_form():
+    """(3 + 1/2) pitches and 5 sides; 38 walls of one side, 14 joints of three arms, 16 corners."""
+    side, t = 4e-3, 0.3e-3
+    box = {"width": 3.5 * 3**0.5 * side, "height": 5 * side}
+    lattice = lattice_of("hex", wall_thickness=t, **box)
+    network = build_network(lattice)
+    ends = network.points[network.walls]
+    np.testing.assert_allclose(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), side, rtol=1e-12)
+    sixty = 1.0 / np.tan(np.pi / 3)
+    assert np.bincount(np.bincount(network.walls.ravel())).tolist() == [0, 0, 14, 16]
+    area = 38 * side * t - 0.25 * t**2 * 16 * 3 * sixty
+    assert network.printed_area == pytest.approx(area, rel=1e-12)
+    outer = (3.5 * 3**0.5 * side + t) * (5 * side + t)
+    assert relative_density(network, lattice) == pytest.approx(area / outer, rel=1e-12)
+
+
+MIRRORS = {  # signs of x and y under which three rows, four rows look the same
+    "square": ([(-1, 1), (1, -1)], [(-1, 1), (1, -1)]),
+    "brick": ([(-1, 1), (1, -1)], [(-1, 1)]),
+    "hex": ([(1, -1)], [(-1, -1)]),
+    "reentrant": ([(1, -1)], [(-1, -1)]),
+    "diamond": ([(-1, 1), (1, -1)], [(-1, 1), (1, -1)]),
+    "circle": ([(-1, 1), (1, -1)], [(-1, 1), (1, -1)]),
+    "triangle": ([(-1, 1)], [(-1, 1), (1, -1)]),
+    "kagome": ([(1, -1)], [(-1, -1)]),
+}
+
+
+@pytest.mark.parametrize("edge", EDGES)
+@pytest.mark.parametrize("rows", [3, 4])
+@pytest.mark.parametrize("kind", families())
+def test_a_lattice_is_its_own_mirror_image(kind, rows, edge):
+    network = build_network(lattice_of(kind, cells=(3, rows), **EDGES[edge]))
+    ends = network.points[network.walls] - 0.5 * network.points.max(axis=0)
+
+    def drawn(signs):
+        """Walls as sorted pairs of points, on a grid finer than any wall."""
+        grid = np.round(ends * signs / 1e-8 + 0.3).astype(int)
+        return {tuple(sorted(map(tuple, wall))) for wall in grid.tolist()}
+
+    for signs in MIRRORS[kind][rows - 3]:
+        assert len(drawn(signs) ^ drawn((1, 1))) == 0
+
+
+@pytest.mark.parametrize("platen", ["contact", "glued"])
+@pytest.mark.parametrize("edge", [*EDGES, "graded"])
+@pytest.mark.parametrize(("kind", "way"), KINDS)
+def test_every_family_is_free_of_stress_at_rest(kind, way, edge, platen):
+    lattice = lattice_of(
+        kind, way, (2, 3), **(EDGES | {"graded": {"grading": 3.0}})[edge], imperfection=0.1
+    )
+    scene = build_scene(Case(lattice=lattice, loading=Loading(mode="displacement", platen=platen)))
+    rest = whole(scene, scene.x_rest)
+    assert np.abs(rest.gradient(scene.x_rest)).max() < 1e-10  # N, N m
+    assert rest.energy(scene.x_rest) < 1e-13  # J
+
+
+def test_a_file_more_is_a_family_more(tmp_path, monkeypatch):
+    (tmp_path / "ladder.py").write_text(
+        "from sweep.design.infill import tile\n"
+        "def draw(columns, rows):\n"
+        "    return [tile([(0, 1), (0, 0), (1, 0), (1, 1)], columns, rows)]\n"
+    )
+    monkeypatch.setattr(sweep.infill, "__path__", [*sweep.infill.__path__, str(tmp_path)])
+    families.cache_clear()
+    assert "ladder" in families()
+    points, walls = joints_and_walls(Sketch("ladder", None, (1, 3), (1.0, 3.0)))
+    assert (len(points), len(walls)) == (8, 9)
+    families.cache_clear()
+
+
+def test_square_cells_are_known_without_drawing():
+    closed, drawn = trait("square", "opening"), lattice_of("diamond", cells=(4, 4)).opening
+    assert closed(5e-3, 4.5e-3) == 4.5e-3
+    assert drawn == pytest.approx(5e-3 * 4.5e-3 / np.hypot(5e-3, 4.5e-3), rel=1e-5)
+    low, high = extent("hex", "pointy", (3, 3))
+    np.testing.assert_allclose(high - low, [3.5 * 3**0.5, 5.0], rtol=1e-12)

@@ -1,0 +1,284 @@
+"""Accuracy studies: errors and orders of made-up and of real sweeps, and what they answer."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import readme
+from specimens import summary, there_and_back
+from test_cli import config, crumple  # noqa: F401 a fixture
+
+from sweep.ranking.accuracy import AccuracyError, energy, path, peak, studies
+from sweep.config.units import load_config
+from sweep.config.grid import expand
+from sweep.report.accuracy_tables import accuracy_sheets, answers, scene_title, setting
+from sweep.result import HISTORY_COLUMNS, Result, Status
+from sweep.running.sweep import run_sweep
+from sweep.simulation.simulate import simulate
+from sweep.store.read import read_summary
+from sweep.store.write import Writer
+
+CONFIGS = Path(__file__).parents[1] / "configs" / "accuracy"
+ORDERS = {"backward_euler": 1, "bdf2": 2, "newmark": 2}
+STEPS = (1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5)
+TIME = np.linspace(0.0, 1.0, 11)
+ENERGY, PEAK = 0.05, 20.0
+
+
+def made_up(integrator, step, **other):
+    """A case whose energy is off by 40 (step in ms)^p %, its path by half of that."""
+    off = 0.4 * (1e3 * step) ** ORDERS[integrator]
+    return {
+        "loading_mode": "force",
+        "force_N": 5.0,
+        "solver.integrator": integrator,
+        "solver.time_step": step,
+        "absorbed_energy_J": ENERGY * (1.0 + off),
+        "peak_force_N": PEAK * (1.0 - off),
+        "cpu_s": 1e-3 / step * (2.2 if integrator == "bdf2" else 1.0),
+        "path": TIME * (1.0 + 0.5 * off),
+        **other,
+    }
+
+
+def all_steps(*integrators, **other):
+    return [made_up(name, step, **other) for name in integrators for step in STEPS]
+
+
+def study(folder, rows):
+    """The studies of made-up rows."""
+    table = summary(*rows)
+    results = []
+    for row in table.to_dict("records"):
+        case_id, status, message, curve = (
+            row.pop(k) for k in ("case_id", "status", "message", "path")
+        )
+        blank = dict.fromkeys(HISTORY_COLUMNS, np.zeros_like(TIME))
+        history = blank | {"time_s": TIME, "strain": curve}
+        results.append(Result(case_id, Status(status), message, row, history, {}))
+    with Writer(folder / "made_up.h5") as writer:
+        writer.append(results)
+        writer.fold()
+    return studies(folder / "made_up.h5", read_summary(folder / "made_up.h5"))
+
+
+def test_errors_are_those_against_the_limit_of_the_highest_order(tmp_path):
+    (found,) = study(tmp_path, all_steps("backward_euler", "bdf2"))
+    assert (found.finest["solver.integrator"], found.finest["solver.time_step"]) == (
+        "bdf2",
+        6.25e-5,
+    )
+    for name, value in (("energy", ENERGY), ("peak", PEAK)):
+        assert found.references[name].value == pytest.approx(value, rel=1e-5)
+    for name, share in (("energy", 1.0), ("peak", 1.0), ("path", 0.5 * np.sqrt(0.35))):
+        off = [0.4 * (1e3 * step) ** p * share for p in (1, 2) for step in STEPS]
+        np.testing.assert_allclose(found.settings[name], off, rtol=1e-3)
+        assert found.orders["backward euler"][name]["solver.time_step"] == pytest.approx(
+            1, abs=0.01
+        )
+        assert found.orders["bdf2"][name]["solver.time_step"] == pytest.approx(2, abs=0.01)
+
+
+def test_answer_is_the_cheapest_setting(tmp_path):
+    (found,) = study(tmp_path, all_steps("backward_euler", "bdf2"))
+    text = " ".join(answers(found))
+    assert "Reference: the limit of bdf2, 62.5 us: absorbed energy 50.0 mJ ± 0.16 %" in text
+    assert (
+        "The cheapest setting below 1 % in absorbed energy, peak force and strain over time is "
+        "bdf2, 0.125 ms: 17.6 s." in text
+    )
+    assert "The cheapest setting below 0.1 % in strain over time is bdf2, 62.5 us: 35.2 s." in text
+    assert list(found.settings["front"]) == [*[True] * 4, *[False] * 3, *[True] * 3]
+
+
+def test_what_finer_steps_do_not_settle_is_not_resolved(tmp_path):
+    rows = all_steps("bdf2")
+    for row, force in zip(rows, [20.0, 25.0, 30.0, 22.0, 27.0], strict=True):
+        row["peak_force_N"] = force
+    (found,) = study(tmp_path, rows)
+    (sheet, orders) = accuracy_sheets(found, "made up")
+    assert found.resolved == ("energy", "path")
+    assert "Not resolved: peak force, whose limit is sure to 30 % only." in answers(found)
+    assert "in absorbed energy and strain over time is bdf2" not in " ".join(answers(found))
+    assert [row[sheet.heads.index("peak %")] for row in sheet.rows] == ["< 30"] * 5
+    assert orders.rows[0][2:] == ["2.00", "–", "2.00"]
+
+
+def test_methods_of_one_order_that_disagree_are_doubted(tmp_path):
+    rows = all_steps("bdf2", "newmark")
+    for row in rows[len(STEPS) :]:
+        row["peak_force_N"] += 0.1 * PEAK
+    (found,) = study(tmp_path, rows)
+    assert found.references["peak"].doubt == pytest.approx(1 / 11 - 0.4 / 256, rel=1e-2)
+    assert found.references["energy"].doubt == pytest.approx(0.4 / 256, rel=1e-2)
+
+
+def test_scenes_are_studied_apart(tmp_path):
+    rows = [row | {"loading.force": row["force_N"]} for row in all_steps("bdf2")]
+    others = [row | {"loading.force": 7.0, "force_N": 7.0} for row in all_steps("bdf2")]
+    for row in others:
+        row["absorbed_energy_J"] *= 3.0
+    found = study(tmp_path, rows + others)
+    titles = [scene_title(one, "trial") for one in found]
+    assert titles == [
+        f"trial: dead load of {n} N, glued platens, solver integrator bdf2" for n in (5, 7)
+    ]
+    assert [one.references["energy"].value[0] for one in found] == pytest.approx(
+        [0.05, 0.15], rel=1e-4
+    )
+
+
+def test_failed_settings_keep_their_row(tmp_path):
+    rows = all_steps("backward_euler", "bdf2")
+    rows[0] |= {"status": "stopped", "message": "stopped at once"}
+    (found,) = study(tmp_path, rows)
+    sheet, _ = accuracy_sheets(found, "made up")
+    assert sheet.rows[0][2:5] == ["stopped"] * 3
+    assert sheet.notes[-1] == "Failed: 1 settings; the first stopped at once."
+    assert not found.settings["front"].iloc[0]
+    assert study(tmp_path / "none", [row | {"status": "stopped"} for row in rows]) == []
+
+
+def test_meshes_and_steps_are_extrapolated_together(tmp_path):
+    rows = [
+        made_up("bdf2", step) | {"lattice.nodes_per_wall": nodes}
+        for step in STEPS
+        for nodes in (1, 3, 7)
+    ]
+    for row in rows:
+        row["absorbed_energy_J"] += 0.01 * ENERGY / (1 + row["lattice.nodes_per_wall"])
+    (found,) = study(tmp_path, rows)
+    assert found.references["energy"].value == pytest.approx(ENERGY, rel=1e-5)
+    assert found.references["energy"].doubt == pytest.approx(0.4 / 256 + 0.01 / 8, rel=1e-2)
+    assert found.orders["as set"]["energy"] == pytest.approx(
+        {"solver.time_step": 2.0, "lattice.nodes_per_wall": 1.0}, abs=0.01
+    )
+
+
+def test_a_structure_is_measured_by_its_probes():
+    history = there_and_back().iloc[:3].assign(
+        probe_0_x_m=0.2, probe_1_x_m=[0.1, 0.2, 0.4], probe_1_rotation_rad=9.0,
+        probe_0_reaction_x_N=[0.0, -3.0, 1.0], probe_0_reaction_y_N=[0.0, 4.0, 1.0],
+    )  # fmt: skip
+    row = pd.Series({"loading_mode": "custom"})
+    _, (moves,) = path("custom", history)
+    np.testing.assert_allclose(moves, [0.0, 0.1, 0.3])
+    assert peak(row, history) == 5.0
+    left = history[["kinetic_J", "bend_J"]].iloc[-1].sum()
+    assert energy(row, history) == pytest.approx(left)
+    assert left > 0.0
+
+
+def test_a_sweep_that_refines_nothing_is_refused(tmp_path, capsys, config):  # noqa: F811
+    with pytest.raises(AccuracyError):
+        study(tmp_path, [made_up("bdf2", 1e-3), made_up("newmark", 1e-3)])
+    status, out, err = crumple(capsys, "accuracy", config, "--out", "there")
+    assert (status, out) == (2, "")
+    assert err.startswith(
+        "crumple accuracy: [grid] refines nothing; allowed: two values or more of"
+    )
+    assert err.count("\n") == 1
+    assert not Path("there").exists()
+
+
+def test_verb_prints_and_writes_the_study(tmp_path, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "100")
+    text = (CONFIGS / "vibration.toml").read_text("utf-8").split("# From 30 steps")[0]
+    steps = '"solver.time_step" = ["1.25 ms", "0.625 ms", "0.3125 ms"]\n'
+    (tmp_path / "vibration.toml").write_text(text + steps)
+    (tmp_path / "vibration.json").write_bytes((CONFIGS / "vibration.json").read_bytes())
+    folder = tmp_path / "study"
+    status, out, _ = crumple(
+        capsys, "accuracy", str(tmp_path / "vibration.toml"), "--out", str(folder)
+    )
+    assert status == 0
+    assert max(map(len, out.splitlines()[:-3])) <= 100
+    assert "The cheapest setting below 1 % in energy left and motion of the probes is" in (
+        " ".join(out.split())
+    )
+    assert {path.suffix for path in folder.iterdir()} == {".h5", ".md", ".csv", ".png"}
+    table = pd.read_csv(folder / "vibration.csv")
+    assert len(table) == 9
+    (found,) = studies(folder / "vibration.h5", read_summary(folder / "vibration.h5"))
+    for integrator, order in ORDERS.items():
+        seen = found.orders[integrator.replace("_", " ")]["path"]["solver.time_step"]
+        assert seen == pytest.approx(order, abs=0.15)
+
+
+def test_no_study_is_forgotten():
+    names = {path.stem for path in CONFIGS.glob("*.toml")}
+    assert names == {"crush", "force", "force_mesh", "impact", "vibration"}
+
+
+def chosen(name, **values):
+    """The one case of a study with these values of its axes."""
+    keys = {
+        "step": "solver.time_step",
+        "how": "solver.integrator",
+        "nodes": "lattice.nodes_per_wall",
+    }
+    keys |= {"steps": "solver.load_steps", "hinges": "solver.hinges", "strain": "loading.strain"}
+    keys |= {"error": "solver.step_error"}
+    (case,) = (
+        case
+        for case in expand(load_config(CONFIGS / f"{name}.toml"))
+        if all(case.axes[keys[key]] == value for key, value in values.items())
+    )
+    return case
+
+
+# Of every study in the README the file, and which cases are enough for its rows.
+TOLD = {
+    "buckled": ("crush", {"loading.strain": 0.3, "solver.hinges": "exact_beam"}),
+    "packed": ("crush", {"contact.friction": 0.0, "solver.hinges": "exact_beam"}),
+    "force": ("force", {"solver.integrator": "bdf2", "solver.step_error": None}),
+    "impact": ("impact", {"solver.integrator": "newmark"}),
+    "vibration": ("vibration", {"solver.step_error": None}),
+}
+
+
+@pytest.mark.parametrize("name", TOLD)
+def test_readme_tells_what_the_studies_find(name, tmp_path):
+    (file, needed), path = TOLD[name], tmp_path / "study.h5"
+    cases = expand(load_config(CONFIGS / f"{file}.toml"))
+    run_sweep([case for case in cases if needed.items() <= case.axes.items()], path)
+    (found,) = studies(path, read_summary(path))
+    sheet, _ = accuracy_sheets(found, name)
+    first = sheet.heads.index("energy %")
+    words = [setting(found, row).removeprefix("as set, ") for _, row in found.settings.iterrows()]
+    errors = {key: row[first : first + 3] for key, row in zip(words, sheet.rows, strict=True)}
+    told = [row for row in readme.table("study") if row[0] == name]
+    assert len(told) >= 2
+    assert {row[0] for row in readme.table("study")} == TOLD.keys()
+    for _, words, *texts, _ in told:
+        (key,) = (key for key in errors if f", {words}".endswith(f", {key}"))
+        said, shown = ["", *texts], ["", *errors[key]]
+        assert readme.words(said) == readme.words(shown)
+        assert readme.numbers(said) == pytest.approx(readme.numbers(shown), rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "column", "number"),
+    [
+        (
+            "crush",
+            {"strain": 0.3, "nodes": 2, "steps": 50, "hinges": "exact_beam"},
+            "absorbed_energy_J",
+            0.0956,
+        ),
+        ("force", {"how": "bdf2", "step": 1e-3, "error": None}, "absorbed_energy_J", 0.13355),
+        ("force_mesh", {"nodes": 1, "step": 5e-4}, "absorbed_energy_J", 0.12539),
+        ("impact", {"how": "bdf2", "step": 4e-5, "nodes": 2}, "peak_force_N", 103.02),
+        (
+            "vibration",
+            {"how": "bdf2", "step": 2e-2, "error": None},
+            "dissipated_integrator_J",
+            1.1208e-7,
+        ),
+    ],
+)
+def test_studies_hold_their_numbers(name, values, column, number):
+    summary = simulate(chosen(name, **values)).summary
+    assert summary["status"] == "converged"
+    assert summary[column] == pytest.approx(number, rel=1e-3)

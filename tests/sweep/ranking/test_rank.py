@@ -1,0 +1,272 @@
+"""Rankings: who is compared with whom, by what, and what is left out."""
+
+import itertools
+
+import numpy as np
+import pandas as pd
+import pytest
+from specimens import CRUSHED_SOLID, SPARSE, designs, summary
+
+from sweep.report.markdown import markdown
+from sweep.ranking.rank import RankError, pareto, rank, scene_label
+from sweep.report.sheets import LOADED, legend, ranking_sheets
+
+NAN = float("nan")
+
+
+def ids(ranking):
+    """Rows of the summary in the order of their places."""
+    return [int(case_id, 16) for case_id in ranking["case_id"]]
+
+
+def test_best_per_gram_comes_first():
+    ranking = rank(summary(*designs([1.0, 2.0, 4.0], [0.10, 0.30, 0.40])))
+    assert ids(ranking) == [1, 0, 2]
+    assert list(ranking["place"]) == [1, 2, 2]
+    assert ranking.attrs["by"] == "specific_absorption_at_densification_J_per_g"
+    assert set(ranking["ranked_by"]) == {ranking.attrs["by"]}
+
+
+def test_budget_is_spent_on_energy_not_on_energy_per_gram():
+    ranking = rank(summary(*designs([1.0, 2.0, 4.0], [0.10, 0.18, 0.40])), budget="2 g")
+    assert ids(ranking) == [1, 0]
+    assert list(ranking["budget_g"]) == [2.0, 2.0]
+
+
+def test_panel_is_filled_side_by_side():
+    ranking = rank(summary({"mass_g": 1.5, "absorbed_energy_J": 0.2}), panel=(0.130, 0.050))
+    factor = 0.130 * 0.050 / ((12.2e-3 + 0.8e-3) * 10e-3)
+    assert factor == pytest.approx(50.0)
+    assert ranking.loc[0, "panel_mass_g"] == pytest.approx(50.0 * 1.5)
+    assert ranking.loc[0, "panel_energy_J"] == pytest.approx(50.0 * 0.2)
+
+
+def test_budget_limits_the_panel_not_the_specimen():
+    table = summary(*designs([1.0, 2.0], [0.1, 0.3]))
+    panel = ("130 mm", "50 mm")
+    assert ids(rank(table, budget="60 g", panel=panel)) == [0]
+    assert ids(rank(table, budget="4 oz", panel=panel)) == [1, 0]  # 113.4 g
+
+
+def test_numbers_are_si():
+    table = summary(*designs([1.0, 2.0], [0.1, 0.3]))
+    text = rank(table, budget="60 g", panel=("130 mm", "50 mm"))
+    pd.testing.assert_frame_equal(rank(table, budget=0.060, panel=(0.130, 0.050)), text)
+
+
+def test_scenes_are_never_compared():
+    table = summary(
+        {"absorbed_energy_J": 0.5},
+        {"absorbed_energy_J": 0.1, "platen": "contact"},
+        {"absorbed_energy_J": 0.2, "loading_mode": "force", "force_N": 5.0, "stroke_m": NAN},
+        {"absorbed_energy_J": 0.3, "loading_mode": "force", "force_N": 10.0, "stroke_m": NAN},
+    )
+    ranking = rank(table)
+    assert list(ranking["place"]) == [1, 1, 1, 1]
+    assert ranking["pareto"].all()
+    assert list(ranking["scene"]) == [
+        "crushed to 50 %, glued platens",
+        "crushed to 50 %, contact platens",
+        "dead load of 5 N, glued platens",
+        "dead load of 10 N, glued platens",
+    ]
+
+
+def test_assumptions_make_scenes_and_designs_do_not():
+    rows = designs([1.0, 1.0, 1.0], [0.1, 0.2, 0.3])
+    for row, friction, infill in zip(rows, [0.2, 0.9, 0.9], [0.1, 0.1, 0.3], strict=True):
+        row |= {"contact.friction": friction, "lattice.infill": infill}
+    ranking = rank(summary(*rows))
+    assert ids(ranking) == [0, 2, 1]
+    assert ranking["scene"].nunique() == 2
+    assert ranking.loc[0, "scene"].endswith(", contact friction 0.2")
+
+
+def test_pareto_agrees_with_its_definition():
+    rng = np.random.default_rng(7)
+    mass = pd.Series(rng.integers(1, 12, 60).astype(float))
+    energy = pd.Series(rng.integers(1, 12, 60).astype(float))
+    expected = [True] * 60
+    for i, j in itertools.permutations(range(60), 2):
+        no_worse = mass[j] <= mass[i] and energy[j] >= energy[i]
+        if no_worse and (mass[j] < mass[i] or energy[j] > energy[i]):
+            expected[i] = False
+    assert list(pareto(mass, energy)) == expected
+
+
+def test_round_off_of_equal_masses_is_no_merit():
+    mass, energy = pd.Series([1.4, 1.4 + 3e-13, 1.4 - 3e-13]), pd.Series([1.0, 2.0, 0.5])
+    assert list(pareto(mass, energy)) == [False, True, False]
+
+
+def test_pareto_looks_at_all_rows_of_the_scene():
+    table = summary(*designs([1.0, 2.0, 3.0], [0.3, 0.2, 0.6]))
+    ranking = rank(table, by="mass_g", top=2)
+    assert list(ranking["pareto"]) == [True, False]
+
+
+def test_equal_values_share_a_place_whatever_the_order_of_rows():
+    table = summary(*designs([2.0, 1.0, 4.0, 1.0], [0.5, 0.25, 1.0, 0.125]))
+    forwards, backwards = rank(table), rank(table.iloc[::-1])
+    assert ids(forwards) == [1, 0, 2, 3]
+    assert list(forwards["place"]) == [1, 1, 1, 4]
+    pd.testing.assert_frame_equal(forwards, backwards)
+
+
+def test_failed_and_unmeasured_cases_have_no_place_and_are_counted():
+    rows = designs([1.0, 1.0, 1.0], [0.1, NAN, 0.3])
+    rows[2] |= {"status": "timed_out"}
+    ranking = rank(summary(*rows))
+    assert ids(ranking) == [0]
+    counts = {key: ranking.attrs[key] for key in ("cases", "failed", "unranked")}
+    assert counts == {"cases": 3, "failed": 1, "unranked": 1}
+
+
+def test_nothing_finished_is_an_empty_ranking():
+    ranking = rank(summary({"status": "stopped"}))
+    assert ranking.empty
+    assert {"place", "scene", "pareto", "budget_g"} <= set(ranking)
+    assert list(ranking_sheets(ranking, summary({"status": "stopped"}))) == []
+
+
+@pytest.mark.parametrize(("by", "order"), [("peak_force_N", [1, 0]), ("efficiency", [0, 1])])
+def test_less_is_better_for_some_columns(by, order):
+    table = summary({"peak_force_N": 30.0, "efficiency": 0.4}, {"efficiency": 0.3})
+    assert ids(rank(table, by=by)) == order
+
+
+def test_energy_counts_up_to_the_allowed_force():
+    table = summary(
+        {"absorbed_energy_J": 0.9, "absorbed_energy_at_50N_J": 0.1, "mass_g": 2.0},
+        {"absorbed_energy_J": 0.5, "absorbed_energy_at_50N_J": 0.2, "mass_g": 2.0},
+    )
+    ranking = rank(table, allowed_force="50 N")
+    assert ids(ranking) == [1, 0]
+    assert ranking.loc[0, "specific_absorption_at_50N_J_per_g"] == pytest.approx(0.1)
+    assert list(ranking["pareto"]) == [True, False]
+
+    assert list(ranking["passed_on_N"]) == [20.0, 20.0]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sheet.heads == ["#", "mass g", "absorbs mJ", "J/g", "peak N"]
+    assert not {"pack", "back"} & {line.partition(":")[0] for line in legend(ranking).splitlines()}
+    packed = rank(table, by="densification_strain", allowed_force="50 N")
+    (sheet,) = ranking_sheets(packed, table)
+    assert sheet.heads[-1] == "densification_strain"
+    strong = table.assign(peak_force_N=80.0, peak_force_at_densification_N=30.0)
+    assert list(rank(strong, allowed_force="50 N")["passed_on_N"]) == [50.0, 50.0]
+
+
+def test_energy_counts_until_the_lattice_has_packed_down():
+    ranking = rank(summary(CRUSHED_SOLID, SPARSE), budget="2 g")
+    assert ids(ranking) == [1, 0]
+    assert ranking.attrs["energy"] == "absorbed_energy_at_densification_J"
+    assert list(ranking["passed_on_N"]) == [25.0, 30.0]
+    assert not ranking["beyond_model"].any()
+
+
+def test_a_budget_given_twice_is_one():
+    table = summary(*designs([1.0, 2.0], [0.4, 0.5]))
+    assert rank(table, budget=["2 g", 2e-3, "1 g"]).attrs["budgets_g"] == [2.0, 1.0]
+
+
+def test_what_comes_back_and_what_has_not_packed_is_told():
+    nowhere = {"densification_strain": NAN, "peak_strain": NAN}
+    table = summary(CRUSHED_SOLID, SPARSE, SPARSE | nowhere)
+    ranking = rank(table)
+    assert list(ranking["returned_share"]) == pytest.approx([0.95, 0.95, 0.9])
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sheet.heads[-2:] == ["pack %", "back %"]
+    assert [row[-2:] for row in sheet.rows] == [["> 50", "95"], ["–", "95"], ["55", "90"]]
+
+
+def test_under_a_dead_load_the_least_sink_wins():
+    load = {"loading_mode": "force", "force_N": 5.0, "stroke_m": NAN, "returned_energy_J": NAN}
+    rows = designs([1.0, 2.0, 3.0], [0.3, 0.2, 0.1], **load)
+    for row, sink in zip(rows, [0.6, 0.002, 0.004], strict=True):
+        row["peak_strain"] = sink
+    table = summary(*rows, {"absorbed_energy_J": 0.2})
+    ranking = rank(table, budget="5 g")
+    assert ids(ranking) == [1, 2, 0, 3]
+    assert list(ranking["pareto"]) == [True, False, True, True]
+    assert list(ranking["ranked_by"]) == ["peak_strain"] * 3 + [ranking.attrs["energy"]]
+    loaded, crushed = ranking_sheets(ranking, table)
+    assert (loaded.title, crushed.title) == (
+        "dead load of 5 N, glued platens: least sink first",
+        "crushed to 50 %, glued platens",
+    )
+    assert loaded.heads == ["#", "mass g", "sink %"]
+    assert [row[-1] for row in loaded.rows] == ["0.200", "0.400", "60.0"]
+    assert rank(table.head(3)).attrs["by"] == "peak_strain"
+
+
+def test_a_column_that_is_asked_for_sorts_dead_loads_too():
+    load = {"loading_mode": "force", "force_N": 5.0, "stroke_m": NAN}
+    table = summary(*designs([2.0, 1.0], [0.3, 0.2], **load))
+    ranking = rank(table, by="mass_g")
+    assert ids(ranking) == [1, 0]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sheet.title == "dead load of 5 N, glued platens"
+
+
+def test_legend_explains_what_is_shown():
+    crushed = summary({"absorbed_energy_at_50N_J": 0.1})
+    assert "count until it has packed down" in legend(rank(crushed))
+    assert "count until 50 N are passed on" in legend(rank(crushed, allowed_force=50.0))
+    assert "count to the end of the stroke" in legend(rank(crushed, by="absorbed_energy_J"))
+    assert "sink" not in legend(rank(crushed))
+    loaded = summary({"loading_mode": "force", "force_N": 5.0})
+    assert legend(rank(loaded)).splitlines()[1:] == [LOADED]
+
+
+def test_results_of_an_older_version_are_refused():
+    table = summary({}).drop(columns="absorbed_energy_within_model_J")
+    with pytest.raises(RankError, match="absorbed_energy_within_model_J: an older version wrote"):
+        rank(table)
+
+
+def test_refusals_name_what_is_allowed():
+    table = summary({"absorbed_energy_at_50N_J": 0.1, "absorbed_energy_at_200N_J": 0.2})
+    with pytest.raises(RankError, match=r"did you mean peak_force_N\? allowed: cells_x, "):
+        rank(table, by="peak_forse_N")
+    with pytest.raises(RankError, match="cannot sort by"):
+        rank(table, by="material")
+    with pytest.raises(RankError, match=r"up to 60 N in these results; allowed: 50 N or 200 N"):
+        rank(table, allowed_force=60.0)
+    with pytest.raises(RankError, match="two lengths, got 1"):
+        rank(table, panel=(0.1,))
+    with pytest.raises(RankError, match="must be above zero"):
+        rank(table, budget=0.0)
+
+
+def test_scenes_never_share_a_label():
+    rows = [{"loading.strain": strain, "stroke_m": strain * 12.2e-3} for strain in (0.6, 0.604)]
+    rows += [row | {"height_m": 10e-3} for row in rows]
+    rows += [{"loading.strain": float("nan"), "contact.friction": mu} for mu in (0.2, 0.3)]
+    assert rank(summary(*rows))["scene"].nunique() == 4
+
+
+def test_label_leaves_out_a_depth_that_differs():
+    table = summary({"stroke_m": 3.05e-3}, {})
+    assert scene_label(table) == "crushed, glued platens"
+
+
+def test_budgets_stand_one_below_the_other_in_markdown():
+    table = summary(*designs([1.0, 2.0, 3.0], [0.1, 0.3, 0.2]), {"cells_x": 4, "mass_g": 9.0})
+    ranking = rank(table, budget=["0.5 g", "1 g", "2 g"])
+    text = markdown(ranking_sheets(ranking, table))
+    assert text == (
+        "### crushed to 50 %, glued platens\n\n"
+        "| up to g | #  | cells | mass g | absorbs mJ | J/g   | peak N | pack % | back % |\n"
+        "| ------- | -- | ----- | ------ | ---------- | ----- | ------ | ------ | ------ |\n"
+        "| 1       | 1* | 3 x 3 | 1.00   | 100        | 0.100 | 20.0   | 55     | 0      |\n"
+        "| 2       | 1* | 3 x 3 | 2.00   | 300        | 0.150 | 20.0   | 55     | 0      |\n"
+        "|         | 2* | 3 x 3 | 1.00   | 100        | 0.100 | 20.0   | 55     | 0      |\n\n"
+        "Nothing weighs 0.5 g or less: the lightest weighs 1 g.\n"
+    )
+
+
+def test_budgets_with_the_same_places_share_a_section():
+    table = summary(*designs([1.0, 2.0], [0.3, 0.1]), {"mass_g": 9.0, "absorbed_energy_J": 0.9})
+    ranking = rank(table, budget=["1 g", "3 g", "5 g", "9 g"], top=1)
+    sheet = next(ranking_sheets(ranking, table))
+    assert [row[:2] for row in sheet.rows] == [["1-5", "1*"], ["9", "1*"]]

@@ -1,0 +1,161 @@
+"""Ties: places that error bars cannot tell apart, in rankings, tables and on the command line."""
+
+import io
+import json
+
+import pandas as pd
+import pytest
+from specimens import designs, summary, write
+
+from sweep.__main__ import main
+from sweep.ranking.rank import rank, shared_places
+from sweep.report.sheets import TIED, legend, ranking_sheets
+
+NAN = float("nan")
+
+
+def with_bars(energies, errors, **common):
+    """Designs of 1 g with these energies (mJ) and error bars."""
+    rows = designs([1.0] * len(energies), [1e-3 * energy for energy in energies], **common)
+    for row, error in zip(rows, errors, strict=True):
+        for name in ("absorbed_energy_J", "absorbed_energy_at_densification_J"):
+            row[f"error_{name}"] = 1e-3 * error
+        row["error_peak_force_at_densification_N"] = row["error_peak_force_N"] = 0.5
+    return rows
+
+
+@pytest.mark.parametrize(
+    ("values", "errors", "places"),
+    [
+        ([10.0, 9.0, 8.0], None, [1, 2, 3]),
+        ([10.0, 10.0, 8.0], [0.0, 0.0, 0.0], [1, 1, 3]),
+        ([10.0, 9.0, 8.0], [0.5, 0.5, 0.4], [1, 1, 3]),  # touching is overlapping
+        ([10.0, 9.5, 9.0], [0.3, 0.3, 0.3], [1, 1, 3]),  # the third overlaps the second only
+        ([10.0, 9.0, 8.0, 1.0], [0.1, 0.1, 2.0, 0.1], [1, 2, 2, 4]),  # not the first above all
+        ([1.0, 1.2, 2.0], [0.2, NAN, 0.1], [1, 1, 3]),  # least is best; a missing error is none
+        ([1.0, 1.2, 2.0], [NAN, NAN, NAN], [1, 2, 3]),
+    ],
+)
+def test_values_share_the_place_of_the_first_that_they_overlap(values, errors, places):
+    errors = None if errors is None else pd.Series(errors)
+    assert list(shared_places(pd.Series(values), errors)) == places
+
+
+def test_ties_are_marked_also_where_the_other_is_not_shown():
+    table = summary(*with_bars([10.0, 9.0, 8.0, 7.9], [0.6, 0.6, 0.16, 0.1]))
+    ranking = rank(table, top=3)
+    assert list(ranking["absorbed_energy_J"]) == pytest.approx([0.010, 0.009, 0.008])
+    assert list(ranking["place"]) == [1, 1, 3]
+    assert list(ranking["tied"]) == [True, True, True]
+    assert list(ranking["ranked_error"]) == pytest.approx([6e-4, 6e-4, 1.6e-4])
+    assert list(ranking.columns[:8]) == [
+        *("budget_g", "scene", "place", "tied", "pareto", "case_id", "ranked_by", "ranked_error")
+    ]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert [row[0] for row in sheet.rows] == ["1=*", "1= ", "3= "]
+    assert sheet.notes == ("1 more shares place 3.", not_shown("1 more", 4))
+    assert (sheet.heads[-1], [row[-1] for row in sheet.rows]) == ("± %", ["6.0", "6.7", "2.0"])
+    assert legend(ranking).endswith(TIED)
+
+
+def test_ties_that_are_cut_off_are_counted_for_each_budget():
+    table = summary(*with_bars([10.0, 9.9, 9.8, 9.7], [0.5] * 4))
+    table["mass_g"] = [3.0, 1.0, 1.0, 1.0]
+
+    def notes(**asked):
+        (sheet,) = ranking_sheets(rank(table, by="absorbed_energy_J", **asked), table)
+        return tuple(note for note in sheet.notes if "share" in note)
+
+    assert notes(top=1) == ("3 more share place 1.",)
+    assert notes(top=4) == notes(top=None) == ()
+    several = notes(top=2, budget=["1 g", "2 g", "3 g"])
+    assert several == ("Up to 1-2 g, 1 more shares place 1.", "Up to 3 g, 2 more share place 1.")
+    assert notes(top=1, budget=["0.1 g", "3 g"])[0] == "Up to 3 g, 3 more share place 1."
+    assert list(rank(table, by="absorbed_energy_J", top=2)["sharing"]) == [4, 4]
+
+
+def test_without_error_bars_nothing_speaks_of_them():
+    table = summary(*designs([1.0, 1.0], [0.1, 0.1]))
+    ranking = rank(table)
+    assert not {"tied", "ranked_error"} & set(ranking)
+    assert TIED not in legend(ranking)
+    assert ranking.attrs["without_bar"] == 0
+    (sheet,) = ranking_sheets(ranking, table)
+    assert [row[0] for row in sheet.rows] == ["1*", "1*"]
+
+
+def test_missing_error_bar_hides_nothing_and_is_counted():
+    table = summary(*with_bars([10.0, 9.9], [0.01, NAN]))
+    ranking = rank(table)
+    assert list(ranking["place"]) == [1, 2]
+    assert ranking.attrs["without_bar"] == 1
+    (sheet,) = ranking_sheets(ranking, table)
+    assert [row[-1] for row in sheet.rows] == ["0.1", "?"]
+
+
+def test_error_bars_follow_into_what_is_derived():
+    table = summary(*with_bars([100.0, 80.0], [5.0, 2.0], returned_energy_J=0.01))
+    table["mass_g"] = [2.0, 1.0]
+    per_gram = rank(table)
+    assert list(per_gram["place"]) == [1, 2]  # 0.080 ± 0.002 and 0.050 ± 0.0025 J/g
+    assert list(per_gram["ranked_error"]) == pytest.approx([2e-3, 2.5e-3])
+    panel = rank(table, panel=(0.130, 0.050))
+    factor = 0.130 * 0.050 / (13e-3 * 10e-3)
+    assert panel.loc[0, "ranked_error"] == pytest.approx(factor * 5e-3)
+    assert list(panel["error_passed_on_N"]) == [0.5, 0.5]
+    assert list(rank(table, by="passed_on_N")["ranked_error"]) == [0.5, 0.5]
+
+
+def test_budgets_share_a_section_only_where_their_ties_are_alike():
+    table = summary(*with_bars([10.0, 9.9], [0.01, 0.2]))
+    table["mass_g"] = [1.0, 3.0]
+    ranking = rank(table, budget=["1 g", "2 g", "3 g"], top=1)
+    (sheet,) = ranking_sheets(ranking, table)
+    assert [row[:2] for row in sheet.rows] == [["1-2", "1*"], ["3", "1=*"]]
+    more = not_shown("1 more up to 3 g", 2)
+    assert sheet.notes == ("Up to 3 g, 1 more shares place 1.", more)
+
+
+def test_what_is_not_shown_is_counted_for_each_budget():
+    table = summary(*designs([1.0, 2.0, 2.5, 3.0], [0.4, 0.3, 0.2, 0.1]))
+
+    def notes(**asked):
+        ranking = rank(table, **asked)
+        (sheet,) = ranking_sheets(ranking, table)
+        return list(ranking["contenders"].unique()), sheet.notes
+
+    assert notes() == ([4], ())
+    assert notes(top=3) == ([4], (not_shown("1 more", 4),))
+    assert notes(top=1, budget="2 g") == ([2], (not_shown("1 more", 2),))
+    of, told = notes(top=2, budget=["1 g", "2 g", "2.5 g", "3 g"])
+    assert of == [1, 2, 3, 4]
+    assert told == (not_shown("1 more up to 2.5 g, 2 more up to 3 g", 4),)
+
+
+def not_shown(count, all_of_them):
+    """The note below a table that does not show them all."""
+    return f"Not shown: {count}; with --top {all_of_them}, rank lists all."
+
+
+def test_command_line_tells_ties_and_what_has_no_bar(capsys, tmp_path, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    rows = with_bars([10.0, 9.0, 1.0], [0.6, 0.6, NAN])
+    file = write(tmp_path / "trial.h5", summary(*rows))
+    question = ["rank", file, "--panel", "100 mm", "50 mm", "--budget", "400 g"]
+    assert main(question) == 0
+    text = capsys.readouterr().out
+    assert "1=*" in text
+    assert TIED in text
+    assert "1 ranked case has no error bar: placed by value alone." in text
+    assert max(len(line) for line in text.splitlines()) <= 100
+
+    main([*question, "--csv"])
+    table = pd.read_csv(io.StringIO(capsys.readouterr().out))
+    assert list(table["tied"]) == [True, True, False]
+    assert {"ranked_error", "error_absorbed_energy_J", "error_panel_energy_J"} <= set(table)
+    main([*question, "--json"])
+    records = json.loads(capsys.readouterr().out)
+    assert [record["place"] for record in records] == [1, 1, 3]
+    assert records[2]["ranked_error"] is None
+    main([*question, "--markdown"])
+    assert "| 1=*" in capsys.readouterr().out

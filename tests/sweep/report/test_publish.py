@@ -1,0 +1,59 @@
+"""Files of a ranking: all designs in the order of the tables, and tables with their legend."""
+
+import pandas as pd
+import pytest
+from specimens import designs, summary, write
+
+from sweep.report.pattern_bars import pattern_bars
+from sweep.report.case_plots import blank
+from sweep.report.publish import publish_ranking
+from sweep.ranking.rank import rank
+from sweep.report.sheets import LOADED, MARKS
+
+
+@pytest.fixture
+def published(tmp_path):
+    """A folder of two crushed designs, the heavier with more energy but fewer J/g, and a load."""
+    load = {"loading_mode": "force", "force_N": 5.0, "peak_strain": 0.1}
+    table = summary(*designs([1.0, 4.0], [0.2, 0.4]), load)
+
+    def publish(**question):
+        question = {"budget": None, "panel": None} | question
+        paths = publish_ranking(write(tmp_path / "f.h5", table), table, question, tmp_path / "out")
+        return {path.name: path for path in paths}
+
+    return publish
+
+
+def test_table_of_all_designs_is_sorted_like_the_ranking(published):
+    def places(**question):
+        table = pd.read_csv(published(**question)["ranking.csv"])
+        return list(table.loc[table["loading_mode"] == "displacement", "mass_g"])
+
+    assert places() == [1.0, 4.0]  # by J/g
+    assert places(budget=[2e-3]) == [4.0, 1.0]  # by J, beyond the budget too
+    assert places(by="mass_g", budget=[2e-3]) == [1.0, 4.0]
+
+
+def test_tables_come_with_their_legend(published):
+    text = published()["ranking.md"].read_text("utf-8")
+    assert MARKS in text
+    assert text.endswith(f"{LOADED}\n")
+
+
+def test_each_kind_of_scene_has_its_picture(published):
+    pictures = [name for name in published() if name.endswith(".png")]
+    assert pictures == ["absorption.png", "sink.png", "winners.png"]
+
+
+def test_several_patterns_are_drawn_side_by_side(tmp_path):
+    kinds = [{"lattice_kind": "hex", "lattice.orientation": "flat"}, {"lattice.orientation": ""}]
+    rows = designs([1.0, 1.0], [0.2, 0.1])
+    table = summary(*[row | kind for row, kind in zip(rows, kinds, strict=True)])
+    ranking = rank(table, top=None)
+    figure = blank(6, 3)
+    pattern_bars(figure, ranking)
+    (ax,) = figure.axes
+    labels = [label.get_text() for label in ax.get_yticklabels()]
+    assert labels == ["square", "hex, orientation flat"]
+    assert [bar.get_width() for bar in ax.patches] == [0.1, 0.2]

@@ -1,0 +1,82 @@
+"""The estimate before a sweep."""
+
+import os
+import signal
+import time
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case, Lattice, Loading
+from sweep.running.estimate import duration, estimate
+from sweep.running.batches import cost
+from sweep.result import Result, Status
+from sweep.running.sweep import Interrupted
+
+GLUED = Loading(mode="displacement", platen="glued")
+
+
+def cases(loading, cells=(2, 3, 4, 5)):
+    return [Case(lattice=Lattice(cells_x=n, cells_y=n), loading=loading) for n in cells]
+
+
+def stand_in(status=Status.CONVERGED):
+    """A simulation with a pace for each mode of loading and 1000 numbers to store, and its log."""
+    asked = []
+
+    def simulate(case, control):
+        asked.append(case)
+        pace = {"force": 1e-6, "displacement": 5e-6}[case.loading.mode]
+        history = {"strain": np.zeros(1000)}
+        return Result(case.case_id, status, "why", {"cpu_s": pace * cost(case)}, history)
+
+    return simulate, asked
+
+
+def test_each_kind_of_loading_is_scaled_by_its_own_pace():
+    force, glued = cases(Loading()), cases(GLUED)
+    expected = 1e-6 * sum(map(cost, force)) + 5e-6 * sum(map(cost, glued))
+    found = estimate([*force, *glued], stand_in()[0])
+    assert found.cpu == pytest.approx(expected)
+    assert found.pilots == 2
+    assert found.disk == pytest.approx(8 * (1000 + 0.9 * 4 * 1000))
+
+
+def test_pilot_stands_in_the_middle_of_the_work():
+    simulate, asked = stand_in()
+    estimate(cases(GLUED), simulate)
+    (pilot,) = asked
+    assert pilot.lattice.cells_x == 5
+
+
+def test_failed_pilots_are_counted():
+    assert estimate(cases(GLUED), stand_in(Status.STOPPED)[0]).failures == ["why"]
+
+
+def test_pilot_that_breaks_down_leaves_the_time_unknown():
+    def huge(case, control):
+        raise MemoryError
+
+    found = estimate(cases(GLUED), huge)
+    assert "needs more memory than there is" in found.failures[0]
+    assert duration(found.cpu) == "unknown"
+
+
+def test_pilot_can_be_interrupted_while_it_runs():
+    def endless(case, control):
+        time.sleep(0.1)  # until the main thread waits for this one
+        os.kill(os.getpid(), signal.SIGINT)
+        while not control[0]:
+            time.sleep(0.001)
+        return stand_in(Status.STOPPED)[0](case, control)
+
+    with pytest.raises(Interrupted, match="interrupted; nothing was written"):
+        estimate(cases(GLUED), endless)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [(0.123, "0.12 s"), (95.0, "95 s"), (104.0, "100 s"), (150.0, "2.5 min"), (9000.0, "2.5 h")],
+)
+def test_durations_are_rough(seconds, text):
+    assert duration(seconds) == text

@@ -1,0 +1,41 @@
+"""Cases that a config computed before it was edited: kept, counted and told of."""
+
+from importlib import import_module
+
+import pytest
+from standin import cases, simulate
+
+from sweep.__main__ import main
+from sweep.running.sweep import run_sweep
+from sweep.store.read import read_attributes
+
+CONFIG = """
+name = "trial"
+[grid]
+"lattice.imperfection" = {values}
+"""
+
+
+def test_cases_of_other_configs_are_counted_anew_by_every_run(tmp_path):
+    out = tmp_path / "sweep.h5"
+    for asked, others in ((6, 0), (9, 0), (4, 5), (4, 5), (9, 0)):
+        run_sweep(cases(asked), out, simulate=lambda case, stop: simulate(case))
+        assert read_attributes(out)["other_cases"] == others
+
+
+@pytest.mark.parametrize("verb", ["run", "rank", "status"])
+def test_other_configs_are_told_of(tmp_path, monkeypatch, capsys, verb):
+    monkeypatch.setattr(import_module("sweep.simulation.simulate"), "simulate", simulate)
+    monkeypatch.chdir(tmp_path)
+    config = tmp_path / "trial.toml"
+    for values, others in (([0.1, 0.2, 0.3], ""), ([0.3, 0.4], "2 of 4 cases are of other")):
+        config.write_text(CONFIG.format(values=values))
+        assert main(["run", str(config)]) == 0
+        if verb != "run":
+            capsys.readouterr()
+            main([verb, "results/trial.h5"])
+        told = capsys.readouterr().out
+        if verb == "status":
+            others = others and "2 cases are of other configs than the last run's"
+        assert ("other configs" in told) == bool(others)
+        assert others in told

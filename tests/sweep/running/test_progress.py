@@ -1,0 +1,64 @@
+"""What a user is told while a sweep runs."""
+
+import io
+
+import pytest
+from rich.console import Console
+from standin import cases, simulate
+
+from sweep.running import progress
+from sweep.running.progress import Progress
+
+
+class Clock:
+    """Time that passes only when it is told to."""
+
+    def __init__(self):
+        self.now = 100.0
+
+    def monotonic(self):
+        """Seconds."""
+        return self.now
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    clock = Clock()
+    monkeypatch.setattr(progress, "time", clock)
+    return clock
+
+
+def test_time_left_is_weighed_by_cost(clock):
+    """The short half of the cases is done, at two a second; the other half is ten times as long."""
+    batch, out = cases(40), io.StringIO()
+    costs = {case.case_id: 1.0 if number < 20 else 10.0 for number, case in enumerate(batch)}
+    with Progress(costs, console=Console(file=out)) as told:
+        for begin in range(0, 20, 4):
+            clock.now += 2.0
+            told.advance([simulate(case) for case in batch[begin : begin + 4]])
+            if begin == 4:  # two seconds after the first
+                assert told._line() == "8/40 cases, 2 a second, 1 failed"
+    assert "20/40 cases, 2 a second, 0:01:40 left, 1 failed" in out.getvalue().splitlines()
+
+
+def test_plain_lines_are_few(clock):
+    batch, out = cases(100), io.StringIO()
+    with Progress(
+        dict.fromkeys([c.case_id for c in batch], 1.0), console=Console(file=out)
+    ) as told:
+        for case in batch:
+            clock.now += 0.1
+            told.advance([simulate(case)])
+    lines = out.getvalue().splitlines()
+    assert len(lines) <= 5
+    assert sum("No step was short enough" in line for line in lines) == 1
+
+
+def test_terminal_has_a_bar_with_failures():
+    batch, out = cases(9), io.StringIO()
+    console = Console(file=out, force_terminal=True, width=100)
+    with Progress(dict.fromkeys([case.case_id for case in batch], 1.0), 3, console) as told:
+        told.advance([simulate(case) for case in batch])
+    assert "12/12 cases" in out.getvalue()
+    assert "1 failed" in out.getvalue()
+    assert "stopped: No step was short enough" in out.getvalue()

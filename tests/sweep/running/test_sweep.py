@@ -1,0 +1,300 @@
+"""A sweep survives whatever ends it: nothing finished is computed twice, nothing is lost."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import Future
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from standin import cases, number_of, parts_of, simulate, slow
+
+from sweep.running.writer_thread import AT_RISK, keeping
+from sweep.running.dask_graph import GraphError
+from sweep.config.grid import Config, Written
+from sweep.running.batches import Plan
+from sweep.running.progress import Progress
+from sweep.running.sweep import Interrupted, run_sweep
+from sweep.store.read import StoreError, exists, read_attributes, read_frames, read_history, read_summary
+from sweep.store.write import Writer
+
+ROOT = Path(__file__).parents[1]
+SWEEP = """
+from standin import cases, slow
+from sweep.running.sweep import Interrupted, run_sweep
+
+if __name__ == "__main__":
+    try:
+        run_sweep(cases(80), {out!r}, simulate=slow)
+    except Interrupted as stop:
+        raise SystemExit(str(stop))
+"""
+
+
+@pytest.fixture
+def executions(tmp_path, monkeypatch):
+    """File with the id of every case that `slow` has run, a line each."""
+    path = tmp_path / "executions"
+    monkeypatch.setenv("EXECUTIONS", str(path))
+    path.touch()
+    return path
+
+
+def started(out):
+    """A sweep of 80 cases of 20 ms in a process of its own."""
+    paths = os.pathsep.join([str(ROOT), str(ROOT / "tests")])
+    return subprocess.Popen(
+        [sys.executable, "-c", SWEEP.format(out=str(out))],
+        env=os.environ | {"PYTHONPATH": paths},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def wait_for(executions, count):
+    """Wait until so many cases have begun."""
+    limit = time.monotonic() + 20
+    while len(executions.read_text().split()) < count:
+        assert time.monotonic() < limit
+        time.sleep(0.01)
+
+
+def same_files(one, other):
+    """True if two results files hold the same cases, curves and shapes in the same order."""
+    pd.testing.assert_frame_equal(read_summary(one), read_summary(other))
+    for case_id in read_summary(one)["case_id"][::17]:
+        pd.testing.assert_frame_equal(read_history(one, case_id), read_history(other, case_id))
+        for name, array in read_frames(one, case_id).items():
+            np.testing.assert_array_equal(array, read_frames(other, case_id)[name])
+    return True
+
+
+def test_kill_in_the_middle_loses_only_batches_in_flight(tmp_path, executions):
+    out, reference = tmp_path / "killed.h5", tmp_path / "reference.h5"
+    with started(out) as process:
+        wait_for(executions, 40)
+        process.kill()
+    finished = set(read_summary(out)["case_id"])
+    before = executions.read_text().split()
+    assert 0 < len(finished) < 80
+    assert not out.exists()
+
+    assert run_sweep(cases(80), out, simulate=slow) == 1
+    after = executions.read_text().split()[len(before) :]
+    assert set(after) == {case.case_id for case in cases(80)} - finished
+    assert len(after) == len(set(after))
+    run_sweep(cases(80), reference, simulate=lambda case, stop: simulate(case))
+    assert same_files(out, reference)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["executions", "killed.h5", "reference.h5"]
+
+
+def test_interrupted_sweep_keeps_what_is_finished_and_says_how_to_go_on(tmp_path, executions):
+    out = tmp_path / "sweep.h5"
+    with started(out) as process:
+        wait_for(executions, 40)
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=10)
+    kept = len(read_summary(out))
+    assert process.returncode == 1
+    assert said == (
+        f"interrupted; {out} keeps {kept} of 80 cases, and the same command runs the rest\n"
+    )
+    assert kept >= len(executions.read_text().split()) - 2
+    assert out.exists()
+
+
+def test_interruption_in_this_process(tmp_path):
+    def pressed(case, stop):
+        if number_of(case) == 3:
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(0.05)
+        return simulate(case)
+
+    usual = signal.getsignal(signal.SIGINT)
+    with pytest.raises(Interrupted, match="the same command runs the rest"):
+        run_sweep(cases(200), tmp_path / "sweep.h5", simulate=pressed)
+    assert signal.getsignal(signal.SIGINT) is usual
+
+
+def test_interruption_after_the_last_case_loses_nothing_and_is_no_failure(tmp_path, monkeypatch):
+    fold = Writer.fold
+
+    def pressed(writer, last):
+        os.kill(os.getpid(), signal.SIGINT)
+        fold(writer, last)
+
+    monkeypatch.setattr(Writer, "fold", pressed)
+    out = tmp_path / "sweep.h5"
+    assert run_sweep(cases(3), out, simulate=lambda case, stop: simulate(case)) == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["sweep.h5"]
+    assert len(read_summary(out)) == 3
+
+
+def test_the_results_file_is_finished_however_often_it_is_interrupted(tmp_path, monkeypatch):
+    """The first signal is a wish, the second ends the run: not in the midst of HDF5."""
+    fold = Writer.fold
+
+    def pressed(writer, last):
+        for _ in range(4):
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(0.05)
+        fold(writer, last)
+
+    monkeypatch.setattr(Writer, "fold", pressed)
+    out = tmp_path / "sweep.h5"
+    with pytest.raises(KeyboardInterrupt):
+        run_sweep(cases(3), out, simulate=lambda case, stop: simulate(case))
+    assert [path.name for path in tmp_path.iterdir()] == ["sweep.h5"]
+    assert len(read_summary(out)) == 3
+
+
+def test_last_results_become_a_part_where_the_one_file_cannot_be_finished(tmp_path, monkeypatch):
+    """Somebody has removed the file that grows."""
+    fold, out = Writer.fold, tmp_path / "sweep.h5"
+
+    def robbed(writer, last):
+        out.with_name("sweep.h5.tmp").unlink()
+        fold(writer, last)
+
+    monkeypatch.setattr(Writer, "fold", robbed)
+    monkeypatch.setattr("sweep.clerk.AT_RISK", np.inf)
+    with pytest.raises(StoreError, match="cannot be written: No such file"):
+        run_sweep(cases(30), out, simulate=lambda case, stop: simulate(case))
+    assert len(read_summary(out)) == 30
+    monkeypatch.undo()
+    run_sweep(cases(30), out)
+    assert [path.name for path in tmp_path.iterdir()] == ["sweep.h5"]
+
+
+def test_scheduler_that_cannot_be_is_refused_before_anything_is_written(tmp_path):
+    with pytest.raises(GraphError, match="nonsense"):
+        run_sweep(cases(3), tmp_path / "new" / "sweep.h5", scheduler="nonsense", simulate=slow)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_finished_cases_do_not_run_again(tmp_path, executions, capsys):
+    out = tmp_path / "new" / "folder" / "sweep.h5"
+    assert run_sweep(cases(6), out, simulate=slow) == 0
+    assert run_sweep(cases(9), out, simulate=slow) == 1
+    assert run_sweep(cases(9), out, simulate=slow) == 1
+    assert len(executions.read_text().split()) == 9
+    assert run_sweep(cases(9), out, simulate=slow, retry_failed=True) == 1
+    assert executions.read_text().split()[9:] == [cases(9)[7].case_id]
+    assert len(read_summary(out)) == 9
+    assert "9/9 cases" in capsys.readouterr().out
+
+
+@pytest.fixture
+def told():
+    return Progress({case.case_id: 1.0 for case in cases(9)})
+
+
+def took(share, numbers):
+    """Results that each took this share of what may be at risk for a worker."""
+    found = [simulate(case) for case in cases(len(numbers), numbers[0])]
+    return [replace(r, summary=r.summary | {"cpu_s": share * AT_RISK}) for r in found]
+
+
+class AtOnce:
+    """A pool of threads that does in this one what it is asked to."""
+
+    def __init__(self, *_):
+        pass
+
+    def shutdown(self):
+        """Nothing is at work."""
+
+    def submit(self, function, *arguments):
+        """Do it."""
+        done = Future()
+        done.set_result(function(*arguments))
+        return done
+
+
+def test_first_result_is_sealed_at_once_and_later_ones_when_they_are_worth_it(
+    tmp_path, told, monkeypatch
+):
+    """Two workers: what is at risk is at most twice as much. NaN might be any time."""
+    monkeypatch.setattr("sweep.clerk.ThreadPoolExecutor", AtOnce)
+    out, sealed = tmp_path / "sweep.h5", []
+    batches = [(0.1, [0]), (0.9, [1, 2]), (0.3, [3]), (1.9, [4]), (np.nan, [5]), (0.1, [6])]
+    with Writer(out) as writer, keeping(writer, Plan([], workers=2), told) as keep:
+        for share, numbers in batches:
+            keep(took(share, numbers))
+            sealed.append(len(read_summary(out)))
+            assert told.done == sealed[-1]
+        assert len(parts_of(out)) == 3
+    assert sealed == [1, 1, 4, 4, 6, 6]
+    assert len(read_summary(out)) == told.done == 7
+    assert [entry.name for entry in tmp_path.iterdir()] == ["sweep.h5"]
+
+
+def test_error_of_the_clerk_ends_the_sweep_and_keeps_what_is_sealed(tmp_path, monkeypatch):
+    """A disk that is full from the second part on."""
+    append = Writer.append
+
+    def full(writer, results):
+        if parts_of(out):
+            raise StoreError("no space left")
+        append(writer, results)
+
+    out = tmp_path / "sweep.h5"
+    monkeypatch.setattr("sweep.clerk.AT_RISK", 0.0)
+    monkeypatch.setattr(Writer, "append", full)
+    with pytest.raises(StoreError, match="no space left"):
+        run_sweep(cases(40), out, workers=2, simulate=lambda case, stop: simulate(case))
+    assert 0 < len(read_summary(out)) < 40
+
+
+def test_error_in_the_middle_of_a_sweep_loses_no_result_that_has_come_in(tmp_path, told):
+    def broken_off(out):
+        with Writer(out) as writer, keeping(writer, Plan([], workers=2), told) as keep:
+            keep(took(0.1, [0]))
+            keep(took(0.1, [1, 2]))
+            raise GraphError("lost the scheduler")
+
+    with pytest.raises(GraphError):
+        broken_off(tmp_path / "sweep.h5")
+    assert len(read_summary(tmp_path / "sweep.h5")) == 3
+
+
+def test_progress_away_from_a_terminal_is_a_few_plain_lines(tmp_path, capsys):
+    out = tmp_path / "sweep.h5"
+    run_sweep(cases(9), out, workers=1, simulate=lambda case, stop: simulate(case))
+    *_, failure, last = capsys.readouterr().out.splitlines()
+    assert failure == (
+        f"case {cases(9)[7].case_id} stopped: No step was short enough: try a smaller time_step."
+    )
+    assert last.startswith("9/9 cases")
+    assert last.endswith("1 failed")
+
+
+def test_file_says_where_its_results_come_from(tmp_path):
+    out = tmp_path / "sweep.h5"
+    axis = (Written(0.0, "0"), Written(0.001, "0.001"))
+    config = Config(name="two", grid={"lattice.imperfection": axis})
+    run_sweep(config, out, simulate=lambda case, stop: simulate(case))
+    about = read_attributes(out)
+    assert '"lattice.imperfection": [0.0, 0.001]' in about["config"]
+    assert '"wall_thickness": 0.0008' in about["config"]
+    assert about["version_h5py"][0].isdigit()
+    assert about["seed"].startswith("none")
+    assert len(about["git_revision"]) >= 7
+    assert read_summary(out)["lattice.imperfection"].tolist() == [0.0, 0.001]
+
+
+def test_file_of_something_else_is_refused_before_any_case_runs(tmp_path, executions):
+    out = tmp_path / "sweep.h5"
+    out.write_text("mine")
+    with pytest.raises(StoreError, match="not a results file"):
+        run_sweep(cases(3), out, simulate=slow)
+    assert executions.read_text() == ""
+    assert out.read_text() == "mine"
+    assert exists(out)
+    assert len(list(tmp_path.iterdir())) == 2

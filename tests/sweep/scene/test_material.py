@@ -1,0 +1,177 @@
+"""Stress laws: the records as published, the toe, the compression branch, smoothness."""
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
+
+from sweep.config.units import material_file as record
+from sweep.scene.material import stress_law
+from sweep.config.case import Material
+from sweep.config.material_file import RecordError, read_record
+
+NAMES = record.available()
+HEADER = "# density_kg_m3: 1200\n# poisson: 0.48\nstrain,stress_Pa\n"
+
+
+def polynomial(law):
+    """The law as scipy evaluates it."""
+    return PPoly(law.coefficients[:, ::-1].T, law.knots)
+
+
+@pytest.fixture(params=NAMES)
+def material(request):
+    return Material(name=request.param)
+
+
+@pytest.fixture
+def own_record(tmp_path):
+    def write(text):
+        path = tmp_path / "own.csv"
+        path.write_text(text)
+        return path
+
+    return write
+
+
+def test_six_records_ship():
+    assert len(NAMES) == 6
+
+
+@pytest.mark.parametrize(
+    ("name", "at_10", "at_100", "modulus"),
+    [
+        ("ninjaflex", 1.813, 7.032, 19.3),
+        ("polymaker_tpu90", 2.806, 9.034, 31.2),
+        ("overture_tpu", 4.111, 11.665, 47.0),
+        ("cheetah", 6.603, 15.336, 79.65),
+        ("filaflex_60a", 0.668, 3.091, 9.65),
+        ("ultimaker_tpu95a", 6.603 * 67 / 79.65, 15.336 * 67 / 79.65, 67.0),
+    ],
+)
+def test_records_are_as_published(name, at_10, at_100, modulus):
+    law = polynomial(stress_law(Material(name=name)))
+    assert law([0.1, 1.0]) == pytest.approx([at_10 * 1e6, at_100 * 1e6], rel=1e-6)
+    assert Material(name=name).modulus == pytest.approx(modulus * 1e6, rel=2e-3)
+
+
+def test_law_passes_through_the_record(material):
+    law = polynomial(stress_law(material))
+    assert law(material.curve_strain) == pytest.approx(material.curve_stress, rel=1e-12)
+    assert law(0.0) == 0.0
+
+
+def test_tension_is_the_shape_preserving_cubic_of_scipy(material):
+    """Between the knots above the toe, whose slopes nothing else sets."""
+    law = stress_law(material)
+    knots = law.knots[law.knots >= 0.0]
+    values = polynomial(law)(knots)
+    slopes = PchipInterpolator(knots, values).derivative()(knots)
+    strain = np.linspace(knots[2], knots[-1], 500)
+    assert polynomial(law)(strain) == pytest.approx(
+        CubicHermiteSpline(knots, values, slopes)(strain), rel=1e-12
+    )
+
+
+def test_slopes_of_a_record_that_falls_and_rises_are_those_of_scipy(own_record):
+    path = own_record(HEADER + "0.01,2e4\n0.05,1e5\n0.1,8e4\n0.2,8e4\n0.3,9e5\n0.31,8e5\n0.5,8e6\n")
+    law = stress_law(Material(name=str(path)))
+    knots = law.knots[law.knots >= 0.0]
+    slopes = PchipInterpolator(knots, polynomial(law)(knots)).derivative()(knots)
+    assert polynomial(law)(knots[2:], 1) == pytest.approx(slopes[2:], rel=1e-12)
+    assert slopes[3:6] == pytest.approx(0.0)
+
+
+def test_stress_and_tangent_are_continuous(material):
+    law = stress_law(material)
+    width = np.diff(law.knots)[:-1]
+    c0, c1, c2, c3 = law.coefficients.T
+    stress = c0[:-1] + width * (c1[:-1] + width * (c2[:-1] + width * c3[:-1]))
+    tangent = c1[:-1] + width * (2 * c2[:-1] + width * 3 * c3[:-1])
+    assert stress == pytest.approx(c0[1:], rel=1e-9, abs=1e-6)
+    assert tangent == pytest.approx(c1[1:], rel=1e-9)
+
+
+def test_toe_is_straight(material):
+    law = polynomial(stress_law(material))
+    slope = material.curve_stress[0] / 0.01
+    assert slope > 0.0
+    assert law(np.linspace(0.0, 0.01, 5), 1) == pytest.approx(slope, rel=1e-9)
+    assert law(-1e-9, 1) == pytest.approx(slope, rel=1e-5)
+
+
+def test_tangent_stays_positive_where_the_record_rises(material):
+    strain = np.linspace(-0.7, 5.0, 20_001)
+    assert polynomial(stress_law(material))(strain, 1).min() > 0.0
+
+
+def test_energy_is_the_integral_of_stress(material):
+    law = polynomial(stress_law(material))
+    strain = np.linspace(-0.7, 3.0, 37_001)
+    stress = law(strain)
+    trapezoid = np.sum(0.5 * (stress[1:] + stress[:-1]) * np.diff(strain))
+    assert law.integrate(-0.7, 3.0) == pytest.approx(trapezoid, rel=1e-6)
+
+
+def test_compression_lies_between_its_bounds(material):
+    law = polynomial(stress_law(material))
+    strain = np.linspace(-0.699, -0.01, 500)
+    stretch = 1.0 + strain
+    odd = -law(-strain)
+    incompressible = -law(1.0 / stretch - 1.0) / stretch**2
+    assert np.all(law(strain) >= incompressible)
+    assert np.all(law(strain) <= odd * (1 - 1e-9))
+    blend = 0.7 * odd + 0.3 * incompressible
+    assert law(strain) == pytest.approx(blend, rel=0.015)
+
+
+def test_linear_law():
+    law = stress_law(Material(modulus=12e6, density=1190.0))
+    assert law.coefficients.shape == (1, 4)
+    assert polynomial(law)([-0.5, 0.0, 0.25]) == pytest.approx([-6e6, 0.0, 3e6])
+
+
+def test_own_compression_branch_is_kept(own_record):
+    path = own_record(HEADER + "-0.5,-4e6\n-0.1,-3e5\n0.01,2e4\n0.05,1e5\n0.5,8e5\n")
+    law = stress_law(Material(name=str(path)))
+    assert polynomial(law)([-0.5, -0.1, 0.05]) == pytest.approx([-4e6, -3e5, 1e5])
+    assert polynomial(law)([-1e-9, 1e-9], 1) == pytest.approx([2e6, 2e6], rel=1e-4)
+
+
+def test_points_below_one_percent_are_replaced(own_record):
+    path = own_record(HEADER + "0,0\n0.002,-500\n0.02,4e4\n0.05,1e5\n")
+    law = polynomial(stress_law(Material(name=str(path))))
+    at_toe = -500 + (4e4 + 500) * 8 / 18
+    assert law(0.005) == pytest.approx(0.5 * at_toe)
+
+
+def test_a_record_that_ends_early_goes_on_straight(own_record):
+    path = own_record(HEADER + "0.01,2e4\n0.05,1e5\n0.1,2e5\n")
+    law = polynomial(stress_law(Material(name=str(path))))
+    assert law(-0.5) == pytest.approx(-0.7 * 1e6 - 0.3 * 2e6 / 0.25, rel=1e-3)
+
+
+def test_a_stated_modulus_wins(own_record):
+    path = own_record("# modulus_Pa: 3e6\n" + HEADER + "0.01,2e4\n0.05,1e5\n")
+    assert read_record(path).modulus == 3e6
+    assert Material(name=str(path)).name == "own"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("strain,stress_Pa\n0.01,1\n0.1,2\n", "needs the lines # density_kg_m3"),
+        ("# density_kg_m3: 1.2 g/cm^3\n# poisson: 0.4\nstrain,stress_Pa\n0,0\n1,1\n", "density_kg"),
+        (HEADER.replace("_Pa", "_MPa") + "0.01,1\n", "first row must read strain,stress_Pa"),
+        (HEADER + "0.01,1,3\n", "two numbers"),
+        (HEADER + "0.01,soft\n0.1,2\n", "could not convert"),
+        (HEADER + "0.01,nan\n0.1,2\n", "finite"),
+        (HEADER + "0.02,1\n0.01,2\n", "must increase"),
+        (HEADER + "-1.0,-1\n0.1,2\n", "from above -1"),
+        (HEADER + "0.01,1\n0.02,2\n", "reach a strain of 0.04"),
+        (HEADER + "0.01,-1\n0.5,2\n", "positive at 1 % strain"),
+        (HEADER, "reach a strain"),
+    ],
+)
+def test_unusable_records_are_refused_by_name(own_record, text, message):
+    with pytest.raises(RecordError, match=f"own.csv: .*{message}"):
+        read_record(own_record(text))

@@ -1,0 +1,213 @@
+"""An endless lattice: what it may not depend on, its derivatives, its period, what it refuses."""
+
+import re
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+import shapely
+from pydantic import ValidationError
+
+from kernels.solve import newton
+from sweep.design import period as endless
+from sweep.scene.terms import periodic
+from sweep.design.drawing import welded
+from sweep.design.infill import families
+from sweep.design.network import build_network, relative_density
+from sweep.config.case import Case, Lattice
+from sweep.simulation.simulate import simulate
+from tests.periods import PITCH, L, follow, lattice_of, pressed
+from tests.scenes import is_sound, trapezoid, unbalanced
+from tests.solving import at_rest, descend, go_on, ramp, whole
+
+
+def cut_elsewhere(cut):
+    """Patch that puts the lower left corner of the period at ``cut``, m."""
+
+    def moved(segments, tolerance):
+        return welded(segments - np.array(cut), tolerance)
+
+    return patch.object(endless, "welded", moved)
+
+
+def cut_at(case, cut=(0.0, 0.0), wave=None):
+    """Result with another corner of the period, and the imperfection of a period of two cells."""
+    lattice = case.lattice
+    wave = wave or lattice.height
+
+    def shift(lattice, y):
+        return 0.05 * lattice.wall_thickness * np.cos(2 * np.pi * (y + cut[1]) / wave)
+
+    with patch.object(periodic, "imperfection", shift), cut_elsewhere(cut):
+        build_network.cache_clear()
+        result = simulate(case)
+    build_network.cache_clear()
+    return result
+
+
+def density(result, name):
+    """A column of the history for each m^3 of lattice."""
+    return result.history[name] / (result.summary["width_m"] * result.summary["height_m"])
+
+
+CRUSHES = {"hex": 0.15, "kagome": 0.08, "reentrant": 0.12}  # thickness / pitch
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("kind", CRUSHES)
+def test_it_does_not_matter_where_the_period_is_cut(kind, friction):
+    """Walls that touch across the seam are walls like others."""
+    case = pressed(lattice_of(kind, (2, 2), CRUSHES[kind]), friction=friction)
+    one, other = (cut_at(case, cut) for cut in ((0.0, 0.0), (0.37 * L, 0.61 * L)))
+    assert is_sound(one)
+    assert one.history["contact_J"][-1] > 1e-4 * one.history["stretch_J"][-1]
+    for name in ("work_in_J", "contact_J", "dissipated_friction_J"):
+        most = np.abs(one.history["work_in_J"]).max()
+        np.testing.assert_allclose(other.history[name], one.history[name], rtol=0, atol=1e-6 * most)
+
+
+@pytest.mark.parametrize("kind", CRUSHES)
+def test_four_periods_are_as_good_as_one(kind):
+    small, large = (
+        cut_at(
+            pressed(lattice_of(kind, (n, n), CRUSHES[kind])),
+            wave=2 * L * PITCH.get(kind, (1, 1))[1],
+        )
+        for n in (2, 4)
+    )
+    assert is_sound(small)
+    assert is_sound(large)
+    assert small.summary["relative_density"] == pytest.approx(large.summary["relative_density"])
+    for name in ("work_in_J", "contact_J"):
+        expected = density(small, name)
+        atol = 1e-6 * expected.max()
+        np.testing.assert_allclose(density(large, name), expected, rtol=1e-6, atol=atol)
+
+
+def test_the_book_is_closed_and_the_work_is_that_of_the_mean_stress():
+    result = simulate(pressed(lattice_of("kagome", (2, 2), 0.08), friction=0.3, unload=True))
+    assert is_sound(result)
+    history = result.history
+    assert unbalanced(history) < 1e-8
+    assert trapezoid(history) == pytest.approx(history["work_in_J"][-1], rel=1e-3)
+    np.testing.assert_array_equal(history["reaction_top_N"], history["reaction_bottom_N"])
+    assert result.summary["residual_strain"] == pytest.approx(0.0, abs=1e-6)
+
+
+def crushed(lattice, strain, steps=20):
+    """Scene and coordinates of a lattice that is pressed, and what a step there minimises."""
+    case = pressed(lattice)
+    scene = periodic.build_periodic(case)
+    state = at_rest(scene)
+    outcome, _ = go_on(
+        case, scene, state, ramp(scene, steps, travel=(0.0, strain * lattice.height))
+    )
+    assert outcome == newton.CONVERGED
+    return case, scene, state.x, whole(scene, state.x)
+
+
+CELLS = [("square", (1, 1)), ("square", (2, 1)), ("hex", (1, 2)), ("reentrant", (1, 2))]
+
+
+@pytest.mark.parametrize(("kind", "cells"), CELLS)
+def test_derivatives_in_the_mean_strain(kind, cells):
+    """Against differences of the energy and its slopes along all that is free, and led."""
+    _, scene, x, args = crushed(lattice_of(kind, cells, 0.12, imperfection=0.3), 0.45)
+    follows, h = follow(scene), 1e-7 * L
+    scale = np.append(scene.unknowns.scale[follows.argmax(axis=0)][:-1], 1.0)
+    steps = h / scale
+    slope, curvature = follows.T @ args.gradient(x), follows.T @ args.hessian(x) @ follows
+    ways = list(zip((follows * steps).T, steps, strict=True))
+    sides = [
+        [(args.energy(x + s * way), args.gradient(x + s * way)) for s in (1, -1)] for way, _ in ways
+    ]
+    for k, (one, other) in enumerate(sides):
+        found = (one[0] - other[0]) / (2 * steps[k])
+        size = np.abs(args.gradient(x)).max()
+        assert found / scale[k] == pytest.approx(slope[k] / scale[k], abs=1e-4 * size)
+        found = follows.T @ (one[1] - other[1]) / (2 * steps[k])
+        size = np.abs(curvature[:, k]).max()
+        np.testing.assert_allclose(found, curvature[:, k], rtol=0, atol=1e-5 * size)
+
+
+@pytest.mark.parametrize(("kind", "cells"), CELLS)
+def test_the_factor_solves_for_the_mean_strain_too(kind, cells):
+    """As dense algebra does, with walls condensed and, in contact, open."""
+    for strain in (0.0, 0.45):
+        _, scene, x, args = crushed(lattice_of(kind, cells, 0.12, imperfection=0.3), strain)
+        follows = follow(scene)[:, :-1]
+        (_, failed, _), missing = args.factor(x)
+        assert (failed, missing) == (-1, False)
+        b = np.random.default_rng(0).uniform(-1, 1, x.size)
+        expected = follows @ np.linalg.solve(follows.T @ args.hessian(x) @ follows, follows.T @ b)
+        size = np.abs(expected).max()
+        np.testing.assert_allclose(args.solve(b), expected, rtol=0, atol=1e-8 * size)
+
+
+def test_a_led_step_converges_as_newton_does():
+    case, scene, x, args = crushed(lattice_of("reentrant", (1, 2), 0.12), 0.45)
+    found = descend(case, scene, x, args, target=x[-1] - 1e-4 * L)
+    assert (found.outcome, found.iterations <= 4) == (newton.CONVERGED, True)
+
+
+@pytest.mark.parametrize("kind", families())
+def test_all_families_have_a_period(kind):
+    """Its density depends neither on the cut nor on the number of periods."""
+    found = []
+    for cells, cut in (((1, 2), (0, 0)), ((2, 2), (0, 0)), ((2, 4), (0.3 * L, 0.7 * L))):
+        with cut_elsewhere(cut):
+            made = endless.build_endless(lattice_of(kind, cells, 0.05))
+        found.append(made.printed_area / np.prod(cells))
+    assert found == pytest.approx([found[0]] * 3, rel=1e-9)
+
+
+def test_density_of_the_endless_square_grid():
+    lattice = lattice_of("square", (2, 3), 0.1)
+    assert relative_density(build_network(lattice), lattice) == pytest.approx(1 - 0.9**2)
+
+
+@pytest.mark.parametrize("kind", families())
+def test_copies_have_all_walls_round_the_openings_of_a_period(kind):
+    """More copies make no smaller opening next to its walls."""
+    lattice = lattice_of(kind, (1, 2), 0.05)
+    sizes = []
+    for reach in (endless.REACH, 2.5):
+        with patch.object(endless, "REACH", reach):
+            network = endless.build_endless(lattice)
+        lines = shapely.linestrings(network.points[network.walls])
+        cells = shapely.get_parts(shapely.polygonize(lines))
+        beside = shapely.STRtree(cells).query(lines[: network.own], "covered_by")
+        assert np.all(np.bincount(beside[0], minlength=network.own) == 2)
+        sizes.append(np.sort(shapely.area(cells[beside[1]])))
+    np.testing.assert_allclose(*sizes, rtol=1e-9)
+
+
+REFUSED = [
+    ({"grading": 2.0}, {}, "lattice.grading = 2.0; allowed: 1"),
+    ({"perimeters": 1}, {}, "lattice.perimeters = 1; allowed: 0"),
+    ({"solid_layers": 2}, {}, "lattice.solid_layers = 2; allowed: 0"),
+    ({"infill": 0.2}, {}, "lattice.infill = 0.2; allowed: none"),
+    ({"kind": "hex"}, {}, "lattice.cells_y = 3; allowed: an even number"),
+    ({"kind": "hex", "orientation": "flat"}, {}, "lattice.cells_x = 3; allowed: an even number"),
+    ({}, {"mode": "force"}, 'loading.mode = force; allowed: "displacement"'),
+    ({}, {"striker_speed": 1.0}, 'loading.mode = impact; allowed: "displacement"'),
+    ({}, {"strain": 0.5, "platen": "glued"}, 'loading.platen = glued; allowed: "none"'),
+    ({}, {"strain": 0.5, "speed": 0.1}, "loading.quasi_static = 0; allowed: true"),
+]
+
+
+@pytest.mark.parametrize(("lattice", "loading", "words"), REFUSED)
+def test_what_has_no_endless_lattice_is_refused(lattice, loading, words):
+    with pytest.raises(ValidationError, match=re.escape(words)):
+        Case(lattice={"boundary": "periodic"} | lattice, loading=loading or {"strain": 0.5})
+
+
+def test_a_structure_of_ones_own_is_not_repeated(tmp_path):
+    (tmp_path / "bar.json").write_text('{"nodes_mm": [[0, 0], [10, 0]], "walls": [[0, 1]]}')
+    words = 'lattice.boundary = periodic; allowed: "free"'
+    with pytest.raises(ValidationError, match=re.escape(words)):
+        Lattice(kind="custom", file=str(tmp_path / "bar.json"), boundary="periodic")
+
+
+def test_free_sides_keep_their_ids():
+    assert Case().case_id == Case(lattice=Lattice(boundary="free")).case_id

@@ -1,0 +1,138 @@
+"""A case that cannot finish is a row with a sentence: nothing raises, what was done is kept."""
+
+import threading
+import time
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case, Contact, Lattice, Loading, Solver
+from sweep.result import COLUMNS, HISTORY_COLUMNS, Status
+from sweep.simulation.simulate import simulate
+from tests.scenes import is_sound, pressed
+
+LONG = Case(
+    lattice=Lattice(cells_x=8, cells_y=8, wall_thickness=0.4e-3),
+    loading=Loading(mode="displacement", strain=0.6),
+    solver=Solver(load_steps=2000, time_limit=60.0),
+)
+
+
+def check_kept(result):
+    """All columns are there, and whatever rows there are hold numbers."""
+    rows = len(result.history["strain"])
+    assert set(COLUMNS) <= set(result.summary)
+    assert set(HISTORY_COLUMNS) <= set(result.history)
+    assert {len(column) for column in result.history.values()} == {rows}
+    for name, column in result.history.items():
+        assert name == "min_gap_m" or np.all(np.isfinite(column))
+    assert np.all(np.isfinite(result.frames["position_m"]))
+    assert result.summary["status"] == result.status
+    assert result.summary["message"] == result.message
+    return rows
+
+
+def test_time_limit():
+    case = LONG.model_copy(update={"solver": LONG.solver.model_copy(update={"time_limit": 1.0})})
+    begun = time.monotonic()
+    result = simulate(case)
+    assert time.monotonic() - begun < 6.0
+    assert result.status == Status.TIMED_OUT
+    assert result.message.startswith("solver.time_limit of 1 s reached while loading, at strain")
+    assert 1 < check_kept(result) < 2001
+
+
+@pytest.mark.parametrize("iterations", [1, 4])
+def test_limit_of_iterations(iterations):
+    """One is enough in the smallest of steps, four are until walls rub on one another."""
+    result = simulate(pressed(3, 0.6, 20, friction=0.3, solver={"max_iterations": iterations}))
+    assert result.status == Status.STOPPED
+    assert "while loading, at strain" in result.message
+    assert f"within {iterations} Newton iterations; try" in result.message
+    assert 1 <= check_kept(result) < 21
+
+
+def test_stop_that_is_asked_for_before_the_start():
+    result = simulate(LONG, np.array([1, 0]))
+    assert result.status == Status.STOPPED
+    assert result.message.startswith("interrupted while loading, at strain 0 after 0 steps")
+    assert check_kept(result) == 1
+
+
+def test_stop_that_is_asked_for_in_the_middle():
+    control, results = np.zeros(2, dtype=np.int64), []
+    worker = threading.Thread(target=lambda: results.append(simulate(LONG, control)))
+    worker.start()
+    limit = time.monotonic() + 30
+    while control[1] < 3 and time.monotonic() < limit:
+        time.sleep(0.01)
+    control[0] = 1
+    worker.join(5.0)
+    assert not worker.is_alive()
+    assert results[0].status == Status.STOPPED
+    assert results[0].message.startswith("interrupted while loading")
+    assert 3 < check_kept(results[0]) < 2001
+
+
+EXTREMES = {
+    "one cell of single elements": Case(
+        lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=0),
+        loading=Loading(mode="displacement"),
+    ),
+    "crushed flat at once": Case(
+        loading=Loading(mode="displacement", strain=0.999),
+        solver=Solver(load_steps=1, max_iterations=10),
+    ),
+    "walls that almost fill the cells": Case(
+        lattice=Lattice(cells_x=2, cells_y=2, wall_thickness=3.1e-3),
+        loading=Loading(mode="displacement", strain=0.3, platen="contact"),
+        solver=Solver(load_steps=20),
+    ),
+    "walls like foil": Case(
+        lattice=Lattice(wall_thickness=2e-5),
+        loading=Loading(mode="displacement"),
+        solver=Solver(load_steps=30),
+    ),
+    "a heavy load": Case(
+        loading=Loading(force=1e3, platen="contact", duration=2e-3), solver=Solver(time_step=1e-3)
+    ),
+    "one step": Case(loading=Loading(force=10.0, platen="contact"), solver=Solver(time_step=0.2)),
+    "100 m/s": Case(
+        loading=Loading(mode="displacement", speed=100.0), solver=Solver(load_steps=30)
+    ),
+    "walls bent like arches": Case(
+        lattice=Lattice(imperfection=20.0),
+        loading=Loading(mode="displacement", strain=0.4),
+        solver=Solver(load_steps=40),
+    ),
+    "walls that stick": Case(
+        loading=Loading(mode="displacement", platen="contact"),
+        contact=Contact(friction=5.0),
+        solver=Solver(load_steps=30, max_iterations=30),
+    ),
+    "a tolerance below round-off": Case(
+        loading=Loading(mode="displacement", strain=0.2), solver=Solver(tolerance=1e-16)
+    ),
+}
+
+
+@pytest.mark.parametrize("name", EXTREMES)
+def test_extremes_raise_nothing_and_cross_nowhere(name):
+    result = simulate(EXTREMES[name])
+    check_kept(result)
+    assert result.summary["max_crossings"] == 0
+    if result.status == Status.CONVERGED:
+        assert is_sound(result)
+    else:
+        assert result.status == Status.STOPPED
+        assert "; try " in result.message
+
+
+def test_a_book_that_does_not_close_is_no_result():
+    with patch("sweep.simulate.GAP", -1.0):
+        result = simulate(pressed(3, 0.2, 10))
+    assert result.status == Status.STOPPED
+    assert result.message.startswith(
+        "work and energies do not balance at strain 0.2 after 10 steps;"
+    )

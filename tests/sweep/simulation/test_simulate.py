@@ -1,0 +1,72 @@
+"""The processor time that a case says it took."""
+
+import time
+from importlib import import_module
+
+import pytest
+
+from kernels.solve import march
+from sweep.config.case import Case, Loading, Solver
+from sweep.scene.terms import build_scene
+from sweep.simulation.simulate import simulate, warm_up
+from sweep.scene.loading import stages
+
+PARTS = {"scene": "build_scene", "rows": "history_columns", "measures": "summarise"}
+
+
+def work(seconds):
+    """Keep the processor busy."""
+    end = time.thread_time() + seconds
+    while time.thread_time() < end:
+        pass
+
+
+def before(first, function):
+    """The function, with something done before."""
+
+    def both(*arguments):
+        first(0.2)
+        return function(*arguments)
+
+    return both
+
+
+@pytest.fixture
+def seconds(monkeypatch):
+    """Processor time of a small case, of which some part does something else before."""
+    warm_up()
+    case = Case(loading=Loading(release_time=1e-4, duration=2e-4))
+
+    def measure(module, name, first):
+        monkeypatch.setattr(module, name, before(first, getattr(module, name)))
+        return simulate(case).summary["cpu_s"]
+
+    return measure
+
+
+@pytest.mark.parametrize("part", PARTS.values(), ids=PARTS)
+def test_processor_time_counts_what_is_done_in_python(seconds, part):
+    assert seconds(import_module("sweep.simulation.simulate"), part, work) > 0.2
+
+
+def test_processor_time_counts_the_march(seconds):
+    assert seconds(march, "march", work) > 0.2
+
+
+def test_processor_time_counts_no_waiting(seconds):
+    assert seconds(march, "march", time.sleep) < 0.2
+
+
+@pytest.mark.parametrize(("step", "steps", "dt"), [(15e-3, 2, 10e-3), (10e-3, 2, 10e-3)])
+def test_steps_fill_the_time_until_release_and_after(step, steps, dt):
+    loading = Loading(force=1.0, release_time=20e-3, duration=40e-3)
+    case = Case(loading=loading, solver=Solver(time_step=step))
+    for phase in stages(case, build_scene(case)):
+        assert (phase.stage.steps, phase.stage.dt) == (steps, dt)
+
+
+def test_steps_fill_the_flight_of_a_striker():
+    loading = Loading(mode="impact", duration=10e-3)
+    case = Case(loading=loading, solver=Solver(time_step=6e-3))
+    (phase,) = stages(case, build_scene(case))
+    assert (phase.stage.steps, phase.stage.dt) == (2, 5e-3)

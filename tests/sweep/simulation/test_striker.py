@@ -1,0 +1,269 @@
+"""A rigid striker: momentum and energy, the spring that it meets at best, its stop and rebound."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from kernels.terms import inertia
+from kernels.solve import newton
+from kernels.planar import rows as trace
+from sweep.config.units import load_config
+from sweep.config.grid import expand
+from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
+from sweep.scene.terms import build_scene
+from sweep.simulation.simulate import simulate
+from tests.figures import MATERIAL
+from tests.scenes import (
+    LOST,
+    SEED,
+    STORED,
+    UNDAMPED,
+    VISCOUS,
+    is_sound,
+    loaded,
+    pressed,
+    run,
+    slopes,
+    summed,
+    unbalanced,
+)
+from tests.solving import at_rest, go_on, ramp
+
+RECOVERABLE = ("stretch_J", "bend_J", "contact_J")
+EULER = "backward_euler"
+CREEP = Damping(model="rayleigh", mass=200.0, stiffness=5e-3)  # no overshoot
+
+
+def struck(
+    platen="glued",
+    friction=0.0,
+    damping=UNDAMPED,
+    imperfection=0.01,
+    steps=None,
+    integrator=None,
+    **loading,
+):
+    """A 3 x 3 grid and a striker; ``steps`` in the time that it takes for the height."""
+    loads = Loading(mode="impact", platen=platen, **loading)
+    passage = Case(loading=loads).loading.duration / 10
+    return Case(
+        lattice=Lattice(imperfection=imperfection),
+        material=MATERIAL,
+        loading=loads,
+        contact=Contact(friction=friction),
+        damping=damping,
+        solver=Solver(time_step=steps and passage / steps, integrator=integrator),
+    )
+
+
+def column(steps, damping=UNDAMPED):
+    """Two straight walls without mass under 50 g at 20 mm/s, and v sqrt(k m), the peak in N."""
+    striker, speed, wall = 0.05, 0.02, 2e-3
+    lattice = Lattice(cells_x=1, cells_y=1, wall_thickness=wall, imperfection=0.0)
+    stiffness = 2 * MATERIAL.modulus * lattice.depth * wall / lattice.height
+    swing = np.pi * np.sqrt(striker / stiffness)
+    case = Case(
+        lattice=lattice,
+        material=MATERIAL.model_copy(update={"density": 1.0}),
+        loading=Loading(striker_mass=striker, striker_speed=speed, duration=2 * swing),
+        contact=Contact(model="none"),
+        damping=damping,
+        solver=Solver(time_step=swing / steps, integrator=EULER),
+    )
+    return case, speed * np.sqrt(stiffness * striker)
+
+
+def test_a_straight_column_is_a_spring():
+    """Peak force v sqrt(k m) of a mass on a spring, to the first order in the time step."""
+    peaks = []
+    for steps in (500, 1000, 2000):
+        case, expected = column(steps)
+        result = run(case)
+        assert is_sound(result)
+        peaks.append(result.summary["peak_force_N"] / expected - 1.0)
+        assert result.history["reaction_top_N"].max() / expected - 1.0 == pytest.approx(
+            peaks[-1], abs=1e-4
+        )
+    np.testing.assert_allclose(slopes(peaks), 1.0, atol=0.05)
+    assert abs(2 * peaks[2] - peaks[1]) < 1e-4
+    assert result.summary["rebound_share"] == pytest.approx(1.0, abs=0.006)
+
+
+def test_the_drag_of_the_lattice_does_not_slow_the_striker():
+    drag = Damping(model="rayleigh", mass=1e3, stiffness=0.0)
+    free, damped = (run(column(500, damping)[0]) for damping in (UNDAMPED, drag))
+    shares = [result.summary["rebound_share"] for result in (free, damped)]
+    assert shares[0] == pytest.approx(shares[1], abs=1e-3)
+
+
+@pytest.mark.parametrize("damping", [UNDAMPED, SEED, VISCOUS], ids=["none", "rayleigh", "viscous"])
+@pytest.mark.parametrize(("platen", "friction"), [("glued", 0.0), ("contact", 0.3)])
+def test_book_of_an_impact(platen, friction, damping):
+    result = run(struck(platen, friction, damping))
+    history, summary = result.history, result.summary
+    assert is_sound(result)
+    assert unbalanced(history) < 1e-6
+    assert np.ptp(history["work_in_J"]) == 0.0
+    assert history["work_in_J"][0] == history["kinetic_J"][0]
+    for name in ("dissipated_material_J", "dissipated_friction_J"):
+        assert np.diff(history[name]).min() >= -1e-9 * history["work_in_J"][0]
+    assert summary["dissipated_energy_J"] == pytest.approx(summed(history, LOST)[-1], rel=1e-12)
+
+
+@pytest.mark.parametrize(("platen", "friction"), [("glued", 0.0), ("contact", 0.3)])
+def test_momentum_goes_into_the_support(platen, friction):
+    case = struck(platen, friction, striker_mass=0.05, striker_speed=2.0)
+    scene = build_scene(case)
+    state = at_rest(scene)
+    state.v[:] = scene.velocity
+    dt = case.solver.time_step
+    up = np.append(np.arange(1, 2 * len(scene.mesh.points), 2), len(state.x) - 1)
+    before = np.sum(scene.terms.mass[up] * state.v[up])
+    outcome, rows = go_on(case, scene, state, ramp(scene, 150, dt))
+    assert outcome == newton.CONVERGED
+    gained = np.sum(scene.terms.mass[up] * state.v[up]) - before
+    assert gained > 0.01  # N s
+    assert np.sum(rows[:, trace.REACTION_BOTTOM]) * dt == pytest.approx(gained, rel=1e-5)
+
+
+def test_energy_stays_where_nothing_dissipates():
+    """Backward Euler's loss vanishes with its step: none is left, extrapolated to a step of 0."""
+    lost = []
+    for steps in (1000, 2000, 4000):
+        heavy = {"striker_mass": 5.0, "striker_speed": 0.1}
+        case = struck(imperfection=0.1, steps=steps, integrator=EULER, **heavy)
+        history = run(case).history
+        lost.append(1.0 - summed(history, STORED)[-1] / history["work_in_J"][-1])
+    assert lost[0] > 2.5 * lost[2] > 0.0
+    assert abs(2 * lost[2] - lost[1]) < 0.005
+
+
+def test_stored_energy_of_equal_ends_is_equal():
+    """A settled step force and the stop of a slow striker lie on the branch of the crush."""
+    crush = run(pressed(3, 0.55, 220)).history
+    ends = [(run(loaded(force, "glued", 0.0, 1e-3, CREEP, 0.4, 0.4)), -1) for force in (14.0, 20.0)]
+    for energy in (0.045, 0.09):
+        result = run(struck(striker_mass=5.0, energy=energy))
+        ends.append((result, result.history["top_displacement_m"].argmax()))
+    for result, row in ends:
+        travel = result.history["top_displacement_m"][row]
+        static = np.interp(travel, crush["top_displacement_m"], summed(crush, RECOVERABLE))
+        assert summed(result.history, RECOVERABLE)[row] == pytest.approx(static, rel=1e-3)
+    assert ends[-1][0].history["contact_J"].max() > 1e-4
+
+
+@pytest.mark.parametrize("platen", ["glued", "contact"])
+def test_columns_of_an_impact(platen):
+    case = struck(platen, 0.3, SEED, integrator=EULER, striker_mass=0.05, energy=0.1)
+    result = run(case)
+    history, summary = result.history, result.summary
+    stop = history["top_displacement_m"].argmax()
+    speed, force = history["striker_speed_m_per_s"], history["reaction_top_N"]
+    assert (summary["striker_mass_g"], summary["impact_energy_J"]) == (50.0, 0.1)
+    assert summary["striker_speed_m_per_s"] == pytest.approx(2.0) == speed[0]
+    assert abs(speed[stop]) < 0.01 * speed[0]
+    assert summary["peak_strain"] == pytest.approx(history["strain"][stop])
+    travel = -np.cumsum(speed[1:]) * np.diff(history["time_s"])
+    np.testing.assert_allclose(history["top_displacement_m"][1:], -travel, rtol=1e-6, atol=1e-12)
+    np.testing.assert_allclose(history["deceleration_m_per_s2"] * 0.05, force, rtol=1e-12)
+    assert summary["peak_deceleration_m_per_s2"] == history["deceleration_m_per_s2"].max()
+    assert summary["peak_force_N"] == history["reaction_bottom_N"].max()
+    assert summary["rebound_speed_m_per_s"] == -speed.min() > 0.5
+    assert summary["returned_energy_J"] == pytest.approx(0.025 * speed.min() ** 2)
+    assert summary["rebound_share"] == pytest.approx(summary["returned_energy_J"] / 0.1)
+    assert summary["absorbed_energy_J"] == pytest.approx(0.1, rel=0.005)
+    grown = Case().lattice.outer_size[1] * (1.0 - summary["relative_density"])
+    assert summary["stroke_left_m"] == pytest.approx(grown - history["top_displacement_m"].max())
+
+
+@pytest.mark.parametrize("platen", ["glued", "contact"])
+def test_work_on_the_lattice_is_the_area_under_the_striker_s_force(platen):
+    """Until 20 N are first passed on; what flies with the striker brings its own."""
+    case = struck(platen, 0.3, SEED, striker_mass=0.05, energy=0.1, allowed_forces=(20.0,))
+    history, summary = run(case).history, run(case).summary
+    force, speed = history["reaction_top_N"], history["striker_speed_m_per_s"]
+    way = 0.5 * (speed[1:] + speed[:-1]) * np.diff(history["time_s"])
+    row = np.argmax(history["reaction_bottom_N"] > 20.0)
+    work = history["work_in_J"][0] - 0.1 + np.cumsum(force[1:] * way)
+    assert 0.001 < work[row - 2] <= summary["absorbed_energy_at_20N_J"] <= work[row - 1] < 0.05
+
+
+def test_a_run_ends_when_the_striker_is_back():
+    travel = run(struck("contact", 0.3, SEED)).history["top_displacement_m"]
+    assert travel[-1] <= 0.0 < travel[1:-1].min()
+
+
+def test_a_striker_that_still_sinks_is_a_failure():
+    result = simulate(struck(striker_mass=1.0, striker_speed=2.0, duration=2e-3))
+    assert result.status == "stopped"
+    assert "the striker still sinks at strain 0.3" in result.message
+    assert "longer loading.duration" in result.message
+    assert result.history["time_s"][-1] == pytest.approx(2e-3, rel=0.01)
+
+
+@pytest.mark.parametrize("platen", ["glued", "contact"])
+def test_the_glued_row_flies_with_the_striker(platen):
+    case = struck(platen)
+    scene = build_scene(case)
+    top = 2 * np.flatnonzero(np.isclose(scene.mesh.points[:, 1], case.lattice.height)) + 1
+    assert np.all(scene.velocity[top] == (-2.0 if platen == "glued" else 0.0))
+    assert np.count_nonzero(scene.velocity) == (len(top) if platen == "glued" else 0) + 1
+    brought = inertia.kinetic(scene.velocity, scene.terms.mass)
+    assert brought == pytest.approx(0.1, rel=0.005)
+    assert brought == run(case).history["work_in_J"][0]
+
+
+def test_the_shipped_sweep_over_hit_energies():
+    case = expand(load_config(Path(__file__).parents[1] / "configs" / "impact.toml"))[2]
+    assert (case.loading.energy, case.lattice.wall_thickness) == (0.03, 1.2e-3)
+    assert case.solver.integrator == "bdf2"
+    assert run(case).summary["peak_force_N"] == pytest.approx(77.7, abs=0.4)
+
+
+def test_the_usual_integrator_of_an_impact_errs_less():
+    """By the stroke left in steps of the usual length, against steps of a quarter of it."""
+
+    def left(integrator, steps=1000):
+        return run(struck(damping=SEED, steps=steps, integrator=integrator)).summary[
+            "stroke_left_m"
+        ]
+
+    assert struck(damping=SEED).solver.integrator == "bdf2"
+    truth = left("bdf2", 4000)
+    assert abs(left("bdf2") - truth) < 0.1 * abs(left(EULER) - truth)
+
+
+def test_a_striker_on_walls_moved_apart_goes_by_backward_euler():
+    contact = Contact(model="position_based")
+    assert Case(loading=Loading(mode="impact"), contact=contact).solver.integrator == EULER
+
+
+def test_speed_and_energy_follow_from_one_another():
+    by_speed = Loading(striker_mass=0.1, striker_speed=2.0)
+    by_energy = Loading(striker_mass=0.1, energy=0.2)
+    both = Loading(striker_mass=0.1, energy=0.2, striker_speed=2.0)
+    assert by_speed.mode == by_energy.mode == "impact"
+    assert len({Case(loading=loading).case_id for loading in (by_speed, by_energy, both)}) == 1
+    with pytest.raises(ValidationError, match=r"loading\.energy = 0\.3; allowed: 0\.2 J"):
+        Case(loading=Loading(striker_mass=0.1, striker_speed=2.0, energy=0.3))
+
+
+@pytest.mark.parametrize(
+    ("loading", "solver", "words"),
+    [
+        ({"platen": "none"}, {}, r'loading\.platen = none; allowed: "contact", "glued" or'),
+        ({}, {"integrator": "static"}, r"solver\.integrator = static; allowed"),
+    ],
+)
+def test_what_does_not_go_with_an_impact_is_refused(loading, solver, words):
+    with pytest.raises(ValidationError, match=words):
+        Case(loading=Loading(mode="impact", **loading), solver=Solver(**solver))
+
+
+def test_duration_is_a_key_of_loads_and_of_strikers():
+    assert Loading(duration=0.1).mode == "force"
+    assert Loading(duration=0.1, energy=0.1).mode == "impact"
+    with pytest.raises(ValidationError, match=r'"force" or "impact", as loading\.force needs'):
+        Loading(force=1.0, energy=0.1)

@@ -1,0 +1,166 @@
+"""The measures of a crush on curves whose values are known by hand."""
+
+import numpy as np
+import pytest
+
+from sweep.simulation.summary import (
+    absorbed_until,
+    crush_columns,
+    efficiency,
+    plateau,
+    returned,
+    transmitted,
+)
+from sweep.config.case import Case, Lattice, Loading
+
+LATTICE = Lattice(width=9e-3, wall_thickness=1e-3, height=10e-3, depth=10e-3)  # area 1 cm^2
+AREA, HEIGHT = 1e-4, 10e-3
+STEP = 1e-3  # strain of a row
+
+
+def worked(strain, force):
+    """Work (J) of the trapezoidal rule, (rows,)."""
+    mean = 0.5 * (force[1:] + force[:-1])
+    return np.append(0.0, np.cumsum(mean * np.diff(strain) * HEIGHT))
+
+
+def crushed(strains, forces):
+    """Strain, force (N) and work (J) of a curve that is straight between its corners."""
+    strain = np.linspace(0.0, strains[-1], round(strains[-1] / STEP) + 1)
+    force = np.interp(strain, strains, forces)
+    return strain, force, worked(strain, force)
+
+
+def curve(strain, force, work, **columns):
+    """Columns of a history in which both platens bear the same force."""
+    history = {"strain": strain, "work_in_J": work, "reaction_top_N": force}
+    return history | {"reaction_bottom_N": force} | columns
+
+
+FOAM = crushed([0.0, 0.1, 0.5, 0.6], [0.0, 10.0, 10.0, 50.0])
+"""Rises to 10 N at 10 %, yields at 10 N to 50 %, then 4 N for each percent."""
+
+
+def test_plateau_of_a_foam():
+    row, found = plateau(LATTICE, *FOAM)
+    assert row == 500
+    assert found["densification_strain"] == pytest.approx(0.5)
+    # 0.5 x 10 N x 1 mm + 10 N x 4 mm = 45 mJ; stress 0.1 MPa; over 5 to 50 %: 45 - 1.25 mJ.
+    assert found["efficiency"] == pytest.approx(45e-3 / (AREA * HEIGHT) / 0.1e6)
+    assert found["plateau_stress_Pa"] == pytest.approx(43.75e-3 / (AREA * HEIGHT) / 0.45)
+
+
+def test_energy_and_force_until_packed():
+    case = Case(lattice=LATTICE, loading=Loading(strain=0.6, allowed_forces=(20.0,)))
+    found = crush_columns(case, curve(*FOAM))
+    assert found["absorbed_energy_at_densification_J"] == pytest.approx(45e-3)
+    assert found["peak_force_at_densification_N"] == pytest.approx(10.0)
+    # 20 N at 52.5 %: 45 mJ + 15 N x 0.25 mm
+    assert found["absorbed_energy_at_20N_J"] == pytest.approx(48.75e-3)
+
+
+def test_the_greatest_force_so_far_counts_even_where_the_curve_falls():
+    """A peak of 20 N at 10 %, then 10 N: at 50 % 0.5 x 20 + 15 x 1 + 10 x 3 = 55 mJ."""
+    row, found = plateau(LATTICE, *crushed([0.0, 0.1, 0.2, 0.5, 0.6], [0, 20, 10, 10, 60]))
+    # 20 N are met again at 52 %: 55 mJ + 15 N x 0.2 mm
+    assert found["densification_strain"] == pytest.approx(0.52)
+    assert row == 520
+    assert found["efficiency"] == pytest.approx(58e-3 / 20.0 / HEIGHT)
+
+
+def test_efficiency_of_a_straight_line_is_half_the_strain():
+    strain, force, work = crushed([0.0, 0.4], [0.0, 8.0])
+    gained = efficiency(force / AREA, work / (AREA * HEIGHT))
+    assert gained == pytest.approx(0.5 * strain)
+
+
+@pytest.mark.parametrize(
+    ("strains", "forces"),
+    [([0.0, 0.4], [0.0, 8.0]), ([0.0, 0.1, 0.4], [0.0, 10.0, 10.0]), ([0.0, 0.2], [9.0, 1.0])],
+    ids=["rising", "level", "falling"],
+)
+def test_what_is_still_gaining_at_the_stroke_has_not_packed(strains, forces):
+    strain, force, work = crushed(strains, forces)
+    case = Case(lattice=LATTICE, loading=Loading(strain=0.5))
+    found = crush_columns(case, curve(strain, force, work))
+    assert np.isnan(found["densification_strain"])
+    assert found["efficiency"] == pytest.approx(work[-1] / max(forces) / HEIGHT)
+    assert found["absorbed_energy_at_densification_J"] == pytest.approx(work[-1])
+    assert found["peak_force_at_densification_N"] == pytest.approx(max(forces))
+    early = min(0.05, 0.5 * strains[-1])
+    mean = (work[-1] - np.interp(early, strain, work)) / (strains[-1] - early)
+    assert found["plateau_stress_Pa"] == pytest.approx(mean / (AREA * HEIGHT))
+
+
+def test_a_short_crush_averages_from_half_of_it():
+    _, found = plateau(LATTICE, *crushed([0.0, 0.04], [0.0, 8.0]))
+    assert found["plateau_stress_Pa"] == pytest.approx(6.0 / AREA)
+
+
+def test_nothing_is_measured_on_one_row_or_without_force():
+    still = np.zeros(1)
+    row, found = plateau(LATTICE, still, still, still)
+    assert row == 0
+    assert np.isnan([found["plateau_stress_Pa"], found["densification_strain"]]).all()
+    assert found["efficiency"] == 0.0
+    _, found = plateau(LATTICE, *crushed([0.0, 0.3], [0.0, 0.0]))
+    assert np.isnan(found["densification_strain"])
+    assert (found["plateau_stress_Pa"], found["efficiency"]) == (0.0, 0.0)
+
+
+def test_a_dead_load_has_no_plateau():
+    case = Case(lattice=LATTICE, loading=Loading(force=50.0, allowed_forces=(20.0,)))
+    found = crush_columns(case, curve(*FOAM))
+    measures = ("plateau_stress_Pa", "densification_strain", "efficiency")
+    assert np.isnan([found[name] for name in measures]).all()
+    assert found["absorbed_energy_at_densification_J"] == pytest.approx(FOAM[2][-1])
+    assert found["peak_force_at_densification_N"] == pytest.approx(50.0)
+
+
+def test_absorbed_until_a_force():
+    _, force, work = FOAM
+    assert absorbed_until(5.0, force, work) == pytest.approx(1.25e-3)
+    assert absorbed_until(10.0, force, work) == pytest.approx(45e-3)
+    assert absorbed_until(50.0, force, work) == absorbed_until(1e9, force, work) == work[-1]
+    assert work[-1] == pytest.approx(75e-3)
+
+
+def test_absorbed_until_a_force_is_interpolated_and_stops_at_the_first_time():
+    force, work = np.array([0.0, 4.0, 2.0, 8.0]), np.array([0.0, 1.0, 2.0, 3.0])
+    assert absorbed_until(3.0, force, work) == pytest.approx(0.75)
+    assert absorbed_until(5.0, force, work) == pytest.approx(2.5)
+
+
+def test_a_force_that_is_passed_on_from_the_start_or_by_one_row():
+    assert absorbed_until(1.0, np.array([2.0, 3.0]), np.array([0.1, 0.2])) == 0.1
+    assert absorbed_until(1.0, np.array([0.0]), np.array([0.0])) == 0.0
+
+
+def test_the_greater_of_both_platens_is_passed_on():
+    history = {"reaction_top_N": np.array([1.0, 5.0]), "reaction_bottom_N": np.array([2.0, 4.0])}
+    assert list(transmitted(Case(), history)) == [2.0, 5.0]
+
+
+def test_a_struck_lattice_passes_on_what_its_support_bears():
+    history = {"reaction_top_N": np.array([9.0, 5.0]), "reaction_bottom_N": np.array([2.0, 4.0])}
+    struck = Case(loading=Loading(mode="impact"))
+    assert list(transmitted(struck, history)) == [2.0, 4.0]
+
+
+def test_work_is_split_where_the_platen_turns():
+    """45 mJ down to 50 %, of which a force of 2 N gives 10 mJ back on the way up."""
+    strain, force = (column[:501] for column in FOAM[:2])
+    there_and_back = np.append(strain, strain[-2::-1])
+    history = {"work_in_J": worked(there_and_back, np.append(force, np.full(500, 2.0)))}
+    turned = returned(Case(loading=Loading(strain=0.5)), history, 501)
+    # The force falls from 10 to 2 N in the first step up: 6 N x 10 um, less 2 N x 10 um.
+    assert turned == pytest.approx(10e-3 + 4.0 * STEP * HEIGHT)
+
+
+@pytest.mark.parametrize(
+    ("loading", "rows"),
+    [(Loading(strain=0.5), 601), (Loading(strain=0.5), 700), (Loading(force=5.0), 300)],
+    ids=["not let up", "not even pressed", "dead load"],
+)
+def test_nothing_comes_back_where_no_platen_moves_back(loading, rows):
+    assert np.isnan(returned(Case(loading=loading), {"work_in_J": FOAM[2]}, rows))

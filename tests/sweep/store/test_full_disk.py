@@ -1,0 +1,56 @@
+"""A disk that fills up: one line, no crash, and what is sealed stays."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from standin import parts_of, write
+
+from sweep.store.read import finished_ids
+
+ROOT = Path(__file__).parents[1]
+PROGRAM = """
+import resource
+from standin import cases, write
+from sweep.store.read import StoreError
+
+resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
+try:
+    write({path!r}, cases({count}), size={size})
+except StoreError as error:
+    print(error)
+"""
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "results" / "armor.h5"
+
+
+def fill(path, count, limit, size=2):
+    """Write results of cases, `size` at a time, where no file may be longer than `limit` bytes."""
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM.format(path=str(path), count=count, limit=limit, size=size)],
+        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(ROOT), str(ROOT / "tests")])},
+        capture_output=True,
+        text=True,
+    )
+    assert done.stderr == ""
+    assert done.returncode == 0
+    assert done.stdout == f"{path} cannot be written: File too large.\n"
+
+
+@pytest.mark.parametrize("limit", [0, 5_000, 20_000])
+def test_no_part_fits(path, limit):
+    fill(path, 9, limit)
+    assert finished_ids(path) == set()
+
+
+def test_the_one_file_that_grows_does_not_fit(path):
+    fill(path, 400, 250_000, size=5)
+    assert not path.with_name("armor.h5.tmp").exists()
+    assert 100 < len(finished_ids(path)) < 400
+    write(path, [], fold=True)
+    assert not parts_of(path)

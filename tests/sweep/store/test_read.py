@@ -1,0 +1,296 @@
+"""The results file: what is sealed is read back, whatever happens to the writer."""
+
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pandas as pd
+import pytest
+from standin import cases, frames, parts_of, simulate, write
+
+from sweep.store.read import parts
+from sweep.result import COLUMNS, HISTORY_COLUMNS, Status, failed_result
+from sweep.store.read import (
+    StoreError,
+    finished_ids,
+    read_attributes,
+    read_frames,
+    read_history,
+    read_summary,
+)
+from sweep.store.write import Writer
+
+ROOT = Path(__file__).parents[1]
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "results" / "armor.h5"
+
+
+@pytest.mark.parametrize("fold", [False, True])
+def test_what_was_written_is_read_back(path, fold):
+    batch = cases(9)
+    write(path, batch, fold)
+    table = read_summary(path)
+    assert list(table["case_id"]) == [case.case_id for case in batch]
+    assert list(table["steps"]) == [10 + number for number in range(9)]
+    assert table["lattice.imperfection"].tolist() == pytest.approx(np.arange(9) * 1e-3)
+    assert list(table.columns[:4]) == ["case_id", "status", "message", "lattice.imperfection"]
+    assert set(COLUMNS) < set(table.columns)
+    assert table["status"].tolist().count("stopped") == 1
+    assert "time_step" in table["message"][7]
+    assert bool(parts_of(path)) is not fold
+
+
+@pytest.mark.parametrize("fold", [False, True])
+@pytest.mark.parametrize("number", [0, 5, 8])
+def test_curves_and_shapes_are_found_by_id(path, fold, number):
+    batch = cases(9)
+    write(path, batch, fold)
+    history = read_history(path, batch[number].case_id)
+    assert list(history.columns) == list(HISTORY_COLUMNS)
+    assert history["strain"].to_numpy() == pytest.approx(number + np.linspace(0, 1, 10 + number))
+    shapes, expected = read_frames(path, batch[number].case_id), frames(number)
+    assert shapes.keys() == expected.keys()
+    for name, array in shapes.items():
+        np.testing.assert_allclose(array, expected[name], rtol=1e-6)
+
+
+def test_parts_become_one_file(path):
+    write(path, cases(9), fold=True)
+    assert [entry.name for entry in path.parent.iterdir()] == ["armor.h5"]
+
+
+def test_the_last_results_come_into_the_one_file_without_a_part(path):
+    first, *last = cases(4)
+    with Writer(path) as writer:
+        writer.append([simulate(first)])
+        writer.fold([simulate(case) for case in last])
+    assert list(read_summary(path)["case_id"]) == [case.case_id for case in (first, *last)]
+    assert len(read_history(path, last[1].case_id)) == 12
+
+
+def test_newest_row_of_a_case_that_one_writer_gets_twice_wins(path):
+    batch = cases(3)
+    with Writer(path) as writer:
+        writer.append([failed_result(case, Status.WORKER_DIED, "Lost.") for case in batch])
+        writer.append([simulate(batch[1])])
+        writer.fold([simulate(batch[0])])
+    assert read_summary(path)["status"].tolist() == ["converged", "converged", "worker_died"]
+    assert [len(read_history(path, case.case_id)) for case in batch] == [10, 11, 0]
+
+
+def test_results_of_a_writer_that_never_folded_are_folded_by_the_next(path):
+    """Between them a case is computed again, and one is new."""
+    write(path, cases(5), fold=True)
+    write(path, cases(5, first=3))
+    with Writer(path) as writer:
+        writer.append([failed_result(case, Status.WORKER_DIED, "") for case in cases(2, first=7)])
+        writer.fold([failed_result(cases(10)[9], Status.WORKER_DIED, "")])
+    table = read_summary(path).set_index("case_id")
+    assert set(table.index) == {case.case_id for case in cases(10)}
+    assert table["status"].tolist().count("worker_died") == 3
+    for number, case in enumerate(cases(7)):
+        assert len(read_history(path, case.case_id)) == 10 + number
+
+
+def test_many_parts_are_merged_on_the_way(path, monkeypatch):
+    monkeypatch.setattr(parts, "MERGE_AT", 3)
+    batch = cases(14)
+    write(path, batch, size=1)
+    names = [part.name for part in parts_of(path)]
+    assert [name.lstrip("0")[:-3].split("-0")[0] for name in names] == ["1", "10", "13", "14"]
+    assert set(read_summary(path)["case_id"]) == {case.case_id for case in batch}
+
+
+def test_parts_that_killed_runs_have_left_become_one(path, monkeypatch):
+    monkeypatch.setattr(parts, "MERGE_AT", 3)
+    for first in (0, 2, 4):
+        write(path, cases(2, first), size=1)
+    assert [part.name[7:-3] for part in parts_of(path)] == [
+        "1-00000004",
+        "5-00000005",
+        "6-00000006",
+    ]
+    assert list(read_summary(path)["case_id"]) == [case.case_id for case in cases(6)]
+
+
+def test_rows_without_an_order_stay_in_that_of_the_runs(path):
+    batch = cases(5)
+    for begin in (0, 2):
+        with Writer(path) as writer:
+            writer.append([simulate(case) for case in batch[begin : begin + 2]])
+    with Writer(path) as writer:
+        writer.fold([simulate(batch[4])])
+    assert list(read_summary(path)["case_id"]) == [case.case_id for case in batch]
+
+
+def test_parts_that_a_merged_one_covers_are_ignored_and_cleared(path):
+    write(path, cases(4), size=1)
+    first, second, *_ = parts_of(path)
+    first_to_second = first.with_name("00000001-00000002.h5")
+    first_to_second.write_bytes(second.read_bytes())
+    assert len(read_summary(path)) == 3
+    write(path, [])
+    assert len(parts_of(path)) == 3
+
+
+def test_truncated_temporaries_are_ignored_and_cleared(path):
+    write(path, cases(4))
+    part = parts_of(path)[0]
+    half = part.with_name("00000003-00000003.h5.tmp")
+    half.write_bytes(part.read_bytes()[:1000])
+    path.with_name("armor.h5.tmp").write_bytes(b"garbage")
+    assert len(read_summary(path)) == 4
+    write(path, [])
+    assert half not in parts_of(path)
+    assert not path.with_name("armor.h5.tmp").exists()
+
+
+def test_kill_between_fold_and_deletion_keeps_each_case_once(path):
+    write(path, cases(4))
+    saved = {part: part.read_bytes() for part in parts_of(path)}
+    write(path, cases(4), fold=True)
+    path.with_suffix(".parts").mkdir()
+    for part, content in saved.items():
+        part.write_bytes(content)
+    assert len(read_summary(path)) == 4
+    write(path, cases(1, first=4))
+    assert len(read_summary(path)) == 5
+    assert len(parts_of(path)) == 1
+
+
+def test_newest_row_of_a_case_wins(path):
+    batch = cases(4)
+    with Writer(path) as writer:
+        writer.append([failed_result(case, Status.WORKER_DIED, "Lost.") for case in batch[:3]])
+        writer.fold()
+        writer.append([simulate(batch[1]), simulate(batch[3])])
+        expected = ["worker_died", "worker_died", "converged", "converged"]
+        assert sorted(read_summary(path)["status"], reverse=True) == expected
+        writer.fold()
+    assert sorted(read_summary(path)["status"], reverse=True) == expected
+    assert len(read_history(path, batch[1].case_id)) == 11
+    assert len(read_history(path, batch[0].case_id)) == 0
+    assert list(read_history(path, batch[0].case_id).columns) == list(HISTORY_COLUMNS)
+    assert read_frames(path, batch[0].case_id) == {}
+
+
+def test_failed_cases_are_finished_unless_they_are_to_be_tried_again(path):
+    batch = cases(9)
+    assert finished_ids(path) == set()
+    write(path, batch)
+    assert finished_ids(path) == {case.case_id for case in batch}
+    assert finished_ids(path, retry_failed=True) == finished_ids(path) - {batch[7].case_id}
+
+
+def test_another_grid_into_the_same_file(path):
+    """Old labels stand, shared cases get the new ones too, rows of the newest sweep come first."""
+    old, new = cases(3), cases(3, first=2)
+    write(path, old, fold=True)
+    axes = {case.case_id: {"lattice.kind": "square"} for case in new}
+    with Writer(path, axes) as writer:
+        writer.append([simulate(case) for case in new[1:]])
+        writer.fold()
+    table = read_summary(path)
+    assert list(table["case_id"]) == [case.case_id for case in (*new, *old[:2])]
+    assert list(table["lattice.kind"]) == ["square"] * 3 + [""] * 2
+    assert table["lattice.imperfection"].isna().tolist() == [False, True, True, False, False]
+
+
+def test_fold_without_news_leaves_the_file_alone(path):
+    write(path, cases(3), fold=True)
+    before = path.stat().st_ino
+    write(path, [], fold=True)
+    assert path.stat().st_ino == before
+
+
+def test_another_tool_reads_the_table_in_one_line(path):
+    write(path, cases(9), fold=True)
+    with h5py.File(path) as f:
+        table = pd.DataFrame(
+            {
+                k: v.asstr()[:] if h5py.check_string_dtype(v.dtype) else v[:]
+                for k, v in f["summary"].items()
+            }
+        )
+    pd.testing.assert_frame_equal(table, read_summary(path))
+
+
+def test_every_column_says_what_it_is(path):
+    write(path, cases(2), fold=True)
+    with h5py.File(path) as file:
+        columns = [*file["summary"].values(), *file["histories/values"].values()]
+        assert all(column.attrs["description"] for column in columns)
+        assert all("units" in column.attrs for column in columns)
+        assert file["summary/absorbed_energy_at_50N_J"].attrs["units"] == "J"
+        assert file["summary/peak_force_N"].attrs["units"] == "N"
+
+
+def test_attributes_are_those_of_the_last_run(path):
+    long = "x" * 200_000
+    write(path, cases(2), fold=True, config="first")
+    write(path, cases(1, first=2), config=long)
+    assert read_attributes(path)["config"] == long
+    write(path, cases(3), fold=True, config="third")
+    assert read_attributes(path)["config"] == "third"
+
+
+def test_missing_file_and_missing_case(path):
+    with pytest.raises(StoreError, match=r"armor\.h5 does not exist"):
+        read_summary(path)
+    write(path, cases(1))
+    with pytest.raises(StoreError, match="no case 0123"):
+        read_history(path, "0123")
+
+
+def test_folder_that_cannot_be_written(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(StoreError, match="cannot be written"):
+        write(tmp_path / "file" / "armor.h5", cases(1))
+
+
+@pytest.mark.parametrize("name", [".", "..", "/", "armor", "armor.v2", ".h5"])
+def test_names_that_could_share_their_parts_are_refused(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(StoreError, match="names that end in"):
+        write(name, cases(1))
+    assert list(tmp_path.iterdir()) == []
+    with pytest.raises(StoreError):
+        read_summary(name)
+
+
+def test_one_writer_at_a_time(path):
+    with Writer(path) as writer:
+        writer.append([simulate(cases(1)[0])])
+        with pytest.raises(StoreError, match="Another run is writing"), Writer(path):
+            pass
+        script = f"from sweep.store.write import Writer; Writer({str(path)!r}).__enter__()"
+        other = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True)
+    assert b"Another run is writing" in other.stderr
+    with Writer(path):
+        assert len(read_summary(path)) == 1
+
+
+def test_readers_never_meet_a_half_written_file(path, monkeypatch):
+    monkeypatch.setattr(parts, "MERGE_AT", 3)
+    batch, counts, done = cases(19), [], threading.Event()
+    write(path, batch[:1])
+
+    def read():
+        while not done.is_set():
+            counts.append(len(read_summary(path)))
+
+    reader = threading.Thread(target=read)
+    reader.start()
+    for begin in range(1, len(batch), 6):
+        write(path, batch[begin : begin + 6], fold=begin % 2 == 0)
+    done.set()
+    reader.join()
+    assert len(counts) > 3
+    assert counts == sorted(counts)
+    assert len(read_summary(path)) == 19

@@ -1,0 +1,108 @@
+"""The words of a result: fixed columns, their meaning, and the row of a case that failed."""
+
+from math import isnan
+from types import SimpleNamespace
+
+import pytest
+
+from sweep.config.case import Case, Contact, Loading, Material
+from sweep.result import (
+    COLUMNS,
+    HISTORY_COLUMNS,
+    STRIKER_COLUMNS,
+    Result,
+    Status,
+    absorbed_energy_column,
+    describe_column,
+    design_columns,
+    failed_result,
+)
+from sweep.config.tables import BY_NUMBERS
+
+
+def a_case(**loading):
+    """A stand-in with the attributes that a row of the design needs."""
+    lattice = {"kind": "square", "cells_x": 3, "cells_y": 2, "wall_thickness": 8e-4}
+    lattice |= {"width": 0.0125, "height": 0.0125, "depth": 0.012, "outer_size": (0.0133, 0.0133)}
+    loads = {"mode": "force", "platen": "none", "force": 10.0, "stroke": None}
+    loads |= dict.fromkeys(("striker_mass", "striker_speed", "energy"))
+    return SimpleNamespace(
+        case_id="0123456789abcdef",
+        lattice=SimpleNamespace(**lattice),
+        material=SimpleNamespace(name="ninjaflex"),
+        loading=SimpleNamespace(**(loads | {"allowed_forces": (50.0,)} | loading)),
+        contact=SimpleNamespace(model="barrier"),
+    )
+
+
+@pytest.mark.parametrize("columns", [COLUMNS, HISTORY_COLUMNS, STRIKER_COLUMNS])
+def test_every_column_has_units_that_its_name_ends_in(columns):
+    endings = {"m_per_s2": "m/s^2", "m_per_s": "m/s", "J_per_g": "J/g"}
+    endings |= {"J": "J", "g": "g", "N": "N", "m": "m", "s": "s", "Pa": "Pa"}
+    for name, column in columns.items():
+        ending = next((units for end, units in endings.items() if name.endswith(f"_{end}")), None)
+        assert column.description
+        assert column.units == ending if ending else column.units in ("", "1")
+
+
+def test_allowed_force_is_a_column_with_units():
+    assert absorbed_energy_column(50.0) == "absorbed_energy_at_50N_J"
+    assert absorbed_energy_column(12.5) == "absorbed_energy_at_12.5N_J"
+    assert describe_column("absorbed_energy_at_50N_J").units == "J"
+    assert "50 N" in describe_column("absorbed_energy_at_50N_J").description
+
+
+def test_grid_key_has_the_unit_of_its_parameter():
+    assert describe_column("lattice.wall_thickness").units == "m"
+    assert describe_column("damping.mass").units == "1/s"
+    assert describe_column("lattice.cells").units == ""
+
+
+@pytest.mark.parametrize(
+    ("column", "table", "key"),
+    [
+        ("loading_mode", Loading, "mode"),
+        ("platen", Loading, "platen"),
+        ("contact_model", Contact, "model"),
+    ],
+)
+def test_choices_are_those_that_a_config_has(column, table, key):
+    arms = table.model_json_schema()["properties"][key]
+    choices = next(arm["enum"] for arm in [arms, *arms.get("anyOf", [])] if "enum" in arm)
+    choices = [choice for choice in choices if choice != "auto"]  # which is never kept
+    said = COLUMNS[column].description.split(": ")[-1]
+    assert said == f"{', '.join(choices[:-1])} or {choices[-1]}"
+
+
+def test_a_material_given_by_numbers_says_so():
+    case = Case(material=Material(modulus=12e6, density=1190.0))
+    assert design_columns(case)["material"] == BY_NUMBERS
+    assert f'"{BY_NUMBERS}"' in COLUMNS["material"].description
+
+
+def test_gaps_are_described_alike_in_summary_and_history():
+    said = COLUMNS["min_gap_m"]
+    assert said == HISTORY_COLUMNS["min_gap_m"]
+    assert "platens" in said.description
+
+
+def test_status_is_its_word():
+    assert Status("timed_out") is Status.TIMED_OUT
+    assert f"{Status.CONVERGED}" == "converged"
+
+
+def test_design_of_a_case_is_known_before_it_runs():
+    row = design_columns(a_case(mode="displacement", force=None, stroke=6e-3))
+    assert row["cells_y"] == 2
+    assert row["stroke_m"] == 6e-3
+    assert isnan(row["force_N"])
+    assert set(row) <= set(COLUMNS)
+
+
+def test_failed_result_keeps_the_design_and_measures_nothing():
+    result = failed_result(a_case(), Status.WORKER_DIED, "It took its worker with it.")
+    assert isinstance(result, Result)
+    assert list(result.summary) == [*list(COLUMNS)[3:], "absorbed_energy_at_50N_J"]
+    assert result.summary["wall_thickness_m"] == 8e-4
+    assert result.summary["newton_iterations"] == 0
+    assert isnan(result.summary["absorbed_energy_at_50N_J"])
