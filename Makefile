@@ -43,32 +43,32 @@ test: lint  ## check style and types, then run the tests
 
 verify: setup  ## print the numbers of README.md anew, from results/armor.h5 and beside references
 	@test -f results/armor.h5 || $(PYTHON) -m sweep run configs/armor.toml
-	@$(PYTHON) tests/figures.py results/armor.h5
+	@$(PYTHON) -m tests.studies.verify results/armor.h5
 
 validate: setup  ## solve reference problems at three meshes; the table goes to results/validation/
-	@PYTHONPATH=tests $(PYTHON) -m tests.validation results/validation
+	@$(PYTHON) -m tests.studies.validation results/validation
 
 continuum: setup  ## compare with solid finite elements (extra packages); goes to results/continuum/
-	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.continuum results/continuum
+	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.continuum results/continuum
 
 accuracy: setup  ## tell error against run time; tables and figures go to results/accuracy/
 	@failed=0; for study in configs/accuracy/*.toml; do $(PYTHON) -m sweep accuracy $$study || failed=$$?; \
 	test $$failed -le 1 || break; done; exit $$failed
 
 bars: setup  ## measure whether error bars cover the error; kept in results/bars/ (10 min)
-	@$(PYTHON) tests/bars.py results/bars
+	@$(PYTHON) -m tests.studies.bars results/bars
 
 stability: setup  ## crush 500 stiff and extreme scenes and look for violations; goes to results/stability/
-	@PYTHONPATH=tests $(PYTHON) -m tests.stability results/stability
+	@$(PYTHON) -m tests.studies.stability results/stability
 
 bench: setup  ## measure how fast it is; table and figure go to results/bench/
-	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.bench results/bench
+	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.bench results/bench
 
 experiment: setup  ## predict a measured crush, and what the answer hangs on: into results/experiment/
-	@$(PYTHON) -m sweep.experiment results/experiment
+	@$(PYTHON) -m sweep.studies.khatri_egan results/experiment
 
 figures: setup  ## draw the figures of the course report beside ours, with captions, into results/figures/
-	@$(PYTHON) -m sweep.figures results/figures
+	@$(PYTHON) -m sweep.studies.course_report results/figures
 
 clean:  ## remove the environment and all caches, but no results
 	rm -rf .venv build *.egg-info .pytest_cache .mypy_cache .ruff_cache

@@ -1,49 +1,69 @@
-"""Crumple: which printed infill absorbs the most energy per gram.
+"""Words, units, objects and files; and the names that `crumple` offers.
 
-    from sweep import load_config, expand, read_summary, read_history
-    from sweep.simulation import simulate
-    from sweep.ranking import rank
+They raise `ConfigError`, `StoreError` and `RankError`, which are here too.
 
 Each name is loaded when it is first used, so that importing `sweep` costs next to nothing.
 """
 
-import sys
 from importlib import import_module
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from sweep.config.case import Case
+    from sweep.config.grid import Config, ConfigError, expand
     from sweep.config.units import load_config
-    from sweep.config.grid import expand
+    from sweep.ranking.merit import RankError
     from sweep.ranking.rank import rank
+    from sweep.result import Result, Status
+    from sweep.running.sweep import run_sweep
     from sweep.simulation.simulate import simulate
-    from sweep.store.read import read_history, read_summary
+    from sweep.store.read import StoreError, read_frames, read_history, read_summary
+    from sweep.version import __version__
 
-__all__ = ["expand", "load_config", "rank", "read_history", "read_summary", "simulate"]
+__all__ = [
+    "Case",
+    "Config",
+    "ConfigError",
+    "RankError",
+    "Result",
+    "Status",
+    "StoreError",
+    "__version__",
+    "expand",
+    "load_config",
+    "rank",
+    "read_frames",
+    "read_history",
+    "read_summary",
+    "run_sweep",
+    "simulate",
+]
 
 _HOME = {
-    "load_config": "sweep.config.units",
-    "expand": "sweep.config.grid",
-    "simulate": "sweep.simulation.simulate",
-    "read_summary": "sweep.store.read",
-    "read_history": "sweep.store.read",
-    "rank": "sweep.ranking.rank",
+    "Case": "config.case",
+    "Config": "config.grid",
+    "ConfigError": "config.grid",
+    "RankError": "ranking.merit",
+    "Result": "result",
+    "Status": "result",
+    "StoreError": "store.read",
+    "__version__": "version",
+    "expand": "config.grid",
+    "load_config": "config.units",
+    "rank": "ranking.rank",
+    "read_frames": "store.read",
+    "read_history": "store.read",
+    "read_summary": "store.read",
+    "run_sweep": "running.sweep",
+    "simulate": "simulation.simulate",
 }
 
 
 def __getattr__(name: str) -> Any:
     if name not in _HOME:
-        raise AttributeError(f"module 'sweep' has no attribute {name!r}")
-    return getattr(import_module(_HOME[name]), name)
+        raise AttributeError(f"Crumple has no {name!r}; it has {', '.join(__all__)}")
+    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
 
 
-class _Package(ModuleType):
-    """The package, whose `rank` and `simulate` stay functions though modules have their names."""
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        if name in _HOME and isinstance(value, ModuleType):
-            value = getattr(value, name)  # importing `sweep.rank` would bind the module here
-        super().__setattr__(name, value)
-
-
-sys.modules[__name__].__class__ = _Package
+def __dir__() -> list[str]:
+    return __all__

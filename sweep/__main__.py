@@ -1,4 +1,4 @@
-"""The command line: `crumple VERB ...`, also `python -m sweep`. Each verb is a call of sweep/verbs.
+"""The command line: `crumple VERB ...`, also `python -m crumple`. Each verb is one of cli/verbs.
 
 Exit status: 0 done; 1 some cases failed, or it was interrupted; 2 the config, a file or an argument
 cannot be used.
@@ -8,27 +8,35 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
+from textwrap import fill
 from typing import NoReturn
+
+from sweep.config.examples import examples
 
 ABOUT = "Which printed infill absorbs the most energy per gram?"
 EXAMPLES = """examples:
-  crumple run configs/armor.toml --dry-run      how many cases, how long, how much disk
-  crumple run configs/armor.toml                simulate; the same command goes on after a stop
-  crumple run configs/armor.toml --error-bars   how sure each number is, which places are ties
+  crumple run armor --dry-run                   how many cases, how long, how much disk
+  crumple run armor                             simulate; the same command goes on after a stop
+  crumple run armor --error-bars                how sure each number is, which places are ties
   crumple warm                                  compile ahead what the first run would compile
   crumple status results/armor.h5               what is done, what failed and why
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
   crumple show results/armor.h5                 the ids of all cases
   crumple show results/armor.h5 7a85            pictures of the case whose id begins so
-  crumple accuracy configs/accuracy/impact.toml error against run time, method by method
+  crumple accuracy accuracy/impact              error against run time, method by method
+
+armor and accuracy/impact are examples that come with Crumple; your own config is a file: mine.toml
 
 exit status: 0 done, 1 some cases failed or interrupted, 2 wrong config, file or arguments
 """
+CONFIG = "TOML file with the case and its [grid], or the name of an example"
 RUN = """Simulate every case of CONFIG that the results file does not hold yet, then rank.
 Finished cases are never lost and never computed twice: after a stop or a kill, or when the
-grid has grown, run the same command again. With --error-bars every design runs once more on
-another mesh and once more with longer steps: 3 to 11 times the work where walls have 3 elements."""
+grid has grown, run the same command again. Rows of an older model stay until they are computed
+anew, with --renew. With --error-bars every design runs once more on another mesh and once more with
+longer steps: 3 to 11 times the work where walls have 3 elements."""
 ACCURACY = """Simulate a sweep over numerics, then tell error against run time: a table, the
 observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 what the finest settings of the method of highest order tend to. Cases that differ in anything but
@@ -63,27 +71,40 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {message}\n{self.prog} --help shows examples\n")
 
 
+class Version(argparse.Action):
+    """Prints the version and exits: looking it up takes as long as all other arguments."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
+        """Print it."""
+        from sweep.version import __version__
+
+        with suppress(OSError):  # as argparse does for --help
+            print(f"crumple {__version__}")
+        parser.exit()
+
+
 def parser() -> Parser:
     """All verbs and their options."""
     raw = argparse.RawDescriptionHelpFormatter
     main = Parser(prog="crumple", description=ABOUT, epilog=EXAMPLES, formatter_class=raw)
+    main.add_argument("--version", action=Version, nargs=0, help="print the version and exit")
     verbs = main.add_subparsers(dest="verb", metavar="VERB", required=True)
 
-    run = verbs.add_parser("run", help="simulate a sweep", description=RUN, formatter_class=raw)
-    run.add_argument(
-        "config", type=_path, metavar="CONFIG", help="TOML file with the case and its [grid]"
+    known = fill(f"examples that come with Crumple: {', '.join(examples())}", width=96)
+    run = verbs.add_parser(
+        "run", help="simulate a sweep", description=RUN, epilog=known, formatter_class=raw
     )
+    run.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG)
     run.add_argument(
         "--out", type=_results, metavar="F.h5", help="results file (default: results/NAME.h5)"
     )
-    run.add_argument(
-        "--workers",
-        type=_count,
-        default=2,
-        metavar="N",
-        help="threads, 2 by default",
+    where = run.add_mutually_exclusive_group()
+    where.add_argument("--workers", type=_count, metavar="N", help="threads, 2 by default")
+    where.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="of a Dask cluster, in place of threads: tcp://host:8786",
     )
-    run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster: tcp://host:8786")
     run.add_argument("--dry-run", action="store_true", help="estimate time and disk, write nothing")
     run.add_argument(
         "--error-bars",
@@ -91,11 +112,14 @@ def parser() -> Parser:
         help="estimate the error of mesh and steps",
     )
     run.add_argument("--retry-failed", action="store_true", help="compute failed cases once more")
+    run.add_argument(
+        "--renew", action="store_true", help="compute once more what is of an older model"
+    )
 
     accuracy = verbs.add_parser(
         "accuracy", help="error against run time", description=ACCURACY, formatter_class=raw
     )
-    accuracy.add_argument("config", type=_path, metavar="CONFIG", help="TOML file with a [grid]")
+    accuracy.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG)
     accuracy.add_argument(
         "--out",
         type=_folder,

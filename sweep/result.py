@@ -12,12 +12,21 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import nan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 if TYPE_CHECKING:
     from sweep.config.case import Case
+
+
+MODEL_VERSION = 2
+"""Version of the model: raised by whatever gives a case other numbers than before."""
+
+HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones anew"
+
+OLDER = {"model_version": 1, "git_revision": ""}
+"""What rows are read to have that were written before there were these columns."""
 
 
 class Status(StrEnum):
@@ -31,10 +40,14 @@ class Status(StrEnum):
 
 @dataclass(frozen=True)
 class Column:
-    """Meaning of a column: its units ("1" for a pure number, "" for text) and a sentence."""
+    """Meaning of a column: its units ("1" for a pure number, "" for text) and a sentence.
+
+    better: whether more or less of it makes a design better; None: neither does.
+    """
 
     units: str
     description: str
+    better: Literal["more", "less"] | None = None
 
 
 @dataclass(frozen=True)
@@ -77,68 +90,100 @@ COLUMNS: dict[str, Column] = {
     "striker_speed_m_per_s": Column("m/s", "its speed at first touch; NaN unless it is impact"),
     "impact_energy_J": Column("J", "its energy at first touch; NaN unless the mode is impact"),
     "contact_model": Column("", "how walls touch: none, barrier or position_based"),
-    "mass_g": Column("g", "density x exact area of the printed walls x depth"),
-    "relative_density": Column("1", "printed area / area of the bounding box"),
-    "absorbed_energy_J": Column("J", "work done on the lattice until release, full stroke or stop"),
+    "mass_g": Column("g", "density x exact area of the printed walls x depth", "less"),
+    "relative_density": Column("1", "printed area / area of the bounding box", "less"),
+    "absorbed_energy_J": Column(
+        "J", "work done on the lattice until release, full stroke or stop", "more"
+    ),
     "absorbed_energy_at_densification_J": Column(
-        "J", "work done until the lattice has packed down; all of it where it does not"
+        "J", "work done until the lattice has packed down; all of it where it does not", "more"
     ),
     "absorbed_energy_within_model_J": Column(
-        "J", "work done until an element is squeezed below 0.7 of its length; all if none is"
+        "J",
+        "work done until an element is squeezed below 0.7 of its length; all if none is",
+        "more",
     ),
     "returned_energy_J": Column(
-        "J", "work given back to the platen or striker on its way back; NaN where none moves back"
+        "J",
+        "work given back to the platen or striker on its way back; NaN where none moves back",
+        "less",
     ),
-    "dissipated_energy_J": Column("J", "dissipated by material, friction and time integrator"),
+    "dissipated_energy_J": Column(
+        "J", "dissipated by material, friction and time integrator", "more"
+    ),
     "dissipated_integrator_J": Column("J", "energy that the time integrator itself removed"),
     "injected_by_projection_J": Column(
         "J", "energy added by position-based contact; negative where it takes some out"
     ),
     "energy_residual_J": Column("J", "what the energy book leaves over"),
-    "specific_absorption_J_per_g": Column("J/g", "absorbed energy / mass"),
+    "specific_absorption_J_per_g": Column("J/g", "absorbed energy / mass", "more"),
     "plateau_stress_Pa": Column(
         "Pa",
         "mean nominal stress from about 5 % strain until packed or stopped; NaN for dead loads",
+        "more",
     ),
     "densification_strain": Column(
-        "1", "strain of packing: greatest efficiency; NaN where that still rises, or for dead loads"
+        "1",
+        "strain of packing: greatest efficiency; NaN where that still rises, or for dead loads",
+        "more",
     ),
     "efficiency": Column(
-        "1", "greatest of work per volume / greatest stress until then; NaN for dead loads"
+        "1", "greatest of work per volume / greatest stress until then; NaN for dead loads", "more"
     ),
     "peak_force_N": Column(
         "N",
         "greatest force on a platen or support; for dead loads it depends on the time step, of an "
         "impact it is that on the support",
+        "less",
     ),
     "peak_force_at_densification_N": Column(
-        "N", "the same until the lattice has packed down, or until release"
+        "N", "the same until the lattice has packed down, or until release", "less"
     ),
-    "peak_strain": Column("1", "greatest top displacement / height"),
-    "peak_deceleration_m_per_s2": Column("m/s^2", "greatest deceleration of the striker, else NaN"),
+    "peak_strain": Column("1", "greatest top displacement / height", "less"),
+    "peak_deceleration_m_per_s2": Column(
+        "m/s^2", "greatest deceleration of the striker, else NaN", "less"
+    ),
     "stroke_left_m": Column(
-        "m", "what is left at the striker's stop of the height that closes all voids, else NaN"
+        "m",
+        "what is left at the striker's stop of the height that closes all voids, else NaN",
+        "more",
     ),
-    "rebound_speed_m_per_s": Column("m/s", "greatest speed of the striker upwards, else NaN"),
-    "rebound_share": Column("1", "energy of the striker at that speed / at first touch, else NaN"),
+    "rebound_speed_m_per_s": Column(
+        "m/s", "greatest speed of the striker upwards, else NaN", "less"
+    ),
+    "rebound_share": Column(
+        "1", "energy of the striker at that speed / at first touch, else NaN", "less"
+    ),
     "residual_strain": Column(
-        "1", "in the last stored shape, loss of distance between top and bottom row / height"
+        "1",
+        "in the last stored shape, loss of distance between top and bottom row / height",
+        "less",
     ),
-    "least_element_strain": Column("1", "of the element squeezed most in any stored shape"),
-    "greatest_element_strain": Column("1", "of the element drawn out most in any stored shape"),
+    "least_element_strain": Column("1", "of the element squeezed most in any stored shape", "more"),
+    "greatest_element_strain": Column(
+        "1", "of the element drawn out most in any stored shape", "less"
+    ),
     "kept_area": Column(
-        "1", "printed area still covered at the greatest strain; solid TPU would keep it all, 1"
+        "1",
+        "printed area still covered at the greatest strain; solid TPU would keep it all, 1",
+        "more",
     ),
     "min_gap_m": Column(
         "m", "least distance of a centre line from others near it and from loose platens, else NaN"
     ),
     "touched": Column("1", "1 where contact was at work in any row, else 0: there none is needed"),
-    "max_crossings": Column("1", "walls that pass through one another in any stored frame"),
-    "steps": Column("1", "accepted time or load steps"),
-    "newton_iterations": Column("1", "Newton iterations of the whole run"),
-    "cpu_s": Column("s", "processor time of the run"),
+    "max_crossings": Column("1", "walls that pass through one another in any stored frame", "less"),
+    "steps": Column("1", "accepted time or load steps", "less"),
+    "newton_iterations": Column("1", "Newton iterations of the whole run", "less"),
+    "cpu_s": Column("s", "processor time of the run", "less"),
+    "model_version": Column("1", "version of the model that computed this row"),
 }
 """Every column that a summary always has, in the order in which it is stored and shown."""
+
+STORED_COLUMNS: dict[str, Column] = {
+    "git_revision": Column("", 'commit of the source that this row was computed with, or ""'),
+}
+"""Columns that a results file has besides, of the run that wrote a row."""
 
 HISTORY_COLUMNS: dict[str, Column] = {
     "time_s": Column("s", "time since the start"),
@@ -179,6 +224,14 @@ LOAD_COLUMNS: dict[str, Column] = {
 }
 """Columns that the history of a structure has in statics, the second along arcs only."""
 
+RANKING_COLUMNS: dict[str, Column] = {
+    "panel_mass_g": Column("g", "mass of the specimens that fill the panel", "less"),
+    "panel_energy_J": Column("J", "energy that they absorb", "more"),
+    "passed_on_N": Column("N", "greatest force while the energy that counts is absorbed", "less"),
+    "returned_share": Column("1", "of the work of the whole crush, what is given back", "less"),
+}
+"""Columns that a ranking adds to those of the summary, and may go by."""
+
 FRAME_COLUMNS: dict[str, Column] = {
     "strain": Column("1", "top displacement / height of a frame"),
     "time_s": Column("s", "time of a frame"),
@@ -193,6 +246,7 @@ FRAME_COLUMNS: dict[str, Column] = {
 
 PROBE = re.compile(r"probe_(\d+)_(.+)_(m|rad|N|Nm)")
 ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
+PER_GRAM = re.compile(r"specific_absorption_at_(.+)_J_per_g")
 ERROR = re.compile(r"^error_(.+)")
 
 
@@ -221,19 +275,29 @@ def describe_history(name: str) -> Column:
 
 def is_grid_key(name: str) -> bool:
     """True for the column of a grid key, such as `lattice.wall_thickness`."""
-    return not (name in COLUMNS or ABSORBED_AT.fullmatch(name) or ERROR.fullmatch(name))
+    known = {*COLUMNS, *STORED_COLUMNS, *RANKING_COLUMNS}
+    return not (name in known or any(p.fullmatch(name) for p in (ABSORBED_AT, PER_GRAM, ERROR)))
 
 
 def describe_column(name: str) -> Column:
-    """Meaning of a summary column; one that is neither fixed nor derived is a grid key."""
-    if name in COLUMNS:
-        return COLUMNS[name]
+    """Meaning of a column of a summary or a ranking; what is neither fixed nor derived is a key."""
+    if found := (COLUMNS | STORED_COLUMNS | RANKING_COLUMNS).get(name):
+        return found
     if match := ERROR.fullmatch(name):
         units = describe_column(match[1]).units
-        return Column(units, f"estimated discretisation error of {match[1]}, no bound; NaN: none")
+        said = f"estimated discretisation error of {match[1]}, no bound; NaN: none"
+        return Column(units, said, "less")
     if match := ABSORBED_AT.fullmatch(name):
-        return Column("J", f"work done until {match[1]} N is first passed on; all if it never is")
+        said = f"work done until {match[1]} N is first passed on; all if it never is"
+        return Column("J", said, "more")
+    if match := PER_GRAM.fullmatch(name):
+        return Column("J/g", f"energy absorbed at {match[1]} / mass", "more")
     return Column(_unit_of_key(name), f"grid key {name}")
+
+
+def less_is_better(name: str) -> bool:
+    """True for a column of which the least is the best."""
+    return describe_column(name).better == "less"
 
 
 def _unit_of_key(name: str) -> str:
@@ -264,6 +328,7 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
         "striker_speed_m_per_s": nan if loading.striker_speed is None else loading.striker_speed,
         "impact_energy_J": nan if loading.energy is None else loading.energy,
         "contact_model": case.contact.model,
+        "model_version": MODEL_VERSION,
     }
 
 

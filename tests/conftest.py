@@ -1,6 +1,29 @@
 """Shared by all tests."""
 
 import os
+from importlib import import_module
+
+import pytest
 
 # Pictures are drawn into files: no test needs a screen, whatever the user's settings say.
 os.environ["MPLBACKEND"] = "Agg"
+
+CONFIG = """
+name = "trial"
+[grid]
+"lattice.imperfection" = {values}
+[rank]
+budgets = ["5 g", "20 g"]
+"""
+
+
+@pytest.fixture
+def config(tmp_path, monkeypatch):
+    """A sweep of three cases on the stand-in of tests/support/standin.py, of which one fails."""
+    from tests.support.standin import simulate
+
+    monkeypatch.setattr(import_module("sweep.simulation.simulate"), "simulate", simulate)
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "trial.toml"
+    path.write_text(CONFIG.format(values=[0.006, 0.007, 0.008]))
+    return str(path)

@@ -22,23 +22,27 @@ import llvmlite
 import llvmlite.binding
 import numba
 import numpy as np
+from numba.core import types
 from numba.core.caching import FunctionCache, IndexDataCacheFile
+
+from kernels.compile.reference import Reference
 
 FOLDER = "kernels-"  # and the hash of the sources
 FOLDERS_KEPT = 8
 SECONDS_KEPT = 7 * 24 * 3600.0
 SEAL_BYTES = 16
+PACKAGE = __name__.rsplit(".", 2)[0] + "."
 
 
 def fingerprint(sources):
-    """Hash (16 hex) of all kernel sources in a folder and of what compiles and runs them."""
+    """Hash (16 hex) of all kernel sources below a folder and of what compiles and runs them."""
     digest = hashlib.blake2b(digest_size=8)
     versions = [numba.__version__, llvmlite.__version__, np.__version__]
     machine = [platform.python_version(), platform.machine(), llvmlite.binding.get_host_cpu_name()]
     digest.update("\0".join(versions + machine).encode())
     for path in sorted(path for path in sources.rglob("*.py") if path.is_file()):
-        content = path.read_bytes()
-        digest.update(f"\0{path.name}\0{len(content)}\0".encode() + content)
+        content, name = path.read_bytes(), path.relative_to(sources).as_posix()
+        digest.update(f"\0{name}\0{len(content)}\0".encode() + content)
     return digest.hexdigest()
 
 
@@ -99,6 +103,18 @@ def is_sealed(path):
     return content[-SEAL_BYTES:] == seal(content[:-SEAL_BYTES])
 
 
+def is_of_kernels(kind):
+    """Whether what an argument type stands for is in the sources that name the folder: the verbs of
+    a named tuple from elsewhere may change, and nobody would see it.
+    """
+    if isinstance(kind, Reference):
+        return is_of_kernels(kind.kind)
+    if not isinstance(kind, types.BaseTuple):
+        return True
+    home = getattr(kind, "instance_class", tuple).__module__
+    return home.startswith(("builtins", PACKAGE)) and all(map(is_of_kernels, kind))
+
+
 class SealedFiles(IndexDataCacheFile):
     """Numba's index and data files, each closed by a seal that is checked before it is unpickled.
 
@@ -142,6 +158,8 @@ class SealedCache(FunctionCache):
 
     def load_overload(self, sig, target_context):
         """Kept code for a signature, or None."""
+        if not all(map(is_of_kernels, sig)):
+            return None
         try:
             return super().load_overload(sig, target_context)
         except Exception:  # noqa: BLE001  (whatever unpickling or linking foreign code can raise)
@@ -149,6 +167,8 @@ class SealedCache(FunctionCache):
 
     def save_overload(self, sig, data):
         """Keep the code of a signature, if it can be."""
+        if not all(map(is_of_kernels, sig)):
+            return
         with contextlib.suppress(OSError):  # a full disk, a folder taken away
             super().save_overload(sig, data)
 

@@ -18,13 +18,14 @@ import numba
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.sigutils import normalize_signature
 
+from kernels.compile import verbs
 from kernels.compile.cache import SealedCache
 from kernels.compile.linking import EntryCompiler, LinkedCompiler
 from kernels.compile.outlined import link
 
 FRAME = 70_000  # words: more than half of a chunk of a megabyte, see `_undisturbed`
 rehearsal = ContextVar("rehearsal", default=None)
-"""What is called in place of a kernel, with the kernel and its arguments (`ahead`)."""
+"""What is called in place of a kernel, with the kernel and its arguments (`precompile`)."""
 
 
 class Kernel:
@@ -77,8 +78,17 @@ class Kernel:
         rehearsed = rehearsal.get()
         return self.entry(*args) if rehearsed is None else rehearsed(self, args)
 
+    def __get__(self, problem, kind=None):
+        """Return it as a verb of a named tuple (`verbs`)."""
+        return self if problem is None else functools.partial(self, problem)
+
     def __getattr__(self, name):
+        if name == "linked":  # unpickled, or not made yet
+            raise AttributeError(name)
         return getattr(self.linked, name)
+
+
+verbs.register(lambda found: isinstance(found, Kernel))
 
 
 def separate(kernel):

@@ -1,8 +1,9 @@
 """Kernels with machine code of their own, which other kernels call where it is.
 
 What is linked into its callers is compiled with each of them. A large kernel is better compiled
-once: beside the others, in another process (`ahead`), and for several callers. The price is a call
-that passes every array of its named tuples: right for what is called a few times a step, at most.
+once: beside the others, in another process (`precompile`), and for several callers. The price is a
+call that passes every array of its named tuples: right for what is called a few times a step, at
+most.
 """
 
 import hashlib
@@ -17,7 +18,7 @@ from numba.core.compiler import CompileResult
 from numba.core.funcdesc import FunctionDescriptor
 from numba.core.typing import Signature
 
-from kernels.compile import abi as calling
+from kernels.compile import abi
 from kernels.compile.linking import NOWHERE, Linked
 
 foreseen = ContextVar("foreseen", default=MappingProxyType({}))
@@ -76,8 +77,8 @@ class Version:
         library = Linked(context.codegen(), self.symbol)
         library._reload_init.add(self)
         library.finalize()
-        short = not dispatcher.targetoptions["_nrt"]  # as `calling.is_short` has it
-        calling.register(context, self, description, [library], short)
+        short = not dispatcher.targetoptions["_nrt"]  # as `abi.is_short` has it
+        abi.register(context, self, description, [library], short)
         known = dict.fromkeys(CompileResult._fields)
         known |= {"signature": Signature(self.returns, self.args, None), "entry_point": self}
         dispatcher.overloads[self.args] = CompileResult(**known)

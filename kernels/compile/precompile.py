@@ -27,7 +27,7 @@ PROGRAM = """
 import signal, sys
 signal.signal(signal.SIGINT, signal.SIG_IGN)
 sys.path[:] = {path}
-from kernels.compile.precompile import help_out
+from {home} import help_out
 help_out()
 """
 
@@ -108,7 +108,7 @@ def _helper():
     """A process that does `help_out`, for as long as it is wanted."""
     path = [folder or os.getcwd() for folder in sys.path]
     with subprocess.Popen(
-        [sys.executable, "-P", "-c", PROGRAM.format(path=path)],
+        [sys.executable, "-P", "-c", PROGRAM.format(path=path, home=__name__)],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,

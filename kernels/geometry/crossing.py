@@ -1,7 +1,7 @@
 """Which elements pass through one another in stored shapes, as far as rounding lets one tell."""
 
-from kernels.compile.jit import jit_exact
 from kernels.arrays import pair, zero
+from kernels.compile.jit import jit_exact
 
 APART, UNSURE, ACROSS = -1, 0, 1
 SURE = 1e-12  # of the products that make up a cross product: below, its sign is not trusted

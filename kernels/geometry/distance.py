@@ -10,8 +10,8 @@ the nodes (p, a, b):
 
 import numpy as np
 
-from kernels.linear.block_matrix import add_block
 from kernels.compile.jit import jit, jit_exact
+from kernels.linear.block_matrix import add_block
 
 
 @jit

@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.geometry.distance import squared_distance
-from kernels.compile.jit import jit_exact, jit_owning
 from kernels.arrays import grouped, pair
+from kernels.compile.jit import jit_exact, jit_owning
+from kernels.geometry.distance import squared_distance
 
 SHELLS = 64  # steps in which distances are told apart
 FINER = 3.0  # times smaller than the radius is a cell: large ones hold much that is too far
@@ -21,7 +21,6 @@ class Pairs(NamedTuple):
     node (n,), edge (n,): indices. distance (n,): at least so far apart were they when they were
     listed, m, ascending. d_contact (n,): distance at which contact starts, m; 0 where only crossing
     is watched. rule (n,): their number among the special pairs of `contact.Contact`, -1 if none.
-    touching (n,), count (1,): those in contact when last evaluated.
     """
 
     node: np.ndarray
@@ -29,8 +28,6 @@ class Pairs(NamedTuple):
     distance: np.ndarray
     d_contact: np.ndarray
     rule: np.ndarray
-    touching: np.ndarray
-    count: np.ndarray
 
 
 @jit_owning
@@ -159,8 +156,7 @@ def find(x, contact, radius):
         node[k], edge[k], rule[k] = listed[0][q], listed[1][q], found[q]
         distance[k] = shell[q] * radius / SHELLS
         d_contact[k] = _distance(contact, node[k], edge[k], rule[k])
-    touching, count = np.empty(n, np.int64), np.zeros(1, np.int64)
-    return Pairs(node, edge, distance, d_contact, rule, touching, count)
+    return Pairs(node, edge, distance, d_contact, rule)
 
 
 @jit_exact
@@ -192,7 +188,7 @@ def within(pairs, radius):
 def empty():
     """Return no pairs."""
     none, nothing = np.empty(0, np.int64), np.empty(0)
-    return Pairs(none, none, nothing, nothing, none, none, np.zeros(1, np.int64))
+    return Pairs(none, none, nothing, nothing, none)
 
 
 @jit_exact

@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.geometry.intervals import covered, insert
-from kernels.compile.jit import jit_exact, jit_owning
 from kernels.arrays import grouped, pair
+from kernels.compile.jit import jit_exact, jit_owning
+from kernels.geometry.intervals import covered, insert
 
 FLAT = 1e-12  # least sine between a line and a side of a rectangle
 ANGLE = 0.4  # of the lines: along a wall, as drawn ones often lie, the rule would be of first order

@@ -7,8 +7,8 @@ what is covered half-way up times the height of the slab.
 
 import numpy as np
 
-from kernels.geometry.intervals import covered, insert
 from kernels.compile.jit import jit_exact, jit_owning
+from kernels.geometry.intervals import covered, insert
 
 PARALLEL = 1e-14  # sine between sides below which they cross nowhere but at corners
 FLAT = 1e-15  # of the height of all: a slab that is lower is part of the next one

@@ -9,11 +9,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.linear import condense, block_matrix as entries, minimum_degree as order
-from kernels.linear.block_matrix import DRIVEN, HELD, IMAGE, INNER
 from kernels.compile.jit import jit_exact, jit_owning
+from kernels.linear import block_matrix, condense, minimum_degree
+from kernels.linear.block_matrix import DRIVEN, HELD, IMAGE, INNER
 
 CONDENSED, OPEN, RIGID = range(3)
+PLACE = np.dtype(
+    (
+        np.record,  # for attributes in plain Python too
+        [
+            ("wall", np.int64),  # condensed wall; -1: the block matrix
+            ("row", np.int64),  # of the wall, or home in the block matrix; -1: nowhere
+        ],
+    )
+)
 
 
 class Layout(NamedTuple):
@@ -21,11 +30,12 @@ class Layout(NamedTuple):
 
     leader (n,): the coordinate itself if it moves, the last one (the upper platen) if it is tied to
     that, else -1. ratio (n,): of its move to that of its leader; 1 unless the leader is driven.
-    images (k, 4): see `image`; their leader is the coordinate itself. driven: coordinate that is
-    led to a target, -1 if none. n_nodes, n_joints: joints come first. origin (n_nodes,): the node,
-    or of which it is an image. inner (w,): first inner node of each wall, the others follow along
-    it. wall_of (n_nodes,): wall of an inner node, -1 for a joint. outer (w, 6): coordinates of its
-    joints, of which the second may be an image. scale: stiffness of the stiffest element, N/m.
+    images (k, 4): see `periodic_images`; their leader is the coordinate itself. driven: coordinate
+    that is led to a target, -1 if none. n_nodes, n_joints: joints come first. origin (n_nodes,):
+    the node, or of which it is an image. inner (w,): first inner node of each wall, the others
+    follow along it. wall_of (n_nodes,): wall of an inner node, -1 for a joint. outer (w, 6):
+    coordinates of its joints, of which the second may be an image. scale: stiffness of the stiffest
+    element, N/m.
     """
 
     leader: np.ndarray
@@ -45,7 +55,7 @@ class System(NamedTuple):
     """kind (w,) of each wall. row_start (w + 1,), rows (r, 12), own (r,): see `condense`.
 
     target_start (w + 1,), target: where the entries of a wall go in the values of ``matrix``.
-    outer (6, 6), joints (6,): scratch.
+    outer (6, 6), joints (6,): scratch. place (1,): of the first negative pivot (`PLACE`).
     """
 
     kind: np.ndarray
@@ -57,6 +67,7 @@ class System(NamedTuple):
     matrix: object
     outer: np.ndarray
     joints: np.ndarray
+    place: np.ndarray
 
 
 @jit_exact
@@ -96,7 +107,7 @@ def _link(bits, index, points, count):
     for a in range(count):
         for b in range(a):
             if index[points[a]] >= 0 and index[points[b]] >= 0:
-                order.connect(bits, index[points[a]], index[points[b]])
+                minimum_degree.connect(bits, index[points[a]], index[points[b]])
 
 
 @jit_exact
@@ -130,7 +141,7 @@ def _graph(layout, walls, kind, couplings):
             if w < 0 or kind[w] == OPEN:
                 index[p] = count
                 count += 1
-    bits = order.graph(count)
+    bits = minimum_degree.graph(count)
     points = np.empty(8, np.int64)
     for w in range(kind.size):
         first, last = walls.start[w], walls.start[w + 1]
@@ -188,7 +199,7 @@ def _targets(layout, row_start, kind, home, start, row):
         m = row_start[w + 1] - row_start[w]
         size = 0 if kind[w] == RIGID else 21 + (condense.WIDTH * m if kind[w] == OPEN else 0)
         target_start[w + 1] = target_start[w] + size
-    nowhere = entries.SIZE * (start.size - 1 + row.size)
+    nowhere = block_matrix.SIZE * (start.size - 1 + row.size)
     target = np.full(target_start[-1], nowhere)
     for w in range(kind.size):
         m, t = row_start[w + 1] - row_start[w], target_start[w]
@@ -199,7 +210,7 @@ def _targets(layout, row_start, kind, home, start, row):
                     if other < m or c >= condense.BAND:
                         i, j = _coordinate(layout, w, m, k), _coordinate(layout, w, m, other)
                         if home[i] >= 0 and home[j] >= 0:
-                            at = entries.position(home, start, row, i, j)
+                            at = block_matrix.position(home, start, row, i, j)
                             target[t] = at if at >= 0 else nowhere
                     t += 1
         if kind[w] != RIGID:
@@ -207,7 +218,7 @@ def _targets(layout, row_start, kind, home, start, row):
                 for d in range(c + 1):
                     i, j = layout.outer[w, c], layout.outer[w, d]
                     if home[i] >= 0 and home[j] >= 0:
-                        at = entries.position(home, start, row, i, j)
+                        at = block_matrix.position(home, start, row, i, j)
                         target[t] = at if at >= 0 else nowhere
                     t += 1
     return target_start, target
@@ -229,12 +240,12 @@ def analyse(layout, walls, couplings):
         row_start[w + 1] = row_start[w] + m
         kind[w] = _kind(layout, w, m, touched[w])
     index, bits = _graph(layout, walls, kind, couplings)
-    sequence = order.minimum_degree(bits)
-    start, row = order.columns(bits, sequence)
+    sequence = minimum_degree.minimum_degree(bits)
+    start, row = minimum_degree.columns(bits, sequence)
     home = _homes(layout, kind, index, sequence)
     target_start, target = _targets(layout, row_start, kind, home, start, row)
     return System(
         kind, row_start, np.zeros((row_start[-1], condense.WIDTH)), np.zeros(row_start[-1]),
-        target_start, target, entries.shaped(home, start, row, layout.ratio, layout.images),
-        np.zeros((6, 6)), np.zeros(6),
+        target_start, target, block_matrix.shaped(home, start, row, layout.ratio, layout.images),
+        np.zeros((6, 6)), np.zeros(6), np.zeros(1, PLACE),
     )  # fmt: skip

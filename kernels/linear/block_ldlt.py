@@ -6,10 +6,10 @@ Positive Definite Systems, ch. 5).
 
 import math
 
-from kernels.linear.block_matrix import SIZE, STRIDE
+from kernels.arrays import zero
 from kernels.compile.jit import jit, jit_exact
 from kernels.compile.simd import added, load, spread, store
-from kernels.arrays import zero
+from kernels.linear.block_matrix import SIZE, STRIDE
 
 NEUTRAL = 1e-11  # a pivot below this share of its diagonal is round-off around zero
 SOFT = 1e-6  # share of its diagonal that it is given then
@@ -150,6 +150,18 @@ def factor(blocks, scale, rounded):
         _scale_column(blocks, j, nb)
         count = _update(blocks, j, nb, count)
     return -1, 0.0
+
+
+@jit_exact
+def stiffest(blocks, lengths):
+    """Return the largest diagonal entry, before the factor, of the first ``lengths`` slots of a
+    block: those of coordinates in m.
+    """
+    most = 0.0
+    for j in range(blocks.start.size - 1):
+        for slot in range(lengths):
+            most = max(most, blocks.own[3 * j + slot])
+    return most
 
 
 @jit_exact

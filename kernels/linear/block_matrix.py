@@ -11,12 +11,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from kernels.arrays import zero
 from kernels.compile.jit import jit, jit_exact, jit_owning
 from kernels.compile.simd import LANES
-from kernels.arrays import zero
 
 HELD, INNER, DRIVEN = -1, -2, -3  # never moves; eliminated inside its wall; led
-IMAGE = -4  # of the first row of `image`, -5 of the second ...
+IMAGE = -4  # of the first row of `periodic_images`, -5 of the second ...
 STRIDE = LANES  # from one column of a block to the next
 SIZE = 3 * STRIDE
 
@@ -28,7 +28,7 @@ class Blocks(NamedTuple):
     none. start (nb + 1,), row (nl,): blocks below each diagonal block. update (nu,): targets in the
     order in which `factor` meets them. values (12 (nb + nl) + 1,): the last one takes what belongs
     nowhere. own (3 nb,): diagonal before the factor. diagonal, pull (n,): by coordinate, diagonal
-    entries and couplings with what is led. ratio (n,), images (k, 4): as in `pattern.Layout`.
+    entries and couplings with what is led. ratio (n,), images (k, 4): as in `analysis.Layout`.
     vector (3 nb,), column (12 x longest,): scratch. missing (1,): set when an entry has no
     room.
     """

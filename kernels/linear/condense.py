@@ -8,9 +8,9 @@ each. Row k of a wall holds entries (k, k) .. (k, k + 5), then those with the jo
 After `eliminate` it holds the row of D L^T, with 1 / pivot in front.
 """
 
-from kernels.linear.block_ldlt import THROUGH, pivoted
-from kernels.compile.jit import jit, jit_exact
 from kernels.arrays import zero_rows
+from kernels.compile.jit import jit, jit_exact
+from kernels.linear.block_ldlt import THROUGH, pivoted
 
 BAND, WIDTH, OUTER = 6, 12, 6
 

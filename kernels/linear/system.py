@@ -1,10 +1,10 @@
 """The linear system of a step: walls condensed one by one, then the joints and what touches."""
 
-from kernels.linear import block_ldlt as blocks, condense, periodic_images as image
-from kernels.linear.block_matrix import IMAGE, INNER, add_image
-from kernels.compile.jit import jit, jit_exact
-from kernels.linear.analysis import CONDENSED, OPEN, RIGID
 from kernels.arrays import zero
+from kernels.compile.jit import jit, jit_exact
+from kernels.linear import block_ldlt, condense, periodic_images
+from kernels.linear.analysis import CONDENSED, OPEN, RIGID
+from kernels.linear.block_matrix import IMAGE, INNER, add_image
 
 
 @jit
@@ -49,13 +49,13 @@ def _scatter_image(system, layout, w, rows):
 def factor(system, layout, walls, stiffness, projected, through):
     """Add the walls to what the matrix holds and factor all.
 
-    Return (wall, failed, pivot): where the first negative pivot is, failed = -1 if there is none;
-    wall = -1 if it is in the block matrix. ``through``: they do not stop it, see `negatives`.
+    Return (failed, pivot): whether there is a negative pivot, and the first one, whose place is
+    kept for `descend`. ``through``: they do not stop it, see `negatives`.
     """
     wall, failed, pivot, home = -1, -1, 0.0, system.matrix.home
-    rounded = blocks.CONVEX if projected else blocks.ROUNDED
+    rounded = block_ldlt.CONVEX if projected else block_ldlt.ROUNDED
     if through:
-        rounded = blocks.THROUGH
+        rounded = block_ldlt.THROUGH
     for w in range(system.kind.size):
         if system.kind[w] == RIGID:
             continue
@@ -76,15 +76,17 @@ def factor(system, layout, walls, stiffness, projected, through):
         if home[layout.outer[w, 3]] <= IMAGE:
             _scatter_image(system, layout, w, rows)
     if failed < 0:
-        blocks.settle(system.matrix, layout.scale)
-        failed, pivot = blocks.factor(system.matrix, layout.scale, rounded)
-    return wall, failed, pivot
+        block_ldlt.settle(system.matrix, layout.scale)
+        failed, pivot = block_ldlt.factor(system.matrix, layout.scale, rounded)
+    place = system.place[0]
+    place.wall, place.row = wall, failed
+    return failed >= 0, pivot
 
 
 @jit_exact
 def negatives(system):
     """Return how many pivots of the factor are negative: as many as eigenvalues (Sylvester)."""
-    count = blocks.negatives(system.matrix)
+    count = block_ldlt.negatives(system.matrix)
     for w in range(system.kind.size):
         if system.kind[w] == CONDENSED:
             for k in range(system.row_start[w], system.row_start[w + 1]):
@@ -108,21 +110,21 @@ def _expand(system, layout, b):
             b[c] = vector[home[c]]
         elif home[c] != INNER:
             b[c] = 0.0
-    image.spread(layout.images, b)
+    periodic_images.spread(layout.images, b)
     for w in range(system.kind.size):
         if system.kind[w] == CONDENSED:
             rows = system.rows[system.row_start[w] : system.row_start[w + 1]]
             for c in range(condense.OUTER):
                 joints[c] = b[layout.outer[w, c]]
             condense.backward(rows, b[_inner(system, layout, w)], joints, rows.shape[0])
-    image.spread(layout.images, b)
+    periodic_images.spread(layout.images, b)
 
 
 @jit
 def solve(system, layout, b):
     """Solve in place for a right side ``b`` (n,) by coordinate; what is held stays at zero."""
     home, vector, joints = system.matrix.home, system.matrix.vector, system.joints
-    image.collect(layout.images, b)
+    periodic_images.collect(layout.images, b)
     for w in range(system.kind.size):
         if system.kind[w] == CONDENSED:
             rows = system.rows[system.row_start[w] : system.row_start[w + 1]]
@@ -130,19 +132,20 @@ def solve(system, layout, b):
             condense.forward(rows, b[_inner(system, layout, w)], joints)
             for c in range(condense.OUTER):
                 b[layout.outer[w, c]] += joints[c]
-    image.collect(layout.images, b)
+    periodic_images.collect(layout.images, b)
     zero(vector)
     for c in range(b.size):
         if home[c] >= 0:
             vector[home[c]] += b[c]
-    blocks.forward(system.matrix)
-    blocks.backward(system.matrix, system.matrix.start.size - 1)
+    block_ldlt.forward(system.matrix)
+    block_ldlt.backward(system.matrix, system.matrix.start.size - 1)
     _expand(system, layout, b)
 
 
 @jit
-def descend(system, layout, wall, failed, direction):
+def descend(system, layout, direction):
     """Fill ``direction`` (n,) with d such that d^T A d is the negative pivot of `factor`."""
+    wall, failed = system.place[0].wall, system.place[0].row
     zero(direction)
     if wall >= 0:
         rows = system.rows[system.row_start[wall] : system.row_start[wall + 1]]
@@ -150,7 +153,7 @@ def descend(system, layout, wall, failed, direction):
         inner = direction[_inner(system, layout, wall)]
         inner[failed] = 1.0
         condense.backward(rows, inner, system.joints, failed)
-        image.spread(layout.images, direction)
+        periodic_images.spread(layout.images, direction)
     else:
-        blocks.descend(system.matrix, failed)
+        block_ldlt.descend(system.matrix, failed)
         _expand(system, layout, direction)

@@ -1,39 +1,43 @@
-"""Where a march is, and the rows and frames that it writes of it."""
+"""The rows and frames that a march of a lattice writes."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from kernels.geometry.specimen_height import height
-from kernels.compile.jit import jit_exact
 from kernels.arrays import total
-from kernels.planar.potential import least_gap
+from kernels.compile.jit import jit_exact
+from kernels.geometry.specimen_height import height
+from kernels.planar.potential import BEND, CONTACT, STRETCH
+from kernels.planar.reach import least_gap
 
-TIME, HEIGHT, REACTION_TOP, REACTION_BOTTOM, ITERATIONS_DONE, GAP, SPEED = range(10, 17)
-N_COLUMNS = 17
-SPENT, STEPS, NOW, LAST = range(4)  # totals: iterations, steps, time, duration of a step
-
-
-class State(NamedTuple):
-    """Where the march is. x, v (n,): position and velocity. book (10,): energy book in J.
-
-    rates (2, n), past (4, n): of position and velocity, gradients at the last step (`scheme`).
-    stored (3,), held (2,): energies, driven reaction (N) and load factor at the last step. totals
-    (4,): iterations, steps, time in s, duration of the last step, 0 to set out anew.
-    """
-
-    x: np.ndarray
-    v: np.ndarray
-    book: np.ndarray
-    rates: np.ndarray
-    past: np.ndarray
-    stored: np.ndarray
-    held: np.ndarray
-    totals: np.ndarray
+ROW = np.dtype(
+    (
+        np.record,  # for attributes in plain Python too
+        [
+            ("work", np.float64),  # the energy book, J: as in `history.BOOK`
+            ("kinetic", np.float64),
+            ("stretch", np.float64),
+            ("bend", np.float64),
+            ("contact", np.float64),
+            ("material", np.float64),
+            ("friction", np.float64),
+            ("integrator", np.float64),
+            ("injected", np.float64),
+            ("residual", np.float64),
+            ("time", np.float64),  # s
+            ("height", np.float64),  # of the specimen, m
+            ("reaction_top", np.float64),  # N
+            ("reaction_bottom", np.float64),  # N
+            ("iterations", np.float64),  # of Newton, so far
+            ("gap", np.float64),  # least distance of lines that may touch, m; infinite: none
+            ("speed", np.float64),  # of the upper platen upwards, m/s
+        ],
+    )
+)
 
 
 class Output(NamedTuple):
-    """rows (steps, N_COLUMNS); frame_of (steps,): slot of a step in frames (f, n) or -1.
+    """rows (steps,) of `ROW`; frame_of (steps,): slot of a step in frames (f, n) or -1.
 
     bottom: coordinates whose supports make the lower reaction. top, base: see `height`. probed
     (steps, 2, k): value and reaction of the coordinates ``probes`` (k,).
@@ -50,25 +54,34 @@ class Output(NamedTuple):
 
 
 @jit_exact
-def write(out, k, state, terms, near, unknowns, at):
+def enter(row, state):
+    """Write the energy book of ``state`` into a row."""
+    book = state.book[0]
+    row.work, row.kinetic = book.work, book.kinetic
+    row.stretch, row.bend = state.stored[STRETCH], state.stored[BEND]
+    row.contact = state.stored[CONTACT]
+    row.material, row.friction = book.material, book.friction
+    row.integrator, row.injected, row.residual = book.integrator, book.injected, book.residual
+
+
+@jit_exact
+def write(problem, out, k, state, found):
     """Write row ``k`` of the history and its frame."""
-    row = out.rows[k]
-    for c in range(TIME):
-        row[c] = state.book[c]
-    row[TIME] = state.totals[NOW]
-    row[HEIGHT] = height(state.x, out.top, out.base)
-    row[REACTION_BOTTOM] = 0.0
+    row, totals, coordinates = out.rows[k], state.totals[0], problem.scene.coordinates
+    enter(row, state)
+    row.time, row.iterations = totals.time, totals.iterations
+    row.height = height(state.x, out.top, out.base)
+    row.reaction_bottom = 0.0
     for c in out.bottom:
-        row[REACTION_BOTTOM] += at.g[c]
-    row[REACTION_TOP] = -state.held[0]
-    if unknowns.driven < 0:
-        row[REACTION_TOP] = -state.held[1] * total(terms.load)
+        row.reaction_bottom += found.g[c]
+    row.reaction_top = -totals.reaction
+    if coordinates.driven < 0:
+        row.reaction_top = -totals.factor * total(coordinates.load)
     for p in range(out.probes.size):
         out.probed[k, 0, p] = state.x[out.probes[p]]
-        out.probed[k, 1, p] = at.g[out.probes[p]]
-    row[ITERATIONS_DONE] = state.totals[SPENT]
-    row[SPEED] = state.v[terms.contact.high]
-    row[GAP] = least_gap(state.x, terms, near)
+        out.probed[k, 1, p] = found.g[out.probes[p]]
+    row.speed = state.v[problem.scene.contact.high]
+    row.gap = least_gap(problem, state.x)
     if out.frame_of[k] >= 0:
         for i in range(state.x.size):
             out.frames[out.frame_of[k], i] = state.x[i]

@@ -11,7 +11,7 @@ FURTHER = 0.5  # leaps beyond the image, or short of it: more is no small change
 
 
 @jit_exact
-def approach(x, y, change, unknowns, relaxed):
+def approach(x, y, change, coordinates, relaxed):
     """Move the argument ``y`` (n,) on, given its image ``x``; return the share w.
 
     change (n,), in m: x - y of the iteration before, exchanged for that of this one. relaxed: the
@@ -19,7 +19,7 @@ def approach(x, y, change, unknowns, relaxed):
     """
     turned, square, most = 0.0, 0.0, 0.0
     for i in range(x.size):
-        now = (x[i] - y[i]) * unknowns.scale[i]
+        now = (x[i] - y[i]) * coordinates.scale[i]
         turn = now - change[i]
         turned += change[i] * turn
         square += turn * turn
@@ -28,8 +28,8 @@ def approach(x, y, change, unknowns, relaxed):
     share = 1.0
     if relaxed > 0.0 and square > 0.0:
         share = min(max(-relaxed * turned / square, LEAST), MOST)
-        if abs(share - 1.0) * most > FURTHER * unknowns.leap:
+        if abs(share - 1.0) * most > FURTHER * coordinates.leap:
             share = 1.0
     for i in range(x.size):
-        y[i] += share * change[i] / unknowns.scale[i]
+        y[i] += share * change[i] / coordinates.scale[i]
     return share

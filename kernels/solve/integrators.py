@@ -11,21 +11,33 @@ others. What has no mass has no v' either, what is led has a constant speed: ``h
 there, else 1.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from kernels.compile.jit import jit_exact
 
 BACKWARD_EULER, BDF2, TRAPEZOIDAL = range(3)
 FIRST = 2.0**-4  # share of a step: its loss of energy, of first order, is the square of that
-POSITION, VELOCITY = range(2)  # rates
-ELASTIC, DAMPING, RUBBING = range(3)  # of the past: gradients at the last step
-CHANGE = 3  # of the past: last acceleration; where not ``heavy``, mean velocity in the last step
+
+
+class Ahead(NamedTuple):
+    """Where the rates of a step are measured, for damping that is of second order.
+
+    time: how far y is ahead of x0, s. last: duration of the last step, s, 0 if ``rate`` (n,) is the
+    velocity at x0. move (n,): where the step is expected to end.
+    """
+
+    time: float
+    last: float
+    rate: np.ndarray
+    move: np.ndarray
 
 
 @jit_exact
 def length(scheme, dt, last):
     """Return h of a step of ``dt`` after one of ``last``, 0 where it starts anew."""
-    if scheme == BACKWARD_EULER or last == 0.0 or dt == np.inf:
+    if scheme == BACKWARD_EULER or last == 0.0:
         return dt
     return 0.5 * dt if scheme == TRAPEZOIDAL else dt * (last + dt) / (last + 2.0 * dt)
 
@@ -34,75 +46,73 @@ def length(scheme, dt, last):
 def _expected(state, i, dt, ahead, heavy):
     """Return how far coordinate ``i`` goes in ``dt`` at its rates."""
     if ahead > 0.0 and heavy[i] == 0.0:
-        return dt * state.past[CHANGE, i]
-    return dt * (state.v[i] + (0.5 * dt * state.rates[VELOCITY, i] if ahead > 0.0 else 0.0))
+        return dt * state.rates.change[i]
+    return dt * (state.v[i] + (0.5 * dt * state.rates.velocity[i] if ahead > 0.0 else 0.0))
 
 
 @jit_exact
 def set_out(state, dt, h, heavy, y, x_pred, dx):
     """Fill y, x~ = y + h w and the move (n,) to begin with."""
-    ahead = dt - h
+    ahead, rates = dt - h, state.rates
     for i in range(y.size):
-        y[i] = state.x[i] + ahead * state.rates[POSITION, i]
-        x_pred[i] = y[i] + h * (state.v[i] + ahead * state.rates[VELOCITY, i])
+        y[i] = state.x[i] + ahead * rates.position[i]
+        x_pred[i] = y[i] + h * (state.v[i] + ahead * rates.velocity[i])
         dx[i] = _expected(state, i, dt, ahead, heavy)
 
 
 @jit_exact
-def error(state, x0, dt, h, heavy):
+def error(state, step, heavy):
     """Return the largest error in m that a step has made by itself: a third of what its end has
     been off the move to begin with; a half, of a first step.
     """
-    most = 0.0
-    for i in range(x0.size):
+    most, ahead = 0.0, step.duration - step.h
+    for i in range(state.x.size):
         if heavy[i] > 0.0:
-            missed = state.x[i] - x0[i] - _expected(state, i, dt, dt - h, heavy)
-            most = max(most, abs(missed))
-    return most / (3.0 if h < dt else 2.0)
+            expected = _expected(state, i, step.duration, ahead, heavy)
+            most = max(most, abs(state.x[i] - step.x0[i] - expected))
+    return most / (3.0 if ahead > 0.0 else 2.0)
 
 
 @jit_exact
-def _tie(state, layout):
+def _tie(state, problem):
     """Let what follows another coordinate have its velocity and rates to the last digit.
 
     No force would damp a difference, which the schemes let grow.
     """
-    for i in range(layout.leader.size):
-        leader = layout.leader[i]
-        if leader >= 0 and leader != i:
-            state.v[i] = layout.ratio[i] * state.v[leader]
-            for k in range(2):
-                state.rates[k, i] = layout.ratio[i] * state.rates[k, leader]
-            state.past[CHANGE, i] = layout.ratio[i] * state.past[CHANGE, leader]
+    rates = state.rates
+    for vector in (state.v, rates.position, rates.velocity, rates.change):
+        problem.tie(vector)
 
 
 @jit_exact
-def arrive(scheme, state, step, dt, terms, heavy, u):
+def arrive(scheme, state, step, problem, u):
     """Exchange ``u`` = x - y for x - x0, renew v and the rates; return what inertia lost, in J:
 
     theta a1 + (1 - theta) a0 times M (x - x0), less the gain of kinetic energy.
     """
-    by_h, ahead, theta, lost = 1.0 / step.dt, dt - step.dt, step.theta, 0.0
-    past, rates, v, x0, mass = state.past, state.rates, state.v, step.before.x0, terms.mass
+    by_h, ahead, theta, lost = 1.0 / step.h, step.duration - step.h, step.theta, 0.0
+    rates, v, x0 = state.rates, state.v, step.x0
+    mass, heavy = problem.scene.coordinates.mass, problem.scene.coordinates.heavy
     for i in range(u.size):
         before, after = v[i], by_h * u[i]
         v[i], u[i] = after, state.x[i] - x0[i]
         if scheme == BACKWARD_EULER:
             lost += 0.5 * mass[i] * (after - before) ** 2
             continue
-        a = by_h * (after - before - ahead * rates[VELOCITY, i])
-        mean = theta * a + (1.0 - theta) * past[CHANGE, i] if heavy[i] > 0.0 else 0.0
+        a = by_h * (after - before - ahead * rates.velocity[i])
+        mean = theta * a + (1.0 - theta) * rates.change[i] if heavy[i] > 0.0 else 0.0
         lost += mass[i] * (mean * u[i] - 0.5 * (after - before) * (after + before))
-        past[CHANGE, i] = a if heavy[i] > 0.0 else u[i] / dt
-        rates[POSITION, i], rates[VELOCITY, i] = after, heavy[i] * a
+        rates.change[i] = a if heavy[i] > 0.0 else u[i] / step.duration
+        rates.position[i], rates.velocity[i] = after, heavy[i] * a
         if scheme == BDF2:
-            rates[POSITION, i], rates[VELOCITY, i] = u[i] / dt, heavy[i] * (after - before) / dt
+            rates.position[i] = u[i] / step.duration
+            rates.velocity[i] = heavy[i] * (after - before) / step.duration
     if scheme != BACKWARD_EULER:
-        _tie(state, terms.layout)
+        _tie(state, problem)
     return lost
 
 
 @jit_exact
-def weight(h, dt):
-    """Return theta, the share of the forces at the end of a step in its energy book (`book`)."""
-    return 1.0 if h == dt < np.inf else 0.5
+def weight(h, duration, dynamic):
+    """Return theta, the share of the forces at the end of a step in its `energy_book`."""
+    return 1.0 if dynamic and h == duration else 0.5

@@ -4,17 +4,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.terms import damping as damp, friction, inertia
-from kernels.solve import friction_loop as lagging, integrators as scheme
-from kernels.solve.residual import loosened
-from kernels.solve.energy_book import INTEGRATOR, KINETIC, enter, made, move_apart, strike, unbalanced
-from kernels.compile.jit import jit_exact, jit_owning
-from kernels.solve.newton import CONVERGED, INTERRUPTED, ITERATIONS, OUTGROWN, minimise
-from kernels.solve.workspace import HEAVY, LAGGED, PREDICTED, Room, make_room
 from kernels.arrays import copy, zero
-from kernels.solve.integrators import BACKWARD_EULER, BDF2, POSITION
-from kernels.planar.potential import Step, covers, drift, find_near, holds_crowd, renew, travel
-from kernels.planar.rows import LAST, NOW, SPENT, STEPS, write
+from kernels.compile.jit import jit_exact, jit_owning
+from kernels.compile.reference import by_reference
+from kernels.solve import energy_book, friction_loop, integrators
+from kernels.solve.energy_book import enter, kinetic, made, strike, unbalanced
+from kernels.solve.integrators import BACKWARD_EULER, BDF2, Ahead
+from kernels.solve.newton import CONVERGED, DESCENT, INTERRUPTED, ITERATIONS, OUTGROWN, minimise
+from kernels.solve.problem import Step
+from kernels.solve.residual import loosened
+from kernels.solve.workspace import make_workspace
 
 SMALLEST = 2.0**-24  # share of a step
 LONGER = 0.1  # of the error that is allowed: the next step may be twice as long
@@ -22,7 +21,7 @@ FURTHER = 2.0  # times the last step: a longer one is not extrapolated
 EASY_LOOPS = 10  # of friction: after more of them the next step is no longer
 GIFT = 2e-3  # of all energy: what backward Euler may make, and once more in all further steps
 SHORT = 2.0**-12  # share of a step that may make more: the run is judged at its end
-INACCURATE, UNBALANCED = 7, 9  # outcomes, beside those of `newton` and `lagging`
+INACCURATE, UNBALANCED = 7, 9  # outcomes, beside those of `newton` and `friction_loop`
 AT_START = -1  # loops of friction before `_set_out`
 PROGRESS = np.dtype(
     (
@@ -36,12 +35,11 @@ PROGRESS = np.dtype(
             ("effort", np.int64),  # Newton iterations for the share
             ("tried", np.int64),  # Newton iterations for the minimum that is looked for
             ("loops", np.int64),  # of friction in the share
-            ("relaxed", np.float64),  # share of the last approach (`relax`)
+            ("relaxed", np.float64),  # share of the last approach (`aitken`)
             ("nearest", np.float64),  # least residual when friction was lagged anew, N
             ("circles", np.int64),  # loops since then
             ("rough", np.float64),  # times the tolerance to which the next minimum is found
-            ("far", np.float64),  # that a node goes in a move which the pairs must cover, m
-            ("length", np.float64),  # h of the last share tried, s
+            ("h", np.float64),  # of the last share tried, s
         ],
     )
 )
@@ -50,13 +48,14 @@ PROGRESS = np.dtype(
 class Stage(NamedTuple):
     """Linear ramps of the load factor and of the driven coordinate (m) from ``*0`` to ``*1``.
 
-    steps: number. dt: duration of one in s, infinite if static. pace: time of one in s. scheme: the
-    integrator. error: allowed to a step by itself, m.
+    steps: number. duration: of one in s. dynamic: whether there is inertia; a static step has a
+    duration all the same, for materials with a rate. scheme: the integrator. error: allowed to a
+    step by itself, m.
     """
 
     steps: int
-    dt: float
-    pace: float
+    duration: float
+    dynamic: bool
     factor0: float
     factor1: float
     driven0: float
@@ -78,207 +77,213 @@ def _target(stage, progress):
 
 
 @jit_exact
-def _set_out(terms, stage, unknowns, state, near, room, progress):
-    """Set out on the next share of a step, from where the last one ended and, unless that snapped,
-    on as it went.
+def _step(stage, space, progress):
+    """Return the `Step` of the share that is tried."""
+    duration = stage.duration * progress.share
+    factor = stage.factor0 + (stage.factor1 - stage.factor0) * _part(stage, progress)
+    theta = integrators.weight(progress.h, duration, stage.dynamic)
+    return Step(space.x0, space.y, space.x_pred, progress.h, duration, stage.dynamic, factor, theta)
+
+
+@jit_exact
+def _onwards(u, driven, remaining):
+    """Return how many times the last move ``u`` the driven coordinate has to go: 0 where that tells
+    nothing of this step.
     """
-    if stage.scheme != BACKWARD_EULER and state.totals[LAST] == 0.0:
-        progress.share = min(progress.share, scheme.FIRST)
-    before, at, work, grips, way = room
-    x, dt, last = state.x, stage.dt * progress.share, state.totals[LAST]
-    driven, more, remaining = unknowns.driven, 0.0, 0.0
+    if driven < 0 or not 0.0 < remaining * u[driven] or abs(remaining) > FURTHER * abs(u[driven]):
+        return 0.0
+    return remaining / u[driven]
+
+
+@jit_exact
+def _set_out(problem, stage, state, space, descent, progress):
+    """Set out on the next share of a step, from where the last one ended.
+
+    The descent begins at the extrapolated position; where the last static step snapped, at x0.
+    """
+    last = state.totals[0].last
+    if stage.scheme != BACKWARD_EULER and last == 0.0:
+        progress.share = min(progress.share, integrators.FIRST)
+    duration, coordinates = stage.duration * progress.share, problem.scene.coordinates
+    u, work, driven, remaining = space.found.u, space.work, coordinates.driven, 0.0
     if driven >= 0:
-        remaining = _target(stage, progress) - x[driven]
-        if remaining * at.u[driven] > 0.0 and abs(remaining) <= FURTHER * abs(at.u[driven]):
-            more = remaining / at.u[driven]
-    h = scheme.length(stage.scheme, dt, last)
-    if h != progress.length:  # the next Hessian is another
-        progress.length, work.kept[0] = h, np.inf
-    copy(x, before.x0)
-    copy(x, way[LAGGED])
-    if dt == np.inf:
-        copy(x, before.y)
-        if more * travel(at.u, terms) > max(unknowns.cap, FURTHER * abs(remaining)):
-            more = 0.0  # it snapped
-        for i in range(x.size):
-            work.dx[i] = more * at.u[i]
-    else:
+        remaining = _target(stage, progress) - state.x[driven]
+    more = _onwards(u, driven, remaining)
+    h = integrators.length(stage.scheme, duration, last)
+    if stage.dynamic and h != progress.h:  # the next Hessian is another
+        descent.kept = np.inf
+    progress.h = h
+    copy(state.x, space.x0)
+    copy(state.x, space.lagged)
+    if stage.dynamic:
         if driven >= 0 and stage.scheme != BACKWARD_EULER and last == 0.0:
-            strike(state, terms.layout, terms.mass, remaining / dt)
-        scheme.set_out(state, dt, h, way[HEAVY], before.y, way[PREDICTED], work.dx)
+            strike(state, problem, remaining / duration, work.direction)
+        heavy = coordinates.heavy
+        integrators.set_out(state, duration, h, heavy, space.y, space.x_pred, work.dx)
+    else:
+        copy(state.x, space.y)
+        if more * problem.travel(u) > max(coordinates.cap, FURTHER * abs(remaining)):
+            more = 0.0  # it snapped
+        for i in range(u.size):
+            work.dx[i] = more * u[i]
     if more > 0.0:
         work.dx[driven] = remaining
-    ahead = dt - h if h < dt else 0.0
+    ahead = duration - h if h < duration else 0.0
     last = last if stage.scheme == BDF2 else 0.0
-    rate = state.rates[POSITION]
-    damp.prepare(terms, before, damp.Ahead(ahead, last, rate, work.dx, work.trial, at.shape))
-    if terms.friction.mu > 0.0:
-        held = grips.count[0]
-        friction.lag(x, terms.contact, near.pairs, drift(x, terms, near), terms.friction, grips)
-        if held + grips.count[0] > 0:  # the next Hessian is another
-            work.kept[0] = np.inf
+    rates = Ahead(ahead, last, state.rates.position, work.dx)
+    problem.begin(_step(stage, space, progress), rates, work.trial)
+    if problem.lag(state.x):  # the next Hessian is another
+        descent.kept = np.inf
     progress.effort, progress.tried = 0, 0
-    lagging.begin(progress)
+    friction_loop.begin(progress)
 
 
 @jit_exact
-def _step(terms, stage, room, progress):
-    """Return the `Step` of the share that is tried."""
-    dt, h, slip = stage.dt * progress.share, progress.length, terms.friction.slip
-    factor = stage.factor0 + (stage.factor1 - stage.factor0) * _part(stage, progress)
-    if dt < np.inf:
-        slip *= h
-    theta = scheme.weight(h, dt)
-    return Step(room.before, room.way[PREDICTED], h, factor, room.grips, slip, theta)
-
-
-@jit_exact
-def _balance(x, target, terms, step, near, unknowns, tolerance, room, control, progress):
-    """Minimise until friction agrees with where it was lagged; return the outcome."""
+def _balance(x, target, problem, step, tolerance, space, descent, control, progress):
+    """Minimise until the forces that lag agree with where they were lagged; return the outcome."""
     outcome, there = CONVERGED, False
     while True:
         rough = loosened(tolerance, progress.rough)
-        outcome, spent, progress.far = minimise(
-            x, target, terms, step, near, unknowns, rough, room.at, room.work, control, there
-        )
+        outcome = minimise(x, target, problem, step, rough, space, descent, control, there)
         there = True
-        progress.spent, progress.effort = progress.spent + spent, progress.effort + spent
-        progress.tried += max(spent, 1)
-        if outcome != CONVERGED or terms.friction.mu == 0.0:
+        progress.spent += descent.iterations
+        progress.effort += descent.iterations
+        progress.tried += max(descent.iterations, 1)
+        if outcome != CONVERGED or not problem.lags():
             break
-        if lagging.agrees(x, terms, step, near, unknowns, tolerance, room, progress):
+        if friction_loop.agrees(x, problem, step, tolerance, space, progress):
             break
-        if lagging.in_vain(progress):
-            outcome = lagging.UNSETTLED
+        if friction_loop.in_vain(progress):
+            outcome = friction_loop.UNSETTLED
             break
     return outcome
 
 
 @jit_exact
-def _invents(terms, stage, state, at, share, noise):
+def _invents(problem, stage, state, found, share, noise):
     """Return whether a step of backward Euler makes energy that none was lost for before."""
-    gain, there = made(state, at, terms.mass, stage.dt * share)
+    gain, there = made(state, found, problem.scene.coordinates.mass, stage.duration * share)
     enough = GIFT * there + noise
-    return gain - state.book[INTEGRATOR] > enough and gain > enough * share / stage.steps
+    return gain - state.book[0].integrator > enough and gain > enough * share / stage.steps
 
 
 @jit_exact
-def _judged(terms, stage, state, step, noise, room, progress):
+def _judged(problem, stage, state, step, noise, space, progress):
     """Return whether a step is accurate, and its error as a share of what is allowed."""
-    dt, strayed = stage.dt * progress.share, 0.0
+    strayed = 0.0
     if stage.error < np.inf:
-        error = scheme.error(state, room.before.x0, dt, step.dt, room.way[HEAVY])
-        strayed = error / stage.error
-    fine = strayed <= 1.0
-    if fine and step.dt == dt < np.inf and progress.share > SHORT:
-        fine = not _invents(terms, stage, state, room.at, progress.share, noise)
+        strayed = integrators.error(state, step, problem.scene.coordinates.heavy) / stage.error
+    fine, first_order = strayed <= 1.0, stage.dynamic and step.h == step.duration
+    if fine and first_order and progress.share > SHORT:
+        fine = not _invents(problem, stage, state, space.found, progress.share, noise)
     return fine, strayed
 
 
 @jit_exact
-def _step_back(outcome, state, room, progress):
+def _step_back(outcome, problem, step, state, space, descent, progress):
     """Return to where a step set out, for a shorter one."""
-    copy(room.before.x0, state.x)
-    zero(room.at.least)  # what was found last was found elsewhere
-    zero(room.at.u)
+    copy(space.x0, state.x)
+    problem.roll_back(step)
+    zero(space.found.u)
     if outcome != INACCURATE:
         progress.failed += 1
     progress.share *= 0.5 ** max(progress.failed, 1)  # the oftener, the more boldly
-    progress.loops, room.work.kept[0] = AT_START, np.inf
+    progress.loops, descent.kept = AT_START, np.inf
 
 
 @jit_exact
-def _settle(terms, unknowns, stage, step, state, near, room, progress):
-    """Stay where a step has led, and book it."""
-    dt, at, work = stage.dt * progress.share, room.at, room.work
-    if dt < np.inf:
-        lost = scheme.arrive(stage.scheme, state, step, dt, terms, room.way[HEAVY], at.u)
-        state.book[INTEGRATOR] += lost
-        state.book[KINETIC] = inertia.kinetic(state.v, terms.mass)
-        state.totals[LAST] = dt
-    enter(terms, step, unknowns, state, at, work)
-    move_apart(terms, step, state, near, at, work)
-    state.totals[STEPS] += 1
+def _settle(problem, stage, step, state, space, descent):
+    """Accept where a step has led, and book it."""
+    found, work, book, totals = space.found, space.work, state.book[0], state.totals[0]
+    if stage.dynamic:
+        book.integrator += integrators.arrive(stage.scheme, state, step, problem, found.u)
+        book.kinetic = kinetic(state.v, problem.scene.coordinates.mass)
+        totals.last = step.duration
+    problem.commit(state.x, step, found)
+    enter(problem, step, state, found, work)
+    if energy_book.project(problem, step, state, found, work.trial):
+        descent.kept = np.inf
+    totals.steps += 1
 
 
 @jit_exact
-def _advance(strayed, iterations, work, progress):
+def _advance(strayed, iterations, descent, progress):
     """Count a share as done; the next one is twice as long if this was easy and that fits."""
     easy = strayed < LONGER and progress.effort <= iterations and progress.loops <= EASY_LOOPS
     progress.done, progress.failed, progress.loops = progress.done + progress.share, 0, AT_START
     if progress.share < 1.0:  # the next Hessian is another
-        work.kept[0] = np.inf
+        descent.kept = np.inf
     if easy and progress.done % (2.0 * progress.share) == 0.0:
         progress.share *= 2.0
 
 
 @jit_exact
-def _go(terms, unknowns, tolerance, stage, state, out, control, near, room, progress):
-    """March on from where ``progress`` says, until the stage ends or pairs must be found anew.
+def _go(problem, tolerance, stage, state, out, control, space, descent, progress):
+    """March on from where ``progress`` says, until the stage ends or the problem must be renewed.
 
     Return the outcome and the rows written.
     """
+    work, totals = space.work, state.totals[0]
     while progress.row < stage.steps:
         if progress.loops == AT_START:
-            if not covers(near, state.x, terms, 0.0):  # after a step back
-                progress.far = 0.0
+            if not problem.covers(state.x, 0.0):  # after a step back
+                descent.far = 0.0
                 return OUTGROWN, progress.row
-            _set_out(terms, stage, unknowns, state, near, room, progress)
-        step, target = _step(terms, stage, room, progress), _target(stage, progress)
+            _set_out(problem, stage, state, space, descent, progress)
+        step, target = _step(stage, space, progress), _target(stage, progress)
         outcome = _balance(
-            state.x, target, terms, step, near, unknowns, tolerance, room, control, progress
+            state.x, target, problem, step, tolerance, space, descent, control, progress
         )
-        if outcome == CONVERGED and not holds_crowd(near, state.x, terms):
+        if outcome == CONVERGED and not problem.covers_projection(state.x):
             outcome, progress.tried = OUTGROWN, 0
-            zero(room.work.dx)
+            zero(work.dx)
         if outcome == OUTGROWN and progress.tried <= tolerance.iterations:
-            if stage.dt < np.inf:
-                zero(room.work.dx)  # where it was is the better guess
+            if stage.dynamic:
+                zero(work.dx)  # where it was is the better guess
             return outcome, progress.row
         strayed = 0.0
         if outcome == CONVERGED:
-            fine, strayed = _judged(terms, stage, state, step, tolerance.noise, room, progress)
+            fine, strayed = _judged(problem, stage, state, step, tolerance.noise, space, progress)
             outcome = CONVERGED if fine else INACCURATE
-            x0, at, work = room.before.x0, room.at, room.work
-            if fine and unbalanced(x0, unknowns, tolerance, state, at, work):
+            if fine and unbalanced(step.x0, problem, tolerance, state, space.found, work):
                 outcome = UNBALANCED
         if outcome != CONVERGED:
-            _step_back(outcome, state, room, progress)
+            _step_back(outcome, problem, step, state, space, descent, progress)
             if outcome == INTERRUPTED or progress.share < SMALLEST:
                 return (ITERATIONS if outcome == OUTGROWN else outcome), progress.row
             continue
-        _settle(terms, unknowns, stage, step, state, near, room, progress)
-        _advance(strayed, tolerance.iterations, room.work, progress)
+        _settle(problem, stage, step, state, space, descent)
+        _advance(strayed, tolerance.iterations, descent, progress)
         if progress.done == 1.0:
-            state.totals[SPENT] += progress.spent
-            state.totals[NOW] += stage.pace
-            write(out, progress.row, state, terms, near, unknowns, room.at)
+            totals.iterations += progress.spent
+            totals.time += stage.duration
+            problem.write(out, progress.row, state, space.found)
             control[1] += 1
             progress.row, progress.done, progress.spent = progress.row + 1, 0.0, 0
     return CONVERGED, progress.row
 
 
 @jit_owning
-def march(terms, unknowns, tolerance, stage, state, out, control):
+def march(scene, tolerance, stage, state, out, control):
     """March through ``stage`` from ``state`` (changed in place); fill ``out``.
 
-    Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1] counts steps done.
+    scene: `problem.Scene`. Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts,
+    [1] counts steps done.
     """
-    progress = np.zeros(1, PROGRESS)
-    progress[0].share, progress[0].loops = 1.0, AT_START
-    if stage.error < np.inf and state.totals[LAST] > 0.0:
-        progress[0].share = state.totals[LAST] / stage.dt
-    near = find_near(state.x, terms, friction.none(), 0.0)
-    room = make_room(terms, near)
+    progress, descent = np.zeros(1, PROGRESS), np.zeros(1, DESCENT)
+    progress[0].share, progress[0].loops, descent[0].kept = 1.0, AT_START, np.inf
+    last = state.totals[0].last
+    if stage.error < np.inf and last > 0.0:
+        progress[0].share = last / stage.duration
+    near, room = scene.find_near(state.x), scene.make_room(state.memory)
+    space = make_workspace(state.x.size, state.stored.size)
     while True:
+        problem = by_reference(scene).assemble(by_reference(near), by_reference(room))
         outcome, rows = _go(
-            terms, unknowns, tolerance, stage, state, out, control, near, room, progress[0]
-        )
+            problem, tolerance, stage, by_reference(state), out, control,
+            by_reference(space), descent[0], progress[0],
+        )  # fmt: skip
         if outcome != OUTGROWN:
             return outcome, rows
-        near = renew(near, state.x, terms, room.grips, progress[0].far)  # a factor is kept, unless
-        # the matrix lacked room: then it is known to be of no use
-        wider = friction.room(near.pairs, terms.contact, terms.friction)
-        if wider.load.size > room.grips.load.size:
-            grips = friction.moved(room.grips, wider)
-            room = Room(room.before, room.at, room.work, grips, room.way)
+        # A factor outlives its pairs; if the matrix will be another, `minimise` has given it up.
+        near = scene.renew_near(near, state.x, descent[0].far)

@@ -14,10 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.terms import elements as chain
-from kernels.terms.barrier import barrier
 from kernels.compile.jit import jit
-from kernels.terms.elastic import curve
+from kernels.terms import elements
+from kernels.terms.barrier import barrier
 
 ANGLE, TANGENT = 0, 1
 FOLD_LIMIT = math.radians(20.0)
@@ -28,9 +27,9 @@ class Bend(NamedTuple):
     """Hinges and arms; stiffness in N m.
 
     hinges (h,): element before. hinge_angle (h,): angle between its elements at rest, rad. arm_rest
-    (2 w, 2): bearing at rest of the element at an end (cos, sin). coupling (w,): k12.
-    section: U' over surface strain s >= 0. hinge_surface (h,), arm_surface (2 w,): surface strain
-    per unit of kappa; empty where bending is linear.
+    (2 w, 2): bearing at rest of the element at an end (cos, sin). coupling (w,): k12. section: law
+    with U' over the surface strain s. hinge_surface (h,), arm_surface (2 w,): surface strain per
+    unit of kappa; empty where bending is linear.
     """
 
     measure: int
@@ -106,14 +105,14 @@ def _folding(stiffness, angle, rest):
 
 
 @jit
-def response(section, c, kappa):
+def response(section, c, kappa, memory, point):
     """Return energy, moment and rigidity over the stiffness, with strain c kappa at the surface."""
-    energy, moment, rigidity = curve(section, abs(c * kappa))
-    return energy / (c * c), math.copysign(moment, kappa) / c, rigidity
+    energy, moment, rigidity = section.respond(c * kappa, memory, point)
+    return energy / (c * c), moment / c, rigidity
 
 
 @jit
-def _hinges(bend, shape, stiffness, projected):
+def _hinges(bend, memory, first, shape, stiffness, projected):
     total, curved = 0.0, bend.hinge_surface.size > 0
     for h in range(bend.hinges.size):
         k, weight = bend.hinges[h], bend.hinge_stiffness[h]
@@ -123,7 +122,9 @@ def _hinges(bend, shape, stiffness, projected):
         folding, moment, rigidity = _folding(weight, rest + delta, rest)
         value, slope, second = 0.5 * kappa * kappa, kappa, 1.0
         if curved:
-            value, slope, second = response(bend.section, bend.hinge_surface[h], kappa)
+            value, slope, second = response(
+                bend.section, bend.hinge_surface[h], kappa, memory, first + h
+            )
             if projected:
                 second = max(second, 0.0)
         total += weight * value + folding
@@ -131,12 +132,12 @@ def _hinges(bend, shape, stiffness, projected):
         rigidity += weight * second * d1 * d1
         if not projected:
             rigidity += weight * slope * d2
-        chain.turn_hinge(shape, stiffness, k, moment, rigidity, 0.0 if projected else moment)
+        elements.turn_hinge(shape, stiffness, k, moment, rigidity, 0.0 if projected else moment)
     return total
 
 
 @jit
-def _arms(walls, bend, shape, stiffness, projected):
+def _arms(walls, bend, memory, first, shape, stiffness, projected):
     """Both arms of every wall. With k12 = k1 / 2 = k2 / 2 the projected sum is semi-definite."""
     total, curved = 0.0, bend.arm_surface.size > 0
     for w in range(bend.coupling.size):
@@ -148,24 +149,55 @@ def _arms(walls, bend, shape, stiffness, projected):
             weight = bend.arm_stiffness[a]
             value, slope, second = 0.5 * kappa * kappa, kappa, 1.0
             if curved:
-                value, slope, second = response(bend.section, bend.arm_surface[a], kappa)
+                value, slope, second = response(
+                    bend.section, bend.arm_surface[a], kappa, memory, first + a
+                )
                 if projected:
                     second = max(second, 0.0)
             total += weight * value
             force = weight * slope + k12 * other
             rigidity = weight * second * d1 * d1 + (0.0 if projected else force * d2)
             bent = 0.0 if projected else force * d1
-            chain.turn_arm(shape, stiffness, walls, a, force * d1, rigidity, bent)
+            elements.turn_arm(shape, stiffness, walls, a, force * d1, rigidity, bent)
         if k12 > 0.0:
-            chain.couple_arms(shape, stiffness, walls, w, k12 * e1 * e2)
+            elements.couple_arms(shape, stiffness, walls, w, k12 * e1 * e2)
     return total
 
 
 @jit
-def evaluate(walls, bend, shape, stiffness, projected):
+def evaluate(walls, bend, memory, shape, stiffness, projected):
     """Return E_b in J with the folds of hinges; add its derivatives in the turns of ``shape``.
 
-    ``projected`` keeps what is positive semi-definite in every hinge and wall.
+    Hinges and arms are material points of the section, behind the elements. ``projected`` keeps
+    what is positive semi-definite in every hinge and wall.
     """
-    total = _hinges(bend, shape, stiffness, projected)
-    return total + _arms(walls, bend, shape, stiffness, projected)
+    first = walls.edges.shape[0]
+    total = _hinges(bend, memory, first, shape, stiffness, projected)
+    first += bend.hinges.size
+    return total + _arms(walls, bend, memory, first, shape, stiffness, projected)
+
+
+@jit
+def commit(walls, bend, memory, shape):
+    """Let the section accept the curvatures of ``shape``; return how much less than E_b is stored,
+    and what has been dissipated, J.
+    """
+    released, dissipated, first = 0.0, 0.0, walls.edges.shape[0]
+    for h in range(bend.hinge_surface.size):
+        c = bend.hinge_surface[h]
+        strain = c * curvature(bend.measure, shape.hinge_turn[bend.hinges[h]])[0]
+        weight = bend.hinge_stiffness[h] / (c * c)
+        potential = bend.section.respond(strain, memory, first + h)[0]
+        stored, lost = bend.section.commit(strain, memory, first + h)
+        released += weight * (potential - stored)
+        dissipated += weight * lost
+    first += bend.hinges.size
+    for a in range(bend.arm_surface.size):
+        c = bend.arm_surface[a]
+        strain = c * curvature(bend.measure, shape.arm_turn[a])[0]
+        weight = bend.arm_stiffness[a] / (c * c)
+        potential = bend.section.respond(strain, memory, first + a)[0]
+        stored, lost = bend.section.commit(strain, memory, first + a)
+        released += weight * (potential - stored)
+        dissipated += weight * lost
+    return released, dissipated

@@ -12,8 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from kernels.arrays import pair
+from kernels.compile.jit import jit, jit_exact, jit_owning
 from kernels.geometry import ccd
-from kernels.terms.barrier import barrier
 from kernels.geometry.distance import (
     closest,
     direction,
@@ -23,10 +24,9 @@ from kernels.geometry.distance import (
     push_point_stiffen,
     push_stiffen,
 )
-from kernels.linear.block_matrix import add
-from kernels.compile.jit import jit, jit_exact
 from kernels.geometry.near_pairs import counted, within
-from kernels.arrays import pair
+from kernels.linear.block_matrix import add
+from kernels.terms.barrier import barrier
 
 
 class Contact(NamedTuple):
@@ -64,32 +64,48 @@ def _law(contact, weight, d_contact, d):
     return scale * d_contact * value, scale * slope, scale / d_contact * curvature
 
 
-@jit
-def cancelled(tau, inside, first, second):
-    """Return which end (0, 1) of a segment is closest and taken off again; -1 if none is.
+class Touching(NamedTuple):
+    """The contacts at one position, the first ``count`` (1,): what `meet` has found there.
 
-    first, second: as `pairs.counted` returns them.
+    pair (n,): number of the pair in `Pairs`. tau (n,): place on its segment. end (n,): 0 or 1 where
+    this is the contribution of a vertex that another segment counts too, -1 else. weight (n,):
+    length of contact, m, negative where the contribution is taken off. distance (n,): m.
     """
-    end = 0 if tau == 0.0 else 1
-    return -1 if inside or (first, second)[end] == 0.0 else end
+
+    pair: np.ndarray
+    tau: np.ndarray
+    end: np.ndarray
+    weight: np.ndarray
+    distance: np.ndarray
+    count: np.ndarray
+
+
+@jit_owning
+def no_contacts(pairs):
+    """Return no contacts, with room for those of all pairs: three each."""
+    most = 3 * pairs.node.size
+    return Touching(
+        np.empty(most, np.int64), np.empty(most), np.empty(most, np.int64), np.empty(most),
+        np.empty(most), np.zeros(1, np.int64),
+    )  # fmt: skip
 
 
 @jit
-def _segment_distance(x, p, a, b):
-    tau, _ = closest(x, p, a, b)
-    _, _, d = normal(x, p, a, b, tau)
-    return d
+def _note(touching, k, tau, end, weight, distance):
+    n = touching.count[0]
+    touching.pair[n], touching.tau[n], touching.end[n] = k, tau, end
+    touching.weight[n], touching.distance[n] = weight, distance
+    touching.count[0] = n + 1
 
 
 @jit
-def evaluate(x, contact, pairs, drift, g):
-    """Return E_c in J, infinite where anything touches at distance zero; add dE_c/dx to ``g``.
+def meet(x, contact, pairs, drift, touching):
+    """Fill ``touching`` with all contacts at ``x``; return whether all distances are positive.
 
-    ``drift``: farthest move in m of a node since the pairs were listed. Those in contact are noted
-    in ``pairs.touching``, their number in ``pairs.count``.
+    ``drift``: farthest move in m of a node since the pairs were listed. A vertex that is the
+    closest point and is taken off again contributes nothing.
     """
-    total = _plates(x, contact, g)
-    pairs.count[0] = 0
+    touching.count[0], apart = 0, True
     for k in range(within(pairs, contact.reach + 2.0 * drift)):
         p, dc = pairs.node[k], pairs.d_contact[k]
         if dc == 0.0:
@@ -100,48 +116,81 @@ def evaluate(x, contact, pairs, drift, g):
         if d >= dc:
             continue
         if d == 0.0:  # at a vertex what is taken off is infinite too
-            return np.inf
-        pairs.touching[pairs.count[0]] = k
-        pairs.count[0] += 1
+            apart = False
+            continue
         length, first, second = counted(pairs, k, contact)
-        weight, off = 0.5 * length, cancelled(tau, inside, first, second)
-        if off < 0:
-            value, slope, _ = _law(contact, weight, dc, d)
-            total += value
+        nearest = -1 if inside else (0 if tau == 0.0 else 1)
+        if nearest < 0 or (first, second)[nearest] == 0.0:
+            nearest = -1
+            _note(touching, k, tau, -1, 0.5 * length, d)
+        for end, v, elsewhere in ((0, a, first), (1, b, second)):
+            if elsewhere != 0.0 and end != nearest:
+                _, _, d = direction(x, v, p)
+                if d < dc:
+                    _note(touching, k, float(end), end, -0.5 * length, d)
+    return apart
+
+
+@jit
+def _segment_distance(x, p, a, b):
+    tau, _ = closest(x, p, a, b)
+    _, _, d = normal(x, p, a, b, tau)
+    return d
+
+
+@jit
+def evaluate(x, contact, pairs, drift, touching, g):
+    """Return E_c in J, infinite where anything touches at distance zero; add dE_c/dx to ``g``.
+
+    The contacts are noted in ``touching``. ``drift``: as in `meet`.
+    """
+    total = _plates(x, contact, g)
+    if not meet(x, contact, pairs, drift, touching):
+        return np.inf
+    for n in range(touching.count[0]):
+        k, end = touching.pair[n], touching.end[n]
+        p, dc = pairs.node[k], pairs.d_contact[k]
+        a, b = pair(contact.edges, pairs.edge[k])
+        value, slope, _ = _law(contact, touching.weight[n], dc, touching.distance[n])
+        total += value
+        if end < 0:
             push(g, x, p, a, b, slope)
-        for side, v, elsewhere in ((0, a, first), (1, b, second)):
-            if elsewhere != 0.0 and side != off:
-                _, _, dv = direction(x, v, p)
-                if dv < dc:
-                    value, slope, _ = _law(contact, weight, dc, dv)
-                    total -= value
-                    push_point(g, x, p, v, -slope)
+        else:
+            push_point(g, x, p, a if end == 0 else b, slope)
     return total
 
 
 @jit
-def hessian(x, contact, pairs, matrix, projected):
-    """Add d2E_c/dx2 of what touched in `evaluate`; ``projected`` keeps each pair's convex part."""
+def hessian(x, contact, pairs, touching, matrix, projected):
+    """Add d2E_c/dx2 of the contacts at ``x``; ``projected`` keeps each pair's convex part."""
     _plates_hessian(x, contact, matrix)
-    for n in range(pairs.count[0]):
-        k = pairs.touching[n]
+    for n in range(touching.count[0]):
+        k, end = touching.pair[n], touching.end[n]
         p, dc = pairs.node[k], pairs.d_contact[k]
         a, b = pair(contact.edges, pairs.edge[k])
-        tau, inside = closest(x, p, a, b)
-        _, _, d = normal(x, p, a, b, tau)
-        length, first, second = counted(pairs, k, contact)
-        weight, off = 0.5 * length, cancelled(tau, inside, first, second)
-        if off < 0:
-            _, slope, curvature = _law(contact, weight, dc, d)
+        _, slope, curvature = _law(contact, touching.weight[n], dc, touching.distance[n])
+        if end < 0:
             push_stiffen(matrix, x, p, a, b, curvature, 0.0 if projected else slope)
-        if projected:
-            continue
-        for side, v, elsewhere in ((0, a, first), (1, b, second)):
-            if elsewhere != 0.0 and side != off:
-                _, _, dv = direction(x, v, p)
-                if dv < dc:
-                    _, slope, curvature = _law(contact, weight, dc, dv)
-                    push_point_stiffen(matrix, x, p, v, -curvature, -slope)
+        elif not projected:
+            push_point_stiffen(matrix, x, p, a if end == 0 else b, curvature, slope)
+
+
+@jit
+def normal_force(contact, pairs, touching, n):
+    """Return the force of contact ``n`` in N, negative where the contribution is taken off."""
+    d_contact = pairs.d_contact[touching.pair[n]]
+    _, slope, _ = _law(contact, touching.weight[n], d_contact, touching.distance[n])
+    return -slope
+
+
+@jit
+def plate_force(contact, p, d):
+    """Return the force of a platen at a distance ``d`` (m) from node ``p``, N."""
+    d_contact = 0.5 * contact.node_thickness[p]
+    if d >= d_contact:
+        return 0.0
+    _, slope, _ = _law(contact, contact.tributary[p], d_contact, d)
+    return -slope
 
 
 @jit

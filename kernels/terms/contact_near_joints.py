@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.geometry.distance import squared_distance
-from kernels.compile.jit import jit_exact, jit_owning
-from kernels.geometry.near_pairs import near
 from kernels.arrays import greatest, grouped, pair
+from kernels.compile.jit import jit_exact, jit_owning
+from kernels.geometry.distance import squared_distance
+from kernels.geometry.near_pairs import near
 
 RADIUS = 1.5  # times the mean thickness, along the network
 REST_SHARE = 0.9
@@ -30,8 +30,8 @@ class Graph(NamedTuple):
     incident: np.ndarray
 
 
-class Pairs(NamedTuple):
-    """Pairs in the order in which they were found, of which the first ``count`` (1,) are there."""
+class Reduced(NamedTuple):
+    """Pairs of reduced weight, the first ``count`` (1,), in the order in which they were found."""
 
     node: np.ndarray
     edge: np.ndarray
@@ -41,7 +41,7 @@ class Pairs(NamedTuple):
 
 class Rules(NamedTuple):
     """Rules of edge e: start[e] .. start[e + 1]. node, weight (m: length of contact), distance (m:
-    where contact starts) (s,); subtract (s, 2): as in `pairs.counted`.
+    where contact starts) (s,); subtract (s, 2): as in `near_pairs.counted`.
     """
 
     start: np.ndarray
@@ -73,11 +73,11 @@ def owners(n_nodes, edges):
 
 
 @jit_exact
-def _spread(e, radius, graph, far, reached, queue):
+def _spread(e, radius, graph, far, reached, queue, waiting):
     """Fill ``far`` with distances along the network from edge ``e``, up to ``radius``.
 
-    Return how many nodes were ``reached``. Nodes may enter the queue again when a shorter way is
-    found; ``far`` is infinite elsewhere.
+    Return how many nodes were ``reached``; ``far`` is infinite elsewhere. A node may enter the
+    queue (n,) again when a shorter path is found, but is there once at a time: it cannot overflow.
     """
     reached[0], reached[1] = pair(graph.edges, e)
     queue[0], queue[1] = reached[0], reached[1]
@@ -85,7 +85,7 @@ def _spread(e, radius, graph, far, reached, queue):
     head, tail, count = 0, 2, 2
     while head < tail:
         p = queue[head % queue.size]
-        head += 1
+        head, waiting[p] = head + 1, False
         for q in range(graph.start[p], graph.start[p + 1]):
             k = graph.incident[q]
             other = graph.edges[k, 0] + graph.edges[k, 1] - p
@@ -95,8 +95,9 @@ def _spread(e, radius, graph, far, reached, queue):
                     reached[count] = other
                     count += 1
                 far[other] = through
-                queue[tail % queue.size] = other
-                tail += 1
+                if not waiting[other]:
+                    queue[tail % queue.size], waiting[other] = other, True
+                    tail += 1
     return count
 
 
@@ -125,12 +126,12 @@ def _weight(p, e, radius, far, graph):
 
 
 @jit_exact
-def _reduce(graph, node_thickness, edge_thickness, tributary, far, reached, queue, found):
+def _reduce(graph, node_thickness, edge_thickness, tributary, far, reached, queue, waiting, found):
     """Write the pairs whose weight the network reduces to ``found``, so far as there is room."""
     thickest, longest, count = greatest(node_thickness), greatest(graph.l0), 0
     for e in range(graph.edges.shape[0]):
         widest = RADIUS * 0.5 * (edge_thickness[e] + thickest) + longest
-        n_reached = _spread(e, widest, graph, far, reached, queue)
+        n_reached = _spread(e, widest, graph, far, reached, queue, waiting)
         for i in range(2, n_reached):
             p = reached[i]
             radius = RADIUS * 0.5 * (edge_thickness[e] + node_thickness[p])
@@ -147,16 +148,18 @@ def _reduce(graph, node_thickness, edge_thickness, tributary, far, reached, queu
 
 @jit_owning
 def _reduced(graph, node_thickness, edge_thickness, tributary):
-    """Return the `Pairs` whose weight the network reduces."""
+    """Return the pairs whose weight the network reduces."""
     n = tributary.size
     far, reached = np.full(n, np.inf), np.empty(n, np.int64)
-    queue, size = np.empty(4 * n + 16, np.int64), 8 * n
+    queue, waiting, size = np.empty(n, np.int64), np.zeros(n, np.bool_), 8 * n
     while True:
-        found = Pairs(
+        found = Reduced(
             np.empty(size, np.int64), np.empty(size, np.int64), np.empty(size),
             np.zeros(1, np.int64),
         )  # fmt: skip
-        _reduce(graph, node_thickness, edge_thickness, tributary, far, reached, queue, found)
+        _reduce(
+            graph, node_thickness, edge_thickness, tributary, far, reached, queue, waiting, found
+        )
         size = found.count[0]
         if size <= found.node.size:
             return found

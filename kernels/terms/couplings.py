@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from kernels.terms import fold
-from kernels.compile.jit import jit_exact, jit_owning
 from kernels.arrays import pair, triple
+from kernels.compile.jit import jit_exact, jit_owning
+from kernels.terms import fold
 
 LIKELY = 0.2  # of its contact distance: a pair that much farther away gets room; more fills the
 # matrix, less has it analysed anew more often
@@ -18,28 +18,28 @@ def _couple(nodes, n, a, b, c):
 
 
 @jit_owning
-def couplings(x, terms, found, grips):
-    """Return (c, 3) nodes of what may soon share a term: contacts, grips, springs, folds."""
-    layout, reach = terms.layout, 1.0 + LIKELY
-    most = found.node.size + grips.count[0] + terms.fold.limit.size
-    most += terms.contact.plate_nodes.size + terms.spring.l0.size
+def couplings(x, scene, found, lagged):
+    """Return (c, 3) nodes of what may soon share a term: contacts, lagged ones, springs, folds."""
+    layout, reach = scene.layout, 1.0 + LIKELY
+    most = found.node.size + lagged.count[0] + scene.fold.limit.size
+    most += scene.contact.plate_nodes.size + scene.spring.l0.size
     nodes, n = np.empty((most, 3), np.int64), 0
     for k in range(found.node.size):
         if found.distance[k] < reach * found.d_contact[k]:
-            a, b = pair(terms.contact.edges, found.edge[k])
+            a, b = pair(scene.contact.edges, found.edge[k])
             n = _couple(nodes, n, found.node[k], a, b)
-    for k in range(grips.count[0]):
-        n = _couple(nodes, n, grips.nodes[k, 0], grips.nodes[k, 1], grips.nodes[k, 2])
-    for k in range(terms.spring.l0.size):
-        a, b = pair(terms.spring.nodes, k)
+    for k in range(lagged.count[0]):
+        n = _couple(nodes, n, lagged.nodes[k, 0], lagged.nodes[k, 1], lagged.nodes[k, 2])
+    for k in range(scene.spring.l0.size):
+        a, b = pair(scene.spring.nodes, k)
         n = _couple(nodes, n, a, a, b)
-    for k in range(terms.fold.limit.size):
-        if fold.opening(x, terms.fold, k) < 2.0 * terms.fold.limit[k]:
-            a, b, c = triple(terms.fold.nodes, k)
+    for k in range(scene.fold.limit.size):
+        if fold.opening(x, scene.fold, k) < 2.0 * scene.fold.limit[k]:
+            a, b, c = triple(scene.fold.nodes, k)
             n = _couple(nodes, n, a, b, c)
-    if layout.leader[terms.contact.high] >= 0 and layout.driven < 0:
-        for p in terms.contact.plate_nodes:
-            gap = x[terms.contact.high] - x[2 * p + 1]
-            if gap < 0.5 * reach * terms.contact.node_thickness[p]:
+    if layout.leader[scene.contact.high] >= 0 and layout.driven < 0:
+        for p in scene.contact.plate_nodes:
+            gap = x[scene.contact.high] - x[2 * p + 1]
+            if gap < 0.5 * reach * scene.contact.node_thickness[p]:
                 n = _couple(nodes, n, p, p, layout.n_nodes)
     return nodes[:n]

@@ -2,16 +2,16 @@
 
     D_mass = alpha / (2 h) |x - y|_M^2;  the others: `rayleigh` and `kelvin_voigt`.
 
-(x - y) / h is the velocity at the end of the step (`scheme`); of backward Euler y = x0, h = dt.
-M is the lattice's: nothing damps the flight of a striker. The force is dD/dx.
+(x - y) / h is the velocity at the end of the step (`integrators`); of backward Euler y = x0, h =
+dt. M is the lattice's: nothing damps the flight of a striker. The force is dD/dx.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from kernels.terms import bend, elements as chain, kelvin_voigt, rayleigh, stretch
 from kernels.compile.jit import jit
+from kernels.terms import bend, elements, kelvin_voigt, rayleigh, stretch
 
 
 class Damp(NamedTuple):
@@ -23,73 +23,61 @@ class Damp(NamedTuple):
 
 
 class Before(NamedTuple):
-    """The start of a step: x0 (n,), its frame; where rates are measured from, y (n,) and a shape;
-    the projected stiffness.
+    """The start of a step: the frame of its arms (`bend.aim`), the shape that rates of strain are
+    measured from, and the projected stiffness.
     """
 
-    x0: np.ndarray
-    y: np.ndarray
     frame: np.ndarray
     shape: object
     stiffness: object
 
 
-class Ahead(NamedTuple):
-    """How far y is ahead of x0, s, and the last step, s, 0 if ``rate`` (n,) is the velocity at x0.
-
-    move (n,): where the step is expected to end. place (n,), shape: scratch.
-    """
-
-    time: float
-    last: float
-    rate: np.ndarray
-    move: np.ndarray
-    place: np.ndarray
-    shape: object
-
-
 @jit
 def _measure(x, terms, frame, shape):
     """Fill ``shape``; return the shortest length in m and the least opening in rad."""
-    shortest = chain.measure(x, terms.walls, shape)
+    shortest = elements.measure(x, terms.walls, shape)
     return shortest, bend.turns(x, terms.walls, terms.bend, frame, shape)
 
 
 @jit
-def _measure_ahead(terms, before, ahead):
+def _measure_ahead(x0, terms, before, move, place):
     """Measure where the step is expected to end, at x0 if walls would be crushed on the way."""
-    x0, frame, shape, place = before.x0, before.frame, before.shape, ahead.place
+    frame, shape = before.frame, before.shape
     shortest, opened = _measure(x0, terms, frame, shape)
     for i in range(x0.size):
-        place[i] = x0[i] + ahead.move[i]
+        place[i] = x0[i] + move[i]
     length, opening = _measure(place, terms, frame, shape)
     if 2.0 * length < shortest or 2.0 * opening < opened:
         _measure(x0, terms, frame, shape)
 
 
 @jit
-def prepare(terms, before, ahead):
-    """Fill ``before`` for a step from ``before.x0``; what no damping needs is left out."""
-    x0, frame, shape, stiffness = before.x0, before.frame, before.shape, before.stiffness
+def prepare(x0, terms, memory, before, ahead, place, past):
+    """Fill ``before`` for a step from ``x0``; what no damping needs is left out.
+
+    ahead: where rates are measured (`integrators.Ahead`). place (n,), past: scratch, of positions
+    and of a shape.
+    """
+    frame, shape, stiffness = before.frame, before.shape, before.stiffness
     bend.aim(x0, terms.walls, terms.bend, frame)
     if terms.damp.beta_k > 0.0:
         if ahead.time > 0.0:
-            _measure_ahead(terms, before, ahead)
+            _measure_ahead(x0, terms, before, ahead.move, place)
         else:
             _measure(x0, terms, frame, shape)
-        chain.clear(shape, stiffness)
-        elements = stretch.Stretch(terms.stretch.l0, terms.stretch.area, True)
-        stretch.evaluate(elements, terms.law, shape, stiffness, True)
-        bend.evaluate(terms.walls, terms.bend, shape, stiffness, True)
+        elements.clear(shape, stiffness)
+        whole = stretch.Stretch(terms.stretch.l0, terms.stretch.area, True)
+        stretch.evaluate(whole, terms.law, memory, shape, stiffness, True)
+        bend.evaluate(terms.walls, terms.bend, memory, shape, stiffness, True)
     if terms.damp.relaxation > 0.0:
         _measure(x0, terms, frame, shape)
         if ahead.time > 0.0 and ahead.last == 0.0:
             kelvin_voigt.foresee(terms, ahead.rate, ahead.time, shape)
         elif ahead.time > 0.0:
             for i in range(x0.size):
-                ahead.place[i] = x0[i] - ahead.last * ahead.rate[i]
-            _measure(ahead.place, terms, frame, ahead.shape)
-            kelvin_voigt.extrapolate(shape, ahead.shape, ahead.time / ahead.last)
+                place[i] = x0[i] - ahead.last * ahead.rate[i]
+            _measure(place, terms, frame, past)
+            kelvin_voigt.extrapolate(shape, past, ahead.time / ahead.last)
 
 
 @jit
@@ -98,11 +86,11 @@ def evaluate(u, terms, before, dt, shape, stiffness, projected, g):
     to ``stiffness``. Slopes and moments of ``shape`` start at zero.
     """
     total = 0.0
-    alpha = terms.damp.alpha_m / dt
+    alpha, mass = terms.damp.alpha_m / dt, terms.coordinates.mass
     if alpha > 0.0:
         for i in range(2 * terms.layout.n_nodes):
-            total += 0.5 * alpha * terms.mass[i] * u[i] * u[i]
-            g[i] += alpha * terms.mass[i] * u[i]
+            total += 0.5 * alpha * mass[i] * u[i] * u[i]
+            g[i] += alpha * mass[i] * u[i]
     if terms.damp.beta_k > 0.0:
         rate = terms.damp.beta_k / dt
         total += rayleigh.evaluate(u, terms.walls, before.stiffness, rate, shape, stiffness)
@@ -110,5 +98,5 @@ def evaluate(u, terms, before, dt, shape, stiffness, projected, g):
         rate = terms.damp.relaxation / dt
         total += kelvin_voigt.evaluate(terms, before.shape, rate, shape, stiffness, projected)
     if terms.damp.beta_k > 0.0 or terms.damp.relaxation > 0.0:
-        chain.gather(terms.walls, shape, g)
+        elements.gather(terms.walls, shape, g)
     return total

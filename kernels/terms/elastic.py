@@ -1,32 +1,22 @@
-"""Uniaxial law: nominal stress as a piecewise cubic of nominal strain, and its exact integral.
+"""Elastic laws: stress as a piecewise cubic of strain, and its exact integral.
 
     sigma(e) = c0 + c1 s + c2 s^2 + c3 s^3,   s = e - knot_i,      W(e) = integral_0^e sigma
 
-Beyond either end the last tangent continues. Below ``GUARD`` a C2 barrier rises to infinity at
-e = -1, so that no element can be crushed to nothing or turned over.
+Beyond either end the last tangent continues. `ElasticCurve` is the nominal stress of a wall over
+its nominal strain; below ``GUARD`` a C2 barrier rises to infinity at e = -1, so that no element can
+be crushed to nothing or turned over. `MomentCurve` is the moment of a section over the strain of
+its surface, an odd function, both divided so that a linear material has slope 1.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
-from kernels.terms.barrier import barrier
 from kernels.compile.jit import jit
+from kernels.terms.barrier import barrier
 
 GUARD = -0.7
-
-
-class Law(NamedTuple):
-    """Stress-strain curve.
-
-    knots (k,): nominal strain. coefficients (k - 1, 4): Pa. energy (k,): W at the knots, J/m^3.
-    modulus: slope at the origin, Pa; the scale of the guard.
-    """
-
-    knots: np.ndarray
-    coefficients: np.ndarray
-    energy: np.ndarray
-    modulus: float
 
 
 @jit
@@ -58,7 +48,7 @@ def curve(law, strain):
 
 
 @jit
-def uniaxial(law, strain):
+def respond(law, strain, memory, point):
     """Return energy density W (J/m^3), nominal stress sigma (Pa) and tangent (Pa) at ``strain``."""
     density, stress, tangent = curve(law, strain)
     if strain < GUARD:
@@ -68,3 +58,52 @@ def uniaxial(law, strain):
         stress += law.modulus * width * slope
         tangent += law.modulus * curvature
     return density, stress, tangent
+
+
+@jit
+def respond_odd(law, strain, memory, point):
+    """Return the integral of the moment, the moment and its slope at a surface ``strain``."""
+    energy, moment, rigidity = curve(law, abs(strain))
+    return energy, math.copysign(moment, strain), rigidity
+
+
+@jit
+def remembers(law):
+    """Return that an elastic law has no state."""
+    return False
+
+
+@jit
+def commit(law, strain, memory, point):
+    """Return what is stored and what is dissipated: nothing."""
+    return law.respond(strain, memory, point)[0], 0.0
+
+
+class ElasticCurve(NamedTuple):
+    """Stress-strain curve of a wall.
+
+    knots (k,): nominal strain. coefficients (k - 1, 4): Pa. energy (k,): W at the knots, J/m^3.
+    modulus: slope at the origin, Pa; the scale of the guard.
+    """
+
+    knots: np.ndarray
+    coefficients: np.ndarray
+    energy: np.ndarray
+    modulus: float
+
+    respond = respond
+    remembers = remembers
+    commit = commit
+
+
+class MomentCurve(NamedTuple):
+    """Moment over the strain of the surface, for strains from 0; fields as in `ElasticCurve`."""
+
+    knots: np.ndarray
+    coefficients: np.ndarray
+    energy: np.ndarray
+    modulus: float
+
+    respond = respond_odd
+    remembers = remembers
+    commit = commit

@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.compile.jit import jit
 from kernels.arrays import zero, zero_rows
+from kernels.compile.jit import jit
 
 
 class Walls(NamedTuple):
@@ -159,32 +159,36 @@ def gather(walls, shape, g):
 
 
 @jit
-def product(walls, stiffness, u, shape):
-    """Add K u to slopes and moments, for a motion ``u`` by coordinate."""
-    own, following, arm = stiffness.own, stiffness.next, stiffness.arm
+def product(walls, stiffness, u, factor, shape):
+    """Add ``factor`` K u to slopes and moments for a motion ``u`` (n,); return u . K u."""
+    own, following, arm, total = stiffness.own, stiffness.next, stiffness.arm, 0.0
     for w in range(walls.start.size - 1):
         px, py = 0.0, 0.0
         for k in range(walls.start[w], walls.start[w + 1]):
             i, j = 2 * walls.edges[k, 0], 2 * walls.edges[k, 1]
             ex, ey = u[j] - u[i], u[j + 1] - u[i + 1]
-            shape.slope[0, k] += own[0, k] * ex + own[1, k] * ey
-            shape.slope[1, k] += own[1, k] * ex + own[2, k] * ey
+            fx, fy = own[0, k] * ex + own[1, k] * ey, own[1, k] * ex + own[2, k] * ey
             if k > walls.start[w]:
                 b = following[:, k - 1]
-                shape.slope[0, k - 1] += b[0] * ex + b[1] * ey
-                shape.slope[1, k - 1] += b[2] * ex + b[3] * ey
-                shape.slope[0, k] += b[0] * px + b[2] * py
-                shape.slope[1, k] += b[1] * px + b[3] * py
+                shape.slope[0, k - 1] += factor * (b[0] * ex + b[1] * ey)
+                shape.slope[1, k - 1] += factor * (b[2] * ex + b[3] * ey)
+                gx, gy = b[0] * px + b[2] * py, b[1] * px + b[3] * py
+                fx, fy = fx + gx, fy + gy
+                total += gx * ex + gy * ey
+            shape.slope[0, k] += factor * fx
+            shape.slope[1, k] += factor * fy
+            total += fx * ex + fy * ey
             px, py = ex, ey
         for a in (2 * w, 2 * w + 1):
             k, phi = walls.arm_element[a], u[walls.rotation[a]]
             i, j = 2 * walls.edges[k, 0], 2 * walls.edges[k, 1]
-            ex, ey = u[j] - u[i], u[j + 1] - u[i + 1]
-            shape.slope[0, k] += arm[0, a] * phi
-            shape.slope[1, k] += arm[1, a] * phi
-            other = u[walls.rotation[4 * w + 1 - a]]
-            shape.moment[a] -= arm[0, a] * ex + arm[1, a] * ey + arm[2, a] * phi
-            shape.moment[a] -= stiffness.twist[w] * other
+            turned = arm[0, a] * (u[j] - u[i]) + arm[1, a] * (u[j + 1] - u[i + 1])
+            bent = arm[2, a] * phi + stiffness.twist[w] * u[walls.rotation[4 * w + 1 - a]]
+            shape.slope[0, k] += factor * arm[0, a] * phi
+            shape.slope[1, k] += factor * arm[1, a] * phi
+            shape.moment[a] -= factor * (turned + bent)
+            total += (2.0 * turned + bent) * phi
+    return total
 
 
 @jit

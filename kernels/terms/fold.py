@@ -13,10 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.terms.barrier import barrier
-from kernels.linear.block_matrix import add_block
-from kernels.compile.jit import jit
 from kernels.arrays import triple
+from kernels.compile.jit import jit
+from kernels.linear.block_matrix import add_block
+from kernels.terms.barrier import barrier
 
 
 class Fold(NamedTuple):

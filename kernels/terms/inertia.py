@@ -1,4 +1,4 @@
-"""Inertia of a step as a potential: E_i = |x - x~|_M^2 / (2 h^2), lumped masses (`scheme`)."""
+"""Inertia of a step as a potential: E_i = |x - x~|_M^2 / (2 h^2), lumped masses (`integrators`)."""
 
 from kernels.compile.jit import jit
 
@@ -14,13 +14,4 @@ def evaluate(x, x_pred, mass, dt, g):
         force = mass[i] * (x[i] - x_pred[i]) / (dt * dt)
         total += force * (x[i] - x_pred[i])
         g[i] += force
-    return 0.5 * total
-
-
-@jit
-def kinetic(v, mass):
-    """Return 1/2 |v|_M^2 in J."""
-    total = 0.0
-    for i in range(mass.size):
-        total += mass[i] * v[i] * v[i]
     return 0.5 * total

@@ -2,12 +2,12 @@
 
     D = rate / 2 [ sum Y A l0 de^2 + sum K dtheta^2 + sum 2 k12 dtheta_1 dtheta_2 ], rate = tau / h
 
-de, dtheta: changes of strain and turn from where rates are measured (`scheme`), of which lengths
-and turns are combined, not places: a rigid motion costs nothing.
+de, dtheta: changes of strain and turn from where rates are measured (`integrators`), of which
+lengths and turns are combined, not places: a rigid motion costs nothing.
 """
 
-from kernels.terms import elements as chain
 from kernels.compile.jit import jit
+from kernels.terms import elements
 
 
 @jit
@@ -20,7 +20,7 @@ def _strain(terms, before, rate, shape, stiffness, projected):
         across = viscosity * change / shape.length[k]
         if projected:
             across = max(across, 0.0)
-        chain.stretch(shape, stiffness, k, viscosity * change, viscosity, across)
+        elements.stretch(shape, stiffness, k, viscosity * change, viscosity, across)
     return total
 
 
@@ -32,7 +32,7 @@ def _hinges(bend, before, rate, shape, stiffness, projected):
         weight, change = rate * bend.hinge_stiffness[h], shape.hinge_turn[k] - before.hinge_turn[k]
         total += 0.5 * weight * change * change
         moment = weight * change
-        chain.turn_hinge(shape, stiffness, k, moment, weight, 0.0 if projected else moment)
+        elements.turn_hinge(shape, stiffness, k, moment, weight, 0.0 if projected else moment)
     return total
 
 
@@ -49,9 +49,9 @@ def _arms(walls, bend, before, rate, shape, stiffness, projected):
             total += 0.5 * weight * change * change
             moment = weight * change + k12 * other
             bent = 0.0 if projected else moment
-            chain.turn_arm(shape, stiffness, walls, a, moment, weight, bent)
+            elements.turn_arm(shape, stiffness, walls, a, moment, weight, bent)
         if k12 > 0.0:
-            chain.couple_arms(shape, stiffness, walls, w, k12)
+            elements.couple_arms(shape, stiffness, walls, w, k12)
     return total
 
 

@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.geometry.distance import closest, normal
-from kernels.compile.jit import jit_exact
 from kernels.arrays import pair
+from kernels.compile.jit import jit_exact
+from kernels.geometry.distance import closest, normal
 
 SWEEPS = 100
 APART = 1e-6  # of the distance of contact: a pair that much closer counts as apart
@@ -86,16 +86,3 @@ def move_apart(x, projection, pairs):
             break
         moved = True
     return moved
-
-
-@jit_exact
-def hasten(x, start, dt, load, v):
-    """Add to ``v`` the speed of a move from ``start`` to ``x`` in ``dt``; return the work of
-    ``load`` on it, J.
-    """
-    work = 0.0
-    for i in range(x.size):
-        moved = x[i] - start[i]
-        v[i] += moved / dt
-        work += load[i] * moved
-    return work

@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.geometry.distance import direction, push_point, push_point_stiffen
-from kernels.compile.jit import jit
 from kernels.arrays import pair
+from kernels.compile.jit import jit
+from kernels.geometry.distance import direction, push_point, push_point_stiffen
 
 
 class Spring(NamedTuple):

@@ -4,9 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.terms import elements as chain
 from kernels.compile.jit import jit
-from kernels.terms.elastic import uniaxial
+from kernels.terms import elements
 
 
 class Stretch(NamedTuple):
@@ -22,19 +21,35 @@ class Stretch(NamedTuple):
 
 
 @jit
-def evaluate(stretch, law, shape, stiffness, projected):
+def evaluate(stretch, law, memory, shape, stiffness, projected):
     """Return E_s in J; add A sigma along, A sigma' / l0 along and A sigma / l across elements.
 
-    ``projected`` clips both stiffnesses at zero, which makes every element positive semi-definite.
+    An element is a material point of the ``law``. ``projected`` clips both stiffnesses at zero,
+    which makes every element positive semi-definite.
     """
     total = 0.0
     for k in range(stretch.l0.size):
         l0, area, length = stretch.l0[k], stretch.area[k], shape.length[k]
-        density, stress, tangent = uniaxial(law, length / l0 - 1.0)
+        density, stress, tangent = law.respond(length / l0 - 1.0, memory, k)
         total += area * l0 * density
         along = area * tangent / l0
         across = area * stress / length if stretch.geometric else 0.0
         if projected:
             along, across = max(along, 0.0), max(across, 0.0)
-        chain.stretch(shape, stiffness, k, area * stress, along, across)
+        elements.stretch(shape, stiffness, k, area * stress, along, across)
     return total
+
+
+@jit
+def commit(stretch, law, memory, shape):
+    """Let the law accept the strains of ``shape``; return how much less than E_s is stored, and
+    what has been dissipated, J.
+    """
+    released, dissipated = 0.0, 0.0
+    for k in range(stretch.l0.size):
+        strain, volume = shape.length[k] / stretch.l0[k] - 1.0, stretch.area[k] * stretch.l0[k]
+        potential = law.respond(strain, memory, k)[0]
+        stored, lost = law.commit(strain, memory, k)
+        released += volume * (potential - stored)
+        dissipated += volume * lost
+    return released, dissipated

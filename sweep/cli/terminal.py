@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from rich.table import Table
 
+    from sweep.ranking.ranking import Ranking
     from sweep.report.sheets import Sheet
 
 WIDTH = 120  # a longer line is wrapped by the terminal: better than losing what it says
@@ -17,52 +18,58 @@ WIDTH = 120  # a longer line is wrapped by the terminal: better than losing what
 
 def print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -> None:
     """Tables on the terminal, and aloud what has no place in them."""
-    from sweep.ranking.rank import rank
+    from sweep.ranking.rank import ranked
     from sweep.report.sheets import legend, ranking_sheets
 
-    ranking = rank(summary, **question)
-    failed = ranking.attrs["failed"]
-    if failed < len(summary):
+    ranking = ranked(summary, **question)
+    if ranking.failed < ranking.cases:
         say(_heading(question, ranking))
         print_sheets(ranking_sheets(ranking, summary))
-    if not ranking.empty:
+    if not ranking.table.empty:
         say(legend(ranking))
-    say_all(aloud(file, len(summary), ranking))
+    say_all(aloud(file, ranking))
 
 
-def aloud(file: str, cases: int, ranking: DataFrame) -> Iterator[str]:
-    """What must not be missed beside a ranking of so many cases."""
+def versions_told(counts: Mapping[int, int]) -> str:
+    """How many rows there are of each version of the model, in words."""
+    told = ", ".join(f"{version} ({count})" for version, count in counts.items())
+    return f"rows of model version {told}"
+
+
+def aloud(file: str, ranking: Ranking) -> Iterator[str]:
+    """What must not be missed beside a ranking."""
+    from sweep.result import HOW_TO_RENEW
     from sweep.store.read import read_attributes
 
-    names = ranking.attrs
     if others := read_attributes(file).get("other_cases", 0):
         yield (
-            f"{others} of {cases} cases are of other configs than the last run's, and are ranked "
-            "too: give the next config another --out, or name, to keep them apart."
+            f"{others} of {ranking.cases} cases are of other configs than the last run's, and are "
+            "ranked too: give the next config another --out, or name, to keep them apart."
         )
-    if names["without_bar"]:
-        cases_have = _counted(names["without_bar"], "ranked case")
+    if len(ranking.versions) > 1:
+        yield f"Ranked together: {versions_told(ranking.versions)}; {HOW_TO_RENEW}."
+    if ranking.without_bar:
+        cases_have = _counted(ranking.without_bar, "ranked case")
         yield f"{cases_have} no error bar: placed by value alone."
-    if names["unranked"]:
-        yield f"{_counted(names['unranked'], 'case')} no {names['by']} and so no place."
-    if names["failed"]:
-        yield f"{names['failed']} of {cases} cases failed: crumple status {file} says why"
+    if ranking.unranked:
+        yield f"{_counted(ranking.unranked, 'case')} no {ranking.by} and so no place."
+    if ranking.failed:
+        yield f"{ranking.failed} of {ranking.cases} cases failed: crumple status {file} says why"
 
 
 def _counted(count: int, noun: str) -> str:
     return f"{count} {noun} has" if count == 1 else f"{count} {noun}s have"
 
 
-def _heading(question: Mapping[str, Any], ranking: DataFrame) -> str:
+def _heading(question: Mapping[str, Any], ranking: Ranking) -> str:
     """What the tables are about, in a line or two."""
-    from sweep.ranking.rank import LESS_IS_BETTER
+    from sweep.result import less_is_better
 
-    names = ranking.attrs
-    by = names["by"]
-    usual = {names["energy"]: "most energy", names["per_gram"]: "most energy per gram"}
-    order = usual.get(by, f"least {by}" if by in LESS_IS_BETTER else f"most {by}")
+    by = ranking.by
+    usual = {ranking.energy: "most energy", ranking.per_gram: "most energy per gram"}
+    order = usual.get(by, f"least {by}" if less_is_better(by) else f"most {by}")
     lines = [f"Best first: {order}."]
-    crushed = (ranking["loading_mode"] == "displacement").any()
+    crushed = (ranking.table["loading_mode"] == "displacement").any()
     if (force := question.get("allowed_force")) and crushed:
         lines.append(f"Energy counts until a specimen passes on {force}.")
     elif force:
@@ -89,8 +96,10 @@ def print_sheets(sheets: Iterable[Sheet]) -> None:
     for sheet in sheets:
         say("")
         with console.capture() as shown:
-            console.print(sheet.title, style="bold", markup=False, highlight=False)
-            console.print(_terminal_table(sheet, width))
+            if sheet.title or sheet.heads:
+                console.print(sheet.title, style="bold", markup=False, highlight=False)
+            if sheet.heads:
+                console.print(_terminal_table(sheet, width))
         say(shown.get(), end="")
         say_all(sheet.notes)
     say("")

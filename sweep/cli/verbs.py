@@ -11,23 +11,28 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sweep.cli.terminal import aloud, print_ranking, print_sheets, say, say_all
+from sweep.cli.terminal import aloud, print_ranking, print_sheets, say, say_all, versions_told
 
 if TYPE_CHECKING:
     from argparse import Namespace
 
     from pandas import DataFrame, Series
 
+    from sweep.config.grid import Config
+    from sweep.ranking.ranking import Ranking
+
 DONE, SOME_FAILED = 0, 1
+WORKERS = 2
 TOP, TOP_OF_A_BUDGET = 10, 3
 IDS = 3  # of each kind of failure
 FIGURE = re.compile(r"(?:(?<!\w)-)?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+HOME = __name__.removesuffix(".cli.verbs")
 REFUSALS = {
-    "sweep.config.grid": "ConfigError",
-    "sweep.store.read": "StoreError",
-    "sweep.running.dask_graph": "GraphError",
-    "sweep.ranking.rank": "RankError",
-    "sweep.ranking.accuracy": "AccuracyError",
+    f"{HOME}.config.grid": "ConfigError",
+    f"{HOME}.store.read": "StoreError",
+    f"{HOME}.running.dask_graph": "GraphError",
+    f"{HOME}.ranking.rank": "RankError",
+    f"{HOME}.ranking.accuracy": "AccuracyError",
 }
 
 
@@ -50,20 +55,21 @@ def run(arguments: Namespace) -> int:
 
     A design without the error bar that was asked for counts as a failure.
     """
-    from sweep.config.units import load_config
+    from sweep.store.read import Rerun, read_summary
 
-    config = load_config(arguments.config)
+    config = _config(arguments.config)
     out = arguments.out or f"results/{config.name}.h5"
+    workers = arguments.workers or WORKERS
+    rerun = Rerun(failed=arguments.retry_failed, older=arguments.renew)
     if arguments.dry_run:
         from sweep.running.estimate import dry_run
 
-        say(dry_run(config, out, arguments.workers, arguments.retry_failed, arguments.error_bars))
+        say(dry_run(config, out, workers, rerun, arguments.error_bars))
         return DONE
     from sweep.running.error_bars import add_error_bars
     from sweep.running.sweep import run_sweep
-    from sweep.store.read import read_summary
 
-    how = arguments.workers, arguments.scheduler, arguments.retry_failed
+    how = workers, arguments.scheduler, rerun
     failed = run_sweep(config, out, *how)
     failed += add_error_bars(config, out, *how) if arguments.error_bars else 0
     print_ranking(out, read_summary(out), _question(config.rank.budgets, config.rank.panel))
@@ -72,12 +78,12 @@ def run(arguments: Namespace) -> int:
 
 def accuracy(arguments: Namespace) -> int:
     """Simulate what is missing of a sweep over numerics, then tell error beside run time."""
+    from sweep.config.grid import expand
     from sweep.ranking.accuracy import check_axes
-    from sweep.config.units import expand, load_config
     from sweep.report.publish import publish_accuracy
     from sweep.running.sweep import run_sweep
 
-    config, folder = load_config(arguments.config), Path(arguments.out)
+    config, folder = _config(arguments.config), Path(arguments.out)
     cases, out = expand(config), folder / f"{config.name}.h5"
     check_axes([case.axes for case in cases])
     failed = run_sweep(config, out, arguments.workers)
@@ -112,6 +118,7 @@ def status(arguments: Namespace) -> int:
     say_all(f"{count:7d} {name}" for name, count in counts.items())
     say_all(_failures(arguments.file, summary))
     say_all(_bars(summary))
+    say_all(_versions(summary))
     if others := about.get("other_cases", 0):
         say(f"{others} cases are of other configs than the last run's")
     say(f"{summary['cpu_s'].sum():.4g} s of processor time in all")
@@ -123,8 +130,8 @@ def status(arguments: Namespace) -> int:
 
 def rank(arguments: Namespace) -> int:
     """The ranking, as tables on the terminal, as text for other programs, or into a folder."""
+    from sweep.ranking.rank import ranked
     from sweep.report.markdown import markdown
-    from sweep.ranking.rank import rank
     from sweep.report.sheets import ranking_sheets
     from sweep.store.read import read_summary
 
@@ -136,15 +143,16 @@ def rank(arguments: Namespace) -> int:
         with _writing(folder):
             files = publish_ranking(arguments.file, summary, question, folder)
         say_all(files)
+        _say_aside(arguments.file, ranked(summary, **question))
     elif arguments.csv or arguments.json or arguments.markdown:
-        ranking = rank(summary, **question)
+        ranking = ranked(summary, **question)
         if arguments.csv:
-            say(ranking.to_csv(index=False), end="")
+            say(ranking.table.to_csv(index=False), end="")
         elif arguments.json:
-            say(ranking.to_json(orient="records", indent=2, double_precision=15))
+            say(ranking.table.to_json(orient="records", indent=2, double_precision=15))
         else:
             say(markdown(ranking_sheets(ranking, summary)), end="")
-        sys.stderr.writelines(f"{line}\n" for line in aloud(arguments.file, len(summary), ranking))
+        _say_aside(arguments.file, ranking)
     else:
         print_ranking(arguments.file, summary, question)
     return _exit_status(summary)
@@ -174,6 +182,16 @@ def show(arguments: Namespace) -> int:
 VERBS = {verb.__name__: verb for verb in (run, accuracy, warm, status, rank, show)}
 
 
+def _config(name: str) -> Config:
+    """The config of a file, or of an example: then a line says where its file is."""
+    from sweep.config.units import load_config
+
+    config = load_config(name)
+    if config.path != Path(name):
+        say(f"example {name}: {config.path} (copy it to change it)")
+    return config
+
+
 @contextmanager
 def _writing(folder: Path) -> Iterator[None]:
     try:
@@ -182,6 +200,11 @@ def _writing(folder: Path) -> Iterator[None]:
         raise ArgumentError(f"{folder} is or lies in a file; allowed: a folder") from error
     except OSError as error:
         raise ArgumentError(f"{folder} cannot be written: {error.strerror or error}") from error
+
+
+def _say_aside(file: str, ranking: Ranking) -> None:
+    """What must not be missed beside a ranking, where it is no part of what is asked for."""
+    sys.stderr.writelines(f"{line}\n" for line in aloud(file, ranking))
 
 
 def _asked(arguments: Namespace) -> dict[str, Any]:
@@ -243,6 +266,20 @@ def _bars(summary: DataFrame) -> list[str]:
     bars = summary.drop(index=_failed(summary).index).filter(regex=ERROR)
     count = bars.notna().any(axis=1).sum()
     return [f"{count} of {len(bars)} finished cases have error bars"] if bars.columns.size else []
+
+
+def _versions(summary: DataFrame) -> Iterator[str]:
+    """The versions of the model, unless all rows are of this one, and of the source, if several."""
+    from sweep.ranking.rank import model_versions
+    from sweep.result import HOW_TO_RENEW, MODEL_VERSION
+
+    counts = model_versions(summary)
+    if counts.keys() - {MODEL_VERSION}:
+        older = f"; {HOW_TO_RENEW}" if min(counts) < MODEL_VERSION else ""
+        yield f"{versions_told(counts)}{older}"
+    revisions = summary["git_revision"].replace("", "a revision not recorded").value_counts()
+    if len(revisions) > 1:
+        yield "computed with " + ", ".join(f"{name} ({n})" for name, n in revisions.items())
 
 
 def _find_case(summary: DataFrame, prefix: str) -> Series:

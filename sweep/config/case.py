@@ -1,6 +1,6 @@
 """The parameters of one case.
 
-A `Case` is resolved when it is made (sweep/resolve.py), so that equal physics has an equal id.
+A `Case` is resolved when it is made (`resolve`), so that equal physics has an equal id.
 """
 
 from hashlib import blake2b
@@ -8,9 +8,8 @@ from typing import Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from sweep.config.solver_defaults import check_bending
+from sweep.config.lattice_table import Lattice
 from sweep.config.resolve import resolve
-from sweep.config.lattice_table import Lattice, sized
 from sweep.config.tables import Contact, Damping, Loading, Material, Solver, Table, canonical
 
 __all__ = [
@@ -41,11 +40,11 @@ class Case(BaseModel):
 
     @model_validator(mode="after")
     def _resolve(self) -> Self:
-        lattice = sized(self.lattice, self.material.density)
-        resolved = resolve(lattice, self.loading, self.contact, self.damping, self.solver)
-        for name, table in ({"lattice": lattice} | resolved).items():
+        tables, refused = resolve({name: getattr(self, name) for name in TABLES})
+        if refused is not None:
+            raise refused
+        for name, table in tables.items():
             object.__setattr__(self, name, table)  # frozen from here on
-        check_bending(self.material, self.lattice, self.solver)
         return self
 
     @property

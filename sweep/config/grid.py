@@ -2,26 +2,26 @@
 
 import json
 import re
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 from itertools import product
 from math import prod
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from pydantic import ValidationError
-from pydantic_core import ErrorDetails, PydanticCustomError
+from pydantic_core import ErrorDetails
 
-from sweep.config.unused_keys import still_idle
-from sweep.config.keys import ALIASES, case_keys
-from sweep.config.solver_defaults import check_bending
 from sweep.config.case import TABLES, Case
+from sweep.config.keys import ALIASES, case_keys
 from sweep.config.resolve import resolve
-from sweep.config.lattice_table import sized
 from sweep.config.tables import Rank, Table, rounded
+from sweep.config.unused_keys import still_idle
 
 MAX_CASES = 1_000_000
+TOLD = 10  # mistakes of a config
 _QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
 FACTS = ("material.poisson",)  # of a material: may be stated where plane stress needs none
 
@@ -34,11 +34,24 @@ class Fault(NamedTuple):
 
 
 class ConfigError(ValueError):
-    """A config that cannot be run, with everything that is wrong with it, a line each."""
+    """A config that cannot be run. `faults`: all that is wrong, of which the text tells ten."""
 
     def __init__(self, faults: list[Fault]) -> None:
-        super().__init__("\n".join(fault.line for fault in faults))
+        super().__init__("\n".join(_told(faults)))
         self.faults = faults
+
+
+def _told(faults: list[Fault]) -> list[str]:
+    """A line each for the first `TOLD` faults, those of different keys before more of one key."""
+    seen: Counter[str] = Counter()
+    repeats = []  # how many of the same key come before
+    for fault in faults:
+        repeats.append(seen[fault.key])
+        seen[fault.key] += 1
+    chosen = sorted(range(len(faults)), key=repeats.__getitem__)[:TOLD]
+    more = len(faults) - len(chosen)
+    counted = [f"and {more:,} more mistake{'s' if more > 1 else ''}"] if more else []
+    return [faults[k].line for k in sorted(chosen)] + counted
 
 
 class Written(NamedTuple):
@@ -70,6 +83,11 @@ class Config:
     rank: Rank = field(default_factory=Rank)
     path: Path | None = None
 
+    @cached_property
+    def cases(self) -> tuple[Case, ...]:
+        """What `expand` returns, found once."""
+        return tuple(_cases(self))
+
 
 def case_count(config: Config) -> int:
     """Number of combinations, before any are excluded or found to be equal."""
@@ -83,6 +101,10 @@ def expand(config: Config) -> list[Case]:
     A key that none of them needs is refused: it says something that does not happen. So is a table
     of [[exclude]] that drops none.
     """
+    return list(config.cases)
+
+
+def _cases(config: Config) -> Iterable[Case]:
     count = case_count(config)
     if count > MAX_CASES:
         line = f"[grid] makes {count:,} cases; allowed: at most {MAX_CASES:,} in one sweep"
@@ -111,7 +133,7 @@ def expand(config: Config) -> list[Case]:
         faults += _without_effect(config, idle)
     if faults:
         raise ConfigError(faults)
-    return list(cases.values())
+    return cases.values()
 
 
 @dataclass(frozen=True)
@@ -141,27 +163,21 @@ class _Draft:
 
 
 def _drafts(config: Config) -> Iterator[_Draft]:
-    # Most cases share most of their tables.
-    made, settled, weighed = cache(_table), cache(resolve), cache(sized)
+    made = cache(_table)  # most cases share most of their tables
     for chosen in _combinations(config):
         written = config.base | _targets(chosen)
         given = {key: value for key, (value, *_) in written.items()}
         values = [(*key.split("."), value) for key, value in given.items()]
-        tables: dict[str, Any] = {}
+        tables: dict[str, Table] = {}
         wrong: list[Reason] = []
         for name in TABLES:
             items = tuple((field, value) for table, field, value in values if table == name)
             tables[name], reasons = made(name, items)
             wrong += reasons
-        depending = [tables[name] for name in ("loading", "contact", "damping", "solver")]
-        try:
-            if not any(reason["key"].startswith("lattice.") for reason in wrong):
-                tables["lattice"] = weighed(tables["lattice"], tables["material"].density)
-            tables |= settled(tables["lattice"], *depending)
-            check_bending(tables["material"], tables["lattice"], tables["solver"])
-        except PydanticCustomError as error:
-            wrong.append(error.context or {})
-        case = Case.model_construct(None, **tables)
+        sound = not any(reason["key"].startswith("lattice.") for reason in wrong)
+        resolved, refused = resolve(tables, sound)
+        wrong += [refused.context or {}] if refused else []
+        case = Case.model_construct(None, **resolved)
         yield _Draft(chosen, given, case, [_fault(reason, written) for reason in wrong])
 
 
@@ -226,6 +242,8 @@ def _reason(table: str, wrong: ErrorDetails) -> Reason:
     """The reason of a refusal, or of a number of a record that is out of range."""
     if wrong["type"] == "refused":
         return wrong["ctx"]
+    if wrong["type"] == "value_error":  # the record of a material that cannot be read
+        raise ConfigError([Fault("material.name", f"material.name: {wrong['ctx']['error']}")])
     key = f"{table}.{wrong['loc'][0]}"
     return {"key": key, "value": wrong["input"], "allowed": case_keys()[key].allowed}
 
@@ -240,7 +258,8 @@ def _fault(reason: Reason, given: Values) -> Fault:
     if value is None:
         return Fault(key, f"{key} is missing; needed: {allowed}")
     text = f"{value:g}" if isinstance(value, float) else json.dumps(value)
-    text = f"{text} {case_keys()[key].unit or ''}".rstrip()
+    unit = case_keys()[key].unit
+    text = text if unit in (None, "1") else f"{text} {unit}"
     why = f", as {reason['since']} is given" if reason.get("since") else " by default"
     return Fault(key, f"{key} = {text}{why}: does not fit; allowed: {allowed}")
 

@@ -1,11 +1,11 @@
 """The keys of a config: what each one accepts, said in words, and the nearest to a misspelt one.
 
-All of it is read off the tables (sweep/tables.py), so that a new key needs no second entry.
+All of it is read off the tables (`tables`), so that a new key needs no second entry.
 """
 
 import difflib
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
@@ -48,11 +48,12 @@ _BOUNDS = {
 class Key:
     """One key: the keys of a case that it sets, its SI unit, and what it accepts.
 
-    `adapter` checks a value in SI.
+    `bare`: the unit may be left out. `adapter` checks a value in SI.
     """
 
     targets: tuple[str, ...]
     unit: str | None
+    bare: bool
     is_list: bool
     allowed: str
     adapter: TypeAdapter[Any]
@@ -63,7 +64,7 @@ def case_keys() -> dict[str, Key]:
     """The keys of a case by their dotted names, aliases included."""
     known = {name: key for table in TABLES for name, key in table_keys(table).items()}
     return known | {
-        alias: Key(targets, *_accepts(known[targets[0]])) for alias, targets in ALIASES.items()
+        alias: replace(known[targets[0]], targets=targets) for alias, targets in ALIASES.items()
     }
 
 
@@ -96,11 +97,8 @@ def _key(name: str, model: type[Table], field: str, schema: dict[str, Any]) -> K
     info = model.model_fields[field]
     config = ConfigDict(strict=True, allow_inf_nan=False)
     adapter = TypeAdapter(info.rebuild_annotation(), config=config)
-    return Key((name,), item.get("unit"), is_list, allowed, adapter)
-
-
-def _accepts(key: Key) -> tuple[str | None, bool, str, TypeAdapter[Any]]:
-    return key.unit, key.is_list, key.allowed, key.adapter
+    unit, bare = item.get("unit"), item.get("bare", False)
+    return Key((name,), unit, bare, is_list, allowed, adapter)
 
 
 def _plain(schema: dict[str, Any]) -> dict[str, Any]:
@@ -133,4 +131,6 @@ def _words(schema: dict[str, Any]) -> str:
         if name in schema
     ]
     noun = "a whole number" if schema["type"] == "integer" else "a number"
-    return ", ".join([QUANTITIES[schema["unit"]] if "unit" in schema else noun, *bounds])
+    nouns = [noun] if schema.get("bare") or "unit" not in schema else []
+    nouns += [QUANTITIES[schema["unit"]]] if "unit" in schema else []
+    return ", ".join([" or ".join(nouns), *bounds])

@@ -7,10 +7,11 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from sweep.config.structure_file import read_structure
 from sweep.config.structure import Structure
-from sweep.design.infill import families, trait
+from sweep.config.structure_file import read_structure
 from sweep.config.tables import Few, Length, Mass, Size, Table, refusal
+from sweep.design.geometry import Geometry
+from sweep.design.infill import families, trait
 
 CUSTOM = "custom"
 LINE_WIDTH, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m, of a 0.4 mm nozzle
@@ -131,11 +132,11 @@ class Lattice(Table):
         self._follow("wall_thickness", self.line_width, f"{self.line_width:g} m, {wished}")
         from sweep.design.sizing import cells_for
 
-        cells = cells_for(self, MAX_NODES)
-        if not cells:
+        cells = cells_for(self.geometry, share, MAX_NODES)
+        if cells is None:
             allowed = f"a share that 1 to {MAX_NODES:,} cells fill with lines of "
             raise refusal("lattice.infill", share, f"{allowed}{self.line_width:g} m in this box")
-        for key, value in cells.items():
+        for key, value in zip(("cells_x", "cells_y"), cells, strict=True):
             self._follow(key, value, f"{value}, {wished}")
 
     def _follow(self, key: str, value: Any, allowed: str) -> None:
@@ -156,6 +157,20 @@ class Lattice(Table):
             raise refusal(f"lattice.{key}", values[key], allowed)
 
     @property
+    def geometry(self) -> Geometry:
+        """What is drawn, unless it is a structure of its own."""
+        return Geometry(
+            self.kind,
+            self.orientation,
+            (self.cells_x, self.cells_y),
+            (self.width, self.height),
+            self.wall_thickness,
+            self.grading,
+            self.outline,
+            self.boundary == "periodic",
+        )
+
+    @property
     def walls(self) -> int:
         """Number of walls between joints."""
         return self._counts[1]
@@ -167,28 +182,27 @@ class Lattice(Table):
             return len(self.structure.nodes_mm), sum(self.structure.pieces)
         if known := trait(self.kind, "counts"):
             return known(self.cells_x, self.cells_y)
-        from sweep.design.drawing import counts
-        from sweep.design.network import sketch
+        from sweep.design.drawing import counts, sketch
 
-        return counts(sketch(self))
+        return counts(sketch(self.geometry))
 
     @property
     def opening(self) -> float:
         """Clear width between the centre lines of the narrowest cell that is whole, m."""
         if known := trait(self.kind, "opening"):
             return known(self.width / self.cells_x, self.height / self.cells_y)
-        from sweep.design.network import opening, sketch
+        from sweep.design.box import opening
 
-        return opening(sketch(self, outlined=False))
+        return opening(self.geometry)
 
     @property
     def thickest(self) -> float:
         """Wall thickness (m) with which the narrowest opening is as wide as its walls are thick."""
         if self.grading == 1.0:
             return 0.5 * self.opening
-        from sweep.design.network import gradient
+        from sweep.design.box import gradient
 
-        return 0.5 * self.opening / float(gradient(self).max())
+        return 0.5 * self.opening / float(gradient(self.geometry).max())
 
     @property
     def outline(self) -> tuple[float, float]:
@@ -257,7 +271,9 @@ def sized(lattice: Lattice, density: float) -> Lattice:
         return lattice
     from sweep.design.sizing import thickness_for
 
-    thickness, light, heavy = thickness_for(lattice, density)
+    thickness, light, heavy = thickness_for(
+        lattice.geometry, lattice.mass, lattice.thickest, lattice.depth, density
+    )
     if isnan(thickness):
         allowed = f"between {light:.4g} kg and {heavy:.4g} kg with these cells"
         raise refusal("lattice.mass", lattice.mass, allowed)

@@ -11,11 +11,11 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from sweep.config.structure_file import StructureError, read_structure
+from sweep.config.case import TABLES
 from sweep.config.grid import Axes, Config, Fault, Values, Written
 from sweep.config.keys import ALIASES, Key, case_keys, nearest, table_keys
-from sweep.config.case import TABLES
 from sweep.config.material_file import UnknownMaterialError, locate, read_record
+from sweep.config.structure_file import StructureError, read_structure
 from sweep.config.tables import Rank, rounded
 
 _REASONS = {
@@ -199,7 +199,7 @@ class Reader:
             return _structure(self.folder / raw)
         many = isinstance(raw, list)
         value: Any = raw
-        if key.unit:
+        if key.unit and not (key.bare and isinstance(raw, int | float)):
             value = [self.to_si(v, key.unit) for v in raw] if many else self.to_si(raw, key.unit)
         try:
             return key.adapter.validate_python(tuple(value) if many else value)

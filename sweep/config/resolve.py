@@ -1,23 +1,57 @@
-"""What a case leaves open, filled in: defaults that depend on its mode.
+"""What a case leaves open, filled in: walls for a mass, defaults that depend on its mode.
 
 Keys that the mode does not use become None, so that equal physics has an equal id; what cannot go
 together is refused. Resolving what is resolved changes nothing.
 """
 
+from collections.abc import Mapping
+from functools import lru_cache
 from math import isclose, sqrt
+from typing import Any
 
+from pydantic_core import PydanticCustomError
+
+from sweep.config.lattice_table import Lattice, sized
+from sweep.config.solver_defaults import (
+    ARCS,
+    IN_TIME,
+    check_bending,
+    check_steps,
+    given_or,
+    settle,
+)
 from sweep.config.structure import Structure
-from sweep.config.solver_defaults import ARCS, IN_TIME, check_steps, given_or, settle
-from sweep.config.lattice_table import Lattice
-from sweep.config.tables import Contact, Damping, Loading, Solver, Table, refusal
+from sweep.config.tables import Contact, Damping, Loading, Solver, refusal
 
 PASSAGES = 10  # times that the striker takes for the height of the lattice: duration of an impact
 PLATENS = '"contact", "glued" or "sliding"'
+DEPENDENT = ("loading", "contact", "damping", "solver")
 
 
 def resolve(
+    tables: Mapping[str, Any], sound: bool = True
+) -> tuple[dict[str, Any], PydanticCustomError | None]:
+    """The tables of a case by name, nothing left open; then None, or what does not go together.
+
+    What was settled before the refusal stays so: an [[exclude]] may ask for its values.
+    sound : False for a lattice that is refused by itself: no walls are found for its mass.
+    """
+    found = dict(tables)
+    try:
+        if sound:
+            found["lattice"] = sized(found["lattice"], found["material"].density)
+        settled = _settled(*(found[name] for name in ("lattice", *DEPENDENT)))
+        found |= zip(DEPENDENT, settled, strict=True)
+        check_bending(found["material"], found["lattice"], found["solver"])
+    except PydanticCustomError as refused:
+        return found, refused
+    return found, None
+
+
+@lru_cache(maxsize=4096)  # cases of a sweep share most of their tables
+def _settled(
     lattice: Lattice, loading: Loading, contact: Contact, damping: Damping, solver: Solver
-) -> dict[str, Table]:
+) -> tuple[Loading, Contact, Damping, Solver]:
     """The tables that depend on one another and on the lattice, nothing left open."""
     loading, wish = _loading(loading, lattice, solver.integrator), solver.time_step
     solver = settle(solver, loading, lattice, contact.model == "position_based")
@@ -26,12 +60,7 @@ def resolve(
     if contact.model == "position_based" and solver.integrator != "backward_euler":
         allowed = '"backward_euler" if contact.model is "position_based"'
         raise refusal("solver.integrator", solver.integrator, allowed)
-    return {
-        "loading": loading,
-        "contact": contact,
-        "damping": _damping(damping, loading),
-        "solver": solver,
-    }
+    return loading, contact, _damping(damping, loading), solver
 
 
 def _loading(loading: Loading, lattice: Lattice, integrator: str | None) -> Loading:

@@ -17,6 +17,8 @@ Size = Annotated[float, Field(gt=0, le=1e3, json_schema_extra={"unit": "m"})]
 Duration = Annotated[float, Field(gt=0, json_schema_extra={"unit": "s"})]
 Lag = Annotated[float, Field(ge=0, json_schema_extra={"unit": "s"})]
 Rate = Annotated[float, Field(ge=0, json_schema_extra={"unit": "1/s"})]
+# Also without its unit: 0.6 is 60 %.
+Strain = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1", "bare": True})]
 Speed = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m/s"})]
 Force = Annotated[float, Field(gt=0, json_schema_extra={"unit": "N"})]
 Energy = Annotated[float, Field(gt=0, json_schema_extra={"unit": "J"})]
@@ -137,7 +139,7 @@ class Loading(Table):
     release_time: Duration | None = None
     duration: Duration | None = None
     stroke: Length | None = None
-    strain: Annotated[float, Field(gt=0, lt=1)] | None = None
+    strain: Strain | None = None
     speed: Speed | None = None
     quasi_static: bool | None = None
     unload: bool | None = None

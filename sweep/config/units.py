@@ -11,6 +11,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from sweep.config.examples import examples, find_config
 from sweep.config.grid import MAX_CASES, Config, ConfigError, Fault, case_count, expand
 from sweep.config.keys import QUANTITIES
 from sweep.config.reader import Reader, in_words
@@ -47,8 +48,11 @@ _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s
 
 
 def load_config(path: str | PathLike[str]) -> Config:
-    """Read a sweep and check every case of it; `ConfigError` holds all that is wrong."""
-    path = Path(path)
+    """Read a sweep and check every case of it; `ConfigError` holds all that is wrong.
+
+    path : of a TOML file, or the name of an example, such as "smoke", where no such file is.
+    """
+    path = find_config(path)
     reader = Reader(path.parent, _converted)
     config = reader.config(_document(path), path)
     try:
@@ -74,7 +78,8 @@ def _document(path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
-        wrong = f"cannot be read ({error.strerror}); needed: a TOML file"
+        needed = f"a TOML file, or an example: {', '.join(examples())}"
+        wrong = f"cannot be read ({error.strerror}); needed: {needed}"
     except (ValueError, RecursionError) as error:
         wrong = f"not TOML ({error})"
     raise ConfigError([Fault("path", f"{path}: {wrong}")])

@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from typing import Any
 
-from sweep.config.structure import Structure
-from sweep.config.solver_defaults import ARCS
 from sweep.config.case import Case
+from sweep.config.solver_defaults import ARCS
+from sweep.config.structure import Structure
 
 
 def still_idle(idle: Mapping[str, str], given: Mapping[str, Any], case: Case) -> dict[str, str]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sweep.design.geometry import Geometry
 from sweep.design.infill import drawer
 
 if TYPE_CHECKING:
@@ -31,6 +32,16 @@ class Sketch(NamedTuple):
     box: tuple[float, float]
     closed: bool = False
     capped: bool = False
+
+
+def sketch(geometry: Geometry, outlined: bool = True) -> Sketch:
+    """What is drawn of a lattice; not ``outlined``: its infill alone, as far as cells are whole."""
+    kind, orientation, cells, box = geometry[:4]
+    if geometry.periodic:
+        low, high = extent(kind, orientation, cells)
+        box = tuple((high - low) / (pitch(kind, orientation) * cells) * box)
+    closed, capped = (outlined and thickness > 0.0 for thickness in geometry.outline)
+    return Sketch(kind, orientation, cells, box, closed, capped)
 
 
 @lru_cache(maxsize=256)

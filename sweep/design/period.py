@@ -4,11 +4,8 @@ Walls touch only round an opening between them, as none passes through another. 
 of the walls round the openings next to a period, and of no others, however far it is crushed.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,13 +17,12 @@ from sweep.design.drawing import (
     clusters,
     extent,
     segments_of,
+    sketch,
     welded,
 )
+from sweep.design.geometry import Geometry
 from sweep.design.infill import drawer
-from sweep.design.network import Network, sketch
-
-if TYPE_CHECKING:
-    from sweep.config.lattice_table import Lattice
+from sweep.design.network import Network
 
 REACH = 1.5  # pitches: no opening of any family is wider or higher
 FAR = 3  # periods away, the farthest copy that may be within reach of a period of one cell
@@ -50,17 +46,17 @@ class Endless(Network):
     @cached_property
     def printed_area(self) -> float:
         """Area of the walls within one period, m^2."""
-        from sweep.design.area import united_area
+        from sweep.design.area import united_area  # which loads the kernels
 
         box = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]) * self.period
         walls, inside = self.loops, float(np.prod(self.period))
         return united_area(walls) + inside - united_area(np.concatenate([walls, [box]]))
 
 
-def build_endless(lattice: Lattice) -> Endless:
-    """The endless lattice of which ``lattice`` is a period."""
-    period, cells = np.array([lattice.width, lattice.height]), (lattice.cells_x, lattice.cells_y)
-    points, ends, shift = _walls(lattice, period)
+def build_period(geometry: Geometry) -> Endless:
+    """The endless lattice of which ``geometry`` is a period."""
+    period, cells = np.array(geometry.box), geometry.cells
+    points, ends, shift = _walls(geometry, period)
     away = np.mgrid[-FAR : FAR + 1, -FAR : FAR + 1].reshape(2, -1).T
     middle = 0.5 * (points[ends].sum(axis=1) + shift * period)
     copied, reach = middle + away[:, None] * period, REACH * period / cells
@@ -77,7 +73,7 @@ def build_endless(lattice: Lattice) -> Endless:
     return Endless(
         points=points[origin] + shift * period,
         walls=np.argsort(order)[joint].reshape(2, -1).T,
-        wall_thickness=np.full(len(original), lattice.wall_thickness),
+        wall_thickness=np.full(len(original), geometry.wall_thickness),
         bottom=origin[above],
         top=above,
         period=period,
@@ -88,11 +84,11 @@ def build_endless(lattice: Lattice) -> Endless:
     )
 
 
-def _walls(lattice: Lattice, period: Floats) -> tuple[Floats, Indices, Indices]:
+def _walls(geometry: Geometry, period: Floats) -> tuple[Floats, Indices, Indices]:
     """Joints (j, 2) of the period, m from its lower left corner; the two joints of each wall (w,
     2), and how many periods away (w, 2) the second one is.
     """
-    drawn = sketch(lattice)
+    drawn = sketch(geometry)
     low, high = extent(drawn.kind, drawn.orientation, drawn.cells)
     columns, rows = (range(-2 * SPILL, n + 2 * SPILL) for n in drawn.cells)
     segments = segments_of(drawer(drawn.kind, drawn.orientation)(columns, rows))

@@ -1,67 +1,67 @@
 """What a maker asks for instead of cells and a wall thickness: a share of infill, or a mass."""
 
-from __future__ import annotations
-
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
+from sweep.design.box import infill_walls
 from sweep.design.drawing import FEW, pitch
-from sweep.design.network import build_network, infill_walls, mass
-
-if TYPE_CHECKING:
-    from sweep.config.lattice_table import Lattice
+from sweep.design.geometry import Geometry
+from sweep.design.lattice import build_network
+from sweep.design.network import mass
 
 SLACK = 1 / 3  # by which a share may be missed: what one cell or two can differ by
 CLOSE = 1e-14  # of the greatest mass
 THIN = 1e-6  # of the thickest wall: as good as none
 
 
-def infill_share(lattice: Lattice) -> float:
+def infill_share(geometry: Geometry) -> float:
     """Share of the box that lines fill, as slicers count: length x thickness, crossings twice.
 
     The box is that over the centre lines; an outline is no infill.
     """
-    length, _ = infill_walls(lattice)
-    return float(length.sum()) * lattice.wall_thickness / (lattice.width * lattice.height)
+    (length, _), (width, height) = infill_walls(geometry), geometry.box
+    return float(length.sum()) * geometry.wall_thickness / (width * height)
 
 
-def cells_for(lattice: Lattice, most: int) -> dict[str, int]:
-    """Cells, as regular as they can be, whose lines fill the share nearest to `infill`.
+def cells_for(geometry: Geometry, share: float, most: int) -> tuple[int, int] | None:
+    """Columns and rows, as regular as they can be, whose lines fill the share nearest to ``share``.
 
-    Empty where one cell fills too much, or more than ``most`` would be needed.
+    None where one cell fills too much, or more than ``most`` would be needed.
     """
-    wanted = lattice.infill or 0.0
-    width, height = pitch(lattice.kind, lattice.orientation)
-    beside = lattice.width / lattice.height * height / width
+    width, height = pitch(geometry.kind, geometry.orientation)
+    beside = geometry.box[0] / geometry.box[1] * height / width
 
-    def cells(rows: int) -> dict[str, int]:
-        return {"cells_x": max(1, round(rows * beside)), "cells_y": rows}
+    def cells(rows: int) -> tuple[int, int]:
+        return max(1, round(rows * beside)), rows
+
+    def filled(rows: int) -> float:
+        return infill_share(geometry._replace(cells=cells(rows)))
 
     def missed(rows: int) -> float:
-        return abs(infill_share(lattice.model_copy(update=cells(rows))) - wanted)
+        return abs(filled(rows) - share)
 
-    few, more = (infill_share(lattice.model_copy(update=cells(n))) for n in (FEW, FEW + 2))
-    guess = FEW + round(2 * (wanted - few) / (more - few))
+    few, more = filled(FEW), filled(FEW + 2)
+    guess = FEW + round(2 * (share - few) / (more - few))
     near = range(max(1, guess - 2), max(1, guess) + 3)
-    if near[-1] * cells(near[-1])["cells_x"] > most:
-        return {}
+    if near[-1] * cells(near[-1])[0] > most:
+        return None
     best = min(near, key=missed)
-    return cells(best) if missed(best) <= SLACK * wanted else {}
+    return cells(best) if missed(best) <= SLACK * share else None
 
 
 @lru_cache(maxsize=4096)
-def thickness_for(lattice: Lattice, density: float) -> tuple[float, float, float]:
-    """Wall thickness (m) for the `mass` of a lattice, and the masses (kg) between which it can be.
+def thickness_for(
+    geometry: Geometry, wanted: float, thickest: float, depth: float, density: float
+) -> tuple[float, float, float]:
+    """Wall thickness (m) for a mass (kg), and the masses between which it can be.
 
-    Regula falsi (Illinois) on the exact mass; NaN where it cannot be.
+    ``thickest``: the greatest thickness that may be, m. Regula falsi (Illinois) on the exact mass;
+    NaN where it cannot be.
     """
-    wanted = lattice.mass or 0.0
 
     def weight(thickness: float) -> float:
-        network = build_network(lattice.model_copy(update={"wall_thickness": thickness}))
-        return mass(network, lattice.depth, density)
+        return mass(build_network(geometry._replace(wall_thickness=thickness)), depth, density)
 
-    high = lattice.thickest
+    high = thickest
     low = THIN * high
     light, heavy = weight(low), weight(high)
     if not light < wanted < heavy:

@@ -15,8 +15,8 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
-from sweep.result import Status
 from sweep.ranking.richardson import Floats, limit, rms
+from sweep.result import Status
 from sweep.store.read import read_history
 
 MEASURES = ("energy", "peak", "path")

@@ -11,9 +11,9 @@ side:  factor = panel area / (w b),  panel mass = factor mass,  panel energy = f
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from sweep.result import ABSORBED_AT, COLUMNS, absorbed_energy_column, error_column
+from sweep.result import ABSORBED_AT, COLUMNS, OLDER, absorbed_energy_column, error_column
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -37,19 +37,28 @@ class RankError(ValueError):
     """A ranking that cannot be made; the text is one sentence that says what is allowed."""
 
 
+class Compared(NamedTuple):
+    """Names of the columns that are compared; `until`: when energy ceases to count, in words."""
+
+    mass: str
+    energy: str
+    per_gram: str
+    until: str
+
+
 def merits(
     finished: DataFrame,
     by: str | None,
     panel: Sequence[Quantity] | None,
     allowed_force: Quantity | None,
-) -> tuple[DataFrame, dict[str, str]]:
-    """Rows with the columns that are compared, and the names of these: mass, energy, per_gram.
+) -> tuple[DataFrame, Compared]:
+    """Rows with the columns that are compared, and the names of these.
 
-    Also named: `until`, when energy ceases to count, in words. Added too: `passed_on_N`, the
-    greatest force until then; `returned_share`, what is given back of the work of the whole crush;
-    `beyond_model`; `crossed`; and error bars of what is added, where the energy has one.
+    Added too: `passed_on_N`, the greatest force while that energy is absorbed; `returned_share`,
+    what is given back of the work of the whole crush; `beyond_model`; `crossed`; and error bars of
+    what is added, where the energy has one.
     """
-    if missing := [name for name in COLUMNS if name not in finished]:
+    if missing := [name for name in COLUMNS if name not in finished and name not in OLDER]:
         raise RankError(
             f"no {missing[0]}: an older version wrote these results; run them anew into a new file"
         )
@@ -63,7 +72,7 @@ def merits(
         "beyond_model": (finished[energy] > within) | _through_solid(finished),
         "crossed": finished["max_crossings"] > 0,
     }
-    names = {"mass": "mass_g", "energy": energy, "per_gram": per_gram, "until": until}
+    names = Compared("mass_g", energy, per_gram, until)
     if (bar := error_column(energy)) in finished:
         added[error_column(per_gram)] = finished[bar] / finished["mass_g"]
         added[error_column("passed_on_N")] = finished[error_column(str(force.name))]
@@ -73,7 +82,7 @@ def merits(
         added["panel_energy_J"] = factor * finished[energy]
         if bar in finished:
             added[error_column("panel_energy_J")] = factor * finished[bar]
-        names |= {"mass": "panel_mass_g", "energy": "panel_energy_J"}
+        names = names._replace(mass="panel_mass_g", energy="panel_energy_J")
     return finished.assign(**added), names
 
 
@@ -89,6 +98,11 @@ def panel_factor(frame: DataFrame, panel: Sequence[Quantity]) -> Series:
         raise RankError(f"a panel has two lengths, got {len(panel)}")
     area = in_si(panel[0], "m") * in_si(panel[1], "m")
     return area / (frame["outer_width_m"] * frame["depth_m"])
+
+
+def greatest_mass(budget_g: float) -> float:
+    """The mass (g) up to which a design is within a budget: the budget, with room for round-off."""
+    return budget_g * (1.0 + ROUND_OFF)
 
 
 def in_si(value: Any, unit: str) -> float:

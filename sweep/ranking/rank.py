@@ -9,15 +9,24 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Sequence
+from dataclasses import fields
 from os import PathLike
 
 import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
-from sweep.numbers import energy_text, short
-from sweep.ranking.merit import LEAST, Quantity, RankError, in_si, merits
-from sweep.result import Status, error_column
+from sweep.numbers import NOTHING, energy_text, short
+from sweep.ranking.merit import LEAST, Compared, Quantity, RankError, greatest_mass, in_si, merits
+from sweep.ranking.ranking import Ranking
+from sweep.result import (
+    OLDER,
+    Status,
+    describe_column,
+    error_column,
+    is_grid_key,
+    less_is_better,
+)
 
 SCENE = ["loading_mode", "platen", "force_N", "striker_mass_g", "striker_speed_m_per_s"]
 
@@ -61,23 +70,6 @@ LEADING = [
     "crossed",
 ]
 
-LESS_IS_BETTER = frozenset(
-    {
-        "mass_g",
-        "panel_mass_g",
-        "relative_density",
-        "passed_on_N",
-        "peak_force_N",
-        "peak_force_at_densification_N",
-        "peak_strain",
-        "returned_energy_J",
-        "returned_share",
-        "residual_strain",
-        "cpu_s",
-    }
-)
-"""Columns that `by` sorts upwards; all others count the greatest as the best."""
-
 
 def rank(
     source: str | PathLike[str] | DataFrame,
@@ -95,8 +87,9 @@ def rank(
     budget : greatest mass (kg, or text with a unit) of the panel, or of the specimen without one.
         Several budgets give a ranking each, told apart by the column `budget_g`.
     panel : the two lengths (m, or text with a unit) of the area that the specimens fill.
-    by : column to sort by. Default: under a dead load the greatest strain, under a striker the
-        greatest force on the support, least first (`merit.LEAST`); else the
+    by : column to sort by, the greatest or the least first, whichever is better (`Column.better`);
+        one of which neither is better is refused. Default: under a dead load the greatest strain,
+        under a striker the greatest force on the support, least first (`merit.LEAST`); else the
         energy absorbed until the lattice has packed down where a budget or a panel is given (a
         budget is there to be spent), else that energy per gram. By `absorbed_energy_J` or
         `specific_absorption_J_per_g`, energy is counted to the end of the stroke.
@@ -116,32 +109,51 @@ def rank(
     absorbed, `returned_share` of the work of the whole crush, which was stored and not dissipated,
     `beyond_model` (True: a wall was squeezed too far while it was absorbed, or the lattice into
     less height than its solid has), `crossed` (True: walls passed through one another).
-    `attrs`: names of the columns compared (`mass`, `energy`, `per_gram`; `by`: of the crushed
-    designs where there are any), `limited` (True: energy counts up to a force), the counts `cases`,
-    `failed`, `unranked` (finished, but without a value to sort by), `without_bar` (of those with a
-    value, where others have one), `budgets_g`, and `lightest_g`, the smallest mass of each scene.
+    `attrs` are the other fields of `Ranking`, for one release more: `ranked` gives them.
     """
+    ranking = ranked(source, budget, panel, by, top, allowed_force)
+    others = {field.name: getattr(ranking, field.name) for field in fields(ranking)[1:]}
+    ranking.table.attrs = others | {"budgets_g": list(ranking.budgets_g)}
+    return ranking.table
+
+
+def ranked(
+    source: str | PathLike[str] | DataFrame,
+    budget: Quantity | Sequence[Quantity] | None = None,
+    panel: Sequence[Quantity] | None = None,
+    by: str | None = None,
+    top: int | None = 10,
+    allowed_force: Quantity | None = None,
+) -> Ranking:
+    """The table that `rank` returns for the same arguments, with what was compared and left out."""
     summary = source if isinstance(source, DataFrame) else _read(source)
     finished = summary[summary["status"] == Status.CONVERGED]
     compared, names = merits(finished, by, panel, allowed_force)
-    usual = names["energy" if budget is not None or panel is not None else "per_gram"]
+    usual = names.energy if budget is not None or panel is not None else names.per_gram
     by = by and _column(compared, by)
     limits = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in _several(budget))] or [np.inf]
     scenes = [(_with_scene(rows, names), _order(rows, by, usual)) for rows in by_scene(compared)]
-    parts = [_places(rows, names["mass"], order, g, top) for rows, order in scenes for g in limits]
-    ranking = pd.concat(parts, ignore_index=True)
+    parts = [_places(rows, names.mass, order, g, top) for rows, order in scenes for g in limits]
     labelled = pd.concat([rows for rows, _ in scenes])
-    ranking.attrs = names | {
-        "by": next((o for _, o in scenes if by or o not in LEAST.values()), scenes[0][1]),
-        "limited": allowed_force is not None,
-        "cases": len(summary),
-        "failed": len(summary) - len(finished),
-        "unranked": sum(int(rows[order].isna().sum()) for rows, order in scenes),
-        "without_bar": sum(_without_bar(rows, order) for rows, order in scenes),
-        "budgets_g": [limit for limit in limits if np.isfinite(limit)],
-        "lightest_g": labelled.groupby("scene", sort=False)[names["mass"]].min().to_dict(),
-    }
-    return ranking
+    return Ranking(
+        table=pd.concat(parts, ignore_index=True),
+        **names._asdict(),
+        limited=allowed_force is not None,
+        by=next((o for _, o in scenes if by or o not in LEAST.values()), scenes[0][1]),
+        cases=len(summary),
+        failed=len(summary) - len(finished),
+        unranked=sum(int(rows[order].isna().sum()) for rows, order in scenes),
+        without_bar=sum(_without_bar(rows, order) for rows, order in scenes),
+        versions=model_versions(finished),
+        budgets_g=tuple(limit for limit in limits if np.isfinite(limit)),
+        lightest_g=labelled.groupby("scene", sort=False)[names.mass].min().to_dict(),
+    )
+
+
+def model_versions(summary: DataFrame) -> dict[int, int]:
+    """How many rows there are of each version of the model, the oldest first."""
+    versions = summary.get("model_version", Series(OLDER["model_version"], summary.index))
+    return {int(version): int(n) for version, n in versions.value_counts().sort_index().items()}
 
 
 def by_scene(frame: DataFrame) -> list[DataFrame]:
@@ -157,7 +169,10 @@ def scene_keys(frame: DataFrame) -> list[str]:
 
 
 def scene_label(rows: DataFrame) -> str:
-    """What was done to these cases of one scene, in words; different for every scene."""
+    """What was done to these cases of one scene, in words; different for every scene.
+
+    A key that the scene does without is not told.
+    """
     if rows.empty:
         return ""
     first = rows.iloc[0]
@@ -178,8 +193,9 @@ def scene_label(rows: DataFrame) -> str:
     platen = first["platen"]
     if first["loading_mode"] != "custom":
         words.append("no platens" if platen in ("none", "") else f"{platen} platens")
-    others = [key for key in scene_keys(rows) if key not in said]
-    words += [f"{key.replace('.', ' ').replace('_', ' ')} {short(first[key])}" for key in others]
+    others = {key: short(first[key]) for key in scene_keys(rows) if key not in said}
+    told = {key: value for key, value in others.items() if value not in ("", NOTHING)}
+    words += [f"{key.replace('.', ' ').replace('_', ' ')} {value}" for key, value in told.items()]
     return ", ".join(words)
 
 
@@ -220,11 +236,11 @@ def _least(rows: DataFrame) -> str | None:
     return None if rows.empty else LEAST.get(rows["loading_mode"].iloc[0])
 
 
-def _with_scene(rows: DataFrame, names: dict[str, str]) -> DataFrame:
+def _with_scene(rows: DataFrame, names: Compared) -> DataFrame:
     """Rows of one scene with its label and their Pareto flag."""
     least = _least(rows)
-    merit = rows[names["energy"]] if least is None else -rows[least]
-    return rows.assign(scene=scene_label(rows), pareto=pareto(rows[names["mass"]], merit))
+    merit = rows[names.energy] if least is None else -rows[least]
+    return rows.assign(scene=scene_label(rows), pareto=pareto(rows[names.mass], merit))
 
 
 def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | None) -> DataFrame:
@@ -234,8 +250,9 @@ def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | Non
     of the rows.
     """
     order = [*dict.fromkeys([by, mass, "case_id"])]
-    upwards = [name != by or by in LESS_IS_BETTER for name in order]
-    rows = rows[rows[mass] <= budget_g].dropna(subset=by).sort_values(order, ascending=upwards)
+    upwards = [name != by or less_is_better(by) for name in order]
+    rows = rows[rows[mass] <= greatest_mass(budget_g)].dropna(subset=by)
+    rows = rows.sort_values(order, ascending=upwards)
     error = rows.get(error_column(by))
     place = shared_places(rows[by], error)
     known = {} if error is None else {"ranked_error": error, "tied": place.duplicated(keep=False)}
@@ -255,10 +272,14 @@ def _without_bar(rows: DataFrame, by: str) -> int:
 
 
 def _column(frame: DataFrame, by: str) -> str:
-    """The column to sort by, refused with the nearest one unless it holds numbers."""
-    allowed = [name for name in frame.select_dtypes("number") if "." not in name]
+    """The column to sort by, refused with the nearest one unless more or less of it is better."""
+    numbers = [name for name in frame.select_dtypes("number") if not is_grid_key(name)]
+    allowed = [name for name in numbers if describe_column(name).better]
     if by in allowed:
         return by
+    if by in numbers:
+        why = "neither more nor less of it makes a design better"
+        raise RankError(f'cannot sort by "{by}": {why}; allowed: {", ".join(allowed)}')
     nearest = difflib.get_close_matches(by, allowed, n=1, cutoff=0.5)
     hint = f"did you mean {nearest[0]}? " if nearest else ""
     raise RankError(f'cannot sort by "{by}"; {hint}allowed: {", ".join(allowed)}')

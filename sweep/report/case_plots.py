@@ -17,8 +17,8 @@ from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path as Outline
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
-from sweep.numbers import energy_text, three_digits
 from sweep.design.silhouette import silhouette
+from sweep.numbers import energy_text, three_digits
 from sweep.report.storyboard import headline, last_loaded, shots
 
 if TYPE_CHECKING:
@@ -40,6 +40,7 @@ ENERGIES = {
     "dissipated_integrator_J": ("lost by the time steps", GREY),
 }
 PANEL, GAP = 1.9, 0.1  # inches: the longer side of the picture of a shape; between two
+ENTRY, SIGN = 0.22, 0.6  # inches: the height of an entry of a legend; the width of its sign
 LETTER, LINE = 0.075, 0.2  # inches: the width of a letter of a title, the height of a line
 TICKS = 3  # labels of a log axis at least
 ROUND = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))  # by powers of ten
@@ -224,10 +225,17 @@ def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:
 
 
 def legend(fig: Figure, entries: list[dict[str, Any]]) -> None:
-    """One legend for all axes, to the right of them."""
+    """One legend for all axes, to the right of them, in as many columns as its height needs.
+
+    The figure becomes wider by every column but the first.
+    """
     handles = [Line2D([], [], **entry) for entry in entries]
+    width, height = fig.get_size_inches()
+    columns = -(-len(handles) // int(height / ENTRY))
     if handles:
-        fig.legend(handles=handles, loc="outside right upper", frameon=False)
+        longest = max(len(entry["label"]) for entry in entries)
+        fig.set_size_inches(width + (columns - 1) * (SIGN + LETTER * longest), height)
+        fig.legend(handles=handles, loc="outside right upper", frameon=False, ncols=columns)
 
 
 def mark(ax: Axes, x: float, words: str) -> None:

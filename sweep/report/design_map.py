@@ -8,13 +8,23 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sweep.report.design_style import budget_winners, doubtful, errors_of, looks, merit_errors, merits, until
 from sweep.report.case_plots import GREY, GRID, legend, mark, plain, round_ticks
+from sweep.report.design_style import (
+    budget_winners,
+    doubtful,
+    errors_of,
+    looks,
+    merit_errors,
+    merits,
+    until,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from pandas import DataFrame, Series
+
+    from sweep.ranking.ranking import Ranking
 
 LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
 TITLE = 72  # letters in a line above a panel
@@ -26,7 +36,7 @@ NARROW, MARGIN = 1.2, 0.1  # of the axis of mass: its least ratio, and the room 
 ENDS = 0.1, 10.0  # of a value: where its error bar ends at the latest, as no log axis has a zero
 
 
-def design_map(fig: Figure, ranking: DataFrame) -> None:
+def design_map(fig: Figure, ranking: Ranking) -> None:
     """What to print: merit against mass, a panel a scene, the winner of each budget named.
 
     ranking : all places (`top=None`), of one mode. Merit: absorbed energy, how little a load sinks,
@@ -34,23 +44,24 @@ def design_map(fig: Figure, ranking: DataFrame) -> None:
     that any mass offers, the Pareto front, whose designs are drawn on top; where they meet a budget
     stands its winner.
     """
-    mass = ranking.attrs["mass"]
+    designs, mass, energy = ranking.table, ranking.mass, ranking.energy
     of = "panel" if mass == "panel_mass_g" else "specimen"
-    look = looks(ranking)
-    energy = ranking.attrs["energy"]
-    for ax, rows in _scene_axes(fig, ranking.round({mass: 9})):  # equal by design is equal
+    look = looks(designs)
+    for ax, rows in _scene_axes(fig, designs.round({mass: 9})):  # equal by design is equal
         merit, error = merits(rows, energy), merit_errors(rows, energy)
         least = LEAST_SHOWN.get(rows["loading_mode"].iloc[0])
-        for _, points in rows[::-1].groupby(["pareto", "material"]):  # the best comes last
+        for _, points in rows[::-1].groupby(
+            ["pareto", "lattice_kind", "material"]
+        ):  # the best comes last
             _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
         front = rows[rows["pareto"]].sort_values(mass)
         stairs: dict[str, Any] = {"color": "black", "lw": 0.9, "drawstyle": "steps-post"}
         _line(ax, front[mass], merit.loc[front.index], stairs, front)
         ax.set(xscale="log", yscale="log")
-        ax.set_xlim(_span([*rows[mass], *ranking.attrs["budgets_g"]]))
+        ax.set_xlim(_span([*rows[mass], *ranking.budgets_g]))
         ax.margins(y=0.15)
         _error_bars(ax, rows[mass], merit, error)
-        for budget in ranking.attrs["budgets_g"]:
+        for budget in ranking.budgets_g:
             mark(ax, budget, f"{budget:g} g")
         words = [_in_lines(ax.get_title("left"))]
         for said, x, y in budget_winners(rows, ranking):
@@ -61,14 +72,14 @@ def design_map(fig: Figure, ranking: DataFrame) -> None:
         ax.set_ylabel(least or f"energy absorbed by the {of}{until(ranking)}, J")
         round_ticks(ax.xaxis)
         round_ticks(ax.yaxis)
-    legend(fig, look.legend(barred=bool(merit_errors(ranking, energy).notna().any())))
+    legend(fig, look.legend(barred=bool(merit_errors(designs, energy).notna().any())))
 
 
-def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
+def thickness_trends(fig: Figure, ranking: Ranking) -> None:
     """Energy per gram against wall thickness, a panel a scene."""
-    per_gram = ranking.attrs["per_gram"]
-    look = looks(ranking)
-    for ax, rows in _scene_axes(fig, ranking):
+    designs, per_gram = ranking.table, ranking.per_gram
+    look = looks(designs)
+    for ax, rows in _scene_axes(fig, designs):
         for _, points in rows.groupby(VARIANT):
             best = points.loc[points.groupby("wall_thickness_m")[per_gram].idxmax()]
             style = look.of(best) | {"s": 28.0}
@@ -79,7 +90,7 @@ def thickness_trends(fig: Figure, ranking: DataFrame) -> None:
         what = f"absorbed energy per gram{until(ranking)}, J/g"
         ax.set(xlabel="wall thickness, mm", ylabel=what, yscale="log")
         round_ticks(ax.yaxis)
-    barred = bool(errors_of(ranking, per_gram).notna().any())
+    barred = bool(errors_of(designs, per_gram).notna().any())
     legend(fig, look.legend(walls=False, barred=barred))
 
 
@@ -90,11 +101,11 @@ def _span(values: Sequence[float]) -> tuple[float, float]:
     return middle / half, middle * half
 
 
-def has_trends(ranking: DataFrame) -> bool:
+def has_trends(designs: DataFrame) -> bool:
     """Whether designs are there that differ in nothing but the thickness of their walls."""
-    others = [key for key in ranking if key.startswith(SHAPED) and key not in THICK]
-    alike = ranking.groupby(["scene", *VARIANT, *others], dropna=False)
-    return not ranking.empty and alike["wall_thickness_m"].nunique().max() > 1
+    others = [key for key in designs if key.startswith(SHAPED) and key not in THICK]
+    alike = designs.groupby(["scene", *VARIANT, *others], dropna=False)
+    return not designs.empty and alike["wall_thickness_m"].nunique().max() > 1
 
 
 def _in_lines(words: str) -> str:
@@ -115,7 +126,7 @@ def _line(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFra
 
 
 def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
-    """Designs of one material; open where they are not to be trusted."""
+    """Designs of one pattern and material; open where they are not to be trusted."""
     dots = ax.scatter(x, y, lw=1.2, zorder=2, **style)
     colors = dots.get_facecolor()
     beyond = doubtful(points).to_numpy()[:, None]
@@ -131,9 +142,9 @@ def _error_bars(ax: Axes, x: Series, y: Series, error: Series, color: str = GREY
         ax.vlines(x[known], low[known], high[known], color=color, lw=0.8, zorder=0)
 
 
-def _scene_axes(fig: Figure, ranking: DataFrame) -> Iterator[tuple[Axes, DataFrame]]:
+def _scene_axes(fig: Figure, designs: DataFrame) -> Iterator[tuple[Axes, DataFrame]]:
     """One set of axes a scene, at most two a row."""
-    scenes = ranking.groupby("scene", sort=False)
+    scenes = designs.groupby("scene", sort=False)
     columns = min(2, len(scenes))
     rows = -(-len(scenes) // columns)
     axes = fig.subplots(rows, columns, squeeze=False).ravel()

@@ -1,11 +1,13 @@
 """How designs stand in a chart: what they look like, what they are worth, which of them win.
 
-Colour = cells, sign = material, size = wall thickness, open and dashed = not to be trusted: the
-same in every panel.
+Colour = cells, sign = pattern, or material where there is one pattern, size = wall thickness, open
+and dashed = not to be trusted: the same in every panel. Where both patterns and materials vary,
+colour tells the material too.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import cycle
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -13,38 +15,44 @@ import numpy as np
 from pandas import concat
 
 from sweep.numbers import energy_text, tenths, three_digits
-from sweep.ranking.merit import LEAST
-from sweep.ranking.rank import LESS_IS_BETTER, shared_places
-from sweep.result import error_column
+from sweep.ranking.merit import LEAST, greatest_mass
+from sweep.ranking.rank import shared_places
 from sweep.report.sheets import design_labels
+from sweep.result import error_column, less_is_better
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
 
+    from sweep.ranking.ranking import Ranking
+
 RAMP = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98))  # of viridis: few to many cells
-SIGNS = "o^sDvP"
+SIGNS = "o^sDvP*Xh<>pd"
+LIKE_PATTERNS = {"circle": "o", "triangle": "^", "square": "s", "diamond": "D", "hex": "h"}
+SIZES = 5  # of wall thickness in a legend; others lie between them
 AREAS = (15.0, 75.0)  # of the thinnest and the thickest wall, points^2
 PLAIN = {"ls": "", "marker": "o", "ms": 6.0, "color": "#8a8a8a"}
 
 
 class Looks(NamedTuple):
-    """Colours by cells (x, y), signs by material, areas by wall thickness (m).
+    """Colours by the values of the columns `tint`, signs by those of `sign`, areas by wall (m).
 
-    doubtful: some are not to be trusted.
+    tint: `cells_x`, `cells_y` and, where a sign tells the pattern, `material`. doubtful: some
+    designs are not to be trusted.
     """
 
-    colors: dict[tuple[int, int], str]
+    tint: list[str]
+    colors: dict[tuple[Any, ...], str]
+    sign: str
     signs: dict[str, str]
     areas: dict[float, float]
     doubtful: bool
 
     def of(self, points: DataFrame) -> dict[str, Any]:
-        """Keywords of a scatter plot for designs of one material."""
-        cells = zip(points["cells_x"], points["cells_y"], strict=True)
+        """Keywords of a scatter plot for designs of one pattern and material."""
         return {
-            "c": [self.colors[pair] for pair in cells],
+            "c": [self.colors[values] for values in _rows(points, self.tint)],
             "s": points["wall_thickness_m"].map(self.areas).to_numpy(),
-            "marker": self.signs[points["material"].iloc[0]],
+            "marker": self.signs[points[self.sign].iloc[0]],
         }
 
     def legend(self, walls: bool = True, barred: bool = False) -> list[dict[str, Any]]:
@@ -52,11 +60,14 @@ class Looks(NamedTuple):
 
         barred: some have error bars.
         """
+        heading, words = _tint_words(list(self.colors))
+        noun = "pattern" if self.sign == "lattice_kind" else self.sign
         groups = {
-            "cells": {f"{x} x {y}": {"color": color} for (x, y), color in self.colors.items()},
-            "material": {name: {"marker": sign} for name, sign in self.signs.items()},
+            heading: {w: {"color": c} for w, c in zip(words, self.colors.values(), strict=True)},
+            noun: {name: {"marker": sign} for name, sign in self.signs.items()},
             "wall": {f"{1e3 * t:.3g} mm": {"ms": area**0.5} for t, area in self.areas.items()},
         }
+        groups["wall"] = _some(groups["wall"], SIZES)
         beyond = {**PLAIN, "mfc": "white", "ls": "--", "label": "not to be trusted"}
         shown = [name for name in groups if len(groups[name]) > 1 and (walls or name != "wall")]
         entries = [
@@ -70,14 +81,48 @@ class Looks(NamedTuple):
 
 def looks(designs: DataFrame) -> Looks:
     """The looks of all designs of a ranking."""
-    cells = sorted(set(zip(designs["cells_x"], designs["cells_y"], strict=True)))
+    patterned = len(designs["lattice_kind"].unique()) > 1
+    tint = ["cells_x", "cells_y", *(["material"] if patterned else [])]
+    sign = "lattice_kind" if patterned else "material"
+    values = sorted(set(_rows(designs, tint)))
     walls = sorted(designs["wall_thickness_m"].unique())
     return Looks(
-        dict(zip(cells, _ramp(len(cells)), strict=True)),
-        dict(zip(sorted(designs["material"].unique()), cycle(SIGNS), strict=False)),
+        tint,
+        dict(zip(values, _ramp(len(values)), strict=True)),
+        sign,
+        _signs(sorted(designs[sign].unique())),
         dict(zip(walls, np.linspace(*AREAS, len(walls)), strict=True)),
         bool(doubtful(designs).any()),
     )
+
+
+def _rows(designs: DataFrame, names: list[str]) -> Iterator[tuple[Any, ...]]:
+    """The values of some columns, design by design."""
+    return zip(*(designs[name] for name in names), strict=True)
+
+
+def _signs(names: list[str]) -> dict[str, str]:
+    """A sign each: one that looks like the pattern, where there is one."""
+    alike = {name: LIKE_PATTERNS[name] for name in names if name in LIKE_PATTERNS}
+    spare = cycle(sign for sign in SIGNS if sign not in alike.values())
+    return {name: alike.get(name) or next(spare) for name in names}
+
+
+def _tint_words(values: list[tuple[Any, ...]]) -> tuple[str, list[str]]:
+    """What a colour tells, as the heading of a legend and its entries: no more than varies."""
+    cells = [f"{x} x {y}" for x, y, *_ in values]
+    parts = {"cells": cells, "material": [material for *_, material in values]}
+    if len(values[0]) == 2 or len({*parts["material"]}) == 1:
+        return "cells", cells
+    if len({*cells}) == 1:
+        return "material", parts["material"]
+    return ", ".join(parts), [", ".join(words) for words in zip(*parts.values(), strict=True)]
+
+
+def _some(entries: dict[str, Any], count: int) -> dict[str, Any]:
+    """Of so many entries, evenly from the first to the last."""
+    kept = np.linspace(0, len(entries) - 1, min(count, len(entries))).round()
+    return {name: entries[name] for k, name in enumerate(entries) if k in kept}
 
 
 def doubtful(designs: DataFrame) -> Series:
@@ -109,18 +154,19 @@ def _compared(rows: DataFrame, energy: str) -> tuple[str, float]:
     return least or energy, 100.0 if least == "peak_strain" else 1.0
 
 
-def until(ranking: DataFrame) -> str:
+def until(ranking: Ranking) -> str:
     """When energy ceases to count, on a line of its own, where a force was allowed."""
-    return f"\n{ranking.attrs['until']}" if ranking.attrs["limited"] else ""
+    return f"\n{ranking.until}" if ranking.limited else ""
 
 
-def budget_winners(rows: DataFrame, ranking: DataFrame) -> list[tuple[str, float, float]]:
+def budget_winners(rows: DataFrame, ranking: Ranking) -> list[tuple[str, float, float]]:
     """Words, mass and merit of the best of one scene for each budget; without any, of the first."""
-    mass, energy = ranking.attrs["mass"], ranking.attrs["energy"]
+    mass, energy = ranking.mass, ranking.energy
     front, (name, _) = rows[rows["pareto"]].sort_values(mass), _compared(rows, energy)
     winners = [
-        (f"up to {budget:g} g", front[front[mass] <= budget].tail(1), rows[rows[mass] <= budget])
-        for budget in ranking.attrs["budgets_g"]
+        (f"up to {budget:g} g", front[front[mass] <= limit].tail(1), rows[rows[mass] <= limit])
+        for budget in ranking.budgets_g
+        for limit in [greatest_mass(budget)]
     ]
     if not winners:
         best = rows[rows["place"] == 1].head(1)
@@ -136,19 +182,19 @@ def budget_winners(rows: DataFrame, ranking: DataFrame) -> list[tuple[str, float
     ]
 
 
-def _words(won: DataFrame, among: DataFrame, ranking: DataFrame, name: str) -> str:
+def _words(won: DataFrame, among: DataFrame, ranking: Ranking, name: str) -> str:
     """A design, what it is worth, and how sure that is, as "cells 3 x 3, wall 0.8 mm, 13.4 J".
 
     name: the column by which it has won `among` others; its value comes last.
     """
-    (design,), energy = design_labels(won, ranking), ranking.attrs["energy"]
+    (design,), energy = design_labels(won, ranking.table), ranking.energy
     merit, value = merits(won, energy).item(), three_digits(won[name].item())
     worths = {
         "force": f"sinks {three_digits(merit)} %",
         "impact": f"passes {three_digits(merit)} N on",
     }
     worth = worths.get(won["loading_mode"].item(), energy_text(merit))
-    if name == ranking.attrs["per_gram"]:
+    if name == ranking.per_gram:
         worth += f", {value} J/g"
     elif name != _compared(won, energy)[0]:
         worth += f", {name} {value}"
@@ -162,7 +208,7 @@ def _ties(rows: DataFrame, won: DataFrame, name: str) -> str:
     error = errors_of(won, name).item()
     if not (np.isfinite(error) and won[name].item()):
         return ""
-    others = rows.drop(index=won.index).sort_values(name, ascending=name in LESS_IS_BETTER)
+    others = rows.drop(index=won.index).sort_values(name, ascending=less_is_better(name))
     ordered = concat([won, others])
     count = int((shared_places(ordered[name], errors_of(ordered, name)) == 1).sum())
     share = f" ± {tenths(error / abs(won[name].item()))} %"

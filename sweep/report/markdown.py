@@ -16,6 +16,9 @@ def markdown(sheets: Iterable[Sheet]) -> str:
 
 def _markdown(sheet: Sheet) -> str:
     """One sheet: heading, table with columns of equal width, notes."""
+    heading = [f"### {sheet.title}", ""] if sheet.title else []
+    if not sheet.heads:
+        return "\n".join([*heading, *sheet.notes, ""])
     texts = [[head, *texts] for head, texts in zip(sheet.heads, sheet.columns, strict=True)]
     widths = [max(len(text) for text in column) for column in texts]
     lines = [
@@ -23,6 +26,5 @@ def _markdown(sheet: Sheet) -> str:
         for row in zip(*texts, strict=True)
     ]
     rule = "| " + " | ".join("-" * width for width in widths) + " |"
-    heading = [f"### {sheet.title}", ""] if sheet.title else []
     notes = [line for note in sheet.notes for line in ("", note)]
     return "\n".join([*heading, lines[0], rule, *lines[1:], *notes, ""])

@@ -11,14 +11,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from pandas import DataFrame
 
+    from sweep.ranking.ranking import Ranking
 
-def pattern_bars(fig: Figure, ranking: DataFrame) -> None:
+
+def pattern_bars(fig: Figure, ranking: Ranking) -> None:
     """Energy per gram of every design with its error bar, the best on top, a panel a scene.
 
     Open: not to be trusted.
     """
-    per_gram = ranking.attrs["per_gram"]
-    scenes = ranking.groupby("scene", sort=False)
+    designs, per_gram = ranking.table, ranking.per_gram
+    scenes = designs.groupby("scene", sort=False)
     axes = fig.subplots(len(scenes), 1, squeeze=False).ravel()
     for ax, (scene, rows) in zip(axes, scenes, strict=True):
         ordered = rows.sort_values([per_gram, "case_id"])
@@ -27,12 +29,12 @@ def pattern_bars(fig: Figure, ranking: DataFrame) -> None:
             bar.set(fill=not doubt)
         errors = errors_of(ordered, per_gram)
         ax.errorbar(ordered[per_gram], range(len(ordered)), xerr=errors, fmt="none", ecolor="black")
-        ax.set_yticks(range(len(ordered)), design_labels(ordered, ranking), fontsize="small")
+        ax.set_yticks(range(len(ordered)), design_labels(ordered, designs), fontsize="small")
         ax.set_title(scene, loc="left", fontsize="medium")
         ax.set_xlabel(f"absorbed energy per gram{until(ranking)}, J/g")
         ax.spines[["top", "right"]].set_visible(False)
 
 
-def panel_size(ranking: DataFrame) -> tuple[float, float]:
+def panel_size(designs: DataFrame) -> tuple[float, float]:
     """Inches for a bar a design and a panel a scene."""
-    return 9.0, 0.25 * len(ranking) + 0.9 * ranking["scene"].nunique()
+    return 9.0, 0.25 * len(designs) + 0.9 * designs["scene"].nunique()

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from pandas import Series
 
 from sweep.numbers import numerals, percent, short, tenths
-from sweep.ranking.merit import LEAST
+from sweep.ranking.merit import LEAST, greatest_mass
 from sweep.ranking.rank import ASSUMPTIONS, by_scene, scene_label
 
 if TYPE_CHECKING:
     from pandas import DataFrame
+
+    from sweep.ranking.ranking import Ranking
 
 MARKS = "*: on the Pareto front, nothing lighter in its scene does as well. mass: of one specimen."
 CRUSHED = "peak: greatest force that one specimen passes on. It and the energy count {until}."
@@ -31,6 +33,7 @@ place is that of the value alone."""
 BEYOND = """\
 !: beyond the model, as a wall is squeezed below 0.7 of its length, or the lattice into less height
 than its solid has: not to be trusted."""
+NO_PLACE = "No design has a place here."
 EARLY = ">: at least, as the crush ended before that force was passed on: a longer one tells more."
 CROSSED = "x: walls pass through one another, as no contact stops them: not to be trusted."
 
@@ -70,11 +73,23 @@ class Sheet(NamedTuple):
         return [[row[i] for row in self.rows] for i in range(len(self.heads))]
 
 
-def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
-    """One sheet a loading scene, budgets one below the other; designs as they vary in `summary`."""
-    budgets = ranking.attrs["budgets_g"]
-    for scene, lightest in ranking.attrs["lightest_g"].items():
-        placed = rows = ranking[ranking["scene"] == scene]
+def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
+    """One sheet a loading scene, budgets one below the other; designs as they vary in `summary`.
+
+    A scene in which nothing has a place has no table. If nothing at all is light enough, a single
+    sheet says so.
+    """
+    budgets, table = ranking.budgets_g, ranking.table
+    by_all = _missed(budgets, min(ranking.lightest_g.values(), default=0.0))
+    if by_all and len(by_all) == len(budgets):
+        yield Sheet("", [], [], notes=by_all)
+        return
+    for scene, lightest in ranking.lightest_g.items():
+        placed = rows = table[table["scene"] == scene]
+        missed = _missed(budgets, lightest)
+        if rows.empty:
+            yield Sheet(scene, [], [], notes=missed or (NO_PLACE,))
+            continue
         lead = {}
         if len(budgets) > 1:
             rows = _without_repeats(rows)
@@ -83,9 +98,9 @@ def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
             **lead,
             "#": _places(rows),
             **design_text(rows, summary),
-            **_measures(rows, ranking.attrs),
+            **_measures(rows, ranking),
         }
-        order = "" if rows.empty else FIRST.get(rows["ranked_by"].iloc[0], "")
+        order = FIRST.get(rows["ranked_by"].iloc[0], "")
         yield Sheet(
             title=f"{scene}{order}",
             heads=list(columns),
@@ -94,30 +109,35 @@ def ranking_sheets(ranking: DataFrame, summary: DataFrame) -> Iterator[Sheet]:
             notes=(
                 *((BEYOND,) if rows["beyond_model"].any() else ()),
                 *((CROSSED,) if rows["crossed"].any() else ()),
-                *((EARLY,) if _stops_early(rows, ranking.attrs).any() else ()),
+                *((EARLY,) if _stops_early(rows, ranking).any() else ()),
                 *_cut_off(rows),
                 *_not_shown(placed),
-                *(
-                    f"Nothing weighs {budget:g} g or less: the lightest weighs {lightest:.3g} g."
-                    for budget in budgets
-                    if budget < lightest
-                ),
+                *missed,
             ),
         )
 
 
-def legend(ranking: DataFrame) -> str:
+def _missed(budgets: tuple[float, ...], lightest: float) -> tuple[str, ...]:
+    """A sentence for each budget (g) that not even the lightest design meets."""
+    return tuple(
+        f"Nothing weighs {budget:g} g or less: the lightest weighs {lightest:.3g} g."
+        for budget in budgets
+        if greatest_mass(budget) < lightest
+    )
+
+
+def legend(ranking: Ranking) -> str:
     """What the marks and the heads of the sheets of a ranking mean."""
-    modes = set(ranking["loading_mode"])
+    modes = set(ranking.table["loading_mode"])
     said = {
-        "displacement": CRUSHED.format(until=ranking.attrs["until"]),
+        "displacement": CRUSHED.format(until=ranking.until),
         "force": LOADED,
         "impact": STRUCK,
     }
-    if not ranking.attrs["limited"]:
+    if not ranking.limited:
         said["displacement"] += f"\n{WHOLE}"
     lines = [MARKS, *(words for mode, words in said.items() if mode in modes)]
-    return "\n".join([*lines, TIED] if "ranked_error" in ranking else lines)
+    return "\n".join([*lines, TIED] if "ranked_error" in ranking.table else lines)
 
 
 def _places(rows: DataFrame) -> Series:
@@ -217,19 +237,19 @@ def _with_noun(head: str, text: str) -> str:
     return text if head in ("material", "pattern") else f"{head} {text}"
 
 
-def _measures(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
+def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     """Columns of what was found; the column sorted by is always among them."""
     columns = {"mass g": numerals(rows["mass_g"])}
     if "panel_mass_g" in rows:
         columns["panel g"] = numerals(rows["panel_mass_g"])
-    mode, shown = "" if rows.empty else rows["loading_mode"].iloc[0], {"mass_g", "panel_mass_g"}
+    mode, shown = rows["loading_mode"].iloc[0], {"mass_g", "panel_mass_g"}
     if mode in LEAST:
         columns |= _under_load(rows) if mode == "force" else _struck(rows)
         shown |= {LEAST[mode]}
     else:
-        columns |= _crushed(rows, names)
-        shown |= {names["energy"], names["per_gram"]}
-        if not names["limited"]:
+        columns |= _crushed(rows, ranking)
+        shown |= {ranking.energy, ranking.per_gram}
+        if not ranking.limited:
             columns |= _whole(rows)
             shown |= {"densification_strain", "returned_share"}
     for by in rows["ranked_by"].unique():
@@ -253,21 +273,21 @@ def _struck(rows: DataFrame) -> dict[str, Series]:
     }
 
 
-def _crushed(rows: DataFrame, names: dict[Any, Any]) -> dict[str, Series]:
-    energy, whole = rows[names["energy"]], "panel" if "panel_mass_g" in rows else "absorbs"
+def _crushed(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
+    energy, whole = rows[ranking.energy], "panel" if "panel_mass_g" in rows else "absorbs"
     unit, scale = ("mJ", 1e3) if energy.max() < 1.0 else ("J", 1.0)
-    more = (_stops_early(rows, names) & energy.notna()).map({True: "> ", False: ""})
+    more = (_stops_early(rows, ranking) & energy.notna()).map({True: "> ", False: ""})
     return {
         f"{whole} {unit}": more + numerals(energy * scale),
-        "J/g": more + numerals(rows[names["per_gram"]]),
+        "J/g": more + numerals(rows[ranking.per_gram]),
         "peak N": numerals(rows["passed_on_N"]),
     }
 
 
-def _stops_early(rows: DataFrame, names: dict[Any, Any]) -> Series:
+def _stops_early(rows: DataFrame, ranking: Ranking) -> Series:
     """Which crushes ended before the allowed force was passed on: they would absorb more yet."""
     crushed = rows["loading_mode"] == "displacement"
-    return crushed & names["limited"] & (rows["peak_force_N"] <= rows["passed_on_N"])
+    return crushed & ranking.limited & (rows["peak_force_N"] <= rows["passed_on_N"])
 
 
 def _whole(rows: DataFrame) -> dict[str, Series]:

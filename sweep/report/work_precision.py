@@ -5,8 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from sweep.ranking.accuracy import TARGETS, Study, front
-from sweep.report.case_plots import BLUE, GREY, GRID, ORANGE, PURPLE, SKY, VERMILION, plain, round_ticks
 from sweep.report.accuracy_tables import LEAST_SHOWN, measure_noun, percents
+from sweep.report.case_plots import (
+    BLUE,
+    GREY,
+    GRID,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    plain,
+    round_ticks,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

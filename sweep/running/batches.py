@@ -4,8 +4,8 @@ import threading
 from collections import deque
 from collections.abc import Iterable, Sequence
 
-from sweep.config.solver_defaults import steps
 from sweep.config.case import Case
+from sweep.config.solver_defaults import steps
 from sweep.config.tables import canonical
 
 SECONDS = 1.0  # of work in a batch: far above the cost of passing it on, and soon done

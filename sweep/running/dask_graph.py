@@ -19,8 +19,8 @@ import numpy as np
 from dask.threaded import get
 
 from sweep.config.case import Case
-from sweep.running.batches import Plan
 from sweep.result import Result, Status, failed_result
+from sweep.running.batches import Plan
 
 if TYPE_CHECKING:
     from distributed import Client, Future

@@ -20,16 +20,16 @@ from math import isnan, nan
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from sweep.running.dask_graph import Simulate
-from sweep.config.grid import Config, expand
 from sweep.config.case import Case
+from sweep.config.grid import Config, expand
+from sweep.config.lattice_table import Lattice
+from sweep.config.tables import Solver
+from sweep.result import ABSORBED_AT, Status, error_column
+from sweep.running.dask_graph import Simulate
 from sweep.running.progress import tell
 from sweep.running.provenance import config_text, describe_run
-from sweep.result import ABSORBED_AT, Status, error_column
 from sweep.running.sweep import run_sweep
-from sweep.config.lattice_table import Lattice
-from sweep.store.read import exists, finished_ids, read_summary
-from sweep.config.tables import Solver
+from sweep.store.read import ONLY_MISSING, Rerun, exists, finished_ids, read_summary
 from sweep.store.write import Writer
 
 FEWEST = 3  # elements a wall of a mesh that is worth comparing with
@@ -116,10 +116,12 @@ def companions_file(out: str | os.PathLike[str]) -> Path:
     return Path(out).with_suffix(".companions.h5")
 
 
-def companions_beside(designs: Sequence[Case], out: str | os.PathLike[str]) -> dict[str, Case]:
+def companions_beside(
+    designs: Sequence[Case], out: str | os.PathLike[str], rerun: Rerun = ONLY_MISSING
+) -> dict[str, Case]:
     """Companions of all designs by their id, but those that the sweep itself holds or will hold."""
     found = {c.case.case_id: c.case for design in designs for c in companions(design)}
-    own = finished_ids(out) | {design.case_id for design in designs}
+    own = finished_ids(out, rerun._replace(failed=False)) | {design.case_id for design in designs}
     return {case_id: case for case_id, case in found.items() if case_id not in own}
 
 
@@ -128,21 +130,21 @@ def add_error_bars(
     out: str | os.PathLike[str],
     workers: int = 2,
     scheduler: str | None = None,
-    retry_failed: bool = False,
+    rerun: Rerun = ONLY_MISSING,
     simulate: Simulate | None = None,
 ) -> int:
     """Give the converged designs of a sweep their error bars; return how many have none.
 
-    Runs the companions that are not there yet; a design whose companion failed has NaN. The other
-    arguments are those of `run_sweep`.
+    Runs the companions that are not there yet; a design whose companion failed, or is of another
+    version of the model, has NaN. The other arguments are those of `run_sweep`.
     """
     cases = expand(sweep) if isinstance(sweep, Config) else sweep
     beside, rows = companions_file(out), _converged(out)
     designs = [case for case in cases if case.case_id in rows]
-    others = companions_beside(designs, out)
-    if others.keys() - finished_ids(beside, retry_failed):
+    others = companions_beside(designs, out, rerun)
+    if others.keys() - finished_ids(beside, rerun):
         tell(f"error bars of {len(designs)} designs: {len(others)} companions, in {beside}")
-        run_sweep(list(others.values()), beside, workers, scheduler, retry_failed, simulate)
+        run_sweep(list(others.values()), beside, workers, scheduler, rerun, simulate)
     rows |= _converged(beside) if exists(beside) else {}
     bars = {design.case_id: error_bars(design, rows) for design in designs}
     labels = {case.case_id: {**case.axes, **bars.get(case.case_id, {})} for case in cases}
@@ -155,14 +157,17 @@ def add_error_bars(
 
 
 def error_bars(design: Case, rows: Rows) -> dict[str, float]:
-    """Error columns of a design; `rows`: those of converged cases. NaN where one is missing.
+    """Error columns of a design; `rows`: those of converged cases. NaN where one is missing, or of
+    another version of the model.
 
     The peak force of a load that is put on at once is that of a wave: it grows with ever shorter
     steps, and has no error bar.
     """
     own = rows[design.case_id]
     names = [name for name in own if name in HEADLINE or ABSORBED_AT.fullmatch(name)]
-    found = [(c.weight, rows.get(c.case.case_id, {})) for c in companions(design)]
+    others = [(c.weight, rows.get(c.case.case_id, {})) for c in companions(design)]
+    version = own["model_version"]
+    found = [(w, row if row.get("model_version") == version else {}) for w, row in others]
     bars = {
         name: sum(weight * abs(own[name] - other.get(name, nan)) for weight, other in found)
         for name in names

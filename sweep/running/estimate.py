@@ -1,7 +1,7 @@
 """What a sweep will cost, before it starts: a few of its cases are run and scaled to all.
 
-The time of a case is taken to grow with `plan.cost`; kinds of loading and of mesh are measured one
-by one. Good to a factor of two or so: how often walls meet cannot be known before they do.
+The time of a case is taken to grow with `batches.cost`; kinds of loading and of mesh are measured
+one by one. Good to a factor of two or so: how often walls meet cannot be known before they do.
 """
 
 import time
@@ -11,14 +11,14 @@ from dataclasses import dataclass
 from itertools import accumulate
 from math import isnan
 
-from sweep.running.error_bars import companions_beside, companions_file
-from sweep.running.dask_graph import Simulate, Stop, run
-from sweep.config.grid import Config, case_count, expand
 from sweep.config.case import Case
-from sweep.running.batches import Plan, cost
+from sweep.config.grid import Config, case_count, expand
 from sweep.result import Result, Status
+from sweep.running.batches import Plan, cost
+from sweep.running.dask_graph import Simulate, Stop, run
+from sweep.running.error_bars import companions_beside, companions_file
 from sweep.running.sweep import Interrupted, interruptible, real_simulate
-from sweep.store.read import finished_ids
+from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 
 BYTES = 4  # of a stored number: single precision
 PACKED = 0.9  # what is left of curves, which are compressed, and shapes, which are not
@@ -41,19 +41,23 @@ class Estimate:
 
 
 def dry_run(
-    config: Config, out: str, workers: int, retry_failed: bool, error_bars: bool = False
+    config: Config,
+    out: str,
+    workers: int,
+    rerun: Rerun = ONLY_MISSING,
+    error_bars: bool = False,
 ) -> str:
     """How many cases, how long, how much disk: as text. Writes nothing."""
     cases = expand(config)
-    done = finished_ids(out, retry_failed)
+    done = finished_ids(out, rerun)
     waiting = [case for case in cases if case.case_id not in done]
     counts = (
         f"{config.name}: {case_count(config):,} combinations, {len(cases):,} different cases, "
         f"{len(cases) - len(waiting):,} of them finished in {out}"
     )
     if error_bars:
-        others = companions_beside(cases, out)
-        ready = others.keys() & finished_ids(companions_file(out), retry_failed)
+        others = companions_beside(cases, out, rerun)
+        ready = others.keys() & finished_ids(companions_file(out), rerun)
         waiting += [case for case_id, case in others.items() if case_id not in ready]
         counts += f"\nerror bars: {len(others):,} companions, {len(ready):,} of them finished"
     if not waiting:

@@ -4,20 +4,20 @@ import json
 import subprocess
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from platform import platform, python_version
 from typing import Any
 
-from sweep.config.grid import Config, Written
 from sweep.config.case import Case
+from sweep.config.grid import Config, Written
+from sweep.version import installed_version
 
 PACKAGES = ("crumple", "numpy", "numba", "h5py", "dask")
 
 
 def describe_run(config: str) -> dict[str, str]:
     """Attributes of a results file; `config` is the resolved configuration as text."""
-    versions = {f"version_{name}": _version(name) for name in PACKAGES}
+    versions = {f"version_{name}": installed_version(name) for name in PACKAGES}
     return {
         "config": config,
         "seed": "none: nothing in a case is random",
@@ -45,6 +45,8 @@ def config_text(sweep: Config | Sequence[Case], first: Case) -> str:
 def git_revision() -> str:
     """Commit of the source tree, "-dirty" if it was changed since; "unknown" outside of one."""
     root = Path(__file__).parents[2]
+    if not (root / ".git").exists():  # installed, perhaps below the repository of something else
+        return "unknown"
     command = ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=40"]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=5, check=True)
@@ -55,10 +57,3 @@ def git_revision() -> str:
 
 def _axes(axes: Mapping[str, Sequence[Written]]) -> dict[str, list[Any]]:
     return {key: [value.value for value in values] for key, values in axes.items()}
-
-
-def _version(name: str) -> str:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return "unknown"

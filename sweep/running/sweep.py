@@ -6,15 +6,15 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from threading import current_thread, main_thread
 
-from sweep.running.writer_thread import clerk, keeping
-from sweep.running.dask_graph import Simulate, Stop, check_scheduler, run
-from sweep.config.grid import Config, expand
 from sweep.config.case import Case
+from sweep.config.grid import Config, expand
+from sweep.result import HOW_TO_RENEW, Status
 from sweep.running.batches import Plan, cost
+from sweep.running.dask_graph import Simulate, Stop, check_scheduler, run
 from sweep.running.progress import Progress, tell
 from sweep.running.provenance import config_text, describe_run
-from sweep.result import Status
-from sweep.store.read import finished_ids, read_statuses
+from sweep.running.writer_thread import clerk, keeping
+from sweep.store.read import ONLY_MISSING, Rerun, finished_ids, older_ids, read_statuses
 from sweep.store.write import Writer
 
 UNWRITABLE = "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is no folder that can be written to"
@@ -29,14 +29,14 @@ def run_sweep(
     out: str | os.PathLike[str],
     workers: int = 2,
     scheduler: str | None = None,
-    retry_failed: bool = False,
+    rerun: Rerun = ONLY_MISSING,
     simulate: Simulate | None = None,
 ) -> int:
     """Run the cases that `out` does not hold yet; return how many of the sweep did not converge.
 
     scheduler: address of a Dask scheduler; without one, `workers` threads of this process.
-    retry_failed: run those that did not converge once more. Ctrl-C (or SIGTERM) keeps what is
-    finished and raises Interrupted.
+    rerun: what runs once more; a row stays until the new one is sealed. Ctrl-C (or SIGTERM) keeps
+    what is finished and raises Interrupted.
     """
     drafts = expand(sweep) if isinstance(sweep, Config) else sweep
     cases = {case.case_id: case for case in drafts}
@@ -45,7 +45,9 @@ def run_sweep(
     if scheduler is not None:
         check_scheduler(scheduler)
     with Writer(out, axes, describe_run(config_text(sweep, drafts[0]))) as writer:
-        done = cases.keys() & finished_ids(out, retry_failed)
+        done = cases.keys() & finished_ids(out, rerun)
+        if old := done & older_ids(out):
+            tell(f"{len(old)} of {len(done)} finished cases are of an older model; {HOW_TO_RENEW}")
         waiting = {case_id: case for case_id, case in cases.items() if case_id not in done}
         chosen = simulate or real_simulate() if waiting else None
         with interruptible(stop):
@@ -59,7 +61,7 @@ def run_sweep(
                     run(plan, chosen, keep, stop, scheduler)
     statuses = read_statuses(out)
     converged = sum(statuses.get(case_id) == Status.CONVERGED for case_id in cases)
-    kept = converged if retry_failed else len(cases.keys() & statuses.keys())
+    kept = len(cases.keys() & finished_ids(out, rerun))
     if stop.asked and kept < len(cases):
         line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
         raise Interrupted(f"{line}, and the same command runs the rest")

@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 
-from sweep.running.dask_graph import Sink
-from sweep.running.batches import Plan
-from sweep.running.progress import Progress
 from sweep.result import Result
+from sweep.running.batches import Plan
+from sweep.running.dask_graph import Sink
+from sweep.running.progress import Progress
 from sweep.store.read import StoreError
 from sweep.store.write import Writer
 

@@ -3,9 +3,9 @@
 import numpy as np
 
 from kernels.terms import bend, fold
+from sweep.config.case import Case
 from sweep.scene.material import law_in_bending
 from sweep.scene.mesh import Floats, Ints, Mesh
-from sweep.config.case import Case
 
 
 def _directions(mesh: Mesh) -> Floats:

@@ -2,21 +2,21 @@
 
 import numpy as np
 
-from kernels.terms import contact, position_based as project, contact_near_joints as vicinity
-from kernels.linear import analysis as pattern
-from sweep.scene.coordinates import BONDED, Layout
-from sweep.scene.mesh import Floats, Ints, Mesh
+from kernels.linear import analysis
+from kernels.terms import contact, contact_near_joints, position_based
 from sweep.config.case import Case
+from sweep.scene.coordinates import BONDED, Numbering
+from sweep.scene.mesh import Floats, Ints, Mesh
 
 
 def _no_special_pairs() -> tuple[Ints, Ints, Floats, Floats, Floats]:
-    """What `vicinity.special_pairs` returns where walls never touch."""
+    """What `contact_near_joints.special_pairs` returns where walls never touch."""
     start, node = np.zeros(1, np.int64), np.empty(0, np.int64)
     return start, node, np.empty(0), np.empty(0), np.empty((0, 2))
 
 
 def contact_of(
-    mesh: Mesh, layout: Layout, stiffness: float, case: Case, by_force: bool
+    mesh: Mesh, numbering: Numbering, stiffness: float, case: Case, by_force: bool
 ) -> contact.Contact:
     """Contact of walls unless the model is none, and of nodes with loose platens.
 
@@ -28,7 +28,7 @@ def contact_of(
     edges, thickness = mesh.edges[: None if walls else 0], mesh.thickness[: None if walls else 0]
     special = _no_special_pairs()
     if walls:
-        special = vicinity.special_pairs(
+        special = contact_near_joints.special_pairs(
             mesh.points.ravel(), edges, mesh.rest_length, node_thickness, thickness, tributary
         )
     return contact.Contact(
@@ -38,30 +38,30 @@ def contact_of(
         tributary=tributary,
         node_thickness=node_thickness,
         edge_thickness=thickness,
-        subtract=vicinity.owners(layout.n_nodes, edges),
+        subtract=contact_near_joints.owners(numbering.n_nodes, edges),
         special_start=special[0],
         special_node=special[1],
         special_weight=special[2],
         special_distance=special[3],
         special_subtract=special[4],
-        plate_nodes=_loose(layout, case) if acts else np.empty(0, np.int64),
-        low=layout.low,
-        high=layout.high,
+        plate_nodes=_loose(numbering, case) if acts else np.empty(0, np.int64),
+        low=numbering.low,
+        high=numbering.high,
     )
 
 
-def _loose(layout: Layout, case: Case) -> Ints:
+def _loose(numbering: Numbering, case: Case) -> Ints:
     """Nodes that a platen can meet: all of them; those that are not glued to it, if walls touch."""
     bonded = case.loading.platen in BONDED
-    loose = np.full(layout.n_nodes, bonded and case.contact.model != "none")
-    loose[layout.bottom] = loose[layout.top] = False
+    loose = np.full(numbering.n_nodes, bonded and case.contact.model != "none")
+    loose[numbering.bottom] = loose[numbering.top] = False
     return np.flatnonzero(loose | (case.loading.platen == "contact"))
 
 
 def projection_of(
-    mesh: Mesh, layout: Layout, solved: pattern.Layout, masses: Floats, case: Case
-) -> project.Projection:
+    mesh: Mesh, numbering: Numbering, layout: analysis.Layout, masses: Floats, case: Case
+) -> position_based.Projection:
     """Contact by position: what moves on its own gives way, by its mass."""
-    own = (solved.leader == np.arange(layout.size)) & (masses > 0.0)
+    own = (layout.leader == np.arange(numbering.size)) & (masses > 0.0)
     ease = np.divide(1.0, masses, out=np.zeros_like(masses), where=own)
-    return project.Projection(contact_of(mesh, layout, 0.0, case, by_force=False), ease)
+    return position_based.Projection(contact_of(mesh, numbering, 0.0, case, by_force=False), ease)

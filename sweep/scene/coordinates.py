@@ -14,7 +14,7 @@ BONDED = ("glued", "sliding")  # platens that hold the outer rows, the upper one
 
 
 @dataclass(frozen=True)
-class Layout:
+class Numbering:
     """Where the coordinates are. bottom, top: nodes of the outer rows."""
 
     n_nodes: int
@@ -43,12 +43,12 @@ class Layout:
         return self.high + 1
 
 
-def held(layout: Layout, platen: str | None) -> Ints:
+def held(numbering: Numbering, platen: str | None) -> Ints:
     """Coordinates that never move: those of clamped rows, and the lower platen."""
-    bottom, top = layout.bottom, layout.top
-    clamped = [2 * bottom, 2 * bottom + 1, layout.rotation[bottom[bottom < layout.n_joints]]]
-    turning = layout.rotation[top[top < layout.n_joints]]
-    low, high = np.array([layout.low]), np.array([layout.high])
+    bottom, top = numbering.bottom, numbering.top
+    clamped = [2 * bottom, 2 * bottom + 1, numbering.rotation[bottom[bottom < numbering.n_joints]]]
+    turning = numbering.rotation[top[top < numbering.n_joints]]
+    low, high = np.array([numbering.low]), np.array([numbering.high])
     if platen == "contact":
         return low
     if platen in BONDED:
@@ -57,9 +57,9 @@ def held(layout: Layout, platen: str | None) -> Ints:
     return np.concatenate([*clamped, low, high])
 
 
-def leaders(layout: Layout, held: Ints, tied: Ints) -> Ints:
+def leaders(numbering: Numbering, held: Ints, tied: Ints) -> Ints:
     """What each coordinate follows, (size,): itself, the upper platen where tied, -1 if held."""
-    leader = np.arange(layout.size)
-    leader[tied] = layout.high
+    leader = np.arange(numbering.size)
+    leader[tied] = numbering.high
     leader[held] = -1
     return leader

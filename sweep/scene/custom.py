@@ -9,29 +9,25 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from kernels.linear import analysis
 from kernels.terms import bend, contact, spring
-from kernels.linear import analysis as pattern
-from kernels.planar.potential import Terms
-from sweep.config.structure import Structure
-from sweep.scene.bending import bends, build_bend, build_fold
-from sweep.design.network import Network, mass
-from sweep.scene.coordinates import Layout
-from sweep.scene.material import law_in_stretch
-from sweep.scene.mesh import Floats, Ints, Mesh, split_walls
 from sweep.config.case import Case, given
-from sweep.scene.terms import (
-    Scene,
-    damp_of,
-    force_scale,
-    friction_of,
-    masses_of,
-    plane_factors,
-    solved_by,
-    stretch_of,
-    unknowns_of,
-    walls_of,
-)
+from sweep.config.structure import Structure
+from sweep.design.network import Network, mass
+from sweep.scene.bending import bends, build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
+from sweep.scene.coordinates import Numbering
+from sweep.scene.mesh import Floats, Ints, Mesh, split_walls
+from sweep.scene.terms import (
+    Parts,
+    Scene,
+    assemble,
+    contact_stiffness,
+    force_scale,
+    masses_of,
+    rigidity_of,
+    solved_by,
+)
 
 MM = 1e-3
 SUDDEN = 5e-3  # of t^2 / size: a slender column shortens by 0.8 t^2 / L and buckles
@@ -40,8 +36,8 @@ WAYS = ("x", "y", "rotation")
 
 
 @dataclass(frozen=True)
-class Ground(Layout):
-    """Layout with a floor, a ceiling out of reach, and the lead as the last coordinate."""
+class Ground(Numbering):
+    """Numbering with a floor, a ceiling out of reach, and the lead as the last coordinate."""
 
     @property
     def ceiling(self) -> int:
@@ -72,51 +68,43 @@ def network_of(structure: Structure) -> Network:
 
 def build_structure(case: Case) -> Scene:
     """Build the arrays of a ``case`` with a structure of its own."""
-    of, material = given(case.lattice.structure), case.material
+    of = given(case.lattice.structure)
     network = network_of(of)
     mesh = split_walls(network, np.array(of.pieces), 0.0)
     none = np.empty(0, np.int64)
-    layout = Ground(len(mesh.points), mesh.n_joints, none, none)
-    in_stretch, in_bend = plane_factors(material)
-    depth = case.lattice.depth
-    rigidity = in_bend * material.modulus * depth * mesh.thickness**3 / 12
+    numbering = Ground(len(mesh.points), mesh.n_joints, none, none)
+    rigidity = rigidity_of(mesh, case)
     bending = build_bend(mesh, rigidity, case)
-    touching = in_stretch * material.modulus * depth * (case.contact.stiffness or 0.0)
-    leader = _leaders(of, layout)
+    leader = _leaders(of, numbering)
     if not bends(case):
-        leader[layout.rotation] = -1
-    follows, travel = _led(of, solved_by(mesh, layout, leader, case), layout, mesh)
-    touch = contact_of(mesh, layout, touching, case, by_force=True)
-    printed = mass(network, depth, material.density)
-    masses = _masses(of, masses_of(mesh, layout, printed, case.loading))
-    terms = Terms(
-        law=law_in_stretch(material, in_stretch),
-        walls=walls_of(mesh, layout),
-        stretch=stretch_of(mesh, case),
+        leader[numbering.rotation] = -1
+    layout, travel = _led(of, solved_by(mesh, numbering, leader, case), numbering, mesh)
+    touch = contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True)
+    printed = mass(network, case.lattice.depth, case.material.density)
+    masses = _masses(of, masses_of(mesh, numbering, printed, case.loading))
+    parts = Parts(
+        layout=layout,
         bend=_unpinned(bending, mesh, of.pins),
         fold=build_fold(mesh, bending, case),
-        spring=_springs(of),
-        contact=_on_floor(touch, of, layout),
-        friction=friction_of(case),
-        damp=damp_of(case),
+        contact=_on_floor(touch, of, numbering),
+        project=projection_of(mesh, numbering, layout, masses, case),
         mass=masses,
-        load=_load(of, layout, masses),
-        layout=follows,
-        project=projection_of(mesh, layout, follows, masses, case),
+        load=_load(of, numbering, masses),
+        spring=_springs(of),
     )
+    terms = assemble(case, mesh, numbering, parts)
     size = np.hypot(*np.ptp(network.points, axis=0))
     span = max(MM * _distances(of, of.walls).max(), 0.25 * size)
-    unknowns = unknowns_of(mesh, layout, follows, case)
-    close = min(unknowns.close, SUDDEN * mesh.thickness.min() ** 2 / size)
-    unknowns = unknowns._replace(cap=0.25 * span, close=close)
+    close = min(terms.coordinates.close, SUDDEN * mesh.thickness.min() ** 2 / size)
+    coordinates = terms.coordinates._replace(cap=0.25 * span, close=close)
     return Scene(
-        mesh, network, terms, unknowns, _rest(of, mesh, layout),
-        bottom=np.array([layout.low]),
+        mesh, network, terms._replace(coordinates=coordinates), _rest(of, mesh, numbering),
+        bottom=np.array([numbering.low]),
         top=none,
-        base=2 * np.arange(layout.n_nodes) + 1,
+        base=2 * np.arange(numbering.n_nodes) + 1,
         force_scale=force_scale(network, rigidity),
-        velocity=_velocity(of, mesh, follows),
-        probes=np.array([layout.coordinate(n, way) for n in of.probes for way in WAYS], np.int64),
+        velocity=_velocity(of, mesh, layout),
+        probes=_probed(of, numbering),
         travel=travel,
     )  # fmt: skip
 
@@ -127,42 +115,42 @@ def _distances(of: Structure, pairs: Iterable[tuple[int, int]]) -> Floats:
     return np.asarray(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
 
 
-def _leaders(of: Structure, layout: Ground) -> Ints:
+def _leaders(of: Structure, numbering: Ground) -> Ints:
     """What each coordinate follows: itself, the lead, -1 where held or, a pin, without rotation."""
-    leader = np.arange(layout.size)
-    leader[[layout.low, layout.ceiling]] = -1
+    leader = np.arange(numbering.size)
+    leader[[numbering.low, numbering.ceiling]] = -1
     for node, way in of.held:
-        leader[layout.coordinate(node, way)] = -1
+        leader[numbering.coordinate(node, way)] = -1
     for node in of.pins:
-        leader[layout.coordinate(node, "rotation")] = -1
+        leader[numbering.coordinate(node, "rotation")] = -1
     for part in of.prescribed:
-        leader[layout.coordinate(part.node, part.direction)] = layout.high
+        leader[numbering.coordinate(part.node, part.direction)] = numbering.high
     if not of.prescribed:
-        leader[layout.high] = -1
+        leader[numbering.high] = -1
     return leader
 
 
 def _led(
-    of: Structure, solved: pattern.Layout, layout: Ground, mesh: Mesh
-) -> tuple[pattern.Layout, float]:
+    of: Structure, layout: analysis.Layout, numbering: Ground, mesh: Mesh
+) -> tuple[analysis.Layout, float]:
     """The layout with what is led, and the way of the lead, m: the largest prescribed move."""
     moves = {
-        layout.coordinate(part.node, part.direction): MM * given(part.displacement_mm)
+        numbering.coordinate(part.node, part.direction): MM * given(part.displacement_mm)
         if part.direction != "rotation"
         else given(part.angle_rad)
         for part in of.prescribed
     }
     lever = mesh.rest_length.mean()
-    ways = [abs(move) * (lever if c >= 2 * layout.n_nodes else 1.0) for c, move in moves.items()]
+    ways = [abs(move) * (lever if c >= 2 * numbering.n_nodes else 1.0) for c, move in moves.items()]
     travel = max(ways, default=0.0)
     if travel == 0.0:  # all are held where they are
-        leader = solved.leader.copy()
-        leader[[*moves, layout.high]] = -1
-        return solved._replace(leader=leader, driven=-1), 0.0
-    ratio = solved.ratio.copy()
+        leader = layout.leader.copy()
+        leader[[*moves, numbering.high]] = -1
+        return layout._replace(leader=leader, driven=-1), 0.0
+    ratio = layout.ratio.copy()
     for c, move in moves.items():
         ratio[c] = move / travel
-    return solved._replace(ratio=ratio, driven=layout.high), travel
+    return layout._replace(ratio=ratio, driven=numbering.high), travel
 
 
 def _unpinned(bending: bend.Bend, mesh: Mesh, pins: tuple[int, ...]) -> bend.Bend:
@@ -187,10 +175,10 @@ def _springs(of: Structure) -> spring.Spring:
     )
 
 
-def _on_floor(touch: contact.Contact, of: Structure, layout: Ground) -> contact.Contact:
+def _on_floor(touch: contact.Contact, of: Structure, numbering: Ground) -> contact.Contact:
     """Contact of all nodes with the floor, where there is one."""
-    nodes = np.arange(layout.n_nodes if of.floor_y_mm is not None else 0)
-    return touch._replace(plate_nodes=nodes, low=layout.low, high=layout.ceiling)
+    nodes = np.arange(numbering.n_nodes if of.floor_y_mm is not None else 0)
+    return touch._replace(plate_nodes=nodes, low=numbering.low, high=numbering.ceiling)
 
 
 def _masses(of: Structure, masses: Floats) -> Floats:
@@ -200,32 +188,38 @@ def _masses(of: Structure, masses: Floats) -> Floats:
     return masses
 
 
-def _load(of: Structure, layout: Ground, masses: Floats) -> Floats:
+def _load(of: Structure, numbering: Ground, masses: Floats) -> Floats:
     """Weight, forces (N) and moments (N m) by coordinate."""
-    load = np.zeros(layout.size)
+    load = np.zeros(numbering.size)
     for axis, gravity in enumerate(of.gravity_mm_s2):
-        nodes = slice(axis, 2 * layout.n_nodes, 2)
+        nodes = slice(axis, 2 * numbering.n_nodes, 2)
         load[nodes] = MM * gravity * masses[nodes]
     for part in of.loads:
         load[[2 * part.node, 2 * part.node + 1]] += part.force_N
-        load[layout.coordinate(part.node, "rotation")] += MM * part.moment_Nmm
+        load[numbering.coordinate(part.node, "rotation")] += MM * part.moment_Nmm
     return load
 
 
-def _rest(of: Structure, mesh: Mesh, layout: Ground) -> Floats:
+def _rest(of: Structure, mesh: Mesh, numbering: Ground) -> Floats:
     floor = MM * (of.floor_y_mm or 0.0)
     far = mesh.points[:, 1].max() + FAR * np.ptp(mesh.points)
-    return np.concatenate([mesh.points.ravel(), np.zeros(layout.n_joints), [floor, far, 0.0]])
+    return np.concatenate([mesh.points.ravel(), np.zeros(numbering.n_joints), [floor, far, 0.0]])
 
 
-def _velocity(of: Structure, mesh: Mesh, solved: pattern.Layout) -> Floats:
+def _probed(of: Structure, numbering: Ground) -> Ints:
+    """Coordinates of the probes, three a node."""
+    probed = [numbering.coordinate(node, way) for node in of.probes for way in WAYS]
+    return np.array(probed, np.int64)
+
+
+def _velocity(of: Structure, mesh: Mesh, layout: analysis.Layout) -> Floats:
     """Velocity at the start by coordinate, linear along walls; zero where held or led."""
     nodes = MM * np.array(of.velocity_mm_s)
     network = Network(
         nodes, np.array(of.walls), np.zeros(len(of.walls)), *2 * [np.empty(0, np.int64)]
     )
     moving = split_walls(network, np.array(of.pieces), 0.0).points.ravel()
-    velocity = np.zeros(solved.leader.size)
-    free = solved.leader[: moving.size] == np.arange(moving.size)
+    velocity = np.zeros(layout.leader.size)
+    free = layout.leader[: moving.size] == np.arange(moving.size)
     velocity[: moving.size] = np.where(free, moving, 0.0)
     return velocity

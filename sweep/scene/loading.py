@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.solve import march, integrators as scheme
+from kernels.solve import integrators, march
 from kernels.solve.residual import Tolerance
 from sweep.config.case import Case, given
 from sweep.scene.terms import Scene, time_step
@@ -15,11 +15,11 @@ ROUND_OFF = 4e-15
 WHOLE = 1e-6  # of a step: what a number of steps may be off a whole one
 GRIP = 1e3  # times the tolerance of forces: that of friction, which lags
 SCHEMES = {
-    "backward_euler": scheme.BACKWARD_EULER,
-    "bdf2": scheme.BDF2,
-    "newmark": scheme.TRAPEZOIDAL,
-    "static": scheme.BACKWARD_EULER,  # of infinite length
-    "arc_length": scheme.BACKWARD_EULER,
+    "backward_euler": integrators.BACKWARD_EULER,
+    "bdf2": integrators.BDF2,
+    "newmark": integrators.TRAPEZOIDAL,
+    "static": integrators.BACKWARD_EULER,  # without inertia
+    "arc_length": integrators.BACKWARD_EULER,
 }
 
 
@@ -42,20 +42,19 @@ def stages(case: Case, scene: Scene) -> list[Phase]:
 
 def _stages(case: Case, scene: Scene) -> list[Phase]:
     loading, solver = case.loading, case.solver
-    pace = time_step(case)
-    dt = np.inf if loading.quasi_static else pace
+    pace, dynamic = time_step(case), not loading.quasi_static
     if loading.mode == "custom":
         start, travel = 0.0 if loading.quasi_static else 1.0, scene.travel
         if solver.load_steps is not None:
-            stage = march.Stage(solver.load_steps, dt, pace, start, 1.0, 0.0, travel)
+            stage = march.Stage(solver.load_steps, pace, dynamic, start, 1.0, 0.0, travel)
         else:
             stage = _lasting(given(loading.duration), pace, (start, 1.0), (0.0, travel))
         return [Phase("loading", stage)]
     rest = float(scene.x_rest[-1])
     if loading.mode == "displacement":
         low, steps = rest - given(loading.stroke), given(solver.load_steps)
-        down = march.Stage(steps, dt, pace, 0.0, 0.0, rest, low)
-        up = march.Stage(steps, dt, pace, 0.0, 0.0, low, rest)
+        down = march.Stage(steps, pace, dynamic, 0.0, 0.0, rest, low)
+        up = march.Stage(steps, pace, dynamic, 0.0, 0.0, low, rest)
         return [Phase("loading", down)] + ([Phase("unloading", up)] if loading.unload else [])
     still, release, duration = (rest, rest), loading.release_time, given(loading.duration)
     if loading.mode == "impact":
@@ -72,8 +71,8 @@ def _lasting(
 ) -> march.Stage:
     """A stage of so much time, in equal steps of ``pace`` or, so that they fill it, a bit less."""
     steps = max(ceil(time / pace - WHOLE), 1)
-    dt = pace if abs(steps * pace / time - 1.0) < WHOLE else time / steps
-    return march.Stage(steps, dt, dt, *factor, *driven)
+    duration = pace if abs(steps * pace / time - 1.0) < WHOLE else time / steps
+    return march.Stage(steps, duration, True, *factor, *driven)
 
 
 def _flight(flight: march.Stage) -> list[Phase]:
@@ -83,14 +82,16 @@ def _flight(flight: march.Stage) -> list[Phase]:
     return [Phase("struck", flight._replace(steps=n)) for n in parts]
 
 
-def tolerances(case: Case, scene: Scene, dt: float) -> Tolerance:
+def tolerances(case: Case, scene: Scene, stage: march.Stage) -> Tolerance:
     """Scale ``solver.tolerance`` to forces and energies, not below what round-off allows."""
-    terms = scene.terms
-    force = max(scene.force_scale, np.abs(terms.load * scene.unknowns.lever).max(initial=0.0))
+    terms, coordinates = scene.terms, scene.terms.coordinates
+    force = max(scene.force_scale, np.abs(coordinates.load * coordinates.lever).max(initial=0.0))
     size = np.ptp(scene.mesh.points)
     rounded = terms.law.modulus * terms.stretch.area.max() * size / terms.stretch.l0.min()
-    rounded *= 1.0 + (terms.damp.beta_k + terms.damp.relaxation) / dt
-    rounded += terms.mass.max() * size / dt * (1.0 / dt + terms.damp.alpha_m)
+    if stage.dynamic:
+        dt = stage.duration
+        rounded *= 1.0 + (terms.damp.beta_k + terms.damp.relaxation) / dt
+        rounded += coordinates.mass.max() * size / dt * (1.0 / dt + terms.damp.alpha_m)
     allowed = max(case.solver.tolerance * force, ROUND_OFF * rounded)
     return Tolerance(
         force=allowed,

@@ -21,7 +21,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from kernels.terms.elastic import Law, uniaxial
+from kernels.terms.elastic import ElasticCurve, MomentCurve, respond
+from kernels.terms.law import Memory
 from sweep.config.case import Material
 from sweep.config.material_file import TOE, stress_at
 
@@ -62,15 +63,16 @@ def stress_law(material: Material) -> StressLaw:
 
 
 @lru_cache(maxsize=64)
-def law_in_stretch(material: Material, factor: float) -> Law:
+def law_in_stretch(material: Material, factor: float) -> ElasticCurve:
     """What kernels need of that law, all stresses times ``factor``."""
     return as_law(stress_law(material), factor, material.modulus)
 
 
 @lru_cache(maxsize=64)
-def law_in_bending(material: Material) -> Law:
+def law_in_bending(material: Material) -> MomentCurve:
     """What kernels need of `section_law`, over the modulus."""
-    return as_law(section_law(material), 1.0 / material.modulus, material.modulus)
+    law = as_law(section_law(material), 1.0 / material.modulus, material.modulus)
+    return MomentCurve(*law)
 
 
 @lru_cache(maxsize=64)
@@ -84,7 +86,8 @@ def section_law(material: Material) -> StressLaw:
         return linear_law(material.modulus)
     knots, values, slopes = _knots(material.curve_strain, material.curve_stress)
     curve = as_law(_spline(knots, values, slopes), 1.0, material.modulus)
-    odd = np.vectorize(lambda u: uniaxial(curve, u)[1] - uniaxial(curve, -u)[1])
+    none = Memory(np.empty((0, 0)), 0.0)
+    odd = np.vectorize(lambda u: respond(curve, u, none, 0)[1] - respond(curve, -u, none, 0)[1])
     end = -COMPRESSION[0]
     even = [np.linspace(0.0, reach, SURFACE_STEPS + 1) for reach in (TOE, end)]
     s = np.unique(np.concatenate([np.abs(knots), *even]).round(12))
@@ -94,11 +97,11 @@ def section_law(material: Material) -> StressLaw:
     gained = 0.5 * np.diff(s) * (odd(u) * u @ weight)
     moment = np.cumsum(gained) / s[1:] ** 2
     slope = (odd(s[1:]) - 2.0 * moment) / s[1:]
-    start = uniaxial(curve, 0.0)[2]
+    start = respond(curve, 0.0, none, 0)[2]
     return _spline(s, 1.5 * np.r_[0.0, moment], np.r_[start, 1.5 * slope])
 
 
-def as_law(curve: StressLaw, factor: float, modulus: float) -> Law:
+def as_law(curve: StressLaw, factor: float, modulus: float) -> ElasticCurve:
     """A law with its integral for kernels, all stresses times ``factor``."""
     knots, coefficients = curve.knots, factor * np.ascontiguousarray(curve.coefficients)
     powers = np.arange(1, 5)
@@ -106,7 +109,7 @@ def as_law(curve: StressLaw, factor: float, modulus: float) -> Law:
     energy = np.concatenate([[0.0], np.cumsum(gained)])
     at = np.clip(np.searchsorted(knots, 0.0, side="right") - 1, 0, len(coefficients) - 1)
     energy -= energy[at] + np.sum(coefficients[at] / powers * (-knots[at]) ** powers)
-    return Law(knots, coefficients, energy, factor * modulus)
+    return ElasticCurve(knots, coefficients, energy, factor * modulus)
 
 
 def _spline(knots: Floats, values: Floats, slopes: Floats) -> StressLaw:

@@ -6,8 +6,9 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from sweep.design.network import Network, build_network
 from sweep.config.case import Lattice
+from sweep.design.lattice import build_network
+from sweep.design.network import Network
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -99,7 +100,7 @@ class Mesh:
 def build_mesh(lattice: Lattice) -> Mesh:
     """The walls of a lattice in elements: often those of the case before, too."""
     shift = lattice.imperfection * lattice.wall_thickness
-    return split_walls(build_network(lattice), lattice.nodes_per_wall + 1, shift)
+    return split_walls(build_network(lattice.geometry), lattice.nodes_per_wall + 1, shift)
 
 
 def split_walls(network: Network, pieces: int | Ints, imperfection: float) -> Mesh:

@@ -8,32 +8,28 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from kernels.terms import contact
-from kernels.planar.potential import Terms
+from sweep.config.case import Case, Lattice
+from sweep.design.lattice import build_network
+from sweep.design.network import mass
 from sweep.design.period import Endless
 from sweep.scene.bending import bends, build_bend, build_fold
-from sweep.design.network import build_network, mass
-from sweep.scene.coordinates import Layout
-from sweep.scene.material import law_in_stretch
-from sweep.scene.mesh import Floats, Ints, Mesh, split_walls
-from sweep.config.case import Case, Lattice
-from sweep.scene.terms import (
-    NO_SPRINGS,
-    Scene,
-    damp_of,
-    force_scale,
-    friction_of,
-    plane_factors,
-    solved_by,
-    stretch_of,
-    unknowns_of,
-    walls_of,
-)
 from sweep.scene.contact import contact_of, projection_of
+from sweep.scene.coordinates import Numbering
+from sweep.scene.mesh import Floats, Ints, Mesh, split_walls
+from sweep.scene.terms import (
+    Parts,
+    Scene,
+    assemble,
+    contact_stiffness,
+    force_scale,
+    rigidity_of,
+    solved_by,
+)
 
 
 @dataclass(frozen=True)
-class Repeated(Layout):
-    """Layout of a period with images. origin (n,): a node, or of which it is an image; shift (n,
+class Repeated(Numbering):
+    """Numbering of a period with images. origin (n,): a node, or of which it is an image; shift (n,
     2): how many periods away. anchor: a node that is held, as the lattice is nowhere else.
     """
 
@@ -54,10 +50,10 @@ class Repeated(Layout):
 
 def build_periodic(case: Case) -> Scene:
     """Build the arrays of an endless lattice."""
-    lattice, material, depth = case.lattice, case.material, case.lattice.depth
-    network = build_network(lattice)
+    lattice = case.lattice
+    network = build_network(lattice.geometry)
     assert isinstance(network, Endless)
-    whole, layout = _repeated(network, lattice)
+    whole, numbering = _repeated(network, lattice)
     elements = slice(network.own * (lattice.nodes_per_wall + 1))
     mesh = replace(
         whole,
@@ -66,48 +62,43 @@ def build_periodic(case: Case) -> Scene:
         pieces=whole.pieces[elements],
         thickness=whole.thickness[elements],
     )
-    in_stretch, in_bend = plane_factors(material)
-    rigidity = in_bend * material.modulus * depth * whole.thickness**3 / 12
+    rigidity = rigidity_of(whole, case)
     bending, around = build_bend(mesh, rigidity[elements], case), build_bend(whole, rigidity, case)
     fold = build_fold(whole, around, case)
-    inside = layout.own[fold.nodes[:, 1]]
-    leader = _leaders(layout, case)
-    follows = solved_by(mesh, layout, leader, case)._replace(
-        images=_images(layout, leader), origin=layout.origin, wall_of=_wall_of(mesh, layout)
+    inside = numbering.own[fold.nodes[:, 1]]
+    leader = _leaders(numbering, case)
+    layout = solved_by(mesh, numbering, leader, case)._replace(
+        images=_images(numbering, leader),
+        origin=numbering.origin,
+        wall_of=_wall_of(mesh, numbering),
     )
-    touching = in_stretch * material.modulus * depth * (case.contact.stiffness or 0.0)
-    masses = _masses(mesh, layout, mass(network, depth, material.density))
-    terms = Terms(
-        law=law_in_stretch(material, in_stretch),
-        walls=walls_of(mesh, layout),
-        stretch=stretch_of(mesh, case),
+    touch = contact_of(whole, numbering, contact_stiffness(case), case, by_force=True)
+    masses = _masses(mesh, numbering, mass(network, lattice.depth, case.material.density))
+    parts = Parts(
+        layout=layout,
         bend=bending,
         fold=fold._replace(
             nodes=fold.nodes[inside], limit=fold.limit[inside], stiffness=fold.stiffness[inside]
         ),
-        spring=NO_SPRINGS,
-        contact=_seen(contact_of(whole, layout, touching, case, by_force=True), layout),
-        friction=friction_of(case),
-        damp=damp_of(case),
+        contact=_seen(touch, numbering),
+        project=projection_of(whole, numbering, layout, masses, case),
         mass=masses,
-        load=np.zeros(layout.size),
-        layout=follows,
-        project=projection_of(whole, layout, follows, masses, case),
+        load=np.zeros(numbering.size),
     )
     return Scene(
-        mesh, network, terms, unknowns_of(mesh, layout, follows, case),
-        np.concatenate([whole.points.ravel(), np.zeros(layout.n_joints), network.period]),
+        mesh, network, assemble(case, mesh, numbering, parts),
+        np.concatenate([whole.points.ravel(), np.zeros(numbering.n_joints), network.period]),
         bottom=np.empty(0, np.int64),
-        top=np.array([layout.high]),
-        base=np.array([2 * layout.anchor + 1]),
+        top=np.array([numbering.high]),
+        base=np.array([2 * numbering.anchor + 1]),
         force_scale=force_scale(network, rigidity),
-        velocity=np.zeros(layout.size),
+        velocity=np.zeros(numbering.size),
         around=whole.edges[elements.stop :],
     )  # fmt: skip
 
 
 def _repeated(network: Endless, lattice: Lattice) -> tuple[Mesh, Repeated]:
-    """Mesh of all walls, those of the period first, and its layout.
+    """Mesh of all walls, those of the period first, and its numbering.
 
     The stress-free shift in x is ``imperfection`` x wall thickness x cos(2 pi y / height).
     """
@@ -121,8 +112,8 @@ def _repeated(network: Endless, lattice: Lattice) -> tuple[Mesh, Repeated]:
     points = mesh.points[origin]
     points[:, 0] += imperfection(lattice, points[:, 1])
     rows, anchor = np.empty(0, np.int64), int(network.bottom[0])
-    layout = Repeated(len(points), mesh.n_joints, rows, rows, origin, shift, anchor)
-    return replace(mesh, points=points + shift * network.period), layout
+    numbering = Repeated(len(points), mesh.n_joints, rows, rows, origin, shift, anchor)
+    return replace(mesh, points=points + shift * network.period), numbering
 
 
 def imperfection(lattice: Lattice, y: Floats) -> Floats:
@@ -131,48 +122,48 @@ def imperfection(lattice: Lattice, y: Floats) -> Floats:
     return np.asarray(lattice.imperfection * lattice.wall_thickness * wave)
 
 
-def _leaders(layout: Repeated, case: Case) -> Ints:
+def _leaders(numbering: Repeated, case: Case) -> Ints:
     """What each coordinate follows: itself, or -1 where held."""
-    leader = np.arange(layout.size)
-    leader[[2 * layout.anchor, 2 * layout.anchor + 1]] = -1
-    joints = np.arange(layout.n_joints)
-    leader[2 * layout.n_nodes + joints[~layout.own[joints] | (not bends(case))]] = -1
+    leader = np.arange(numbering.size)
+    leader[[2 * numbering.anchor, 2 * numbering.anchor + 1]] = -1
+    joints = np.arange(numbering.n_joints)
+    leader[2 * numbering.n_nodes + joints[~numbering.own[joints] | (not bends(case))]] = -1
     return leader
 
 
-def _images(layout: Repeated, leader: Ints) -> Ints:
+def _images(numbering: Repeated, leader: Ints) -> Ints:
     """What images of nodes follow: each its node and, as many times as it is away, the period.
 
-    (k, 4) as in `kernels.image`.
+    (k, 4) as in `kernels.linear.periodic_images`.
     """
-    nodes = np.flatnonzero(~layout.own)
+    nodes = np.flatnonzero(~numbering.own)
     rows = []
-    for axis, size in enumerate((layout.low, layout.high)):
-        of = 2 * layout.origin[nodes] + axis
+    for axis, size in enumerate((numbering.low, numbering.high)):
+        of = 2 * numbering.origin[nodes] + axis
         of, mean = np.where(leader[of] < 0, -1, of), np.full(len(nodes), size)
-        rows.append(np.column_stack([2 * nodes + axis, of, mean, layout.shift[nodes, axis]]))
+        rows.append(np.column_stack([2 * nodes + axis, of, mean, numbering.shift[nodes, axis]]))
     return np.concatenate(rows)
 
 
-def _wall_of(mesh: Mesh, layout: Repeated) -> Ints:
+def _wall_of(mesh: Mesh, numbering: Repeated) -> Ints:
     """Wall of every node inside one, or of its image, (n,); -1 for joints."""
-    wall_of = np.full(layout.n_nodes, -1)
+    wall_of = np.full(numbering.n_nodes, -1)
     before, node, _ = mesh.inner.T
     wall_of[node] = mesh.wall[before]
-    return wall_of[layout.origin]
+    return wall_of[numbering.origin]
 
 
-def _masses(mesh: Mesh, layout: Repeated, total: float) -> Floats:
+def _masses(mesh: Mesh, numbering: Repeated, total: float) -> Floats:
     """Lumped mass of each coordinate, kg: images have none."""
-    share = np.bincount(layout.origin, mesh.node_area, layout.n_nodes)
-    masses = np.zeros(layout.size)
-    masses[: 2 * layout.n_nodes] = np.repeat(total * share / share.sum(), 2)
+    share = np.bincount(numbering.origin, mesh.node_area, numbering.n_nodes)
+    masses = np.zeros(numbering.size)
+    masses[: 2 * numbering.n_nodes] = np.repeat(total * share / share.sum(), 2)
     return masses
 
 
-def _seen(touch: contact.Contact, layout: Repeated) -> contact.Contact:
+def _seen(touch: contact.Contact, numbering: Repeated) -> contact.Contact:
     """Contact as the nodes of the period see it: images have no length, each pair counts once."""
     return touch._replace(
-        tributary=np.where(layout.own, touch.tributary, 0.0),
-        special_weight=np.where(layout.own[touch.special_node], touch.special_weight, 0.0),
+        tributary=np.where(numbering.own, touch.tributary, 0.0),
+        special_weight=np.where(numbering.own[touch.special_node], touch.special_weight, 0.0),
     )

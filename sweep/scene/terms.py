@@ -1,31 +1,35 @@
-"""The arrays of one case: every term of the energy, the unknowns and how they are driven.
+"""The data of every term of the energy for a case, put together for scenes of all kinds.
 
 A term that the scene lacks is an empty array: it costs nothing.
 """
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
-from kernels.solve import residual as balance
-from kernels.terms import elements as chain, damping as damp, friction, spring, stretch
-from kernels.linear import periodic_images as image, analysis as pattern
-from kernels.planar.potential import Terms
-from sweep.scene.bending import bends, build_bend, build_fold
-from sweep.design.network import Network, build_network, mass
-from sweep.scene.coordinates import BONDED, Layout, held, leaders
-from sweep.scene.material import law_in_stretch
-from sweep.scene.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
+from kernels.linear import analysis, periodic_images
+from kernels.planar.problem import PlanarScene
+from kernels.solve.problem import FREE, HELD, LED, TIED, Coordinates
+from kernels.terms import damping, elements, friction, stretch
+from kernels.terms.bend import Bend
+from kernels.terms.contact import Contact
+from kernels.terms.fold import Fold
+from kernels.terms.position_based import Projection
+from kernels.terms.spring import Spring
 from sweep.config.case import Case, Loading, Material, given
-from sweep.scene.contact import contact_of, projection_of
+from sweep.design.network import Network
+from sweep.scene.coordinates import Numbering
+from sweep.scene.material import law_in_stretch
+from sweep.scene.mesh import Floats, Ints, Mesh
 
 STATIC_SLIP = 1e-3  # of the wall thickness
-NO_SPRINGS = spring.Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
+NO_SPRINGS = Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
 
 
 @dataclass(frozen=True)
 class Scene:
-    """A case as arrays. x_rest (n,): m and rad; bottom, top, base, probes: as in `trace.Output`.
+    """A case as arrays. x_rest (n,): m and rad; bottom, top, base, probes: as in `rows.Output`.
 
     velocity (n,) at the start. travel: of the driven coordinate where the case does not say, m.
     around (k, 2): elements of the copies round a period.
@@ -33,8 +37,7 @@ class Scene:
 
     mesh: Mesh
     network: Network
-    terms: Terms
-    unknowns: balance.Unknowns
+    terms: PlanarScene
     x_rest: Floats
     bottom: Ints
     top: Ints
@@ -46,6 +49,80 @@ class Scene:
     around: Ints = field(default_factory=lambda: np.empty((0, 2), np.int64))
 
 
+class Parts(NamedTuple):
+    """What a scene has of its own: its constraints, terms that depend on its kind, and by
+    coordinate mass (n,) in kg and dead load (n,) in N.
+    """
+
+    layout: analysis.Layout
+    bend: Bend
+    fold: Fold
+    contact: Contact
+    project: Projection
+    mass: Floats
+    load: Floats
+    spring: Spring = NO_SPRINGS
+
+
+def assemble(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -> PlanarScene:
+    """The data of all terms."""
+    in_stretch, _ = plane_factors(case.material)
+    area = case.lattice.depth * mesh.thickness
+    return PlanarScene(
+        coordinates=coordinates_of(case, mesh, numbering, parts),
+        law=law_in_stretch(case.material, in_stretch),
+        walls=walls_of(mesh, numbering),
+        stretch=stretch.Stretch(mesh.rest_length, area, case.solver.hessian == "exact"),
+        bend=parts.bend,
+        fold=parts.fold,
+        spring=parts.spring,
+        contact=parts.contact,
+        friction=friction_of(case),
+        damp=damp_of(case),
+        layout=parts.layout,
+        project=parts.project,
+    )
+
+
+def coordinates_of(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -> Coordinates:
+    """What the solver knows of the coordinates."""
+    lattice, layout = case.lattice, parts.layout
+    scale = np.ones(numbering.size)
+    scale[numbering.rotation] = mesh.rest_length.mean()
+    return Coordinates(
+        role=_roles(layout),
+        scale=scale,
+        lever=1.0 / scale,
+        mass=parts.mass,
+        heavy=_heavy(layout, parts.mass),
+        load=parts.load,
+        driven=layout.driven,
+        cap=0.25 * min(lattice.width, lattice.height) / max(lattice.cells_x, lattice.cells_y),
+        leap=0.1 * lattice.wall_thickness,
+        close=1e-3 * lattice.wall_thickness,
+    )
+
+
+def _roles(layout: analysis.Layout) -> Ints:
+    """How each coordinate moves, (n,)."""
+    leader = layout.leader
+    role = np.where(leader == np.arange(leader.size), FREE, TIED)
+    if layout.driven >= 0:
+        role[leader == layout.driven] = LED
+    role[leader < 0] = HELD
+    return role
+
+
+def _heavy(layout: analysis.Layout, mass: Floats) -> Floats:
+    """1 for what moves by its mass or by that of what it is tied to, else 0, (n,)."""
+    moving = np.flatnonzero(layout.leader >= 0)
+    leader = layout.leader[moving]
+    moved = np.bincount(leader, layout.ratio[moving] * mass[moving], mass.size)
+    heavy = np.zeros(mass.size)
+    heavy[moving] = (moved[leader] > 0.0) & (leader != layout.driven)
+    return heavy
+
+
 def plane_factors(material: Material) -> tuple[float, float]:
     """Y'/Y in stretching and contact, and in bending."""
     strain = 1.0 / (1.0 - material.poisson**2)
@@ -54,34 +131,41 @@ def plane_factors(material: Material) -> tuple[float, float]:
     ]
 
 
-def stretch_of(mesh: Mesh, case: Case) -> stretch.Stretch:
-    """Rest lengths and cross-sections."""
-    area = case.lattice.depth * mesh.thickness
-    return stretch.Stretch(mesh.rest_length, area, case.solver.hessian == "exact")
+def rigidity_of(mesh: Mesh, case: Case) -> Floats:
+    """Bending stiffness Y' I of every element, (m,) N m^2."""
+    second_moment = case.lattice.depth * mesh.thickness**3 / 12
+    return plane_factors(case.material)[1] * case.material.modulus * second_moment
 
 
-def walls_of(mesh: Mesh, layout: Layout) -> chain.Walls:
+def contact_stiffness(case: Case) -> float:
+    """C Y' depth of the barrier, N/m."""
+    in_stretch, _ = plane_factors(case.material)
+    modulus = in_stretch * case.material.modulus
+    return modulus * case.lattice.depth * (case.contact.stiffness or 0.0)
+
+
+def walls_of(mesh: Mesh, numbering: Numbering) -> elements.Walls:
     """Which elements and rotations make which wall."""
-    rotation = layout.rotation[mesh.arm_joint]
-    return chain.Walls(mesh.edges, mesh.start, mesh.arm_element, rotation)
+    rotation = numbering.rotation[mesh.arm_joint]
+    return elements.Walls(mesh.edges, mesh.start, mesh.arm_element, rotation)
 
 
-def solved_by(mesh: Mesh, layout: Layout, leader: Ints, case: Case) -> pattern.Layout:
+def solved_by(mesh: Mesh, numbering: Numbering, leader: Ints, case: Case) -> analysis.Layout:
     """What the linear solver knows of the scene."""
     joints = mesh.arm_joint.reshape(-1, 2)
-    outer = np.stack([2 * joints, 2 * joints + 1, layout.rotation[joints]], axis=-1)
-    wall_of = np.full(layout.n_nodes, -1)
+    outer = np.stack([2 * joints, 2 * joints + 1, numbering.rotation[joints]], axis=-1)
+    wall_of = np.full(numbering.n_nodes, -1)
     before, node, _ = mesh.inner.T
     wall_of[node] = mesh.wall[before]
     axial = case.material.modulus * case.lattice.depth * mesh.thickness / mesh.rest_length
-    return pattern.Layout(
+    return analysis.Layout(
         leader=leader,
-        ratio=np.ones(layout.size),
-        images=image.NONE,
-        driven=layout.high if case.loading.mode == "displacement" else -1,
-        n_nodes=layout.n_nodes,
-        n_joints=layout.n_joints,
-        origin=np.arange(layout.n_nodes),
+        ratio=np.ones(numbering.size),
+        images=periodic_images.NONE,
+        driven=numbering.high if case.loading.mode == "displacement" else -1,
+        n_nodes=numbering.n_nodes,
+        n_joints=numbering.n_joints,
+        origin=np.arange(numbering.n_nodes),
         inner=mesh.edges[mesh.start[:-1], 1],
         wall_of=wall_of,
         outer=outer.reshape(-1, 6),
@@ -89,29 +173,13 @@ def solved_by(mesh: Mesh, layout: Layout, leader: Ints, case: Case) -> pattern.L
     )
 
 
-def masses_of(mesh: Mesh, layout: Layout, total: float, loading: Loading) -> Floats:
+def masses_of(mesh: Mesh, numbering: Numbering, total: float, loading: Loading) -> Floats:
     """Lumped mass of each coordinate, kg; in each direction nodes sum to ``total``."""
     share = mesh.node_area
-    masses = np.zeros(layout.size)
-    masses[: 2 * layout.n_nodes] = np.repeat(total * share / share.sum(), 2)
-    masses[layout.high] = loading.striker_mass or 0.0
+    masses = np.zeros(numbering.size)
+    masses[: 2 * numbering.n_nodes] = np.repeat(total * share / share.sum(), 2)
+    masses[numbering.high] = loading.striker_mass or 0.0
     return masses
-
-
-def _velocity(layout: Layout, leader: Ints, loading: Loading) -> Floats:
-    """Velocity of each coordinate at the start: a striker flies with what is glued to it, m/s."""
-    return np.where(leader == layout.high, -(loading.striker_speed or 0.0), 0.0)
-
-
-def _load(layout: Layout, case: Case) -> Floats:
-    """Total force downwards: on the upper platen, or spread equally over the top nodes."""
-    load = np.zeros(layout.size)
-    if case.loading.mode == "force":
-        if case.loading.platen == "none":
-            load[2 * layout.top + 1] = -given(case.loading.force) / len(layout.top)
-        else:
-            load[layout.high] = -given(case.loading.force)
-    return load
 
 
 def friction_of(case: Case) -> friction.Friction:
@@ -132,104 +200,17 @@ def time_step(case: Case) -> float:
     return given(case.solver.time_step)
 
 
-def damp_of(case: Case) -> damp.Damp:
+def damp_of(case: Case) -> damping.Damp:
     """Damping of the model that is chosen; none without time."""
     chosen = "none" if case.solver.integrator == "static" else case.damping.model
     if chosen == "rayleigh":
-        return damp.Damp(given(case.damping.mass), given(case.damping.stiffness), 0.0)
+        return damping.Damp(given(case.damping.mass), given(case.damping.stiffness), 0.0)
     if chosen == "kelvin_voigt":
-        return damp.Damp(0.0, 0.0, given(case.damping.relaxation_time))
-    return damp.Damp(0.0, 0.0, 0.0)
-
-
-def build_scene(case: Case) -> Scene:
-    """Build the arrays of ``case``."""
-    lattice, platen = case.lattice, case.loading.platen
-    network, mesh = build_network(lattice), build_mesh(lattice)
-    layout = Layout(
-        len(mesh.points),
-        mesh.n_joints,
-        row_nodes(network, mesh, network.bottom),
-        row_nodes(network, mesh, network.top),
-    )
-    in_stretch, in_bend = plane_factors(case.material)
-    second_moment = lattice.depth * mesh.thickness**3 / 12
-    rigidity = in_bend * case.material.modulus * second_moment
-    bending = build_bend(mesh, rigidity, case)
-    touching = in_stretch * case.material.modulus * lattice.depth * (case.contact.stiffness or 0.0)
-    printed = mass(network, lattice.depth, case.material.density)
-    fixed = held(layout, platen)
-    if not bends(case):
-        fixed = np.union1d(fixed, layout.rotation)
-    tied = 2 * layout.top + 1 if platen in BONDED else np.empty(0, np.int64)
-    follows = solved_by(mesh, layout, leaders(layout, fixed, tied), case)
-    masses = masses_of(mesh, layout, printed, case.loading)
-    terms = Terms(
-        law=law_in_stretch(case.material, in_stretch),
-        walls=walls_of(mesh, layout),
-        stretch=stretch_of(mesh, case),
-        bend=bending,
-        fold=build_fold(mesh, bending, case),
-        spring=NO_SPRINGS,
-        contact=contact_of(mesh, layout, touching, case, by_force=True),
-        friction=friction_of(case),
-        damp=damp_of(case),
-        mass=masses,
-        load=_load(layout, case),
-        layout=follows,
-        project=projection_of(mesh, layout, follows, masses, case),
-    )
-    return Scene(
-        mesh, network, terms, unknowns_of(mesh, layout, follows, case),
-        _rest(mesh, layout, terms.contact.node_thickness), *_reported(layout, case.loading),
-        force_scale=force_scale(network, rigidity),
-        velocity=_velocity(layout, follows.leader, case.loading),
-    )  # fmt: skip
+        return damping.Damp(0.0, 0.0, given(case.damping.relaxation_time))
+    return damping.Damp(0.0, 0.0, 0.0)
 
 
 def force_scale(network: Network, rigidity: Floats) -> float:
     """A force (N) that bends the longest wall. rigidity (m,): Y' I of every element, N m^2."""
     ends = network.points[network.walls]
     return float(np.min(rigidity) / np.max(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)) ** 2)
-
-
-def _rest(mesh: Mesh, layout: Layout, thickness: Floats) -> Floats:
-    """Coordinates at rest; platens touch the outermost walls. thickness (n,): of nodes, m."""
-    y, half = mesh.points[:, 1], 0.5 * thickness.round(15)
-    platens = [(y - half).min(), (y + half).max()]
-    return np.concatenate([mesh.points.ravel(), np.zeros(layout.n_joints), platens])
-
-
-def _reported(layout: Layout, loading: Loading) -> tuple[Ints, Ints, Ints]:
-    """Coordinates of the lower reaction, of the top and of the base.
-
-    Strain is the travel of a driven platen or a striker, or of the loaded row. Under a loose loaded
-    platen it is taken from the extent of the lattice itself, which jumps off when it is released.
-    """
-    bottom = 2 * layout.bottom + 1
-    low, high = np.array([layout.low]), np.array([layout.high])
-    bonded = dict.fromkeys(BONDED, np.append(bottom, low))
-    reaction = ({"contact": low} | bonded).get(loading.platen or "", bottom)
-    if loading.mode != "force":
-        return reaction, high, low
-    if loading.platen == "contact":
-        return reaction, np.empty(0, np.int64), 2 * np.arange(layout.n_nodes) + 1
-    return reaction, 2 * layout.top + 1, bottom
-
-
-def unknowns_of(mesh: Mesh, layout: Layout, solved: pattern.Layout, case: Case) -> balance.Unknowns:
-    """What moves, and how far at once."""
-    lattice = case.lattice
-    scale = np.ones(layout.size)
-    scale[layout.rotation] = mesh.rest_length.mean()
-    return balance.Unknowns(
-        leader=solved.leader,
-        ratio=solved.ratio,
-        images=solved.images,
-        scale=scale,
-        lever=1.0 / scale,
-        driven=solved.driven,
-        cap=0.25 * min(lattice.width, lattice.height) / max(lattice.cells_x, lattice.cells_y),
-        leap=0.1 * lattice.wall_thickness,
-        close=1e-3 * lattice.wall_thickness,
-    )

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from sweep.scene.mesh import Floats
+from kernels.solve.problem import FREE
 from sweep.config.case import Case, given
+from sweep.scene.mesh import Floats
 from sweep.scene.terms import Scene
 
 MOVES = ("x_m", "y_m", "rotation_rad")
@@ -14,7 +15,7 @@ WITHOUT_PLATENS = ("strain", "top_displacement_m", "reaction_top_N")
 def own_columns(
     history: dict[str, Floats], probed: Floats, scene: Scene, case: Case
 ) -> dict[str, Floats]:
-    """The history with what only a structure has. probed (rows, 2, 3 probes): see `trace.Output`.
+    """The history with what only a structure has. probed (rows, 2, 3 probes): see `rows.Output`.
 
     Reactions act on the structure; they are zero where it is free.
     """
@@ -25,7 +26,7 @@ def own_columns(
         history["reaction_bottom_N"] = blank
     if case.solver.integrator == "static":
         history["load_factor"] = history["time_s"] / given(case.loading.duration)
-    free = scene.unknowns.leader[scene.probes] == scene.probes
+    free = scene.terms.coordinates.role[scene.probes] == FREE
     reactions = np.where(free, 0.0, probed[:, 1])
     for k, node in enumerate(structure.probes):
         for way in range(3):

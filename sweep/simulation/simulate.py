@@ -5,20 +5,23 @@ from dataclasses import replace
 
 import numpy as np
 
-from kernels.solve import arc_length as arc, energy_book as book, friction_loop as lagging, march, newton
-from kernels.terms import inertia, spring
-from kernels.planar import rows as trace
-from sweep.config.structure import Load, Structure, Support
-from sweep.simulation.summary import history_columns, summarise
-from sweep.scene.mesh import Floats
+from kernels.geometry.specimen_height import height
+from kernels.planar.potential import STORED, STRETCH
+from kernels.planar.rows import ROW, Output
+from kernels.solve import arc_length, energy_book, friction_loop, history, march, newton
+from kernels.terms import spring
 from sweep.config.case import Case, Lattice, Loading, Solver
-from sweep.scene.arcs import arc_of, path_columns
-from sweep.scene.periodic import build_periodic
-from sweep.simulation.custom_history import own_columns
+from sweep.config.structure import Load, Structure, Support
 from sweep.result import Result, Status
-from sweep.scene.terms import Scene, build_scene
-from sweep.scene.loading import stages, tolerances
+from sweep.scene.arcs import arc_of, path_columns
 from sweep.scene.custom import build_structure
+from sweep.scene.lattice import build_scene
+from sweep.scene.loading import stages, tolerances
+from sweep.scene.mesh import Floats
+from sweep.scene.periodic import build_periodic
+from sweep.scene.terms import Scene
+from sweep.simulation.custom_history import own_columns
+from sweep.simulation.summary import BOOK, history_columns, summarise
 from sweep.simulation.time_limit import WATCH
 
 FRAMES = 40
@@ -31,7 +34,7 @@ GAP = 1e-3  # of the energy, that may be left over
 INVENTED = 0.1  # of the work done: energy that an integrator may make
 ADVICE = {
     newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {shorter}",
-    lagging.UNSETTLED: "friction did not settle; try {shorter} or a smaller contact.friction",
+    friction_loop.UNSETTLED: "friction did not settle; try {shorter} or a smaller contact.friction",
     newton.STALLED: "the energy could not be lowered further; "
     "try a looser solver.tolerance or smaller steps",
     newton.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
@@ -59,21 +62,21 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
     scene = _scene(case)
     run = _Run(scene, case, stop)
     status, message = run.complete()
-    history = history_columns(run.rows[: run.done], scene, case)
+    curves = history_columns(run.rows[: run.done], scene, case)
     if case.lattice.structure is not None:
-        history = own_columns(history, run.probed[: run.done], scene, case)
-        history |= path_columns(run.arc, run.done)
+        curves = own_columns(curves, run.probed[: run.done], scene, case)
+        curves |= path_columns(run.arc, run.done)
     frames = run.frames()
-    summary = summarise(case, scene, history, frames, run.loading_rows)
+    summary = summarise(case, scene, curves, frames, run.loading_rows)
     case_id = case.case_id
     summary |= {
         "case_id": case_id,
         "status": str(status),
         "message": message,
-        "steps": int(run.state.totals[trace.STEPS]),
-        "newton_iterations": int(run.state.totals[trace.SPENT]),
+        "steps": int(run.state.totals["steps"][0]),
+        "newton_iterations": int(run.state.totals["iterations"][0]),
     }
-    return Result(case_id, status, message, summary, history, frames)
+    return Result(case_id, status, message, summary, curves, frames)
 
 
 def _scene(case: Case) -> Scene:
@@ -105,19 +108,13 @@ class _Run:
     def __init__(self, scene: Scene, case: Case, control: np.ndarray):
         self.scene, self.case, self.control = scene, case, control
         self.stages = stages(case, scene)
-        n = scene.x_rest.size
         total = sum(s.stage.steps for s in self.stages)
-        self.state = trace.State(
-            scene.x_rest.copy(), scene.velocity.copy(), np.zeros(trace.TIME), np.zeros((2, n)),
-            np.zeros((4, n)), np.zeros(3), np.zeros(2), np.zeros(4),
-        )  # fmt: skip
-        self.rows = np.zeros((total + 1, trace.N_COLUMNS))
+        self.state = history.at_rest(scene.x_rest, STORED)
+        self.state.v[:] = scene.velocity
+        self.rows = np.zeros(total + 1, ROW)
         self.probed = np.zeros((total + 1, 2, scene.probes.size))
         self.probed[0, 0] = scene.x_rest[scene.probes]
         self._begin()
-        self.rows[0, trace.SPEED] = scene.velocity[scene.terms.contact.high]
-        self.rows[0, trace.HEIGHT] = trace.height(scene.x_rest, scene.top, scene.base)
-        self.rows[0, trace.GAP] = np.nan
         self.struck = case.loading.mode == "impact"
         early = self.struck or case.solver.integrator == "arc_length"
         self.frame_of, kept = _frames(total + 1, EARLY_FRAMES if early else FRAMES)
@@ -130,19 +127,22 @@ class _Run:
 
         What is out of balance then is let go in the first increment, like a snap.
         """
-        state, terms = self.state, self.scene.terms
-        state.stored[0] = spring.evaluate(state.x, terms.spring, np.zeros_like(state.x))
-        state.book[book.STRETCH] = state.stored[0]
-        state.book[book.KINETIC] = inertia.kinetic(state.v, terms.mass)
-        state.book[book.WORK] = state.stored[0] + state.book[book.KINETIC]
-        self.rows[0, : trace.TIME] = state.book
+        state, scene, row, book = self.state, self.scene, self.rows[0], self.state.book[0]
+        strained = spring.evaluate(state.x, scene.terms.spring, np.zeros_like(state.x))
+        state.stored[STRETCH] = strained
+        book.kinetic = energy_book.kinetic(state.v, scene.terms.coordinates.mass)
+        book.work = strained + book.kinetic
+        row.work, row.kinetic, row.stretch = book.work, book.kinetic, strained
+        row.speed = scene.velocity[scene.terms.contact.high]
+        row.height = height(scene.x_rest, scene.top, scene.base)
+        row.gap = np.nan
 
     def complete(self) -> tuple[Status, str]:
         """March through all stages; return the status and its sentence."""
         with WATCH.limit(self.case.solver.time_limit, self._expire):
             for phase in self.stages:
                 outcome = self._through(phase.stage)
-                if self._invents() and not self.expired:
+                if outcome != newton.INTERRUPTED and self._invents():
                     advice = FINER if self.case.loading.quasi_static else SAFER
                     return Status.STOPPED, f"the integrator made energy out of nothing; {advice}"
                 if outcome != newton.CONVERGED:
@@ -151,7 +151,7 @@ class _Run:
                     break
         if not self._balances():
             return Status.STOPPED, f"work and energies do not balance {self._where()}; {SOUNDER}"
-        if self.struck and self.rows[self.done - 1, trace.SPEED] < 0.0:
+        if self.struck and self.rows["speed"][self.done - 1] < 0.0:
             return Status.STOPPED, f"the striker still sinks {self._where()}; {LONGER}"
         return Status.CONVERGED, ""
 
@@ -162,21 +162,21 @@ class _Run:
         """
         if self.case.loading.quasi_static and self.case.lattice.structure is not None:
             return False
-        lost, work = self.rows[: self.done, book.INTEGRATOR], self.rows[: self.done, book.WORK]
-        return bool(lost.min() < -INVENTED * work.max() - self.noise)
+        rows = self.rows[: self.done]
+        return bool(rows["integrator"].min() < -INVENTED * rows["work"].max() - self.noise)
 
     def _balances(self) -> bool:
         """Whether the energy book closes but for a share `GAP` of what passes through it."""
         rows = self.rows[: self.done]
-        left = np.abs(rows[:, book.RESIDUAL]).max()
-        size = np.abs(rows[:, : book.RESIDUAL]).max()
+        left = np.abs(rows["residual"]).max()
+        size = max(np.abs(rows[name]).max() for name in BOOK.values() if name != "residual")
         moved = self.done * self.scene.force_scale * float(np.ptp(self.scene.mesh.points))
         return bool(left <= GAP * size + self.case.solver.tolerance * moved)
 
     def _is_back(self) -> bool:
         """Whether the striker is where it started; what it did beyond is dropped."""
-        height = self.rows[: self.done, trace.HEIGHT]
-        back = np.flatnonzero(height[1:] >= height[0])
+        heights = self.rows["height"][: self.done]
+        back = np.flatnonzero(heights[1:] >= heights[0])
         self.done = int(back[0]) + 2 if len(back) else self.done
         return len(back) > 0
 
@@ -184,7 +184,7 @@ class _Run:
     def loading_rows(self) -> int:
         """Rows of the history until release, full stroke, or the striker's stop."""
         if self.struck:
-            return int(np.argmin(self.rows[: self.done, trace.HEIGHT])) + 1
+            return int(np.argmin(self.rows["height"][: self.done])) + 1
         return self.stages[0].stage.steps + 1
 
     def _expire(self) -> None:
@@ -193,7 +193,7 @@ class _Run:
 
     def _through(self, stage: march.Stage) -> int:
         span = slice(self.done, self.done + stage.steps)
-        out = trace.Output(
+        out = Output(
             self.rows[span],
             self.frame_of[span],
             self.positions,
@@ -204,11 +204,13 @@ class _Run:
             self.probed[span],
         )
         if not self.struck:
-            self.state.totals[trace.LAST] = 0.0  # what acts changes at once: set out anew
-        tolerance = tolerances(self.case, self.scene, stage.dt)
+            self.state.totals[0].last = 0.0  # what acts changes at once: set out anew
+        tolerance = tolerances(self.case, self.scene, stage)
         self.noise = tolerance.noise
-        of = self.scene.terms, self.scene.unknowns, tolerance, stage, self.state, out, self.control
-        outcome, written = march.march(*of) if self.arc is None else arc.follow(*of, self.arc)
+        of = self.scene.terms, tolerance, stage, self.state, out, self.control
+        outcome, written = (
+            march.march(*of) if self.arc is None else arc_length.follow(*of, self.arc)
+        )
         self.done += written
         return outcome
 
@@ -232,13 +234,14 @@ class _Run:
         steps = f"after {self.done - 1} steps"
         if self.case.lattice.structure is not None:
             return steps
-        return f"at strain {self._strain(self.rows[self.done - 1, trace.HEIGHT]):.3g} {steps}"
+        strain = self._strain(self.rows["height"][self.done - 1])
+        return f"at strain {strain:.3g} {steps}"
 
     def _strain(self, height: Floats) -> Floats:
         """Strain where the top is ``height`` (m) above the base; NaN for a structure."""
         if self.case.lattice.structure is not None:
             return np.full_like(height, np.nan)
-        return (self.rows[0, trace.HEIGHT] - height) / self.case.lattice.height
+        return (self.rows["height"][0] - height) / self.case.lattice.height
 
     def frames(self) -> dict[str, np.ndarray]:
         """Stored shapes up to the last row that was written."""
@@ -254,8 +257,8 @@ class _Run:
         if structure is not None and structure.floor_y_mm is not None:
             plates[:, 0] = x[:, self.scene.terms.contact.low]
         return {
-            "strain": self._strain(rows[:, trace.HEIGHT]),
-            "time_s": rows[:, trace.TIME],
+            "strain": self._strain(rows["height"]),
+            "time_s": rows["time"],
             "position_m": x[:, : 2 * n].reshape(len(x), n, 2),
             "plate_y_m": plates,
             "edges": self.scene.mesh.edges,

@@ -8,9 +8,9 @@ from math import nan
 
 import numpy as np
 
+from sweep.config.case import Case, given
 from sweep.design.network import relative_density
 from sweep.scene.mesh import Floats
-from sweep.config.case import Case, given
 from sweep.scene.terms import Scene
 
 Curves = dict[str, Floats]
@@ -22,12 +22,13 @@ MEASURES = (
 )
 
 
-def striker_curves(velocity: Floats, case: Case) -> Curves:
-    """History columns of a striker from its velocity upwards (rows,) m/s.
+def striker_curves(time: Floats, velocity: Floats, case: Case) -> Curves:
+    """History columns of a striker from its velocity upwards (rows,) m/s at these times (rows,) s.
 
-    The force is the mean of each step: what the change of its momentum took.
+    The force is the mean since the row before: force x time = change of momentum. Rows may be
+    closer than the time step that was asked for, as whole steps fill the duration.
     """
-    deceleration = np.diff(velocity, prepend=velocity[0]) / given(case.solver.time_step)
+    deceleration = np.append(0.0, np.diff(velocity) / np.diff(time))
     return {
         "reaction_top_N": given(case.loading.striker_mass) * deceleration,
         "striker_speed_m_per_s": -velocity,
@@ -55,7 +56,7 @@ def impact_columns(case: Case, scene: Scene, history: Curves) -> dict[str, float
     if case.loading.mode != "impact":
         return dict.fromkeys(MEASURES, nan)
     lattice, rebound = case.lattice, rebound_speed(history)
-    voids = (1.0 - relative_density(scene.network, lattice)) * lattice.outer_size[1]
+    voids = (1.0 - relative_density(scene.network, lattice.outer_size)) * lattice.outer_size[1]
     left = voids - history["top_displacement_m"].max()
     share = kinetic(case, rebound) / given(case.loading.energy)
     peak = history["deceleration_m_per_s2"].max()

@@ -2,19 +2,10 @@
 
 import numpy as np
 
-from kernels.solve import energy_book as book
-from kernels.planar import rows as trace
-from sweep.simulation.striker import (
-    impact_columns,
-    kinetic,
-    rebound_speed,
-    striker_curves,
-    work_on_lattice,
-)
-from sweep.design.network import mass, relative_density
-from sweep.scene.mesh import Floats
 from sweep.config.case import Case, Lattice
+from sweep.design.network import mass, relative_density
 from sweep.result import absorbed_energy_column, design_columns
+from sweep.scene.mesh import Floats
 from sweep.scene.terms import Scene
 from sweep.simulation.shape_checks import (
     Frames,
@@ -24,18 +15,25 @@ from sweep.simulation.shape_checks import (
     shortening,
     work_within_model,
 )
+from sweep.simulation.striker import (
+    impact_columns,
+    kinetic,
+    rebound_speed,
+    striker_curves,
+    work_on_lattice,
+)
 
 BOOK = {
-    "work_in_J": book.WORK,
-    "kinetic_J": book.KINETIC,
-    "stretch_J": book.STRETCH,
-    "bend_J": book.BEND,
-    "contact_J": book.CONTACT,
-    "dissipated_material_J": book.MATERIAL,
-    "dissipated_friction_J": book.FRICTION,
-    "dissipated_integrator_J": book.INTEGRATOR,
-    "injected_by_projection_J": book.INJECTED,
-    "energy_residual_J": book.RESIDUAL,
+    "work_in_J": "work",
+    "kinetic_J": "kinetic",
+    "stretch_J": "stretch",
+    "bend_J": "bend",
+    "contact_J": "contact",
+    "dissipated_material_J": "material",
+    "dissipated_friction_J": "friction",
+    "dissipated_integrator_J": "integrator",
+    "injected_by_projection_J": "injected",
+    "energy_residual_J": "residual",
 }
 DISSIPATED = ("dissipated_material_J", "dissipated_friction_J", "dissipated_integrator_J")
 TOUCHING = ("contact_J", "injected_by_projection_J")
@@ -43,22 +41,22 @@ PLATEAU = ("plateau_stress_Pa", "densification_strain", "efficiency")
 PLATEAU_START = 0.05  # strain from which a plateau is averaged at the earliest
 
 
-def history_columns(rows: Floats, scene: Scene, case: Case) -> dict[str, Floats]:
-    """Columns of the history from the rows that the march wrote, (rows, N_COLUMNS)."""
-    travel = rows[0, trace.HEIGHT] - rows[:, trace.HEIGHT]
+def history_columns(rows: np.ndarray, scene: Scene, case: Case) -> dict[str, Floats]:
+    """Columns of the history from the rows that the march wrote, (rows,) of `rows.ROW`."""
+    travel = rows["height"][0] - rows["height"]
     endless = case.lattice.boundary == "periodic"  # the same mean stress everywhere
-    below = trace.REACTION_TOP if endless else trace.REACTION_BOTTOM
-    gap = np.where(np.isfinite(rows[:, trace.GAP]), rows[:, trace.GAP], np.nan)
+    below = "reaction_top" if endless else "reaction_bottom"
+    time, struck = rows["time"].copy(), case.loading.mode == "impact"
     return {
-        "time_s": rows[:, trace.TIME].copy(),
+        "time_s": time,
         "strain": travel / (case.lattice.height or np.nan),
         "top_displacement_m": travel,
-        "reaction_top_N": rows[:, trace.REACTION_TOP].copy(),
-        "reaction_bottom_N": rows[:, below].copy(),
-        **{name: rows[:, column].copy() for name, column in BOOK.items()},
-        "newton_iterations": np.diff(rows[:, trace.ITERATIONS_DONE], prepend=0.0),
-        "min_gap_m": gap,
-    } | (striker_curves(rows[:, trace.SPEED], case) if case.loading.mode == "impact" else {})
+        "reaction_top_N": rows["reaction_top"].copy(),
+        "reaction_bottom_N": rows[below].copy(),
+        **{column: rows[name].copy() for column, name in BOOK.items()},
+        "newton_iterations": np.diff(rows["iterations"], prepend=0.0),
+        "min_gap_m": np.where(np.isfinite(rows["gap"]), rows["gap"], np.nan),
+    } | (striker_curves(time, rows["speed"], case) if struck else {})
 
 
 def absorbed_until(force: float, transmitted: Floats, work: Floats) -> float:
@@ -119,7 +117,7 @@ def summarise(
     return {
         **design_columns(case),
         "mass_g": grams,
-        "relative_density": relative_density(scene.network, case.lattice),
+        "relative_density": relative_density(scene.network, case.lattice.outer_size),
         "absorbed_energy_J": absorbed,
         "returned_energy_J": returned(case, history, loading_rows),
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),

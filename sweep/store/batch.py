@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from sweep.store.columns import Columns, stack, tabulate, take
 from sweep.result import Result
+from sweep.store.columns import Columns, stack, tabulate, take
 
 FRAME_GROUPS = {
     "frames": ("strain", "time_s", "plate_y_m"),
@@ -76,9 +76,12 @@ class Block:
         return rows[np.argsort(self.ragged["histories"].start[rows], kind="stable")]
 
 
-def block_of(results: Sequence[Result]) -> Block:
-    """A finished batch, in the form of a sealed file."""
-    who = [{"case_id": r.case_id, "status": str(r.status), "message": r.message} for r in results]
+def block_of(results: Sequence[Result], revision: str = "") -> Block:
+    """A finished batch, in the form of a sealed file; `revision`: of the source that ran it."""
+    by = {"git_revision": revision}
+    who = [
+        {"case_id": r.case_id, "status": str(r.status), "message": r.message} | by for r in results
+    ]
     table = tabulate([row | dict(r.summary) for row, r in zip(who, results, strict=True)])
     ragged = {"histories": _ragged([result.history for result in results])}
     for group, names in FRAME_GROUPS.items():

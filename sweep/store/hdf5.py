@@ -1,6 +1,6 @@
 """A results file while it is written: values are added at the end, the table comes last.
 
-Its layout is that of sweep/store.py. It bears a temporary name until it is sealed.
+Its layout is that of `read`. It bears a temporary name until it is sealed.
 """
 
 from collections.abc import Mapping, Sequence
@@ -13,10 +13,10 @@ import h5py
 import numpy as np
 from h5py import h5d, h5s, h5t
 
+from sweep.result import Column, describe_array, describe_column
 from sweep.store.batch import GROUPS, Block, Ragged, newest_rows
 from sweep.store.columns import Axes, Columns, arrange, beyond, relabel, rows_in_order, stack, take
 from sweep.store.parts import Unsealed
-from sweep.result import Column, describe_array, describe_column
 
 FORMAT = 1  # of the layout
 CHUNK = 4096  # rows of a piece that is compressed and checked by itself

@@ -16,21 +16,31 @@ import os
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import h5py
 import numpy as np
 
+from sweep.result import HISTORY_COLUMNS, MODEL_VERSION, OLDER, Status
 from sweep.store.batch import FRAME_GROUPS, GROUPS, Block, Ragged, newest
 from sweep.store.columns import Axes, arrange, beyond, relabel, rows_in_order, take
 from sweep.store.parts import list_parts
-from sweep.result import HISTORY_COLUMNS, Status
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
 ATTEMPTS = 100  # at a set of files that holds still while it is opened
 DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError)
+
+
+class Rerun(NamedTuple):
+    """Which cases run once more though they have a row: failed ones, those of an older model."""
+
+    failed: bool = False
+    older: bool = False
+
+
+ONLY_MISSING = Rerun()
 
 
 class StoreError(Exception):
@@ -52,17 +62,29 @@ def read_summary(path: str | os.PathLike[str]) -> "DataFrame":
 
 def read_statuses(path: str | os.PathLike[str]) -> dict[str, str]:
     """Status of every finished case, by its id; empty where there is no file."""
+    return _read_by_case(path, "status")
+
+
+def _read_by_case(path: str | os.PathLike[str], name: str) -> dict[str, Any]:
+    """A column of the summary, by case id; empty where there is no file."""
     if not exists(path):
         return {}
     with _union(Path(path)) as blocks:
-        table = newest(blocks, ("case_id", "status"))
-    return dict(zip(table["case_id"], table["status"], strict=True))
+        table = newest(blocks, ("case_id", name))
+    return dict(zip(table["case_id"], table[name], strict=True))
 
 
-def finished_ids(path: str | os.PathLike[str], retry_failed: bool = False) -> set[str]:
+def finished_ids(path: str | os.PathLike[str], rerun: Rerun = ONLY_MISSING) -> set[str]:
     """Ids of the cases that need not run again; none where there is no file."""
-    statuses = read_statuses(path)
-    return {i for i, status in statuses.items() if not retry_failed or status == Status.CONVERGED}
+    statuses, old = read_statuses(path), older_ids(path) if rerun.older else set()
+    kept = {i for i, status in statuses.items() if not rerun.failed or status == Status.CONVERGED}
+    return kept - old
+
+
+def older_ids(path: str | os.PathLike[str]) -> set[str]:
+    """Ids of the finished cases that an older version of the model has computed."""
+    versions = _read_by_case(path, "model_version")
+    return {case_id for case_id, version in versions.items() if version < MODEL_VERSION}
 
 
 def read_attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
@@ -173,21 +195,24 @@ class _Array:
 
 
 class _Columns(Mapping[str, np.ndarray]):
-    """Columns of a sealed file, read when they are asked for."""
+    """Columns of a sealed file, read when they are asked for; what it is too old for is `OLDER`."""
 
     def __init__(self, path: Path, group: h5py.Group) -> None:
         self._path, self._data = path, group
 
     def __getitem__(self, name: str) -> np.ndarray:
         with _undamaged(self._path):
+            if name in OLDER and name not in self._data:
+                kind = object if isinstance(OLDER[name], str) else np.int64
+                return np.full(self._data["case_id"].shape, OLDER[name], kind)
             data = self._data[name]
             return data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._data)
+        return iter(dict.fromkeys([*self._data, *OLDER]))
 
     def __len__(self) -> int:
-        return len(self._data)
+        return len({*self._data, *OLDER})
 
 
 def _read_case(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, np.ndarray]:

@@ -9,6 +9,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from sweep.result import Result
 from sweep.store.batch import Block, block_of
 from sweep.store.columns import Axes
 from sweep.store.hdf5 import About, Growing, seal_blocks
@@ -24,7 +25,6 @@ from sweep.store.parts import (
     remove_folder,
     too_many,
 )
-from sweep.result import Result
 from sweep.store.read import StoreError, exists, folded_batches, is_labelled, open_sealed
 
 
@@ -32,7 +32,7 @@ class Writer:
     """Writes into a results file, alone, from the beginning to the end of a `with` block.
 
     axes: case id -> grid values (dotted key -> value in SI) of every case of the sweep, in the
-    order that the rows shall have. attributes: what to say about the run (sweep/provenance.py).
+    order that the rows shall have. attributes: what to say about the run (`provenance`).
 
     What is appended is sealed as a part, and also added to the file that is to hold everything in
     the end: little is left to do then.
@@ -73,7 +73,7 @@ class Writer:
         if not results:
             return
         number = self._about.last + 1
-        part, block = new_part(self.path, number, number), block_of(results)
+        part, block = new_part(self.path, number, number), self._block(results)
         with _writing(self.path):
             make_folder(part.path.parent)
             seal_blocks(part.path, [block], self._about, packed=False)
@@ -90,7 +90,7 @@ class Writer:
         parts = [*self._found, *self._sealed]
         with _writing(self.path):
             if last:
-                self._grown().add(block_of(last), np.arange(len(last)))
+                self._grown().add(self._block(last), np.arange(len(last)))
             if parts or last or not self._is_labelled():
                 growing, self._growing = self._grown(), None  # of no use again, even if this fails
                 with ExitStack() as held:
@@ -99,6 +99,9 @@ class Writer:
             discard(parts)
             remove_folder(self.path)
         self._found, self._sealed = [], []
+
+    def _block(self, results: Sequence[Result]) -> Block:
+        return block_of(results, self._about.attributes.get("git_revision", ""))
 
     def _is_labelled(self) -> bool:
         return not exists(self.path) or is_labelled(self.path, self._about.axes)

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from sweep.report import case_plots as plots
 from sweep.numbers import three_digits
-from sweep.studies.course_report.panels import dress, legend
+from sweep.report import case_plots
 from sweep.report.markdown import markdown
 from sweep.report.sheets import Sheet
 from sweep.store.read import read_history, read_summary
+from sweep.studies.course_report.panels import dress, legend
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,9 +32,9 @@ SHOWN_FORCE = 50.0  # N
 VISIBLE = 0.005  # share of the base below which a change needs no words
 
 PLATENS = {
-    "contact": ("loose", plots.BLUE),
-    "sliding": ("stuck, upper slides", plots.SKY),
-    "glued": ("stuck", plots.ORANGE),
+    "contact": ("loose", case_plots.BLUE),
+    "sliding": ("stuck, upper slides", case_plots.SKY),
+    "glued": ("stuck", case_plots.ORANGE),
 }
 
 
@@ -158,7 +158,7 @@ def tornado(ax: Axes, table: DataFrame) -> None:
     base, changed = _bases(done), done[done["factor"] != ""]
     off = (changed["absorbed_energy_J"] - changed["platen"].map(base)).abs()
     factors = off.groupby(changed["factor"]).max().sort_values().index
-    band: Any = {"color": plots.PLATEN, "label": f"measured, {MEASURED:g} ± {SCATTER:g} J"}
+    band: Any = {"color": case_plots.PLATEN, "label": f"measured, {MEASURED:g} ± {SCATTER:g} J"}
     ax.axvspan(MEASURED - SCATTER, MEASURED + SCATTER, lw=0, **band)
     for row, (platen, (words, color)) in enumerate(PLATENS.items()):
         ax.axvline(base[platen], color=color, lw=1.2, zorder=1)
@@ -202,13 +202,16 @@ def curves(axes: tuple[Axes, Axes], path: Path, table: DataFrame) -> None:
         row.case_id: (f"platens {PLATENS[row.platen][0]}", PLATENS[row.platen][1])
         for row in bases.itertuples()
     }
-    for place, color in ((energy.idxmin(), plots.PURPLE), (energy.idxmax(), plots.VERMILION)):
+    for place, color in (
+        (energy.idxmin(), case_plots.PURPLE),
+        (energy.idxmax(), case_plots.VERMILION),
+    ):
         row = done.loc[place]
         words = f"{PLATENS[row['platen']][0]}, {row['factor']} {row['value']}"
         named.setdefault(row["case_id"], (words, color))
     for case_id in done["case_id"]:
         past = read_history(path, case_id)
-        words, color = named.get(case_id, ("", plots.PLATEN))
+        words, color = named.get(case_id, ("", case_plots.PLATEN))
         look: Any = {"color": color, "lw": 2.0 if words else 0.7, "zorder": 3 if words else 2}
         travel = 1e3 * past["top_displacement_m"]
         axes[0].plot(travel, past["reaction_top_N"], label=words or None, **look)
@@ -235,14 +238,14 @@ def report(path: Path) -> str:
     table, folder = predictions(path), path.parent
     text = markdown([sheet(table)])
     (folder / "experiment.md").write_text(text, encoding="utf-8")
-    chart = plots.blank(9.0, 7.0)
+    chart = case_plots.blank(9.0, 7.0)
     tornado(ax := chart.subplots(), table)
     legend(ax, loc="lower left", bbox_to_anchor=(0, 1), ncols=2)
-    plots.save(chart, folder / "tornado.png")
-    figure = plots.blank(9.0, 4.4)
+    case_plots.save(chart, folder / "tornado.png")
+    figure = case_plots.blank(9.0, 4.4)
     curves(tuple(figure.subplots(1, 2)), path, table)
     figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize="small")
-    plots.save(figure, folder / "force_displacement.png")
+    case_plots.save(figure, folder / "force_displacement.png")
     return text
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Loading, Material, Solver
-from tests.scenes import (
+from tests.support.scenes import (
     HEAVY,
     SEED,
     UNDAMPED,

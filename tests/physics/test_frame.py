@@ -2,8 +2,8 @@
 
 import pytest
 
-from tests.figures import FRAME
-from tests.scenes import at, is_sound, pressed, run, unbalanced
+from tests.studies.verify import FRAME
+from tests.support.scenes import at, is_sound, pressed, run, unbalanced
 
 
 def crushed(elements):

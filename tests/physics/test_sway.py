@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from sweep.scene.terms import periodic
+from sweep.scene import periodic
 from sweep.simulation.simulate import simulate
-from tests.periods import DEPTH, PLANE, L, follow, lattice_of, pressed
-from tests.solving import whole
+from tests.support.periods import DEPTH, PLANE, L, follow, lattice_of, pressed
+from tests.support.solving import whole
 
 THIN = 0.02
 

@@ -5,14 +5,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sweep.config.units import load_config
 from sweep.config.grid import expand
+from sweep.config.units import load_config
 from sweep.ranking.rank import rank
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
-from sweep.store.read import read_frames, read_history, read_summary
+from sweep.store.read import read_attributes, read_frames, read_history, read_summary
 
-CONFIGS = Path(__file__).parents[1] / "configs"
+CONFIGS = Path(__file__).parents[2] / "configs"
 
 
 def test_no_config_is_forgotten():
@@ -29,6 +29,7 @@ def test_smoke_runs_from_end_to_end(tmp_path):
     assert len(table) == len(expand(config)) == 6
     assert set(table["status"]) == {"converged"}
     assert not table["max_crossings"].any()
+    assert set(table["git_revision"]) == {read_attributes(out)["git_revision"]}
     assert (abs(table["energy_residual_J"]) < 1e-6 * table["absorbed_energy_J"]).all()
     pinned = table.loc[(3, "displacement", "glued")]
     assert 1e3 * pinned["absorbed_energy_J"] == pytest.approx(134.1, rel=1e-3)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 PROGRAM = """#!/bin/sh
 case "$*" in
     *" run "*) touch results.h5; echo ranking;;
@@ -47,7 +47,7 @@ def test_what_a_target_runs_finds_all_that_it_imports(target, checkout):
     words = ["make", "-n", target, f"PYTHON={sys.executable}", "STAMP=stamp"]
     told = subprocess.run(words, cwd=checkout, capture_output=True, text=True, check=True).stdout
     (command,) = [line for line in told.splitlines() if "-m tests." in line]
-    imported = re.sub(r"-m (tests\.\w+) .*", r"-c 'import \1.__main__'", command)
+    imported = re.sub(r"-m (tests\.[\w.]+) .*", r"-c 'import \1.__main__'", command)
     usual = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
     done = subprocess.run(
         imported, shell=True, cwd=ROOT, env=usual, capture_output=True, text=True, check=False

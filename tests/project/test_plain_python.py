@@ -7,7 +7,7 @@ import sys
 import pytest
 
 PROGRAM = """
-from sweep.simulation import simulate
+from sweep import simulate
 from sweep.config.structure import Load, Structure, Support
 from sweep.config.case import Case, Lattice, Loading, Solver
 

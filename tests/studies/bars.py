@@ -10,15 +10,15 @@ from pathlib import Path
 
 import pandas as pd
 
-from sweep.running.error_bars import add_error_bars
 from sweep.config.units import expand, load_config
 from sweep.report.markdown import markdown
-from sweep.result import ERROR, Status
-from sweep.running.sweep import run_sweep
 from sweep.report.sheets import Sheet
+from sweep.result import ERROR, Status
+from sweep.running.error_bars import add_error_bars
+from sweep.running.sweep import run_sweep
 from sweep.store.read import read_summary
 
-CONFIGS = Path(__file__).parents[1] / "configs"
+CONFIGS = Path(__file__).parents[2] / "configs"
 EVERY = {"armor.toml": 4, "impact.toml": 3}  # cases: as many of each scene
 CELLS = 4  # across, at most: with twelve elements a wall a larger crush takes ten minutes
 ELEMENTS, STEPS = 12, 4  # of a wall; for one of the design

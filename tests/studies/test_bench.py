@@ -5,13 +5,12 @@ from importlib import import_module
 
 import numpy as np
 import pytest
-import readme
 
+from kernels.planar.potential import CONTACT
 from kernels.solve import newton
-from kernels.planar import potential as step
-from sweep.scene.terms import build_scene
+from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
-from tests.bench import (
+from tests.studies.bench import (
     alone,
     cases,
     clock,
@@ -29,12 +28,13 @@ from tests.bench import (
     scenes,
     sweeps,
 )  # fmt: skip
-from tests.bench.crushes import COLLAPSED, Crush
-from tests.bench.matrix import assembled, reduction
-from tests.bench.spot import Spot
-from tests.bench.table import Table
-from tests.solving import at_rest, whole
-from tests.terms import by_home
+from tests.studies.bench.crushes import COLLAPSED, Crush
+from tests.studies.bench.matrix import assembled, reduction
+from tests.studies.bench.spot import Spot
+from tests.studies.bench.table import Table
+from tests.support import readme
+from tests.support.solving import at_rest, whole
+from tests.support.terms import by_home
 
 
 @pytest.fixture(scope="module")
@@ -113,10 +113,18 @@ def test_repeated_kernels_do_what_a_step_does(collapsed):
     spot = Spot(collapsed.scene, collapsed.state.x, collapsed.move)
     one = whole(collapsed.scene, collapsed.state.x)
     energy = loops.repeat(
-        loops.EVALUATE, 2, spot.x, spot.move, spot.most, tuple(spot.whole), spot.at, spot.ones
+        loops.EVALUATE,
+        2,
+        spot.x,
+        spot.move,
+        spot.most,
+        spot.whole.problem,
+        spot.whole.step,
+        spot.found,
+        spot.ones,
     )
     assert energy == pytest.approx(2.0 * one.energy(spot.x), rel=1e-12)
-    assert spot.at.stored[step.CONTACT] > 0.0
+    assert spot.found.stored[CONTACT] > 0.0
     one.factor(spot.x)
     spot.each(loops.FACTOR)
     np.testing.assert_allclose(
@@ -183,7 +191,7 @@ def test_libraries_solve_the_matrix_of_a_step(inner):
     state = at_rest(scene)
     marching.press(case, scene, state, (0.0, 0.1), 10)
     spot = Spot(scene, state.x, 1e-6 * np.ones(state.x.size))
-    matrix = assembled(scene.terms, spot.at.stiffness)
+    matrix = assembled(scene.terms, spot.whole.problem.room.stiffness)
     b = np.random.default_rng(0).normal(size=matrix.shape[0])
     solutions = [solve(b) for solve in libraries.solvers(matrix).values() if solve]
     assert len(solutions) >= 2

@@ -5,12 +5,12 @@ from functools import partial
 import numpy as np
 import pytest
 
-from sweep.scene.terms import build_scene
+from sweep.scene.lattice import build_scene
 from sweep.scene.loading import stages
-from tests.bench import cases, descent, elements, marching, rods, scenes, sweeps
-from tests.solving import at_rest
-from tests.states import shaken, unit
-from tests.terms import Term, derivative_error
+from tests.studies.bench import cases, descent, elements, marching, rods, scenes, sweeps
+from tests.support.solving import at_rest
+from tests.support.states import shaken, unit
+from tests.support.terms import Term, derivative_error
 
 
 def seed(inner=2):

@@ -4,7 +4,7 @@ from kernels.compile.cache import cache_home
 from sweep.__main__ import main
 from sweep.running.sweep import real_simulate
 from sweep.store.read import read_summary
-from tests.bench import starts
+from tests.studies.bench import starts
 
 
 def test_a_start_is_a_whole_run_in_a_process_of_its_own(tmp_path):
@@ -28,11 +28,11 @@ def test_starts_find_first_nothing_and_then_what_the_first_has_compiled(monkeypa
 
 
 def test_code_that_cannot_be_kept_is_told(capsys, monkeypatch):
-    monkeypatch.setattr("kernels.cache.is_lasting", lambda: False)
+    monkeypatch.setattr("kernels.compile.cache.is_lasting", lambda: False)
     assert main(["warm"]) == 2
     assert "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is no folder" in capsys.readouterr().err
-    monkeypatch.setattr("kernels.cache.is_cold", lambda *_: True)
-    monkeypatch.setattr("kernels.cache.warmed_up", lambda _: None)
-    monkeypatch.setattr("kernels.ahead.compile_ahead", lambda _: None)
+    monkeypatch.setattr("kernels.compile.cache.is_cold", lambda *_: True)
+    monkeypatch.setattr("kernels.compile.cache.warmed_up", lambda _: None)
+    monkeypatch.setattr("kernels.compile.precompile.compile_ahead", lambda _: None)
     real_simulate()
     assert "for this run alone: CRUMPLE_CACHE_DIR, else" in capsys.readouterr().out

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.bench import cases, clock, sweeps
+from tests.studies.bench import cases, clock, sweeps
 
 
 def test_thousand_designs_are_a_thousand():

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from skfem import MeshQuad
 
-from tests.continuum.grid import Grid
-from tests.continuum.joint import coefficients, spared
-from tests.continuum.network import Network, thick_law
-from tests.continuum.press import Press, StuckError, factor
-from tests.continuum.rubber import Rubber
-from tests.continuum.solid import Solid
-from tests.continuum.strip import energy, moment, softening
+from tests.studies.continuum.grid import Grid
+from tests.studies.continuum.joint import coefficients, spared
+from tests.studies.continuum.network import Network, thick_law
+from tests.studies.continuum.press import Press, StuckError, factor
+from tests.studies.continuum.rubber import Rubber
+from tests.studies.continuum.solid import Solid
+from tests.studies.continuum.strip import energy, moment, softening
 
 RUBBER = Rubber(12.0, 0.48)
 RNG = np.random.default_rng(5)
@@ -134,7 +134,7 @@ def test_press_finds_a_stable_shape_and_its_force_is_the_slope_of_its_energy():
 
 
 def test_press_gives_up_aloud(monkeypatch):
-    monkeypatch.setattr("tests.continuum.press.ENOUGH", 1)
+    monkeypatch.setattr("tests.studies.continuum.press.ENOUGH", 1)
     press = Press(Solid(Grid(cells=1).mesh(), RUBBER, 12.0), 12.5)
     with pytest.raises(StuckError, match="no minimum"):
         press.crush([0.05])
@@ -142,7 +142,7 @@ def test_press_gives_up_aloud(monkeypatch):
 
 def test_walls_touch_and_do_not_cross():
     """One cell with stout walls, at a strain at which they would cross."""
-    touch = pytest.importorskip("tests.continuum.touch", reason="ipctk is not installed")
+    touch = pytest.importorskip("tests.studies.continuum.touch", reason="ipctk is not installed")
     grid = Grid(cells=1, width=10.0, thickness=2.0, across=1)
     solid = Solid(grid.mesh(), RUBBER, 12.0)
     contact = touch.Touch(solid, 0.1, 12.0 * 12.0)

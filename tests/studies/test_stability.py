@@ -5,14 +5,14 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
-from sweep.config.units import load_config
 from sweep.config.grid import expand
+from sweep.config.units import load_config
 from sweep.simulation.simulate import warm_up
-from tests.scenes import pressed, run
-from tests.solving import whole
-from tests.stability import audit, draw, model
-from tests.stability.__main__ import counted, markdown, outcome
-from tests.states import STATES, driven, loaded
+from tests.studies.stability import audit, draw, model
+from tests.studies.stability.__main__ import counted, markdown, outcome
+from tests.support.scenes import pressed, run
+from tests.support.solving import whole
+from tests.support.states import STATES, driven, loaded
 
 FEW, CONVERGED = 40, 14
 

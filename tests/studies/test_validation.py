@@ -3,13 +3,13 @@
 from math import isnan
 
 import pytest
-import readme
 
-from tests.continuum import __main__ as continuum
-from tests.validation import PROBLEMS, energy
-from tests.validation.__main__ import HEAD, row
-from tests.validation.elastica import cantilever
-from tests.validation.problem import Finding, find
+from tests.studies.continuum import __main__ as continuum
+from tests.studies.validation import PROBLEMS, energy
+from tests.studies.validation.__main__ import HEAD, row
+from tests.studies.validation.elastica import cantilever
+from tests.studies.validation.problem import Finding, find
+from tests.support import readme
 
 BAND = 0.15
 

@@ -18,13 +18,13 @@ import sys
 from contextlib import redirect_stdout
 
 import numpy as np
-import readme
 
 from sweep.__main__ import main
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
 from sweep.ranking.rank import rank
 from sweep.simulation.simulate import simulate
 from sweep.store.read import read_summary
+from tests.support import readme
 
 FRAME = {0.05: 11.62, 0.1: 12.04, 0.3: 13.93}
 SOLID = {0.1: 13.65, 0.3: 47.5, 0.4: 66.0, 0.5: 95.3, 0.6: 138.3}

@@ -8,10 +8,23 @@ from itertools import pairwise
 
 import numpy as np
 
-from kernels.terms import bend, elements as chain, contact, damping as damp, fold, friction, elastic as law, position_based as project, spring, stretch, contact_near_joints as vicinity
-from kernels.linear import periodic_images as image, analysis as pattern
-from kernels.geometry import near_pairs as pairs
-from kernels.planar.potential import Terms
+from kernels.geometry import near_pairs
+from kernels.linear import analysis, periodic_images
+from kernels.planar.problem import PlanarScene
+from kernels.solve.problem import FREE, Coordinates
+from kernels.terms import (
+    bend,
+    contact,
+    contact_near_joints,
+    damping,
+    elastic,
+    elements,
+    fold,
+    friction,
+    position_based,
+    spring,
+    stretch,
+)
 
 MODULUS, DEPTH = 12.0, 10.0
 NO_SPRINGS = spring.Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
@@ -134,13 +147,13 @@ def carried(of: Frame, x: np.ndarray, angle: float, shift=(0.7, -0.4)) -> np.nda
     return np.concatenate([nodes.ravel(), x[n:-2] + angle, x[-2:]])
 
 
-def linear_law(modulus: float) -> law.Law:
+def linear_law(modulus: float) -> elastic.ElasticCurve:
     """Stress = modulus x strain."""
     knots, slopes = np.array([-1.0, 1.0]), np.array([[-modulus, modulus, 0.0, 0.0]])
-    return law.Law(knots, slopes, np.full(2, 0.5 * modulus), modulus)
+    return elastic.ElasticCurve(knots, slopes, np.full(2, 0.5 * modulus), modulus)
 
 
-def curve_law(modulus: float) -> law.Law:
+def curve_law(modulus: float) -> elastic.ElasticCurve:
     """Curve with a rise, a plateau that falls a little, and a branch in compression; C1."""
     knots = np.array([-0.5, 0.0, 0.1, 0.4, 1.0])
     stress = modulus * np.array([-0.8, 0.0, 0.07, 0.065, 0.3])
@@ -152,11 +165,11 @@ def curve_law(modulus: float) -> law.Law:
     pieces = np.column_stack([stress[:-1], slope[:-1], square, cube])
     gained = np.sum(pieces * width[:, None] ** np.arange(1, 5) / np.arange(1, 5), axis=1)
     energy = np.concatenate([[0.0], np.cumsum(gained)])
-    return law.Law(knots, pieces, energy - energy[1], modulus)
+    return elastic.ElasticCurve(knots, pieces, energy - energy[1], modulus)
 
 
-def walls_of(of: Frame) -> chain.Walls:
-    return chain.Walls(of.edges, of.start, of.arm_element, 2 * len(of.points) + of.arm_joint)
+def walls_of(of: Frame) -> elements.Walls:
+    return elements.Walls(of.edges, of.start, of.arm_element, 2 * len(of.points) + of.arm_joint)
 
 
 def stretch_of(of: Frame) -> stretch.Stretch:
@@ -184,7 +197,7 @@ def bend_of(of: Frame, measure: int = bend.ANGLE, exact: bool = True) -> bend.Be
         arm_rest=along[of.arm_element],
         arm_stiffness=at_end[of.arm_element],
         coupling=np.where(single, 2 * per_length[of.start[:-1]], 0.0),
-        section=linear_law(1.0),
+        section=elastic.MomentCurve(*linear_law(1.0)),
         hinge_surface=np.empty(0),
         arm_surface=np.empty(0),
     )
@@ -199,12 +212,13 @@ def contact_of(of: Frame, stiffness: float = 1.0) -> contact.Contact:
     mesh = of.points.ravel(), of.edges, of.l0, node_thickness, of.thickness, tributary
     return contact.Contact(
         stiffness * of.modulus * of.depth, of.thickness.max(), of.edges, tributary,
-        node_thickness, of.thickness, vicinity.owners(n, of.edges), *vicinity.special_pairs(*mesh),
+        node_thickness, of.thickness, contact_near_joints.owners(n, of.edges),
+        *contact_near_joints.special_pairs(*mesh),
         np.arange(n), of.rest.size - 2, of.rest.size - 1,
     )  # fmt: skip
 
 
-def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> pattern.Layout:
+def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> analysis.Layout:
     """``held`` coordinates and the lower platen do not move, ``tied`` ones follow the upper one."""
     n, size = len(of.points), of.rest.size
     leader = np.arange(size)
@@ -216,23 +230,26 @@ def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> pattern.Layo
     joints = of.arm_joint.reshape(-1, 2)
     outer = np.stack([2 * joints, 2 * joints + 1, 2 * n + joints], axis=-1).reshape(-1, 6)
     axial = of.modulus * of.depth * of.thickness / of.l0
-    return pattern.Layout(
-        leader, np.ones(size), image.NONE, size - 1 if driven else -1, n, of.joints, np.arange(n),
-        of.edges[of.start[:-1], 1], wall_of, outer, float(axial.max()),
+    return analysis.Layout(
+        leader, np.ones(size), periodic_images.NONE, size - 1 if driven else -1, n, of.joints,
+        np.arange(n), of.edges[of.start[:-1], 1], wall_of, outer, float(axial.max()),
     )  # fmt: skip
 
 
-def terms_of(of: Frame, curve: law.Law, measure: int, damping: damp.Damp) -> Terms:
+def terms_of(
+    of: Frame, curve: elastic.ElasticCurve, measure: int, damped: damping.Damp
+) -> PlanarScene:
     """What damping reads: law, walls, stretch, bend, damp and mass; no folds and no contact."""
     share = np.bincount(of.edges.ravel(), np.repeat(of.l0 * of.thickness, 2), len(of.points))
-    mass = np.zeros(of.rest.size)
+    n = of.rest.size
+    mass, one, none = np.zeros(n), np.ones(n), np.empty(0)
     mass[: 2 * len(of.points)] = np.repeat(share, 2)
-    none = np.empty(0)
-    return Terms(
-        curve, walls_of(of), stretch_of(of), bend_of(of, measure),
-        fold.Fold(np.empty((0, 3), np.int64), none, none), NO_SPRINGS, contact_of(of),
-        friction.Friction(0.0, 1.0), damping, mass, none, layout_of(of),
-        project.Projection(contact_of(of), none),
+    role, load = np.full(n, FREE), np.zeros(n)
+    return PlanarScene(
+        Coordinates(role, one, one, mass, one, load, -1, 1.0, 1.0, 1.0), curve, walls_of(of),
+        stretch_of(of), bend_of(of, measure), fold.Fold(np.empty((0, 3), np.int64), none, none),
+        NO_SPRINGS, contact_of(of), friction.Friction(0.0, 1.0), damped, layout_of(of),
+        position_based.Projection(contact_of(of), none),
     )  # fmt: skip
 
 
@@ -250,9 +267,6 @@ def touching(of: Frame, apart: float = 50.0) -> contact.Contact:
     return contact_of(replace(of, points=moved))
 
 
-def only(listed: pairs.Pairs, node: int) -> pairs.Pairs:
+def only(listed: near_pairs.Pairs, node: int) -> near_pairs.Pairs:
     """The pairs of one node."""
-    columns = listed._asdict()
-    count = columns.pop("count")
-    chosen = {name: column[listed.node == node] for name, column in columns.items()}
-    return pairs.Pairs(**chosen, count=count)
+    return near_pairs.Pairs(*(column[listed.node == node] for column in listed))

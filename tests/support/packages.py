@@ -4,18 +4,17 @@ import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
-from kernels.compile import precompile as ahead, cache, abi as calling, jit, linking, outlined as separate
+import kernels.compile
 
-HOW = (ahead, cache, calling, jit, linking, separate)
+HOW = Path(kernels.compile.__file__).parent
 
 
 def make(folder, **sources):
     """Write the package, with a module for each of the ``sources``; return its folder."""
     package = folder / "kernels"
-    package.mkdir()
-    for module in HOW:
-        shutil.copy(module.__file__, package)
+    shutil.copytree(HOW, package / "compile", ignore=shutil.ignore_patterns("__pycache__"))
     (package / "__init__.py").touch()
     for name, source in sources.items():
         (package / f"{name}.py").write_text(source)

@@ -31,8 +31,9 @@ def pressed(lattice, strain=0.6, steps=60, friction=0.0, model="barrier", unload
 
 def follow(scene):
     """Matrix (n, free + 1) from what is free, and the height of the period, to all coordinates."""
-    leader, images = scene.unknowns.leader, scene.unknowns.images
-    driven = scene.unknowns.driven
+    leader, images, driven = (
+        getattr(scene.terms.layout, name) for name in ("leader", "images", "driven")
+    )
     free = np.setdiff1d(leader[leader >= 0], [*images[:, 0], driven])
     follows = (leader[:, None] == [*free, driven]).astype(float)
     for c, of, mean, times in images:

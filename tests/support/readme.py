@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 from typing import NamedTuple
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 NAMES = ("README.md", "configs/README.md", "kernels/README.md")
 PAGES = {name: (ROOT / name).read_text("utf-8") for name in NAMES}
 TEXT = "\n".join(PAGES.values())

@@ -7,7 +7,7 @@ import numpy as np
 
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.simulation.simulate import simulate
-from tests.figures import MATERIAL
+from tests.studies.verify import MATERIAL
 
 UNDAMPED = Damping(model="none")
 SEED = Damping()  # Rayleigh, as light as the seed's

@@ -5,7 +5,7 @@ from itertools import count
 import numpy as np
 import pandas as pd
 
-from sweep.result import COLUMNS, HISTORY_COLUMNS, Result, Status
+from sweep.result import COLUMNS, HISTORY_COLUMNS, MODEL_VERSION, Result, Status
 from sweep.store.write import Writer
 
 HEIGHT, T = 10e-3, 1e-3  # of the squeezed cell
@@ -34,6 +34,7 @@ _DEFAULTS = {
     "touched": 1,
     "max_crossings": 0,
     "cpu_s": 2.0,
+    "model_version": MODEL_VERSION,
 }
 
 

@@ -4,12 +4,14 @@ import os
 import time
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 from sweep.config.case import Case, Lattice
 from sweep.result import (
     COLUMNS,
     HISTORY_COLUMNS,
+    OLDER,
     Result,
     Status,
     absorbed_energy_column,
@@ -78,6 +80,19 @@ def write(path, batch, fold=False, size=2, **about):
             writer.append([simulate(case) for case in batch[begin : begin + size]])
         if fold:
             writer.fold()
+
+
+def write_older(path, batch, **about):
+    """A results file from before rows had a version."""
+    write(path, batch, fold=True, **about)
+    forget_version(path)
+
+
+def forget_version(path):
+    """Make a results file one from before rows had a version."""
+    with h5py.File(path, "r+") as file:
+        for name in OLDER:
+            del file["summary"][name]
 
 
 def parts_of(path):

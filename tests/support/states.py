@@ -3,8 +3,8 @@
 import numpy as np
 
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
-from sweep.scene.terms import build_scene
-from tests.solving import whole
+from sweep.scene.lattice import build_scene
+from tests.support.solving import whole
 
 DT = 1e-3
 RAYLEIGH = Damping(model="rayleigh", mass=300.0, stiffness=1e-3)

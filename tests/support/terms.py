@@ -6,11 +6,15 @@ and `system`, which are compared with it.
 
 import numpy as np
 
-from kernels.terms import bend, elements as chain, contact, damping as damp
-from kernels.linear import block_matrix as entries, periodic_images as image
-from kernels.geometry import near_pairs as pairs
+from kernels.geometry import near_pairs
+from kernels.linear import block_matrix, periodic_images
 from kernels.linear.block_matrix import Blocks
-from kernels.planar.potential import Terms
+from kernels.planar.problem import PlanarScene
+from kernels.solve.integrators import Ahead
+from kernels.terms import bend, contact, damping, elements
+from kernels.terms.law import Memory
+
+NO_MEMORY = Memory(np.empty((0, 0)), 0.0)
 
 
 class Term:
@@ -37,14 +41,14 @@ class Term:
         return self.second(x, projected)
 
 
-def room(walls: chain.Walls) -> tuple[chain.Shape, chain.Stiffness]:
+def room(walls: elements.Walls) -> tuple[elements.Shape, elements.Stiffness]:
     """Zero shape and stiffness of ``walls``."""
     m, arms = len(walls.edges), walls.rotation.size
-    shape = chain.Shape(*map(np.zeros, ((2, m), m, m, arms, (2, m), arms)))
-    return shape, chain.Stiffness(*map(np.zeros, ((3, m), (4, m), (3, arms), arms // 2)))
+    shape = elements.Shape(*map(np.zeros, ((2, m), m, m, arms, (2, m), arms)))
+    return shape, elements.Stiffness(*map(np.zeros, ((3, m), (4, m), (3, arms), arms // 2)))
 
 
-def motions(walls: chain.Walls, n: int) -> np.ndarray:
+def motions(walls: elements.Walls, n: int) -> np.ndarray:
     """Motion (2 m + 2 w, n) of every element vector and of the rotation of every arm's joint."""
     m = len(walls.edges)
     moved = np.zeros((2 * m + walls.rotation.size, n))
@@ -55,7 +59,7 @@ def motions(walls: chain.Walls, n: int) -> np.ndarray:
     return moved
 
 
-def assembled(walls: chain.Walls, stiffness: chain.Stiffness, n: int) -> np.ndarray:
+def assembled(walls: elements.Walls, stiffness: elements.Stiffness, n: int) -> np.ndarray:
     """Hessian (n, n) of walls from what their elements, arms and hinges have."""
     m, arms = len(walls.edges), walls.rotation.size
     half = np.zeros((2 * m + arms, 2 * m + arms))  # diagonal blocks halved: the rest is mirrored
@@ -72,61 +76,63 @@ def assembled(walls: chain.Walls, stiffness: chain.Stiffness, n: int) -> np.ndar
     return moved.T @ (half + half.T) @ moved
 
 
-def of_walls(walls: chain.Walls, bending: bend.Bend, add, x0=None) -> Term:
+def of_walls(walls: elements.Walls, bending: bend.Bend, add, x0=None) -> Term:
     """Term of walls that ``add(shape, stiffness, projected)`` adds; turns count from x0 (or x)."""
 
     def found(x, projected):
         shape, stiffness = room(walls)
         frame = np.full((walls.rotation.size, 3), np.inf)
         bend.aim(x if x0 is None else x0, walls, bending, frame)
-        chain.measure(x, walls, shape)
+        elements.measure(x, walls, shape)
         bend.turns(x, walls, bending, frame, shape)
         return add(shape, stiffness, projected), shape, stiffness
 
     def slope(x, g):
         value, shape, _ = found(x, False)
-        chain.gather(walls, shape, g)
+        elements.gather(walls, shape, g)
         return value
 
     return Term(slope, lambda x, projected: assembled(walls, found(x, projected)[2], x.size))
 
 
-def bending_of(walls: chain.Walls, bending: bend.Bend, x0=None) -> Term:
+def bending_of(walls: elements.Walls, bending: bend.Bend, x0=None) -> Term:
     """Bending with the folds of hinges; turns count from x0 (or x)."""
 
     def add(shape, stiffness, projected):
-        return bend.evaluate(walls, bending, shape, stiffness, projected)
+        return bend.evaluate(walls, bending, NO_MEMORY, shape, stiffness, projected)
 
     return of_walls(walls, bending, add, x0)
 
 
-def nowhere(terms: Terms) -> damp.Ahead:
-    """Rates are measured from where a step starts."""
-    return damp.Ahead(0.0, 0.0, *np.zeros((3, terms.mass.size)), room(terms.walls)[0])
+def nowhere(n: int) -> Ahead:
+    """Rates of ``n`` coordinates are measured from where a step starts."""
+    return Ahead(0.0, 0.0, np.zeros(n), np.zeros(n))
 
 
-def before_of(terms: Terms, x0: np.ndarray) -> damp.Before:
+def before_of(terms: PlanarScene, x0: np.ndarray) -> damping.Before:
     """The start of a step from x0."""
     walls = terms.walls
-    before = damp.Before(x0, x0, np.full((walls.rotation.size, 3), np.inf), *room(walls))
-    damp.prepare(terms, before, nowhere(terms))
+    before = damping.Before(np.full((walls.rotation.size, 3), np.inf), *room(walls))
+    where, place = nowhere(x0.size), np.zeros_like(x0)
+    damping.prepare(x0, terms, NO_MEMORY, before, where, place, room(walls)[0])
     return before
 
 
-def damping_of(terms: Terms, x0: np.ndarray, dt: float) -> Term:
+def damping_of(terms: PlanarScene, x0: np.ndarray, dt: float) -> Term:
     """Damping of a step of ``dt`` from x0, with the Hessian of its mass, which a step adds."""
     walls, before = terms.walls, before_of(terms, x0)
 
     def found(x, projected, g):
         shape, stiffness = room(walls)
-        chain.measure(x, walls, shape)
+        elements.measure(x, walls, shape)
         bend.turns(x, walls, terms.bend, before.frame, shape)
-        value = damp.evaluate(x - x0, terms, before, dt, shape, stiffness, projected, g)
+        value = damping.evaluate(x - x0, terms, before, dt, shape, stiffness, projected, g)
         return value, stiffness
 
     def second(x, projected):
         _, stiffness = found(x, projected, np.zeros_like(x))
-        return assembled(walls, stiffness, x.size) + np.diag(terms.damp.alpha_m / dt * terms.mass)
+        inert = terms.damp.alpha_m / dt * terms.coordinates.mass
+        return assembled(walls, stiffness, x.size) + np.diag(inert)
 
     return Term(lambda x, g: found(x, False, g)[0], second)
 
@@ -137,13 +143,13 @@ def full_matrix(n: int) -> Blocks:
     nb = (n + 1) // 2
     start = np.cumsum([0, *range(nb - 1, -1, -1)])
     row = np.concatenate([np.arange(j + 1, nb) for j in range(nb)])
-    return entries.shaped(3 * (c // 2) + c % 2, start, row, np.ones(n), image.NONE)
+    return block_matrix.shaped(3 * (c // 2) + c % 2, start, row, np.ones(n), periodic_images.NONE)
 
 
 def by_home(matrix: Blocks) -> np.ndarray:
     """Symmetric (3 nb, 3 nb) array of the blocks of a matrix."""
     nb = matrix.start.size - 1
-    cells = matrix.values[:-1].reshape(-1, 3, entries.STRIDE)[:, :, :3].transpose(0, 2, 1)
+    cells = matrix.values[:-1].reshape(-1, 3, block_matrix.STRIDE)[:, :, :3].transpose(0, 2, 1)
     full = np.zeros((nb, nb, 3, 3))
     full[np.arange(nb), np.arange(nb)] = cells[:nb]
     full[matrix.row, np.repeat(np.arange(nb), np.diff(matrix.start))] = cells[nb:]
@@ -168,16 +174,17 @@ def of_points(slope, add) -> Term:
     return Term(slope, second)
 
 
-def touch_of(contacts: contact.Contact, listed: pairs.Pairs, anchor: np.ndarray) -> Term:
+def touch_of(contacts: contact.Contact, listed: near_pairs.Pairs, anchor: np.ndarray) -> Term:
     """Contact with the pairs that were listed at ``anchor`` (n,)."""
+    touching = contact.no_contacts(listed)
 
     def slope(x, g):
-        drift = pairs.farthest(x, anchor, contacts.tributary.size)
-        return contact.evaluate(x, contacts, listed, drift, g)
+        drift = near_pairs.farthest(x, anchor, contacts.tributary.size)
+        return contact.evaluate(x, contacts, listed, drift, touching, g)
 
     def add(x, matrix, projected):
         slope(x, np.zeros_like(x))
-        contact.hessian(x, contacts, listed, matrix, projected)
+        contact.hessian(x, contacts, listed, touching, matrix, projected)
 
     return of_points(slope, add)
 

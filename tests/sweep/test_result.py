@@ -6,9 +6,12 @@ from types import SimpleNamespace
 import pytest
 
 from sweep.config.case import Case, Contact, Loading, Material
+from sweep.config.tables import BY_NUMBERS
 from sweep.result import (
     COLUMNS,
     HISTORY_COLUMNS,
+    MODEL_VERSION,
+    RANKING_COLUMNS,
     STRIKER_COLUMNS,
     Result,
     Status,
@@ -16,8 +19,8 @@ from sweep.result import (
     describe_column,
     design_columns,
     failed_result,
+    is_grid_key,
 )
-from sweep.config.tables import BY_NUMBERS
 
 
 def a_case(**loading):
@@ -35,7 +38,7 @@ def a_case(**loading):
     )
 
 
-@pytest.mark.parametrize("columns", [COLUMNS, HISTORY_COLUMNS, STRIKER_COLUMNS])
+@pytest.mark.parametrize("columns", [COLUMNS, HISTORY_COLUMNS, STRIKER_COLUMNS, RANKING_COLUMNS])
 def test_every_column_has_units_that_its_name_ends_in(columns):
     endings = {"m_per_s2": "m/s^2", "m_per_s": "m/s", "J_per_g": "J/g"}
     endings |= {"J": "J", "g": "g", "N": "N", "m": "m", "s": "s", "Pa": "Pa"}
@@ -50,6 +53,19 @@ def test_allowed_force_is_a_column_with_units():
     assert absorbed_energy_column(12.5) == "absorbed_energy_at_12.5N_J"
     assert describe_column("absorbed_energy_at_50N_J").units == "J"
     assert "50 N" in describe_column("absorbed_energy_at_50N_J").description
+
+
+def test_energy_per_gram_is_a_column_with_units():
+    for name in ("specific_absorption_at_densification_J_per_g", "specific_absorption_J_per_g"):
+        found = describe_column(name)
+        assert (found.units, found.better) == ("J/g", "more")
+        assert not is_grid_key(name)
+
+
+def test_text_is_neither_better_nor_worse():
+    words = [name for name, column in COLUMNS.items() if not column.units]
+    assert {"case_id", "material"} < set(words)
+    assert {COLUMNS[name].better for name in words} == {None}
 
 
 def test_grid_key_has_the_unit_of_its_parameter():
@@ -96,6 +112,7 @@ def test_design_of_a_case_is_known_before_it_runs():
     assert row["cells_y"] == 2
     assert row["stroke_m"] == 6e-3
     assert isnan(row["force_N"])
+    assert row["model_version"] == MODEL_VERSION
     assert set(row) <= set(COLUMNS)
 
 

@@ -34,7 +34,7 @@ def families() -> tuple[str, ...]:
 
 def trait(kind: str, name: str) -> Any:
     """What the file of a family has under a name; None without it."""
-    return getattr(import_module(f"sweep.design.infill.{kind}"), name, None)
+    return getattr(import_module(f"{__name__}.{kind}"), name, None)
 
 
 @cache

@@ -1,11 +1,21 @@
-"""Draw all figures into a folder: `python -m sweep.figures results/figures`."""
+"""Draw all figures into a folder: `python -m sweep.studies.course_report results/figures`."""
 
 import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 
-from sweep.studies.course_report import cycles, damping, energies, frames, projection, sensitivity, springs, strain, stretching
+from sweep.studies.course_report import (
+    cycles,
+    damping,
+    energies,
+    frames,
+    projection,
+    sensitivity,
+    springs,
+    strain,
+    stretching,
+)
 
 HEADS = ("The report", "Here", "Where they differ, and why")
 FIGURES: dict[str, Callable[[Path], tuple[str, ...]]] = {

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from pandas import DataFrame
 
-from sweep.config.units import load_config
-from sweep.config.grid import expand
 from sweep.config.case import TABLES, Case
+from sweep.config.grid import expand
+from sweep.config.units import load_config
 from sweep.result import Result
 from sweep.simulation.simulate import simulate
 

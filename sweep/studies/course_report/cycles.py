@@ -4,10 +4,10 @@ from pathlib import Path
 
 from pandas import DataFrame
 
-from sweep.report import case_plots as plots
+from sweep.config.case import Case
+from sweep.report import case_plots
 from sweep.studies.course_report.cases import history, ours, run, varied
 from sweep.studies.course_report.panels import curves, legend, title
-from sweep.config.case import Case
 
 STRAINS = (0.6, 0.45, 0.3, 0.15)
 PLATENS = {"glued": "glued platens", "contact": "loose platens"}
@@ -15,7 +15,7 @@ PLATENS = {"glued": "glued platens", "contact": "loose platens"}
 
 def draw(folder: Path) -> tuple[str, ...]:
     """Loops between glued and between loose platens."""
-    figure = plots.blank(10.0, 3.8)
+    figure = case_plots.blank(10.0, 3.8)
     axes, said = figure.subplots(1, 2, sharey=True), []
     for ax, (platen, words) in zip(axes, PLATENS.items(), strict=True):
         cases = {f"to {100 * strain:.0f} %": _crush(platen, strain) for strain in STRAINS}
@@ -26,7 +26,7 @@ def draw(folder: Path) -> tuple[str, ...]:
         said.append(f"{words}: {', '.join(rows)}; {_lost(cases['to 60 %'])}")
     legend(axes[1])
     left = max(_left(_crush(platen, strain)) for platen in PLATENS for strain in STRAINS)
-    plots.save(figure, folder / "cycles.png")
+    case_plots.save(figure, folder / "cycles.png")
     return (
         "The report loads by a force only; displacement control, reaction forces and cyclic loops "
         "are among its wishes.",

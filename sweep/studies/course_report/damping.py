@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 from pandas import DataFrame
 
-from sweep.report import case_plots as plots
+from sweep.config.case import Case, Material
+from sweep.report import case_plots
+from sweep.scene.material import stress_law
 from sweep.studies.course_report.cases import history, ours, varied
 from sweep.studies.course_report.panels import curves, dress, legend, ticks, title
-from sweep.scene.material import stress_law
-from sweep.config.case import Case, Material
 
 TIME = 5e-3  # s: beta of the one, relaxation time of the other
 SPEEDS = (0.02, 0.05, 0.1, 0.2, 0.5)  # m/s
@@ -23,7 +23,7 @@ MODELS = {
 def draw(folder: Path) -> tuple[str, ...]:
     """Loop area and rate dependence."""
     pasts = {name: [history(_crush(name, v)) for v in SPEEDS] for name in MODELS}
-    figure = plots.blank(10.0, 3.6)
+    figure = case_plots.blank(10.0, 3.6)
     left, right = figure.subplots(1, 2)
     shown = SPEEDS.index(SHOWN)
     lines = {name: _loop(runs[shown]) for name, runs in pasts.items()}
@@ -39,7 +39,7 @@ def draw(folder: Path) -> tuple[str, ...]:
     dress(right, "speed of the platen, m/s", "lost in the material, mJ")
     title(right, "what the material takes in a loop")
     legend(right, loc="upper left")
-    plots.save(figure, folder / "damping.png")
+    case_plots.save(figure, folder / "damping.png")
     table = "; ".join(
         f"{v:g} m/s: {_both(areas, i)}, of which the material takes {_both(lost, i)}"
         for i, v in enumerate(SPEEDS)

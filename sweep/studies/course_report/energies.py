@@ -4,7 +4,7 @@ from pathlib import Path
 
 from pandas import DataFrame
 
-from sweep.report import case_plots as plots
+from sweep.report import case_plots
 from sweep.studies.course_report.cases import HELD, at, history, ours, report, run, share, varied
 from sweep.studies.course_report.panels import curves, legend, title
 
@@ -21,7 +21,7 @@ SHOWN = {
 def draw(folder: Path) -> tuple[str, ...]:
     """Its Fig. 8."""
     pasts = {"the report's model": history(report()), "our model": history(ours())}
-    figure = plots.blank(9.0, 6.0)
+    figure = case_plots.blank(9.0, 6.0)
     for ax, (name, past) in zip(
         figure.subplots(2, 1, sharex=True, sharey=True), pasts.items(), strict=True
     ):
@@ -31,10 +31,10 @@ def draw(folder: Path) -> tuple[str, ...]:
             if past[key].any()
         }
         curves(ax, lines, "time, ms", "energy, mJ")
-        plots.mark(ax, 1e3 * float(report().loading.release_time or 0.0), "load off")
+        case_plots.mark(ax, 1e3 * float(report().loading.release_time or 0.0), "load off")
         title(ax, name)
         legend(ax)
-    plots.save(figure, folder / "fig08_energies.png")
+    case_plots.save(figure, folder / "fig08_energies.png")
     ratios = {}
     for step in STEPS:
         case = varied(report(), solver={"time_step": step})

@@ -2,30 +2,30 @@
 
 from pathlib import Path
 
-from sweep.report import case_plots as plots
+from sweep.config.case import Case
+from sweep.report import case_plots
 from sweep.studies.course_report.cases import ours, report, run, varied
 from sweep.studies.course_report.springs import SHORT
-from sweep.config.case import Case
 
 
 def draw(folder: Path) -> tuple[str, ...]:
     """Its Figs. 5 and 6."""
     frames = run(report()).frames
     rest = {key: values[:1] for key, values in frames.items() if not key.startswith("edge")}
-    figure = plots.blank(3.0, 3.2)
-    plots.deformed_shapes(figure, "at rest", {**frames, **rest})
-    plots.save(figure, folder / "fig05_undeformed.png")
+    figure = case_plots.blank(3.0, 3.2)
+    case_plots.deformed_shapes(figure, "at rest", {**frames, **rest})
+    case_plots.save(figure, folder / "fig05_undeformed.png")
     by_position, barrier = varied(report(), loading=SHORT), varied(ours(), loading=SHORT)
     cases = {
         "without contact": varied(report(), contact={"model": "none"}, loading=SHORT),
         "contact by position: the report's model": by_position,
         "barrier: our model": barrier,
     }
-    figure = plots.blank(10.0, 7.0)
+    figure = case_plots.blank(10.0, 7.0)
     strips = figure.subfigures(len(cases), 1, squeeze=False)[:, 0]
     for strip, (name, case) in zip(strips, cases.items(), strict=True):
-        plots.deformed_shapes(strip, name, run(case).frames, SHORT["duration"])
-    plots.save(figure, folder / "fig06_collapse.png")
+        case_plots.deformed_shapes(strip, name, run(case).frames, SHORT["duration"])
+    case_plots.save(figure, folder / "fig06_collapse.png")
     rows = [
         f"{name}: strain up to {run(case).summary['peak_strain']:.2f}, walls through one another "
         f"{run(case).summary['max_crossings']} times"

@@ -1,4 +1,4 @@
-"""Axes with labelled curves, in the manner of `plots`."""
+"""Axes with labelled curves, in the manner of `case_plots`."""
 
 from __future__ import annotations
 

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import numpy as np
 
-from sweep.report import case_plots as plots
+from sweep.config.case import Case
+from sweep.report import case_plots
 from sweep.studies.course_report.cases import at, history, report, run, varied
 from sweep.studies.course_report.panels import curves, legend, ticks, title
 from sweep.studies.course_report.springs import SHORT
-from sweep.config.case import Case
 
 STEPS = (1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6)  # s
 MODELS = {"position_based": "by position", "barrier": "barrier"}
@@ -25,7 +25,7 @@ def draw(folder: Path) -> tuple[str, ...]:
     open_book = [
         max(np.abs(past["energy_residual_J"]).max() / work, 1e-16) for past in pasts["barrier"]
     ]
-    figure = plots.blank(10.0, 3.6)
+    figure = case_plots.blank(10.0, 3.6)
     left, right = figure.subplots(1, 2)
     steps = 1e6 * np.array(STEPS)
     lines = {"by position: injected": (steps, pushed), "barrier: left over": (steps, open_book)}
@@ -45,7 +45,7 @@ def draw(folder: Path) -> tuple[str, ...]:
     ticks(right.yaxis, (100, 200, 400, 800))
     title(right, f"stretching and bending after {1e3 * HELD:.0f} ms")
     legend(right, loc="upper left")
-    plots.save(figure, folder / "contact_models.png")
+    case_plots.save(figure, folder / "contact_models.png")
     rows = "; ".join(
         f"{dt:g} µs: {p:.3g} and {o:.1e}" for dt, p, o in zip(steps, pushed, open_book, strict=True)
     )

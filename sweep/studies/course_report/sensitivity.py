@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from sweep.report import case_plots as plots
+from sweep.report import case_plots
 from sweep.studies.course_report.cases import HELD, at, coarse, history, run, share, varied
 from sweep.studies.course_report.panels import dress, title
 
@@ -32,7 +32,7 @@ CHOICES: dict[str, dict[str, Any]] = {
 def draw(folder: Path) -> tuple[str, ...]:
     """Strain under the load, and bending over stretching, choice by choice."""
     cases = {name: varied(coarse(), **changes) for name, changes in CHOICES.items()}
-    figure = plots.blank(9.0, 4.6)
+    figure = case_plots.blank(9.0, 4.6)
     left, right = figure.subplots(1, 2, sharey=True)
     strain = {n: 100 * at(history(c), "strain") for n, c in cases.items()}
     ratio = {n: share(history(c)) for n, c in cases.items()}
@@ -40,13 +40,13 @@ def draw(folder: Path) -> tuple[str, ...]:
         (left, strain, f"strain at {1e3 * HELD:.0f} ms, %"),
         (right, ratio, "bending / stretching energy"),
     ):
-        ax.axvline(values["as chosen"], color=plots.GREY, ls=":", lw=1.0)
-        ax.plot(list(values.values()), list(values), "o", color=plots.BLUE)
+        ax.axvline(values["as chosen"], color=case_plots.GREY, ls=":", lw=1.0)
+        ax.plot(list(values.values()), list(values), "o", color=case_plots.BLUE)
         dress(ax, words, "")
         ax.set_xlim(left=0.0)
     left.invert_yaxis()
     title(left, "our model, one choice changed")
-    plots.save(figure, folder / "sensitivity.png")
+    case_plots.save(figure, folder / "sensitivity.png")
     failed = [name for name, case in cases.items() if run(case).status != "converged"]
     rows = "; ".join(f"{n}: {strain[n]:.1f} %, {ratio[n]:.1f}" for n in CHOICES)
     chosen = coarse()

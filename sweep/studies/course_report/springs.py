@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from sweep.report import case_plots as plots
+from sweep.report import case_plots
 from sweep.studies.course_report.cases import history, report, run, varied
 
 SHORT = {"duration": 0.03, "release_time": 0.03}
@@ -12,10 +12,10 @@ def draw(folder: Path) -> tuple[str, ...]:
     """Its Fig. 3: neither bending nor contact."""
     bent = varied(report(), contact={"model": "none"}, loading=SHORT)
     loose = varied(bent, material={"bend": "none"})
-    figure = plots.blank(10.0, 2.9)
+    figure = case_plots.blank(10.0, 2.9)
     title = f"walls that stretch but do not bend or touch, {report().loading.force:g} N on top"
-    plots.deformed_shapes(figure, title, run(loose).frames, SHORT["duration"])
-    plots.save(figure, folder / "fig03_springs.png")
+    case_plots.deformed_shapes(figure, title, run(loose).frames, SHORT["duration"])
+    case_plots.save(figure, folder / "fig03_springs.png")
     curves, stiff = history(loose), history(bent)
     falls, sinks = (past["time_s"][(past["strain"] > 0.5).idxmax()] for past in (curves, stiff))
     return (

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from sweep.report import case_plots as plots
+from sweep.report import case_plots
 from sweep.studies.course_report.cases import HELD, at, coarse, history, ours, report, run, varied
 from sweep.studies.course_report.panels import curves, legend, title
 
@@ -14,7 +14,7 @@ def draw(folder: Path) -> tuple[str, ...]:
     barrier = varied(report(), contact={"model": "barrier"})
     cases = {"the report's model": report(), "with the barrier": barrier, "our model": ours()}
     pasts = {name: history(case) for name, case in cases.items()}
-    figure = plots.blank(9.0, 6.0)
+    figure = case_plots.blank(9.0, 6.0)
     whole, start = figure.subplots(2, 1)
     for ax, until in ((whole, 0.2), (start, 0.02)):
         lines = {
@@ -24,16 +24,16 @@ def draw(folder: Path) -> tuple[str, ...]:
         curves(
             ax, {name: (t, s[: len(t)]) for name, (t, s) in lines.items()}, "time, ms", "strain, %"
         )
-    plots.mark(whole, 1e3 * float(report().loading.release_time or 0.0), "load off")
+    case_plots.mark(whole, 1e3 * float(report().loading.release_time or 0.0), "load off")
     title(whole, f"{report().loading.force:g} N on the top row, put on at once")
     title(start, "the first 20 ms")
     past = pasts["the report's model"]
     buckled = past["time_s"][(past["strain"] > BUCKLED).idxmax()]
     landed = past["time_s"][(past["injected_by_projection_J"] != 0.0).idxmax()]
-    plots.mark(start, 1e3 * buckled, "buckles")
-    plots.mark(start, 1e3 * landed, "walls\nmeet")
+    case_plots.mark(start, 1e3 * buckled, "buckles")
+    case_plots.mark(start, 1e3 * landed, "walls\nmeet")
     legend(whole)
-    plots.save(figure, folder / "fig07_strain.png")
+    case_plots.save(figure, folder / "fig07_strain.png")
     held = ", ".join(f"{100 * at(past, 'strain'):.1f} % ({name})" for name, past in pasts.items())
     rests = max(abs(float(run(case).summary["residual_strain"])) for case in cases.values())
     fine = history(varied(coarse(), lattice={"nodes_per_wall": 8}))

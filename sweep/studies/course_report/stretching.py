@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 from pandas import DataFrame
 
-from sweep.report import case_plots as plots
+from sweep.config.case import Case
+from sweep.report import case_plots
 from sweep.studies.course_report.cases import HELD, at, history, ours, report, varied
 from sweep.studies.course_report.panels import curves, legend, title
-from sweep.config.case import Case
 
 LAWS = ("nonlinear", "linear")
 PRESSED = {"mode": "displacement", "strain": 0.6, "unload": False, "platen": "glued"}
@@ -18,14 +18,14 @@ def draw(folder: Path) -> tuple[str, ...]:
     """Its Figs. 9 and 10."""
     forced, pressed = _pair(report()), _pair(varied(ours(), loading=PRESSED))
     steady = _pair(ours())
-    figure = plots.blank(9.0, 3.4)
+    figure = case_plots.blank(9.0, 3.4)
     ax = figure.subplots()
     lines = {f"{law}, the report's model": _way(past) for law, past in forced.items()}
     curves(ax, lines | {f"{law}, our model": _way(past) for law, past in steady.items()},
            "time, ms", "strain, %")  # fmt: skip
     legend(ax)
-    plots.save(figure, folder / "fig09_stretching_strain.png")
-    figure = plots.blank(10.0, 3.6)
+    case_plots.save(figure, folder / "fig09_stretching_strain.png")
+    figure = case_plots.blank(10.0, 3.6)
     left, right = figure.subplots(1, 2)
     for ax, pasts, x in ((left, forced, "time_s"), (right, pressed, "strain")):
         factor, words = (1e3, "time, ms") if x == "time_s" else (100.0, "strain, %")
@@ -38,7 +38,7 @@ def draw(folder: Path) -> tuple[str, ...]:
     title(left, f"under a force of {report().loading.force:g} N, the report's model")
     title(right, "under displacement, our model")
     legend(right)
-    plots.save(figure, folder / "fig10_stretching_energies.png")
+    case_plots.save(figure, folder / "fig10_stretching_energies.png")
     said = {name: _words(pasts, "time_s") for name, pasts in (("r", forced), ("o", steady))}
     bend_held, bend_way = _settled(steady, "bend_J"), _apart(pressed, "bend_J", "strain")
     return (

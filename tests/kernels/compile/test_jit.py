@@ -10,12 +10,12 @@ from pathlib import Path
 
 import numba
 import numpy as np
-import packages
 import pytest
 
 from kernels.compile import cache as kept
 from kernels.compile.cache import SealedFiles, fingerprint, open_cache, prune, seal
 from kernels.compile.jit import jit, jit_exact, jit_owning
+from tests.support import packages
 
 DAMAGE = {
     "empty": lambda content: b"",
@@ -51,8 +51,9 @@ def package(tmp_path):
     """Folder with a package `kernels` of a caller and its callee in another file."""
     return packages.make(
         tmp_path,
-        callee="from kernels.compile.jit import jit\n\n\n@jit\ndef offset(x):\n    return x + 1.0\n",
-        caller="from kernels.callee import offset\nfrom kernels.jit import jit\n\n\n"
+        callee="from kernels.compile.jit import jit\n\n\n"
+        "@jit\ndef offset(x):\n    return x + 1.0\n",
+        caller="from kernels.callee import offset\nfrom kernels.compile.jit import jit\n\n\n"
         "@jit\ndef value(x):\n    return offset(x) + 0.5\n",
     )
 

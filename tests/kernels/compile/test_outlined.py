@@ -3,10 +3,10 @@
 import time
 from pathlib import Path
 
-import packages
 import pytest
 
 from kernels.compile.jit import jit_exact, separate
+from tests.support import packages
 
 CALLEE = """
 from typing import NamedTuple
@@ -59,15 +59,15 @@ print(caller.value(4), *loaded(caller.value.entry))
 print(*loaded(callee.dot.separated), *loaded(callee.pair.separated))
 """
 AHEAD = """
-from kernels.compile import precompile as ahead
 from kernels import caller
+from kernels.compile import precompile as ahead
 
 ahead.compile_ahead(lambda: print(caller.value(4), len(caller.value.entry.signatures)))
 """
 MISTAKEN = """
 from numba import types
-from kernels.compile import precompile as ahead, outlined as separate
 from kernels import caller
+from kernels.compile import outlined as separate, precompile as ahead
 
 versions = ahead.rehearse(lambda: caller.value(4))
 returns = {"dot": types.%s}
@@ -153,8 +153,8 @@ print(*both(np.arange(4.0), np.full((4, 2), 3.0), 4))
 
 BROKEN = """
 import subprocess
-from kernels.compile import precompile as ahead
 from kernels import caller
+from kernels.compile import precompile as ahead
 
 {trouble}
 ahead.compile_ahead(lambda: caller.value(4))

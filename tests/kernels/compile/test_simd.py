@@ -4,9 +4,9 @@ import numba
 import numpy as np
 import pytest
 
-from kernels.linear import block_ldlt as blocks, block_matrix as entries, periodic_images as image
 from kernels.compile.jit import jit
 from kernels.compile.simd import added, load, spread, store
+from kernels.linear import block_ldlt, block_matrix, periodic_images
 
 
 @pytest.fixture(autouse=True)
@@ -41,11 +41,11 @@ def test_only_a_vector_of_float64_without_gaps_is_taken(array):
 
 def test_blocks_are_updated_four_numbers_at_a_time():
     pattern = np.array([0, 1, 1]), np.array([1])
-    matrix = entries.shaped(np.arange(6), *pattern, np.ones(6), image.NONE)
+    matrix = block_matrix.shaped(np.arange(6), *pattern, np.ones(6), periodic_images.NONE)
 
     @jit
     def update(matrix):
-        return blocks._update(matrix, 0, 2, 0)
+        return block_ldlt._update(matrix, 0, 2, 0)
 
     assert update(matrix) == 1
     (compiled,) = update.entry.overloads.values()

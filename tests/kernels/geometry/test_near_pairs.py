@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from kernels.geometry import near_pairs as pairs
+from kernels.geometry import near_pairs
 from kernels.geometry.distance import squared_distance
-from tests.frames import contact_of, frame, joint_of_four, shaken
+from tests.support.frames import contact_of, frame, joint_of_four, shaken
 
 
 def brute_force(x, edges, radius):
@@ -26,7 +26,7 @@ def random_segments(rng, n, reach):
 
 
 def found(x, edges, radius):
-    node, edge, distance = pairs.near(x, x.size // 2, edges, radius)
+    node, edge, distance = near_pairs.near(x, x.size // 2, edges, radius)
     for p, k, d in zip(node, edge, distance, strict=True):
         assert d == np.sqrt(squared_distance(x, p, *edges[k]))
     listed = list(zip(node.tolist(), edge.tolist(), strict=True))
@@ -83,23 +83,23 @@ def test_a_pair_at_the_radius_is_not_near():
 def test_find_gives_ordinary_pairs_their_own_length_and_thickness():
     of = frame([(0, 0), (4, 0), (0, 1), (4, 1)], [(0, 1), (2, 3)], [2, 4], [0.8, 0.4])
     contact = contact_of(of)
-    listed = pairs.find(of.rest, contact, 1.5)
+    listed = near_pairs.find(of.rest, contact, 1.5)
     assert len(listed.node) > 10
     across = np.flatnonzero((listed.node == 4) & (listed.edge >= 2))
     np.testing.assert_allclose(listed.d_contact[across], 0.6)
     for k in across:
-        assert pairs.counted(listed, k, contact) == (2.0, *contact.subtract[listed.edge[k]])
+        assert near_pairs.counted(listed, k, contact) == (2.0, *contact.subtract[listed.edge[k]])
 
 
 def test_find_gives_special_pairs_their_own_rules():
     of = joint_of_four()
     contact = contact_of(of)
-    listed = pairs.find(of.rest, contact, 2.0)
+    listed = near_pairs.find(of.rest, contact, 2.0)
     owner = np.repeat(np.arange(len(of.edges)), np.diff(contact.special_start))
     seen = 0
     for k, (p, e) in enumerate(zip(listed.node, listed.edge, strict=True)):
         (at,) = np.nonzero((contact.special_node == p) & (owner == e))
-        length, *subtract = pairs.counted(listed, k, contact)
+        length, *subtract = near_pairs.counted(listed, k, contact)
         assert listed.rule[k] == (at[0] if len(at) else -1)
         assert (listed.d_contact[k] > 0.0) == (length > 0.0)
         if len(at):
@@ -116,13 +116,13 @@ def test_find_gives_special_pairs_their_own_rules():
 def test_find_lists_the_nearest_first(seed):
     of = joint_of_four()
     x = shaken(of, seed)
-    listed = pairs.find(x, contact_of(of), 3.0)
+    listed = near_pairs.find(x, contact_of(of), 3.0)
     assert len(listed.node) > 20
     assert np.all(np.diff(listed.distance) >= 0.0)
     for p, k, d in zip(listed.node, listed.edge, listed.distance, strict=True):
-        assert d <= np.sqrt(squared_distance(x, p, *of.edges[k])) < d + 3.1 / pairs.SHELLS
+        assert d <= np.sqrt(squared_distance(x, p, *of.edges[k])) < d + 3.1 / near_pairs.SHELLS
     for radius in (0.0, 0.5, 2.0, np.inf):
-        ahead = pairs.within(listed, radius)
+        ahead = near_pairs.within(listed, radius)
         assert np.all(listed.distance[:ahead] < radius)
         assert np.all(listed.distance[ahead:] >= radius)
     assert set(zip(listed.node.tolist(), listed.edge.tolist(), strict=True)) == brute_force(
@@ -133,5 +133,5 @@ def test_find_lists_the_nearest_first(seed):
 def test_farthest_is_the_largest_move_of_a_node():
     x = np.zeros(9)
     moved = np.array([0.0, 0.1, 3.0, 4.0, 1.0, -1.0, 50.0, 0.0, 0.0])
-    assert pairs.farthest(moved, x, 3) == pytest.approx(5.0)
-    assert pairs.empty().node.size == 0
+    assert near_pairs.farthest(moved, x, 3) == pytest.approx(5.0)
+    assert near_pairs.empty().node.size == 0

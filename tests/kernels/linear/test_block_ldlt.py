@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from kernels.linear import block_ldlt as blocks, block_matrix as entries, periodic_images as image
+from kernels.linear import block_ldlt, block_matrix, periodic_images
 from kernels.linear.block_matrix import DRIVEN, HELD, INNER
-from tests.terms import by_home, dense, full_matrix
+from tests.support.terms import by_home, dense, full_matrix
 
 NB = 12
 
@@ -32,7 +32,7 @@ def shaped(joined, home=None, ratio=None):
     start = np.cumsum([0, *map(len, below)])
     home = np.arange(3 * nb) if home is None else home
     ratio = np.ones(home.size) if ratio is None else ratio
-    return entries.shaped(home, start, np.concatenate(below), ratio, image.NONE)
+    return block_matrix.shaped(home, start, np.concatenate(below), ratio, periodic_images.NONE)
 
 
 def put(matrix, full, room=None):
@@ -40,7 +40,7 @@ def put(matrix, full, room=None):
     for i in range(len(full)):
         for j in range(i + 1):
             if room is None or room[i, j]:
-                entries.add(matrix, i, j, full[i, j])
+                block_matrix.add(matrix, i, j, full[i, j])
 
 
 def by_entry(joined):
@@ -59,15 +59,15 @@ def made(joined, full, scale):
     """Matrix with these entries, ready to be factored."""
     matrix = shaped(joined)
     put(matrix, full, by_entry(joined))
-    blocks.settle(matrix, scale)
+    block_ldlt.settle(matrix, scale)
     return matrix
 
 
 def solved(matrix, b):
     """Solution (3 nb,) by home after the factor."""
     matrix.vector[:] = b
-    blocks.forward(matrix)
-    blocks.backward(matrix, matrix.start.size - 1)
+    block_ldlt.forward(matrix)
+    block_ldlt.backward(matrix, matrix.start.size - 1)
     return matrix.vector.copy()
 
 
@@ -79,7 +79,7 @@ def test_factor_and_solve(seed, scale):
     full = scale * definite(rng, joined)
     matrix, b = made(joined, full, scale), rng.uniform(-1, 1, len(full))
     np.testing.assert_array_equal(by_home(matrix), full)
-    assert blocks.factor(matrix, scale, blocks.ROUNDED) == (-1, 0.0)
+    assert block_ldlt.factor(matrix, scale, block_ldlt.ROUNDED) == (-1, 0.0)
     np.testing.assert_allclose(full @ solved(matrix, b), b, rtol=0, atol=1e-12)
 
 
@@ -89,13 +89,13 @@ def test_the_factor_times_its_diagonal_times_its_transpose_is_the_matrix(seed):
     joined = random_pattern(rng)
     full = definite(rng, joined)
     matrix = made(joined, full, 1.0)
-    blocks.factor(matrix, 1.0, blocks.ROUNDED)
+    block_ldlt.factor(matrix, 1.0, block_ldlt.ROUNDED)
     kept = by_home(matrix)
     inside = by_entry(np.eye(NB, dtype=bool))
     lower = np.tril(np.where(inside, 0.0, kept)) + np.eye(len(full))
     diagonal = np.linalg.inv(np.where(inside, kept, 0.0))
     np.testing.assert_allclose(lower @ diagonal @ lower.T, full, rtol=0, atol=1e-13 * len(full))
-    assert not matrix.values[:-1].reshape(-1, entries.STRIDE)[:, 3].any()
+    assert not matrix.values[:-1].reshape(-1, block_matrix.STRIDE)[:, 3].any()
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -108,7 +108,7 @@ def test_updates_are_where_the_products_of_a_column_belong(seed):
         for q in range(matrix.start[j], matrix.start[j + 1]):
             place[matrix.row[q], j] = 20 + q
     expected = [
-        entries.SIZE * place[a, b]
+        block_matrix.SIZE * place[a, b]
         for j in range(20)
         for b in matrix.row[matrix.start[j] : matrix.start[j + 1]]
         for a in matrix.row[matrix.start[j] : matrix.start[j + 1]]
@@ -136,7 +136,7 @@ def test_ties_and_supports_reduce_the_matrix(seed):
     ratio = np.where(home == DRIVEN, rng.uniform(-1, 1, 10), 1.0)
     matrix = shaped(np.ones((3, 3), dtype=bool), home, ratio)
     put(matrix, full)
-    blocks.settle(matrix, 7.0)
+    block_ldlt.settle(matrix, 7.0)
     R = reduction_to(home, 3)
     expected = R.T @ full @ R + np.diag(np.where(R.any(axis=0), 0.0, 7.0))
     np.testing.assert_allclose(by_home(matrix), expected, rtol=0, atol=1e-14)
@@ -154,16 +154,16 @@ def test_a_matrix_that_is_used_again_starts_at_zero():
     for scale in (3.0, 5.0):
         full = rng.uniform(-1, 1, (8, 8)) + 8.0 * np.eye(8)
         full += full.T
-        entries.clear(matrix)
+        block_matrix.clear(matrix)
         for cleared in (matrix.values, matrix.diagonal, matrix.pull, matrix.missing):
             assert not cleared.any()
         put(matrix, full)
         assert matrix.missing[0] == 1
-        blocks.settle(matrix, scale)
+        block_ldlt.settle(matrix, scale)
         R = reduction_to(home, 2)
         expected = R.T @ full @ R + np.diag(np.where(R.any(axis=0), 0.0, scale))
         np.testing.assert_allclose(by_home(matrix), expected, rtol=0, atol=1e-14)
-        assert blocks.factor(matrix, scale, blocks.ROUNDED)[0] == -1
+        assert block_ldlt.factor(matrix, scale, block_ldlt.ROUNDED)[0] == -1
 
 
 NO_ROOM = [(0, 5, True), (0, 3, False), (0, 7, True), (6, 7, False), (1, 0, False), (9, 0, False)]
@@ -177,8 +177,8 @@ def test_an_entry_without_room_is_missed(i, j, missing):
     home = np.array([0, 1, 2, 3, 4, 6, HELD, INNER, INNER, DRIVEN])
     matrix = shaped(joined, home)
     for a, b in ((i, j), (j, i)):
-        entries.clear(matrix)
-        entries.add(matrix, a, b, 2.0)
+        block_matrix.clear(matrix)
+        block_matrix.add(matrix, a, b, 2.0)
         assert matrix.missing[0] == missing
         assert not missing or not matrix.values.any()
 
@@ -186,7 +186,7 @@ def test_an_entry_without_room_is_missed(i, j, missing):
 def test_the_diagonal_has_room_everywhere():
     matrix = shaped(np.eye(1, dtype=bool), np.array([HELD, INNER, DRIVEN, 1]))
     for i in range(4):
-        entries.add(matrix, i, i, 1.0 + i)
+        block_matrix.add(matrix, i, i, 1.0 + i)
     np.testing.assert_array_equal(matrix.diagonal, [1.0, 2.0, 3.0, 4.0])
     assert matrix.missing[0] == 0
 
@@ -195,12 +195,12 @@ def test_the_diagonal_has_room_everywhere():
 def test_blocks_of_two_points_are_symmetric(home):
     matrix = shaped(np.ones((2, 2), dtype=bool), np.array(home))
     own, other = np.array([[2.0, 0.5], [0.5, 3.0]]), np.array([[7.0, -1.0], [4.0, 5.0]])
-    entries.add_block(matrix, 0, 0, *own.ravel())
-    entries.add_block(matrix, 2, 2, *own.ravel())
-    entries.add_block(matrix, 0, 2, *other.ravel())
+    block_matrix.add_block(matrix, 0, 0, *own.ravel())
+    block_matrix.add_block(matrix, 2, 2, *own.ravel())
+    block_matrix.add_block(matrix, 0, 2, *other.ravel())
     full = np.block([[own, other], [other.T, own]])
     R = reduction_to(home, 2)
-    blocks.settle(matrix, 1.0)
+    block_ldlt.settle(matrix, 1.0)
     expected = R.T @ full @ R + np.diag(np.where(R.any(axis=0), 0.0, 1.0))
     np.testing.assert_allclose(by_home(matrix), expected)
 
@@ -216,12 +216,12 @@ def test_descent_along_a_negative_pivot(seed, slot, scale):
     full[bad, bad] -= np.abs(full[bad]).sum() + rng.uniform(0.01, 3)
     full *= scale
     matrix = made(joined, full, scale)
-    failed, pivot = blocks.factor(matrix, scale, blocks.ROUNDED)
+    failed, pivot = block_ldlt.factor(matrix, scale, block_ldlt.ROUNDED)
     minors = [np.linalg.eigvalsh(full[:k, :k])[0] for k in range(1, len(full) + 1)]
     assert failed == next(k for k, least in enumerate(minors) if least < 0) == bad
     assert pivot < 0
     matrix.vector[:] = 7.0
-    blocks.descend(matrix, failed)
+    block_ldlt.descend(matrix, failed)
     d = matrix.vector
     assert d @ full @ d == pytest.approx(pivot, rel=1e-9)
     assert d[failed] == 1.0
@@ -239,21 +239,21 @@ def test_descent_leaves_out_a_motion_without_stiffness(loose, bad, noise):
     full[3 + bad, 3 + loose] = full[3 + loose, 3 + bad] = 3.0 * noise
     full[3 + bad, 3 + bad] = -1.0
     matrix = made(np.ones((2, 2), dtype=bool), full, 1.0)
-    failed, pivot = blocks.factor(matrix, 1.0, blocks.ROUNDED)
+    failed, pivot = block_ldlt.factor(matrix, 1.0, block_ldlt.ROUNDED)
     assert failed == 3 + bad
-    blocks.descend(matrix, failed)
+    block_ldlt.descend(matrix, failed)
     d = matrix.vector
     assert d @ full @ d == pytest.approx(pivot, rel=1e-9)
-    assert abs(d[3 + loose]) < 1e-15 / blocks.SOFT
+    assert abs(d[3 + loose]) < 1e-15 / block_ldlt.SOFT
 
 
 @pytest.mark.parametrize("slot", range(3))
 def test_nan_fails(slot):
     matrix = shaped(np.eye(1, dtype=bool))
     for i in range(3):
-        entries.add(matrix, i, i, 1.0 if i != slot else np.nan)
-    blocks.settle(matrix, 1.0)
-    failed, pivot = blocks.factor(matrix, 1.0, blocks.ROUNDED)
+        block_matrix.add(matrix, i, i, 1.0 if i != slot else np.nan)
+    block_ldlt.settle(matrix, 1.0)
+    failed, pivot = block_ldlt.factor(matrix, 1.0, block_ldlt.ROUNDED)
     assert failed == slot
     assert np.isnan(pivot)
 
@@ -266,7 +266,7 @@ def test_motions_without_stiffness_are_not_moved_along(loose, scale):
     half = rng.uniform(-1, 1, (12, 12 - loose))
     full = scale * half @ half.T
     matrix = made(np.ones((4, 4), dtype=bool), full, scale)
-    assert blocks.factor(matrix, scale, blocks.ROUNDED) == (-1, 0.0)
+    assert block_ldlt.factor(matrix, scale, block_ldlt.ROUNDED) == (-1, 0.0)
     b = full @ rng.uniform(-1, 1, 12)
     y = solved(matrix, b)
     assert np.abs(y).max() < 1e3
@@ -275,8 +275,8 @@ def test_motions_without_stiffness_are_not_moved_along(loose, scale):
 
 def test_a_coordinate_without_any_stiffness_gets_a_share_of_the_scale():
     matrix = made(np.eye(1, dtype=bool), np.diag([4.0, 0.0, 1.0]), 4.0)
-    assert blocks.factor(matrix, 4.0, blocks.ROUNDED)[0] == -1
-    np.testing.assert_allclose(solved(matrix, np.full(3, 8.0)), [2.0, 2.0 / blocks.SOFT, 8.0])
+    assert block_ldlt.factor(matrix, 4.0, block_ldlt.ROUNDED)[0] == -1
+    np.testing.assert_allclose(solved(matrix, np.full(3, 8.0)), [2.0, 2.0 / block_ldlt.SOFT, 8.0])
 
 
 @pytest.mark.parametrize("apart", [1, 3])
@@ -286,7 +286,7 @@ def test_a_small_but_true_negative_pivot_is_seen(apart):
     full[apart, 0] = full[0, apart] = 1.0
     full[apart, apart] -= 1e-6
     matrix = made(np.ones((2, 2), dtype=bool), full, 1.0)
-    failed, pivot = blocks.factor(matrix, 1.0, blocks.ROUNDED)
+    failed, pivot = block_ldlt.factor(matrix, 1.0, block_ldlt.ROUNDED)
     assert failed == apart
     assert pivot == pytest.approx(-1e-6, rel=1e-6)
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from kernels.linear import block_ldlt as blocks, condense
-from tests.frames import frame, walls_of
-from tests.terms import assembled, room
+from kernels.linear import block_ldlt, condense
+from tests.support.frames import frame, walls_of
+from tests.support.terms import assembled, room
 
 PIECES = [1, 2, 3, 4, 12]
 SCALE = 7.0
@@ -45,7 +45,7 @@ class Wall:
         """Place of the first negative pivot, and that pivot."""
         scale = SCALE * self.size
         return condense.eliminate(
-            self.rows, self.diagonal, self.own, self.outer, scale, blocks.ROUNDED
+            self.rows, self.diagonal, self.own, self.outer, scale, block_ldlt.ROUNDED
         )
 
 
@@ -127,7 +127,7 @@ def test_what_has_no_stiffness_inside_has_a_little():
     y = np.array([6.0, 6.0])
     condense.forward(wall.rows, y, np.zeros(6))
     condense.backward(wall.rows, y, np.zeros(6), 2)
-    np.testing.assert_allclose(y, [2.0, 6.0 / (blocks.SOFT * SCALE)])
+    np.testing.assert_allclose(y, [2.0, 6.0 / (block_ldlt.SOFT * SCALE)])
 
 
 def test_nan_fails():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.linear import minimum_degree as order
+from kernels.linear import minimum_degree
 
 SIZES = [1, 2, 5, 63, 64, 65, 100, 127, 128, 129, 150, 200]
 
@@ -28,9 +28,9 @@ def grid_graph(n):
 
 
 def bits_of(joined):
-    bits = order.graph(len(joined))
+    bits = minimum_degree.graph(len(joined))
     for i, j in zip(*np.nonzero(joined), strict=True):
-        order.connect(bits, i, j)
+        minimum_degree.connect(bits, i, j)
     return bits
 
 
@@ -56,8 +56,8 @@ def eliminated(joined, sequence):
 def test_bits_hold_a_graph(n):
     joined = random_graph(n, n)
     np.testing.assert_array_equal(unpacked(bits_of(joined), n), joined)
-    bits = order.graph(n)
-    order.connect(bits, n - 1, n - 1)
+    bits = minimum_degree.graph(n)
+    minimum_degree.connect(bits, n - 1, n - 1)
     assert not bits.any()
 
 
@@ -66,8 +66,8 @@ def test_bits_hold_a_graph(n):
 def test_the_pattern_of_the_factor_is_the_true_fill(n, kind):
     joined = kind(n)
     bits = bits_of(joined)
-    sequence = order.minimum_degree(bits)
-    start, row = order.columns(bits, sequence)
+    sequence = minimum_degree.minimum_degree(bits)
+    start, row = minimum_degree.columns(bits, sequence)
     np.testing.assert_array_equal(np.sort(sequence), np.arange(len(joined)))
     expected, _ = eliminated(joined, sequence)
     found = np.zeros_like(joined)
@@ -81,7 +81,7 @@ def test_the_pattern_of_the_factor_is_the_true_fill(n, kind):
 @pytest.mark.parametrize("n", [5, 64, 100, 150])
 def test_the_next_one_has_the_least_degree_that_is_left(n):
     joined = grid_graph(n)
-    sequence = order.minimum_degree(bits_of(joined))
+    sequence = minimum_degree.minimum_degree(bits_of(joined))
     _, degrees = eliminated(joined, sequence)
     for v, degree in zip(sequence, degrees, strict=True):
         assert degree[v] == degree.min()
@@ -90,12 +90,12 @@ def test_the_next_one_has_the_least_degree_that_is_left(n):
 def test_the_fill_is_far_less_than_without_an_order():
     joined = grid_graph(144)
     bits = bits_of(joined)
-    start, _ = order.columns(bits, order.minimum_degree(bits))
+    start, _ = minimum_degree.columns(bits, minimum_degree.minimum_degree(bits))
     plain, _ = eliminated(joined, np.arange(144))
     assert start[-1] < 0.6 * plain.sum()
 
 
 def test_nothing_to_eliminate():
-    bits = order.graph(0)
-    start, row = order.columns(bits, order.minimum_degree(bits))
+    bits = minimum_degree.graph(0)
+    start, row = minimum_degree.columns(bits, minimum_degree.minimum_degree(bits))
     assert (list(start), row.size) == ([0], 0)

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from kernels.linear import block_matrix as entries, analysis as pattern, system
+from kernels.linear import analysis, block_matrix, system
 from kernels.linear.analysis import CONDENSED, OPEN, RIGID
-from tests.frames import frame, layout_of, walls_of
-from tests.terms import assembled, by_home, room
+from tests.support.frames import frame, layout_of, walls_of
+from tests.support.terms import assembled, by_home, room
 
 JOINTS = [(0, 0), (4, 0), (4, 3), (0, 3), (2, 1.5), (6, 1)]
 WALLS = [(0, 1), (1, 2), (3, 2), (0, 4), (4, 2), (4, 1), (1, 5), (0, 3)]
@@ -79,7 +79,7 @@ class Problem:
         self.stiffness = random_stiffness(of, rng)
         self.diagonal = mass * rng.uniform(0.5, 1.0, self.n)
         self.contacts = [(nodes, rng.uniform(-1, 1, (6, 6))) for nodes in coupled.tolist()]
-        self.found = pattern.analyse(layout, self.walls, coupled)
+        self.found = analysis.analyse(layout, self.walls, coupled)
 
     def dense(self):
         """Hessian (n, n) by coordinate."""
@@ -103,10 +103,10 @@ class Problem:
     def factor(self):
         """Place of the first negative pivot."""
         matrix = self.found.matrix
-        entries.clear(matrix)
+        block_matrix.clear(matrix)
         matrix.diagonal[:] = self.diagonal
         for nodes, half in self.contacts:
-            self._contact(nodes, half, lambda i, j, value: entries.add(matrix, i, j, value))
+            self._contact(nodes, half, lambda i, j, value: block_matrix.add(matrix, i, j, value))
         return system.factor(self.found, self.layout, self.walls, self.stiffness, False, False)
 
     def solve(self, b):
@@ -140,7 +140,7 @@ def _put(full, i, j, value):
 def test_factor_and_solve(support, coupled, pieces):
     of = web(pieces)
     problem = Problem(of, supported(of, support), couplings(of, coupled))
-    assert problem.factor() == (-1, -1, 0.0)
+    assert problem.factor() == (False, 0.0)
     assert problem.found.matrix.missing[0] == 0
     assert problem.is_factored(np.random.default_rng(1).uniform(-1, 1, problem.n))
 
@@ -173,7 +173,7 @@ def test_it_can_be_factored_again(support, coupled):
     problem = Problem(of, supported(of, support), couplings(of, coupled))
     for seed in range(3):
         problem.stiffness = random_stiffness(of, np.random.default_rng(seed))
-        assert problem.factor()[1] == -1
+        assert not problem.factor()[0]
         assert problem.is_factored(np.random.default_rng(seed).uniform(-1, 1, problem.n))
 
 
@@ -195,11 +195,11 @@ def test_descent_along_a_negative_pivot(seed, support, coupled):
     for c in rng.choice(free, 12, replace=False):
         kept = problem.diagonal[c]
         weakened(problem, c)
-        wall, failed, pivot = problem.factor()
-        assert failed >= 0
+        failed, pivot = problem.factor()
+        assert failed
         assert pivot < 0.0
         d = np.full(problem.n, 7.0)
-        system.descend(problem.found, problem.layout, wall, failed, d)
+        system.descend(problem.found, problem.layout, d)
         assert d @ problem.dense() @ d == pytest.approx(pivot, rel=1e-8)
         R = problem.reduction()
         np.testing.assert_allclose(R @ np.linalg.lstsq(R, d)[0], d, rtol=0, atol=1e-12)
@@ -213,12 +213,13 @@ def test_a_negative_pivot_inside_a_condensed_wall_names_the_wall():
         node = of.edges[of.start[wall], 1]
         kept = problem.diagonal[2 * node + 1]
         weakened(problem, 2 * node + 1)
-        found, failed, pivot = problem.factor()
-        assert (found, failed) == (wall, 1)
+        failed, pivot = problem.factor()
+        assert (failed, *problem.found.place[0]) == (True, wall, 1)
         assert pivot < 0.0
         problem.diagonal[2 * node + 1] = kept
     weakened(problem, 2 * 4)
-    assert problem.factor()[0] == -1
+    assert problem.factor()[0]
+    assert problem.found.place[0]["wall"] == -1
 
 
 @pytest.mark.parametrize("coupled", ["condensed", "some open", "all open", "in contact"])
@@ -233,7 +234,7 @@ def test_a_frame_that_floats_is_not_moved_as_a_whole(size, pieces, coupled):
         part *= size
     problem.diagonal[-2:] = size
     problem.layout = problem.layout._replace(scale=7.0 * size)
-    assert problem.factor() == (-1, -1, 0.0)
+    assert problem.factor() == (False, 0.0)
     full = problem.dense()
     values = np.linalg.eigvalsh(full)
     assert np.all(np.abs(values[:2]) < 1e-9 * values[-1])
@@ -275,7 +276,7 @@ def test_where_all_joints_are_held_walls_are_solved_one_by_one():
     held = np.concatenate([2 * joints, 2 * joints + 1, 2 * len(of.points) + joints])
     layout = layout_of(of, held, driven=True)
     problem = Problem(of, layout, np.empty((0, 3), np.int64))
-    assert problem.factor() == (-1, -1, 0.0)
+    assert problem.factor() == (False, 0.0)
     assert by_home(problem.found.matrix).size == 0
     assert problem.is_factored(np.random.default_rng(0).uniform(-1, 1, problem.n))
 
@@ -290,5 +291,5 @@ def test_a_frame_of_more_than_128_blocks():
     coupled = np.column_stack([inner, np.roll(inner, 5), np.roll(inner, 11)])
     problem = Problem(of, layout_of(of, [0, 1, 2]), coupled)
     assert problem.found.matrix.start.size - 1 > 128
-    assert problem.factor() == (-1, -1, 0.0)
+    assert problem.factor() == (False, 0.0)
     assert problem.is_factored(np.random.default_rng(0).uniform(-1, 1, problem.n))

@@ -5,24 +5,21 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from kernels.solve import residual as balance, aitken as relax
-from kernels.linear.periodic_images import NONE
+from kernels.solve import aitken
+from kernels.solve.problem import FREE, Coordinates
 
 
-def unknowns(n, leap=1.0):
+def coordinates(n, leap=1.0):
     """What the iteration knows of its coordinates: lengths of 1 m and 2 m."""
-    scale = np.where(np.arange(n) % 2 == 0, 1.0, 2.0)
-    return balance.Unknowns(
-        leader=np.arange(n), ratio=np.ones(n), images=NONE, scale=scale, lever=1.0 / scale,
-        driven=-1, cap=1.0, leap=leap, close=1.0,
-    )  # fmt: skip
+    scale, one = np.where(np.arange(n) % 2 == 0, 1.0, 2.0), np.ones(n)
+    return Coordinates(np.full(n, FREE), scale, 1.0 / scale, one, one, one, -1, 1.0, leap, 1.0)
 
 
 def iterated(image, y, loops, leap=1.0):
     """Argument after so many loops, and the shares taken."""
-    change, share, shares, known = np.zeros(y.size), 0.0, [], unknowns(y.size, leap)
+    change, share, shares, known = np.zeros(y.size), 0.0, [], coordinates(y.size, leap)
     for _ in range(loops):
-        share = relax.approach(image(y), y, change, known, share)
+        share = aitken.approach(image(y), y, change, known, share)
         shares.append(share)
     return y, shares
 

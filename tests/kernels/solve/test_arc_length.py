@@ -6,17 +6,26 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from kernels.solve import arc_length as arc, newton
-from sweep.config.units import load_config
-from sweep.config.grid import ConfigError, expand
+from kernels.solve import arc_length, newton
 from sweep.config.case import Case, Contact, Lattice, Loading, Solver
+from sweep.config.grid import ConfigError, expand
+from sweep.config.units import load_config
 from sweep.scene.arcs import arc_of
-from sweep.simulation.simulate import simulate
 from sweep.scene.custom import build_structure
-from tests.scenes import unbalanced
-from tests.solving import whole
-from tests.structures import AXIAL, BENDING, CLAMPED, MATERIAL, MM, finished, probe, structure
-from tests.validation.frames import LEE, TRUSS, followed, lee, truss_force
+from sweep.simulation.simulate import simulate
+from tests.studies.validation.frames import LEE, TRUSS, followed, lee, truss_force
+from tests.support.scenes import unbalanced
+from tests.support.solving import free_of, whole
+from tests.support.structures import (
+    AXIAL,
+    BENDING,
+    CLAMPED,
+    MATERIAL,
+    MM,
+    finished,
+    probe,
+    structure,
+)
 
 
 def case_of(parts, arcs=200, contact="none", **solver):
@@ -87,15 +96,15 @@ def test_points_are_in_balance_and_as_stable_as_they_say():
     case = case_of(parts)
     result, scene = finished(case), build_structure(case)
     factor = result.history["load_factor"]
-    free = np.flatnonzero(scene.unknowns.leader == np.arange(scene.x_rest.size))
+    free = free_of(scene)
     assert factor.min() < -0.2
     for row in range(0, len(factor), 10):
         x = scene.x_rest.copy()
         for node in range(11):
             at = [probe(result, node, what)[row] for what in ("x_m", "y_m", "rotation_rad")]
             x[[2 * node, 2 * node + 1, 22 + node]] = at
-        left = elastic(scene, x)[free] - factor[row] * scene.terms.load[free]
-        assert np.abs(left).max() < 1e-6 * np.abs(scene.terms.load).max()
+        left = elastic(scene, x)[free] - factor[row] * scene.terms.coordinates.load[free]
+        assert np.abs(left).max() < 1e-6 * np.abs(scene.terms.coordinates.load).max()
         hessian = whole(scene, scene.x_rest).hessian(x)[np.ix_(free, free)]
         assert result.history["unstable_modes"][row] == np.sum(np.linalg.eigvalsh(hessian) < 0.0)
 
@@ -159,7 +168,7 @@ def test_interruption_is_told():
 
 
 def test_a_path_that_is_lost_is_told(monkeypatch):
-    monkeypatch.setattr("kernels.arc.follow", lambda *_: (newton.STALLED, 0))
+    monkeypatch.setattr("kernels.solve.arc_length.follow", lambda *_: (newton.STALLED, 0))
     result = simulate(case_of(lee(8)))
     assert result.status == "stopped"
     assert "try a smaller solver.arc_length" in result.message
@@ -207,7 +216,8 @@ def test_length_of_arcs_says_nothing_elsewhere(tmp_path):
 @pytest.mark.parametrize("move", [np.inf, np.nan])
 def test_a_move_out_of_the_range_of_numbers_ends_an_arc(move):
     """Nothing else is looked at: pairs for such a move would be listed for ever."""
-    balance = getattr(arc._balance, "__wrapped__", arc._balance)
-    found = balance(*[None] * 6, [None, None, SimpleNamespace(direction=0, escape=0), None, None],
-                    None, SimpleNamespace(move=move))  # fmt: skip
+    balance = getattr(arc_length._balance, "__wrapped__", arc_length._balance)
+    space = SimpleNamespace(found=None, work=SimpleNamespace(direction=0, escape=0))
+    problem = SimpleNamespace(scene=SimpleNamespace(coordinates=None))
+    found = balance(None, problem, None, 1.0, space, None, SimpleNamespace(move=move))
     assert found == newton.NOT_FINITE

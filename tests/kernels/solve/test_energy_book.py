@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from sweep.design.network import mass
 from sweep.config.case import Case, Lattice, Material
-from sweep.scene.terms import build_scene
-from tests.figures import MATERIAL
-from tests.scenes import (
+from sweep.design.network import mass
+from sweep.scene.lattice import build_scene
+from tests.studies.verify import MATERIAL
+from tests.support.scenes import (
     HEAVY,
     SEED,
     UNDAMPED,
@@ -99,9 +99,9 @@ def test_lumped_masses_sum_to_the_mass(cells, elements):
     scene = build_scene(Case(lattice=lattice, material=MATERIAL))
     expected = mass(scene.network, lattice.depth, MATERIAL.density)
     n = 2 * len(scene.mesh.points)
-    assert scene.terms.mass[0:n:2].sum() == pytest.approx(expected, rel=1e-12)
-    assert scene.terms.mass[1:n:2].sum() == pytest.approx(expected, rel=1e-12)
-    assert not scene.terms.mass[n:].any()
+    assert scene.terms.coordinates.mass[0:n:2].sum() == pytest.approx(expected, rel=1e-12)
+    assert scene.terms.coordinates.mass[1:n:2].sum() == pytest.approx(expected, rel=1e-12)
+    assert not scene.terms.coordinates.mass[n:].any()
 
 
 def test_mass_of_the_summary_is_that_of_the_drawing():

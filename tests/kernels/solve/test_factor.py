@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 
-from kernels.terms import friction
-from kernels.planar import potential as step
 from sweep.config.case import Contact
-from tests.solving import reduction, whole
-from tests.states import DT, RAYLEIGH, SCENES, SIZE, STATES, VISCOUS, loaded, step_to, unit
+from tests.support.solving import near_of, reduction, whole
+from tests.support.states import DT, RAYLEIGH, SCENES, SIZE, STATES, VISCOUS, loaded, step_to, unit
 
 
 @pytest.mark.parametrize("dt", [DT, np.inf])
@@ -22,21 +20,21 @@ def test_the_factor_is_that_of_the_sum_of_all_terms(name, state, projected, dt):
     scene = SCENES[name]()
     x = STATES[state](scene)
     args, R = step_to(scene, x, 0, dt), reduction(scene)
-    (wall, failed, pivot), missing = args.factor(x, projected)
+    negative, pivot, missing = args.factor(x, projected)
     assert not missing
     full = R.T @ args.hessian(x, projected) @ R
     size = np.abs(full).max()
     definite = np.linalg.eigvalsh(full)[0] > -1e-12 * size
-    assert definite == (failed < 0)
-    assert failed < 0 or not projected
-    if failed < 0:
+    assert definite == (not negative)
+    assert not (negative and projected)
+    if not negative:
         b = full @ np.random.default_rng(3).uniform(-1, 1, len(full))  # that is borne
         y = args.solve(np.linalg.lstsq(R.T, b)[0])
         short = np.linalg.lstsq(R, y)[0]
         np.testing.assert_allclose(R @ short, y, rtol=0, atol=1e-12 * np.abs(y).max())
         np.testing.assert_allclose(full @ short, b, rtol=0, atol=1e-9 * np.abs(b).max())
     else:
-        d = args.escape((wall, failed, pivot))
+        d = args.escape()
         short = np.linalg.lstsq(R, d)[0]
         np.testing.assert_allclose(R @ short, d, rtol=0, atol=1e-12 * np.abs(d).max())
         assert short @ full @ short == pytest.approx(pivot, rel=1e-6)
@@ -48,10 +46,10 @@ def test_what_has_come_near_needs_room_and_gets_it(state):
     scene = loaded(contact=Contact(friction=0.0))
     x = STATES[state](scene)
     args = whole(scene, x)
-    at_rest = step.find_near(scene.x_rest, scene.terms, friction.none(), SIZE)
-    assert args._replace(near=at_rest).energy(x) == pytest.approx(args.energy(x), rel=1e-12)
-    assert args._replace(near=at_rest).factor(x, True)[1]
-    assert not args.factor(x, True)[1]
+    at_rest = near_of(scene.x_rest, scene.terms, SIZE)
+    assert args.beside(at_rest).energy(x) == pytest.approx(args.energy(x), rel=1e-12)
+    assert args.beside(at_rest).factor(x, True)[2]
+    assert not args.factor(x, True)[2]
     assert np.any(args.near.system.kind != at_rest.system.kind)
 
 

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from kernels.terms import friction
-from kernels.solve import march
-from kernels.solve.workspace import make_room
-from kernels.planar.potential import find_near
-from sweep.scene.terms import build_scene
-from tests.bench import cases, counts
-from tests.bench.crushes import Crush
-from tests.solving import at_rest, ramp
+from kernels.compile.reference import by_reference
+from kernels.planar.potential import STORED
+from kernels.solve import march, newton
+from kernels.solve.workspace import make_workspace
+from sweep.scene.lattice import build_scene
+from tests.studies.bench import cases, counts
+from tests.studies.bench.crushes import Crush
+from tests.support.solving import at_rest, ramp, whole
 
 STEP = 1e-4  # m
 
@@ -19,25 +19,27 @@ STEP = 1e-4  # m
 def guess():
     """The move with which a static step sets out after one of ``move`` m by a node."""
     scene = build_scene(cases.crush(2, 0.1, 10))
-    terms, unknowns, state = scene.terms, scene.unknowns, at_rest(scene)
-    near = find_near(state.x, terms, friction.none(), 0.0)
-    room, progress = make_room(terms, near), np.zeros(1, march.PROGRESS)[0]
+    state, problem = at_rest(scene), whole(scene, scene.x_rest).problem
+    space, driven = make_workspace(state.x.size, STORED), scene.terms.coordinates.driven
+    progress, descent = np.zeros(1, march.PROGRESS)[0], np.zeros(1, newton.DESCENT)[0]
     progress.share = 1.0
 
     def set_out(move, last=STEP):
-        room.at.u[:], room.at.u[unknowns.driven], room.at.u[0] = 0.0, -last, move
+        u = space.found.u
+        u[:], u[driven], u[0] = 0.0, -last, move
         stage = ramp(scene, 1, travel=(0.0, STEP))
-        march._set_out(terms, stage, unknowns, state, near, room, progress)
-        return room.work.dx.copy(), room.at.u.copy(), unknowns
+        state_, space_ = by_reference(state), by_reference(space)
+        march._set_out(problem, stage, state_, space_, descent, progress)
+        return space.work.dx.copy(), u.copy(), scene.terms.coordinates
 
     return set_out
 
 
 def test_a_step_sets_out_as_the_last_one_went(guess):
     for last in (STEP, 2.0 * STEP):
-        dx, u, unknowns = guess(1e-5, last)
+        dx, u, coordinates = guess(1e-5, last)
         np.testing.assert_allclose(dx, u * STEP / last, rtol=1e-12)
-        assert dx[unknowns.driven] == pytest.approx(-STEP, rel=1e-12)
+        assert dx[coordinates.driven] == pytest.approx(-STEP, rel=1e-12)
     assert not np.any(guess(1e-5, 0.1 * STEP)[0])  # too short to tell
 
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from kernels.solve import friction_loop as lagging, march
+from kernels.solve import friction_loop, march
 from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
 from sweep.simulation.simulate import simulate
-from tests.figures import MATERIAL
-from tests.stability import draw
+from tests.studies.stability import draw
+from tests.studies.verify import MATERIAL
 
 
 def crushed(strain, contact, steps, tolerance=1e-8):
@@ -25,9 +25,9 @@ def crushed(strain, contact, steps, tolerance=1e-8):
 def looped(*residuals):
     """Progress of a loop in which friction was off by these (N); 1e-6 are enough."""
     progress = np.zeros(1, march.PROGRESS)[0]
-    lagging.begin(progress)
+    friction_loop.begin(progress)
     for off in residuals:
-        lagging._count(off, 1e-6, 1e-9, progress)
+        friction_loop._count(off, 1e-6, 1e-9, progress)
     return progress
 
 
@@ -52,17 +52,17 @@ def test_a_minimum_is_found_as_well_as_friction_is_known():
     assert looped(1.0).rough == pytest.approx(0.1 / 1e-9)
     assert looped(1.0, 1e-3).rough == pytest.approx(1e-4 / 1e-9)
     assert looped(1.0, 9e-6).rough == 1.0  # the next may be the last
-    assert looped(*np.geomspace(1.0, 1e-3, lagging.CAREFUL + 1)).rough == 1.0
+    assert looped(*np.geomspace(1.0, 1e-3, friction_loop.CAREFUL + 1)).rough == 1.0
     assert looped(np.nan).rough == looped(np.inf).rough == 1.0
 
 
 def test_a_loop_is_given_up_once_it_goes_in_circles():
-    falling = np.geomspace(1.0, 0.1, lagging.MOST - 1)
-    assert not lagging.in_vain(looped(*falling))
-    assert lagging.in_vain(looped(*falling, 0.05))
-    circle = [1.0, *[2.0, 1.0] * (lagging.STUCK // 2)]
-    assert not lagging.in_vain(looped(*circle[:-1]))
-    assert lagging.in_vain(looped(*circle))
+    falling = np.geomspace(1.0, 0.1, friction_loop.MOST - 1)
+    assert not friction_loop.in_vain(looped(*falling))
+    assert friction_loop.in_vain(looped(*falling, 0.05))
+    circle = [1.0, *[2.0, 1.0] * (friction_loop.STUCK // 2)]
+    assert not friction_loop.in_vain(looped(*circle[:-1]))
+    assert friction_loop.in_vain(looped(*circle))
 
 
 def test_duals_that_mislead_are_forgotten():

@@ -7,11 +7,11 @@ import pytest
 
 from sweep.config.case import Case, Contact, Damping, Loading, Solver
 from sweep.simulation.simulate import simulate
-from tests.figures import MATERIAL
-from tests.scenes import SEED, UNDAMPED, VISCOUS, pressed, run, slopes, unbalanced
-from tests.structures import APART, set_off
-from tests.validation import energy
-from tests.validation.energy import moving
+from tests.studies.validation import energy
+from tests.studies.validation.energy import moving
+from tests.studies.verify import MATERIAL
+from tests.support.scenes import SEED, UNDAMPED, VISCOUS, pressed, run, slopes, unbalanced
+from tests.support.structures import APART, set_off
 
 ORDERS = {"backward_euler": 1, "bdf2": 2, "newmark": 2}
 INTEGRATORS = pytest.mark.parametrize("integrator", ORDERS)

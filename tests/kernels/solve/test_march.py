@@ -6,18 +6,19 @@ import time
 import numpy as np
 import pytest
 
-from kernels.solve import energy_book as book, newton
-from kernels.terms import inertia
-from kernels.geometry import near_pairs as pairs
-from kernels.planar import rows as trace
+from kernels.geometry import near_pairs
 from kernels.geometry.distance import squared_distance
+from kernels.geometry.specimen_height import height
+from kernels.planar.potential import CONTACT
+from kernels.solve import newton
+from kernels.solve.energy_book import kinetic
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
-from sweep.scene.terms import build_scene
+from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
-from tests.figures import MATERIAL
-from tests.scenes import UNDAMPED, unbalanced
-from tests.solving import at_rest, floating, go_on, ramp
-from tests.terms import touch_of
+from tests.studies.verify import MATERIAL
+from tests.support.scenes import UNDAMPED, unbalanced
+from tests.support.solving import at_rest, floating, go_on, ramp
+from tests.support.terms import touch_of
 
 DT = 5e-5
 RAYLEIGH = Damping(model="rayleigh", mass=2000.0, stiffness=3e-5)
@@ -39,13 +40,13 @@ def loose(damping=UNDAMPED, friction=0.0, speed=0.0):
         solver=Solver(time_step=DT),
     )
     scene = floating(case)
-    scene.terms.load[:] = 0.0
+    scene.terms.coordinates.load[:] = 0.0
     state, points = at_rest(scene), scene.mesh.points / (case.lattice.width, case.lattice.height)
     for side, way in ((0.0, 1.2), (0.5, -1.0)):
         inner = (abs(points[:, 0] - side) < 0.05) & (points[:, 1] > 0.05) & (points[:, 1] < 0.45)
         state.v[2 * np.flatnonzero(inner)] = way * speed
         state.v[2 * np.flatnonzero(inner) + 1] = 0.3 * way * speed
-    state.book[book.WORK] = inertia.kinetic(state.v, scene.terms.mass)  # what set it off
+    state.book[0].work = kinetic(state.v, scene.terms.coordinates.mass)  # what set it off
     return case, scene, state
 
 
@@ -54,8 +55,11 @@ def test_free_fall_follows_the_recurrence_of_backward_euler(drag):
     """Nothing in the lattice stirs: v' = (v + a dt) / (1 + drag dt), y' = y + v' dt."""
     damping = Damping(model="rayleigh", mass=drag, stiffness=1e-4) if drag else UNDAMPED
     case, scene, state = loose(damping)
-    mass, upwards = 0.5 * scene.terms.mass.sum(), slice(1, 2 * len(scene.mesh.points), 2)
-    scene.terms.load[upwards] = -GRAVITY * scene.terms.mass[upwards]
+    mass, upwards = (
+        0.5 * scene.terms.coordinates.mass.sum(),
+        slice(1, 2 * len(scene.mesh.points), 2),
+    )
+    scene.terms.coordinates.load[upwards] = -GRAVITY * scene.terms.coordinates.mass[upwards]
     outcome, rows = go_on(case, scene, state, ramp(scene, 12, DT, (1.0, 1.0)), force=1e-10)
     assert outcome == newton.CONVERGED
     v, y, speeds, falls = 0.0, 0.0, [], []
@@ -70,12 +74,12 @@ def test_free_fall_follows_the_recurrence_of_backward_euler(drag):
     fallen[upwards] -= y[-1]
     np.testing.assert_allclose(state.x, fallen, rtol=0, atol=1e-9 * y[-1])
     for column, expected in (
-        (book.WORK, GRAVITY * mass * y),
-        (book.KINETIC, 0.5 * mass * v**2),
-        (book.INTEGRATOR, 0.5 * mass * np.cumsum(np.diff(v, prepend=0.0) ** 2)),
-        (book.MATERIAL, drag * DT * mass * np.cumsum(v**2)),
+        ("work", GRAVITY * mass * y),
+        ("kinetic", 0.5 * mass * v**2),
+        ("integrator", 0.5 * mass * np.cumsum(np.diff(v, prepend=0.0) ** 2)),
+        ("material", drag * DT * mass * np.cumsum(v**2)),
     ):
-        np.testing.assert_allclose(rows[:, column], expected, rtol=1e-7, atol=1e-20)
+        np.testing.assert_allclose(rows[column], expected, rtol=1e-7, atol=1e-20)
 
 
 def nodes(scene, of_all):
@@ -83,8 +87,13 @@ def nodes(scene, of_all):
     return of_all[: 2 * len(scene.mesh.points)].reshape(-1, 2)
 
 
+def parts(state):
+    """All arrays of a state."""
+    return [*state[:2], *state.rates, *state.past, *state[4:]]
+
+
 def momentum(scene, state):
-    return nodes(scene, scene.terms.mass * state.v)
+    return nodes(scene, scene.terms.coordinates.mass * state.v)
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])
@@ -98,13 +107,13 @@ def test_what_nothing_holds_keeps_its_momentum(damping, friction):
     case, scene, state = loose(damping, friction, 150.0)
     kept, whole, touched = 1.0 / (1.0 + (case.damping.mass or 0.0) * DT), 0, 0.0
     for _ in range(12):
-        before, taken = momentum(scene, state), state.totals[trace.STEPS]
+        before, taken = momentum(scene, state), state.totals[0].steps
         tight = {"force": 1e-9, "friction": 1e-8, "grip": 0.0}
         outcome, rows = go_on(case, scene, state, ramp(scene, 1, DT), **tight)
         assert outcome == newton.CONVERGED
-        assert abs(rows[0, book.RESIDUAL]) < 1e-9 * rows[0, book.KINETIC]
-        touched = max(touched, rows[0, book.CONTACT])
-        if state.totals[trace.STEPS] > taken + 1:
+        assert abs(rows[0].residual) < 1e-9 * rows[0].kinetic
+        touched = max(touched, rows[0].contact)
+        if state.totals[0].steps > taken + 1:
             continue
         whole += 1
         after = momentum(scene, state)
@@ -115,8 +124,8 @@ def test_what_nothing_holds_keeps_its_momentum(damping, friction):
         spin = np.sum(x * py - y * px) if damping.model != "rayleigh" else 0.0
         assert abs(spin) < allowed * case.lattice.height
     assert whole > 8
-    assert touched > 1e-3 * rows[0, book.BEND]
-    assert (rows[0, book.FRICTION] > 0.0) == (friction > 0.0)
+    assert touched > 1e-3 * rows[0].bend
+    assert (rows[0].friction > 0.0) == (friction > 0.0)
 
 
 def test_contact_energy_and_gap_are_those_of_all_pairs():
@@ -125,16 +134,16 @@ def test_contact_energy_and_gap_are_those_of_all_pairs():
     touch, near = scene.terms.contact, 0
     for _ in range(12):
         _, rows = go_on(case, scene, state, ramp(scene, 3, DT))
-        everything = pairs.find(state.x, touch, case.lattice.width)
+        everything = near_pairs.find(state.x, touch, case.lattice.width)
         energy = touch_of(touch, everything, state.x).energy(state.x)
-        assert state.book[book.CONTACT] == pytest.approx(energy, rel=1e-12, abs=1e-18)
+        assert state.stored[CONTACT] == pytest.approx(energy, rel=1e-12, abs=1e-18)
         ends, start = touch.edges[everything.edge], everything.d_contact
         listed = zip(everything.node, ends, start, strict=True)
         gap = min(squared_distance(state.x, p, *ends) for p, ends, dc in listed if dc > 0.0) ** 0.5
         if gap < touch.reach:
             near += 1
             assert energy > 0.0
-            assert rows[-1, trace.GAP] == pytest.approx(gap, rel=1e-12)
+            assert rows[-1].gap == pytest.approx(gap, rel=1e-12)
     assert near > 2
 
 
@@ -153,14 +162,14 @@ def sliding():
     outcome, _ = go_on(case, scene, state, ramp(scene, 5, factor=(0.0, 1.0)))
     assert outcome == newton.CONVERGED
     state.v[: 2 * len(scene.mesh.points) : 2] = 2.0
-    state.book[book.WORK] += inertia.kinetic(state.v, scene.terms.mass)
+    state.book[0].work += kinetic(state.v, scene.terms.coordinates.mass)
     return case, scene, state
 
 
 def test_friction_slows_what_slides_by_mu_times_the_forces_on_it():
     """3 N from above; from below what is left of it once the grid has been accelerated."""
     case, scene, state = sliding()
-    least, most, begun = 0.0, 0.0, state.book.copy()
+    least, most, begun = 0.0, 0.0, state.book.copy()[0]
     for _ in range(5):
         before, x = momentum(scene, state).sum(axis=0), state.x.copy()
         outcome, rows = go_on(case, scene, state, ramp(scene, 1, DT, (1.0, 1.0)))
@@ -169,16 +178,16 @@ def test_friction_slows_what_slides_by_mu_times_the_forces_on_it():
         assert change[0] == pytest.approx(-0.3 * (3.0 + 3.0 + change[1]), rel=1e-5)
         moves = nodes(scene, state.x - x)[:, 0]
         least, most = least - change[0] * moves.min(), most - change[0] * moves.max()
-    gained = rows[0, : trace.TIME] - begun
-    assert 0.0 < least < gained[book.FRICTION] < most
-    assert abs(gained[book.RESIDUAL]) < 1e-6 * gained[book.FRICTION]
+    gained = rows[0].friction - begun.friction
+    assert 0.0 < least < gained < most
+    assert abs(rows[0].residual - begun.residual) < 1e-6 * gained
 
 
 def test_height_is_between_rows_or_the_extent():
     x = np.array([0.3, 0.5, 2.0, 3.0, -1.0])
     top, base, none = np.array([2, 3]), np.array([0, 1]), np.empty(0, np.int64)
-    assert trace.height(x, top, base) == pytest.approx(2.5 - 0.4)
-    assert trace.height(x, none, np.array([0, 1, 3])) == pytest.approx(3.0 - 0.3)
+    assert height(x, top, base) == pytest.approx(2.5 - 0.4)
+    assert height(x, none, np.array([0, 1, 3])) == pytest.approx(3.0 - 0.3)
 
 
 def crush(steps, speed=None, **solver):
@@ -218,8 +227,8 @@ def test_halved_steps_take_half_the_time():
     stage = ramp(scene, 1, dt, travel=(0.0, 10.0 * dt))
     outcome, _ = go_on(case, scene, state, stage, iterations=6)
     assert outcome == newton.CONVERGED
-    assert state.totals[trace.STEPS] > 1
-    assert state.totals[trace.NOW] == pytest.approx(dt)
+    assert state.totals[0].steps > 1
+    assert state.totals[0].time == pytest.approx(dt)
     assert state.v[-1] == pytest.approx(-10.0, rel=1e-9)
 
 
@@ -236,11 +245,11 @@ def test_a_step_that_fails_at_any_length_leaves_the_state_before_it():
     state = at_rest(scene)
     travel = 0.05 * case.lattice.height
     assert go_on(case, scene, state, ramp(scene, 1, travel=(0.0, travel)))[0] == newton.CONVERGED
-    kept = [part.copy() for part in state]
+    kept = [part.copy() for part in parts(state)]
     stage = ramp(scene, 3, travel=(travel, 3 * travel))
     outcome, rows = go_on(case, scene, state, stage, iterations=0)
     assert (outcome, len(rows)) == (newton.ITERATIONS, 0)
-    for part, before in zip(state, kept, strict=True):
+    for part, before in zip(parts(state), kept, strict=True):
         np.testing.assert_array_equal(part, before)
 
 
@@ -251,11 +260,11 @@ def test_an_interruption_keeps_what_is_done():
     travel = 0.1 * case.lattice.height
     outcome, rows = go_on(case, scene, state, ramp(scene, 4, travel=(0.0, travel)), control)
     assert (outcome, len(rows), list(control)) == (newton.CONVERGED, 4, [0, 4])
-    kept = [part.copy() for part in state]
+    kept = [part.copy() for part in parts(state)]
     control[0] = 1
     outcome, rows = go_on(case, scene, state, ramp(scene, 4, travel=(travel, 0.0)), control)
     assert (outcome, len(rows), list(control)) == (newton.INTERRUPTED, 0, [1, 4])
-    for part, before in zip(state, kept, strict=True):
+    for part, before in zip(parts(state), kept, strict=True):
         np.testing.assert_array_equal(part, before)
 
 
@@ -290,7 +299,7 @@ def test_buckling_is_seen_however_small_the_steps(steps):
     state, travel = at_rest(scene), 0.03 * case.lattice.height
     outcome, rows = go_on(case, scene, state, ramp(scene, steps, travel=(0.0, travel)))
     assert outcome == newton.CONVERGED
-    bent, stretched = rows[-1, [book.BEND, book.STRETCH]]
+    bent, stretched = rows[-1].bend, rows[-1].stretch
     assert bent > 0.5 * stretched
-    before = rows[steps // 8, book.BEND]
+    before = rows[steps // 8].bend
     assert before < 1e-12 * bent

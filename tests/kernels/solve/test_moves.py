@@ -5,9 +5,9 @@ import pytest
 
 from kernels.solve import newton
 from sweep.config.case import Case, Lattice, Loading
-from sweep.scene.terms import build_scene
-from tests.scenes import grid
-from tests.solving import descend, floating, shaken, whole
+from sweep.scene.lattice import build_scene
+from tests.support.scenes import grid
+from tests.support.solving import descend, floating, shaken, whole
 
 
 def test_a_wall_that_lies_upon_another_is_stuck():

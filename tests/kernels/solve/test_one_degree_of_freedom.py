@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 
-from kernels.solve import energy_book as book, newton
-from kernels.planar import rows as trace
+from kernels.solve import newton
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
-from sweep.scene.terms import build_scene
+from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
-from tests.figures import MATERIAL
-from tests.scenes import UNDAMPED, pressed, unbalanced
-from tests.solving import at_rest, go_on, ramp
+from tests.studies.verify import MATERIAL
+from tests.support.scenes import UNDAMPED, pressed, unbalanced
+from tests.support.solving import at_rest, go_on, ramp
 
 DT = 5e-5
 RAYLEIGH = Damping(model="rayleigh", mass=2000.0, stiffness=3e-5)
@@ -38,7 +37,7 @@ def springs(case):
     lattice, scene = case.lattice, build_scene(case)
     top = 2 * np.flatnonzero(scene.mesh.points[:, 1] > 0.5 * lattice.height) + 1
     stiffness = 2 * MATERIAL.modulus * lattice.depth * lattice.wall_thickness / lattice.height
-    return stiffness, scene.terms.mass[top].sum()
+    return stiffness, scene.terms.coordinates.mass[top].sum()
 
 
 def drag_of(damping, stiffness, mass):
@@ -220,10 +219,10 @@ def test_a_static_load_that_grows_does_half_of_its_work():
     assert outcome == newton.CONVERGED
     share = np.array([1, 2, 3]) / 3
     full = 0.5 * 0.2**2 / springs(case)[0]
-    np.testing.assert_allclose(rows[:, trace.REACTION_TOP], 0.2 * share, rtol=1e-12)
-    np.testing.assert_allclose(rows[:, book.WORK], full * share**2, rtol=1e-9)
-    np.testing.assert_allclose(rows[:, book.STRETCH], full * share**2, rtol=1e-9)
-    assert np.abs(rows[:, book.INTEGRATOR]).max() < 1e-9 * full
+    np.testing.assert_allclose(rows["reaction_top"], 0.2 * share, rtol=1e-12)
+    np.testing.assert_allclose(rows["work"], full * share**2, rtol=1e-9)
+    np.testing.assert_allclose(rows["stretch"], full * share**2, rtol=1e-9)
+    assert np.abs(rows["integrator"]).max() < 1e-9 * full
 
 
 def test_book_of_static_friction_closes():

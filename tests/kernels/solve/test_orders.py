@@ -5,12 +5,12 @@ from functools import cache
 import numpy as np
 import pytest
 
-from kernels.terms import friction
 from kernels.solve import newton
+from kernels.terms import friction
 from sweep.config.case import Case, Loading
-from sweep.scene.terms import build_scene
-from tests.scenes import SEED, VISCOUS, loaded, pressed, run, slopes
-from tests.solving import descend, residual, whole
+from sweep.scene.lattice import build_scene
+from tests.support.scenes import SEED, VISCOUS, loaded, pressed, run, slopes
+from tests.support.solving import descend, free_of, residual, whole
 
 ROUND_OFF = 1e-11  # N
 
@@ -75,7 +75,7 @@ class Descent:
     def whole(self):
         """What is minimised, from pairs found anew and without friction."""
         found = whole(self.scene, self.x, self.scene.x_rest, self.dt)
-        return found._replace(step=found.step._replace(grips=friction.none()))
+        return found.lagging(friction.none())
 
     def residual(self):
         """Largest force out of balance, N."""
@@ -89,8 +89,7 @@ class Descent:
 
     def shake(self, amount):
         """Move all that is free at random, by up to ``amount`` (m)."""
-        leader, scale = self.scene.unknowns.leader, self.scene.unknowns.scale
-        free = (leader == np.arange(leader.size)) & (leader != self.scene.unknowns.driven)
+        free, scale = free_of(self.scene), self.scene.terms.coordinates.scale
         move = np.random.default_rng(5).uniform(-amount, amount, self.x.size)
         self.x[free] += (move / scale)[free]
 

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 
 from kernels.terms import bend, fold, friction, stretch
-from kernels.planar import potential as step
 from sweep.config.case import Solver
-from tests.figures import MATERIAL
-from tests.solving import whole
-from tests.states import (
+from tests.studies.verify import MATERIAL
+from tests.support.solving import whole
+from tests.support.states import (
     CURVE,
     DT,
     RAYLEIGH,
@@ -22,7 +21,14 @@ from tests.states import (
     step_to,
     unit,
 )
-from tests.terms import damping_of, derivative_error, of_points, of_walls, touch_of
+from tests.support.terms import (
+    NO_MEMORY,
+    damping_of,
+    derivative_error,
+    of_points,
+    of_walls,
+    touch_of,
+)
 
 
 def error(scene, x, args, step=1e-5):
@@ -89,14 +95,13 @@ def test_derivatives_while_walls_slide():
 
 def potentials(args):
     """The terms of the kernels by name, each of them by itself."""
-    terms, one, near = args
-    x0, slip = one.before.x0, one.slip
+    terms, near, x0, slip = args.terms, args.near, args.step.x0, args.slip
 
     def stretching(shape, stiffness, projected):
-        return stretch.evaluate(terms.stretch, terms.law, shape, stiffness, projected)
+        return stretch.evaluate(terms.stretch, terms.law, NO_MEMORY, shape, stiffness, projected)
 
     def bending(shape, stiffness, projected):
-        return bend.evaluate(terms.walls, terms.bend, shape, stiffness, projected)
+        return bend.evaluate(terms.walls, terms.bend, NO_MEMORY, shape, stiffness, projected)
 
     found = {
         "stretch": of_walls(terms.walls, terms.bend, stretching),
@@ -107,14 +112,14 @@ def potentials(args):
         ),
         "contact": touch_of(terms.contact, near.pairs, near.anchor),
         "friction": of_points(
-            lambda x, g: friction.evaluate(x - x0, one.grips, slip, g),
+            lambda x, g: friction.evaluate(x - x0, near.lagged, slip, g),
             lambda x, matrix, projected: friction.hessian(
-                x - x0, one.grips, slip, matrix, projected
+                x - x0, near.lagged, slip, matrix, projected
             ),
         ),
     }
-    if np.isfinite(one.dt):
-        found["damp"] = damping_of(terms, x0, one.dt)
+    if args.step.dynamic:
+        found["damp"] = damping_of(terms, x0, args.step.h)
     return found
 
 
@@ -125,18 +130,18 @@ def test_the_sum_has_all_terms_and_each_of_them_counts(damping, dt, projected):
     scene = loaded(damping=damping)
     x = leaning(scene)
     args = step_to(scene, x, 0, dt)
-    terms, one, _ = args
+    one, load, mass = args.step, scene.terms.coordinates.load, scene.terms.coordinates.mass
     found = potentials(args)
     shares = {name: term.energy(x) for name, term in found.items()}
-    shares["load"] = -0.7 * terms.load @ (x - one.before.x0)
+    shares["load"] = -0.7 * load @ (x - one.x0)
     force = {name: term.gradient(x) for name, term in found.items()}
-    force["load"] = -0.7 * terms.load
+    force["load"] = -0.7 * load
     stiffness = [term.hessian(x, projected) for term in found.values()]
     if np.isfinite(dt):
         off = x - one.x_pred
-        shares["inertia"] = 0.5 * np.sum(terms.mass * off**2) / dt**2
-        force["inertia"] = terms.mass * off / dt**2
-        stiffness.append(np.diag(terms.mass) / dt**2)
+        shares["inertia"] = 0.5 * np.sum(mass * off**2) / dt**2
+        force["inertia"] = mass * off / dt**2
+        stiffness.append(np.diag(mass) / dt**2)
     assert min(np.abs(list(shares.values()))) > 1e-5 * max(shares.values())
     assert args.energy(x) == pytest.approx(sum(shares.values()), rel=1e-12)
     for found, expected in (
@@ -164,24 +169,24 @@ def test_what_evaluate_tells_the_book(damping, dt):
     material = found["damp"].gradient(x) if np.isfinite(dt) else np.zeros_like(x)
     for part, expected in (
         (at.elastic, elastic),
-        (at.rubbing, found["friction"].gradient(x)),
+        (at.friction, found["friction"].gradient(x)),
         (at.material, material),
-        (at.u, x - args.step.before.x0),
+        (at.u, x - args.step.x0),
     ):
         np.testing.assert_allclose(part, expected, rtol=0, atol=1e-12 * np.abs(elastic).max())
 
 
-def test_other_grips_are_exchanged_for_those_there():
+def test_other_lagged_contacts_are_exchanged_for_those_there():
     """The gradient is that of the sum with the new ones, whatever was rubbing before."""
     scene = loaded()
     x = leaning(scene)
     args, other = step_to(scene, x, 0), step_to(scene, shaken(scene, x, 1, 0.01), 0)
-    exchanged = args._replace(step=args.step._replace(grips=other.step.grips))
+    exchanged = args.lagging(other.near.lagged)
     (energy, at), (expected, fresh) = args.found(x), exchanged.found(x)
     assert energy != pytest.approx(expected, rel=1e-6)
-    assert step.rub(args.terms, exchanged.step, at) == pytest.approx(expected, rel=1e-12)
+    assert exchanged.problem.exchange(exchanged.step, at) == pytest.approx(expected, rel=1e-12)
     np.testing.assert_allclose(at.g, fresh.g, rtol=0, atol=1e-12 * np.abs(fresh.g).max())
-    np.testing.assert_allclose(at.rubbing, fresh.rubbing, rtol=1e-12)
+    np.testing.assert_allclose(at.friction, fresh.friction, rtol=1e-12)
 
 
 @pytest.mark.parametrize("platen", ["none", "contact"])
@@ -190,4 +195,6 @@ def test_at_rest_there_is_nothing_but_the_load(elements, platen):
     scene = loaded(elements, platen)
     args = whole(scene, scene.x_rest, dt=DT)
     assert abs(args.energy(scene.x_rest)) < 1e-15
-    np.testing.assert_allclose(args.gradient(scene.x_rest), -scene.terms.load, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(
+        args.gradient(scene.x_rest), -scene.terms.coordinates.load, rtol=0, atol=1e-9
+    )

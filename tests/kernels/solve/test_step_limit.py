@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from kernels.geometry import ccd, near_pairs as pairs
-from kernels.planar import potential as step
+from kernels.geometry import ccd, near_pairs
+from kernels.planar import reach
 from sweep.config.case import Case, Contact, Lattice, Loading
-from sweep.scene.terms import build_scene
-from tests.solving import whole
-from tests.states import GRIP, STATES, loaded, nodes, unit
+from sweep.scene.lattice import build_scene
+from tests.support.solving import whole
+from tests.support.states import GRIP, STATES, loaded, nodes, unit
 
 
 def moving(scene, which, by):
@@ -60,7 +60,9 @@ def test_limits_of_a_step(platen, start, by, share):
 def hits(scene, x, dx):
     """Shares at which anything of a scene meets or folds, and those at which elements are short."""
     terms, high, low = scene.terms, x.size - 1, x.size - 2
-    everything = pairs.find(x, terms.contact, 1.0) if len(terms.contact.edges) else pairs.empty()
+    everything = (
+        near_pairs.find(x, terms.contact, 1.0) if len(terms.contact.edges) else near_pairs.empty()
+    )
     near = zip(everything.node, terms.contact.edges[everything.edge], strict=True)
     met = [ccd.first_contact(x, dx, p, a, b) for p, (a, b) in near]
     edges, hinges = terms.walls.edges, terms.bend.hinges
@@ -70,7 +72,7 @@ def hits(scene, x, dx):
         gaps = x[2 * p + 1] - x[low], x[high] - x[2 * p + 1]
         closing = dx[low] - dx[2 * p + 1], dx[2 * p + 1] - dx[high]
         met += [gap / way for gap, way in zip(gaps, closing, strict=True) if way > 0.0]
-    short = [ccd.first_shrink(x, dx, a, b, step.LEAST_LENGTH) for a, b in edges]
+    short = [ccd.first_shrink(x, dx, a, b, reach.LEAST_LENGTH) for a, b in edges]
     return np.array(met), np.array(short)
 
 
@@ -85,8 +87,8 @@ def test_the_bounds_of_a_step_miss_nothing(state, contact):
         rng = np.random.default_rng(seed)
         dx = unit(scene) * 10.0 ** rng.uniform(-2.5, 0.5) * rng.uniform(-1, 1, x.size)
         met, short = hits(scene, x, dx)
-        least = min(1.0, step.ADVANCE * met.min(), short.min())
-        most = min(1.0, step.ADVANCE * met[met <= 1.0].min(initial=np.inf), short.min())
+        least = min(1.0, reach.ADVANCE * met.min(), short.min())
+        most = min(1.0, reach.ADVANCE * met[met <= 1.0].min(initial=np.inf), short.min())
         assert least * (1 - 1e-12) <= args.limit(x, dx) <= most * (1 + 1e-12)
         limited += most < 1.0
     assert 5 < limited < 60

@@ -6,8 +6,17 @@ import numpy as np
 import pytest
 
 from kernels.terms import bend
-from tests.frames import Frame, bend_of, carried, frame, joint_of_four, scaled, shaken, walls_of
-from tests.terms import Term, bending_of, derivative_error, least_share
+from tests.support.frames import (
+    Frame,
+    bend_of,
+    carried,
+    frame,
+    joint_of_four,
+    scaled,
+    shaken,
+    walls_of,
+)
+from tests.support.terms import Term, bending_of, derivative_error, least_share
 
 FRAME = joint_of_four()
 MEASURES = [bend.ANGLE, bend.TANGENT]

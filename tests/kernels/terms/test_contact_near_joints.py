@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from kernels.terms import contact, contact_near_joints as vicinity
-from kernels.geometry import near_pairs as pairs
+from kernels.geometry import near_pairs
+from kernels.terms import contact, contact_near_joints
 from kernels.terms.barrier import barrier
-from tests.frames import carried, contact_of, frame, grid, joint_of_four, only, scaled
-from tests.terms import touch_of
+from tests.support.frames import carried, contact_of, frame, grid, joint_of_four, only, scaled
+from tests.support.terms import touch_of
 
 T = 0.8
 
@@ -57,7 +57,7 @@ def test_the_rest_state_is_free_of_contact(name, pieces):
     touch = contact_of(of)
     for turn in (0.0, 0.3):
         x = carried(of, of.rest, turn)
-        listed = pairs.find(x, touch, 2.0 * touch.reach)
+        listed = near_pairs.find(x, touch, 2.0 * touch.reach)
         assert np.any(listed.d_contact > 0) or pieces == 1
         assert touch_of(touch, listed, x).energy(x) == 0.0
         assert not touch_of(touch, listed, x).gradient(x).any()
@@ -124,7 +124,7 @@ def test_a_pair_near_at_rest_starts_at_nine_tenths_of_its_distance():
     for gap, expected in ((0.46, 0.0), (0.44, barrier(0.44 / 0.45)[0])):
         x = of.rest.copy()
         x[2 * np.unique(of.edges[3:]) + 1] = gap
-        energy = touch_of(touch, pairs.find(x, touch, 2.0), x).energy(x)
+        energy = touch_of(touch, near_pairs.find(x, touch, 2.0), x).energy(x)
         assert energy == pytest.approx(4.0 * of.modulus * of.depth * 0.45 * expected, rel=1e-3)
 
 
@@ -141,7 +141,7 @@ def test_what_is_far_along_the_network_touches_with_its_full_length():
 
 @pytest.mark.parametrize("of", [joint_of_four(), grid(2, 8.0, 4), star(0, 10, 20)])
 def test_every_node_has_one_owner(of):
-    subtract = vicinity.owners(len(of.points), of.edges)
+    subtract = contact_near_joints.owners(len(of.points), of.edges)
     owned = np.bincount(of.edges.ravel(), (1.0 - subtract).ravel(), len(of.points))
     np.testing.assert_array_equal(owned, 1.0)
 
@@ -185,7 +185,7 @@ def test_a_node_that_slides_along_a_wall_is_counted_once(seed, rise):
     for s in np.linspace(0.5, 9.5, 120):
         x = of.rest.copy()
         x[2 * p : 2 * p + 2] = s, rise * s * (10.0 - s) + rng.uniform(0.2, 0.6)
-        listed = only(pairs.find(x, touch, 2.0), p)
+        listed = only(near_pairs.find(x, touch, 2.0), p)
         nearest = least_distance(of, x, p)
         met.update(listed.edge.tolist())
         expected = half * T * barrier(nearest / T)[0]

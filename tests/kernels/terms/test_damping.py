@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from kernels.terms import bend, elements as chain, damping as damp, kelvin_voigt, stretch
-from tests.frames import (
+from kernels.terms import bend, damping, elements, kelvin_voigt, stretch
+from tests.support.frames import (
     carried,
     curve_law,
     frame,
@@ -14,18 +14,30 @@ from tests.frames import (
     shaken,
     terms_of,
 )
-from tests.terms import Term, before_of, damping_of, derivative_error, least_share, of_walls
+from tests.support.terms import (
+    NO_MEMORY,
+    Term,
+    before_of,
+    damping_of,
+    derivative_error,
+    least_share,
+    of_walls,
+)
 
 FRAME = joint_of_four()
 DT = 0.02
-MASS, RAYLEIGH, VISCOUS = damp.Damp(3.0, 0, 0), damp.Damp(3.0, 0.5, 0), damp.Damp(0, 0, 0.4)
-ALL = damp.Damp(3.0, 0.5, 0.4)
+MASS, RAYLEIGH, VISCOUS = (
+    damping.Damp(3.0, 0, 0),
+    damping.Damp(3.0, 0.5, 0),
+    damping.Damp(0, 0, 0.4),
+)
+ALL = damping.Damp(3.0, 0.5, 0.4)
 MODELS = [MASS, RAYLEIGH, VISCOUS, ALL]
 MEASURES = [bend.ANGLE, bend.TANGENT]
 
 
-def damped(of, damping, measure=bend.ANGLE, law=curve_law):
-    return terms_of(of, law(of.modulus), measure, damp.Damp(*map(float, damping)))
+def damped(of, model, measure=bend.ANGLE, law=curve_law):
+    return terms_of(of, law(of.modulus), measure, damping.Damp(*map(float, model)))
 
 
 def term_of(terms, x0) -> Term:
@@ -36,8 +48,10 @@ def elastic(terms, x, projected=False):
     """Hessian of stretching and bending."""
 
     def add(shape, stiffness, projected):
-        value = stretch.evaluate(terms.stretch, terms.law, shape, stiffness, projected)
-        return value + bend.evaluate(terms.walls, terms.bend, shape, stiffness, projected)
+        value = stretch.evaluate(terms.stretch, terms.law, NO_MEMORY, shape, stiffness, projected)
+        return value + bend.evaluate(
+            terms.walls, terms.bend, NO_MEMORY, shape, stiffness, projected
+        )
 
     return of_walls(terms.walls, terms.bend, add).hessian(x, projected)
 
@@ -74,7 +88,7 @@ def test_rayleigh_is_mass_and_projected_stiffness(seed, measure):
     x0, x = shaken(FRAME, seed, 0.3), shaken(FRAME, 20)
     terms = damped(FRAME, RAYLEIGH, measure)
     term = term_of(terms, x0)
-    expected = (3.0 * np.diag(terms.mass) + 0.5 * elastic(terms, x0, True)) / DT
+    expected = (3.0 * np.diag(terms.coordinates.mass) + 0.5 * elastic(terms, x0, True)) / DT
     np.testing.assert_allclose(
         term.hessian(x), expected, rtol=0, atol=1e-12 * np.abs(expected).max()
     )
@@ -151,7 +165,7 @@ def test_viscous_stress_of_a_bar_that_is_pulled():
 def measured(terms, x):
     """Lengths and turns of hinges and arms in a row."""
     before = before_of(terms, FRAME.rest)
-    chain.measure(x, terms.walls, before.shape)
+    elements.measure(x, terms.walls, before.shape)
     bend.turns(x, terms.walls, terms.bend, before.frame, before.shape)
     return before.shape
 

@@ -1,16 +1,22 @@
-"""The uniaxial law: stress and tangent are derivatives of the energy, at knots, ends and guard."""
+"""Elastic laws: stress and tangent are derivatives of the energy, at knots, ends and guard."""
 
 import numpy as np
 import pytest
 
+from kernels.terms import elastic
 from kernels.terms.barrier import barrier
-from kernels.terms.elastic import GUARD, uniaxial
-from tests.frames import curve_law, linear_law
-from tests.terms import differences
+from kernels.terms.elastic import GUARD
+from tests.support.frames import curve_law, linear_law
+from tests.support.terms import NO_MEMORY, differences
 
 MODULUS = 12e6
 KNOTS = [-0.5, 0.0, 0.1, 0.4, 1.0]
 JUST = 1e-3
+
+
+def uniaxial(law, strain):
+    """Energy density, stress and tangent."""
+    return elastic.respond(law, strain, NO_MEMORY, 0)
 
 
 def errors(curve, strain, step):

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kernels.terms import bend, elements as chain, fold
+from kernels.terms import bend, elements, fold
 from kernels.terms.barrier import barrier
-from tests.frames import Frame, bend_of, frame, walls_of
-from tests.terms import Term, bending_of, derivative_error, least_share, of_points, room
+from tests.support.frames import Frame, bend_of, frame, walls_of
+from tests.support.terms import Term, bending_of, derivative_error, least_share, of_points, room
 
 HINGE = frame([(0, 0), (2.0, 0)], [(0, 1)], 2)
 LIMIT = np.radians(20.0)
@@ -103,7 +103,7 @@ def test_turns_returns_the_least_opening_of_a_hinge(opening, side):
     shape, _ = room(walls)
     aimed = np.full((4, 3), np.inf)
     bend.aim(x, walls, bending, aimed)
-    chain.measure(x, walls, shape)
+    elements.measure(x, walls, shape)
     assert bend.turns(x, walls, bending, aimed, shape) == pytest.approx(opening, rel=1e-9)
 
 

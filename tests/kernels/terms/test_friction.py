@@ -3,20 +3,27 @@
 import numpy as np
 import pytest
 
-from kernels.terms import friction
-from kernels.geometry import near_pairs as pairs
+from kernels.geometry import near_pairs
+from kernels.terms import contact, friction
 from kernels.terms.barrier import barrier
-from tests.frames import carried, only, scaled, shaken, touching, two_walls
-from tests.terms import Term, derivative_error, differences, least_share, of_points, touch_of
+from tests.support.frames import carried, only, scaled, shaken, touching, two_walls
+from tests.support.terms import (
+    Term,
+    derivative_error,
+    differences,
+    least_share,
+    of_points,
+    touch_of,
+)
 
 MU, T = 0.3, 0.8
 WALLS = two_walls(0.5, (3, 2))
 UPPER = np.unique(WALLS.edges[3:])
 
 
-def grips_of(of, x, mu=MU, node=None):
+def lagged_of(of, x, mu=MU, node=None):
     touch = touching(of)
-    listed = pairs.find(x, touch, 2.0 * touch.reach)
+    listed = near_pairs.find(x, touch, 2.0 * touch.reach)
     if node is not None:
         listed = only(listed, node)
     return lagged(x, touch, listed, mu), touch, listed
@@ -25,17 +32,20 @@ def grips_of(of, x, mu=MU, node=None):
 def lagged(x, touch, listed, mu=MU):
     """What is gripped at ``x``."""
     rubbing = friction.Friction(mu, 1.0)
-    grips = friction.room(listed, touch, rubbing)
-    friction.lag(x, touch, listed, np.inf, rubbing, grips)
-    n = grips.count[0]
-    return friction.Grips(*(part[:n] for part in grips[:-1]), grips.count)
+    contacts = friction.no_contacts(listed, touch, rubbing)
+    friction.lag(x, touch, listed, np.inf, rubbing, contacts)
+    n = contacts.count[0]
+    return contacts._replace(
+        nodes=contacts.nodes[:n], slopes=contacts.slopes[:n], load=contacts.load[:n],
+        dual=contacts.dual[:n],
+    )  # fmt: skip
 
 
-def term_of(x0, grips, slip) -> Term:
+def term_of(x0, contacts, slip) -> Term:
     """Friction of a step from x0."""
     return of_points(
-        lambda x, g: friction.evaluate(x - x0, grips, slip, g),
-        lambda x, matrix, projected: friction.hessian(x - x0, grips, slip, matrix, projected),
+        lambda x, g: friction.evaluate(x - x0, contacts, slip, g),
+        lambda x, matrix, projected: friction.hessian(x - x0, contacts, slip, matrix, projected),
     )
 
 
@@ -86,21 +96,21 @@ def test_smooth_size_joins_the_size_at_the_slip():
 def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
     """At the least of u^2 / 2 + |u| - pull u; with f'' alone it leaps to and fro for ever."""
     slip, steps, u = 1e-4, 0, np.array([start, 0.0])
-    grips = friction.Grips(
+    contacts = friction.LaggedContacts(
         np.zeros((1, 3), np.int64), np.eye(3, 2)[None], np.ones(1), np.full(1, friction.UNKNOWN),
-        np.ones(1, np.int64),
+        np.ones(1, np.int64), contact.no_contacts(near_pairs.empty()),
     )  # fmt: skip
-    grips.slopes[0, 1] = 0.0
+    contacts.slopes[0, 1] = 0.0
 
     def force():
         return u[0] + friction.smooth(u[0], slip)[1] - pull
 
     while abs(force()) > 1e-12:
-        move = -force() / (1.0 + friction.curvature(u[0], grips.dual[0], slip))
+        move = -force() / (1.0 + friction.curvature(u[0], contacts.dual[0], slip))
         u[0] += move
-        fit = friction.follow(u, np.array([move, 0.0]), 1.0, grips, slip)
+        fit = friction.follow(u, np.array([move, 0.0]), 1.0, contacts, slip)
         steps += 1
-        off = abs(grips.dual[0] - friction.smooth(u[0], slip)[1])
+        off = abs(contacts.dual[0] - friction.smooth(u[0], slip)[1])
         assert fit == (off < friction.FIT)
     assert steps <= most
     assert fit
@@ -112,31 +122,31 @@ def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
 def test_derivatives_in_random_states(seed, slip, length):
     of = scaled(WALLS, length)
     x0 = shaken(of, seed, 0.1)
-    grips, _, _ = grips_of(of, x0)
-    assert len(grips.load) > 5
-    term = term_of(x0, grips, slip * length)
+    contacts, _, _ = lagged_of(of, x0)
+    assert len(contacts.load) > 5
+    term = term_of(x0, contacts, slip * length)
     assert derivative_error(term, shaken(of, seed + 9, 0.1), of.unit, 1e-5) < 1e-6
 
 
 @pytest.mark.parametrize("amount", [0.0, 0.002, -0.009, 0.011, 0.5])
 def test_derivatives_while_sticking_and_sliding(amount):
-    grips, _, _ = grips_of(WALLS, WALLS.rest)
-    error = derivative_error(term_of(WALLS.rest, grips, 0.01), slid(amount), WALLS.unit, 1e-6)
+    contacts, _, _ = lagged_of(WALLS, WALLS.rest)
+    error = derivative_error(term_of(WALLS.rest, contacts, 0.01), slid(amount), WALLS.unit, 1e-6)
     assert error < (1e-3 if amount == 0.0 else 1e-6)  # |u|^3 has a kink in its third derivative
 
 
 def test_walls_that_turn_together_do_not_slip():
-    grips, _, _ = grips_of(WALLS, WALLS.rest)
+    contacts, _, _ = lagged_of(WALLS, WALLS.rest)
     small = carried(WALLS, WALLS.rest, 1e-6)
-    term = term_of(WALLS.rest, grips, 1e-3)
+    term = term_of(WALLS.rest, contacts, 1e-3)
     assert term.energy(small) < 1e-9 * term.energy(slid(1e-6))
 
 
 def test_a_step_that_stays_costs_nothing():
     x = shaken(WALLS, 1, 0.1)
-    grips, _, _ = grips_of(WALLS, x)
-    assert term_of(x, grips, 0.01).energy(x) == 0.0
-    assert not term_of(x, grips, 0.01).gradient(x).any()
+    contacts, _, _ = lagged_of(WALLS, x)
+    assert term_of(x, contacts, 0.01).energy(x) == 0.0
+    assert not term_of(x, contacts, 0.01).gradient(x).any()
 
 
 @pytest.mark.parametrize("pieces", [(1, 1), (3, 2), (12, 7), (24, 24)])
@@ -144,59 +154,59 @@ def test_a_step_that_stays_costs_nothing():
 def test_the_load_is_mu_times_the_normal_force_of_contact(gap, pieces):
     """Counted once at any mesh, half of it from each side."""
     of = two_walls(gap, pieces)
-    grips, touch, listed = grips_of(of, of.rest)
+    contacts, touch, listed = lagged_of(of, of.rest)
     upper = np.unique(of.edges[pieces[0] :])
     lift = touch_of(touch, listed, of.rest).gradient(of.rest)[2 * upper + 1].sum()
-    assert grips.load.sum() == pytest.approx(-MU * lift, rel=1e-11)
-    assert grips.load.sum() == pytest.approx(MU * 4.0 * normal_force(gap), rel=1e-11)
+    assert contacts.load.sum() == pytest.approx(-MU * lift, rel=1e-11)
+    assert contacts.load.sum() == pytest.approx(MU * 4.0 * normal_force(gap), rel=1e-11)
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
 def test_sliding_walls_resist_with_mu_times_the_normal_force(way):
-    grips, _, _ = grips_of(WALLS, WALLS.rest)
+    contacts, _, _ = lagged_of(WALLS, WALLS.rest)
     limit = MU * 4.0 * normal_force(0.5)
-    g = term_of(WALLS.rest, grips, 1e-3).gradient(slid(0.1 * way))
+    g = term_of(WALLS.rest, contacts, 1e-3).gradient(slid(0.1 * way))
     assert g[2 * UPPER].sum() == pytest.approx(way * limit, rel=1e-11)
     assert g[0 : 2 * len(WALLS.points) : 2].sum() == pytest.approx(0.0, abs=1e-9)
     assert abs(moment(g, WALLS.rest)) < 1e-9 * limit
-    energy = term_of(WALLS.rest, grips, 1e-3).energy(slid(0.1 * way))
+    energy = term_of(WALLS.rest, contacts, 1e-3).energy(slid(0.1 * way))
     assert energy == pytest.approx(limit * (0.1 - 1e-3 / 3), rel=1e-11)
 
 
 @pytest.mark.parametrize("share", [1e-3, 0.1, 0.5, 0.9])
 def test_sticking_walls_resist_with_less_than_the_limit(share):
-    grips, _, _ = grips_of(WALLS, WALLS.rest)
+    contacts, _, _ = lagged_of(WALLS, WALLS.rest)
     limit = MU * 4.0 * normal_force(0.5)
-    g = term_of(WALLS.rest, grips, 1e-3).gradient(slid(share * 1e-3))
+    g = term_of(WALLS.rest, contacts, 1e-3).gradient(slid(share * 1e-3))
     assert g[2 * UPPER].sum() == pytest.approx(limit * share * (2 - share), rel=1e-9)
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_no_force_exceeds_the_load_whatever_the_motion(seed):
-    grips, _, _ = grips_of(WALLS, WALLS.rest, node=2)
-    assert np.all(grips.load > 0)
+    contacts, _, _ = lagged_of(WALLS, WALLS.rest, node=2)
+    assert np.all(contacts.load > 0)
     for x in (shaken(WALLS, seed, 1e-4), shaken(WALLS, seed, 1.0)):
-        g = term_of(WALLS.rest, grips, 1e-3).gradient(x)
-        assert np.linalg.norm(g[4:6]) <= grips.load.sum() * (1 + 1e-12)
+        g = term_of(WALLS.rest, contacts, 1e-3).gradient(x)
+        assert np.linalg.norm(g[4:6]) <= contacts.load.sum() * (1 + 1e-12)
 
 
 def test_motion_along_the_normal_meets_no_friction():
     x = WALLS.rest.copy()
     x[2 * UPPER + 1] += 0.1
-    grips, _, _ = grips_of(WALLS, WALLS.rest)
-    assert np.abs(term_of(WALLS.rest, grips, 1e-3).gradient(x)).max() < 1e-9
+    contacts, _, _ = lagged_of(WALLS, WALLS.rest)
+    assert np.abs(term_of(WALLS.rest, contacts, 1e-3).gradient(x)).max() < 1e-9
 
 
 def test_a_common_translation_costs_nothing():
-    grips, _, _ = grips_of(WALLS, WALLS.rest)
+    contacts, _, _ = lagged_of(WALLS, WALLS.rest)
     x = carried(WALLS, WALLS.rest, 0.0, (0.8, -0.3))
-    assert term_of(WALLS.rest, grips, 1e-3).energy(x) == pytest.approx(0.0, abs=1e-9)
+    assert term_of(WALLS.rest, contacts, 1e-3).energy(x) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_no_friction_or_no_contact_means_no_force():
-    assert not np.any(grips_of(WALLS, WALLS.rest, mu=0.0)[0].load)
+    assert not np.any(lagged_of(WALLS, WALLS.rest, mu=0.0)[0].load)
     apart = two_walls(0.9, (3, 2))
-    assert grips_of(apart, apart.rest)[0].load.size == 0
+    assert lagged_of(apart, apart.rest)[0].load.size == 0
     assert term_of(WALLS.rest, friction.none(), 1.0).energy(slid(0.1)) == 0.0
 
 
@@ -205,9 +215,9 @@ def test_projected_hessian_is_semi_definite(seed):
     """Shares that are taken off have a negative force: they are left out."""
     of = two_walls(0.5, (12, 7))
     x0 = shaken(of, seed, 0.1)
-    grips, _, _ = grips_of(of, x0)
-    assert grips.load.min() < 0
-    term, x = term_of(x0, grips, 0.5), shaken(of, seed + 20, 0.1)
+    contacts, _, _ = lagged_of(of, x0)
+    assert contacts.load.min() < 0
+    term, x = term_of(x0, contacts, 0.5), shaken(of, seed + 20, 0.1)
     assert least_share(term, x) > -1e-12
     exact, projected = (term.hessian(x, p) for p in (False, True))
     assert np.abs(projected - exact).max() > 1e-3
@@ -219,13 +229,13 @@ def test_a_wall_that_slides_on_a_platen(low, high, side):
     x0 = WALLS.rest.copy()
     x0[-2:] = low, high
     touch = touching(WALLS)
-    grips = lagged(x0, touch, pairs.empty())
-    assert lagged(x0, touch, pairs.empty(), 0.0).load.size == 0
+    contacts = lagged(x0, touch, near_pairs.empty())
+    assert lagged(x0, touch, near_pairs.empty(), 0.0).load.size == 0
     press = -4.0 * WALLS.modulus * WALLS.depth * barrier((0.2, 0.25)[side] / 0.4)[1]
-    assert grips.load.sum() == pytest.approx(MU * press, rel=1e-11)
+    assert contacts.load.sum() == pytest.approx(MU * press, rel=1e-11)
     x = x0.copy()
     x[0 : 2 * len(WALLS.points)] += 0.5
-    g = term_of(x0, grips, 1e-3).gradient(x)
+    g = term_of(x0, contacts, 1e-3).gradient(x)
     assert g[0::2][: len(WALLS.points)].sum() == pytest.approx(MU * press, rel=1e-11)
     assert not g[1::2].any()
-    assert derivative_error(term_of(x0, grips, 2.0), x, WALLS.unit, 1e-4) < 1e-6
+    assert derivative_error(term_of(x0, contacts, 2.0), x, WALLS.unit, 1e-4) < 1e-6

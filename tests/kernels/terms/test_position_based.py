@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from kernels.terms import contact, position_based as project
-from kernels.geometry import near_pairs as pairs
-from sweep.config.units import ConfigError, load_config
+from kernels.geometry import near_pairs
+from kernels.terms import contact, position_based
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
-from sweep.scene.terms import build_scene
-from tests.figures import MATERIAL
-from tests.frames import touching, two_walls
-from tests.scenes import run, unbalanced
+from sweep.config.units import ConfigError, load_config
+from sweep.scene.lattice import build_scene
+from tests.studies.verify import MATERIAL
+from tests.support.frames import touching, two_walls
+from tests.support.scenes import run, unbalanced
 
 APART = 1.0 - 1e-5  # of the thickness
 BY_POSITION = Contact(model="position_based")
@@ -20,10 +20,12 @@ def moved(gap, shift, ease):
     """Two walls, 0.8 thick and ``gap`` apart, moved apart: where they were, and are."""
     walls = two_walls(gap, shift=shift)
     x, contacts = walls.rest.copy(), touching(walls)
-    listed = pairs.find(x, contacts, 2.0 * contacts.reach)
-    projection = project.Projection(contacts, np.broadcast_to(ease, x.shape).copy())
-    changed = project.move_apart(x, projection, listed)
-    nearest = contact.least_gap(x, contacts, pairs.find(x, contacts, 2.0 * contacts.reach), 0.0)
+    listed = near_pairs.find(x, contacts, 2.0 * contacts.reach)
+    projection = position_based.Projection(contacts, np.broadcast_to(ease, x.shape).copy())
+    changed = position_based.move_apart(x, projection, listed)
+    nearest = contact.least_gap(
+        x, contacts, near_pairs.find(x, contacts, 2.0 * contacts.reach), 0.0
+    )
     return walls.rest, x, changed, nearest
 
 
@@ -40,7 +42,7 @@ def test_walls_are_moved_to_their_thickness_and_no_farther(gap, shift):
 def test_one_pair_is_moved_apart_at_once(tau):
     """Along the normal, by masses and levers of its three nodes."""
     x, ease = np.array([tau, 0.1, 0.0, 0.0, 1.0, 0.0]), np.array([9.0, 1.0, 9.0, 2.0, 9.0, 0.5])
-    assert project._part(x, ease, 0, 1, 2, 0.2)
+    assert position_based._part(x, ease, 0, 1, 2, 0.2)
     assert x[1] - (1.0 - tau) * x[3] - tau * x[5] == pytest.approx(0.2, rel=1e-12)
     np.testing.assert_allclose(x[::2], [tau, 0.0, 1.0], rtol=1e-12)
 
@@ -74,8 +76,8 @@ def test_joints_at_rest_are_no_contacts(kind):
     lattice = Lattice(kind=kind, nodes_per_wall=7)
     scene = build_scene(Case(lattice=lattice, contact=BY_POSITION))
     x, touch = scene.x_rest.copy(), scene.terms.project.contact
-    listed = pairs.find(x, touch, 2.0 * touch.reach)
-    assert not project.move_apart(x, scene.terms.project, listed)
+    listed = near_pairs.find(x, touch, 2.0 * touch.reach)
+    assert not position_based.move_apart(x, scene.terms.project, listed)
     assert np.any(listed.distance < lattice.wall_thickness)
 
 
@@ -99,7 +101,7 @@ def test_energies_of_a_step_are_those_of_where_it_was_moved_to():
     assert history["injected_by_projection_J"].any()
     dt = np.diff(history["time_s"])
     step = np.diff(frames["position_m"], axis=0) / dt[:, None, None]
-    share = scene.terms.mass[: 2 * step.shape[1]].reshape(-1, 2)
+    share = scene.terms.coordinates.mass[: 2 * step.shape[1]].reshape(-1, 2)
     kinetic = 0.5 * np.sum(share * step**2, axis=(1, 2))
     np.testing.assert_allclose(kinetic, history["kinetic_J"][1:], rtol=1e-9)
     ends = frames["position_m"][:, frames["edges"]]

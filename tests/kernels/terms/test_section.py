@@ -6,16 +6,25 @@ from pydantic import ValidationError
 from scipy.integrate import quad
 
 from kernels.terms import bend
-from kernels.terms.elastic import curve, uniaxial
-from sweep.scene.bending import build_bend
-from sweep.design.network import build_network
-from sweep.scene.material import as_law, section_law, stress_law
-from sweep.scene.mesh import split_walls
+from kernels.terms.elastic import curve, respond
 from sweep.config.case import Case, Lattice, Loading, Material, Solver
-from tests.frames import Frame, bend_of, carried, frame, joint_of_four, scaled, shaken, walls_of
-from tests.scenes import at, is_sound, run, unbalanced
-from tests.structures import structure
-from tests.terms import bending_of, derivative_error, differences, least_share
+from sweep.design.lattice import build_network
+from sweep.scene.bending import build_bend
+from sweep.scene.material import as_law, law_in_bending, section_law, stress_law
+from sweep.scene.mesh import split_walls
+from tests.support.frames import (
+    Frame,
+    bend_of,
+    carried,
+    frame,
+    joint_of_four,
+    scaled,
+    shaken,
+    walls_of,
+)
+from tests.support.scenes import at, is_sound, run, unbalanced
+from tests.support.structures import structure
+from tests.support.terms import NO_MEMORY, bending_of, derivative_error, differences, least_share
 
 MEASURES = [bend.ANGLE, bend.TANGENT]
 NAMES = ["ninjaflex", "cheetah", "filaflex_60a"]
@@ -26,7 +35,12 @@ HINGE = frame([(0, 0), (2.0, 0)], [(0, 1)], 2)
 def table(name="ninjaflex"):
     """U' over surface strain of a material."""
     material = Material(name=name, bend="section")
-    return as_law(section_law(material), 1.0 / material.modulus, material.modulus)
+    return law_in_bending(material)
+
+
+def responded(section, surface, kappa):
+    """Energy, moment and rigidity over the stiffness."""
+    return bend.response(section, surface, kappa, NO_MEMORY, 0)
 
 
 def through(of: Frame, measure=bend.ANGLE, name="ninjaflex", thickness=None, exact=True):
@@ -49,8 +63,11 @@ def moment(material, strain):
     """3/2 of the integral of sigma(strain eta) eta over eta in -1..1, by adaptive quadrature."""
     law = as_law(stress_law(material), 1.0, material.modulus)
     inside = [k / strain for k in law.knots if 0.0 < abs(k) < strain]
-    found = quad(lambda eta: uniaxial(law, strain * eta)[1] * eta, -1.0, 1.0, points=inside or None,
-                 limit=1000, epsabs=1e-6)  # fmt: skip
+
+    def density(eta):
+        return respond(law, strain * eta, NO_MEMORY, 0)[1] * eta
+
+    found = quad(density, -1.0, 1.0, points=inside or None, limit=1000, epsabs=1e-6)
     return 1.5 * found[0]
 
 
@@ -79,13 +96,15 @@ def test_moment_and_rigidity_are_derivatives_of_the_energy(name):
     kappas = np.concatenate([[0.0, 1e-4], law.knots / surface, [2.6, 4.0]])
     for kappa in np.concatenate([kappas, -kappas, kappas + 1e-3]):
         at, step = np.array([kappa]), np.array([2e-5])
-        found = bend.response(law, surface, kappa)
+        found = responded(law, surface, kappa)
         parts = [
-            differences(lambda k, i=i: bend.response(law, surface, k[0])[i], at, step)[0]
+            differences(
+                lambda k, i=i: bend.response(law, surface, k[0], NO_MEMORY, 0)[i], at, step
+            )[0]
             for i in (0, 1)
         ]
         np.testing.assert_allclose(found[1:], parts, rtol=0, atol=2e-4)
-        assert bend.response(law, surface, -kappa) == pytest.approx(
+        assert responded(law, surface, -kappa) == pytest.approx(
             (found[0], -found[1], found[2]), rel=1e-12
         )
 
@@ -165,7 +184,7 @@ def test_a_strip_bent_to_a_circle(pieces, radius):
 def test_surface_strain_and_weights_of_a_scene(plane, hinges):
     """C = t / 2h inside a wall and t / h at its ends; weights are those of linear bending."""
     lattice, t, h = Lattice(nodes_per_wall=2), 0.8e-3, 12.5e-3 / 9
-    mesh = split_walls(build_network(lattice), 3, 0.0)
+    mesh = split_walls(build_network(lattice.geometry), 3, 0.0)
     linear, section = (
         build_bend(mesh, np.ones(len(mesh.edges)), Case(
             lattice=lattice, material=Material(bend=kind, plane=plane), solver=Solver(hinges=hinges)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.terms import stretch
-from tests.frames import (
+from tests.support.frames import (
     bend_of,
     carried,
     curve_law,
@@ -16,7 +16,7 @@ from tests.frames import (
     stretch_of,
     walls_of,
 )
-from tests.terms import Term, derivative_error, least_share, of_walls
+from tests.support.terms import NO_MEMORY, Term, derivative_error, least_share, of_walls
 
 BAR = frame([(0, 0), (2.0, 1.0)], [(0, 1)], 1)
 FRAME = joint_of_four()
@@ -26,7 +26,7 @@ def term_of(of, law=curve_law) -> Term:
     elements, curve = stretch_of(of), law(of.modulus)
 
     def add(shape, stiffness, projected):
-        return stretch.evaluate(elements, curve, shape, stiffness, projected)
+        return stretch.evaluate(elements, curve, NO_MEMORY, shape, stiffness, projected)
 
     return of_walls(walls_of(of), bend_of(of), add)
 

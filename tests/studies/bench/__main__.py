@@ -1,6 +1,6 @@
 """Measure everything, print it as Markdown, and draw it: `make bench`.
 
-python -m tests.bench FOLDER
+python -m tests.studies.bench FOLDER
 """
 
 import sys
@@ -8,7 +8,7 @@ from pathlib import Path
 
 from sweep.report.case_plots import save
 from sweep.simulation.simulate import warm_up
-from tests.bench import (
+from tests.studies.bench import (
     densify,
     figure,
     growth,

@@ -1,9 +1,9 @@
 """What is timed: the seed's scene and crushes of square cells, all cells of one size."""
 
-from sweep.design.network import build_network
-from sweep.scene.mesh import build_mesh
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
-from sweep.scene.terms import build_scene
+from sweep.design.lattice import build_network
+from sweep.scene.lattice import build_scene
+from sweep.scene.mesh import build_mesh
 
 PITCH = 12.5e-3 / 3
 MATERIAL = Material(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")

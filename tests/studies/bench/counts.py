@@ -4,19 +4,21 @@ from collections import Counter
 from contextlib import ExitStack
 from unittest.mock import patch
 
+from kernels.planar import reach
+from kernels.planar.problem import Planar, PlanarScene
 from kernels.solve import march, newton
-from kernels.planar import potential as step
 
-# Whatever stands between these, and `_step`, which returns arrays to code that counts none.
-LOOPS = [(march, name) for name in ("march", "_go", "_step", "_balance")]
-LOOPS += [(newton, "minimise"), (step, "renew"), (step, "find_near")]
+# Whatever stands between these, and what returns arrays to code that counts no references.
+LOOPS = [(march, "march"), (march, "_go"), (march, "_step"), (march, "_balance")]
+LOOPS += [(march, "minimise"), (march, "make_workspace")]
+LOOPS += [(PlanarScene, name) for name in ("find_near", "renew_near", "assemble")]
 WATCHED = {
-    "evaluate": (newton, "evaluate"),
-    "factor": (newton, "factor"),
+    "evaluate": (Planar, "evaluate"),
+    "factor": (Planar, "factor"),
     "solve": (newton, "_solve"),
-    "limit": (newton, "step_limit"),
-    "list": (step, "list_near"),
-    "room": (step, "make_system"),
+    "limit": (Planar, "step_limit"),
+    "list": (reach, "list_near"),
+    "room": (reach, "make_system"),
 }
 
 
@@ -32,12 +34,11 @@ def counted(crush):
         return call
 
     with ExitStack() as patches:
-        for module, name in LOOPS:
-            loop = getattr(module, name).__wrapped__
-            for place in {module, march}:
-                patches.enter_context(patch.object(place, name, loop))
-        for part, (module, name) in WATCHED.items():
-            watch = watched(part, getattr(module, name))
-            patches.enter_context(patch.object(module, name, watch))
+        for place, name in LOOPS:
+            loop = getattr(place, name).__wrapped__
+            patches.enter_context(patch.object(place, name, loop))
+        for part, (place, name) in WATCHED.items():
+            watch = watched(part, getattr(place, name))
+            patches.enter_context(patch.object(place, name, watch))
         spent, _ = crush.onwards()
     return {part: calls[part] / spent.iterations for part in WATCHED}

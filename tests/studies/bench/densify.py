@@ -1,10 +1,10 @@
 """A large lattice crushed until it has packed down, with contact: how long, with what memory."""
 
-from sweep.scene.terms import build_scene
-from tests.bench import cases, marching
-from tests.bench.alone import MEMORY, alone
-from tests.bench.sweeps import changed
-from tests.bench.table import Table
+from sweep.scene.lattice import build_scene
+from tests.studies.bench import cases, marching
+from tests.studies.bench.alone import MEMORY, alone
+from tests.studies.bench.sweeps import changed
+from tests.studies.bench.table import Table
 
 PATIENCE = 4 * 3600.0  # s
 COLUMNS = ("CPU s", "march, s", "iterations", "ms of each", "memory, MB", "packed at %")

@@ -9,9 +9,9 @@ the exact Hessian, which is positive all the way.
 import numpy as np
 
 from sweep.scene.loading import stages, tolerances
-from tests.bench.clock import seconds
-from tests.bench.marching import Spent
-from tests.bench.rods import Rods
+from tests.studies.bench.clock import seconds
+from tests.studies.bench.marching import Spent
+from tests.studies.bench.rods import Rods
 
 
 class Step:
@@ -19,10 +19,10 @@ class Step:
 
     def __init__(self, case, scene, rods, stage):
         assert stage.factor0 == stage.factor1, "the load must be dead"
-        self.rods, self.allowed = rods, tolerances(case, scene, stage.dt)
-        self.inert = scene.terms.mass[rods.free] / stage.dt**2
-        self.load = stage.factor1 * scene.terms.load[rods.free]
-        self.lever = scene.unknowns.lever[rods.free]
+        self.rods, self.allowed = rods, tolerances(case, scene, stage)
+        self.inert = scene.terms.coordinates.mass[rods.free] / stage.duration**2
+        self.load = stage.factor1 * scene.terms.coordinates.load[rods.free]
+        self.lever = scene.terms.coordinates.lever[rods.free]
 
     def at(self, x, x_pred):
         """Energy, gradient (n,) and what the rods found."""
@@ -65,8 +65,8 @@ class Peer:
         for stage in ramps:
             step = Step(self.case, self.scene, self.rods, stage)
             for _ in range(stage.steps):
-                end, spent = step.minimum(x + stage.dt * v)
-                x, v = end, (end - x) / stage.dt
+                end, spent = step.minimum(x + stage.duration * v)
+                x, v = end, (end - x) / stage.duration
                 iterations.append(spent)
         self.x[free] = x
 

@@ -67,7 +67,7 @@ class Elements:
     """What walls of two elements and more store, over the coordinates ``free`` (n,)."""
 
     def __init__(self, scene):
-        self.x, leader = scene.x_rest.copy(), scene.unknowns.leader
+        self.x, leader = scene.x_rest.copy(), scene.terms.layout.leader
         self.free = np.flatnonzero(leader == np.arange(leader.size))
         self.parts = list(parts(scene.terms))
 

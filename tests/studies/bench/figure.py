@@ -1,7 +1,7 @@
 """The picture of the bench: growth, an iteration taken apart, the seed's scene beside others."""
 
 from sweep.report.case_plots import BLUE, GREY, ORANGE, PURPLE, SKY, VERMILION, YELLOW, blank
-from tests.bench import growth, iteration, libraries, scenes
+from tests.studies.bench import growth, iteration, libraries, scenes
 
 COLORS = (BLUE, SKY, GREEN := "#009e73", YELLOW, ORANGE, VERMILION, PURPLE, GREY)
 

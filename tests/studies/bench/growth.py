@@ -4,12 +4,12 @@ from functools import partial
 
 import numpy as np
 
-from kernels.planar import potential as step
-from sweep.scene.terms import build_scene
-from tests.bench import cases, loops, marching
-from tests.bench.alone import MEMORY, alone
-from tests.bench.clock import medians, seconds
-from tests.bench.table import Table
+from kernels.planar import reach
+from sweep.scene.lattice import build_scene
+from tests.studies.bench import cases, loops, marching
+from tests.studies.bench.alone import MEMORY, alone
+from tests.studies.bench.clock import medians, seconds
+from tests.studies.bench.table import Table
 
 STRAIN = 0.1  # buckled, and nothing touches
 EACH, RATIO, TOTAL, ITERATIONS, SCENE, PATTERN, PEAK = (
@@ -30,7 +30,7 @@ def exponent(sizes, times):
 
 def _search(scene):
     """List pairs and make the system, as every march does once."""
-    pairs = step.list_near(scene.x_rest, scene.terms, 0.0)[0]
+    pairs = reach.list_near(scene.terms, scene.x_rest, 0.0)[0]
     loops.analyse(1, scene.x_rest, scene.terms, pairs)
 
 

@@ -2,12 +2,12 @@
 
 from functools import partial
 
-from tests.bench import cases, loops
-from tests.bench.clock import medians
-from tests.bench.counts import counted
-from tests.bench.crushes import BUCKLED, COLLAPSED, Crush
-from tests.bench.spot import Spot
-from tests.bench.table import Table
+from tests.studies.bench import cases, loops
+from tests.studies.bench.clock import medians
+from tests.studies.bench.counts import counted
+from tests.studies.bench.crushes import BUCKLED, COLLAPSED, Crush
+from tests.studies.bench.spot import Spot
+from tests.studies.bench.table import Table
 
 STATES = {"buckled": (cases.APART, BUCKLED), "collapsed": (cases.SMOOTH, COLLAPSED)}
 WHOLE, SEARCH, REST = "an iteration", "line search", "the rest"

@@ -2,12 +2,13 @@
 
 from functools import partial
 
-from sweep.scene.terms import build_scene, time_step
-from tests.bench import cases, loops
-from tests.bench.clock import medians
-from tests.bench.crushes import COLLAPSED, Crush
-from tests.bench.spot import Spot
-from tests.bench.table import Table
+from sweep.scene.lattice import build_scene
+from sweep.scene.terms import time_step
+from tests.studies.bench import cases, loops
+from tests.studies.bench.clock import medians
+from tests.studies.bench.crushes import COLLAPSED, Crush
+from tests.studies.bench.spot import Spot
+from tests.studies.bench.table import Table
 
 PARTS = {
     "an evaluation": loops.EVALUATE,

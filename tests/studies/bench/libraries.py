@@ -11,12 +11,12 @@ from scipy import linalg
 from scipy.sparse import csgraph, triu
 from scipy.sparse.linalg import splu
 
-from tests.bench import loops
-from tests.bench.clock import medians, seconds
-from tests.bench.crushes import Crush
-from tests.bench.matrix import assembled
-from tests.bench.spot import Spot
-from tests.bench.table import Table
+from tests.studies.bench import loops
+from tests.studies.bench.clock import medians, seconds
+from tests.studies.bench.crushes import Crush
+from tests.studies.bench.matrix import assembled
+from tests.studies.bench.spot import Spot
+from tests.studies.bench.table import Table
 
 OURS = "ours, from the elements"
 SYMMETRIC = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
@@ -112,7 +112,7 @@ def table(sizes, count):
     for cells in sizes:
         crush = Crush(cells)
         spot = Spot(crush.scene, crush.state.x, crush.move)
-        matrix = assembled(crush.scene.terms, spot.at.stiffness)
+        matrix = assembled(crush.scene.terms, spot.whole.problem.room.stiffness)
         b, libraries = np.ones(matrix.shape[0]), solvers(matrix)
         sides = {OURS: lambda spot=spot: spot.each(loops.FACTOR) + spot.each(loops.SOLVE)}
         for name, solve in libraries.items():

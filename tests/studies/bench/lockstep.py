@@ -5,7 +5,7 @@ from itertools import groupby
 import numpy as np
 
 from sweep.simulation.simulate import simulate
-from tests.bench.table import Table
+from tests.studies.bench.table import Table
 
 LANES = 8
 

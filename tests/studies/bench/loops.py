@@ -3,12 +3,22 @@
 The one file of the bench that knows how the kernels of a step are called.
 """
 
-from kernels.terms import bend, elements as chain, contact, damping as damp, fold, friction, inertia, stretch
-from kernels.linear import block_ldlt as blocks, condense, system
-from kernels.planar import potential as step  # fmt: skip
-from kernels.compile.jit import jit_exact, jit_owning
-from kernels.linear.analysis import RIGID
 from kernels.arrays import copy
+from kernels.compile.jit import jit_exact, jit_owning
+from kernels.linear import block_ldlt, condense
+from kernels.linear.analysis import RIGID
+from kernels.planar import reach
+from kernels.terms import (  # fmt: skip
+    bend,
+    contact,
+    damping,
+    elements,
+    fold,
+    friction,
+    inertia,
+    stretch,
+)
+from kernels.terms.law import Memory
 
 (
     NOTHING, EVALUATE, FACTOR, SOLVE, LIMIT, SHAPE, STRETCH, BEND, FOLD, INERTIA, DAMP, CONTACT,
@@ -17,7 +27,7 @@ from kernels.arrays import copy
 
 
 @jit_exact
-def _condense(terms, near, at):
+def _condense(terms, near, stiffness):
     """Fill the rows of all walls and eliminate their inner unknowns."""
     solver, failed = near.system, 0
     for w in range(solver.kind.size):
@@ -26,60 +36,64 @@ def _condense(terms, near, at):
         span = slice(solver.row_start[w], solver.row_start[w + 1])
         rows, own = solver.rows[span], solver.own[span]
         first, last = terms.walls.start[w], terms.walls.start[w + 1]
-        condense.fill(first, last, w, at.stiffness, rows, solver.outer)
+        condense.fill(first, last, w, stiffness, rows, solver.outer)
         failed += condense.eliminate(
-            rows, own, own, solver.outer, terms.layout.scale, blocks.ROUNDED
+            rows, own, own, solver.outer, terms.layout.scale, block_ldlt.ROUNDED
         )[0]
     return failed
 
 
 @jit_exact
-def repeat(which, count, x, dx, most, whole, at, ones):
-    """Call one kernel ``count`` times at the state of ``at``, for a move ``dx`` of ``most`` m at
+def repeat(which, count, x, dx, most, problem, step, found, ones):
+    """Call one kernel ``count`` times at the state of ``found``, for a move ``dx`` of ``most`` m at
     most; ``ones``: values to factor.
     """
-    terms, one, near = whole
-    total, walls, matrix, b = 0.0, terms.walls, near.system.matrix, at.material
+    terms, near, room = problem.scene, problem.near, problem.room
+    shape, stiffness, before = room.shape, room.stiffness, room.before
+    memory = Memory(room.committed, step.duration)
+    total, walls, matrix, b = 0.0, terms.walls, near.system.matrix, found.material
     for _ in range(count):
         if which == EVALUATE:
-            total += step.evaluate(x, terms, one, near, at, False)
+            total += problem.evaluate(x, step, found, False)
         elif which == FACTOR:
-            total += step.factor(x, terms, one, near, at, False, False)[2]
+            total += problem.factor(x, step, found, False, False)[1]
         elif which == SOLVE:
             b[:] = 1.0
-            system.solve(near.system, terms.layout, b)
+            problem.solve(b)
         elif which == LIMIT:
-            total += step.covers(near, x, terms, most)
-            total += step.step_limit(x, dx, most, terms, near, at)
+            total += problem.covers(x, most)
+            total += problem.step_limit(x, dx, most)
         elif which == SHAPE:
-            total += chain.measure(x, walls, at.shape)
-            total += bend.turns(x, walls, terms.bend, one.before.frame, at.shape)
-            chain.clear(at.shape, at.stiffness)
-            chain.gather(walls, at.shape, at.elastic)
+            total += elements.measure(x, walls, shape)
+            total += bend.turns(x, walls, terms.bend, before.frame, shape)
+            elements.clear(shape, stiffness)
+            elements.gather(walls, shape, found.elastic)
         elif which == STRETCH:
-            total += stretch.evaluate(terms.stretch, terms.law, at.shape, at.stiffness, False)
+            total += stretch.evaluate(terms.stretch, terms.law, memory, shape, stiffness, False)
         elif which == BEND:
-            total += bend.evaluate(walls, terms.bend, at.shape, at.stiffness, False)
+            total += bend.evaluate(walls, terms.bend, memory, shape, stiffness, False)
         elif which == FOLD:
-            total += fold.evaluate(x, terms.fold, at.elastic)[0]
+            total += fold.evaluate(x, terms.fold, found.elastic)[0]
         elif which == INERTIA:
-            total += inertia.evaluate(x, one.x_pred, terms.mass, one.dt, at.elastic)
+            total += inertia.evaluate(x, step.x_pred, terms.coordinates.mass, step.h, found.elastic)
         elif which == DAMP:
-            total += damp.evaluate(
-                at.u, terms, one.before, one.dt, at.shape, at.stiffness, False, at.material
+            total += damping.evaluate(
+                found.u, terms, before, step.h, shape, stiffness, False, found.material
             )
         elif which == CONTACT:
-            total += contact.evaluate(x, terms.contact, near.pairs, 0.0, at.elastic)
+            total += contact.evaluate(
+                x, terms.contact, near.pairs, 0.0, near.touching, found.elastic
+            )
         elif which == CONTACT_HESSIAN:
-            contact.hessian(x, terms.contact, near.pairs, matrix, False)
+            contact.hessian(x, terms.contact, near.pairs, near.touching, matrix, False)
         elif which == FRICTION:
-            step.rub(terms, one, at)
-            total += at.sum[step.RUBBED]
+            problem.exchange(step, found)
+            total += found.sums[0].friction
         elif which == WALLS:
-            total += _condense(terms, near, at)
+            total += _condense(terms, near, stiffness)
         elif which == BLOCKS:
             copy(ones, matrix.values)
-            total += blocks.factor(matrix, terms.layout.scale, False)[1]
+            total += block_ldlt.factor(matrix, terms.layout.scale, False)[1]
     return total
 
 
@@ -88,7 +102,7 @@ def search(count, x, terms, move):
     """List the pairs for moves up to ``move`` (m) ``count`` times."""
     found = 0
     for _ in range(count):
-        found += step.list_near(x, terms, move)[0].node.size
+        found += reach.list_near(terms, x, move)[0].node.size
     return found
 
 
@@ -97,5 +111,5 @@ def analyse(count, x, terms, pairs):
     """Make the system of the matrix, with room for ``pairs``, ``count`` times."""
     made = 0
     for _ in range(count):
-        made += step.make_system(x, terms, pairs, friction.none()).target.size
+        made += reach.make_system(terms, x, pairs, friction.none()).target.size
     return made

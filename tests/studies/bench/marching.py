@@ -4,11 +4,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.solve import march, newton
-from kernels.planar import rows as trace
+from kernels.planar.rows import ROW, Output
+from kernels.solve import history, march, newton
 from sweep.scene.loading import stages, tolerances
-from tests.bench.clock import seconds
-from tests.solving import at_rest, ramp
+from tests.studies.bench.clock import seconds
+from tests.support.solving import at_rest, ramp
 
 SAMPLE = 5e-3  # s of marches in a sample
 
@@ -38,20 +38,20 @@ def press(case, scene, state, strain, steps):
 
 def go(case, scene, state, ramps):
     """March ``state`` through stages."""
-    before, spent = state.totals[trace.SPENT], 0.0
+    before, spent = state.totals[0].iterations, 0.0
     for stage in ramps:
-        out = trace.Output(
-            np.zeros((stage.steps, trace.N_COLUMNS)), np.full(stage.steps, -1),
+        out = Output(
+            np.zeros(stage.steps, ROW), np.full(stage.steps, -1),
             np.zeros((0, state.x.size)), scene.bottom, scene.top, scene.base,
             scene.probes, np.zeros((stage.steps, 2, scene.probes.size)),
         )  # fmt: skip
-        allowed = tolerances(case, scene, stage.dt)
-        given = (scene.terms, scene.unknowns, allowed, stage, state, out, np.zeros(2, np.int64))
+        allowed = tolerances(case, scene, stage)
+        given = (scene.terms, allowed, stage, state, out, np.zeros(2, np.int64))
         outcomes = []
         spent += seconds(lambda given=given, out=outcomes: out.append(march.march(*given)))
         if outcomes[0][0] != newton.CONVERGED:
             raise RuntimeError(f"the march of {case.case_id} did not converge: {outcomes[0]}")
-    return Spent(spent, int(state.totals[trace.SPENT] - before))
+    return Spent(spent, int(state.totals[0].iterations - before))
 
 
 def sustained(march):
@@ -65,4 +65,6 @@ def sustained(march):
 
 def copied(state):
     """A state to march on from, again and again."""
-    return trace.State(*(part.copy() for part in state))
+    rates, past = (type(part)(*(array.copy() for array in part)) for part in state[2:4])
+    x, v, *rest = (array.copy() for array in (*state[:2], *state[4:]))
+    return history.State(x, v, rates, past, *rest)

@@ -43,7 +43,7 @@ def reduction(layout):
 
 def assembled(terms, stiffness):
     """Hessian (free, free) of the walls; every place where elements couple holds an entry."""
-    motions = _motions(terms.walls, terms.mass.size) @ reduction(terms.layout)
+    motions = _motions(terms.walls, terms.coordinates.mass.size) @ reduction(terms.layout)
     rows, columns, values = map(np.concatenate, zip(*_half(terms.walls, stiffness), strict=True))
     size = motions.shape[0]
     half = sparse.coo_array((values, (rows, columns)), shape=(size, size)).tocsr()

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 
 from sweep.config.case import given
-from sweep.scene.terms import time_step
 from sweep.scene.loading import stages, tolerances
-from tests.bench.clock import seconds
-from tests.bench.marching import Spent
+from sweep.scene.terms import time_step
+from tests.studies.bench.clock import seconds
+from tests.studies.bench.marching import Spent
 
 
 @cache
@@ -33,7 +33,7 @@ def library():
 
 def model(ops, case, scene):
     """Nodes with their masses, clamped below, and beams."""
-    mesh, mass = scene.mesh, scene.terms.mass
+    mesh, mass = scene.mesh, scene.terms.coordinates.mass
     ops.wipe()
     ops.model("basic", "-ndm", 2, "-ndf", 3)
     ops.geomTransf("Corotational", 1)
@@ -53,8 +53,8 @@ def load(ops, case, scene):
     last = given(case.loading.release_time) + 0.5 * time_step(case)
     ops.timeSeries("Rectangular", 1, 0.0, last)
     ops.pattern("Plain", 1, 1)
-    for c in scene.terms.load.nonzero()[0].tolist():
-        ops.load(c // 2, 0.0, float(scene.terms.load[c]), 0.0)
+    for c in scene.terms.coordinates.load.nonzero()[0].tolist():
+        ops.load(c // 2, 0.0, float(scene.terms.coordinates.load[c]), 0.0)
 
 
 class Peer:
@@ -68,7 +68,8 @@ class Peer:
         ops, dt = self.ops, time_step(self.case)
         model(ops, self.case, self.scene)
         load(ops, self.case, self.scene)
-        allowed = tolerances(self.case, self.scene, dt)
+        ramps = [phase.stage for phase in stages(self.case, self.scene)]
+        allowed = tolerances(self.case, self.scene, ramps[0])
         ops.numberer("RCM")
         ops.constraints("Plain")
         ops.system(self.solver)
@@ -76,7 +77,7 @@ class Peer:
         ops.algorithm("Newton")
         ops.integrator("BackwardEuler")
         ops.analysis("Transient")
-        steps = [stretch.stage.steps for stretch in stages(self.case, self.scene)]
+        steps = [ramp.steps for ramp in ramps]
         iterations = []
         spent = seconds(lambda: self._through(sum(steps) if released else steps[0], dt, iterations))
         return Spent(spent, sum(iterations))

@@ -69,7 +69,7 @@ class Rods:
         one, two = self._pairs(len(joints))
         span = sparse(np.arange(len(ends)).repeat(2), ends, signs, (len(ends), x.size))
         linked = abs(span).T @ sparse(one, two, 1.0, (len(ends), len(ends))) @ abs(span)
-        free = np.flatnonzero(scene.unknowns.leader == np.arange(x.size))
+        free = np.flatnonzero(scene.terms.layout.leader == np.arange(x.size))
         self.free = free[reverse_cuthill_mckee(linked[free][:, free].tocsr(), symmetric_mode=True)]
         self.span = span[:, self.free].tocsr()
         self.gather = self.span.T.tocsr()

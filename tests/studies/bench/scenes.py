@@ -3,12 +3,12 @@
 from contextlib import suppress
 from functools import partial
 
-from sweep.scene.terms import build_scene
+from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
-from tests.bench import cases, descent, elements, marching, opensees
-from tests.bench.clock import medians, seconds
-from tests.bench.crushes import COLLAPSED, Crush
-from tests.bench.table import Table
+from tests.studies.bench import cases, descent, elements, marching, opensees
+from tests.studies.bench.clock import medians, seconds
+from tests.studies.bench.crushes import COLLAPSED, Crush
+from tests.studies.bench.table import Table
 
 WHOLE, SCENE, ITERATIONS, EACH = "CPU s", "building, ms", "iterations", "µs an iteration"
 COLUMNS = (WHOLE, SCENE, ITERATIONS, EACH)

@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from kernels.compile.reference import referred
 from kernels.linear.block_matrix import SIZE
-from tests.bench import loops
-from tests.bench.clock import seconds
-from tests.solving import whole
+from tests.studies.bench import loops
+from tests.studies.bench.clock import seconds
+from tests.support.solving import whole
 
 SAMPLE = 2e-3  # s of calls in a sample
 
@@ -16,7 +17,7 @@ class Spot:
     def __init__(self, scene, x, move, dt=np.inf):
         self.x, self.move, self.whole = x, move, whole(scene, x, dt=dt)
         self.most = np.abs(move[: 2 * len(scene.mesh.points)]).max()
-        self.at = self.whole.found(x)[1]
+        self.found = self.whole.found(x)[1]
         matrix = self.whole.near.system.matrix
         self.ones = np.zeros(matrix.values.size)  # a factor of ones takes as long as any other
         nb = matrix.start.size - 1
@@ -31,16 +32,16 @@ class Spot:
 
     def search(self):
         """Seconds of one search for the pairs that a step can bring near."""
-        given = self.x, self.whole.terms, self.most
+        given = self.x, referred(self.whole.terms), self.most
         return self._each("search", lambda count: loops.search(count, *given))
 
     def analyse(self):
         """Seconds of one analysis of the matrix."""
-        given = self.x, self.whole.terms, self.whole.near.pairs
+        given = self.x, referred(self.whole.terms), self.whole.near.pairs
         return self._each("analyse", lambda count: loops.analyse(count, *given))
 
     def _repeat(self, which, count):
-        given = tuple(self.whole), self.at, self.ones
+        given = self.whole.problem, self.whole.step, self.found, self.ones
         return loops.repeat(which, count, self.x, self.move, self.most, *given)
 
     def _each(self, name, calls):

@@ -9,9 +9,9 @@ import tempfile
 import time
 from pathlib import Path
 
-from tests.bench.table import Table
+from tests.studies.bench.table import Table
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 CONFIG = ROOT / "configs/smoke.toml"
 RESULT = re.compile(r"[1-9]\d*/\d+ cases")
 CACHES = ("no kernel compiled", "all compiled")

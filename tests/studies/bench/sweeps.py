@@ -10,16 +10,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sweep.config.units import load_config
-from sweep.config.grid import expand
 from sweep.config.case import Case
+from sweep.config.grid import expand
+from sweep.config.units import load_config
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from sweep.store.read import read_summary
-from tests.bench.clock import seconds
-from tests.bench.table import Table
+from tests.studies.bench.clock import seconds
+from tests.studies.bench.table import Table
 
-CONFIG = Path(__file__).parents[2] / "configs/thousand.toml"
+CONFIG = Path(__file__).parents[3] / "configs/thousand.toml"
 FINER = 4  # times the load steps, to see what they leave out
 WORKERS = (1, 2)
 IDLE, WAITING = 3, 4  # columns of /proc/stat

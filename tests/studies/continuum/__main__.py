@@ -1,7 +1,7 @@
 """Compare the network with a solid of the same grid: `make continuum`.
 
-python -m tests.continuum FOLDER: tables are printed and written there, with a figure. Takes ten
-minutes.
+python -m tests.studies.continuum FOLDER: tables are printed and written there, with a figure. Takes
+ten minutes.
 """
 
 import sys
@@ -44,7 +44,7 @@ def slender_table(rows):
 def main(folder):
     """Print the tables; write them and the figure to a folder."""
     from sweep.report.case_plots import save
-    from tests.continuum import figure, study
+    from tests.studies.continuum import figure, study
 
     def told(lines):
         text = "\n".join([*lines, "", ""])

@@ -3,7 +3,7 @@
 from matplotlib.collections import PolyCollection
 
 from sweep.report.case_plots import BLUE, GREY, ORANGE, SKY, VERMILION, WALL, blank
-from tests.continuum import study
+from tests.studies.continuum import study
 
 COLORS = (SKY, "#9ecae1", BLUE, ORANGE, GREY, "black")
 SHOWN = {study.POINTS: BLUE, study.BLOCKS: SKY, study.THICK: ORANGE, study.COARSER: GREY}

@@ -10,9 +10,9 @@ import numpy as np
 from scipy.sparse.linalg import splu
 from skfem import MeshQuad
 
-from tests.continuum.grid import crowded
-from tests.continuum.rubber import Rubber
-from tests.continuum.solid import Solid
+from tests.studies.continuum.grid import crowded
+from tests.studies.continuum.rubber import Rubber
+from tests.studies.continuum.solid import Solid
 
 ARMS = (2.0, 2.5, 3.0, 4.0, 6.0, 10.0)  # l
 GROWTH = 1.7  # exponent: elements of the arms become longer outwards

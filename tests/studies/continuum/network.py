@@ -10,9 +10,9 @@ from unittest.mock import patch
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
-from sweep.scene.material import StressLaw, as_law
 from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
-from sweep.scene.terms import build_scene
+from sweep.scene.lattice import build_scene
+from sweep.scene.material import StressLaw, as_law
 from sweep.simulation.simulate import simulate
 
 MM = 1e-3
@@ -80,7 +80,7 @@ class Network:
             solver=Solver(load_steps=steps),
         )
         made = built(case, self.spared, self.softening)
-        with patch("sweep.simulate.build_scene", lambda case: made):
+        with patch("sweep.simulation.simulate.build_scene", lambda case: made):
             result = simulate(case)
         if result.status != "converged":
             raise RuntimeError(result.message)

@@ -4,13 +4,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tests.continuum import joint, strip
-from tests.continuum.grid import Grid
-from tests.continuum.network import Network
-from tests.continuum.press import Press
-from tests.continuum.rubber import Rubber
-from tests.continuum.solid import Solid
-from tests.continuum.touch import Touch
+from tests.studies.continuum import joint, strip
+from tests.studies.continuum.grid import Grid
+from tests.studies.continuum.network import Network
+from tests.studies.continuum.press import Press
+from tests.studies.continuum.rubber import Rubber
+from tests.studies.continuum.solid import Solid
+from tests.studies.continuum.touch import Touch
 
 RUBBER = Rubber(12.0, 0.48)
 MESHES = (2, 4)  # elements through a wall

@@ -1,6 +1,6 @@
 """Simulate the scenes of `configs/extreme.toml` under observation, and count what became of them.
 
-PYTHONPATH=tests python -m tests.stability FOLDER: the table is printed and written there, with a
+python -m tests.studies.stability FOLDER: the table is printed and written there, with a
 line a scene.
 """
 
@@ -14,11 +14,11 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import track
 
-from sweep.config.units import load_config
 from sweep.config.grid import expand
+from sweep.config.units import load_config
 from sweep.simulation.simulate import warm_up
-from tests.stability.audit import audit
-from tests.stability.draw import CONFIGS
+from tests.studies.stability.audit import audit
+from tests.studies.stability.draw import CONFIGS
 
 WORKERS = 2
 ALL, VIOLATED, BALANCED = "all", "violated something", "steps balanced anew"

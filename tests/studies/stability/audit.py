@@ -12,12 +12,11 @@ from unittest.mock import patch
 
 import numpy as np
 
-from kernels.solve import residual as balance, march, newton
-from kernels.planar import rows as trace
+from kernels.solve import march, newton, residual
 from sweep.simulation.simulate import simulate
-from tests.scenes import LOST, STORED, summed
-from tests.solving import whole
-from tests.stability.model import stored
+from tests.studies.stability.model import stored
+from tests.support.scenes import LOST, STORED, summed
+from tests.support.solving import whole
 
 MARCH = march.march
 GRACE = 10.0  # s beyond its limit that a case may take
@@ -29,10 +28,12 @@ SAID = "the integrator made energy", "work and energies do not balance"
 
 
 class Seen(NamedTuple):
-    """One step: its scene, allowed residuals, load factor, duration, what was before and after."""
+    """One step: its scene, allowed residuals, load factor, duration, what was before and after.
+
+    The duration is infinite where the step is static.
+    """
 
     terms: object
-    unknowns: object
     tolerance: object
     factor: float
     dt: float
@@ -52,22 +53,20 @@ class Watch:
     def __init__(self):
         self.seen, self.noise = [], 0.0
 
-    def __call__(self, terms, unknowns, tolerance, stage, state, out, control):
+    def __call__(self, terms, tolerance, stage, state, out, control):
         """March through a stage."""
         written = 0
         self.noise += stage.steps * tolerance.force * np.ptp(state.x[: 2 * terms.layout.n_nodes])
         for piece, rows in _pieces(stage):
-            x0, v0, steps = state.x.copy(), state.v.copy(), state.totals[trace.STEPS]
-            outcome, more = MARCH(
-                terms, unknowns, tolerance, piece, state, _part(out, rows), control
-            )
+            x0, v0, steps = state.x.copy(), state.v.copy(), state.totals[0].steps
+            outcome, more = MARCH(terms, tolerance, piece, state, _part(out, rows), control)
             written += more
             if outcome != newton.CONVERGED:
                 return outcome, written
-        undivided = state.totals[trace.STEPS] == steps + 1
+        undivided = state.totals[0].steps == steps + 1
         self.seen.append(
-            Seen(terms, unknowns, tolerance, piece.factor1, piece.dt, x0, v0, state.x.copy(),
-                 state.stored.copy(), undivided)
+            Seen(terms, tolerance, piece.factor1, piece.duration if piece.dynamic else np.inf,
+                 x0, v0, state.x.copy(), state.stored.copy(), undivided)
         )  # fmt: skip
         return outcome, written
 
@@ -100,7 +99,7 @@ class Audit(NamedTuple):
 def audit(case):
     """Simulate ``case`` and look for what must not be."""
     watch, started = Watch(), time.perf_counter()
-    with patch("kernels.march.march", watch):
+    with patch("kernels.solve.march.march", watch):
         result = simulate(case)
     seconds = time.perf_counter() - started
     found = [*_numbers(result), *_shapes(result, case), *_energies(result, case, watch.noise)]
@@ -168,22 +167,22 @@ def _energies(result, case, noise):
 
 def _balance(seen):
     """The residual of a step and its energies, computed anew."""
-    scene = SimpleNamespace(terms=seen.terms, unknowns=seen.unknowns)
+    scene, coordinates = SimpleNamespace(terms=seen.terms), seen.terms.coordinates
     v0 = seen.v0 if seen.dt < np.inf else None
     step = whole(scene, seen.x, seen.x0, seen.dt, v0, seen.factor)
     step.factor(seen.x)
-    _, at = step.found(seen.x)
-    residual = np.zeros_like(seen.x)
-    balance.reduce(at.g, seen.unknowns, residual)
-    size = balance.largest(residual, seen.unknowns)
-    allowed = balance.allowed(step.near.system.matrix, seen.tolerance)[0]
+    _, found = step.found(seen.x)
+    left = np.zeros_like(seen.x)
+    step.problem.reduce(found.g, left)
+    size = residual.largest(left, coordinates)
+    allowed = residual.allowed(step.problem.stiffest(), seen.tolerance)[0]
     if seen.terms.friction.mu > 0.0:
-        rubbing = balance.largest(at.rubbing, seen.unknowns)
+        rubbing = residual.largest(found.friction, coordinates)
         allowed += LAG * max(seen.tolerance.friction, seen.tolerance.grip * rubbing)
     if not size <= 1.01 * allowed:
         yield f"{size / allowed:.1e} of the allowed residual"
     second = stored(seen.x, seen.terms, seen.x0)
-    error = np.abs(second.gradient - at.elastic).max()
+    error = np.abs(second.gradient - found.elastic).max()
     if not error <= SAME * second.scale + allowed:
         yield f"forces differ by {error / second.scale:.1e} from the second model"
     gap = np.abs(second.energy - seen.stored).max()

@@ -1,6 +1,6 @@
 """Reference problems: our value at three meshes beside a truth from elsewhere (`make validate`)."""
 
-from tests.validation import beams, frames, joints, motion, touching
+from tests.studies.validation import beams, frames, joints, motion, touching
 
 PROBLEMS = (
     *beams.PROBLEMS,

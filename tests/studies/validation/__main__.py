@@ -1,14 +1,14 @@
 """Solve every reference problem, print the table as Markdown and write it: `make validate`.
 
-python -m tests.validation FOLDER
+python -m tests.studies.validation FOLDER
 """
 
 import sys
 from math import isnan
 from pathlib import Path
 
-from tests.validation import PROBLEMS, energy
-from tests.validation.problem import SOURCES, find
+from tests.studies.validation import PROBLEMS, energy
+from tests.studies.validation.problem import SOURCES, find
 
 HEAD = ("problem", "source", "truth", "coarse", "middle", "fine", "order")
 MORE = ("error, %", "extrapolated, %", "meshes")

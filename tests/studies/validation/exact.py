@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import solve_bvp
 
-from tests.structures import MM, structure
-from tests.validation.problem import axial, bending
+from tests.studies.validation.problem import axial, bending
+from tests.support.structures import MM, structure
 
 WAYS = ("x", "y", "rotation")
 TOLERANCE = 1e-6

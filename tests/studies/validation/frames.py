@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from tests.structures import AXIAL, CLAMPED, MM, probe, pushed
-from tests.validation.exact import Frame
-from tests.validation.problem import RODS, Problem, bending
+from tests.studies.validation.exact import Frame
+from tests.studies.validation.problem import RODS, Problem, bending
+from tests.support.structures import AXIAL, CLAMPED, MM, probe, pushed
 
 HINGED = ["x", "y"]
 

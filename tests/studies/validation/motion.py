@@ -6,8 +6,9 @@ from scipy.optimize import brentq
 
 from sweep.config.case import Case, Contact, Lattice, Solver
 from sweep.scene.custom import build_structure
-from tests.solving import whole
-from tests.structures import (
+from tests.studies.validation.problem import Problem
+from tests.support.solving import whole
+from tests.support.structures import (
     AXIAL,
     BEAM,
     BENDING,
@@ -24,7 +25,6 @@ from tests.structures import (
     structure,
     swing,
 )
-from tests.validation.problem import Problem
 
 L, G = LENGTH * MM, GRAVITY * MM
 PASSAGE = L / np.sqrt(AXIAL * L / MASS)  # of a wave along a wall, s
@@ -61,15 +61,17 @@ def frequency(mode):
             solver=Solver(integrator="static"),
         )
         scene = build_structure(case)
-        n, leader = scene.x_rest.size, scene.unknowns.leader
+        n, leader = scene.x_rest.size, scene.terms.layout.leader
         free = np.flatnonzero(leader == np.arange(n))
         hessian = whole(scene, scene.x_rest).hessian(scene.x_rest)[np.ix_(free, free)]
-        heavy = scene.terms.mass[free] > 0.0
+        heavy = scene.terms.coordinates.mass[free] > 0.0
         stiff, mixed, light = (
             hessian[np.ix_(a, b)] for a, b in ((heavy, heavy), (heavy, ~heavy), (~heavy, ~heavy))
         )
         reduced = stiff - mixed @ np.linalg.solve(light, mixed.T)
-        square = eigh(reduced, np.diag(scene.terms.mass[free][heavy]), eigvals_only=True)
+        square = eigh(
+            reduced, np.diag(scene.terms.coordinates.mass[free][heavy]), eigvals_only=True
+        )
         return np.sqrt(square[mode] / (BENDING / (MASS * L**3)))
 
     return value

@@ -4,7 +4,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from sweep.config.case import Contact, Damping
-from tests.structures import (
+from tests.studies.validation.problem import Problem
+from tests.support.structures import (
     BENDING,
     CLAMPED,
     DEPTH,
@@ -19,7 +20,6 @@ from tests.structures import (
     probe,
     pushed,
 )
-from tests.validation.problem import Problem
 
 L, G = LENGTH * MM, GRAVITY * MM
 SMOOTH = Contact(friction=0.0)

@@ -6,9 +6,10 @@ import sys
 from pathlib import Path
 
 import pytest
-from specimens import summary, write
 
-ROOT = Path(__file__).parents[1]
+from tests.support.specimens import summary, write
+
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture

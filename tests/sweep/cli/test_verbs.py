@@ -2,27 +2,19 @@
 
 import io
 import json
+import re
 import subprocess
 import sys
-from importlib import import_module
+from importlib.metadata import version
 from pathlib import Path
 
 import pandas as pd
 import pytest
-from specimens import designs, summary, write
-from standin import simulate
 
-from sweep.__main__ import main
 from sweep.running.sweep import Interrupted
 from sweep.store.read import read_summary
-
-CONFIG = """
-name = "trial"
-[grid]
-"lattice.imperfection" = {values}
-[rank]
-budgets = ["5 g", "20 g"]
-"""
+from tests.support.command import crumple
+from tests.support.specimens import designs, summary, write
 
 
 @pytest.fixture(scope="module")
@@ -36,31 +28,19 @@ def file(tmp_path_factory):
     return write(tmp_path_factory.mktemp("cli") / "trial.h5", summary(*rows), attributes)
 
 
-@pytest.fixture
-def config(tmp_path, monkeypatch):
-    """A sweep of three cases on the stand-in of tests/standin.py, of which one fails."""
-    monkeypatch.setattr(import_module("sweep.simulation.simulate"), "simulate", simulate)
-    monkeypatch.chdir(tmp_path)
-    path = tmp_path / "trial.toml"
-    path.write_text(CONFIG.format(values=[0.006, 0.007, 0.008]))
-    return str(path)
-
-
-def crumple(capsys, *arguments):
-    """Exit status, stdout and stderr of a call."""
-    try:
-        status = main(arguments)
-    except SystemExit as stop:
-        status = stop.code
-    return status, *capsys.readouterr()
-
-
 def test_help_teaches_every_verb_by_an_example():
     done = subprocess.run(
         [sys.executable, "-m", "sweep", "--help"], capture_output=True, text=True, check=True
     )
     verbs = ("run", "accuracy", "warm", "status", "rank", "show")
     assert all(f"crumple {verb} " in done.stdout for verb in verbs)
+
+
+@pytest.mark.parametrize("module", ["crumple", "sweep"])
+def test_version_is_printed_without_a_verb(module):
+    words = [sys.executable, "-m", module, "--version"]
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    assert (done.stdout, done.stderr) == (f"crumple {version('crumple')}\n", "")
 
 
 REFUSED = [
@@ -80,7 +60,9 @@ REFUSED = [
     (["show", "FILE", "zz"], 'no case "zz"'),
     (["show", "FILE", "0"], "begins 5 ids: 0000000000000000"),
     (["run", "nowhere.toml"], "nowhere.toml"),
+    (["run", "smok"], "needed: a TOML file, or an example: accuracy/crush, "),
     (["run", "nowhere.toml", "--workers", "none"], "1 or more"),
+    (["run", "nowhere.toml", "--workers", "2", "--scheduler", "tcp://a:1"], "not allowed with"),
     (["run", "nowhere.toml", "--out", ""], "an empty path"),
     (["run", "nowhere.toml", "--out", "/dev/full"], "argument --out: '/dev/full'; allowed: a file"),
     (["rank", "FILE", "--out", ""], "an empty path"),
@@ -171,7 +153,12 @@ def test_tables_fit_a_terminal_of_80_columns(capsys, file, monkeypatch):
 def test_budget_that_nothing_meets_is_told(capsys, file):
     status, out, _ = crumple(capsys, "rank", file, "--budget", "0.5 g")
     assert status == 1
-    assert "Nothing weighs 0.5 g or less: the lightest weighs 1 g." in out
+    said = [
+        "At most 0.5 g. Best first: most energy.",
+        "",
+        "Nothing weighs 0.5 g or less: the lightest weighs 1 g.",
+    ]
+    assert out.splitlines()[:3] == said
 
 
 def test_ranking_without_any_finished_case_is_no_ranking(capsys, tmp_path):
@@ -266,6 +253,16 @@ def test_dry_run_counts_and_writes_nothing(capsys, config, tmp_path):
     )
 
 
+def test_example_runs_by_its_name_where_no_file_has_it(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    _, out, _ = crumple(capsys, "run", "smoke", "--dry-run")
+    place, count, *_ = out.splitlines()
+    assert re.fullmatch(r"example smoke: /.*/configs/smoke\.toml \(copy it to change it\)", place)
+    assert count.startswith("smoke: 6 combinations")
+    (tmp_path / "smoke").write_text('name = "mine"\n')
+    assert crumple(capsys, "run", "smoke", "--dry-run")[1].startswith("mine: 1 combination")
+
+
 def test_error_bars_run_companions_in_a_file_of_their_own(capsys, config):
     _, out, _ = crumple(capsys, "run", config, "--error-bars", "--dry-run")
     assert "error bars: 6 companions, 0 of them finished" in out
@@ -289,5 +286,5 @@ def test_interruption_says_what_is_kept(capsys, config, monkeypatch, stop, told)
     def interrupt(*_):
         raise stop
 
-    monkeypatch.setattr("sweep.run.run_sweep", interrupt)
+    monkeypatch.setattr("sweep.running.sweep.run_sweep", interrupt)
     assert crumple(capsys, "run", config) == (1, "", told)

@@ -7,12 +7,12 @@ from pathlib import Path
 import pint
 import pytest
 
-from sweep.config.units import ConfigError, load_config, quantity
+from sweep.config.case import Case
 from sweep.config.grid import case_count, expand
 from sweep.config.keys import QUANTITIES, case_keys
-from sweep.config.case import Case
+from sweep.config.units import ConfigError, load_config, quantity
 
-CONFIGS = Path(__file__).parents[1] / "configs"
+CONFIGS = Path(__file__).parents[3] / "configs"
 PINT = pint.UnitRegistry()
 
 
@@ -145,6 +145,17 @@ def test_empty_text_in_a_zip_leaves_the_config_s_own_value(load):
     assert [case.axes["loading.force"] for case in expand(config)] == [7.0, 3.0]
 
 
+def test_a_strain_may_be_a_number_or_a_share_in_percent(load):
+    number, percent = (
+        expand(load(f"[loading]\nstrain = {strain}")) for strain in ("0.6", '"60 %"')
+    )
+    assert [case.case_id for case in number] == [case.case_id for case in percent]
+    config = load(
+        '[grid]\nloading.strain = ["40 %", 0.5, "60 %"]\n[[exclude]]\nloading.strain = "50 %"'
+    )
+    assert [case.axes["loading.strain"] for case in expand(config)] == [0.4, 0.6]
+
+
 def test_exclude_drops_what_matches_all_its_keys(load):
     config = load(
         "[grid]\nlattice.cells = [2, 3, 5]\n"
@@ -162,12 +173,29 @@ def test_exclude_sees_values_that_are_filled_in(load):
     assert [case.loading.mode for case in expand(config)] == ["displacement"]
 
 
+def test_exclude_sees_them_in_cases_that_are_refused_too(load):
+    """Statics without bending would be, but for the table that drops it."""
+    config = load(
+        '[grid]\nmaterial.bend = ["none", "linear"]\nloading.mode = ["force", "displacement"]\n'
+        '[[exclude]]\nmaterial.bend = "none"\nsolver.integrator = "static"'
+    )
+    assert len(expand(config)) == 3
+
+
 def test_equal_cases_are_one(load):
     config = load(
         '[grid]\nloading.mode = ["displacement", "force"]\nloading.force = ["5 N", "10 N"]'
     )
     assert case_count(config) == 4
     assert [case.axes["loading.force"] for case in expand(config)] == [None, 5.0, 10.0]
+
+
+def test_cases_are_found_once_and_handed_out_as_a_list_of_one_s_own(load):
+    config = load("[grid]\nlattice.cells = [2, 3]")
+    first = expand(config)
+    assert all(again is case for again, case in zip(expand(config), first, strict=True))
+    first.clear()
+    assert len(expand(config)) == 2
 
 
 def test_labels_of_switches_are_numbers(load):

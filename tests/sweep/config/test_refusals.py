@@ -2,14 +2,19 @@
 
 import pytest
 
+from sweep.config import material_file
+from sweep.config.material_file import available
 from sweep.config.units import ConfigError, load_config
+from sweep.design.infill import families
 
 LENGTH = 'a length with a unit, such as "0.8 mm", above 0'
+STRAIN = 'a number or a share in percent, such as "20 %", above 0, below 1'
 SIZE = f"{LENGTH}, at most 1000 m"
 PERIODIC = '[lattice]\nboundary = "periodic"\n'
 LED = 'allowed: "displacement" if lattice.boundary is "periodic"'
 CELLS = "a whole number, at least 1, at most 1000"
-MATERIALS = "cheetah, filaflex_60a, ninjaflex, overture_tpu, polymaker_tpu90, ultimaker_tpu95a"
+MATERIALS = ", ".join(available())
+KINDS = ", ".join(f'"{kind}"' for kind in families())
 THOUSAND = [round(0.01 + 1e-4 * i, 6) for i in range(1000)]
 
 VALUES = {
@@ -29,6 +34,13 @@ VALUES = {
     "[lattice]\ncells_x = true": f"lattice.cells_x = true: wrong type; allowed: {CELLS}",
     "[lattice]\ncells_y = 3.0": f"lattice.cells_y = 3.0: wrong type; allowed: {CELLS}",
     "lattice = 3": "lattice = 3: not a table; allowed: a table [lattice]",
+    '[loading]\nstrain = "160 %"': f'loading.strain = "160 %": out of range; allowed: {STRAIN}',
+    '[loading]\nstrain = "0.6"': f'loading.strain = "0.6": a bare number; allowed: {STRAIN}',
+    '[loading]\nstrain = "6 mm"': (
+        f'loading.strain = "6 mm": "mm" is a unit of another kind; allowed: {STRAIN}'
+    ),
+    "[loading]\nstrain = 60": f"loading.strain = 60: out of range; allowed: {STRAIN}",
+    "[loading]\nstrain = true": f"loading.strain = true: wrong type; allowed: {STRAIN}",
     "[contact]\nfriction = nan": (
         "contact.friction = NaN: not finite; allowed: a number, at least 0"
     ),
@@ -46,10 +58,7 @@ CHOICES = {
     '[loading]\nmode = "shake"': (
         'loading.mode = "shake"; "force", "displacement", "impact" or "custom"'
     ),
-    '[lattice]\nkind = "hexagon"': (
-        'lattice.kind = "hexagon"; "brick", "circle", "diamond", "hex", "kagome", "reentrant",'
-        ' "square", "triangle" or "custom"'
-    ),
+    '[lattice]\nkind = "hexagon"': f'lattice.kind = "hexagon"; {KINDS} or "custom"',
     '[material]\nbend = "curve"': 'material.bend = "curve"; "linear", "section" or "none"',
     '[contact]\nmodel = "by_position"': (
         'contact.model = "by_position"; "auto", "none", "barrier" or "position_based"'
@@ -242,6 +251,12 @@ def test_missing_file(tmp_path):
         load_config(tmp_path / "no.toml")
 
 
+def test_default_material_that_is_not_there(lines, tmp_path, monkeypatch):
+    monkeypatch.setattr(material_file, "FOLDER", tmp_path)
+    (line,) = lines("")
+    assert line.startswith('material.name: "ninjaflex" is no material; allowed: ')
+
+
 def test_not_text(tmp_path):
     path = tmp_path / "sweep.toml"
     path.write_bytes(b"\xff\xfe\x00")
@@ -267,6 +282,35 @@ def test_all_faults_are_told_at_once(lines):
     ]
 
 
+MANY = {
+    f"[grid]\nlattice.wall_thickness = {[*range(2000)]}": "[grid] lattice.wall_thickness",
+    f"[[zip]]\nlattice.cells = {[-1] * 2000}\nlattice.depth = {['1 mm'] * 2000}": (
+        "[[zip]] lattice.cells"
+    ),
+    "[contact]\n" + "".join(f"key{n} = 1\n" for n in range(2000)): "contact.key",
+    f"[[exclude]]\nlattice.depth = {[*range(2000)]}": "[[exclude]] lattice.depth",
+}
+
+
+@pytest.mark.parametrize("text", MANY)
+def test_of_many_faults_ten_are_told_and_the_rest_counted(load, text):
+    with pytest.raises(ConfigError) as caught:
+        load(text)
+    *told, last = str(caught.value).splitlines()
+    assert len(told) == 10
+    assert all(line.startswith(MANY[text]) for line in told)
+    assert last == "and 1,990 more mistakes"
+    assert len(caught.value.faults) == 2000
+
+
+def test_faults_of_one_key_do_not_hide_those_of_others(lines):
+    bad = ", ".join(["0"] * 10)
+    told = lines(f"[grid]\nlattice.depth = [{bad}]\nsolver.tol = [1]")
+    assert ["lattice.depth" in line for line in told] == [True] * 9 + [False] * 2
+    assert "solver.tol = [1]: unknown key" in told[9]
+    assert told[10] == "and 1 more mistake"
+
+
 def test_what_may_only_follow_from_a_fault_is_not_told(lines):
     (line,) = lines('[lattice]\ncels = 1\nwall_thickness = "3 mm"')
     assert "lattice.cels" in line
@@ -278,6 +322,21 @@ def test_one_bad_value_is_one_line_in_many_cases(lines):
         "[grid]\nlattice.cells = [2, 3, 4, 5]\ncontact.friction = [0.1, 0.2]"
     )
     assert line.endswith("(4 of 8 combinations)")
+
+
+def test_of_a_lattice_that_is_refused_no_mass_is_told(lines):
+    (line,) = lines('[lattice]\ncells = 6\nnodes_per_wall = 999\nmass = "9 g"')
+    assert line.startswith("lattice.nodes_per_wall = 999: does not fit; allowed: at most 50,000")
+
+
+@pytest.mark.parametrize("walls", ['"", "0.8 mm"', '"0.8 mm", ""'])
+def test_a_wall_beside_a_mass_is_refused_though_an_equal_lattice_by_default_is_not(lines, walls):
+    (line,) = lines(
+        '[lattice]\nmass = "1 g"\n'
+        f"[[zip]]\nlattice.wall_thickness = [{walls}]\nloading.strain = [0.5, 0.6]"
+    )
+    assert line.startswith('lattice.wall_thickness = "0.8 mm": does not fit; allowed: 0.7')
+    assert line.endswith("mm at the mass given; give one of them (1 of 2 combinations)")
 
 
 def test_a_text_with_line_breaks_stays_in_one_line(lines):

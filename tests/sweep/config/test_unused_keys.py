@@ -4,9 +4,9 @@ import json
 
 import pytest
 
-from sweep.config.units import ConfigError, load_config
 from sweep.config.grid import expand
-from tests.structures import BEAM, ROD
+from sweep.config.units import ConfigError, load_config
+from tests.support.structures import BEAM, ROD
 
 BOTH = '[grid]\nloading.mode = ["force", "displacement"]\n'
 PRESSED = '[loading]\nmode = "displacement"\n'

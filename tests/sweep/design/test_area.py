@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 
-from sweep.design import area as cover
+from sweep.design import area
 from sweep.design.area import covered_area, united_area
 
 WALL = np.array([[0, 1]])
@@ -65,7 +65,7 @@ def test_a_tangle_has_the_area_that_shapely_finds():
 
 def test_a_tangle_in_bands_has_the_same_area(monkeypatch):
     at_once = covered_area(*tangle())
-    monkeypatch.setattr(cover, "TOGETHER", 100)
+    monkeypatch.setattr(area, "TOGETHER", 100)
     assert covered_area(*tangle()) == pytest.approx(at_once, rel=1e-12)
 
 
@@ -94,7 +94,7 @@ def test_the_error_falls_with_the_lines(monkeypatch):
     """Of order 3/2 at least, which is that of a disc."""
     exact, errors, lines = by_shapely(*tangle()), [], (4, 64)
     for count in lines:
-        monkeypatch.setattr(cover, "LINES", count)
+        monkeypatch.setattr(area, "LINES", count)
         errors.append(abs(covered_area(*tangle()) / exact - 1.0))
     assert np.log(errors[0] / errors[1]) / np.log(lines[1] / lines[0]) > 1.5
 

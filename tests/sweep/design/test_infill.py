@@ -6,12 +6,13 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 import sweep.design.infill
-from sweep.design.drawing import Sketch, counts, extent, joints_and_walls
-from sweep.design.infill import families, trait
-from sweep.design.network import build_network, relative_density, sketch
 from sweep.config.case import Case, Lattice, Loading
-from sweep.scene.terms import build_scene
-from tests.solving import whole
+from sweep.design.drawing import Sketch, counts, extent, joints_and_walls, sketch
+from sweep.design.infill import families, trait
+from sweep.design.lattice import build_network
+from sweep.design.network import relative_density
+from sweep.scene.lattice import build_scene
+from tests.support.solving import whole
 
 WAYS = {None: ["pointy"], True: ["pointy", "flat"]}
 KINDS = [(kind, way) for kind in families() for way in WAYS[trait(kind, "ORIENTED")]]
@@ -55,7 +56,7 @@ def circle(columns, rows):
     return 12 * columns * rows - touching, 12 * columns * rows
 
 
-COUNTS = {
+COUNTS = {  # of joints and walls, where there is a closed form
     "square": lambda n, m: ((n + 1) * (m + 1), n * (m + 1) + m * (n + 1)),
     "brick": brick,
     "hex": staggered,
@@ -68,7 +69,7 @@ COUNTS = {
 
 
 @pytest.mark.parametrize("cells", [(1, 1), (1, 4), (3, 1), (3, 3), (4, 5), (11, 2), (12, 13)])
-@pytest.mark.parametrize(("kind", "way"), KINDS)
+@pytest.mark.parametrize(("kind", "way"), [pair for pair in KINDS if pair[0] in COUNTS])
 def test_joints_and_walls_are_as_many_as_closed_forms_say(kind, way, cells):
     drawn = Sketch(kind, way, cells, (1.0, 2.0))
     points, walls = joints_and_walls(drawn)
@@ -79,7 +80,8 @@ def test_joints_and_walls_are_as_many_as_closed_forms_say(kind, way, cells):
 @pytest.mark.parametrize("edge", EDGES)
 @pytest.mark.parametrize(("kind", "way"), KINDS)
 def test_counts_are_known_without_drawing(kind, way, edge):
-    drawn = sketch(lattice_of(kind, way, (13, 14), width=0.1, height=0.1, **EDGES[edge]))
+    lattice = lattice_of(kind, way, (13, 14), width=0.1, height=0.1, **EDGES[edge])
+    drawn = sketch(lattice.geometry)
     assert counts(drawn) == tuple(map(len, joints_and_walls(drawn)))
 
 
@@ -88,7 +90,7 @@ def test_counts_are_known_without_drawing(kind, way, edge):
 @pytest.mark.parametrize(("kind", "way"), KINDS)
 def test_a_lattice_fills_its_box_and_hangs_together(kind, way, cells, edge):
     """No wall ends in the air but those of solid layers, which end with the box."""
-    network = build_network(lattice_of(kind, way, cells, **EDGES[edge]))
+    network = build_network(lattice_of(kind, way, cells, **EDGES[edge]).geometry)
     points, walls = network.points, network.walls
     assert points.min(axis=0).tolist() == [0.0, 0.0]
     np.testing.assert_allclose(points.max(axis=0), [20e-3, 18e-3], rtol=1e-12)
@@ -120,7 +122,9 @@ def test_printed_area_counts_joints_once(kind, way, t):
     """T L - t^2/4 sum cot(g/2): what two arms share between them, or lack outside a corner."""
     low, high = extent(kind, way, (3, 3))
     width, height = 4e-3 * (high - low)  # regular: no corner is sharper than 60 degrees
-    network = build_network(lattice_of(kind, way, width=width, height=height, wall_thickness=t))
+    network = build_network(
+        lattice_of(kind, way, width=width, height=height, wall_thickness=t).geometry
+    )
     ends = network.points[network.walls]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
     expected = t * length - 0.25 * t**2 * overlaps(network.points, network.walls)
@@ -132,7 +136,7 @@ def test_regular_honeycomb_in_closed_form():
     side, t = 4e-3, 0.3e-3
     box = {"width": 3.5 * 3**0.5 * side, "height": 5 * side}
     lattice = lattice_of("hex", wall_thickness=t, **box)
-    network = build_network(lattice)
+    network = build_network(lattice.geometry)
     ends = network.points[network.walls]
     np.testing.assert_allclose(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), side, rtol=1e-12)
     sixty = 1.0 / np.tan(np.pi / 3)
@@ -140,7 +144,7 @@ def test_regular_honeycomb_in_closed_form():
     area = 38 * side * t - 0.25 * t**2 * 16 * 3 * sixty
     assert network.printed_area == pytest.approx(area, rel=1e-12)
     outer = (3.5 * 3**0.5 * side + t) * (5 * side + t)
-    assert relative_density(network, lattice) == pytest.approx(area / outer, rel=1e-12)
+    assert relative_density(network, lattice.outer_size) == pytest.approx(area / outer, rel=1e-12)
 
 
 MIRRORS = {  # signs of x and y under which three rows, four rows look the same
@@ -157,9 +161,9 @@ MIRRORS = {  # signs of x and y under which three rows, four rows look the same
 
 @pytest.mark.parametrize("edge", EDGES)
 @pytest.mark.parametrize("rows", [3, 4])
-@pytest.mark.parametrize("kind", families())
+@pytest.mark.parametrize("kind", MIRRORS)
 def test_a_lattice_is_its_own_mirror_image(kind, rows, edge):
-    network = build_network(lattice_of(kind, cells=(3, rows), **EDGES[edge]))
+    network = build_network(lattice_of(kind, cells=(3, rows), **EDGES[edge]).geometry)
     ends = network.points[network.walls] - 0.5 * network.points.max(axis=0)
 
     def drawn(signs):
@@ -190,7 +194,9 @@ def test_a_file_more_is_a_family_more(tmp_path, monkeypatch):
         "def draw(columns, rows):\n"
         "    return [tile([(0, 1), (0, 0), (1, 0), (1, 1)], columns, rows)]\n"
     )
-    monkeypatch.setattr(sweep.infill, "__path__", [*sweep.infill.__path__, str(tmp_path)])
+    monkeypatch.setattr(
+        sweep.design.infill, "__path__", [*sweep.design.infill.__path__, str(tmp_path)]
+    )
     families.cache_clear()
     assert "ladder" in families()
     points, walls = joints_and_walls(Sketch("ladder", None, (1, 3), (1.0, 3.0)))

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from sweep.design.network import Network, build_network, mass, relative_density
 from sweep.config.case import Lattice
+from sweep.design.lattice import build_network
+from sweep.design.network import Network, mass, relative_density
 
 
 def closed_form(lattice):
@@ -17,14 +18,14 @@ def closed_form(lattice):
 
 
 def test_joints_lie_on_a_regular_grid():
-    network = build_network(Lattice(cells_x=3, cells_y=2, width=0.03, height=0.01))
+    network = build_network(Lattice(cells_x=3, cells_y=2, width=0.03, height=0.01).geometry)
     assert network.points.shape == (12, 2)
     assert np.array_equal(network.points[:4, 0], np.linspace(0.0, 0.03, 4))
     assert np.array_equal(network.points[::4, 1], [0.0, 0.005, 0.01])
 
 
 def test_outer_rows_run_from_left_to_right():
-    network = build_network(Lattice(cells_x=3, cells_y=2))
+    network = build_network(Lattice(cells_x=3, cells_y=2).geometry)
     assert network.bottom.tolist() == [0, 1, 2, 3]
     assert network.top.tolist() == [8, 9, 10, 11]
     assert np.all(network.points[network.top, 1] == 12.5e-3)
@@ -32,7 +33,9 @@ def test_outer_rows_run_from_left_to_right():
 
 @pytest.mark.parametrize(("cells_x", "cells_y"), [(1, 1), (3, 2), (5, 5)])
 def test_every_edge_between_adjacent_joints_is_one_wall(cells_x, cells_y):
-    network = build_network(Lattice(cells_x=cells_x, cells_y=cells_y, width=0.02, height=0.01))
+    network = build_network(
+        Lattice(cells_x=cells_x, cells_y=cells_y, width=0.02, height=0.01).geometry
+    )
     assert len(network.walls) == cells_x * (cells_y + 1) + cells_y * (cells_x + 1)
     assert len(np.unique(np.sort(network.walls, axis=1), axis=0)) == len(network.walls)
     spans = np.abs(np.diff(network.points[network.walls], axis=1)[:, 0])
@@ -45,13 +48,15 @@ def test_every_edge_between_adjacent_joints_is_one_wall(cells_x, cells_y):
 @pytest.mark.parametrize("thickness", [0.1e-3, 0.8e-3])
 def test_printed_area_counts_joints_once(cells, thickness):
     lattice = Lattice(cells_x=cells[0], cells_y=cells[1], height=20e-3, wall_thickness=thickness)
-    assert build_network(lattice).printed_area == pytest.approx(closed_form(lattice), rel=1e-11)
+    assert build_network(lattice.geometry).printed_area == pytest.approx(
+        closed_form(lattice), rel=1e-11
+    )
 
 
 def test_printed_area_of_the_seed_is_the_closed_form_of_a_square_grid():
     n, p, t = 3, 12.5e-3 / 3, 0.8e-3
     expected = (n * p + t) ** 2 - n**2 * (p - t) ** 2
-    assert build_network(Lattice()).printed_area == pytest.approx(expected, rel=1e-12)
+    assert build_network(Lattice().geometry).printed_area == pytest.approx(expected, rel=1e-12)
 
 
 def test_walls_of_different_thickness():
@@ -65,6 +70,6 @@ def test_mass_and_relative_density_of_the_published_specimen():
     lattice = Lattice(
         width=12e-3, height=12e-3, depth=12e-3, wall_thickness=0.4e-3, cells_x=3, cells_y=3
     )
-    network = build_network(lattice)
+    network = build_network(lattice.geometry)
     assert mass(network, lattice.depth, 1220.0) == pytest.approx(0.543e-3, rel=1e-3)
-    assert relative_density(network, lattice) == pytest.approx(0.241, abs=5e-4)
+    assert relative_density(network, lattice.outer_size) == pytest.approx(0.241, abs=5e-4)

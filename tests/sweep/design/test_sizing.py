@@ -3,13 +3,15 @@
 import numpy as np
 import pytest
 
-from sweep.config.units import ConfigError, load_config
-from sweep.config.grid import expand
-from sweep.design.infill import families
-from sweep.design.network import build_network, infill_walls, mass, relative_density
 from sweep.config.case import Case, Lattice, Loading, Material
-from sweep.scene.terms import build_scene
+from sweep.config.grid import expand
+from sweep.config.units import ConfigError, load_config
+from sweep.design.box import infill_walls
+from sweep.design.infill import families
+from sweep.design.lattice import build_network
+from sweep.design.network import mass, relative_density
 from sweep.design.sizing import infill_share
+from sweep.scene.lattice import build_scene
 
 T, W, H = 0.8e-3, 12.5e-3, 12.5e-3
 
@@ -34,13 +36,13 @@ def refusals(tmp_path, text):
 def test_an_outline_is_as_thick_as_its_lines(lines, sides, caps):
     """Outer box less the openings: those at the sides lose half of the outline."""
     lattice = Lattice(**lines)
-    network, pitch = build_network(lattice), W / 3
+    network, pitch = build_network(lattice.geometry), W / 3
     across = [pitch - 0.5 * (sides + T), pitch - T, pitch - 0.5 * (sides + T)]
     up = [pitch - 0.5 * (caps + T), pitch - T, pitch - 0.5 * (caps + T)]
     area = (W + sides) * (H + caps) - sum(across) * sum(up)
     assert network.printed_area == pytest.approx(area, rel=1e-12)
     box = (W + sides) * (H + caps)
-    assert relative_density(network, lattice) == pytest.approx(area / box, rel=1e-12)
+    assert relative_density(network, lattice.outer_size) == pytest.approx(area / box, rel=1e-12)
     assert lattice.outer_size == pytest.approx((W + sides, H + caps))
 
 
@@ -56,8 +58,8 @@ def test_platens_touch_an_outline():
 @pytest.mark.parametrize("ratio", [0.25, 1.0, 3.0])
 def test_grading_is_linear_and_keeps_the_mean(kind, ratio):
     lattice = Lattice(kind=kind, wall_thickness=0.3e-3, grading=ratio)
-    network = build_network(lattice)
-    length, height = infill_walls(lattice)
+    network = build_network(lattice.geometry)
+    length, height = infill_walls(lattice.geometry)
     thickness = network.wall_thickness
     assert thickness @ length == pytest.approx(0.3e-3 * length.sum(), rel=1e-12)
     slope, below = np.polyfit(height, thickness, 1)
@@ -70,7 +72,7 @@ def test_grading_is_linear_and_keeps_the_mean(kind, ratio):
 def test_a_mass_is_met(kind, extra):
     lattice = Lattice(kind=kind, width=0.02, height=0.02, mass=1.4e-3, **extra)
     made = Case(lattice=lattice, material=Material(name="ninjaflex")).lattice
-    found = mass(build_network(made), made.depth, Material().density)
+    found = mass(build_network(made.geometry), made.depth, Material().density)
     assert found == pytest.approx(1.4e-3, rel=1e-12)
     again = Case.model_validate(Case(lattice=made).model_dump())
     assert again.lattice.wall_thickness == pytest.approx(made.wall_thickness, rel=1e-12)
@@ -92,14 +94,14 @@ def test_a_share_of_infill_is_met_as_nearly_as_cells_allow(kind, share):
     box = {"width": 80e-3, "height": 60e-3, "line_width": 0.45e-3}
     lattice = Lattice(kind=kind, infill=share, perimeters=2, **box)
     assert lattice.wall_thickness == 0.45e-3
-    assert infill_share(lattice) == pytest.approx(share, rel=0.1)
+    assert infill_share(lattice.geometry) == pytest.approx(share, rel=0.1)
 
 
 def test_share_of_a_square_grid_is_that_of_slicers():
     """Two lines of width w each pitch, in either direction; those on the outline are no infill."""
     lattice = Lattice(width=0.1, height=0.1, infill=0.2, perimeters=1)
     assert (lattice.cells_x, lattice.cells_y) == (26, 26)
-    assert infill_share(lattice) == pytest.approx(2 * 0.4e-3 / 0.1 * 25)
+    assert infill_share(lattice.geometry) == pytest.approx(2 * 0.4e-3 / 0.1 * 25)
 
 
 @pytest.mark.parametrize(

@@ -5,21 +5,21 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-import readme
-from specimens import summary, there_and_back
-from test_cli import config, crumple  # noqa: F401 a fixture
 
-from sweep.ranking.accuracy import AccuracyError, energy, path, peak, studies
-from sweep.config.units import load_config
 from sweep.config.grid import expand
+from sweep.config.units import load_config
+from sweep.ranking.accuracy import AccuracyError, energy, path, peak, studies
 from sweep.report.accuracy_tables import accuracy_sheets, answers, scene_title, setting
 from sweep.result import HISTORY_COLUMNS, Result, Status
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from sweep.store.read import read_summary
 from sweep.store.write import Writer
+from tests.support import readme
+from tests.support.command import crumple
+from tests.support.specimens import summary, there_and_back
 
-CONFIGS = Path(__file__).parents[1] / "configs" / "accuracy"
+CONFIGS = Path(__file__).parents[3] / "configs" / "accuracy"
 ORDERS = {"backward_euler": 1, "bdf2": 2, "newmark": 2}
 STEPS = (1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5)
 TIME = np.linspace(0.0, 1.0, 11)
@@ -170,7 +170,7 @@ def test_a_structure_is_measured_by_its_probes():
     assert left > 0.0
 
 
-def test_a_sweep_that_refines_nothing_is_refused(tmp_path, capsys, config):  # noqa: F811
+def test_a_sweep_that_refines_nothing_is_refused(tmp_path, capsys, config):
     with pytest.raises(AccuracyError):
         study(tmp_path, [made_up("bdf2", 1e-3), made_up("newmark", 1e-3)])
     status, out, err = crumple(capsys, "accuracy", config, "--out", "there")

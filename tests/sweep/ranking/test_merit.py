@@ -1,9 +1,8 @@
 """What counts for designs that a striker hits."""
 
-from specimens import summary
-
-from sweep.ranking.rank import rank
+from sweep.ranking.rank import ranked
 from sweep.report.sheets import legend, ranking_sheets
+from tests.support.specimens import summary
 
 NAN = float("nan")
 
@@ -23,14 +22,15 @@ def test_under_a_striker_the_least_force_wins():
         struck(70.0, 0.1, mass_g=1.4),
         struck(90.0, 0.2, mass_g=1.0),
     )
-    ranking = rank(table)
-    assert list(ranking["scene"]) == [
+    ranking = ranked(table)
+    designs = ranking.table
+    assert list(designs["scene"]) == [
         *["struck by 50 g at 2 m/s (100 mJ), glued platens"] * 3,
         "struck by 50 g at 2.828 m/s (200 mJ), glued platens",
     ]
-    assert list(ranking["peak_force_N"]) == [40.0, 60.0, 70.0, 90.0]
-    assert list(ranking["pareto"]) == [True, True, False, True]
-    assert set(ranking["ranked_by"]) == {ranking.attrs["by"]} == {"peak_force_N"}
+    assert list(designs["peak_force_N"]) == [40.0, 60.0, 70.0, 90.0]
+    assert list(designs["pareto"]) == [True, True, False, True]
+    assert set(designs["ranked_by"]) == {ranking.by} == {"peak_force_N"}
     first, _ = ranking_sheets(ranking, table)
     assert first.title.endswith("least force first")
     assert first.heads[2:] == ["force N", "sink %", "left mm", "rebound %"]

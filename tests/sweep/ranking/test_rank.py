@@ -5,11 +5,12 @@ import itertools
 import numpy as np
 import pandas as pd
 import pytest
-from specimens import CRUSHED_SOLID, SPARSE, designs, summary
 
+from sweep.ranking.rank import RankError, pareto, rank, ranked, scene_label
 from sweep.report.markdown import markdown
-from sweep.ranking.rank import RankError, pareto, rank, scene_label
 from sweep.report.sheets import LOADED, legend, ranking_sheets
+from sweep.result import COLUMNS
+from tests.support.specimens import CRUSHED_SOLID, SPARSE, designs, summary
 
 NAN = float("nan")
 
@@ -20,11 +21,11 @@ def ids(ranking):
 
 
 def test_best_per_gram_comes_first():
-    ranking = rank(summary(*designs([1.0, 2.0, 4.0], [0.10, 0.30, 0.40])))
-    assert ids(ranking) == [1, 0, 2]
-    assert list(ranking["place"]) == [1, 2, 2]
-    assert ranking.attrs["by"] == "specific_absorption_at_densification_J_per_g"
-    assert set(ranking["ranked_by"]) == {ranking.attrs["by"]}
+    ranking = ranked(summary(*designs([1.0, 2.0, 4.0], [0.10, 0.30, 0.40])))
+    assert ids(ranking.table) == [1, 0, 2]
+    assert list(ranking.table["place"]) == [1, 2, 2]
+    assert ranking.by == "specific_absorption_at_densification_J_per_g"
+    assert set(ranking.table["ranked_by"]) == {ranking.by}
 
 
 def test_budget_is_spent_on_energy_not_on_energy_per_gram():
@@ -46,6 +47,15 @@ def test_budget_limits_the_panel_not_the_specimen():
     panel = ("130 mm", "50 mm")
     assert ids(rank(table, budget="60 g", panel=panel)) == [0]
     assert ids(rank(table, budget="4 oz", panel=panel)) == [1, 0]  # 113.4 g
+
+
+def test_a_design_that_weighs_just_the_budget_is_within_it():
+    """But for round-off, that is, which no scale would tell; in the notes of the table too."""
+    table = summary(*designs([25.0000000000012, 25.000001], [0.1, 0.2]))
+    ranking = ranked(table, budget="25 g")
+    assert ids(ranking.table) == [0]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sheet.notes == ()
 
 
 def test_numbers_are_si():
@@ -116,23 +126,38 @@ def test_equal_values_share_a_place_whatever_the_order_of_rows():
 def test_failed_and_unmeasured_cases_have_no_place_and_are_counted():
     rows = designs([1.0, 1.0, 1.0], [0.1, NAN, 0.3])
     rows[2] |= {"status": "timed_out"}
-    ranking = rank(summary(*rows))
-    assert ids(ranking) == [0]
-    counts = {key: ranking.attrs[key] for key in ("cases", "failed", "unranked")}
-    assert counts == {"cases": 3, "failed": 1, "unranked": 1}
+    ranking = ranked(summary(*rows))
+    assert ids(ranking.table) == [0]
+    assert (ranking.cases, ranking.failed, ranking.unranked) == (3, 1, 1)
 
 
 def test_nothing_finished_is_an_empty_ranking():
-    ranking = rank(summary({"status": "stopped"}))
-    assert ranking.empty
-    assert {"place", "scene", "pareto", "budget_g"} <= set(ranking)
+    ranking = ranked(summary({"status": "stopped"}))
+    assert ranking.table.empty
+    assert {"place", "scene", "pareto", "budget_g"} <= set(ranking.table)
     assert list(ranking_sheets(ranking, summary({"status": "stopped"}))) == []
 
 
-@pytest.mark.parametrize(("by", "order"), [("peak_force_N", [1, 0]), ("efficiency", [0, 1])])
-def test_less_is_better_for_some_columns(by, order):
-    table = summary({"peak_force_N": 30.0, "efficiency": 0.4}, {"efficiency": 0.3})
-    assert ids(rank(table, by=by)) == order
+GENTLE = ["peak_force_N", "peak_deceleration_m_per_s2", "rebound_share", "rebound_speed_m_per_s"]
+GENTLE += ["passed_on_N", "greatest_element_strain", "max_crossings", "error_absorbed_energy_J"]
+STRONG = ["efficiency", "stroke_left_m", "least_element_strain", "absorbed_energy_at_12.5N_J"]
+
+
+@pytest.mark.parametrize("by", GENTLE + STRONG)
+def test_a_column_knows_what_is_better(by):
+    sources = {"passed_on_N": "peak_force_N"}
+    values = [{sources.get(by, by): value} for value in (40.0, 30.0)]
+    assert ids(rank(summary(*values), by=by)) == ([1, 0] if by in GENTLE else [0, 1])
+
+
+@pytest.mark.parametrize("by", [name for name, of in COLUMNS.items() if of.units])
+def test_only_what_makes_a_design_better_is_sorted_by(by):
+    table = summary({})
+    if COLUMNS[by].better:
+        assert len(rank(table, by=by)) == 1
+        return
+    with pytest.raises(RankError, match=f'"{by}": neither more nor less of it makes a design bet'):
+        rank(table, by=by)
 
 
 def test_energy_counts_up_to_the_allowed_force():
@@ -140,16 +165,16 @@ def test_energy_counts_up_to_the_allowed_force():
         {"absorbed_energy_J": 0.9, "absorbed_energy_at_50N_J": 0.1, "mass_g": 2.0},
         {"absorbed_energy_J": 0.5, "absorbed_energy_at_50N_J": 0.2, "mass_g": 2.0},
     )
-    ranking = rank(table, allowed_force="50 N")
-    assert ids(ranking) == [1, 0]
-    assert ranking.loc[0, "specific_absorption_at_50N_J_per_g"] == pytest.approx(0.1)
-    assert list(ranking["pareto"]) == [True, False]
+    ranking = ranked(table, allowed_force="50 N")
+    assert ids(ranking.table) == [1, 0]
+    assert ranking.table.loc[0, "specific_absorption_at_50N_J_per_g"] == pytest.approx(0.1)
+    assert list(ranking.table["pareto"]) == [True, False]
 
-    assert list(ranking["passed_on_N"]) == [20.0, 20.0]
+    assert list(ranking.table["passed_on_N"]) == [20.0, 20.0]
     (sheet,) = ranking_sheets(ranking, table)
     assert sheet.heads == ["#", "mass g", "absorbs mJ", "J/g", "peak N"]
     assert not {"pack", "back"} & {line.partition(":")[0] for line in legend(ranking).splitlines()}
-    packed = rank(table, by="densification_strain", allowed_force="50 N")
+    packed = ranked(table, by="densification_strain", allowed_force="50 N")
     (sheet,) = ranking_sheets(packed, table)
     assert sheet.heads[-1] == "densification_strain"
     strong = table.assign(peak_force_N=80.0, peak_force_at_densification_N=30.0)
@@ -157,23 +182,65 @@ def test_energy_counts_up_to_the_allowed_force():
 
 
 def test_energy_counts_until_the_lattice_has_packed_down():
-    ranking = rank(summary(CRUSHED_SOLID, SPARSE), budget="2 g")
-    assert ids(ranking) == [1, 0]
-    assert ranking.attrs["energy"] == "absorbed_energy_at_densification_J"
-    assert list(ranking["passed_on_N"]) == [25.0, 30.0]
-    assert not ranking["beyond_model"].any()
+    ranking = ranked(summary(CRUSHED_SOLID, SPARSE), budget="2 g")
+    assert ids(ranking.table) == [1, 0]
+    assert ranking.energy == "absorbed_energy_at_densification_J"
+    assert list(ranking.table["passed_on_N"]) == [25.0, 30.0]
+    assert not ranking.table["beyond_model"].any()
 
 
 def test_a_budget_given_twice_is_one():
     table = summary(*designs([1.0, 2.0], [0.4, 0.5]))
-    assert rank(table, budget=["2 g", 2e-3, "1 g"]).attrs["budgets_g"] == [2.0, 1.0]
+    assert ranked(table, budget=["2 g", 2e-3, "1 g"]).budgets_g == (2.0, 1.0)
+
+
+def test_attrs_of_the_table_still_say_what_else_is_known():
+    """For one release more, under the names that they had."""
+    table = summary(*designs([1.0, 2.0, 3.0], [0.4, 0.5, NAN]), {"status": "stopped"})
+    asked = {"budget": ["2 g", "1 g"], "panel": ("130 mm", "50 mm")}
+    assert rank(table, **asked).attrs == {
+        "mass": "panel_mass_g",
+        "energy": "panel_energy_J",
+        "per_gram": "specific_absorption_at_densification_J_per_g",
+        "until": "until it has packed down",
+        "limited": False,
+        "by": "panel_energy_J",
+        "cases": 4,
+        "failed": 1,
+        "unranked": 1,
+        "without_bar": 0,
+        "versions": {2: 3},
+        "budgets_g": [2.0, 1.0],
+        "lightest_g": {"crushed to 50 %, glued platens": pytest.approx(50.0)},
+    }
+
+
+def test_a_budget_below_all_designs_is_one_sentence_and_no_table():
+    rows = designs([1.0, 2.0], [0.4, 0.5]) + designs([3.0], [0.5], platen="contact")
+    table = summary(*rows)
+    nothing = "Nothing weighs {} g or less: the lightest weighs {} g."
+    (sheet,) = ranking_sheets(ranked(table, budget=["0.5 g", "0.7 g"]), table)
+    assert (sheet.title, sheet.heads, sheet.rows) == ("", [], [])
+    assert sheet.notes == (nothing.format(0.5, 1), nothing.format(0.7, 1))
+    assert markdown([sheet]) == "\n".join([*sheet.notes, ""])
+    glued, loose = ranking_sheets(ranked(table, budget=["0.5 g", "2 g"]), table)
+    assert (len(glued.rows), glued.notes) == (2, (nothing.format(0.5, 1),))
+    assert (loose.title, loose.heads) == ("crushed to 50 %, contact platens", [])
+    assert loose.notes == (nothing.format(0.5, 3), nothing.format(2, 3))
+    assert markdown([loose]).splitlines()[::2] == [f"### {loose.title}", loose.notes[0]]
+
+
+def test_a_scene_in_which_nothing_has_a_place_says_so():
+    table = summary({}, {"platen": "contact", "densification_strain": NAN})
+    _, sheet = ranking_sheets(ranked(table, by="densification_strain"), table)
+    assert (sheet.heads, sheet.notes) == ([], ("No design has a place here.",))
 
 
 def test_what_comes_back_and_what_has_not_packed_is_told():
     nowhere = {"densification_strain": NAN, "peak_strain": NAN}
     table = summary(CRUSHED_SOLID, SPARSE, SPARSE | nowhere)
-    ranking = rank(table)
-    assert list(ranking["returned_share"]) == pytest.approx([0.95, 0.95, 0.9])
+    ranking = ranked(table)
+    assert list(ranking.table["returned_share"]) == pytest.approx([0.95, 0.95, 0.9])
     (sheet,) = ranking_sheets(ranking, table)
     assert sheet.heads[-2:] == ["pack %", "back %"]
     assert [row[-2:] for row in sheet.rows] == [["> 50", "95"], ["–", "95"], ["55", "90"]]
@@ -185,10 +252,11 @@ def test_under_a_dead_load_the_least_sink_wins():
     for row, sink in zip(rows, [0.6, 0.002, 0.004], strict=True):
         row["peak_strain"] = sink
     table = summary(*rows, {"absorbed_energy_J": 0.2})
-    ranking = rank(table, budget="5 g")
-    assert ids(ranking) == [1, 2, 0, 3]
-    assert list(ranking["pareto"]) == [True, False, True, True]
-    assert list(ranking["ranked_by"]) == ["peak_strain"] * 3 + [ranking.attrs["energy"]]
+    ranking = ranked(table, budget="5 g")
+    assert ids(ranking.table) == [1, 2, 0, 3]
+    assert list(ranking.table["pareto"]) == [True, False, True, True]
+    assert list(ranking.table["ranked_by"]) == ["peak_strain"] * 3 + [ranking.energy]
+    assert ranking.by == ranking.energy
     loaded, crushed = ranking_sheets(ranking, table)
     assert (loaded.title, crushed.title) == (
         "dead load of 5 N, glued platens: least sink first",
@@ -196,26 +264,26 @@ def test_under_a_dead_load_the_least_sink_wins():
     )
     assert loaded.heads == ["#", "mass g", "sink %"]
     assert [row[-1] for row in loaded.rows] == ["0.200", "0.400", "60.0"]
-    assert rank(table.head(3)).attrs["by"] == "peak_strain"
+    assert ranked(table.head(3)).by == "peak_strain"
 
 
 def test_a_column_that_is_asked_for_sorts_dead_loads_too():
     load = {"loading_mode": "force", "force_N": 5.0, "stroke_m": NAN}
     table = summary(*designs([2.0, 1.0], [0.3, 0.2], **load))
-    ranking = rank(table, by="mass_g")
-    assert ids(ranking) == [1, 0]
+    ranking = ranked(table, by="mass_g")
+    assert ids(ranking.table) == [1, 0]
     (sheet,) = ranking_sheets(ranking, table)
     assert sheet.title == "dead load of 5 N, glued platens"
 
 
 def test_legend_explains_what_is_shown():
     crushed = summary({"absorbed_energy_at_50N_J": 0.1})
-    assert "count until it has packed down" in legend(rank(crushed))
-    assert "count until 50 N are passed on" in legend(rank(crushed, allowed_force=50.0))
-    assert "count to the end of the stroke" in legend(rank(crushed, by="absorbed_energy_J"))
-    assert "sink" not in legend(rank(crushed))
+    assert "count until it has packed down" in legend(ranked(crushed))
+    assert "count until 50 N are passed on" in legend(ranked(crushed, allowed_force=50.0))
+    assert "count to the end of the stroke" in legend(ranked(crushed, by="absorbed_energy_J"))
+    assert "sink" not in legend(ranked(crushed))
     loaded = summary({"loading_mode": "force", "force_N": 5.0})
-    assert legend(rank(loaded)).splitlines()[1:] == [LOADED]
+    assert legend(ranked(loaded)).splitlines()[1:] == [LOADED]
 
 
 def test_results_of_an_older_version_are_refused():
@@ -224,9 +292,17 @@ def test_results_of_an_older_version_are_refused():
         rank(table)
 
 
+def test_versions_of_the_model_are_counted():
+    rows = [{"model_version": version} for version in (3, 1, 3)]
+    rows.append({"model_version": 2, "status": "stopped"})
+    table = summary(*rows)
+    assert ranked(table).versions == {1: 1, 3: 2}
+    assert ranked(table.drop(columns="model_version")).versions == {1: 3}
+
+
 def test_refusals_name_what_is_allowed():
     table = summary({"absorbed_energy_at_50N_J": 0.1, "absorbed_energy_at_200N_J": 0.2})
-    with pytest.raises(RankError, match=r"did you mean peak_force_N\? allowed: cells_x, "):
+    with pytest.raises(RankError, match=r"did you mean peak_force_N\? allowed: mass_g, "):
         rank(table, by="peak_forse_N")
     with pytest.raises(RankError, match="cannot sort by"):
         rank(table, by="material")
@@ -245,6 +321,21 @@ def test_scenes_never_share_a_label():
     assert rank(summary(*rows))["scene"].nunique() == 4
 
 
+def test_label_leaves_out_keys_that_a_scene_does_without():
+    keys = "loading.strain", "solver.integrator", "solver.time_step"
+    load = {"loading_mode": "force", "force_N": 5.0, "stroke_m": NAN}
+    rows = [
+        dict(zip(keys, (0.5, "", NAN), strict=True)),
+        load | dict(zip(keys, (NAN, "bdf2", NAN), strict=True)),
+        load | dict(zip(keys, (NAN, "bdf2", 0.001), strict=True)),
+    ]
+    assert list(rank(summary(*rows))["scene"]) == [
+        "crushed to 50 %, glued platens",
+        "dead load of 5 N, glued platens, solver integrator bdf2",
+        "dead load of 5 N, glued platens, solver integrator bdf2, solver time step 0.001",
+    ]
+
+
 def test_label_leaves_out_a_depth_that_differs():
     table = summary({"stroke_m": 3.05e-3}, {})
     assert scene_label(table) == "crushed, glued platens"
@@ -252,7 +343,7 @@ def test_label_leaves_out_a_depth_that_differs():
 
 def test_budgets_stand_one_below_the_other_in_markdown():
     table = summary(*designs([1.0, 2.0, 3.0], [0.1, 0.3, 0.2]), {"cells_x": 4, "mass_g": 9.0})
-    ranking = rank(table, budget=["0.5 g", "1 g", "2 g"])
+    ranking = ranked(table, budget=["0.5 g", "1 g", "2 g"])
     text = markdown(ranking_sheets(ranking, table))
     assert text == (
         "### crushed to 50 %, glued platens\n\n"
@@ -267,6 +358,6 @@ def test_budgets_stand_one_below_the_other_in_markdown():
 
 def test_budgets_with_the_same_places_share_a_section():
     table = summary(*designs([1.0, 2.0], [0.3, 0.1]), {"mass_g": 9.0, "absorbed_energy_J": 0.9})
-    ranking = rank(table, budget=["1 g", "3 g", "5 g", "9 g"], top=1)
+    ranking = ranked(table, budget=["1 g", "3 g", "5 g", "9 g"], top=1)
     sheet = next(ranking_sheets(ranking, table))
     assert [row[:2] for row in sheet.rows] == [["1-5", "1*"], ["9", "1*"]]

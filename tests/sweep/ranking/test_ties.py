@@ -5,11 +5,11 @@ import json
 
 import pandas as pd
 import pytest
-from specimens import designs, summary, write
 
 from sweep.__main__ import main
-from sweep.ranking.rank import rank, shared_places
+from sweep.ranking.rank import rank, ranked, shared_places
 from sweep.report.sheets import TIED, legend, ranking_sheets
+from tests.support.specimens import designs, summary, write
 
 NAN = float("nan")
 
@@ -43,12 +43,13 @@ def test_values_share_the_place_of_the_first_that_they_overlap(values, errors, p
 
 def test_ties_are_marked_also_where_the_other_is_not_shown():
     table = summary(*with_bars([10.0, 9.0, 8.0, 7.9], [0.6, 0.6, 0.16, 0.1]))
-    ranking = rank(table, top=3)
-    assert list(ranking["absorbed_energy_J"]) == pytest.approx([0.010, 0.009, 0.008])
-    assert list(ranking["place"]) == [1, 1, 3]
-    assert list(ranking["tied"]) == [True, True, True]
-    assert list(ranking["ranked_error"]) == pytest.approx([6e-4, 6e-4, 1.6e-4])
-    assert list(ranking.columns[:8]) == [
+    ranking = ranked(table, top=3)
+    places = ranking.table
+    assert list(places["absorbed_energy_J"]) == pytest.approx([0.010, 0.009, 0.008])
+    assert list(places["place"]) == [1, 1, 3]
+    assert list(places["tied"]) == [True, True, True]
+    assert list(places["ranked_error"]) == pytest.approx([6e-4, 6e-4, 1.6e-4])
+    assert list(places.columns[:8]) == [
         *("budget_g", "scene", "place", "tied", "pareto", "case_id", "ranked_by", "ranked_error")
     ]
     (sheet,) = ranking_sheets(ranking, table)
@@ -63,7 +64,7 @@ def test_ties_that_are_cut_off_are_counted_for_each_budget():
     table["mass_g"] = [3.0, 1.0, 1.0, 1.0]
 
     def notes(**asked):
-        (sheet,) = ranking_sheets(rank(table, by="absorbed_energy_J", **asked), table)
+        (sheet,) = ranking_sheets(ranked(table, by="absorbed_energy_J", **asked), table)
         return tuple(note for note in sheet.notes if "share" in note)
 
     assert notes(top=1) == ("3 more share place 1.",)
@@ -76,19 +77,19 @@ def test_ties_that_are_cut_off_are_counted_for_each_budget():
 
 def test_without_error_bars_nothing_speaks_of_them():
     table = summary(*designs([1.0, 1.0], [0.1, 0.1]))
-    ranking = rank(table)
-    assert not {"tied", "ranked_error"} & set(ranking)
+    ranking = ranked(table)
+    assert not {"tied", "ranked_error"} & set(ranking.table)
     assert TIED not in legend(ranking)
-    assert ranking.attrs["without_bar"] == 0
+    assert ranking.without_bar == 0
     (sheet,) = ranking_sheets(ranking, table)
     assert [row[0] for row in sheet.rows] == ["1*", "1*"]
 
 
 def test_missing_error_bar_hides_nothing_and_is_counted():
     table = summary(*with_bars([10.0, 9.9], [0.01, NAN]))
-    ranking = rank(table)
-    assert list(ranking["place"]) == [1, 2]
-    assert ranking.attrs["without_bar"] == 1
+    ranking = ranked(table)
+    assert list(ranking.table["place"]) == [1, 2]
+    assert ranking.without_bar == 1
     (sheet,) = ranking_sheets(ranking, table)
     assert [row[-1] for row in sheet.rows] == ["0.1", "?"]
 
@@ -109,7 +110,7 @@ def test_error_bars_follow_into_what_is_derived():
 def test_budgets_share_a_section_only_where_their_ties_are_alike():
     table = summary(*with_bars([10.0, 9.9], [0.01, 0.2]))
     table["mass_g"] = [1.0, 3.0]
-    ranking = rank(table, budget=["1 g", "2 g", "3 g"], top=1)
+    ranking = ranked(table, budget=["1 g", "2 g", "3 g"], top=1)
     (sheet,) = ranking_sheets(ranking, table)
     assert [row[:2] for row in sheet.rows] == [["1-2", "1*"], ["3", "1=*"]]
     more = not_shown("1 more up to 3 g", 2)
@@ -120,9 +121,9 @@ def test_what_is_not_shown_is_counted_for_each_budget():
     table = summary(*designs([1.0, 2.0, 2.5, 3.0], [0.4, 0.3, 0.2, 0.1]))
 
     def notes(**asked):
-        ranking = rank(table, **asked)
+        ranking = ranked(table, **asked)
         (sheet,) = ranking_sheets(ranking, table)
-        return list(ranking["contenders"].unique()), sheet.notes
+        return list(ranking.table["contenders"].unique()), sheet.notes
 
     assert notes() == ([4], ())
     assert notes(top=3) == ([4], (not_shown("1 more", 4),))

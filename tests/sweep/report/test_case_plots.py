@@ -2,9 +2,16 @@
 
 import numpy as np
 import pytest
-from specimens import HEIGHT, T, squeezed_cell, summary, there_and_back, under_dead_load
 
-from sweep.report import case_plots as plots
+from sweep.report import case_plots
+from tests.support.specimens import (
+    HEIGHT,
+    T,
+    squeezed_cell,
+    summary,
+    there_and_back,
+    under_dead_load,
+)
 
 
 @pytest.fixture
@@ -32,7 +39,7 @@ def dead(row):
 
 
 def axes_of(draw, *arguments):
-    ax = plots.blank(4, 3).subplots()
+    ax = case_plots.blank(4, 3).subplots()
     draw(ax, *arguments)
     return ax
 
@@ -49,13 +56,13 @@ def area(filled):
 
 def test_shaded_area_is_the_absorbed_energy(row):
     history = there_and_back()
-    ax = axes_of(plots.force_displacement, history, row)
+    ax = axes_of(case_plots.force_displacement, history, row)
     assert area(ax.collections[0]) == pytest.approx(history["work_in_J"].max())
     assert labels(ax)[0] == "absorbs in all\n96.0 mJ, 0.0960 J/g"
 
 
 def test_way_down_and_way_back_are_told_apart(row):
-    ax = axes_of(plots.force_displacement, there_and_back(), row)
+    ax = axes_of(case_plots.force_displacement, there_and_back(), row)
     down, back = ax.get_lines()[:2]
     assert down.get_xdata()[-1] == back.get_xdata()[0] == pytest.approx(40.0)
     assert down.get_color() != back.get_color()
@@ -64,7 +71,7 @@ def test_way_down_and_way_back_are_told_apart(row):
 
 
 def test_plateau_is_the_mean_force_up_to_densification(row):
-    ax = axes_of(plots.force_displacement, there_and_back(), row)
+    ax = axes_of(case_plots.force_displacement, there_and_back(), row)
     dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
     assert dotted.get_xdata()[-1] == pytest.approx(30.0)
     assert dotted.get_ydata()[0] == pytest.approx(0.2e6 * 11e-3 * 10e-3)
@@ -73,7 +80,7 @@ def test_plateau_is_the_mean_force_up_to_densification(row):
 
 def test_plateau_without_densification_goes_to_the_stroke(row):
     never = row | {"densification_strain": np.nan}
-    ax = axes_of(plots.force_displacement, there_and_back(), never)
+    ax = axes_of(case_plots.force_displacement, there_and_back(), never)
     dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
     assert dotted.get_xdata()[-1] == pytest.approx(40.0)
     assert labels(ax)[-1] == "plateau 22.0 N,\nnot packed"
@@ -81,7 +88,7 @@ def test_plateau_without_densification_goes_to_the_stroke(row):
 
 def test_dead_load_comes_and_goes_in_a_step(dead):
     history = under_dead_load()
-    ax = axes_of(plots.force_displacement, history, dead)
+    ax = axes_of(case_plots.force_displacement, history, dead)
     on, off = ax.get_lines()[:2]
     assert {on.get_drawstyle(), off.get_drawstyle()} == {"steps-pre"}
     assert on.get_ydata()[-1] == off.get_ydata()[0] == 20.0
@@ -90,7 +97,7 @@ def test_dead_load_comes_and_goes_in_a_step(dead):
     assert labels(ax)[1:] == ["load on", "load off"]
 
 
-@pytest.mark.parametrize("draw", [plots.force_displacement, plots.energies])
+@pytest.mark.parametrize("draw", [case_plots.force_displacement, case_plots.energies])
 def test_title_says_design_and_scene(row, draw):
     title = axes_of(draw, there_and_back(), row).get_title("left")
     assert title == "square, 3 x 3 cells, wall 1 mm, ninjaflex\ncrushed to 40 %, glued platens"
@@ -98,7 +105,7 @@ def test_title_says_design_and_scene(row, draw):
 
 def test_energies_add_up_to_the_work_along_the_path_of_the_platen(row):
     history = there_and_back()
-    ax = axes_of(plots.energies, history, row)
+    ax = axes_of(case_plots.energies, history, row)
     top = max(stack.get_paths()[0].vertices[:, 1].max() for stack in ax.collections)
     assert top == pytest.approx(1e3 * history["work_in_J"].max())
     turn, work = ax.get_lines()
@@ -107,7 +114,7 @@ def test_energies_add_up_to_the_work_along_the_path_of_the_platen(row):
 
 
 def test_energies_under_a_dead_load_are_drawn_over_time(dead):
-    ax = axes_of(plots.energies, under_dead_load(), dead)
+    ax = axes_of(case_plots.energies, under_dead_load(), dead)
     release, work = ax.get_lines()
     assert release.get_xdata()[0] == pytest.approx(20.0)
     assert work.get_xdata()[-1] == pytest.approx(40.0)
@@ -115,21 +122,21 @@ def test_energies_under_a_dead_load_are_drawn_over_time(dead):
 
 
 def test_negligible_energies_have_no_colour(row):
-    ax = axes_of(plots.energies, there_and_back(), row)
+    ax = axes_of(case_plots.energies, there_and_back(), row)
     assert labels(ax) == ["work done", "lost to friction", "bending"]
 
 
 def test_shapes_have_captions_under_a_title():
-    figure = plots.blank(12, 3)
-    plots.deformed_shapes(figure, "a cell", squeezed_cell())
+    figure = case_plots.blank(12, 3)
+    case_plots.deformed_shapes(figure, "a cell", squeezed_cell())
     titles = [ax.get_title() for ax in figure.axes]
     assert titles == ["0 %", "10 %", "20 %", "40 %", "50 %", "released"]
     assert figure.get_suptitle() == "a cell"
 
 
 def test_walls_are_as_thick_as_they_are_in_millimetres():
-    figure = plots.blank(12, 3)
-    plots.deformed_shapes(figure, "", squeezed_cell())
+    figure = case_plots.blank(12, 3)
+    case_plots.deformed_shapes(figure, "", squeezed_cell())
     ax = figure.axes[0]
     walls, lower, upper = ax.patches
     box = walls.get_path().get_extents()
@@ -140,8 +147,8 @@ def test_walls_are_as_thick_as_they_are_in_millimetres():
 
 
 def test_without_platens_only_the_ground_is_drawn():
-    figure = plots.blank(12, 3)
-    plots.deformed_shapes(figure, "", squeezed_cell(platens=False))
+    figure = case_plots.blank(12, 3)
+    case_plots.deformed_shapes(figure, "", squeezed_cell(platens=False))
     assert [len(ax.patches) for ax in figure.axes] == [2] * 6
 
 
@@ -151,8 +158,8 @@ FLAT, TALL = [4.0, 3.8, 3.6, 3.4, 3.2], [40.0, 38.0, 36.0, 34.0, 32.0]
 @pytest.mark.parametrize("heights", [FLAT, TALL])
 def test_nothing_is_left_blank_between_shapes(heights):
     frames = squeezed_cell(heights=heights)
-    figure = plots.blank(*plots.shapes_size("a cell", frames))
-    plots.deformed_shapes(figure, "a cell", frames)
+    figure = case_plots.blank(*case_plots.shapes_size("a cell", frames))
+    case_plots.deformed_shapes(figure, "a cell", frames)
     figure.draw_without_rendering()
     boxes = [ax.get_window_extent() for ax in figure.axes]
     between = figure.bbox.width - sum(box.width for box in boxes)
@@ -162,17 +169,17 @@ def test_nothing_is_left_blank_between_shapes(heights):
 
 
 def test_winners_are_as_high_as_their_shapes():
-    figure = plots.blank(12, 6)
+    figure = case_plots.blank(12, 6)
     cells = [squeezed_cell(heights=heights) for heights in (FLAT, TALL)]
-    plots.winners(figure, dict(zip(["flat", "tall"], cells, strict=True)))
+    case_plots.winners(figure, dict(zip(["flat", "tall"], cells, strict=True)))
     figure.draw_without_rendering()
     heights = [strip.bbox.height / figure.dpi for strip in figure.subfigs]
-    asked = [plots.shapes_size("", frames)[1] for frames in cells]
+    asked = [case_plots.shapes_size("", frames)[1] for frames in cells]
     np.testing.assert_allclose(heights, asked, rtol=0.02)
 
 
 def test_pictures_are_png_files(tmp_path):
-    figure = plots.blank(12, 6)
-    plots.winners(figure, {"one": squeezed_cell(), "two": squeezed_cell(platens=False)})
-    path = plots.save(figure, tmp_path / "new" / "shapes.png")
+    figure = case_plots.blank(12, 6)
+    case_plots.winners(figure, {"one": squeezed_cell(), "two": squeezed_cell(platens=False)})
+    path = case_plots.save(figure, tmp_path / "new" / "shapes.png")
     assert path.read_bytes().startswith(b"\x89PNG")

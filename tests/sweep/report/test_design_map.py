@@ -1,14 +1,16 @@
 """Charts of a ranking: every design at its place, the best of them marked."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from matplotlib.collections import LineCollection
-from specimens import designs, summary
 
+from sweep.ranking.rank import ranked
+from sweep.report.case_plots import TICKS, blank, round_ticks
 from sweep.report.design_map import TITLE, design_map, has_trends, thickness_trends
 from sweep.report.pattern_bars import pattern_bars
-from sweep.report.case_plots import TICKS, blank, round_ticks
-from sweep.ranking.rank import rank
+from tests.support.specimens import designs, summary
 
 
 @pytest.fixture
@@ -17,23 +19,22 @@ def ranking():
     for row, wall in zip(rows, [0.4e-3, 0.8e-3, 1.2e-3], strict=True):
         row["wall_thickness_m"] = wall
     glued = summary(*rows, *[row | {"platen": "contact"} for row in rows])
-    return rank(glued, top=None)
+    return ranked(glued, top=None)
 
 
 def test_map_has_a_panel_a_scene_and_stairs_along_the_pareto_front(ranking):
     figure = blank(8, 4)
     design_map(figure, ranking)
     scenes = [ax.get_title("left").splitlines()[0] for ax in figure.axes]
-    assert scenes == list(ranking["scene"].unique())
+    assert scenes == list(ranking.table["scene"].unique())
     stairs = figure.axes[0].get_lines()[0]
     np.testing.assert_allclose(stairs.get_xydata(), [[1.0, 0.1], [2.0, 0.3]])
     assert stairs.get_drawstyle() == "steps-post"
 
 
 def test_map_names_and_rings_the_winner_of_each_budget(ranking):
-    ranking.attrs["budgets_g"] = [1.5, 3.0]
     figure = blank(8, 4)
-    design_map(figure, ranking)
+    design_map(figure, replace(ranking, budgets_g=(1.5, 3.0)))
     ax = figure.axes[0]
     said = ax.get_title("left").splitlines()[1:]
     assert said == ["up to 1.5 g: wall 0.4 mm, 100 mJ", "up to 3 g: wall 0.8 mm, 300 mJ"]
@@ -43,8 +44,7 @@ def test_map_names_and_rings_the_winner_of_each_budget(ranking):
 
 
 def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
-    loaded = ranking.assign(loading_mode="force", peak_strain=[0.3, 0.2, 0.1] * 2)
-    loaded.attrs = ranking.attrs
+    loaded = changed(ranking, loading_mode="force", peak_strain=[0.3, 0.2, 0.1] * 2)
     figure = blank(8, 4)
     design_map(figure, loaded)
     ax = figure.axes[0]
@@ -54,23 +54,50 @@ def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
 
 
 def test_legends_explain_error_bars_where_any_are_drawn(ranking):
-    for name, draw in (("energy", design_map), ("per_gram", thickness_trends)):
-        bars = ranking.assign(**{f"error_{ranking.attrs[name]}": [np.nan, 0.1] * 3})
+    for name, draw in ((ranking.energy, design_map), (ranking.per_gram, thickness_trends)):
+        bars = changed(ranking, **{f"error_{name}": [np.nan, 0.1] * 3})
         for shown, known in ((ranking, False), (bars, True)):
             legends = drawn(shown, draw).legends
             texts = [text.get_text() for each in legends for text in each.get_texts()]
             assert ("± estimated error" in texts) == known
 
 
+@pytest.mark.parametrize(("patterns", "cells"), [(8, 3), (12, 20)])
+def test_legends_stay_on_the_page(patterns, cells):
+    rows = [
+        {"lattice_kind": f"pattern {k}", "cells_x": n + 2, "wall_thickness_m": (4 + n) * 1e-4}
+        for k in range(patterns)
+        for n in range(cells)
+    ]
+    figure = blank(6.8, 4.2)
+    design_map(figure, ranked(summary(*rows), top=None))
+    figure.draw_without_rendering()
+    (legend,) = figure.legends
+    page, box = figure.bbox, legend.get_window_extent()
+    assert page.x0 <= box.x0 < box.x1 <= page.x1
+    assert page.y0 <= box.y0 < box.y1 <= page.y1
+    assert figure.axes[0].bbox.width > 0.3 * 6.8 * figure.dpi
+
+
+def test_designs_of_the_same_mass_differ_in_their_signs():
+    kinds = ["square", "hex"]
+    rows = [{"mass_g": 1.4, "lattice_kind": kind, "cells_x": 4} for kind in kinds]
+    figure = drawn(ranked(summary(*rows), top=None))
+    signs = [dots.get_paths()[0].vertices.tolist() for dots in figure.axes[0].collections[:2]]
+    assert signs[0] != signs[1]
+    said = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert said == ["pattern", "hex", "square"]
+
+
 def test_charts_say_up_to_which_force_energy_counts():
     rows = [row | {"absorbed_energy_at_50N_J": 0.1} for row in designs([1.0, 2.0], [0.1, 0.3])]
-    ranking = rank(summary(*rows), top=None, allowed_force="50 N")
+    ranking = ranked(summary(*rows), top=None, allowed_force="50 N")
     for draw in design_map, thickness_trends:
         assert "\nuntil 50 N are passed on, J" in drawn(ranking, draw).axes[0].get_ylabel()
 
 
 def test_designs_beyond_the_model_are_open(ranking):
-    ranking["beyond_model"] = ranking["wall_thickness_m"] > 1e-3
+    ranking.table["beyond_model"] = ranking.table["wall_thickness_m"] > 1e-3
     figure = blank(8, 4)
     design_map(figure, ranking)
     for dots in figure.axes[0].collections[:2]:
@@ -79,7 +106,7 @@ def test_designs_beyond_the_model_are_open(ranking):
 
 
 def test_stairs_and_trends_are_dashed_to_and_from_what_is_not_to_be_trusted(ranking):
-    ranking["crossed"] = ranking["wall_thickness_m"].between(0.7e-3, 0.9e-3)
+    ranking.table["crossed"] = ranking.table["wall_thickness_m"].between(0.7e-3, 0.9e-3)
     for draw, y in ((design_map, [0.1, 0.3]), (thickness_trends, [0.1, 0.15, 0.2 / 3.0])):
         figure = blank(8, 4)
         draw(figure, ranking)
@@ -91,7 +118,7 @@ def test_stairs_and_trends_are_dashed_to_and_from_what_is_not_to_be_trusted(rank
 
 
 def test_designs_on_the_front_are_drawn_on_top_the_best_last(ranking):
-    ranking["material"] = np.where(ranking["pareto"], "cheetah", "ninjaflex")
+    ranking.table["material"] = np.where(ranking.table["pareto"], "cheetah", "ninjaflex")
     figure = blank(8, 4)
     design_map(figure, ranking)
     others, front = figure.axes[0].collections[:2]
@@ -114,18 +141,17 @@ def bars_of(ax):
 
 def test_designs_have_their_error_bars_which_end_above_zero(ranking):
     assert not any(map(bars_of, drawn(ranking).axes))
-    error = f"error_{ranking.attrs['energy']}"
-    sure = with_attrs(ranking, **{error: [0.01, 0.5, np.nan] * 2})
+    error = f"error_{ranking.energy}"
+    sure = changed(ranking, **{error: [0.01, 0.5, np.nan] * 2})
     ends = [bar[:, 1] for bar in bars_of(drawn(sure).axes[0])]
-    best, second = ranking["absorbed_energy_J"][:2]
+    best, second = ranking.table["absorbed_energy_J"][:2]
     np.testing.assert_allclose(ends, [[best - 0.01, best + 0.01], [0.1 * second, second + 0.5]])
-    wild = with_attrs(ranking, **{error: 1e6})
+    wild = changed(ranking, **{error: 1e6})
     assert drawn(wild).axes[0].get_ylim()[1] < 100.0 * best
 
 
 def test_trends_and_patterns_have_the_error_bars_of_energy_per_gram(ranking):
-    per_gram = ranking.attrs["per_gram"]
-    sure = with_attrs(ranking, **{f"error_{per_gram}": 0.02})
+    sure = changed(ranking, **{f"error_{ranking.per_gram}": 0.02})
     for draw, across in ((thickness_trends, 1), (pattern_bars, 0)):
         widths = [np.ptp(bar[:, across]) for bar in bars_of(drawn(sure, draw).axes[0])]
         np.testing.assert_allclose(widths, [0.04] * 3)
@@ -133,7 +159,7 @@ def test_trends_and_patterns_have_the_error_bars_of_energy_per_gram(ranking):
 
 def test_titles_break_behind_commas_only(ranking):
     names = "a rather long-winded name of a self-made material", "x" * (TITLE + 1)
-    ranking["material"] = [names[k % 2] for k in range(6)]
+    ranking.table["material"] = [names[k % 2] for k in range(6)]
     lines = [line.strip() for line in drawn(ranking).axes[0].get_title("left").splitlines()]
     assert len(lines) > 2
     assert all(line.endswith((",", "J/g", "platens")) for line in lines)
@@ -155,15 +181,13 @@ def drawn(ranking, draw=design_map):
     return figure
 
 
-def with_attrs(ranking, **columns):
-    changed = ranking.assign(**columns)
-    changed.attrs = ranking.attrs
-    return changed
+def changed(ranking, **columns):
+    return replace(ranking, table=ranking.table.assign(**columns))
 
 
 def test_designs_that_all_weigh_the_same_have_an_axis():
     rows = designs([1.4, 1.4 + 1e-14, 1.4 - 1e-14], [0.1, 0.3, 0.2])
-    axis = drawn(rank(summary(*rows), top=None)).axes[0].xaxis
+    axis = drawn(ranked(summary(*rows), top=None)).axes[0].xaxis
     low, high = axis.get_view_interval()
     assert 1.1 < high / low < 2.0
     assert low < 1.4 < high
@@ -171,11 +195,12 @@ def test_designs_that_all_weigh_the_same_have_an_axis():
 
 
 def test_trends_are_of_one_pattern_each(ranking):
-    assert has_trends(ranking)
-    ranking["lattice_kind"] = ["square", "hex", "square"] * 2
-    assert has_trends(ranking)
+    table = ranking.table
+    assert has_trends(table)
+    table["lattice_kind"] = ["square", "hex", "square"] * 2
+    assert has_trends(table)
     lines = drawn(ranking, thickness_trends).axes[0].get_lines()
     assert sorted(len(line.get_xdata()) for line in lines) == [1, 2]
-    ranking["lattice.grading"] = [1.0, 1.0, 2.0] * 2
-    assert not has_trends(ranking)
-    assert not has_trends(ranking.head(0))
+    table["lattice.grading"] = [1.0, 1.0, 2.0] * 2
+    assert not has_trends(table)
+    assert not has_trends(table.head(0))

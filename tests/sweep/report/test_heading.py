@@ -1,10 +1,10 @@
 """What stands above a ranking."""
 
 import pytest
-from specimens import summary, write
 
 from sweep.__main__ import main
 from sweep.result import absorbed_energy_column
+from tests.support.specimens import summary, write
 
 
 @pytest.mark.parametrize(

@@ -2,22 +2,24 @@
 
 import pandas as pd
 import pytest
-from specimens import designs, summary, write
 
-from sweep.report.pattern_bars import pattern_bars
+from sweep.ranking.rank import ranked
 from sweep.report.case_plots import blank
+from sweep.report.pattern_bars import pattern_bars
 from sweep.report.publish import publish_ranking
-from sweep.ranking.rank import rank
 from sweep.report.sheets import LOADED, MARKS
+from tests.support.specimens import designs, summary, write
+
+DESIGN_MAP = "sweep.report.design_map.design_map"
 
 
 @pytest.fixture
 def published(tmp_path):
     """A folder of two crushed designs, the heavier with more energy but fewer J/g, and a load."""
     load = {"loading_mode": "force", "force_N": 5.0, "peak_strain": 0.1}
-    table = summary(*designs([1.0, 4.0], [0.2, 0.4]), load)
+    usual = summary(*designs([1.0, 4.0], [0.2, 0.4]), load)
 
-    def publish(**question):
+    def publish(table=usual, **question):
         question = {"budget": None, "panel": None} | question
         paths = publish_ranking(write(tmp_path / "f.h5", table), table, question, tmp_path / "out")
         return {path.name: path for path in paths}
@@ -35,6 +37,22 @@ def test_table_of_all_designs_is_sorted_like_the_ranking(published):
     assert places(by="mass_g", budget=[2e-3]) == [1.0, 4.0]
 
 
+def test_pictures_have_all_designs_and_the_budgets_that_are_asked_for(published, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(DESIGN_MAP, lambda _, ranking: drawn.append(ranking))
+    published(budget=["2 g", "3 g"], top=1)
+    assert [list(ranking.table["mass_g"]) for ranking in drawn] == [[4.0, 1.0], [1.0]]
+    assert [ranking.budgets_g for ranking in drawn] == [(2.0, 3.0)] * 2
+
+
+def test_a_picture_has_as_many_scenes_as_fit(published, monkeypatch):
+    drawn = []
+    monkeypatch.setattr("sweep.report.publish.MAX_SCENES", 1)
+    monkeypatch.setattr(DESIGN_MAP, lambda _, ranking: drawn.append(ranking.table))
+    published(summary({}, {"platen": "contact"}))
+    assert [list(table["platen"]) for table in drawn] == [["glued"]]
+
+
 def test_tables_come_with_their_legend(published):
     text = published()["ranking.md"].read_text("utf-8")
     assert MARKS in text
@@ -50,7 +68,7 @@ def test_several_patterns_are_drawn_side_by_side(tmp_path):
     kinds = [{"lattice_kind": "hex", "lattice.orientation": "flat"}, {"lattice.orientation": ""}]
     rows = designs([1.0, 1.0], [0.2, 0.1])
     table = summary(*[row | kind for row, kind in zip(rows, kinds, strict=True)])
-    ranking = rank(table, top=None)
+    ranking = ranked(table, top=None)
     figure = blank(6, 3)
     pattern_bars(figure, ranking)
     (ax,) = figure.axes

@@ -1,9 +1,9 @@
 """Which shapes of a case are drawn, and what stands above them."""
 
 import pytest
-from specimens import squeezed_cell, summary, there_and_back, under_dead_load
 
 from sweep.report.storyboard import headline, last_loaded, shots
+from tests.support.specimens import squeezed_cell, summary, there_and_back, under_dead_load
 
 
 def captions(heights, release=None):

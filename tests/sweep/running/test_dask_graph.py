@@ -7,12 +7,12 @@ import time
 from itertools import groupby
 
 import pytest
-from standin import cases, number_of, simulate
 
-from sweep.running.dask_graph import GraphError, Stop, check_scheduler, run
 from sweep.config.case import Case, Lattice, Material, Solver
-from sweep.running.batches import Plan, cost
 from sweep.result import Status
+from sweep.running.batches import Plan, cost
+from sweep.running.dask_graph import GraphError, Stop, check_scheduler, run
+from tests.support.standin import cases, number_of, simulate
 
 
 class Kept(list):
@@ -245,13 +245,13 @@ def test_what_is_no_address_is_refused_in_one_line(address):
 
 
 def test_scheduler_that_is_not_there(monkeypatch):
-    monkeypatch.setattr("sweep.graph.ANSWER", 0.5)
+    monkeypatch.setattr("sweep.running.dask_graph.ANSWER", 0.5)
     with pytest.raises(GraphError, match="no Dask scheduler answers at tcp://"):
         check_scheduler("tcp://127.0.0.1:9")
 
 
 def test_server_that_never_answers(monkeypatch):
-    monkeypatch.setattr("sweep.graph.ANSWER", 0.5)
+    monkeypatch.setattr("sweep.running.dask_graph.ANSWER", 0.5)
     with socket.create_server(("127.0.0.1", 0)) as server:
         address = "tcp://{}:{}".format(*server.getsockname())
         with pytest.raises(GraphError, match=f"no Dask scheduler answers at {address}"):
@@ -262,7 +262,7 @@ def test_server_that_never_answers(monkeypatch):
 def test_scheduler_that_goes_away_is_told_in_one_line(monkeypatch):
     from distributed import LocalCluster
 
-    monkeypatch.setattr("sweep.graph.ANSWER", 1)
+    monkeypatch.setattr("sweep.running.dask_graph.ANSWER", 1)
     options = {"n_workers": 1, "threads_per_worker": 1, "processes": False}
     with (
         LocalCluster(**options, dashboard_address=None, silence_logs=60) as cluster,

@@ -5,18 +5,18 @@ import math
 from dataclasses import replace
 
 import pytest
-from standin import simulate
-from structures import BEAM
 
-from sweep.config.structure_file import read_structure
-from sweep.running.error_bars import add_error_bars, companions, companions_file, error_bars
-from sweep.config.grid import Config, Written, expand
 from sweep.config.case import Case, Lattice, Loading, Material, Solver
+from sweep.config.grid import Config, Written, expand
+from sweep.config.structure_file import read_structure
 from sweep.ranking.rank import rank
 from sweep.result import Status, describe_column, is_grid_key
+from sweep.running.error_bars import add_error_bars, companions, companions_file, error_bars
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate as crush
-from sweep.store.read import read_attributes, read_summary
+from sweep.store.read import Rerun, read_attributes, read_summary
+from tests.support.standin import forget_version, simulate
+from tests.support.structures import BEAM
 
 ENERGY, BAR = "absorbed_energy_J", "error_absorbed_energy_J"
 PRESSED = Loading(mode="displacement", strain=0.3)
@@ -216,8 +216,27 @@ def test_failed_companion_leaves_the_design_without_a_bar_and_is_told(out, capsy
 
     run = first_order
     assert add_error_bars(config(), out, simulate=run) == 1
-    assert add_error_bars(config(), out, retry_failed=True, simulate=run) == 0
+    assert add_error_bars(config(), out, rerun=Rerun(failed=True), simulate=run) == 0
     assert list(read_summary(out)[BAR]) == pytest.approx([1.5, 1.5])
+
+
+def test_error_bars_are_never_of_two_models(out):
+    run_sweep(config(), out, simulate=first_order)
+    assert add_error_bars(config(), out, simulate=first_order) == 0
+    forget_version(companions_file(out))
+    assert add_error_bars(config(), out, simulate=first_order) == 2
+    assert read_summary(out)[BAR].isna().all()
+    assert add_error_bars(config(), out, rerun=Rerun(older=True), simulate=first_order) == 0
+    assert list(read_summary(out)[BAR]) == pytest.approx([1.5, 1.5])
+
+
+def test_renewed_companions_are_no_older_rows_of_another_sweep(out):
+    run_sweep(config(lattice__nodes_per_wall=(2, 5)), out, simulate=first_order)
+    forget_version(out)
+    sweep, renew = config(lattice__nodes_per_wall=(2,)), Rerun(older=True)
+    run_sweep(sweep, out, rerun=renew, simulate=first_order)
+    assert add_error_bars(sweep, out, rerun=renew, simulate=first_order) == 0
+    assert add_error_bars(sweep, out, simulate=first_order) == 0
 
 
 def test_failed_design_has_no_companions(out, log, logged):

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Lattice, Loading
-from sweep.running.estimate import duration, estimate
-from sweep.running.batches import cost
 from sweep.result import Result, Status
+from sweep.running.batches import cost
+from sweep.running.estimate import duration, estimate
 from sweep.running.sweep import Interrupted
 
 GLUED = Loading(mode="displacement", platen="glued")

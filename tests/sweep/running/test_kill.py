@@ -1,6 +1,6 @@
 """kill -9 in the middle of a real `crumple run`: the same command completes it, to the same table.
 
-tests/test_run.py kills sweeps of a stand-in; here the kernels run and the command line speaks.
+`test_sweep` kills sweeps of a stand-in; here the kernels run and the command line speaks.
 """
 
 import subprocess
@@ -14,7 +14,7 @@ import pytest
 from sweep.simulation.simulate import warm_up
 from sweep.store.read import finished_ids, read_history, read_summary
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[3]
 CASES = 20
 CONFIG = """
 name = "killed"

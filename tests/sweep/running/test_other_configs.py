@@ -3,11 +3,11 @@
 from importlib import import_module
 
 import pytest
-from standin import cases, simulate
 
 from sweep.__main__ import main
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_attributes
+from tests.support.standin import cases, simulate
 
 CONFIG = """
 name = "trial"

@@ -4,10 +4,10 @@ import io
 
 import pytest
 from rich.console import Console
-from standin import cases, simulate
 
 from sweep.running import progress
 from sweep.running.progress import Progress
+from tests.support.standin import cases, simulate
 
 
 class Clock:

@@ -12,20 +12,28 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from standin import cases, number_of, parts_of, simulate, slow
 
-from sweep.running.writer_thread import AT_RISK, keeping
-from sweep.running.dask_graph import GraphError
 from sweep.config.grid import Config, Written
 from sweep.running.batches import Plan
+from sweep.running.dask_graph import GraphError
 from sweep.running.progress import Progress
 from sweep.running.sweep import Interrupted, run_sweep
-from sweep.store.read import StoreError, exists, read_attributes, read_frames, read_history, read_summary
+from sweep.running.writer_thread import AT_RISK, keeping
+from sweep.store.read import (
+    Rerun,
+    StoreError,
+    exists,
+    read_attributes,
+    read_frames,
+    read_history,
+    read_summary,
+)
 from sweep.store.write import Writer
+from tests.support.standin import cases, number_of, parts_of, simulate, slow
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[3]
 SWEEP = """
-from standin import cases, slow
+from tests.support.standin import cases, slow
 from sweep.running.sweep import Interrupted, run_sweep
 
 if __name__ == "__main__":
@@ -47,7 +55,7 @@ def executions(tmp_path, monkeypatch):
 
 def started(out):
     """A sweep of 80 cases of 20 ms in a process of its own."""
-    paths = os.pathsep.join([str(ROOT), str(ROOT / "tests")])
+    paths = str(ROOT)
     return subprocess.Popen(
         [sys.executable, "-c", SWEEP.format(out=str(out))],
         env=os.environ | {"PYTHONPATH": paths},
@@ -163,7 +171,7 @@ def test_last_results_become_a_part_where_the_one_file_cannot_be_finished(tmp_pa
         fold(writer, last)
 
     monkeypatch.setattr(Writer, "fold", robbed)
-    monkeypatch.setattr("sweep.clerk.AT_RISK", np.inf)
+    monkeypatch.setattr("sweep.running.writer_thread.AT_RISK", np.inf)
     with pytest.raises(StoreError, match="cannot be written: No such file"):
         run_sweep(cases(30), out, simulate=lambda case, stop: simulate(case))
     assert len(read_summary(out)) == 30
@@ -184,7 +192,7 @@ def test_finished_cases_do_not_run_again(tmp_path, executions, capsys):
     assert run_sweep(cases(9), out, simulate=slow) == 1
     assert run_sweep(cases(9), out, simulate=slow) == 1
     assert len(executions.read_text().split()) == 9
-    assert run_sweep(cases(9), out, simulate=slow, retry_failed=True) == 1
+    assert run_sweep(cases(9), out, simulate=slow, rerun=Rerun(failed=True)) == 1
     assert executions.read_text().split()[9:] == [cases(9)[7].case_id]
     assert len(read_summary(out)) == 9
     assert "9/9 cases" in capsys.readouterr().out
@@ -221,7 +229,7 @@ def test_first_result_is_sealed_at_once_and_later_ones_when_they_are_worth_it(
     tmp_path, told, monkeypatch
 ):
     """Two workers: what is at risk is at most twice as much. NaN might be any time."""
-    monkeypatch.setattr("sweep.clerk.ThreadPoolExecutor", AtOnce)
+    monkeypatch.setattr("sweep.running.writer_thread.ThreadPoolExecutor", AtOnce)
     out, sealed = tmp_path / "sweep.h5", []
     batches = [(0.1, [0]), (0.9, [1, 2]), (0.3, [3]), (1.9, [4]), (np.nan, [5]), (0.1, [6])]
     with Writer(out) as writer, keeping(writer, Plan([], workers=2), told) as keep:
@@ -245,7 +253,7 @@ def test_error_of_the_clerk_ends_the_sweep_and_keeps_what_is_sealed(tmp_path, mo
         append(writer, results)
 
     out = tmp_path / "sweep.h5"
-    monkeypatch.setattr("sweep.clerk.AT_RISK", 0.0)
+    monkeypatch.setattr("sweep.running.writer_thread.AT_RISK", 0.0)
     monkeypatch.setattr(Writer, "append", full)
     with pytest.raises(StoreError, match="no space left"):
         run_sweep(cases(40), out, workers=2, simulate=lambda case, stop: simulate(case))

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Lattice, Loading, Solver
-from sweep.scene.terms import build_scene
-from tests.figures import MATERIAL
-from tests.solving import whole
+from sweep.scene.lattice import build_scene
+from tests.studies.verify import MATERIAL
+from tests.support.solving import whole
 
 DEPTH, THICKNESS, WALL = 12e-3, 0.8e-3, 12.5e-3 / 3
 RIGIDITY = MATERIAL.modulus * DEPTH * THICKNESS**3 / 12
@@ -55,7 +55,7 @@ def test_arms_and_hinges_are_free_of_stress_at_rest(imperfection, measure):
     scene = scene_of(4, imperfection=imperfection, solver=Solver(bend_measure=measure))
     assert scene.terms.bend.measure == {"angle": 0, "tangent": 1}[measure]
     g = whole(scene, scene.x_rest).gradient(scene.x_rest)
-    np.testing.assert_allclose(g, -scene.terms.load, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(g, -scene.terms.coordinates.load, rtol=0, atol=1e-9)
 
 
 def test_folds_of_a_grid():

@@ -6,10 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sweep.config.units import load_config
-from sweep.config.grid import expand
 from sweep.config.case import Contact
-from tests.structures import (
+from sweep.config.grid import expand
+from sweep.config.units import load_config
+from tests.studies.validation.elastica import cantilever
+from tests.support.structures import (
     AXIAL,
     BEAM,
     BENDING,
@@ -23,10 +24,9 @@ from tests.structures import (
     probe,
     pushed,
 )
-from tests.validation.elastica import cantilever
 
 L = LENGTH * MM
-CONFIGS = Path(__file__).parents[1] / "configs"
+CONFIGS = Path(__file__).parents[3] / "configs"
 
 
 def end_load(force, moment=0.0):

@@ -5,9 +5,9 @@ import pytest
 
 from sweep.config.case import Contact, Damping
 from sweep.result import Column, describe_history
-from tests.figures import MATERIAL
-from tests.scenes import unbalanced
-from tests.structures import (
+from tests.studies.verify import MATERIAL
+from tests.support.scenes import unbalanced
+from tests.support.structures import (
     BEAM,
     GRAVITY,
     LENGTH,

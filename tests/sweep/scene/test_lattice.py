@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 
-from sweep.design.network import mass
+from kernels.solve.problem import HELD
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
-from sweep.scene.terms import build_scene, plane_factors
+from sweep.design.network import mass
+from sweep.scene.lattice import build_scene
+from sweep.scene.terms import plane_factors
 from sweep.simulation.simulate import simulate
-from tests.figures import MATERIAL
+from tests.studies.verify import MATERIAL
 
 DEPTH, THICKNESS, WALL = 12e-3, 0.8e-3, 12.5e-3 / 3
 LOADINGS = {
@@ -34,16 +36,16 @@ def test_masses_sum_to_the_printed_mass_in_each_direction(elements, platen):
     expected = mass(scene.network, DEPTH, MATERIAL.density)
     printed = (12.5e-3 + THICKNESS) ** 2 - 9 * (WALL - THICKNESS) ** 2
     assert expected == pytest.approx(printed * DEPTH * MATERIAL.density, rel=1e-9)
-    x, y = scene.terms.mass[:nodes].reshape(-1, 2).T
+    x, y = scene.terms.coordinates.mass[:nodes].reshape(-1, 2).T
     np.testing.assert_array_equal(x, y)
     assert x.sum() == pytest.approx(expected, rel=1e-12)
     assert x.min() > 0.0
-    assert not scene.terms.mass[nodes:].any()
+    assert not scene.terms.coordinates.mass[nodes:].any()
 
 
 def test_masses_go_with_the_length_around_a_node():
     scene = scene_of(3)
-    x = scene.terms.mass[: 2 * len(scene.mesh.points) : 2]
+    x = scene.terms.coordinates.mass[: 2 * len(scene.mesh.points) : 2]
     elements = np.bincount(scene.mesh.edges.ravel())
     np.testing.assert_allclose(x / x[-1], elements / 2, rtol=1e-12)
 
@@ -52,7 +54,7 @@ def test_masses_go_with_the_length_around_a_node():
 @pytest.mark.parametrize("platen", LOADINGS)
 def test_the_load_sums_to_the_force(platen, elements):
     scene = scene_of(elements, platen)
-    load, nodes = scene.terms.load, 2 * len(scene.mesh.points)
+    load, nodes = scene.terms.coordinates.load, 2 * len(scene.mesh.points)
     if platen.startswith("driven"):
         assert not load.any()
     elif platen == "none":
@@ -79,7 +81,7 @@ def row_of_nodes(scene, height):
 def test_what_is_held_and_what_moves_with_the_platen(platen, elements):
     """A clamped row is held in x, y and phi; a glued upper one too, but for y, the platen's."""
     scene = scene_of(elements, platen)
-    leader = scene.unknowns.leader
+    leader = scene.terms.layout.leader
     low, high = leader.size - 2, leader.size - 1
     bottom, top = (np.concatenate(row_of_nodes(scene, y)) for y in (0.0, 12.5e-3))
     x, y, rotation = row_of_nodes(scene, 12.5e-3)
@@ -93,7 +95,7 @@ def test_what_is_held_and_what_moves_with_the_platen(platen, elements):
     np.testing.assert_array_equal(np.flatnonzero(leader == high), np.sort(led))
     alone = np.delete(np.arange(leader.size), [*held, *led])
     np.testing.assert_array_equal(leader[alone], alone)
-    assert scene.unknowns.driven == (high if platen.startswith("driven") else -1)
+    assert scene.terms.coordinates.driven == (high if platen.startswith("driven") else -1)
     assert len(top) == len(bottom)
 
 
@@ -103,8 +105,9 @@ def test_the_solver_knows_who_leads_and_where_walls_are(platen, elements):
     scene = scene_of(elements, platen)
     layout, walls, mesh = scene.terms.layout, scene.terms.walls, scene.mesh
     assert (layout.n_nodes, layout.n_joints) == (len(mesh.points), 16)
-    assert layout.driven == scene.unknowns.driven
-    np.testing.assert_array_equal(layout.leader, scene.unknowns.leader)
+    assert layout.driven == scene.terms.coordinates.driven
+    held = scene.terms.coordinates.role == HELD
+    np.testing.assert_array_equal(layout.leader < 0, held)
     expected = np.full(len(mesh.points), -1)
     for w in range(24):
         chain = walls.edges[walls.start[w] : walls.start[w + 1]]
@@ -146,10 +149,10 @@ def test_a_glued_row_keeps_its_shape():
 
 def test_rotations_are_scaled_by_the_length_of_an_element():
     scene = scene_of(3)
-    scale, nodes = scene.unknowns.scale, 2 * len(scene.mesh.points)
+    scale, nodes = scene.terms.coordinates.scale, 2 * len(scene.mesh.points)
     np.testing.assert_allclose(scale[nodes:-2], WALL / 3, rtol=1e-12)
     np.testing.assert_array_equal(np.delete(scale, np.arange(nodes, nodes + 16)), 1.0)
-    np.testing.assert_allclose(scene.unknowns.lever * scale, 1.0, rtol=1e-15)
+    np.testing.assert_allclose(scene.terms.coordinates.lever * scale, 1.0, rtol=1e-15)
 
 
 @pytest.mark.parametrize(

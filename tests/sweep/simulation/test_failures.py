@@ -10,7 +10,7 @@ import pytest
 from sweep.config.case import Case, Contact, Lattice, Loading, Solver
 from sweep.result import COLUMNS, HISTORY_COLUMNS, Status
 from sweep.simulation.simulate import simulate
-from tests.scenes import is_sound, pressed
+from tests.support.scenes import is_sound, pressed
 
 LONG = Case(
     lattice=Lattice(cells_x=8, cells_y=8, wall_thickness=0.4e-3),
@@ -130,7 +130,7 @@ def test_extremes_raise_nothing_and_cross_nowhere(name):
 
 
 def test_a_book_that_does_not_close_is_no_result():
-    with patch("sweep.simulate.GAP", -1.0):
+    with patch("sweep.simulation.simulate.GAP", -1.0):
         result = simulate(pressed(3, 0.2, 10))
     assert result.status == Status.STOPPED
     assert result.message.startswith(

@@ -5,9 +5,15 @@ from itertools import combinations
 import numpy as np
 import pytest
 import shapely
-from specimens import squeezed_cell
 
-from sweep.simulation.shape_checks import crossings, element_strains, kept_area, shortening, work_within_model
+from sweep.simulation.shape_checks import (
+    crossings,
+    element_strains,
+    kept_area,
+    shortening,
+    work_within_model,
+)
+from tests.support.specimens import squeezed_cell
 
 SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1]]
 SIDES = [[0, 1], [1, 2], [2, 3], [3, 0]]

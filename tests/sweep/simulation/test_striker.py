@@ -6,16 +6,15 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from kernels.terms import inertia
 from kernels.solve import newton
-from kernels.planar import rows as trace
-from sweep.config.units import load_config
-from sweep.config.grid import expand
+from kernels.solve.energy_book import kinetic
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
-from sweep.scene.terms import build_scene
+from sweep.config.grid import expand
+from sweep.config.units import load_config
+from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
-from tests.figures import MATERIAL
-from tests.scenes import (
+from tests.studies.verify import MATERIAL
+from tests.support.scenes import (
     LOST,
     SEED,
     STORED,
@@ -29,7 +28,7 @@ from tests.scenes import (
     summed,
     unbalanced,
 )
-from tests.solving import at_rest, go_on, ramp
+from tests.support.solving import at_rest, go_on, ramp
 
 RECOVERABLE = ("stretch_J", "bend_J", "contact_J")
 EULER = "backward_euler"
@@ -120,12 +119,39 @@ def test_momentum_goes_into_the_support(platen, friction):
     state.v[:] = scene.velocity
     dt = case.solver.time_step
     up = np.append(np.arange(1, 2 * len(scene.mesh.points), 2), len(state.x) - 1)
-    before = np.sum(scene.terms.mass[up] * state.v[up])
+    before = np.sum(scene.terms.coordinates.mass[up] * state.v[up])
     outcome, rows = go_on(case, scene, state, ramp(scene, 150, dt))
     assert outcome == newton.CONVERGED
-    gained = np.sum(scene.terms.mass[up] * state.v[up]) - before
+    gained = np.sum(scene.terms.coordinates.mass[up] * state.v[up]) - before
     assert gained > 0.01  # N s
-    assert np.sum(rows[:, trace.REACTION_BOTTOM]) * dt == pytest.approx(gained, rel=1e-5)
+    assert np.sum(rows["reaction_bottom"]) * dt == pytest.approx(gained, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("count", "step_error"),
+    [(400, None), (40.5, None), (12.5, None), (400, 1e-6), (40.5, 1e-6)],
+    ids=["whole", "not whole", "few", "whole, adaptive", "not whole, adaptive"],
+)
+@pytest.mark.parametrize("platen", ["glued", "contact"])
+def test_impulse_of_the_striker_s_force_is_its_change_of_momentum(platen, count, step_error):
+    """However many steps fill the duration, and however a step is divided."""
+    loading = Loading(mode="impact", platen=platen, duration=0.02)
+    solver = Solver(time_step=0.02 / count, step_error=step_error)
+    case = Case(material=MATERIAL, loading=loading, solver=solver)
+    history = run(case).history
+    time, speed = history["time_s"], history["striker_speed_m_per_s"]
+    impulse = np.cumsum(history["reaction_top_N"][1:] * np.diff(time))
+    lost = case.loading.striker_mass * (speed[0] - speed[1:])
+    np.testing.assert_allclose(impulse, lost, rtol=1e-12, atol=1e-13)
+    assert np.diff(time)[0] == pytest.approx(0.02 / np.ceil(count), rel=1e-12)
+
+
+@pytest.mark.parametrize("count", [2000, 30.5])
+def test_what_pushes_the_striker_is_what_its_support_bears(count):
+    """Walls without mass pass on what a striker exerts, at the end of a backward Euler step."""
+    history = run(column(count / 2)[0]).history
+    off = np.abs(history["reaction_top_N"] - history["reaction_bottom_N"])[1:]
+    assert off.max() < 2e-3 * history["reaction_bottom_N"].max()
 
 
 def test_energy_stays_where_nothing_dissipates():
@@ -210,13 +236,13 @@ def test_the_glued_row_flies_with_the_striker(platen):
     top = 2 * np.flatnonzero(np.isclose(scene.mesh.points[:, 1], case.lattice.height)) + 1
     assert np.all(scene.velocity[top] == (-2.0 if platen == "glued" else 0.0))
     assert np.count_nonzero(scene.velocity) == (len(top) if platen == "glued" else 0) + 1
-    brought = inertia.kinetic(scene.velocity, scene.terms.mass)
+    brought = kinetic(scene.velocity, scene.terms.coordinates.mass)
     assert brought == pytest.approx(0.1, rel=0.005)
     assert brought == run(case).history["work_in_J"][0]
 
 
 def test_the_shipped_sweep_over_hit_energies():
-    case = expand(load_config(Path(__file__).parents[1] / "configs" / "impact.toml"))[2]
+    case = expand(load_config(Path(__file__).parents[3] / "configs" / "impact.toml"))[2]
     assert (case.loading.energy, case.lattice.wall_thickness) == (0.03, 1.2e-3)
     assert case.solver.integrator == "bdf2"
     assert run(case).summary["peak_force_N"] == pytest.approx(77.7, abs=0.4)

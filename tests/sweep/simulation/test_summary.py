@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from sweep.config.case import Case, Lattice, Loading
 from sweep.simulation.summary import (
     absorbed_until,
     crush_columns,
@@ -11,7 +12,6 @@ from sweep.simulation.summary import (
     returned,
     transmitted,
 )
-from sweep.config.case import Case, Lattice, Loading
 
 LATTICE = Lattice(width=9e-3, wall_thickness=1e-3, height=10e-3, depth=10e-3)  # area 1 cm^2
 AREA, HEIGHT = 1e-4, 10e-3

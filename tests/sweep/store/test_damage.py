@@ -2,7 +2,6 @@
 
 import h5py
 import pytest
-from standin import cases, parts_of, write
 
 from sweep.store.read import (
     StoreError,
@@ -12,6 +11,7 @@ from sweep.store.read import (
     read_history,
     read_summary,
 )
+from tests.support.standin import cases, parts_of, write
 
 
 @pytest.fixture

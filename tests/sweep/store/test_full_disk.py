@@ -6,14 +6,14 @@ import sys
 from pathlib import Path
 
 import pytest
-from standin import parts_of, write
 
 from sweep.store.read import finished_ids
+from tests.support.standin import parts_of, write
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[3]
 PROGRAM = """
 import resource
-from standin import cases, write
+from tests.support.standin import cases, write
 from sweep.store.read import StoreError
 
 resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
@@ -33,7 +33,7 @@ def fill(path, count, limit, size=2):
     """Write results of cases, `size` at a time, where no file may be longer than `limit` bytes."""
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM.format(path=str(path), count=count, limit=limit, size=size)],
-        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(ROOT), str(ROOT / "tests")])},
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
         capture_output=True,
         text=True,
     )

@@ -9,11 +9,11 @@ import h5py
 import numpy as np
 import pandas as pd
 import pytest
-from standin import cases, frames, parts_of, simulate, write
 
-from sweep.store.read import parts
 from sweep.result import COLUMNS, HISTORY_COLUMNS, Status, failed_result
+from sweep.store import parts
 from sweep.store.read import (
+    Rerun,
     StoreError,
     finished_ids,
     read_attributes,
@@ -22,8 +22,9 @@ from sweep.store.read import (
     read_summary,
 )
 from sweep.store.write import Writer
+from tests.support.standin import cases, frames, parts_of, simulate, write
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture
@@ -185,7 +186,7 @@ def test_failed_cases_are_finished_unless_they_are_to_be_tried_again(path):
     assert finished_ids(path) == set()
     write(path, batch)
     assert finished_ids(path) == {case.case_id for case in batch}
-    assert finished_ids(path, retry_failed=True) == finished_ids(path) - {batch[7].case_id}
+    assert finished_ids(path, Rerun(failed=True)) == finished_ids(path) - {batch[7].case_id}
 
 
 def test_another_grid_into_the_same_file(path):

@@ -4,9 +4,13 @@ from math import pi
 
 import numpy as np
 import pytest
-import readme
 
+from sweep.config.case import Case, Contact, Lattice, Loading, Material
+from sweep.config.grid import expand
 from sweep.config.units import load_config
+from sweep.running.sweep import run_sweep
+from sweep.simulation.simulate import simulate
+from sweep.studies.course_report.cases import varied
 from sweep.studies.khatri_egan import (
     CONFIG,
     FACTORS,
@@ -16,11 +20,7 @@ from sweep.studies.khatri_egan import (
     predictions,
     report,
 )
-from sweep.studies.course_report.cases import varied
-from sweep.config.grid import expand
-from sweep.config.case import Case, Contact, Lattice, Loading, Material
-from sweep.running.sweep import run_sweep
-from sweep.simulation.simulate import simulate
+from tests.support import readme
 
 CASES = expand(load_config(CONFIG))
 

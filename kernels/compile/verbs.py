@@ -1,0 +1,55 @@
+"""Methods of named tuples: kernels that other kernels find by the type of a tuple.
+
+``problem.evaluate(x)`` calls the kernel `evaluate` of the class of ``problem``: code that calls
+verbs is compiled for each class of problem that it meets, and for no other.
+"""
+
+from numba.core import types
+from numba.core.imputils import lower_builtin
+from numba.core.typing import signature
+from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_getattr
+
+from kernels.compile.reference import Reference
+
+VERB = "verb"  # and its name: the key by which Numba finds how a verb is called
+_declared = set()
+
+
+class _Verb(AbstractTemplate):
+    """A call of a verb, of which Numba knows the tuple already (``this``)."""
+
+    def generic(self, args, kws):
+        kernel = getattr(self.this.instance_class, self.name)
+        found = kernel._numba_type_.get_call_type(self.context, (self.this, *args), kws)
+        return signature(found.return_type, *found.args[1:], recvr=self.this)
+
+
+def _declare(name):
+    """Tell Numba how to call the verb of this name: as the kernel that it is."""
+    if name in _declared:
+        return
+    _declared.add(name)
+
+    @lower_builtin((VERB, name), types.BaseNamedTuple, types.VarArg(types.Any))
+    @lower_builtin((VERB, name), Reference, types.VarArg(types.Any))
+    def code(context, builder, sig, args):
+        kernel = getattr(sig.args[0].instance_class, name)._numba_type_
+        found = kernel.get_call_type(context.typing_context, sig.args, {})
+        call = context.get_function(kernel, found)
+        context.add_linking_libs(getattr(call, "libs", ()))
+        return call(builder, args)
+
+
+def register(is_kernel):
+    """Let kernels call verbs: attributes of the class of a named tuple that ``is_kernel``."""
+
+    class Verbs(AttributeTemplate):
+        def generic_resolve(self, kind, name):
+            if not is_kernel(getattr(kind.instance_class, name, None)):
+                return None  # a field
+            _declare(name)
+            template = type(name, (_Verb,), {"key": (VERB, name), "name": name})
+            return types.BoundFunction(template, kind)
+
+    for found in (types.BaseNamedTuple, Reference):
+        infer_getattr(type(Verbs.__name__, (Verbs,), {"key": found}))

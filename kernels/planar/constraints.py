@@ -1,0 +1,57 @@
+"""What is held, tied and led in a lattice: platens, prescribed moves, and images of a period."""
+
+from kernels.arrays import zero, zero_rows
+from kernels.compile.jit import jit, jit_exact
+from kernels.linear import periodic_images
+from kernels.terms import elements
+
+
+@jit
+def reduce(problem, g, residual):
+    """Fill ``residual`` (n,) with ``g``, what is tied added to its leader, zero where held."""
+    layout = problem.scene.layout
+    zero(residual)
+    for i in range(g.size):
+        leader = layout.leader[i]
+        if leader == i:
+            residual[i] += g[i]
+        elif leader >= 0:
+            residual[leader] += layout.ratio[i] * g[i]
+    periodic_images.collect(layout.images, residual)
+
+
+@jit_exact
+def lead(problem, move, direction):
+    """Write the moves of all that is led when the driven coordinate goes by ``move`` m."""
+    layout = problem.scene.layout
+    for i in range(direction.size):
+        if layout.leader[i] == layout.driven:
+            direction[i] = layout.ratio[i] * move
+    periodic_images.spread(layout.images, direction)
+
+
+@jit_exact
+def pull(problem, move, direction):
+    """Fill ``direction`` (n,), zero before, with the change of the gradient when the driven
+    coordinate goes by ``move`` m.
+    """
+    walls, shape, stiffness = problem.scene.walls, problem.room.shape, problem.room.stiffness
+    matrix = problem.near.system.matrix
+    lead(problem, move, direction)
+    zero_rows(shape.slope)
+    zero(shape.moment)
+    elements.product(walls, stiffness, direction, 1.0, shape)
+    zero(direction)
+    elements.gather(walls, shape, direction)
+    for i in range(direction.size):
+        direction[i] += matrix.pull[i] * move
+
+
+@jit_exact
+def tie(problem, vector):
+    """Let what follows another coordinate have its value, times the ratio of their moves."""
+    layout = problem.scene.layout
+    for i in range(layout.leader.size):
+        leader = layout.leader[i]
+        if leader >= 0 and leader != i:
+            vector[i] = layout.ratio[i] * vector[leader]

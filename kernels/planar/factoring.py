@@ -1,0 +1,58 @@
+"""The Hessian of a lattice at the point of the last `potential.evaluate`, factored and solved."""
+
+from kernels.compile.jit import jit_exact
+from kernels.linear import block_ldlt, system
+from kernels.linear.block_matrix import clear
+from kernels.planar.lagging import slip_of
+from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
+from kernels.terms import contact, fold, friction, spring
+
+LENGTHS = 2  # x and y, the first slots of a block
+
+
+@jit_exact
+def factor(problem, x, step, found, projected, through):
+    """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""
+    scene, near, coordinates = problem.scene, problem.near, problem.scene.coordinates
+    matrix = near.system.matrix
+    clear(matrix)
+    fold.hessian(x, scene.fold, matrix, projected)
+    spring.hessian(x, scene.spring, matrix, projected)
+    contact.hessian(x, scene.contact, near.pairs, near.touching, matrix, projected)
+    friction.hessian(found.u, problem.near.lagged, slip_of(problem, step), matrix, projected)
+    if step.dynamic:
+        inert, drag = 1.0 / (step.h * step.h), scene.damp.alpha_m / step.h
+        for i in range(x.size):
+            matrix.diagonal[i] += inert * coordinates.mass[i]
+        for i in range(2 * scene.layout.n_nodes):
+            matrix.diagonal[i] += drag * coordinates.mass[i]
+    failed, pivot = system.factor(
+        near.system, scene.layout, scene.walls, problem.room.stiffness, projected, through
+    )
+    if matrix.missing[0] != 0:
+        return NO_ROOM, pivot
+    return (NEGATIVE if failed else POSITIVE), pivot
+
+
+@jit_exact
+def solve(problem, b):
+    """Solve in place for a right side ``b`` (n,); what is held stays at zero."""
+    system.solve(problem.near.system, problem.scene.layout, b)
+
+
+@jit_exact
+def descend(problem, direction):
+    """Fill ``direction`` (n,) with d such that d . H d is the negative pivot of `factor`."""
+    system.descend(problem.near.system, problem.scene.layout, direction)
+
+
+@jit_exact
+def unstable(problem):
+    """Return how many pivots of the factor are negative."""
+    return system.negatives(problem.near.system)
+
+
+@jit_exact
+def stiffest(problem):
+    """Return the largest diagonal entry of a coordinate of a node in the last factor, N/m."""
+    return block_ldlt.stiffest(problem.near.system.matrix, LENGTHS)

@@ -1,0 +1,66 @@
+"""How a wheel is laid out: all in one package, as `kernels` and `sweep` alone are names of others.
+
+    crumple/__init__.py                               crumple.py
+    crumple/kernels/, crumple/sweep/                  these folders; what they import of each other,
+                                                      they import from `crumple.kernels` and so on
+    crumple/configs/                                  this folder: materials and examples
+
+An editable install takes the checkout as it is. All else is said in pyproject.toml.
+"""
+
+import re
+import shutil
+from pathlib import Path
+
+from setuptools import setup
+from setuptools.command.build_py import build_py
+from setuptools.command.egg_info import egg_info
+
+ROOT = Path(__file__).parent
+OWN_IMPORT = re.compile(r"^( *from )(?=(?:kernels|sweep)\b)", re.MULTILINE)
+MAIN = '''"""The command line, as `python -m crumple`."""
+
+from crumple import main
+
+raise SystemExit(main())
+'''
+
+
+class OnePackage(build_py):
+    """Copies the modules, then moves them into one package."""
+
+    def run(self):
+        """Build; an editable install needs no copy."""
+        if self.editable_mode:
+            super().run()
+            return
+        built = Path(self.build_lib)
+        shutil.rmtree(built, ignore_errors=True)  # it may hold modules of an earlier build
+        super().run()
+        move(built, built / "crumple")
+
+
+def move(built, package):
+    """Move what was built into a package, and add what is no module of the checkout."""
+    package.mkdir()
+    (built / "crumple.py").rename(package / "__init__.py")
+    for folder in ("kernels", "sweep"):
+        (built / folder).rename(package / folder)
+    for path in package.rglob("*.py"):
+        path.write_text(OWN_IMPORT.sub(r"\1crumple.", path.read_text("utf-8")), "utf-8")
+    (package / "__main__.py").write_text(MAIN, "utf-8")
+    (package / "py.typed").touch()
+    shutil.copytree(ROOT / "configs", package / "configs")
+
+
+class OneName(egg_info):
+    """Writes what is known of the project, with the one name that a wheel takes."""
+
+    def run(self):
+        """Write it."""
+        super().run()
+        Path(self.egg_info, "top_level.txt").write_text("crumple\n", "utf-8")
+
+
+if __name__ == "__main__":
+    setup(cmdclass={"build_py": OnePackage, "egg_info": OneName})

@@ -1,0 +1,90 @@
+"""The infill of a box: its walls cut at an outline, graded, and how wide its cells are open."""
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sweep.design.drawing import (
+    Floats,
+    Indices,
+    Sketch,
+    joints_and_walls,
+    on_outline,
+    sample,
+    sketch,
+)
+from sweep.design.geometry import Geometry
+from sweep.design.network import Network
+
+
+def build_box(geometry: Geometry) -> Network:
+    """The infill stretched to the box; within an outline it is cut there and joined to it."""
+    points, walls = joints_and_walls(sketch(geometry))
+    thickness = np.full(len(walls), geometry.wall_thickness)
+    if geometry.grading != 1.0:
+        thickness *= gradient(geometry)
+    for on, outline in _outlines(geometry, points, walls):
+        thickness[on] = outline
+    thickness.flags.writeable = False
+    y = points[:, 1]
+    return Network(
+        points, walls, thickness, np.flatnonzero(y == y.min()), np.flatnonzero(y == y.max())
+    )
+
+
+def infill_walls(geometry: Geometry) -> tuple[Floats, Floats]:
+    """Length (w,) in m and height of the middle / height of the box of every wall.
+
+    Walls of the outline have length 0.
+    """
+    points, walls = joints_and_walls(sketch(geometry))
+    ends = points[walls]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    for on, _ in _outlines(geometry, points, walls):
+        length[on] = 0.0
+    return length, ends[..., 1].mean(axis=1) / geometry.box[1]
+
+
+def gradient(geometry: Geometry) -> Floats:
+    """Thickness of every wall / the mean over the length of all walls of the infill, (w,).
+
+    Linear in the height of the wall's middle, with the ratio `grading` from top to bottom.
+    """
+    length, height = infill_walls(geometry)
+    share = 1.0 + (geometry.grading - 1.0) * height
+    return share / np.average(share, weights=length) if length.any() else share
+
+
+def _outlines(
+    geometry: Geometry, points: Floats, walls: Indices
+) -> list[tuple[NDArray[np.bool_], float]]:
+    """The walls on each side that is outlined, and their thickness."""
+    found = []
+    for axis, thickness in enumerate(geometry.outline):
+        if thickness > 0.0:
+            for side in (0.0, geometry.box[axis]):
+                found.append((on_outline(points, walls, side, axis), thickness))
+    return found
+
+
+def opening(geometry: Geometry) -> float:
+    """Clear width between the centre lines of the narrowest cell that is whole, m.
+
+    It is that of the largest circle within a cell.
+    """
+    return _opening(sketch(geometry, outlined=False))
+
+
+@lru_cache(maxsize=256)
+def _opening(drawn: Sketch) -> float:
+    import shapely  # which few sweeps need
+
+    points, walls = joints_and_walls(sample(drawn))
+    cells = shapely.get_parts(shapely.polygonize(shapely.linestrings(points[walls])))
+    size = np.column_stack([shapely.area(cells), shapely.length(cells)])
+    scale = size[:, 1].max() ** np.array([2, 1])
+    _, differing = np.unique((size / scale).round(7), axis=0, return_index=True)
+    tolerance = 1e-6 * max(drawn.box)
+    radii = shapely.maximum_inscribed_circle(cells[differing], tolerance)
+    return 2.0 * float(shapely.length(radii).min())

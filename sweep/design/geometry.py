@@ -1,0 +1,22 @@
+"""What is drawn of a lattice, as numbers. No numpy here, so that a config is refused at once."""
+
+from typing import NamedTuple
+
+
+class Geometry(NamedTuple):
+    """A family of infill in a box; lengths in m.
+
+    kind, orientation: as in `infill`. cells: columns and rows. box: width and height over centre
+    lines; of one period where ``periodic``. grading: thickness of the walls at the top over that at
+    the bottom. outline: thickness of the walls round the infill, left and right, above and below;
+    0: none.
+    """
+
+    kind: str
+    orientation: str | None
+    cells: tuple[int, int]
+    box: tuple[float, float]
+    wall_thickness: float
+    grading: float = 1.0
+    outline: tuple[float, float] = (0.0, 0.0)
+    periodic: bool = False

@@ -1,0 +1,14 @@
+"""The lattice as drawn: the infill of a box, or one period of an endless one."""
+
+from functools import lru_cache
+
+from sweep.design.box import build_box
+from sweep.design.geometry import Geometry
+from sweep.design.network import Network
+from sweep.design.period import build_period
+
+
+@lru_cache(maxsize=1024)
+def build_network(geometry: Geometry) -> Network:
+    """Its joints and walls."""
+    return build_period(geometry) if geometry.periodic else build_box(geometry)

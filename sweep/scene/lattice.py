@@ -1,0 +1,98 @@
+"""The arrays of a lattice between platens: what holds, ties, drives and loads it."""
+
+import numpy as np
+
+from sweep.config.case import Case, Loading, given
+from sweep.design.lattice import build_network
+from sweep.design.network import mass
+from sweep.scene.bending import bends, build_bend, build_fold
+from sweep.scene.contact import contact_of, projection_of
+from sweep.scene.coordinates import BONDED, Numbering, held, leaders
+from sweep.scene.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
+from sweep.scene.terms import (
+    Parts,
+    Scene,
+    assemble,
+    contact_stiffness,
+    force_scale,
+    masses_of,
+    rigidity_of,
+    solved_by,
+)
+
+
+def _velocity(numbering: Numbering, leader: Ints, loading: Loading) -> Floats:
+    """Velocity of each coordinate at the start: a striker flies with what is glued to it, m/s."""
+    return np.where(leader == numbering.high, -(loading.striker_speed or 0.0), 0.0)
+
+
+def _load(numbering: Numbering, case: Case) -> Floats:
+    """Total force downwards: on the upper platen, or spread equally over the top nodes."""
+    load = np.zeros(numbering.size)
+    if case.loading.mode == "force":
+        if case.loading.platen == "none":
+            load[2 * numbering.top + 1] = -given(case.loading.force) / len(numbering.top)
+        else:
+            load[numbering.high] = -given(case.loading.force)
+    return load
+
+
+def build_scene(case: Case) -> Scene:
+    """Build the arrays of ``case``."""
+    lattice, platen = case.lattice, case.loading.platen
+    network, mesh = build_network(lattice.geometry), build_mesh(lattice)
+    numbering = Numbering(
+        len(mesh.points),
+        mesh.n_joints,
+        row_nodes(network, mesh, network.bottom),
+        row_nodes(network, mesh, network.top),
+    )
+    rigidity = rigidity_of(mesh, case)
+    bending = build_bend(mesh, rigidity, case)
+    printed = mass(network, lattice.depth, case.material.density)
+    fixed = held(numbering, platen)
+    if not bends(case):
+        fixed = np.union1d(fixed, numbering.rotation)
+    tied = 2 * numbering.top + 1 if platen in BONDED else np.empty(0, np.int64)
+    layout = solved_by(mesh, numbering, leaders(numbering, fixed, tied), case)
+    masses = masses_of(mesh, numbering, printed, case.loading)
+    parts = Parts(
+        layout=layout,
+        bend=bending,
+        fold=build_fold(mesh, bending, case),
+        contact=contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True),
+        project=projection_of(mesh, numbering, layout, masses, case),
+        mass=masses,
+        load=_load(numbering, case),
+    )
+    return Scene(
+        mesh, network, assemble(case, mesh, numbering, parts),
+        _rest(mesh, numbering, parts.contact.node_thickness),
+        *_reported(numbering, case.loading),
+        force_scale=force_scale(network, rigidity),
+        velocity=_velocity(numbering, layout.leader, case.loading),
+    )  # fmt: skip
+
+
+def _rest(mesh: Mesh, numbering: Numbering, thickness: Floats) -> Floats:
+    """Coordinates at rest; platens touch the outermost walls. thickness (n,): of nodes, m."""
+    y, half = mesh.points[:, 1], 0.5 * thickness.round(15)
+    platens = [(y - half).min(), (y + half).max()]
+    return np.concatenate([mesh.points.ravel(), np.zeros(numbering.n_joints), platens])
+
+
+def _reported(numbering: Numbering, loading: Loading) -> tuple[Ints, Ints, Ints]:
+    """Coordinates of the lower reaction, of the top and of the base.
+
+    Strain is the travel of a driven platen or a striker, or of the loaded row. Under a loose loaded
+    platen it is taken from the extent of the lattice itself, which jumps off when it is released.
+    """
+    bottom = 2 * numbering.bottom + 1
+    low, high = np.array([numbering.low]), np.array([numbering.high])
+    bonded = dict.fromkeys(BONDED, np.append(bottom, low))
+    reaction = ({"contact": low} | bonded).get(loading.platen or "", bottom)
+    if loading.mode != "force":
+        return reaction, high, low
+    if loading.platen == "contact":
+        return reaction, np.empty(0, np.int64), 2 * np.arange(numbering.n_nodes) + 1
+    return reaction, 2 * numbering.top + 1, bottom

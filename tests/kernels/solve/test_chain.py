@@ -1,0 +1,171 @@
+"""Another problem through the same solver: a chain of particles, each in a double well."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq, minimize
+
+from kernels.solve import arc_length, history, march, newton
+from kernels.solve.integrators import BDF2, TRAPEZOIDAL
+from kernels.solve.problem import FREE, HELD, LED, Coordinates
+from kernels.solve.residual import Tolerance
+from tests.support.chain import ROW, Line, Output
+from tests.support.scenes import slopes
+
+HEIGHT, WIDTH, SPRING, APART = 2.0, 1.5, 0.7, 0.4
+TIGHT = Tolerance(1e-11, 1e-22, 1e-9, 1e-12, 1e-14, 4e-15, 100)
+
+
+def line(n, load=0.0, driven=False, held=False, friction=0.0, mass=1.0, spring=SPRING):
+    """A chain of ``n`` particles; the last bears the load or is led, the first may be held."""
+    role, one, forces = np.full(n, FREE), np.ones(n), np.zeros(n)
+    forces[-1] = load
+    role[0] = HELD if held else FREE
+    role[-1] = LED if driven else role[-1]
+    heavy = np.where(role == FREE, 1.0, 0.0)
+    known = Coordinates(
+        role, one, one, np.full(n, mass), heavy, forces, n - 1 if driven else -1, 0.5, 0.1, 1e-4
+    )
+    return Line(known, HEIGHT, WIDTH, spring, APART, friction, 1.0, 1e-4)
+
+
+def energy(chain, x):
+    """What is stored at ``x``, computed apart."""
+    wells = HEIGHT * np.sum(((x / WIDTH) ** 2 - 1.0) ** 2)
+    return wells + 0.5 * chain.spring * np.sum((np.diff(x) - APART) ** 2)
+
+
+def at(x):
+    """State of rest at ``x``, with nothing booked."""
+    return history.at_rest(np.asarray(x, dtype=float), 2)
+
+
+def begun(chain, x):
+    """State of rest at ``x``; what is stored there has been done as work."""
+    state = at(x)
+    wells = HEIGHT * np.sum(((state.x / WIDTH) ** 2 - 1.0) ** 2)
+    state.stored[:] = wells, energy(chain, state.x) - wells
+    state.book[0].work = state.stored.sum()
+    return state
+
+
+def go(chain, state, stage, tolerance=TIGHT):
+    """March; return the outcome, the rows and the positions."""
+    out = Output(np.zeros(stage.steps, ROW), np.zeros((stage.steps, state.x.size)))
+    control = np.zeros(2, np.int64)
+    outcome, written = march.march(chain, tolerance, stage, state, out, control)
+    return outcome, out.rows[:written], out.positions[:written]
+
+
+def is_balanced(rows):
+    """Whether the book of all rows closes."""
+    size = max(np.abs(rows[name]).max() for name in ("work", "kinetic", "wells", "springs"))
+    return np.abs(rows["residual"]).max() < 1e-9 * size
+
+
+def test_it_leaves_the_top_of_the_hills():
+    """All forces are zero there: the negative pivots tell, and where to go."""
+    chain = line(4, spring=0.01)._replace(apart=0.0)
+    state = begun(chain, np.zeros(4))
+    outcome, _, (end,) = go(chain, state, march.Stage(1, 1.0, False, 1.0, 1.0, 0.0, 0.0))
+    assert outcome == newton.CONVERGED
+    np.testing.assert_allclose(np.abs(end), WIDTH, rtol=0.02)
+
+
+def test_a_led_chain_goes_through_minima():
+    """Each found by scipy from the step before, until a particle snaps over; the book closes."""
+    chain = line(4, driven=True, held=True)
+    start = minimize(lambda q: energy(chain, np.array([-1.5, *q, -1.2])), [-1.4, -1.3], tol=1e-12)
+    state = begun(chain, [-1.5, *start.x, -1.2])
+    stage = march.Stage(40, 1.0, False, 0.0, 0.0, -1.2, 4.8)
+    outcome, rows, positions = go(chain, state, stage)
+    assert outcome == newton.CONVERGED
+    assert is_balanced(rows)
+    inner, moved = start.x, np.abs(np.diff(positions[:, 1:3], axis=0)).max(axis=1)
+    assert moved.max() > 0.5  # one snaps
+    for x in positions:
+        np.testing.assert_allclose([x[0], x[-1]], [-1.5, x[-1]], rtol=1e-15)
+        found = minimize(
+            lambda q, x=x: energy(chain, np.array([x[0], *q, x[-1]])), x[1:3], tol=1e-14
+        )
+        np.testing.assert_allclose(x[1:3], found.x, rtol=0, atol=1e-6)
+        inner = x[1:3]
+    assert rows["integrator"][-1] > 1e-3  # what the snap has released
+    np.testing.assert_allclose(positions[:, -1], np.linspace(-1.2, 4.8, 41)[1:], atol=1e-14)
+    assert inner is not start.x
+
+
+def test_friction_of_a_loaded_particle_is_that_of_where_it_ends():
+    """The normal force lags until it agrees: f = dE/dx + mu n (1 + (x / a)^2), booked apart."""
+    chain = line(1, load=1.8, friction=0.3)
+    state = begun(chain, [-WIDTH])
+    outcome, rows, positions = go(chain, state, march.Stage(8, 1.0, False, 0.0, 1.0, 0.0, 0.0))
+    assert outcome == newton.CONVERGED
+    assert is_balanced(rows)
+    x = positions[:, 0]
+    moves = np.diff(x, prepend=-WIDTH)
+    sliding = moves > chain.slip
+    assert sliding.sum() == 6  # 0.6 N of friction hold it at first
+    rubbing = 0.3 * (1.0 + (x / WIDTH) ** 2)
+    slope = 4.0 * HEIGHT * x / WIDTH**2 * ((x / WIDTH) ** 2 - 1.0)
+    load = 1.8 * np.arange(1, 9) / 8
+    np.testing.assert_allclose((slope + rubbing)[sliding], load[sliding], rtol=1e-8)
+    paid = 0.5 * (rubbing[1:] + rubbing[:-1]) * moves[1:]  # trapezoids
+    np.testing.assert_allclose(np.diff(rows["friction"])[3:], paid[3:], rtol=1e-8)
+
+
+def test_several_particles_slide_until_friction_agrees():
+    chain = line(5, driven=True, friction=0.4)
+    state = begun(chain, np.linspace(-1.6, 0.0, 5))
+    outcome, rows, _ = go(chain, state, march.Stage(20, 1.0, False, 0.0, 0.0, 0.0, 3.0))
+    assert outcome == newton.CONVERGED
+    assert is_balanced(rows)
+    assert np.all(np.diff(rows["friction"]) > 0.0)
+
+
+@pytest.mark.parametrize(
+    ("scheme", "order"), [(march.BACKWARD_EULER, 1.0), (BDF2, 2.0), (TRAPEZOIDAL, 2.0)]
+)
+def test_the_chain_swings_with_the_order_of_the_integrator(scheme, order):
+    """Against a step 16 times as short and more, as a slope; the book closes in every run."""
+    chain, ends = line(3), {}
+    for steps in (200, 400, 800, 12800):
+        state = begun(chain, [1.6, 1.7, 2.0])
+        stage = march.Stage(steps, 1.0 / steps, True, 0.0, 0.0, 0.0, 0.0, scheme)
+        outcome, rows, positions = go(chain, state, stage)
+        assert outcome == newton.CONVERGED
+        assert is_balanced(rows)
+        ends[steps] = positions[-1]
+    errors = [np.abs(ends[steps] - ends[12800]).max() for steps in (200, 400, 800)]
+    np.testing.assert_allclose(slopes(errors), order, atol=0.12)
+
+
+def test_a_step_that_fails_is_halved():
+    chain = line(4, driven=True, held=True)
+    state = begun(chain, [-1.5, -1.45, -1.35, -1.2])
+    few = TIGHT._replace(iterations=5)
+    outcome, rows, _ = go(chain, state, march.Stage(6, 1.0, False, 0.0, 0.0, -1.2, 4.8), few)
+    assert outcome == newton.CONVERGED
+    assert state.totals[0].steps > 6
+    assert is_balanced(rows)
+
+
+def test_an_arc_follows_the_slope_of_the_well():
+    """One particle, pushed over the hill: load = dE/dx at every point, unstable where it falls."""
+    chain = line(1, load=1.0, spring=0.0)
+    top = brentq(lambda x: 3.0 * (x / WIDTH) ** 2 - 1.0, 0.0, WIDTH)
+    hill = 4.0 * HEIGHT / WIDTH * (top / WIDTH) * (1.0 - (top / WIDTH) ** 2)
+    chain.coordinates.load[0] = 1.5 * hill
+    steps = 200
+    arc = arc_length.Arc(np.ones(1), 0.08, np.zeros(steps + 1, arc_length.POINT))
+    out, state = Output(np.zeros(steps, ROW), np.zeros((steps, 1))), begun(chain, [-WIDTH])
+    stage = march.Stage(steps, 1.0, False, 0.0, 1.0, 0.0, 0.0)
+    loose = TIGHT._replace(force=1e-9, decrement=1e-18)
+    outcome, written = arc_length.follow(chain, loose, stage, state, out, np.zeros(2, int), arc)
+    assert outcome == newton.CONVERGED
+    x, path = out.positions[:written, 0], arc.path[1 : written + 1]
+    assert path["factor"][-1] == 1.0
+    slope = 4.0 * HEIGHT * x / WIDTH**2 * ((x / WIDTH) ** 2 - 1.0)
+    np.testing.assert_allclose(1.5 * hill * path["factor"], slope, rtol=0, atol=1e-8)
+    np.testing.assert_array_equal(path["unstable"], np.abs(x) < top)
+    assert path["factor"].min() == pytest.approx(-1.0 / 1.5, rel=0.01)
+    assert np.any(path["unstable"])

@@ -1,0 +1,184 @@
+"""A wheel, made from an sdist and installed where nothing else of ours is: what users get.
+
+Kernels run as plain Python, since to compile them all takes longer than all else here. That they
+are compiled ahead from a wheel too is shown by one of them.
+"""
+
+import ast
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+import venv
+import zipfile
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+import crumple
+from sweep.config.examples import examples
+
+ROOT = Path(__file__).parents[2]
+FOLDERS = ("configs", "kernels", "sweep")
+SOURCES = {"crumple/__init__.py": ROOT / "crumple.py"} | {
+    f"crumple/{path.relative_to(ROOT).as_posix()}": path
+    for folder in FOLDERS
+    for path in sorted((ROOT / folder).rglob("*.*"))
+    if path.suffix != ".pyc"
+}
+TRIAL = """
+material.name = "cheetah"
+lattice = {cells = 1, nodes_per_wall = 1}
+loading = {strain = 0.005}
+solver.load_steps = 2
+"""
+NAMES = """
+import pydoc
+from importlib.resources import files
+from importlib.util import find_spec
+import crumple
+from crumple.sweep.config.examples import examples
+
+print(find_spec("sweep"), find_spec("kernels"), files(crumple).joinpath("py.typed").is_file())
+print(*dir(crumple))
+print("simulate(case: crumple.sweep.config.case.Case" in pydoc.plain(pydoc.render_doc(crumple)))
+print(*examples())
+print(crumple.load_config("accuracy/vibration").name)
+"""
+AHEAD = """
+import os
+import numpy as np
+from crumple.kernels.arrays import dot
+from crumple.kernels.compile.precompile import compile_ahead
+
+os.sched_getaffinity = lambda _: {0, 1}
+vector = np.ones(3)
+compile_ahead(lambda: dot(vector, vector))
+print(dot(vector, vector), sum(dot.entry.stats.cache_hits.values()))
+"""
+
+
+def made(folder, what, into):
+    """What setuptools makes of a folder, as pip, build and uv ask it to: an sdist or a wheel."""
+    script = f"from setuptools import build_meta; build_meta.build_{what}({str(into)!r})"
+    subprocess.run([sys.executable, "-c", script], cwd=folder, check=True)
+    (path,) = into.glob("*.tar.gz" if what == "sdist" else "*.whl")
+    return path
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    """The wheel, from a folder in which a module that is gone was built before."""
+    folder = tmp_path_factory.mktemp("wheel")
+    unneeded = shutil.ignore_patterns(".*", "build", "dist", "*.egg-info", "results", "tests")
+    shutil.copytree(ROOT, folder / "checkout", ignore=unneeded)
+    shutil.unpack_archive(made(folder / "checkout", "sdist", folder), folder)
+    source = folder / f"crumple-{crumple.__version__}"
+    (source / "build/lib/sweep").mkdir(parents=True)
+    (source / "build/lib/sweep/gone.py").touch()
+    return made(source, "wheel", folder)
+
+
+@pytest.fixture(scope="module")
+def environment(wheel, tmp_path_factory):
+    """The programs of an environment with the wheel, and with all but it from this environment.
+
+    It lies in a git repository, which is not that of the source.
+    """
+    folder = tmp_path_factory.mktemp("environment")
+    git = ["git", "-C", folder]
+    for setting in ("user.name=a", "user.email=a", "commit.gpgSign=false"):
+        git += ["-c", setting]
+    for words in (["init", "-q"], ["commit", "-q", "--allow-empty", "-m", "a"]):
+        subprocess.run([*git, *words], check=True)
+    venv.create(folder / "venv", symlinks=True)
+    python = folder / "venv/bin/python"
+    (packages,) = (folder / "venv/lib").glob("*/site-packages")
+    # What a line here names is a place of packages, but no place whose own .pth files count:
+    # an editable install of the checkout stays out of sight.
+    others = {sysconfig.get_path("purelib"), sysconfig.get_path("platlib")}
+    (packages / "others.pth").write_text("\n".join(others))
+    pip = [sys.executable, "-m", "pip", "--python", python, "install"]
+    uv = ["uv", "pip", "install", "--python", python]
+    install = [*(pip if find_spec("pip") else uv), "--no-index", "--no-deps", wheel]
+    subprocess.run(install, check=True)
+    return python.parent
+
+
+@pytest.fixture
+def run(environment, tmp_path_factory):
+    """Runs a program of that environment in a folder elsewhere, and returns what it prints."""
+    elsewhere = tmp_path_factory.mktemp("elsewhere")
+    usual = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "CRUMPLE"))}
+    usual |= {"PYTHONNOUSERSITE": "1", "CRUMPLE_CACHE_DIR": str(elsewhere / "cache")}
+
+    def printed(program, *words, **more):
+        command = [environment / program, *words]
+        done = subprocess.run(
+            command, cwd=elsewhere, env=usual | more, capture_output=True, text=True, check=False
+        )
+        assert (done.returncode, done.stderr) == (0, "")
+        return done.stdout
+
+    printed.folder = elsewhere
+    return printed
+
+
+def read(wheel, name):
+    """A file of the wheel, as text."""
+    with zipfile.ZipFile(wheel) as archive:
+        return archive.read(name).decode()
+
+
+def test_wheel_is_one_package_with_all_that_it_needs(wheel):
+    own = {*SOURCES, "crumple/__main__.py", "crumple/py.typed"}
+    about = f"crumple-{crumple.__version__}.dist-info"
+    with zipfile.ZipFile(wheel) as archive:
+        names = {name for name in archive.namelist() if not name.startswith(about)}
+    assert names == own
+    assert read(wheel, f"{about}/top_level.txt") == "crumple\n"
+
+
+def test_modules_differ_only_in_where_they_import_from(wheel):
+    for name in (name for name in SOURCES if name.endswith(".py")):
+        before, after = SOURCES[name].read_text("utf-8"), read(wheel, name)
+        nodes = ast.walk(ast.parse(after))
+        froms = [node.module.split(".")[0] for node in nodes if isinstance(node, ast.ImportFrom)]
+        assert not {*froms} & {*FOLDERS}, name
+        for old, new in zip(before.splitlines(), after.splitlines(), strict=True):
+            moved = re.sub(r"^( *from )(kernels|sweep)\b", r"\1crumple.\2", old)
+            assert new in (old, moved), name
+
+
+def test_programs_tell_the_version(run):
+    told = [run("crumple", "--version"), run("python", "-m", "crumple", "--version")]
+    assert told == [f"crumple {crumple.__version__}\n"] * 2
+
+
+def test_names_are_found_below_one_package(run):
+    found, names, explained, known, loaded = run("python", "-I", "-c", NAMES).splitlines()
+    assert found == "None None True"
+    assert names.split() == dir(crumple)
+    assert explained == "True"
+    assert known.split() == examples()
+    assert loaded == "vibration"
+
+
+def test_sweeps_run_with_the_materials_and_examples_of_the_wheel(run):
+    (run.folder / "trial.toml").write_text(TRIAL)
+    assert "1/1 cases" in run("crumple", "run", "trial.toml", NUMBA_DISABLE_JIT="1")
+    told = run("crumple", "status", "results/trial.h5")
+    assert "1 converged" in told
+    assert "revision unknown" in told
+    told = run("python", "-m", "crumple", "run", "custom", NUMBA_DISABLE_JIT="1")
+    assert re.match(r"example custom: .*/site-packages/crumple/configs/custom\.toml ", told)
+    assert "1/1 cases" in told
+    assert "loaded as its file says" in told
+
+
+def test_kernels_are_compiled_ahead(run):
+    """By another process, which has to find them."""
+    assert run("python", "-I", "-c", AHEAD) == "3.0 1\n"

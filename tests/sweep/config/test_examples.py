@@ -1,0 +1,28 @@
+"""Examples are found by their names, files by their paths."""
+
+from pathlib import Path
+
+import pytest
+
+from sweep.config.examples import FOLDER, examples, find_config
+from sweep.config.units import load_config
+
+
+def test_every_config_that_is_shipped_is_an_example():
+    assert {FOLDER / f"{name}.toml" for name in examples()} == set(FOLDER.rglob("*.toml"))
+    assert {"smoke", "custom", "accuracy/impact"} < set(examples())
+
+
+@pytest.mark.parametrize("name", ["smoke", "accuracy/impact", "custom", "extreme"])
+def test_example_is_found_away_from_its_folder(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    assert load_config(name).path == FOLDER / f"{name}.toml"
+
+
+def test_file_comes_before_the_example_of_its_name_and_a_folder_does_not(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("smoke").mkdir()
+    assert find_config("smoke") == FOLDER / "smoke.toml"
+    Path("armor").touch()
+    assert find_config("armor") == Path("armor")
+    assert find_config("smoke.toml") == Path("smoke.toml")

@@ -1,0 +1,169 @@
+"""Rows of an older model: kept and told of, or computed anew, and never lost on the way."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from sweep.result import MODEL_VERSION, Status
+from sweep.running.sweep import Interrupted, run_sweep
+from sweep.store.read import Rerun, read_history, read_summary
+from tests.conftest import CONFIG
+from tests.support.command import crumple
+from tests.support.standin import (
+    cases,
+    forget_version,
+    number_of,
+    simulate,
+    slow,
+    write,
+    write_older,
+)
+
+ROOT = Path(__file__).parents[3]
+OLDER = Rerun(older=True)
+RENEW = """
+from tests.support.standin import cases, slow
+from sweep.running.sweep import run_sweep
+from sweep.store.read import Rerun
+
+if __name__ == "__main__":
+    run_sweep(cases(60), {out!r}, rerun=Rerun(older=True), simulate=slow)
+"""
+
+
+@pytest.fixture
+def out(tmp_path):
+    return tmp_path / "sweep.h5"
+
+
+@pytest.fixture
+def log():
+    """Numbers of the cases that `logged` has run."""
+    return []
+
+
+@pytest.fixture
+def logged(log):
+    def run(case, stop):
+        log.append(number_of(case))
+        return simulate(case)
+
+    return run
+
+
+def versions(out, batch):
+    """The model of each case."""
+    table = read_summary(out).set_index("case_id")
+    return [int(table["model_version"][case.case_id]) for case in batch]
+
+
+def test_rows_of_an_older_model_stay_and_are_told_of(out, log, logged, capsys):
+    write_older(out, cases(3))
+    run_sweep(cases(5), out, simulate=logged)
+    told = "3 of 3 finished cases are of an older model; crumple run CONFIG --renew computes older"
+    assert told in capsys.readouterr().out
+    assert sorted(log) == [3, 4]
+    assert versions(out, cases(5)) == [1, 1, 1, MODEL_VERSION, MODEL_VERSION]
+    run_sweep(cases(5, first=3), out, simulate=logged)
+    assert "older model" not in capsys.readouterr().out  # these rows are of another sweep
+
+
+def test_renewing_computes_the_older_rows_and_only_those(out, log, logged, capsys):
+    write_older(out, cases(3))
+    write(out, cases(2, first=3), fold=True)
+    run_sweep(cases(6), out, rerun=OLDER, simulate=logged)
+    assert sorted(log) == [0, 1, 2, 5]
+    assert versions(out, cases(6)) == [MODEL_VERSION] * 6
+    assert "older model" not in capsys.readouterr().out
+    run_sweep(cases(6), out, rerun=OLDER, simulate=logged)
+    assert len(log) == 4
+
+
+def test_a_row_of_a_newer_model_is_not_renewed(out, log, logged, monkeypatch):
+    write(out, cases(3), fold=True)
+    monkeypatch.setattr("sweep.store.read.MODEL_VERSION", MODEL_VERSION - 1)
+    run_sweep(cases(3), out, rerun=OLDER, simulate=logged)
+    assert log == []
+
+
+def test_an_older_row_gives_way_to_a_failure_of_the_new_model(out):
+    def fails(case, stop):
+        return replace(simulate(case), status=Status.STOPPED, message="No.")
+
+    write_older(out, cases(2))
+    assert run_sweep(cases(2), out, rerun=OLDER, simulate=fails) == 2
+    assert versions(out, cases(2)) == [MODEL_VERSION] * 2
+    assert set(read_summary(out)["status"]) == {"stopped"}
+
+
+def test_an_interruption_keeps_the_rows_that_are_not_renewed_yet(out, log, logged):
+    def pressed(case, stop):
+        if len(log) == 3:
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(0.05)
+        return logged(case, stop)
+
+    write_older(out, cases(6))
+    with pytest.raises(Interrupted, match="of 6 cases, and the same command runs the rest"):
+        run_sweep(cases(6), out, workers=1, rerun=OLDER, simulate=pressed)
+    found = versions(out, cases(6))
+    assert 1 in found
+    assert MODEL_VERSION in found
+    assert [len(read_history(out, case.case_id)) for case in cases(6)] == [*range(10, 16)]
+    log.clear()
+    run_sweep(cases(6), out, rerun=OLDER, simulate=logged)
+    assert sorted(log) == [k for k, version in enumerate(found) if version == 1]
+    assert versions(out, cases(6)) == [MODEL_VERSION] * 6
+
+
+def test_a_kill_keeps_the_rows_that_are_not_renewed_yet(out, tmp_path, monkeypatch):
+    executions = tmp_path / "executions"
+    monkeypatch.setenv("EXECUTIONS", str(executions))
+    executions.touch()
+    write_older(out, cases(60))
+    program = [sys.executable, "-c", RENEW.format(out=str(out))]
+    with subprocess.Popen(program, env=os.environ | {"PYTHONPATH": str(ROOT)}) as process:
+        limit = time.monotonic() + 20
+        while len(executions.read_text().split()) < 30 and time.monotonic() < limit:
+            time.sleep(0.01)
+        process.kill()
+    found = versions(out, cases(60))
+    assert 0 < found.count(MODEL_VERSION) < 60
+    assert found.count(1) + found.count(MODEL_VERSION) == 60
+    begun = len(executions.read_text().split())
+    run_sweep(cases(60), out, rerun=OLDER, simulate=slow)
+    assert len(executions.read_text().split()) - begun == found.count(1)
+    assert versions(out, cases(60)) == [MODEL_VERSION] * 60
+
+
+def test_the_command_line_tells_of_older_rows_and_renews_them(capsys, config):
+    crumple(capsys, "run", config)
+    forget_version("results/trial.h5")
+    renew = "crumple run CONFIG --renew computes older ones anew"
+    told = f"rows of model version 1 (3); {renew}\n"
+    assert told in crumple(capsys, "status", "results/trial.h5")[1]
+    assert "Ranked together" not in crumple(capsys, "rank", "results/trial.h5")[1]
+
+    Path(config).write_text(CONFIG.format(values=[0.006, 0.007, 0.008, 0.009]))
+    _, said, _ = crumple(capsys, "run", config)
+    assert said.count(f"3 of 3 finished cases are of an older model; {renew}\n") == 1
+    _, said, _ = crumple(capsys, "status", "results/trial.h5")
+    assert f"rows of model version 1 (3), {MODEL_VERSION} (1); {renew}\n" in said
+    assert "computed with a revision not recorded (3), " in said
+    mixed = f"Ranked together: rows of model version 1 (2), {MODEL_VERSION} (1); {renew}.\n"
+    rank = "rank", "results/trial.h5"
+    assert mixed in crumple(capsys, *rank)[1]
+    for form in (["--csv"], ["--out", "folder"]):
+        assert mixed in crumple(capsys, *rank, *form)[2]
+
+    assert "1 of them finished" in crumple(capsys, "run", config, "--renew", "--dry-run")[1]
+    assert "older" not in crumple(capsys, "run", config, "--renew")[1]
+    _, said, _ = crumple(capsys, "status", "results/trial.h5")
+    assert "model version" not in said
+    assert "computed with" not in said
