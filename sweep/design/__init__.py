@@ -1,1 +1,1 @@
-"""What is drawn: families of infill, the network of walls, its area, walls sized for a mass."""
+"""The drawing of a lattice: families of infill, network of walls, printed area, sizing."""
