@@ -1,1 +1,1 @@
-"""What a user writes: tables of keys with units, read from TOML into the cases of a sweep."""
+"""The config of a sweep: tables of keys with units, read from TOML into cases."""
