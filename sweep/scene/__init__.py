@@ -1,1 +1,1 @@
-"""A case as arrays for the kernels: mesh, coordinates, the data of every term, the loading."""
+"""From a case to arrays for the kernels: mesh, coordinates, data of every term, loading."""

@@ -1,7 +1,7 @@
-"""The arrays of a user's own structure: its walls, what holds, loads and leads it, its floor.
+"""The arrays of a custom structure: walls, supports, loads, prescribed moves, springs, floor.
 
-All prescribed moves follow one coordinate, the lead, which goes from 0 to the largest of them as
-the load factor goes from 0 to 1; each has its own ratio to it.
+All prescribed moves follow one coordinate, the driver. It goes from 0 to the largest of them as
+the load factor goes from 0 to 1; every other move is a constant ratio of it.
 """
 
 from collections.abc import Iterable
@@ -30,23 +30,23 @@ from sweep.scene.terms import (
 )
 
 MM = 1e-3
-SUDDEN = 5e-3  # of t^2 / size: a slender column shortens by 0.8 t^2 / L and buckles
-FAR = 1e3  # times the size of a structure: where the ceiling is that no contact may miss
+SUDDEN = 5e-3  # of t^2 / size; a slender column buckles after it shortens by 0.8 t^2 / L
+FAR = 1e3  # times the size of a structure: height of the ceiling that contact requires
 DIRECTIONS = ("x", "y", "rotation")
 
 
 @dataclass(frozen=True)
 class Ground(Numbering):
-    """Numbering with a floor, a ceiling out of reach, and the lead as the last coordinate."""
+    """Numbering with a floor, a ceiling out of reach, and the driver as the last coordinate."""
 
     @property
     def ceiling(self) -> int:
-        """Coordinate of a surface that nothing reaches."""
+        """Coordinate of the ceiling, which nothing reaches."""
         return self.low + 1
 
     @property
     def high(self) -> int:
-        """Coordinate of the lead."""
+        """Coordinate of the driver."""
         return self.low + 2
 
     def coordinate(self, node: int, direction: str) -> int:
@@ -55,7 +55,7 @@ class Ground(Numbering):
 
 
 def network_of(structure: Structure) -> Network:
-    """Centre lines in m; there are no rows that a platen could hold."""
+    """Centre lines in m, without bottom and top rows."""
     none = np.empty(0, np.int64)
     return Network(
         MM * np.array(structure.nodes_mm),
@@ -67,7 +67,7 @@ def network_of(structure: Structure) -> Network:
 
 
 def build_structure(case: Case) -> Scene:
-    """Build the arrays of a ``case`` with a structure of its own."""
+    """Build the arrays of a ``case`` with a custom structure."""
     structure = given(case.lattice.structure)
     network = network_of(structure)
     mesh = split_walls(network, np.array(structure.pieces), 0.0)
@@ -116,7 +116,10 @@ def _distances(structure: Structure, pairs: Iterable[tuple[int, int]]) -> Floats
 
 
 def _leaders(structure: Structure, numbering: Ground) -> Ints:
-    """What each coordinate follows: itself, the lead, -1 where held or, a pin, without rotation."""
+    """The coordinate that each one follows: itself, the driver, or -1.
+
+    -1: held, or the rotation of a pin, which is not used.
+    """
     leader = np.arange(numbering.size)
     leader[[numbering.low, numbering.ceiling]] = -1
     for node, direction in structure.held:
@@ -133,7 +136,7 @@ def _leaders(structure: Structure, numbering: Ground) -> Ints:
 def _led(
     structure: Structure, layout: analysis.Layout, numbering: Ground, mesh: Mesh
 ) -> tuple[analysis.Layout, float]:
-    """The layout with what is led, and the way of the lead, m: the largest prescribed move."""
+    """The layout with the prescribed moves, and the travel of the driver: the largest move, m."""
     moves = {
         numbering.coordinate(part.node, part.direction): MM * given(part.displacement_mm)
         if part.direction != "rotation"
@@ -141,9 +144,11 @@ def _led(
         for part in structure.prescribed
     }
     lever = mesh.rest_length.mean()
-    ways = [abs(move) * (lever if c >= 2 * numbering.n_nodes else 1.0) for c, move in moves.items()]
-    travel = max(ways, default=0.0)
-    if travel == 0.0:  # all are held where they are
+    travels = [
+        abs(move) * (lever if c >= 2 * numbering.n_nodes else 1.0) for c, move in moves.items()
+    ]
+    travel = max(travels, default=0.0)
+    if travel == 0.0:  # all prescribed moves are zero
         leader = layout.leader.copy()
         leader[[*moves, numbering.high]] = -1
         return layout._replace(leader=leader, driven=-1), 0.0
@@ -154,7 +159,7 @@ def _led(
 
 
 def _unpinned(bending: bend.Bend, mesh: Mesh, pins: tuple[int, ...]) -> bend.Bend:
-    """Arms at pins bear no moment; of a single element the other end keeps 3 Y I / l."""
+    """Bending without moments at pins; the other end of a wall of one element keeps 3 Y I / l."""
     free = np.isin(mesh.arm_joint, pins)
     other = free.reshape(-1, 2)[:, ::-1].ravel()
     coupled = np.repeat(bending.coupling, 2) > 0.0
@@ -182,7 +187,7 @@ def _on_floor(touch: contact.Contact, structure: Structure, numbering: Ground) -
 
 
 def _masses(structure: Structure, masses: Floats) -> Floats:
-    """Masses of the coordinates with those at nodes, kg."""
+    """Masses of the coordinates, including the point masses of the file, kg."""
     for part in structure.masses:
         masses[[2 * part.node, 2 * part.node + 1]] += MM * part.mass_g
     return masses
@@ -207,7 +212,7 @@ def _rest(structure: Structure, mesh: Mesh, numbering: Ground) -> Floats:
 
 
 def _probed(structure: Structure, numbering: Ground) -> Ints:
-    """Coordinates of the probes, three a node."""
+    """Coordinates of the probes, three per node."""
     probed = [
         numbering.coordinate(node, direction)
         for node in structure.probes
@@ -217,7 +222,7 @@ def _probed(structure: Structure, numbering: Ground) -> Ints:
 
 
 def _velocity(structure: Structure, mesh: Mesh, layout: analysis.Layout) -> Floats:
-    """Velocity at the start by coordinate, linear along walls; zero where held or led."""
+    """Initial velocity of each coordinate, linear along walls; zero if held or prescribed."""
     nodes = MM * np.array(structure.velocity_mm_s)
     network = Network(
         nodes,
