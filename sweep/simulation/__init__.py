@@ -1,1 +1,1 @@
-"""A case in, a result out: the march, and the measures that are read off it."""
+"""From a case to its result: the run, and the measures derived from it."""
