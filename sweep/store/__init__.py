@@ -1,1 +1,1 @@
-"""Results as HDF5: parts that survive any end of a sweep, folded into one file; the only h5py."""
+"""Results as HDF5: parts that survive a kill, folded into one file. The only user of h5py."""
