@@ -1,1 +1,1 @@
-"""A sweep: cases in batches on Dask, progress, error bars, the estimate; the only dask."""
+"""A sweep: cases in batches on Dask, progress, error bars, cost estimate. The only user of dask."""
