@@ -1,1 +1,1 @@
-"""Who wins: rankings, Pareto fronts, ties, and error against run time, from results alone."""
+"""Rankings, Pareto fronts, ties, and error against run time, computed from results alone."""
