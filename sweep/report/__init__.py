@@ -1,1 +1,1 @@
-"""Tables, Markdown and pictures of results; the only matplotlib."""
+"""Tables, Markdown and pictures of results. The only user of matplotlib."""
