@@ -1,1 +1,1 @@
-"""The command line: its verbs, and what a terminal is shown."""
+"""The command line: its verbs, and the output on the terminal."""
