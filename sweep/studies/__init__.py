@@ -1,1 +1,1 @@
-"""Studies that ship: a measured crush predicted, and the figures of the course report."""
+"""Studies in the package: the prediction of a measured crush, the figures of the course report."""
