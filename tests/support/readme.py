@@ -1,11 +1,11 @@
-"""The README and its two further pages taken apart: code blocks, tables, quotations, examples."""
+"""The README and its further pages taken apart: code blocks, tables, quotations, examples."""
 
 import re
 from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).parents[2]
-NAMES = ("README.md", "configs/README.md", "kernels/README.md")
+NAMES = ("README.md", "configs/README.md", "kernels/README.md", "GLOSSARY.md")
 PAGES = {name: (ROOT / name).read_text("utf-8") for name in NAMES}
 TEXT = "\n".join(PAGES.values())
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)
