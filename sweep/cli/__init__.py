@@ -1,1 +1,1 @@
-"""The command line: its verbs, and what a terminal is shown."""
+"""The command line: `verbs` has one function for each verb, `terminal` what a terminal shows."""

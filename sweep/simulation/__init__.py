@@ -1,1 +1,1 @@
-"""A case in, a result out: the march, and the measures that are read off it."""
+"""A case in, a result out: `simulate` runs the march, `summary` measures what came of it."""

@@ -1,1 +1,1 @@
-"""Studies that ship: a measured crush predicted, and the figures of the course report."""
+"""Studies that come with Crumple: a measured crush predicted, the figures of a course report."""
