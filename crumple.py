@@ -1,7 +1,7 @@
 """Crumple: which printed infill absorbs the most energy per gram?
 
-A config says what is crushed; every combination of its grid is a case. `simulate` crushes one case
-and returns a `Result`; `run_sweep` crushes all of them and keeps the results in a file:
+A config defines a sweep; every combination of its grid is a case. `simulate` crushes one case and
+returns a `Result`; `run_sweep` crushes all cases and stores the results in a file:
 
     import crumple
 
@@ -14,15 +14,15 @@ and returns a `Result`; `run_sweep` crushes all of them and keeps the results in
     summary = crumple.read_summary("results/smoke.h5")  # a DataFrame: a row per case
     print(crumple.rank(summary, budget="2 g"))
 
-Quantities are in SI, or text with a unit. `crumple --help` explains the command line. Each name is
-loaded when it is first used.
+Quantities are numbers in SI, or text with a unit. `crumple --help` explains the command line. Each
+name is loaded when it is first used.
 """
 
 import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from sweep import *  # noqa: F403  (the one list of names is there)
+    from sweep import *  # noqa: F403  (`sweep` has the only list of the names)
 else:
     from sweep import __all__ as __all__
     from sweep import __dir__ as __dir__

@@ -1,8 +1,8 @@
-"""Words, units, objects and files; and the names that `crumple` offers.
+"""Configs, units, objects and files; and the public names of `crumple`.
 
-They raise `ConfigError`, `StoreError` and `RankError`, which are here too.
+These functions raise `ConfigError`, `StoreError` and `RankError`, which are public too.
 
-Each name is loaded when it is first used, so that importing `sweep` costs next to nothing.
+Each name is loaded when it is first used, so that `import sweep` takes almost no time.
 """
 
 from importlib import import_module

@@ -1,7 +1,7 @@
-"""The command line: `crumple VERB ...`, also `python -m crumple`. Each verb is one of cli/verbs.
+"""The command line: `crumple VERB ...`, also `python -m crumple`. The verbs are in `cli/verbs.py`.
 
-Exit status: 0 done; 1 some cases failed, or it was interrupted; 2 the config, a file or an argument
-cannot be used.
+Exit status: 0 done; 1 some cases failed, or the run was interrupted; 2 the config, a file or an
+argument cannot be used.
 """
 
 import argparse
@@ -18,13 +18,13 @@ from sweep.config.examples import examples
 ABOUT = "Which printed infill absorbs the most energy per gram?"
 EXAMPLES = """examples:
   crumple run armor --dry-run                   how many cases, how long, how much disk
-  crumple run armor                             simulate; the same command goes on after a stop
-  crumple run armor --error-bars                how sure each number is, which places are ties
-  crumple warm                                  compile ahead what the first run would compile
+  crumple run armor                             simulate; after a stop, the same command continues
+  crumple run armor --error-bars                also estimate the error of each number, and ties
+  crumple warm                                  compile the kernels before the first run
   crumple status results/armor.h5               what is done, what failed and why
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
   crumple show results/armor.h5                 the ids of all cases
-  crumple show results/armor.h5 7a85            pictures of the case whose id begins so
+  crumple show results/armor.h5 7a85            pictures of the case whose id begins with 7a85
   crumple accuracy accuracy/impact              error against run time, method by method
 
 armor and accuracy/impact are examples that come with Crumple; your own config is a file: mine.toml
@@ -33,49 +33,50 @@ exit status: 0 done, 1 some cases failed or interrupted, 2 wrong config, file or
 """
 CONFIG = "TOML file with the case and its [grid], or the name of an example"
 RUN = """Simulate every case of CONFIG that the results file does not hold yet, then rank.
-Finished cases are never lost and never computed twice: after a stop or a kill, or when the
-grid has grown, run the same command again. Rows of an older model stay until they are computed
-anew, with --renew. With --error-bars every design runs once more on another mesh and once more with
-longer steps: 3 to 11 times the work where walls have 3 elements."""
-ACCURACY = """Simulate a sweep over numerics, then tell error against run time: a table, the
-observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
-what the finest settings of the method of highest order tend to. Cases that differ in anything but
-numerics are studied apart. A method is solver.integrator, solver.hinges, contact.model and the
-like; solver.time_step, .load_steps, .step_error and lattice.nodes_per_wall refine it."""
-WARM = """Compile the kernels now, so that the next run starts at once; else the first run does it.
-It takes half a minute to one, and again after an update of Crumple or of its packages. The code is
-kept in CRUMPLE_CACHE_DIR, else in ~/.cache/crumple: one call serves all machines of a cluster that
-share this folder and have the same processor."""
+Finished cases are never lost and never computed twice: after a stop or a kill, or after an
+extension of the grid, run the same command again. Rows of an older model stay until --renew
+computes them again. With --error-bars every design runs again on another mesh and again with longer
+steps: 3 to 11 times the work if walls have 3 elements."""
+ACCURACY = """Simulate a sweep over numerical settings, then print error against run time: a table,
+the observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
+the limit to which the finest settings of the method of highest order converge. Cases that differ in
+anything other than numerical settings are studied separately. A method is a choice of
+solver.integrator, solver.hinges, contact.model and the like; solver.time_step, .load_steps,
+.step_error and lattice.nodes_per_wall refine it."""
+WARM = """Compile the kernels now, so that the next run starts at once; otherwise the first run
+compiles them. It takes half a minute to a minute, and again after an update of Crumple or of its
+packages. The code is kept in CRUMPLE_CACHE_DIR, else in ~/.cache/crumple: one call serves all
+machines of a cluster that share this folder and have the same processor."""
 RANK = """List the designs that absorb the most energy, one table for each loading scene.
-Budgets and panel that are not given here are those of the config, [rank]; --by alone ranks
+Budgets and panel are those of [rank] in the config, unless they are given here; --by alone ranks
 single specimens of any mass."""
 RANK_EXAMPLES = """examples:
-  crumple rank F.h5                                         as the config asks; else most J/g
+  crumple rank F.h5                                         as [rank] in the config says; else J/g
   crumple rank F.h5 --budget "25 g" "2 oz"                  two budgets
   crumple rank F.h5 --budget "1 oz" --panel "4 in" "2 in"   a panel of at most an ounce
-  crumple rank F.h5 --allowed-force "50 N"                  energy before 50 N are passed on
+  crumple rank F.h5 --allowed-force "50 N"                  energy until the force exceeds 50 N
   crumple rank F.h5 --by specific_absorption_J_per_g        most J/g, whatever the mass
-  crumple rank F.h5 --by peak_force_N --top 3               gentlest first
+  crumple rank F.h5 --by peak_force_N --top 3               least force first
   crumple rank F.h5 --csv > ranking.csv
   crumple rank F.h5 --out results/armor                     tables and figures in a folder
 """
-SHOW = """Draw one case: force against strain, where the energy goes, and six deformed shapes.
-Without CASE: list the ids of all cases with what makes them differ."""
+SHOW = """Draw one case: force against strain, the parts of its energy, and six deformed shapes.
+Without CASE: list the ids and the designs of all cases."""
 
 
 class Parser(argparse.ArgumentParser):
-    """Arguments whose refusal takes two lines."""
+    """A parser whose error message has two lines."""
 
     def error(self, message: str) -> NoReturn:
-        """Say what is wrong and where to read on."""
+        """Print what is wrong, and how to get help."""
         self.exit(2, f"{self.prog}: {message}\n{self.prog} --help shows examples\n")
 
 
 class Version(argparse.Action):
-    """Prints the version and exits: looking it up takes as long as all other arguments."""
+    """Prints the version and exits; it is looked up only here, since that takes long."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
-        """Print it."""
+        """Print the version."""
         from sweep.version import __version__
 
         with suppress(OSError):  # as argparse does for --help
@@ -111,10 +112,8 @@ def parser() -> Parser:
         action="store_true",
         help="estimate the error of mesh and steps",
     )
-    run.add_argument("--retry-failed", action="store_true", help="compute failed cases once more")
-    run.add_argument(
-        "--renew", action="store_true", help="compute once more what is of an older model"
-    )
+    run.add_argument("--retry-failed", action="store_true", help="compute failed cases again")
+    run.add_argument("--renew", action="store_true", help="compute rows of an older model again")
 
     accuracy = verbs.add_parser(
         "accuracy", help="error against run time", description=ACCURACY, formatter_class=raw
@@ -129,7 +128,7 @@ def parser() -> Parser:
     )
     accuracy.add_argument("--workers", type=_count, default=2, metavar="N", help="default: 2")
 
-    verbs.add_parser("warm", help="compile ahead", description=WARM, formatter_class=raw)
+    verbs.add_parser("warm", help="compile the kernels", description=WARM, formatter_class=raw)
 
     status = verbs.add_parser("status", help="what is done, and what failed and why")
     status.add_argument("file", type=_path, metavar="F.h5")
@@ -156,7 +155,7 @@ def parser() -> Parser:
 
 
 def _add_question(rank: argparse.ArgumentParser) -> None:
-    """What a ranking may be asked for."""
+    """Add the options that define a ranking."""
     rank.add_argument(
         "--budget", nargs="+", action="extend", metavar="MASS", help='greatest mass: "25 g" "2 oz"'
     )
@@ -164,7 +163,7 @@ def _add_question(rank: argparse.ArgumentParser) -> None:
         "--panel", nargs=2, metavar="LENGTH", help='area to fill with specimens: "100 mm" "50 mm"'
     )
     rank.add_argument("--by", metavar="COLUMN", help="sort by this column of the summary")
-    rank.add_argument("--top", type=_count, metavar="N", help="places shown: 10, or 3 a budget")
+    rank.add_argument("--top", type=_count, metavar="N", help="places shown: 10, or 3 per budget")
     rank.add_argument(
         "--allowed-force", metavar="FORCE", help='count energy up to this force: "50 N"'
     )
@@ -178,7 +177,7 @@ def _count(text: str) -> int:
 
 
 def _path(text: str) -> str:
-    """A path that names something."""
+    """A path that is not empty."""
     if text:
         return text
     raise argparse.ArgumentTypeError("an empty path; allowed: the name of a file or a folder")
@@ -186,15 +185,15 @@ def _path(text: str) -> str:
 
 def _folder(text: str) -> str:
     """A path that may become a folder."""
-    if os.path.exists(_path(text)) and not os.path.isdir(text):  # neither ever raises
+    if os.path.exists(_path(text)) and not os.path.isdir(text):  # these functions never raise
         raise argparse.ArgumentTypeError(f"{text!r} is a file; allowed: a folder")
     return text
 
 
 def _results(text: str) -> str:
     """A path that may become a results file."""
-    in_the_way = os.path.exists(text) and not os.path.isfile(text)  # neither ever raises
-    if Path(_path(text)).suffix == ".h5" and not in_the_way:
+    is_no_file = os.path.exists(text) and not os.path.isfile(text)  # these functions never raise
+    if Path(_path(text)).suffix == ".h5" and not is_no_file:
         return text
     raise argparse.ArgumentTypeError(f"{text!r}; allowed: a file whose name ends in .h5")
 
@@ -204,7 +203,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     arguments = parser().parse_args(argv)
     from sweep.cli import verbs
 
-    sys.stdout = sys.stdout or os.fdopen(_nowhere(), "w")  # there is none if it was closed
+    sys.stdout = sys.stdout or os.fdopen(_nowhere(), "w")  # None if the caller closed it
     sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # ASCII has no dash
     try:
         status = verbs.VERBS[arguments.verb](arguments)
@@ -229,7 +228,7 @@ def _refuse(verb: str, why: Exception) -> int:
 
 
 def _silence() -> None:
-    """Send what is still to be printed nowhere: no second complaint at the exit."""
+    """Discard buffered output, so that Python reports no second error at the exit."""
     os.dup2(_nowhere(), sys.stdout.fileno())
 
 

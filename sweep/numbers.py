@@ -1,4 +1,4 @@
-"""Numbers as text, with as many digits as a reader needs."""
+"""Numbers as text, with few digits."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ NOTHING = "–"
 
 
 def short(value: float | str | None) -> str:
-    """A number with few digits, anything else as it is; a dash where there is nothing."""
+    """A number with four digits, text unchanged, a dash for a missing value."""
     if pd.isna(value):
         return NOTHING
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
 def numerals(values: Series) -> Series:
-    """Numbers with three significant digits, never in powers of ten."""
+    """Numbers as text of `three_digits`."""
     return values.map(three_digits)
 
 
 def three_digits(value: float) -> str:
-    """A number with at least three significant digits: 0.0123, 1.23, 1234."""
+    """A number with at least three significant digits, without exponent: 0.0123, 1.23, 1234."""
     if not math.isfinite(value):
         return NOTHING
     decimals = 2 - math.floor(math.log10(abs(value))) if value else 0
@@ -34,12 +34,12 @@ def three_digits(value: float) -> str:
 
 
 def percent(value: float) -> str:
-    """A strain as whole percent."""
+    """A strain in percent, rounded to a whole number."""
     return f"{100 * value:.0f}" if math.isfinite(value) else NOTHING
 
 
 def tenths(share: float) -> str:
-    """A share in percent, to a tenth where it is small."""
+    """A share in percent, with one decimal below 10 %."""
     if not math.isfinite(share):
         return NOTHING
     return f"{100 * share:.1f}" if share < 0.0995 else percent(share)

@@ -1,7 +1,7 @@
-"""What one simulated case hands back: a status, a sentence, a row of numbers, curves and shapes.
+"""The result of one case: a status, a message, a row of numbers, curves and shapes.
 
-Failure is a value: a case that could not finish is a `Result` with another status than
-`converged`, a sentence that says what to try, and whatever it had until then.
+Failure is a value: a case that does not finish is a `Result` with another status than `converged`,
+a message that says what to try, and the curves and shapes up to that point.
 Nothing here computes or opens a file.
 """
 
@@ -21,16 +21,16 @@ if TYPE_CHECKING:
 
 
 MODEL_VERSION = 2
-"""Version of the model: raised by whatever gives a case other numbers than before."""
+"""Version of the model: raised by every change of the numbers that a case gives."""
 
 HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones anew"
 
 OLDER = {"model_version": 1, "git_revision": ""}
-"""What rows are read to have that were written before there were these columns."""
+"""Values of columns that rows of older versions do not have."""
 
 
 class Status(StrEnum):
-    """How a case ended. Only `converged` means that the whole scene ran."""
+    """How a case ended. Only `converged` means that it ran to its end."""
 
     CONVERGED = "converged"
     STOPPED = "stopped"
@@ -42,7 +42,7 @@ class Status(StrEnum):
 class Column:
     """Meaning of a column: its units ("1" for a pure number, "" for text) and a sentence.
 
-    better: whether more or less of it makes a design better; None: neither does.
+    better: whether more or less of it makes a design better; None: neither.
     """
 
     units: str
@@ -52,12 +52,12 @@ class Column:
 
 @dataclass(frozen=True)
 class Result:
-    """One case, done or not.
+    """The result of one case, converged or not.
 
-    summary: column -> float, int or str, names and units in `COLUMNS`.
-    history: column -> float64 (rows,), names and units in `HISTORY_COLUMNS`.
+    summary: column -> float, int or str; names and units in `COLUMNS`.
+    history: column -> float64 (rows,); names and units in `HISTORY_COLUMNS`.
     frames: `strain (f,)`, `time_s (f,)`, `position_m (f, n, 2)`, `plate_y_m (f, 2)` (surface of the
-    lower and the upper platen, NaN where there is none, -inf: no end below), `edges (m, 2)`,
+    lower and the upper platen; NaN: no platen; -inf: an endless lattice), `edges (m, 2)`,
     `edge_thickness_m (m,)`.
     """
 
@@ -70,9 +70,9 @@ class Result:
 
 
 COLUMNS: dict[str, Column] = {
-    "case_id": Column("", "hash of everything that the case computes from"),
+    "case_id": Column("", "hash of all parameters of the case"),
     "status": Column("", "converged, stopped, timed_out or worker_died"),
-    "message": Column("", "why the case did not converge and what to try; empty when it did"),
+    "message": Column("", "why the case did not converge and what to try; empty if it did"),
     "lattice_kind": Column("", "family of the infill pattern"),
     "cells_x": Column("1", "cells across the width"),
     "cells_y": Column("1", "cells over the height"),
@@ -81,14 +81,18 @@ COLUMNS: dict[str, Column] = {
     "height_m": Column("m", "height over centre lines"),
     "depth_m": Column("m", "depth of the walls, out of the plane"),
     "outer_width_m": Column("m", "width over all, walls included"),
-    "material": Column("", 'name of the material; "by numbers" when it has none'),
+    "material": Column("", 'name of the material; "by numbers" if it has none'),
     "loading_mode": Column("", "force, displacement, impact or custom"),
     "platen": Column("", "none, contact, glued or sliding"),
-    "force_N": Column("N", "dead force on the top; NaN unless the mode is force"),
+    "force_N": Column("N", "dead load on the top; NaN unless the mode is force"),
     "stroke_m": Column("m", "prescribed travel of the top; NaN unless the mode is displacement"),
     "striker_mass_g": Column("g", "mass of the striker; NaN unless the mode is impact"),
-    "striker_speed_m_per_s": Column("m/s", "its speed at first touch; NaN unless it is impact"),
-    "impact_energy_J": Column("J", "its energy at first touch; NaN unless the mode is impact"),
+    "striker_speed_m_per_s": Column(
+        "m/s", "speed of the striker at first touch; NaN unless the mode is impact"
+    ),
+    "impact_energy_J": Column(
+        "J", "energy of the striker at first touch; NaN unless the mode is impact"
+    ),
     "contact_model": Column("", "how walls touch: none, barrier or position_based"),
     "mass_g": Column("g", "density x exact area of the printed walls x depth", "less"),
     "relative_density": Column("1", "printed area / area of the bounding box", "less"),
@@ -96,100 +100,99 @@ COLUMNS: dict[str, Column] = {
         "J", "work done on the lattice until release, full stroke or stop", "more"
     ),
     "absorbed_energy_at_densification_J": Column(
-        "J", "work done until the lattice has packed down; all of it where it does not", "more"
+        "J", "work done until densification; all of it if there is no densification", "more"
     ),
     "absorbed_energy_within_model_J": Column(
         "J",
-        "work done until an element is squeezed below 0.7 of its length; all if none is",
+        "work done until an element is shorter than 0.7 of its rest length; all of it if none is",
         "more",
     ),
     "returned_energy_J": Column(
         "J",
-        "work given back to the platen or striker on its way back; NaN where none moves back",
+        "work given back to the platen or striker as it moves back; NaN if none moves back",
         "less",
     ),
     "dissipated_energy_J": Column(
         "J", "dissipated by material, friction and time integrator", "more"
     ),
-    "dissipated_integrator_J": Column("J", "energy that the time integrator itself removed"),
+    "dissipated_integrator_J": Column("J", "energy removed by the time integrator itself"),
     "injected_by_projection_J": Column(
-        "J", "energy added by position-based contact; negative where it takes some out"
+        "J", "energy added by position-based contact; negative if it removes energy"
     ),
-    "energy_residual_J": Column("J", "what the energy book leaves over"),
+    "energy_residual_J": Column("J", "residual of the energy book"),
     "specific_absorption_J_per_g": Column("J/g", "absorbed energy / mass", "more"),
     "plateau_stress_Pa": Column(
         "Pa",
-        "mean nominal stress from about 5 % strain until packed or stopped; NaN for dead loads",
+        "mean nominal stress from about 5 % strain to densification or the end; NaN for dead loads",
         "more",
     ),
     "densification_strain": Column(
         "1",
-        "strain of packing: greatest efficiency; NaN where that still rises, or for dead loads",
+        "strain of greatest efficiency; NaN if the efficiency still rises, and for dead loads",
         "more",
     ),
     "efficiency": Column(
-        "1", "greatest of work per volume / greatest stress until then; NaN for dead loads", "more"
+        "1", "greatest ratio of work per volume to peak stress so far; NaN for dead loads", "more"
     ),
     "peak_force_N": Column(
         "N",
-        "greatest force on a platen or support; for dead loads it depends on the time step, of an "
-        "impact it is that on the support",
+        "greatest force on a platen or support, in an impact on the support; for dead loads it "
+        "depends on the time step",
         "less",
     ),
     "peak_force_at_densification_N": Column(
-        "N", "the same until the lattice has packed down, or until release", "less"
+        "N", "greatest force on a platen or support until densification or release", "less"
     ),
     "peak_strain": Column("1", "greatest top displacement / height", "less"),
     "peak_deceleration_m_per_s2": Column(
-        "m/s^2", "greatest deceleration of the striker, else NaN", "less"
+        "m/s^2", "greatest deceleration of the striker; NaN without one", "less"
     ),
     "stroke_left_m": Column(
         "m",
-        "what is left at the striker's stop of the height that closes all voids, else NaN",
+        "stroke that closes all voids - greatest stroke of the striker; NaN without one",
         "more",
     ),
     "rebound_speed_m_per_s": Column(
-        "m/s", "greatest speed of the striker upwards, else NaN", "less"
+        "m/s", "greatest speed of the striker upwards; NaN without one", "less"
     ),
     "rebound_share": Column(
-        "1", "energy of the striker at that speed / at first touch, else NaN", "less"
+        "1", "energy of the striker at its rebound speed / at first touch; NaN without one", "less"
     ),
     "residual_strain": Column(
         "1",
-        "in the last stored shape, loss of distance between top and bottom row / height",
+        "decrease of the distance between top and bottom row in the last stored shape / height",
         "less",
     ),
-    "least_element_strain": Column("1", "of the element squeezed most in any stored shape", "more"),
-    "greatest_element_strain": Column(
-        "1", "of the element drawn out most in any stored shape", "less"
-    ),
+    "least_element_strain": Column("1", "least element strain in any stored shape", "more"),
+    "greatest_element_strain": Column("1", "greatest element strain in any stored shape", "less"),
     "kept_area": Column(
         "1",
-        "printed area still covered at the greatest strain; solid TPU would keep it all, 1",
+        "area covered by walls at the greatest strain / at rest; 1 for incompressible walls",
         "more",
     ),
     "min_gap_m": Column(
-        "m", "least distance of a centre line from others near it and from loose platens, else NaN"
+        "m",
+        "least distance of a centre line from a near one or a loose platen; NaN if none is near",
     ),
-    "touched": Column("1", "1 where contact was at work in any row, else 0: there none is needed"),
+    "touched": Column("1", "1 if contact acted in any row; if 0, contact is not needed"),
     "max_crossings": Column("1", "walls that pass through one another in any stored frame", "less"),
     "steps": Column("1", "accepted time or load steps", "less"),
     "newton_iterations": Column("1", "Newton iterations of the whole run", "less"),
     "cpu_s": Column("s", "processor time of the run", "less"),
     "model_version": Column("1", "version of the model that computed this row"),
 }
-"""Every column that a summary always has, in the order in which it is stored and shown."""
+"""The columns that every summary has, in the order in which they are stored and shown."""
 
 STORED_COLUMNS: dict[str, Column] = {
     "git_revision": Column("", 'commit of the source that this row was computed with, or ""'),
 }
-"""Columns that a results file has besides, of the run that wrote a row."""
+"""Further columns of a results file, about the run that wrote a row."""
 
 HISTORY_COLUMNS: dict[str, Column] = {
     "time_s": Column("s", "time since the start"),
     "strain": Column("1", "top displacement / height"),
     "top_displacement_m": Column(
-        "m", "travel of a driven platen or the top row; loss of extent of a loose loaded lattice"
+        "m", "travel of a driven platen or the top row; under a loose dead load, loss of height"
     ),
     "reaction_top_N": Column("N", "force on the upper platen or row, compression > 0"),
     "reaction_bottom_N": Column("N", "force on the lower platen or row, compression > 0"),
@@ -202,47 +205,48 @@ HISTORY_COLUMNS: dict[str, Column] = {
     "dissipated_friction_J": Column("J", "dissipated by friction so far"),
     "dissipated_integrator_J": Column("J", "removed by the time integrator so far"),
     "injected_by_projection_J": Column(
-        "J", "added by moving walls apart so far; negative where it takes energy out"
+        "J", "energy added by position-based contact so far; negative if it removes energy"
     ),
-    "energy_residual_J": Column("J", "what the energy book leaves over so far"),
-    "newton_iterations": Column("1", "Newton iterations since the row before"),
+    "energy_residual_J": Column("J", "residual of the energy book so far"),
+    "newton_iterations": Column("1", "Newton iterations since the previous row"),
     "min_gap_m": Column(
-        "m", "least distance of a centre line from others near it and from loose platens, else NaN"
+        "m",
+        "least distance of a centre line from a near one or a loose platen; NaN if none is near",
     ),
 }
-"""Every column that a history always has, in the order in which it is stored."""
+"""The columns that every history has, in the order in which they are stored."""
 
 STRIKER_COLUMNS: dict[str, Column] = {
     "striker_speed_m_per_s": Column("m/s", "speed of the striker downwards"),
-    "deceleration_m_per_s2": Column("m/s^2", "its mean deceleration since the row before"),
+    "deceleration_m_per_s2": Column("m/s^2", "mean deceleration since the previous row"),
 }
-"""Columns that the history of an impact has, too."""
+"""Further columns of the history of an impact."""
 
 LOAD_COLUMNS: dict[str, Column] = {
-    "load_factor": Column("1", "share of the loads and prescribed moves that is on"),
+    "load_factor": Column("1", "share of the loads and prescribed moves that is applied"),
     "unstable_modes": Column("1", "independent motions that lower the energy; 0 where stable"),
 }
-"""Columns that the history of a structure has in statics, the second along arcs only."""
+"""Further columns of the history of a custom structure in statics; the second only along arcs."""
 
 RANKING_COLUMNS: dict[str, Column] = {
     "panel_mass_g": Column("g", "mass of the specimens that fill the panel", "less"),
-    "panel_energy_J": Column("J", "energy that they absorb", "more"),
-    "passed_on_N": Column("N", "greatest force while the energy that counts is absorbed", "less"),
-    "returned_share": Column("1", "of the work of the whole crush, what is given back", "less"),
+    "panel_energy_J": Column("J", "energy that the specimens of the panel absorb", "more"),
+    "passed_on_N": Column("N", "greatest force while the counted energy is absorbed", "less"),
+    "returned_share": Column("1", "returned energy / work of the whole crush", "less"),
 }
-"""Columns that a ranking adds to those of the summary, and may go by."""
+"""Columns that a ranking adds to those of the summary, and by which it may sort."""
 
 FRAME_COLUMNS: dict[str, Column] = {
     "strain": Column("1", "top displacement / height of a frame"),
     "time_s": Column("s", "time of a frame"),
     "plate_y_m": Column(
-        "m", "height of the lower and the upper platen; NaN: none; -inf: no end below"
+        "m", "height of the lower and the upper platen; NaN: no platen; -inf: an endless lattice"
     ),
     "position_m": Column("m", "x and y of every node, frame after frame"),
     "edges": Column("", "the two nodes of every element"),
     "edge_thickness_m": Column("m", "wall thickness of every element"),
 }
-"""Every array of the frames of a case."""
+"""The arrays of the frames of a case."""
 
 PROBE = re.compile(r"probe_(\d+)_(.+)_(m|rad|N|Nm)")
 ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
@@ -266,7 +270,7 @@ def describe_array(group: str, name: str) -> Column:
 
 
 def describe_history(name: str) -> Column:
-    """Meaning of a column of a history; what is not fixed belongs to a structure of one's own."""
+    """Meaning of a column of a history, also of a probe of a custom structure."""
     if match := PROBE.fullmatch(name):
         node, what, unit = match.groups()
         return Column(unit.replace("Nm", "N m"), f"{what.replace('_', ' ')} at node {node}")
@@ -280,23 +284,23 @@ def is_grid_key(name: str) -> bool:
 
 
 def describe_column(name: str) -> Column:
-    """Meaning of a column of a summary or a ranking; what is neither fixed nor derived is a key."""
+    """Meaning of a column of a summary or a ranking: fixed, derived from a name, or a grid key."""
     if found := (COLUMNS | STORED_COLUMNS | RANKING_COLUMNS).get(name):
         return found
     if match := ERROR.fullmatch(name):
         units = describe_column(match[1]).units
-        said = f"estimated discretisation error of {match[1]}, no bound; NaN: none"
-        return Column(units, said, "less")
+        meaning = f"estimated discretisation error of {match[1]}, no bound; NaN: no estimate"
+        return Column(units, meaning, "less")
     if match := ABSORBED_AT.fullmatch(name):
-        said = f"work done until {match[1]} N is first passed on; all if it never is"
-        return Column("J", said, "more")
+        meaning = f"work done until a force of {match[1]} N is exceeded; all of it if it never is"
+        return Column("J", meaning, "more")
     if match := PER_GRAM.fullmatch(name):
         return Column("J/g", f"energy absorbed at {match[1]} / mass", "more")
     return Column(_unit_of_key(name), f"grid key {name}")
 
 
 def less_is_better(name: str) -> bool:
-    """True for a column of which the least is the best."""
+    """True for a column whose least value is the best."""
     return describe_column(name).better == "less"
 
 
@@ -333,7 +337,7 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
 
 
 def failed_result(case: Case, status: Status, message: str) -> Result:
-    """Row of a case that left nothing to measure: its design, NaN for every measure, no curves."""
+    """Result of a case without any measurement: its design, NaN for all measures, no curves."""
     measures = {name: nan for name in COLUMNS if name not in ("case_id", "status", "message")}
     measures |= {absorbed_energy_column(force): nan for force in case.loading.allowed_forces or ()}
     counts = {"touched": 0, "max_crossings": 0, "steps": 0, "newton_iterations": 0}

@@ -1,10 +1,10 @@
-"""Versions of what is installed; that of Crumple is written in pyproject.toml, and only there."""
+"""Versions of installed packages. The version of Crumple is stated only in pyproject.toml."""
 
 from importlib.metadata import PackageNotFoundError, version
 
 
 def installed_version(package: str) -> str:
-    """Version of a package; "unknown" where it is not installed."""
+    """Version of a package; "unknown" if it is not installed."""
     try:
         return version(package)
     except PackageNotFoundError:

@@ -1,4 +1,4 @@
-"""What a verb prints: lines, tables that fit the terminal, rankings with all that is said aloud."""
+"""Output on the terminal: lines, tables that fit its width, rankings with their warnings."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from sweep.ranking.ranking import Ranking
     from sweep.report.sheets import Sheet
 
-WIDTH = 120  # a longer line is wrapped by the terminal: better than losing what it says
+WIDTH = 120  # least width of a table; a narrower terminal wraps its lines, so no text is lost
 
 
 def print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -> None:
-    """Tables on the terminal, and aloud what has no place in them."""
+    """Print the tables of a ranking, their legend, and the warnings."""
     from sweep.ranking.rank import ranked
     from sweep.report.sheets import legend, ranking_sheets
 
@@ -27,27 +27,27 @@ def print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) ->
         print_sheets(ranking_sheets(ranking, summary))
     if not ranking.table.empty:
         say(legend(ranking))
-    say_all(aloud(file, ranking))
+    say_all(warnings(file, ranking))
 
 
-def versions_told(counts: Mapping[int, int]) -> str:
-    """How many rows there are of each version of the model, in words."""
-    told = ", ".join(f"{version} ({count})" for version, count in counts.items())
-    return f"rows of model version {told}"
+def version_counts(counts: Mapping[int, int]) -> str:
+    """The number of rows of each version of the model, in words."""
+    words = ", ".join(f"{version} ({count})" for version, count in counts.items())
+    return f"rows of model version {words}"
 
 
-def aloud(file: str, ranking: Ranking) -> Iterator[str]:
-    """What must not be missed beside a ranking."""
+def warnings(file: str, ranking: Ranking) -> Iterator[str]:
+    """Sentences about cases that a reader of the ranking should know of."""
     from sweep.result import HOW_TO_RENEW
     from sweep.store.read import read_attributes
 
     if others := read_attributes(file).get("other_cases", 0):
         yield (
-            f"{others} of {ranking.cases} cases are of other configs than the last run's, and are "
-            "ranked too: give the next config another --out, or name, to keep them apart."
+            f"{others} of {ranking.cases} cases belong to other configs than that of the last run; "
+            "they are ranked too. To keep configs apart, give each its own --out or name."
         )
     if len(ranking.versions) > 1:
-        yield f"Ranked together: {versions_told(ranking.versions)}; {HOW_TO_RENEW}."
+        yield f"Ranked together: {version_counts(ranking.versions)}; {HOW_TO_RENEW}."
     if ranking.without_bar:
         cases_have = _counted(ranking.without_bar, "ranked case")
         yield f"{cases_have} no error bar: placed by value alone."
@@ -62,7 +62,7 @@ def _counted(count: int, noun: str) -> str:
 
 
 def _heading(question: Mapping[str, Any], ranking: Ranking) -> str:
-    """What the tables are about, in a line or two."""
+    """The question that the tables answer, in one or two lines."""
     from sweep.result import less_is_better
 
     by = ranking.by
@@ -71,9 +71,9 @@ def _heading(question: Mapping[str, Any], ranking: Ranking) -> str:
     lines = [f"Best first: {order}."]
     crushed = (ranking.table["loading_mode"] == "displacement").any()
     if (force := question.get("allowed_force")) and crushed:
-        lines.append(f"Energy counts until a specimen passes on {force}.")
+        lines.append(f"Energy is counted until the force of a specimen exceeds {force}.")
     elif force:
-        lines.append(f"{force} are of no account: without a crush no energy is ranked.")
+        lines.append(f"The force of {force} has no effect: without a crush no energy is ranked.")
     if (budgets := question["budget"]) and len(budgets) == 1:
         lines.insert(0, f"At most {_written(budgets[0], 1e3, 'g')}.")
     if panel := question["panel"]:
@@ -83,12 +83,12 @@ def _heading(question: Mapping[str, Any], ranking: Ranking) -> str:
 
 
 def _written(value: float | str, scale: float, unit: str) -> str:
-    """A quantity in the words of the user, or an SI one in a maker's unit."""
+    """A quantity as the user writes it, or an SI number in the unit of a maker."""
     return value if isinstance(value, str) else f"{scale * value:.4g} {unit}"
 
 
 def print_sheets(sheets: Iterable[Sheet]) -> None:
-    """Tables on the terminal, a blank line above each."""
+    """Print tables, each after a blank line."""
     from rich.console import Console
 
     console = Console()
@@ -106,9 +106,9 @@ def print_sheets(sheets: Iterable[Sheet]) -> None:
 
 
 def _terminal_table(sheet: Sheet, width: int) -> Table:
-    """A rich table, without title and notes, that tries to fit into `width` columns.
+    """A table of rich without title and notes, which fits into `width` columns if possible.
 
-    The unit of a head goes on a second line; if need be, columns move a space closer together.
+    The unit of a head is on a second line; in a table that is too wide, columns are closer.
     """
     from rich import box
     from rich.table import Table
@@ -136,11 +136,11 @@ def _terminal_table(sheet: Sheet, width: int) -> Table:
 
 
 def say(text: object, end: str = "\n") -> None:
-    """A line."""
+    """Print a line."""
     sys.stdout.write(f"{text}{end}")
 
 
 def say_all(lines: Iterable[object]) -> None:
-    """Some lines, or none."""
+    """Print lines."""
     for line in lines:
         say(line)

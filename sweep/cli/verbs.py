@@ -1,4 +1,4 @@
-"""What each verb of the command line does: arguments in, text on the terminal, exit status out."""
+"""The verbs of the command line: each prints text and returns an exit status."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sweep.cli.terminal import aloud, print_ranking, print_sheets, say, say_all, versions_told
+from sweep.cli.terminal import print_ranking, print_sheets, say, say_all, version_counts, warnings
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 DONE, SOME_FAILED = 0, 1
 WORKERS = 2
 TOP, TOP_OF_A_BUDGET = 10, 3
-IDS = 3  # of each kind of failure
-FIGURE = re.compile(r"(?:(?<!\w)-)?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+IDS = 3  # shown for each kind of failure
+NUMBER = re.compile(r"(?:(?<!\w)-)?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 HOME = __name__.removesuffix(".cli.verbs")
 REFUSALS = {
     f"{HOME}.config.grid": "ConfigError",
@@ -37,13 +37,13 @@ REFUSALS = {
 
 
 class ArgumentError(ValueError):
-    """What was asked for cannot be done here."""
+    """An argument that cannot be used."""
 
 
 def refusals() -> tuple[type[Exception], ...]:
-    """Errors that say what is wrong with a config, a file or an argument.
+    """Error classes whose text says what is wrong with a config, a file or an argument.
 
-    Of our own, only those of modules that are loaded: no other can have been raised.
+    Only modules that are loaded are asked: no other module can have raised an error.
     """
     loaded = [(sys.modules[name], error) for name, error in REFUSALS.items() if name in sys.modules]
     ours = [getattr(module, error) for module, error in loaded]
@@ -51,9 +51,9 @@ def refusals() -> tuple[type[Exception], ...]:
 
 
 def run(arguments: Namespace) -> int:
-    """Simulate what is missing, then rank; with --dry-run, only estimate.
+    """Simulate the missing cases, then rank; with --dry-run, only estimate.
 
-    A design without the error bar that was asked for counts as a failure.
+    With --error-bars, a design without an error bar counts as a failure.
     """
     from sweep.store.read import Rerun, read_summary
 
@@ -77,7 +77,7 @@ def run(arguments: Namespace) -> int:
 
 
 def accuracy(arguments: Namespace) -> int:
-    """Simulate what is missing of a sweep over numerics, then tell error beside run time."""
+    """Simulate the missing cases of an accuracy study, then print errors and run times."""
     from sweep.config.grid import expand
     from sweep.ranking.accuracy import check_axes
     from sweep.report.publish import publish_accuracy
@@ -104,12 +104,12 @@ def warm(_: Namespace) -> int:
     done = "compiled the kernels" if is_cold("arcs") else "found compiled kernels and loaded them"
     started = time.perf_counter()
     real_simulate(arcs=True)
-    say(f"{done} in {time.perf_counter() - started:.1f} s; no run has to compile any")
+    say(f"{done} in {time.perf_counter() - started:.1f} s; later runs need not compile")
     return DONE
 
 
 def status(arguments: Namespace) -> int:
-    """Counts, failures with their sentences, time and origin of a results file."""
+    """Print counts, failures with their messages, run time and origin of a results file."""
     from sweep.store.read import read_attributes, read_summary
 
     summary, about = read_summary(arguments.file), read_attributes(arguments.file)
@@ -120,7 +120,7 @@ def status(arguments: Namespace) -> int:
     say_all(_bars(summary))
     say_all(_versions(summary))
     if others := about.get("other_cases", 0):
-        say(f"{others} cases are of other configs than the last run's")
+        say(f"{others} cases belong to other configs than that of the last run")
     say(f"{summary['cpu_s'].sum():.4g} s of processor time in all")
     known = {name.removeprefix("version_"): about[name] for name in about if "version_" in name}
     say(f"last run {about.get('created', '?')}, revision {about.get('git_revision', '?')}")
@@ -129,7 +129,7 @@ def status(arguments: Namespace) -> int:
 
 
 def rank(arguments: Namespace) -> int:
-    """The ranking, as tables on the terminal, as text for other programs, or into a folder."""
+    """Print the ranking as tables or as text for other programs, or write it into a folder."""
     from sweep.ranking.rank import ranked
     from sweep.report.markdown import markdown
     from sweep.report.sheets import ranking_sheets
@@ -143,7 +143,7 @@ def rank(arguments: Namespace) -> int:
         with _writing(folder):
             files = publish_ranking(arguments.file, summary, question, folder)
         say_all(files)
-        _say_aside(arguments.file, ranked(summary, **question))
+        _warn(arguments.file, ranked(summary, **question))
     elif arguments.csv or arguments.json or arguments.markdown:
         ranking = ranked(summary, **question)
         if arguments.csv:
@@ -152,14 +152,14 @@ def rank(arguments: Namespace) -> int:
             say(ranking.table.to_json(orient="records", indent=2, double_precision=15))
         else:
             say(markdown(ranking_sheets(ranking, summary)), end="")
-        _say_aside(arguments.file, ranking)
+        _warn(arguments.file, ranking)
     else:
         print_ranking(arguments.file, summary, question)
     return _exit_status(summary)
 
 
 def show(arguments: Namespace) -> int:
-    """Pictures of one case, or the list of all."""
+    """Draw one case, or list all cases."""
     from sweep.report.sheets import case_sheet, describe_case
     from sweep.store.read import read_summary
 
@@ -175,7 +175,7 @@ def show(arguments: Namespace) -> int:
     say_all([row["message"]] if row["message"] else [])
     with _writing(folder):
         pictures = publish_case(arguments.file, row, folder)
-    say_all(pictures or ["nothing to draw: the case left no curves and no shapes"])
+    say_all(pictures or ["nothing to draw: the case has no curves and no shapes"])
     return DONE
 
 
@@ -183,7 +183,7 @@ VERBS = {verb.__name__: verb for verb in (run, accuracy, warm, status, rank, sho
 
 
 def _config(name: str) -> Config:
-    """The config of a file, or of an example: then a line says where its file is."""
+    """The config of a file or of an example; for an example, print the path of its file."""
     from sweep.config.units import load_config
 
     config = load_config(name)
@@ -202,15 +202,16 @@ def _writing(folder: Path) -> Iterator[None]:
         raise ArgumentError(f"{folder} cannot be written: {error.strerror or error}") from error
 
 
-def _say_aside(file: str, ranking: Ranking) -> None:
-    """What must not be missed beside a ranking, where it is no part of what is asked for."""
-    sys.stderr.writelines(f"{line}\n" for line in aloud(file, ranking))
+def _warn(file: str, ranking: Ranking) -> None:
+    """Print the warnings of a ranking on stderr, so that stdout has only the ranking."""
+    sys.stderr.writelines(f"{line}\n" for line in warnings(file, ranking))
 
 
 def _asked(arguments: Namespace) -> dict[str, Any]:
-    """The keywords of `rank` from the command line and, where it is silent, from the config.
+    """Keyword arguments of `rank` from the command line, completed from the config.
 
-    The config's budgets stand unless --budget or --by is given; its panel, where there are budgets.
+    The budgets of the config are used unless --budget or --by is given; its panel is used unless
+    --panel is given, or --by without --budget.
     """
     stored = _stored_rank(arguments.file)
     budgets, panel = stored.get("budgets"), stored.get("panel")
@@ -222,14 +223,14 @@ def _asked(arguments: Namespace) -> dict[str, Any]:
 
 
 def _question(budgets: Iterable[Any] | None, panel: Iterable[Any] | None) -> dict[str, Any]:
-    """The keywords of `rank`: several budgets leave room for fewer places each."""
+    """Keyword arguments of `rank`; several budgets show fewer places each."""
     masses, sides = list(budgets or ()), list(panel or ())
     top = TOP_OF_A_BUDGET if len(masses) > 1 else TOP
     return {"budget": masses or None, "panel": sides or None, "top": top}
 
 
 def _stored_rank(file: str) -> dict[str, Any]:
-    """The [rank] of the config that a results file was made from."""
+    """The table [rank] of the config stored in a results file."""
     from sweep.store.read import read_attributes
 
     try:
@@ -240,9 +241,9 @@ def _stored_rank(file: str) -> dict[str, Any]:
 
 
 def _failures(file: str, summary: DataFrame) -> Iterator[str]:
-    """A line for each kind of failure, with the first of its cases, and where the others are."""
+    """A line for each kind of failure with its first cases, and how to list the others."""
     failed = _failed(summary)
-    kind = failed["message"].str.replace(FIGURE, "#", regex=True)
+    kind = failed["message"].str.replace(NUMBER, "#", regex=True)
     for _, rows in failed.groupby([failed["status"], kind], sort=False):
         cases = ", ".join(rows["case_id"].head(IDS))
         more = f" and {len(rows) - IDS} more" if len(rows) > IDS else ""
@@ -252,15 +253,15 @@ def _failures(file: str, summary: DataFrame) -> Iterator[str]:
 
 
 def _in_common(messages: list[str]) -> str:
-    """One sentence for several that differ only in figures: each becomes its range."""
-    columns = zip(*map(FIGURE.findall, messages), strict=True)
+    """One sentence for messages that differ only in their numbers, which become ranges."""
+    columns = zip(*map(NUMBER.findall, messages), strict=True)
     ranges = (sorted({*figures}, key=float) for figures in columns)
-    told = (f"{found[0]} to {found[-1]}" if len(found) > 1 else found[0] for found in ranges)
-    return FIGURE.sub(lambda _: next(told), messages[0])
+    texts = (f"{found[0]} to {found[-1]}" if len(found) > 1 else found[0] for found in ranges)
+    return NUMBER.sub(lambda _: next(texts), messages[0])
 
 
 def _bars(summary: DataFrame) -> list[str]:
-    """How many cases have an error bar, where any was asked for."""
+    """A line with the number of cases that have error bars, if there are such columns."""
     from sweep.result import ERROR
 
     bars = summary.drop(index=_failed(summary).index).filter(regex=ERROR)
@@ -269,21 +270,21 @@ def _bars(summary: DataFrame) -> list[str]:
 
 
 def _versions(summary: DataFrame) -> Iterator[str]:
-    """The versions of the model, unless all rows are of this one, and of the source, if several."""
+    """Lines about rows of other versions of the model, and of several revisions of the source."""
     from sweep.ranking.rank import model_versions
     from sweep.result import HOW_TO_RENEW, MODEL_VERSION
 
     counts = model_versions(summary)
     if counts.keys() - {MODEL_VERSION}:
         older = f"; {HOW_TO_RENEW}" if min(counts) < MODEL_VERSION else ""
-        yield f"{versions_told(counts)}{older}"
+        yield f"{version_counts(counts)}{older}"
     revisions = summary["git_revision"].replace("", "a revision not recorded").value_counts()
     if len(revisions) > 1:
         yield "computed with " + ", ".join(f"{name} ({n})" for name, n in revisions.items())
 
 
 def _find_case(summary: DataFrame, prefix: str) -> Series:
-    """The one row whose id begins like this."""
+    """The only row whose id begins with ``prefix``."""
     found = summary[summary["case_id"].str.startswith(prefix)]
     if len(found) == 1:
         return found.iloc[0]

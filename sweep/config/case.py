@@ -1,6 +1,6 @@
 """The parameters of one case.
 
-A `Case` is resolved when it is made (`resolve`), so that equal physics has an equal id.
+A `Case` is resolved when it is created (`resolve`), so that equal physics has an equal id.
 """
 
 from hashlib import blake2b
@@ -26,7 +26,7 @@ __all__ = [
 
 
 class Case(BaseModel):
-    """One simulation. `axes` are its values along the grid of its sweep: labels, not physics."""
+    """One simulation. `axes`: its values along the grid of its sweep, which are labels only."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -44,12 +44,12 @@ class Case(BaseModel):
         if refused is not None:
             raise refused
         for name, table in tables.items():
-            object.__setattr__(self, name, table)  # frozen from here on
+            object.__setattr__(self, name, table)  # the model is frozen
         return self
 
     @property
     def case_id(self) -> str:
-        """Hash of every parameter but the labels: 16 hexadecimal digits."""
+        """Hash of all parameters except labels: 16 hexadecimal digits."""
         tables = ",".join(f'"{name}":{canonical(getattr(self, name))}' for name in sorted(TABLES))
         return blake2b(f"{{{tables}}}".encode(), digest_size=8).hexdigest()
 
@@ -68,7 +68,7 @@ T = TypeVar("T")
 
 
 def given(value: T | None) -> T:
-    """Return a parameter that every resolved case of its mode has."""
+    """Return a parameter that is never None in a resolved case of this mode."""
     if value is None:
         raise ValueError("a resolved case has this parameter; this one was not resolved")
     return value

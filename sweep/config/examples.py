@@ -1,4 +1,4 @@
-"""The configs that come with Crumple: each is an example that runs by its name, such as `smoke`."""
+"""The configs that come with Crumple: examples that run by name, such as `smoke`."""
 
 from os import PathLike
 from pathlib import Path
@@ -7,13 +7,13 @@ FOLDER = Path(__file__).parents[2] / "configs"
 
 
 def examples() -> list[str]:
-    """Names of all examples; those in a folder have it in their names, as `accuracy/crush` has."""
+    """Names of all examples, with their folders, such as `accuracy/crush`."""
     paths = [path.relative_to(FOLDER) for path in FOLDER.rglob("*.toml")]
     return sorted(path.with_suffix("").as_posix() for path in paths)
 
 
 def find_config(name: str | PathLike[str]) -> Path:
-    """The file of this path; where there is none, the example of this name, if there is one."""
+    """The file at this path, or else the example of this name if there is one."""
     path = Path(name)
     if path.is_file() or path.as_posix() not in examples():
         return path

@@ -1,4 +1,4 @@
-"""From a config to its cases: grid x zips, without what is excluded and without doubles."""
+"""From a config to its cases: grid x zips, without excluded cases and duplicates."""
 
 import json
 import re
@@ -18,44 +18,44 @@ from sweep.config.case import TABLES, Case
 from sweep.config.keys import ALIASES, case_keys
 from sweep.config.resolve import resolve
 from sweep.config.tables import Rank, Table, rounded
-from sweep.config.unused_keys import still_idle
+from sweep.config.unused_keys import still_unused
 
 MAX_CASES = 1_000_000
-TOLD = 10  # mistakes of a config
+SHOWN = 10  # faults that the text of a ConfigError lists
 _QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
-FACTS = ("material.poisson",)  # of a material: may be stated where plane stress needs none
+MAY_BE_UNUSED = ("material.poisson",)  # a property of the material, stated even in plane stress
 
 
 class Fault(NamedTuple):
-    """One thing wrong: the key it is about, and one line with key, value and what is allowed."""
+    """One fault: its key, and one line with key, value and allowed values."""
 
     key: str
     line: str
 
 
 class ConfigError(ValueError):
-    """A config that cannot be run. `faults`: all that is wrong, of which the text tells ten."""
+    """A config that cannot be run. `faults`: all faults; the text lists `SHOWN` of them."""
 
     def __init__(self, faults: list[Fault]) -> None:
-        super().__init__("\n".join(_told(faults)))
+        super().__init__("\n".join(_shown(faults)))
         self.faults = faults
 
 
-def _told(faults: list[Fault]) -> list[str]:
-    """A line each for the first `TOLD` faults, those of different keys before more of one key."""
+def _shown(faults: list[Fault]) -> list[str]:
+    """One line each for `SHOWN` faults; the first fault of every key goes before further ones."""
     seen: Counter[str] = Counter()
-    repeats = []  # how many of the same key come before
+    repeats = []  # number of earlier faults of the same key
     for fault in faults:
         repeats.append(seen[fault.key])
         seen[fault.key] += 1
-    chosen = sorted(range(len(faults)), key=repeats.__getitem__)[:TOLD]
+    chosen = sorted(range(len(faults)), key=repeats.__getitem__)[:SHOWN]
     more = len(faults) - len(chosen)
     counted = [f"and {more:,} more mistake{'s' if more > 1 else ''}"] if more else []
     return [faults[k].line for k in sorted(chosen)] + counted
 
 
 class Written(NamedTuple):
-    """A value in SI (None: left at its default), and the words of the file for it and its key."""
+    """A value in SI (None: not set), its text in the file, and its key in the file."""
 
     value: Any
     text: str
@@ -69,10 +69,11 @@ Axes = dict[str, tuple[Written, ...]]
 
 @dataclass(frozen=True)
 class Config:
-    """A sweep: one case, and the axes along which it varies; keys are dotted.
+    """A sweep: the values that all cases share, and the axes that vary; keys are dotted.
 
-    `exclude`: of each table, the values (rounded) that a case must have at all its keys to be
-    dropped.
+    grid, zip: key -> values; every value of the grid meets every row of every zip.
+    exclude: tables key -> rounded values. A case is dropped if, for every key of a table, its value
+    is among the values of that key.
     """
 
     name: str
@@ -85,21 +86,21 @@ class Config:
 
     @cached_property
     def cases(self) -> tuple[Case, ...]:
-        """What `expand` returns, found once."""
+        """The cases that `expand` returns, computed once."""
         return tuple(_cases(self))
 
 
 def case_count(config: Config) -> int:
-    """Number of combinations, before any are excluded or found to be equal."""
+    """Number of combinations, including excluded and equal ones."""
     lengths = [len(values) for values in config.grid.values()]
     return prod(lengths + [len(next(iter(tied.values()))) for tied in config.zip])
 
 
 def expand(config: Config) -> list[Case]:
-    """All cases, the first axis of the grid varying slowest; of equal ones, the first.
+    """All cases; the first axis of the grid varies slowest, and of equal cases the first is kept.
 
-    A key that none of them needs is refused: it says something that does not happen. So is a table
-    of [[exclude]] that drops none.
+    A key that no case uses is refused, since it has no effect. So is a table of [[exclude]] that
+    drops no case.
     """
     return list(config.cases)
 
@@ -111,7 +112,7 @@ def _cases(config: Config) -> Iterable[Case]:
         raise ConfigError([Fault("grid", line)])
     cases: dict[str, Case] = {}
     refused: dict[str, list[Fault]] = {}
-    idle = dict.fromkeys(_spoken_for(config), "")
+    unused = dict.fromkeys(_keys_to_use(config), "")
     dropped: set[int] = set()
     for draft in _drafts(config):
         matching = {k for k, table in enumerate(config.exclude) if draft.matches(table)}
@@ -122,15 +123,15 @@ def _cases(config: Config) -> Iterable[Case]:
             refused.setdefault(fault.key, []).append(fault)
         if not draft.faults:
             cases.setdefault(draft.case.case_id, draft.labelled())
-            idle = still_idle(idle, draft.given, draft.case) if idle else idle
+            unused = still_unused(unused, draft.given, draft.case) if unused else unused
     if refused:
         raise ConfigError([_merged(faults, count) for faults in refused.values()])
     if not cases:
         line = f"[[exclude]] drops all {count:,} cases; allowed: tables that leave at least one"
         raise ConfigError([Fault("exclude", line)])
     faults = [_dropping_none(config, k) for k in range(len(config.exclude)) if k not in dropped]
-    if any(idle.values()):
-        faults += _without_effect(config, idle)
+    if any(unused.values()):
+        faults += _without_effect(config, unused)
     if faults:
         raise ConfigError(faults)
     return cases.values()
@@ -138,7 +139,7 @@ def _cases(config: Config) -> Iterable[Case]:
 
 @dataclass(frozen=True)
 class _Draft:
-    """One combination: its values along the axes, the case that it makes, what is wrong with it."""
+    """One combination: its values along the axes, all given values, its case and its faults."""
 
     chosen: Values
     given: dict[str, Any]
@@ -146,13 +147,13 @@ class _Draft:
     faults: list[Fault]
 
     def value(self, key: str) -> Any:
-        """The value of the resolved case; of an alias, the one that all its targets share."""
+        """The value of the resolved case; of an alias, the value that all its targets share."""
         targets = [target.split(".") for target in _keys(key)]
         first, *others = [getattr(getattr(self.case, table), name) for table, name in targets]
         return first if all(other == first for other in others) else None
 
     def matches(self, table: dict[str, tuple[object, ...]]) -> bool:
-        """True if the case has one of the values of every key of an [[exclude]] table."""
+        """True if the case has, for every key of an [[exclude]] table, one of its values."""
         return all(rounded(self.value(key)) in values for key, values in table.items())
 
     def labelled(self) -> Case:
@@ -181,19 +182,19 @@ def _drafts(config: Config) -> Iterator[_Draft]:
         yield _Draft(chosen, given, case, [_fault(reason, written) for reason in wrong])
 
 
-def _spoken_for(config: Config) -> list[str]:
-    """The keys of a case that a config sets; a fact of its material may stand unused."""
-    stated = [key for key in config.base if key not in FACTS]
+def _keys_to_use(config: Config) -> list[str]:
+    """The keys of a case that a config sets, of which every one must have an effect."""
+    stated = [key for key in config.base if key not in MAY_BE_UNUSED]
     return stated + [target for _, name, _ in _axes(config) for target in _keys(name)]
 
 
-def _without_effect(config: Config, idle: dict[str, str]) -> list[Fault]:
-    """A fault for each key that no case needs; `idle` says why."""
+def _without_effect(config: Config, unused: dict[str, str]) -> list[Fault]:
+    """A fault for each key that no case uses; `unused` holds the reasons."""
     lines = {key: f"{written.name or key} = {written.text}" for key, written in config.base.items()}
     for where, name, values in _axes(config):
         texts = ", ".join(written.text for written in values)
         lines[_keys(name)[0]] = f"{where} {name} = [{texts if len(texts) < 60 else '...'}]"
-    return [Fault(key, f"{line}: {idle[key]}") for key, line in lines.items() if idle.get(key)]
+    return [Fault(key, f"{line}: {unused[key]}") for key, line in lines.items() if unused.get(key)]
 
 
 def _dropping_none(config: Config, number: int) -> Fault:
@@ -203,7 +204,7 @@ def _dropping_none(config: Config, number: int) -> Fault:
 
 
 def _axes(config: Config) -> Iterator[tuple[str, str, tuple[Written, ...]]]:
-    """Every axis: where it stands, its key, its values."""
+    """Every axis: the table that has it, its key, its values."""
     for where, axes in [("[grid]", config.grid), *(("[[zip]]", tied) for tied in config.zip)]:
         yield from ((where, name, values) for name, values in axes.items())
 
@@ -219,7 +220,7 @@ def _combinations(config: Config) -> Iterator[Values]:
 
 
 def _targets(chosen: Values) -> Values:
-    """The keys of a case that are set, aliases replaced."""
+    """The chosen values by keys of a case: aliases are replaced, defaults left out."""
     set_here = {key: written for key, written in chosen.items() if written.value is not None}
     return {target: written for key, written in set_here.items() for target in _keys(key)}
 
@@ -230,7 +231,7 @@ def _keys(name: str) -> tuple[str, ...]:
 
 
 def _table(name: str, items: tuple[tuple[str, Any], ...]) -> tuple[Table, list[Reason]]:
-    """A table of these values, and why it cannot be used."""
+    """A table of these values, and the reasons why it cannot be used."""
     try:
         return TABLES[name].model_validate(dict(items)), []
     except ValidationError as error:
@@ -239,17 +240,20 @@ def _table(name: str, items: tuple[tuple[str, Any], ...]) -> tuple[Table, list[R
 
 
 def _reason(table: str, wrong: ErrorDetails) -> Reason:
-    """The reason of a refusal, or of a number of a record that is out of range."""
+    """The reason of a refusal, or of a number of a record that is out of range.
+
+    A record that cannot be read raises `ConfigError`.
+    """
     if wrong["type"] == "refused":
         return wrong["ctx"]
-    if wrong["type"] == "value_error":  # the record of a material that cannot be read
+    if wrong["type"] == "value_error":
         raise ConfigError([Fault("material.name", f"material.name: {wrong['ctx']['error']}")])
     key = f"{table}.{wrong['loc'][0]}"
     return {"key": key, "value": wrong["input"], "allowed": case_keys()[key].allowed}
 
 
 def _fault(reason: Reason, given: Values) -> Fault:
-    """What is wrong with one case, in the words of the file where they are there."""
+    """The fault of one case, in the words of the file if the file sets the key."""
     key, value, allowed = reason["key"], reason["value"], reason["allowed"]
     if key in given:
         written, allowed = given[key], _in_unit_of(given[key], key, allowed)
@@ -265,7 +269,7 @@ def _fault(reason: Reason, given: Values) -> Fault:
 
 
 def _in_unit_of(written: Written, key: str, sentence: str) -> str:
-    """A sentence whose quantities, in SI, are of the kind of a key: in the unit of the file."""
+    """A sentence with its SI quantities converted to the unit that the file uses for a key."""
     unit, match = case_keys()[key].unit, _QUANTITY.fullmatch(written.text)
     if unit is None or match is None:
         return sentence
@@ -275,7 +279,7 @@ def _in_unit_of(written: Written, key: str, sentence: str) -> str:
 
 
 def _merged(faults: list[Fault], count: int) -> Fault:
-    """One fault for all cases that share it, in the words of the first."""
+    """One fault for all cases that share it, with the line of the first."""
     key, line = faults[0]
     if count > 1:
         line += f" ({len(faults):,} of {count:,} combinations)"

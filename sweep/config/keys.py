@@ -1,6 +1,6 @@
-"""The keys of a config: what each one accepts, said in words, and the nearest to a misspelt one.
+"""The keys of a config: which values each key accepts, in words, and the key nearest to a typo.
 
-All of it is read off the tables (`tables`), so that a new key needs no second entry.
+All of it is derived from the models in `tables`, so that a new key needs no second entry.
 """
 
 import difflib
@@ -23,7 +23,7 @@ RESOLVED = {
     "lattice.structure",
     "material.curve_strain",
     "material.curve_stress",
-}  # part of a case, not of a config
+}  # parts of a case that a config cannot set
 QUANTITIES = {
     "m": 'a length with a unit, such as "0.8 mm"',
     "s": 'a time with a unit, such as "0.2 s"',
@@ -46,9 +46,10 @@ _BOUNDS = {
 
 @dataclass(frozen=True)
 class Key:
-    """One key: the keys of a case that it sets, its SI unit, and what it accepts.
+    """One key of a config.
 
-    `bare`: the unit may be left out. `adapter` checks a value in SI.
+    targets: the keys of a case that it sets. unit: its SI unit. bare: the unit may be left out.
+    allowed: the accepted values in words. adapter: checks a value in SI.
     """
 
     targets: tuple[str, ...]
@@ -61,7 +62,7 @@ class Key:
 
 @cache
 def case_keys() -> dict[str, Key]:
-    """The keys of a case by their dotted names, aliases included."""
+    """The keys of a case by their dotted names, including aliases."""
     known = {name: key for table in TABLES for name, key in table_keys(table).items()}
     return known | {
         alias: replace(known[targets[0]], targets=targets) for alias, targets in ALIASES.items()
@@ -82,7 +83,7 @@ def table_keys(table: str) -> dict[str, Key]:
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
-    """The known name that begins like this one, or else looks most like it."""
+    """The known name most similar to this one; names that begin with it come first."""
     names = list(known)
     begun = [other for other in names if other.startswith(name)]
     return difflib.get_close_matches(name, begun or names, n=1, cutoff=0.0)[0]
@@ -102,8 +103,9 @@ def _key(name: str, model: type[Table], field: str, schema: dict[str, Any]) -> K
 
 
 def _plain(schema: dict[str, Any]) -> dict[str, Any]:
-    """The schema of a value that is given: without null."""
-    return next((arm for arm in schema.get("anyOf", []) if arm["type"] != "null"), schema)
+    """The schema of a value, without the alternative null."""
+    options = schema.get("anyOf", [])
+    return next((option for option in options if option["type"] != "null"), schema)
 
 
 def _item(schema: dict[str, Any]) -> dict[str, Any]:
@@ -113,7 +115,7 @@ def _item(schema: dict[str, Any]) -> dict[str, Any]:
 
 
 def _words(schema: dict[str, Any]) -> str:
-    """What a schema accepts, in words."""
+    """The values that a schema accepts, in words."""
     if "enum" in schema or "const" in schema:
         *others, last = [f'"{name}"' for name in schema.get("enum", [schema.get("const")])]
         return f"{', '.join(others)} or {last}" if others else last

@@ -1,4 +1,4 @@
-"""The table `lattice`: the specimen, and what of it follows from the rest."""
+"""The table `lattice`: the specimen, and the values that follow from other keys."""
 
 from math import isclose, isnan
 from pathlib import Path
@@ -15,9 +15,9 @@ from sweep.design.infill import families, trait
 
 CUSTOM = "custom"
 LINE_WIDTH, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m, of a 0.4 mm nozzle
-# The factor of 70 000 nodes takes 8 GB, and a step with it minutes.
+# The factor of a lattice of 70 000 nodes takes 8 GB, and a step several minutes.
 MAX_NODES = 50_000
-MAX_ASPECT = 1000.0  # of the box: beyond, walls fall together in the arithmetic of areas
+MAX_ASPECT = 1000.0  # of the box; above it the computed areas lose their accuracy
 
 
 def _known(kind: str) -> str:
@@ -34,14 +34,14 @@ Share = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})]
 
 
 class Lattice(Table):
-    """The specimen: outer size over centre lines, its infill, its outline, the mesh of its walls.
+    """The specimen: outer size over centre lines, infill, outline, mesh of the walls.
 
-    Instead of cells and `wall_thickness`: `infill`, the share of the box that lines of `line_width`
-    fill, as slicers count. Instead of `wall_thickness`: `mass`, solved for in `sized`.
-    None: not used, or filled in. A custom kind is `structure`, read from `file`, in one piece: box
-    and thickness are then what it measures.
-    boundary "periodic": one period of an endless lattice. Width and height are its size; opposite
-    sides are tied to each other, the mean shear is zero, and so is the mean stress sideways.
+    None: not used, or filled in. `infill` replaces the cells and `wall_thickness`: the share of the
+    box that lines of `line_width` fill, as slicers count. `mass` replaces `wall_thickness`, which
+    `sized` computes. A lattice of kind "custom" is the `structure` in `file`, which is connected;
+    box and thickness are measured from it.
+    boundary "periodic": one period of an endless lattice, of size `width` x `height`. Opposite
+    sides are tied to each other; the mean shear strain and the mean lateral stress are zero.
     """
 
     neutral: ClassVar[dict[str, Any]] = {
@@ -97,7 +97,7 @@ class Lattice(Table):
             "layer_height": (self.layer_height or LAYER_HEIGHT) if self.solid_layers else None,
         }
         for key, value in used.items():
-            object.__setattr__(self, key, value)  # frozen from here on
+            object.__setattr__(self, key, value)  # the model is frozen
         if self.infill is not None:
             self._fill(self.infill)
         self._be_small_enough()
@@ -106,7 +106,7 @@ class Lattice(Table):
         return self
 
     def _measured(self, structure: Structure) -> Self:
-        """The box, the mean thickness and the depth of a structure, in m."""
+        """The table with the box, the mean thickness and the depth of a structure, in m."""
         width, height = structure.size_mm
         thickness = structure.thickness_mm
         measures = {
@@ -121,11 +121,11 @@ class Lattice(Table):
             "imperfection": 0.0,
         }
         for key, value in measures.items():
-            object.__setattr__(self, key, value)  # frozen from here on
+            object.__setattr__(self, key, value)  # the model is frozen
         return self
 
     def _fill(self, share: float) -> None:
-        """Cells and wall thickness of a share of infill."""
+        """Fill in the cells and the wall thickness of a share of infill."""
         if self.mass is not None:
             raise refusal("lattice.mass", self.mass, "none where lattice.infill is given")
         wished = f"as lattice.infill is {100 * share:g} %; give one of them"
@@ -140,7 +140,7 @@ class Lattice(Table):
             self._follow(key, value, f"{value}, {wished}")
 
     def _follow(self, key: str, value: Any, allowed: str) -> None:
-        """Fill in a value that follows from others, unless another one is given."""
+        """Fill in a value that follows from other keys; refuse a different given value."""
         if key in self.model_fields_set and getattr(self, key) != value:
             raise refusal(f"lattice.{key}", getattr(self, key), allowed)
         object.__setattr__(self, key, value)
@@ -158,7 +158,7 @@ class Lattice(Table):
 
     @property
     def geometry(self) -> Geometry:
-        """What is drawn, unless it is a structure of its own."""
+        """The numbers that define the drawing of a lattice that is no custom structure."""
         return Geometry(
             self.kind,
             self.orientation,
@@ -177,7 +177,7 @@ class Lattice(Table):
 
     @property
     def _counts(self) -> tuple[int, int]:
-        """Numbers of joints and walls; of a structure, its elements."""
+        """Numbers of joints and walls; of a custom structure, of nodes and elements."""
         if self.structure is not None:
             return len(self.structure.nodes_mm), sum(self.structure.pieces)
         if known := trait(self.kind, "counts"):
@@ -188,7 +188,7 @@ class Lattice(Table):
 
     @property
     def opening(self) -> float:
-        """Clear width between the centre lines of the narrowest cell that is whole, m."""
+        """Clear width of the narrowest whole cell between centre lines, m."""
         if known := trait(self.kind, "opening"):
             return known(self.width / self.cells_x, self.height / self.cells_y)
         from sweep.design.box import opening
@@ -197,7 +197,7 @@ class Lattice(Table):
 
     @property
     def thickest(self) -> float:
-        """Wall thickness (m) with which the narrowest opening is as wide as its walls are thick."""
+        """Wall thickness (m) at which the narrowest opening is as wide as its walls are thick."""
         if self.grading == 1.0:
             return 0.5 * self.opening
         from sweep.design.box import gradient
@@ -206,15 +206,15 @@ class Lattice(Table):
 
     @property
     def outline(self) -> tuple[float, float]:
-        """Thickness (m) of the walls round the infill: left and right, above and below; 0: none."""
+        """Thickness (m) of the outline: at the left and right sides, at the bottom and top."""
         sides = self.perimeters * (self.line_width or 0.0)
         return sides, self.solid_layers * (self.layer_height or 0.0) or sides
 
     @property
     def outer_size(self) -> tuple[float, float]:
-        """Width and height over all, of walls of mean thickness where there is no outline, m.
+        """Width and height over all (m), with walls of mean thickness where there is no outline.
 
-        Those of a period, where the lattice is endless.
+        For an endless lattice, the size of the period.
         """
         if self.boundary == "periodic":
             return self.width, self.height
@@ -223,7 +223,7 @@ class Lattice(Table):
 
 
 def be_in_proportion(lattice: Lattice) -> None:
-    """Refuse a box whose sides are too unlike."""
+    """Refuse a box whose aspect ratio is too large."""
     key, other = ("width", "height") if "width" in lattice.model_fields_set else ("height", "width")
     value, side = getattr(lattice, key), getattr(lattice, other)
     least, most = side / MAX_ASPECT, side * MAX_ASPECT
@@ -233,7 +233,7 @@ def be_in_proportion(lattice: Lattice) -> None:
 
 
 def leave_openings(lattice: Lattice) -> None:
-    """Refuse walls that leave no sensible opening between them, and an outline that fills cells."""
+    """Refuse walls as thick as the openings between them, and an outline that fills cells."""
     limit, thickness = lattice.thickest, lattice.wall_thickness
     if thickness >= limit * (1.0 - 1e-12):
         if lattice.infill is not None:
@@ -241,17 +241,17 @@ def leave_openings(lattice: Lattice) -> None:
             raise refusal("lattice.infill", lattice.infill, allowed)
         allowed = f"below half the width of the narrowest cell, {limit:.4g} m here"
         raise refusal("lattice.wall_thickness", thickness, allowed)
-    room = lattice.opening - thickness
+    gap = lattice.opening - thickness
     for axis, key in enumerate(("perimeters", "solid_layers")):
         outline, count = lattice.outline[axis], getattr(lattice, key)
-        if count and outline >= room:
-            most = int(room / (outline / count))
-            allowed = f"at most {most} here, thinner in all than cells are open, {room:.4g} m"
+        if count and outline >= gap:
+            most = int(gap / (outline / count))
+            allowed = f"at most {most} here, thinner in all than cells are open, {gap:.4g} m"
             raise refusal(f"lattice.{key}", count, allowed)
 
 
 def repeat(lattice: Lattice) -> None:
-    """Refuse what cannot be the period of an endless lattice."""
+    """Refuse a lattice that cannot be the period of an endless one."""
     endless = 'if lattice.boundary is "periodic"'
     if lattice.kind == CUSTOM:
         raise refusal("lattice.boundary", "periodic", '"free" if lattice.kind is "custom"')
@@ -266,7 +266,7 @@ def repeat(lattice: Lattice) -> None:
 
 
 def sized(lattice: Lattice, density: float) -> Lattice:
-    """A lattice whose walls are as thick as its `mass` demands."""
+    """The lattice with the wall thickness that gives its `mass`; `density` in kg/m^3."""
     if lattice.mass is None or lattice.structure is not None:
         return lattice
     from sweep.design.sizing import thickness_for

@@ -1,9 +1,9 @@
-"""Material records: the tables under `configs/materials/`, read as they stand, in SI.
+"""Material records: the tables in `configs/materials/`, which are in SI.
 
-A record is a csv file. Its comment lines hold the source and, one a line, `# key: value` for
-`density_kg_m3`, `poisson` and, optionally, `modulus_Pa`; then come the columns `strain,stress_Pa`
+A record is a csv file. Its comment lines hold the source and, one per line, `# key: value` for
+`density_kg_m3`, `poisson` and, optionally, `modulus_Pa`. The columns `strain,stress_Pa` follow
 (nominal, tension positive, strains increasing; the origin is implied and may be left out).
-Rows of negative strain, where there are any, are the material's own compression branch.
+Rows of negative strain, if there are any, are the material's own compression branch.
 """
 
 import csv
@@ -17,14 +17,14 @@ Numbers = tuple[float, ...]
 
 FOLDER = Path(__file__).parents[2] / "configs" / "materials"
 COLUMNS = ["strain", "stress_Pa"]
-TOE = 0.01  # strain below which a record is replaced by a straight line from the origin
-SECANT = (0.01, 0.04)  # strains between which the modulus of a curve is taken
+TOE = 0.01  # below this strain a record is replaced by a straight line from the origin
+SECANT = (0.01, 0.04)  # strains of the secant that is the modulus of a curve
 
 _HEADER = re.compile(r"#\s*(density_kg_m3|poisson|modulus_Pa):\s*([\d.eE+-]+)\s*")
 
 
 class RecordError(ValueError):
-    """A record that cannot be used; the text is one line that names the file and the fault."""
+    """A record that cannot be used; the text is one line with the file and the fault."""
 
 
 class UnknownMaterialError(RecordError):
@@ -33,7 +33,7 @@ class UnknownMaterialError(RecordError):
 
 @dataclass(frozen=True)
 class Record:
-    """One material: nominal strain and stress (k,) in Pa, and its numbers in SI."""
+    """One material: nominal strain (k,), nominal stress (k,) in Pa, and its numbers in SI."""
 
     name: str
     strain: Numbers
@@ -63,7 +63,7 @@ def locate(name: str, folder: Path | None = None) -> Path:
 
 
 def read_record(path: Path) -> Record:
-    """Read and check one record. Modulus: as stated, else the secant between 1 and 4 %."""
+    """Read and check one record. Modulus: the stated one, else the secant between 1 and 4 %."""
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
         stated = {match[1]: float(match[2]) for line in lines if (match := _HEADER.fullmatch(line))}
@@ -89,7 +89,7 @@ def _columns(lines: list[str]) -> tuple[Numbers, Numbers]:
 
 
 def check_curve(strain: Numbers, stress: Numbers) -> None:
-    """Refuse a curve that is no function of strain, or that starts flat or falling."""
+    """Refuse a curve that is not a function of strain, or whose stress does not rise at first."""
     if len(strain) != len(stress) or not all(map(isfinite, strain + stress)):
         raise RecordError("a curve needs a stress for every strain, all of them finite")
     if any(b <= a for a, b in pairwise(strain)) or min(strain, default=0.0) <= -1.0:
@@ -108,7 +108,7 @@ def secant_modulus(strain: Numbers, stress: Numbers) -> float:
 
 
 def stress_at(at: float, strain: Numbers, stress: Numbers) -> float:
-    """Stress (Pa) at a tensile strain, straight between the points of the record and the origin."""
+    """Stress (Pa) at a tensile strain, linear between the origin and the points of the record."""
     points = [(0.0, 0.0), *((e, s) for e, s in zip(strain, stress, strict=True) if e > 0.0)]
     for (e0, s0), (e1, s1) in pairwise(points):
         if at <= e1:

@@ -1,6 +1,6 @@
-"""Reads a document, table by table, into a sweep; every fault becomes one line.
+"""Reads a TOML document, table by table, into a sweep; every fault becomes one line.
 
-Knows no units: whoever makes a reader gives it the conversion.
+The reader knows no units: its caller passes the conversion.
 """
 
 import json
@@ -28,19 +28,20 @@ _NAME = re.compile(r"\w[\w.-]*")
 
 
 class Reader:
-    """Turns a document into a config, and collects what is wrong with it on the way.
+    """Turns a document into a config and collects its faults.
 
-    `folder` is where the files named in it are; `to_si(quantity, unit)` converts.
+    folder: the folder of the document, to which paths in it are relative.
+    to_si(quantity, unit): converts a quantity to an SI unit.
     """
 
     def __init__(self, folder: Path, to_si: Callable[[Any, str], float]) -> None:
         self.folder = folder
         self.to_si = to_si
         self.faults: list[Fault] = []
-        self.varied: dict[str, str] = {}  # keys of a case that vary, and where they are said to
+        self.varied: dict[str, str] = {}  # keys of a case that vary, and the table that says so
 
     def config(self, document: dict[str, Any], path: Path) -> Config:
-        """All of a document."""
+        """The config of a whole document."""
         sections = ["name", *TABLES, "grid", "zip", "exclude", "rank"]
         for section in document:
             if section not in sections:
@@ -58,14 +59,14 @@ class Reader:
         )
 
     def trusts(self, fault: Fault) -> bool:
-        """False if what is wrong with a case may only follow from a fault that is known."""
-        founded_on = {
+        """False if this fault of a case may be a consequence of a fault found before."""
+        depends_on = {
             "lattice": {"lattice"},
             "material": {"material"},
             "grid": set(),
             "exclude": {*TABLES, "exclude", "grid", "zip"},
         }.get(_table(fault.key), TABLES.keys() - {"material"})
-        return not founded_on & {_table(known.key) for known in self.faults}
+        return not depends_on & {_table(known.key) for known in self.faults}
 
     def _name(self, name: object) -> str:
         if isinstance(name, str) and _NAME.fullmatch(name):
@@ -90,9 +91,9 @@ class Reader:
         return []
 
     def _base(self, document: dict[str, Any]) -> Values:
-        """The case from which the sweep starts."""
+        """The values that all cases share, unless an axis replaces them."""
         base: Values = {}
-        names: dict[str, str] = {}  # under which each key of the case is given
+        names: dict[str, str] = {}  # key of a case -> the name under which the config sets it
         for table in TABLES:
             for field, raw in self._section(document, table).items():
                 name = f"{table}.{field}"
@@ -111,7 +112,7 @@ class Reader:
         return Rank(**{field: written.value for field, written in read.items() if written})
 
     def _axes(self, axes: dict[str, Any], where: str) -> Axes:
-        """Keys that vary, each with its list of values."""
+        """Keys that vary, each with its values."""
         return {
             name: values for name, raw in axes.items() if (values := self._axis(name, raw, where))
         }
@@ -134,7 +135,7 @@ class Reader:
         return ()
 
     def _zip(self, table: dict[str, Any]) -> Axes:
-        """Keys that advance together; an empty text leaves a key as it is in that row."""
+        """Keys that vary together; an empty text leaves a key unset in that row."""
         tied = self._axes(table, "[[zip]]")
         lengths = {name: len(raw) for name, raw in table.items() if isinstance(raw, list)}
         if len(set(lengths.values())) > 1:
@@ -145,9 +146,7 @@ class Reader:
         return tied if len({len(values) for values in tied.values()}) == 1 else {}
 
     def _exclude(self, table: dict[str, Any]) -> dict[str, tuple[object, ...]]:
-        """Values of keys that make a case be dropped, as the case would hold them; none if one is
-        wrong.
-        """
+        """The values of an [[exclude]] table, in the form of a case; empty if one is wrong."""
         if not table:
             self._refuse("[[exclude]]", table, "is empty; allowed: at least one key")
         excluded = {}
@@ -166,7 +165,7 @@ class Reader:
         return excluded if len(excluded) == len(table) else {}
 
     def _value(self, name: str, raw: Any, where: str = "") -> Written | None:
-        """A value in SI; None, and a fault more, if it cannot be one."""
+        """A value in SI; if it is wrong, None, and one fault is added."""
         known = case_keys() if where else case_keys() | table_keys("rank")
         if name not in known:
             self._unknown(name, raw, known, where)
@@ -192,7 +191,7 @@ class Reader:
         self.faults.append(Fault(about or name, line))
 
     def _checked(self, key: Key, raw: Any) -> Any:
-        """A value in SI, or ValueError with the reason."""
+        """A value in SI; raises ValueError with the reason if it is wrong."""
         if key.targets == ("material.name",) and isinstance(raw, str):
             return _material(raw, self.folder)
         if key.targets == ("lattice.file",) and isinstance(raw, str):
@@ -210,7 +209,7 @@ class Reader:
 
 
 def _material(name: str, folder: Path) -> str:
-    """A shipped name as it is; a user's own record as its whole path."""
+    """The name of a shipped material, or the absolute path of a user's own record."""
     try:
         path = locate(name, folder)
     except UnknownMaterialError:
@@ -220,13 +219,13 @@ def _material(name: str, folder: Path) -> str:
 
 
 def _structure(path: Path) -> str:
-    """The whole path of a user's own structure."""
+    """The absolute path of a user's own structure."""
     read_structure(path)
     return str(path.resolve())
 
 
 def _flat(table: dict[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Dotted keys of nested tables: "lattice.cells" = ... and lattice.cells = ... are the same."""
+    """Dotted keys of nested tables: "lattice.cells" = 3 and lattice.cells = 3 are the same."""
     flat: dict[str, Any] = {}
     for name, value in table.items():
         inner = _flat(value, f"{prefix}{name}.") if isinstance(value, dict) else None
@@ -239,7 +238,7 @@ def _table(key: str) -> str:
 
 
 def in_words(raw: object) -> str:
-    """A value as TOML writes it, in one line and not too long."""
+    """A value as TOML writes it, on one line of at most 60 characters."""
     text = json.dumps(raw, default=str, ensure_ascii=False)
     return _one_line(text if len(text) <= 60 else f"{text[:57]}...")
 

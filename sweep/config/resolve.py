@@ -1,7 +1,7 @@
-"""What a case leaves open, filled in: walls for a mass, defaults that depend on its mode.
+"""Completes the tables of a case: wall thickness for a mass, defaults that depend on the mode.
 
-Keys that the mode does not use become None, so that equal physics has an equal id; what cannot go
-together is refused. Resolving what is resolved changes nothing.
+Keys that the mode does not use become None, so that equal physics has an equal id. Values that
+contradict one another are refused. Resolving a resolved case changes nothing.
 """
 
 from collections.abc import Mapping
@@ -23,7 +23,7 @@ from sweep.config.solver_defaults import (
 from sweep.config.structure import Structure
 from sweep.config.tables import Contact, Damping, Loading, Solver, refusal
 
-PASSAGES = 10  # times that the striker takes for the height of the lattice: duration of an impact
+PASSAGES = 10  # default duration of an impact / time the striker takes for the lattice's height
 PLATENS = '"contact", "glued" or "sliding"'
 DEPENDENT = ("loading", "contact", "damping", "solver")
 
@@ -31,10 +31,10 @@ DEPENDENT = ("loading", "contact", "damping", "solver")
 def resolve(
     tables: Mapping[str, Any], sound: bool = True
 ) -> tuple[dict[str, Any], PydanticCustomError | None]:
-    """The tables of a case by name, nothing left open; then None, or what does not go together.
+    """The completed tables of a case by name, and the refusal if values contradict one another.
 
-    What was settled before the refusal stays so: an [[exclude]] may ask for its values.
-    sound : False for a lattice that is refused by itself: no walls are found for its mass.
+    Values that were completed before the refusal are kept, since an [[exclude]] may name them.
+    sound: False if the lattice itself is refused; then no thickness is computed for its mass.
     """
     found = dict(tables)
     try:
@@ -52,7 +52,7 @@ def resolve(
 def _settled(
     lattice: Lattice, loading: Loading, contact: Contact, damping: Damping, solver: Solver
 ) -> tuple[Loading, Contact, Damping, Solver]:
-    """The tables that depend on one another and on the lattice, nothing left open."""
+    """The tables that depend on one another and on the lattice, completed."""
     loading, wish = _loading(loading, lattice, solver.integrator), solver.time_step
     solver = settle(solver, loading, lattice, contact.model == "position_based")
     check_steps(solver, loading, wish)
@@ -65,7 +65,7 @@ def _settled(
 
 def _loading(loading: Loading, lattice: Lattice, integrator: str | None) -> Loading:
     if lattice.structure is not None:
-        return _own(loading, lattice.structure, integrator)
+        return _of_structure(loading, lattice.structure, integrator)
     if loading.mode == "custom":
         allowed = '"force", "displacement" or "impact" unless lattice.kind is "custom"'
         raise refusal("loading.mode", "custom", allowed)
@@ -81,15 +81,15 @@ def _loading(loading: Loading, lattice: Lattice, integrator: str | None) -> Load
     return _displacement(loading, lattice.height, integrator)
 
 
-def _own(loading: Loading, structure: Structure, integrator: str | None) -> Loading:
-    """What the file of a structure says, for a time, or without one in equal increments."""
+def _of_structure(loading: Loading, structure: Structure, integrator: str | None) -> Loading:
+    """The loading in the file of a structure: for a duration, or quasi-static in equal steps."""
     quasi_static = integrator in ("static", ARCS) or bool(loading.quasi_static)
     if quasi_static and integrator not in (None, "static", ARCS):
         raise refusal("solver.integrator", integrator, '"static" if quasi_static')
     if quasi_static and structure.floor_y_mm is None:
-        from sweep.config.mechanism import loosest
+        from sweep.config.mechanism import find_mechanism
 
-        found = loosest(structure)
+        found = find_mechanism(structure)
         if found:
             allowed = f"{IN_TIME}, or more supports: {found}"
             since = "loading.quasi_static"
@@ -104,7 +104,7 @@ def _own(loading: Loading, structure: Structure, integrator: str | None) -> Load
 
 
 def _force(loading: Loading, integrator: str | None) -> Loading:
-    """A dead load, put on at once, let go at `release_time`, watched until `duration`."""
+    """A dead load, applied at once and removed at `release_time`; the run ends at `duration`."""
     if integrator == "static":
         raise refusal("solver.integrator", "static", f'{IN_TIME} if loading.mode is "force"')
     duration = given_or(loading.duration, 0.2)
@@ -122,7 +122,7 @@ def _force(loading: Loading, integrator: str | None) -> Loading:
 
 
 def _impact(loading: Loading, height: float, integrator: str | None) -> Loading:
-    """A striker that is let go at the lattice, watched until `duration`, or until it is back."""
+    """A striker that hits the lattice; the run ends when it is back, or at `duration`."""
     if integrator == "static":
         raise refusal("solver.integrator", "static", f'{IN_TIME} if loading.mode is "impact"')
     if loading.platen == "none":
@@ -141,7 +141,7 @@ def _impact(loading: Loading, height: float, integrator: str | None) -> Loading:
 
 
 def _speed_and_energy(loading: Loading, striker_mass: float) -> tuple[float, float]:
-    """Each from the other: 2 m/s if neither is given."""
+    """Speed and energy, one from the other; 2 m/s if neither is given."""
     if loading.striker_speed is None and loading.energy is not None:
         return sqrt(2.0 * loading.energy / striker_mass), loading.energy
     speed = given_or(loading.striker_speed, 2.0)
@@ -153,7 +153,7 @@ def _speed_and_energy(loading: Loading, striker_mass: float) -> tuple[float, flo
 
 
 def _displacement(loading: Loading, height: float, integrator: str | None) -> Loading:
-    """A platen that moves down by `stroke`, and back if `unload`."""
+    """A platen that moves down by `stroke`, and back up if `unload`."""
     if loading.platen == "none":
         allowed = f'{PLATENS} if loading.mode is "displacement"'
         raise refusal("loading.platen", "none", allowed)
@@ -176,9 +176,9 @@ def _displacement(loading: Loading, height: float, integrator: str | None) -> Lo
 
 
 def _mean(loading: Loading, height: float, integrator: str | None) -> Loading:
-    """An endless lattice is led by its mean strain and has no platens.
+    """The loading of an endless lattice: a prescribed mean strain, quasi-static, without platens.
 
-    At rest: the inertia of its mean motion depends on where one stands.
+    The inertia of a mean motion depends on the point of reference, so that motion is refused.
     """
     endless = 'if lattice.boundary is "periodic"'
     if loading.mode != "displacement":
@@ -193,7 +193,7 @@ def _mean(loading: Loading, height: float, integrator: str | None) -> Loading:
 
 
 def _stroke_and_strain(loading: Loading, height: float) -> tuple[float, float]:
-    """Each from the other: 60 % strain if neither is given."""
+    """Stroke and strain, one from the other; 60 % strain if neither is given."""
     if loading.stroke is None:
         strain = given_or(loading.strain, 0.6)
         return strain * height, strain
@@ -209,9 +209,9 @@ def _stroke_and_strain(loading: Loading, height: float) -> tuple[float, float]:
 def _contact(
     contact: Contact, loading: Loading, structure: Structure | None, solver: Solver
 ) -> Contact:
-    """A platen that is not glued needs the barrier even where walls do not see each other.
+    """Loose platens and a floor need the barrier even if the contact model is "none".
 
-    Along a path that is not taken in reality nothing rubs.
+    Friction is zero along arcs, since the unstable parts of an equilibrium path are not a motion.
     """
     if contact.model == "position_based":
         return _by_position(contact, loading, structure)
@@ -229,7 +229,7 @@ def _contact(
 
 
 def _by_position(contact: Contact, loading: Loading, structure: Structure | None) -> Contact:
-    """Moving walls apart exerts no force: none that holds a platen up, and none that rubs."""
+    """Contact by position exerts no force, so it can neither carry a platen nor cause friction."""
     allowed = '"none" or "barrier" if '
     if loading.quasi_static:
         raise refusal("contact.model", contact.model, f"{allowed}loading.quasi_static")
@@ -241,7 +241,7 @@ def _by_position(contact: Contact, loading: Loading, structure: Structure | None
 
 
 def _damping(damping: Damping, loading: Loading) -> Damping:
-    """Without time there is nothing to damp."""
+    """The damping model, without the keys of others; a quasi-static case has no damping."""
     unused = {
         "none": ("mass", "stiffness", "relaxation_time"),
         "rayleigh": ("relaxation_time",),

@@ -1,4 +1,4 @@
-"""The table `solver` of a case: steps of loading, of time or along a path."""
+"""Completes the table `solver` of a case: load steps, time steps or arcs along a path."""
 
 from math import ceil, hypot
 from typing import TypeVar
@@ -9,13 +9,15 @@ from sweep.config.tables import MAX_STEPS, Loading, Material, Solver, refusal
 T = TypeVar("T")
 
 ARCS = "arc_length"
-STEPS_OF_PASSAGE = 1000  # in which a striker would pass the height of the lattice
+STEPS_OF_PASSAGE = 1000  # time steps in which a free striker travels the lattice's height
 IN_TIME = '"backward_euler", "bdf2" or "newmark"'  # the integrators
 
 
 def check_bending(material: Material, lattice: Lattice, solver: Solver) -> None:
-    """Without bending nothing stands in statics. A wall of one element bends as an exact beam only
-    where moment is proportional to turn.
+    """Refuse statics without bending, and exact-beam walls of one element with `bend` "section".
+
+    Without bending stiffness there is no static equilibrium. The exact beam of a single element
+    needs a moment proportional to the angle.
     """
     if material.bend == "none" and solver.integrator in ("static", ARCS):
         allowed = f'"linear" or "section" if solver.integrator is "{solver.integrator}"'
@@ -40,7 +42,7 @@ def steps(loading: Loading, solver: Solver) -> float:
 
 
 def check_steps(solver: Solver, loading: Loading, time_step: float | None) -> None:
-    """Refuse too many of them; `time_step`: the one that was asked for."""
+    """Refuse too many steps; `time_step` (s): the given one, if any."""
     count = steps(loading, solver)
     allowed = f"at most {MAX_STEPS:,} steps in all"
     if count > MAX_STEPS and solver.load_steps is not None and time_step is None:
@@ -50,10 +52,12 @@ def check_steps(solver: Solver, loading: Loading, time_step: float | None) -> No
 
 
 def settle(solver: Solver, loading: Loading, lattice: Lattice, by_position: bool) -> Solver:
-    """A platen moves in `load_steps` equal steps, which set the time step if there is time.
+    """The solver table with its steps and its integrator.
 
-    As many arcs make the diagonal of a structure. A striker flies by bdf2, a tenth as far off as
-    backward Euler in the same steps, but where walls are moved apart after each.
+    A platen moves in `load_steps` equal steps, which set the time step of a crush in time. Along
+    arcs, the default arc length is the diagonal of the structure / `load_steps`. The default of an
+    impact is bdf2, whose error is a tenth of that of backward Euler with the same steps; with
+    contact by position it is backward Euler.
     """
     if solver.step_error is not None and (loading.quasi_static or solver.integrator == ARCS):
         allowed = f"none unless solver.integrator is {IN_TIME}"
@@ -83,12 +87,12 @@ def settle(solver: Solver, loading: Loading, lattice: Lattice, by_position: bool
 
 
 def _steps_in(time: float, time_step: float | None) -> int:
-    """Steps of at most this length, as many as count; 200 where none is asked for."""
+    """Number of steps of at most ``time_step`` (s) in ``time`` (s); 200 if no step is given."""
     if time_step is None:
         return 200
     return ceil(min(time / time_step * (1 - 1e-9), MAX_STEPS + 1.0))
 
 
 def given_or(value: T | None, default: T) -> T:
-    """A value, or what stands for it where none is given."""
+    """A value, or its default if it is None."""
     return default if value is None else value

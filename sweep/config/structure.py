@@ -1,6 +1,6 @@
-"""Structures of a user's own: what the JSON of `lattice.file` holds, as it stands there.
+"""Custom structures: the content of the JSON file `lattice.file`.
 
-Units are those that the keys name. Nodes are numbered as in the file, from 0.
+Each key names its unit. Nodes are numbered from 0, in the order of the file.
 """
 
 from typing import Annotated, Literal
@@ -20,14 +20,14 @@ class Part(BaseModel):
 
 
 class Support(Part):
-    """What of a node never moves."""
+    """The directions in which a node never moves."""
 
     node: Node
     fix: Annotated[tuple[Literal["x", "y", "rotation"], ...], Field(min_length=1)]
 
 
 class Load(Part):
-    """A dead force and a moment, anticlockwise, at a node."""
+    """A dead force and a moment at a node; moments are positive anticlockwise."""
 
     node: Node
     force_N: Pair = (0.0, 0.0)  # noqa: N815 as in the file
@@ -35,7 +35,7 @@ class Load(Part):
 
 
 class Prescribed(Part):
-    """How far a node is led along x or y, or turned anticlockwise."""
+    """A prescribed displacement of a node along x or y, or an anticlockwise rotation."""
 
     node: Node
     direction: Literal["x", "y", "rotation"]
@@ -44,7 +44,7 @@ class Prescribed(Part):
 
 
 class PointMass(Part):
-    """A mass at a node, besides that of the walls."""
+    """A mass at a node, in addition to that of the walls."""
 
     node: Node
     mass_g: Annotated[float, Field(ge=0)]
@@ -59,7 +59,7 @@ class SpringPart(Part):
 
 
 class Structure(Part):
-    """Nodes, walls and what holds and drives them."""
+    """Nodes, walls, supports, loads and other parts of a structure."""
 
     nodes_mm: Annotated[tuple[Pair, ...], Field(min_length=2)]
     walls: Annotated[tuple[tuple[Node, Node], ...], Field(min_length=1)]
@@ -80,19 +80,19 @@ class Structure(Part):
 
     @property
     def thickness_mm(self) -> tuple[float, ...]:
-        """Of every wall."""
+        """Thickness of every wall, mm."""
         given = self.wall_thickness_mm
         return given if isinstance(given, tuple) else (given,) * len(self.walls)
 
     @property
     def pieces(self) -> tuple[int, ...]:
-        """Elements of every wall."""
+        """Number of elements of every wall."""
         given = self.subdivide
         return given if isinstance(given, tuple) else (given,) * len(self.walls)
 
     @property
     def velocity_mm_s(self) -> tuple[Pair, ...]:
-        """Of every node."""
+        """Initial velocity of every node, mm/s."""
         given = self.initial_velocity_mm_s
         if isinstance(given[0], tuple):
             return given
@@ -101,10 +101,10 @@ class Structure(Part):
     @property
     def held(self) -> set[tuple[int, str]]:
         """Nodes and directions that supports fix."""
-        return {(support.node, way) for support in self.supports for way in support.fix}
+        return {(support.node, direction) for support in self.supports for direction in support.fix}
 
     @property
     def size_mm(self) -> tuple[float, float]:
-        """Extent of the nodes in x and y."""
+        """Extent of the nodes in x and y, mm."""
         xs, ys = zip(*self.nodes_mm, strict=True)
         return max(xs) - min(xs), max(ys) - min(ys)

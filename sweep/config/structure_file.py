@@ -1,4 +1,4 @@
-"""Reads a structure of a user's own and says all that is wrong with it, a line each."""
+"""Reads the file of a custom structure and lists its faults, one line each."""
 
 import json
 from collections.abc import Iterator, Sequence
@@ -11,14 +11,14 @@ from pydantic import ValidationError
 from sweep.config.structure import Load, PointMass, Prescribed, SpringPart, Structure, Support
 
 MAX_ELEMENTS = 50_000
-TOUCHING = 1e-9  # of half a wall: round-off
+TOUCHING = 1e-9  # of half a thickness: round-off
 _PARTS = (Structure, Support, Load, Prescribed, PointMass, SpringPart)
 _EITHER = {"wall_thickness_mm", "subdivide", "initial_velocity_mm_s"}
 _KEYS = list(dict.fromkeys(key for part in _PARTS for key in part.model_fields))
 
 
 class StructureError(ValueError):
-    """A structure that cannot be used; `lines` hold all that is wrong with it, a line each."""
+    """A structure that cannot be used; `lines`: its faults, one line each."""
 
     def __init__(self, lines: Sequence[str]) -> None:
         super().__init__("\n".join(lines))
@@ -26,7 +26,7 @@ class StructureError(ValueError):
 
 
 def read_structure(path: Path) -> Structure:
-    """Read and check a file; `StructureError` holds all that is wrong."""
+    """Read and check a file; `StructureError` holds all faults."""
     try:
         text = path.read_text(encoding="utf-8")
         if not isinstance(json.loads(text), dict):
@@ -49,7 +49,7 @@ def read_structure(path: Path) -> Structure:
 
 
 def _misfits(error: ValidationError) -> Iterator[str]:
-    """A line for each fault of form; of a value with two allowed forms, for the closer one."""
+    """One line for each fault of form; a value of two allowed forms gets that of the closer one."""
     closest: dict[object, tuple[int, str]] = {}
     found = error.errors()
     inside = {wrong["loc"][:depth] for wrong in found for depth in range(len(wrong["loc"]))}
@@ -88,90 +88,92 @@ def _fault(loc: Sequence[str | int], value: object, wrong: str) -> str:
     return f"{_where(loc)} = {text if len(text) <= 60 else f'{text[:57]}...'}: {wrong}"
 
 
-def _faults(of: Structure) -> Iterator[str]:
-    """What is wrong with a structure whose form is right."""
-    unknown = list(_unknown_nodes(of))
+def _faults(structure: Structure) -> Iterator[str]:
+    """The faults of a structure of valid form."""
+    unknown = list(_unknown_nodes(structure))
     if unknown:
         yield from unknown
         return
-    yield from _lists(of)
-    yield from _drives(of)
-    geometry = list(_geometry(of))
-    yield from geometry or _loose(of)
+    yield from _lists(structure)
+    yield from _drives(structure)
+    geometry = list(_geometry(structure))
+    yield from geometry or _loose(structure)
 
 
-def _node_references(of: Structure) -> Iterator[tuple[tuple[str | int, ...], int]]:
-    """Every node that is named, and where."""
-    for k, ends in enumerate(of.walls):
+def _node_references(structure: Structure) -> Iterator[tuple[tuple[str | int, ...], int]]:
+    """Every reference to a node: its place in the file, and the number of the node."""
+    for k, ends in enumerate(structure.walls):
         yield from ((("walls", k, side), node) for side, node in enumerate(ends))
-    for k, spring in enumerate(of.springs):
+    for k, spring in enumerate(structure.springs):
         yield from ((("springs", k, "nodes", side), node) for side, node in enumerate(spring.nodes))
     for key in ("supports", "loads", "prescribed", "masses"):
-        yield from (((key, k, "node"), part.node) for k, part in enumerate(getattr(of, key)))
+        yield from (((key, k, "node"), part.node) for k, part in enumerate(getattr(structure, key)))
     for key in ("pins", "probes"):
-        yield from (((key, k), node) for k, node in enumerate(getattr(of, key)))
+        yield from (((key, k), node) for k, node in enumerate(getattr(structure, key)))
 
 
-def _unknown_nodes(of: Structure) -> Iterator[str]:
-    last = len(of.nodes_mm) - 1
-    for loc, node in _node_references(of):
+def _unknown_nodes(structure: Structure) -> Iterator[str]:
+    last = len(structure.nodes_mm) - 1
+    for loc, node in _node_references(structure):
         if node > last:
             yield _fault(loc, node, f"no such node; allowed: 0 to {last}")
 
 
-def _lists(of: Structure) -> Iterator[str]:
-    """Lists that have an entry too many or too few."""
-    walls, nodes = len(of.walls), len(of.nodes_mm)
+def _lists(structure: Structure) -> Iterator[str]:
+    """Faults of lists with too many or too few entries."""
+    walls, nodes = len(structure.walls), len(structure.nodes_mm)
     for key, given, wanted, what in (
-        ("wall_thickness_mm", of.thickness_mm, walls, "wall"),
-        ("subdivide", of.pieces, walls, "wall"),
-        ("initial_velocity_mm_s", of.velocity_mm_s, nodes, "node"),
+        ("wall_thickness_mm", structure.thickness_mm, walls, "wall"),
+        ("subdivide", structure.pieces, walls, "wall"),
+        ("initial_velocity_mm_s", structure.velocity_mm_s, nodes, "node"),
     ):
         if len(given) != wanted:
             allowed = f"one value, or one for each {what}, {wanted} here"
-            yield _fault((key,), getattr(of, key), f"{len(given)} values; allowed: {allowed}")
-    if sum(of.pieces) > MAX_ELEMENTS:
-        allowed = f"at most {MAX_ELEMENTS:,} elements in all, {sum(of.pieces):,} here"
-        yield _fault(("subdivide",), of.subdivide, f"does not fit; allowed: {allowed}")
+            yield _fault(
+                (key,), getattr(structure, key), f"{len(given)} values; allowed: {allowed}"
+            )
+    if sum(structure.pieces) > MAX_ELEMENTS:
+        allowed = f"at most {MAX_ELEMENTS:,} elements in all, {sum(structure.pieces):,} here"
+        yield _fault(("subdivide",), structure.subdivide, f"does not fit; allowed: {allowed}")
 
 
-def _drives(of: Structure) -> Iterator[str]:
-    """Prescribed moves, loads and pins that contradict one another."""
-    led: set[tuple[int, str]] = set()
-    for k, part in enumerate(of.prescribed):
+def _drives(structure: Structure) -> Iterator[str]:
+    """Faults of prescribed moves, loads and pins that contradict one another."""
+    driven: set[tuple[int, str]] = set()
+    for k, part in enumerate(structure.prescribed):
         turned = part.direction == "rotation"
         wanted, other = ("angle_rad", "displacement_mm")[:: 1 if turned else -1]
         if getattr(part, wanted) is None or getattr(part, other) is not None:
             wrong = f"does not fit; allowed: {wanted}, and no {other}, with this direction"
             yield _fault(("prescribed", k, "direction"), part.direction, wrong)
-        way = part.node, part.direction
-        if way in of.held or way in led:
-            wrong = "held or led already; allowed: one support or one prescribed move of each"
+        coordinate = part.node, part.direction
+        if coordinate in structure.held or coordinate in driven:
+            wrong = "held or moved already; allowed: one support or one prescribed move of each"
             yield _fault(("prescribed", k, "direction"), part.direction, wrong)
-        led.add(way)
-    turning = {(load.node, "rotation") for load in of.loads if load.moment_Nmm}
-    for k, node in enumerate(of.pins):
-        if (node, "rotation") in of.held | led | turning:
-            wrong = "has no rotation to fix, lead or load; allowed: nodes without"
+        driven.add(coordinate)
+    turning = {(load.node, "rotation") for load in structure.loads if load.moment_Nmm}
+    for k, node in enumerate(structure.pins):
+        if (node, "rotation") in structure.held | driven | turning:
+            wrong = "has no rotation to fix, move or load; allowed: nodes without these"
             yield _fault(("pins", k), node, wrong)
 
 
-def _geometry(of: Structure) -> Iterator[str]:
-    """Nodes and walls that lie upon one another."""
+def _geometry(structure: Structure) -> Iterator[str]:
+    """Faults of geometry: walls and springs without length, walls that cross or overlap."""
     import numpy as np
     from shapely import STRtree, intersects, linestrings
 
-    points = np.array(of.nodes_mm)
-    ends = np.array(of.walls)
-    for k, (a, b) in enumerate(of.walls):
-        if of.nodes_mm[a] == of.nodes_mm[b]:
+    points = np.array(structure.nodes_mm)
+    ends = np.array(structure.walls)
+    for k, (a, b) in enumerate(structure.walls):
+        if structure.nodes_mm[a] == structure.nodes_mm[b]:
             yield _fault(("walls", k), (a, b), "has no length; allowed: two nodes apart")
             return
-    for k, (a, b) in enumerate(spring.nodes for spring in of.springs):
-        if of.nodes_mm[a] == of.nodes_mm[b]:
+    for k, (a, b) in enumerate(spring.nodes for spring in structure.springs):
+        if structure.nodes_mm[a] == structure.nodes_mm[b]:
             yield _fault(("springs", k, "nodes"), (a, b), "has no length; allowed: two nodes apart")
-    if of.floor_y_mm is not None:
-        yield from _sunk(of, of.floor_y_mm)
+    if structure.floor_y_mm is not None:
+        yield from _sunk(structure, structure.floor_y_mm)
     lines = linestrings(points[ends])
     one, two = STRtree(lines).query(lines)
     one, two = one[one < two], two[one < two]
@@ -180,18 +182,18 @@ def _geometry(of: Structure) -> Iterator[str]:
     for i, j in zip(one[apart], two[apart], strict=True):
         if intersects(lines[i], lines[j]):
             wrong = f"meets wall {i} without a common node; allowed: walls that meet at nodes"
-            yield _fault(("walls", int(j)), of.walls[j], wrong)
+            yield _fault(("walls", int(j)), structure.walls[j], wrong)
     for i, j in zip(one[~apart], two[~apart], strict=True):
-        if _overlap(points, of.walls[i], of.walls[j]):
+        if _overlap(points, structure.walls[i], structure.walls[j]):
             wrong = f"lies upon wall {i}; allowed: walls in different directions at a node"
-            yield _fault(("walls", int(j)), of.walls[j], wrong)
+            yield _fault(("walls", int(j)), structure.walls[j], wrong)
 
 
-def _sunk(of: Structure, floor: float) -> Iterator[str]:
-    """The node whose wall reaches farthest into the floor."""
+def _sunk(structure: Structure, floor: float) -> Iterator[str]:
+    """The fault of a floor above the lowest surface of the walls."""
     reaches = [
-        (of.nodes_mm[node][1] - 0.5 * thickness, node, 0.5 * thickness)
-        for wall, thickness in zip(of.walls, of.thickness_mm, strict=True)
+        (structure.nodes_mm[node][1] - 0.5 * thickness, node, 0.5 * thickness)
+        for wall, thickness in zip(structure.walls, structure.thickness_mm, strict=True)
         for node in wall
     ]
     lowest, node, half = min(reaches)
@@ -212,10 +214,10 @@ def _overlap(points: Any, one: tuple[int, int], two: tuple[int, int]) -> bool:
     return False
 
 
-def _loose(of: Structure) -> Iterator[str]:
-    """Nodes that nothing holds to the rest."""
-    used = {node for wall in of.walls for node in wall}
-    for k, at in enumerate(of.nodes_mm):
+def _loose(structure: Structure) -> Iterator[str]:
+    """Faults of nodes without walls, and of walls that are not connected to the first one."""
+    used = {node for wall in structure.walls for node in wall}
+    for k, at in enumerate(structure.nodes_mm):
         if k not in used:
             yield _fault(("nodes_mm", k), at, "no wall ends here; allowed: nodes of walls")
     owner = {node: node for node in used}
@@ -225,11 +227,11 @@ def _loose(of: Structure) -> Iterator[str]:
             owner[node] = node = owner[owner[node]]
         return node
 
-    for a, b in [*of.walls, *(spring.nodes for spring in of.springs)]:
+    for a, b in [*structure.walls, *(spring.nodes for spring in structure.springs)]:
         if a in owner and b in owner:
             owner[max(root(a), root(b))] = min(root(a), root(b))
-    for k, wall in enumerate(of.walls):
-        if root(wall[0]) != root(of.walls[0][0]):
+    for k, wall in enumerate(structure.walls):
+        if root(wall[0]) != root(structure.walls[0][0]):
             wrong = "not connected with wall 0; allowed: a structure in one piece"
             yield _fault(("walls", k), wall, wrong)
             return

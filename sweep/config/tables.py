@@ -1,4 +1,4 @@
-"""The tables of a case: frozen models whose attribute names are the TOML keys, SI inside."""
+"""The tables of a case: frozen models in SI whose attribute names are the TOML keys."""
 
 import json
 from functools import lru_cache
@@ -10,14 +10,14 @@ from pydantic_core import PydanticCustomError
 from sweep.config.material_file import check_curve, locate, read_record
 
 BY_NUMBERS = "by numbers"
-SIGNIFICANT = 12  # digits of a number that count in an id: a unit conversion leaves them alone
+SIGNIFICANT = 12  # digits of a number that enter an id; unit conversions do not change them
 
 Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m"})]
 Size = Annotated[float, Field(gt=0, le=1e3, json_schema_extra={"unit": "m"})]
 Duration = Annotated[float, Field(gt=0, json_schema_extra={"unit": "s"})]
 Lag = Annotated[float, Field(ge=0, json_schema_extra={"unit": "s"})]
 Rate = Annotated[float, Field(ge=0, json_schema_extra={"unit": "1/s"})]
-# Also without its unit: 0.6 is 60 %.
+# The unit may be left out: 0.6 is 60 %.
 Strain = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1", "bare": True})]
 Speed = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m/s"})]
 Force = Annotated[float, Field(gt=0, json_schema_extra={"unit": "N"})]
@@ -26,11 +26,11 @@ Stress = Annotated[float, Field(gt=0, json_schema_extra={"unit": "Pa"})]
 Mass = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
 Density = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg/m^3"})]
 Count = Annotated[int, Field(ge=1)]
-Few = Annotated[int, Field(ge=1, le=1000)]  # a slip of the keyboard must not fill the memory
-# Lists too, as JSON gives them back.
+Few = Annotated[int, Field(ge=1, le=1000)]  # a typo must not fill the memory
+# JSON returns lists, so that lists are accepted too.
 Curve = Annotated[tuple[float, ...], Field(strict=False)]
 Forces = Annotated[tuple[Force, ...], Field(strict=False)]
-# A million rows take 120 MB while a case runs, and one square cell half a minute.
+# A million rows of history take 120 MB, and a million steps of one square cell half a minute.
 MAX_STEPS = 1_000_000
 NonNegative = Annotated[float, Field(ge=0)]
 
@@ -39,14 +39,14 @@ class Table(BaseModel):
     """One table of a config."""
 
     model_config = ConfigDict(frozen=True, strict=True, extra="forbid", allow_inf_nan=False)
-    neutral: ClassVar[dict[str, Any]] = {}  # keys that count in an id only if they differ
-    labels: ClassVar[tuple[str, ...]] = ()  # keys that never do
+    neutral: ClassVar[dict[str, Any]] = {}  # keys that enter an id only with other values
+    labels: ClassVar[tuple[str, ...]] = ()  # keys that never enter an id
 
 
 def refusal(key: str, value: object, allowed: str, since: str | None = None) -> PydanticCustomError:
-    """The error of one key whose value does not go with the rest of its case.
+    """The error of one key whose value contradicts the rest of its case.
 
-    since : the key that implies the value, where it need not be given itself.
+    since: the key that implies the value, if the value itself is not given.
     """
     context = {"key": key, "value": value, "allowed": allowed, "since": since}
     return PydanticCustomError("refused", "{key} = {value}; allowed: {allowed}", context)
@@ -54,7 +54,7 @@ def refusal(key: str, value: object, allowed: str, since: str | None = None) -> 
 
 @lru_cache(maxsize=4096)
 def canonical(table: Table) -> str:
-    """A table as JSON: sorted keys, rounded numbers, only the keys in use."""
+    """A table as JSON, with sorted keys and rounded numbers, without unused keys."""
     used = {
         key: rounded(value)
         for key, value in table
@@ -64,7 +64,7 @@ def canonical(table: Table) -> str:
 
 
 def rounded(value: object) -> object:
-    """A value as it counts in an id."""
+    """A value as it enters an id."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         return float(f"{value:.{SIGNIFICANT}g}")
     if isinstance(value, BaseModel):
@@ -73,17 +73,17 @@ def rounded(value: object) -> object:
 
 
 class Material(Table):
-    """A material: a record by its name, whose numbers may be overridden, or numbers alone.
+    """A material: a named record, whose numbers may be overridden, or numbers without a record.
 
-    `curve_strain`, `curve_stress` (k,) in Pa hold the record itself, so that a case needs no file;
-    empty if neither stretching nor bending goes by it.
+    `curve_strain`, `curve_stress` (k,) in Pa hold the record itself, so that a case needs no file.
+    They are empty if neither stretching nor bending uses the curve.
     """
 
     name: str = "ninjaflex"
     stretch: Literal["nonlinear", "linear"] = "nonlinear"
     bend: Literal["linear", "section", "none"] = "linear"
     plane: Literal["strain", "stress", "strain_bending"] = "strain"
-    # Filled in before validation, from the record; the zeros are refused if they are not.
+    # Filled in from the record before validation, which refuses the zeros if they remain.
     modulus: Stress = Field(default=0.0, validate_default=True)
     density: Density = Field(default=0.0, validate_default=True)
     poisson: Annotated[float, Field(ge=0, lt=0.5)] = 0.48
@@ -119,7 +119,7 @@ class Material(Table):
         return self
 
 
-# Keys that say the mode.
+# Keys that imply the mode.
 MODES = {
     "force": ("force", "release_time"),
     "displacement": ("stroke", "strain", "speed", "quasi_static", "unload"),
@@ -128,10 +128,10 @@ MODES = {
 
 
 class Loading(Table):
-    """What is done to the specimen. None: not given, or not used by the mode.
+    """The loading of the specimen. None: not given, or not used by the mode.
 
-    Without a mode, the keys of one mode say which it is. A custom structure has its own, "custom":
-    its file says what is done to it.
+    If the mode is not given, keys that only one mode has imply it. The mode of a custom structure
+    is "custom": the file of the structure has its loading.
     """
 
     mode: Literal["force", "displacement", "impact", "custom"] = "force"
@@ -154,32 +154,32 @@ class Loading(Table):
     def _infer_mode(cls, given: Any) -> Any:
         if not isinstance(given, dict) or "mode" in given:
             return given
-        said = {
+        implied = {
             mode: next(key for key in keys if given.get(key) is not None)
             for mode, keys in MODES.items()
             if any(given.get(key) is not None for key in keys)
         }
-        if given.get("duration") is not None and "impact" not in said:
-            said.setdefault("force", "duration")
-        if len(said) > 1:
-            (one, key), (other, also) = list(said.items())[:2]
+        if given.get("duration") is not None and "impact" not in implied:
+            implied.setdefault("force", "duration")
+        if len(implied) > 1:
+            (one, key), (other, also) = list(implied.items())[:2]
             keys = f"as loading.{key} needs the one and loading.{also} the other"
             raise refusal("loading.mode", None, f'"{one}" or "{other}", {keys}')
-        return {"mode": next(iter(said), "force"), **given}
+        return {"mode": next(iter(implied), "force"), **given}
 
     @property
     def says_mode(self) -> str | None:
-        """The first key that is given and implies the mode."""
+        """The first given key that implies the mode."""
         keys = (*MODES.get(self.mode, ()), "duration")
         return next((f"loading.{key}" for key in keys if getattr(self, key) is not None), None)
 
 
 class Contact(Table):
-    """Wall against wall and wall against platen; `stiffness` is the factor c of the barrier.
+    """Contact between walls and with platens; `stiffness` is the factor c of the barrier.
 
-    auto: the barrier, which acts where walls come within a thickness of one another and costs next
-    to nothing elsewhere; `touched` tells whether it did. position_based: what is too near is moved
-    apart after each step.
+    auto: the barrier, which acts if walls come within one thickness of each other and costs little
+    otherwise; the column `touched` says whether it acted. position_based: walls that are too close
+    are moved apart after each step.
     """
 
     model: Literal["auto", "none", "barrier", "position_based"] = "auto"
@@ -200,11 +200,11 @@ class Damping(Table):
 class Solver(Table):
     """How the equations are solved. None: chosen by the loading, or not used by it.
 
-    newmark: the trapezoidal rule. `step_error`: of a position, that a step may make by itself; the
-    steps then are shares of the time step. None: all are whole.
+    newmark: the trapezoidal rule. `step_error`: error of a position allowed in a single step, which
+    is a fraction of the time step where needed. None: steps are not divided for accuracy.
     """
 
-    labels: ClassVar[tuple[str, ...]] = ("time_limit",)  # raising it makes nothing run again
+    labels: ClassVar[tuple[str, ...]] = ("time_limit",)  # a new limit does not change results
     neutral: ClassVar[dict[str, Any]] = {"hessian": "exact"}
 
     integrator: Literal["backward_euler", "bdf2", "newmark", "static", "arc_length"] | None = None
@@ -221,7 +221,7 @@ class Solver(Table):
 
 
 class Rank(Table):
-    """What a ranking is asked for: greatest masses (kg), and the panel that the specimens fill."""
+    """Defaults of a ranking: budgets of mass (kg), and the panel that specimens fill (m)."""
 
     budgets: tuple[Mass, ...] = ()
     panel: tuple[Length, Length] | None = None

@@ -1,4 +1,7 @@
-"""From TOML to a sweep in SI. The only place that converts units."""
+"""From TOML to a sweep in SI: the only place that reads a unit.
+
+Columns of results have their unit in their name.
+"""
 
 import re
 import sys
@@ -48,9 +51,9 @@ _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s
 
 
 def load_config(path: str | PathLike[str]) -> Config:
-    """Read a sweep and check every case of it; `ConfigError` holds all that is wrong.
+    """Read a sweep and check all of its cases; `ConfigError` holds all faults.
 
-    path : of a TOML file, or the name of an example, such as "smoke", where no such file is.
+    path: path of a TOML file; if there is no such file, the name of an example, such as "smoke".
     """
     path = find_config(path)
     reader = Reader(path.parent, _converted)
@@ -98,7 +101,7 @@ def _converted(text: object, unit: str) -> float:
     registry = _registry()
     try:
         found = registry.parse_units(f"1{written}" if written.startswith("/") else written)
-    except Exception:  # noqa: BLE001 whatever pint stumbles over, it is no unit
+    except Exception:  # noqa: BLE001 any error of pint means that this is no unit
         raise ValueError(f"unknown unit {in_words(written)}") from None
     if found.dimensionality != registry.parse_units(unit).dimensionality:
         raise ValueError(f"{in_words(written)} is a unit of another kind")
@@ -110,7 +113,7 @@ def _converted(text: object, unit: str) -> float:
 
 @lru_cache(maxsize=1)
 def _registry() -> Any:
-    """The units that builders use; pint's own list takes 0.15 s to read."""
+    """The units of `_UNITS`; to read pint's own list takes 0.15 s."""
     with _without("numpy", "dask"):
         import pint
     registry: Any = pint.UnitRegistry(None)
@@ -120,7 +123,7 @@ def _registry() -> Any:
 
 @contextmanager
 def _without(*names: str) -> Iterator[None]:
-    """Hide libraries that are not loaded yet: pint would load them (0.3 s), for arrays only."""
+    """Hide libraries that are not loaded yet: pint loads them (0.3 s) only to support arrays."""
     hidden = [name for name in names if name not in sys.modules]
     sys.modules.update(dict.fromkeys(hidden))  # type: ignore[arg-type]
     try:

@@ -1,4 +1,4 @@
-"""Keys that a case is given and does without: a sweep in which no case needs one is refused."""
+"""Keys without effect, and why: `grid` refuses a config with a key that none of its cases uses."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -8,50 +8,51 @@ from sweep.config.solver_defaults import ARCS
 from sweep.config.structure import Structure
 
 
-def still_idle(idle: Mapping[str, str], given: Mapping[str, Any], case: Case) -> dict[str, str]:
-    """The keys of `idle` that this case does without too, each with the reason where it is given.
+def still_unused(unused: Mapping[str, str], given: Mapping[str, Any], case: Case) -> dict[str, str]:
+    """The keys of `unused` that have no effect in this case either, each with the reason.
 
-    given : the values that the case, resolved, is made from, by their dotted keys.
+    given: the values from which the resolved `case` is made, by their dotted keys. A key that is
+    not among them keeps the reason it has in `unused`.
     """
-    reasons = {key: _clause(key, given, case) for key in idle if key in given}
-    return {key: reasons.get(key, why) for key, why in idle.items() if reasons.get(key, "-")}
+    reasons = {key: _clause(key, given, case) for key in unused if key in given}
+    return {key: reasons.get(key, why) for key, why in unused.items() if reasons.get(key, "-")}
 
 
 def _clause(key: str, given: Mapping[str, Any], case: Case) -> str:
-    """What of a key has no effect, and why; empty if all of it has."""
+    """A clause that says what has no effect, and why; empty if the key has its full effect."""
     if key == "lattice.file" and case.lattice.structure is not None:
-        return _idle_part(case.lattice.structure, case)
-    why = why_idle(key, given, case)
+        return _unused_part(case.lattice.structure, case)
+    why = why_unused(key, given, case)
     return f"has no effect, as {why}" if why else ""
 
 
-def _idle_part(of: Structure, case: Case) -> str:
-    """What of a structure's file only counts in motion."""
+def _unused_part(structure: Structure, case: Case) -> str:
+    """The part of a structure's file without effect in a static case; empty if there is none."""
     if not case.loading.quasi_static:
         return ""
     static = f'solver.integrator is "{case.solver.integrator}"'
-    if any(map(any, of.velocity_mm_s)):
+    if any(map(any, structure.velocity_mm_s)):
         return f"its initial_velocity_mm_s has no effect, as {static}"
-    if any(part.mass_g for part in of.masses) and not any(of.gravity_mm_s2):
+    if any(part.mass_g for part in structure.masses) and not any(structure.gravity_mm_s2):
         return f"masses in it have no effect, as {static} and there is no gravity"
     return ""
 
 
-def why_idle(key: str, given: Mapping[str, Any], case: Case) -> str:
-    """Why a case does without the value that it is given for a key; empty if it does not."""
+def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
+    """Why the given value of a key has no effect in a case; empty if it has an effect."""
     if case.lattice.structure is not None and key.split(".")[0] == "lattice":
         return "" if key in ("lattice.kind", "lattice.file") else 'lattice.kind is "custom"'
     table, name = key.split(".")
-    held = getattr(getattr(case, table), name)
+    resolved = getattr(getattr(case, table), name)
     if key == "material.poisson" and case.material.plane == "stress":
         return 'material.plane is "stress"'
-    counts = held == given[key] or _counts_anyway(key, held, given, case)
-    if counts or table == "material":
+    used = resolved == given[key] or _used_otherwise(key, resolved, given, case)
+    if used or table == "material":
         return ""
-    return _undrawn(key, case) if table == "lattice" else _reason(key, case)
+    return _reason_in_lattice(key, case) if table == "lattice" else _reason(key, case)
 
 
-def _undrawn(key: str, case: Case) -> str:
+def _reason_in_lattice(key: str, case: Case) -> str:
     reasons = {
         "lattice.file": f'lattice.kind is "{case.lattice.kind}"',
         "lattice.orientation": f'lattice.kind is "{case.lattice.kind}"',
@@ -61,16 +62,16 @@ def _undrawn(key: str, case: Case) -> str:
     return reasons.get(key, "")
 
 
-def _counts_anyway(key: str, held: object, given: Mapping[str, Any], case: Case) -> bool:
-    """True for values that count although the case holds another, or none.
+def _used_otherwise(key: str, resolved: object, given: Mapping[str, Any], case: Case) -> bool:
+    """True if a value has an effect although the resolved case has another value, or None.
 
     A time step is adjusted to a whole number of steps; the speed of a quasi-static crush is a
-    label; contact that is "auto" is the barrier.
+    label; contact "auto" becomes the barrier.
     """
     if key == "contact.model":
         return given[key] == "auto"
     if key == "solver.time_step":
-        return held is not None and "solver.load_steps" not in given
+        return resolved is not None and "solver.load_steps" not in given
     return key == "loading.speed" and case.loading.mode == "displacement"
 
 

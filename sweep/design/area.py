@@ -1,4 +1,7 @@
-"""Area that shapes cover together, however they overlap."""
+"""Area of the union of overlapping shapes.
+
+`united_area` gives the mass of a print (`network.mass`), `covered_area` that of deformed shapes.
+"""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,13 +11,13 @@ from kernels.geometry import scanline, slabs
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-LINES = 16  # within the thinnest wall: an error of 3e-4 where walls are many, 1e-3 for one of them
-TOGETHER = 1 << 19  # intervals that are in memory at a time
-FAR = 1e6  # thicknesses: what has flown apart so far is no shape any more
+LINES = 16  # scanlines across the thinnest wall: error 3e-4 with many walls, 1e-3 with one wall
+CHUNK = 1 << 19  # intervals held in memory at a time
+FAR = 1e6  # extent of a shape in thicknesses, above which its area is not computed
 
 
 def united_area(loops: Floats) -> float:
-    """Area of the union of convex polygons (k, c + 1, 2) in m, closed, exact but for rounding."""
+    """Area (m^2) of the union of closed convex polygons (k, c + 1, 2) in m, exact to round-off."""
     loops = loops - loops.min(axis=(0, 1))
     low, high = loops.min(axis=1), loops.max(axis=1)
     order = np.argsort(low[:, 1])
@@ -26,10 +29,11 @@ def united_area(loops: Floats) -> float:
 
 
 def covered_area(points: Floats, edges: Ints, thickness: Floats) -> float:
-    """Area of walls with round ends in m^2, by scanlines; NaN where a point is, or `FAR` away.
+    """Area (m^2) of the union of walls with round ends, by scanlines.
 
     points (n, 2) and thickness (m,) of the elements in m; edges (m, 2): the nodes of each element.
+    NaN if a point is NaN or if the shape is larger than `FAR` thicknesses.
     """
     if not np.ptp(points[edges], axis=(0, 1)).max() < FAR * thickness.max():
         return float("nan")
-    return float(scanline.covered_area(points, edges, thickness, LINES, TOGETHER))
+    return float(scanline.covered_area(points, edges, thickness, LINES, CHUNK))

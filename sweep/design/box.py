@@ -1,4 +1,4 @@
-"""The infill of a box: its walls cut at an outline, graded, and how wide its cells are open."""
+"""The infill of a box: walls cut at an outline, graded thickness, clear width of the cells."""
 
 from functools import lru_cache
 
@@ -19,7 +19,7 @@ from sweep.design.network import Network
 
 
 def build_box(geometry: Geometry) -> Network:
-    """The infill stretched to the box; within an outline it is cut there and joined to it."""
+    """The infill stretched to the box; an outline cuts the infill and is joined to it."""
     points, walls = joints_and_walls(sketch(geometry))
     thickness = np.full(len(walls), geometry.wall_thickness)
     if geometry.grading != 1.0:
@@ -34,9 +34,9 @@ def build_box(geometry: Geometry) -> Network:
 
 
 def infill_walls(geometry: Geometry) -> tuple[Floats, Floats]:
-    """Length (w,) in m and height of the middle / height of the box of every wall.
+    """Length (w,) of every wall in m, and the height of its middle / height of the box, (w,).
 
-    Walls of the outline have length 0.
+    Walls of the outline get length 0.
     """
     points, walls = joints_and_walls(sketch(geometry))
     ends = points[walls]
@@ -47,9 +47,10 @@ def infill_walls(geometry: Geometry) -> tuple[Floats, Floats]:
 
 
 def gradient(geometry: Geometry) -> Floats:
-    """Thickness of every wall / the mean over the length of all walls of the infill, (w,).
+    """Thickness of every wall / the mean thickness of the infill, weighted by length, (w,).
 
-    Linear in the height of the wall's middle, with the ratio `grading` from top to bottom.
+    The thickness is linear in the height of the wall's middle; `grading` is its value at the top
+    over that at the bottom.
     """
     length, height = infill_walls(geometry)
     share = 1.0 + (geometry.grading - 1.0) * height
@@ -59,7 +60,7 @@ def gradient(geometry: Geometry) -> Floats:
 def _outlines(
     geometry: Geometry, points: Floats, walls: Indices
 ) -> list[tuple[NDArray[np.bool_], float]]:
-    """The walls on each side that is outlined, and their thickness."""
+    """For each side with an outline: which walls lie on it (w,), and their thickness."""
     found = []
     for axis, thickness in enumerate(geometry.outline):
         if thickness > 0.0:
@@ -69,16 +70,16 @@ def _outlines(
 
 
 def opening(geometry: Geometry) -> float:
-    """Clear width between the centre lines of the narrowest cell that is whole, m.
+    """Clear width (m) of the narrowest whole cell: the diameter of the largest inscribed circle.
 
-    It is that of the largest circle within a cell.
+    It is measured between centre lines.
     """
     return _opening(sketch(geometry, outlined=False))
 
 
 @lru_cache(maxsize=256)
 def _opening(drawn: Sketch) -> float:
-    import shapely  # which few sweeps need
+    import shapely  # few sweeps need it
 
     points, walls = joints_and_walls(sample(drawn))
     cells = shapely.get_parts(shapely.polygonize(shapely.linestrings(points[walls])))

@@ -1,4 +1,4 @@
-"""Centre lines as joints and walls: a drawing stretched to its box, clipped, outlined, welded."""
+"""From centre lines to joints and walls: drawings are stretched to a box, clipped and welded."""
 
 from __future__ import annotations
 
@@ -18,13 +18,16 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-TOLERANCE = 1e-9  # of the box: what is nearer than that is one point
-FEW = 4  # cells in a row that show what more of them do
-SPILL = 1  # cells drawn beyond the box on each side, for an outline to cut
+TOLERANCE = 1e-9  # of the box: points nearer than that are one point
+FEW = 4  # cells in a row, enough to tell how numbers and sizes grow with the number of cells
+SPILL = 1  # cells drawn beyond the box on each side, which an outline cuts off
 
 
 class Sketch(NamedTuple):
-    """What to draw: a family in a box (m). closed: outlined all round; capped: above and below."""
+    """A family of infill in a box (m).
+
+    closed: with an outline on all four sides; capped: with one at the top and the bottom.
+    """
 
     kind: str
     orientation: str | None
@@ -35,7 +38,7 @@ class Sketch(NamedTuple):
 
 
 def sketch(geometry: Geometry, outlined: bool = True) -> Sketch:
-    """What is drawn of a lattice; not ``outlined``: its infill alone, as far as cells are whole."""
+    """The sketch of a lattice; without ``outlined`` that of its infill alone, in whole cells."""
     kind, orientation, cells, box = geometry[:4]
     if geometry.periodic:
         low, high = extent(kind, orientation, cells)
@@ -46,7 +49,7 @@ def sketch(geometry: Geometry, outlined: bool = True) -> Sketch:
 
 @lru_cache(maxsize=256)
 def joints_and_walls(sketch: Sketch) -> tuple[Floats, Indices]:
-    """Joints (j, 2) in m, row by row from below, and walls (w, 2), the level ones first."""
+    """Joints (j, 2) in m, row by row from the bottom, and walls (w, 2), horizontal ones first."""
     draw = drawer(sketch.kind, sketch.orientation)
     columns, rows = (range(n) for n in sketch.cells)
     if sketch.closed or sketch.capped:
@@ -69,9 +72,9 @@ def joints_and_walls(sketch: Sketch) -> tuple[Floats, Indices]:
 
 @lru_cache(maxsize=256)
 def extent(kind: str, orientation: str | None, cells: tuple[int, int]) -> tuple[Floats, Floats]:
-    """Least and greatest x and y (2,) of so many whole cells, in the unit of the family.
+    """Least and greatest x and y, (2,) each, of whole cells, in the unit of the family.
 
-    Two rows show what more of them do.
+    More than two rows are as wide as two, and more than two columns as high as two.
     """
     draw, (columns, rows) = drawer(kind, orientation), cells
     wide = segments_of(draw(range(columns), range(min(rows, 2))))[..., 0]
@@ -80,16 +83,19 @@ def extent(kind: str, orientation: str | None, cells: tuple[int, int]) -> tuple[
 
 
 def pitch(kind: str, orientation: str | None) -> Floats:
-    """Width and height (2,) of a regular cell, in the unit of its family: half of what two take."""
+    """Width and height (2,) of a regular cell, in the unit of its family.
+
+    They are half of what two more cells add to the extent.
+    """
     (low, high), (less, more) = (extent(kind, orientation, (n, n)) for n in (FEW, FEW + 2))
     return 0.5 * ((more - less) - (high - low))
 
 
 @lru_cache(maxsize=256)
 def counts(sketch: Sketch) -> tuple[int, int]:
-    """Numbers of joints and walls, without drawing them all.
+    """Numbers of joints and walls, without drawing all of them.
 
-    Both are linear in the number of columns, and of rows, of equal parity.
+    Both are linear in the number of columns and of rows, among numbers of equal parity.
     """
     for axis, n in enumerate(sketch.cells):
         if n > FEW + 3:
@@ -102,7 +108,7 @@ def counts(sketch: Sketch) -> tuple[int, int]:
 
 
 def sample(sketch: Sketch) -> Sketch:
-    """The same cells, but few of them."""
+    """The sketch with at most `FEW` columns and rows of the same cells."""
     for axis, n in enumerate(sketch.cells):
         if n > FEW:
             sketch = _with_cells(sketch, axis, FEW)
@@ -127,20 +133,20 @@ def on_outline(points: Floats, walls: Indices, side: float, axis: int) -> NDArra
 
 
 def segments_of(drawing: Drawing) -> Floats:
-    """All pieces of all polylines, (s, 2, 2)."""
+    """All segments of all polylines, (s, 2, 2)."""
     pieces = [np.stack([lines[:, :-1], lines[:, 1:]], axis=2) for lines in drawing]
     return np.concatenate([piece.reshape(-1, 2, 2) for piece in pieces])
 
 
 def _snapped(segments: Floats, box: Floats, tolerance: float) -> Floats:
-    """What is near the lines of the box is on them."""
+    """Segments whose coordinates near the sides of the box are exactly on them."""
     for line in (np.zeros(2), box):
         segments = np.where(np.abs(segments - line) < tolerance, line, segments)
     return segments
 
 
 def _outlined(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
-    """Segments clipped by the box, in x and in y where ``axes`` say so, and its lines there.
+    """Segments clipped at the sides of the box, and these sides; ``axes``: in x, in y.
 
     The outline has joints at its corners and wherever a segment ends on it.
     """
@@ -159,7 +165,7 @@ def _outlined(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
 
 
 def _clipped(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
-    """The parts of segments within the box; none of those along its lines."""
+    """The parts of segments inside the box, without segments that lie on its sides."""
     start, along = segments[:, 0], segments[:, 1] - segments[:, 0]
     enter, leave = np.zeros(len(segments)), np.ones(len(segments))
     for axis in np.flatnonzero(axes):
@@ -172,7 +178,7 @@ def _clipped(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
 
 
 def welded(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
-    """Joints and walls of segments, each once."""
+    """Joints (j, 2) and walls (w, 2) of segments, duplicates removed."""
     x, column = clusters(segments[..., 0].ravel(), tolerance)
     y, row = clusters(segments[..., 1].ravel(), tolerance)
     joint, end = np.unique(row * len(x) + column, return_inverse=True)
@@ -183,7 +189,7 @@ def welded(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
 
 
 def clusters(values: Floats, tolerance: float) -> tuple[Floats, Indices]:
-    """Values that differ, ascending, and which of them each value is."""
+    """The distinct values, ascending, and the index of each value among them."""
     order = np.argsort(values, kind="stable")
     new = np.diff(values[order], prepend=-np.inf) > tolerance
     which = np.empty(len(values), np.int64)

@@ -1,4 +1,4 @@
-"""What is drawn of a lattice, as numbers. No numpy here, so that a config is refused at once."""
+"""The numbers that define a drawing. No numpy here, so that a wrong config is refused at once."""
 
 from typing import NamedTuple
 
@@ -7,9 +7,9 @@ class Geometry(NamedTuple):
     """A family of infill in a box; lengths in m.
 
     kind, orientation: as in `infill`. cells: columns and rows. box: width and height over centre
-    lines; of one period where ``periodic``. grading: thickness of the walls at the top over that at
-    the bottom. outline: thickness of the walls round the infill, left and right, above and below;
-    0: none.
+    lines, those of one period if ``periodic``. grading: thickness of the walls at the top over
+    that at the bottom. outline: thickness of the walls round the infill, at the left and right
+    sides and at the bottom and top; 0: no outline.
     """
 
     kind: str

@@ -10,5 +10,5 @@ from sweep.design.period import build_period
 
 @lru_cache(maxsize=1024)
 def build_network(geometry: Geometry) -> Network:
-    """Its joints and walls."""
+    """The joints and walls of a lattice."""
     return build_period(geometry) if geometry.periodic else build_box(geometry)

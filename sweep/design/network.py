@@ -1,4 +1,4 @@
-"""A network of walls as drawn: joints, walls, and the material that its print takes."""
+"""A network of walls as drawn: joints, walls, printed area and mass."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,9 +13,9 @@ from sweep.design.silhouette import silhouette
 class Network:
     """Centre lines at rest, before the imperfection.
 
-    points (j, 2) in m; walls (w, 2), the two joints of each; wall_thickness (w,) in m;
-    bottom, top: the joints of least and of greatest y, from left to right, be they a wall or the
-    corners of cells. They are what platens hold, and what a dead load without a platen acts on.
+    points (j, 2): joints in m; walls (w, 2): the two joints of each wall; wall_thickness (w,) in m.
+    bottom, top: the joints of least and of greatest y, from left to right. Platens hold these
+    joints; without a platen a dead load acts on the top ones.
     """
 
     points: Floats
@@ -30,7 +30,7 @@ class Network:
 
         Corners sharper than 60 degrees are blunt.
         """
-        from sweep.design.area import united_area  # which loads the kernels
+        from sweep.design.area import united_area  # the import loads the kernels
 
         return united_area(self.loops)
 
@@ -46,6 +46,6 @@ def mass(network: Network, depth: float, density: float) -> float:
 
 
 def relative_density(network: Network, outer_size: tuple[float, float]) -> float:
-    """Printed area over the area of the outer box, (width + t)(height + t); sizes in m."""
+    """Printed area / area of the outer box, (width + t)(height + t); sizes in m."""
     width, height = outer_size
     return network.printed_area / (width * height)

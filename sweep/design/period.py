@@ -1,7 +1,7 @@
-"""An endless lattice: the walls of one period, and copies of those that they may touch.
+"""An endless lattice: the walls of one period, and copies of the walls that they may touch.
 
-Walls touch only round an opening between them, as none passes through another. So copies are needed
-of the walls round the openings next to a period, and of no others, however far it is crushed.
+No wall passes through another, so two walls can only touch if they border the same opening. Copies
+are needed of the walls round the openings next to the period, and of no others, at any strain.
 """
 
 from dataclasses import dataclass
@@ -25,16 +25,17 @@ from sweep.design.infill import drawer
 from sweep.design.network import Network
 
 REACH = 1.5  # pitches: no opening of any family is wider or higher
-FAR = 3  # periods away, the farthest copy that may be within reach of a period of one cell
+FAR = 3  # periods: distance of the farthest copy within reach of a period of one cell
 
 
 @dataclass(frozen=True)
 class Endless(Network):
-    """The walls of a period, then copies; all start at its joints, or copies of them, likewise.
+    """The walls of a period, then copies of walls, in the direction of their originals.
 
-    period (2,) m. own: number of walls of the period. original (w,): the wall that is copied.
-    origin (j,), shift (j, 2): the joint of which it is an image, and how many periods away; the
-    joints of the period come first. bottom, top: a joint and its image a period above.
+    period (2,): width and height in m. own: number of walls of the period. original (w,): the
+    wall of the period that each wall copies. origin (j,): the joint of the period that each joint
+    is or copies; shift (j, 2): by how many periods it is moved in x and y. The joints of the
+    period come first. bottom, top: a joint, and its image one period above.
     """
 
     period: Floats
@@ -46,7 +47,7 @@ class Endless(Network):
     @cached_property
     def printed_area(self) -> float:
         """Area of the walls within one period, m^2."""
-        from sweep.design.area import united_area  # which loads the kernels
+        from sweep.design.area import united_area  # the import loads the kernels
 
         box = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]) * self.period
         walls, inside = self.loops, float(np.prod(self.period))
@@ -54,7 +55,7 @@ class Endless(Network):
 
 
 def build_period(geometry: Geometry) -> Endless:
-    """The endless lattice of which ``geometry`` is a period."""
+    """The endless lattice that repeats ``geometry``."""
     period, cells = np.array(geometry.box), geometry.cells
     points, ends, shift = _walls(geometry, period)
     away = np.mgrid[-FAR : FAR + 1, -FAR : FAR + 1].reshape(2, -1).T
@@ -85,8 +86,10 @@ def build_period(geometry: Geometry) -> Endless:
 
 
 def _walls(geometry: Geometry, period: Floats) -> tuple[Floats, Indices, Indices]:
-    """Joints (j, 2) of the period, m from its lower left corner; the two joints of each wall (w,
-    2), and how many periods away (w, 2) the second one is.
+    """Joints and walls of one period.
+
+    Joints (j, 2) in m from the lower left corner; the two joints of each wall (w, 2); by how many
+    periods the second joint is moved in x and y, (w, 2).
     """
     drawn = sketch(geometry)
     low, high = extent(drawn.kind, drawn.orientation, drawn.cells)

@@ -1,4 +1,4 @@
-"""The printed area of a shape as polygons: walls as thick as they are, corners mitred."""
+"""The printed area of a shape as polygons: walls of their true thickness, corners mitred."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,15 +6,15 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-BLUNT = 0.5  # a mitre reaches at most half a thickness / BLUNT from its node
+BLUNT = 0.5  # a mitre ends at most (half a thickness) / BLUNT from its node
 STRAIGHT = 1e-9
 
 
 def silhouette(position: Floats, edges: Integers, thickness: Floats) -> list[Floats]:
-    """Closed polygons (5, 2) whose union is the shape: one an element, one where walls bend.
+    """Closed polygons (5, 2) whose union is the shape: one per element, one per mitred corner.
 
-    position (n, 2), edges (m, 2), thickness (m,). All turn anticlockwise, so that a non-zero
-    winding rule fills the union.
+    position (n, 2) and thickness (m,) in m, edges (m, 2). All polygons run anticlockwise, so that a
+    non-zero winding rule fills the union.
     """
     start, end = position[edges[:, 0]], position[edges[:, 1]]
     along = (end - start) / np.linalg.norm(end - start, axis=1, keepdims=True)
@@ -27,9 +27,9 @@ def silhouette(position: Floats, edges: Integers, thickness: Floats) -> list[Flo
 def _mitres(position: Floats, node: Integers, arm: Floats, half: Floats) -> Floats:
     """Corners (c, 5, 2) that fill the outer sides of bends.
 
-    node (a,), arm (a, 2), half (a,): every end of an element, its direction away from the node and
-    half its thickness. Round a node, an arm and the next one leave a gap where they are more than
-    half a turn apart. Where a wall folds back on itself the mitre is blunt.
+    One arm for each end of an element: its node (a,), its unit direction away from the node (a, 2)
+    and half its thickness (a,). Two neighbouring arms of a node leave a gap if the angle between
+    them exceeds half a turn. The mitre of a wall that folds back on itself is blunt.
     """
     order = np.lexsort((np.arctan2(arm[:, 1], arm[:, 0]), node))
     node, arm, half = node[order], arm[order], half[order, None]
@@ -43,19 +43,21 @@ def _mitres(position: Floats, node: Integers, arm: Floats, half: Floats) -> Floa
 
 
 def _tip(one: Floats, other: Floats, cosine: Floats, left: Floats, right: Floats) -> Floats:
-    """Where two sides meet that are `one` and `other` away from a node, along unit normals.
+    """Where two sides meet, from the node.
 
-    A thin wall that leaves a thick one nearly straight ends within its corner.
+    `one` and `other` (m) are the distances of the sides from the node, along the unit normals
+    `left` and `right`. If a thin wall continues a thick one nearly straight, the tip is the corner
+    of the thick wall.
     """
     mean = 0.5 * (one + other) / np.maximum(1.0 + cosine, BLUNT)
-    unlike = 0.5 * (one - other) / np.maximum(1.0 - cosine, STRAIGHT)
-    along = np.where(mean < unlike, one, np.where(mean < -unlike, 0.0, mean + unlike))
-    across = np.where(mean < unlike, 0.0, np.where(mean < -unlike, other, mean - unlike))
+    unequal = 0.5 * (one - other) / np.maximum(1.0 - cosine, STRAIGHT)
+    along = np.where(mean < unequal, one, np.where(mean < -unequal, 0.0, mean + unequal))
+    across = np.where(mean < unequal, 0.0, np.where(mean < -unequal, other, mean - unequal))
     return along * left + across * right
 
 
 def _following(node: Integers) -> Integers:
-    """For arms in groups of one node each, the next arm of the group; after the last, the first."""
+    """Index of the next arm of the same node; arms are sorted by node. The last gets the first."""
     following = np.arange(len(node)) + 1
     last = np.append(node[1:] != node[:-1], True)
     following[last] = np.searchsorted(node, node[last])
@@ -63,5 +65,5 @@ def _following(node: Integers) -> Integers:
 
 
 def _left(direction: Floats) -> Floats:
-    """Directions (n, 2) turned left by a quarter."""
+    """Directions (n, 2) turned left by 90 degrees."""
     return np.column_stack([-direction[:, 1], direction[:, 0]])

@@ -1,4 +1,4 @@
-"""What a maker asks for instead of cells and a wall thickness: a share of infill, or a mass."""
+"""Cells for a share of infill, and wall thickness for a mass."""
 
 from functools import lru_cache
 
@@ -8,24 +8,24 @@ from sweep.design.geometry import Geometry
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
 
-SLACK = 1 / 3  # by which a share may be missed: what one cell or two can differ by
-CLOSE = 1e-14  # of the greatest mass
-THIN = 1e-6  # of the thickest wall: as good as none
+SLACK = 1 / 3  # relative error allowed in a share: one or two cells differ by as much
+CLOSE = 1e-14  # of the greatest mass: tolerance
+THIN = 1e-6  # of the greatest thickness: the least one tried
 
 
 def infill_share(geometry: Geometry) -> float:
     """Share of the box that lines fill, as slicers count: length x thickness, crossings twice.
 
-    The box is that over the centre lines; an outline is no infill.
+    The box is measured over centre lines; an outline does not count as infill.
     """
     (length, _), (width, height) = infill_walls(geometry), geometry.box
     return float(length.sum()) * geometry.wall_thickness / (width * height)
 
 
 def cells_for(geometry: Geometry, share: float, most: int) -> tuple[int, int] | None:
-    """Columns and rows, as regular as they can be, whose lines fill the share nearest to ``share``.
+    """Columns and rows, nearly regular, whose lines fill the share nearest to ``share``.
 
-    None where one cell fills too much, or more than ``most`` would be needed.
+    None if a single cell fills too much, or if more than ``most`` cells are needed.
     """
     width, height = pitch(geometry.kind, geometry.orientation)
     beside = geometry.box[0] / geometry.box[1] * height / width
@@ -52,10 +52,10 @@ def cells_for(geometry: Geometry, share: float, most: int) -> tuple[int, int] | 
 def thickness_for(
     geometry: Geometry, wanted: float, thickest: float, depth: float, density: float
 ) -> tuple[float, float, float]:
-    """Wall thickness (m) for a mass (kg), and the masses between which it can be.
+    """Wall thickness (m) for a mass (kg), and the least and greatest mass that are possible.
 
-    ``thickest``: the greatest thickness that may be, m. Regula falsi (Illinois) on the exact mass;
-    NaN where it cannot be.
+    ``thickest``: the greatest allowed thickness, m. Regula falsi (Illinois) on the exact mass. The
+    thickness is NaN if the mass is out of these bounds.
     """
 
     def weight(thickness: float) -> float:

@@ -1,8 +1,8 @@
-"""Error against run time: a sweep over numerics, compared with what its finest settings tend to.
+"""Error against run time: a sweep over numerical settings, compared with an extrapolated reference.
 
-A method is what cannot be refined (integrator, hinges, contact model ...); it is refined in time
-step, load steps or error of a step, and in elements a wall. Cases that differ in anything but
-numerics are scenes of their own.
+A method is a choice of settings without a size (integrator, hinges, contact model ...). It is
+refined in time step, load steps or error of a step, and in elements per wall. Cases that differ in
+anything other than numerical settings belong to different scenes.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from sweep.result import Status
 from sweep.store.read import read_history
 
 MEASURES = ("energy", "peak", "path")
-TARGETS = (0.01, 0.001)  # errors that one may ask for, as shares
+TARGETS = (0.01, 0.001)  # relative errors for which the cheapest settings are reported
 FINER_IF_SMALLER = ("solver.time_step", "solver.step_error")
 FINER_IF_GREATER = ("solver.load_steps", "loading.load_steps", "lattice.nodes_per_wall")
 REFINED = (*FINER_IF_SMALLER, *FINER_IF_GREATER)
-HAIR = 0.05  # of an error: a gain that nobody would pay for
-EQUALS = 4  # numbers of `_merit`
+GAIN = 0.05  # of an error: least gain of a dearer setting on the front
+EQUALS = 4  # first numbers of `_merit`; methods that agree in them should have the same limit
 _ANY_OF = ", ".join(REFINED)
 METHOD = ("solver.", "contact.model")
 FORMAL_ORDER = {"newmark": 2, "bdf2": 2, "backward_euler": 1}
@@ -33,7 +33,11 @@ STORED = ("kinetic_J", "stretch_J", "bend_J", "contact_J")
 
 
 class Reference(NamedTuple):
-    """What a measure tends to, in SI; shares of `scale`: its doubt. Observed orders by key."""
+    """Limit of a measure.
+
+    value (k,) and scale in SI; doubt: uncertainty of the value / scale; orders: key -> observed
+    order.
+    """
 
     value: Floats
     scale: float
@@ -42,12 +46,14 @@ class Reference(NamedTuple):
 
 
 class Study(NamedTuple):
-    """One scene. `settings`: a row a case, in the order of the sweep.
+    """One scene.
 
-    The rows of the summary with `method`, the errors `energy`, `peak` and `path` as shares, the
-    greatest that can be told `worst`, and `front`: True where nothing as cheap has a smaller one.
-    finest : its row that the references extrapolate. orders : method -> measure -> key -> order.
-    resolved : measures whose reference is sure enough to tell the coarsest target.
+    settings : a row per case, in the order of the sweep: the row of the summary, `method`, the
+        relative errors `energy`, `peak` and `path`, the greatest of those resolved, `worst`, and
+        `front`: True if no setting as cheap has a smaller `worst`.
+    finest : row of the setting from which the references are extrapolated.
+    orders : method -> measure -> key -> observed order.
+    resolved : measures whose reference is certain enough for the coarsest target.
     """
 
     settings: DataFrame
@@ -58,13 +64,13 @@ class Study(NamedTuple):
 
 
 class AccuracyError(ValueError):
-    """A sweep that is no accuracy study."""
+    """A sweep that is not an accuracy study."""
 
 
 def studies(file: str | PathLike[str], summary: DataFrame) -> list[Study]:
-    """A study of every scene of a sweep of which a case has converged.
+    """One study for each scene of a sweep with a converged case.
 
-    summary : the rows of its cases, of any status.
+    summary : the rows of the cases of the sweep, of any status.
     """
     refined = refined_keys(summary)
     keys = [key for key in summary if "." in key and not key.startswith(METHOD + REFINED)]
@@ -74,12 +80,12 @@ def studies(file: str | PathLike[str], summary: DataFrame) -> list[Study]:
 
 
 def check_axes(axes: Sequence[Mapping[str, object]]) -> None:
-    """Refuse a sweep that is no accuracy study before it runs; `axes`: those of its cases."""
+    """Refuse a sweep that is not an accuracy study before it runs; `axes`: of every case."""
     refined_keys(DataFrame(axes))
 
 
 def refined_keys(axes: DataFrame) -> list[str]:
-    """Grid keys of a sweep that refine; without any it is no accuracy study."""
+    """Grid keys of a sweep that refine a method; refused if there is none."""
     refined = [key for key in REFINED if key in axes and varies(axes[key])]
     if not refined:
         raise AccuracyError(f"[grid] refines nothing; allowed: two values or more of {_ANY_OF}")
@@ -92,7 +98,7 @@ def varies(column: Series) -> bool:
 
 
 def size(key: str, value: float) -> float:
-    """What a value of a key stands for: size of a step, or of an element in walls."""
+    """Size for a value of a key: of a step, or of an element / length of its wall."""
     if key in FINER_IF_SMALLER:
         return value
     return 1.0 / (value + (key == "lattice.nodes_per_wall"))
@@ -113,8 +119,8 @@ def _study(file: str | PathLike[str], rows: DataFrame, refined: list[str]) -> St
         }
     )
     resolved = tuple(name for name in MEASURES if references[name].doubt < TARGETS[0])
-    told = [errors[name].clip(lower=references[name].doubt) for name in resolved]
-    worst = np.max(told, axis=0) if told else np.nan
+    certain = [errors[name].clip(lower=references[name].doubt) for name in resolved]
+    worst = np.max(certain, axis=0) if certain else np.nan
     settings = rows.join(errors.assign(worst=worst))
     orders = {
         method: {name: ref.orders for name, ref in each.items()}
@@ -128,7 +134,7 @@ def _study(file: str | PathLike[str], rows: DataFrame, refined: list[str]) -> St
 def _chosen(
     found: dict[str, tuple[Series, dict[str, Reference]]], refined: list[str]
 ) -> tuple[Series, dict[str, Reference]]:
-    """The best of the methods' references, doubted where its equals have another limit."""
+    """The references of the best method, with more doubt if equal methods have other limits."""
     merits = {method: _merit(*each, refined) for method, each in found.items()}
     best = min(merits, key=lambda method: merits[method])
     equals = [m for m in found if merits[m][:EQUALS] == merits[best][:EQUALS]]
@@ -140,7 +146,7 @@ def _chosen(
 
 
 def _methods(rows: DataFrame) -> Series:
-    """What is not refined, in words."""
+    """The method of every row, in words."""
     parts = [
         rows[key].map(lambda value, key=key: _word(key, value))
         for key in rows
@@ -153,7 +159,7 @@ def _methods(rows: DataFrame) -> Series:
 
 
 def _word(key: str, value: object) -> str:
-    """A choice in words; numbers with their key."""
+    """A choice in words; a number gets the name of its key."""
     text = value if isinstance(value, str) else f"{key.split('.')[-1]} {value:g}"
     return text.replace("_", " ")
 
@@ -161,33 +167,33 @@ def _word(key: str, value: object) -> str:
 def _references(
     rows: DataFrame, values: dict[str, dict[int, Floats]], refined: list[str]
 ) -> tuple[Series, dict[str, Reference]]:
-    """The finest setting of a method, and what its measures tend to from there."""
+    """The finest setting of a method, and the extrapolated limits of its measures."""
     keys = [key for key in refined if varies(rows[key].dropna())]
     sizes = DataFrame({key: rows[key].map(lambda v, key=key: size(key, v)) for key in keys})
     finest = sizes.sort_values(keys).index[0] if keys else rows.index[-1]
-    ladders = {}
+    series = {}
     for key in keys:
         others = sizes.drop(columns=key)
-        ladder = sizes[(others == others.loc[finest]).all(axis=1)].sort_values(key, ascending=False)
-        if len(ladder) > 1:
-            ladders[key] = ladder[key]
+        alike = sizes[(others == others.loc[finest]).all(axis=1)].sort_values(key, ascending=False)
+        if len(alike) > 1:
+            series[key] = alike[key]
     return rows.loc[finest], {
-        name: _extrapolated(ladders, values[name], finest) for name in MEASURES
+        name: _extrapolated(series, values[name], finest) for name in MEASURES
     }
 
 
-def _extrapolated(ladders: dict[str, Series], values: dict[int, Floats], finest: int) -> Reference:
-    """The finest value, taken to its limit along every ladder of sizes."""
-    value, doubt, orders = values[finest], 0.0 if ladders else np.inf, {}
-    for key, ladder in ladders.items():
-        found = limit(ladder.tolist(), [values[i] for i in ladder.index])
+def _extrapolated(series: dict[str, Series], values: dict[int, Floats], finest: int) -> Reference:
+    """The finest value, extrapolated to its limit along every series of sizes."""
+    value, doubt, orders = values[finest], 0.0 if series else np.inf, {}
+    for key, of_key in series.items():
+        found = limit(of_key.tolist(), [values[i] for i in of_key.index])
         value, doubt, orders[key] = value + found.correction, doubt + found.doubt, found.order
     scale = float(np.ptp(value) if len(value) > 1 else np.abs(value[0])) or np.nan
     return Reference(value, scale, doubt / scale, orders)
 
 
 def _doubted(reference: Reference, rivals: list[Reference]) -> Reference:
-    """The reference, not surer than methods that should have the same limit agree."""
+    """The reference, whose doubt covers the limits of methods that should have the same one."""
     gaps = [rms(rival.value - reference.value) / reference.scale - rival.doubt for rival in rivals]
     return reference._replace(doubt=max([reference.doubt, *gaps]))
 
@@ -195,9 +201,11 @@ def _doubted(reference: Reference, rivals: list[Reference]) -> Reference:
 def _merit(
     finest: Series, references: dict[str, Reference], refined: list[str]
 ) -> tuple[float, ...]:
-    """What makes a method the reference, least first: refined in all, of high order, sure.
+    """Numbers that sort methods; the least is the reference.
 
-    Methods whose first `EQUALS` numbers agree should have the same limit.
+    Preferred are constant steps, refinement in all keys, high order, the barrier, exact-beam
+    hinges, a small tolerance and little doubt. Methods that agree in the first `EQUALS` numbers
+    should have the same limit.
     """
     steps_by_error = "solver.step_error" in finest and np.isfinite(finest["solver.step_error"])
     doubts = [ref.doubt for ref in references.values()]
@@ -213,38 +221,38 @@ def _merit(
 
 
 def front(settings: DataFrame, error: str) -> Series:
-    """True where nothing as cheap has an error (a column) that is as small, but for a hair."""
+    """True for settings whose error (a column) is below that of all cheaper ones by `GAIN`."""
     ordered = settings.sort_values(["cpu_s", error])[error]
     cheaper = ordered.cummin().shift(fill_value=np.inf)
-    return (ordered < (1.0 - HAIR) * cheaper).reindex(settings.index)
+    return (ordered < (1.0 - GAIN) * cheaper).reindex(settings.index)
 
 
 def _values(file: str | PathLike[str], rows: DataFrame) -> dict[str, dict[int, Floats]]:
-    """Every measure of every row; paths at the same places."""
+    """Every measure of every row; paths are interpolated at the same places."""
     curves = {i: read_history(file, row["case_id"]) for i, row in rows.iterrows()}
     paths = {i: path(rows.loc[i, "loading_mode"], curve) for i, curve in curves.items()}
-    coarsest = min((way for way, _ in paths.values()), key=len)
-    end = min(way[-1] for way, _ in paths.values())
+    coarsest = min((place for place, _ in paths.values()), key=len)
+    end = min(place[-1] for place, _ in paths.values())
     at = coarsest[coarsest <= end * (1 + 1e-6)]
     return {
         "energy": {i: np.array([energy(rows.loc[i], curves[i])]) for i in rows.index},
         "peak": {i: np.array([peak(rows.loc[i], curves[i])]) for i in rows.index},
         "path": {
-            i: np.concatenate([np.interp(at, way, curve) for curve in moves] or [[np.nan]])
-            for i, (way, moves) in paths.items()
+            i: np.concatenate([np.interp(at, place, curve) for curve in found] or [[np.nan]])
+            for i, (place, found) in paths.items()
         },
     }
 
 
 def energy(row: Series, history: DataFrame) -> float:
-    """Energy absorbed (J); of a structure of one's own, what it still has at the end."""
+    """Energy absorbed (J); of a custom structure, the energy it has at the end."""
     if row["loading_mode"] == "custom":
         return float(history[list(STORED)].iloc[-1].sum())
     return float(row["absorbed_energy_J"])
 
 
 def peak(row: Series, history: DataFrame) -> float:
-    """Greatest force (N); of a structure of one's own, at its supports that are probes."""
+    """Greatest force (N); of a custom structure, the greatest reaction at a probe."""
     if row["loading_mode"] != "custom":
         return float(row["peak_force_N"])
     across, along = (history.filter(regex=f"_reaction_{way}_N$").to_numpy() for way in "xy")
@@ -252,9 +260,10 @@ def peak(row: Series, history: DataFrame) -> float:
 
 
 def path(mode: str, history: DataFrame) -> tuple[Floats, list[Floats]]:
-    """What is compared along the way, (rows,) each, and the way: travel of a platen, or time.
+    """The abscissa of a path, (rows,), and the curves that are compared over it, (rows,) each.
 
-    The force on a platen, the strain of what falls or is struck, the probes of a structure.
+    Force over the travel of a driven platen; strain over time under a dead load or a striker; moves
+    of the probes of a custom structure over time.
     """
     if mode == "displacement":
         travel = history["top_displacement_m"].diff().abs().cumsum().fillna(0.0)

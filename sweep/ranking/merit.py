@@ -1,11 +1,11 @@
-"""What counts for a design: which of its energies, per gram, and for a panel of specimens.
+"""The merit of a design: its counted energy, in all, per gram, and for a panel of specimens.
 
-Energy is counted until the lattice has packed down, or until the allowed force is passed on: what a
-solid block of TPU takes beyond that, at a multiple of the force, is no merit of its infill.
-Where the energy is not the design's own doing, `LEAST` counts.
+Energy is counted until densification, or until the force exceeds the allowed force. Beyond
+densification a lattice absorbs energy as a solid block does, at a multiple of the force, whatever
+its infill. Where the loading sets the energy, the columns of `LEAST` are compared instead.
 
-A specimen of outer width w and depth b stands for a panel when it is repeated side by
-side:  factor = panel area / (w b),  panel mass = factor mass,  panel energy = factor energy.
+A panel consists of specimens side by side, of outer width w and depth b:
+factor = panel area / (w b),  panel mass = factor mass,  panel energy = factor energy.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ Quantity = float | str
 """A number in SI, or text with a unit such as "25 g"."""
 
 LEAST = {"force": "peak_strain", "impact": "peak_force_N"}
-"""What counts in place of energy, least first, by `loading_mode`.
+"""Columns that are compared instead of energy, by `loading_mode`; the least value is the best.
 
-Under a dead load whatever gives way absorbs most. A striker is stopped with all its energy by every
-design: what tells them apart is the force on what they protect, and one that runs out of stroke
-shows it there.
+Under a dead load, the design that gives way most absorbs most energy. Every design absorbs all the
+energy of a striker; designs differ in the force on the support, which is large if the stroke is
+used up.
 """
 
 WHOLE_CRUSH = ("absorbed_energy_J", "specific_absorption_J_per_g")
@@ -34,11 +34,11 @@ ROUND_OFF = 1e-9
 
 
 class RankError(ValueError):
-    """A ranking that cannot be made; the text is one sentence that says what is allowed."""
+    """A ranking that cannot be made; the text is one sentence with the allowed values."""
 
 
 class Compared(NamedTuple):
-    """Names of the columns that are compared; `until`: when energy ceases to count, in words."""
+    """Names of the compared columns; `until`: up to which point energy is counted, in words."""
 
     mass: str
     energy: str
@@ -52,11 +52,11 @@ def merits(
     panel: Sequence[Quantity] | None,
     allowed_force: Quantity | None,
 ) -> tuple[DataFrame, Compared]:
-    """Rows with the columns that are compared, and the names of these.
+    """Rows with the compared columns added, and the names of these columns.
 
-    Added too: `passed_on_N`, the greatest force while that energy is absorbed; `returned_share`,
-    what is given back of the work of the whole crush; `beyond_model`; `crossed`; and error bars of
-    what is added, where the energy has one.
+    Other added columns: `passed_on_N`, the greatest force while that energy is absorbed;
+    `returned_share`, returned energy / work of the whole crush; `beyond_model`; `crossed`; and
+    error bars of added columns, if the energy has one.
     """
     if missing := [name for name in COLUMNS if name not in finished and name not in OLDER]:
         raise RankError(
@@ -87,7 +87,7 @@ def merits(
 
 
 def _through_solid(finished: DataFrame) -> Series:
-    """Which lattices are pressed into less height than their solid has, or through the ground."""
+    """True for lattices compressed to less than their solid height, or to less than none."""
     sunk = (finished["loading_mode"] == "force") & (finished["peak_strain"] >= 1.0)
     return sunk | (finished["stroke_left_m"] < -ROUND_OFF)
 
@@ -101,7 +101,7 @@ def panel_factor(frame: DataFrame, panel: Sequence[Quantity]) -> Series:
 
 
 def greatest_mass(budget_g: float) -> float:
-    """The mass (g) up to which a design is within a budget: the budget, with room for round-off."""
+    """The greatest mass (g) within a budget: the budget, with a tolerance for round-off."""
     return budget_g * (1.0 + ROUND_OFF)
 
 
@@ -121,19 +121,19 @@ def in_si(value: Any, unit: str) -> float:
 def _counted(
     finished: DataFrame, by: str | None, allowed_force: Quantity | None
 ) -> tuple[str, Series, str]:
-    """The column of the energy that counts, the greatest force passed on (N), until when."""
+    """The column of the counted energy, the greatest force meanwhile (N), and `Compared.until`."""
     if allowed_force is not None:
         limit = in_si(allowed_force, "N")
-        energy, until = _energy_column(finished, limit), f"until {limit:g} N are passed on"
+        energy, until = _energy_column(finished, limit), f"until the force exceeds {limit:g} N"
         return energy, finished["peak_force_N"].clip(upper=limit), until
     if by in WHOLE_CRUSH:
         return "absorbed_energy_J", finished["peak_force_N"], "to the end of the stroke"
     packed = finished["peak_force_at_densification_N"]
-    return "absorbed_energy_at_densification_J", packed, "until it has packed down"
+    return "absorbed_energy_at_densification_J", packed, "until densification"
 
 
 def _energy_column(frame: DataFrame, force: float) -> str:
-    """The column of the energy absorbed up to an allowed force (N), which the sweep must hold."""
+    """The column of the energy absorbed up to an allowed force (N), which the sweep must have."""
     name = absorbed_energy_column(force)
     if name in frame:
         return name

@@ -1,8 +1,8 @@
 """Which design absorbs the most energy: per gram, within a weight budget, below an allowed force.
 
-Only cases of the same loading scene are compared: a block under a dead load of 5 N and one crushed
-to half its height absorb energies that answer different questions. Under a dead load the design
-that sinks least is the best, under a striker the one that passes the least force on.
+Only cases of the same loading scene are compared, since the energies absorbed under a dead load and
+in a crush to half the height answer different questions. Under a dead load the design with the
+least strain is the best, under a striker the one with the least force on the support.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ ASSUMPTIONS = (
     "material.plane",
     "material.poisson",
 )
-"""Grid keys that say how a design was tested, not what it is: each value is a scene of its own."""
+"""Grid keys of the test and not of the design: every value of them makes a scene of its own."""
 
 LEADING = [
     "budget_g",
@@ -83,33 +83,40 @@ def rank(
 
     Parameters
     ----------
-    source : results file, or a summary as `read_summary` gives it.
-    budget : greatest mass (kg, or text with a unit) of the panel, or of the specimen without one.
-        Several budgets give a ranking each, told apart by the column `budget_g`.
+    source : results file, or a summary from `read_summary`.
+    budget : greatest mass (kg, or text with a unit) of the panel, or of the specimen without panel.
+        Several budgets give one ranking each, distinguished by the column `budget_g`.
     panel : the two lengths (m, or text with a unit) of the area that the specimens fill.
-    by : column to sort by, the greatest or the least first, whichever is better (`Column.better`);
-        one of which neither is better is refused. Default: under a dead load the greatest strain,
-        under a striker the greatest force on the support, least first (`merit.LEAST`); else the
-        energy absorbed until the lattice has packed down where a budget or a panel is given (a
-        budget is there to be spent), else that energy per gram. By `absorbed_energy_J` or
-        `specific_absorption_J_per_g`, energy is counted to the end of the stroke.
-    top : places kept for each scene and budget; None keeps all.
-    allowed_force : count energy only up to this force (N, or text) passed on by one specimen, which
-        needs the column `absorbed_energy_at_..N_J`.
+    by : column to sort by, the better values first (`Column.better`); a column without better
+        values is refused. Default: under a dead load the least strain, under a striker the least
+        force on the support (`merit.LEAST`). Otherwise the greatest energy absorbed until
+        densification if a budget or a panel is given, else the greatest energy per gram. With
+        `absorbed_energy_J` or `specific_absorption_J_per_g`, energy is counted to full stroke.
+    top : number of designs listed for each scene and budget; None lists all.
+    allowed_force : count energy only up to this force (N, or text) of one specimen; this needs the
+        column `absorbed_energy_at_..N_J`.
 
     Returns
     -------
-    The summary's rows that have a place, led by `budget_g`, `scene`, `place` (equal values share
-    one, and so do those that error bars cannot tell from the first there: `shared_places`), with
-    error bars `tied` (True: it shares its place) and `ranked_error`; `sharing`, how many designs
-    share this place, and `contenders`, how many have any, both with those cut off by `top`;
-    `pareto` (True: no design of the scene is lighter without absorbing less, none absorbs more
-    without being heavier; where `LEAST` counts, the same for that), `ranked_by`, with a panel
-    `panel_mass_g` and `panel_energy_J`; and `passed_on_N`, the greatest force while that energy is
-    absorbed, `returned_share` of the work of the whole crush, which was stored and not dissipated,
-    `beyond_model` (True: a wall was squeezed too far while it was absorbed, or the lattice into
-    less height than its solid has), `crossed` (True: walls passed through one another).
-    `attrs` are the other fields of `Ranking`, for one release more: `ranked` gives them.
+    The rows of the summary that have a place. The first columns are:
+
+    budget_g, scene : the ranking to which a row belongs.
+    place : equal values share a place, and so do values that error bars cannot distinguish from
+        the first value of the place (`shared_places`).
+    tied, ranked_error : with error bars: True if the place is shared; the error of the value.
+    sharing, contenders : number of designs with this place, and with any place, including those
+        that `top` cuts off.
+    pareto : True if no design of the scene is lighter and absorbs as much, and none absorbs more
+        and is as light; where `LEAST` is compared, the same with that column.
+    ranked_by : the sorting column.
+    panel_mass_g, panel_energy_J : with a panel.
+    passed_on_N : greatest force while the counted energy is absorbed.
+    returned_share : returned energy / work of the whole crush.
+    beyond_model : True if an element is too short while the counted energy is absorbed, or if the
+        lattice is compressed to less than its solid height.
+    crossed : True if walls crossed one another.
+
+    `attrs` holds the other fields of `Ranking`, for one more release; use `ranked` for them.
     """
     ranking = ranked(source, budget, panel, by, top, allowed_force)
     others = {field.name: getattr(ranking, field.name) for field in fields(ranking)[1:]}
@@ -125,7 +132,7 @@ def ranked(
     top: int | None = 10,
     allowed_force: Quantity | None = None,
 ) -> Ranking:
-    """The table that `rank` returns for the same arguments, with what was compared and left out."""
+    """The `Ranking` whose table `rank` returns for the same arguments."""
     summary = source if isinstance(source, DataFrame) else _read(source)
     finished = summary[summary["status"] == Status.CONVERGED]
     compared, names = merits(finished, by, panel, allowed_force)
@@ -151,7 +158,7 @@ def ranked(
 
 
 def model_versions(summary: DataFrame) -> dict[int, int]:
-    """How many rows there are of each version of the model, the oldest first."""
+    """Number of rows of each version of the model, the oldest first."""
     versions = summary.get("model_version", Series(OLDER["model_version"], summary.index))
     return {int(version): int(n) for version, n in versions.value_counts().sort_index().items()}
 
@@ -163,20 +170,20 @@ def by_scene(frame: DataFrame) -> list[DataFrame]:
 
 
 def scene_keys(frame: DataFrame) -> list[str]:
-    """Columns whose values make a loading scene: never compare rows that differ in one."""
+    """Columns that define a loading scene; rows that differ in one of them are not compared."""
     assumed = [key for key in frame if key.startswith(ASSUMPTIONS) and key not in HELD_BY_SCENE]
     return [key for key in SCENE if key in frame] + assumed
 
 
 def scene_label(rows: DataFrame) -> str:
-    """What was done to these cases of one scene, in words; different for every scene.
+    """The loading of the cases of one scene, in words; different for every scene.
 
-    A key that the scene does without is not told.
+    Keys that the scene does not use are left out.
     """
     if rows.empty:
         return ""
     first = rows.iloc[0]
-    said = set(SCENE)
+    shown = set(SCENE)
     if first["loading_mode"] == "force":
         words = [f"dead load of {first['force_N']:g} N"]
     elif first["loading_mode"] == "custom":
@@ -187,32 +194,32 @@ def scene_label(rows: DataFrame) -> str:
         words = [f"struck by {struck[0]} g at {struck[1]} m/s ({energy})"]
     elif len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
         words = [f"crushed to {100 * strains[0]:g} %"]
-        said |= {"loading.strain", "loading.stroke"}
+        shown |= {"loading.strain", "loading.stroke"}
     else:
         words = ["crushed"]
     platen = first["platen"]
     if first["loading_mode"] != "custom":
         words.append("no platens" if platen in ("none", "") else f"{platen} platens")
-    others = {key: short(first[key]) for key in scene_keys(rows) if key not in said}
-    told = {key: value for key, value in others.items() if value not in ("", NOTHING)}
-    words += [f"{key.replace('.', ' ').replace('_', ' ')} {value}" for key, value in told.items()]
+    others = {key: short(first[key]) for key in scene_keys(rows) if key not in shown}
+    used = {key: value for key, value in others.items() if value not in ("", NOTHING)}
+    words += [f"{key.replace('.', ' ').replace('_', ' ')} {value}" for key, value in used.items()]
     return ", ".join(words)
 
 
 def pareto(mass: Series, energy: Series) -> Series:
-    """True where nothing lighter absorbs as much and nothing as light absorbs more."""
-    mass = mass.round(9)  # what weighs the same by design does so but for round-off
+    """True for designs such that none lighter absorbs as much and none as light absorbs more."""
+    mass = mass.round(9)  # designs of equal mass may differ by round-off
     best = energy.groupby(mass).max()
     lighter = best.cummax().shift(fill_value=-np.inf)
     return (energy == mass.map(best)) & (energy > mass.map(lighter))
 
 
 def shared_places(values: Series, errors: Series | None = None) -> Series:
-    """Places of values that stand in their order, the best first.
+    """Places of sorted values, the best first.
 
-    A value shares the place of the first one before it whose interval, value ± error, it overlaps
-    or touches, and a missing error is none. The first that does not opens the next place, whose
-    number counts all that are before it.
+    A value shares a place if its interval, value ± error, overlaps or touches that of the first
+    value of the place; a missing error is 0. Otherwise it starts a new place, whose number is
+    1 + the number of values before it.
     """
     places: list[int] = []
     best = slack = np.nan
@@ -244,10 +251,10 @@ def _with_scene(rows: DataFrame, names: Compared) -> DataFrame:
 
 
 def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | None) -> DataFrame:
-    """The first places among the rows of one scene within a budget, best first.
+    """The first ``top`` rows of one scene within a budget, best first.
 
-    Of equal values the lighter is listed first, then by id: the order never depends on the order
-    of the rows.
+    Rows of equal value are sorted by mass, then by id, so that the order of the input rows does not
+    matter.
     """
     order = [*dict.fromkeys([by, mass, "case_id"])]
     upwards = [name != by or less_is_better(by) for name in order]
@@ -266,13 +273,13 @@ def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | Non
 
 
 def _without_bar(rows: DataFrame, by: str) -> int:
-    """How many rows have a value to sort by, but no error bar of it, where there are any bars."""
+    """Number of rows with a value to sort by but without its error bar; 0 without error bars."""
     bar = error_column(by)
     return int((rows[by].notna() & rows[bar].isna()).sum()) if bar in rows else 0
 
 
 def _column(frame: DataFrame, by: str) -> str:
-    """The column to sort by, refused with the nearest one unless more or less of it is better."""
+    """The column to sort by; refused if it is unknown or has no better values."""
     numbers = [name for name in frame.select_dtypes("number") if not is_grid_key(name)]
     allowed = [name for name in numbers if describe_column(name).better]
     if by in allowed:
@@ -286,14 +293,14 @@ def _column(frame: DataFrame, by: str) -> str:
 
 
 def _several(budget: Quantity | Sequence[Quantity] | None) -> list[Quantity]:
-    """No, one or several budgets as a list."""
+    """Budgets as a list, which may be empty."""
     if budget is None:
         return []
     return [budget] if isinstance(budget, float | int | str) else list(budget)
 
 
 def _read(path: str | PathLike[str]) -> DataFrame:
-    """The summary of a results file; only here is the store needed."""
+    """The summary of a results file; only this function needs the store."""
     from sweep.store.read import read_summary
 
     return read_summary(path)

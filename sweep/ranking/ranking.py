@@ -1,4 +1,4 @@
-"""A ranking: its table, and what the table alone does not tell."""
+"""`Ranking`, what `rank.ranked` returns: the table, and data that are not in the table."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ class Ranking:
     """The best designs of each loading scene.
 
     table : a row for each design that has a place, best first; `rank` describes its columns.
-    mass, energy, per_gram : names of the columns that are compared: mass (g) and energy (J) of the
-        panel, or of the specimen without one, and energy per gram (J/g).
-    until : when energy ceases to count, in words.
-    limited : True where energy ceases to count at an allowed force.
-    by : name of the column that sorts the crushed designs, or those of the first scene without any.
-    cases, failed : how many were simulated, and how many of them did not converge.
-    unranked : how many converged, but have no value in the column of their scene.
-    without_bar : how many have that value but no error bar of it, where others have one.
-    versions : of the model, how many that converged are of each, the oldest first.
-    budgets_g : greatest masses (g) that were asked for, each once.
-    lightest_g : the smallest mass (g) of each scene.
+    mass, energy, per_gram : names of the compared columns: mass (g) and energy (J) of the panel, or
+        of the specimen if there is no panel, and energy per gram (J/g).
+    until : up to which point energy is counted, in words.
+    limited : True if energy is counted up to an allowed force.
+    by : name of the column that sorts crushed designs; without crushes, those of the first scene.
+    cases, failed : number of cases, and number of those that did not converge.
+    unranked : number of converged cases without a value in the sorting column of their scene.
+    without_bar : number of cases with that value but without its error bar, if others have one.
+    versions : number of converged cases of each version of the model, the oldest first.
+    budgets_g : the budgets (g), each once.
+    lightest_g : the least mass (g) of each scene.
     """
 
     table: DataFrame

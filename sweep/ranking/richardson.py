@@ -1,4 +1,4 @@
-"""What values at finer and finer sizes tend to: observed order and Richardson's extrapolation."""
+"""Limit of values at decreasing sizes: observed order and Richardson extrapolation."""
 
 from __future__ import annotations
 
@@ -9,15 +9,16 @@ import numpy as np
 
 Floats = np.ndarray
 
-ORDERS = np.linspace(0.5, 4.5, 4001)  # that are looked for
-ALIKE = 0.5  # cosine between one change and the next, of values on their way to a limit
+ORDERS = np.linspace(0.5, 4.5, 4001)  # orders that can be observed
+ALIKE = 0.5  # least cosine between two consecutive changes of values that converge
 
 
 class Limit(NamedTuple):
-    """What takes the finest value to its limit, the order (NaN: none to be seen), the doubt.
+    """Result of an extrapolation.
 
-    The doubt (rms) is all that the extrapolation adds; without an order, the greater of the last
-    two changes.
+    correction (k,): limit - finest value. order: the observed one; NaN if none is observed.
+    doubt: uncertainty of the limit, rms: that of the correction, or without an order the greater
+    of the last two changes.
     """
 
     correction: Floats
@@ -26,7 +27,7 @@ class Limit(NamedTuple):
 
 
 def limit(sizes: Sequence[float], values: Sequence[Floats]) -> Limit:
-    """Limit of values (k,) each, at falling sizes, if value = limit + c size^p."""
+    """Limit of values, (k,) each, at decreasing sizes, with value = limit + c size^p."""
     changes = np.diff(values, axis=0)
     order = observed_order(sizes, changes)
     if np.isnan(order):
@@ -37,7 +38,7 @@ def limit(sizes: Sequence[float], values: Sequence[Floats]) -> Limit:
 
 
 def observed_order(sizes: Sequence[float], changes: Floats) -> float:
-    """Order p of the last three values; NaN unless those before, if any, show one too."""
+    """Order p of the last three values; NaN if they, or the three before, show no order."""
     orders = [
         _order(sizes[k : k + 3], *changes[k : k + 2])
         for k in range(max(len(sizes) - 4, 0), len(sizes) - 2)
@@ -46,7 +47,7 @@ def observed_order(sizes: Sequence[float], changes: Floats) -> float:
 
 
 def _order(sizes: Sequence[float], first: Floats, second: Floats) -> float:
-    """The p with |first| / |second| = (s0^p - s1^p) / (s1^p - s2^p), which grows with p."""
+    """The p with |first| / |second| = (s0^p - s1^p) / (s1^p - s2^p), which increases with p."""
     if not first @ second > ALIKE * np.sqrt((first @ first) * (second @ second)):
         return np.nan
     s0, s1, s2 = (np.asarray(size) ** ORDERS for size in sizes)

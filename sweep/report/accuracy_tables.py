@@ -1,4 +1,4 @@
-"""An accuracy study in words: tables of errors beside run time, orders, and what to choose."""
+"""Tables of an accuracy study: errors and run times, observed orders, recommended settings."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ if TYPE_CHECKING:
     from pandas import DataFrame, Series
 
 WIDTH = 100  # of a line below a table
-LEAST_SHOWN = 1e-5  # share below which an error is not worth a digit
+LEAST_SHOWN = 1e-5  # relative error; smaller ones are shown as "<" this value
 PATHS = {"displacement": "force along the way", "custom": "motion of the probes"}
 MARKS = """\
-*: on the front, nothing as cheap has a smaller greatest error. peak: of the stored rows. path: rms
-over the history, as a share of its range. elements: of a wall. <: below what is known."""
+*: on the front: no setting as cheap has a smaller greatest error. peak: of the stored rows. path:
+rms over the history / its range. elements: per wall. <: below the uncertainty of the reference."""
 
 
 def accuracy_sheets(study: Study, title: str) -> Iterator[Sheet]:
-    """Errors beside processor time, method by method, then the observed orders."""
+    """Two sheets: errors and processor times of all settings by method; observed orders."""
     numbers, _ = pd.factorize(study.settings["method"])
     rows = study.settings.iloc[np.argsort(numbers, kind="stable")]
     columns = {
@@ -47,12 +47,12 @@ def accuracy_sheets(study: Study, title: str) -> Iterator[Sheet]:
 
 
 def scene_title(study: Study, name: str) -> str:
-    """The name of the study, its loading scene, and what its cases have in common."""
+    """The name of the study, its loading scene, and the keys that its cases share."""
     rows = study.settings
     varied = [key for key in rows if "." in key and (varies(rows[key]) or rows[key].isna().all())]
     rows = rows.drop(columns=varied)
-    said = {*scene_keys(rows), *HELD_BY_SCENE, "loading.strain", "loading.stroke"}
-    kept = [key for key in rows if "." in key and key not in said]
+    shown = {*scene_keys(rows), *HELD_BY_SCENE, "loading.strain", "loading.stroke"}
+    kept = [key for key in rows if "." in key and key not in shown]
     words = [
         f"{key.replace('.', ' ').replace('_', ' ')} {short(rows[key].iloc[0])}" for key in kept
     ]
@@ -60,12 +60,12 @@ def scene_title(study: Study, name: str) -> str:
 
 
 def answers(study: Study) -> list[str]:
-    """What the reference is and how sure, and the cheapest setting for every target."""
+    """Sentences: the reference and its uncertainty, the cheapest setting for every target."""
     lines = [_reference(study)]
     for name in study.references:
         if name not in study.resolved:
-            sure = f"is sure to {_doubt(study, name)} only"
-            known = sure if np.isfinite(study.references[name].doubt) else "cannot be told"
+            uncertain = f"is uncertain by {_doubt(study, name)}"
+            known = uncertain if np.isfinite(study.references[name].doubt) else "is unknown"
             lines.append(f"Not resolved: {measure_noun(study, name)}, whose limit {known}.")
     if study.resolved:
         lines += [line for target in TARGETS for line in _cheapest(study, target)]
@@ -76,17 +76,17 @@ def answers(study: Study) -> list[str]:
 
 
 def _reference(study: Study) -> str:
-    """Where the reference comes from, and its values."""
+    """A sentence with the origin of the reference and its values."""
     words = [f"{_value(study, name)} ± {_doubt(study, name)}" for name in study.resolved]
-    sure = f": {', '.join(words)}" if words else ""
-    return f"Reference: the limit of {setting(study, study.finest)}{sure}."
+    values = f": {', '.join(words)}" if words else ""
+    return f"Reference: the limit of {setting(study, study.finest)}{values}."
 
 
 def _cheapest(study: Study, target: float) -> Iterator[str]:
-    """The cheapest settings below a target: in all that is known so well, and in energy alone."""
+    """The cheapest settings below a target: in all measures known so well, and in energy alone."""
     known = [name for name in study.resolved if study.references[name].doubt < target]
     if not known:
-        yield f"Errors below {percents(target)} cannot be told: the reference is not so sure."
+        yield f"Errors below {percents(target)} are not resolved: the reference is too uncertain."
         return
     rows, where = study.settings, f"below {percents(target)} in {_listed(study, known)}"
     worst = rows[known].max(axis=1, skipna=False)
@@ -94,11 +94,11 @@ def _cheapest(study: Study, target: float) -> Iterator[str]:
     cheap = rows[rows["energy"] < target].sort_values("cpu_s")
     if good.empty:
         best = rows.loc[worst.idxmin()]
-        yield f"No setting is {where}; {setting(study, best)} comes to {percents(worst.min())}."
+        yield f"No setting is {where}; {setting(study, best)} reaches {percents(worst.min())}."
     else:
         yield f"The cheapest setting {where} is {_with_cost(study, good.iloc[0])}."
     if "energy" in known and not cheap.index[:1].isin(good.index[:1]).all():
-        yield f"In {measure_noun(study, 'energy')} alone it is {_with_cost(study, cheap.iloc[0])}."
+        yield f"For {measure_noun(study, 'energy')} alone it is {_with_cost(study, cheap.iloc[0])}."
 
 
 def _with_cost(study: Study, row: Series) -> str:
@@ -134,7 +134,7 @@ def _error(study: Study, row: Series, name: str) -> str:
 
 
 def _orders(study: Study) -> Sheet:
-    """A row for each method and each way to refine it, with the others at their finest."""
+    """A row for each method and each refined key, with the other keys at their finest."""
     rows = []
     for method, measures in study.orders.items():
         for key in measures["energy"]:
@@ -154,12 +154,12 @@ HEADS = {
 
 
 def _keys(rows: DataFrame) -> list[str]:
-    """What is refined in these settings."""
+    """The keys that are refined in these settings."""
     return [key for key in REFINED if key in rows and varies(rows[key])]
 
 
 def _refined(rows: DataFrame) -> dict[str, list[str]]:
-    """Columns of the sizes."""
+    """Columns of the refined keys."""
     return {HEADS[key]: [_size(key, v, bare=True) for v in rows[key]] for key in _keys(rows)}
 
 
@@ -177,7 +177,7 @@ def _size(key: str, value: float, bare: bool = False) -> str:
 
 
 def measure_noun(study: Study, name: str) -> str:
-    """What is measured, in words."""
+    """A measure in words."""
     mode = study.settings["loading_mode"].iloc[0]
     if name == "path":
         return PATHS.get(mode, "strain over time")
@@ -187,7 +187,7 @@ def measure_noun(study: Study, name: str) -> str:
 
 
 def _value(study: Study, name: str) -> str:
-    """A reference in words; a path has no one value."""
+    """The value of a reference in words; only the noun for a path, which has many values."""
     value, noun = study.references[name].value[0], measure_noun(study, name)
     if name == "path":
         return noun

@@ -1,7 +1,7 @@
-"""Pictures of a case: its force, its energies, its shapes; and what all pictures are made with.
+"""Pictures of a case: force, energies, shapes; and functions shared by all pictures.
 
-Functions draw into figures or axes that they are given. Lengths are drawn in mm. Kinds have the
-colours of Okabe and Ito: nobody need tell red from green.
+The functions draw into the figures or axes of their arguments. Lengths are in mm. The colours of
+Okabe and Ito can be distinguished without telling red from green.
 """
 
 from __future__ import annotations
@@ -39,16 +39,16 @@ ENERGIES = {
     "dissipated_friction_J": ("lost to friction", PURPLE),
     "dissipated_integrator_J": ("lost by the time steps", GREY),
 }
-PANEL, GAP = 1.9, 0.1  # inches: the longer side of the picture of a shape; between two
-ENTRY, SIGN = 0.22, 0.6  # inches: the height of an entry of a legend; the width of its sign
-LETTER, LINE = 0.075, 0.2  # inches: the width of a letter of a title, the height of a line
-TICKS = 3  # labels of a log axis at least
-ROUND = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))  # by powers of ten
-NEGLIGIBLE = 0.005  # share of the work below which an energy is not worth a colour
+PANEL, GAP = 1.9, 0.1  # inches: longer side of the picture of a shape; gap between two pictures
+ENTRY, SIGN = 0.22, 0.6  # inches: height of an entry of a legend; width of its sign
+LETTER, LINE = 0.075, 0.2  # inches: width of a letter of a title; height of a line
+TICKS = 3  # least number of labels of a log axis
+ROUND = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))  # x powers of ten
+NEGLIGIBLE = 0.005  # of the work: smaller energies are not drawn
 
 
 def blank(width: float, height: float) -> Figure:
-    """An empty figure (inches) that makes room for its labels."""
+    """An empty figure (inches) with a layout that adapts to its labels."""
     return Figure(figsize=(width, height), layout="constrained")
 
 
@@ -60,21 +60,21 @@ def save(figure: Figure, path: Path) -> Path:
 
 
 def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
-    """Force on the top against strain: the way down, the way back, and what lies beneath.
+    """Force on the top over strain: loading, unloading, and the absorbed energy as an area.
 
-    history : as `read_history` gives it; row : the case's row of the summary. A dead load is there
-    and gone in a step.
+    history : from `read_history`; row : of the case in the summary. A dead load appears and
+    disappears within one step.
     """
     strain, force = 100.0 * history["strain"], history["reaction_top_N"]
     turn = last_loaded(history, row)
     down, back = slice(turn + 1), slice(turn, None)
     dead = row["loading_mode"] == "force"
     absorbed = row["absorbed_energy_J"]
-    given_back = f"gives back {100.0 * row['returned_energy_J'] / absorbed:.0f} %"
+    given_back = f"returns {100.0 * row['returned_energy_J'] / absorbed:.0f} %"
     words = ("load on", "load off") if dead else ("loading", f"unloading,\n{given_back}")
     style: Any = "steps-pre" if dead else "default"
     sky: dict[str, Any] = {"color": SKY, "alpha": 0.3, "lw": 0, "step": "pre" if dead else None}
-    whole = f"absorbs in all\n{_energy(absorbed, row)}"
+    whole = f"absorbed in all\n{_energy(absorbed, row)}"
     ax.fill_between(strain[down], force[down], label=whole, **sky)
     ax.plot(strain[down], force[down], drawstyle=style, color=BLUE, lw=2.2, label=words[0])
     if turn + 1 < len(history):
@@ -95,17 +95,15 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
 
 
 def _plateau(ax: Axes, row: Mapping[str, Any]) -> None:
-    """Height of the plateau, up to the strain of densification, with the energy that is ranked, or
-    of the stroke.
-    """
+    """The plateau force up to densification or full stroke, with the energy until densification."""
     area = row["outer_width_m"] * row["depth_m"]
     plateau, packed = area * row["plateau_stress_Pa"], 100.0 * row["densification_strain"]
     if row["loading_mode"] != "displacement" or np.isnan(plateau):
         return
     packs = np.isfinite(packed)
     end = packed if packs else 100.0 * row["peak_strain"]
-    by_then = _energy(row["absorbed_energy_at_densification_J"], row)
-    words = f"packed at {packed:.0f} %, by then\n{by_then}" if packs else "not packed"
+    energy = _energy(row["absorbed_energy_at_densification_J"], row)
+    words = f"packed at {packed:.0f} %, until then\n{energy}" if packs else "not packed"
     stairs = [0.0, end, end], [plateau, plateau, 0.0]
     ax.plot(
         *stairs, color="black", lw=1.0, ls=":", label=f"plateau {three_digits(plateau)} N,\n{words}"
@@ -113,35 +111,35 @@ def _plateau(ax: Axes, row: Mapping[str, Any]) -> None:
 
 
 def _energy(joules: float, row: Mapping[str, Any]) -> str:
-    """An energy of a case, and the same per gram."""
+    """An energy of a case, in all and per gram."""
     return f"{energy_text(joules)}, {three_digits(joules / row['mass_g'])} J/g"
 
 
 def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
-    """Where the work done is: stored in the walls, moving, or lost, stacked in mJ.
+    """The parts of the work done, stacked, in mJ: stored, kinetic, dissipated.
 
-    Against time for a dead load; otherwise against the way the platen has gone, down and back.
+    Over the path of a driven platen, down and back; otherwise over time.
     """
     work = 1e3 * history["work_in_J"]
     turn = last_loaded(history, row)
     if row["loading_mode"] == "displacement":
-        way = 1e3 * history["top_displacement_m"].diff().abs().cumsum().fillna(0.0)
+        place = 1e3 * history["top_displacement_m"].diff().abs().cumsum().fillna(0.0)
         words = "path of the platen, down and back up, mm", "turns"
     else:
-        way = 1e3 * history["time_s"]
+        place = 1e3 * history["time_s"]
         words = "time, ms", "load off" if row["loading_mode"] == "force" else "stops"
     ax.set_xlabel(words[0])
     if turn + 1 < len(history):
-        mark(ax, way[turn], words[1])
+        mark(ax, place[turn], words[1])
     parts = {
         label: (1e3 * history[name], color)
         for name, (label, color) in ENERGIES.items()
         if history[name].abs().max() > NEGLIGIBLE * history["work_in_J"].abs().max()
     }
     values, colors = zip(*parts.values(), strict=True) if parts else ((), ())
-    ax.stackplot(way, *values, colors=colors, labels=list(parts), linewidth=0)
-    paid = "brought by the striker" if row["loading_mode"] == "impact" else "work done"
-    ax.plot(way, work, color="black", lw=1.4, label=paid)
+    ax.stackplot(place, *values, colors=colors, labels=list(parts), linewidth=0)
+    total = "brought by the striker" if row["loading_mode"] == "impact" else "work done"
+    ax.plot(place, work, color="black", lw=1.4, label=total)
     ax.set_ylabel("energy, mJ")
     ax.set_title(headline(row), loc="left", fontsize="medium")
     ax.margins(x=0.0, y=0.1)
@@ -151,37 +149,40 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     plain(ax)
 
 
-class Stage(NamedTuple):
-    """What the picture of each shape of a case shows, in mm; room: the height of a platen."""
+class View(NamedTuple):
+    """The region shown in the picture of each shape of a case, in mm.
+
+    ground: surface of the support; margin: also the height of a drawn platen.
+    """
 
     left: float
     right: float
     below: float
     top: float
     ground: float
-    room: float
+    margin: float
 
 
-def _stage(frames: Mapping[str, Any], chosen: list[int]) -> Stage:
-    """A stage for these frames, with their platens."""
+def _view(frames: Mapping[str, Any], chosen: list[int]) -> View:
+    """The view that contains the chosen frames and their platens."""
     points, drawn = 1e3 * frames["position_m"][chosen], np.unique(frames["edges"])
     plates, thickness = 1e3 * frames["plate_y_m"][chosen], 1e3 * frames["edge_thickness_m"].max()
     ground = points[0, drawn, 1].min() - 0.5 * thickness
     low, high = (end(points[:, drawn], (0, 1)) for end in (np.min, np.max))
     low, high = low - thickness, high + thickness
-    room = 0.06 * (high - low).max()
-    top = max(high[1], np.nanmax(plates, initial=high[1]) + room)
-    below = min(low[1], ground - room) - room
-    return Stage(low[0] - room, high[0] + room, below, top, ground, room)
+    margin = 0.06 * (high - low).max()
+    top = max(high[1], np.nanmax(plates, initial=high[1]) + margin)
+    below = min(low[1], ground - margin) - margin
+    return View(low[0] - margin, high[0] + margin, below, top, ground, margin)
 
 
 def shapes_size(
     title: str, frames: Mapping[str, Any], release: float | None = None
 ) -> tuple[float, float]:
-    """Width and height (inches) of a figure of shapes that leaves nothing blank between them."""
+    """Width and height (inches) of a figure that the shapes fill."""
     chosen = dict(shots(frames, release))
-    stage = _stage(frames, list(chosen))
-    width, height = stage.right - stage.left, stage.top - stage.below
+    view = _view(frames, list(chosen))
+    width, height = view.right - view.left, view.top - view.below
     scale = PANEL / max(width, height)
     lines = 3 + max(words.count("\n") for words in chosen.values())  # also title and scale bar
     row = len(chosen) * (scale * width + GAP)
@@ -191,31 +192,31 @@ def shapes_size(
 def deformed_shapes(
     fig: Figure | SubFigure, title: str, frames: Mapping[str, Any], release: float | None = None
 ) -> None:
-    """Up to six shapes in a row with walls as thick as they are, chosen by `shots`."""
+    """Up to six shapes in a row, chosen by `shots`, with walls of their true thickness."""
     chosen = dict(shots(frames, release))
     axes = fig.subplots(1, len(chosen), sharex=True, sharey=True, squeeze=False)[0]
     fig.suptitle(title, x=0.01, ha="left", fontsize="medium")
-    stage = _stage(frames, list(chosen))
+    view = _view(frames, list(chosen))
     points, plates = (1e3 * frames[name][list(chosen)] for name in ("position_m", "plate_y_m"))
     for ax, caption, position, plate in zip(axes, chosen.values(), points, plates, strict=True):
         loops = silhouette(position, frames["edges"], 1e3 * frames["edge_thickness_m"])
         walls = Outline.make_compound_path(*(Outline(loop, closed=True) for loop in loops))
         ax.add_patch(PathPatch(walls, facecolor=WALL, edgecolor="none", snap=False))
         if np.isfinite([plate[0], frames["strain"][0]]).any() and not np.isinf(plate[0]):
-            _platen(ax, stage, (stage.ground if np.isnan(plate[0]) else plate[0]) - stage.room)
+            _platen(ax, view, (view.ground if np.isnan(plate[0]) else plate[0]) - view.margin)
         if np.isfinite(plate[1]):
-            _platen(ax, stage, plate[1])
+            _platen(ax, view, plate[1])
         ax.set_title(caption, fontsize="medium")
         ax.set_aspect("equal")
         ax.set_axis_off()
-    axes[0].set(xlim=(stage.left, stage.right), ylim=(stage.below, stage.top))
-    _scale_bar(axes[0], stage.left, stage.below)
+    axes[0].set(xlim=(view.left, view.right), ylim=(view.below, view.top))
+    _scale_bar(axes[0], view.left, view.below)
 
 
 def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:
-    """Six shapes each of several cases, one below the other: what it is -> its frames.
+    """Six shapes of each of several cases, one case below another.
 
-    The figure becomes as large as they are.
+    cases : title -> frames. The size of the figure is set.
     """
     widths, heights = zip(*(shapes_size(*case) for case in cases.items()), strict=True)
     fig.set_size_inches(max(widths), sum(heights))
@@ -225,9 +226,9 @@ def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:
 
 
 def legend(fig: Figure, entries: list[dict[str, Any]]) -> None:
-    """One legend for all axes, to the right of them, in as many columns as its height needs.
+    """One legend for all axes, to the right of them, in as many columns as needed.
 
-    The figure becomes wider by every column but the first.
+    Every column after the first widens the figure.
     """
     handles = [Line2D([], [], **entry) for entry in entries]
     width, height = fig.get_size_inches()
@@ -239,14 +240,14 @@ def legend(fig: Figure, entries: list[dict[str, Any]]) -> None:
 
 
 def mark(ax: Axes, x: float, words: str) -> None:
-    """A dotted line across the axes, and what it is at its upper end."""
+    """A vertical dotted line at `x`, with `words` at its upper end."""
     ax.axvline(x, color=GREY, lw=1.0, ls=":")
     ax.annotate(words, (x, 1.0), (-3, -2), xycoords=ax.get_xaxis_transform(), ha="right", va="top",
                 textcoords="offset points", fontsize="small", color="#555555")  # fmt: skip
 
 
 def round_ticks(axis: Any) -> None:
-    """Ticks of a log axis at round numbers, as far apart as leaves `TICKS` of them in view."""
+    """Ticks of a log axis at round numbers, with at least `TICKS` of them in view."""
     low, high = axis.get_view_interval()
     for locator in (*(LogLocator(subs=subs) for subs in ROUND), MaxNLocator(2 * TICKS)):
         axis.set_major_locator(locator)
@@ -257,10 +258,10 @@ def round_ticks(axis: Any) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def _platen(ax: Axes, stage: Stage, bottom: float) -> None:
+def _platen(ax: Axes, view: View, bottom: float) -> None:
     """A plate over the width of the picture, from `bottom` upwards."""
-    width = stage.right - stage.left
-    plate = Rectangle((stage.left, bottom), width, stage.room, facecolor=PLATEN, edgecolor="none")
+    width = view.right - view.left
+    plate = Rectangle((view.left, bottom), width, view.margin, facecolor=PLATEN, edgecolor="none")
     ax.add_patch(plate)
 
 

@@ -1,4 +1,6 @@
-"""Charts of a sweep: what to print, and why. Ordered values have the colours of viridis."""
+"""Charts of a sweep, in colours of viridis: merit over mass (absorption.png, sink.png,
+passed_on.png) and over the wall thickness (wall_thickness.png).
+"""
 
 from __future__ import annotations
 
@@ -29,30 +31,30 @@ if TYPE_CHECKING:
 LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
 TITLE = 72  # letters in a line above a panel
 WHITE = (1.0, 1.0, 1.0, 1.0)
-VARIANT = ["lattice_kind", "cells_x", "cells_y", "material"]  # the same along a line of trends
-SHAPED = "lattice.", "material."  # keys that make a design, of which these set the walls:
+VARIANT = ["lattice_kind", "cells_x", "cells_y", "material"]  # constant along a line of trends
+SHAPED = "lattice.", "material."  # keys of a design
 THICK = tuple(f"lattice.{key}" for key in ("wall_thickness", "mass", "line_width", "infill"))
-NARROW, MARGIN = 1.2, 0.1  # of the axis of mass: its least ratio, and the room at either end
-ENDS = 0.1, 10.0  # of a value: where its error bar ends at the latest, as no log axis has a zero
+"""Keys of a design that set the thickness of its walls."""
+NARROW, MARGIN = 1.2, 0.1  # of the axis of mass: least ratio of its ends; margin at either end
+ENDS = 0.1, 10.0  # of a value: limits of its error bar, since a log axis has no zero
 
 
 def design_map(fig: Figure, ranking: Ranking) -> None:
-    """What to print: merit against mass, a panel a scene, the winner of each budget named.
+    """Merit over mass, one panel per scene, with the winner of each budget named.
 
-    ranking : all places (`top=None`), of one mode. Merit: absorbed energy, how little a load sinks,
-    or the force that a striker leaves on the support, with its error bar. The stairs are the best
-    that any mass offers, the Pareto front, whose designs are drawn on top; where they meet a budget
-    stands its winner.
+    ranking : all places (`top=None`), of one mode. Merit: absorbed energy, strain under a dead
+    load, or force on the support under a striker, with its error bar. The stairs are the Pareto
+    front, the best merit up to every mass; its designs are drawn on top. The winner of a budget is
+    the last design of the front within it.
     """
     designs, mass, energy = ranking.table, ranking.mass, ranking.energy
-    of = "panel" if mass == "panel_mass_g" else "specimen"
+    noun = "panel" if mass == "panel_mass_g" else "specimen"
     look = looks(designs)
-    for ax, rows in _scene_axes(fig, designs.round({mass: 9})):  # equal by design is equal
+    for ax, rows in _scene_axes(fig, designs.round({mass: 9})):  # without round-off
         merit, error = merits(rows, energy), merit_errors(rows, energy)
         least = LEAST_SHOWN.get(rows["loading_mode"].iloc[0])
-        for _, points in rows[::-1].groupby(
-            ["pareto", "lattice_kind", "material"]
-        ):  # the best comes last
+        by_style = rows[::-1].groupby(["pareto", "lattice_kind", "material"])
+        for _, points in by_style:  # the best are drawn last, on top
             _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
         front = rows[rows["pareto"]].sort_values(mass)
         stairs: dict[str, Any] = {"color": "black", "lw": 0.9, "drawstyle": "steps-post"}
@@ -64,19 +66,19 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
         for budget in ranking.budgets_g:
             mark(ax, budget, f"{budget:g} g")
         words = [_in_lines(ax.get_title("left"))]
-        for said, x, y in budget_winners(rows, ranking):
+        for sentence, x, y in budget_winners(rows, ranking):
             ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")
-            words.append(_in_lines(said))
+            words.append(_in_lines(sentence))
         ax.set_title("\n".join(words), loc="left", fontsize="small")
-        ax.set_xlabel(f"mass of the {of}, g")
-        ax.set_ylabel(least or f"energy absorbed by the {of}{until(ranking)}, J")
+        ax.set_xlabel(f"mass of the {noun}, g")
+        ax.set_ylabel(least or f"energy absorbed by the {noun}{until(ranking)}, J")
         round_ticks(ax.xaxis)
         round_ticks(ax.yaxis)
     legend(fig, look.legend(barred=bool(merit_errors(designs, energy).notna().any())))
 
 
 def thickness_trends(fig: Figure, ranking: Ranking) -> None:
-    """Energy per gram against wall thickness, a panel a scene."""
+    """Energy per gram over wall thickness, one panel per scene."""
     designs, per_gram = ranking.table, ranking.per_gram
     look = looks(designs)
     for ax, rows in _scene_axes(fig, designs):
@@ -95,14 +97,14 @@ def thickness_trends(fig: Figure, ranking: Ranking) -> None:
 
 
 def _span(values: Sequence[float]) -> tuple[float, float]:
-    """Ends of a log axis with room for all values, which may be the same but for round-off."""
+    """Ends of a log axis that contains all values, also if all are equal."""
     low, high = min(values), max(values)
     middle, half = (low * high) ** 0.5, max(high / low, NARROW) ** (0.5 + MARGIN)
     return middle / half, middle * half
 
 
 def has_trends(designs: DataFrame) -> bool:
-    """Whether designs are there that differ in nothing but the thickness of their walls."""
+    """True if some designs differ only in the thickness of their walls."""
     others = [key for key in designs if key.startswith(SHAPED) and key not in THICK]
     alike = designs.groupby(["scene", *VARIANT, *others], dropna=False)
     return not designs.empty and alike["wall_thickness_m"].nunique().max() > 1
@@ -118,7 +120,7 @@ def _in_lines(words: str) -> str:
 
 
 def _line(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
-    """A line through designs; dashed to and from those that are not to be trusted."""
+    """A line through designs; dashed to and from doubtful ones."""
     beyond = doubtful(points)
     ax.plot(x, y.mask(beyond), zorder=1, **style)
     if beyond.any():
@@ -126,7 +128,7 @@ def _line(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFra
 
 
 def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
-    """Designs of one pattern and material; open where they are not to be trusted."""
+    """Designs of one pattern and material as dots; open if doubtful."""
     dots = ax.scatter(x, y, lw=1.2, zorder=2, **style)
     colors = dots.get_facecolor()
     beyond = doubtful(points).to_numpy()[:, None]
@@ -135,7 +137,7 @@ def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFra
 
 
 def _error_bars(ax: Axes, x: Series, y: Series, error: Series, color: str = GREY) -> None:
-    """Value ± error as a thin line behind each design whose error is known."""
+    """Value ± error as a thin line behind each design with a known error."""
     known = error.notna()
     if known.any():
         low, high = (end.clip(*(share * y for share in ENDS)) for end in (y - error, y + error))
@@ -143,7 +145,7 @@ def _error_bars(ax: Axes, x: Series, y: Series, error: Series, color: str = GREY
 
 
 def _scene_axes(fig: Figure, designs: DataFrame) -> Iterator[tuple[Axes, DataFrame]]:
-    """One set of axes a scene, at most two a row."""
+    """Axes and designs of each scene, at most two scenes in a row of the figure."""
     scenes = designs.groupby("scene", sort=False)
     columns = min(2, len(scenes))
     rows = -(-len(scenes) // columns)

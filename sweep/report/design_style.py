@@ -1,8 +1,8 @@
-"""How designs stand in a chart: what they look like, what they are worth, which of them win.
+"""Designs in charts: their style, their merit, and the winners of budgets.
 
-Colour = cells, sign = pattern, or material where there is one pattern, size = wall thickness, open
-and dashed = not to be trusted: the same in every panel. Where both patterns and materials vary,
-colour tells the material too.
+The same in every panel: colour = cells; sign = pattern, or material if there is only one pattern;
+size = wall thickness; open and dashed = doubtful. If patterns and materials vary, the colour
+stands for cells and material.
 """
 
 from __future__ import annotations
@@ -25,19 +25,20 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-RAMP = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98))  # of viridis: few to many cells
+RAMP = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98))  # viridis: few to many cells
 SIGNS = "o^sDvP*Xh<>pd"
 LIKE_PATTERNS = {"circle": "o", "triangle": "^", "square": "s", "diamond": "D", "hex": "h"}
-SIZES = 5  # of wall thickness in a legend; others lie between them
-AREAS = (15.0, 75.0)  # of the thinnest and the thickest wall, points^2
+SIZES = 5  # greatest number of wall thicknesses in a legend
+AREAS = (15.0, 75.0)  # points^2: sign of the thinnest and of the thickest wall
 PLAIN = {"ls": "", "marker": "o", "ms": 6.0, "color": "#8a8a8a"}
 
 
 class Looks(NamedTuple):
-    """Colours by the values of the columns `tint`, signs by those of `sign`, areas by wall (m).
+    """The style of all designs of a ranking.
 
-    tint: `cells_x`, `cells_y` and, where a sign tells the pattern, `material`. doubtful: some
-    designs are not to be trusted.
+    colors: values of the columns `tint` -> colour. signs: values of the column `sign` -> marker.
+    areas: wall thickness (m) -> area of a marker (points^2). tint: `cells_x`, `cells_y` and, if the
+    sign stands for the pattern, `material`. doubtful: True if some designs are doubtful.
     """
 
     tint: list[str]
@@ -56,9 +57,9 @@ class Looks(NamedTuple):
         }
 
     def legend(self, walls: bool = True, barred: bool = False) -> list[dict[str, Any]]:
-        """Keywords of an empty line for each entry: what varies under a heading each.
+        """Keywords of an empty line for each entry of a legend; groups that vary have a heading.
 
-        barred: some have error bars.
+        walls: with wall thicknesses; barred: with an entry for error bars.
         """
         heading, words = _tint_words(list(self.colors))
         noun = "pattern" if self.sign == "lattice_kind" else self.sign
@@ -80,7 +81,7 @@ class Looks(NamedTuple):
 
 
 def looks(designs: DataFrame) -> Looks:
-    """The looks of all designs of a ranking."""
+    """The style of all designs of a ranking."""
     patterned = len(designs["lattice_kind"].unique()) > 1
     tint = ["cells_x", "cells_y", *(["material"] if patterned else [])]
     sign = "lattice_kind" if patterned else "material"
@@ -97,19 +98,19 @@ def looks(designs: DataFrame) -> Looks:
 
 
 def _rows(designs: DataFrame, names: list[str]) -> Iterator[tuple[Any, ...]]:
-    """The values of some columns, design by design."""
+    """The values of the named columns, design by design."""
     return zip(*(designs[name] for name in names), strict=True)
 
 
 def _signs(names: list[str]) -> dict[str, str]:
-    """A sign each: one that looks like the pattern, where there is one."""
+    """A sign for each name, similar to the pattern of this name if possible."""
     alike = {name: LIKE_PATTERNS[name] for name in names if name in LIKE_PATTERNS}
     spare = cycle(sign for sign in SIGNS if sign not in alike.values())
     return {name: alike.get(name) or next(spare) for name in names}
 
 
 def _tint_words(values: list[tuple[Any, ...]]) -> tuple[str, list[str]]:
-    """What a colour tells, as the heading of a legend and its entries: no more than varies."""
+    """Heading and entries of the legend of colours, with only the values that vary."""
     cells = [f"{x} x {y}" for x, y, *_ in values]
     parts = {"cells": cells, "material": [material for *_, material in values]}
     if len(values[0]) == 2 or len({*parts["material"]}) == 1:
@@ -120,47 +121,50 @@ def _tint_words(values: list[tuple[Any, ...]]) -> tuple[str, list[str]]:
 
 
 def _some(entries: dict[str, Any], count: int) -> dict[str, Any]:
-    """Of so many entries, evenly from the first to the last."""
+    """At most ``count`` entries, evenly spaced from the first to the last."""
     kept = np.linspace(0, len(entries) - 1, min(count, len(entries))).round()
     return {name: entries[name] for k, name in enumerate(entries) if k in kept}
 
 
 def doubtful(designs: DataFrame) -> Series:
-    """Which designs are not to be trusted: beyond the model, or with walls that cross."""
+    """True for designs whose results are beyond the model or have walls that cross."""
     return designs["beyond_model"] | designs["crossed"]
 
 
 def merits(rows: DataFrame, energy: str) -> Series:
-    """What the designs of one scene are compared by: sink in %, force in N, or energy in J."""
+    """The compared values of the designs of one scene: sink in %, force in N, or energy in J."""
     name, scale = _compared(rows, energy)
     return scale * rows[name]
 
 
 def merit_errors(rows: DataFrame, energy: str) -> Series:
-    """The error bars of `merits`; NaN where none is known."""
+    """The errors of `merits`; NaN if unknown."""
     name, scale = _compared(rows, energy)
     return scale * errors_of(rows, name)
 
 
 def errors_of(rows: DataFrame, name: str) -> Series:
-    """The error bars of a column; NaN where none is known."""
+    """The errors of a column; NaN if unknown."""
     known = rows.get(error_column(name))
     return rows[name] * np.nan if known is None else known
 
 
 def _compared(rows: DataFrame, energy: str) -> tuple[str, float]:
-    """The column by which the designs of one scene are compared, and what it is shown times."""
+    """The compared column of the designs of one scene, and its factor in charts."""
     least = LEAST.get(rows["loading_mode"].iloc[0])
     return least or energy, 100.0 if least == "peak_strain" else 1.0
 
 
 def until(ranking: Ranking) -> str:
-    """When energy ceases to count, on a line of its own, where a force was allowed."""
+    """Up to which force energy is counted, on a line of its own; "" without an allowed force."""
     return f"\n{ranking.until}" if ranking.limited else ""
 
 
 def budget_winners(rows: DataFrame, ranking: Ranking) -> list[tuple[str, float, float]]:
-    """Words, mass and merit of the best of one scene for each budget; without any, of the first."""
+    """Words, mass and merit of the best design of one scene within each budget.
+
+    Without budgets, those of the first design.
+    """
     mass, energy = ranking.mass, ranking.energy
     front, (name, _) = rows[rows["pareto"]].sort_values(mass), _compared(rows, energy)
     winners = [
@@ -183,15 +187,15 @@ def budget_winners(rows: DataFrame, ranking: Ranking) -> list[tuple[str, float, 
 
 
 def _words(won: DataFrame, among: DataFrame, ranking: Ranking, name: str) -> str:
-    """A design, what it is worth, and how sure that is, as "cells 3 x 3, wall 0.8 mm, 13.4 J".
+    """A design with its merit, error and marks, such as "cells 3 x 3, wall 0.8 mm, 13.4 J".
 
-    name: the column by which it has won `among` others; its value comes last.
+    name: the column in which the design is the best `among` others; its value comes last.
     """
     (design,), energy = design_labels(won, ranking.table), ranking.energy
     merit, value = merits(won, energy).item(), three_digits(won[name].item())
     worths = {
         "force": f"sinks {three_digits(merit)} %",
-        "impact": f"passes {three_digits(merit)} N on",
+        "impact": f"{three_digits(merit)} N on the support",
     }
     worth = worths.get(won["loading_mode"].item(), energy_text(merit))
     if name == ranking.per_gram:
@@ -204,7 +208,7 @@ def _words(won: DataFrame, among: DataFrame, ranking: Ranking, name: str) -> str
 
 
 def _ties(rows: DataFrame, won: DataFrame, name: str) -> str:
-    """How sure the best of some designs of one scene is, where error bars tell."""
+    """The error of the best design of a scene, and how many designs tie with it; "" if unknown."""
     error = errors_of(won, name).item()
     if not (np.isfinite(error) and won[name].item()):
         return ""

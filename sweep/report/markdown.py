@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 def markdown(sheets: Iterable[Sheet]) -> str:
-    """Sheets in Markdown, a heading each."""
+    """Sheets in Markdown, each with a heading."""
     return "\n".join(_markdown(sheet) for sheet in sheets)
 
 

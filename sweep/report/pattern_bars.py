@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 
 def pattern_bars(fig: Figure, ranking: Ranking) -> None:
-    """Energy per gram of every design with its error bar, the best on top, a panel a scene.
+    """Energy per gram of every design with its error bar, the best on top, one panel per scene.
 
-    Open: not to be trusted.
+    Bars of doubtful designs are open.
     """
     designs, per_gram = ranking.table, ranking.per_gram
     scenes = designs.groupby("scene", sort=False)
@@ -36,5 +36,5 @@ def pattern_bars(fig: Figure, ranking: Ranking) -> None:
 
 
 def panel_size(designs: DataFrame) -> tuple[float, float]:
-    """Inches for a bar a design and a panel a scene."""
+    """Width and height (inches) for one bar per design and one panel per scene."""
     return 9.0, 0.25 * len(designs) + 0.9 * designs["scene"].nunique()

@@ -1,4 +1,4 @@
-"""Picture of a structure of a user's own: what its supports and what leads it bear."""
+"""Picture of a custom structure: the reactions at its probes."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ COLORS = ("#0072b2", "#d55e00", "#e69f00", "#56b4e9", "#cc79a7", "#8a8a8a")
 
 
 def probe_reactions(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
-    """Forces on the structure at its probes and from the floor, against load factor or time."""
+    """Forces on the structure at its probes and from the floor, over load factor or time."""
     loaded = "load_factor" in history
-    way = history["load_factor"] if loaded else 1e3 * history["time_s"]
+    abscissa = history["load_factor"] if loaded else 1e3 * history["time_s"]
     columns = {name: match for name in history if (match := PROBE.fullmatch(name))}
     curves = {f"{m[2]} at node {m[1]}": history[name] for name, m in columns.items()}
     curves["floor"] = history["reaction_bottom_N"]
     shown = {label: force for label, force in curves.items() if force.abs().max() > 0.0}
     for k, (label, force) in enumerate(shown.items()):
         style = "-" if k < len(COLORS) else "--"
-        ax.plot(way, force, color=COLORS[k % len(COLORS)], lw=1.8, ls=style, label=label)
+        ax.plot(abscissa, force, color=COLORS[k % len(COLORS)], lw=1.8, ls=style, label=label)
     ax.set(xlabel="load factor" if loaded else "time, ms", ylabel="reaction, N")
     ax.set_title(headline(row), loc="left", fontsize="medium")
     ax.margins(x=0.0)

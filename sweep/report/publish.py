@@ -1,4 +1,4 @@
-"""Files for people: the ranking of a sweep as tables and figures, a case as pictures."""
+"""Writes the ranking of a sweep as tables and figures, and a case as pictures."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-MAX_SCENES = 12  # drawn in one figure
+MAX_SCENES = 12  # in one figure
 MAX_WINNERS = 6
 Named = Iterator[tuple[str, "Figure"]]
 
@@ -36,12 +36,12 @@ Named = Iterator[tuple[str, "Figure"]]
 def publish_ranking(
     file: str, summary: DataFrame, question: Mapping[str, Any], folder: Path
 ) -> list[Path]:
-    """Write a ranking as `ranking.md`, every design as `ranking.csv`, and the figures.
+    """Write a ranking as `ranking.md`, all designs as `ranking.csv`, and the figures.
 
-    question : the keywords of `rank`.
+    question : keyword arguments of `rank`.
     """
     shown = ranked(summary, **question)
-    unlimited = question["budget"] and [inf]  # a budget, so that energy counts and not J/g
+    unlimited = question["budget"] and [inf]  # a budget, so that designs are sorted by J, not J/g
     every = ranked(summary, **{**question, "budget": unlimited, "top": None})
     ranking = replace(every, budgets_g=shown.budgets_g)
     folder.mkdir(parents=True, exist_ok=True)
@@ -55,10 +55,10 @@ def publish_ranking(
 
 
 def publish_accuracy(file: Path, case_ids: Iterable[str]) -> tuple[list[Sheet], list[Path]]:
-    """Errors of the cases of an accuracy study, as sheets, and beside the results as files.
+    """The sheets of an accuracy study, and the paths of its files beside the results.
 
-    The files: the sheets as Markdown, all columns as CSV, work-precision diagrams; nothing where no
-    case has converged.
+    The files: the sheets as Markdown, all columns as CSV, work-precision diagrams. No sheets and no
+    files if no case has converged.
     """
     summary = read_summary(file)
     found = studies(file, summary[summary["case_id"].isin(list(case_ids))])
@@ -77,13 +77,13 @@ def publish_accuracy(file: Path, case_ids: Iterable[str]) -> tuple[list[Sheet], 
 
 
 def publish_case(file: str, row: Series, folder: Path) -> list[Path]:
-    """Draw one case: its force, its energies and six of its shapes, as far as it ran."""
+    """Draw one case: its force, its energies and six of its shapes, up to its last step."""
     figures = _case_figures(file, row)
     return [case_plots.save(figure, folder / f"{name}.png") for name, figure in figures]
 
 
 def _sweep_figures(file: str, shown: Ranking, ranking: Ranking) -> Named:
-    """What to print by mass, by pattern, the trend with wall thickness, the winners' shapes."""
+    """Figures: merit over mass, patterns, trends with wall thickness, shapes of the winners."""
     pictures = {"absorption": "displacement", "sink": "force", "passed_on": "impact"}
     drawn = {name: _some_scenes(ranking, mode) for name, mode in pictures.items()}
     for name, part in drawn.items():
@@ -108,20 +108,20 @@ def _sweep_figures(file: str, shown: Ranking, ranking: Ranking) -> Named:
 
 
 def _some_scenes(ranking: Ranking, mode: str) -> Ranking:
-    """The designs of one mode, of as many scenes as fit into one figure."""
+    """The designs of one mode, in the first `MAX_SCENES` scenes."""
     designs = ranking.table[ranking.table["loading_mode"] == mode]
     scenes = designs["scene"].unique()[:MAX_SCENES]
     return replace(ranking, table=designs[designs["scene"].isin(scenes)])
 
 
 def _size(designs: DataFrame) -> tuple[float, float]:
-    """Inches for a panel a scene, two a row, and a legend."""
+    """Width and height (inches) for one panel per scene, two in a row, and a legend."""
     scenes = len(designs["scene"].unique())
     return 5.0 * min(2, scenes) + 1.8, 4.2 * -(-scenes // 2)
 
 
 def _winners(file: str, shown: DataFrame, designs: DataFrame) -> dict[str, dict[str, Any]]:
-    """Frames of the best of the crushed or struck designs, named by budget, scene and design."""
+    """Frames of the best crushed or struck designs, by a title with budget, scene and design."""
     first = shown[shown["loading_mode"] != "force"].drop_duplicates(["budget_g", "scene"])
     first = first.drop_duplicates("case_id").head(MAX_WINNERS)
     winners = {}
@@ -133,7 +133,7 @@ def _winners(file: str, shown: DataFrame, designs: DataFrame) -> dict[str, dict[
 
 
 def _case_figures(file: str, row: Series) -> Named:
-    """Figures of what a case has left; none of a case that left nothing."""
+    """Figures of the curves and shapes of a case, if it has any."""
     history, frames = read_history(file, row["case_id"]), read_frames(file, row["case_id"])
     if len(history) > 1:
         figure = case_plots.blank(8.0, 4.4)

@@ -16,26 +16,26 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-MARKS = "*: on the Pareto front, nothing lighter in its scene does as well. mass: of one specimen."
-CRUSHED = "peak: greatest force that one specimen passes on. It and the energy count {until}."
+MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of one specimen."
+CRUSHED = "peak: greatest force of one specimen. Peak and energy are counted {until}."
 WHOLE = """\
-pack: strain at which the lattice has packed down.
-back: share of the work of the whole crush that comes back when let up: stored, not dissipated."""
-LOADED = "sink: greatest strain under the load, its swing included."
+pack: strain of densification, at which the lattice has packed down.
+back: returned energy / work of the whole crush; this energy is stored, not dissipated."""
+LOADED = "sink: greatest strain under the load, including its swing."
 STRUCK = """\
-force: greatest on the support. left: of the height that closes all voids, at the striker's stop.
-rebound: share of the striker's energy with which it leaves."""
+force: greatest force on the support. left: stroke that closes all voids - greatest stroke.
+rebound: energy of the striker when it leaves / at first touch."""
 FIRST = {"peak_strain": ": least sink first", "peak_force_N": ": least force first"}
 TIED = """\
-±: estimated error of what is sorted by, of mesh and steps, in % of it; not a bound. =: shares its
-place, as the value ± error overlaps that of the first in this place. ?: no error is known, and the
-place is that of the value alone."""
+±: estimated error of the sorted column, from mesh and steps, in % of the value; not a bound.
+=: the place is shared, as the interval value ± error overlaps that of the first design there.
+?: the error is unknown; the place is that of the value alone."""
 BEYOND = """\
-!: beyond the model, as a wall is squeezed below 0.7 of its length, or the lattice into less height
-than its solid has: not to be trusted."""
+!: beyond the model: an element is shorter than 0.7 of its rest length, or the lattice is compressed
+to less than its solid height. Do not trust this result."""
 NO_PLACE = "No design has a place here."
-EARLY = ">: at least, as the crush ended before that force was passed on: a longer one tells more."
-CROSSED = "x: walls pass through one another, as no contact stops them: not to be trusted."
+EARLY = ">: at least: the crush ended before that force was reached; a longer one absorbs more."
+CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
 
 MILLIMETRES = {
     "wall_thickness_m": "wall mm",
@@ -55,11 +55,11 @@ SHOWN_BY_NAME = {
     "lattice.depth",
     "material.name",
 }
-"""Grid keys whose values have a column of the summary to themselves."""
+"""Grid keys whose values are in a fixed column of the summary."""
 
 
 class Sheet(NamedTuple):
-    """A table of text. `opens` are the rows that begin a section, `notes` the lines below."""
+    """A table of text. opens: rows that begin a section. notes: lines below the table."""
 
     title: str
     heads: list[str]
@@ -74,15 +74,15 @@ class Sheet(NamedTuple):
 
 
 def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
-    """One sheet a loading scene, budgets one below the other; designs as they vary in `summary`.
+    """One sheet for each loading scene, with budgets one below another.
 
-    A scene in which nothing has a place has no table. If nothing at all is light enough, a single
-    sheet says so.
+    summary: all cases; the keys in which they differ describe the designs. A scene without places
+    has no table. If no design is within any budget, a single sheet says so.
     """
     budgets, table = ranking.budgets_g, ranking.table
-    by_all = _missed(budgets, min(ranking.lightest_g.values(), default=0.0))
-    if by_all and len(by_all) == len(budgets):
-        yield Sheet("", [], [], notes=by_all)
+    missed_by_all = _missed(budgets, min(ranking.lightest_g.values(), default=0.0))
+    if missed_by_all and len(missed_by_all) == len(budgets):
+        yield Sheet("", [], [], notes=missed_by_all)
         return
     for scene, lightest in ranking.lightest_g.items():
         placed = rows = table[table["scene"] == scene]
@@ -118,7 +118,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
 
 
 def _missed(budgets: tuple[float, ...], lightest: float) -> tuple[str, ...]:
-    """A sentence for each budget (g) that not even the lightest design meets."""
+    """A sentence for each budget (g) below the mass of the lightest design."""
     return tuple(
         f"Nothing weighs {budget:g} g or less: the lightest weighs {lightest:.3g} g."
         for budget in budgets
@@ -127,21 +127,21 @@ def _missed(budgets: tuple[float, ...], lightest: float) -> tuple[str, ...]:
 
 
 def legend(ranking: Ranking) -> str:
-    """What the marks and the heads of the sheets of a ranking mean."""
+    """The meaning of the marks and column heads in the sheets of a ranking."""
     modes = set(ranking.table["loading_mode"])
-    said = {
+    heads = {
         "displacement": CRUSHED.format(until=ranking.until),
         "force": LOADED,
         "impact": STRUCK,
     }
     if not ranking.limited:
-        said["displacement"] += f"\n{WHOLE}"
-    lines = [MARKS, *(words for mode, words in said.items() if mode in modes)]
+        heads["displacement"] += f"\n{WHOLE}"
+    lines = [MARKS, *(words for mode, words in heads.items() if mode in modes)]
     return "\n".join([*lines, TIED] if "ranked_error" in ranking.table else lines)
 
 
 def _places(rows: DataFrame) -> Series:
-    """Places with the marks of ties, of the Pareto front, and of what is not to be trusted."""
+    """Places with the marks of ties, of the Pareto front, and of doubtful results."""
     places = rows["place"].astype(str)
     if "tied" in rows:
         places += rows["tied"].map({True: "="}).fillna("")
@@ -151,7 +151,7 @@ def _places(rows: DataFrame) -> Series:
 
 
 def _cut_off(rows: DataFrame) -> Iterator[str]:
-    """What shares the last place that is shown of a budget, and is not shown."""
+    """A sentence for each budget with designs that share the last shown place but are not shown."""
     for _, shown in rows.groupby("budget_g", dropna=False, sort=False):
         last = shown.iloc[-1]
         left = last["sharing"] - (shown["place"] == last["place"]).sum()
@@ -161,22 +161,22 @@ def _cut_off(rows: DataFrame) -> Iterator[str]:
 
 
 def _not_shown(rows: DataFrame) -> Iterator[str]:
-    """How many designs of each budget have a place beyond the last that is shown."""
+    """A sentence with the number of designs of each budget that have a place but are not shown."""
     groups = rows.groupby("budget_g", dropna=False, sort=False)["contenders"]
-    of, shown = groups.max(), groups.size()
+    total, shown = groups.max(), groups.size()
     more = [
-        f"{of[budget] - count} more" + (f" up to {budget:g} g" if len(of) > 1 else "")
+        f"{total[budget] - count} more" + (f" up to {budget:g} g" if len(total) > 1 else "")
         for budget, count in shown.items()
-        if count < of[budget]
+        if count < total[budget]
     ]
     if more:
-        yield f"Not shown: {', '.join(more)}; with --top {of.max()}, rank lists all."
+        yield f"Not shown: {', '.join(more)}; with --top {total.max()}, rank lists all."
 
 
 def _without_repeats(rows: DataFrame) -> DataFrame:
-    """Rows of several budgets, where those with the same places share one section, `up_to`.
+    """Rows of several budgets; budgets with the same places are merged into one section, `up_to`.
 
-    What is best up to 20 g and up to 50 g is so for all budgets between them.
+    A design that is the best up to 20 g and up to 50 g is the best for all budgets in between.
     """
     marked = rows.assign(marked=_places(rows) + rows["case_id"] + rows["sharing"].astype(str))
     same = marked.groupby("budget_g")["marked"].agg(" ".join)
@@ -188,7 +188,7 @@ def _without_repeats(rows: DataFrame) -> DataFrame:
 
 
 def case_sheet(summary: DataFrame) -> Sheet:
-    """All cases with what makes them differ and how they ended."""
+    """All cases with their designs, scenes and statuses."""
     columns = {"case": summary["case_id"], **design_text(summary, summary)}
     scene = Series(index=summary.index, dtype=object)
     for rows in by_scene(summary):
@@ -198,7 +198,10 @@ def case_sheet(summary: DataFrame) -> Sheet:
 
 
 def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
-    """What tells designs apart: columns of `frame` that vary `among` all, in a maker's units."""
+    """Columns that describe the designs of `frame`, as text in mm and the like.
+
+    Only columns that vary `among` all cases are shown.
+    """
     columns = {}
     if _varies(among, "lattice_kind"):
         columns["pattern"] = frame["lattice_kind"].astype(str)
@@ -222,7 +225,7 @@ def describe_case(row: Series, among: DataFrame) -> str:
 
 
 def design_labels(frame: DataFrame, among: DataFrame) -> list[str]:
-    """The same as one text a design, such as "cells 3 x 3, wall 0.8 mm, ninjaflex"."""
+    """The columns of `design_text` as one text per design: "cells 3 x 3, wall 0.8 mm, cheetah"."""
     columns = design_text(frame, among) or {"material": frame["material"].astype(str)}
     return [
         ", ".join(_with_noun(head, text) for head, text in zip(columns, texts, strict=True) if text)
@@ -238,7 +241,7 @@ def _with_noun(head: str, text: str) -> str:
 
 
 def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
-    """Columns of what was found; the column sorted by is always among them."""
+    """Columns of measured values; the sorted column is always among them."""
     columns = {"mass g": numerals(rows["mass_g"])}
     if "panel_mass_g" in rows:
         columns["panel g"] = numerals(rows["panel_mass_g"])
@@ -274,24 +277,24 @@ def _struck(rows: DataFrame) -> dict[str, Series]:
 
 
 def _crushed(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
-    energy, whole = rows[ranking.energy], "panel" if "panel_mass_g" in rows else "absorbs"
+    energy, noun = rows[ranking.energy], "panel" if "panel_mass_g" in rows else "absorbs"
     unit, scale = ("mJ", 1e3) if energy.max() < 1.0 else ("J", 1.0)
     more = (_stops_early(rows, ranking) & energy.notna()).map({True: "> ", False: ""})
     return {
-        f"{whole} {unit}": more + numerals(energy * scale),
+        f"{noun} {unit}": more + numerals(energy * scale),
         "J/g": more + numerals(rows[ranking.per_gram]),
         "peak N": numerals(rows["passed_on_N"]),
     }
 
 
 def _stops_early(rows: DataFrame, ranking: Ranking) -> Series:
-    """Which crushes ended before the allowed force was passed on: they would absorb more yet."""
+    """True for crushes that ended before the allowed force was reached."""
     crushed = rows["loading_mode"] == "displacement"
     return crushed & ranking.limited & (rows["peak_force_N"] <= rows["passed_on_N"])
 
 
 def _whole(rows: DataFrame) -> dict[str, Series]:
-    """What tells of the whole crush: nothing of one that an allowed force cuts short."""
+    """Columns about the whole crush."""
     packed = rows["densification_strain"]
     return {
         "pack %": packed.map(percent).where(

@@ -1,4 +1,4 @@
-"""Which shapes of a case to draw, and what to write above them."""
+"""The choice of the shapes of a case that are drawn, and their captions."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 SHAPES = 6
-LET_GO = 0.01  # strain below which a specimen is free again
-FLOWN = 0.5  # of its height above its place at rest: a shape beyond is not worth drawing
+RELEASED = 0.01  # below this strain a specimen counts as released
+FLOWN = 0.5  # of its height: a specimen that is lifted farther is not drawn
 
 
 def headline(row: Mapping[str, Any]) -> str:
-    """Design and scene of a case, a line each; row : its row of the summary."""
+    """Design and scene of a case, on two lines; row : its row of the summary."""
     pattern, cells = row["lattice_kind"], f", {row['cells_x']} x {row['cells_y']} cells"
     if row["loading_mode"] == "custom":
         cells = ""
@@ -28,7 +28,7 @@ def headline(row: Mapping[str, Any]) -> str:
 
 
 def last_loaded(history: DataFrame, row: Mapping[str, Any]) -> int:
-    """Number of the row of a history after which the platen turns or the dead load lets go."""
+    """Number of the last row of a history before the platen turns or the dead load is removed."""
     if row["loading_mode"] == "force":
         return int(np.flatnonzero(history["reaction_top_N"]).max(initial=0))
     if row["loading_mode"] == "custom":
@@ -37,19 +37,19 @@ def last_loaded(history: DataFrame, row: Mapping[str, Any]) -> int:
 
 
 def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple[int, str]]:
-    """Frames worth drawing, with captions: at even strains down, then the last one back up.
+    """Frames to draw, with captions: at even strains of loading, then the last one of unloading.
 
-    frames : as `read_frames` gives them; release : time (s) until which a dead load is on. Where
-    strain has no meaning, at even times.
+    frames : from `read_frames`; release : time (s) at which a dead load is removed. Frames of a
+    structure without strain are at even times.
     """
     strain, time = frames["strain"], frames["time_s"]
     if np.isnan(strain).all():
         return [(i, f"{time[i]:.3g} s") for i in dict.fromkeys(_even(time, SHAPES))]
     turn = int(strain.argmax()) if release is None else int((time <= release).sum()) - 1
     back = _last_standing(frames["position_m"], turn)
-    room = SHAPES - len(back) - (release is not None)
-    down = sorted({*_even(strain[: turn + 1], room), turn})
-    free = release is not None or strain[-1] < LET_GO
+    count = SHAPES - len(back) - (release is not None)
+    down = sorted({*_even(strain[: turn + 1], count), turn})
+    free = release is not None or strain[-1] < RELEASED
     captions = {i: f"{100 * strain[i]:.0f} %" for i in [*down, *back]}
     captions |= dict.fromkeys(back if free else [], "released")
     clock = "" if release is None else "\n{:.0f} ms"
@@ -57,14 +57,14 @@ def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple
 
 
 def _even(strain: NDArray[np.float64], count: int) -> list[int]:
-    """Frames nearest to even strains up to the greatest."""
+    """Frames nearest to evenly spaced strains up to the greatest."""
     wanted = np.linspace(strain[0], strain.max(), count)
     frames: list[int] = np.abs(strain[:, None] - wanted).argmin(0).tolist()
     return frames
 
 
 def _last_standing(position: NDArray[np.float64], turn: int) -> list[int]:
-    """The last frame after `turn` before the specimen (f, n, 2) has flown off; none if none is."""
+    """The last frame after `turn` with the specimen, position (f, n, 2), not lifted off, if any."""
     height = np.ptp(position[0, :, 1])
     lift = position[turn + 1 :, :, 1].min(1) - position[0, :, 1].min()
     standing = int(np.append(lift > FLOWN * height, True).argmax())

@@ -1,4 +1,4 @@
-"""Work-precision diagrams: error against processor time, a line a method."""
+"""Work-precision diagrams: error against processor time, one line per method."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ SIGNS = "osD^vP"
 
 
 def work_precision(fig: Figure, found: dict[str, Study]) -> None:
-    """A row of panels a scene, by its title: the error of each measure."""
+    """One row of panels per scene, one panel per measure. found : title -> study."""
     strips = fig.subfigures(len(found), 1, squeeze=False)[:, 0]
     for strip, (title, study) in zip(strips, found.items(), strict=True):
         strip.suptitle(title, x=0.01, ha="left", fontsize="medium")
@@ -50,9 +50,9 @@ def _scene(fig: SubFigure, study: Study) -> None:
 
 
 def _lines(ax: Axes, study: Study, name: str) -> None:
-    """Settings as dots, the best of a method as its line, the best of all ringed.
+    """Settings as dots, the front of a method as its line, the front of all methods ringed.
 
-    None is drawn below what the reference is sure of.
+    Errors below the uncertainty of the reference are drawn at that uncertainty.
     """
     doubt = study.references[name].doubt
     rows = study.settings.dropna(subset=name)
@@ -76,7 +76,7 @@ def _lines(ax: Axes, study: Study, name: str) -> None:
     low, floor = ax.get_ylim()[0], 100.0 * doubt
     if low < floor < float("inf"):
         ax.axhspan(low, floor, color=GRID, lw=0.0, zorder=0)
-        ax.annotate(f"the reference is sure to {percents(doubt)}", (0.02, floor), (0, -3),
+        ax.annotate(f"uncertainty of the reference: {percents(doubt)}", (0.02, floor), (0, -3),
                     xycoords=ax.get_yaxis_transform(), textcoords="offset points", va="top",
                     fontsize="x-small", color="#555555")  # fmt: skip
         ax.set_ylim(bottom=low)

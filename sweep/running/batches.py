@@ -1,4 +1,4 @@
-"""The order and the size of batches: what a worker that has nothing to do gets next."""
+"""The order and the size of batches: the next cases for a worker that is free."""
 
 import threading
 from collections import deque
@@ -8,25 +8,25 @@ from sweep.config.case import Case
 from sweep.config.solver_defaults import steps
 from sweep.config.tables import canonical
 
-SECONDS = 1.0  # of work in a batch: far above the cost of passing it on, and soon done
-LEAST = 0.05  # of that, when little is left to share out
+SECONDS = 1.0  # of work in a batch: long against the cost of a task, short for progress
+LEAST = 0.05  # of SECONDS: the smallest batches, at the end of a sweep
 MOST = 500  # cases in a batch
-MEMORY = 0.5  # weight of what is known of the pace against the newest batch: compiling is forgotten
+MEMORY = 0.5  # weight of earlier batches in the pace; so the time of compilation is soon forgotten
 
 
 def cost(case: Case) -> float:
-    """Work of a case, steps x elements^1.5: no time, but good enough to sort and to weigh by."""
+    """Relative work of a case, steps x elements^1.5: good enough to sort and to weigh cases."""
     elements = case.lattice.walls * (case.lattice.nodes_per_wall + 1)
     return steps(case.loading, case.solver) * elements**1.5
 
 
 class Plan:
-    """Cases that wait, the longest first, so that no worker is left with a long one at the end.
+    """Waiting cases, the longest first, so that no worker has a long one left at the end.
 
-    The first to go is the shortest, for a result at once and a first measure of the pace. Of those
-    as long, the ones of a lattice follow one another: it is built once. Batches hold about
-    `SECONDS` of work, and less towards the end; no more cases than have told of the pace, as the
-    first of them says little of it. Threads may share a plan.
+    The first batch is the shortest case alone: it gives an early result and a first measure of the
+    pace. Cases of equal length are sorted by lattice, which is then built once. A batch holds about
+    `SECONDS` of work, less towards the end, and never more cases than have been measured, since a
+    pace from few cases is uncertain. Threads may share a plan.
     """
 
     def __init__(self, cases: Iterable[Case], workers: int) -> None:
@@ -35,21 +35,21 @@ class Plan:
         self._waiting = deque(ordered)
         self._left = sum(map(cost, self._waiting))
         self._seconds = self._done = 0.0  # of recent batches: time taken, cost
-        self._known = 0  # cases that have told of the pace
+        self._known = 0  # cases whose duration has been measured
         self._lock = threading.Lock()
 
     def __len__(self) -> int:
         return len(self._waiting)
 
     def take(self) -> list[Case]:
-        """The next batch; empty when no case is left."""
+        """The next batch; empty if no case is left."""
         with self._lock:
             batch = self._next() if self._waiting else []
             self._left -= sum(map(cost, batch))
             return batch
 
     def learn(self, batch: Sequence[Case], seconds: float) -> None:
-        """Note how long a batch took on its worker."""
+        """Update the pace with the duration of a batch on its worker."""
         with self._lock:
             self._known += len(batch)
             self._seconds = MEMORY * self._seconds + seconds
@@ -59,12 +59,12 @@ class Plan:
         if not self._done:
             return [self._waiting.pop()]
         full = SECONDS * self._done / max(self._seconds, 1e-9)
-        room = max(min(full, self._left / (2 * self.workers)), LEAST * full)
+        limit = max(min(full, self._left / (2 * self.workers)), LEAST * full)
         batch = [self._waiting.popleft()]
         weight = cost(batch[0])
         while self._waiting and len(batch) < min(MOST, self._known):
             weight += cost(self._waiting[0])
-            if weight > room:
+            if weight > limit:
                 break
             batch.append(self._waiting.popleft())
         return batch

@@ -1,7 +1,8 @@
 """Cases on Dask: on threads of this process, or on the workers of a `distributed` scheduler.
 
-A graph of one task per case would take Dask longer to build than the cases take to run. Here a task
-is a batch of about a second of work, and only a limited number of tasks exists at a time.
+With one task per case, Dask would need more time to build the graph than the cases need to run.
+Therefore a task is a batch of about one second of work, and the number of tasks at a time is
+limited.
 """
 
 import time
@@ -27,22 +28,22 @@ if TYPE_CHECKING:
 
 WAVE = 256  # tasks of one graph on threads
 WINDOW = 8  # batches in flight per thread of a cluster
-ANSWER = 10  # seconds in which a scheduler has to answer
-PATIENCE = 60  # seconds until a cluster has its first worker
-MOMENT = 0.2  # seconds after which a wish to stop is noticed
+ANSWER = 10  # seconds in which a scheduler must answer
+PATIENCE = 60  # seconds in which the first worker of a cluster must join
+MOMENT = 0.2  # seconds between two checks for a stop
 
 Simulate = Callable[[Case, np.ndarray], Result]
 Sink = Callable[[list[Result]], None]
 
 
 class GraphError(Exception):
-    """Dask cannot run the sweep; the text is one clear line."""
+    """Dask cannot run the sweep; the text is one line."""
 
 
 class Stop:
-    """A wish to stop that reaches simulations while they run.
+    """A request to stop, which also ends running simulations.
 
-    Each running case has an array `control`, int64 (2,), of its own: control[0] = 1 ends the case.
+    Each running case has its own array `control`, int64 (2,): control[0] = 1 ends the case.
     """
 
     def __init__(self) -> None:
@@ -50,14 +51,14 @@ class Stop:
         self._running: dict[int, np.ndarray] = {}
 
     def ask(self) -> None:
-        """End all running cases and start no other."""
+        """End all running cases and start no further ones."""
         self.asked = True
         for control in list(self._running.values()):
             control[0] = 1
 
     @contextmanager
     def control(self) -> Iterator[np.ndarray]:
-        """The array of one case, while it runs."""
+        """The array `control` of one case, while the case runs."""
         control = np.zeros(2, dtype=np.int64)
         self._running[id(control)] = control
         control[0] = self.asked
@@ -70,10 +71,10 @@ class Stop:
 def run(
     plan: Plan, simulate: Simulate, sink: Sink, stop: Stop, scheduler: str | None = None
 ) -> None:
-    """Run all cases of a plan, and hand each finished batch to `sink`, one at a time.
+    """Run all cases of a plan, and pass each finished batch to `sink`, one at a time.
 
-    Without the address of a `scheduler`, on `plan.workers` threads: `simulate` should release the
-    GIL. Returns early when `stop` is asked for; cases that it interrupted do not reach the sink.
+    Without the address of a `scheduler`, they run on `plan.workers` threads; then `simulate`
+    should release the GIL. A `stop` ends the run early; interrupted cases do not reach the sink.
     """
     if scheduler is None:
         _run_on_threads(plan, simulate, sink, stop)
@@ -83,10 +84,10 @@ def run(
 
 def _run_on_threads(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop) -> None:
     one_at_a_time = Lock()
-    troubles: list[Exception] = []
+    errors: list[Exception] = []
 
     def next_batch() -> None:
-        """One task. It takes its batch only now, when the pace is known best."""
+        """One task. It takes its batch when it starts, with the newest estimate of the pace."""
         batch = [] if stop.asked else plan.take()
         if not batch:
             return
@@ -95,21 +96,21 @@ def _run_on_threads(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop) -> N
         try:
             with one_at_a_time:
                 sink(results)
-        except Exception as error:  # noqa: BLE001 raised below, once no thread is at work any more
-            troubles.append(error)
+        except Exception as error:  # noqa: BLE001 raised below, when all threads have ended
+            errors.append(error)
             stop.ask()
 
     while len(plan) and not stop.asked:
         wave = dict.fromkeys(range(min(WAVE, len(plan))), (next_batch,))
         get(wave, list(wave), num_workers=plan.workers)
-    if troubles:
-        raise troubles[0]
+    if errors:
+        raise errors[0]
 
 
 def run_batch(
     simulate: Simulate, batch: Sequence[Case], stop: Stop | None = None
 ) -> tuple[list[Result], float]:
-    """Results of a batch, without cases that were interrupted, and the seconds that it took."""
+    """Results of a batch, without interrupted cases, and the duration of the batch in s."""
     stop = stop or Stop()
     started = time.perf_counter()
     results = []
@@ -129,16 +130,16 @@ def _attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
     except MemoryError:
         message = "needs more memory than there is; try fewer cells, nodes or steps"
         return failed_result(case, Status.STOPPED, message)
-    except Exception as error:  # noqa: BLE001 a defect that one case meets must not end the sweep
+    except Exception as error:  # noqa: BLE001 a defect in one case must not end the sweep
         message = f"unexpected {_one_line(error)}; please report it"
         return failed_result(case, Status.STOPPED, message)
 
 
 def _run_on_cluster(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop, scheduler: str) -> None:
     try:
-        with _connected(scheduler, stop) as client, _blame_at_once(client):
-            flight = _Flight(client, plan, simulate, stop)
-            for results in flight.landings():
+        with _connected(scheduler, stop) as client, _no_retries(client):
+            batches = _BatchesOnCluster(client, plan, simulate, stop)
+            for results in batches.results():
                 sink(results)
     except OSError as error:
         line = f"lost the Dask scheduler at {scheduler}; the same command runs the rest"
@@ -146,7 +147,7 @@ def _run_on_cluster(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop, sche
 
 
 def check_scheduler(scheduler: str) -> None:
-    """Refuse an address at which no Dask scheduler answers soon: a `Client` of it may never end."""
+    """Refuse an address at which no Dask scheduler answers: a `Client` could wait forever."""
     from distributed.utils import LoopRunner
 
     try:
@@ -161,7 +162,7 @@ def check_scheduler(scheduler: str) -> None:
 
 
 async def _identify(address: str) -> str:
-    """What answers at an address: a `Scheduler`, a `Worker`, ..."""
+    """Type of the server at an address: "Scheduler", "Worker", ..."""
     from distributed import Security, rpc
 
     security = Security().get_connection_args("client")
@@ -189,8 +190,8 @@ def _connected(scheduler: str, stop: Stop) -> "Iterator[Client]":
 
 
 @contextmanager
-def _blame_at_once(client: "Client") -> Iterator[None]:
-    """Let the scheduler give up a task whose worker died, and not kill three more with it."""
+def _no_retries(client: "Client") -> Iterator[None]:
+    """Let the scheduler give up a task when its worker dies; a retry could kill more workers."""
 
     def allow(count: int, dask_scheduler: Any = None) -> int:
         before: int = dask_scheduler.allowed_failures
@@ -204,38 +205,38 @@ def _blame_at_once(client: "Client") -> Iterator[None]:
         client.run_on_scheduler(allow, before)
 
 
-class _Flight:
-    """Batches in flight on a cluster: enough to keep its workers busy, few enough to hold."""
+class _BatchesOnCluster:
+    """Batches on a cluster: enough to keep its workers busy, few enough to hold in memory."""
 
     def __init__(self, client: "Client", plan: Plan, simulate: Simulate, stop: Stop) -> None:
         self.client, self.plan, self.simulate, self.stop = client, plan, simulate, stop
-        self.flying: dict[Future, list[Case]] = {}
-        self.landed: SimpleQueue[Future] = SimpleQueue()
+        self.running: dict[Future, list[Case]] = {}
+        self.finished: SimpleQueue[Future] = SimpleQueue()
         self.suspects: list[list[Case]] = []
 
-    def landings(self) -> Iterator[list[Result]]:
-        """Results of each batch as it lands, until all have or a stop is asked for."""
-        self._launch()
-        while self.flying and not self.stop.asked:
+    def results(self) -> Iterator[list[Result]]:
+        """Results of each batch when it finishes, until all have finished or a stop."""
+        self._submit()
+        while self.running and not self.stop.asked:
             try:
-                future = self.landed.get(timeout=MOMENT)
+                future = self.finished.get(timeout=MOMENT)
             except Empty:
                 continue
-            yield self._results(future, self.flying.pop(future))
-            self._launch()
-        for future in [future for future in self.flying if future.status == "finished"]:
-            yield self._results(future, self.flying.pop(future))
-        self.client.cancel(list(self.flying))
+            yield self._results(future, self.running.pop(future))
+            self._submit()
+        for future in [future for future in self.running if future.status == "finished"]:
+            yield self._results(future, self.running.pop(future))
+        self.client.cancel(list(self.running))
 
-    def _launch(self) -> None:
+    def _submit(self) -> None:
         self.plan.workers = max(sum(self.client.nthreads().values()), 1)
-        while len(self.flying) < WINDOW * self.plan.workers and (batch := self._next_batch()):
+        while len(self.running) < WINDOW * self.plan.workers and (batch := self._next_batch()):
             future = self.client.submit(run_batch, self.simulate, batch, pure=False)
-            self.flying[future] = batch
-            future.add_done_callback(self.landed.put)
+            self.running[future] = batch
+            future.add_done_callback(self.finished.put)
 
     def _next_batch(self) -> list[Case]:
-        """A lost batch goes after all others: it may take its neighbours down again."""
+        """The next batch; one that lost its worker comes last, since it may kill another one."""
         return self.plan.take() or (self.suspects.pop() if self.suspects else [])
 
     def _results(self, future: "Future", batch: list[Case]) -> list[Result]:
@@ -244,14 +245,14 @@ class _Flight:
         try:
             results, seconds = future.result()
         except KilledWorker:
-            return self._narrow(batch)
+            return self._halve(batch)
         except Exception as error:
             raise GraphError(f"the Dask workers cannot run a batch: {_one_line(error)}") from error
         self.plan.learn(batch, seconds)
         return list(results)
 
-    def _narrow(self, batch: list[Case]) -> list[Result]:
-        """Halve a batch that lost its worker, until a case is left that can prove itself alone."""
+    def _halve(self, batch: list[Case]) -> list[Result]:
+        """Halve a batch that lost its worker; a single case runs in a process of its own."""
         half = len(batch) // 2
         if half == 0:
             return _run_alone(self.simulate, batch, self.stop)
@@ -260,12 +261,12 @@ class _Flight:
 
 
 def _run_alone(simulate: Simulate, suspect: list[Case], stop: Stop) -> list[Result]:
-    """Run a case in a process of its own, so that only the case can be to blame for its end."""
+    """Run a case in a process of its own: if the process dies, the case is the cause."""
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as process:
         try:
             results, _ = process.submit(run_batch, simulate, suspect).result()
         except BrokenProcessPool:
-            message = "took its worker process down, even alone; try a smaller model"
+            message = "its worker process died, even with no other case; try a smaller model"
             died = failed_result(suspect[0], Status.WORKER_DIED, message)
             return [] if stop.asked else [died]
     return results

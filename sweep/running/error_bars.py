@@ -1,17 +1,17 @@
-"""Error bars: every design once more on another mesh, and once more with longer steps.
+"""Error bars: every design is simulated again on another mesh, and again with longer steps.
 
-Both companions are cases like any other, in a results file of their own beside that of the sweep:
-`armor.companions.h5` beside `armor.h5`. What a design differs by from them is extrapolated to the
-limit of fine meshes and of short steps at first order, and both errors are added:
+These two companions are ordinary cases, in a results file of their own beside that of the sweep:
+`armor.companions.h5` beside `armor.h5`. The difference between a design and each companion is
+extrapolated to the limit of fine meshes or short steps at first order; the two errors are added:
 
     error = sum |value - companion's value| h / |H - h|
 
 h, H: size of an element or a step of the design and of the companion. The other mesh has half the
-elements, or twice as many where half of them were too few to tell anything: walls of two elements
-buckle and touch otherwise. First order, as walls touch and snap; smooth scenes do better.
+elements, or twice as many if half are too few: walls of two elements buckle and touch in another
+way. First order is assumed because walls touch and snap; smooth scenes converge faster.
 
-An estimate from two sizes is no bound: it sees a buckling branch that one of the two takes and the
-other not, none that only finer ones would take.
+An estimate from two sizes is no bound. It sees a buckling branch that only one of the two follows,
+but not a branch that only finer meshes or shorter steps would follow.
 """
 
 import os
@@ -32,7 +32,7 @@ from sweep.running.sweep import run_sweep
 from sweep.store.read import ONLY_MISSING, Rerun, exists, finished_ids, read_summary
 from sweep.store.write import Writer
 
-FEWEST = 3  # elements a wall of a mesh that is worth comparing with
+FEWEST = 3  # elements per wall of the mesh of a companion
 PEAKS = ("peak_force_N", "peak_force_at_densification_N")
 HEADLINE = (
     "absorbed_energy_J",
@@ -48,14 +48,14 @@ HEADLINE = (
     "stroke_left_m",
     "rebound_share",
 )
-"""Columns that have an error bar, besides the energies up to allowed forces."""
+"""Columns with an error bar, besides the energies up to allowed forces."""
 
 Rows = Mapping[str, Mapping[str, Any]]
-"""Rows of a summary by their case id."""
+"""Rows of a summary by case id."""
 
 
 class Companion(NamedTuple):
-    """A case, and the error of the design as a multiple of what the two differ by."""
+    """A case, and the factor h / |H - h| from the difference of results to the error."""
 
     case: Case
     weight: float
@@ -72,7 +72,7 @@ def companions(design: Case) -> list[Companion]:
 
 
 def _labelled(case: Case) -> Case:
-    """The case with what tells companions apart for its labels."""
+    """The case, labelled by its mesh and its steps, in which companions differ."""
     step = "time_step" if case.solver.load_steps is None else "load_steps"
     numerics = {
         "lattice.nodes_per_wall": case.lattice.nodes_per_wall,
@@ -82,7 +82,7 @@ def _labelled(case: Case) -> Case:
 
 
 def _remeshed(lattice: Lattice) -> tuple[Lattice, float]:
-    """Half the elements a wall, or twice as many where a wall would have too few."""
+    """Half the elements per wall, or twice as many if half are too few; the factor to the error."""
     structure = lattice.structure
     pieces = (lattice.nodes_per_wall + 1,) if structure is None else structure.pieces
     fine = min(pieces) >= 2 * FEWEST
@@ -95,9 +95,9 @@ def _remeshed(lattice: Lattice) -> tuple[Lattice, float]:
 
 
 def _longer_steps(solver: Solver) -> tuple[Solver, float]:
-    """Steps twice as long; two, where there is but one.
+    """Half as many steps, or two instead of a single one; the factor to the error.
 
-    The error of a step grows with its length to the order of the integrator and one more.
+    The error of one step grows with its length to the power order + 1 of the integrator.
     """
     count = other = solver.load_steps
     ratio = 2.0
@@ -106,23 +106,23 @@ def _longer_steps(solver: Solver) -> tuple[Solver, float]:
         ratio = count / other
     order = 1 if solver.integrator == "backward_euler" else 2
     scales = {"time_step": ratio, "arc_length": ratio, "step_error": ratio ** (order + 1)}
-    held = {key: getattr(solver, key) for key in scales}
-    scaled = {key: scales[key] * value for key, value in held.items() if value is not None}
+    values = {key: getattr(solver, key) for key in scales}
+    scaled = {key: scales[key] * value for key, value in values.items() if value is not None}
     return solver.model_copy(update=scaled | {"load_steps": other}), 1.0 / abs(ratio - 1.0)
 
 
 def companions_file(out: str | os.PathLike[str]) -> Path:
-    """The results file of the companions of the designs in another."""
+    """The results file of the companions of the designs in `out`."""
     return Path(out).with_suffix(".companions.h5")
 
 
 def companions_beside(
     designs: Sequence[Case], out: str | os.PathLike[str], rerun: Rerun = ONLY_MISSING
 ) -> dict[str, Case]:
-    """Companions of all designs by their id, but those that the sweep itself holds or will hold."""
+    """Companions of all designs by their id, without those that are cases of the sweep itself."""
     found = {c.case.case_id: c.case for design in designs for c in companions(design)}
-    own = finished_ids(out, rerun._replace(failed=False)) | {design.case_id for design in designs}
-    return {case_id: case for case_id, case in found.items() if case_id not in own}
+    there = finished_ids(out, rerun._replace(failed=False)) | {case.case_id for case in designs}
+    return {case_id: case for case_id, case in found.items() if case_id not in there}
 
 
 def add_error_bars(
@@ -133,10 +133,10 @@ def add_error_bars(
     rerun: Rerun = ONLY_MISSING,
     simulate: Simulate | None = None,
 ) -> int:
-    """Give the converged designs of a sweep their error bars; return how many have none.
+    """Compute error bars of the converged designs of a sweep; return how many designs have none.
 
-    Runs the companions that are not there yet; a design whose companion failed, or is of another
-    version of the model, has NaN. The other arguments are those of `run_sweep`.
+    Runs the missing companions. The error of a design is NaN if a companion failed or is of another
+    version of the model. The arguments are those of `run_sweep`.
     """
     cases = expand(sweep) if isinstance(sweep, Config) else sweep
     beside, rows = companions_file(out), _converged(out)
@@ -157,11 +157,10 @@ def add_error_bars(
 
 
 def error_bars(design: Case, rows: Rows) -> dict[str, float]:
-    """Error columns of a design; `rows`: those of converged cases. NaN where one is missing, or of
-    another version of the model.
+    """Error columns of a design; `rows`: all rows of converged cases.
 
-    The peak force of a load that is put on at once is that of a wave: it grows with ever shorter
-    steps, and has no error bar.
+    NaN if a companion is missing or of another version of the model. The peak force of a sudden
+    load belongs to a wave: it grows as steps get shorter, and has no error bar.
     """
     own = rows[design.case_id]
     names = [name for name in own if name in HEADLINE or ABSORBED_AT.fullmatch(name)]

@@ -1,7 +1,8 @@
-"""What a sweep will cost, before it starts: a few of its cases are run and scaled to all.
+"""Estimates the cost of a sweep before it starts, from a few of its cases.
 
-The time of a case is taken to grow with `batches.cost`; kinds of loading and of mesh are measured
-one by one. Good to a factor of two or so: how often walls meet cannot be known before they do.
+The time of a case is assumed to be proportional to `batches.cost`, with one measurement for each
+kind of loading and mesh. The estimate may be wrong by a factor of two, since the number of contacts
+is not known in advance.
 """
 
 import time
@@ -20,17 +21,17 @@ from sweep.running.error_bars import companions_beside, companions_file
 from sweep.running.sweep import Interrupted, interruptible, real_simulate
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 
-BYTES = 4  # of a stored number: single precision
-PACKED = 0.9  # what is left of curves, which are compressed, and shapes, which are not
+BYTES = 4  # of a stored number, in single precision
+PACKED = 0.9  # compressed / original size, of curves and shapes together
 ROW = 1000  # bytes of the summary of a case
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """Processor time (s) and disk (bytes) of a sweep, from `pilots` cases that took `seconds`.
+    """Processor time `cpu` (s) and disk space (bytes) of a sweep.
 
-    The time is NaN if a pilot left nothing to measure; `failures` are the sentences of those that
-    did not converge.
+    The `pilots` are the cases that were run for it, in `seconds`; `failures`: messages of pilots
+    that did not converge. The time is NaN if a pilot has no measured time.
     """
 
     cpu: float
@@ -47,7 +48,7 @@ def dry_run(
     rerun: Rerun = ONLY_MISSING,
     error_bars: bool = False,
 ) -> str:
-    """How many cases, how long, how much disk: as text. Writes nothing."""
+    """Number of cases, time and disk space of a sweep, as text. Writes no file."""
     cases = expand(config)
     done = finished_ids(out, rerun)
     waiting = [case for case in cases if case.case_id not in done]
@@ -80,7 +81,7 @@ def dry_run(
 
 
 def estimate(cases: Sequence[Case], simulate: Simulate) -> Estimate:
-    """Run one case of each kind of loading and mesh and scale it to the others of its kind."""
+    """Run one case of each kind of loading and mesh, and scale its cost to all of its kind."""
     kinds: dict[tuple[str | int, ...], list[Case]] = {}
     for case in cases:
         kinds.setdefault(_kind(case), []).append(case)
@@ -97,7 +98,7 @@ def estimate(cases: Sequence[Case], simulate: Simulate) -> Estimate:
 
 
 def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
-    """Results by their case, one case at a time, as a sweep would have them."""
+    """Results by case id, computed one at a time in the same way as in a sweep."""
     stop, results = Stop(), list[Result]()
     with interruptible(stop):
         run(Plan(pilots, workers=1), simulate, results.extend, stop)
@@ -107,7 +108,7 @@ def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
 
 
 def duration(seconds: float) -> str:
-    """A time that is only roughly known, if at all."""
+    """A time with two digits and a unit; "unknown" for NaN."""
     if isnan(seconds):
         return "unknown"
     for unit, length in {"h": 3600.0, "min": 60.0}.items():
@@ -117,19 +118,19 @@ def duration(seconds: float) -> str:
 
 
 def _kind(case: Case) -> tuple[str | int, ...]:
-    """What changes the pace of the solver most, besides the number of elements and steps."""
+    """The parameters that affect the pace most, besides the numbers of elements and steps."""
     loading = case.loading.mode, str(case.loading.platen), case.contact.model
     return *loading, case.lattice.nodes_per_wall
 
 
 def _middle(cases: Sequence[Case]) -> Case:
-    """The case in the order of their costs before which half of all the work is done."""
+    """The median case, weighted by cost."""
     ordered = sorted(cases, key=cost)
     done = list(accumulate(map(cost, ordered)))
     return ordered[bisect(done, 0.5 * done[-1])]
 
 
 def _stored(result: Result) -> float:
-    """Bytes that a case takes in the results file."""
+    """Bytes of a case in the results file."""
     arrays = [*result.history.values(), *result.frames.values()]
     return ROW + PACKED * BYTES * sum(array.size for array in arrays)

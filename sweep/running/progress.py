@@ -1,4 +1,4 @@
-"""How far a sweep is: a bar on a terminal, a line now and then elsewhere."""
+"""Progress of a sweep: a bar on a terminal, elsewhere a line every few seconds."""
 
 import time
 from collections import deque
@@ -13,21 +13,21 @@ from rich.progress import Progress as Bar
 from sweep.result import Result, Status
 
 PERIOD = 5.0  # seconds between plain lines
-RECENT = 60.0  # seconds that the pace is taken from
-FIRM = 4.0  # of them at least, before it says what time is left: the first cases are the shortest
-SENTENCES = 5  # failures that are told while the sweep runs
+RECENT = 60.0  # last seconds, from which the pace is measured
+FIRM = 4.0  # seconds of measurement needed for the time left, since the first cases are short
+SENTENCES = 5  # different failures that are reported while the sweep runs
 
 
 def tell(line: str) -> None:
-    """Say one thing before there is any progress."""
+    """Print one line before the progress starts."""
     Console().print(line, markup=False, highlight=False, soft_wrap=True)
 
 
 class Progress:
     """Counts cases as they finish.
 
-    costs: case id -> weight in the time that is left, of every case to come. done: cases of the
-    sweep that were there before.
+    costs: id of every waiting case -> its weight in the time left. done: number of cases of the
+    sweep that were finished before.
     """
 
     def __init__(
@@ -39,7 +39,7 @@ class Progress:
         self.done, self.failed = done, 0
         self._left = sum(costs.values())
         self._recent: deque[tuple[float, int, float]] = deque()  # time, cases done, cost left
-        self._told, self._last = 0.0, ""  # when a plain line was last printed, and which
+        self._printed, self._last = 0.0, ""  # time and text of the last plain line
         self._sentences: set[str] = set()
         self._bar = Bar(
             SpinnerColumn(),
@@ -61,28 +61,28 @@ class Progress:
             self._say(self._line())
 
     def advance(self, results: Sequence[Result]) -> None:
-        """Count finished cases, and tell the first failures."""
+        """Count finished cases, and report the first failures."""
         cost = sum(self.costs[result.case_id] for result in results)
         self.done += len(results)
         self._left -= cost
         for result in results:
             if result.status is not Status.CONVERGED:
-                self._tell(result)
-        self._note(time.monotonic())
+                self._report_failure(result)
+        self._measure(time.monotonic())
         self._bar.update(self._task, advance=cost, description=self._line())
 
-    def _tell(self, result: Result) -> None:
+    def _report_failure(self, result: Result) -> None:
         self.failed += 1
         if result.message not in self._sentences and len(self._sentences) < SENTENCES:
             self._sentences.add(result.message)
             self._say(f"case {result.case_id} {result.status}: {result.message}")
 
-    def _note(self, now: float) -> None:
+    def _measure(self, now: float) -> None:
         self._recent.append((now, self.done, self._left))
         while len(self._recent) > 2 and now - self._recent[0][0] > RECENT:
             self._recent.popleft()
-        if not self.console.is_terminal and now - self._told > PERIOD:
-            self._told, self._last = now, self._line()
+        if not self.console.is_terminal and now - self._printed > PERIOD:
+            self._printed, self._last = now, self._line()
             self._say(self._last)
 
     def _line(self) -> str:
@@ -90,7 +90,7 @@ class Progress:
         return ", ".join([*parts, f"{self.failed} failed"] if self.failed else parts)
 
     def _pace(self) -> list[str]:
-        """Cases a second, once there are two moments to compare, and time left."""
+        """Cases per second and time left, if two moments are known."""
         if len(self._recent) < 2:
             return []
         (begin, done_then, left_then), (now, done, left) = self._recent[0], self._recent[-1]

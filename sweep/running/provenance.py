@@ -1,4 +1,4 @@
-"""Where results come from: what a results file says about the run that wrote it."""
+"""Attributes of a results file about the run that wrote it."""
 
 import json
 import subprocess
@@ -43,9 +43,9 @@ def config_text(sweep: Config | Sequence[Case], first: Case) -> str:
 
 
 def git_revision() -> str:
-    """Commit of the source tree, "-dirty" if it was changed since; "unknown" outside of one."""
+    """Commit of the source tree, with "-dirty" if files differ from it; "unknown" if installed."""
     root = Path(__file__).parents[2]
-    if not (root / ".git").exists():  # installed, perhaps below the repository of something else
+    if not (root / ".git").exists():  # installed; a parent folder may be another repository
         return "unknown"
     command = ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=40"]
     try:

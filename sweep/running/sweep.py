@@ -1,4 +1,4 @@
-"""A sweep from its cases to its results file: skip what is there, run the rest, fold."""
+"""Runs a sweep into its results file: skip finished cases, run the others, fold."""
 
 import os
 import signal
@@ -13,7 +13,7 @@ from sweep.running.batches import Plan, cost
 from sweep.running.dask_graph import Simulate, Stop, check_scheduler, run
 from sweep.running.progress import Progress, tell
 from sweep.running.provenance import config_text, describe_run
-from sweep.running.writer_thread import clerk, keeping
+from sweep.running.writer_thread import result_sink, writer_thread
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids, older_ids, read_statuses
 from sweep.store.write import Writer
 
@@ -21,7 +21,7 @@ UNWRITABLE = "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is no folder that can
 
 
 class Interrupted(KeyboardInterrupt):
-    """A sweep that was told to stop; the text says what is kept and how to go on."""
+    """A sweep that was stopped; the text says what is kept and how to continue."""
 
 
 def run_sweep(
@@ -32,19 +32,19 @@ def run_sweep(
     rerun: Rerun = ONLY_MISSING,
     simulate: Simulate | None = None,
 ) -> int:
-    """Run the cases that `out` does not hold yet; return how many of the sweep did not converge.
+    """Run the cases that `out` does not hold; return how many cases of the sweep are not converged.
 
     scheduler: address of a Dask scheduler; without one, `workers` threads of this process.
-    rerun: what runs once more; a row stays until the new one is sealed. Ctrl-C (or SIGTERM) keeps
-    what is finished and raises Interrupted.
+    rerun: cases that run again; an old row stays until the new one is sealed. Ctrl-C (or SIGTERM)
+    keeps finished cases and raises `Interrupted`.
     """
-    drafts = expand(sweep) if isinstance(sweep, Config) else sweep
-    cases = {case.case_id: case for case in drafts}
+    given = expand(sweep) if isinstance(sweep, Config) else sweep
+    cases = {case.case_id: case for case in given}
     axes = {case_id: case.axes for case_id, case in cases.items()}
     stop = Stop()
     if scheduler is not None:
         check_scheduler(scheduler)
-    with Writer(out, axes, describe_run(config_text(sweep, drafts[0]))) as writer:
+    with Writer(out, axes, describe_run(config_text(sweep, given[0]))) as writer:
         done = cases.keys() & finished_ids(out, rerun)
         if old := done & older_ids(out):
             tell(f"{len(old)} of {len(done)} finished cases are of an older model; {HOW_TO_RENEW}")
@@ -52,13 +52,16 @@ def run_sweep(
         chosen = simulate or real_simulate() if waiting else None
         with interruptible(stop):
             if not chosen:
-                with clerk() as pool:
-                    pool.submit(writer.fold).result()
+                with writer_thread() as thread:
+                    thread.submit(writer.fold).result()
             else:
                 plan = Plan(waiting.values(), workers)
                 costs = {case_id: cost(case) for case_id, case in waiting.items()}
-                with Progress(costs, len(done)) as told, keeping(writer, plan, told) as keep:
-                    run(plan, chosen, keep, stop, scheduler)
+                with (
+                    Progress(costs, len(done)) as progress,
+                    result_sink(writer, plan, progress) as sink,
+                ):
+                    run(plan, chosen, sink, stop, scheduler)
     statuses = read_statuses(out)
     converged = sum(statuses.get(case_id) == Status.CONVERGED for case_id in cases)
     kept = len(cases.keys() & finished_ids(out, rerun))
@@ -69,7 +72,7 @@ def run_sweep(
 
 
 def real_simulate(arcs: bool = False) -> Simulate:
-    """The real thing, imported when it is needed: it brings the compiled kernels (`warm_up`)."""
+    """The function `simulate`, imported only here since it loads or compiles the kernels."""
     from kernels.compile.cache import is_cold, is_lasting, warmed_up
 
     def load() -> Simulate:
@@ -94,9 +97,9 @@ def real_simulate(arcs: bool = False) -> Simulate:
 
 @contextmanager
 def interruptible(stop: Stop) -> Iterator[None]:
-    """Turn the first Ctrl-C into a wish to stop; the next one has its usual effect."""
+    """Turn the first Ctrl-C or SIGTERM into `stop.ask`; the next one has its usual effect."""
     if current_thread() is not main_thread():
-        yield  # no other thread may listen to signals
+        yield  # only the main thread can handle signals
         return
     usual = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
 

@@ -1,4 +1,4 @@
-"""The thread that writes results while others compute, and when it writes them."""
+"""The thread that writes results while other threads compute, and when it writes them."""
 
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor, wait
@@ -11,37 +11,37 @@ from sweep.running.progress import Progress
 from sweep.store.read import StoreError
 from sweep.store.write import Writer
 
-AT_RISK = 2.0  # seconds of each worker's time in results that a kill may take
+AT_RISK = 2.0  # seconds of work per worker in unsealed results, which a kill would lose
 
 
 @contextmanager
-def clerk() -> Iterator[ThreadPoolExecutor]:
+def writer_thread() -> Iterator[ThreadPoolExecutor]:
     """A thread that writes files while others compute.
 
-    Signals never interrupt it, which HDF5 would not survive, and it ends before what it writes to
-    is closed, however often someone presses Ctrl-C.
+    HDF5 does not survive an interrupted write, so signals never reach this thread. It ends before
+    its files are closed, even after repeated Ctrl-C.
     """
-    pool = ThreadPoolExecutor(1, "clerk")
+    thread = ThreadPoolExecutor(1, "writer")
     try:
-        yield pool
+        yield thread
     finally:
-        last, interrupted = pool.submit(lambda: None), None
+        last, interrupted = thread.submit(lambda: None), None
         while not last.done():
             try:
-                wait([last])  # CPython may take a thread for ended whose join was interrupted
+                wait([last])  # after an interrupted join, CPython may regard a thread as ended
             except KeyboardInterrupt as again:
                 interrupted = again
-        pool.shutdown()
+        thread.shutdown()
         if interrupted:
             raise interrupted
 
 
 @contextmanager
-def keeping(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
-    """A sink that seals results and then counts them aloud: the first at once, as a sign of life.
+def result_sink(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
+    """A sink that seals results and then reports them as progress; the first ones at once.
 
-    Later ones wait until they are worth it: a part takes about 80 ms to write. The last ones need
-    no part: in the end all is folded.
+    Later results wait until they took enough time to compute, since a part takes about 80 ms to
+    write. The last results are folded into the results file without a part.
     """
     unsealed: list[Result] = []
     seals: list[Future[None]] = []
@@ -59,25 +59,25 @@ def keeping(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
         progress.advance(unsealed)
 
     def seal() -> None:
-        settle()
-        seals.append(pool.submit(write, unsealed[:]))
+        wait_for_last_seal()
+        seals.append(thread.submit(write, unsealed[:]))
         unsealed.clear()
 
-    def settle() -> None:
+    def wait_for_last_seal() -> None:
         if seals:
             seals[-1].result()
 
-    def keep(results: list[Result]) -> None:
+    def sink(results: list[Result]) -> None:
         unsealed.extend(results)
-        worth = sum(float(result.summary["cpu_s"]) for result in unsealed)
-        if not seals or not worth < AT_RISK * plan.workers:  # NaN: cannot be told
+        seconds = sum(float(result.summary["cpu_s"]) for result in unsealed)
+        if not seals or not seconds < AT_RISK * plan.workers:  # also if the time is NaN
             seal()
 
-    with clerk() as pool:
+    with writer_thread() as thread:
         try:
-            yield keep
-            settle()
+            yield sink
+            wait_for_last_seal()
         except Exception:
             seal()
             raise
-        pool.submit(fold).result()
+        thread.submit(fold).result()

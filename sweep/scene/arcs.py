@@ -1,4 +1,4 @@
-"""Arcs along the path of a structure: how long they are, and columns of what they found."""
+"""The data of the arc-length method, and the columns that it adds to a history."""
 
 import numpy as np
 
@@ -9,7 +9,10 @@ from sweep.scene.terms import Scene
 
 
 def arc_of(scene: Scene, case: Case) -> arc_length.Arc | None:
-    """What `arc_length.follow` needs, along a path; nodes weigh by their share of walls."""
+    """The data of `arc_length.follow`; None with other integrators.
+
+    A node is weighted by its share of the length of all walls.
+    """
     if case.solver.integrator != "arc_length":
         return None
     mesh = scene.mesh
@@ -20,11 +23,11 @@ def arc_of(scene: Scene, case: Case) -> arc_length.Arc | None:
     return arc_length.Arc(weight, given(case.solver.arc_length), path)
 
 
-def path_columns(of: arc_length.Arc | None, rows: int) -> dict[str, Floats]:
-    """Columns of a path, (rows,)."""
-    if of is None:
+def path_columns(arc: arc_length.Arc | None, rows: int) -> dict[str, Floats]:
+    """History columns of an equilibrium path, (rows,) each; none without arcs."""
+    if arc is None:
         return {}
     return {
-        "load_factor": of.path["factor"][:rows].copy(),
-        "unstable_modes": of.path["unstable"][:rows].copy(),
+        "load_factor": arc.path["factor"][:rows].copy(),
+        "unstable_modes": arc.path["unstable"][:rows].copy(),
     }

@@ -1,4 +1,4 @@
-"""Bending of a mesh: hinges inside walls, arms at joints, couplings, and the folds between them."""
+"""The data of bending: hinges inside walls, arms at joints, couplings; and of the fold barrier."""
 
 import numpy as np
 
@@ -14,7 +14,10 @@ def _directions(mesh: Mesh) -> Floats:
 
 
 def _hinge_weights(pieces: Ints, hinges: str) -> tuple[Floats, Floats]:
-    """Factors of Y I / h inside a wall and at its ends (DESIGN of the exact beam; trapezoid)."""
+    """Factors of Y I / h of the hinges inside a wall and at its ends, (m,) each.
+
+    "exact_beam": 1 - 1/n^2 and 2 (1 + 1/n) for n elements in the wall; "classical": 1 and 2.
+    """
     n = pieces.astype(float)
     if hinges == "classical":
         return np.ones_like(n), np.full_like(n, 2.0)
@@ -22,12 +25,12 @@ def _hinge_weights(pieces: Ints, hinges: str) -> tuple[Floats, Floats]:
 
 
 def bends(case: Case) -> bool:
-    """False where walls are chains of springs that turn freely."""
+    """False if walls have no bending stiffness: chains of axial springs with free hinges."""
     return case.material.bend != "none"
 
 
 def build_bend(mesh: Mesh, rigidity: Floats, case: Case) -> bend.Bend:
-    """``rigidity`` (m,): Y' I of every element, N m^2."""
+    """The data of bending. ``rigidity`` (m,): Y' I of every element, N m^2."""
     length, material = mesh.rest_length, case.material
     rigidity = rigidity * bends(case)
     inside, at_end = _hinge_weights(mesh.pieces, case.solver.hinges)
@@ -54,7 +57,7 @@ def build_bend(mesh: Mesh, rigidity: Floats, case: Case) -> bend.Bend:
 
 
 def build_fold(mesh: Mesh, bending: bend.Bend, case: Case) -> fold.Fold:
-    """Fold barrier between neighbouring arms of every joint; K that of the two in series."""
+    """Fold barrier between neighbouring arms of every joint; K: both arms in series."""
     nodes, opened, arms = (a[: None if bends(case) else 0] for a in mesh.openings)
     limit = np.minimum(bend.FOLD_LIMIT, 0.5 * opened)
     one, two = bending.arm_stiffness[arms].T

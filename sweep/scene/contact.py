@@ -1,4 +1,4 @@
-"""What of a case may touch: walls by force or by position, and nodes with platens."""
+"""The data of contact: of walls, by force or by position, and of nodes with platens."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from sweep.scene.mesh import Floats, Ints, Mesh
 
 
 def _no_special_pairs() -> tuple[Ints, Ints, Floats, Floats, Floats]:
-    """What `contact_near_joints.special_pairs` returns where walls never touch."""
+    """The value of `contact_near_joints.special_pairs` for a scene without contact of walls."""
     start, node = np.zeros(1, np.int64), np.empty(0, np.int64)
     return start, node, np.empty(0), np.empty(0), np.empty((0, 2))
 
@@ -18,9 +18,10 @@ def _no_special_pairs() -> tuple[Ints, Ints, Floats, Floats, Floats]:
 def contact_of(
     mesh: Mesh, numbering: Numbering, stiffness: float, case: Case, by_force: bool
 ) -> contact.Contact:
-    """Contact of walls unless the model is none, and of nodes with loose platens.
+    """Contact of walls, unless the contact model is "none", and of nodes with platens.
 
-    Of the two kinds, ``by_force`` and by position, the one that the case has not is absent.
+    by_force: True for the barrier, False for contact by position. The kind that the case does not
+    use is returned without pairs and nodes.
     """
     acts = by_force == (case.contact.model != "position_based")
     tributary, node_thickness = mesh.node_length, mesh.node_area / mesh.node_length
@@ -51,7 +52,11 @@ def contact_of(
 
 
 def _loose(numbering: Numbering, case: Case) -> Ints:
-    """Nodes that a platen can meet: all of them; those that are not glued to it, if walls touch."""
+    """Nodes that can touch a platen.
+
+    All nodes for loose platens. For bonded ones the nodes outside of the bonded rows, if the case
+    has contact of walls.
+    """
     bonded = case.loading.platen in BONDED
     loose = np.full(numbering.n_nodes, bonded and case.contact.model != "none")
     loose[numbering.bottom] = loose[numbering.top] = False
@@ -61,7 +66,7 @@ def _loose(numbering: Numbering, case: Case) -> Ints:
 def projection_of(
     mesh: Mesh, numbering: Numbering, layout: analysis.Layout, masses: Floats, case: Case
 ) -> position_based.Projection:
-    """Contact by position: what moves on its own gives way, by its mass."""
+    """Contact by position: free coordinates with mass give way in proportion to 1 / mass."""
     own = (layout.leader == np.arange(numbering.size)) & (masses > 0.0)
     ease = np.divide(1.0, masses, out=np.zeros_like(masses), where=own)
     return position_based.Projection(contact_of(mesh, numbering, 0.0, case, by_force=False), ease)

@@ -1,7 +1,7 @@
-"""Where the coordinates of a scene are, and which of them move.
+"""The order of the coordinates of a scene, and which of them move.
 
-Coordinates: x and y of every node, then the rotations of the joints, then the surfaces of the lower
-and the upper platen.
+The order: x and y of every node, the rotations of the joints, the heights of the surfaces of the
+lower and the upper platen.
 """
 
 from dataclasses import dataclass
@@ -10,12 +10,12 @@ import numpy as np
 
 from sweep.scene.mesh import Ints
 
-BONDED = ("glued", "sliding")  # platens that hold the outer rows, the upper one sideways too or not
+BONDED = ("glued", "sliding")  # platens that hold the outer rows; "sliding": the top moves in x
 
 
 @dataclass(frozen=True)
 class Numbering:
-    """Where the coordinates are. bottom, top: nodes of the outer rows."""
+    """Indices of the coordinates. bottom, top: nodes of the outer rows."""
 
     n_nodes: int
     n_joints: int
@@ -70,7 +70,10 @@ def held(numbering: Numbering, platen: str | None) -> Ints:
 
 
 def leaders(numbering: Numbering, held: Ints, tied: Ints) -> Ints:
-    """What each coordinate follows, (size,): itself, the upper platen where tied, -1 if held."""
+    """The coordinate that each one follows, (size,).
+
+    Itself, or that of the upper platen if it is among ``tied``, or -1 if it is among ``held``.
+    """
     leader = np.arange(numbering.size)
     leader[tied] = numbering.high
     leader[held] = -1

@@ -1,7 +1,7 @@
-"""The arrays of a user's own structure: its walls, what holds, loads and leads it, its floor.
+"""The arrays of a custom structure: walls, supports, loads, prescribed moves, springs, floor.
 
-All prescribed moves follow one coordinate, the lead, which goes from 0 to the largest of them as
-the load factor goes from 0 to 1; each has its own ratio to it.
+All prescribed moves follow one coordinate, the driver. It goes from 0 to the largest of them as
+the load factor goes from 0 to 1; every other move is a constant ratio of it.
 """
 
 from collections.abc import Iterable
@@ -30,32 +30,32 @@ from sweep.scene.terms import (
 )
 
 MM = 1e-3
-SUDDEN = 5e-3  # of t^2 / size: a slender column shortens by 0.8 t^2 / L and buckles
-FAR = 1e3  # times the size of a structure: where the ceiling is that no contact may miss
-WAYS = ("x", "y", "rotation")
+SUDDEN = 5e-3  # of t^2 / size; a slender column buckles after it shortens by 0.8 t^2 / L
+FAR = 1e3  # times the size of a structure: height of the ceiling that contact requires
+DIRECTIONS = ("x", "y", "rotation")
 
 
 @dataclass(frozen=True)
 class Ground(Numbering):
-    """Numbering with a floor, a ceiling out of reach, and the lead as the last coordinate."""
+    """Numbering with a floor, a ceiling out of reach, and the driver as the last coordinate."""
 
     @property
     def ceiling(self) -> int:
-        """Coordinate of a surface that nothing reaches."""
+        """Coordinate of the ceiling, which nothing reaches."""
         return self.low + 1
 
     @property
     def high(self) -> int:
-        """Coordinate of the lead."""
+        """Coordinate of the driver."""
         return self.low + 2
 
-    def coordinate(self, node: int, way: str) -> int:
+    def coordinate(self, node: int, direction: str) -> int:
         """Coordinate of a node of the file."""
-        return (2 * node, 2 * node + 1, 2 * self.n_nodes + node)[WAYS.index(way)]
+        return (2 * node, 2 * node + 1, 2 * self.n_nodes + node)[DIRECTIONS.index(direction)]
 
 
 def network_of(structure: Structure) -> Network:
-    """Centre lines in m; there are no rows that a platen could hold."""
+    """Centre lines in m, without bottom and top rows."""
     none = np.empty(0, np.int64)
     return Network(
         MM * np.array(structure.nodes_mm),
@@ -67,83 +67,88 @@ def network_of(structure: Structure) -> Network:
 
 
 def build_structure(case: Case) -> Scene:
-    """Build the arrays of a ``case`` with a structure of its own."""
-    of = given(case.lattice.structure)
-    network = network_of(of)
-    mesh = split_walls(network, np.array(of.pieces), 0.0)
+    """Build the arrays of a ``case`` with a custom structure."""
+    structure = given(case.lattice.structure)
+    network = network_of(structure)
+    mesh = split_walls(network, np.array(structure.pieces), 0.0)
     none = np.empty(0, np.int64)
     numbering = Ground(len(mesh.points), mesh.n_joints, none, none)
     rigidity = rigidity_of(mesh, case)
     bending = build_bend(mesh, rigidity, case)
-    leader = _leaders(of, numbering)
+    leader = _leaders(structure, numbering)
     if not bends(case):
         leader[numbering.rotation] = -1
-    layout, travel = _led(of, solved_by(mesh, numbering, leader, case), numbering, mesh)
+    layout, travel = _led(structure, solved_by(mesh, numbering, leader, case), numbering, mesh)
     touch = contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True)
     printed = mass(network, case.lattice.depth, case.material.density)
-    masses = _masses(of, masses_of(mesh, numbering, printed, case.loading))
+    masses = _masses(structure, masses_of(mesh, numbering, printed, case.loading))
     parts = Parts(
         layout=layout,
-        bend=_unpinned(bending, mesh, of.pins),
+        bend=_unpinned(bending, mesh, structure.pins),
         fold=build_fold(mesh, bending, case),
-        contact=_on_floor(touch, of, numbering),
+        contact=_on_floor(touch, structure, numbering),
         project=projection_of(mesh, numbering, layout, masses, case),
         mass=masses,
-        load=_load(of, numbering, masses),
-        spring=_springs(of),
+        load=_load(structure, numbering, masses),
+        spring=_springs(structure),
     )
     terms = assemble(case, mesh, numbering, parts)
     size = np.hypot(*np.ptp(network.points, axis=0))
-    span = max(MM * _distances(of, of.walls).max(), 0.25 * size)
+    span = max(MM * _distances(structure, structure.walls).max(), 0.25 * size)
     close = min(terms.coordinates.close, SUDDEN * mesh.thickness.min() ** 2 / size)
     coordinates = terms.coordinates._replace(cap=0.25 * span, close=close)
     return Scene(
-        mesh, network, terms._replace(coordinates=coordinates), _rest(of, mesh, numbering),
+        mesh, network, terms._replace(coordinates=coordinates), _rest(structure, mesh, numbering),
         bottom=np.array([numbering.low]),
         top=none,
         base=2 * np.arange(numbering.n_nodes) + 1,
         force_scale=force_scale(network, rigidity),
-        velocity=_velocity(of, mesh, layout),
-        probes=_probed(of, numbering),
+        velocity=_velocity(structure, mesh, layout),
+        probes=_probed(structure, numbering),
         travel=travel,
     )  # fmt: skip
 
 
-def _distances(of: Structure, pairs: Iterable[tuple[int, int]]) -> Floats:
+def _distances(structure: Structure, pairs: Iterable[tuple[int, int]]) -> Floats:
     """Distances of pairs of nodes, mm."""
-    ends = np.array(of.nodes_mm)[np.array(list(pairs), np.int64).reshape(-1, 2)]
+    ends = np.array(structure.nodes_mm)[np.array(list(pairs), np.int64).reshape(-1, 2)]
     return np.asarray(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
 
 
-def _leaders(of: Structure, numbering: Ground) -> Ints:
-    """What each coordinate follows: itself, the lead, -1 where held or, a pin, without rotation."""
+def _leaders(structure: Structure, numbering: Ground) -> Ints:
+    """The coordinate that each one follows: itself, the driver, or -1.
+
+    -1: held, or the rotation of a pin, which is not used.
+    """
     leader = np.arange(numbering.size)
     leader[[numbering.low, numbering.ceiling]] = -1
-    for node, way in of.held:
-        leader[numbering.coordinate(node, way)] = -1
-    for node in of.pins:
+    for node, direction in structure.held:
+        leader[numbering.coordinate(node, direction)] = -1
+    for node in structure.pins:
         leader[numbering.coordinate(node, "rotation")] = -1
-    for part in of.prescribed:
+    for part in structure.prescribed:
         leader[numbering.coordinate(part.node, part.direction)] = numbering.high
-    if not of.prescribed:
+    if not structure.prescribed:
         leader[numbering.high] = -1
     return leader
 
 
 def _led(
-    of: Structure, layout: analysis.Layout, numbering: Ground, mesh: Mesh
+    structure: Structure, layout: analysis.Layout, numbering: Ground, mesh: Mesh
 ) -> tuple[analysis.Layout, float]:
-    """The layout with what is led, and the way of the lead, m: the largest prescribed move."""
+    """The layout with the prescribed moves, and the travel of the driver: the largest move, m."""
     moves = {
         numbering.coordinate(part.node, part.direction): MM * given(part.displacement_mm)
         if part.direction != "rotation"
         else given(part.angle_rad)
-        for part in of.prescribed
+        for part in structure.prescribed
     }
     lever = mesh.rest_length.mean()
-    ways = [abs(move) * (lever if c >= 2 * numbering.n_nodes else 1.0) for c, move in moves.items()]
-    travel = max(ways, default=0.0)
-    if travel == 0.0:  # all are held where they are
+    travels = [
+        abs(move) * (lever if c >= 2 * numbering.n_nodes else 1.0) for c, move in moves.items()
+    ]
+    travel = max(travels, default=0.0)
+    if travel == 0.0:  # all prescribed moves are zero
         leader = layout.leader.copy()
         leader[[*moves, numbering.high]] = -1
         return layout._replace(leader=leader, driven=-1), 0.0
@@ -154,7 +159,7 @@ def _led(
 
 
 def _unpinned(bending: bend.Bend, mesh: Mesh, pins: tuple[int, ...]) -> bend.Bend:
-    """Arms at pins bear no moment; of a single element the other end keeps 3 Y I / l."""
+    """Bending without moments at pins; the other end of a wall of one element keeps 3 Y I / l."""
     free = np.isin(mesh.arm_joint, pins)
     other = free.reshape(-1, 2)[:, ::-1].ravel()
     coupled = np.repeat(bending.coupling, 2) > 0.0
@@ -165,60 +170,67 @@ def _unpinned(bending: bend.Bend, mesh: Mesh, pins: tuple[int, ...]) -> bend.Ben
     )
 
 
-def _springs(of: Structure) -> spring.Spring:
-    nodes = [part.nodes for part in of.springs]
-    rest = zip(of.springs, _distances(of, nodes), strict=True)
+def _springs(structure: Structure) -> spring.Spring:
+    nodes = [part.nodes for part in structure.springs]
+    rest = zip(structure.springs, _distances(structure, nodes), strict=True)
     return spring.Spring(
         np.array(nodes, np.int64).reshape(-1, 2),
-        np.array([part.stiffness_N_mm / MM for part in of.springs]),
+        np.array([part.stiffness_N_mm / MM for part in structure.springs]),
         np.array([MM * float(part.rest_length_mm or apart) for part, apart in rest]),
     )
 
 
-def _on_floor(touch: contact.Contact, of: Structure, numbering: Ground) -> contact.Contact:
+def _on_floor(touch: contact.Contact, structure: Structure, numbering: Ground) -> contact.Contact:
     """Contact of all nodes with the floor, where there is one."""
-    nodes = np.arange(numbering.n_nodes if of.floor_y_mm is not None else 0)
+    nodes = np.arange(numbering.n_nodes if structure.floor_y_mm is not None else 0)
     return touch._replace(plate_nodes=nodes, low=numbering.low, high=numbering.ceiling)
 
 
-def _masses(of: Structure, masses: Floats) -> Floats:
-    """Masses of the coordinates with those at nodes, kg."""
-    for part in of.masses:
+def _masses(structure: Structure, masses: Floats) -> Floats:
+    """Masses of the coordinates, including the point masses of the file, kg."""
+    for part in structure.masses:
         masses[[2 * part.node, 2 * part.node + 1]] += MM * part.mass_g
     return masses
 
 
-def _load(of: Structure, numbering: Ground, masses: Floats) -> Floats:
+def _load(structure: Structure, numbering: Ground, masses: Floats) -> Floats:
     """Weight, forces (N) and moments (N m) by coordinate."""
     load = np.zeros(numbering.size)
-    for axis, gravity in enumerate(of.gravity_mm_s2):
+    for axis, gravity in enumerate(structure.gravity_mm_s2):
         nodes = slice(axis, 2 * numbering.n_nodes, 2)
         load[nodes] = MM * gravity * masses[nodes]
-    for part in of.loads:
+    for part in structure.loads:
         load[[2 * part.node, 2 * part.node + 1]] += part.force_N
         load[numbering.coordinate(part.node, "rotation")] += MM * part.moment_Nmm
     return load
 
 
-def _rest(of: Structure, mesh: Mesh, numbering: Ground) -> Floats:
-    floor = MM * (of.floor_y_mm or 0.0)
+def _rest(structure: Structure, mesh: Mesh, numbering: Ground) -> Floats:
+    floor = MM * (structure.floor_y_mm or 0.0)
     far = mesh.points[:, 1].max() + FAR * np.ptp(mesh.points)
     return np.concatenate([mesh.points.ravel(), np.zeros(numbering.n_joints), [floor, far, 0.0]])
 
 
-def _probed(of: Structure, numbering: Ground) -> Ints:
-    """Coordinates of the probes, three a node."""
-    probed = [numbering.coordinate(node, way) for node in of.probes for way in WAYS]
+def _probed(structure: Structure, numbering: Ground) -> Ints:
+    """Coordinates of the probes, three per node."""
+    probed = [
+        numbering.coordinate(node, direction)
+        for node in structure.probes
+        for direction in DIRECTIONS
+    ]
     return np.array(probed, np.int64)
 
 
-def _velocity(of: Structure, mesh: Mesh, layout: analysis.Layout) -> Floats:
-    """Velocity at the start by coordinate, linear along walls; zero where held or led."""
-    nodes = MM * np.array(of.velocity_mm_s)
+def _velocity(structure: Structure, mesh: Mesh, layout: analysis.Layout) -> Floats:
+    """Initial velocity of each coordinate, linear along walls; zero if held or prescribed."""
+    nodes = MM * np.array(structure.velocity_mm_s)
     network = Network(
-        nodes, np.array(of.walls), np.zeros(len(of.walls)), *2 * [np.empty(0, np.int64)]
+        nodes,
+        np.array(structure.walls),
+        np.zeros(len(structure.walls)),
+        *2 * [np.empty(0, np.int64)],
     )
-    moving = split_walls(network, np.array(of.pieces), 0.0).points.ravel()
+    moving = split_walls(network, np.array(structure.pieces), 0.0).points.ravel()
     velocity = np.zeros(layout.leader.size)
     free = layout.leader[: moving.size] == np.arange(moving.size)
     velocity[: moving.size] = np.where(free, moving, 0.0)

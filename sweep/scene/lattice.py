@@ -1,4 +1,4 @@
-"""The arrays of a lattice between platens: what holds, ties, drives and loads it."""
+"""The arrays of a lattice between platens: supports, platens, loads, and data of all terms."""
 
 import numpy as np
 
@@ -22,12 +22,12 @@ from sweep.scene.terms import (
 
 
 def _velocity(numbering: Numbering, leader: Ints, loading: Loading) -> Floats:
-    """Velocity of each coordinate at the start: a striker flies with what is glued to it, m/s."""
+    """Initial velocity of each coordinate, m/s: that of the striker and the row glued to it."""
     return np.where(leader == numbering.high, -(loading.striker_speed or 0.0), 0.0)
 
 
 def _load(numbering: Numbering, case: Case) -> Floats:
-    """Total force downwards: on the upper platen, or spread equally over the top nodes."""
+    """Dead load of each coordinate, N: on the upper platen, or in equal parts on the top nodes."""
     load = np.zeros(numbering.size)
     if case.loading.mode == "force":
         if case.loading.platen == "none":
@@ -75,17 +75,18 @@ def build_scene(case: Case) -> Scene:
 
 
 def _rest(mesh: Mesh, numbering: Numbering, thickness: Floats) -> Floats:
-    """Coordinates at rest; platens touch the outermost walls. thickness (n,): of nodes, m."""
+    """Coordinates at rest, with platens on the outermost walls. thickness (n,): of nodes, m."""
     y, half = mesh.points[:, 1], 0.5 * thickness.round(15)
     platens = [(y - half).min(), (y + half).max()]
     return np.concatenate([mesh.points.ravel(), np.zeros(numbering.n_joints), platens])
 
 
 def _reported(numbering: Numbering, loading: Loading) -> tuple[Ints, Ints, Ints]:
-    """Coordinates of the lower reaction, of the top and of the base.
+    """Coordinates of the lower reaction force, and of the top and the base that define the strain.
 
-    Strain is the travel of a driven platen or a striker, or of the loaded row. Under a loose loaded
-    platen it is taken from the extent of the lattice itself, which jumps off when it is released.
+    The strain is the travel of a driven platen, a striker or the loaded row. Under a loose platen
+    with a dead load it is the change of the lattice's own extent, since the platen may lift off
+    after the release.
     """
     bottom = 2 * numbering.bottom + 1
     low, high = np.array([numbering.low]), np.array([numbering.high])

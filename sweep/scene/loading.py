@@ -1,4 +1,4 @@
-"""What a march is told: stages of loading, and what counts as converged."""
+"""The stages of a loading, and the tolerances of the solver."""
 
 from math import ceil
 from typing import NamedTuple
@@ -10,10 +10,10 @@ from kernels.solve.residual import Tolerance
 from sweep.config.case import Case, given
 from sweep.scene.terms import Scene, time_step
 
-GLANCE = 64  # steps of a striker after which one looks whether it is back
+IMPACT_STEPS = 64  # steps of a stage of an impact; after each stage the run may end
 ROUND_OFF = 4e-15
-WHOLE = 1e-6  # of a step: what a number of steps may be off a whole one
-GRIP = 1e3  # times the tolerance of forces: that of friction, which lags
+WHOLE = 1e-6  # of a step: tolerance in the number of steps of a stage
+GRIP = 1e3  # tolerance of lagged friction / tolerance of forces
 SCHEMES = {
     "backward_euler": integrators.BACKWARD_EULER,
     "bdf2": integrators.BDF2,
@@ -24,14 +24,14 @@ SCHEMES = {
 
 
 class Phase(NamedTuple):
-    """A stage with its name, for messages."""
+    """A stage and its name in messages."""
 
     name: str
     stage: march.Stage
 
 
 def stages(case: Case, scene: Scene) -> list[Phase]:
-    """Loading and unloading as stages with linear ramps, gone through as the solver is told."""
+    """The stages of a case: linear ramps of loading and unloading, with the chosen integrator."""
     chosen = SCHEMES[given(case.solver.integrator)]
     error = np.inf if case.solver.step_error is None else case.solver.step_error
     return [
@@ -69,21 +69,21 @@ def _stages(case: Case, scene: Scene) -> list[Phase]:
 def _lasting(
     time: float, pace: float, factor: tuple[float, float], driven: tuple[float, float]
 ) -> march.Stage:
-    """A stage of so much time, in equal steps of ``pace`` or, so that they fill it, a bit less."""
+    """A stage of duration ``time`` (s) in equal steps, at most as long as ``pace`` (s)."""
     steps = max(ceil(time / pace - WHOLE), 1)
     duration = pace if abs(steps * pace / time - 1.0) < WHOLE else time / steps
     return march.Stage(steps, duration, True, *factor, *driven)
 
 
 def _flight(flight: march.Stage) -> list[Phase]:
-    """A striker that flies by itself, in stages after which the run may end."""
-    starts = range(0, flight.steps, GLANCE)
-    parts = [min(GLANCE, flight.steps - done) for done in starts]
+    """The motion of a striker, cut into stages after which the run may end."""
+    starts = range(0, flight.steps, IMPACT_STEPS)
+    parts = [min(IMPACT_STEPS, flight.steps - done) for done in starts]
     return [Phase("struck", flight._replace(steps=n)) for n in parts]
 
 
 def tolerances(case: Case, scene: Scene, stage: march.Stage) -> Tolerance:
-    """Scale ``solver.tolerance`` to forces and energies, not below what round-off allows."""
+    """Tolerances of forces and energies: ``solver.tolerance`` x scales, not below round-off."""
     terms, coordinates = scene.terms, scene.terms.coordinates
     force = max(scene.force_scale, np.abs(coordinates.load * coordinates.lever).max(initial=0.0))
     size = np.ptp(scene.mesh.points)

@@ -1,16 +1,17 @@
 """The uniaxial law of a material: nominal stress over nominal strain, a C1 piecewise cubic.
 
-Tension: the record, shape-preserving (pchip); below 1 % a straight line from the origin, since the
-toe of a record is slack and grip. Compression: the material's own branch where its record has one,
-else `0.7 lower + 0.3 upper` with the tension curve P, nominal strain e < 0 and stretch s = 1 + e:
+Tension: the record, interpolated shape-preserving (pchip); below 1 % a straight line from the
+origin, since the toe of a record shows slack and slip in the grips. Compression: the material's own
+branch if its record has one, else `0.7 lower + 0.3 upper` with the tension curve P, nominal strain
+e < 0 and stretch s = 1 + e:
 
     lower(e) = -P(-e)                    stress odd in nominal strain
     upper(e) = -P(1/s - 1) / s^2         Cauchy stress odd in log strain, incompressible
 
-(weights from one moulded grade; good to about 30 % beyond 15 % compression).
+(weights fitted to one moulded grade; error about 30 % beyond 15 % compression).
 
-Bending through the curve: strain s eta at the share eta of half the thickness from the centroid,
-s at the surface, gives a wall of depth b and thickness t the moment b t^2 / 4 m(s),
+Bending with the curve: let s be the strain at the surface of a wall of depth b and thickness t, and
+s eta that at a distance eta t / 2 from the centroid. The moment is b t^2 / 4 m(s),
 
     m(s) = integral over eta in -1..1 of sigma(s eta) eta,    odd in s;  2/3 Y s for a linear curve.
 """
@@ -28,7 +29,7 @@ from sweep.config.material_file import TOE, stress_at
 
 Floats = NDArray[np.float64]
 
-SURFACE_STEPS = 70  # of the table of moments, within the toe and in all
+SURFACE_STEPS = 70  # intervals of the table of moments, within the toe and over the whole range
 LOWER_WEIGHT, UPPER_WEIGHT = 0.7, 0.3
 COMPRESSION = -np.array(
     [
@@ -50,13 +51,13 @@ class StressLaw:
 
 
 def linear_law(slope: float) -> StressLaw:
-    """Stress in proportion to strain."""
+    """The law stress = slope x strain; slope in Pa."""
     return StressLaw(np.array([0.0, 1.0]), np.array([[0.0, slope, 0.0, 0.0]]))
 
 
 @lru_cache(maxsize=64)
 def stress_law(material: Material) -> StressLaw:
-    """The law of a material under uniaxial stress; the plane-strain factor is not in it."""
+    """The law of a material under uniaxial stress, without the factor of plane strain."""
     if material.stretch == "linear":
         return linear_law(material.modulus)
     return _spline(*_knots(material.curve_strain, material.curve_stress))
@@ -64,23 +65,24 @@ def stress_law(material: Material) -> StressLaw:
 
 @lru_cache(maxsize=64)
 def law_in_stretch(material: Material, factor: float) -> ElasticCurve:
-    """What kernels need of that law, all stresses times ``factor``."""
+    """The law of stretching for the kernels, with all stresses times ``factor``."""
     return as_law(stress_law(material), factor, material.modulus)
 
 
 @lru_cache(maxsize=64)
 def law_in_bending(material: Material) -> MomentCurve:
-    """What kernels need of `section_law`, over the modulus."""
+    """`section_law` / modulus, for the kernels."""
     law = as_law(section_law(material), 1.0 / material.modulus, material.modulus)
     return MomentCurve(*law)
 
 
 @lru_cache(maxsize=64)
 def section_law(material: Material) -> StressLaw:
-    """3/2 m(s) over 0 <= s (Pa), the stress of a linear curve with the same moment.
+    """3/2 m(s) in Pa for s >= 0: the surface stress of a linear curve with the same moment.
 
     With d(u) = sigma(u) - sigma(-u):  m = 1/s^2 integral_0^s d(u) u du,  m' = (d(s) - 2 m) / s.
-    Beyond the table, where the inner surface is crushed to 0.3 of its length: the last tangent.
+    The table ends where the inner surface is compressed to 0.3 of its length; beyond it the last
+    tangent continues.
     """
     if material.bend != "section":
         return linear_law(material.modulus)
@@ -102,7 +104,7 @@ def section_law(material: Material) -> StressLaw:
 
 
 def as_law(curve: StressLaw, factor: float, modulus: float) -> ElasticCurve:
-    """A law with its integral for kernels, all stresses times ``factor``."""
+    """A law and its integral for the kernels, with all stresses times ``factor``."""
     knots, coefficients = curve.knots, factor * np.ascontiguousarray(curve.coefficients)
     powers = np.arange(1, 5)
     gained = np.sum(coefficients / powers * np.diff(knots)[:, None] ** powers, axis=1)
@@ -122,7 +124,7 @@ def _spline(knots: Floats, values: Floats, slopes: Floats) -> StressLaw:
 def _knots(
     curve_strain: tuple[float, ...], curve_stress: tuple[float, ...]
 ) -> tuple[Floats, Floats, Floats]:
-    """Strains (k,), stresses (k,) and slopes (k,) of the law."""
+    """Strains (k,), stresses (k,) and slopes (k,) of the law at its knots."""
     strain, stress = np.array(curve_strain), np.array(curve_stress)
     own, above = strain < 0.0, strain > TOE
     toe = stress_at(TOE, curve_strain, curve_stress)
@@ -149,7 +151,7 @@ def _shape_preserving_slopes(knots: Floats, values: Floats) -> Floats:
 def _compression(
     strain: Floats, knots: Floats, values: Floats, slopes: Floats
 ) -> tuple[Floats, Floats]:
-    """Stress and slope at compressive strains, from the tension curve through the knots."""
+    """Stress and slope at compressive strains, derived from the tension curve."""
     stretch = 1.0 + strain
     lower, lower_slope = _tension(-strain, knots, values, slopes)
     cauchy, cauchy_slope = _tension(1.0 / stretch - 1.0, knots, values, slopes)
@@ -161,7 +163,7 @@ def _compression(
 def _tension(
     strain: Floats, knots: Floats, values: Floats, slopes: Floats
 ) -> tuple[Floats, Floats]:
-    """Stress and slope of the tension curve; beyond its end it goes on with the last tangent."""
+    """Stress and slope of the tension curve, which continues with its last tangent."""
     from scipy.interpolate import CubicHermiteSpline
 
     curve = CubicHermiteSpline(knots, values, slopes)

@@ -16,10 +16,11 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Mesh:
-    """Walls split into equal elements. The joints of the network come first among the nodes.
+    """Walls split into equal elements. The first nodes are the joints of the network.
 
-    points (n, 2) m, at rest. edges (m, 2): along their wall. wall (m,): wall of an element.
-    pieces (m,): elements in that wall. thickness (m,) m.
+    points (n, 2): nodes at rest, m. edges (m, 2): nodes of an element, in the direction of its
+    wall. wall (m,): wall of an element. pieces (m,): number of elements in that wall.
+    thickness (m,) of an element, m. n_joints: number of joints.
     """
 
     points: Floats
@@ -36,13 +37,13 @@ class Mesh:
 
     @cached_property
     def inner(self) -> Ints:
-        """Nodes inside walls, with the elements before and after: (h, 3) element, node, element."""
+        """Nodes inside walls: (h, 3), the element before, the node, the element after."""
         at_end = np.flatnonzero(self.wall[1:] == self.wall[:-1])
         return np.column_stack([at_end, self.edges[at_end, 1], at_end + 1])
 
     @cached_property
     def start(self) -> Ints:
-        """First element of every wall and the end of the last, (w + 1,)."""
+        """First element of every wall, and the number of elements, (w + 1,)."""
         changes = 1 + np.flatnonzero(self.wall[1:] != self.wall[:-1])
         return np.concatenate([[0], changes, [len(self.wall)]])
 
@@ -61,8 +62,9 @@ class Mesh:
     def openings(self) -> tuple[Ints, Floats, Ints]:
         """Openings between neighbouring arms of every joint.
 
-        Nodes (f, 3), anticlockwise from arm 1-0 to arm 1-2; the rest opening (f,) in rad; the two
-        arms (f, 2), numbered as in `arm_joint`.
+        Nodes (f, 3): the joint is in the middle, and the opening is the angle anticlockwise from
+        the first node to the last. Opening at rest (f,), rad. Its two arms (f, 2), numbered as in
+        `arm_joint`.
         """
         node, at_start = self.arm_joint, np.arange(2 * len(self.start) - 2) % 2 == 0
         first, second = self.edges[self.arm_element].T
@@ -81,24 +83,24 @@ class Mesh:
 
     @cached_property
     def node_length(self) -> Floats:
-        """Half of the length of every element at a node, (n,) m."""
+        """Sum of half the lengths of the elements at a node, (n,) m."""
         return self._halves(self.rest_length)
 
     @cached_property
     def node_area(self) -> Floats:
-        """Half of the area of every element at a node, (n,) m^2."""
+        """Sum of half the areas of the elements at a node, (n,) m^2."""
         return self._halves(self.rest_length * self.thickness)
 
-    def _halves(self, of: Floats) -> Floats:
-        """Half of ``of`` (m,) of every element, summed at its two nodes: (n,)."""
-        half = 0.5 * of
+    def _halves(self, values: Floats) -> Floats:
+        """Sum over the elements at a node of half their ``values`` (m,): (n,)."""
+        half = 0.5 * values
         shared = np.bincount(self.edges.ravel(), np.repeat(half, 2), minlength=len(self.points))
         return shared.astype(np.float64)
 
 
 @lru_cache(maxsize=16)
 def build_mesh(lattice: Lattice) -> Mesh:
-    """The walls of a lattice in elements: often those of the case before, too."""
+    """The mesh of a lattice. It is cached, since consecutive cases often share it."""
     shift = lattice.imperfection * lattice.wall_thickness
     return split_walls(build_network(lattice.geometry), lattice.nodes_per_wall + 1, shift)
 
@@ -106,8 +108,8 @@ def build_mesh(lattice: Lattice) -> Mesh:
 def split_walls(network: Network, pieces: int | Ints, imperfection: float) -> Mesh:
     """Split every wall into equal elements and shift all points sideways.
 
-    pieces: elements of a wall, or of each (w,). The stress-free shift in x is ``imperfection`` (m)
-    x sin(pi y / height).
+    pieces: number of elements, one for all walls or (w,). imperfection (m): amplitude of the
+    stress-free shift in x, imperfection x sin(pi y / height).
     """
     pieces = np.broadcast_to(np.asarray(pieces), len(network.walls))
     inside = pieces - 1
@@ -135,7 +137,7 @@ def split_walls(network: Network, pieces: int | Ints, imperfection: float) -> Me
 
 
 def row_nodes(network: Network, mesh: Mesh, joints: Ints) -> Ints:
-    """Nodes of an outer row: its joints and the nodes inside the walls between them."""
+    """Nodes of an outer row: its ``joints``, and the nodes inside the walls between them."""
     on = np.zeros(len(mesh.points), np.bool_)
     on[joints] = True
     start, end = on[network.walls].T

@@ -1,6 +1,7 @@
-"""The arrays of an endless lattice: a period of it, images of its nodes, and its mean strain.
+"""The arrays of an endless lattice: one period, images of its nodes, and the mean strain.
 
-The width of the period is an unknown, the last but one coordinate; its height, the last, is led.
+The last two coordinates are the width and the height of the period. The width is an unknown; the
+height is prescribed.
 """
 
 from dataclasses import dataclass, replace
@@ -29,8 +30,10 @@ from sweep.scene.terms import (
 
 @dataclass(frozen=True)
 class Repeated(Numbering):
-    """Numbering of a period with images. origin (n,): a node, or of which it is an image; shift (n,
-    2): how many periods away. anchor: a node that is held, as the lattice is nowhere else.
+    """Numbering of a period with images of nodes.
+
+    origin (n,): the node of the period that each node is or copies; shift (n, 2): by how many
+    periods it is moved. anchor: the node that is held, to prevent rigid motions.
     """
 
     origin: Ints
@@ -39,12 +42,12 @@ class Repeated(Numbering):
 
     @property
     def rotation(self) -> Ints:
-        """Coordinates of the joints' rotations, (n_joints,); images turn as what they follow."""
+        """Coordinates of the joints' rotations, (n_joints,); an image has that of its original."""
         return 2 * self.n_nodes + self.origin[: self.n_joints]
 
     @property
     def own(self) -> np.ndarray:
-        """Which nodes are no images, (n,)."""
+        """True for nodes of the period, False for images, (n,)."""
         return np.all(self.shift == 0, axis=1)
 
 
@@ -98,10 +101,7 @@ def build_periodic(case: Case) -> Scene:
 
 
 def _repeated(network: Endless, lattice: Lattice) -> tuple[Mesh, Repeated]:
-    """Mesh of all walls, those of the period first, and its numbering.
-
-    The stress-free shift in x is ``imperfection`` x wall thickness x cos(2 pi y / height).
-    """
+    """Mesh of all walls, those of the period first, and its numbering."""
     mesh = split_walls(network, lattice.nodes_per_wall + 1, 0.0)
     inside = lattice.nodes_per_wall
     number = np.arange(inside)
@@ -117,13 +117,16 @@ def _repeated(network: Endless, lattice: Lattice) -> tuple[Mesh, Repeated]:
 
 
 def imperfection(lattice: Lattice, y: Floats) -> Floats:
-    """Stress-free shift in x at heights ``y``, all in m."""
+    """Stress-free shift in x at heights ``y``, both in m.
+
+    It is `lattice.imperfection` x wall thickness x cos(2 pi y / height).
+    """
     wave = np.cos(2.0 * np.pi * y / lattice.height)
     return np.asarray(lattice.imperfection * lattice.wall_thickness * wave)
 
 
 def _leaders(numbering: Repeated, case: Case) -> Ints:
-    """What each coordinate follows: itself, or -1 where held."""
+    """The coordinate that each one follows: itself, or -1 if held."""
     leader = np.arange(numbering.size)
     leader[[2 * numbering.anchor, 2 * numbering.anchor + 1]] = -1
     joints = np.arange(numbering.n_joints)
@@ -132,16 +135,16 @@ def _leaders(numbering: Repeated, case: Case) -> Ints:
 
 
 def _images(numbering: Repeated, leader: Ints) -> Ints:
-    """What images of nodes follow: each its node and, as many times as it is away, the period.
+    """The constraints of images: position = that of the original + shift x period.
 
     (k, 4) as in `kernels.linear.periodic_images`.
     """
     nodes = np.flatnonzero(~numbering.own)
     rows = []
     for axis, size in enumerate((numbering.low, numbering.high)):
-        of = 2 * numbering.origin[nodes] + axis
-        of, mean = np.where(leader[of] < 0, -1, of), np.full(len(nodes), size)
-        rows.append(np.column_stack([2 * nodes + axis, of, mean, numbering.shift[nodes, axis]]))
+        own = 2 * numbering.origin[nodes] + axis
+        own, mean = np.where(leader[own] < 0, -1, own), np.full(len(nodes), size)
+        rows.append(np.column_stack([2 * nodes + axis, own, mean, numbering.shift[nodes, axis]]))
     return np.concatenate(rows)
 
 
@@ -154,7 +157,7 @@ def _masses(mesh: Mesh, numbering: Repeated, total: float) -> Floats:
 
 
 def _seen(touch: contact.Contact, numbering: Repeated) -> contact.Contact:
-    """Contact as the nodes of the period see it: images have no length, each pair counts once."""
+    """Contact of the nodes of the period: images have length 0, so that each pair counts once."""
     return touch._replace(
         tributary=np.where(numbering.own, touch.tributary, 0.0),
         special_weight=np.where(numbering.own[touch.special_node], touch.special_weight, 0.0),

@@ -1,6 +1,6 @@
-"""The data of every term of the energy for a case, put together for scenes of all kinds.
+"""The data of every term of the energy, for scenes of all kinds.
 
-A term that the scene lacks is an empty array: it costs nothing.
+A term that a scene does not have consists of empty arrays and costs nothing.
 """
 
 from dataclasses import dataclass, field
@@ -29,10 +29,12 @@ NO_SPRINGS = Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
 
 @dataclass(frozen=True)
 class Scene:
-    """A case as arrays. x_rest (n,): m and rad; bottom, top, base, probes: as in `rows.Output`.
+    """A case as arrays.
 
-    velocity (n,) at the start. travel: of the driven coordinate where the case does not say, m.
-    around (k, 2): elements of the copies round a period.
+    x_rest (n,): coordinates at rest, m and rad. bottom, top, base, probes: as in `rows.Output`.
+    force_scale: a typical force, N. velocity (n,): at the start, m/s and rad/s. travel: of the
+    driven coordinate of a custom structure, m. around (k, 2): elements of the copies round a
+    period.
     """
 
     mesh: Mesh
@@ -50,8 +52,10 @@ class Scene:
 
 
 class Parts(NamedTuple):
-    """What a scene has of its own: its constraints, terms that depend on its kind, and by
-    coordinate mass (n,) in kg and dead load (n,) in N.
+    """The data that depend on the kind of scene.
+
+    layout: constraints and structure of the linear system. mass (n,) in kg and load (n,) in N or
+    N m of each coordinate. The others are terms of the energy.
     """
 
     layout: analysis.Layout
@@ -65,7 +69,7 @@ class Parts(NamedTuple):
 
 
 def assemble(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -> PlanarScene:
-    """The data of all terms."""
+    """The data of all terms of a scene."""
     in_stretch, _ = plane_factors(case.material)
     area = case.lattice.depth * mesh.thickness
     return PlanarScene(
@@ -85,7 +89,7 @@ def assemble(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -> Plan
 
 
 def coordinates_of(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -> Coordinates:
-    """What the solver knows of the coordinates."""
+    """The data of the coordinates that the solver needs."""
     lattice, layout = case.lattice, parts.layout
     scale = np.ones(numbering.size)
     scale[numbering.rotation] = mesh.rest_length.mean()
@@ -104,7 +108,7 @@ def coordinates_of(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -
 
 
 def _roles(layout: analysis.Layout) -> Ints:
-    """How each coordinate moves, (n,)."""
+    """Role of each coordinate, (n,): `FREE`, `TIED` to another one, `LED` or `HELD`."""
     leader = layout.leader
     role = np.where(leader == np.arange(leader.size), FREE, TIED)
     if layout.driven >= 0:
@@ -114,7 +118,10 @@ def _roles(layout: analysis.Layout) -> Ints:
 
 
 def _heavy(layout: analysis.Layout, mass: Floats) -> Floats:
-    """1 for what moves by its mass or by that of what it is tied to, else 0, (n,)."""
+    """1 for a moving coordinate with mass, its own or that of a coordinate tied with it; else 0.
+
+    (n,); 0 for coordinates that follow the driven one.
+    """
     moving = np.flatnonzero(layout.leader >= 0)
     leader = layout.leader[moving]
     moved = np.bincount(leader, layout.ratio[moving] * mass[moving], mass.size)
@@ -145,13 +152,13 @@ def contact_stiffness(case: Case) -> float:
 
 
 def walls_of(mesh: Mesh, numbering: Numbering) -> elements.Walls:
-    """Which elements and rotations make which wall."""
+    """The elements of every wall, and the rotations at its two ends."""
     rotation = numbering.rotation[mesh.arm_joint]
     return elements.Walls(mesh.edges, mesh.start, mesh.arm_element, rotation)
 
 
 def solved_by(mesh: Mesh, numbering: Numbering, leader: Ints, case: Case) -> analysis.Layout:
-    """What the linear solver knows of the scene."""
+    """The layout of the linear system. leader (n,): the coordinate that each one follows."""
     joints = mesh.arm_joint.reshape(-1, 2)
     outer = np.stack([2 * joints, 2 * joints + 1, numbering.rotation[joints]], axis=-1)
     wall_of = np.full(numbering.n_nodes + 1, -1)
@@ -176,7 +183,7 @@ def solved_by(mesh: Mesh, numbering: Numbering, leader: Ints, case: Case) -> ana
 
 
 def masses_of(mesh: Mesh, numbering: Numbering, total: float, loading: Loading) -> Floats:
-    """Lumped mass of each coordinate, kg; in each direction nodes sum to ``total``."""
+    """Lumped mass of each coordinate, kg; the nodes sum to ``total`` in x and in y."""
     share = mesh.node_area
     masses = np.zeros(numbering.size)
     masses[: 2 * numbering.n_nodes] = np.repeat(total * share / share.sum(), 2)
@@ -185,7 +192,7 @@ def masses_of(mesh: Mesh, numbering: Numbering, total: float, loading: Loading) 
 
 
 def friction_of(case: Case) -> friction.Friction:
-    """Slip speed, or a share of the wall thickness where there is no time."""
+    """Friction coefficient and smoothing: a slip speed in m/s, or a slip length in m in statics."""
     slip = STATIC_SLIP * case.lattice.wall_thickness
     if case.contact.slip_speed is not None:
         slip = case.contact.slip_speed
@@ -193,7 +200,7 @@ def friction_of(case: Case) -> friction.Friction:
 
 
 def time_step(case: Case) -> float:
-    """Duration of one step in s (of its pace, where the integrator is static)."""
+    """Duration of one step in s; in statics a nominal one."""
     if case.loading.mode == "displacement":
         speed = case.loading.speed or case.lattice.height
         return given(case.loading.stroke) / speed / given(case.solver.load_steps)
@@ -203,7 +210,7 @@ def time_step(case: Case) -> float:
 
 
 def damp_of(case: Case) -> damping.Damp:
-    """Damping of the model that is chosen; none without time."""
+    """The data of the chosen damping model; no damping in statics."""
     chosen = "none" if case.solver.integrator == "static" else case.damping.model
     if chosen == "rayleigh":
         return damping.Damp(given(case.damping.mass), given(case.damping.stiffness), 0.0)
@@ -213,6 +220,6 @@ def damp_of(case: Case) -> damping.Damp:
 
 
 def force_scale(network: Network, rigidity: Floats) -> float:
-    """A force (N) that bends the longest wall. rigidity (m,): Y' I of every element, N m^2."""
+    """Typical force, N: least Y' I / (longest wall)^2. rigidity (m,): Y' I of elements, N m^2."""
     ends = network.points[network.walls]
     return float(np.min(rigidity) / np.max(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)) ** 2)

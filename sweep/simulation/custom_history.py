@@ -1,4 +1,4 @@
-"""History columns of a structure of a user's own: its probes, and how far it is loaded."""
+"""History columns of a custom structure: its probes and its load factor."""
 
 import numpy as np
 
@@ -12,12 +12,13 @@ REACTIONS = ("reaction_x_N", "reaction_y_N", "reaction_moment_Nm")
 WITHOUT_PLATENS = ("strain", "top_displacement_m", "reaction_top_N")
 
 
-def own_columns(
+def structure_columns(
     history: dict[str, Floats], probed: Floats, scene: Scene, case: Case
 ) -> dict[str, Floats]:
-    """The history with what only a structure has. probed (rows, 2, 3 probes): see `rows.Output`.
+    """The history with the columns of a custom structure.
 
-    Reactions act on the structure; they are zero where it is free.
+    probed (rows, 2, 3 probes): values and reactions, as in `rows.Output`. Reactions act on the
+    structure; they are zero where it is free.
     """
     structure = given(case.lattice.structure)
     blank = np.full(len(probed), np.nan)
@@ -29,8 +30,8 @@ def own_columns(
     free = scene.terms.coordinates.role[scene.probes] == FREE
     reactions = np.where(free, 0.0, probed[:, 1])
     for k, node in enumerate(structure.probes):
-        for way in range(3):
-            history[f"probe_{node}_{MOVES[way]}"] = probed[:, 0, 3 * k + way].copy()
-        for way in range(3):
-            history[f"probe_{node}_{REACTIONS[way]}"] = reactions[:, 3 * k + way].copy()
+        for i, move in enumerate(MOVES):
+            history[f"probe_{node}_{move}"] = probed[:, 0, 3 * k + i].copy()
+        for i, reaction in enumerate(REACTIONS):
+            history[f"probe_{node}_{reaction}"] = reactions[:, 3 * k + i].copy()
     return history

@@ -1,10 +1,10 @@
-"""What the stored shapes of a case say: how far its elements are strained, what the walls keep.
+"""Measures of the stored shapes of a case: strains of elements, covered area, crossings.
 
-The model holds as long as no element is squeezed below 0.7 of its length, `SQUEEZED`. Its walls
-keep their thickness; a wall of incompressible TPU would by then be 1.4 times as thick, which
-neither its bending nor its contacts know of. Its law in compression is derived from tension, and
-good to 30 % at best. Compared with solid finite elements it was right to 7 % as far as these went,
-where the worst element was squeezed to 0.85.
+The model holds as long as no element is shorter than 0.7 of its rest length, `SQUEEZED`. Its walls
+keep their thickness, whereas a wall of incompressible TPU is 1.4 times as thick at that strain;
+neither bending nor contact takes this into account. The law in compression is derived from tension,
+with an error of 30 % or more. Solid finite elements confirm the model within 7 % up to the strain
+that they reached, with the shortest element at 0.85 of its rest length.
 """
 
 from collections.abc import Mapping
@@ -19,8 +19,8 @@ from sweep.design.area import covered_area
 Floats = NDArray[np.float64]
 Frames = Mapping[str, np.ndarray]
 
-SQUEEZED = -0.3  # element strain beyond which a wall is a block
-TOGETHER = 1 << 16  # pairs that shapely is asked for at a time
+SQUEEZED = -0.3  # element strain below which the model does not hold
+CHUNK = 1 << 16  # pairs in one call of shapely
 
 
 def element_strains(frames: Frames) -> Floats:
@@ -32,9 +32,9 @@ def element_strains(frames: Frames) -> Floats:
 
 
 def work_within_model(strains: Floats, stored: Floats, time: Floats, work: Floats) -> float:
-    """Work in J done until an element is squeezed below `SQUEEZED`; all of it if none is.
+    """Work (J) done until an element strain is first below `SQUEEZED`; all of it if none is.
 
-    strains (f, m): of the elements in the shapes that were stored at the times stored (f,), s.
+    strains (f, m): of the elements in the stored shapes. stored (f,): times of these shapes, s.
     time (rows,) s, work (rows,) J: of the loading. Interpolated between stored shapes.
     """
     least = strains.min(axis=1)
@@ -47,9 +47,9 @@ def work_within_model(strains: Floats, stored: Floats, time: Floats, work: Float
 
 
 def kept_area(frames: Frames) -> float:
-    """Area that the walls cover in the shape of greatest strain, as a share of that at rest.
+    """Area that the walls cover at the greatest strain / at rest.
 
-    NaN where strain has no meaning.
+    NaN for a structure without a strain.
     """
     if np.isnan(frames["strain"]).any():
         return float("nan")
@@ -59,9 +59,9 @@ def kept_area(frames: Frames) -> float:
 
 
 def shortening(frames: Frames, bottom: NDArray[np.int64], top: NDArray[np.int64]) -> float:
-    """Loss of distance between the middles of two rows of nodes in the last shape / at rest.
+    """1 - distance between the centres of two rows of nodes in the last shape / at rest.
 
-    A specimen that has jumped off and turned over has its length still. NaN without rows.
+    Rigid motions do not change it. NaN without rows.
     """
     if len(bottom) == 0:
         return float("nan")
@@ -74,9 +74,9 @@ def shortening(frames: Frames, bottom: NDArray[np.int64], top: NDArray[np.int64]
 
 
 def crossings(frames: Frames) -> int:
-    """Largest number of pairs of elements that pass through one another in any stored shape.
+    """Greatest number of pairs of elements that cross one another in a stored shape.
 
-    Independent of the solver. Where rounding might tell, shapely's exact predicates do.
+    Independent of the solver. Where round-off may decide, shapely's exact predicates are used.
     """
     position, edges = frames["position_m"], frames["edges"]
     low, high = position.min(axis=0)[edges].min(axis=1), position.max(axis=0)[edges].max(axis=1)
@@ -84,8 +84,8 @@ def crossings(frames: Frames) -> int:
     crossed, unsure = np.empty(len(position), np.int64), np.empty((0, 3), np.int64)
     while (count := crossing.count(*given, crossed, unsure)) > len(unsure):
         unsure = np.empty((count, 3), np.int64)
-    for begin in range(0, len(unsure), TOGETHER):
-        *pair, shape = unsure[begin : begin + TOGETHER].T
+    for begin in range(0, len(unsure), CHUNK):
+        *pair, shape = unsure[begin : begin + CHUNK].T
         lines = (linestrings(position[shape[:, None], edges[which]]) for which in pair)
         crossed += np.bincount(shape[intersects(*lines)], minlength=len(crossed))
     return int(crossed.max())

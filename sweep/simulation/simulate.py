@@ -1,4 +1,4 @@
-"""A case in, a result out: build the arrays, march through the stages, measure. No files."""
+"""From a case to its result: build the arrays, march through the stages, measure. No files."""
 
 import time
 from dataclasses import replace
@@ -20,18 +20,18 @@ from sweep.scene.loading import stages, tolerances
 from sweep.scene.mesh import Floats
 from sweep.scene.periodic import build_periodic
 from sweep.scene.terms import Scene
-from sweep.simulation.custom_history import own_columns
+from sweep.simulation.custom_history import structure_columns
 from sweep.simulation.summary import BOOK, history_columns, summarise
 from sweep.simulation.time_limit import WATCH
 
 FRAMES = 40
-EARLY_FRAMES = 4 * FRAMES  # most impacts, and many paths, are over in a quarter of their steps
+EARLY_FRAMES = 4 * FRAMES  # most impacts and many paths end within a quarter of their steps
 LONGER = "try a longer loading.duration"
 SAFER = 'try smaller steps, damping or solver.integrator "backward_euler"'
 FINER = "try more solver.load_steps"
 SOUNDER = "try a smaller solver.tolerance, and look for values out of all proportion"
-GAP = 1e-3  # of the energy, that may be left over
-INVENTED = 0.1  # of the work done: energy that an integrator may make
+GAP = 1e-3  # of the greatest energy in the book: residual that is allowed
+CREATED = 0.1  # of the work done: energy that an integrator may create
 ADVICE = {
     newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {shorter}",
     friction_loop.UNSETTLED: "friction did not settle; try {shorter} or a smaller contact.friction",
@@ -44,17 +44,17 @@ ADVICE = {
     newton.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
 }
 
-LOST = "no shape in balance within reach of the shortest arc; try a smaller solver.arc_length"
+LOST = "no equilibrium within the shortest arc; try a smaller solver.arc_length"
 
 
 def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
     """Simulate ``case`` and return its `Result`; a numerical failure is a status, not an exception.
 
-    ``stop``: int64 (2,), set stop[0] to 1 from another thread to interrupt; stop[1] counts steps.
+    stop: int64 (2,). Another thread sets stop[0] to 1 to interrupt; stop[1] counts steps.
     """
     started = time.thread_time()
     result = _simulated(case, np.zeros(2, np.int64) if stop is None else stop)
-    spent = time.thread_time() - started  # giving back the memory of it all counts too
+    spent = time.thread_time() - started  # includes the time to free the memory of the run
     return replace(result, summary={**result.summary, "cpu_s": spent})
 
 
@@ -64,7 +64,7 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
     status, message = run.complete()
     curves = history_columns(run.rows[: run.done], scene, case)
     if case.lattice.structure is not None:
-        curves = own_columns(curves, run.probed[: run.done], scene, case)
+        curves = structure_columns(curves, run.probed[: run.done], scene, case)
         curves |= path_columns(run.arc, run.done)
     frames = run.frames()
     summary = summarise(case, scene, curves, frames, run.loading_rows)
@@ -86,9 +86,9 @@ def _scene(case: Case) -> Scene:
 
 
 def warm_up(arcs: bool = False) -> None:
-    """Load the compiled kernels, or compile them once, so that no case pays for it.
+    """Load or compile the kernels, so that no case spends time on it.
 
-    ``arcs``: those that follow a path too, which few sweeps need.
+    arcs: also the kernels of the arc-length method, which few sweeps need.
     """
     lattice = Lattice(cells_x=1, cells_y=1)
     simulate(Case(lattice=lattice, loading=Loading(release_time=1e-4, duration=2e-4)))
@@ -103,7 +103,7 @@ def warm_up(arcs: bool = False) -> None:
 
 
 class _Run:
-    """The march of one scene: its state, what it has written, and its clock."""
+    """The run of one scene: its state, the rows and frames written so far, its time limit."""
 
     def __init__(self, scene: Scene, case: Case, control: np.ndarray):
         self.scene, self.case, self.control = scene, case, control
@@ -123,9 +123,9 @@ class _Run:
         self.done, self.noise, self.expired = 1, 0.0, False
 
     def _begin(self) -> None:
-        """Enter what the scene brings with it as work done: speed, and springs under tension.
+        """Fill the first row: initial kinetic energy and the energy of springs count as work done.
 
-        What is out of balance then is let go in the first increment, like a snap.
+        If the initial state is not in equilibrium, the first step releases energy like a snap.
         """
         state, scene, row, book = self.state, self.scene, self.rows[0], self.state.book[0]
         strained = spring.evaluate(state.x, scene.terms.spring, np.zeros_like(state.x))
@@ -142,7 +142,7 @@ class _Run:
         with WATCH.limit(self.case.solver.time_limit, self._expire):
             for phase in self.stages:
                 outcome = self._through(phase.stage)
-                if outcome != newton.INTERRUPTED and self._invents():
+                if outcome != newton.INTERRUPTED and self._creates_energy():
                     advice = FINER if self.case.loading.quasi_static else SAFER
                     return Status.STOPPED, f"the integrator made energy out of nothing; {advice}"
                 if outcome != newton.CONVERGED:
@@ -155,18 +155,18 @@ class _Run:
             return Status.STOPPED, f"the striker still sinks {self._where()}; {LONGER}"
         return Status.CONVERGED, ""
 
-    def _invents(self) -> bool:
-        """Whether the steps have given more than a share `INVENTED` of the work done.
+    def _creates_energy(self) -> bool:
+        """True if the integrator has created more than a share `CREATED` of the work done.
 
-        A structure at rest at the end of a few steps is as sought, whatever they have given.
+        A static structure is not checked: a result of few steps is of use whatever they created.
         """
         if self.case.loading.quasi_static and self.case.lattice.structure is not None:
             return False
         rows = self.rows[: self.done]
-        return bool(rows["integrator"].min() < -INVENTED * rows["work"].max() - self.noise)
+        return bool(rows["integrator"].min() < -CREATED * rows["work"].max() - self.noise)
 
     def _balances(self) -> bool:
-        """Whether the energy book closes but for a share `GAP` of what passes through it."""
+        """True if the residual of the energy book is below a share `GAP` of its greatest entry."""
         rows = self.rows[: self.done]
         left = np.abs(rows["residual"]).max()
         size = max(np.abs(rows[name]).max() for name in BOOK.values() if name != "residual")
@@ -174,7 +174,7 @@ class _Run:
         return bool(left <= GAP * size + self.case.solver.tolerance * moved)
 
     def _is_back(self) -> bool:
-        """Whether the striker is where it started; what it did beyond is dropped."""
+        """True if the striker is back where it started; later rows are dropped."""
         heights = self.rows["height"][: self.done]
         back = np.flatnonzero(heights[1:] >= heights[0])
         self.done = int(back[0]) + 2 if len(back) else self.done
@@ -182,7 +182,7 @@ class _Run:
 
     @property
     def loading_rows(self) -> int:
-        """Rows of the history until release, full stroke, or the striker's stop."""
+        """Number of rows of the history until release, full stroke, or the striker's stop."""
         if self.struck:
             return int(np.argmin(self.rows["height"][: self.done])) + 1
         return self.stages[0].stage.steps + 1
@@ -204,12 +204,12 @@ class _Run:
             self.probed[span],
         )
         if not self.struck:
-            self.state.totals[0].last = 0.0  # what acts changes at once: set out anew
+            self.state.totals[0].last = 0.0  # loads jump between stages: do not extrapolate
         tolerance = tolerances(self.case, self.scene, stage)
         self.noise = tolerance.noise
-        of = self.scene.terms, tolerance, stage, self.state, out, self.control
+        given = self.scene.terms, tolerance, stage, self.state, out, self.control
         outcome, written = (
-            march.march(*of) if self.arc is None else arc_length.follow(*of, self.arc)
+            march.march(*given) if self.arc is None else arc_length.follow(*given, self.arc)
         )
         self.done += written
         return outcome
@@ -230,7 +230,7 @@ class _Run:
         return Status.STOPPED, f"stopped {where}: {advice}"
 
     def _where(self) -> str:
-        """How far it came, in words."""
+        """Strain and number of steps so far, in words."""
         steps = f"after {self.done - 1} steps"
         if self.case.lattice.structure is not None:
             return steps
@@ -238,13 +238,13 @@ class _Run:
         return f"at strain {strain:.3g} {steps}"
 
     def _strain(self, height: Floats) -> Floats:
-        """Strain where the top is ``height`` (m) above the base; NaN for a structure."""
+        """Strain if the top is ``height`` (m) above the base; NaN for a custom structure."""
         if self.case.lattice.structure is not None:
             return np.full_like(height, np.nan)
         return (self.rows["height"][0] - height) / self.case.lattice.height
 
     def frames(self) -> dict[str, np.ndarray]:
-        """Stored shapes up to the last row that was written."""
+        """Stored shapes up to the last row, as in `Result.frames`."""
         steps = np.flatnonzero(self.frame_of[: self.done] >= 0)
         rows, x = self.rows[steps], self.positions[: len(steps)]
         n = len(self.scene.mesh.points)
@@ -267,7 +267,7 @@ class _Run:
 
 
 def _frames(n_rows: int, frames: int) -> tuple[np.ndarray, int]:
-    """Slot of every row among some even ``frames`` (-1: not kept), and their number."""
+    """Frame number of every row (-1: not kept) for about ``frames`` even frames; their number."""
     kept = np.unique(np.linspace(0, n_rows - 1, min(frames + 1, n_rows)).round().astype(int))
     frame_of = np.full(n_rows, -1)
     frame_of[kept] = np.arange(len(kept))

@@ -1,7 +1,8 @@
-"""What a striker does to a lattice and the lattice to it: force, work, stop and rebound.
+"""Force, work, stop and rebound of a striker.
 
-The striker leaves when the lattice pushes it no more: it is fastest then. A glued one would be held
-back from there on, which is no rebound; a run ends when it is back where it met the lattice.
+The rebound ends when the lattice no longer pushes the striker, which is then at its greatest
+speed: after that a glued platen would hold the striker back. A run ends when the striker is back
+where it met the lattice.
 """
 
 from math import nan
@@ -23,10 +24,9 @@ MEASURES = (
 
 
 def striker_curves(time: Floats, velocity: Floats, case: Case) -> Curves:
-    """History columns of a striker from its velocity upwards (rows,) m/s at these times (rows,) s.
+    """History columns of a striker. time (rows,) s; velocity (rows,) m/s, upwards.
 
-    The force is the mean since the row before: force x time = change of momentum. Rows may be
-    closer than the time step that was asked for, as whole steps fill the duration.
+    The force is the mean since the previous row: force x time = change of momentum.
     """
     deceleration = np.append(0.0, np.diff(velocity) / np.diff(time))
     return {
@@ -37,12 +37,12 @@ def striker_curves(time: Floats, velocity: Floats, case: Case) -> Curves:
 
 
 def kinetic(case: Case, speed: Floats | float) -> Floats | float:
-    """Energy of the striker alone, without what is glued to it, J."""
+    """Kinetic energy of the striker alone, without the row glued to it, J."""
     return 0.5 * given(case.loading.striker_mass) * speed**2
 
 
 def work_on_lattice(case: Case, history: Curves) -> Floats:
-    """Work done on the lattice so far, (rows,) J: of an impact, what the striker has lost."""
+    """Work done on the lattice so far, (rows,) J; in an impact, the energy lost by the striker."""
     if case.loading.mode == "impact":
         return history["work_in_J"] - kinetic(case, history["striker_speed_m_per_s"])
     return history["work_in_J"]
@@ -51,7 +51,7 @@ def work_on_lattice(case: Case, history: Curves) -> Floats:
 def impact_columns(case: Case, scene: Scene, history: Curves) -> dict[str, float]:
     """The columns `MEASURES`; NaN without a striker.
 
-    The stroke left is what remains at the stop of the height that closes all voids.
+    stroke_left_m: the stroke that closes all voids, minus the greatest stroke.
     """
     if case.loading.mode != "impact":
         return dict.fromkeys(MEASURES, nan)
@@ -64,5 +64,5 @@ def impact_columns(case: Case, scene: Scene, history: Curves) -> dict[str, float
 
 
 def rebound_speed(history: Curves) -> float:
-    """Greatest speed upwards, m/s; zero if the striker has not turned."""
+    """Greatest speed upwards, m/s; zero if the striker never moves up."""
     return float(max(-history["striker_speed_m_per_s"].min(), 0.0))

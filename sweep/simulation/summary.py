@@ -1,4 +1,4 @@
-"""What a crush was worth: history columns, energies, plateau, densification."""
+"""The columns of a result: history, energies, plateau, densification, shapes."""
 
 import numpy as np
 
@@ -38,13 +38,13 @@ BOOK = {
 DISSIPATED = ("dissipated_material_J", "dissipated_friction_J", "dissipated_integrator_J")
 TOUCHING = ("contact_J", "injected_by_projection_J")
 PLATEAU = ("plateau_stress_Pa", "densification_strain", "efficiency")
-PLATEAU_START = 0.05  # strain from which a plateau is averaged at the earliest
+PLATEAU_START = 0.05  # strain where the average over the plateau starts
 
 
 def history_columns(rows: np.ndarray, scene: Scene, case: Case) -> dict[str, Floats]:
-    """Columns of the history from the rows that the march wrote, (rows,) of `rows.ROW`."""
+    """Columns of the history, (rows,) each, from the rows of the march, (rows,) of `rows.ROW`."""
     travel = rows["height"][0] - rows["height"]
-    endless = case.lattice.boundary == "periodic"  # the same mean stress everywhere
+    endless = case.lattice.boundary == "periodic"  # one mean stress, so both reactions are equal
     below = "reaction_top" if endless else "reaction_bottom"
     time, struck = rows["time"].copy(), case.loading.mode == "impact"
     return {
@@ -60,7 +60,10 @@ def history_columns(rows: np.ndarray, scene: Scene, case: Case) -> dict[str, Flo
 
 
 def absorbed_until(force: float, transmitted: Floats, work: Floats) -> float:
-    """Work in J done until ``transmitted`` (rows,) first exceeds ``force`` (N), interpolated."""
+    """Work (J) done until ``transmitted`` (rows,) first exceeds ``force`` (both N), interpolated.
+
+    All of it if the force is never exceeded.
+    """
     over = np.flatnonzero(transmitted > force)
     if len(over) == 0:
         return float(work[-1])
@@ -84,10 +87,10 @@ def efficiency(stress: Floats, work_density: Floats) -> Floats:
 def plateau(
     lattice: Lattice, strain: Floats, force: Floats, work: Floats
 ) -> tuple[int, dict[str, float]]:
-    """The row up to which a crush is counted, and the columns `PLATEAU` at it.
+    """The row of densification, and the columns `PLATEAU` there.
 
-    That is where the efficiency is greatest and the lattice has packed down. If that is the last
-    row, nothing says that it has: a longer crush might be more efficient still.
+    At densification the efficiency is greatest. If it is greatest in the last row, the efficiency
+    may still rise: then that row is returned, and the densification strain is NaN.
 
     strain, force (N), work (J): (rows,), of the way down.
     """
@@ -108,7 +111,7 @@ def plateau(
 def summarise(
     case: Case, scene: Scene, history: dict[str, Floats], frames: Frames, loading_rows: int
 ) -> dict[str, float | int | str]:
-    """Summary columns of a run, of whose history the first ``loading_rows`` rows are loading."""
+    """Summary columns of a run. loading_rows: number of rows of the history that are loading."""
     curves = history | {"work_in_J": work_on_lattice(case, history)}
     loading = {name: column[:loading_rows] for name, column in curves.items()}
     grams = 1e3 * mass(scene.network, case.lattice.depth, case.material.density)
@@ -136,7 +139,7 @@ def summarise(
 
 
 def returned(case: Case, history: dict[str, Floats], loading_rows: int) -> float:
-    """Work given back to a platen or a striker that moves back up (J); NaN where none does."""
+    """Work given back to a platen or a striker that moves back up (J); NaN if none does."""
     if case.loading.mode == "impact":
         return float(kinetic(case, rebound_speed(history)))
     work = history["work_in_J"]
@@ -146,24 +149,24 @@ def returned(case: Case, history: dict[str, Floats], loading_rows: int) -> float
 
 
 def transmitted(case: Case, history: dict[str, Floats]) -> Floats:
-    """The greater of the forces on the two platens; that on the support if struck, (rows,) N."""
+    """The greater force of the two platens; for an impact that on the support, (rows,) N."""
     if case.loading.mode == "impact":
         return history["reaction_bottom_N"]
     return np.fmax(history["reaction_top_N"], history["reaction_bottom_N"])
 
 
 def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
-    """What the force-displacement curve of the loading says; a dead load has no plateau."""
-    strain, work, passed_on = loading["strain"], loading["work_in_J"], transmitted(case, loading)
+    """Columns from the force-displacement curve of the loading; a dead load has no plateau."""
+    strain, work, force = loading["strain"], loading["work_in_J"], transmitted(case, loading)
     row, found = len(strain) - 1, dict.fromkeys(PLATEAU, np.nan)
     if case.loading.mode == "displacement":
         row, found = plateau(case.lattice, strain, loading["reaction_top_N"], work)
     found |= {
         "absorbed_energy_at_densification_J": float(work[row]),
-        "peak_force_at_densification_N": float(passed_on[: row + 1].max()),
+        "peak_force_at_densification_N": float(force[: row + 1].max()),
     }
     return found | {
-        absorbed_energy_column(allowed): absorbed_until(allowed, passed_on, work)
+        absorbed_energy_column(allowed): absorbed_until(allowed, force, work)
         for allowed in case.loading.allowed_forces
     }
 
@@ -171,7 +174,7 @@ def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
 def shape_columns(
     scene: Scene, frames: Frames, loading: dict[str, Floats]
 ) -> dict[str, float | int]:
-    """What the stored shapes say, and the work up to which they are within the model."""
+    """Columns from the stored shapes, and the work done while the model holds."""
     strains, network = element_strains(frames), scene.network
     walls = np.concatenate([frames["edges"], scene.around])
     return {

@@ -1,6 +1,8 @@
-"""Time limits: one thread watches all that runs in a process.
+"""Time limits: one thread watches all cases that run in a process.
 
-A thread for each case would let the case wait for milliseconds until a busy core has started it.
+`simulate` lets it set `control[0]`, which Newton's method reads before each evaluation.
+
+With a thread per case, every case would wait some milliseconds until a busy core starts its thread.
 """
 
 import os
@@ -13,7 +15,7 @@ IDLE = 10.0  # seconds without a limit after which the thread ends
 
 
 class Watch:
-    """Calls what is to be done when a block has taken longer than it may."""
+    """Calls a function if a block of code takes longer than its limit."""
 
     def __init__(self) -> None:
         self._clear()
@@ -23,19 +25,19 @@ class Watch:
         self._changed = threading.Condition()
         self._limits: dict[object, tuple[float, Callable[[], None]]] = {}
         self._thread: threading.Thread | None = None
-        self._next = 0.0  # time of the next look
+        self._next = 0.0  # time of the next check
 
     @contextmanager
     def limit(self, seconds: float, expire: Callable[[], None]) -> Iterator[None]:
-        """Let another thread call `expire`, which must not raise, if the block takes longer."""
-        if self._process != os.getpid():  # forked: the thread is the parent's
+        """Call `expire`, which must not raise, from another thread if the block takes longer."""
+        if self._process != os.getpid():  # forked: the thread belongs to the parent process
             self._clear()
         key, due = object(), time.monotonic() + seconds
         try:
             with self._changed:
                 self._limits[key] = due, expire
                 if self._thread is None:
-                    thread = threading.Thread(target=self._look, daemon=True)
+                    thread = threading.Thread(target=self._watch, daemon=True)
                     thread.start()
                     self._thread = thread
                 elif due < self._next:
@@ -45,7 +47,7 @@ class Watch:
             with self._changed:
                 self._limits.pop(key, None)
 
-    def _look(self) -> None:
+    def _watch(self) -> None:
         with self._changed:
             while True:
                 now = time.monotonic()

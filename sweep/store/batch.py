@@ -1,7 +1,7 @@
-"""Rows of a results file, in memory or in a sealed file, and the union of several such blocks.
+"""Blocks of rows of a results file, in memory or in a sealed file, and the union of blocks.
 
-The curves and shapes of the cases are ragged: all arrays of a name lie end to end, and `start` and
-`rows` say which stretch belongs to which case.
+The curves and shapes of cases have different lengths: the arrays of all cases are stored one after
+another, and `start` and `rows` say which range belongs to which case.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -18,17 +18,18 @@ FRAME_GROUPS = {
     "points": ("position_m",),
     "edges": ("edges", "edge_thickness_m"),
 }
-"""Arrays of `Result.frames` by what a row of them is: a frame, a node of a frame, an element."""
+"""Arrays of `Result.frames`, grouped by the meaning of a row: frame, node of a frame, element."""
 
 GROUPS = ("histories", *FRAME_GROUPS)
 
-STRETCH = 1 << 18  # rows that are copied at a time
+CHUNK = 1 << 18  # rows copied at a time
 
 
 @dataclass(frozen=True)
 class Ragged:
-    """Arrays end to end: the case in row i of the summary has `start[i]` to `start[i] + rows[i]`.
+    """Arrays of all cases, one after another.
 
+    The case in row i of the summary has the rows from `start[i]` to `start[i] + rows[i]`.
     start, rows: int64 (n,). arrays: name -> array or dataset (sum of rows, ...).
     """
 
@@ -37,7 +38,7 @@ class Ragged:
     arrays: Mapping[str, Any]
 
     def is_whole(self) -> bool:
-        """True if every stretch lies within every array."""
+        """True if the ranges of all cases lie within every array."""
         end = (self.start + self.rows).max(initial=0)
         return min(self.start.min(initial=0), self.rows.min(initial=0)) >= 0 and all(
             array.shape[0] >= end for array in self.arrays.values()
@@ -49,14 +50,14 @@ class Ragged:
         end = begin + self.rows[row]
         return {name: array[begin:end] for name, array in self.arrays.items()}
 
-    def stretches(self, kept: np.ndarray) -> Iterator[tuple[int, int]]:
-        """Begin and end of every stretch of values that holds the kept cases, one after another."""
+    def ranges(self, kept: np.ndarray) -> Iterator[tuple[int, int]]:
+        """Begin and end of ranges of rows that together hold the kept cases, in their order."""
         begins, ends = self.start[kept], self.start[kept] + self.rows[kept]
         breaks = np.flatnonzero(begins[1:] != ends[:-1]) + 1
         for run in np.split(np.arange(len(kept)), breaks) if len(kept) else []:
             end = int(ends[run[-1]])
-            for begin in range(int(begins[run[0]]), end, STRETCH):
-                yield begin, min(begin + STRETCH, end)
+            for begin in range(int(begins[run[0]]), end, CHUNK):
+                yield begin, min(begin + CHUNK, end)
 
 
 @dataclass(frozen=True)
@@ -68,16 +69,16 @@ class Block:
     attributes: Mapping[str, Any]
 
     def table(self, names: Iterable[str] = ()) -> Columns:
-        """The summary in memory, or the named columns of it."""
+        """The summary in memory, with all columns or the named ones."""
         return {name: self.summary[name] for name in names or self.summary}
 
     def as_stored(self, rows: np.ndarray) -> np.ndarray:
-        """Row numbers in the order in which their curves lie in the file."""
+        """Row numbers in the order in which the file stores their curves."""
         return rows[np.argsort(self.ragged["histories"].start[rows], kind="stable")]
 
 
 def block_of(results: Sequence[Result], revision: str = "") -> Block:
-    """A finished batch, in the form of a sealed file; `revision`: of the source that ran it."""
+    """A finished batch as a block; `revision`: git revision of the source that ran it."""
     by = {"git_revision": revision}
     who = [
         {"case_id": r.case_id, "status": str(r.status), "message": r.message} | by for r in results
@@ -90,7 +91,7 @@ def block_of(results: Sequence[Result], revision: str = "") -> Block:
 
 
 def newest_rows(blocks: Sequence[Block]) -> list[np.ndarray]:
-    """Rows of each block (oldest first) that no later row has anew."""
+    """Row numbers of each block (oldest first) that no later row of the same case replaces."""
     newest = {
         case_id: (number, row)
         for number, block in enumerate(blocks)
@@ -111,7 +112,7 @@ def joined(
 
 
 def newest(blocks: Sequence[Block], names: Iterable[str] = ()) -> Columns:
-    """The summary of the union, or the named columns of it."""
+    """The summary of the union of the blocks, with all columns or the named ones."""
     return joined(blocks, newest_rows(blocks), names)
 
 
@@ -130,7 +131,7 @@ def _ragged(cases: Sequence[Mapping[str, np.ndarray]]) -> Ragged:
 
 
 def _end_to_end(name: str, cases: Sequence[Mapping], rows: np.ndarray) -> np.ndarray:
-    """One array of all cases, as precise as a file holds it; NaN for a case that lacks it."""
+    """One array of all cases, in the precision of the file; NaN for a case without it."""
     like = next(case[name] for case in cases if name in case)
     values = [
         case[name] if name in case else np.full((n, *like.shape[1:]), np.nan)

@@ -1,6 +1,6 @@
-"""Tables as plain dictionaries: column -> array (rows,), where text is an array of `object`.
+"""Tables as dictionaries: column -> array (rows,); a column of text has the dtype `object`.
 
-A value that a row lacks is NaN in a column of numbers and "" in a column of text.
+A missing value is NaN in a column of numbers and "" in a column of text.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -19,28 +19,28 @@ _HEAD = ("case_id", "status", "message")
 
 
 def tabulate(rows: Sequence[Mapping[str, Any]]) -> Columns:
-    """Table of rows that need not have the same columns."""
+    """Table of rows, which may have different columns."""
     names = dict.fromkeys(name for row in rows for name in row)
     return {name: _column([row.get(name) for row in rows]) for name in names}
 
 
 def take(table: Mapping[str, np.ndarray], index: np.ndarray) -> Columns:
-    """Rows of a table by their numbers, in that order."""
+    """Rows of a table with the numbers `index`, in that order."""
     return {name: column[index] for name, column in table.items()}
 
 
 def stack(tables: Sequence[Columns]) -> Columns:
-    """Tables one below another, with every column of any."""
+    """Tables one below another, with the columns of all."""
     lengths = [len(table["case_id"]) for table in tables]
     names = dict.fromkeys(name for table in tables for name in table)
     return {name: _join([table.get(name) for table in tables], lengths) for name in names}
 
 
 def relabel(table: Columns, axes: Axes) -> Columns:
-    """Table with the grid values of the cases in `axes` (by case id) written anew.
+    """Table with the grid values of its cases replaced by those in `axes`.
 
-    A case that an earlier sweep computed belongs to this one too, under the keys of this grid;
-    the labels that `axes` does not speak of stand.
+    A case that an earlier sweep computed is part of this one too, with the values of this grid.
+    Values that `axes` does not have stay.
     """
     rows = [axes.get(case_id, {}) for case_id in table["case_id"]]
     fresh = {}
@@ -51,17 +51,17 @@ def relabel(table: Columns, axes: Axes) -> Columns:
 
 
 def beyond(table: Mapping[str, np.ndarray], axes: Axes) -> int:
-    """Number of rows whose case `axes`, unless it is empty, does not know."""
+    """Number of rows whose case is not in `axes`; 0 if `axes` is empty."""
     return sum(case_id not in axes for case_id in table["case_id"]) if axes else 0
 
 
 def arrange(table: Columns) -> Columns:
-    """Columns in the order of a reader: who and how, the grid, the fixed ones, the others."""
+    """Columns in the order: id and status, grid keys, the columns of `COLUMNS`, others."""
     return {name: table[name] for name in sorted(table, key=_place)}
 
 
 def rows_in_order(ids: Iterable[str], wanted: Iterable[str]) -> np.ndarray:
-    """Row numbers that bring `ids` into the order of `wanted`; the others follow as they are."""
+    """Row numbers that bring `ids` into the order of `wanted`; other ids follow in their order."""
     place = {case_id: number for number, case_id in enumerate(wanted)}
     return np.argsort([place.get(case_id, len(place)) for case_id in ids], kind="stable")
 
@@ -75,7 +75,7 @@ def _place(name: str) -> tuple[int, int]:
 
 
 def _column(values: Sequence[Any]) -> np.ndarray:
-    """Text if any value is, whole numbers if all are, else float64."""
+    """A column: text if any value is text, integers if all values are, else float64."""
     if any(isinstance(value, str) for value in values):
         return np.array([_text(value) for value in values], dtype=object)
     if all(isinstance(value, int | np.integer) for value in values):
@@ -96,5 +96,5 @@ def _list(part: np.ndarray | None, length: int) -> list[Any]:
 
 
 def _text(value: Any) -> str:
-    """A value of a text column; a missing one (None, NaN) is empty."""
+    """A value of a text column; "" for None and NaN."""
     return "" if value is None or value != value else str(value)

@@ -1,6 +1,6 @@
-"""A results file while it is written: values are added at the end, the table comes last.
+"""Writes a sealed file: blocks are added one after another, the summary is written at the end.
 
-Its layout is that of `read`. It bears a temporary name until it is sealed.
+The layout is described in `read`. The file has a temporary name until it is sealed.
 """
 
 from collections.abc import Mapping, Sequence
@@ -18,19 +18,18 @@ from sweep.store.batch import GROUPS, Block, Ragged, newest_rows
 from sweep.store.columns import Axes, Columns, arrange, beyond, relabel, rows_in_order, stack, take
 from sweep.store.parts import Unsealed
 
-FORMAT = 1  # of the layout
-CHUNK = 4096  # rows of a piece that is compressed and checked by itself
-LARGE_CHUNK = 16384  # of one that is only checked
-AHEAD = 1 << 18  # bytes of an array that wait for more of a piece: the others are written at once
+FORMAT = 1  # version of the layout
+CHUNK = 4096  # rows of a chunk that is compressed and has a checksum
+LARGE_CHUNK = 16384  # rows of a chunk that has only a checksum
+CACHE = 1 << 18  # bytes of unfinished chunks that HDF5 keeps in memory for each array
 
 
 @dataclass(frozen=True)
 class About:
-    """What a sealed file says besides its rows.
+    """What a sealed file holds besides its rows.
 
-    axes: case id -> grid values (dotted key -> value in SI), in the order that the rows shall have.
-    attributes: config, versions and the like. last: number of the last batch in it. Also counted:
-    cases that `axes` does not know, of other configs.
+    axes: case id -> grid values (dotted key -> value in SI), in the order of the rows of the file.
+    attributes: config, versions and the like. last: number of the last batch in the file.
     """
 
     axes: Axes = field(default_factory=dict)
@@ -39,7 +38,7 @@ class About:
 
 
 def seal_blocks(target: Path, blocks: Sequence[Block], about: About, packed: bool) -> None:
-    """Seal the union of some blocks, oldest first, under the name `target`."""
+    """Seal the union of blocks, oldest first, under the name `target`."""
     with closing(Growing(target, packed)) as growing:
         for block, rows in zip(blocks, newest_rows(blocks), strict=True):
             growing.add(block, rows)
@@ -47,30 +46,30 @@ def seal_blocks(target: Path, blocks: Sequence[Block], about: About, packed: boo
 
 
 class Growing:
-    """The file that is to be sealed as `target`.
+    """A file that will be sealed as `target`.
 
-    packed: compressed, and with a description of every array, as befits what stays.
+    packed: True for a file that stays: it is compressed and describes every array.
     """
 
     def __init__(self, target: Path, packed: bool) -> None:
         self._packed = packed
         self._disk = Unsealed(target)
-        self._file = h5py.File(self._disk, "w", libver=("v110", "v110"), rdcc_nbytes=AHEAD)
+        self._file = h5py.File(self._disk, "w", libver=("v110", "v110"), rdcc_nbytes=CACHE)
         self._tables: list[Columns] = []
-        self._known: dict[str, None] = {}  # the ids, in the order of the blocks' tables
+        self._known: dict[str, None] = {}  # ids of the cases, in the order of the tables
         self._ragged = {name: _Ragged(self._file.create_group(name), packed) for name in GROUPS}
 
     def add(self, block: Block, rows: np.ndarray) -> None:
-        """Add rows of a block, by their numbers. They count for more than those added before."""
+        """Add rows of a block, by their numbers. They replace earlier rows of the same cases."""
         self._known |= dict.fromkeys(block.summary["case_id"][rows])
         stored = block.as_stored(rows)
         self._tables.append(take(block.table(), stored))
         for name, ragged in self._ragged.items():
             ragged.add(block.ragged[name], stored)
-        self._disk.complain()
+        self._disk.raise_error()
 
     def add_older(self, blocks: Sequence[Block]) -> None:
-        """Add the rows of some blocks, oldest first, whose cases are not there yet."""
+        """Add the rows of blocks, oldest first, whose cases the file does not hold yet."""
         newer, self._known = self._known, {}
         for block, rows in zip(blocks, newest_rows(blocks), strict=True):
             ids = block.summary["case_id"][rows]
@@ -78,7 +77,7 @@ class Growing:
         self._known |= newer
 
     def seal(self, about: About) -> None:
-        """Write the table, its rows in the order of `about.axes`, and give the file its name."""
+        """Write the summary, with rows in the order of `about.axes`, and seal the file."""
         table = stack(self._tables)
         newest = {case_id: row for row, case_id in enumerate(table["case_id"])}
         places = rows_in_order(newest, dict.fromkeys([*about.axes, *self._known]))
@@ -97,13 +96,13 @@ class Growing:
         self._disk.seal()
 
     def close(self) -> None:
-        """Throw the file away if it is not sealed."""
+        """Delete the file if it is not sealed."""
         self._file.close()
         self._disk.abandon()
 
 
 class _Ragged:
-    """A group of arrays, in which those of the cases lie end to end."""
+    """A group of arrays; each holds the values of all cases, one after another."""
 
     def __init__(self, group: h5py.Group, packed: bool) -> None:
         self._group, self._packed = group, packed
@@ -113,7 +112,7 @@ class _Ragged:
         self._total = 0
 
     def add(self, ragged: Ragged, kept: np.ndarray) -> None:
-        """Copy the stretches of the kept cases; what a block lacks stays NaN."""
+        """Copy the rows of the kept cases; an array that a block does not have stays NaN."""
         rows = ragged.rows[kept]
         at, self._total = self._total, self._total + int(rows.sum())
         self._rows.append(rows)
@@ -121,12 +120,12 @@ class _Ragged:
             data = self._array(name, array, self._total - at)
             data.resize(self._total, axis=0)
             end = at
-            for first, last in ragged.stretches(kept):
+            for first, last in ragged.ranges(kept):
                 end += last - first
                 data[end - last + first : end] = array[first:last]
 
     def finish(self, order: np.ndarray) -> None:
-        """Say which stretch belongs to which case, in the order of the table."""
+        """Write which rows belong to which case, in the order of the summary."""
         rows = np.concatenate(self._rows)
         self._group["start"] = (np.cumsum(rows) - rows)[order]
         self._group["rows"] = rows[order]
@@ -135,17 +134,17 @@ class _Ragged:
                 data.resize(self._total, axis=0)
             if self._packed:
                 _describe(data, describe_array(self._group.name, name))
-        self._data.clear()  # a file takes long to close where datasets are open
+        self._data.clear()  # a file with open datasets takes long to close
 
     def _array(self, name: str, like: Any, rows: int) -> h5py.Dataset:
         if name not in self._data:
             packed = self._packed and name != "position_m"
-            piece = CHUNK if packed else LARGE_CHUNK
+            chunk = CHUNK if packed else LARGE_CHUNK
             self._data[name] = self._values.create_dataset(
                 name,
                 (0, *like.shape[1:]),
                 maxshape=(None, *like.shape[1:]),
-                chunks=(piece if self._packed else min(max(rows, 1), piece), *like.shape[1:]),
+                chunks=(chunk if self._packed else min(max(rows, 1), chunk), *like.shape[1:]),
                 **_digits(like.dtype),
                 **_filters(packed),
             )
@@ -153,15 +152,15 @@ class _Ragged:
 
 
 def _digits(dtype: np.dtype) -> dict[str, Any]:
-    """Half of those that were computed; what is lacking is NaN, or 0 among whole numbers."""
+    """Single precision; missing values are NaN, or 0 in an array of integers."""
     real = dtype.kind == "f"
     return {"dtype": np.float32 if real else np.int32, "fillvalue": np.nan if real else 0}
 
 
 def _filters(packed: bool) -> dict[str, Any]:
-    """Compressed, or no more than a checksum that zeros do not pass.
+    """Compression, or level 0: only a checksum, which a file of zeros does not pass.
 
-    Positions would shrink by a third only, and take most of the time.
+    Positions are not compressed: they shrink by only a third and take most of the time.
     """
     return {"compression": "gzip", "compression_opts": int(packed), "shuffle": packed}
 
@@ -169,7 +168,7 @@ def _filters(packed: bool) -> dict[str, Any]:
 def _write_column(group: h5py.Group, name: str, column: np.ndarray) -> h5py.Dataset:
     if column.dtype == object:
         return group.create_dataset(name, data=column, dtype=h5py.string_dtype("utf-8"))
-    # As create_dataset does, but without its many questions, which take four times as long.
+    # `create_dataset` does the same but checks many options, and takes four times as long.
     kind, space = h5t.py_create(column.dtype, logical=True), h5s.create_simple(column.shape)
     data = h5d.create(group.id, name.encode(), kind, space)
     data.write(h5s.ALL, h5s.ALL, np.ascontiguousarray(column))

@@ -1,4 +1,4 @@
-"""One writer at a time: a lock that the system takes back when its holder dies, however it dies."""
+"""One writer at a time: a lock that the system releases when its holder ends, also by a kill."""
 
 import fcntl
 import os
@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 class LockedError(Exception):
-    """Another process holds the lock; `holder` is its process id, or ""."""
+    """Another process holds the lock; `holder`: its process id, or "" if unknown."""
 
     def __init__(self, holder: str) -> None:
         super().__init__(holder)
@@ -17,7 +17,7 @@ class LockedError(Exception):
 
 @contextmanager
 def exclusive(path: Path) -> Iterator[None]:
-    """Hold the lock file `path`, or raise LockedError at once; the file is gone afterwards."""
+    """Hold the lock file `path`, or raise LockedError at once; the file is deleted at the end."""
     descriptor = _acquire(path)
     try:
         os.truncate(descriptor, 0)
@@ -39,7 +39,7 @@ def _acquire(path: Path) -> int:
             raise LockedError(holder) from None
         if _is_still(path, descriptor):
             return descriptor
-        os.close(descriptor)  # its last holder has just removed it
+        os.close(descriptor)  # the previous holder has just deleted this file
 
 
 def _is_still(path: Path, descriptor: int) -> bool:

@@ -1,8 +1,8 @@
 """Sealed parts beside a results file: names, order, and files that survive a kill.
 
-Part `FIRST-LAST.h5` holds the batches numbered FIRST to LAST of the results file's life. Merging
-parts 1-1 to 64-64 makes 1-64, which covers them: should the deletion be cut short, nobody reads a
-batch twice.
+Part `FIRST-LAST.h5` holds the batches FIRST to LAST, which are numbered through the life of the
+results file. Parts 1-1 to 64-64 are merged into 1-64, which covers them: if a kill interrupts their
+deletion, no batch is read twice.
 """
 
 import os
@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
 
-MERGE_AT = 64  # parts of one size that become one: a sweep of any length leaves a few hundred
+MERGE_AT = 64  # parts of one size that are merged; so there are never more than a few hundred
 
 _NAME = re.compile(r"(\d+)-(\d+)\.h5")
 _TEMPORARY = ".tmp"
 
 
 class Part(NamedTuple):
-    """A sealed file and the numbers of the batches in it."""
+    """A sealed file, and the numbers of its first and last batch."""
 
     first: int
     last: int
@@ -39,12 +39,12 @@ def parts_folder(path: Path) -> Path:
 
 
 def new_part(path: Path, first: int, last: int) -> Part:
-    """The part of the results file `path` that is to hold these batches."""
+    """The part of the results file `path` for these batches; it is not written yet."""
     return Part(first, last, parts_folder(path) / f"{first:08d}-{last:08d}.h5")
 
 
 def list_parts(path: Path) -> list[Part]:
-    """Parts of a results file in order, without those that a merged one covers."""
+    """Parts of a results file in order, without parts that a merged one covers."""
     parts: list[Part] = []
     for part in sorted(_found(path), key=lambda part: (part.first, -part.last)):
         if not parts or part.last > parts[-1].last:
@@ -53,20 +53,20 @@ def list_parts(path: Path) -> list[Part]:
 
 
 def too_many(parts: list[Part]) -> bool:
-    """True if they had better be one: a reader holds all of them open."""
+    """True if the parts should be merged, since a reader holds all of them open."""
     return len(parts) >= MERGE_AT
 
 
 def parts_to_merge(parts: list[Part]) -> list[Part]:
-    """The last parts, if there are enough of one size to be merged."""
+    """The last `MERGE_AT` parts if they are of one size, else none."""
     tail = [part for part in parts[-MERGE_AT:] if part.size == parts[-1].size]
     return tail if len(tail) == MERGE_AT else []
 
 
 class Unsealed(FileIO):
-    """A file that gets its name only when it is safe on the disk.
+    """A file that gets its final name only when it is safe on the disk.
 
-    It keeps an error of the disk to itself until HDF5, which crashes on it, is done.
+    HDF5 crashes on an error of the disk, so the error is kept and raised after HDF5 has finished.
     """
 
     def __init__(self, target: Path) -> None:
@@ -75,7 +75,7 @@ class Unsealed(FileIO):
         super().__init__(self._temporary, "w+")
 
     def write(self, data: "ReadableBuffer", /) -> int:
-        """Write all of it, or pretend to."""
+        """Write all of `data`; after an error, only report that it is written."""
         rest = memoryview(data)
         try:
             while rest and self._error is None:
@@ -85,48 +85,48 @@ class Unsealed(FileIO):
         return memoryview(data).nbytes
 
     def truncate(self, size: int | None = None, /) -> int:
-        """Cut or stretch it, or pretend to."""
+        """Set the size of the file; an error is kept for later."""
         try:
             return super().truncate(size)
         except OSError as error:
             self._error = self._error or error
         return size or 0
 
-    def complain(self) -> None:
-        """Raise the first error."""
+    def raise_error(self) -> None:
+        """Raise the first error, if there is one."""
         if self._error is not None:
             raise self._error
 
     def seal(self) -> None:
-        """Give it its name."""
-        self.complain()
+        """Synchronise the file and give it its final name."""
+        self.raise_error()
         os.fsync(self.fileno())
         os.replace(self._temporary, self._target)
         self.close()
         _synchronise(self._target.parent)
 
     def abandon(self) -> None:
-        """Throw it away, unless it is sealed."""
+        """Delete the file, unless it is sealed."""
         if not self.closed:
             self.close()
             self._temporary.unlink(missing_ok=True)
 
 
 def make_folder(folder: Path) -> None:
-    """Make a folder that a power cut does not undo."""
+    """Make a folder that survives a power cut."""
     if not folder.is_dir():
         folder.mkdir(parents=True, exist_ok=True)
         _synchronise(folder.parent)
 
 
 def discard(parts: list[Part]) -> None:
-    """Delete parts whose batches are safe elsewhere."""
+    """Delete parts whose batches are stored elsewhere."""
     for part in parts:
         part.path.unlink(missing_ok=True)
 
 
 def clear_leftovers(path: Path, folded: int) -> None:
-    """Delete what a killed writer left: temporaries, and parts whose batches are elsewhere."""
+    """Delete the remains of a killed writer: temporary files, and parts stored elsewhere."""
     path.with_name(path.name + _TEMPORARY).unlink(missing_ok=True)
     for temporary in parts_folder(path).glob("*" + _TEMPORARY):
         temporary.unlink()
@@ -135,7 +135,7 @@ def clear_leftovers(path: Path, folded: int) -> None:
 
 
 def remove_folder(path: Path) -> None:
-    """Remove the folder of the parts if nothing is left in it."""
+    """Remove the folder of the parts if it is empty."""
     folder = parts_folder(path)
     if folder.is_dir() and not any(folder.iterdir()):
         folder.rmdir()

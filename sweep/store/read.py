@@ -1,15 +1,15 @@
-"""The results file: HDF5 that a kill cannot hurt and that can be read while it grows.
+"""Reads a results file: HDF5 that survives a kill and that can be read while a sweep runs.
 
-A finished batch is sealed as a file of its own, a part in `NAME.parts/` beside `NAME.h5`: written
-under a temporary name, synchronised, renamed, never touched again. The one file grows meanwhile as
-`NAME.h5.tmp`, and gets its name at the end, when the parts are deleted. A results file and a part
-have the same layout, and what is read back is the union of them all; of two rows with the same case
-id, the newer one.
+A finished batch is sealed as a file of its own, a part in `NAME.parts/` beside `NAME.h5`: it is
+written under a temporary name, synchronised, renamed, and never changed again. Meanwhile the
+results file grows as `NAME.h5.tmp`; at the end it gets its name and the parts are deleted. A
+results file and a part have the same layout. A reader sees the union of all of them; of two rows
+with the same case id it takes the newer one.
 
     /summary/COLUMN            (n,) a row per case; attributes `units` and `description`
-    /histories/values/COLUMN   (sum of rows,) float32, the curves of all cases end to end
-    /histories/start, rows     (n,) where the curves of a case begin, and how many rows they have
-    /frames, /points, /edges   likewise: a row is a frame, a node of a frame, an element
+    /histories/values/COLUMN   (sum of rows,) float32, the curves of all cases one after another
+    /histories/start, rows     (n,) first row of the curves of a case, and their number of rows
+    /frames, /points, /edges   the same; a row is a frame, a node of a frame, an element
 """
 
 import os
@@ -29,12 +29,12 @@ from sweep.store.parts import list_parts
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-ATTEMPTS = 100  # at a set of files that holds still while it is opened
+ATTEMPTS = 100  # to open all files of a set before the writer changes the set
 DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError)
 
 
 class Rerun(NamedTuple):
-    """Which cases run once more though they have a row: failed ones, those of an older model."""
+    """Which cases run again although they have a row: failed ones, those of an older model."""
 
     failed: bool = False
     older: bool = False
@@ -44,7 +44,7 @@ ONLY_MISSING = Rerun()
 
 
 class StoreError(Exception):
-    """A results file that cannot be read or written; the text is one clear line."""
+    """A results file that cannot be read or written; the text is one line."""
 
 
 def exists(path: str | os.PathLike[str]) -> bool:
@@ -53,7 +53,7 @@ def exists(path: str | os.PathLike[str]) -> bool:
 
 
 def read_summary(path: str | os.PathLike[str]) -> "DataFrame":
-    """Table of all finished cases, a row each."""
+    """Table of all finished cases, one row per case."""
     from pandas import DataFrame
 
     with _union(Path(path)) as blocks:
@@ -61,12 +61,12 @@ def read_summary(path: str | os.PathLike[str]) -> "DataFrame":
 
 
 def read_statuses(path: str | os.PathLike[str]) -> dict[str, str]:
-    """Status of every finished case, by its id; empty where there is no file."""
+    """Status of every finished case, by its id; empty if there is no file."""
     return _read_by_case(path, "status")
 
 
 def _read_by_case(path: str | os.PathLike[str], name: str) -> dict[str, Any]:
-    """A column of the summary, by case id; empty where there is no file."""
+    """A column of the summary, by case id; empty if there is no file."""
     if not exists(path):
         return {}
     with _union(Path(path)) as blocks:
@@ -75,26 +75,26 @@ def _read_by_case(path: str | os.PathLike[str], name: str) -> dict[str, Any]:
 
 
 def finished_ids(path: str | os.PathLike[str], rerun: Rerun = ONLY_MISSING) -> set[str]:
-    """Ids of the cases that need not run again; none where there is no file."""
+    """Ids of the cases that need not run again; empty if there is no file."""
     statuses, old = read_statuses(path), older_ids(path) if rerun.older else set()
     kept = {i for i, status in statuses.items() if not rerun.failed or status == Status.CONVERGED}
     return kept - old
 
 
 def older_ids(path: str | os.PathLike[str]) -> set[str]:
-    """Ids of the finished cases that an older version of the model has computed."""
+    """Ids of the finished cases computed with an older version of the model."""
     versions = _read_by_case(path, "model_version")
     return {case_id for case_id, version in versions.items() if version < MODEL_VERSION}
 
 
 def read_attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """Config, versions, git revision and time of the last run that wrote into the file."""
+    """Config, versions, git revision and time of the last run that wrote to the file."""
     with _union(Path(path)) as blocks:
         return dict(blocks[-1].attributes)
 
 
 def read_history(path: str | os.PathLike[str], case_id: str) -> "DataFrame":
-    """Curves of one case, a row per stored step; no rows if the case left none."""
+    """Curves of one case, a row per stored step; no rows if the case has no curves."""
     from pandas import DataFrame
 
     curves = _read_case(Path(path), case_id, ["histories"])
@@ -102,7 +102,7 @@ def read_history(path: str | os.PathLike[str], case_id: str) -> "DataFrame":
 
 
 def read_frames(path: str | os.PathLike[str], case_id: str) -> dict[str, np.ndarray]:
-    """Stored shapes of one case, the arrays of `Result.frames`; none if the case left none."""
+    """Stored shapes of one case, the arrays of `Result.frames`; empty if the case has none."""
     frames = _read_case(Path(path), case_id, FRAME_GROUPS)
     if "position_m" in frames:
         frames["position_m"] = frames["position_m"].reshape(len(frames["strain"]), -1, 2)
@@ -110,13 +110,13 @@ def read_frames(path: str | os.PathLike[str], case_id: str) -> dict[str, np.ndar
 
 
 def folded_batches(path: Path) -> int:
-    """Number of the last batch that is in the one file (the newer ones are in parts)."""
+    """Number of the last batch in the results file itself; newer batches are in parts."""
     with ExitStack() as held:
         return open_sealed(path, held).attributes["folded"] if path.exists() else 0
 
 
 def is_labelled(path: Path, axes: Axes) -> bool:
-    """True if rows have the order and the grid values of `axes`, and others are counted right."""
+    """True if the rows have the order and grid values of `axes`, and the count of other cases."""
     with _union(path) as blocks:
         table, others = newest(blocks), blocks[-1].attributes.get("other_cases", 0)
     wanted = relabel(take(table, rows_in_order(table["case_id"], axes)), axes)
@@ -126,20 +126,20 @@ def is_labelled(path: Path, axes: Axes) -> bool:
 
 @contextmanager
 def _union(path: Path) -> Iterator[list[Block]]:
-    """All sealed blocks of a results file, oldest first, held open."""
+    """All sealed blocks of a results file, oldest first; they stay open inside the block."""
     for _ in range(ATTEMPTS):
         with ExitStack() as held:
             try:
                 blocks = _open_all(path, held)
             except FileNotFoundError:
-                continue  # the writer has just merged or folded what was listed
+                continue  # the writer has just merged or folded parts of the list
             yield blocks
             return
     raise StoreError(f"{path} changes faster than it can be read.")
 
 
 def _open_all(path: Path, held: ExitStack) -> list[Block]:
-    # Parts before the file: what a fold takes away between the two is then in the file.
+    # The parts are opened first: if a fold deletes them before the file is opened, it holds them.
     parts = [(part.last, open_sealed(part.path, held)) for part in list_parts(path)]
     whole = [open_sealed(path, held)] if path.exists() else []
     folded = whole[0].attributes["folded"] if whole else 0
@@ -150,9 +150,9 @@ def _open_all(path: Path, held: ExitStack) -> list[Block]:
 
 
 def open_sealed(path: Path, held: ExitStack) -> Block:
-    """A sealed file, open until `held` closes."""
+    """A sealed file as a block, open until `held` closes."""
     with _undamaged(path):
-        # A sealed file never changes, and a lock on it could only hinder others.
+        # A sealed file never changes, so it needs no lock, which would block other readers.
         file = held.enter_context(h5py.File(path, "r", locking=False))
         ragged = {name: _open_ragged(path, file[name]) for name in GROUPS}
         attributes = {**file.attrs, "folded": int(file.attrs["folded"])}
@@ -161,7 +161,7 @@ def open_sealed(path: Path, held: ExitStack) -> Block:
 
 @contextmanager
 def _undamaged(path: Path) -> Iterator[None]:
-    """Turn whatever HDF5 stumbles over while it reads a sealed file into one clear line."""
+    """Turn every error of HDF5 in reading a sealed file into a `StoreError` of one line."""
     try:
         yield
     except FileNotFoundError:
@@ -178,12 +178,12 @@ def _open_ragged(path: Path, group: h5py.Group) -> Ragged:
     arrays = {name: _Array(path, data) for name, data in dict(group["values"]).items()}
     ragged = Ragged(group["start"][:], group["rows"][:], arrays)
     if not ragged.is_whole():
-        raise ValueError("stretches that lie beyond the end of their arrays")
+        raise ValueError("ranges beyond the end of their arrays")
     return ragged
 
 
 class _Array:
-    """An array of a sealed file, read where it is asked for."""
+    """An array of a sealed file, which is read when it is indexed."""
 
     def __init__(self, path: Path, data: h5py.Dataset) -> None:
         self._path, self._data = path, data
@@ -195,7 +195,7 @@ class _Array:
 
 
 class _Columns(Mapping[str, np.ndarray]):
-    """Columns of a sealed file, read when they are asked for; what it is too old for is `OLDER`."""
+    """Columns of a sealed file, read when indexed; a file without a column of `OLDER` has that."""
 
     def __init__(self, path: Path, group: h5py.Group) -> None:
         self._path, self._data = path, group

@@ -1,4 +1,4 @@
-"""The one writer of a results file: seals batches as parts, merges them, folds them in."""
+"""The writer of a results file: seals batches as parts, merges parts, folds them into the file."""
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
@@ -29,13 +29,13 @@ from sweep.store.read import StoreError, exists, folded_batches, is_labelled, op
 
 
 class Writer:
-    """Writes into a results file, alone, from the beginning to the end of a `with` block.
+    """The only writer of a results file, from the beginning to the end of a `with` block.
 
     axes: case id -> grid values (dotted key -> value in SI) of every case of the sweep, in the
-    order that the rows shall have. attributes: what to say about the run (`provenance`).
+    order of the rows of the file. attributes: about the run (`provenance`).
 
-    What is appended is sealed as a part, and also added to the file that is to hold everything in
-    the end: little is left to do then.
+    Appended results are sealed as a part and also added to the growing results file, so that
+    little remains to be done at the end.
     """
 
     def __init__(
@@ -52,7 +52,7 @@ class Writer:
         self._held = ExitStack()
 
     def __enter__(self) -> Self:
-        if self.path.suffix != ".h5":  # with another name it would share its parts with NAME.h5
+        if self.path.suffix != ".h5":  # its folder of parts would be that of NAME.h5
             raise StoreError(f"{self.path} cannot be written: allowed are names that end in .h5.")
         with _writing(self.path), ExitStack() as held:
             make_folder(self.path.parent)
@@ -69,7 +69,7 @@ class Writer:
         self._held.close()
 
     def append(self, results: Sequence[Result]) -> None:
-        """Seal a batch as a part: from here on no kill can lose it."""
+        """Seal a batch as a part, which then survives a kill."""
         if not results:
             return
         number = self._about.last + 1
@@ -83,16 +83,16 @@ class Writer:
             self._merge()
 
     def fold(self, last: Sequence[Result] = ()) -> None:
-        """Bring all parts into the one file, and its rows into the order of `axes`.
+        """Bring all parts into the results file, and its rows into the order of `axes`.
 
-        last: results that come straight into the file, without a part of their own.
+        last: results that go into the file directly, without a part of their own.
         """
         parts = [*self._found, *self._sealed]
         with _writing(self.path):
             if last:
                 self._grown().add(self._block(last), np.arange(len(last)))
             if parts or last or not self._is_labelled():
-                growing, self._growing = self._grown(), None  # of no use again, even if this fails
+                growing, self._growing = self._grown(), None  # cannot be used again after a failure
                 with ExitStack() as held:
                     growing.add_older(self._older(held))
                     growing.seal(self._about)
@@ -115,7 +115,7 @@ class Writer:
         return self._growing
 
     def _older(self, held: ExitStack) -> list[Block]:
-        """What was there before anything was appended, held open."""
+        """Blocks of the file and the parts that this writer found; open until `held` closes."""
         whole = [self.path] if self.path.exists() else []
         return [open_sealed(path, held) for path in (*whole, *(p.path for p in self._found))]
 

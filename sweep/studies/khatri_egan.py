@@ -1,7 +1,7 @@
-"""A measured crush and what is predicted of it: a table, a tornado chart, curves.
+"""Prediction of a measured crush: a table, a tornado chart, curves.
 
-`make experiment` runs `configs/khatri_egan_square.toml`, whose first case between each kind of
-platens is the base case and every other one changes one thing, and reads its results.
+`make experiment` runs `configs/khatri_egan_square.toml` and evaluates its results. The first case
+of each kind of platens is a base case; every other case changes one key.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ CONFIG = Path(__file__).parents[2] / "configs" / "khatri_egan_square.toml"
 # N. R. Khatri and P. F. Egan 2024, mean and scatter of three specimens.
 MEASURED, SCATTER = 0.12, 0.018  # J
 MEASURED_PEAKS = 3
-DROP = 0.05  # of its own height, after which a load has had a peak
+DROP = 0.05  # of a load: a drop that makes it a peak
 SHOWN_FORCE = 50.0  # N
-VISIBLE = 0.005  # share of the base below which a change needs no words
+VISIBLE = 0.005  # of the base case: smaller changes of energy get no label
 
 PLATENS = {
     "contact": ("loose", case_plots.BLUE),
@@ -39,13 +39,13 @@ PLATENS = {
 
 
 class Factor(NamedTuple):
-    """What a changed key is called, and the unit of its values, of which one is `scale` in SI."""
+    """Name of a changed key, and the unit of its values, which is `scale` in SI."""
 
     name: str
     unit: str = ""
     scale: float = 1.0
 
-    def said(self, value: Any) -> str:
+    def text(self, value: Any) -> str:
         """A value in words."""
         return value if isinstance(value, str) else f"{value / self.scale:g} {self.unit}".strip()
 
@@ -68,28 +68,28 @@ FACTORS = {
 def predictions(path: Path) -> DataFrame:
     """The summary of a results file, with the key and the value that each case changes.
 
-    Columns besides: `factor` and `value` in words ("" in the base case), `peaks`: of the load.
+    Added columns: `factor` and `value` in words, "" in a base case; `peaks`, number of load peaks.
     """
     table = read_summary(path)
-    said = [_change(row, table.iloc[0]) for _, row in table.iterrows()]
+    changes = [_change(row, table.iloc[0]) for _, row in table.iterrows()]
     loads = [read_history(path, case_id)["reaction_top_N"] for case_id in table["case_id"]]
     return table.assign(
-        factor=[factor for factor, _ in said],
-        value=[value for _, value in said],
+        factor=[factor for factor, _ in changes],
+        value=[value for _, value in changes],
         peaks=[load_peaks(load.to_numpy()) for load in loads],
     )
 
 
 def _change(row: Series, base: Series) -> tuple[str, str]:
-    """The name of what a case changes, and its value in words."""
+    """The name of the key that a case changes, and its value in words."""
     for key, factor in FACTORS.items():
         if row[key] == row[key] and row[key] != base[key]:
-            return factor.name, factor.said(row[key])
+            return factor.name, factor.text(row[key])
     return "", ""
 
 
 def load_peaks(force: np.ndarray) -> int:
-    """How many times a load (rows,) drops by `DROP` of its height before it goes higher again."""
+    """Number of peaks of a load (rows,): drops by `DROP` of the peak before a higher load."""
     from scipy.signal import find_peaks
 
     peaks, found = find_peaks(force, prominence=0.0)
@@ -97,7 +97,7 @@ def load_peaks(force: np.ndarray) -> int:
 
 
 def sheet(table: DataFrame) -> Sheet:
-    """All cases, a row each."""
+    """A table of all cases, one row per case."""
     columns = {
         "platens": [PLATENS[name][0] for name in table["platen"]],
         "changed": [f"{row.factor} {row.value}".strip() or "base" for row in table.itertuples()],
@@ -120,22 +120,23 @@ def _digits(values: Series) -> list[str]:
 
 
 def verdict(table: DataFrame) -> str:
-    """The range of what is predicted, beside what was measured."""
+    """Sentences that compare the range of predictions with the measurement."""
     done = _converged(table)
     energy, base = done["absorbed_energy_J"], _bases(done)
     ranges = energy.groupby(done["platen"]).agg(["min", "max"])
-    said = "; ".join(
+    predicted = "; ".join(
         f"{PLATENS[name][0]}: {base[name]:.3f} J in the base case, {low:.3f} to {high:.3f} J in all"
         for name, (low, high) in zip(ranges.index, ranges.to_numpy(), strict=True)
     )
     hits = int((abs(energy - MEASURED) <= SCATTER).sum())
     return (
-        f"Absorbed up to {_stroke(table)}, platens {said}. Measured: {MEASURED:g} +/- {SCATTER:g} "
-        f"J, where {hits} of {len(table)} cases lie; {len(table) - len(done)} did not converge. "
+        f"Energy absorbed up to {_stroke(table)}, platens {predicted}. Measured: {MEASURED:g} +/- "
+        f"{SCATTER:g} J; {hits} of {len(table)} cases are within this range, "
+        f"{len(table) - len(done)} did not converge. "
         f"Load peaks: {done['peaks'].min()} to {done['peaks'].max()}; measured: {MEASURED_PEAKS}. "
-        f"A crush by {100 * done['peak_strain'].max():.0f} % is beyond what has been checked: the "
-        f"element squeezed most keeps {1 + done['least_element_strain'].min():.2f} of its length, "
-        f"the print at least {done['kept_area'].min():.2f} of its area."
+        f"The model is not validated for a crush by {100 * done['peak_strain'].max():.0f} %: the "
+        f"shortest element has {1 + done['least_element_strain'].min():.2f} of its rest length, "
+        f"and the walls cover at least {done['kept_area'].min():.2f} of the printed area."
     )
 
 
@@ -153,7 +154,7 @@ def _bases(table: DataFrame) -> Series:
 
 
 def tornado(ax: Axes, table: DataFrame) -> None:
-    """A bar a factor and kind of platens: the energies absorbed in the cases that change it."""
+    """Range of absorbed energies of the cases that change a factor, one bar per kind of platens."""
     done = _converged(table)
     base, changed = _bases(done), done[done["factor"] != ""]
     off = (changed["absorbed_energy_J"] - changed["platen"].map(base)).abs()
@@ -174,14 +175,14 @@ def tornado(ax: Axes, table: DataFrame) -> None:
 
 
 def _base_value(table: DataFrame, name: str) -> str:
-    """The value of a factor in the base case, where it has one."""
+    """The value of a factor in the base case, if it has one."""
     key = next(key for key, factor in FACTORS.items() if factor.name == name)
     value = table[key].iloc[0]
-    return f": {FACTORS[key].said(value)}" if value == value else ""
+    return f": {FACTORS[key].text(value)}" if value == value else ""
 
 
 def _bar(ax: Axes, y: float, energies: Series, base: float, color: str) -> None:
-    """A bar from the least to the greatest energy, base included, and which values these are."""
+    """A bar from the least to the greatest energy, base included, labelled with the values."""
     low, high = min(base, energies.min()), max(base, energies.max())
     ax.barh(y, high - low, left=low, height=0.25, color=color)
     for end, value, side, shift in (
@@ -194,7 +195,7 @@ def _bar(ax: Axes, y: float, energies: Series, base: float, color: str) -> None:
 
 
 def curves(axes: tuple[Axes, Axes], path: Path, table: DataFrame) -> None:
-    """Load and absorbed energy against travel: the base cases, the extremes, and all others."""
+    """Load and absorbed energy over travel: the base cases, the extremes, and all others."""
     done = _converged(table)
     energy = done["absorbed_energy_J"]
     bases = done[done["factor"] == ""]
@@ -220,7 +221,7 @@ def curves(axes: tuple[Axes, Axes], path: Path, table: DataFrame) -> None:
 
 
 def _measured(axes: tuple[Axes, Axes], stroke: float) -> None:
-    """What was measured, and the names of the axes."""
+    """The measured values, and the names of the axes."""
     load, work = axes
     mean = MEASURED / stroke
     load.axhline(mean, color="black", lw=1.0, ls=":", label=f"measured mean, {mean:.3g} N")
@@ -234,7 +235,7 @@ def _measured(axes: tuple[Axes, Axes], stroke: float) -> None:
 
 
 def report(path: Path) -> str:
-    """Draw the pictures of a results file beside it, write the table there, and return it."""
+    """Write the pictures and the table of a results file beside it; return the table."""
     table, folder = predictions(path), path.parent
     text = markdown([sheet(table)])
     (folder / "experiment.md").write_text(text, encoding="utf-8")
@@ -250,7 +251,7 @@ def report(path: Path) -> str:
 
 
 def main(folder: Path) -> None:
-    """Simulate what a folder lacks, and report."""
+    """Simulate the cases that the results file in a folder lacks, and report."""
     from sweep.config.units import load_config
     from sweep.running.sweep import run_sweep
 

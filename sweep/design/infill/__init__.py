@@ -1,12 +1,15 @@
-"""Families of infill. A file here is a family: its name is the `lattice.kind` that draws it.
+"""Families of infill. Each file here draws one family; its name is the value of `lattice.kind`.
 
-Each has `draw(columns, rows)`: the centre lines of the cells with these numbers, as groups of
-polylines (n, k, 2) whose vertices are joints, in a unit of its own, y upwards. Columns and rows are
-consecutive and may be negative; what neighbouring cells share may be drawn twice. The drawing is
-stretched to the box. `ORIENTED = True`: it may be turned by a quarter (`lattice.orientation`).
-`STAGGERED = True`: every other row is another; two of them are what repeats.
+A family has `draw(columns, rows)`, which returns the centre lines of the cells with these numbers:
+groups of polylines (n, k, 2) whose vertices are joints, in a unit of the family, y upwards. Columns
+and rows are consecutive and may be negative; walls that neighbouring cells share may be drawn
+twice. The drawing is stretched to the box. `ORIENTED = True`: the family may be turned by 90
+degrees (`lattice.orientation`). `STAGGERED = True`: rows alternate, so the pattern repeats every
+two rows. Optional closed forms, which spare a drawing: `counts(columns, rows)` of joints and walls,
+`opening(width, height)` of a cell. To add a family, copy `diamond`, the shortest, or `hex`, which
+has both traits.
 
-Numpy is loaded only to draw, so that a config is refused at once.
+Numpy is loaded only to draw, so that a wrong config is refused at once.
 """
 
 from __future__ import annotations
@@ -28,18 +31,18 @@ if TYPE_CHECKING:
 
 @cache
 def families() -> tuple[str, ...]:
-    """Names of all families, in the order of the alphabet."""
+    """Names of all families, in alphabetical order."""
     return tuple(sorted(module.name for module in iter_modules(__path__)))
 
 
 def trait(kind: str, name: str) -> Any:
-    """What the file of a family has under a name; None without it."""
+    """The object of this name in the file of a family; None if there is none."""
     return getattr(import_module(f"{__name__}.{kind}"), name, None)
 
 
 @cache
 def drawer(kind: str, orientation: str | None) -> Draw:
-    """The `draw` of a family; "flat": x and y, and so columns and rows, exchanged."""
+    """The `draw` of a family; "flat" exchanges x with y and columns with rows."""
     upright: Draw = trait(kind, "draw")
     if orientation != "flat":
         return upright
@@ -53,7 +56,10 @@ def tile(
     pitch: tuple[float, float] = (1.0, 1.0),
     stagger: float = 0.0,
 ) -> Floats:
-    """A polyline (k, 2) repeated at all cells, (n, k, 2); odd rows are shifted by a share."""
+    """A polyline (k, 2) repeated in all cells, (n, k, 2).
+
+    ``stagger``: shift of odd rows in x, in pitches.
+    """
     import numpy as np
 
     column, row = np.meshgrid(columns, rows)

@@ -1,4 +1,4 @@
-"""Offset squares: courses of bricks, every other one with half a brick at either end."""
+"""Offset squares: courses of bricks; every second course has half a brick at either end."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ STAGGERED = True
 
 
 def draw(columns: Sequence[int], rows: Sequence[int]) -> Drawing:
-    """Bricks of side 1, in courses between level lines."""
+    """Bricks of side 1, in courses between horizontal lines."""
     joints = {row: _upright(columns, row) for row in rows}
     upright = [[[(x, row), (x, row + 1)] for x in joints[row]] for row in rows]
     lines = [np.array(walls, dtype=float) for walls in upright]
@@ -25,6 +25,6 @@ def draw(columns: Sequence[int], rows: Sequence[int]) -> Drawing:
 
 
 def _upright(columns: Sequence[int], row: int) -> Floats:
-    """Where the upright walls of a course stand."""
+    """Positions in x of the vertical walls of a course."""
     ends = np.append(columns, columns[-1] + 1).astype(float)
     return ends if row % 2 == 0 else np.concatenate([ends[:1], ends[:-1] + 0.5, ends[-1:]])

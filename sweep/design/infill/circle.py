@@ -1,6 +1,6 @@
 """Rings that touch their four neighbours, drawn as regular dodecagons.
 
-In rows without stagger: between rings packed closest, the gaps close at 15 % of material.
+Rows are not staggered: in a close packing the gaps between rings close at 15 % relative density.
 """
 
 from __future__ import annotations
@@ -20,5 +20,5 @@ CELL = 0.5 + 0.5 * np.column_stack([np.cos(ANGLE), np.sin(ANGLE)])
 
 
 def draw(columns: Sequence[int], rows: Sequence[int]) -> Drawing:
-    """Polygons with corners on circles of diameter 1, four of them where rings touch."""
+    """Polygons inscribed in circles of diameter 1; rings touch at four of the corners."""
     return [tile(CELL, columns, rows)]

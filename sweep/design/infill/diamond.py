@@ -14,5 +14,5 @@ CELL = [(0.5, 0), (1, 0.5), (0.5, 1), (0, 0.5), (0.5, 0)]
 
 
 def draw(columns: Sequence[int], rows: Sequence[int]) -> Drawing:
-    """Diamonds of width and height 1; between them there are more."""
+    """Diamonds of width and height 1; the gaps between them are diamonds too."""
     return [tile(CELL, columns, rows)]

@@ -1,4 +1,4 @@
-"""Honeycomb: staggered rows of hexagons on their corners; flat: columns of hexagons on a side."""
+"""Honeycomb: staggered rows of hexagons with a corner upwards; "flat": with a side upwards."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Kagome: triangles and hexagons, as straight lines in three directions make them."""
+"""Kagome: triangles and hexagons between straight lines in three directions."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ if TYPE_CHECKING:
 
 STAGGERED = True
 RISE = 0.75**0.5  # of a regular triangle of side 1
-GLASS = [(0, 0), (1, 0), (0.5, RISE), (1, 2 * RISE), (0, 2 * RISE), (0.5, RISE), (0, 0)]
+HOURGLASS = [(0, 0), (1, 0), (0.5, RISE), (1, 2 * RISE), (0, 2 * RISE), (0.5, RISE), (0, 0)]
 TIES = ([(1, 0), (2, 0)], [(1, 2 * RISE), (2, 2 * RISE)])
 
 
 def draw(columns: Sequence[int], rows: Sequence[int]) -> Drawing:
-    """Staggered rows of hourglasses, their feet and their heads tied to the next ones."""
+    """Staggered rows of hourglasses, joined to their neighbours at the top and the bottom."""
     pitch = (2.0, 2 * RISE)
     ties = [tile(tie, columns[:-1], rows, pitch, stagger=0.5) for tie in TIES]
-    return [tile(GLASS, columns, rows, pitch, stagger=0.5), *ties]
+    return [tile(HOURGLASS, columns, rows, pitch, stagger=0.5), *ties]

@@ -1,4 +1,4 @@
-"""Square grid. Its closed forms spare the most common lattice a drawing."""
+"""Square grid. Closed forms of its counts and its opening avoid a drawing."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ def draw(columns: Sequence[int], rows: Sequence[int]) -> Drawing:
 
 
 def counts(columns: int, rows: int) -> tuple[int, int]:
-    """Numbers of joints and walls: known without drawing them."""
+    """Numbers of joints and walls."""
     return (columns + 1) * (rows + 1), columns * (rows + 1) + rows * (columns + 1)
 
 
 def opening(width: float, height: float) -> float:
-    """Clear width of cells of this pitch."""
+    """Clear width of cells of this width and height."""
     return min(width, height)

@@ -1,4 +1,4 @@
-"""Triangles in rows between level lines; the sides of the lattice are zigzags."""
+"""Triangles in rows between horizontal lines; the sides of the lattice are zigzags."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ TIE = [(0.5, 0), (1.5, 0)]
 
 
 def draw(columns: Sequence[int], rows: Sequence[int]) -> Drawing:
-    """A row of triangles on their sides, one on their corners, and so on; corners are tied."""
+    """Rows of triangles with a corner upwards and downwards in turn; free corners are joined."""
     pitch = (1.0, RISE)
     even, odd = ([row for row in rows if row % 2 == parity] for parity in (0, 1))
     tied = sorted({*odd, *(row + 1 for row in even)})

@@ -1,6 +1,6 @@
-"""The course report's figures and what it wished to add, each a picture and a caption of numbers.
+"""The figures of the course report and those it proposes, each with a caption of numbers.
 
-Run by `make figures`. A file is a figure: its `draw` simulates what it needs, writes the picture
-and returns the caption's three parts: what the report showed, what we see, where and why they
-differ.
+Run by `make figures`. Each file makes one figure: its `draw` simulates the cases, writes the
+picture and returns the three parts of the caption: the report, our result, differences and their
+reasons.
 """

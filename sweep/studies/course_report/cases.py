@@ -1,4 +1,4 @@
-"""The cases of the figures: the report's, ours, and what differs from them; each is run once."""
+"""The cases of the figures: the report's, ours, and variants of them; each runs once."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -15,8 +15,8 @@ from sweep.result import Result
 from sweep.simulation.simulate import simulate
 
 CONFIG = Path(__file__).parents[3] / "configs" / "seed.toml"
-HELD = 0.137  # s, just before the load lets go
-RECORD = ("modulus", "density", "poisson", "curve_strain", "curve_stress")  # read by name
+HELD = 0.137  # s, just before the load is removed
+RECORD = ("modulus", "density", "poisson", "curve_strain", "curve_stress")  # from the record
 
 
 @cache
@@ -30,18 +30,18 @@ def report() -> Case:
 
 
 def ours() -> Case:
-    """Our choices for the same specimen: its last row of the same curve."""
+    """Our model of the same specimen: the last row of configs/seed.toml with the same curve."""
     same = [case for case in _shipped() if case.material.stretch == report().material.stretch]
     return same[-1]
 
 
 def coarse() -> Case:
-    """Our choices in steps of 0.1 ms, five times as long, which changes nothing that is held."""
+    """Our model in steps of 0.1 ms, five times as long; the loaded state at rest is the same."""
     return varied(ours(), solver={"time_step": 1e-4})
 
 
 def varied(case: Case, **changes: Mapping[str, Any]) -> Case:
-    """A case with other values, in SI, of some keys of some tables; a mode starts a new loading."""
+    """A case with changed keys: table -> key -> value in SI. A new mode resets the loading."""
     tables = {name: getattr(case, name).model_dump(exclude_none=True) for name in TABLES}
     for key in RECORD:
         tables["material"].pop(key, None)

@@ -1,4 +1,4 @@
-"""Force against displacement over cycles of growing amplitude: absorbed and returned energy."""
+"""Force over displacement in cycles of growing amplitude: absorbed and returned energy."""
 
 from pathlib import Path
 
@@ -14,27 +14,28 @@ PLATENS = {"glued": "glued platens", "contact": "loose platens"}
 
 
 def draw(folder: Path) -> tuple[str, ...]:
-    """Loops between glued and between loose platens."""
+    """Loops between glued platens and between loose platens."""
     figure = case_plots.blank(10.0, 3.8)
-    axes, said = figure.subplots(1, 2, sharey=True), []
+    axes, measured = figure.subplots(1, 2, sharey=True), []
     for ax, (platen, words) in zip(axes, PLATENS.items(), strict=True):
         cases = {f"to {100 * strain:.0f} %": _crush(platen, strain) for strain in STRAINS}
         lines = {name: _loop(history(case)) for name, case in cases.items()}
         curves(ax, lines, "travel of the platen, mm", "force on the top, N")
         title(ax, f"{words}, friction {ours().contact.friction:g}")
-        rows = [f"{name} {_worth(case)}" for name, case in cases.items()]
-        said.append(f"{words}: {', '.join(rows)}; {_lost(cases['to 60 %'])}")
+        rows = [f"{name} {_energies(case)}" for name, case in cases.items()]
+        measured.append(f"{words}: {', '.join(rows)}; {_losses(cases['to 60 %'])}")
     legend(axes[1])
-    left = max(_left(_crush(platen, strain)) for platen in PLATENS for strain in STRAINS)
+    residual = max(_residual(_crush(platen, strain)) for platen in PLATENS for strain in STRAINS)
     case_plots.save(figure, folder / "cycles.png")
     return (
-        "The report loads by a force only; displacement control, reaction forces and cyclic loops "
-        "are among its wishes.",
-        f"Absorbed on the way down and returned on the way back, in mJ. {'. '.join(said)}.",
-        "Walls are elastic here: each loop goes up the curve of the greater ones and nearly back "
-        f"along it, and at its end the lattice is as it was (strain left: at most {left:.0e}), so "
-        "that a second loop is the first again. What it loses is friction. A print loses more, in "
-        "the material itself, and softens.",
+        "The report loads by a force only; it proposes displacement control, reaction forces and "
+        "cyclic loops.",
+        f"Absorbed energy in loading and returned energy in unloading, in mJ. "
+        f"{'. '.join(measured)}.",
+        "Walls are elastic here: each loop follows the loading curve of the larger loops and "
+        "returns nearly along it. At its end the lattice has its initial shape (residual strain: "
+        f"at most {residual:.0e}), so that a second loop equals the first. The loss is friction. A "
+        "print loses more energy, in the material itself, and softens.",
     )
 
 
@@ -47,18 +48,18 @@ def _loop(past: DataFrame) -> tuple[DataFrame, DataFrame]:
     return 1e3 * past["top_displacement_m"], past["reaction_top_N"]
 
 
-def _worth(case: Case) -> str:
+def _energies(case: Case) -> str:
     work = 1e3 * history(case)["work_in_J"]
     return f"{work.max():.1f} and {work.max() - work.iloc[-1]:.1f}"
 
 
-def _lost(case: Case) -> str:
+def _losses(case: Case) -> str:
     last = 1e3 * history(case).iloc[-1]
     return (
-        f"of the greatest loop friction takes {last['dissipated_friction_J']:.1f} and snaps take "
-        f"{abs(last['dissipated_integrator_J']):.1f}"
+        f"in the largest loop friction dissipates {last['dissipated_friction_J']:.1f} and snaps "
+        f"dissipate {abs(last['dissipated_integrator_J']):.1f}"
     )
 
 
-def _left(case: Case) -> float:
+def _residual(case: Case) -> float:
     return abs(float(run(case).summary["residual_strain"]))

@@ -11,7 +11,7 @@ from sweep.scene.material import stress_law
 from sweep.studies.course_report.cases import history, ours, varied
 from sweep.studies.course_report.panels import curves, dress, legend, ticks, title
 
-TIME = 5e-3  # s: beta of the one, relaxation time of the other
+TIME = 5e-3  # s: beta of Rayleigh, and relaxation time of Kelvin-Voigt
 SPEEDS = (0.02, 0.05, 0.1, 0.2, 0.5)  # m/s
 SHOWN = 0.1
 MODELS = {
@@ -27,7 +27,7 @@ def draw(folder: Path) -> tuple[str, ...]:
     left, right = figure.subplots(1, 2)
     shown = SPEEDS.index(SHOWN)
     lines = {name: _loop(runs[shown]) for name, runs in pasts.items()}
-    curves(left, lines | {"no damping": _loop(history(_still()))}, "strain, %", "force, N")
+    curves(left, lines | {"no damping": _loop(history(_undamped()))}, "strain, %", "force, N")
     title(left, f"pressed to 40 % and back at {SHOWN:g} m/s")
     legend(left, loc="upper right")
     areas = {name: [_area(past) for past in runs] for name, runs in pasts.items()}
@@ -37,28 +37,28 @@ def draw(folder: Path) -> tuple[str, ...]:
     ticks(right.xaxis, SPEEDS)
     ticks(right.yaxis, (20, 50, 100, 200, 400))
     dress(right, "speed of the platen, m/s", "lost in the material, mJ")
-    title(right, "what the material takes in a loop")
+    title(right, "dissipated by the material in a loop")
     legend(right, loc="upper left")
     case_plots.save(figure, folder / "damping.png")
     table = "; ".join(
-        f"{v:g} m/s: {_both(areas, i)}, of which the material takes {_both(lost, i)}"
+        f"{v:g} m/s: {_both(areas, i)}, of which {_both(lost, i)} in the material"
         for i, v in enumerate(SPEEDS)
     )
     powers = [np.log(a[-1] / a[0]) / np.log(SPEEDS[-1] / SPEEDS[0]) for a in lost.values()]
     material = ours().material
     return (
-        "The report damps by Rayleigh and names Kelvin-Voigt as future work.",
+        "The report uses Rayleigh damping and names Kelvin-Voigt as future work.",
         f"Area of the loop for Rayleigh and Kelvin-Voigt with the same time, {1e3 * TIME:g} ms: "
         f"{table}. Without damping, quasi-static, the loop has "
-        f"{1e3 * _area(history(_still())):.2f} mJ. The loss grows with the power {powers[0]:.2f} "
-        f"(Rayleigh) and {powers[1]:.2f} (Kelvin-Voigt) of the speed.",
-        "Both lose in proportion to the rate of strain: next to nothing at the 100 mm/min of a "
-        "test, where printed TPU loses a quarter and more. They differ by the stiffness that they "
-        f"damp. Rayleigh takes the tangent at the start of a step, {1e-6 * _slope(material):.1f} "
-        f"MPa at rest, Kelvin-Voigt the modulus, {1e-6 * material.modulus:.1f} MPa: a ratio of "
-        f"{_slope(material) / material.modulus:.2f}, and the forces at the first touch have one of "
+        f"{1e3 * _area(history(_undamped())):.2f} mJ. The loss grows with the power "
+        f"{powers[0]:.2f} (Rayleigh) and {powers[1]:.2f} (Kelvin-Voigt) of the speed.",
+        "Both losses are proportional to the strain rate: almost zero at the 100 mm/min of a test, "
+        "where printed TPU loses a quarter and more. The models differ in the stiffness that they "
+        f"damp. Rayleigh uses the tangent at the start of a step, {1e-6 * _slope(material):.1f} "
+        f"MPa at rest, Kelvin-Voigt the modulus, {1e-6 * material.modulus:.1f} MPa: their ratio is "
+        f"{_slope(material) / material.modulus:.2f}, and that of the forces at the first touch is "
         f"{_first(pasts['Rayleigh'][shown]) / _first(pasts['Kelvin-Voigt'][shown]):.2f}. "
-        "Kelvin-Voigt costs nothing where a wall turns as a rigid body.",
+        "Kelvin-Voigt dissipates nothing in a rigid rotation of a wall.",
     )
 
 
@@ -77,7 +77,7 @@ def _slope(material: Material) -> float:
     return float(law.coefficients[np.searchsorted(law.knots, 0.0, "right") - 1, 1])
 
 
-def _still() -> Case:
+def _undamped() -> Case:
     loading = {"mode": "displacement", "strain": 0.4, "platen": "glued"}
     return varied(ours(), loading=loading, contact={"friction": 0.0})
 

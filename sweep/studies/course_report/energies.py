@@ -1,4 +1,4 @@
-"""Energies against time, and how many times the stretching energy bending stores."""
+"""Energies over time, and the ratio of bending energy to stretching energy."""
 
 from pathlib import Path
 
@@ -19,7 +19,7 @@ SHOWN = {
 
 
 def draw(folder: Path) -> tuple[str, ...]:
-    """Its Fig. 8."""
+    """Fig. 8 of the report."""
     pasts = {"the report's model": history(report()), "our model": history(ours())}
     figure = case_plots.blank(9.0, 6.0)
     for ax, (name, past) in zip(
@@ -46,15 +46,15 @@ def draw(folder: Path) -> tuple[str, ...]:
     standing = varied(ours(), loading={"force": STANDING})
     mine, theirs = pasts["our model"], pasts["the report's model"]
     return (
-        "Fig. 8 shows the energies; bending comes to nearly twice stretching.",
+        "Fig. 8 shows the energies; the bending energy is nearly twice the stretching energy.",
         f"At {1e3 * HELD:.0f} ms bending is {share(theirs):.1f} times stretching in the report's "
         f"model ({_both(theirs)}) and {share(mine):.1f} times in ours ({_both(mine)}). In the "
         f"report's model the ratio depends on the time step: {by_step}. Under {STANDING:g} N, just "
-        f"before it gives way, ours stands with a ratio of {share(history(standing)):.1f}.",
-        "A collapsed lattice of thin walls bends and hardly stretches. Contact by position moves "
-        "single nodes against the stiff springs on both sides, in every step: it stores stretching "
-        "energy that no contact force needs, the more so the longer the step. A ratio near two is "
-        "what that gives at long steps, or what a lattice has that is about to buckle.",
+        f"below buckling, our lattice has a ratio of {share(history(standing)):.1f}.",
+        "A collapsed lattice of thin walls bends and hardly stretches. In every step, contact by "
+        "position moves single nodes against the stiff springs on both sides: it stores stretching "
+        "energy that no contact force requires, and more of it in longer steps. A ratio near two "
+        "results from long steps, or from a lattice that is about to buckle.",
     )
 
 

@@ -1,4 +1,4 @@
-"""The undeformed grid and its collapse, walls as thick as they are."""
+"""The undeformed grid and its collapse, with walls of their true thickness."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from sweep.studies.course_report.springs import SHORT
 
 
 def draw(folder: Path) -> tuple[str, ...]:
-    """Its Figs. 5 and 6."""
+    """Figs. 5 and 6 of the report."""
     frames = run(report()).frames
     rest = {key: values[:1] for key, values in frames.items() if not key.startswith("edge")}
     figure = case_plots.blank(3.0, 3.2)
@@ -27,20 +27,20 @@ def draw(folder: Path) -> tuple[str, ...]:
         case_plots.deformed_shapes(strip, name, run(case).frames, SHORT["duration"])
     case_plots.save(figure, folder / "fig06_collapse.png")
     rows = [
-        f"{name}: strain up to {run(case).summary['peak_strain']:.2f}, walls through one another "
-        f"{run(case).summary['max_crossings']} times"
+        f"{name}: strain up to {run(case).summary['peak_strain']:.2f}, "
+        f"{run(case).summary['max_crossings']} crossings of walls"
         for name, case in cases.items()
     ]
     return (
         "Fig. 5 shows the grid of 3 x 3 cells with two nodes on each edge, Fig. 6 frames of its "
         "collapse under the load on the top row.",
         f"In the first {1e3 * SHORT['duration']:.0f} ms, {'; '.join(rows)}. The walls are "
-        f"{1e3 * report().lattice.wall_thickness:g} mm thick; by position they come as close as "
-        f"{_gap(by_position):.2f} mm, centre line to centre line, with the barrier "
-        f"{_gap(barrier):.2f} mm.",
+        f"{1e3 * report().lattice.wall_thickness:g} mm thick; the least distance of centre lines "
+        f"is {_gap(by_position):.2f} mm with contact by position and {_gap(barrier):.2f} mm with "
+        "the barrier.",
         "Without a floor and without contact the top row ends below the bottom row. With contact "
-        "the rows come to lie on one another, sideways, as the top row is free to sway. Only the "
-        "bottom row is held: the grey bar is drawn, and nothing rests on it.",
+        "the rows lie on one another, shifted sideways, as the top row is free to sway. Only the "
+        "bottom row is held: the grey bar marks it, and is no floor.",
     )
 
 

@@ -1,4 +1,4 @@
-"""Axes with labelled curves, in the manner of `case_plots`."""
+"""Axes with labelled curves, in the style of `case_plots`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Curves = Mapping[str, tuple[Any, Any]]
 
 
 def curves(ax: Axes, lines: Curves, x: str, y: str, **look: Any) -> None:
-    """Curves by their labels, with the names of both axes."""
+    """Draw curves by their labels, with the names of both axes."""
     for color, (label, (along, up)) in zip(COLORS, lines.items(), strict=False):
         style: dict[str, Any] = {"color": color, "lw": 1.6, "label": label} | look
         ax.plot(along, up, **style)
@@ -24,7 +24,7 @@ def curves(ax: Axes, lines: Curves, x: str, y: str, **look: Any) -> None:
 
 
 def dress(ax: Axes, x: str, y: str) -> None:
-    """Names of the axes, a light grid, no box."""
+    """Set the names of the axes and a light grid, and remove the box."""
     ax.set(xlabel=x, ylabel=y)
     ax.grid(color=GRID, lw=0.6)
     ax.set_axisbelow(True)
@@ -37,12 +37,12 @@ def title(ax: Axes, words: str) -> None:
 
 
 def legend(ax: Axes, **where: Any) -> None:
-    """A legend without a frame, to the right of the axes unless told where."""
+    """A legend without a frame, by default to the right of the axes."""
     right: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (1, 1)}
     ax.legend(**({"frameon": False, "fontsize": "small"} | (where or right)))
 
 
 def ticks(axis: Any, values: Iterable[float]) -> None:
-    """Ticks of a log axis at these values alone."""
+    """Ticks of a log axis at the given values only."""
     axis.set_ticks([], minor=True)
     axis.set_ticks(list(values), [f"{value:g}" for value in values])

@@ -1,4 +1,4 @@
-"""Barrier against contact by position: what they do to the energy at each time step."""
+"""Barrier and contact by position: errors of the energy for each time step."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ HELD = SHORT["duration"]
 
 
 def draw(folder: Path) -> tuple[str, ...]:
-    """Energy error against the time step."""
+    """Energy error over the time step."""
     pasts = {words: [history(_case(model, dt)) for dt in STEPS] for model, words in MODELS.items()}
     work = at(pasts["barrier"][-1], "work_in_J", HELD)
     pushed = [
@@ -28,7 +28,7 @@ def draw(folder: Path) -> tuple[str, ...]:
     figure = case_plots.blank(10.0, 3.6)
     left, right = figure.subplots(1, 2)
     steps = 1e6 * np.array(STEPS)
-    lines = {"by position: injected": (steps, pushed), "barrier: left over": (steps, open_book)}
+    lines = {"by position: injected": (steps, pushed), "barrier: residual": (steps, open_book)}
     curves(left, lines, "time step, µs", "energy error / work done", marker="o")
     left.set(xscale="log", yscale="log")
     title(left, "energy that no force accounts for")
@@ -54,18 +54,17 @@ def draw(folder: Path) -> tuple[str, ...]:
     crossed = [run(_case("position_based", dt)).summary["max_crossings"] for dt in STEPS]
     cost = [run(_case(model, STEPS[2])).summary["newton_iterations"] for model in MODELS]
     return (
-        "The report moves positions apart after the step and names contact by forces as future "
-        "work.",
+        "The report moves walls apart after each step and names contact by forces as future work.",
         f"Energy error / work done, by position and by barrier: {rows}. Between the two finest "
         f"steps the injected energy falls with the power {order:.1f} of the step. At the finest, "
         f"{last['by position']:.1f} and {last['barrier']:.1f} mJ are stored. Walls that cross, by "
         f"position: {', '.join(map(str, crossed))}; with the barrier: "
         f"{max(run(_case('barrier', dt)).summary['max_crossings'] for dt in STEPS)}. "
         f"Newton iterations at {steps[2]:g} µs: {cost[0]} and {cost[1]}.",
-        "A wall at rest on another must be moved back in every step, and the integrator takes out "
-        "again what that puts in: by position, the book closes only with a column of what is "
-        "injected, many times the work done. The barrier is part of the energy that is minimised; "
-        "what its book leaves over is the tolerance of Newton.",
+        "With contact by position, a wall that rests on another is moved back in every step, and "
+        "the integrator removes the energy that this injects: the book closes only with the "
+        "injected energy, which is many times the work done. The barrier is part of the energy "
+        "that is minimised; the residual of its book is the tolerance of Newton's method.",
     )
 
 

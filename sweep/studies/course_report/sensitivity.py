@@ -1,4 +1,4 @@
-"""What the report leaves unsaid: how much each of our choices for it matters."""
+"""The effect of each value that the report does not state."""
 
 from pathlib import Path
 from typing import Any
@@ -30,7 +30,7 @@ CHOICES: dict[str, dict[str, Any]] = {
 
 
 def draw(folder: Path) -> tuple[str, ...]:
-    """Strain under the load, and bending over stretching, choice by choice."""
+    """Strain under the load, and bending / stretching energy, for each changed value."""
     cases = {name: varied(coarse(), **changes) for name, changes in CHOICES.items()}
     figure = case_plots.blank(9.0, 4.6)
     left, right = figure.subplots(1, 2, sharey=True)
@@ -52,17 +52,18 @@ def draw(folder: Path) -> tuple[str, ...]:
     chosen = coarse()
     return (
         "The report names a 3 x 3 grid of 12.5 x 12.5 x 12 mm, its release at 138 ms and the curve "
-        "of Gallup et al. for printed NinjaFlex. In what we have of it wall thickness, load, "
-        "damping, time step, imperfection and the factor of plane strain are left unsaid.",
+        "of Gallup et al. for printed NinjaFlex. Our copy does not state wall thickness, load, "
+        "damping, time step, imperfection and the factor of plane strain.",
         f"We choose walls of {1e3 * chosen.lattice.wall_thickness:g} mm, "
         f"{chosen.loading.force:g} N, plane stress, alpha {chosen.damping.mass:g} 1/s and beta "
         f"{1e3 * (chosen.damping.stiffness or 0.0):g} ms, an imperfection of "
         f"{chosen.lattice.imperfection:g} wall thicknesses, and the printed NinjaFlex of another "
         f"source. Strain at {1e3 * HELD:.0f} ms and bending / stretching: {rows}."
         + (f" Not converged: {', '.join(failed)}." if failed else ""),
-        "Load, wall, material and plane decide whether the lattice stands or gives way: the load "
-        "that buckles it goes with the modulus and the third power of the wall. Once it has given "
-        "way, damping, friction, imperfection and time step hardly move it. The mesh does, and has "
-        "not settled at the finest here: three elements a wall, the report's, are few for sharp "
-        "folds and for where walls touch. The strain under the load is to be trusted least.",
+        "Load, wall, material and plane decide whether the lattice buckles: its buckling load is "
+        "proportional to the modulus and to the third power of the wall thickness. After buckling, "
+        "damping, friction, imperfection and time step have little effect on the strain. The mesh "
+        "has an effect, and the finest mesh here is not converged: three elements per wall, as in "
+        "the report, are few for sharp folds and for contact. The strain under the load is the "
+        "least certain result.",
     )

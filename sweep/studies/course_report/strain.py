@@ -1,4 +1,4 @@
-"""Vertical strain of the top row against time."""
+"""Vertical strain of the top row over time."""
 
 from pathlib import Path
 
@@ -6,11 +6,11 @@ from sweep.report import case_plots
 from sweep.studies.course_report.cases import HELD, at, coarse, history, ours, report, run, varied
 from sweep.studies.course_report.panels import curves, legend, title
 
-BUCKLED = 0.05  # strain that no standing lattice reaches
+BUCKLED = 0.05  # strain above which a lattice has buckled
 
 
 def draw(folder: Path) -> tuple[str, ...]:
-    """Its Fig. 7: buckling, rows landing on one another, release."""
+    """Fig. 7 of the report: buckling, first contact of rows, release."""
     barrier = varied(report(), contact={"model": "barrier"})
     cases = {"the report's model": report(), "with the barrier": barrier, "our model": ours()}
     pasts = {name: history(case) for name, case in cases.items()}
@@ -25,7 +25,7 @@ def draw(folder: Path) -> tuple[str, ...]:
             ax, {name: (t, s[: len(t)]) for name, (t, s) in lines.items()}, "time, ms", "strain, %"
         )
     case_plots.mark(whole, 1e3 * float(report().loading.release_time or 0.0), "load off")
-    title(whole, f"{report().loading.force:g} N on the top row, put on at once")
+    title(whole, f"{report().loading.force:g} N on the top row, applied at once")
     title(start, "the first 20 ms")
     past = pasts["the report's model"]
     buckled = past["time_s"][(past["strain"] > BUCKLED).idxmax()]
@@ -38,13 +38,14 @@ def draw(folder: Path) -> tuple[str, ...]:
     rests = max(abs(float(run(case).summary["residual_strain"])) for case in cases.values())
     fine = history(varied(coarse(), lattice={"nodes_per_wall": 8}))
     return (
-        "Fig. 7 shows the strain of the top row: buckling, rows that land on one another, and the "
+        "Fig. 7 shows the strain of the top row: buckling, rows that touch one another, and the "
         "recovery after the release at 138 ms.",
-        f"The report's model passes {100 * BUCKLED:.0f} % after {1e3 * buckled:.1f} ms and its "
-        f"walls meet first at {1e3 * landed:.1f} ms. At {1e3 * HELD:.0f} ms the strain is {held}. "
-        f"At the end all are back at rest, to within a strain of {rests:.1e}.",
-        "The phases are the same. Classical hinges are softer and give way earlier. Where the "
-        "lattice comes to rest is a matter of sharp folds, which the tangent measure stiffens; "
-        "contact by position holds up less than the barrier. Three elements a wall do not resolve "
-        f"these folds: with nine, ours comes to rest at {100 * at(fine, 'strain'):.1f} %.",
+        f"In the report's model the strain exceeds {100 * BUCKLED:.0f} % after "
+        f"{1e3 * buckled:.1f} ms, and walls first touch at {1e3 * landed:.1f} ms. At "
+        f"{1e3 * HELD:.0f} ms the strain is {held}. "
+        f"At the end all models are back at rest, to within a strain of {rests:.1e}.",
+        "The phases are the same. Classical hinges are softer and buckle earlier. The strain under "
+        "the load depends on sharp folds, which the tangent measure stiffens; contact by position "
+        "carries less load than the barrier. Three elements per wall do not resolve these folds: "
+        f"with nine, the strain of our model is {100 * at(fine, 'strain'):.1f} %.",
     )

@@ -15,13 +15,13 @@ PRESSED = {"mode": "displacement", "strain": 0.6, "unload": False, "platen": "gl
 
 
 def draw(folder: Path) -> tuple[str, ...]:
-    """Its Figs. 9 and 10."""
+    """Figs. 9 and 10 of the report."""
     forced, pressed = _pair(report()), _pair(varied(ours(), loading=PRESSED))
     steady = _pair(ours())
     figure = case_plots.blank(9.0, 3.4)
     ax = figure.subplots()
-    lines = {f"{law}, the report's model": _way(past) for law, past in forced.items()}
-    curves(ax, lines | {f"{law}, our model": _way(past) for law, past in steady.items()},
+    lines = {f"{law}, the report's model": _strain(past) for law, past in forced.items()}
+    curves(ax, lines | {f"{law}, our model": _strain(past) for law, past in steady.items()},
            "time, ms", "strain, %")  # fmt: skip
     legend(ax)
     case_plots.save(figure, folder / "fig09_stretching_strain.png")
@@ -39,24 +39,25 @@ def draw(folder: Path) -> tuple[str, ...]:
     title(right, "under displacement, our model")
     legend(right)
     case_plots.save(figure, folder / "fig10_stretching_energies.png")
-    said = {name: _words(pasts, "time_s") for name, pasts in (("r", forced), ("o", steady))}
-    bend_held, bend_way = _settled(steady, "bend_J"), _apart(pressed, "bend_J", "strain")
+    bend_at_rest = _at_rest(steady, "bend_J")
+    bend_driven = _greatest(pressed, "bend_J", "strain")
     return (
         "Figs. 9 and 10 compare linear and nonlinear stretching under a force; the report expected "
         "them to diverge more under displacement.",
-        f"Greatest differences, as shares of the greatest value. Under the force, report's model: "
-        f"{said['r']}; ours: {said['o']}. Settled, at {1e3 * HELD:.0f} ms: strain "
-        f"{_settled(forced, 'strain'):.1f} %, bending {_settled(forced, 'bend_J'):.1f} % and "
-        f"stretching {_settled(forced, 'stretch_J'):.1f} % in the report's model; "
-        f"{_settled(steady, 'strain'):.1f} %, {bend_held:.1f} % and "
-        f"{_settled(steady, 'stretch_J'):.1f} % in ours. Under displacement, ours, pressed to 60 % "
+        f"Greatest differences / greatest value. Under the force, the report's model: "
+        f"{_words(forced, 'time_s')}; ours: {_words(steady, 'time_s')}. At rest under the force, "
+        f"at {1e3 * HELD:.0f} ms: strain "
+        f"{_at_rest(forced, 'strain'):.1f} %, bending {_at_rest(forced, 'bend_J'):.1f} % and "
+        f"stretching {_at_rest(forced, 'stretch_J'):.1f} % in the report's model; "
+        f"{_at_rest(steady, 'strain'):.1f} %, {bend_at_rest:.1f} % and "
+        f"{_at_rest(steady, 'stretch_J'):.1f} % in ours. Our model pressed to 60 % "
         f"between glued platens: {_words(pressed, 'strain')}, force on the top "
-        f"{_apart(pressed, 'reaction_top_N', 'strain'):.1f} %.",
-        f"To the report's question: {_answer(bend_way, bend_held)}. The bending energies part by "
-        f"{bend_way:.1f} % at most when the displacement is prescribed: walls that bend hardly "
-        "stretch, and bending is linear in both. Under a force they part for a while, by "
-        f"{_apart(steady, 'bend_J', 'time_s'):.0f} %, as the softer law buckles earlier; at rest "
-        f"again {bend_held:.1f} % is left.",
+        f"{_greatest(pressed, 'reaction_top_N', 'strain'):.1f} %.",
+        f"The answer to the report's question is {_answer(bend_driven, bend_at_rest)}. With a "
+        f"prescribed displacement the bending energies differ by {bend_driven:.1f} % at most: "
+        "walls that bend hardly stretch, and bending is linear in both laws. Under a force they "
+        f"differ by {_greatest(steady, 'bend_J', 'time_s'):.0f} % for a while, as the softer law "
+        f"buckles earlier; at rest the difference is {bend_at_rest:.1f} %.",
     )
 
 
@@ -64,29 +65,29 @@ def _pair(case: Case) -> dict[str, DataFrame]:
     return {law: history(varied(case, material={"stretch": law})) for law in LAWS}
 
 
-def _way(past: DataFrame) -> tuple[DataFrame, DataFrame]:
+def _strain(past: DataFrame) -> tuple[DataFrame, DataFrame]:
     return 1e3 * past["time_s"], 100.0 * past["strain"]
 
 
-def _apart(pasts: dict[str, DataFrame], column: str, x: str) -> float:
+def _greatest(pasts: dict[str, DataFrame], column: str, x: str) -> float:
     """Greatest difference of a column between the laws, % of its greatest value."""
     one, other = (pasts[law] for law in LAWS)
     gap = np.abs(one[column] - np.interp(one[x], other[x], other[column]))
     return 100.0 * float(gap.max() / one[column].max())
 
 
-def _settled(pasts: dict[str, DataFrame], column: str) -> float:
-    """Difference of a column between the laws under the load at rest, %."""
+def _at_rest(pasts: dict[str, DataFrame], column: str) -> float:
+    """Difference of a column between the laws at rest under the load, %."""
     one, other = (at(pasts[law], column) for law in LAWS)
     return 100.0 * abs(one / other - 1.0)
 
 
 def _words(pasts: dict[str, DataFrame], x: str) -> str:
-    strain = "" if x == "strain" else f"strain {_apart(pasts, 'strain', x):.1f} %, "
-    bend, stretch = (_apart(pasts, name, x) for name in ("bend_J", "stretch_J"))
+    strain = "" if x == "strain" else f"strain {_greatest(pasts, 'strain', x):.1f} %, "
+    bend, stretch = (_greatest(pasts, name, x) for name in ("bend_J", "stretch_J"))
     return f"{strain}bending {bend:.1f} %, stretching {stretch:.1f} %"
 
 
-def _answer(way: float, held: float) -> str:
-    """Whether the laws part more when the displacement is prescribed."""
-    return "no, not to speak of" if way < max(1.0, held) else "yes"
+def _answer(driven: float, at_rest: float) -> str:
+    """Whether the laws differ more with a prescribed displacement than at rest under a force."""
+    return "no" if driven < max(1.0, at_rest) else "yes"

@@ -81,8 +81,8 @@ WRONG = {
     ),
     "led and held": (
         {"supports": FIXED, "prescribed": [{"node": 0, "direction": "x", "displacement_mm": 1}]},
-        'prescribed[0].direction = "x": held or led already; allowed: one support or one prescribed'
-        " move of each",
+        'prescribed[0].direction = "x": held or moved already; allowed: one support or one'
+        " prescribed move of each",
     ),
     "angle of a move": (
         {"prescribed": [{"node": 0, "direction": "x", "angle_rad": 1}]},
@@ -91,7 +91,7 @@ WRONG = {
     ),
     "moment at a pin": (
         {"pins": [1], "loads": [{"node": 1, "moment_Nmm": 2}]},
-        "pins[0] = 1: has no rotation to fix, lead or load; allowed: nodes without",
+        "pins[0] = 1: has no rotation to fix, move or load; allowed: nodes without these",
     ),
 }
 

@@ -65,7 +65,7 @@ def test_a_tangle_has_the_area_that_shapely_finds():
 
 def test_a_tangle_in_bands_has_the_same_area(monkeypatch):
     at_once = covered_area(*tangle())
-    monkeypatch.setattr(area, "TOGETHER", 100)
+    monkeypatch.setattr(area, "CHUNK", 100)
     assert covered_area(*tangle()) == pytest.approx(at_once, rel=1e-12)
 
 

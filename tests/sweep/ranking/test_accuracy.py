@@ -99,7 +99,7 @@ def test_what_finer_steps_do_not_settle_is_not_resolved(tmp_path):
     (found,) = study(tmp_path, rows)
     (sheet, orders) = accuracy_sheets(found, "made up")
     assert found.resolved == ("energy", "path")
-    assert "Not resolved: peak force, whose limit is sure to 30 % only." in answers(found)
+    assert "Not resolved: peak force, whose limit is uncertain by 30 %." in answers(found)
     assert "in absorbed energy and strain over time is bdf2" not in " ".join(answers(found))
     assert [row[sheet.heads.index("peak %")] for row in sheet.rows] == ["< 30"] * 5
     assert orders.rows[0][2:] == ["2.00", "–", "2.00"]

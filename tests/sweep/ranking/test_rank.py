@@ -202,7 +202,7 @@ def test_attrs_of_the_table_still_say_what_else_is_known():
         "mass": "panel_mass_g",
         "energy": "panel_energy_J",
         "per_gram": "specific_absorption_at_densification_J_per_g",
-        "until": "until it has packed down",
+        "until": "until densification",
         "limited": False,
         "by": "panel_energy_J",
         "cases": 4,
@@ -278,9 +278,9 @@ def test_a_column_that_is_asked_for_sorts_dead_loads_too():
 
 def test_legend_explains_what_is_shown():
     crushed = summary({"absorbed_energy_at_50N_J": 0.1})
-    assert "count until it has packed down" in legend(ranked(crushed))
-    assert "count until 50 N are passed on" in legend(ranked(crushed, allowed_force=50.0))
-    assert "count to the end of the stroke" in legend(ranked(crushed, by="absorbed_energy_J"))
+    assert "are counted until densification" in legend(ranked(crushed))
+    assert "are counted until the force exceeds 50 N" in legend(ranked(crushed, allowed_force=50.0))
+    assert "are counted to the end of the stroke" in legend(ranked(crushed, by="absorbed_energy_J"))
     assert "sink" not in legend(ranked(crushed))
     loaded = summary({"loading_mode": "force", "force_N": 5.0})
     assert legend(ranked(loaded)).splitlines()[1:] == [LOADED]

@@ -58,7 +58,7 @@ def test_shaded_area_is_the_absorbed_energy(row):
     history = there_and_back()
     ax = axes_of(case_plots.force_displacement, history, row)
     assert area(ax.collections[0]) == pytest.approx(history["work_in_J"].max())
-    assert labels(ax)[0] == "absorbs in all\n96.0 mJ, 0.0960 J/g"
+    assert labels(ax)[0] == "absorbed in all\n96.0 mJ, 0.0960 J/g"
 
 
 def test_way_down_and_way_back_are_told_apart(row):
@@ -67,7 +67,7 @@ def test_way_down_and_way_back_are_told_apart(row):
     assert down.get_xdata()[-1] == back.get_xdata()[0] == pytest.approx(40.0)
     assert down.get_color() != back.get_color()
     assert down.get_linestyle() != back.get_linestyle()
-    assert labels(ax)[1:3] == ["loading", "unloading,\ngives back 50 %"]
+    assert labels(ax)[1:3] == ["loading", "unloading,\nreturns 50 %"]
 
 
 def test_plateau_is_the_mean_force_up_to_densification(row):
@@ -75,7 +75,7 @@ def test_plateau_is_the_mean_force_up_to_densification(row):
     dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
     assert dotted.get_xdata()[-1] == pytest.approx(30.0)
     assert dotted.get_ydata()[0] == pytest.approx(0.2e6 * 11e-3 * 10e-3)
-    assert labels(ax)[-1] == "plateau 22.0 N,\npacked at 30 %, by then\n66.0 mJ, 0.0660 J/g"
+    assert labels(ax)[-1] == "plateau 22.0 N,\npacked at 30 %, until then\n66.0 mJ, 0.0660 J/g"
 
 
 def test_plateau_without_densification_goes_to_the_stroke(row):

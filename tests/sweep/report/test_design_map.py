@@ -93,7 +93,7 @@ def test_charts_say_up_to_which_force_energy_counts():
     rows = [row | {"absorbed_energy_at_50N_J": 0.1} for row in designs([1.0, 2.0], [0.1, 0.3])]
     ranking = ranked(summary(*rows), top=None, allowed_force="50 N")
     for draw in design_map, thickness_trends:
-        assert "\nuntil 50 N are passed on, J" in drawn(ranking, draw).axes[0].get_ylabel()
+        assert "\nuntil the force exceeds 50 N, J" in drawn(ranking, draw).axes[0].get_ylabel()
 
 
 def test_designs_beyond_the_model_are_open(ranking):

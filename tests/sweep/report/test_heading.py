@@ -10,9 +10,9 @@ from tests.support.specimens import summary, write
 @pytest.mark.parametrize(
     ("mode", "told"),
     [
-        ("displacement", "Energy counts until a specimen passes on 0.05 kN."),
-        ("force", "0.05 kN are of no account: without a crush no energy is ranked."),
-        ("impact", "0.05 kN are of no account: without a crush no energy is ranked."),
+        ("displacement", "Energy is counted until the force of a specimen exceeds 0.05 kN."),
+        ("force", "The force of 0.05 kN has no effect: without a crush no energy is ranked."),
+        ("impact", "The force of 0.05 kN has no effect: without a crush no energy is ranked."),
     ],
 )
 def test_what_an_allowed_force_is_for_is_told(capsys, tmp_path, mode, told):

@@ -28,7 +28,7 @@ def test_other_configs_are_told_of(tmp_path, monkeypatch, capsys, verb):
     monkeypatch.setattr(import_module("sweep.simulation.simulate"), "simulate", simulate)
     monkeypatch.chdir(tmp_path)
     config = tmp_path / "trial.toml"
-    for values, others in (([0.1, 0.2, 0.3], ""), ([0.3, 0.4], "2 of 4 cases are of other")):
+    for values, others in (([0.1, 0.2, 0.3], ""), ([0.3, 0.4], "2 of 4 cases belong to other")):
         config.write_text(CONFIG.format(values=values))
         assert main(["run", str(config)]) == 0
         if verb != "run":
@@ -36,6 +36,6 @@ def test_other_configs_are_told_of(tmp_path, monkeypatch, capsys, verb):
             main([verb, "results/trial.h5"])
         told = capsys.readouterr().out
         if verb == "status":
-            others = others and "2 cases are of other configs than the last run's"
+            others = others and "2 cases belong to other configs than that of the last run"
         assert ("other configs" in told) == bool(others)
         assert others in told

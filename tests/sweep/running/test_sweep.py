@@ -18,7 +18,7 @@ from sweep.running.batches import Plan
 from sweep.running.dask_graph import GraphError
 from sweep.running.progress import Progress
 from sweep.running.sweep import Interrupted, run_sweep
-from sweep.running.writer_thread import AT_RISK, keeping
+from sweep.running.writer_thread import AT_RISK, result_sink
 from sweep.store.read import (
     Rerun,
     StoreError,
@@ -235,7 +235,7 @@ def test_first_result_is_sealed_at_once_and_later_ones_when_they_are_worth_it(
     monkeypatch.setattr("sweep.running.writer_thread.ThreadPoolExecutor", AtOnce)
     out, sealed = tmp_path / "sweep.h5", []
     batches = [(0.1, [0]), (0.9, [1, 2]), (0.3, [3]), (1.9, [4]), (np.nan, [5]), (0.1, [6])]
-    with Writer(out) as writer, keeping(writer, Plan([], workers=2), told) as keep:
+    with Writer(out) as writer, result_sink(writer, Plan([], workers=2), told) as keep:
         for share, numbers in batches:
             keep(took(share, numbers))
             sealed.append(len(read_summary(out)))
@@ -246,7 +246,7 @@ def test_first_result_is_sealed_at_once_and_later_ones_when_they_are_worth_it(
     assert [entry.name for entry in tmp_path.iterdir()] == ["sweep.h5"]
 
 
-def test_error_of_the_clerk_ends_the_sweep_and_keeps_what_is_sealed(tmp_path, monkeypatch):
+def test_error_of_the_writer_thread_ends_the_sweep_and_keeps_what_is_sealed(tmp_path, monkeypatch):
     """A disk that is full from the second part on."""
     append = Writer.append
 
@@ -265,7 +265,7 @@ def test_error_of_the_clerk_ends_the_sweep_and_keeps_what_is_sealed(tmp_path, mo
 
 def test_error_in_the_middle_of_a_sweep_loses_no_result_that_has_come_in(tmp_path, told):
     def broken_off(out):
-        with Writer(out) as writer, keeping(writer, Plan([], workers=2), told) as keep:
+        with Writer(out) as writer, result_sink(writer, Plan([], workers=2), told) as keep:
             keep(took(0.1, [0]))
             keep(took(0.1, [1, 2]))
             raise GraphError("lost the scheduler")

@@ -54,7 +54,7 @@ def test_specimen_is_that_of_the_paper():
 def changed(case):
     """What a case changes, in words."""
     keys = sorted(changes(case) & FACTORS.keys())
-    return " ".join(f"{FACTORS[key].name} {FACTORS[key].said(case.axes[key])}" for key in keys)
+    return " ".join(f"{FACTORS[key].name} {FACTORS[key].text(case.axes[key])}" for key in keys)
 
 
 def told():
