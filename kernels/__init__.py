@@ -1,5 +1,6 @@
-"""Compiled kernels: arrays and floats in SI in, arrays and floats out; nothing here knows `sweep`.
+"""Compiled kernels: arrays and floats in SI in, arrays and floats out, with no import of `sweep`.
 
-`terms` has the equations, `solve` the method, `linear` the factor, `geometry` what may meet;
-`compile` is how all of it becomes machine code.
+Read `terms` for the equations, `planar` for their sum, and `solve` for the method that finds its
+minimum. `linear` factors the Hessian, `geometry` finds what may touch, and `compile` turns all of
+it into machine code. The equations in print: kernels/README.md.
 """

@@ -1,1 +1,5 @@
-"""The linear system of a Newton step: walls condensed one by one, then an LDL^T of 3 x 3 blocks."""
+"""The linear system of a Newton step.
+
+`analysis` numbers the unknowns once, `condense` eliminates the inside of a wall, `block_ldlt`
+factors the 3 x 3 blocks that remain, and `system` does all of it in order.
+"""

@@ -14,6 +14,7 @@ from kernels.linear import block_matrix, condense, minimum_degree
 from kernels.linear.block_matrix import DRIVEN, HELD, IMAGE, INNER
 
 CONDENSED, OPEN, RIGID = range(3)
+LENGTHS = 2  # coordinates of a position
 PLACE = np.dtype(
     (
         np.record,  # for attributes in plain Python too
@@ -26,24 +27,28 @@ PLACE = np.dtype(
 
 
 class Layout(NamedTuple):
-    """Coordinates: x and y of every node, rotations of joints, lower and upper platen.
+    """Where the unknowns are. A point has a block of the matrix: each node, and, as the point
+    n_nodes, the upper platen.
 
-    leader (n,): the coordinate itself if it moves, the last one (the upper platen) if it is tied to
-    that, else -1. ratio (n,): of its move to that of its leader; 1 unless the leader is driven.
-    images (k, 4): see `periodic_images`; their leader is the coordinate itself. driven: coordinate
-    that is led to a target, -1 if none. n_nodes, n_joints: joints come first. origin (n_nodes,):
-    the node, or of which it is an image. inner (w,): first inner node of each wall, the others
-    follow along it. wall_of (n_nodes,): wall of an inner node, -1 for a joint. outer (w, 6):
-    coordinates of its joints, of which the second may be an image. scale: stiffness of the stiffest
-    element, N/m.
+    leader (n,): the coordinate itself if it moves, the upper platen's if it is tied to that, else
+    -1. ratio (n,): of its move to that of its leader; 1 unless the leader is driven. images (k, 4):
+    see `periodic_images`; their leader is the coordinate itself. driven: coordinate that is led to
+    a target, -1 if none. point, slot (n,): the point of each coordinate, and its place in the block
+    of that. first (n_nodes,): first coordinate of the position of each node. origin (n_nodes + 1,):
+    the point itself, or of which it is an image. inner (w,): first inner coordinate of each wall,
+    the others follow along it. wall_of (n_nodes + 1,): wall of an inner node, else -1. outer (w,
+    6): coordinates of its joints, of which the second may be an image. scale: stiffness of the
+    stiffest element, N/m.
     """
 
     leader: np.ndarray
     ratio: np.ndarray
     images: np.ndarray
     driven: int
+    point: np.ndarray
+    slot: np.ndarray
     n_nodes: int
-    n_joints: int
+    first: np.ndarray
     origin: np.ndarray
     inner: np.ndarray
     wall_of: np.ndarray
@@ -72,14 +77,11 @@ class System(NamedTuple):
 
 @jit_exact
 def _point(layout, c):
-    """Return the point whose unknown coordinate ``c`` is (n_nodes: the platen), -1 if none."""
+    """Return the point that the unknown of coordinate ``c`` belongs to, -1 if it has none."""
     leader = layout.leader[c]
     if leader < 0 or leader == layout.driven:
         return -1
-    if leader < 2 * layout.n_nodes:
-        return layout.origin[leader // 2]
-    joint = leader - 2 * layout.n_nodes
-    return joint if joint < layout.n_joints else layout.n_nodes
+    return layout.origin[layout.point[leader]]
 
 
 @jit_exact
@@ -90,8 +92,8 @@ def _is_fixed(layout, c):
 @jit_exact
 def _kind(layout, w, m, touched):
     """Return how wall ``w`` with ``m`` inner unknowns enters the system."""
-    inside, ends, first = 0, 0, 2 * layout.inner[w]
-    for c in range(first, first + m):
+    inside, ends = 0, 0
+    for c in range(layout.inner[w], layout.inner[w] + m):
         inside += _is_fixed(layout, c)
     for c in layout.outer[w]:
         ends += _is_fixed(layout, c)
@@ -111,22 +113,30 @@ def _link(bits, index, points, count):
 
 
 @jit_exact
-def _points_of(layout, node, points, count):
-    """Append the points that the coordinates of ``node`` (n_nodes: the platen) belong to.
+def _points_of(layout, point, points, count):
+    """Append the points that the coordinates of ``point`` belong to.
 
     A free size of a period stands for the platen.
     """
-    platen = layout.leader.size - 1
-    if node == layout.n_nodes:
-        if _point(layout, platen) >= 0:
-            points[count] = node
+    if point == layout.n_nodes:
+        if _point(layout, layout.leader.size - 1) >= 0:
+            points[count] = point
             count += 1
         return count
-    points[count] = layout.origin[node]
-    if points[count] != node or _point(layout, 2 * node + 1) == layout.n_nodes:
+    points[count] = layout.origin[point]
+    if points[count] != point or _is_tied(layout, point):
         points[count + 1] = layout.n_nodes
         return count + 2
     return count + 1
+
+
+@jit_exact
+def _is_tied(layout, node):
+    """Return whether the platen leads a coordinate of the position of ``node``."""
+    for c in range(layout.first[node], layout.first[node] + LENGTHS):
+        if _point(layout, c) == layout.n_nodes:
+            return True
+    return False
 
 
 @jit_owning
@@ -137,7 +147,7 @@ def _graph(layout, walls, kind, couplings):
     for c in range(layout.leader.size):
         p = _point(layout, c)
         if p >= 0 and index[p] < 0:
-            w = layout.wall_of[p] if p < layout.n_nodes else -1
+            w = layout.wall_of[p]
             if w < 0 or kind[w] == OPEN:
                 index[p] = count
                 count += 1
@@ -158,8 +168,8 @@ def _graph(layout, walls, kind, couplings):
                 _link(bits, index, points, n)
     for k in range(couplings.shape[0]):
         n = 0
-        for node in couplings[k]:
-            n = _points_of(layout, node, points, n)
+        for point in couplings[k]:
+            n = _points_of(layout, point, points, n)
         _link(bits, index, points, n)
     return index, bits
 
@@ -176,8 +186,7 @@ def _homes(layout, kind, index, sequence):
         if leader >= 0 and leader == layout.driven:
             home[c] = DRIVEN
         elif point >= 0 and index[point] >= 0:
-            slot = 0 if point == layout.n_nodes else (c % 2 if c < 2 * layout.n_nodes else 2)
-            home[c] = 3 * position[index[point]] + slot
+            home[c] = block_matrix.home_of(position[index[point]], layout.slot[leader])
         elif point >= 0:
             home[c] = INNER
     for k in range(layout.images.shape[0]):
@@ -188,7 +197,7 @@ def _homes(layout, kind, index, sequence):
 @jit_exact
 def _coordinate(layout, w, m, i):
     """Return the coordinate of local unknown ``i`` of wall ``w``: inner ones, then the joints'."""
-    return 2 * layout.inner[w] + i if i < m else layout.outer[w, i - m]
+    return layout.inner[w] + i if i < m else layout.outer[w, i - m]
 
 
 @jit_owning
@@ -226,14 +235,14 @@ def _targets(layout, row_start, kind, home, start, row):
 
 @jit_owning
 def analyse(layout, walls, couplings):
-    """Return a `System` with room for ``couplings`` (c, k): nodes that share a term (n_nodes: the
-    upper platen; a node may be repeated).
+    """Return a `System` with room for ``couplings`` (c, k): points that share a term; one may be
+    repeated.
     """
     n_walls = walls.start.size - 1
     touched = np.zeros(n_walls, np.bool_)
-    for node in couplings.flat:
-        if node < layout.n_nodes and layout.wall_of[node] >= 0:
-            touched[layout.wall_of[node]] = True
+    for point in couplings.flat:
+        if layout.wall_of[point] >= 0:
+            touched[layout.wall_of[point]] = True
     kind, row_start = np.empty(n_walls, np.int64), np.zeros(n_walls + 1, np.int64)
     for w in range(n_walls):
         m = 2 * (walls.start[w + 1] - walls.start[w] - 1)

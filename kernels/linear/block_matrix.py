@@ -50,6 +50,12 @@ class Blocks(NamedTuple):
 
 
 @jit_exact
+def home_of(block, slot):
+    """Return the home of what is in this slot of a block."""
+    return 3 * block + slot
+
+
+@jit_exact
 def find(start, row, i, j):
     """Return which block below the diagonals is (i, j), i > j; -1 if there is none."""
     low, high = start[j], start[j + 1]

@@ -42,7 +42,14 @@ def _scatter_image(system, layout, w, rows):
             for k in range(rows.shape[0]):
                 entry = rows[k, condense.BAND + c]
                 if entry != 0.0:
-                    add_image(matrix, 2 * layout.inner[w] + k, outer[c], entry, False)
+                    add_image(matrix, layout.inner[w] + k, outer[c], entry, False)
+
+
+@jit_exact
+def _inner(system, layout, w):
+    """Return the coordinates of the inner unknowns of wall ``w``."""
+    first = layout.inner[w]
+    return slice(first, first + system.row_start[w + 1] - system.row_start[w])
 
 
 @jit_exact
@@ -63,8 +70,7 @@ def factor(system, layout, walls, stiffness, projected, through):
         rows, own = system.rows[span], system.own[span]
         condense.fill(walls.start[w], walls.start[w + 1], w, stiffness, rows, system.outer)
         if system.kind[w] == CONDENSED:
-            first = 2 * layout.inner[w]
-            diagonal = system.matrix.diagonal[first : first + rows.shape[0]]
+            diagonal = system.matrix.diagonal[_inner(system, layout, w)]
             failed, pivot = condense.eliminate(
                 rows, diagonal, own, system.outer, layout.scale, rounded
             )
@@ -92,13 +98,6 @@ def negatives(system):
             for k in range(system.row_start[w], system.row_start[w + 1]):
                 count += system.rows[k, 0] < 0.0
     return count
-
-
-@jit_exact
-def _inner(system, layout, w):
-    """Return the coordinates of the inner unknowns of wall ``w``."""
-    first = 2 * layout.inner[w]
-    return slice(first, first + system.row_start[w + 1] - system.row_start[w])
 
 
 @jit_exact

@@ -35,8 +35,8 @@ def pull(problem, move, direction):
     """Fill ``direction`` (n,), zero before, with the change of the gradient when the driven
     coordinate goes by ``move`` m.
     """
-    walls, shape, stiffness = problem.scene.walls, problem.room.shape, problem.room.stiffness
-    matrix = problem.near.system.matrix
+    walls, shape, stiffness = problem.scene.walls, problem.buffers.shape, problem.buffers.stiffness
+    matrix = problem.neighbours.system.matrix
     lead(problem, move, direction)
     zero_rows(shape.slope)
     zero(shape.moment)

@@ -13,13 +13,15 @@ LENGTHS = 2  # x and y, the first slots of a block
 @jit_exact
 def factor(problem, x, step, found, projected, through):
     """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""
-    scene, near, coordinates = problem.scene, problem.near, problem.scene.coordinates
-    matrix = near.system.matrix
+    scene, neighbours, coordinates = problem.scene, problem.neighbours, problem.scene.coordinates
+    matrix = neighbours.system.matrix
     clear(matrix)
     fold.hessian(x, scene.fold, matrix, projected)
     spring.hessian(x, scene.spring, matrix, projected)
-    contact.hessian(x, scene.contact, near.pairs, near.touching, matrix, projected)
-    friction.hessian(found.u, problem.near.lagged, slip_of(problem, step), matrix, projected)
+    contact.hessian(x, scene.contact, neighbours.pairs, neighbours.touching, matrix, projected)
+    friction.hessian(
+        found.u, problem.neighbours.lagged_contacts, slip_of(problem, step), matrix, projected
+    )
     if step.dynamic:
         inert, drag = 1.0 / (step.h * step.h), scene.damp.alpha_m / step.h
         for i in range(x.size):
@@ -27,7 +29,7 @@ def factor(problem, x, step, found, projected, through):
         for i in range(2 * scene.layout.n_nodes):
             matrix.diagonal[i] += drag * coordinates.mass[i]
     failed, pivot = system.factor(
-        near.system, scene.layout, scene.walls, problem.room.stiffness, projected, through
+        neighbours.system, scene.layout, scene.walls, problem.buffers.stiffness, projected, through
     )
     if matrix.missing[0] != 0:
         return NO_ROOM, pivot
@@ -37,22 +39,22 @@ def factor(problem, x, step, found, projected, through):
 @jit_exact
 def solve(problem, b):
     """Solve in place for a right side ``b`` (n,); what is held stays at zero."""
-    system.solve(problem.near.system, problem.scene.layout, b)
+    system.solve(problem.neighbours.system, problem.scene.layout, b)
 
 
 @jit_exact
 def descend(problem, direction):
     """Fill ``direction`` (n,) with d such that d . H d is the negative pivot of `factor`."""
-    system.descend(problem.near.system, problem.scene.layout, direction)
+    system.descend(problem.neighbours.system, problem.scene.layout, direction)
 
 
 @jit_exact
 def unstable(problem):
     """Return how many pivots of the factor are negative."""
-    return system.negatives(problem.near.system)
+    return system.negatives(problem.neighbours.system)
 
 
 @jit_exact
 def stiffest(problem):
     """Return the largest diagonal entry of a coordinate of a node in the last factor, N/m."""
-    return block_ldlt.stiffest(problem.near.system.matrix, LENGTHS)
+    return block_ldlt.stiffest(problem.neighbours.system.matrix, LENGTHS)

@@ -17,10 +17,17 @@ def lag(problem, y):
     """Take normal forces at ``y`` (n,); return whether there are any, or were before."""
     if problem.scene.friction.mu == 0.0:
         return False
-    before, pairs = problem.near.lagged.count[0], problem.near.pairs
+    before, pairs = problem.neighbours.lagged_contacts.count[0], problem.neighbours.pairs
     scene = problem.scene
-    friction.lag(y, scene.contact, pairs, drift(problem, y), scene.friction, problem.near.lagged)
-    return before + problem.near.lagged.count[0] > 0
+    friction.lag(
+        y,
+        scene.contact,
+        pairs,
+        drift(problem, y),
+        scene.friction,
+        problem.neighbours.lagged_contacts,
+    )
+    return before + problem.neighbours.lagged_contacts.count[0] > 0
 
 
 @jit_exact
@@ -40,7 +47,7 @@ def exchange(problem, step, found):
         found.g[i] -= found.friction[i]
         found.friction[i] = 0.0
     slip = slip_of(problem, step)
-    rubbed = friction.evaluate(found.u, problem.near.lagged, slip, found.friction)
+    rubbed = friction.evaluate(found.u, problem.neighbours.lagged_contacts, slip, found.friction)
     add(found.friction, found.g)
     sums.potential += rubbed - sums.friction
     sums.friction = rubbed
@@ -50,10 +57,12 @@ def exchange(problem, step, found):
 @jit_exact
 def follow(problem, dx, share, step, found):
     """Carry the duals of friction along a share of ``dx``; return whether they fit at its end."""
-    return friction.follow(found.u, dx, share, problem.near.lagged, slip_of(problem, step))
+    return friction.follow(
+        found.u, dx, share, problem.neighbours.lagged_contacts, slip_of(problem, step)
+    )
 
 
 @jit_exact
 def forget(problem):
     """Forget the duals of friction."""
-    friction.forget(problem.near.lagged)
+    friction.forget(problem.neighbours.lagged_contacts)

@@ -40,11 +40,11 @@ LEAST = np.dtype(
 @jit_exact
 def evaluate(problem, x, step, found, projected):
     """Return E in J; fill ``found``, and the walls' part of the (``projected``) Hessian."""
-    scene, near, coordinates = problem.scene, problem.near, problem.scene.coordinates
+    scene, neighbours, coordinates = problem.scene, problem.neighbours, problem.scene.coordinates
     _start(x, step, found)
     store_walls(problem, x, step, found, projected)
     found.stored[CONTACT] = contact.evaluate(
-        x, scene.contact, near.pairs, drift(problem, x), near.touching, found.elastic
+        x, scene.contact, neighbours.pairs, drift(problem, x), neighbours.touching, found.elastic
     )
     total = found.stored[STRETCH] + found.stored[BEND] + found.stored[CONTACT]
     for i in range(x.size):
@@ -69,11 +69,11 @@ def store_walls(problem, x, step, found, projected):
     """Fill stored energies of the walls, their shape, stiffness and least measures; add the
     gradient to ``found.elastic``.
     """
-    scene, shape, stiffness = problem.scene, problem.room.shape, problem.room.stiffness
-    walls, least = scene.walls, problem.room.least[0]
-    memory = Memory(problem.room.committed, step.duration)
+    scene, shape, stiffness = problem.scene, problem.buffers.shape, problem.buffers.stiffness
+    walls, least = scene.walls, problem.buffers.least[0]
+    memory = Memory(problem.buffers.committed, step.duration)
     least.length = elements.measure(x, walls, shape)
-    opened = bend.turns(x, walls, scene.bend, problem.room.before.frame, shape)
+    opened = bend.turns(x, walls, scene.bend, problem.buffers.before.frame, shape)
     elements.clear(shape, stiffness)
     found.stored[STRETCH] = stretch.evaluate(
         scene.stretch, scene.law, memory, shape, stiffness, projected
@@ -96,7 +96,11 @@ def _start(x, step, found):
 
 @jit_exact
 def _damping(problem, step, found, projected):
-    before, shape, stiffness = problem.room.before, problem.room.shape, problem.room.stiffness
+    before, shape, stiffness = (
+        problem.buffers.before,
+        problem.buffers.shape,
+        problem.buffers.stiffness,
+    )
     zero_rows(shape.slope)
     zero(shape.moment)
     total = damping.evaluate(

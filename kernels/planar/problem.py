@@ -9,13 +9,13 @@ import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.planar import constraints, factoring, lagging, potential, reach, rows, steps
-from kernels.planar.reach import Near
+from kernels.planar.reach import Neighbours
 from kernels.solve.problem import Coordinates
 from kernels.terms.damping import Before
 from kernels.terms.elements import Shape, Stiffness
 
 
-class Room(NamedTuple):
+class Buffers(NamedTuple):
     """Arrays that are made once. before: what damping measures from. shape, stiffness: of the walls
     at the last `evaluate`; least (1,): shortest element and narrowest opening there, see `LEAST`.
     committed (p, k): what the material remembers (`law.Memory`): elements, then hinges, then arms.
@@ -29,11 +29,11 @@ class Room(NamedTuple):
 
 
 class Planar(NamedTuple):
-    """The problem. scene: `PlanarScene`. near: pairs that may touch, the matrix, friction."""
+    """The problem. scene: `PlanarScene`. neighbours: pairs that may touch, the matrix, friction."""
 
     scene: object
-    near: Near
-    room: Room
+    neighbours: Neighbours
+    buffers: Buffers
 
     begin = steps.begin
     evaluate = potential.evaluate
@@ -79,19 +79,19 @@ def _measured(scene):
 
 
 @jit_owning
-def make_room(scene, memory):
+def make_buffers(scene, memory):
     """Return the arrays of all steps. memory: `history.State.memory`."""
     frame = np.full((scene.walls.rotation.size, 3), np.inf)  # none yet
     shape, stiffness = _measured(scene)
     before = Before(frame, shape, stiffness)
     shape, stiffness = _measured(scene)
-    return Room(before, shape, stiffness, np.zeros(1, potential.LEAST), memory)
+    return Buffers(before, shape, stiffness, np.zeros(1, potential.LEAST), memory)
 
 
 @jit_exact
-def assemble(scene, near, room):
+def assemble(scene, neighbours, buffers):
     """Return the problem."""
-    return Planar(scene, near, room)
+    return Planar(scene, neighbours, buffers)
 
 
 class PlanarScene(NamedTuple):
@@ -110,7 +110,7 @@ class PlanarScene(NamedTuple):
     layout: object
     project: object
 
-    find_near = reach.find_near
-    renew_near = reach.renew_near
-    make_room = make_room
+    find_neighbours = reach.find_neighbours
+    renew_neighbours = reach.renew_neighbours
+    make_buffers = make_buffers
     assemble = assemble

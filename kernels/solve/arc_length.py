@@ -257,15 +257,15 @@ def follow(scene, tolerance, stage, state, out, control, arc):
     progress, n = np.zeros(1, PROGRESS), state.x.size
     trail = Trail(np.zeros(n), np.zeros(n))
     progress[0].row, progress[0].share, progress[0].spent = -1, 1.0, AT_START
-    near, room = scene.find_near(state.x), scene.make_room(state.memory)
+    neighbours, buffers = scene.find_neighbours(state.x), scene.make_buffers(state.memory)
     space = make_workspace(n, state.stored.size)
     while True:
         now = progress[0]
-        problem = by_reference(scene).assemble(by_reference(near), by_reference(room))
+        problem = by_reference(scene).assemble(by_reference(neighbours), by_reference(buffers))
         outcome, rows = _go(
             problem, tolerance, stage, by_reference(state), out, control,
             by_reference(space), arc, trail, now,
         )  # fmt: skip
         if outcome != OUTGROWN:
             return outcome, max(rows, 0)
-        near = scene.renew_near(near, state.x, now.far)
+        neighbours = scene.renew_neighbours(neighbours, state.x, now.far)

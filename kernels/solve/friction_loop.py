@@ -1,4 +1,5 @@
-"""The fixed-point loop of forces that lag, as friction does: taken anew until a step ends there.
+"""The fixed-point loop of forces that lag, as friction does: taken anew until a step ends there
+(`Problem.lag`; of a lattice, `terms.friction.lag`).
 
 How far off they still are tells how well the next minimum need be found: each brings it nearer by
 about as much. The first mostly decides which way a lattice folds, and is found to the end; so is

@@ -275,10 +275,10 @@ def march(scene, tolerance, stage, state, out, control):
     last = state.totals[0].last
     if stage.error < np.inf and last > 0.0:
         progress[0].share = last / stage.duration
-    near, room = scene.find_near(state.x), scene.make_room(state.memory)
+    neighbours, buffers = scene.find_neighbours(state.x), scene.make_buffers(state.memory)
     space = make_workspace(state.x.size, state.stored.size)
     while True:
-        problem = by_reference(scene).assemble(by_reference(near), by_reference(room))
+        problem = by_reference(scene).assemble(by_reference(neighbours), by_reference(buffers))
         outcome, rows = _go(
             problem, tolerance, stage, by_reference(state), out, control,
             by_reference(space), descent[0], progress[0],
@@ -286,4 +286,4 @@ def march(scene, tolerance, stage, state, out, control):
         if outcome != OUTGROWN:
             return outcome, rows
         # A factor outlives its pairs; if the matrix will be another, `minimise` has given it up.
-        near = scene.renew_near(near, state.x, descent[0].far)
+        neighbours = scene.renew_neighbours(neighbours, state.x, descent[0].far)

@@ -125,7 +125,7 @@ class Problem(Protocol):
         """Factor the Hessian; return what was met and the first negative pivot.
 
         POSITIVE: all pivots are. NEGATIVE: one is not; with ``through`` it is not stopped at.
-        NO_ROOM: the pattern lacks an entry; `Scene.renew_near` makes room.
+        NO_ROOM: the pattern lacks an entry; `Scene.renew_neighbours` makes room.
         """
 
     def solve(self, b):
@@ -199,17 +199,18 @@ class Scene(Protocol):
 
     coordinates: Coordinates
 
-    def make_room(self, memory):
+    def make_buffers(self, memory):
         """Return the arrays of the problem that are made once. memory: `State.memory`."""
 
-    def find_near(self, x):
+    def find_neighbours(self, x):
         """Return what is near at ``x``, and a matrix with room for it."""
 
-    def renew_near(self, near, x, far):
-        """Return what was lacking in ``near`` at ``x``: room, or neighbours for a move by ``far``.
+    def renew_neighbours(self, neighbours, x, far):
+        """Return ``neighbours`` with what was lacking at ``x``: entries of the matrix, or those
+        whom a move by ``far`` m can bring near.
 
         A factor outlives this unless the matrix is another.
         """
 
-    def assemble(self, near, room):
+    def assemble(self, neighbours, buffers):
         """Return the problem."""

@@ -18,18 +18,24 @@ def _couple(nodes, n, a, b, c):
 
 
 @jit_owning
-def couplings(x, scene, found, lagged):
+def couplings(x, scene, found, lagged_contacts):
     """Return (c, 3) nodes of what may soon share a term: contacts, lagged ones, springs, folds."""
     layout, reach = scene.layout, 1.0 + LIKELY
-    most = found.node.size + lagged.count[0] + scene.fold.limit.size
+    most = found.node.size + lagged_contacts.count[0] + scene.fold.limit.size
     most += scene.contact.plate_nodes.size + scene.spring.l0.size
     nodes, n = np.empty((most, 3), np.int64), 0
     for k in range(found.node.size):
         if found.distance[k] < reach * found.d_contact[k]:
             a, b = pair(scene.contact.edges, found.edge[k])
             n = _couple(nodes, n, found.node[k], a, b)
-    for k in range(lagged.count[0]):
-        n = _couple(nodes, n, lagged.nodes[k, 0], lagged.nodes[k, 1], lagged.nodes[k, 2])
+    for k in range(lagged_contacts.count[0]):
+        n = _couple(
+            nodes,
+            n,
+            lagged_contacts.nodes[k, 0],
+            lagged_contacts.nodes[k, 1],
+            lagged_contacts.nodes[k, 2],
+        )
     for k in range(scene.spring.l0.size):
         a, b = pair(scene.spring.nodes, k)
         n = _couple(nodes, n, a, a, b)

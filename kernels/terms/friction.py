@@ -83,46 +83,46 @@ def none():
 
 
 @jit_owning
-def moved(lagged, larger):
-    """Return ``larger`` with what is in ``lagged``."""
-    larger.count[0] = min(lagged.count[0], larger.load.size)
+def moved(lagged_contacts, larger):
+    """Return ``larger`` with what is in ``lagged_contacts``."""
+    larger.count[0] = min(lagged_contacts.count[0], larger.load.size)
     for n in range(larger.count[0]):
-        larger.load[n], larger.dual[n] = lagged.load[n], lagged.dual[n]
+        larger.load[n], larger.dual[n] = lagged_contacts.load[n], lagged_contacts.dual[n]
         for k in range(3):
-            larger.nodes[n, k] = lagged.nodes[n, k]
-            larger.slopes[n, k, 0] = lagged.slopes[n, k, 0]
-            larger.slopes[n, k, 1] = lagged.slopes[n, k, 1]
+            larger.nodes[n, k] = lagged_contacts.nodes[n, k]
+            larger.slopes[n, k, 0] = lagged_contacts.slopes[n, k, 0]
+            larger.slopes[n, k, 1] = lagged_contacts.slopes[n, k, 1]
     return larger
 
 
 @jit_exact
-def _put(lagged, n, nodes, load):
-    lagged.nodes[n, 0], lagged.nodes[n, 1], lagged.nodes[n, 2] = nodes
-    lagged.load[n], lagged.dual[n] = load, UNKNOWN
+def _put(lagged_contacts, n, nodes, load):
+    lagged_contacts.nodes[n, 0], lagged_contacts.nodes[n, 1], lagged_contacts.nodes[n, 2] = nodes
+    lagged_contacts.load[n], lagged_contacts.dual[n] = load, UNKNOWN
     for v in range(3):
-        lagged.slopes[n, v, 0], lagged.slopes[n, v, 1] = 0.0, 0.0
+        lagged_contacts.slopes[n, v, 0], lagged_contacts.slopes[n, v, 1] = 0.0, 0.0
     return n + 1
 
 
 @jit_exact
-def _lag_segment(x, lagged, n, nodes, tau, load):
+def _lag_segment(x, lagged_contacts, n, nodes, tau, load):
     """Add the contact of node p with the point ``tau`` of segment a-b; return the new count."""
     p, a, b = nodes
     nx, ny, d = normal(x, p, a, b, tau)
     ux, uy, length = direction(x, a, b)
     rx, ry = -d * uy / length, d * ux / length
-    _put(lagged, n, nodes, load)
-    lagged.slopes[n, 0, 0], lagged.slopes[n, 0, 1] = -ny, nx
-    lagged.slopes[n, 1, 0] = rx + (1.0 - tau) * ny
-    lagged.slopes[n, 1, 1] = ry - (1.0 - tau) * nx
-    lagged.slopes[n, 2, 0], lagged.slopes[n, 2, 1] = tau * ny - rx, -tau * nx - ry
+    _put(lagged_contacts, n, nodes, load)
+    lagged_contacts.slopes[n, 0, 0], lagged_contacts.slopes[n, 0, 1] = -ny, nx
+    lagged_contacts.slopes[n, 1, 0] = rx + (1.0 - tau) * ny
+    lagged_contacts.slopes[n, 1, 1] = ry - (1.0 - tau) * nx
+    lagged_contacts.slopes[n, 2, 0], lagged_contacts.slopes[n, 2, 1] = tau * ny - rx, -tau * nx - ry
     return n + 1
 
 
 @jit_exact
-def lag(x, contact, pairs, drift, friction, lagged):
-    """Fill ``lagged`` with all pairs in contact at ``x``. ``drift``: as in `contact.meet`."""
-    n, lagged.count[0], touching = 0, 0, lagged.touching
+def lag(x, contact, pairs, drift, friction, lagged_contacts):
+    """Fill ``lagged_contacts`` with all pairs in contact at ``x``. drift: as in `contact.meet`."""
+    n, lagged_contacts.count[0], touching = 0, 0, lagged_contacts.touching
     if friction.mu == 0.0:
         return
     meet(x, contact, pairs, drift, touching)
@@ -130,14 +130,14 @@ def lag(x, contact, pairs, drift, friction, lagged):
         k = touching.pair[i]
         a, b = pair(contact.edges, pairs.edge[k])
         load = friction.mu * normal_force(contact, pairs, touching, i)
-        n = _lag_segment(x, lagged, n, (pairs.node[k], a, b), touching.tau[i], load)
+        n = _lag_segment(x, lagged_contacts, n, (pairs.node[k], a, b), touching.tau[i], load)
     for p in contact.plate_nodes:
         for d in (x[2 * p + 1] - x[contact.low], x[contact.high] - x[2 * p + 1]):
             load = friction.mu * plate_force(contact, p, d)
             if load > 0.0:
-                n = _put(lagged, n, (p, p, p), load)
-                lagged.slopes[n - 1, 0, 0] = 1.0
-    lagged.count[0] = n
+                n = _put(lagged_contacts, n, (p, p, p), load)
+                lagged_contacts.slopes[n - 1, 0, 0] = 1.0
+    lagged_contacts.count[0] = n
 
 
 @jit
@@ -169,62 +169,70 @@ def curvature(u, w, slip):
 
 
 @jit
-def _slip(u, lagged, k):
+def _slip(u, lagged_contacts, k):
     total = 0.0
     for v in range(3):
-        i = 2 * lagged.nodes[k, v]
-        total += lagged.slopes[k, v, 0] * u[i] + lagged.slopes[k, v, 1] * u[i + 1]
+        i = 2 * lagged_contacts.nodes[k, v]
+        total += lagged_contacts.slopes[k, v, 0] * u[i] + lagged_contacts.slopes[k, v, 1] * u[i + 1]
     return total
 
 
 @jit
-def evaluate(u, lagged, slip, g):
+def evaluate(u, lagged_contacts, slip, g):
     """Return D_f in J for a move ``u`` (n,) from y, zero at rest; add dD_f/dx to ``g``."""
     total = 0.0
-    for k in range(lagged.count[0]):
-        value, slope = smooth(_slip(u, lagged, k), slip)
-        total += lagged.load[k] * (value - slip / 3.0)
+    for k in range(lagged_contacts.count[0]):
+        value, slope = smooth(_slip(u, lagged_contacts, k), slip)
+        total += lagged_contacts.load[k] * (value - slip / 3.0)
         for v in range(3):
-            i = 2 * lagged.nodes[k, v]
-            g[i] += lagged.load[k] * slope * lagged.slopes[k, v, 0]
-            g[i + 1] += lagged.load[k] * slope * lagged.slopes[k, v, 1]
+            i = 2 * lagged_contacts.nodes[k, v]
+            g[i] += lagged_contacts.load[k] * slope * lagged_contacts.slopes[k, v, 0]
+            g[i + 1] += lagged_contacts.load[k] * slope * lagged_contacts.slopes[k, v, 1]
     return total
 
 
 @jit
-def follow(u, dx, share, lagged, slip):
+def follow(u, dx, share, lagged_contacts, slip):
     """Take the duals all along a Newton step ``dx`` (n,), ``share`` of which has led to ``u``.
 
     Return whether they are what they should be there, so that `hessian` is the second derivative.
     """
     fit = True
-    for k in range(lagged.count[0]):
-        move, at = _slip(dx, lagged, k), _slip(u, lagged, k)
+    for k in range(lagged_contacts.count[0]):
+        move, at = _slip(dx, lagged_contacts, k), _slip(u, lagged_contacts, k)
         before = at - share * move
-        w = before / _stretched(before, slip)[0] + curvature(before, lagged.dual[k], slip) * move
-        lagged.dual[k] = min(max(w, -1.0), 1.0)
-        fit = fit and abs(lagged.dual[k] - at / _stretched(at, slip)[0]) < FIT
+        w = (
+            before / _stretched(before, slip)[0]
+            + curvature(before, lagged_contacts.dual[k], slip) * move
+        )
+        lagged_contacts.dual[k] = min(max(w, -1.0), 1.0)
+        fit = fit and abs(lagged_contacts.dual[k] - at / _stretched(at, slip)[0]) < FIT
     return fit
 
 
 @jit
-def forget(lagged):
+def forget(lagged_contacts):
     """Forget all duals: `hessian` is then the second derivative."""
-    for k in range(lagged.count[0]):
-        lagged.dual[k] = UNKNOWN
+    for k in range(lagged_contacts.count[0]):
+        lagged_contacts.dual[k] = UNKNOWN
 
 
 @jit
-def hessian(u, lagged, slip, matrix, projected):
+def hessian(u, lagged_contacts, slip, matrix, projected):
     """Add d2D_f/dx2, or what stands for it; ``projected``: without shares of negative force."""
-    for k in range(lagged.count[0]):
-        weight = lagged.load[k] * curvature(_slip(u, lagged, k), lagged.dual[k], slip)
+    for k in range(lagged_contacts.count[0]):
+        weight = lagged_contacts.load[k] * curvature(
+            _slip(u, lagged_contacts, k), lagged_contacts.dual[k], slip
+        )
         if weight == 0.0 or (projected and weight < 0.0):
             continue
-        last = 3 if lagged.nodes[k, 1] != lagged.nodes[k, 0] else 1
+        last = 3 if lagged_contacts.nodes[k, 1] != lagged_contacts.nodes[k, 0] else 1
         for v in range(last):
-            vx, vy = weight * lagged.slopes[k, v, 0], weight * lagged.slopes[k, v, 1]
+            vx, vy = (
+                weight * lagged_contacts.slopes[k, v, 0],
+                weight * lagged_contacts.slopes[k, v, 1],
+            )
             for w in range(v + 1):
-                wx, wy = lagged.slopes[k, w, 0], lagged.slopes[k, w, 1]
-                i, j = 2 * lagged.nodes[k, v], 2 * lagged.nodes[k, w]
+                wx, wy = lagged_contacts.slopes[k, w, 0], lagged_contacts.slopes[k, w, 1]
+                i, j = 2 * lagged_contacts.nodes[k, v], 2 * lagged_contacts.nodes[k, w]
                 add_block(matrix, i, j, vx * wx, vx * wy, vy * wx, vy * wy)

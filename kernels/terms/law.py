@@ -9,7 +9,8 @@ last and the duration of the step,
 is all that a step needs of it: the step stays a minimisation. For a law without memory W is the
 stored energy. A law with memory minimises over its internal variables itself, so that W is its
 incremental potential: stored energy and what is dissipated in the step. At commit it tells the two
-apart, for the energy book.
+apart, for the energy book. The curves of `elastic` have no memory; what a law remembers is kept in
+`solve.history.State.memory`, which `planar.steps.commit` renews.
 
 A strain with several components (axial strain and curvature of a section, three of a plate) is a
 tuple, and so is its stress; the tangent is then the upper triangle, row by row.

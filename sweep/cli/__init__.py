@@ -1,1 +1,1 @@
-"""The command line: its verbs, and the output on the terminal."""
+"""The command line: `verbs` has one function for each verb, `terminal` what a terminal shows."""

@@ -1,4 +1,7 @@
-"""From TOML to a sweep in SI. Units are converted only here."""
+"""From TOML to a sweep in SI: the only place that reads a unit.
+
+Columns of results have their unit in their name.
+"""
 
 import re
 import sys

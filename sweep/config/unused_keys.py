@@ -1,4 +1,4 @@
-"""Keys without effect: a config is refused if it sets a key that none of its cases uses."""
+"""Keys without effect, and why: `grid` refuses a config with a key that none of its cases uses."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -1,1 +1,4 @@
-"""The drawing of a lattice: families of infill, network of walls, printed area, sizing."""
+"""What is drawn: families of infill, the network of walls, and its printed area.
+
+`infill/` has one file for each family; `sizing` finds the cells or the wall that give a mass.
+"""

@@ -1,4 +1,7 @@
-"""Area of the union of overlapping shapes."""
+"""Area of the union of overlapping shapes.
+
+`united_area` gives the mass of a print (`network.mass`), `covered_area` that of deformed shapes.
+"""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -1,4 +1,4 @@
-"""A ranking: its table, and data that are not in the table."""
+"""`Ranking`, what `rank.ranked` returns: the table, and data that are not in the table."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Charts of a sweep: merit over mass and over wall thickness, in colours of viridis."""
+"""Charts of a sweep, in colours of viridis: merit over mass (absorption.png, sink.png,
+passed_on.png) and over the wall thickness (wall_thickness.png).
+"""
 
 from __future__ import annotations
 

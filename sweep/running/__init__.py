@@ -1,1 +1,4 @@
-"""A sweep: cases in batches on Dask, progress, error bars, cost estimate. The only user of dask."""
+"""A sweep from its cases to its results file: batches on Dask, progress, error bars, estimates.
+
+`dask_graph` is the only home of dask.
+"""

@@ -1,1 +1,4 @@
-"""From a case to arrays for the kernels: mesh, coordinates, data of every term, loading."""
+"""A case as arrays for the kernels: mesh, coordinates, the data of every term, and the loading.
+
+`lattice`, `periodic` and `custom` each build one kind of scene out of the same parts (`terms`).
+"""

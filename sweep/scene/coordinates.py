@@ -28,6 +28,18 @@ class Numbering:
         return 2 * self.n_nodes + np.arange(self.n_joints)
 
     @property
+    def point(self) -> Ints:
+        """Point of each coordinate, (size,): its node, or n_nodes for a platen."""
+        nodes, platens = np.arange(self.n_nodes), np.full(2, self.n_nodes)
+        return np.concatenate([nodes.repeat(2), nodes[: self.n_joints], platens])
+
+    @property
+    def slot(self) -> Ints:
+        """Place of each coordinate in the block of its point, (size,): x, y, rotation."""
+        along, platens = np.tile([0, 1], self.n_nodes), np.zeros(2, np.int64)
+        return np.concatenate([along, np.full(self.n_joints, 2), platens])
+
+    @property
     def low(self) -> int:
         """Coordinate of the lower platen's surface."""
         return 2 * self.n_nodes + self.n_joints

@@ -70,10 +70,10 @@ def build_periodic(case: Case) -> Scene:
     fold = build_fold(whole, around, case)
     inside = numbering.own[fold.nodes[:, 1]]
     leader = _leaders(numbering, case)
-    layout = solved_by(mesh, numbering, leader, case)._replace(
-        images=_images(numbering, leader),
-        origin=numbering.origin,
-        wall_of=_wall_of(mesh, numbering),
+    layout = solved_by(mesh, numbering, leader, case)
+    origin = np.append(numbering.origin, numbering.n_nodes)
+    layout = layout._replace(
+        images=_images(numbering, leader), origin=origin, wall_of=layout.wall_of[origin]
     )
     touch = contact_of(whole, numbering, contact_stiffness(case), case, by_force=True)
     masses = _masses(mesh, numbering, mass(network, lattice.depth, case.material.density))
@@ -146,14 +146,6 @@ def _images(numbering: Repeated, leader: Ints) -> Ints:
         own, mean = np.where(leader[own] < 0, -1, own), np.full(len(nodes), size)
         rows.append(np.column_stack([2 * nodes + axis, own, mean, numbering.shift[nodes, axis]]))
     return np.concatenate(rows)
-
-
-def _wall_of(mesh: Mesh, numbering: Repeated) -> Ints:
-    """Wall that contains a node, or of which a node is an image, (n,); -1 for joints."""
-    wall_of = np.full(numbering.n_nodes, -1)
-    before, node, _ = mesh.inner.T
-    wall_of[node] = mesh.wall[before]
-    return wall_of[numbering.origin]
 
 
 def _masses(mesh: Mesh, numbering: Repeated, total: float) -> Floats:

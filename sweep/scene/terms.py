@@ -161,7 +161,7 @@ def solved_by(mesh: Mesh, numbering: Numbering, leader: Ints, case: Case) -> ana
     """The layout of the linear system. leader (n,): the coordinate that each one follows."""
     joints = mesh.arm_joint.reshape(-1, 2)
     outer = np.stack([2 * joints, 2 * joints + 1, numbering.rotation[joints]], axis=-1)
-    wall_of = np.full(numbering.n_nodes, -1)
+    wall_of = np.full(numbering.n_nodes + 1, -1)
     before, node, _ = mesh.inner.T
     wall_of[node] = mesh.wall[before]
     axial = case.material.modulus * case.lattice.depth * mesh.thickness / mesh.rest_length
@@ -170,10 +170,12 @@ def solved_by(mesh: Mesh, numbering: Numbering, leader: Ints, case: Case) -> ana
         ratio=np.ones(numbering.size),
         images=periodic_images.NONE,
         driven=numbering.high if case.loading.mode == "displacement" else -1,
+        point=numbering.point,
+        slot=numbering.slot,
         n_nodes=numbering.n_nodes,
-        n_joints=numbering.n_joints,
-        origin=np.arange(numbering.n_nodes),
-        inner=mesh.edges[mesh.start[:-1], 1],
+        first=2 * np.arange(numbering.n_nodes),
+        origin=np.arange(numbering.n_nodes + 1),
+        inner=2 * mesh.edges[mesh.start[:-1], 1],
         wall_of=wall_of,
         outer=outer.reshape(-1, 6),
         scale=float(axial.max()),

@@ -1,1 +1,1 @@
-"""From a case to its result: the run, and the measures derived from it."""
+"""A case in, a result out: `simulate` runs the march, `summary` measures what came of it."""

@@ -1,5 +1,7 @@
 """Time limits: one thread watches all cases that run in a process.
 
+`simulate` lets it set `control[0]`, which Newton's method reads before each evaluation.
+
 With a thread per case, every case would wait some milliseconds until a busy core starts its thread.
 """
 

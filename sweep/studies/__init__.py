@@ -1,1 +1,1 @@
-"""Studies in the package: the prediction of a measured crush, the figures of the course report."""
+"""Studies that come with Crumple: a measured crush predicted, the figures of a course report."""

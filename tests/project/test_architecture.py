@@ -21,8 +21,8 @@ KERNELS = [module for module in PROGRAM if module.startswith("kernels")]
 
 # From the ground up: a package imports those before it and itself, inside of functions too.
 FLOORS = [
-    "kernels.compile", "kernels.arrays", "kernels.linear", "kernels.geometry", "kernels.terms",
-    "kernels.solve", "kernels.planar",
+    "kernels.compile", "kernels.arrays", "kernels.solve", "kernels.linear", "kernels.geometry",
+    "kernels.terms", "kernels.planar",
     "sweep.version", "sweep.numbers", "sweep.design", "sweep.config", "sweep.result", "sweep.scene",
     "sweep.simulation", "sweep.store", "sweep.ranking", "sweep.report", "sweep.running",
     "sweep.studies", "sweep.cli", "sweep.__main__",
@@ -145,6 +145,20 @@ def test_imports_point_one_way():
         if floor(m) is not None and (floor(name) is None or floor(name) > floor(m))
     ]
     assert upward == []
+
+
+def test_the_solver_and_the_physics_do_not_know_each_other():
+    """Only a problem, `kernels.planar`, has both."""
+    physics = "kernels.linear kernels.geometry kernels.terms"
+    known = {m: imports(m) for m in KERNELS if is_within(m, f"kernels.solve {physics}")}
+    meet = [
+        f"{m} -> {name}"
+        for m, names in known.items()
+        for name in names
+        if is_within(m, "kernels.solve") != is_within(name, "kernels.solve")
+        and is_within(name, f"kernels.solve {physics}")
+    ]
+    assert meet == []
 
 
 def strings(module):

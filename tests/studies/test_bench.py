@@ -128,7 +128,9 @@ def test_repeated_kernels_do_what_a_step_does(collapsed):
     one.factor(spot.x)
     spot.each(loops.FACTOR)
     np.testing.assert_allclose(
-        by_home(spot.whole.near.system.matrix), by_home(one.near.system.matrix), rtol=1e-9
+        by_home(spot.whole.neighbours.system.matrix),
+        by_home(one.neighbours.system.matrix),
+        rtol=1e-9,
     )
 
 
@@ -191,7 +193,7 @@ def test_libraries_solve_the_matrix_of_a_step(inner):
     state = at_rest(scene)
     marching.press(case, scene, state, (0.0, 0.1), 10)
     spot = Spot(scene, state.x, 1e-6 * np.ones(state.x.size))
-    matrix = assembled(scene.terms, spot.whole.problem.room.stiffness)
+    matrix = assembled(scene.terms, spot.whole.problem.buffers.stiffness)
     b = np.random.default_rng(0).normal(size=matrix.shape[0])
     solutions = [solve(b) for solve in libraries.solvers(matrix).values() if solve]
     assert len(solutions) >= 2

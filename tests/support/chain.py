@@ -37,14 +37,14 @@ class Output(NamedTuple):
     positions: np.ndarray
 
 
-class Near(NamedTuple):
+class Neighbours(NamedTuple):
     """Where the list was made (n,), and how often one was (1,)."""
 
     anchor: np.ndarray
     made: np.ndarray
 
 
-class Room(NamedTuple):
+class Buffers(NamedTuple):
     """Normal forces (n,) as they were lagged; pivots and off-diagonal (n,) of the factor, diagonal
     before it; place (1,) of the first negative pivot, -1 if there is none.
     """
@@ -137,9 +137,9 @@ def _is_solved(coordinates, i):
 
 @jit_exact
 def factor(problem, x, step, found, projected, through):
-    scene, room, coordinates = problem.scene, problem.room, problem.scene.coordinates
+    scene, buffers, coordinates = problem.scene, problem.buffers, problem.scene.coordinates
     met, first, before = POSITIVE, 0.0, 0.0
-    room.place[0] = -1
+    buffers.place[0] = -1
     for i in range(x.size):
         stiffness = _well(scene, x[i])[2]
         if projected:
@@ -149,17 +149,17 @@ def factor(problem, x, step, found, projected, through):
         if step.dynamic:
             stiffness += coordinates.mass[i] / step.h**2
         if scene.friction > 0.0:
-            stiffness += scene.friction * room.normal[i] * _smoothed(found.u[i], scene.slip)[2]
-        room.diagonal[i] = stiffness
+            stiffness += scene.friction * buffers.normal[i] * _smoothed(found.u[i], scene.slip)[2]
+        buffers.diagonal[i] = stiffness
     for i in range(x.size):
         if not _is_solved(coordinates, i):
-            room.pivot[i], room.beside[i], before = 1.0, 0.0, 0.0
+            buffers.pivot[i], buffers.beside[i], before = 1.0, 0.0, 0.0
             continue
-        room.beside[i] = -scene.spring / before if before != 0.0 else 0.0
-        room.pivot[i] = room.diagonal[i] - room.beside[i] ** 2 * before
-        before = room.pivot[i]
-        if room.pivot[i] <= 0.0 and met == POSITIVE:
-            met, first, room.place[0] = NEGATIVE, room.pivot[i], i
+        buffers.beside[i] = -scene.spring / before if before != 0.0 else 0.0
+        buffers.pivot[i] = buffers.diagonal[i] - buffers.beside[i] ** 2 * before
+        before = buffers.pivot[i]
+        if buffers.pivot[i] <= 0.0 and met == POSITIVE:
+            met, first, buffers.place[0] = NEGATIVE, buffers.pivot[i], i
             if not through:
                 break
     return met, first
@@ -167,34 +167,34 @@ def factor(problem, x, step, found, projected, through):
 
 @jit_exact
 def solve(problem, b):
-    room, coordinates = problem.room, problem.scene.coordinates
+    buffers, coordinates = problem.buffers, problem.scene.coordinates
     for i in range(b.size):
         if not _is_solved(coordinates, i):
             b[i] = 0.0
-        elif room.beside[i] != 0.0:
-            b[i] -= room.beside[i] * b[i - 1]
+        elif buffers.beside[i] != 0.0:
+            b[i] -= buffers.beside[i] * b[i - 1]
     for i in range(b.size):
-        b[i] /= room.pivot[i]
+        b[i] /= buffers.pivot[i]
     for i in range(b.size - 1, 0, -1):
-        if room.beside[i] != 0.0:
-            b[i - 1] -= room.beside[i] * b[i]
+        if buffers.beside[i] != 0.0:
+            b[i - 1] -= buffers.beside[i] * b[i]
 
 
 @jit_exact
 def descend(problem, direction):
-    room = problem.room
+    buffers = problem.buffers
     zero(direction)
-    direction[room.place[0]] = 1.0
-    for i in range(room.place[0], 0, -1):
-        if room.beside[i] == 0.0:
+    direction[buffers.place[0]] = 1.0
+    for i in range(buffers.place[0], 0, -1):
+        if buffers.beside[i] == 0.0:
             break
-        direction[i - 1] = -room.beside[i] * direction[i]
+        direction[i - 1] = -buffers.beside[i] * direction[i]
 
 
 @jit_exact
 def unstable(problem):
     count = 0
-    for pivot in problem.room.pivot:
+    for pivot in problem.buffers.pivot:
         count += pivot < 0.0
     return count
 
@@ -202,7 +202,7 @@ def unstable(problem):
 @jit_exact
 def stiffest(problem):
     most = 0.0
-    for stiffness in problem.room.diagonal:
+    for stiffness in problem.buffers.diagonal:
         most = max(most, abs(stiffness))
     return most
 
@@ -225,7 +225,7 @@ def lead(problem, move, direction):
 def pull(problem, move, direction):
     scene = problem.scene
     driven = scene.coordinates.driven
-    direction[driven] = problem.room.diagonal[driven] * move
+    direction[driven] = problem.buffers.diagonal[driven] * move
     if driven > 0:
         direction[driven - 1] -= scene.spring * move
     if driven + 1 < direction.size:
@@ -255,7 +255,7 @@ def step_limit(problem, x, dx, far):
 def covers(problem, x, far):
     moved = 0.0
     for i in range(x.size):
-        moved = max(moved, abs(x[i] - problem.near.anchor[i]))
+        moved = max(moved, abs(x[i] - problem.neighbours.anchor[i]))
     return moved + far <= MARGIN * problem.scene.width or (far > 0.0 and moved == 0.0)
 
 
@@ -266,7 +266,7 @@ def lags(problem):
 
 @jit_exact
 def lag(problem, y):
-    scene, normal = problem.scene, problem.room.normal
+    scene, normal = problem.scene, problem.buffers.normal
     for i in range(y.size):
         normal[i] = scene.weight * (1.0 + (y[i] / scene.width) ** 2)
     return scene.friction > 0.0
@@ -280,7 +280,7 @@ def exchange(problem, step, found):
     rubbed = 0.0
     for i in range(found.u.size):
         value, slope, _ = _smoothed(found.u[i], scene.slip)
-        load = scene.friction * problem.room.normal[i]
+        load = scene.friction * problem.buffers.normal[i]
         found.g[i] -= found.friction[i]
         found.friction[i] = load * slope
         found.g[i] += found.friction[i]
@@ -325,8 +325,8 @@ class Chain(NamedTuple):
     """The problem."""
 
     scene: object
-    near: Near
-    room: Room
+    neighbours: Neighbours
+    buffers: Buffers
 
     begin = begin
     evaluate = evaluate
@@ -356,26 +356,26 @@ class Chain(NamedTuple):
 
 
 @jit_owning
-def make_room(scene, memory):
+def make_buffers(scene, memory):
     n = scene.coordinates.role.size
     a = np.zeros((4, n))
-    return Room(a[0], a[1], a[2], a[3], np.full(1, -1))
+    return Buffers(a[0], a[1], a[2], a[3], np.full(1, -1))
 
 
 @jit_owning
-def find_near(scene, x):
-    return Near(x.copy(), np.ones(1, np.int64))
+def find_neighbours(scene, x):
+    return Neighbours(x.copy(), np.ones(1, np.int64))
 
 
 @jit_owning
-def renew_near(scene, near, x, far):
-    near.made[0] += 1
-    return Near(x.copy(), near.made)
+def renew_neighbours(scene, neighbours, x, far):
+    neighbours.made[0] += 1
+    return Neighbours(x.copy(), neighbours.made)
 
 
 @jit_exact
-def assemble(scene, near, room):
-    return Chain(scene, near, room)
+def assemble(scene, neighbours, buffers):
+    return Chain(scene, neighbours, buffers)
 
 
 class Line(NamedTuple):
@@ -394,7 +394,7 @@ class Line(NamedTuple):
     weight: float
     slip: float
 
-    make_room = make_room
-    find_near = find_near
-    renew_near = renew_near
+    make_buffers = make_buffers
+    find_neighbours = find_neighbours
+    renew_neighbours = renew_neighbours
     assemble = assemble

@@ -220,19 +220,21 @@ def contact_of(of: Frame, stiffness: float = 1.0) -> contact.Contact:
 
 def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> analysis.Layout:
     """``held`` coordinates and the lower platen do not move, ``tied`` ones follow the upper one."""
-    n, size = len(of.points), of.rest.size
+    n, size, nodes = len(of.points), of.rest.size, np.arange(len(of.points))
+    point = np.concatenate([nodes.repeat(2), nodes[: of.joints], [n, n]])
+    slot = np.concatenate([np.tile([0, 1], n), np.full(of.joints, 2), [0, 0]])
     leader = np.arange(size)
     leader[list(tied)] = size - 1
     leader[[*held, size - 2]] = -1
-    wall_of = np.full(n, -1)
+    wall_of = np.full(n + 1, -1)
     inside = np.flatnonzero(of.edges[:, 1] >= of.joints)
     wall_of[of.edges[inside, 1]] = np.searchsorted(of.start, inside, "right") - 1
     joints = of.arm_joint.reshape(-1, 2)
     outer = np.stack([2 * joints, 2 * joints + 1, 2 * n + joints], axis=-1).reshape(-1, 6)
-    axial = of.modulus * of.depth * of.thickness / of.l0
+    inner, axial = 2 * of.edges[of.start[:-1], 1], of.modulus * of.depth * of.thickness / of.l0
     return analysis.Layout(
-        leader, np.ones(size), periodic_images.NONE, size - 1 if driven else -1, n, of.joints,
-        np.arange(n), of.edges[of.start[:-1], 1], wall_of, outer, float(axial.max()),
+        leader, np.ones(size), periodic_images.NONE, size - 1 if driven else -1, point, slot,
+        n, 2 * nodes, np.arange(n + 1), inner, wall_of, outer, float(axial.max()),
     )  # fmt: skip
 
 

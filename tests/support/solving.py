@@ -33,17 +33,17 @@ class Whole:
         return self.problem.scene
 
     @property
-    def near(self):
+    def neighbours(self):
         """Pairs, system and lagged friction of some state."""
-        return self.problem.near
+        return self.problem.neighbours
 
-    def beside(self, near):
+    def beside(self, neighbours):
         """The same with other neighbours."""
-        return replace(self, problem=self.problem._replace(near=by_reference(near)))
+        return replace(self, problem=self.problem._replace(neighbours=by_reference(neighbours)))
 
-    def lagging(self, lagged):
+    def lagging(self, lagged_contacts):
         """The same with other contacts that have friction."""
-        return self.beside(referred(self.near)._replace(lagged=lagged))
+        return self.beside(referred(self.neighbours)._replace(lagged_contacts=lagged_contacts))
 
     def found(self, x, projected=False) -> tuple[float, Found]:
         """Energy and what else `evaluate` finds at ``x``."""
@@ -64,10 +64,10 @@ class Whole:
         terms, matrix, step = self.terms, full_matrix(x.size), self.step
         fold.hessian(x, terms.fold, matrix, projected)
         spring.hessian(x, terms.spring, matrix, projected)
-        near = self.near
-        contact.hessian(x, terms.contact, near.pairs, near.touching, matrix, projected)
-        friction.hessian(found.u, self.near.lagged, self.slip, matrix, projected)
-        walls = assembled(terms.walls, self.problem.room.stiffness, x.size)
+        neighbours = self.neighbours
+        contact.hessian(x, terms.contact, neighbours.pairs, neighbours.touching, matrix, projected)
+        friction.hessian(found.u, self.neighbours.lagged_contacts, self.slip, matrix, projected)
+        walls = assembled(terms.walls, self.problem.buffers.stiffness, x.size)
         inert = (1.0 / step.h + terms.damp.alpha_m) / step.h * step.dynamic
         return walls + dense(matrix) + np.diag(inert * terms.coordinates.mass)
 
@@ -102,19 +102,19 @@ class Whole:
         return self.problem.step_limit(x, dx, most)
 
 
-def near_of(x, terms, move=0.0):
-    """`Near` at ``x`` for a ``move`` (m), with friction lagged there."""
-    found, margin, crowd = reach.list_near(terms, x, move)
+def neighbours_of(x, terms, move=0.0):
+    """`Neighbours` at ``x`` for a ``move`` (m), with friction lagged there."""
+    found, margin, projection_pairs = reach.list_neighbours(terms, x, move)
     lagged = friction.no_contacts(found, terms.contact, terms.friction)
     friction.lag(x, terms.contact, found, np.inf, terms.friction, lagged)
     system = reach.make_system(terms, x, found, lagged)
     touching = contact.no_contacts(found)
-    return reach.Near(found, x.copy(), margin, system, crowd, touching, lagged)
+    return reach.Neighbours(found, x.copy(), margin, system, projection_pairs, touching, lagged)
 
 
-def problem_of(terms, near, room):
+def problem_of(terms, neighbours, buffers):
     """The problem as a march has it."""
-    return Planar(by_reference(terms), by_reference(near), by_reference(room))
+    return Planar(by_reference(terms), by_reference(neighbours), by_reference(buffers))
 
 
 def whole(scene, x, x0=None, dt=np.inf, v=None, factor=1.0, reach=0.0):
@@ -126,7 +126,9 @@ def whole(scene, x, x0=None, dt=np.inf, v=None, factor=1.0, reach=0.0):
     dynamic = bool(dt < np.inf)
     h = dt if dynamic else 1.0
     x_pred = x0.copy() if v is None else x0 + dt * v
-    problem = problem_of(terms, near_of(x, terms, reach), terms.make_room(np.empty((0, 0))))
+    problem = problem_of(
+        terms, neighbours_of(x, terms, reach), terms.make_buffers(np.empty((0, 0)))
+    )
     one = Step(x0, x0, x_pred, h, h, dynamic, factor, 1.0)
     problem.begin(one, nowhere(x.size), np.zeros(x.size))
     return Whole(problem, one)
@@ -189,8 +191,10 @@ def descend(
         done += int(descent.iterations)
         if outcome != newton.OUTGROWN:
             return Descent(outcome, done, x)
-        near = near_of(x, scene.terms, descent.far)._replace(lagged=problem.near.lagged)
-        problem, there = problem._replace(near=by_reference(near)), False
+        neighbours = neighbours_of(x, scene.terms, descent.far)._replace(
+            lagged_contacts=problem.neighbours.lagged_contacts
+        )
+        problem, there = problem._replace(neighbours=by_reference(neighbours)), False
         space.work.dx[:], descent.kept = 0.0, np.inf
 
 

@@ -5,7 +5,9 @@ groups of polylines (n, k, 2) whose vertices are joints, in a unit of the family
 and rows are consecutive and may be negative; walls that neighbouring cells share may be drawn
 twice. The drawing is stretched to the box. `ORIENTED = True`: the family may be turned by 90
 degrees (`lattice.orientation`). `STAGGERED = True`: rows alternate, so the pattern repeats every
-two rows.
+two rows. Optional closed forms, which spare a drawing: `counts(columns, rows)` of joints and walls,
+`opening(width, height)` of a cell. To add a family, copy `diamond`, the shortest, or `hex`, which
+has both traits.
 
 Numpy is loaded only to draw, so that a wrong config is refused at once.
 """

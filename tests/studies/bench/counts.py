@@ -11,13 +11,13 @@ from kernels.solve import march, newton
 # Whatever stands between these, and what returns arrays to code that counts no references.
 LOOPS = [(march, "march"), (march, "_go"), (march, "_step"), (march, "_balance")]
 LOOPS += [(march, "minimise"), (march, "make_workspace")]
-LOOPS += [(PlanarScene, name) for name in ("find_near", "renew_near", "assemble")]
+LOOPS += [(PlanarScene, name) for name in ("find_neighbours", "renew_neighbours", "assemble")]
 WATCHED = {
     "evaluate": (Planar, "evaluate"),
     "factor": (Planar, "factor"),
     "solve": (newton, "_solve"),
     "limit": (Planar, "step_limit"),
-    "list": (reach, "list_near"),
+    "list": (reach, "list_neighbours"),
     "room": (reach, "make_system"),
 }
 

@@ -30,7 +30,7 @@ def exponent(sizes, times):
 
 def _search(scene):
     """List pairs and make the system, as every march does once."""
-    pairs = reach.list_near(scene.terms, scene.x_rest, 0.0)[0]
+    pairs = reach.list_neighbours(scene.terms, scene.x_rest, 0.0)[0]
     loops.analyse(1, scene.x_rest, scene.terms, pairs)
 
 

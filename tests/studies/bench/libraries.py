@@ -112,7 +112,7 @@ def table(sizes, count):
     for cells in sizes:
         crush = Crush(cells)
         spot = Spot(crush.scene, crush.state.x, crush.move)
-        matrix = assembled(crush.scene.terms, spot.whole.problem.room.stiffness)
+        matrix = assembled(crush.scene.terms, spot.whole.problem.buffers.stiffness)
         b, libraries = np.ones(matrix.shape[0]), solvers(matrix)
         sides = {OURS: lambda spot=spot: spot.each(loops.FACTOR) + spot.each(loops.SOLVE)}
         for name, solve in libraries.items():

@@ -27,9 +27,9 @@ from kernels.terms.law import Memory
 
 
 @jit_exact
-def _condense(terms, near, stiffness):
+def _condense(terms, neighbours, stiffness):
     """Fill the rows of all walls and eliminate their inner unknowns."""
-    solver, failed = near.system, 0
+    solver, failed = neighbours.system, 0
     for w in range(solver.kind.size):
         if solver.kind[w] == RIGID:
             continue
@@ -48,10 +48,10 @@ def repeat(which, count, x, dx, most, problem, step, found, ones):
     """Call one kernel ``count`` times at the state of ``found``, for a move ``dx`` of ``most`` m at
     most; ``ones``: values to factor.
     """
-    terms, near, room = problem.scene, problem.near, problem.room
-    shape, stiffness, before = room.shape, room.stiffness, room.before
-    memory = Memory(room.committed, step.duration)
-    total, walls, matrix, b = 0.0, terms.walls, near.system.matrix, found.material
+    terms, neighbours, buffers = problem.scene, problem.neighbours, problem.buffers
+    shape, stiffness, before = buffers.shape, buffers.stiffness, buffers.before
+    memory = Memory(buffers.committed, step.duration)
+    total, walls, matrix, b = 0.0, terms.walls, neighbours.system.matrix, found.material
     for _ in range(count):
         if which == EVALUATE:
             total += problem.evaluate(x, step, found, False)
@@ -82,15 +82,15 @@ def repeat(which, count, x, dx, most, problem, step, found, ones):
             )
         elif which == CONTACT:
             total += contact.evaluate(
-                x, terms.contact, near.pairs, 0.0, near.touching, found.elastic
+                x, terms.contact, neighbours.pairs, 0.0, neighbours.touching, found.elastic
             )
         elif which == CONTACT_HESSIAN:
-            contact.hessian(x, terms.contact, near.pairs, near.touching, matrix, False)
+            contact.hessian(x, terms.contact, neighbours.pairs, neighbours.touching, matrix, False)
         elif which == FRICTION:
             problem.exchange(step, found)
             total += found.sums[0].friction
         elif which == WALLS:
-            total += _condense(terms, near, stiffness)
+            total += _condense(terms, neighbours, stiffness)
         elif which == BLOCKS:
             copy(ones, matrix.values)
             total += block_ldlt.factor(matrix, terms.layout.scale, False)[1]
@@ -102,7 +102,7 @@ def search(count, x, terms, move):
     """List the pairs for moves up to ``move`` (m) ``count`` times."""
     found = 0
     for _ in range(count):
-        found += reach.list_near(terms, x, move)[0].node.size
+        found += reach.list_neighbours(terms, x, move)[0].node.size
     return found
 
 

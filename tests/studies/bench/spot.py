@@ -18,7 +18,7 @@ class Spot:
         self.x, self.move, self.whole = x, move, whole(scene, x, dt=dt)
         self.most = np.abs(move[: 2 * len(scene.mesh.points)]).max()
         self.found = self.whole.found(x)[1]
-        matrix = self.whole.near.system.matrix
+        matrix = self.whole.neighbours.system.matrix
         self.ones = np.zeros(matrix.values.size)  # a factor of ones takes as long as any other
         nb = matrix.start.size - 1
         self.ones[: SIZE * nb].reshape(nb, SIZE)[:, [0, 5, 10]] = 1.0
@@ -37,7 +37,7 @@ class Spot:
 
     def analyse(self):
         """Seconds of one analysis of the matrix."""
-        given = self.x, referred(self.whole.terms), self.whole.near.pairs
+        given = self.x, referred(self.whole.terms), self.whole.neighbours.pairs
         return self._each("analyse", lambda count: loops.analyse(count, *given))
 
     def _repeat(self, which, count):

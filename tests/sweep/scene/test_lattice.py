@@ -104,16 +104,21 @@ def test_what_is_held_and_what_moves_with_the_platen(platen, elements):
 def test_the_solver_knows_who_leads_and_where_walls_are(platen, elements):
     scene = scene_of(elements, platen)
     layout, walls, mesh = scene.terms.layout, scene.terms.walls, scene.mesh
-    assert (layout.n_nodes, layout.n_joints) == (len(mesh.points), 16)
+    n = len(mesh.points)
+    assert layout.n_nodes == n
+    places = zip(layout.point, layout.slot, strict=True)
+    pairs = [(p, s) for p in range(n) for s in (0, 1)] + [(p, 2) for p in range(16)]
+    assert list(places) == [*pairs, (n, 0), (n, 0)]
+    np.testing.assert_array_equal(layout.first, np.flatnonzero(layout.slot == 0)[:n])
     assert layout.driven == scene.terms.coordinates.driven
     held = scene.terms.coordinates.role == HELD
     np.testing.assert_array_equal(layout.leader < 0, held)
-    expected = np.full(len(mesh.points), -1)
+    expected = np.full(len(mesh.points) + 1, -1)
     for w in range(24):
         chain = walls.edges[walls.start[w] : walls.start[w + 1]]
         expected[chain[1:, 0]] = w
         if elements > 1:
-            assert layout.inner[w] == chain[0, 1]
+            assert layout.inner[w] == 2 * chain[0, 1]
             np.testing.assert_array_equal(np.diff(chain[:-1, 1]), 1)
         ends = np.array([chain[0, 0], chain[-1, 1]])
         outer = np.column_stack([2 * ends, 2 * ends + 1, 2 * len(mesh.points) + ends])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Contact
-from tests.support.solving import near_of, reduction, whole
+from tests.support.solving import neighbours_of, reduction, whole
 from tests.support.states import DT, RAYLEIGH, SCENES, SIZE, STATES, VISCOUS, loaded, step_to, unit
 
 
@@ -46,11 +46,11 @@ def test_what_has_come_near_needs_room_and_gets_it(state):
     scene = loaded(contact=Contact(friction=0.0))
     x = STATES[state](scene)
     args = whole(scene, x)
-    at_rest = near_of(scene.x_rest, scene.terms, SIZE)
+    at_rest = neighbours_of(scene.x_rest, scene.terms, SIZE)
     assert args.beside(at_rest).energy(x) == pytest.approx(args.energy(x), rel=1e-12)
     assert args.beside(at_rest).factor(x, True)[2]
     assert not args.factor(x, True)[2]
-    assert np.any(args.near.system.kind != at_rest.system.kind)
+    assert np.any(args.neighbours.system.kind != at_rest.system.kind)
 
 
 @pytest.mark.parametrize("dt", [DT, np.inf])

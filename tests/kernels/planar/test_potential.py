@@ -95,7 +95,7 @@ def test_derivatives_while_walls_slide():
 
 def potentials(args):
     """The terms of the kernels by name, each of them by itself."""
-    terms, near, x0, slip = args.terms, args.near, args.step.x0, args.slip
+    terms, neighbours, x0, slip = args.terms, args.neighbours, args.step.x0, args.slip
 
     def stretching(shape, stiffness, projected):
         return stretch.evaluate(terms.stretch, terms.law, NO_MEMORY, shape, stiffness, projected)
@@ -110,11 +110,11 @@ def potentials(args):
             lambda x, g: fold.evaluate(x, terms.fold, g)[0],
             lambda x, matrix, projected: fold.hessian(x, terms.fold, matrix, projected),
         ),
-        "contact": touch_of(terms.contact, near.pairs, near.anchor),
+        "contact": touch_of(terms.contact, neighbours.pairs, neighbours.anchor),
         "friction": of_points(
-            lambda x, g: friction.evaluate(x - x0, near.lagged, slip, g),
+            lambda x, g: friction.evaluate(x - x0, neighbours.lagged_contacts, slip, g),
             lambda x, matrix, projected: friction.hessian(
-                x - x0, near.lagged, slip, matrix, projected
+                x - x0, neighbours.lagged_contacts, slip, matrix, projected
             ),
         ),
     }
@@ -181,7 +181,7 @@ def test_other_lagged_contacts_are_exchanged_for_those_there():
     scene = loaded()
     x = leaning(scene)
     args, other = step_to(scene, x, 0), step_to(scene, shaken(scene, x, 1, 0.01), 0)
-    exchanged = args.lagging(other.near.lagged)
+    exchanged = args.lagging(other.neighbours.lagged_contacts)
     (energy, at), (expected, fresh) = args.found(x), exchanged.found(x)
     assert energy != pytest.approx(expected, rel=1e-6)
     assert exchanged.problem.exchange(exchanged.step, at) == pytest.approx(expected, rel=1e-12)
