@@ -117,7 +117,7 @@ def _decreases(reached, start, share, model, noise):
 
 @jit_exact
 def _cap(dx, longest, cap):
-    """Scale ``dx``, of the longest move ``longest``, to at most ``cap`` (m); return the factor."""
+    """Scale ``dx`` so that its ``longest`` move is at most ``cap`` (m); return the factor."""
     factor = min(1.0, cap / longest) if longest > 0.0 else 1.0
     if factor < 1.0:
         for i in range(dx.size):
