@@ -117,7 +117,7 @@ def renew_neighbours(scene, neighbours, x, move):
         system = make_system(scene, x, pairs, lagged_contacts)
     wider = friction.no_contacts(pairs, scene.contact, scene.friction)
     if wider.load.size > lagged_contacts.load.size:
-        lagged_contacts = friction.moved(lagged_contacts, wider)
+        lagged_contacts = friction.enlarged(lagged_contacts, wider)
     touching = contact.no_contacts(pairs)
     return Neighbours(pairs, x.copy(), margin, system, projection_pairs, touching, lagged_contacts)
 
