@@ -15,7 +15,7 @@ def begin(problem, step, ahead, scratch):
 
 @jit_exact
 def commit(problem, x, step, found):
-    """Let the material remember what it does; enter what it has stored and dissipated."""
+    """Commit the state of the laws; correct stored energies, add the dissipation of the step."""
     scene, shape, sums = problem.scene, problem.buffers.shape, found.sums[0]
     memory = Memory(problem.buffers.committed, step.duration)
     if scene.law.remembers():

@@ -75,7 +75,7 @@ def remembers(law):
 
 @jit
 def commit(law, strain, memory, point):
-    """Return what is stored and what is dissipated: nothing."""
+    """Return the stored energy at ``strain`` and no dissipation, J/m^3."""
     return law.respond(strain, memory, point)[0], 0.0
 
 
