@@ -1,4 +1,4 @@
-"""Loops that Numba compiles in no time: rows as tuples, vectors filled, copied and grouped."""
+"""Plain loops over arrays, which compile faster than the array functions of Numba."""
 
 import numpy as np
 
@@ -75,7 +75,10 @@ def total(vector):
 
 @jit_owning
 def grouped(group, n):
-    """Return (start (n + 1,), order): the members of group g are order[start[g]:start[g + 1]]."""
+    """Return (start (n + 1,), order): the members of group g are order[start[g]:start[g + 1]].
+
+    group: number 0 .. n - 1 of the group of each member; members keep their order in a group.
+    """
     start, order = np.zeros(n + 1, np.int64), np.empty(group.size, np.int64)
     for g in group:
         start[g + 1] += 1

@@ -1,17 +1,18 @@
-"""How far a step may go: the first time at which points moving on straight lines meet.
+"""Continuous collision detection: the first share of a step at which moving points meet.
 
-In the plane a node meets a segment when cross(b - a, p - a) vanishes, a quadratic in the share s of
-the step. The roots are found in closed form without cancellation; motion along the segment's own
-line is treated apart. Infinity means that nothing meets, at least not within two steps.
+Points move on straight lines, x + s dx. In the plane a node meets a segment when cross(b - a, p -
+a), a quadratic in s, vanishes. The roots are computed in closed form without cancellation; motion
+along the line of the segment is a separate case. The result is infinite if nothing meets for s up
+to 2.
 """
 
 import math
 
 from kernels.compile.jit import jit_exact
 
-TIGHT = 1e-14  # round-off of a discriminant relative to its terms
-RIM = 1e-9  # a hit this far beyond an end still counts, relative to the segment
-FAR = 2.0  # times the step: what meets only later may be told as never
+ROUND_OFF = 1e-14  # round-off of a discriminant relative to its terms
+END_TOLERANCE = 1e-9  # a hit this far beyond an end counts, relative to the length of the segment
+HORIZON = 2.0  # largest s of interest: later contacts may be reported as infinite
 
 
 @jit_exact
@@ -21,7 +22,7 @@ def roots(c0, c1, c2):
         return (-c0 / c1, math.inf) if c1 != 0.0 else (math.inf, math.inf)
     discriminant = c1 * c1 - 4.0 * c0 * c2
     if discriminant < 0.0:
-        if discriminant < -TIGHT * (c1 * c1 + abs(4.0 * c0 * c2)):
+        if discriminant < -ROUND_OFF * (c1 * c1 + abs(4.0 * c0 * c2)):
             return math.inf, math.inf
         discriminant = 0.0
     q = -0.5 * (c1 + math.copysign(math.sqrt(discriminant), c1))
@@ -30,8 +31,8 @@ def roots(c0, c1, c2):
 
 @jit_exact
 def _keeps_sign(c0, c1, c2, l2):
-    """Return whether c0 + c1 s + c2 s^2 has no root for s up to `FAR`, by a bound."""
-    return abs(c0) > FAR * (abs(c1) + FAR * abs(c2)) + TIGHT * l2
+    """Return whether a bound excludes a root of c0 + c1 s + c2 s^2 for s up to `HORIZON`."""
+    return abs(c0) > HORIZON * (abs(c1) + HORIZON * abs(c2)) + ROUND_OFF * l2
 
 
 @jit_exact
@@ -56,16 +57,17 @@ def _position_along(x, dx, s, p, a, b):
 
 
 @jit_exact
-def _hits(x, dx, s, p, a, b):
+def _is_between(x, dx, s, p, a, b):
+    """Return whether node p, on the line of a-b at s, lies between its ends."""
     if not 0.0 <= s < math.inf:
         return False
     along, l2 = _position_along(x, dx, s, p, a, b)
-    return -RIM * l2 <= along <= (1.0 + RIM) * l2
+    return -END_TOLERANCE * l2 <= along <= (1.0 + END_TOLERANCE) * l2
 
 
 @jit_exact
-def _head_on(x, dx, p, v):
-    """Return when p meets v if both move on one line: (p - v) + s (dp - dv) = 0."""
+def _collinear_contact(x, dx, p, v):
+    """Return s at which p meets v if both move on one line: (p - v) + s (dp - dv) = 0."""
     wx, wy = x[2 * p] - x[2 * v], x[2 * p + 1] - x[2 * v + 1]
     dwx, dwy = dx[2 * p] - dx[2 * v], dx[2 * p + 1] - dx[2 * v + 1]
     closing = -(wx * dwx + wy * dwy)
@@ -79,13 +81,13 @@ def first_contact(x, dx, p, a, b):
     _, l2 = _position_along(x, dx, 0.0, p, a, b)
     if _keeps_sign(c0, c1, c2, l2):
         return math.inf
-    if abs(c0) <= TIGHT * l2 and abs(c1) <= TIGHT * l2 and abs(c2) <= TIGHT * l2:
-        return min(_head_on(x, dx, p, a), _head_on(x, dx, p, b))
+    if abs(c0) <= ROUND_OFF * l2 and abs(c1) <= ROUND_OFF * l2 and abs(c2) <= ROUND_OFF * l2:
+        return min(_collinear_contact(x, dx, p, a), _collinear_contact(x, dx, p, b))
     one, two = roots(c0, c1, c2)
     first = math.inf
-    if _hits(x, dx, one, p, a, b):
+    if _is_between(x, dx, one, p, a, b):
         first = one
-    if two < first and _hits(x, dx, two, p, a, b):
+    if two < first and _is_between(x, dx, two, p, a, b):
         first = two
     return first
 

@@ -1,27 +1,27 @@
-"""Which elements pass through one another in stored shapes, as far as rounding lets one tell."""
+"""Elements that cross each other in stored shapes, and pairs that round-off leaves undecided."""
 
 from kernels.arrays import pair, zero
 from kernels.compile.jit import jit_exact
 
 APART, UNSURE, ACROSS = -1, 0, 1
-SURE = 1e-12  # of the products that make up a cross product: below, its sign is not trusted
+SIGN_TOLERANCE = 1e-12  # of the two products of a cross product: below it the sign is undecided
 
 
 @jit_exact
 def _side(at, a, p, s):
-    """Return the sign of the side of element ``a`` that node ``p`` is on; 0 if not sure."""
+    """Return the sign of the side of element ``a`` that node ``p`` is on; 0 if undecided."""
     i, j = a
     ux, uy = at[0, j, s] - at[0, i, s], at[1, j, s] - at[1, i, s]
     wx, wy = at[0, p, s] - at[0, i, s], at[1, p, s] - at[1, i, s]
     one, two = ux * wy, uy * wx
-    if not abs(one - two) > SURE * (abs(one) + abs(two)):  # NaN too
+    if not abs(one - two) > SIGN_TOLERANCE * (abs(one) + abs(two)):  # NaN too
         return 0
     return 1 if one > two else -1
 
 
 @jit_exact
-def _meeting(at, a, b, s):
-    """Return whether two elements lie across each other, or one of them on one side."""
+def _relation(at, a, b, s):
+    """Return whether two elements cross (ACROSS), do not (APART), or are undecided (UNSURE)."""
     one = _side(at, a, b[0], s) * _side(at, a, b[1], s)
     two = _side(at, b, a[0], s) * _side(at, b, a[1], s)
     if one > 0 or two > 0:
@@ -31,14 +31,14 @@ def _meeting(at, a, b, s):
 
 @jit_exact
 def _beyond(at, axis, a, b, s):
-    """Return whether element ``b`` begins where ``a`` has ended, along an axis."""
+    """Return whether element ``b`` lies entirely beyond ``a`` along an axis."""
     end, begin = at[axis, a[0], s], at[axis, b[0], s]
     return max(end, at[axis, a[1], s]) < min(begin, at[axis, b[1], s])
 
 
 @jit_exact
 def _overlap(at, a, b, s):
-    """Return whether the boxes of two elements overlap."""
+    """Return whether the bounding boxes of two elements overlap."""
     for axis in range(2):
         if _beyond(at, axis, a, b, s) or _beyond(at, axis, b, a, s):
             return False
@@ -47,12 +47,11 @@ def _overlap(at, a, b, s):
 
 @jit_exact
 def count(at, low, high, order, edges, crossed, unsure):
-    """Count pairs of elements without a common node that lie across each other, by shape, in
-    ``crossed`` (f,); write those that need a closer look and the shape into ``unsure`` (k, 3).
+    """Count the crossing pairs of elements without a common node, by shape, in ``crossed`` (f,).
 
-    Return how many of them there are, which may be more than fit. at (2, n, f): x and y of each
-    node in each shape. low, high (m, 2): box of all places of an element; ``order`` (m,) sorts them
-    by their left sides. edges (m, 2).
+    Write undecided pairs and their shape to ``unsure`` (k, 3) as far as they fit; return their
+    number. at (2, n, f): x and y of each node in each shape. low, high (m, 2): bounding box of each
+    element over all shapes; order (m,): sorts the boxes by their left sides. edges (m, 2).
     """
     n = 0
     zero(crossed)
@@ -69,10 +68,10 @@ def count(at, low, high, order, edges, crossed, unsure):
             for s in range(crossed.size):
                 if not _overlap(at, a, b, s):
                     continue
-                meeting = _meeting(at, a, b, s)
-                if meeting == ACROSS:
+                relation = _relation(at, a, b, s)
+                if relation == ACROSS:
                     crossed[s] += 1
-                elif meeting == UNSURE:
+                elif relation == UNSURE:
                     if n < unsure.shape[0]:
                         unsure[n, 0], unsure[n, 1], unsure[n, 2] = order[i], order[j], s
                     n += 1

@@ -1,8 +1,8 @@
 """Distance between a point p and a segment a-b in the plane, its gradient and Hessian.
 
-Interior: d = |n . (p - a)|; beyond an end: the distance to that end. With tau the closest point,
-u the unit tangent, n the unit normal towards p, q = (1, tau - 1, -tau), r = (0, -1, 1) / l over
-the nodes (p, a, b):
+Interior: d = |n . (p - a)|; beyond an end: the distance to that end. With the closest point tau,
+the unit tangent u, the unit normal n towards p and the length l, q = (1, tau - 1, -tau) and r = (0,
+-1, 1) / l over the nodes (p, a, b):
 
     grad d = q n,     d2 d = -(q u)(r n)^T - (r n)(q u)^T - d (r n)(r n)^T        (interior)
     grad d = (1, -1) n,  d2 d = (I - n n^T) / d                                   (point-point)
@@ -25,7 +25,7 @@ def direction(x, i, j):
 
 @jit_exact
 def closest(x, p, a, b):
-    """Return tau in [0, 1], the closest point of segment a-b to p, and whether it is inside."""
+    """Return tau in [0, 1], the closest point of segment a-b to p, and whether it is interior."""
     ux, uy = x[2 * b] - x[2 * a], x[2 * b + 1] - x[2 * a + 1]
     wx, wy = x[2 * p] - x[2 * a], x[2 * p + 1] - x[2 * a + 1]
     along = ux * wx + uy * wy
@@ -94,7 +94,7 @@ def _pair_block(matrix, i, j, qi, qj, ri, rj, vectors, terms):
 
 @jit
 def push_stiffen(matrix, x, p, a, b, stiffness, force):
-    """Add stiffness * (grad d)(grad d)^T + force * d2 d."""
+    """Add stiffness * (grad d)(grad d)^T + force * d2 d for the distance of p from a-b."""
     tau, inside = closest(x, p, a, b)
     if not inside:
         v = a if tau == 0.0 else b

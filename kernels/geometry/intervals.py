@@ -1,4 +1,4 @@
-"""Intervals on a line: kept in the order in which they begin, and measured together."""
+"""Intervals on a line: insertion sort by their left ends, and the length of their union."""
 
 import numpy as np
 
@@ -7,9 +7,9 @@ from kernels.compile.jit import jit_exact
 
 @jit_exact
 def insert(left, right, at, first, begin, end):
-    """Put an interval in its place among those from ``first`` to ``at`` that begin in order.
+    """Insert an interval into those from ``first`` to ``at`` (exclusive), sorted by left ends.
 
-    Return the place.
+    Return its place. left, right (n,): ends of the intervals, with room at ``at``.
     """
     while at > first and left[at - 1] > begin:
         left[at], right[at] = left[at - 1], right[at - 1]
@@ -20,9 +20,9 @@ def insert(left, right, at, first, begin, end):
 
 @jit_exact
 def covered(left, right, first, last):
-    """Return the length of the intervals from ``first`` to ``last`` (exclusive), overlaps once.
+    """Return the length of the union of the intervals from ``first`` to ``last`` (exclusive).
 
-    left, right (n,): where they begin, in order, and end.
+    left, right (n,): their ends, sorted by ``left``.
     """
     total, reached = 0.0, -np.inf
     for k in range(first, last):

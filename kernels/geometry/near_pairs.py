@@ -1,6 +1,6 @@
-"""Which nodes are near which segments: broad phase by cells, kept between steps.
+"""Broad phase of contact: neighbour lists of nodes and segments from a grid of cells.
 
-A list found with a margin stays valid until some node has moved half of that margin.
+A list with a margin stays valid until some node has moved by half of the margin.
 """
 
 from typing import NamedTuple
@@ -11,16 +11,16 @@ from kernels.arrays import grouped, pair
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.geometry.distance import squared_distance
 
-SHELLS = 64  # steps in which distances are told apart
-FINER = 3.0  # times smaller than the radius is a cell: large ones hold much that is too far
+SHELLS = 64  # number of distance classes by which pairs are sorted
+CELLS_PER_RADIUS = 3.0  # cells per radius: larger cells hold more nodes that are too far
 
 
 class Pairs(NamedTuple):
     """Node-segment pairs that share no node.
 
-    node (n,), edge (n,): indices. distance (n,): at least so far apart were they when they were
+    node (n,), edge (n,): indices. distance (n,): lower bound of their distance when they were
     listed, m, ascending. d_contact (n,): distance at which contact starts, m; 0 where only crossing
-    is watched. rule (n,): their number among the special pairs of `contact.Contact`, -1 if none.
+    is prevented. rule (n,): index among the special pairs of `contact.Contact`, -1 if none.
     """
 
     node: np.ndarray
@@ -31,7 +31,7 @@ class Pairs(NamedTuple):
 
 
 @jit_owning
-def _binned(x, n_nodes, grid):
+def _nodes_by_cell(x, n_nodes, grid):
     """Return (start, order): the nodes of cell c are order[start[c]:start[c + 1]]."""
     low_x, low_y, cell, nx, ny = grid
     home = np.empty(n_nodes, np.int64)
@@ -42,7 +42,10 @@ def _binned(x, n_nodes, grid):
 
 @jit_exact
 def _grid(x, n_nodes, cell):
-    """Return the lower corner of a grid over all nodes, its cell (grown if too many) and size."""
+    """Return (low_x, low_y, cell, nx, ny) of a grid over all nodes.
+
+    cell: size of a cell, m, increased where the grid would have too many.
+    """
     low_x, low_y = np.inf, np.inf
     high_x, high_y = -np.inf, -np.inf
     for p in range(n_nodes):
@@ -71,8 +74,8 @@ def _cells(x, a, b, radius, grid):
 
 
 @jit_exact
-def _room(x, edges, radius, grid, start):
-    """Return how many pairs there are at most: of segments and nodes in cells that they reach."""
+def _bound(x, edges, radius, grid, start):
+    """Return an upper bound of the number of pairs: nodes in all cells that segments reach."""
     count, nx = 0, grid[3]
     for k in range(edges.shape[0]):
         a, b = pair(edges, k)
@@ -83,8 +86,8 @@ def _room(x, edges, radius, grid, start):
 
 
 @jit_exact
-def _list(x, edges, radius, grid, bins, node, edge, distance):
-    """Write the pairs, edge by edge; return their number."""
+def _fill(x, edges, radius, grid, bins, node, edge, distance):
+    """Write the pairs closer than ``radius``, edge by edge; return their number."""
     start, order = bins
     count, nx = 0, grid[3]
     for k in range(edges.shape[0]):
@@ -104,20 +107,20 @@ def _list(x, edges, radius, grid, bins, node, edge, distance):
 
 @jit_owning
 def near(x, n_nodes, edges, radius):
-    """Return (node, edge, distance) of the pairs closer than ``radius`` (m) that share no node,
-    in ascending order of their edges.
+    """Return (node, edge, distance) of the pairs closer than ``radius`` (m) that share no node, by
+    ascending edge.
     """
-    grid = _grid(x, n_nodes, radius / FINER)
-    bins = _binned(x, n_nodes, grid)
-    room = _room(x, edges, radius, grid, bins[0])
+    grid = _grid(x, n_nodes, radius / CELLS_PER_RADIUS)
+    bins = _nodes_by_cell(x, n_nodes, grid)
+    room = _bound(x, edges, radius, grid, bins[0])
     node, edge, distance = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room)
-    count = _list(x, edges, radius, grid, bins, node, edge, distance)
+    count = _fill(x, edges, radius, grid, bins, node, edge, distance)
     return node[:count], edge[:count], distance[:count]
 
 
 @jit_exact
-def _look_up(node, edge, contact, at, rule):
-    """Fill ``rule`` of pairs in ascending order of ``edge``; ``at`` (n_nodes,): -1 throughout."""
+def _find_rules(node, edge, contact, at, rule):
+    """Fill ``rule`` of pairs sorted by ``edge``; ``at`` (n_nodes,): scratch filled with -1."""
     k = 0
     for e in range(contact.edges.shape[0]):
         start, end = contact.special_start[e], contact.special_start[e + 1]
@@ -132,7 +135,7 @@ def _look_up(node, edge, contact, at, rule):
 
 @jit_exact
 def _distance(contact, p, e, rule):
-    """Return the distance at which a pair touches, 0 if it never does."""
+    """Return the distance at which contact of a pair starts, m; 0 if it has none."""
     if rule >= 0:
         return contact.special_distance[rule] if contact.special_weight[rule] > 0.0 else 0.0
     mean = 0.5 * (contact.node_thickness[p] + contact.edge_thickness[e])
@@ -145,7 +148,7 @@ def find(x, contact, radius):
     listed = near(x, contact.tributary.size, contact.edges, radius)
     n = listed[0].size
     shell, found = np.empty(n, np.int64), np.empty(n, np.int64)
-    _look_up(listed[0], listed[1], contact, np.full(contact.tributary.size, -1), found)
+    _find_rules(listed[0], listed[1], contact, np.full(contact.tributary.size, -1), found)
     for k in range(n):
         shell[k] = min(int(listed[2][k] / radius * SHELLS), SHELLS - 1)
     _, nearest = grouped(shell, SHELLS)
@@ -161,8 +164,8 @@ def find(x, contact, radius):
 
 @jit_exact
 def counted(pairs, k, contact):
-    """Return the contact length of pair ``k`` in m, and for both ends of its segment 1 where the
-    contribution of that end is counted by another segment already.
+    """Return the contact length of pair ``k`` in m, and for each end of its segment 1 if another
+    segment counts the contribution of that end, else 0.
     """
     q, e = pairs.rule[k], pairs.edge[k]
     if q >= 0:
@@ -173,7 +176,7 @@ def counted(pairs, k, contact):
 
 @jit_exact
 def within(pairs, radius):
-    """Return how many of the first pairs may be nearer than ``radius`` (m)."""
+    """Return the number of pairs, the first ones, that may be nearer than ``radius`` (m)."""
     low, high = 0, pairs.distance.size
     while low < high:
         middle = (low + high) // 2
@@ -193,7 +196,7 @@ def empty():
 
 @jit_exact
 def longest(move, n_nodes):
-    """Return the largest distance that a node goes in a ``move`` (n,)."""
+    """Return the longest move of a node in ``move`` (n,), m."""
     most = 0.0
     for p in range(n_nodes):
         mx, my = move[2 * p], move[2 * p + 1]
@@ -203,7 +206,7 @@ def longest(move, n_nodes):
 
 @jit_exact
 def farthest(x, other, n_nodes):
-    """Return the largest distance that a node has moved between ``x`` and ``other``."""
+    """Return the longest move of a node between ``other`` and ``x``, m."""
     most = 0.0
     for p in range(n_nodes):
         mx, my = x[2 * p] - other[2 * p], x[2 * p + 1] - other[2 * p + 1]

@@ -1,7 +1,7 @@
-"""Area that walls with round ends cover together, however they overlap.
+"""Area of the union of walls with round ends, by scanlines.
 
-By scanlines: along a line exact, across them the midpoint rule. A wall is a rectangle an element
-and a disc a node; each leaves an interval on every line that it meets.
+Lengths along a line are exact; the area is their midpoint rule across the lines. A wall is one
+rectangle per element and one disc per node; each shape covers an interval of every line it meets.
 """
 
 from typing import NamedTuple
@@ -13,15 +13,15 @@ from kernels.compile.jit import jit_exact, jit_owning
 from kernels.geometry.intervals import covered, insert
 
 FLAT = 1e-12  # least sine between a line and a side of a rectangle
-ANGLE = 0.4  # of the lines: along a wall, as drawn ones often lie, the rule would be of first order
+ANGLE = 0.4  # of the lines, rad: the rule is of first order where walls are parallel to them
 COSINE, SINE = np.cos(ANGLE), np.sin(ANGLE)
-MOST_LINES = 1 << 17  # of all: where walls are much thinner than the lattice is high, fewer of each
+MOST_LINES = 1 << 17  # in all: bounds the lines per wall where walls are very thin
 
 
 class Shapes(NamedTuple):
-    """Discs and rectangles. center (k, 2) m. axis (k, 2): unit vector, (0, 0) of a disc.
+    """Discs and rectangles. center (k, 2) in m. axis (k, 2): unit vector; (0, 0) for a disc.
 
-    along, across (k,): half of a rectangle's length and width, m; 0 and the radius of a disc.
+    along, across (k,): half the length and width of a rectangle, m; 0 and the radius of a disc.
     """
 
     center: np.ndarray
@@ -31,14 +31,14 @@ class Shapes(NamedTuple):
 
 
 @jit_exact
-def _turned(x, y):
-    """Return coordinates along the lines and across them."""
+def _rotated(x, y):
+    """Return the coordinates of a point along and across the lines."""
     return COSINE * x + SINE * y, COSINE * y - SINE * x
 
 
 @jit_owning
 def _shapes(points, edges, thickness):
-    """Return the discs of all nodes and the rectangles of all elements, as the lines see them."""
+    """Return the discs of all nodes, then the rectangles of all elements, in these coordinates."""
     n, m = points.shape[0], edges.shape[0]
     shapes = Shapes(np.zeros((n + m, 2)), np.zeros((n + m, 2)), np.zeros(n + m), np.zeros(n + m))
     middle_x, middle_y = 0.0, 0.0
@@ -47,7 +47,7 @@ def _shapes(points, edges, thickness):
         middle_x += 0.5 * (points[i, 0] + points[j, 0]) / m
         middle_y += 0.5 * (points[i, 1] + points[j, 1]) / m
     for p in range(n):
-        at = _turned(points[p, 0] - middle_x, points[p, 1] - middle_y)
+        at = _rotated(points[p, 0] - middle_x, points[p, 1] - middle_y)
         shapes.center[p, 0], shapes.center[p, 1] = at
     for e in range(m):
         k = n + e
@@ -67,7 +67,7 @@ def _shapes(points, edges, thickness):
 
 @jit_exact
 def _extent(shapes, k):
-    """Return how far from its middle a shape reaches across the lines."""
+    """Return half the extent of a shape across the lines, m."""
     if shapes.along[k] == 0.0:
         return shapes.across[k]
     ux, uy = abs(shapes.axis[k, 0]), abs(shapes.axis[k, 1])
@@ -76,7 +76,7 @@ def _extent(shapes, k):
 
 @jit_owning
 def _from_left_to_right(shapes):
-    """Return the shapes (k,) in order of where they begin, those in one of k strips in any."""
+    """Return the shapes (k,) sorted by left ends, up to the width of one of k strips."""
     count = shapes.along.size
     left = shapes.center[:, 0] - shapes.along
     least, most = np.inf, -np.inf
@@ -91,12 +91,13 @@ def _from_left_to_right(shapes):
 
 @jit_exact
 def _not_flat(sine):
+    """Return ``sine`` with a magnitude of at least `FLAT`."""
     return np.copysign(max(abs(sine), FLAT), sine)
 
 
 @jit_exact
 def _interval(height, ux, uy, along, across):
-    """Return where a shape begins and ends on a line ``height`` m above its middle."""
+    """Return the interval of a shape on a line ``height`` m above its centre, relative to it."""
     if ux == 0.0 and uy == 0.0:
         half = np.sqrt(max(across * across - height * height, 0.0))
         return -half, half
@@ -108,7 +109,7 @@ def _interval(height, ux, uy, along, across):
 
 @jit_exact
 def _lines(shapes, k, spacing, band):
-    """Return the first line (inclusive) and the last (exclusive) of a band that a shape meets."""
+    """Return the first line (inclusive) and the last (exclusive) of a band that meet a shape."""
     y, extent = shapes.center[k, 1], _extent(shapes, k)
     first, last = np.ceil((y - extent) / spacing), np.ceil((y + extent) / spacing)
     return max(int(first), band[0]), min(int(last), band[1])
@@ -116,10 +117,10 @@ def _lines(shapes, k, spacing, band):
 
 @jit_owning
 def _covered(shapes, order, spacing, band):
-    """Return the length in m that shapes cover on the lines of a ``band``: first, last + 1.
+    """Return the length in m covered on the lines of a ``band`` (first, last + 1).
 
-    The time goes with the square of their number on a line if ``order`` is far from that in which
-    they begin there, as it is where they are large.
+    The insertion sort takes quadratic time on a line where ``order`` is far from that of the left
+    ends, as with large shapes.
     """
     start = np.zeros(band[1] - band[0] + 1, np.int64)
     for k in order:
@@ -147,10 +148,10 @@ def _covered(shapes, order, spacing, band):
 
 @jit_owning
 def covered_area(points, edges, thickness, lines, together):
-    """Return the area in m^2 that elements cover, with discs round their nodes.
+    """Return the area in m^2 of the union of all elements and the discs round their nodes.
 
-    points (n, 2) m; edges (m, 2): nodes of each element; thickness (m,) m. lines: within the
-    thinnest wall. together: intervals that are in memory at a time.
+    points (n, 2) m; edges (m, 2): nodes of each element; thickness (m,) m. lines: number of lines
+    across the thinnest wall. together: most intervals in memory at a time.
     """
     shapes = _shapes(points, edges, thickness)
     low, high, sum_of_extents = np.inf, -np.inf, 0.0

@@ -1,8 +1,8 @@
-"""Area that convex polygons cover together, exact but for rounding, however they overlap.
+"""Area of the union of convex polygons, exact up to round-off.
 
-It is cut into slabs at the heights of all corners and of all places where sides cross. Within a
-slab no sides cross, so that what is covered of a level line is linear in its height: the area is
-what is covered half-way up times the height of the slab.
+The plane is cut into slabs at the heights of all corners and of all crossings of sides. Within a
+slab the covered length of a level line is linear in its height, so that the area is the covered
+length at half height times the height of the slab.
 """
 
 import numpy as np
@@ -10,8 +10,8 @@ import numpy as np
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.geometry.intervals import covered, insert
 
-PARALLEL = 1e-14  # sine between sides below which they cross nowhere but at corners
-FLAT = 1e-15  # of the height of all: a slab that is lower is part of the next one
+PARALLEL = 1e-14  # least sine between two sides that cross elsewhere than at corners
+FLAT = 1e-15  # of the total height: a lower slab is merged with the next one
 
 
 @jit_exact
@@ -31,15 +31,16 @@ def _crossing(p, q, r, s):
 
 @jit_exact
 def _corner(loops, k, i):
+    """Return corner ``i`` of polygon ``k``."""
     return loops[k, i, 0], loops[k, i, 1]
 
 
 @jit_exact
 def heights(loops, low, high, found):
-    """Write the heights of all corners and crossings into ``found`` (n,) as far as they fit.
+    """Write the heights of all corners and crossings to ``found`` (n,) as far as they fit.
 
-    Return how many there are. loops (k, c + 1, 2): the corners of each polygon, the first one at
-    the end again. low, high (k, 2): its box. They are in the order of low[:, 1].
+    Return their number. loops (k, c + 1, 2): the corners of each polygon, the first one repeated at
+    the end. low, high (k, 2): its bounding box. Polygons are sorted by low[:, 1].
     """
     n, sides = 0, loops.shape[1] - 1
     for a in range(loops.shape[0]):
@@ -65,7 +66,7 @@ def heights(loops, low, high, found):
 
 @jit_exact
 def _interval(loops, k, y):
-    """Return where a polygon begins and ends on a line at height ``y``, which meets no corner."""
+    """Return the interval of a polygon on a line at height ``y``, which meets no corner."""
     begin, end = np.inf, -np.inf
     for i in range(loops.shape[1] - 1):
         (x0, y0), (x1, y1) = _corner(loops, k, i), _corner(loops, k, i + 1)
@@ -77,7 +78,7 @@ def _interval(loops, k, y):
 
 @jit_owning
 def area(loops, low, high, levels):
-    """Return the area of the union. ``levels`` (n,): all `heights`, ascending."""
+    """Return the area of the union in m^2. levels (n,): all `heights`, ascending."""
     active, left, right = np.empty(len(loops), np.int64), np.empty(len(loops)), np.empty(len(loops))
     count, begun, total, bottom = 0, 0, 0.0, levels[0]
     flat = FLAT * (levels[-1] - bottom)
@@ -93,7 +94,9 @@ def area(loops, low, high, levels):
             if high[k, 1] > y:
                 begin, end = _interval(loops, k, y)
                 place = insert(left, right, kept, 0, begin, end)
-                for j in range(kept, place, -1):  # in the order that the next slab nearly has
+                for j in range(
+                    kept, place, -1
+                ):  # keep the order of this slab, which is nearly that of the next one
                     active[j] = active[j - 1]
                 active[place] = k
                 kept += 1

@@ -1,4 +1,4 @@
-"""How high a lattice stands."""
+"""Height of a lattice."""
 
 import numpy as np
 
@@ -7,6 +7,7 @@ from kernels.compile.jit import jit_exact
 
 @jit_exact
 def _mean(x, coordinates):
+    """Return the mean of some coordinates of ``x``."""
     total = 0.0
     for c in coordinates:
         total += x[c]
@@ -15,9 +16,9 @@ def _mean(x, coordinates):
 
 @jit_exact
 def height(x, top, base):
-    """Return how far the mean of ``top`` is above that of ``base`` (coordinates).
+    """Return the mean of the coordinates ``top`` less that of ``base``, m.
 
-    Where ``top`` is empty it is the extent of ``base``, what a caliper would read.
+    If ``top`` is empty, return the extent of ``base``, as a caliper measures it.
     """
     if top.size > 0:
         return _mean(x, top) - _mean(x, base)

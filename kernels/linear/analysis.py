@@ -1,8 +1,8 @@
-"""Which unknowns a linear system has, in which order, and where every entry goes.
+"""Symbolic analysis of the linear system: its unknowns, their order, and the place of every entry.
 
-A wall that nothing touches is condensed on its two joints. A wall in contact is open: its inner
-nodes stand in the block matrix beside the joints. Order and pattern are analysed once for a set of
-open walls and couplings.
+A wall without contact is condensed onto its two joints. A wall in contact is open: its inner nodes
+are unknowns of the block matrix, as the joints are. Order and pattern are analysed once for a set
+of open walls and couplings.
 """
 
 from typing import NamedTuple
@@ -19,26 +19,26 @@ PLACE = np.dtype(
     (
         np.record,  # for attributes in plain Python too
         [
-            ("wall", np.int64),  # condensed wall; -1: the block matrix
-            ("row", np.int64),  # of the wall, or home in the block matrix; -1: nowhere
+            ("wall", np.int64),  # number of a condensed wall; -1: the block matrix
+            ("row", np.int64),  # row of the wall, or home in the block matrix; -1: none
         ],
     )
 )
 
 
 class Layout(NamedTuple):
-    """Where the unknowns are. A point has a block of the matrix: each node, and, as the point
-    n_nodes, the upper platen.
+    """The coordinates and their unknowns. A *point* has a block of the matrix: each node, and the
+    upper platen as point n_nodes.
 
-    leader (n,): the coordinate itself if it moves, the upper platen's if it is tied to that, else
-    -1. ratio (n,): of its move to that of its leader; 1 unless the leader is driven. images (k, 4):
-    see `periodic_images`; their leader is the coordinate itself. driven: coordinate that is led to
-    a target, -1 if none. point, slot (n,): the point of each coordinate, and its place in the block
-    of that. first (n_nodes,): first coordinate of the position of each node. origin (n_nodes + 1,):
-    the point itself, or of which it is an image. inner (w,): first inner coordinate of each wall,
-    the others follow along it. wall_of (n_nodes + 1,): wall of an inner node, else -1. outer (w,
-    6): coordinates of its joints, of which the second may be an image. scale: stiffness of the
-    stiffest element, N/m.
+    leader (n,): the coordinate itself if it is free, that of the upper platen if it is tied to it,
+    -1 if held. ratio (n,): move divided by that of the leader; 1 unless the leader is driven.
+    images (k, 4): see `periodic_images`; their leader is the coordinate itself. driven: coordinate
+    with a prescribed value, -1 if none. point, slot (n,): point of each coordinate, and its place
+    in the block of the point. first (n_nodes,): first coordinate of the position of each node.
+    origin (n_nodes + 1,): the point itself, or the point of which it is an image. inner (w,): first
+    inner coordinate of each wall; the others follow it. wall_of (n_nodes + 1,): wall of an inner
+    node, else -1. outer (w, 6): coordinates of the two joints of a wall; the second joint may be an
+    image. scale: stiffness of the stiffest element, N/m.
     """
 
     leader: np.ndarray
@@ -57,9 +57,9 @@ class Layout(NamedTuple):
 
 
 class System(NamedTuple):
-    """kind (w,) of each wall. row_start (w + 1,), rows (r, 12), own (r,): see `condense`.
+    """kind (w,): CONDENSED, OPEN or RIGID. row_start (w + 1,), rows (r, 12), own (r,): `condense`.
 
-    target_start (w + 1,), target: where the entries of a wall go in the values of ``matrix``.
+    target_start (w + 1,), target: positions of the entries of a wall in the values of ``matrix``.
     outer (6, 6), joints (6,): scratch. place (1,): of the first negative pivot (`PLACE`).
     """
 
@@ -77,7 +77,7 @@ class System(NamedTuple):
 
 @jit_exact
 def _point(layout, c):
-    """Return the point that the unknown of coordinate ``c`` belongs to, -1 if it has none."""
+    """Return the point of the unknown of coordinate ``c``, -1 if it has none."""
     leader = layout.leader[c]
     if leader < 0 or leader == layout.driven:
         return -1
@@ -86,12 +86,16 @@ def _point(layout, c):
 
 @jit_exact
 def _is_fixed(layout, c):
+    """Return whether coordinate ``c`` is held, tied or driven."""
     return layout.leader[c] != c or c == layout.driven
 
 
 @jit_exact
 def _kind(layout, w, m, touched):
-    """Return how wall ``w`` with ``m`` inner unknowns enters the system."""
+    """Return the kind of wall ``w`` with ``m`` inner unknowns.
+
+    RIGID: all coordinates are fixed and move together, so that the wall adds nothing.
+    """
     inside, ends = 0, 0
     for c in range(layout.inner[w], layout.inner[w] + m):
         inside += _is_fixed(layout, c)
@@ -105,7 +109,7 @@ def _kind(layout, w, m, touched):
 
 @jit_exact
 def _link(bits, index, points, count):
-    """Join all numbered ``points``."""
+    """Connect all numbered ``points`` with each other in the graph."""
     for a in range(count):
         for b in range(a):
             if index[points[a]] >= 0 and index[points[b]] >= 0:
@@ -114,9 +118,9 @@ def _link(bits, index, points, count):
 
 @jit_exact
 def _points_of(layout, point, points, count):
-    """Append the points that the coordinates of ``point`` belong to.
+    """Append the points of the unknowns of ``point``; return the new count.
 
-    A free size of a period stands for the platen.
+    A free size of a period takes the place of the platen.
     """
     if point == layout.n_nodes:
         if _point(layout, layout.leader.size - 1) >= 0:
@@ -141,7 +145,7 @@ def _is_tied(layout, node):
 
 @jit_owning
 def _graph(layout, walls, kind, couplings):
-    """Return (index (n_nodes + 1,), bits): each point's number, -1 if none, and who couples."""
+    """Return (index (n_nodes + 1,), bits): number of each point, -1 if none, and their graph."""
     index = np.full(layout.n_nodes + 1, -1)
     count = 0
     for c in range(layout.leader.size):
@@ -176,7 +180,7 @@ def _graph(layout, walls, kind, couplings):
 
 @jit_owning
 def _homes(layout, kind, index, sequence):
-    """Return the home of every coordinate."""
+    """Return the home (n,) of every coordinate; ``sequence``: order of elimination."""
     position = np.empty(sequence.size, np.int64)
     for p in range(sequence.size):
         position[sequence[p]] = p
@@ -196,13 +200,13 @@ def _homes(layout, kind, index, sequence):
 
 @jit_exact
 def _coordinate(layout, w, m, i):
-    """Return the coordinate of local unknown ``i`` of wall ``w``: inner ones, then the joints'."""
+    """Return the coordinate of local unknown ``i`` of wall ``w``: m inner ones, then the joints."""
     return layout.inner[w] + i if i < m else layout.outer[w, i - m]
 
 
 @jit_owning
 def _targets(layout, row_start, kind, home, start, row):
-    """Return (target_start, target): where `_scatter` puts the entries of each wall."""
+    """Return (target_start, target): positions to which `system` scatters the entries of walls."""
     target_start = np.zeros(kind.size + 1, np.int64)
     for w in range(kind.size):
         m = row_start[w + 1] - row_start[w]
@@ -235,8 +239,8 @@ def _targets(layout, row_start, kind, home, start, row):
 
 @jit_owning
 def analyse(layout, walls, couplings):
-    """Return a `System` with room for ``couplings`` (c, k): points that share a term; one may be
-    repeated.
+    """Return a `System` with room for ``couplings`` (c, k): points that share a term, repeats
+    allowed.
     """
     n_walls = walls.start.size - 1
     touched = np.zeros(n_walls, np.bool_)
@@ -253,8 +257,8 @@ def analyse(layout, walls, couplings):
     start, row = minimum_degree.columns(bits, sequence)
     home = _homes(layout, kind, index, sequence)
     target_start, target = _targets(layout, row_start, kind, home, start, row)
+    matrix = block_matrix.zero_matrix(home, start, row, layout.ratio, layout.images)
     return System(
         kind, row_start, np.zeros((row_start[-1], condense.WIDTH)), np.zeros(row_start[-1]),
-        target_start, target, block_matrix.shaped(home, start, row, layout.ratio, layout.images),
-        np.zeros((6, 6)), np.zeros(6), np.zeros(1, PLACE),
+        target_start, target, matrix, np.zeros((6, 6)), np.zeros(6), np.zeros(1, PLACE),
     )  # fmt: skip

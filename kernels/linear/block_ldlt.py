@@ -1,7 +1,7 @@
 """LDL^T factor of a matrix of 3 x 3 blocks, in place, and its solves.
 
-Every update knows its target beforehand (George & Liu 1981, Computer Solution of Large Sparse
-Positive Definite Systems, ch. 5).
+The target of every update is known from the symbolic factorisation (George & Liu 1981, Computer
+Solution of Large Sparse Positive Definite Systems, ch. 5).
 """
 
 import math
@@ -11,16 +11,16 @@ from kernels.compile.jit import jit, jit_exact
 from kernels.compile.simd import added, load, spread, store
 from kernels.linear.block_matrix import SIZE, STRIDE
 
-NEUTRAL = 1e-11  # a pivot below this share of its diagonal is round-off around zero
-SOFT = 1e-6  # share of its diagonal that it is given then
-ROUNDED = -1e-7  # so is a negative one above this: what stiff neighbours leave when they cancel
-CONVEX = -math.inf  # and any in a matrix that is positive semi-definite
-THROUGH = math.inf  # none is, and negative ones are no failure: see `negatives`
+ZERO_PIVOT = 1e-11  # a pivot below this share of its diagonal is zero within round-off
+SOFT = 1e-6  # share of its diagonal that replaces such a pivot
+ROUNDED = -1e-7  # a negative pivot above this share is round-off too: stiff entries cancel
+CONVEX = -math.inf  # in a positive semi-definite matrix every negative pivot is round-off
+THROUGH = math.inf  # no pivot is replaced, negative ones are no failure: see `negatives`
 
 
 @jit_exact
-def settle(blocks, scale):
-    """Add the diagonal entries of the coordinates to their blocks; unused slots become 1."""
+def add_diagonal(blocks, scale):
+    """Add ``diagonal`` to the blocks and keep the result in ``own``; unused slots are ``scale``."""
     for i in range(blocks.home.size):
         h = blocks.home[i]
         if h >= 0:
@@ -34,36 +34,39 @@ def settle(blocks, scale):
 
 
 @jit_exact
-def pivoted(pivot, own, scale, rounded):
-    """Return the pivot to use. One that is zero within round-off, above ``rounded`` x its diagonal,
-    marks a motion without stiffness: it is given a small share of its own diagonal (or ``scale``),
-    so that the solution moves along it where a force asks for it, and hardly by what forces leave
-    in round-off. `THROUGH` limit points, where true pivots are as small, it stays as it is.
+def regularised(pivot, own, scale, rounded):
+    """Return ``pivot``, or its replacement if it is zero within round-off.
+
+    Such a pivot, between ``rounded`` and `ZERO_PIVOT` times its diagonal ``own``, belongs to a
+    motion without stiffness. It is replaced by a small share of the diagonal (or of ``scale``): the
+    solution follows a force along the motion, but hardly the round-off in forces. With `THROUGH` no
+    pivot is replaced, as true pivots are as small near limit points.
     """
     size = max(abs(own), 1e-3 * scale)
-    return SOFT * max(abs(own), scale) if rounded * size <= pivot <= NEUTRAL * size else pivot
+    return SOFT * max(abs(own), scale) if rounded * size <= pivot <= ZERO_PIVOT * size else pivot
 
 
 @jit_exact
 def _invert(values, at, own, scale, rounded):
     """Replace the diagonal block at ``at`` by its inverse; return the failed slot and its pivot.
 
-    d = diag(a, b, c) and the unit lower triangle l are the block's own LDL^T. Above the diagonal
-    stands l^{-T}, so far as it is known, until the block is inverted. (Entry r, s is at 4 s + r.)
+    diag(a, b, c) and the unit lower triangle l are the LDL^T factor of the block. Until the block
+    is inverted, the completed rows of l^{-T} are stored above its diagonal, for `descend`. Entry
+    (r, s) is at 4 s + r. Slot -1: no failure.
     """
-    a = pivoted(values[at], own[0], scale, rounded)
+    a = regularised(values[at], own[0], scale, rounded)
     if not (a > 0.0 or rounded == THROUGH):
         return 0, a
     a10, a20, a21 = values[at + 1], values[at + 2], values[at + 6]
     l10, l20 = a10 / a, a20 / a
     values[at + 4] = -l10
-    b = pivoted(values[at + 5] - l10 * a10, own[1], scale, rounded)
+    b = regularised(values[at + 5] - l10 * a10, own[1], scale, rounded)
     if not (b > 0.0 or rounded == THROUGH):
         return 1, b
     l21 = (a21 - l20 * a10) / b
     m20 = l10 * l21 - l20
     values[at + 8], values[at + 9] = m20, -l21
-    c = pivoted(values[at + 10] - l20 * a20 - l21 * l21 * b, own[2], scale, rounded)
+    c = regularised(values[at + 10] - l20 * a20 - l21 * l21 * b, own[2], scale, rounded)
     if not (c > 0.0 or rounded == THROUGH):
         return 2, c
     values[at + 10] = 1.0 / c
@@ -83,13 +86,13 @@ def _columns(values, at):
 
 @jit
 def _weights(values, at):
-    """Return every fourth entry from ``at`` on, a row of a block, each in all four lanes."""
+    """Return the row of a block at ``at``, each of its entries spread over all four lanes."""
     x, y, z = values[at], values[at + STRIDE], values[at + 2 * STRIDE]
     return spread(x), spread(y), spread(z)
 
 
 @jit
-def _mixed(sums, columns, weights):
+def _combined(sums, columns, weights):
     """Return ``sums`` + the ``columns`` times their weights."""
     for c in range(3):
         sums = added(sums, columns[c], weights[c])
@@ -98,48 +101,48 @@ def _mixed(sums, columns, weights):
 
 @jit
 def _scale_column(blocks, j, nb):
-    """Keep column ``j`` with its sign changed and multiply it by the inverse of its diagonal."""
-    values, minus, nothing, kept = blocks.values, spread(-1.0), spread(0.0), 0
+    """Copy -A of column ``j`` to ``column``, then multiply the blocks A by D^{-1}."""
+    values, minus, nothing, offset = blocks.values, spread(-1.0), spread(0.0), 0
     one, two = _weights(values, SIZE * j), _weights(values, SIZE * j + 1)
     three = _weights(values, SIZE * j + 2)
     for at in range(SIZE * (nb + blocks.start[j]), SIZE * (nb + blocks.start[j + 1]), SIZE):
         columns = _columns(values, at)
         for column in columns:
-            store(blocks.column, kept, added(nothing, minus, column))
-            kept += STRIDE
-        store(values, at, _mixed(nothing, columns, one))
-        store(values, at + STRIDE, _mixed(nothing, columns, two))
-        store(values, at + 2 * STRIDE, _mixed(nothing, columns, three))
+            store(blocks.column, offset, added(nothing, minus, column))
+            offset += STRIDE
+        store(values, at, _combined(nothing, columns, one))
+        store(values, at + STRIDE, _combined(nothing, columns, two))
+        store(values, at + 2 * STRIDE, _combined(nothing, columns, three))
 
 
 @jit
 def _update(blocks, j, nb, count):
-    """Subtract A_a D^{-1} A_b^T from the blocks (a, b) behind column ``j``, whose blocks are A.
+    """Subtract A_a D^{-1} A_b^T from the blocks (a, b) right of column ``j`` with the blocks A.
 
-    ``count``: its first update; returned is that of the next column.
+    count: number of its first update. Return that of the next column.
     """
-    values, column, update, kept = blocks.values, blocks.column, blocks.update, 0
+    values, column, update, offset = blocks.values, blocks.column, blocks.update, 0
     last = SIZE * (nb + blocks.start[j + 1])
     for first in range(SIZE * (nb + blocks.start[j]), last, SIZE):
-        one, two = _weights(column, kept), _weights(column, kept + 1)
-        three = _weights(column, kept + 2)
+        one, two = _weights(column, offset), _weights(column, offset + 1)
+        three = _weights(column, offset + 2)
         for at in range(first, last, SIZE):
             left, to = _columns(values, at), update[count]
             x, y, z = _columns(values, to)
-            store(values, to, _mixed(x, left, one))
-            store(values, to + STRIDE, _mixed(y, left, two))
-            store(values, to + 2 * STRIDE, _mixed(z, left, three))
+            store(values, to, _combined(x, left, one))
+            store(values, to + STRIDE, _combined(y, left, two))
+            store(values, to + 2 * STRIDE, _combined(z, left, three))
             count += 1
-        kept += SIZE
+        offset += SIZE
     return count
 
 
 @jit_exact
 def factor(blocks, scale, rounded):
-    """Factor in place: A = L D L^T, L D^{-1} below, D^{-1} in the diagonal blocks.
+    """Factor in place: A = L D L^T; L replaces the blocks below, D^{-1} the diagonal blocks.
 
-    Return (failed, pivot): home of the first negative pivot, -1 if none. ``rounded``: as in
-    `pivoted`.
+    Return (failed, pivot): home of the first negative pivot, -1 if none. rounded: as in
+    `regularised`.
     """
     nb, count = blocks.start.size - 1, 0
     for j in range(nb):
@@ -154,8 +157,8 @@ def factor(blocks, scale, rounded):
 
 @jit_exact
 def stiffest(blocks, lengths):
-    """Return the largest diagonal entry, before the factor, of the first ``lengths`` slots of a
-    block: those of coordinates in m.
+    """Return the largest diagonal entry before the factor in the first ``lengths`` slots of a
+    block, which are coordinates in m.
     """
     most = 0.0
     for j in range(blocks.start.size - 1):
@@ -166,7 +169,7 @@ def stiffest(blocks, lengths):
 
 @jit_exact
 def negatives(blocks):
-    """Return how many pivots of the factor are negative, from the inverses of its blocks."""
+    """Return the number of negative pivots of the factor, from the inverses of its blocks."""
     count, v = 0, blocks.values
     for at in range(0, SIZE * (blocks.start.size - 1), SIZE):
         a = v[at]

@@ -1,10 +1,10 @@
-"""Symmetric matrix of 3 x 3 blocks with a static pattern, and where every entry goes.
+"""Symmetric matrix of 3 x 3 blocks with a static pattern.
 
 A block holds the unknowns of one point: x, y and the rotation of a joint. Blocks are numbered in
-the order of their elimination; the lower half is stored by columns, each diagonal block first in
-`values`, then the blocks below. A block is three columns of four entries, the fourth of them zero.
+the order of elimination. The lower half is stored in `values`: all diagonal blocks, then the blocks
+below them, column by column. A block is three columns of four entries, the fourth of which is zero.
 
-A coordinate has a *home*: 3 x block + slot, or one of the codes below.
+The *home* of a coordinate is 3 x block + slot, or one of the codes below.
 """
 
 from typing import NamedTuple
@@ -15,22 +15,22 @@ from kernels.arrays import zero
 from kernels.compile.jit import jit, jit_exact, jit_owning
 from kernels.compile.simd import LANES
 
-HELD, INNER, DRIVEN = -1, -2, -3  # never moves; eliminated inside its wall; led
-IMAGE = -4  # of the first row of `periodic_images`, -5 of the second ...
-STRIDE = LANES  # from one column of a block to the next
+HELD, INNER, DRIVEN = -1, -2, -3  # fixed; eliminated inside its wall; prescribed
+IMAGE = -4  # row 0 of `periodic_images`; -5 is row 1, and so on
+STRIDE = LANES  # between columns of a block
 SIZE = 3 * STRIDE
 
 
 class Blocks(NamedTuple):
-    """Matrix of nb blocks.
+    """Matrix of nb diagonal blocks and nl blocks below them.
 
-    home (n,): of each coordinate. whole (n,): block of a coordinate and the next, -1 if they share
-    none. start (nb + 1,), row (nl,): blocks below each diagonal block. update (nu,): targets in the
-    order in which `factor` meets them. values (12 (nb + nl) + 1,): the last one takes what belongs
-    nowhere. own (3 nb,): diagonal before the factor. diagonal, pull (n,): by coordinate, diagonal
-    entries and couplings with what is led. ratio (n,), images (k, 4): as in `analysis.Layout`.
-    vector (3 nb,), column (12 x longest,): scratch. missing (1,): set when an entry has no
-    room.
+    home (n,): of each coordinate. whole (n,): block whose first two slots are a coordinate and the
+    next one, else -1. start (nb + 1,), row (nl,): rows of the blocks below each diagonal block.
+    update (nu,): targets of updates in the order of `block_ldlt.factor`. values (12 (nb + nl) +
+    1,): entries; the last one collects entries without a place. own (3 nb,): diagonal before the
+    factor. diagonal, pull (n,): by coordinate, diagonal entries and couplings with the driven
+    coordinate. ratio (n,), images (k, 4): as in `analysis.Layout`. vector (3 nb,), column (12 x
+    longest column,): scratch. missing (1,): set to 1 when an entry has no room.
     """
 
     home: np.ndarray
@@ -51,13 +51,13 @@ class Blocks(NamedTuple):
 
 @jit_exact
 def home_of(block, slot):
-    """Return the home of what is in this slot of a block."""
+    """Return the home of a ``slot`` of a ``block``."""
     return 3 * block + slot
 
 
 @jit_exact
 def find(start, row, i, j):
-    """Return which block below the diagonals is (i, j), i > j; -1 if there is none."""
+    """Return the index in ``row`` of block (i, j), i > j; -1 if there is none."""
     low, high = start[j], start[j + 1]
     while low < high:
         middle = (low + high) // 2
@@ -81,7 +81,7 @@ def updates(start, row):
         for b in range(start[j], start[j + 1]):
             update[count] = SIZE * row[b]
             count += 1
-            q = start[row[b]]  # through the rows of column b, which has all behind b
+            q = start[row[b]]  # the column of b has all rows that follow b in column j
             for a in range(b + 1, start[j + 1]):
                 while row[q] < row[a]:
                     q += 1
@@ -92,7 +92,7 @@ def updates(start, row):
 
 @jit_owning
 def _whole(home):
-    """Return the block of every coordinate that is its first unknown, with the next its second."""
+    """Return `Blocks.whole`."""
     whole = np.full(home.size, -1)
     for i in range(home.size - 1):
         if home[i] >= 0 and home[i] % 3 == 0 and home[i + 1] == home[i] + 1:
@@ -101,8 +101,8 @@ def _whole(home):
 
 
 @jit_owning
-def shaped(home, start, row, ratio, images):
-    """Return a zero matrix with this pattern."""
+def zero_matrix(home, start, row, ratio, images):
+    """Return a zero matrix of this pattern."""
     nb, n = start.size - 1, home.size
     longest = 0
     for j in range(nb):
@@ -125,7 +125,7 @@ def clear(blocks):
 
 @jit_exact
 def position(home, start, row, i, j):
-    """Return where entry (i, j) of homes is in `values`; -1 if it has no room."""
+    """Return the position in `values` of the entry of coordinates (i, j); -1 if it has no room."""
     p, q = home[i] // 3, home[j] // 3
     r, s = home[i] - 3 * p, home[j] - 3 * q
     if p == q:
@@ -138,7 +138,7 @@ def position(home, start, row, i, j):
 
 @jit
 def add(blocks, i, j, value):
-    """Add a symmetric pair of entries at ``i``, ``j`` (once where i == j), no images."""
+    """Add ``value`` to entries (i, j) and (j, i), once if i == j; neither is an image."""
     if i == j:
         blocks.diagonal[i] += value
         return
@@ -160,8 +160,8 @@ def add(blocks, i, j, value):
 
 
 @jit_exact
-def _followed(blocks, c, which):
-    """Return the first or the second coordinate that ``c`` follows, and how many times."""
+def _leader(blocks, c, which):
+    """Return the first or second (``which`` 0, 1) coordinate that ``c`` follows, and its factor."""
     home = blocks.home[c]
     if home > IMAGE:
         return c, 1 - which
@@ -171,14 +171,14 @@ def _followed(blocks, c, which):
 
 @jit_exact
 def add_image(blocks, i, j, value, pulls):
-    """Add a pair of entries, or one if i == j, of images: to what each of them follows.
+    """Add ``value`` to entries (i, j) and (j, i) of images: to the coordinates that they follow.
 
-    Without ``pulls`` what is led is left out.
+    pulls: couplings with the driven coordinate are added too.
     """
     share = 0.5 if i == j else 1.0
     for k in range(4):
-        p, one = _followed(blocks, i, k // 2)
-        q, two = _followed(blocks, j, k % 2)
+        p, one = _leader(blocks, i, k // 2)
+        q, two = _leader(blocks, j, k % 2)
         entry = share * one * two * value
         if entry != 0.0:
             if p == q:
@@ -189,7 +189,7 @@ def add_image(blocks, i, j, value, pulls):
 
 @jit_exact
 def _add_images(blocks, i, j, block):
-    """Add a block of points of which one is an image at least."""
+    """Add a 2 x 2 block of two points, one of which is an image at least."""
     for k in range(4):
         if k != 1 or i != j:
             add_image(blocks, i + k // 2, j + k % 2, block[k], True)
@@ -197,10 +197,10 @@ def _add_images(blocks, i, j, block):
 
 @jit
 def add_block(blocks, i, j, xx, xy, yx, yy):
-    """Add the 2 x 2 block of points whose x are coordinates ``i``, ``j`` (lower half if equal)."""
+    """Add the 2 x 2 block of two points with x coordinates ``i``, ``j`` (lower half if equal)."""
     p, q, at = blocks.whole[i], blocks.whole[j], -1
     if p < 0 or q < 0 or (p == q and i != j):
-        _add_apart(blocks, i, j, xx, xy, yx, yy)
+        _add_entries(blocks, i, j, xx, xy, yx, yy)
         return
     if p == q:
         at, xy = SIZE * p, 0.0
@@ -220,8 +220,8 @@ def add_block(blocks, i, j, xx, xy, yx, yy):
 
 
 @jit
-def _add_apart(blocks, i, j, xx, xy, yx, yy):
-    """Add a block of points whose coordinates do not share a block, entry by entry."""
+def _add_entries(blocks, i, j, xx, xy, yx, yy):
+    """Add a 2 x 2 block entry by entry: a point has no block of its own, or is an image."""
     if blocks.home[i] <= IMAGE or blocks.home[j] <= IMAGE:
         _add_images(blocks, i, j, (xx, xy, yx, yy))
         return

@@ -1,16 +1,17 @@
-"""Static condensation: the inner unknowns of a wall eliminated on the spot.
+"""Static condensation: eliminates the inner unknowns of a wall.
 
-An inner node has two unknowns and couples to the next two nodes at most; the two joints have three
-each. Row k of a wall holds entries (k, k) .. (k, k + 5), then those with the joints' six unknowns:
+An inner node has two unknowns and couples with the next two nodes at most; each of the two joints
+has three. Row k of a wall holds entries (k, k) .. (k, k + 5), then those with the unknowns of the
+joints:
 
     [ band 6 | x_a y_a phi_a x_b y_b phi_b ]
 
-After `eliminate` it holds the row of D L^T, with 1 / pivot in front.
+After `eliminate` it holds the row of D L^T, with 1 / pivot as its first entry.
 """
 
 from kernels.arrays import zero_rows
 from kernels.compile.jit import jit, jit_exact
-from kernels.linear.block_ldlt import THROUGH, pivoted
+from kernels.linear.block_ldlt import THROUGH, regularised
 
 BAND, WIDTH, OUTER = 6, 12, 6
 
@@ -60,8 +61,8 @@ def fill(first, last, w, stiffness, rows, outer):
             xx -= 2.0 * following[0, k - 1]
             xy -= following[1, k - 1] + following[2, k - 1]
             yy -= 2.0 * following[3, k - 1]
-        here = -6 if q == 0 else (-3 if q == n else 2 * q - 2)
-        _couple(rows, outer, here, here, xx, xy, xy, yy)
+        point = -6 if q == 0 else (-3 if q == n else 2 * q - 2)
+        _couple(rows, outer, point, point, xx, xy, xy, yy)
         if q == n:
             continue
         xx, xy, yx, yy = -own[0, k], -own[1, k], -own[1, k], -own[2, k]
@@ -71,19 +72,19 @@ def fill(first, last, w, stiffness, rows, outer):
         if q + 1 < n:
             xx, xy = xx + following[0, k], xy + following[1, k]
             yx, yy = yx + following[2, k], yy + following[3, k]
-        there = -3 if q + 1 == n else 2 * q
-        _couple(rows, outer, here, there, xx, xy, yx, yy)
+        other = -3 if q + 1 == n else 2 * q
+        _couple(rows, outer, point, other, xx, xy, yx, yy)
         if q + 1 < n:
-            there = -3 if q + 2 == n else 2 * q + 2
+            other = -3 if q + 2 == n else 2 * q + 2
             xx, xy, yx, yy = following[0, k], following[1, k], following[2, k], following[3, k]
-            _couple(rows, outer, here, there, -xx, -xy, -yx, -yy)
+            _couple(rows, outer, point, other, -xx, -xy, -yx, -yy)
     _arms(rows, outer, n, stiffness.arm, w)
     outer[5, 2] += stiffness.twist[w]
 
 
 @jit
 def _arms(rows, outer, n, arm, w):
-    """Add the couplings of the rotations of both joints with the elements at the ends."""
+    """Add the rotations of both joints and their couplings with the elements at the ends."""
     for side, phi in ((0, 2), (1, 5)):
         vx, vy = arm[0, 2 * w + side], arm[1, 2 * w + side]
         outer[phi, phi] += arm[2, 2 * w + side]
@@ -104,7 +105,7 @@ def _arms(rows, outer, n, arm, w):
 
 @jit
 def _reduce(rows, k, m, inverse, outer):
-    """Subtract what row ``k`` adds to the rows behind it and to the joints."""
+    """Subtract the update of row ``k`` from the rows after it and from the joints."""
     for i in range(1, min(BAND, m - k)):
         factor = rows[k, i] * inverse
         for j in range(i, BAND):
@@ -119,17 +120,17 @@ def _reduce(rows, k, m, inverse, outer):
 
 @jit_exact
 def eliminate(rows, diagonal, own, outer, scale, rounded):
-    """Eliminate all rows in place; return (failed, pivot): the first negative one, -1 if none.
+    """Eliminate all rows (m, 12) in place, with ``diagonal`` (m,) added to them.
 
-    ``diagonal`` (m,) is added first; ``own`` (m,) is filled with the diagonal before. ``rounded``:
-    as in `pivoted`.
+    Return (failed, pivot): row of the first negative pivot, -1 if none. own (m,): filled with the
+    diagonal before elimination. rounded: as in `block_ldlt.regularised`.
     """
     m = rows.shape[0]
     for k in range(m):
         rows[k, 0] += diagonal[k]
         own[k] = rows[k, 0]
     for k in range(m):
-        pivot = pivoted(rows[k, 0], own[k], scale, rounded)
+        pivot = regularised(rows[k, 0], own[k], scale, rounded)
         if not (pivot > 0.0 or rounded == THROUGH):
             return k, pivot
         rows[k, 0] = 1.0 / pivot
@@ -139,7 +140,7 @@ def eliminate(rows, diagonal, own, outer, scale, rounded):
 
 @jit
 def forward(rows, b, joints):
-    """Carry the right side ``b`` (m,) of the inner rows on to the six of the joints."""
+    """Forward substitution: condense the right side ``b`` (m,) onto ``joints`` (6,)."""
     m = rows.shape[0]
     for k in range(m):
         y = b[k] * rows[k, 0]
@@ -151,7 +152,7 @@ def forward(rows, b, joints):
 
 @jit
 def backward(rows, b, joints, last):
-    """Solve in place for the inner unknowns before ``last``, given those of the ``joints`` (6,)."""
+    """Back substitution for the first ``last`` inner unknowns, given those of ``joints`` (6,)."""
     m = rows.shape[0]
     for k in range(last - 1, -1, -1):
         total = b[k]

@@ -1,7 +1,8 @@
-"""Order of elimination: the block of least degree first, on a graph kept as rows of bits.
+"""Minimum-degree order of elimination, on a graph stored as rows of bits.
 
-Eliminating a block joins all its neighbours. What is left in its row of bits is its column of the
-factor (George & Liu 1989, SIAM Review 31: The evolution of the minimum degree ordering algorithm).
+Eliminating a block connects all its neighbours with each other. The neighbours left in its row of
+bits are its column of the factor (George & Liu 1989, SIAM Review 31: The evolution of the minimum
+degree ordering algorithm).
 """
 
 import numpy as np
@@ -20,7 +21,7 @@ def graph(n):
 
 @jit_exact
 def connect(bits, i, j):
-    """Join blocks ``i`` and ``j``."""
+    """Connect blocks ``i`` and ``j``."""
     if i != j:
         bits[i, j // WORD] |= ONE << np.uint64(j % WORD)
         bits[j, i // WORD] |= ONE << np.uint64(i % WORD)
@@ -28,7 +29,7 @@ def connect(bits, i, j):
 
 @jit_exact
 def _members(row, out):
-    """List the bits set in ``row``, ascending; return their number."""
+    """Write the bits set in ``row`` to ``out``, ascending; return their number."""
     n = 0
     for word in range(row.size):
         rest, base = row[word], word * WORD
@@ -43,6 +44,7 @@ def _members(row, out):
 
 @jit_exact
 def _count(row):
+    """Return the number of bits set in ``row``."""
     n = 0
     for word in range(row.size):
         rest = row[word]
@@ -54,7 +56,7 @@ def _count(row):
 
 @jit_exact
 def _link(queue, i, degree):
-    """Put ``i`` at the head of those of a degree; ``queue``: rows head, following, preceding."""
+    """Insert ``i`` at the head of the list of its degree; ``queue``: rows head, next, previous."""
     first = queue[0, degree]
     queue[0, degree], queue[1, i], queue[2, i] = i, first, -1
     if first >= 0:
@@ -63,7 +65,7 @@ def _link(queue, i, degree):
 
 @jit_exact
 def _unlink(queue, i, degree):
-    """Take ``i`` out of those of its degree."""
+    """Remove ``i`` from the list of its degree."""
     after, before = queue[1, i], queue[2, i]
     if before >= 0:
         queue[1, before] = after

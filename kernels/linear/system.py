@@ -1,4 +1,4 @@
-"""The linear system of a step: walls condensed one by one, then the joints and what touches."""
+"""Linear system of a step: walls condensed one by one, then the blocks of joints and open walls."""
 
 from kernels.arrays import zero
 from kernels.compile.jit import jit, jit_exact
@@ -9,7 +9,7 @@ from kernels.linear.block_matrix import IMAGE, INNER, add_image
 
 @jit
 def _scatter(values, target, rows, outer):
-    """Add the entries of a wall to the block matrix: its ``rows`` too where they have targets."""
+    """Add the entries of a wall to the block matrix: ``outer``, and ``rows`` of an open wall."""
     t = 0
     if target.size > 21:
         for k in range(rows.shape[0]):
@@ -24,10 +24,11 @@ def _scatter(values, target, rows, outer):
 
 @jit
 def _scatter_image(system, layout, w, rows):
-    """Add the entries of wall ``w`` that belong to the image of a joint at its end.
+    """Add the entries of wall ``w`` with the image of a joint at its end.
 
-    Where both ends are one joint, the coupling of their rotations is a second time on the diagonal.
-    An open wall has no room for entries between nodes that are too far apart to couple.
+    If both ends are one joint, the coupling of their rotations counts twice on the diagonal.
+    Entries of an open wall that are zero have no room: they belong to nodes too far apart to
+    couple.
     """
     matrix, outer = system.matrix, layout.outer[w]
     for c in range(condense.OUTER):
@@ -47,17 +48,17 @@ def _scatter_image(system, layout, w, rows):
 
 @jit_exact
 def _inner(system, layout, w):
-    """Return the coordinates of the inner unknowns of wall ``w``."""
+    """Return the slice of coordinates that are the inner unknowns of wall ``w``."""
     first = layout.inner[w]
     return slice(first, first + system.row_start[w + 1] - system.row_start[w])
 
 
 @jit_exact
 def factor(system, layout, walls, stiffness, projected, through):
-    """Add the walls to what the matrix holds and factor all.
+    """Add the walls to the matrix and factor the system.
 
-    Return (failed, pivot): whether there is a negative pivot, and the first one, whose place is
-    kept for `descend`. ``through``: they do not stop it, see `negatives`.
+    Return (failed, pivot): whether there is a negative pivot, and the first one; its place is kept
+    for `descend`. through: negative pivots do not stop the factorisation, see `negatives`.
     """
     wall, failed, pivot, home = -1, -1, 0.0, system.matrix.home
     rounded = block_ldlt.CONVEX if projected else block_ldlt.ROUNDED
@@ -82,7 +83,7 @@ def factor(system, layout, walls, stiffness, projected, through):
         if home[layout.outer[w, 3]] <= IMAGE:
             _scatter_image(system, layout, w, rows)
     if failed < 0:
-        block_ldlt.settle(system.matrix, layout.scale)
+        block_ldlt.add_diagonal(system.matrix, layout.scale)
         failed, pivot = block_ldlt.factor(system.matrix, layout.scale, rounded)
     place = system.place[0]
     place.wall, place.row = wall, failed
@@ -91,7 +92,7 @@ def factor(system, layout, walls, stiffness, projected, through):
 
 @jit_exact
 def negatives(system):
-    """Return how many pivots of the factor are negative: as many as eigenvalues (Sylvester)."""
+    """Return the number of negative pivots, which is that of negative eigenvalues (Sylvester)."""
     count = block_ldlt.negatives(system.matrix)
     for w in range(system.kind.size):
         if system.kind[w] == CONDENSED:
@@ -102,7 +103,7 @@ def negatives(system):
 
 @jit_exact
 def _expand(system, layout, b):
-    """Write the solution of the block matrix to ``b``; solve the condensed walls for the rest."""
+    """Copy the solution of the block matrix to ``b`` (n,), then solve the condensed walls."""
     home, vector, joints = system.matrix.home, system.matrix.vector, system.joints
     for c in range(b.size):
         if home[c] >= 0:
@@ -121,7 +122,7 @@ def _expand(system, layout, b):
 
 @jit
 def solve(system, layout, b):
-    """Solve in place for a right side ``b`` (n,) by coordinate; what is held stays at zero."""
+    """Solve in place for the right side ``b`` (n,), by coordinate; held ones are zero."""
     home, vector, joints = system.matrix.home, system.matrix.vector, system.joints
     periodic_images.collect(layout.images, b)
     for w in range(system.kind.size):

@@ -1,4 +1,4 @@
-"""The planar lattice as a problem for the solver: walls with two coordinates a node, and joints.
+"""The planar lattice as a problem of the solver: walls with two coordinates a node, and joints.
 
-`problem` has its data and its verbs; a verb's code is in the file of its topic.
+`problem` has its data and lists its verbs; the code of a verb is in the file of its topic.
 """

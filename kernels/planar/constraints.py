@@ -1,4 +1,4 @@
-"""What is held, tied and led in a lattice: platens, prescribed moves, and images of a period."""
+"""Constraints of a lattice: supports, platens, prescribed moves and periodic images."""
 
 from kernels.arrays import zero, zero_rows
 from kernels.compile.jit import jit, jit_exact
@@ -8,7 +8,10 @@ from kernels.terms import elements
 
 @jit
 def reduce(problem, g, residual):
-    """Fill ``residual`` (n,) with ``g``, what is tied added to its leader, zero where held."""
+    """Fill ``residual`` (n,) with the gradient ``g`` (n,) of the free coordinates.
+
+    Entries of tied coordinates are added to their leaders; those of held ones are zero.
+    """
     layout = problem.scene.layout
     zero(residual)
     for i in range(g.size):
@@ -22,7 +25,7 @@ def reduce(problem, g, residual):
 
 @jit_exact
 def lead(problem, move, direction):
-    """Write the moves of all that is led when the driven coordinate goes by ``move`` m."""
+    """Write the moves of all LED coordinates when the driven coordinate moves by ``move`` m."""
     layout = problem.scene.layout
     for i in range(direction.size):
         if layout.leader[i] == layout.driven:
@@ -32,8 +35,8 @@ def lead(problem, move, direction):
 
 @jit_exact
 def pull(problem, move, direction):
-    """Fill ``direction`` (n,), zero before, with the change of the gradient when the driven
-    coordinate goes by ``move`` m.
+    """Fill ``direction`` (n,), zero before, with the linearised change of the gradient when the
+    driven coordinate moves by ``move`` m.
     """
     walls, shape, stiffness = problem.scene.walls, problem.buffers.shape, problem.buffers.stiffness
     matrix = problem.neighbours.system.matrix
@@ -49,7 +52,7 @@ def pull(problem, move, direction):
 
 @jit_exact
 def tie(problem, vector):
-    """Let what follows another coordinate have its value, times the ratio of their moves."""
+    """Set entries of tied coordinates to those of their leaders times the ratio of their moves."""
     layout = problem.scene.layout
     for i in range(layout.leader.size):
         leader = layout.leader[i]

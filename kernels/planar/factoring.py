@@ -19,9 +19,7 @@ def factor(problem, x, step, found, projected, through):
     fold.hessian(x, scene.fold, matrix, projected)
     spring.hessian(x, scene.spring, matrix, projected)
     contact.hessian(x, scene.contact, neighbours.pairs, neighbours.touching, matrix, projected)
-    friction.hessian(
-        found.u, problem.neighbours.lagged_contacts, slip_of(problem, step), matrix, projected
-    )
+    friction.hessian(found.u, neighbours.lagged_contacts, slip_of(problem, step), matrix, projected)
     if step.dynamic:
         inert, drag = 1.0 / (step.h * step.h), scene.damp.alpha_m / step.h
         for i in range(x.size):
@@ -38,7 +36,7 @@ def factor(problem, x, step, found, projected, through):
 
 @jit_exact
 def solve(problem, b):
-    """Solve in place for a right side ``b`` (n,); what is held stays at zero."""
+    """Solve in place for the right side ``b`` (n,); held coordinates are zero."""
     system.solve(problem.neighbours.system, problem.scene.layout, b)
 
 
@@ -50,11 +48,11 @@ def descend(problem, direction):
 
 @jit_exact
 def unstable(problem):
-    """Return how many pivots of the factor are negative."""
+    """Return the number of negative pivots of the factor."""
     return system.negatives(problem.neighbours.system)
 
 
 @jit_exact
 def stiffest(problem):
-    """Return the largest diagonal entry of a coordinate of a node in the last factor, N/m."""
+    """Return the largest diagonal entry of x and y coordinates in the last factor, N/m."""
     return block_ldlt.stiffest(problem.neighbours.system.matrix, LENGTHS)

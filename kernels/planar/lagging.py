@@ -1,4 +1,4 @@
-"""Friction of a lattice, which lags: normal forces and directions as they were taken last."""
+"""Lagged friction of a lattice: normal forces and directions are fixed during a minimisation."""
 
 from kernels.arrays import add
 from kernels.compile.jit import jit_exact
@@ -8,38 +8,32 @@ from kernels.terms import friction
 
 @jit_exact
 def lags(problem):
-    """Return whether there is friction."""
+    """Return whether the scene has friction."""
     return problem.scene.friction.mu > 0.0
 
 
 @jit_exact
 def lag(problem, y):
-    """Take normal forces at ``y`` (n,); return whether there are any, or were before."""
+    """Lag the normal forces at ``y`` (n,); return whether there are any now, or were before."""
     if problem.scene.friction.mu == 0.0:
         return False
-    before, pairs = problem.neighbours.lagged_contacts.count[0], problem.neighbours.pairs
-    scene = problem.scene
-    friction.lag(
-        y,
-        scene.contact,
-        pairs,
-        drift(problem, y),
-        scene.friction,
-        problem.neighbours.lagged_contacts,
-    )
-    return before + problem.neighbours.lagged_contacts.count[0] > 0
+    scene, neighbours = problem.scene, problem.neighbours
+    lagged_contacts, moved = neighbours.lagged_contacts, drift(problem, y)
+    before = lagged_contacts.count[0]
+    friction.lag(y, scene.contact, neighbours.pairs, moved, scene.friction, lagged_contacts)
+    return before + lagged_contacts.count[0] > 0
 
 
 @jit_exact
 def slip_of(problem, step):
-    """Return the slip in m below which friction is smoothed."""
+    """Return the smoothing length of friction: the slip in a step, m."""
     slip = problem.scene.friction.slip
     return slip * step.h if step.dynamic else slip
 
 
 @jit_exact
 def exchange(problem, step, found):
-    """Exchange D_f and its gradient in ``found`` for those of the forces of now; return E."""
+    """Replace D_f and its gradient in ``found`` by those of the present forces; return E in J."""
     sums = found.sums[0]
     if problem.scene.friction.mu == 0.0:
         return sums.potential
@@ -47,16 +41,16 @@ def exchange(problem, step, found):
         found.g[i] -= found.friction[i]
         found.friction[i] = 0.0
     slip = slip_of(problem, step)
-    rubbed = friction.evaluate(found.u, problem.neighbours.lagged_contacts, slip, found.friction)
+    potential = friction.evaluate(found.u, problem.neighbours.lagged_contacts, slip, found.friction)
     add(found.friction, found.g)
-    sums.potential += rubbed - sums.friction
-    sums.friction = rubbed
+    sums.potential += potential - sums.friction
+    sums.friction = potential
     return sums.potential
 
 
 @jit_exact
 def follow(problem, dx, share, step, found):
-    """Carry the duals of friction along a share of ``dx``; return whether they fit at its end."""
+    """Update the duals of friction in a ``share`` of ``dx``; see `solve.problem.Problem.follow`."""
     return friction.follow(
         found.u, dx, share, problem.neighbours.lagged_contacts, slip_of(problem, step)
     )
@@ -64,5 +58,5 @@ def follow(problem, dx, share, step, found):
 
 @jit_exact
 def forget(problem):
-    """Forget the duals of friction."""
+    """Reset the duals of friction."""
     friction.forget(problem.neighbours.lagged_contacts)

@@ -1,9 +1,10 @@
-"""What one step of a lattice minimises: the sum of all terms, with its gradient.
+"""The potential of one step of a lattice: the sum of all terms, with its gradient.
 
     E(x) = E_s + E_b + E_f + E_c - f . u + |x - x~|_M^2 / (2 h^2) + D(u) + D_f(u),   u = x - y
 
-u / h is the velocity at the end of the step (`integrators`). In a static step y = x0, and inertia
-and damping vanish. A term that a scene lacks is an empty array. The Hessian: `factoring`.
+u / h is the velocity at the end of the step (`solve.integrators`). In a static step y = x0, and
+inertia and damping vanish. A term that is absent from a scene has empty arrays. The Hessian is in
+`factoring`.
 """
 
 import numpy as np
@@ -31,7 +32,7 @@ LEAST = np.dtype(
         np.record,  # for attributes in plain Python too
         [
             ("length", np.float64),  # shortest element, m
-            ("opening", np.float64),  # least opening of two arms, rad
+            ("opening", np.float64),  # smallest opening between two arms or elements, rad
         ],
     )
 )
@@ -39,9 +40,9 @@ LEAST = np.dtype(
 
 @jit_exact
 def evaluate(problem, x, step, found, projected):
-    """Return E in J; fill ``found``, and the walls' part of the (``projected``) Hessian."""
+    """Return E in J; fill ``found`` and the walls' part of the Hessian, ``projected`` or exact."""
     scene, neighbours, coordinates = problem.scene, problem.neighbours, problem.scene.coordinates
-    _start(x, step, found)
+    _reset(x, step, found)
     store_walls(problem, x, step, found, projected)
     found.stored[CONTACT] = contact.evaluate(
         x, scene.contact, neighbours.pairs, drift(problem, x), neighbours.touching, found.elastic
@@ -60,13 +61,13 @@ def evaluate(problem, x, step, found, projected):
 
 @jit_exact
 def store(problem, x, step, found):
-    """Fill ``found`` with what the walls store at ``x``; the gradient adds to ``found.elastic``."""
+    """Fill the stored energies of the walls at ``x``; add their gradient to ``found.elastic``."""
     store_walls(problem, x, step, found, True)
 
 
 @jit_exact
 def store_walls(problem, x, step, found, projected):
-    """Fill stored energies of the walls, their shape, stiffness and least measures; add the
+    """Fill stored energies, shape and stiffness of the walls and the `LEAST` measures; add the
     gradient to ``found.elastic``.
     """
     scene, shape, stiffness = problem.scene, problem.buffers.shape, problem.buffers.stiffness
@@ -87,7 +88,8 @@ def store_walls(problem, x, step, found, projected):
 
 
 @jit_exact
-def _start(x, step, found):
+def _reset(x, step, found):
+    """Fill u = x - y; set the parts of the gradient to zero."""
     for i in range(x.size):
         found.u[i] = x[i] - step.y[i]
     for part in (found.elastic, found.material, found.friction):
@@ -96,11 +98,9 @@ def _start(x, step, found):
 
 @jit_exact
 def _damping(problem, step, found, projected):
-    before, shape, stiffness = (
-        problem.buffers.before,
-        problem.buffers.shape,
-        problem.buffers.stiffness,
-    )
+    """Return D in J; fill ``found.material`` and add it to the gradient."""
+    buffers = problem.buffers
+    before, shape, stiffness = buffers.before, buffers.shape, buffers.stiffness
     zero_rows(shape.slope)
     zero(shape.moment)
     total = damping.evaluate(

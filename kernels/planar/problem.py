@@ -1,4 +1,4 @@
-"""The lattice of walls in the plane: the data of a scene, and the problem that is made of it.
+"""The lattice of walls in the plane: data of a scene, and the problem assembled from it.
 
 Coordinates are x and y of every node, the rotations of joints, and the surfaces of the platens.
 """
@@ -16,9 +16,11 @@ from kernels.terms.elements import Shape, Stiffness
 
 
 class Buffers(NamedTuple):
-    """Arrays that are made once. before: what damping measures from. shape, stiffness: of the walls
-    at the last `evaluate`; least (1,): shortest element and narrowest opening there, see `LEAST`.
-    committed (p, k): what the material remembers (`law.Memory`): elements, then hinges, then arms.
+    """Arrays that are allocated once a march.
+
+    before: data of the start of the step for damping. shape, stiffness: of the walls at the last
+    `evaluate`; least (1,): smallest measures there, see `potential.LEAST`. committed (p, k): state
+    of the laws at the material points (`law.Memory`): elements, then hinges, then arms.
     """
 
     before: Before
@@ -29,7 +31,7 @@ class Buffers(NamedTuple):
 
 
 class Planar(NamedTuple):
-    """The problem. scene: `PlanarScene`. neighbours: pairs that may touch, the matrix, friction."""
+    """The problem. scene: `PlanarScene`. neighbours: pair lists, matrix and lagged friction."""
 
     scene: object
     neighbours: Neighbours
@@ -68,8 +70,8 @@ class Planar(NamedTuple):
 
 
 @jit_owning
-def _measured(scene):
-    """Return room for the shape and the stiffness of all walls."""
+def _zero_shape(scene):
+    """Return zero `Shape` and `Stiffness` of all walls."""
     m, arms = scene.stretch.l0.size, scene.walls.rotation.size
     shape = Shape(
         np.zeros((2, m)), np.zeros(m), np.zeros(m), np.zeros(arms), np.zeros((2, m)), np.zeros(arms)
@@ -80,11 +82,11 @@ def _measured(scene):
 
 @jit_owning
 def make_buffers(scene, memory):
-    """Return the arrays of all steps. memory: `history.State.memory`."""
-    frame = np.full((scene.walls.rotation.size, 3), np.inf)  # none yet
-    shape, stiffness = _measured(scene)
+    """Return the `Buffers`. memory: `solve.history.State.memory`, which becomes ``committed``."""
+    frame = np.full((scene.walls.rotation.size, 3), np.inf)  # far off: the first step renews it
+    shape, stiffness = _zero_shape(scene)
     before = Before(frame, shape, stiffness)
-    shape, stiffness = _measured(scene)
+    shape, stiffness = _zero_shape(scene)
     return Buffers(before, shape, stiffness, np.zeros(1, potential.LEAST), memory)
 
 
@@ -95,7 +97,7 @@ def assemble(scene, neighbours, buffers):
 
 
 class PlanarScene(NamedTuple):
-    """One scene: the data of every term. A term that the scene lacks has empty arrays."""
+    """One scene: the data of every term. A term that is absent has empty arrays."""
 
     coordinates: Coordinates
     law: object

@@ -1,4 +1,4 @@
-"""The rows and frames that a march of a lattice writes."""
+"""Rows of the history and frames of a lattice."""
 
 from typing import NamedTuple
 
@@ -28,8 +28,8 @@ ROW = np.dtype(
             ("height", np.float64),  # of the specimen, m
             ("reaction_top", np.float64),  # N
             ("reaction_bottom", np.float64),  # N
-            ("iterations", np.float64),  # of Newton, so far
-            ("gap", np.float64),  # least distance of lines that may touch, m; infinite: none
+            ("iterations", np.float64),  # of Newton, accumulated
+            ("gap", np.float64),  # least distance of centre lines that may touch, m; infinite: none
             ("speed", np.float64),  # of the upper platen upwards, m/s
         ],
     )
@@ -37,10 +37,10 @@ ROW = np.dtype(
 
 
 class Output(NamedTuple):
-    """rows (steps,) of `ROW`; frame_of (steps,): slot of a step in frames (f, n) or -1.
+    """rows (steps,) of `ROW`; frame_of (steps,): slot of a step in frames (f, n), -1 for none.
 
-    bottom: coordinates whose supports make the lower reaction. top, base: see `height`. probed
-    (steps, 2, k): value and reaction of the coordinates ``probes`` (k,).
+    bottom: coordinates whose reactions sum to the lower one. top, base: coordinates, see `height`.
+    probes (k,): coordinates whose value and reaction are recorded in probed (steps, 2, k).
     """
 
     rows: np.ndarray
@@ -66,7 +66,7 @@ def enter(row, state):
 
 @jit_exact
 def write(problem, out, k, state, found):
-    """Write row ``k`` of the history and its frame."""
+    """Write row ``k`` of the history, and its frame if one is asked for."""
     row, totals, coordinates = out.rows[k], state.totals[0], problem.scene.coordinates
     enter(row, state)
     row.time, row.iterations = totals.time, totals.iterations

@@ -1,4 +1,4 @@
-"""What a lattice does between minima: it measures what damping needs, and keeps what it is told."""
+"""Start and end of a step of a lattice: data of damping, commit, roll back, projection."""
 
 from kernels.compile.jit import jit_exact
 from kernels.planar.potential import BEND, STRETCH
@@ -8,14 +8,14 @@ from kernels.terms.law import Memory
 
 @jit_exact
 def begin(problem, step, ahead, scratch):
-    """Aim the frames of the joints at the start of the step, and measure rates from there."""
+    """Renew the frames of the joints at x0, and measure the shape that damping starts from."""
     buffers, memory = problem.buffers, Memory(problem.buffers.committed, step.duration)
     damping.prepare(step.x0, problem.scene, memory, buffers.before, ahead, scratch, buffers.shape)
 
 
 @jit_exact
 def commit(problem, x, step, found):
-    """Let the material remember what it does; enter what it has stored and dissipated."""
+    """Commit the state of the laws; correct stored energies, add the dissipation of the step."""
     scene, shape, sums = problem.scene, problem.buffers.shape, found.sums[0]
     memory = Memory(problem.buffers.committed, step.duration)
     if scene.law.remembers():
@@ -30,12 +30,15 @@ def commit(problem, x, step, found):
 
 @jit_exact
 def roll_back(problem, step):
-    """Forget the shortest element and the least opening: they were found elsewhere."""
+    """Reset the shortest element and opening, which belong to the rejected point.
+
+    The committed state of the laws changes at `commit` only, so that nothing else is restored.
+    """
     least = problem.buffers.least[0]
     least.length, least.opening = 0.0, 0.0
 
 
 @jit_exact
 def project(problem, x):
-    """Move nodes of ``x`` apart where they are too near; return whether any has moved."""
+    """Move nodes of ``x`` (n,) apart that are too near; return whether any has moved."""
     return position_based.move_apart(x, problem.scene.project, problem.neighbours.projection_pairs)

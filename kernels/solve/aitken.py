@@ -1,35 +1,38 @@
 """Fixed-point iteration with the vector form of Aitken's extrapolation.
 
-With y the argument and x its image, y' = y + w (x - y); w follows from how x - y has changed since
-the iteration before (Irons & Tuck 1969, Int. J. Numer. Methods Eng. 1, 275).
+With y the argument, x its image and r = x - y, the next argument is
+
+    y' = y + w r,   w = -w_0 r_0 . (r - r_0) / |r - r_0|^2
+
+with w_0 and r_0 of the previous iteration (Irons & Tuck 1969, Int. J. Numer. Methods Eng. 1, 275).
 """
 
 from kernels.compile.jit import jit_exact
 
-LEAST, MOST = 0.3, 8.0  # of the way from argument to image
-FURTHER = 0.5  # leaps beyond the image, or short of it: more is no small change
+SMALLEST_FACTOR, LARGEST_FACTOR = 0.3, 8.0  # bounds of w
+LARGEST_CHANGE = 0.5  # of `Coordinates.leap`: w = 1 if w != 1 would shift the argument by more
 
 
 @jit_exact
-def approach(x, y, change, coordinates, relaxed):
-    """Move the argument ``y`` (n,) on, given its image ``x``; return the share w.
+def relax(x, y, change, coordinates, previous):
+    """Replace the argument ``y`` (n,) by y', given its image ``x`` (n,); return w.
 
-    change (n,), in m: x - y of the iteration before, exchanged for that of this one. relaxed: the
-    share before, 0 at the first.
+    change (n,): residual of the previous iteration in m, overwritten with the present one.
+    previous: w of the previous iteration, 0 in the first.
     """
-    turned, square, most = 0.0, 0.0, 0.0
+    product, norm2, largest = 0.0, 0.0, 0.0
     for i in range(x.size):
-        now = (x[i] - y[i]) * coordinates.scale[i]
-        turn = now - change[i]
-        turned += change[i] * turn
-        square += turn * turn
-        most = max(most, abs(now))
-        change[i] = now
-    share = 1.0
-    if relaxed > 0.0 and square > 0.0:
-        share = min(max(-relaxed * turned / square, LEAST), MOST)
-        if abs(share - 1.0) * most > FURTHER * coordinates.leap:
-            share = 1.0
+        residual = (x[i] - y[i]) * coordinates.scale[i]
+        difference = residual - change[i]
+        product += change[i] * difference
+        norm2 += difference * difference
+        largest = max(largest, abs(residual))
+        change[i] = residual
+    factor = 1.0
+    if previous > 0.0 and norm2 > 0.0:
+        factor = min(max(-previous * product / norm2, SMALLEST_FACTOR), LARGEST_FACTOR)
+        if abs(factor - 1.0) * largest > LARGEST_CHANGE * coordinates.leap:
+            factor = 1.0
     for i in range(x.size):
-        y[i] += share * change[i] / coordinates.scale[i]
-    return share
+        y[i] += factor * change[i] / coordinates.scale[i]
+    return factor

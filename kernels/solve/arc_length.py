@@ -1,17 +1,18 @@
-"""Follows a path of equilibria through its limit points: load factor and shape are one unknown.
+"""Arc-length continuation: follows an equilibrium path through its limit points.
 
-A point of it balances the load and lies one arc from the point before (Crisfield 1981, Comput.
-Struct. 13, 55; both linearised together, as Ramm 1981 and Wempner 1971):
+Positions and load factor lambda are unknowns together. Every point of the path is an equilibrium at
+a fixed arc length s from the previous point (Crisfield 1981, Comput. Struct. 13, 55; both equations
+are linearised together, as in Ramm 1981 and Wempner 1971):
 
     g(x) = lambda f,   |x - x0|_w = s,   |u|_w^2 = sum w u^2
 
-w is the share of the structure that a coordinate bears, so that s does not depend on the mesh.
-Newton:
+The weight w of a coordinate is its share of the structure, so that s does not depend on the mesh.
+Newton's method:
 
     dx = r + dlambda v,   K r = -(g - lambda f),   K v = f,   dlambda = -(c + c_x . r) / (c_x . v)
 
-No minimum is looked for: K may have negative pivots, as many as there are directions in which the
-shape is unstable. Where the load would pass its full value, that takes the place of the arc.
+An equilibrium need not be a minimum: K has as many negative pivots as the equilibrium has unstable
+directions. An arc that would end beyond the full load is replaced by a step to the full load.
 """
 
 from typing import NamedTuple
@@ -23,7 +24,7 @@ from kernels.compile.jit import jit_exact, jit_owning
 from kernels.compile.reference import by_reference
 from kernels.solve.energy_book import enter
 from kernels.solve.integrators import Ahead
-from kernels.solve.march import AT_START, SMALLEST
+from kernels.solve.march import NOT_STARTED, SMALLEST_SHARE
 from kernels.solve.newton import CONVERGED, INTERRUPTED, ITERATIONS, NOT_FINITE, OUTGROWN, STALLED
 from kernels.solve.problem import NO_ROOM, TIED, Step
 from kernels.solve.residual import largest
@@ -33,30 +34,29 @@ PROGRESS = np.dtype(
     (
         np.record,  # for attributes in plain Python too
         [
-            ("row", np.int64),  # the next one of the history; -1 at the start of the path
-            ("done", np.float64),  # share of the row's arc that is done
-            ("share", np.float64),  # share of the row's arc that is tried now
-            ("length", np.float64),  # of what is tried, m; 0: straight to the load ``aim``
-            ("aim", np.float64),  # load factor
-            ("load", np.float64),  # load factor reached
-            ("rise", np.float64),  # of the load factor in the next iteration
-            ("move", np.float64),  # farthest of a coordinate in the next iteration, m
-            ("far", np.float64),  # that a point goes of it at most, m
-            ("spent", np.int64),  # Newton iterations for what is tried
+            ("row", np.int64),  # next row of the history; -1 before the first point of the path
+            ("done", np.float64),  # completed share of the arc of the row
+            ("share", np.float64),  # share of the arc of the row that is attempted
+            ("length", np.float64),  # attempted arc length, m; 0: a step to ``target_load``
+            ("target_load", np.float64),  # load factor at which a step of length 0 ends
+            ("load", np.float64),  # present load factor
+            ("increment", np.float64),  # of the load factor in the next iteration
+            ("longest_move", np.float64),  # of a coordinate in the next iteration, m
+            ("travel_bound", np.float64),  # of a point in the next iteration, m
+            ("iterations", np.int64),  # Newton iterations of the attempt
         ],
     )
 )
 POINT = np.dtype((np.record, [("factor", np.float64), ("unstable", np.float64)]))
-TRIES = 20  # Newton iterations of an arc
-ON_ARC = 1e-6  # of the arc: farther off it is another one
-BEND = 0.7  # cosine between an arc and its start, or the arc before: less is another path
-MOST_LOAD = 0.05  # of the full load: no arc sets out for more
+CORRECTIONS = 20  # most Newton iterations of an arc
+ARC_TOLERANCE = 1e-6  # of |u|_w^2 - s^2, relative to s^2
+LEAST_COSINE = 0.7  # between an arc and the tangent at its start: less means another branch
+LARGEST_LOAD_STEP = 0.05  # of the full load: bounds the predicted load increment of an arc
 
 
 class Arc(NamedTuple):
-    """weight (n,) of a coordinate, zero for rotations; length of an arc in m; path (steps + 1,) of
-    `POINT`: load factor and number of unstable directions, at the start and at the end of every
-    arc.
+    """weight (n,): w of each coordinate, zero for rotations. length: of an arc, m. path (steps +
+    1,) of `POINT`: load factor and number of unstable directions at the start and after every arc.
     """
 
     weight: np.ndarray
@@ -64,16 +64,16 @@ class Arc(NamedTuple):
     path: np.ndarray
 
 
-class Trail(NamedTuple):
-    """way (n,): last move. tangent (n,): that of a unit of load from its end."""
+class Heading(NamedTuple):
+    """last_move (n,): of the last arc. tangent (n,): v = K^-1 f at its end, move per unit load."""
 
-    way: np.ndarray
+    last_move: np.ndarray
     tangent: np.ndarray
 
 
 @jit_exact
 def _inner(a, b, weight):
-    """Return the product of two moves (n,) of which each coordinate has its weight."""
+    """Return the weighted inner product sum w a b of two moves (n,)."""
     value = 0.0
     for i in range(a.size):
         value += weight[i] * a[i] * b[i]
@@ -82,58 +82,64 @@ def _inner(a, b, weight):
 
 @jit_exact
 def _cosine(a, b, weight):
-    """Return that of the angle between two moves; 1 where one of them is none."""
+    """Return the cosine of the angle between two moves (n,); 1 if one of them is zero."""
     size = np.sqrt(_inner(a, a, weight) * _inner(b, b, weight))
     return _inner(a, b, weight) / size if size > 0.0 else 1.0
 
 
 @jit_exact
 def _combine(r, share, v, coordinates, dx):
-    """Fill dx with r + share v; return its longest move of a coordinate, m."""
-    most = 0.0
+    """Fill ``dx`` with r + share v; return the longest move of a coordinate in it, m."""
+    longest = 0.0
     for i in range(dx.size):
         dx[i] = r[i] + share * v[i]
         if coordinates.role[i] >= TIED:
-            most = max(most, abs(dx[i]) * coordinates.scale[i])
-    return most
+            longest = max(longest, abs(dx[i]) * coordinates.scale[i])
+    return longest
 
 
 @jit_exact
-def _off(u, r, v, arc, progress):
-    """Return the rise of the load that the constraint asks for, and whether it is met."""
+def _load_increment(u, r, v, arc, progress):
+    """Return dlambda of the linearised constraint, and whether the constraint is satisfied."""
     if progress.length == 0.0:
-        return progress.aim - progress.load, progress.aim == progress.load
+        return progress.target_load - progress.load, progress.target_load == progress.load
     square = progress.length * progress.length
     gap = _inner(u, u, arc.weight) - square
-    rise = -(0.5 * gap + _inner(u, r, arc.weight)) / _inner(u, v, arc.weight)
-    return rise, abs(gap) <= ON_ARC * square
+    increment = -(0.5 * gap + _inner(u, r, arc.weight)) / _inner(u, v, arc.weight)
+    return increment, abs(gap) <= ARC_TOLERANCE * square
 
 
 @jit_exact
 def _step(space, duration, factor):
-    """Return the static `Step` of an arc that ends at a load ``factor``."""
+    """Return the static `Step` of an arc that ends at the load ``factor``."""
     return Step(space.x0, space.y, space.x_pred, duration, duration, False, factor, 0.5)
 
 
 @jit_exact
-def _balance(x, problem, tolerance, duration, space, arc, progress):
-    """Move ``x`` (n,) on by ``work.dx`` and the load by its rise until both are in balance."""
+def _correct(x, problem, tolerance, duration, space, arc, progress):
+    """Correct ``x`` (n,) and the load factor by Newton's method; return the outcome.
+
+    The first move is ``work.dx`` with ``progress.increment``, the predictor.
+    """
     found, work, coordinates = space.found, space.work, problem.scene.coordinates
     r, v = work.direction, work.escape
     while True:
-        if not progress.move < np.inf:
+        if not progress.longest_move < np.inf:
             return NOT_FINITE
-        cut = coordinates.cap / max(progress.move, coordinates.cap)
-        progress.far = cut * problem.travel(work.dx)
-        if not problem.covers(x, progress.far):
+        cut = coordinates.cap / max(progress.longest_move, coordinates.cap)
+        progress.travel_bound = cut * problem.travel(work.dx)
+        if not problem.covers(x, progress.travel_bound):
             return OUTGROWN
-        share = min(cut, problem.step_limit(x, work.dx, progress.far))
+        share = min(cut, problem.step_limit(x, work.dx, progress.travel_bound))
         for i in range(x.size):
             x[i] += share * work.dx[i]
         arrives = share == 1.0 and progress.length == 0.0
-        progress.load = progress.aim if arrives else progress.load + share * progress.rise
+        progress.load = (
+            progress.target_load if arrives else progress.load + share * progress.increment
+        )
         zero(work.dx)
-        progress.rise, progress.move, progress.spent = 0.0, 0.0, progress.spent + 1
+        progress.increment, progress.longest_move = 0.0, 0.0
+        progress.iterations += 1
         step = _step(space, duration, progress.load)
         problem.evaluate(x, step, found, False)
         problem.reduce(found.g, work.residual)
@@ -147,89 +153,95 @@ def _balance(x, problem, tolerance, duration, space, arc, progress):
             r[i], v[i] = -found.g[i], coordinates.load[i]
         problem.solve(r)
         problem.solve(v)
-        rise, close = _off(found.u, r, v, arc, progress)
-        if close and size <= tolerance.force:
+        increment, on_constraint = _load_increment(found.u, r, v, arc, progress)
+        if on_constraint and size <= tolerance.force:
             if abs(0.5 * dot(found.g, r)) <= tolerance.decrement:
                 return CONVERGED
-        if progress.spent > min(TRIES, tolerance.iterations):
+        if progress.iterations > min(CORRECTIONS, tolerance.iterations):
             return ITERATIONS
-        progress.rise, progress.move = rise, _combine(r, rise, v, coordinates, work.dx)
+        progress.increment = increment
+        progress.longest_move = _combine(r, increment, v, coordinates, work.dx)
 
 
 @jit_exact
-def _set_out(problem, stage, state, space, arc, trail, progress):
-    """Point dx along the path, for an arc or for what the load lacks, whichever is shorter."""
+def _predict(problem, stage, state, space, arc, heading, progress):
+    """Fill ``work.dx`` with the predictor: along the tangent, for an arc or up to the full load,
+    whichever is shorter.
+    """
     work, factor, coordinates = space.work, state.totals[0].factor, problem.scene.coordinates
     copy(state.x, space.x0)
     copy(state.x, space.y)
     rates = Ahead(0.0, 0.0, state.rates.position, work.dx)
     problem.begin(_step(space, stage.duration, factor), rates, work.trial)
-    tangent, way = trail.tangent, trail.way
-    progress.spent, progress.load, progress.aim = 0, factor, factor
-    progress.length, progress.rise = 0.0, 0.0
+    tangent, last_move = heading.tangent, heading.last_move
+    progress.iterations, progress.load, progress.target_load = 0, factor, factor
+    progress.length, progress.increment = 0.0, 0.0
     if progress.row >= 0:
         size = np.sqrt(_inner(tangent, tangent, arc.weight))
-        length = progress.share * min(arc.length, MOST_LOAD * size)
-        progress.rise = length / size * (-1.0 if _inner(tangent, way, arc.weight) < 0.0 else 1.0)
-        progress.length = length
-        if progress.rise >= 1.0 - progress.load:
-            progress.rise, progress.length, progress.aim = 1.0 - progress.load, 0.0, 1.0
+        length = progress.share * min(arc.length, LARGEST_LOAD_STEP * size)
+        sign = -1.0 if _inner(tangent, last_move, arc.weight) < 0.0 else 1.0
+        progress.length, progress.increment = length, length / size * sign
+        if progress.increment >= 1.0 - progress.load:
+            progress.increment = 1.0 - progress.load
+            progress.length, progress.target_load = 0.0, 1.0
     zero(work.residual)
-    progress.move = _combine(work.residual, progress.rise, tangent, coordinates, work.dx)
+    progress.longest_move = _combine(
+        work.residual, progress.increment, tangent, coordinates, work.dx
+    )
 
 
 @jit_exact
-def _return(problem, stage, state, space, progress):
-    """Set out from the last point for the full load instead, as an arc has passed it."""
+def _return_to_full_load(problem, stage, state, space, progress):
+    """Replace an arc that has passed the full load by a step from its start to the full load."""
     work, totals, coordinates = space.work, state.totals[0], problem.scene.coordinates
     share = (1.0 - totals.factor) / (progress.load - totals.factor)
     copy(space.x0, state.x)
     problem.roll_back(_step(space, stage.duration, totals.factor))
     zero(work.residual)
-    progress.move = _combine(work.residual, share, space.found.u, coordinates, work.dx)
-    progress.load, progress.rise = totals.factor, 1.0 - totals.factor
-    totals.iterations += progress.spent
-    progress.length, progress.aim, progress.spent = 0.0, 1.0, 0
+    progress.longest_move = _combine(work.residual, share, space.found.u, coordinates, work.dx)
+    progress.load, progress.increment = totals.factor, 1.0 - totals.factor
+    totals.iterations += progress.iterations
+    progress.length, progress.target_load, progress.iterations = 0.0, 1.0, 0
 
 
 @jit_exact
-def _go(problem, tolerance, stage, state, out, control, space, arc, trail, progress):
-    """Follow the path from where ``progress`` says, to its end or until room is lacking.
+def _follow_path(problem, tolerance, stage, state, out, control, space, arc, heading, progress):
+    """Continue the path at ``progress`` to its end, or until the neighbours must be renewed.
 
-    Return the outcome and the rows written.
+    Return (outcome, rows written).
     """
     found, work, totals, duration = space.found, space.work, state.totals[0], stage.duration
     while progress.row < stage.steps:
-        if progress.spent == AT_START:
+        if progress.iterations == NOT_STARTED:
             progress.share = min(progress.share, 1.0 - progress.done)
-            _set_out(problem, stage, state, space, arc, trail, progress)
-        outcome = _balance(state.x, problem, tolerance, duration, space, arc, progress)
-        if outcome == OUTGROWN and progress.spent <= 2 * TRIES:
+            _predict(problem, stage, state, space, arc, heading, progress)
+        outcome = _correct(state.x, problem, tolerance, duration, space, arc, progress)
+        if outcome == OUTGROWN and progress.iterations <= 2 * CORRECTIONS:
             return outcome, progress.row
         if control[0] != 0:
             outcome = INTERRUPTED
         if outcome == CONVERGED and progress.row >= 0:
             if progress.length > 0.0 and progress.load > 1.0:
-                _return(problem, stage, state, space, progress)
+                _return_to_full_load(problem, stage, state, space, progress)
                 continue
-            side = -1.0 if _inner(trail.tangent, trail.way, arc.weight) < 0.0 else 1.0
-            if side * _cosine(found.u, trail.tangent, arc.weight) < BEND:
+            sign = -1.0 if _inner(heading.tangent, heading.last_move, arc.weight) < 0.0 else 1.0
+            if sign * _cosine(found.u, heading.tangent, arc.weight) < LEAST_COSINE:
                 outcome = STALLED
-        totals.iterations += progress.spent
-        progress.spent = AT_START
+        totals.iterations += progress.iterations
+        progress.iterations = NOT_STARTED
         step = _step(space, duration, progress.load)
         if outcome != CONVERGED:
             copy(space.x0, state.x)
             problem.roll_back(step)
             progress.share *= 0.5
-            if outcome == INTERRUPTED or progress.share < SMALLEST or progress.row < 0:
+            if outcome == INTERRUPTED or progress.share < SMALLEST_SHARE or progress.row < 0:
                 return (ITERATIONS if outcome == OUTGROWN else outcome), progress.row
             continue
         problem.commit(state.x, step, found)
         enter(problem, step, state, found, work)
-        copy(work.escape, trail.tangent)
+        copy(work.escape, heading.tangent)
         if progress.row >= 0:
-            copy(found.u, trail.way)
+            copy(found.u, heading.last_move)
             progress.done += progress.share
             totals.steps += 1
             if progress.done < 1.0 and progress.load != 1.0:
@@ -249,23 +261,22 @@ def _go(problem, tolerance, stage, state, out, control, space, arc, trail, progr
 @jit_owning
 def follow(scene, tolerance, stage, state, out, control, arc):
     """Follow the path from ``state`` (changed in place) for the arcs of ``stage``, or until the
-    load is full; fill ``out`` and ``arc.path``.
+    full load; fill ``out`` and ``arc.path``. Return (outcome, rows written).
 
-    scene: as in `march`. Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts, [1]
-    counts arcs done.
+    scene: `problem.Scene`. control (2,): [0] != 0 interrupts, [1] counts completed arcs.
     """
     progress, n = np.zeros(1, PROGRESS), state.x.size
-    trail = Trail(np.zeros(n), np.zeros(n))
-    progress[0].row, progress[0].share, progress[0].spent = -1, 1.0, AT_START
+    heading = Heading(np.zeros(n), np.zeros(n))
+    progress[0].row, progress[0].share, progress[0].iterations = -1, 1.0, NOT_STARTED
     neighbours, buffers = scene.find_neighbours(state.x), scene.make_buffers(state.memory)
     space = make_workspace(n, state.stored.size)
     while True:
-        now = progress[0]
+        record = progress[0]
         problem = by_reference(scene).assemble(by_reference(neighbours), by_reference(buffers))
-        outcome, rows = _go(
+        outcome, rows = _follow_path(
             problem, tolerance, stage, by_reference(state), out, control,
-            by_reference(space), arc, trail, now,
+            by_reference(space), arc, heading, record,
         )  # fmt: skip
         if outcome != OUTGROWN:
             return outcome, max(rows, 0)
-        neighbours = scene.renew_neighbours(neighbours, state.x, now.far)
+        neighbours = scene.renew_neighbours(neighbours, state.x, record.travel_bound)

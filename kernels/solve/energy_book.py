@@ -1,20 +1,21 @@
 """The energy book of a march, in J.
 
-Every force g works along dx with theta g' + (1 - theta) g, of the end and of the start of a step.
-What the integrator loses is what inertia and the stored energy are booked with less what they gain,
-of backward Euler (theta = 1) 1/2 |v' - v|_M^2 + [grad U' . dx - dU]. The others and static steps go
-by the trapezoidal rule (theta = 1/2): what they lose is of the third order in a step where all is
-smooth, of either sign. The trapezoidal integrator loses no kinetic energy.
+The work of every force g in a step dx is (theta g' + (1 - theta) g) . dx, with g at the start and
+g' at the end of the step. The integrator's loss is the work against inertia and elastic forces less
+the gain of kinetic and stored energy U. With backward Euler (theta = 1) it is 1/2 |v' - v|_M^2 +
+[grad U' . dx - dU]. The other integrators and static steps use the trapezoidal rule (theta = 1/2);
+their loss has either sign and is of third order in the step where the motion is smooth. The
+trapezoidal integrator loses no kinetic energy.
 
-What the material itself dissipates in a step is part of the work along dx of what is stored; the
-law tells it when the step is committed, and the integrator's loss is less by that.
+The dissipation of the material in a step is part of the work of the elastic forces. The law returns
+it at commit; it is booked under material, and subtracted from the integrator's loss.
 """
 
 from kernels.arrays import copy, dot, zero
 from kernels.compile.jit import jit_exact
 from kernels.solve.problem import FREE, LED
 
-LEFT = 1e-3  # of all energy: more must not be left over in a step
+LARGEST_IMBALANCE = 1e-3  # work of the residual in a step, as a share of the largest energy
 
 
 @jit_exact
@@ -28,7 +29,7 @@ def kinetic(v, mass):
 
 @jit_exact
 def _work(force, past, u, theta):
-    """Return the work of a force (n,) along ``u``, which is then the ``past`` one."""
+    """Return the work of ``force`` (n,) along ``u`` (n,); copy ``force`` to ``past``."""
     value = 0.0
     for i in range(u.size):
         value += (theta * force[i] + (1.0 - theta) * past[i]) * u[i]
@@ -38,9 +39,9 @@ def _work(force, past, u, theta):
 
 @jit_exact
 def strike(state, problem, speed, led):
-    """Give what is led its ``speed`` (m/s) at once, an inelastic blow: half of its work is lost.
+    """Set the velocity of the driven coordinate to ``speed`` (m/s), and of all that it leads.
 
-    led (n,): scratch.
+    Inelastic impact: half of its work is kinetic energy, half is lost. led (n,): scratch.
     """
     coordinates, book = problem.scene.coordinates, state.book[0]
     zero(led)
@@ -54,62 +55,68 @@ def strike(state, problem, speed, led):
 
 
 @jit_exact
-def made(state, found, mass, dt):
-    """Return the energy that a step of backward Euler makes, and all there is, in J.
+def energy_gain(state, found, mass, dt):
+    """Return the energy that a step of backward Euler generates, and the largest energy, in J.
 
-    Where the potential is not convex its loss may be negative, the more the longer the step.
+    The generated energy is the negative of the integrator's loss. Where the potential is not
+    convex it can be positive, and it grows with the step.
     """
-    loss, there = 0.0, state.book[0].kinetic
+    loss, largest = 0.0, state.book[0].kinetic
     for i in range(mass.size):
         change = found.u[i] / dt - state.v[i]
         loss += found.elastic[i] * found.u[i] + 0.5 * mass[i] * change * change
     for k in range(found.stored.size):
         loss -= found.stored[k] - state.stored[k]
-        there += max(found.stored[k], state.stored[k])
-    return -loss, max(there, abs(state.book[0].work))
+        largest += max(found.stored[k], state.stored[k])
+    return -loss, max(largest, abs(state.book[0].work))
 
 
 @jit_exact
-def _largest(state):
-    """Return the greatest energy in the book, J."""
+def _largest_energy(state):
+    """Return the largest energy in the book, J."""
     book = state.book[0]
-    most = max(abs(book.work), abs(book.kinetic), abs(book.material), abs(book.friction))
-    most = max(most, abs(book.integrator), abs(book.injected))
+    largest = max(abs(book.work), abs(book.kinetic), abs(book.material), abs(book.friction))
+    largest = max(largest, abs(book.integrator), abs(book.injected))
     for energy in state.stored:
-        most = max(most, abs(energy))
-    return most
+        largest = max(largest, abs(energy))
+    return largest
 
 
 @jit_exact
 def unbalanced(x0, problem, tolerance, state, found, work):
-    """Return whether what a step from ``x0`` leaves out of balance does work that counts.
+    """Return whether the work of the residual in a step from ``x0`` is too large.
 
-    Where elements or openings are so small that positions cannot resolve them, the forces that
-    count as none (`residual.allowed`) know no bound.
+    Where positions cannot resolve very small elements or openings, the admissible residual
+    (`residual.allowed`) has no bound; this test bounds its work.
     """
-    left, noise, there, coordinates = 0.0, 0.0, _largest(state), problem.scene.coordinates
+    imbalance, noise, largest, coordinates = (
+        0.0,
+        0.0,
+        _largest_energy(state),
+        problem.scene.coordinates,
+    )
     problem.reduce(found.g, work.residual)
     for i in range(x0.size):
         if coordinates.role[i] == FREE:
             move = state.x[i] - x0[i]
-            left += work.residual[i] * move
+            imbalance += work.residual[i] * move
             noise += tolerance.force * abs(move) * coordinates.scale[i]
     for energy in found.stored:
-        there = max(there, energy)
-    return abs(left) > LEFT * there + noise
+        largest = max(largest, energy)
+    return abs(imbalance) > LARGEST_IMBALANCE * largest + noise
 
 
 @jit_exact
 def enter(problem, step, state, found, work):
-    """Add one converged step, found by the last `evaluate`, to the energy book."""
+    """Enter a converged step into the book; ``found``: of the last `evaluate`, committed."""
     book, past, totals, theta = state.book[0], state.past, state.totals[0], step.theta
-    held, lead, driven = 0.0, 0.0, problem.scene.coordinates.driven
+    reaction, move, driven = 0.0, 0.0, problem.scene.coordinates.driven
     if driven >= 0:
         problem.reduce(found.g, work.residual)
-        held, lead = work.residual[driven], found.u[driven]
+        reaction, move = work.residual[driven], found.u[driven]
     factor = theta * step.factor + (1.0 - theta) * totals.factor
     book.work += factor * dot(problem.scene.coordinates.load, found.u)
-    book.work += (theta * held + (1.0 - theta) * totals.reaction) * lead
+    book.work += (theta * reaction + (1.0 - theta) * totals.reaction) * move
     dissipated = found.sums[0].dissipated
     book.material += _work(found.material, past.material, found.u, theta) + dissipated
     book.friction += _work(found.friction, past.friction, found.u, theta)
@@ -120,16 +127,14 @@ def enter(problem, step, state, found, work):
         total += found.stored[k]
         state.stored[k] = found.stored[k]
     book.integrator += loss
-    totals.reaction, totals.factor = held, step.factor
+    totals.reaction, totals.factor = reaction, step.factor
     book.residual = book.work + book.injected - book.kinetic - total
     book.residual -= book.material + book.friction + book.integrator
 
 
 @jit_exact
-def _hasten(x, start, h, load, v):
-    """Add to ``v`` the speed of a move from ``start`` to ``x`` in ``h``; return the work of
-    ``load`` on it, J.
-    """
+def _add_velocity(x, start, h, load, v):
+    """Add (x - start) / h to ``v`` (n,); return the work of ``load`` (n,) on the move, J."""
     work = 0.0
     for i in range(x.size):
         moved = x[i] - start[i]
@@ -140,9 +145,9 @@ def _hasten(x, start, h, load, v):
 
 @jit_exact
 def project(problem, step, state, found, start):
-    """Move apart what is too near after a step, and book what that adds to the energy.
+    """Project the positions after a step (`Problem.project`), and book the energy injected.
 
-    Return whether anything has moved. start (n,): scratch.
+    Return whether any coordinate has moved. start (n,): scratch.
     """
     book, coordinates = state.book[0], problem.scene.coordinates
     copy(state.x, start)
@@ -152,12 +157,12 @@ def project(problem, step, state, found, start):
     gained = -book.kinetic
     for energy in state.stored:
         gained -= energy
-    way = step.factor * _hasten(state.x, start, step.h, coordinates.load, state.v)
+    load_work = step.factor * _add_velocity(state.x, start, step.h, coordinates.load, state.v)
     book.kinetic = kinetic(state.v, coordinates.mass)
     copy(found.stored, state.stored)
     gained += book.kinetic
     for energy in state.stored:
         gained += energy
-    book.work += way
-    book.injected += gained - way
+    book.work += load_work
+    book.injected += gained - load_work
     return True

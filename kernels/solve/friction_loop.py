@@ -1,74 +1,79 @@
-"""The fixed-point loop of forces that lag, as friction does: taken anew until a step ends there
-(`Problem.lag`; of a lattice, `terms.friction.lag`).
+"""The fixed-point loop of a step for lagged forces, such as friction.
 
-How far off they still are tells how well the next minimum need be found: each brings it nearer by
-about as much. The first mostly decides which way a lattice folds, and is found to the end; so is
-the last.
+Minimise with the lagged forces fixed, lag them anew at the minimum, and repeat until the minimum
+remains an equilibrium. The loop is inexact: a minimum is found to a share of the present error of
+the lagged forces, as each iteration reduces that error by about a constant factor. The first
+minimum, which mostly decides which way a lattice folds, and the last one are found to the full
+tolerance. Forces are lagged by `Problem.lag`; for the lattice see `terms.friction.lag`.
 """
 
 import numpy as np
 
 from kernels.arrays import copy, zero
 from kernels.compile.jit import jit_exact
-from kernels.solve.aitken import approach
+from kernels.solve.aitken import relax
 from kernels.solve.residual import allowed, largest
 
-MOST = 30  # loops
-STUCK = 8  # of them without coming nearer: it goes round in circles
-CAREFUL = 6  # after so many every minimum is found to the end
-ROUGHLY = 0.1  # of what lagged forces are off by: what the next minimum may leave
-UNSETTLED = 8  # an outcome, beside those of `newton` and `march`
+MAX_LOOPS = 30
+STAGNATION = 8  # loops without a new least error after which the loop fails
+INEXACT_LOOPS = 6  # later minima are found to the full tolerance
+FORCING_TERM = 0.1  # residual of the next minimum as a share of the error of the lagged forces
+UNSETTLED = 8  # outcome of a loop that fails, beside those of `newton` and `march`
 
 
 @jit_exact
 def begin(progress):
-    """Set out on the loop of a step; ``progress``: as in `march`."""
-    progress.loops, progress.relaxed, progress.rough = 0, 0.0, 1.0
-    progress.nearest, progress.circles = np.inf, 0
+    """Reset the loop for a step. progress: `march.PROGRESS`."""
+    progress.loops, progress.relaxation, progress.loosening = 0, 0.0, 1.0
+    progress.least_error, progress.stagnant = np.inf, 0
 
 
 @jit_exact
-def agrees(x, problem, step, tolerance, space, progress):
-    """Lag forces anew; return whether ``x`` is still in balance: then ``space.found`` is as it was.
+def is_converged(x, problem, step, tolerance, space, progress):
+    """Lag the forces anew; return whether ``x`` (n,) is still an equilibrium.
 
-    Otherwise it, and ``space.work.trial``, tell of ``x`` with the forces that are lagged now.
+    If so, ``space.found`` is unchanged. Otherwise ``space.found`` holds the evaluation at ``x``
+    with the new lagged forces, and ``space.work.trial`` is ``x``.
     """
     found, work, coordinates = space.found, space.work, problem.scene.coordinates
     sums = found.sums[0]
-    potential, rubbed = sums.potential, sums.friction
+    potential, friction = sums.potential, sums.friction
     copy(found.g, work.trial)
     copy(found.friction, work.escape)
-    progress.relaxed = approach(x, space.lagged, space.drift, coordinates, progress.relaxed)
-    if not problem.lag(space.lagged) and progress.rough == 1.0:
+    progress.relaxation = relax(x, space.lagged, space.drift, coordinates, progress.relaxation)
+    if not problem.lag(space.lagged) and progress.loosening == 1.0:
         return True
     problem.exchange(step, found)
     problem.reduce(found.g, work.residual)
-    off = largest(work.residual, coordinates)
-    enough = max(tolerance.friction, tolerance.grip * largest(found.friction, coordinates))
-    enough = max(enough, allowed(problem.stiffest(), tolerance)[0])
-    agree = off <= enough and progress.rough == 1.0
-    if agree:
+    error = largest(work.residual, coordinates)
+    limit = max(tolerance.friction, tolerance.friction_share * largest(found.friction, coordinates))
+    limit = max(limit, allowed(problem.stiffest(), tolerance)[0])
+    converged = error <= limit and progress.loosening == 1.0
+    if converged:
         copy(work.trial, found.g)
         copy(work.escape, found.friction)
-        sums.potential, sums.friction = potential, rubbed
-    _count(off, enough, tolerance.force, progress)
+        sums.potential, sums.friction = potential, friction
+    _update(error, limit, tolerance.force, progress)
     copy(x, work.trial)
     zero(work.dx)
-    return agree
+    return converged
 
 
 @jit_exact
-def _count(off, enough, force, progress):
-    """Note how far ``off`` forces were, and how well the next minimum is to be found."""
-    progress.loops, progress.tried = progress.loops + 1, 0
-    progress.circles = 0 if off < progress.nearest else progress.circles + 1
-    progress.nearest, progress.rough = min(off, progress.nearest), 1.0
-    left = ROUGHLY * off
-    if enough < left < np.inf and progress.loops <= CAREFUL:
-        progress.rough = left / force
+def _update(error, limit, force, progress):
+    """Count a loop in which the lagged forces had an ``error`` (N); loosen the next tolerance.
+
+    limit: error that is admissible, N. force: full tolerance of the residual, N.
+    """
+    progress.loops, progress.minimum_iterations = progress.loops + 1, 0
+    progress.stagnant = 0 if error < progress.least_error else progress.stagnant + 1
+    progress.least_error, progress.loosening = min(error, progress.least_error), 1.0
+    next_error = FORCING_TERM * error
+    if limit < next_error < np.inf and progress.loops <= INEXACT_LOOPS:
+        progress.loosening = next_error / force
 
 
 @jit_exact
-def in_vain(progress):
-    """Return whether the loop had better be given up."""
-    return progress.loops >= MOST or progress.circles >= STUCK
+def fails(progress):
+    """Return whether the loop has too many iterations or stagnates."""
+    return progress.loops >= MAX_LOOPS or progress.stagnant >= STAGNATION

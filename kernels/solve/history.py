@@ -1,4 +1,4 @@
-"""Where a march is: positions, rates, the energy book and what the next step starts from."""
+"""State of a march between steps: positions, rates, stored energies, memory and energy book."""
 
 from typing import NamedTuple
 
@@ -8,13 +8,13 @@ BOOK = np.dtype(
     (
         np.record,  # for attributes in plain Python too
         [
-            ("work", np.float64),  # done on the problem, J, as all
+            ("work", np.float64),  # of external forces; all entries in J
             ("kinetic", np.float64),
             ("material", np.float64),  # dissipated by damping and by the material
-            ("friction", np.float64),
-            ("integrator", np.float64),
-            ("injected", np.float64),  # by projection after a step
-            ("residual", np.float64),  # what is left over
+            ("friction", np.float64),  # dissipated
+            ("integrator", np.float64),  # lost by the integrator
+            ("injected", np.float64),  # by projection after steps
+            ("residual", np.float64),  # work + injected less all other entries and stored energies
         ],
     )
 )
@@ -22,22 +22,22 @@ TOTALS = np.dtype(
     (
         np.record,
         [
-            ("iterations", np.float64),
+            ("iterations", np.float64),  # of Newton
             ("steps", np.float64),
             ("time", np.float64),  # s
-            ("last", np.float64),  # duration of the last step, s; 0 to set out anew
-            ("reaction", np.float64),  # of the driven coordinate at the end of the last step, N
-            ("factor", np.float64),  # of the load then
+            ("last", np.float64),  # duration of the last step, s; 0: no previous step
+            ("reaction", np.float64),  # at the driven coordinate after the last step, N
+            ("factor", np.float64),  # load factor after the last step
         ],
     )
 )
 
 
 class Rates(NamedTuple):
-    """Rates (n,) that the next step sets out with (`integrators`).
+    """Rates (n,) at the start of the next step (`integrators`).
 
-    position: of x. velocity: of v. change: last acceleration; of what is not heavy, the mean
-    velocity in the last step.
+    position: x'. velocity: v'. change: acceleration after the last step; where a coordinate is not
+    heavy, its mean velocity in the last step.
     """
 
     position: np.ndarray
@@ -46,7 +46,7 @@ class Rates(NamedTuple):
 
 
 class Past(NamedTuple):
-    """Gradients (n,) at the end of the last step, N: of stored energy, damping and friction."""
+    """Gradients (n,) after the last step in N: of stored energy, damping and friction."""
 
     elastic: np.ndarray
     material: np.ndarray
@@ -54,9 +54,9 @@ class Past(NamedTuple):
 
 
 class State(NamedTuple):
-    """Where a march is. x, v (n,): position and velocity. stored (k,): energies in J, as many as
-    the problem tells apart. memory (p, m): what the material remembers at p points, empty where it
-    does not. book, totals (1,): see `BOOK` and `TOTALS`.
+    """State between steps. x, v (n,): positions and velocities. stored (k,): stored energies in J,
+    one for each kind that the problem distinguishes. memory (p, m): committed state of the laws at
+    p material points, empty for elastic laws. book, totals (1,): see `BOOK` and `TOTALS`.
     """
 
     x: np.ndarray
@@ -70,8 +70,8 @@ class State(NamedTuple):
 
 
 def at_rest(x, stored, memory=(0, 0)):
-    """Return the `State` of a march that begins at ``x`` (n,), with ``stored`` energies to tell and
-    a virgin material that remembers ``memory`` (points, numbers at each).
+    """Return the `State` at rest at ``x`` (n,), with ``stored`` kinds of stored energy and a virgin
+    material. memory: shape of `State.memory`.
     """
     n = x.size
     rates, past = Rates(*np.zeros((3, n))), Past(*np.zeros((3, n)))

@@ -1,4 +1,4 @@
-"""Integrators in time: each step is one of backward Euler, of length h, from a place dt - h ahead.
+"""Time integrators: each step of length dt is one of backward Euler, of length h, from a point y.
 
     v1 = (x1 - y) / h,   M (v1 - w) / h = F(x1, v1),   y = x0 + (dt - h) x',   w = v0 + (dt - h) v'
 
@@ -6,9 +6,9 @@
     BDF2              h = dt (1 + r) / (1 + 2 r), r = dt / last dt;  x', v': last change / last dt
     trapezoidal rule  h = dt / 2 (r infinite);  x' = v0, v' = a0, the balance at x0
 
-What changes at once has no x', v' to go by: a first step, of backward Euler, is `FIRST` of the
-others. What has no mass has no v' either, what is led has a constant speed: ``heavy`` (n,) is 0
-there, else 1.
+A first step has no rates x', v': it is one of backward Euler, and its length is `FIRST_SHARE` of
+dt. Coordinates without mass have no v', and driven ones have a constant speed: ``heavy`` (n,) is 0
+for both, else 1.
 """
 
 from typing import NamedTuple
@@ -18,14 +18,14 @@ import numpy as np
 from kernels.compile.jit import jit_exact
 
 BACKWARD_EULER, BDF2, TRAPEZOIDAL = range(3)
-FIRST = 2.0**-4  # share of a step: its loss of energy, of first order, is the square of that
+FIRST_SHARE = 2.0**-4  # of a step; the energy loss of a first step goes with its square
 
 
 class Ahead(NamedTuple):
-    """Where the rates of a step are measured, for damping that is of second order.
+    """Data of y for damping of second order.
 
-    time: how far y is ahead of x0, s. last: duration of the last step, s, 0 if ``rate`` (n,) is the
-    velocity at x0. move (n,): where the step is expected to end.
+    time: dt - h, by which y is ahead of x0, s. last: duration of the last step, s; 0 if ``rate``
+    (n,) is the velocity at x0. rate: x'. move (n,): expected x - x0 at the end of the step.
     """
 
     time: float
@@ -36,7 +36,7 @@ class Ahead(NamedTuple):
 
 @jit_exact
 def length(scheme, dt, last):
-    """Return h of a step of ``dt`` after one of ``last``, 0 where it starts anew."""
+    """Return h of a step of ``dt`` after one of ``last`` (s); last = 0: a first step."""
     if scheme == BACKWARD_EULER or last == 0.0:
         return dt
     return 0.5 * dt if scheme == TRAPEZOIDAL else dt * (last + dt) / (last + 2.0 * dt)
@@ -44,15 +44,15 @@ def length(scheme, dt, last):
 
 @jit_exact
 def _expected(state, i, dt, ahead, heavy):
-    """Return how far coordinate ``i`` goes in ``dt`` at its rates."""
+    """Return the expected move of coordinate ``i`` in ``dt`` at its present rates."""
     if ahead > 0.0 and heavy[i] == 0.0:
         return dt * state.rates.change[i]
     return dt * (state.v[i] + (0.5 * dt * state.rates.velocity[i] if ahead > 0.0 else 0.0))
 
 
 @jit_exact
-def set_out(state, dt, h, heavy, y, x_pred, dx):
-    """Fill y, x~ = y + h w and the move (n,) to begin with."""
+def predict(state, dt, h, heavy, y, x_pred, dx):
+    """Fill y, x~ = y + h w and the first guess ``dx`` (n,) of the move x - x0."""
     ahead, rates = dt - h, state.rates
     for i in range(y.size):
         y[i] = state.x[i] + ahead * rates.position[i]
@@ -62,22 +62,24 @@ def set_out(state, dt, h, heavy, y, x_pred, dx):
 
 @jit_exact
 def error(state, step, heavy):
-    """Return the largest error in m that a step has made by itself: a third of what its end has
-    been off the move to begin with; a half, of a first step.
+    """Return the largest local error of a step in m.
+
+    Estimate: a third of the difference between the end of the step and the expected one; a half
+    of it for backward Euler.
     """
-    most, ahead = 0.0, step.duration - step.h
+    largest, ahead = 0.0, step.duration - step.h
     for i in range(state.x.size):
         if heavy[i] > 0.0:
             expected = _expected(state, i, step.duration, ahead, heavy)
-            most = max(most, abs(state.x[i] - step.x0[i] - expected))
-    return most / (3.0 if ahead > 0.0 else 2.0)
+            largest = max(largest, abs(state.x[i] - step.x0[i] - expected))
+    return largest / (3.0 if ahead > 0.0 else 2.0)
 
 
 @jit_exact
 def _tie(state, problem):
-    """Let what follows another coordinate have its velocity and rates to the last digit.
+    """Set velocity and rates of tied coordinates from those of their leaders.
 
-    No force would damp a difference, which the schemes let grow.
+    No force damps a difference due to round-off, and the schemes amplify it.
     """
     rates = state.rates
     for vector in (state.v, rates.position, rates.velocity, rates.change):
@@ -85,23 +87,24 @@ def _tie(state, problem):
 
 
 @jit_exact
-def arrive(scheme, state, step, problem, u):
-    """Exchange ``u`` = x - y for x - x0, renew v and the rates; return what inertia lost, in J:
+def update(scheme, state, step, problem, u):
+    """Update v and the rates after a step; replace ``u`` = x - y by x - x0.
 
-    theta a1 + (1 - theta) a0 times M (x - x0), less the gain of kinetic energy.
+    Return the integrator's loss of kinetic energy in J: (theta a1 + (1 - theta) a0) . M (x - x0)
+    less the gain of kinetic energy.
     """
-    by_h, ahead, theta, lost = 1.0 / step.h, step.duration - step.h, step.theta, 0.0
+    by_h, ahead, theta, loss = 1.0 / step.h, step.duration - step.h, step.theta, 0.0
     rates, v, x0 = state.rates, state.v, step.x0
     mass, heavy = problem.scene.coordinates.mass, problem.scene.coordinates.heavy
     for i in range(u.size):
         before, after = v[i], by_h * u[i]
         v[i], u[i] = after, state.x[i] - x0[i]
         if scheme == BACKWARD_EULER:
-            lost += 0.5 * mass[i] * (after - before) ** 2
+            loss += 0.5 * mass[i] * (after - before) ** 2
             continue
         a = by_h * (after - before - ahead * rates.velocity[i])
         mean = theta * a + (1.0 - theta) * rates.change[i] if heavy[i] > 0.0 else 0.0
-        lost += mass[i] * (mean * u[i] - 0.5 * (after - before) * (after + before))
+        loss += mass[i] * (mean * u[i] - 0.5 * (after - before) * (after + before))
         rates.change[i] = a if heavy[i] > 0.0 else u[i] / step.duration
         rates.position[i], rates.velocity[i] = after, heavy[i] * a
         if scheme == BDF2:
@@ -109,10 +112,10 @@ def arrive(scheme, state, step, problem, u):
             rates.velocity[i] = heavy[i] * (after - before) / step.duration
     if scheme != BACKWARD_EULER:
         _tie(state, problem)
-    return lost
+    return loss
 
 
 @jit_exact
 def weight(h, duration, dynamic):
-    """Return theta, the share of the forces at the end of a step in its `energy_book`."""
+    """Return theta, the weight of the forces at the end of a step in the `energy_book`."""
     return 1.0 if dynamic and h == duration else 0.5

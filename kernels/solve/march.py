@@ -1,4 +1,8 @@
-"""Steps through a stage of loading, shorter ones where one fails or errs, and keeps the book."""
+"""Load and time stepping: steps through a stage with adaptive shares, and keeps the energy book.
+
+Every row of the history is one step of the stage. Where a step fails or is inaccurate, it is taken
+in shares: halves, quarters and so on, and longer ones again where those are easy.
+"""
 
 from typing import NamedTuple
 
@@ -8,38 +12,38 @@ from kernels.arrays import copy, zero
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.compile.reference import by_reference
 from kernels.solve import energy_book, friction_loop, integrators
-from kernels.solve.energy_book import enter, kinetic, made, strike, unbalanced
+from kernels.solve.energy_book import energy_gain, enter, kinetic, strike, unbalanced
 from kernels.solve.integrators import BACKWARD_EULER, BDF2, Ahead
 from kernels.solve.newton import CONVERGED, DESCENT, INTERRUPTED, ITERATIONS, OUTGROWN, minimise
 from kernels.solve.problem import Step
-from kernels.solve.residual import loosened
+from kernels.solve.residual import loosen
 from kernels.solve.workspace import make_workspace
 
-SMALLEST = 2.0**-24  # share of a step
-LONGER = 0.1  # of the error that is allowed: the next step may be twice as long
-FURTHER = 2.0  # times the last step: a longer one is not extrapolated
-EASY_LOOPS = 10  # of friction: after more of them the next step is no longer
-GIFT = 2e-3  # of all energy: what backward Euler may make, and once more in all further steps
-SHORT = 2.0**-12  # share of a step that may make more: the run is judged at its end
+SMALLEST_SHARE = 2.0**-24  # share of a step
+DOUBLING_ERROR = 0.1  # of the allowed error: below it the next share may be twice as long
+MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple of it
+EASY_LOOPS = 10  # friction loops of an easy share, at most
+LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
+UNCHECKED_SHARE = 2.0**-12  # share of a step that may generate more: the whole run is checked later
 INACCURATE, UNBALANCED = 7, 9  # outcomes, beside those of `newton` and `friction_loop`
-AT_START = -1  # loops of friction before `_set_out`
+NOT_STARTED = -1  # friction loops of a share before `_begin_share`
 PROGRESS = np.dtype(
     (
         np.record,  # for attributes in plain Python too
         [
-            ("row", np.int64),  # the next one of the history
-            ("done", np.float64),  # share of the row's step that is done
-            ("share", np.float64),  # share of the row's step that is tried now
-            ("failed", np.int64),  # tries since a share was done
-            ("spent", np.int64),  # Newton iterations for the row
-            ("effort", np.int64),  # Newton iterations for the share
-            ("tried", np.int64),  # Newton iterations for the minimum that is looked for
-            ("loops", np.int64),  # of friction in the share
-            ("relaxed", np.float64),  # share of the last approach (`aitken`)
-            ("nearest", np.float64),  # least residual when friction was lagged anew, N
-            ("circles", np.int64),  # loops since then
-            ("rough", np.float64),  # times the tolerance to which the next minimum is found
-            ("h", np.float64),  # of the last share tried, s
+            ("row", np.int64),  # next row of the history
+            ("done", np.float64),  # completed share of the step of the row
+            ("share", np.float64),  # share of the step of the row that is attempted
+            ("failed", np.int64),  # failed attempts since the last accepted share
+            ("row_iterations", np.int64),  # Newton iterations for the row
+            ("share_iterations", np.int64),  # Newton iterations for the share
+            ("minimum_iterations", np.int64),  # Newton iterations for the present minimum
+            ("loops", np.int64),  # friction loops in the share
+            ("relaxation", np.float64),  # factor w of the last loop (`aitken`)
+            ("least_error", np.float64),  # least residual after lagging friction anew, N
+            ("stagnant", np.int64),  # loops since the least error
+            ("loosening", np.float64),  # factor on the tolerance of the next minimum
+            ("h", np.float64),  # of the last attempted share, s
         ],
     )
 )
@@ -48,9 +52,9 @@ PROGRESS = np.dtype(
 class Stage(NamedTuple):
     """Linear ramps of the load factor and of the driven coordinate (m) from ``*0`` to ``*1``.
 
-    steps: number. duration: of one in s. dynamic: whether there is inertia; a static step has a
-    duration all the same, for materials with a rate. scheme: the integrator. error: allowed to a
-    step by itself, m.
+    steps: number. duration: of one step in s; static steps have one too, for rate-dependent
+    materials. dynamic: whether there is inertia. scheme: time integrator. error: allowed local
+    error of a step, m.
     """
 
     steps: int
@@ -65,53 +69,57 @@ class Stage(NamedTuple):
 
 
 @jit_exact
-def _part(stage, progress):
-    """Return how much of the stage is done at the end of the share that is tried."""
+def _stage_fraction(stage, progress):
+    """Return the completed fraction of the stage at the end of the attempted share."""
     return (progress.row + progress.done + progress.share) / stage.steps
 
 
 @jit_exact
 def _target(stage, progress):
-    """Return where the driven coordinate is to be then, m."""
-    return stage.driven0 + (stage.driven1 - stage.driven0) * _part(stage, progress)
+    """Return the target of the driven coordinate at the end of the attempted share, m."""
+    return stage.driven0 + (stage.driven1 - stage.driven0) * _stage_fraction(stage, progress)
 
 
 @jit_exact
 def _step(stage, space, progress):
-    """Return the `Step` of the share that is tried."""
+    """Return the `Step` of the attempted share."""
     duration = stage.duration * progress.share
-    factor = stage.factor0 + (stage.factor1 - stage.factor0) * _part(stage, progress)
+    factor = stage.factor0 + (stage.factor1 - stage.factor0) * _stage_fraction(stage, progress)
     theta = integrators.weight(progress.h, duration, stage.dynamic)
     return Step(space.x0, space.y, space.x_pred, progress.h, duration, stage.dynamic, factor, theta)
 
 
 @jit_exact
-def _onwards(u, driven, remaining):
-    """Return how many times the last move ``u`` the driven coordinate has to go: 0 where that tells
-    nothing of this step.
+def _extrapolation(u, driven, remaining):
+    """Return the factor by which to extrapolate the last move ``u`` (n,), 0 for no extrapolation.
+
+    It is the ratio of the ``remaining`` move of the driven coordinate to its last one.
     """
-    if driven < 0 or not 0.0 < remaining * u[driven] or abs(remaining) > FURTHER * abs(u[driven]):
+    if driven < 0 or not 0.0 < remaining * u[driven]:
+        return 0.0
+    if abs(remaining) > MAX_EXTRAPOLATION * abs(u[driven]):
         return 0.0
     return remaining / u[driven]
 
 
 @jit_exact
-def _set_out(problem, stage, state, space, descent, progress):
-    """Set out on the next share of a step, from where the last one ended.
+def _begin_share(problem, stage, state, space, descent, progress):
+    """Begin the next share of a step.
 
-    The descent begins at the extrapolated position; where the last static step snapped, at x0.
+    The minimisation starts from the extrapolated positions, except after a snap in a static step,
+    where it starts from x0.
     """
     last = state.totals[0].last
     if stage.scheme != BACKWARD_EULER and last == 0.0:
-        progress.share = min(progress.share, integrators.FIRST)
+        progress.share = min(progress.share, integrators.FIRST_SHARE)
     duration, coordinates = stage.duration * progress.share, problem.scene.coordinates
     u, work, driven, remaining = space.found.u, space.work, coordinates.driven, 0.0
     if driven >= 0:
         remaining = _target(stage, progress) - state.x[driven]
-    more = _onwards(u, driven, remaining)
+    factor = _extrapolation(u, driven, remaining)
     h = integrators.length(stage.scheme, duration, last)
-    if stage.dynamic and h != progress.h:  # the next Hessian is another
-        descent.kept = np.inf
+    if stage.dynamic and h != progress.h:  # the Hessian depends on h
+        descent.since_factor = np.inf
     progress.h = h
     copy(state.x, space.x0)
     copy(state.x, space.lagged)
@@ -119,147 +127,152 @@ def _set_out(problem, stage, state, space, descent, progress):
         if driven >= 0 and stage.scheme != BACKWARD_EULER and last == 0.0:
             strike(state, problem, remaining / duration, work.direction)
         heavy = coordinates.heavy
-        integrators.set_out(state, duration, h, heavy, space.y, space.x_pred, work.dx)
+        integrators.predict(state, duration, h, heavy, space.y, space.x_pred, work.dx)
     else:
         copy(state.x, space.y)
-        if more * problem.travel(u) > max(coordinates.cap, FURTHER * abs(remaining)):
-            more = 0.0  # it snapped
+        if factor * problem.travel(u) > max(coordinates.cap, MAX_EXTRAPOLATION * abs(remaining)):
+            factor = 0.0  # the last step was a snap
         for i in range(u.size):
-            work.dx[i] = more * u[i]
-    if more > 0.0:
+            work.dx[i] = factor * u[i]
+    if factor > 0.0:
         work.dx[driven] = remaining
     ahead = duration - h if h < duration else 0.0
     last = last if stage.scheme == BDF2 else 0.0
     rates = Ahead(ahead, last, state.rates.position, work.dx)
     problem.begin(_step(stage, space, progress), rates, work.trial)
-    if problem.lag(state.x):  # the next Hessian is another
-        descent.kept = np.inf
-    progress.effort, progress.tried = 0, 0
+    if problem.lag(state.x):  # the Hessian of friction changes
+        descent.since_factor = np.inf
+    progress.share_iterations, progress.minimum_iterations = 0, 0
     friction_loop.begin(progress)
 
 
 @jit_exact
-def _balance(x, target, problem, step, tolerance, space, descent, control, progress):
-    """Minimise until the forces that lag agree with where they were lagged; return the outcome."""
-    outcome, there = CONVERGED, False
+def _equilibrate(x, target, problem, step, tolerance, space, descent, control, progress):
+    """Minimise until the lagged forces are consistent with the minimum; return the outcome."""
+    outcome, evaluated = CONVERGED, False
     while True:
-        rough = loosened(tolerance, progress.rough)
-        outcome = minimise(x, target, problem, step, rough, space, descent, control, there)
-        there = True
-        progress.spent += descent.iterations
-        progress.effort += descent.iterations
-        progress.tried += max(descent.iterations, 1)
+        loose = loosen(tolerance, progress.loosening)
+        outcome = minimise(x, target, problem, step, loose, space, descent, control, evaluated)
+        evaluated = True
+        progress.row_iterations += descent.iterations
+        progress.share_iterations += descent.iterations
+        progress.minimum_iterations += max(descent.iterations, 1)
         if outcome != CONVERGED or not problem.lags():
             break
-        if friction_loop.agrees(x, problem, step, tolerance, space, progress):
+        if friction_loop.is_converged(x, problem, step, tolerance, space, progress):
             break
-        if friction_loop.in_vain(progress):
+        if friction_loop.fails(progress):
             outcome = friction_loop.UNSETTLED
             break
     return outcome
 
 
 @jit_exact
-def _invents(problem, stage, state, found, share, noise):
-    """Return whether a step of backward Euler makes energy that none was lost for before."""
-    gain, there = made(state, found, problem.scene.coordinates.mass, stage.duration * share)
-    enough = GIFT * there + noise
-    return gain - state.book[0].integrator > enough and gain > enough * share / stage.steps
+def _gains_energy(problem, stage, state, found, share, noise):
+    """Return whether backward Euler generates more energy than the integrator has lost so far."""
+    dt, mass = stage.duration * share, problem.scene.coordinates.mass
+    gain, largest = energy_gain(state, found, mass, dt)
+    limit = LARGEST_GAIN * largest + noise
+    return gain - state.book[0].integrator > limit and gain > limit * share / stage.steps
 
 
 @jit_exact
-def _judged(problem, stage, state, step, noise, space, progress):
-    """Return whether a step is accurate, and its error as a share of what is allowed."""
-    strayed = 0.0
+def _assess(problem, stage, state, step, noise, space, progress):
+    """Return whether a step is accurate, and the ratio of its local error to the allowed one."""
+    ratio = 0.0
     if stage.error < np.inf:
-        strayed = integrators.error(state, step, problem.scene.coordinates.heavy) / stage.error
-    fine, first_order = strayed <= 1.0, stage.dynamic and step.h == step.duration
-    if fine and first_order and progress.share > SHORT:
-        fine = not _invents(problem, stage, state, space.found, progress.share, noise)
-    return fine, strayed
+        ratio = integrators.error(state, step, problem.scene.coordinates.heavy) / stage.error
+    accurate, first_order = ratio <= 1.0, stage.dynamic and step.h == step.duration
+    if accurate and first_order and progress.share > UNCHECKED_SHARE:
+        accurate = not _gains_energy(problem, stage, state, space.found, progress.share, noise)
+    return accurate, ratio
 
 
 @jit_exact
-def _step_back(outcome, problem, step, state, space, descent, progress):
-    """Return to where a step set out, for a shorter one."""
+def _reject(outcome, problem, step, state, space, descent, progress):
+    """Reject a share: restore the state at its start, and shorten it."""
     copy(space.x0, state.x)
     problem.roll_back(step)
     zero(space.found.u)
     if outcome != INACCURATE:
         progress.failed += 1
-    progress.share *= 0.5 ** max(progress.failed, 1)  # the oftener, the more boldly
-    progress.loops, descent.kept = AT_START, np.inf
+    progress.share *= 0.5 ** max(progress.failed, 1)  # repeated failures shorten it faster
+    progress.loops, descent.since_factor = NOT_STARTED, np.inf
 
 
 @jit_exact
-def _settle(problem, stage, step, state, space, descent):
-    """Accept where a step has led, and book it."""
+def _accept(problem, stage, step, state, space, descent):
+    """Accept a share: update rates, commit the material, enter the energy book, project."""
     found, work, book, totals = space.found, space.work, state.book[0], state.totals[0]
     if stage.dynamic:
-        book.integrator += integrators.arrive(stage.scheme, state, step, problem, found.u)
+        book.integrator += integrators.update(stage.scheme, state, step, problem, found.u)
         book.kinetic = kinetic(state.v, problem.scene.coordinates.mass)
         totals.last = step.duration
     problem.commit(state.x, step, found)
     enter(problem, step, state, found, work)
     if energy_book.project(problem, step, state, found, work.trial):
-        descent.kept = np.inf
+        descent.since_factor = np.inf
     totals.steps += 1
 
 
 @jit_exact
-def _advance(strayed, iterations, descent, progress):
-    """Count a share as done; the next one is twice as long if this was easy and that fits."""
-    easy = strayed < LONGER and progress.effort <= iterations and progress.loops <= EASY_LOOPS
-    progress.done, progress.failed, progress.loops = progress.done + progress.share, 0, AT_START
-    if progress.share < 1.0:  # the next Hessian is another
-        descent.kept = np.inf
+def _next_share(ratio, iterations, descent, progress):
+    """Complete a share; double the next one if this one was easy and the double fits the grid.
+
+    Shares stay multiples of their own length from the start of the step, so that they end with it.
+    """
+    easy = progress.share_iterations <= iterations and progress.loops <= EASY_LOOPS
+    easy = easy and ratio < DOUBLING_ERROR
+    progress.done, progress.failed, progress.loops = progress.done + progress.share, 0, NOT_STARTED
+    if progress.share < 1.0:
+        descent.since_factor = np.inf
     if easy and progress.done % (2.0 * progress.share) == 0.0:
         progress.share *= 2.0
 
 
 @jit_exact
-def _go(problem, tolerance, stage, state, out, control, space, descent, progress):
-    """March on from where ``progress`` says, until the stage ends or the problem must be renewed.
+def _run(problem, tolerance, stage, state, out, control, space, descent, progress):
+    """Continue the stage at ``progress`` to its end, or until the neighbours must be renewed.
 
-    Return the outcome and the rows written.
+    Return (outcome, rows written).
     """
     work, totals = space.work, state.totals[0]
     while progress.row < stage.steps:
-        if progress.loops == AT_START:
-            if not problem.covers(state.x, 0.0):  # after a step back
-                descent.far = 0.0
+        if progress.loops == NOT_STARTED:
+            if not problem.covers(state.x, 0.0):  # after a rejected share
+                descent.travel_bound = 0.0
                 return OUTGROWN, progress.row
-            _set_out(problem, stage, state, space, descent, progress)
+            _begin_share(problem, stage, state, space, descent, progress)
         step, target = _step(stage, space, progress), _target(stage, progress)
-        outcome = _balance(
+        outcome = _equilibrate(
             state.x, target, problem, step, tolerance, space, descent, control, progress
         )
         if outcome == CONVERGED and not problem.covers_projection(state.x):
-            outcome, progress.tried = OUTGROWN, 0
+            outcome, progress.minimum_iterations = OUTGROWN, 0
             zero(work.dx)
-        if outcome == OUTGROWN and progress.tried <= tolerance.iterations:
+        if outcome == OUTGROWN and progress.minimum_iterations <= tolerance.iterations:
             if stage.dynamic:
-                zero(work.dx)  # where it was is the better guess
+                zero(work.dx)  # the present point is the better guess
             return outcome, progress.row
-        strayed = 0.0
+        ratio = 0.0
         if outcome == CONVERGED:
-            fine, strayed = _judged(problem, stage, state, step, tolerance.noise, space, progress)
-            outcome = CONVERGED if fine else INACCURATE
-            if fine and unbalanced(step.x0, problem, tolerance, state, space.found, work):
+            accurate, ratio = _assess(problem, stage, state, step, tolerance.noise, space, progress)
+            outcome = CONVERGED if accurate else INACCURATE
+            if accurate and unbalanced(step.x0, problem, tolerance, state, space.found, work):
                 outcome = UNBALANCED
         if outcome != CONVERGED:
-            _step_back(outcome, problem, step, state, space, descent, progress)
-            if outcome == INTERRUPTED or progress.share < SMALLEST:
+            _reject(outcome, problem, step, state, space, descent, progress)
+            if outcome == INTERRUPTED or progress.share < SMALLEST_SHARE:
                 return (ITERATIONS if outcome == OUTGROWN else outcome), progress.row
             continue
-        _settle(problem, stage, step, state, space, descent)
-        _advance(strayed, tolerance.iterations, descent, progress)
+        _accept(problem, stage, step, state, space, descent)
+        _next_share(ratio, tolerance.iterations, descent, progress)
         if progress.done == 1.0:
-            totals.iterations += progress.spent
+            totals.iterations += progress.row_iterations
             totals.time += stage.duration
             problem.write(out, progress.row, state, space.found)
             control[1] += 1
-            progress.row, progress.done, progress.spent = progress.row + 1, 0.0, 0
+            progress.row, progress.done, progress.row_iterations = progress.row + 1, 0.0, 0
     return CONVERGED, progress.row
 
 
@@ -267,11 +280,11 @@ def _go(problem, tolerance, stage, state, out, control, space, descent, progress
 def march(scene, tolerance, stage, state, out, control):
     """March through ``stage`` from ``state`` (changed in place); fill ``out``.
 
-    scene: `problem.Scene`. Return (outcome, rows written). ``control`` (2,): [0] != 0 interrupts,
-    [1] counts steps done.
+    Return (outcome, rows written). scene: `problem.Scene`. control (2,): [0] != 0 interrupts, [1]
+    counts completed steps.
     """
     progress, descent = np.zeros(1, PROGRESS), np.zeros(1, DESCENT)
-    progress[0].share, progress[0].loops, descent[0].kept = 1.0, AT_START, np.inf
+    progress[0].share, progress[0].loops, descent[0].since_factor = 1.0, NOT_STARTED, np.inf
     last = state.totals[0].last
     if stage.error < np.inf and last > 0.0:
         progress[0].share = last / stage.duration
@@ -279,11 +292,11 @@ def march(scene, tolerance, stage, state, out, control):
     space = make_workspace(state.x.size, state.stored.size)
     while True:
         problem = by_reference(scene).assemble(by_reference(neighbours), by_reference(buffers))
-        outcome, rows = _go(
+        outcome, rows = _run(
             problem, tolerance, stage, by_reference(state), out, control,
             by_reference(space), descent[0], progress[0],
         )  # fmt: skip
         if outcome != OUTGROWN:
             return outcome, rows
-        # A factor outlives its pairs; if the matrix will be another, `minimise` has given it up.
-        neighbours = scene.renew_neighbours(neighbours, state.x, descent[0].far)
+        # The factor outlives the pairs; where the matrix changes, `minimise` has discarded it.
+        neighbours = scene.renew_neighbours(neighbours, state.x, descent[0].travel_bound)

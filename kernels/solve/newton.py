@@ -1,11 +1,11 @@
-"""Newton's method for one step: a descent to a minimum.
+"""Newton's method with a line search: minimises the potential of one step.
 
-The exact Hessian is used wherever it is positive definite (all pivots positive); elsewhere the
-projected one, or the direction of the negative pivot if that promises a greater fall. The step is
-cut to its admissible share and backtracked until the energy falls (Armijo); what is evaluated there
-serves the next iteration. Converged means: scaled residual and Newton decrement below tolerance
-*and* no negative pivot in the exact Hessian, here or not farther than `Coordinates.close` away.
-Within that distance a factor is used again.
+The exact Hessian is used where it is positive definite (all pivots positive). Elsewhere the search
+direction is that of the projected Hessian, or the direction of negative curvature of the first
+negative pivot, whichever has the larger predicted decrease. The line search starts from the
+admissible share of the move and backtracks to sufficient decrease (Armijo). Converged means: scaled
+residual and Newton decrement below tolerance *and* no negative pivot of the exact Hessian at a
+point within `Coordinates.close`. A factor is reused within that distance.
 """
 
 import numpy as np
@@ -16,20 +16,20 @@ from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE, TIED
 from kernels.solve.residual import allowed, largest
 
 CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
-ARMIJO = 1e-4
-HALVINGS = 40
-MISLED = 3  # halvings: after more, what lagged forces carry along is forgotten
-SLOW = 0.1  # a kept factor that shrinks the residual by less is renewed
-LEAST_SHARE = 1e-12  # of a step: less is standing still
-RESOLVED = 1e-11  # an energy change below this share of the energy is lost in round-off
+ARMIJO = 1e-4  # share of the predicted decrease that is sufficient
+HALVINGS = 40  # of a line search, at most
+DUAL_HALVINGS = 3  # after more halvings the duals of lagged forces are reset
+SLOW_REDUCTION = 0.1  # a reused factor is renewed if the ratio of two residuals is larger
+LEAST_SHARE = 1e-12  # of a move: a shorter one is a stall
+RESOLVED = 1e-11  # relative energy changes below it are round-off
 DESCENT = np.dtype(
     (
         np.record,  # for attributes in plain Python too
         [
-            # how far x may have moved, m, since an exact Hessian was factored without a negative
-            # pivot; infinite: no such factor is at hand. Forces may have been lagged anew since.
-            ("kept", np.float64),
-            ("far", np.float64),  # that a point goes in a move which neighbours must cover, m
+            # bound of the move, m, since the last factor of an exact Hessian without a negative
+            # pivot; infinite: there is none. Forces may have been lagged anew since.
+            ("since_factor", np.float64),
+            ("travel_bound", np.float64),  # move that the neighbour lists must cover, m
             ("iterations", np.int64),  # of the last minimisation
         ],
     )
@@ -38,19 +38,19 @@ DESCENT = np.dtype(
 
 @jit_exact
 def _longest(direction, coordinates):
-    """Return the largest move in m of a coordinate that is free or tied."""
-    most = 0.0
+    """Return the largest move of a free or tied coordinate, m."""
+    longest = 0.0
     for i in range(direction.size):
         if coordinates.role[i] >= TIED:
-            most = max(most, abs(direction[i]) * coordinates.scale[i])
-    return most
+            longest = max(longest, abs(direction[i]) * coordinates.scale[i])
+    return longest
 
 
 @jit_exact
-def _solve(problem, found, work, remaining):
-    """Point ``work.direction`` to where the quadratic model is stationary; return its slope there.
+def _newton_direction(problem, found, work, remaining):
+    """Fill ``work.direction`` with the Newton direction; return the slope g . direction in J.
 
-    A driven coordinate that has ``remaining`` m to go takes the others along.
+    The driven coordinate moves by ``remaining`` m in it.
     """
     direction = work.direction
     zero(direction)
@@ -65,10 +65,10 @@ def _solve(problem, found, work, remaining):
 
 
 @jit_exact
-def _aim_off(problem, found, work, pivot):
-    """Point ``work.escape`` downhill along the negative pivot, with a move of `Coordinates.leap`.
+def _escape_direction(problem, found, work, pivot):
+    """Fill ``work.escape`` with a descent direction of negative curvature, `Coordinates.leap` long.
 
-    Return slope and curvature of the energy along it.
+    ``pivot``: d . H d of `Problem.descend`. Return slope and curvature along the direction, J.
     """
     coordinates = problem.scene.coordinates
     problem.descend(work.escape)
@@ -80,29 +80,33 @@ def _aim_off(problem, found, work, pivot):
 
 
 @jit_exact
-def _advance(x, work, share):
-    """Point ``work.trial`` to a share of dx."""
+def _set_trial(x, work, share):
+    """Fill ``work.trial`` with x + share dx."""
     for i in range(x.size):
         work.trial[i] = x[i] + share * work.dx[i]
 
 
 @jit_exact
-def _move(x, problem, step, found, work, share, guessed, halvings):
-    """Go to the trial, a share of dx; return whether a factor from there may be kept.
+def _accept_trial(x, problem, step, found, work, share, predicted, halvings):
+    """Copy the trial point, a ``share`` of dx, to ``x``; return whether its factor may be reused.
 
-    ``guessed``: dx is no step of Newton's, and tells nothing of lagged forces. What they carry
-    along is forgotten where it has misled: the step fell far short.
+    predicted: dx is a predictor instead of a Newton step, so that the duals of lagged forces are
+    not updated. After many halvings the duals are unreliable, and are reset.
     """
     copy(work.trial, x)
-    if halvings > MISLED:
+    if halvings > DUAL_HALVINGS:
         problem.forget()
         return True
-    return guessed or problem.follow(work.dx, share, step, found)
+    return predicted or problem.follow(work.dx, share, step, found)
 
 
 @jit_exact
-def _falls(reached, start, share, model, noise):
-    """Return whether the energy fell as the quadratic ``model`` (slope, curvature) lets expect."""
+def _decreases(reached, start, share, model, noise):
+    """Return whether the decrease from ``start`` to ``reached`` is sufficient (Armijo).
+
+    model: slope and curvature, the predicted change is share slope + share^2 curvature / 2. Changes
+    below ``noise`` are round-off.
+    """
     slope, curvature = model
     noise += RESOLVED * abs(start)
     expected = ARMIJO * share * (slope + 0.5 * share * curvature)
@@ -112,9 +116,9 @@ def _falls(reached, start, share, model, noise):
 
 
 @jit_exact
-def _capped(dx, most, cap):
-    """Shorten ``dx`` so that no coordinate moves farther than ``cap``; return the factor."""
-    factor = min(1.0, cap / most) if most > 0.0 else 1.0
+def _cap(dx, longest, cap):
+    """Scale ``dx`` so that its ``longest`` move is at most ``cap`` (m); return the factor."""
+    factor = min(1.0, cap / longest) if longest > 0.0 else 1.0
     if factor < 1.0:
         for i in range(dx.size):
             dx[i] *= factor
@@ -122,32 +126,34 @@ def _capped(dx, most, cap):
 
 
 @jit_exact
-def _arrives(x, dx, target, driven):
-    """Return whether the first move leads the driven coordinate all the way."""
+def _reaches_target(x, dx, target, driven):
+    """Return whether ``dx`` moves the driven coordinate exactly to its target."""
     return driven >= 0 and dx[driven] == target - x[driven]
 
 
 @jit_exact
-def _choose(slope, stable, led, escape, coordinates, remaining, work):
-    """Fill dx with the Newton direction, or with the escape where that promises more.
+def _choose_move(slope, stable, to_target, escape, coordinates, remaining, work):
+    """Fill dx with the Newton direction, or with the escape direction if its predicted decrease is
+    larger; cap its length.
 
-    Return the model (slope, curvature) along it and its length in m, cut to the cap.
+    Return the model (slope, curvature) along dx, its longest move in m, and whether it is uncapped.
+    to_target: the driven coordinate is not at its target yet.
     """
     fall, curvature = escape
-    if led or stable or fall + 0.5 * curvature > 0.5 * slope:
+    if to_target or stable or fall + 0.5 * curvature > 0.5 * slope:
         copy(work.direction, work.dx)
         fall, curvature = slope, 0.0
     else:
         copy(work.escape, work.dx)
-    most = _longest(work.dx, coordinates)
-    cut = _capped(work.dx, most, max(coordinates.cap, 5.0 * abs(remaining)))
-    return (fall * cut, curvature), max(most * cut, abs(remaining)), cut == 1.0
+    longest = _longest(work.dx, coordinates)
+    cut = _cap(work.dx, longest, max(coordinates.cap, 5.0 * abs(remaining)))
+    return (fall * cut, curvature), max(longest * cut, abs(remaining)), cut == 1.0
 
 
 @jit_exact
-def _weigh(x, target, problem, tolerance, found, work):
-    """Return how far the driven coordinate has to go, m, the largest residual in N, and how much of
-    that would count as none.
+def _residual(x, target, problem, tolerance, found, work):
+    """Return the remaining move of the driven coordinate in m, the largest residual in N, and the
+    admissible residual and decrement (`residual.allowed`).
     """
     coordinates = problem.scene.coordinates
     problem.reduce(found.g, work.residual)
@@ -161,86 +167,89 @@ def _weigh(x, target, problem, tolerance, found, work):
 
 @separate
 @jit_exact
-def minimise(x, target, problem, step, tolerance, space, descent, control, there):
-    """Descend from ``x`` (n,), in place, to a minimum with the driven coordinate at ``target``.
+def minimise(x, target, problem, step, tolerance, space, descent, control, evaluated):
+    """Minimise over ``x`` (n,), in place, with the driven coordinate at ``target`` (m).
 
-    Start from ``x`` + ``work.dx`` as far as admissible or, if ``there``, from ``x``, of which
-    ``space`` tells; return the outcome, with ``descent`` filled in. OUTGROWN: the
-    problem does not know what a move by ``descent.far`` m could bring near, or its matrix has no
-    room: renew it. ``control[0]`` != 0 interrupts.
+    Start from the admissible share of ``x`` + ``work.dx`` or, if ``evaluated``, from ``x``, whose
+    evaluation is in ``space.found``. Return the outcome and fill ``descent``. OUTGROWN: the
+    neighbour lists do not cover a move of ``descent.travel_bound`` m, or the matrix lacks an entry:
+    renew them and call again. control[0] != 0 interrupts.
     """
     found, work, coordinates = space.found, space.work, problem.scene.coordinates
-    outcome, iteration, halvings = ITERATIONS, 0 if there else -1, 0
-    setting_out, searching, arrived, free = not there, not there, there, True
-    whole, projected, settled = _arrives(x, work.dx, target, coordinates.driven), False, False
-    value, remaining, share, model, escape, fit = 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0), True
-    limit, stable = (0.0, 0.0), True  # what counts as none; of the last exact factor
-    most, before, descent.far = _longest(work.dx, coordinates), np.inf, 0.0
-    while True:  # each turn evaluates at one point, a trial or the same for another Hessian
-        if setting_out:
-            descent.far = problem.travel(work.dx)
-            if not problem.covers(x, descent.far):
+    outcome, iteration, halvings = ITERATIONS, 0 if evaluated else -1, 0
+    new_direction, line_search, accepted, accept_any = not evaluated, not evaluated, evaluated, True
+    uncapped = _reaches_target(x, work.dx, target, coordinates.driven)
+    projected, balanced = False, False
+    value, remaining, share, model, escape, duals_fit = 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0), True
+    limit, stable = (0.0, 0.0), True  # stable: of the last exact factor
+    longest, previous_size, descent.travel_bound = _longest(work.dx, coordinates), np.inf, 0.0
+    while True:  # each turn evaluates a trial point, or the same point for the projected Hessian
+        if new_direction:
+            descent.travel_bound = problem.travel(work.dx)
+            if not problem.covers(x, descent.travel_bound):
                 outcome = OUTGROWN
                 break
-            share = problem.step_limit(x, work.dx, descent.far)
+            share = problem.step_limit(x, work.dx, descent.travel_bound)
             if share < LEAST_SHARE:
                 outcome = STALLED
                 break
-            setting_out, searching, halvings = False, True, 0
-            _advance(x, work, share)
-        if not there:
+            new_direction, line_search, halvings = False, True, 0
+            _set_trial(x, work, share)
+        if not evaluated:
             problem.evaluate(work.trial, step, found, projected)
-        reached, there = found.sums[0].potential, False
-        if searching:
-            fine = free or _falls(reached, value, share, model, tolerance.noise)
-            if not (fine and reached < np.inf):
+        reached, evaluated = found.sums[0].potential, False
+        if line_search:
+            sufficient = accept_any or _decreases(reached, value, share, model, tolerance.noise)
+            if not (sufficient and reached < np.inf):
                 halvings, share = halvings + 1, 0.5 * share
                 if halvings == HALVINGS or share < LEAST_SHARE:
                     outcome = STALLED if reached < np.inf else NOT_FINITE
                     break
-                _advance(x, work, share)
+                _set_trial(x, work, share)
                 continue
-            fit = _move(x, problem, step, found, work, share, iteration < 0, halvings)
-            descent.kept += share * most
-            if free and whole and share == 1.0:
+            duals_fit = _accept_trial(x, problem, step, found, work, share, iteration < 0, halvings)
+            descent.since_factor += share * longest
+            if accept_any and uncapped and share == 1.0:
                 x[coordinates.driven] = target
-            iteration, searching, arrived = iteration + 1, False, True
-        if arrived:
-            value, arrived = reached, False
-            remaining, size, limit = _weigh(x, target, problem, tolerance, found, work)
+            iteration, line_search, accepted = iteration + 1, False, True
+        if accepted:
+            value, accepted = reached, False
+            remaining, size, limit = _residual(x, target, problem, tolerance, found, work)
             if control[0] != 0 or not size < np.inf:
                 outcome = INTERRUPTED if control[0] != 0 else NOT_FINITE
                 break
-            settled = remaining == 0.0 and size <= limit[0]
-            if not settled and size > SLOW * before:
-                descent.kept = np.inf
-            before = size
-        if descent.kept > coordinates.close:
+            balanced = remaining == 0.0 and size <= limit[0]
+            if not balanced and size > SLOW_REDUCTION * previous_size:
+                descent.since_factor = np.inf
+            previous_size = size
+        if descent.since_factor > coordinates.close:
             met, pivot = problem.factor(x, step, found, projected, False)
             if met == NO_ROOM:
-                outcome, descent.kept = OUTGROWN, np.inf
+                outcome, descent.since_factor = OUTGROWN, np.inf
                 break
             if projected and met == NEGATIVE:
                 outcome = SINGULAR
                 break
             if not projected:
                 stable = met == POSITIVE
-                descent.kept = 0.0 if stable and fit else np.inf
+                descent.since_factor = 0.0 if stable and duals_fit else np.inf
                 if not stable:
-                    escape = _aim_off(problem, found, work, pivot)
-                    projected = not settled
+                    escape = _escape_direction(problem, found, work, pivot)
+                    projected = not balanced
                     if projected:
                         continue
-        aimed = stable or projected
-        slope = _solve(problem, found, work, remaining) if aimed else 0.0
-        if settled and stable and -0.5 * slope <= limit[1]:
+        has_direction = stable or projected
+        slope = _newton_direction(problem, found, work, remaining) if has_direction else 0.0
+        if balanced and stable and -0.5 * slope <= limit[1]:
             outcome = CONVERGED
             break
         if iteration == tolerance.iterations:
             break
-        free, projected = remaining != 0.0, False
-        model, most, whole = _choose(slope, stable, free, escape, coordinates, remaining, work)
-        setting_out = True
+        accept_any, projected = remaining != 0.0, False
+        model, longest, uncapped = _choose_move(
+            slope, stable, accept_any, escape, coordinates, remaining, work
+        )
+        new_direction = True
     if outcome == OUTGROWN and iteration >= 0:
         zero(work.dx)
     descent.iterations = max(iteration, 0)

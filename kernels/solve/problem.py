@@ -1,29 +1,30 @@
-"""What the solver asks of a problem, and all that it knows of one.
+"""The interface between the solver and a problem.
 
 A *problem* is a named tuple of arrays whose class has the verbs of `Problem`:
-``problem.evaluate(...)`` and so on. Compiled code finds a verb by the type of the tuple: each kind
-of problem has a solver compiled for it, a call costs what a call of any kernel costs, and nothing
-is compiled that no problem of the process needs. The solver itself knows coordinates by their role
-only: no walls, no plates, no dimension of space.
+``problem.evaluate(...)`` and so on. Compiled code finds a verb by the type of the tuple, so that
+the solver is compiled once for each kind of problem in the process, and the call of a verb costs no
+more than that of any other kernel (`compile.verbs`). The solver distinguishes coordinates by their
+role only: it knows no walls, no plates and no dimension of space.
 """
 
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
-HELD, LED, TIED, FREE = range(4)  # roles; what is TIED follows a FREE coordinate
-POSITIVE, NEGATIVE, NO_ROOM = range(3)  # what a factor has met
+HELD, LED, TIED, FREE = range(4)  # roles; a TIED coordinate follows a FREE one
+POSITIVE, NEGATIVE, NO_ROOM = range(3)  # results of a factorisation
 
 
 class Coordinates(NamedTuple):
-    """The n coordinates of a problem. A period's images are FREE in role, and follow by `Problem`.
+    """The n coordinates of a problem.
 
-    role (n,). scale (n,): length that turns a coordinate into m, 1 for one in m; lever (n,): its
-    inverse. mass (n,): kg, 0 for what has no inertia; heavy (n,): 1 for what moves by its mass or
-    by that of what it is tied to, else 0. load (n,): dead forces in N at a load factor of 1.
-    driven: coordinate that is led to a target, -1 if none. cap: longest move in one iteration, m.
-    leap: first move along a direction of negative curvature, m. close: a move so short that
-    stability cannot have been lost on it, m.
+    role (n,): HELD at a fixed value, LED by the driven coordinate, TIED or FREE. Periodic images
+    have the role FREE; the verbs of `Problem` let them follow. scale (n,): length that converts a
+    coordinate to m, 1 for one in m; lever (n,): 1 / scale. mass (n,): kg, 0 without inertia. heavy
+    (n,): 1 where the coordinate, or the one that it is tied to, has mass, else 0. load (n,): dead
+    forces in N at a load factor of 1. driven: coordinate with a prescribed value, -1 if none. cap:
+    longest move in one iteration, m. leap: length of a move along a direction of negative
+    curvature, m. close: a move so short that stability cannot be lost in it, m.
     """
 
     role: np.ndarray
@@ -39,12 +40,12 @@ class Coordinates(NamedTuple):
 
 
 class Step(NamedTuple):
-    """One step of a march, from the accepted position x0 (n,).
+    """One step of a march, from the accepted positions x0 (n,).
 
-    y (n,): whence rates are measured; x_pred (n,): where inertia would lead (`integrators`).
-    h: time that turns x - y into a rate, s. duration: of the step, s, with inertia or without.
-    dynamic: whether there is inertia. factor: of the load at the end of the step. theta: share of
-    the end in the energy book.
+    y (n,): (x - y) / h is the velocity, h in s. x_pred (n,): x~, positions that inertia alone would
+    lead to (`integrators`). duration: of the step, s, static steps included. dynamic: whether the
+    step has inertia. factor: load factor at the end of the step. theta: weight of the forces at the
+    end of the step in the energy book.
     """
 
     x0: np.ndarray
@@ -61,21 +62,21 @@ SUMS = np.dtype(
     (
         np.record,  # for attributes in plain Python too
         [
-            ("potential", np.float64),  # what the step minimises, J
-            ("friction", np.float64),  # of which friction's share, J
-            ("dissipated", np.float64),  # by the material in the step, when it is committed, J
+            ("potential", np.float64),  # of the step, which is minimised, J
+            ("friction", np.float64),  # its friction part, J
+            ("dissipated", np.float64),  # by the laws in the step, J; filled at commit
         ],
     )
 )
 
 
 class Found(NamedTuple):
-    """What `Problem.evaluate` has found at a point.
+    """Result of `Problem.evaluate` at a point.
 
-    g (n,): gradient by coordinate, which is also what supports must supply, N. elastic, friction,
-    material (n,): its parts that belong to stored energy, to friction and to damping. u (n,):
-    x - y, and after a step x - x0. stored (k,): stored energies, J, as many as the problem tells
-    apart. sums (1,): see `SUMS`.
+    g (n,): gradient of the potential, N; at supports it is the reaction. elastic, friction,
+    material (n,): its parts due to stored energy, friction and damping. u (n,): x - y, after a step
+    x - x0. stored (k,): stored energies in J, one for each kind that the problem distinguishes.
+    sums (1,): see `SUMS`.
     """
 
     g: np.ndarray
@@ -88,129 +89,133 @@ class Found(NamedTuple):
 
 
 class Problem(Protocol):
-    """The verbs of a problem: x, dx, g, direction ... are (n,) by coordinate.
+    """The verbs of a problem; the vectors x, dx, g, direction ... are (n,), by coordinate.
 
-    scene: the data of the problem, with the verbs of `Scene`. What a problem knows of a position it
-    may keep, in arrays of its own, until the next `evaluate`.
+    scene: the data of the problem, with the verbs of `Scene`. A problem may keep what it computes
+    at a point in arrays of its own until the next `evaluate`.
     """
 
     scene: "Scene"
 
-    # One step: from where it sets out until it is accepted.
+    # One step, from its start until it is accepted or rejected.
 
     def begin(self, step, ahead, scratch):
-        """Prepare what the step needs to know of its start. ahead: `integrators.Ahead`."""
+        """Prepare data of the start of the step. ahead: `integrators.Ahead`. scratch (n,)."""
 
     def evaluate(self, x, step, found, projected):
         """Return the potential of the step at ``x`` in J, and fill ``found``.
 
-        ``projected``: of the Hessian that `factor` takes, keep what is positive semi-definite.
+        projected: `factor` is to use the positive semi-definite projection of the Hessian.
         """
 
     def store(self, x, step, found):
-        """Fill ``found.elastic`` (added to) and ``found.stored`` alone."""
+        """Fill ``found.stored`` and add its gradient to ``found.elastic``, nothing else."""
 
     def commit(self, x, step, found):
-        """Accept ``x``: keep what the material remembers; fill what it has stored and dissipated.
+        """Accept ``x``, the point of the last `evaluate`: commit the state of the material laws.
 
-        Coordinates may be re-based here: nobody subtracts two accepted positions.
+        Correct ``found.stored`` to the stored energy and fill ``sums.dissipated``. Coordinates may
+        be re-based here: the solver never subtracts two accepted positions.
         """
 
     def roll_back(self, step):
-        """Forget what was found since the step set out."""
+        """Discard data of points after the start of the step, which is rejected."""
 
     # The linear system at the point of the last `evaluate`.
 
     def factor(self, x, step, found, projected, through):
-        """Factor the Hessian; return what was met and the first negative pivot.
+        """Factor the Hessian; return the result and the first negative pivot.
 
-        POSITIVE: all pivots are. NEGATIVE: one is not; with ``through`` it is not stopped at.
-        NO_ROOM: the pattern lacks an entry; `Scene.renew_neighbours` makes room.
+        POSITIVE: all pivots are positive. NEGATIVE: one is not; the factorisation stops there,
+        unless ``through``. NO_ROOM: the pattern lacks an entry, `Scene.renew_neighbours` adds it.
         """
 
     def solve(self, b):
-        """Solve in place for a right side; what is held, tied or led has its own rules."""
+        """Solve in place for the right side ``b``, with the constraints of the coordinates."""
 
     def descend(self, direction):
         """Fill ``direction`` with d such that d . H d is the negative pivot of `factor`."""
 
     def unstable(self):
-        """Return how many pivots of the last `factor` are negative."""
+        """Return the number of negative pivots in the last `factor`."""
 
     def stiffest(self):
-        """Return the largest stiffness of a coordinate in m in the last `factor`, N/m."""
+        """Return the largest stiffness in the last `factor` among coordinates in m, N/m."""
 
     # Constraints.
 
     def reduce(self, g, residual):
-        """Fill ``residual`` with the forces on what is FREE; zero elsewhere."""
+        """Fill ``residual`` with ``g`` of FREE coordinates and their followers; else 0."""
 
     def lead(self, move, direction):
-        """Write the moves of all that is LED when the driven coordinate goes by ``move``."""
+        """Write the moves of LED coordinates when the driven coordinate moves by ``move``."""
 
     def pull(self, move, direction):
-        """Fill ``direction`` with the change of the gradient when `lead` moves what it leads."""
+        """Fill ``direction`` with the linearised change of the gradient in the moves of `lead`."""
 
     def tie(self, vector):
-        """Let what follows another coordinate have its value times the ratio of their moves."""
+        """Set entries of TIED coordinates to those of their leaders times the ratio of moves."""
 
-    # How far a step may go, and what is near.
+    # Step limits and neighbour lists.
 
     def travel(self, dx):
-        """Return how far a point of the problem goes at most in a move, m."""
+        """Return the longest distance that a point of the problem moves in ``dx``, m."""
 
     def step_limit(self, x, dx, far):
         """Return the share of ``dx`` (at most 1) that is admissible. far: its `travel`."""
 
     def covers(self, x, far):
-        """Return whether all that matters within a move of ``far`` m from ``x`` is listed."""
+        """Return whether the neighbour lists hold for any move of at most ``far`` m from ``x``."""
 
-    # Forces that lag, as friction does: they are taken anew between minima.
+    # Lagged forces, such as friction: fixed in a minimisation, renewed between two of them.
 
     def lags(self):
-        """Return whether any force of the scene lags."""
+        """Return whether the scene has lagged forces."""
 
     def lag(self, y):
-        """Take lagged forces at ``y``; return whether there are any, or were before."""
+        """Lag the forces at ``y``; return whether there are any now, or were before."""
 
     def exchange(self, step, found):
-        """Exchange the lagged part of ``found`` for that of the forces of now; return potential."""
+        """Replace the lagged part of ``found`` by that of the present forces; return potential."""
 
     def follow(self, dx, share, step, found):
-        """Carry what lags along a share of a Newton step; return whether it fits where it leads."""
+        """Update dual variables of lagged forces in a share of a Newton step ``dx``.
+
+        Return whether they agree with the primal ones at the end, so that the factor may be kept.
+        """
 
     def forget(self):
-        """Forget what `follow` carries."""
+        """Reset the dual variables of `follow`."""
 
-    # After a step, and on record.
+    # After a step: projection and output.
 
     def project(self, x):
-        """Move ``x`` to where nothing is too near; return whether anything has moved."""
+        """Move apart in ``x`` what is too near; return whether any coordinate has moved."""
 
     def covers_projection(self, x):
-        """Return whether all that `project` may have to move is listed."""
+        """Return whether the neighbour lists hold for `project` at ``x``."""
 
     def write(self, out, k, state, found):
-        """Write row ``k`` of the history, and its frame."""
+        """Write row ``k`` of the history, and its frame if one is asked for."""
 
 
 class Scene(Protocol):
-    """The data of a problem, which nobody changes, and how a problem is made of it."""
+    """The constant data of a problem, with the verbs that assemble the problem."""
 
     coordinates: Coordinates
 
     def make_buffers(self, memory):
-        """Return the arrays of the problem that are made once. memory: `State.memory`."""
+        """Return the arrays that are allocated once a march. memory: `history.State.memory`."""
 
     def find_neighbours(self, x):
-        """Return what is near at ``x``, and a matrix with room for it."""
+        """Return the neighbour lists at ``x`` and a matrix with room for their couplings."""
 
     def renew_neighbours(self, neighbours, x, far):
-        """Return ``neighbours`` with what was lacking at ``x``: entries of the matrix, or those
-        whom a move by ``far`` m can bring near.
+        """Return neighbour lists that hold for any move of at most ``far`` m from ``x``, and the
+        matrix with its missing entries.
 
-        A factor outlives this unless the matrix is another.
+        If no entry is missing, the matrix is the same, and its factor remains valid.
         """
 
     def assemble(self, neighbours, buffers):
-        """Return the problem."""
+        """Return the `Problem`."""

@@ -1,4 +1,4 @@
-"""What is out of balance, and how much of it counts as none."""
+"""The residual of an equilibrium, and its tolerances."""
 
 from typing import NamedTuple
 
@@ -6,54 +6,59 @@ from kernels.compile.jit import jit, jit_exact
 
 
 class Tolerance(NamedTuple):
-    """What counts as converged.
+    """Criteria of convergence.
 
-    force: largest residual in N. decrement: largest Newton decrement in J. friction: largest change
-    of a lagged force in N; grip: the same as a share of the greatest one. noise: energy changes
-    below it are round-off, J. finest: a move that positions cannot resolve, m. iterations: most for
-    one minimum.
+    force: largest residual, N. decrement: largest Newton decrement, J. friction: largest change of
+    a lagged force, N; friction_share: the same as a share of the largest lagged force. noise:
+    energy differences below it are round-off, J. resolution: smallest move that positions can
+    resolve, m. iterations: most Newton iterations of one minimisation.
     """
 
     force: float
     decrement: float
     friction: float
-    grip: float
+    friction_share: float
     noise: float
-    finest: float
+    resolution: float
     iterations: int
 
 
 @jit_exact
 def largest(residual, coordinates):
-    """Return the largest residual of the free coordinates in N; NaN if any is."""
-    most = 0.0
+    """Return the largest residual of the free coordinates in N, NaN if any is NaN.
+
+    residual (n,): of `Problem.reduce`. The driven coordinate, a support, is left out.
+    """
+    largest_size = 0.0
     for i in range(residual.size):
         size = abs(residual[i]) * coordinates.lever[i] if i != coordinates.driven else 0.0
-        if not size <= most:
-            most = size
+        if not size <= largest_size:
+            largest_size = size
             if size != size:
                 return size
-    return most
+    return largest_size
 
 
 @jit_exact
 def allowed(stiffest, tolerance):
-    """Return the largest residual in N and Newton decrement in J that count as none: no less than
-    what the ``stiffest`` coordinate (N/m) answers to a move too fine for its position.
+    """Return the admissible residual in N and Newton decrement in J.
+
+    The residual is at least the force of the ``stiffest`` coordinate (N/m) in a move of
+    ``tolerance.resolution``.
     """
-    force = max(tolerance.force, tolerance.finest * stiffest)
+    force = max(tolerance.force, tolerance.resolution * stiffest)
     return force, tolerance.decrement * (force / tolerance.force) ** 2
 
 
 @jit
-def loosened(tolerance, times):
-    """Return the tolerance of a minimum that may miss by ``times`` as much."""
+def loosen(tolerance, factor):
+    """Return the tolerance with the residual times ``factor``, the decrement times its square."""
     return Tolerance(
-        times * tolerance.force,
-        times * times * tolerance.decrement,
+        factor * tolerance.force,
+        factor * factor * tolerance.decrement,
         tolerance.friction,
-        tolerance.grip,
+        tolerance.friction_share,
         tolerance.noise,
-        tolerance.finest,
+        tolerance.resolution,
         tolerance.iterations,
     )

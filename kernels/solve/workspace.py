@@ -1,4 +1,4 @@
-"""The arrays that the steps of a march share, made once."""
+"""Scratch arrays of a march, allocated once."""
 
 from typing import NamedTuple
 
@@ -9,8 +9,10 @@ from kernels.solve.problem import SUMS, Found
 
 
 class Work(NamedTuple):
-    """Scratch (n,) of a minimisation: next move and trial point, forces out of balance, Newton
-    direction and that of a negative pivot.
+    """Scratch (n,) of a minimisation.
+
+    dx: next move. trial: trial point. residual: of `Problem.reduce`. direction: Newton direction.
+    escape: direction of negative curvature.
     """
 
     dx: np.ndarray
@@ -23,8 +25,8 @@ class Work(NamedTuple):
 class Workspace(NamedTuple):
     """found, work: of the minimisation. x0, y, x_pred (n,): of the step (`problem.Step`).
 
-    lagged (n,): where forces that lag were taken last; drift (n,): how far from there the minimum
-    then was, m.
+    lagged (n,): positions at which forces are lagged. drift (n,): from there to the minimum of the
+    previous loop, m; the residual in `aitken`.
     """
 
     found: Found
@@ -38,7 +40,7 @@ class Workspace(NamedTuple):
 
 @jit_owning
 def make_workspace(n, stored):
-    """Return the arrays for ``n`` coordinates and ``stored`` energies."""
+    """Return the arrays for ``n`` coordinates and ``stored`` kinds of stored energy."""
     a, b, c = np.zeros((5, n)), np.zeros((5, n)), np.zeros((5, n))
     sums = np.zeros(1, SUMS)
     found = Found(a[0], a[1], a[2], a[3], a[4], np.zeros(stored), sums)

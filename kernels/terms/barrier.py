@@ -1,9 +1,9 @@
-"""The one barrier function: contact, folding joints and vanishing elements all use it.
+"""The barrier function of contact, folds and element lengths.
 
     b(s) = -(s - 1)^2 ln s   for 0 < s < 1,   0 beyond,
 
-infinite at s = 0, with two continuous derivatives at s = 1 (Li et al. 2020, Incremental
-Potential Contact, eq. 6, in units of the distance at which it starts to act).
+It is infinite at s = 0 and twice continuously differentiable at s = 1 (Li et al. 2020, Incremental
+Potential Contact, eq. 6, with distances in units of that at which the barrier starts to act).
 """
 
 import math

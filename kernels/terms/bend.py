@@ -1,12 +1,12 @@
 """Bending at rigid joints: E_b = sum 1/2 K kappa^2.
 
-Inside a wall a *hinge* resists the angle between its two elements. At a joint every *arm* resists
-its own turn against the joint's rotation phi, an unknown of its own. A wall of a single element
-adds k12 kappa_1 kappa_2 between its two ends, which makes it an exact beam.
-Measures: kappa = delta (``angle``) or 2 tan(delta / 2) (``tangent``), delta the turn from rest.
-Through the measured curve (``section``) 1/2 kappa^2 becomes U(s) / c^2 with s = c kappa, the strain
-of the wall's surface: U(s) = 1/2 s^2 for a linear curve. Folds stay on the linear K.
-A hinge that folds meets the barrier K (g0 / 2)^2 b(g / g_f) of its opening g = pi - |angle|.
+Inside a wall a *hinge* resists the angle between its two elements. At a joint every *arm*, the
+first element of a wall, resists its turn against the rotation phi of the joint, which is an
+unknown. A wall of a single element adds k12 kappa_1 kappa_2 between its two ends, which makes it an
+exact beam. Measures: kappa = delta (``angle``) or 2 tan(delta / 2) (``tangent``), delta the turn
+from rest. With a measured curve (``section``) 1/2 kappa^2 becomes U(s) / c^2, s = c kappa the
+strain at the surface of the wall; U(s) = 1/2 s^2 for a linear curve. The fold barrier keeps the
+linear K: for a hinge of opening g = pi - |angle| it is K (g0 / 2)^2 b(g / g_f).
 """
 
 import math
@@ -26,10 +26,10 @@ NEAR_ENOUGH = 0.5  # rad
 class Bend(NamedTuple):
     """Hinges and arms; stiffness in N m.
 
-    hinges (h,): element before. hinge_angle (h,): angle between its elements at rest, rad. arm_rest
-    (2 w, 2): bearing at rest of the element at an end (cos, sin). coupling (w,): k12. section: law
-    with U' over the surface strain s. hinge_surface (h,), arm_surface (2 w,): surface strain per
-    unit of kappa; empty where bending is linear.
+    hinges (h,): first of its two elements. hinge_angle (h,): angle between them at rest, rad.
+    arm_rest (2 w, 2): bearing of each arm at rest (cos, sin). coupling (w,): k12. section: law of
+    U' over the surface strain s. hinge_surface (h,), arm_surface (2 w,): surface strain per unit of
+    kappa; empty where bending is linear.
     """
 
     measure: int
@@ -61,9 +61,11 @@ def between(cos_a, sin_a, cos_b, sin_b):
 
 @jit
 def aim(x, walls, bend, frame):
-    """Renew ``frame`` (2 w, 3): rest bearing of every arm turned by its joint (cos, sin), and phi.
+    """Update ``frame`` (2 w, 3): rest bearing of every arm rotated with its joint (cos, sin), and
+    phi.
 
-    A turn is measured from this frame, so that it never wraps. One that is near enough is kept.
+    The turn of an arm is measured from its frame, so that it never wraps. A frame within
+    `NEAR_ENOUGH` of the present phi is kept.
     """
     for a in range(frame.shape[0]):
         phi = x[walls.rotation[a]]
@@ -77,7 +79,7 @@ def aim(x, walls, bend, frame):
 
 @jit
 def turns(x, walls, bend, frame, shape):
-    """Fill the turns from rest; return the least opening of a hinge in rad."""
+    """Fill the turns of hinges and arms from rest; return the least opening of a hinge, rad."""
     t, widest = shape.t, 0.0
     for h in range(bend.hinges.size):
         k = bend.hinges[h]
@@ -106,7 +108,7 @@ def _folding(stiffness, angle, rest):
 
 @jit
 def response(section, c, kappa, memory, point):
-    """Return energy, moment and rigidity over the stiffness, with strain c kappa at the surface."""
+    """Return energy, moment and rigidity over the stiffness; surface strain c kappa."""
     energy, moment, rigidity = section.respond(c * kappa, memory, point)
     return energy / (c * c), moment / c, rigidity
 
@@ -138,7 +140,7 @@ def _hinges(bend, memory, first, shape, stiffness, projected):
 
 @jit
 def _arms(walls, bend, memory, first, shape, stiffness, projected):
-    """Both arms of every wall. With k12 = k1 / 2 = k2 / 2 the projected sum is semi-definite."""
+    """Add both arms of every wall; with k12 = k1 / 2 = k2 / 2 the projection is semi-definite."""
     total, curved = 0.0, bend.arm_surface.size > 0
     for w in range(bend.coupling.size):
         k12 = bend.coupling[w]
@@ -166,10 +168,10 @@ def _arms(walls, bend, memory, first, shape, stiffness, projected):
 
 @jit
 def evaluate(walls, bend, memory, shape, stiffness, projected):
-    """Return E_b in J with the folds of hinges; add its derivatives in the turns of ``shape``.
+    """Return E_b in J, folds of hinges included; add its derivatives in the turns of ``shape``.
 
-    Hinges and arms are material points of the section, behind the elements. ``projected`` keeps
-    what is positive semi-definite in every hinge and wall.
+    Hinges and arms are material points of the section, numbered after the elements. projected: the
+    Hessian of every hinge and wall is projected to be positive semi-definite.
     """
     first = walls.edges.shape[0]
     total = _hinges(bend, memory, first, shape, stiffness, projected)
@@ -179,8 +181,9 @@ def evaluate(walls, bend, memory, shape, stiffness, projected):
 
 @jit
 def commit(walls, bend, memory, shape):
-    """Let the section accept the curvatures of ``shape``; return how much less than E_b is stored,
-    and what has been dissipated, J.
+    """Commit the curvatures of ``shape`` to the section.
+
+    Return (released, dissipated) in J: E_b less the stored energy, and the dissipation of the step.
     """
     released, dissipated, first = 0.0, 0.0, walls.edges.shape[0]
     for h in range(bend.hinge_surface.size):

@@ -4,8 +4,9 @@
           + sum_p l_p phi(d(p, platen))
     phi(d) = c Y' depth t_c b(d / t_c)
 
-The subtraction lets a straight wall count once at any mesh; 1/2 because each pair of walls is seen
-from both sides. (Signs of the barrier as in `barrier`.)
+p: nodes with tributary length l_p; e: segments in reach; v: vertices shared by n_v of them; t_c:
+distance at which contact starts; b: `barrier`. With the subtraction a straight wall counts once at
+any mesh; 1/2, as each pair of walls counts from both sides.
 """
 
 from typing import NamedTuple
@@ -30,13 +31,13 @@ from kernels.terms.barrier import barrier
 
 
 class Contact(NamedTuple):
-    """What may touch. Lengths in m; an absent contact has empty arrays.
+    """Data of contact. Lengths in m; an absent contact has empty arrays.
 
     stiffness: c Y' depth, N/m. reach: largest contact distance. edges (m, 2). tributary (n,): l_p.
-    node_thickness (n,), edge_thickness (m,). subtract (m, 2): ends counted by another segment.
-    special_*: pairs near a joint or near at rest, by edge (start (m + 1,)): node, weight, distance
-    of contact, subtract. plate_nodes (k,): nodes that may touch a platen. low, high: coordinates
-    of the surfaces of the lower and the upper platen.
+    node_thickness (n,), edge_thickness (m,). subtract (m, 2): 1 for ends that another segment
+    counts. special_*: rules of pairs near a joint or near at rest, by edge (start (m + 1,)): node,
+    weight, contact distance, subtract. plate_nodes (k,): nodes that may touch a platen. low, high:
+    coordinates of the surfaces of the lower and the upper platen.
     """
 
     stiffness: float
@@ -65,11 +66,11 @@ def _law(contact, weight, d_contact, d):
 
 
 class Touching(NamedTuple):
-    """The contacts at one position, the first ``count`` (1,): what `meet` has found there.
+    """Active contacts at one position, filled by `detect`: the first ``count`` (1,) entries.
 
-    pair (n,): number of the pair in `Pairs`. tau (n,): place on its segment. end (n,): 0 or 1 where
-    this is the contribution of a vertex that another segment counts too, -1 else. weight (n,):
-    length of contact, m, negative where the contribution is taken off. distance (n,): m.
+    pair (n,): number of the pair in `Pairs`. tau (n,): position on its segment, 0 .. 1. end (n,): 0
+    or 1 for the subtracted contribution of a vertex that another segment counts too, else -1.
+    weight (n,): contact length, m, negative if subtracted. distance (n,): m.
     """
 
     pair: np.ndarray
@@ -82,16 +83,17 @@ class Touching(NamedTuple):
 
 @jit_owning
 def no_contacts(pairs):
-    """Return no contacts, with room for those of all pairs: three each."""
-    most = 3 * pairs.node.size
+    """Return an empty `Touching` with room for three contacts of each pair."""
+    far = 3 * pairs.node.size
     return Touching(
-        np.empty(most, np.int64), np.empty(most), np.empty(most, np.int64), np.empty(most),
-        np.empty(most), np.zeros(1, np.int64),
+        np.empty(far, np.int64), np.empty(far), np.empty(far, np.int64), np.empty(far),
+        np.empty(far), np.zeros(1, np.int64),
     )  # fmt: skip
 
 
 @jit
-def _note(touching, k, tau, end, weight, distance):
+def _append(touching, k, tau, end, weight, distance):
+    """Append a contact of pair ``k``."""
     n = touching.count[0]
     touching.pair[n], touching.tau[n], touching.end[n] = k, tau, end
     touching.weight[n], touching.distance[n] = weight, distance
@@ -99,11 +101,11 @@ def _note(touching, k, tau, end, weight, distance):
 
 
 @jit
-def meet(x, contact, pairs, drift, touching):
-    """Fill ``touching`` with all contacts at ``x``; return whether all distances are positive.
+def detect(x, contact, pairs, drift, touching):
+    """Fill ``touching`` with all active contacts at ``x``; return whether distances are positive.
 
-    ``drift``: farthest move in m of a node since the pairs were listed. A vertex that is the
-    closest point and is taken off again contributes nothing.
+    drift: longest move of a node since the pairs were listed, m. A contribution of a vertex that is
+    the closest point and is subtracted again is left out.
     """
     touching.count[0], apart = 0, True
     for k in range(within(pairs, contact.reach + 2.0 * drift)):
@@ -115,19 +117,19 @@ def meet(x, contact, pairs, drift, touching):
         _, _, d = normal(x, p, a, b, tau)
         if d >= dc:
             continue
-        if d == 0.0:  # at a vertex what is taken off is infinite too
+        if d == 0.0:  # at a vertex the subtracted contribution is infinite too
             apart = False
             continue
         length, first, second = counted(pairs, k, contact)
         nearest = -1 if inside else (0 if tau == 0.0 else 1)
         if nearest < 0 or (first, second)[nearest] == 0.0:
             nearest = -1
-            _note(touching, k, tau, -1, 0.5 * length, d)
-        for end, v, elsewhere in ((0, a, first), (1, b, second)):
-            if elsewhere != 0.0 and end != nearest:
+            _append(touching, k, tau, -1, 0.5 * length, d)
+        for end, v, subtracted in ((0, a, first), (1, b, second)):
+            if subtracted != 0.0 and end != nearest:
                 _, _, d = direction(x, v, p)
                 if d < dc:
-                    _note(touching, k, float(end), end, -0.5 * length, d)
+                    _append(touching, k, float(end), end, -0.5 * length, d)
     return apart
 
 
@@ -140,12 +142,12 @@ def _segment_distance(x, p, a, b):
 
 @jit
 def evaluate(x, contact, pairs, drift, touching, g):
-    """Return E_c in J, infinite where anything touches at distance zero; add dE_c/dx to ``g``.
+    """Return E_c in J, infinite at a distance of zero; add dE_c/dx to ``g`` (n,).
 
-    The contacts are noted in ``touching``. ``drift``: as in `meet`.
+    Fill ``touching``. drift: as in `detect`.
     """
     total = _plates(x, contact, g)
-    if not meet(x, contact, pairs, drift, touching):
+    if not detect(x, contact, pairs, drift, touching):
         return np.inf
     for n in range(touching.count[0]):
         k, end = touching.pair[n], touching.end[n]
@@ -162,7 +164,7 @@ def evaluate(x, contact, pairs, drift, touching, g):
 
 @jit
 def hessian(x, contact, pairs, touching, matrix, projected):
-    """Add d2E_c/dx2 of the contacts at ``x``; ``projected`` keeps each pair's convex part."""
+    """Add d2E_c/dx2 at ``x`` of the contacts in ``touching``; projected: without concave parts."""
     _plates_hessian(x, contact, matrix)
     for n in range(touching.count[0]):
         k, end = touching.pair[n], touching.end[n]
@@ -177,7 +179,7 @@ def hessian(x, contact, pairs, touching, matrix, projected):
 
 @jit
 def normal_force(contact, pairs, touching, n):
-    """Return the force of contact ``n`` in N, negative where the contribution is taken off."""
+    """Return the normal force of contact ``n`` in N, negative for a subtracted contribution."""
     d_contact = pairs.d_contact[touching.pair[n]]
     _, slope, _ = _law(contact, touching.weight[n], d_contact, touching.distance[n])
     return -slope
@@ -185,7 +187,7 @@ def normal_force(contact, pairs, touching, n):
 
 @jit
 def plate_force(contact, p, d):
-    """Return the force of a platen at a distance ``d`` (m) from node ``p``, N."""
+    """Return the normal force of a platen on node ``p`` at a distance ``d`` (m), N."""
     d_contact = 0.5 * contact.node_thickness[p]
     if d >= d_contact:
         return 0.0
@@ -195,6 +197,7 @@ def plate_force(contact, p, d):
 
 @jit
 def _plates(x, contact, g):
+    """Return the energy of contact with platens, J; add its gradient to ``g``."""
     total = 0.0
     for p in contact.plate_nodes:
         dc, y = 0.5 * contact.node_thickness[p], x[2 * p + 1]
@@ -210,6 +213,7 @@ def _plates(x, contact, g):
 
 @jit
 def _plates_hessian(x, contact, matrix):
+    """Add the Hessian of contact with platens, which is positive semi-definite."""
     for p in contact.plate_nodes:
         dc, y = 0.5 * contact.node_thickness[p], x[2 * p + 1]
         for plate, side in ((contact.low, 1.0), (contact.high, -1.0)):
@@ -222,13 +226,13 @@ def _plates_hessian(x, contact, matrix):
 
 
 @jit_exact
-def step_limit(x, dx, most, contact, pairs, drift):
-    """Return the first share of the step ``dx`` at which a node meets a segment or a platen.
+def step_limit(x, dx, far, contact, pairs, drift):
+    """Return the first share of the move ``dx`` at which a node meets a segment or a platen.
 
-    ``most``: farthest move in m of a node in the step.
+    far: longest move of a node in ``dx``, m. drift: as in `detect`.
     """
     first = np.inf
-    for k in range(within(pairs, 2.0 * (drift + most))):
+    for k in range(within(pairs, 2.0 * (drift + far))):
         a, b = pair(contact.edges, pairs.edge[k])
         first = min(first, ccd.first_contact(x, dx, pairs.node[k], a, b))
     for p in contact.plate_nodes:
@@ -241,11 +245,11 @@ def step_limit(x, dx, most, contact, pairs, drift):
 
 @jit_exact
 def least_gap(x, contact, pairs, drift):
-    """Return the smallest distance in m between lines that may touch, over the pairs in reach."""
+    """Return the smallest distance in m between centre lines that may touch; drift: `detect`."""
     least = np.inf
     for k in range(pairs.node.size):
         if pairs.distance[k] - 2.0 * drift >= least:
-            break  # all others are farther away
+            break  # pairs are listed by ascending distance
         if pairs.d_contact[k] > 0.0:
             a, b = pair(contact.edges, pairs.edge[k])
             least = min(least, _segment_distance(x, pairs.node[k], a, b))

@@ -1,8 +1,8 @@
-"""Joints are not contacts: weights of the node-segment pairs that are near along the network.
+"""Contact rules of node-segment pairs near joints, where walls touch without being in contact.
 
 A pair is weighted by the part of the node's tributary length that is farther than 1.5 t along the
-network from the segment; a pair nearer than t at rest touches at 0.9 x its rest distance, so that
-the rest state is free of stress. Run once for a scene.
+network from the segment, t the mean thickness. Contact of a pair nearer than t at rest starts at
+0.9 x its rest distance, so that the rest state is free of stress. Evaluated once for a scene.
 """
 
 from typing import NamedTuple
@@ -16,11 +16,11 @@ from kernels.geometry.near_pairs import near
 
 RADIUS = 1.5  # times the mean thickness, along the network
 REST_SHARE = 0.9
-UNLISTED = -1.0
+UNLISTED = -1.0  # weight of an edge without a rule
 
 
 class Graph(NamedTuple):
-    """Edges (m, 2) with their lengths l0 (m,), m; those at node p, ascending, are
+    """The network: edges (m, 2) of lengths l0 (m,), m. The edges at node p, ascending, are
     incident[start[p]:start[p + 1]].
     """
 
@@ -31,7 +31,7 @@ class Graph(NamedTuple):
 
 
 class Reduced(NamedTuple):
-    """Pairs of reduced weight, the first ``count`` (1,), in the order in which they were found."""
+    """Pairs of reduced weight (contact length, m): the first ``count`` (1,) entries."""
 
     node: np.ndarray
     edge: np.ndarray
@@ -40,8 +40,10 @@ class Reduced(NamedTuple):
 
 
 class Rules(NamedTuple):
-    """Rules of edge e: start[e] .. start[e + 1]. node, weight (m: length of contact), distance (m:
-    where contact starts) (s,); subtract (s, 2): as in `near_pairs.counted`.
+    """Rules of pairs; those of edge e are start[e] .. start[e + 1].
+
+    node, weight (contact length, m), distance (at which contact starts, m) (s,); subtract (s, 2):
+    as in `near_pairs.counted`.
     """
 
     start: np.ndarray
@@ -73,30 +75,30 @@ def owners(n_nodes, edges):
 
 
 @jit_exact
-def _spread(e, radius, graph, far, reached, queue, waiting):
-    """Fill ``far`` with distances along the network from edge ``e``, up to ``radius``.
+def _network_distances(e, radius, graph, distance, reached, queue, queued):
+    """Fill ``distance`` (n,) with distances along the network from edge ``e``, up to ``radius``.
 
-    Return how many nodes were ``reached``; ``far`` is infinite elsewhere. A node may enter the
-    queue (n,) again when a shorter path is found, but is there once at a time: it cannot overflow.
+    Return the number of nodes ``reached``; ``distance`` is infinite elsewhere. Shortest paths by
+    label correction. A node is in the queue (n,) at most once at a time, which cannot overflow.
     """
     reached[0], reached[1] = pair(graph.edges, e)
     queue[0], queue[1] = reached[0], reached[1]
-    far[reached[0]] = far[reached[1]] = 0.0
+    distance[reached[0]] = distance[reached[1]] = 0.0
     head, tail, count = 0, 2, 2
     while head < tail:
         p = queue[head % queue.size]
-        head, waiting[p] = head + 1, False
+        head, queued[p] = head + 1, False
         for q in range(graph.start[p], graph.start[p + 1]):
             k = graph.incident[q]
             other = graph.edges[k, 0] + graph.edges[k, 1] - p
-            through = far[p] + graph.l0[k]
-            if through < far[other] and through <= radius:
-                if far[other] == np.inf:
+            through = distance[p] + graph.l0[k]
+            if through < distance[other] and through <= radius:
+                if distance[other] == np.inf:
                     reached[count] = other
                     count += 1
-                far[other] = through
-                if not waiting[other]:
-                    queue[tail % queue.size], waiting[other] = other, True
+                distance[other] = through
+                if not queued[other]:
+                    queue[tail % queue.size], queued[other] = other, True
                     tail += 1
     return count
 
@@ -105,8 +107,8 @@ def _spread(e, radius, graph, far, reached, queue, waiting):
 def _half_weight(near_end, far_end, h, radius):
     """Return the length of a half element (h / 2) that is farther than ``radius`` from a segment.
 
-    near_end, far_end: distances along the network of its two ends from the segment; a point s from
-    the near end is min(near_end + s, far_end + h - s) away.
+    near_end, far_end: distances of the two ends of the element from the segment along the network;
+    that of a point s from the near end is min(near_end + s, far_end + h - s).
     """
     low = max(0.0, radius - near_end)
     high = min(0.5 * h, h + far_end - radius)
@@ -114,51 +116,61 @@ def _half_weight(near_end, far_end, h, radius):
 
 
 @jit_exact
-def _weight(p, e, radius, far, graph):
-    """Return the contact length of node ``p`` against edge ``e``, given distances from it."""
+def _weight(p, e, radius, distance, graph):
+    """Return the contact length of node ``p`` against edge ``e``, given distances from ``e``."""
     total = 0.0
     for q in range(graph.start[p], graph.start[p + 1]):
         k = graph.incident[q]
         if k != e:
             other = graph.edges[k, 0] + graph.edges[k, 1] - p
-            total += _half_weight(far[p], far[other], graph.l0[k], radius)
+            total += _half_weight(distance[p], distance[other], graph.l0[k], radius)
     return total
 
 
 @jit_exact
-def _reduce(graph, node_thickness, edge_thickness, tributary, far, reached, queue, waiting, found):
-    """Write the pairs whose weight the network reduces to ``found``, so far as there is room."""
+def _reduce(
+    graph, node_thickness, edge_thickness, tributary, distance, reached, queue, queued, found
+):
+    """Write the pairs of reduced weight to ``found`` as far as there is room; count all."""
     thickest, longest, count = greatest(node_thickness), greatest(graph.l0), 0
     for e in range(graph.edges.shape[0]):
         widest = RADIUS * 0.5 * (edge_thickness[e] + thickest) + longest
-        n_reached = _spread(e, widest, graph, far, reached, queue, waiting)
+        n_reached = _network_distances(e, widest, graph, distance, reached, queue, queued)
         for i in range(2, n_reached):
             p = reached[i]
             radius = RADIUS * 0.5 * (edge_thickness[e] + node_thickness[p])
-            weight = _weight(p, e, radius, far, graph)
+            weight = _weight(p, e, radius, distance, graph)
             if weight < (1.0 - 1e-12) * tributary[p]:
                 if count < found.node.size:
                     found.node[count], found.edge[count] = p, e
                     found.weight[count] = weight if weight > 1e-9 * tributary[p] else 0.0
                 count += 1
         for i in range(n_reached):
-            far[reached[i]] = np.inf
+            distance[reached[i]] = np.inf
     found.count[0] = count
 
 
 @jit_owning
 def _reduced(graph, node_thickness, edge_thickness, tributary):
-    """Return the pairs whose weight the network reduces."""
+    """Return the pairs of reduced weight."""
     n = tributary.size
-    far, reached = np.full(n, np.inf), np.empty(n, np.int64)
-    queue, waiting, size = np.empty(n, np.int64), np.zeros(n, np.bool_), 8 * n
+    distance, reached = np.full(n, np.inf), np.empty(n, np.int64)
+    queue, queued, size = np.empty(n, np.int64), np.zeros(n, np.bool_), 8 * n
     while True:
         found = Reduced(
             np.empty(size, np.int64), np.empty(size, np.int64), np.empty(size),
             np.zeros(1, np.int64),
         )  # fmt: skip
         _reduce(
-            graph, node_thickness, edge_thickness, tributary, far, reached, queue, waiting, found
+            graph,
+            node_thickness,
+            edge_thickness,
+            tributary,
+            distance,
+            reached,
+            queue,
+            queued,
+            found,
         )
         size = found.count[0]
         if size <= found.node.size:
@@ -166,8 +178,8 @@ def _reduced(graph, node_thickness, edge_thickness, tributary):
 
 
 @jit_exact
-def _list(k, value, weight, listed, count):
-    """List edge ``k`` with contact length ``value``, unless it is listed already."""
+def _append(k, value, weight, listed, count):
+    """Append edge ``k`` with contact length ``value`` unless it is listed; return the count."""
     if weight[k] == UNLISTED:
         weight[k] = value
         listed[count] = k
@@ -176,42 +188,41 @@ def _list(k, value, weight, listed, count):
 
 
 @jit_exact
-def _entries(p, graph, tributary, reduced, close, weight, listed):
+def _entries(p, graph, tributary, reduced, near_pairs, weight, listed):
     """List the edges with rules for node ``p``; return their number.
 
-    Beside those that are near, along the network or across, all that share a vertex with one.
+    They are near along the network or across it, or share a vertex with such an edge.
     """
     count = 0
-    for start, order, edge, value in reduced, close:
+    for start, order, edge, value in reduced, near_pairs:
         for q in range(start[p], start[p + 1]):
-            count = _list(edge[order[q]], value[order[q]], weight, listed, count)
+            count = _append(edge[order[q]], value[order[q]], weight, listed, count)
     for i in range(count):
         for v in graph.edges[listed[i]]:
             for q in range(graph.start[v], graph.start[v + 1]):
                 k = graph.incident[q]
                 if graph.edges[k, 0] != p and graph.edges[k, 1] != p:
-                    count = _list(k, tributary[p], weight, listed, count)
+                    count = _append(k, tributary[p], weight, listed, count)
     return count
 
 
 @jit_exact
 def _is_counted(p, e, v, graph, weight):
-    """Return whether vertex ``v`` of edge ``e`` counts with another: the heaviest one keeps it."""
+    """Return whether another edge counts vertex ``v`` of edge ``e``: that of the largest weight."""
     for q in range(graph.start[v], graph.start[v + 1]):
         k = graph.incident[q]
         if k != e and weight[k] != UNLISTED:
             if weight[k] > weight[e] or (weight[k] == weight[e] and k < e):
                 return True
-    first = graph.incident[graph.start[v]]  # which keeps it where no rule is
+    first = graph.incident[graph.start[v]]  # counts the vertex if no edge has a rule
     return weight[first] == UNLISTED and graph.edges[first, 0] != p and graph.edges[first, 1] != p
 
 
 @jit_owning
 def special_pairs(x, edges, l0, node_thickness, edge_thickness, tributary):
-    """Return the `Rules` of all pairs that have their own.
+    """Return the `Rules` of all pairs of reduced weight or distance.
 
-    Every segment that shares a vertex with a pair of reduced weight or distance is listed too, so
-    that vertices are counted once.
+    Every segment that shares a vertex with such a pair has a rule too, so that vertices count once.
     """
     n, m = tributary.size, edges.shape[0]
     start, incident = incidence(n, edges)
@@ -224,11 +235,11 @@ def special_pairs(x, edges, l0, node_thickness, edge_thickness, tributary):
     for k in range(node.size):
         length[k] = tributary[node[k]]
     start, order = grouped(node, n)
-    close = start, order, edge, length
+    near_pairs = start, order, edge, length
     weight, listed = np.full(m, UNLISTED), np.empty(m, np.int64)
     first = np.zeros(m + 1, np.int64)
     for p in range(n):
-        for i in range(_entries(p, graph, tributary, reduced, close, weight, listed)):
+        for i in range(_entries(p, graph, tributary, reduced, near_pairs, weight, listed)):
             first[listed[i] + 1] += 1
             weight[listed[i]] = UNLISTED
     for e in range(m):
@@ -238,7 +249,7 @@ def special_pairs(x, edges, l0, node_thickness, edge_thickness, tributary):
         first, np.empty(size, np.int64), np.empty(size), np.empty(size), np.empty((size, 2))
     )
     for p in range(n):
-        count = _entries(p, graph, tributary, reduced, close, weight, listed)
+        count = _entries(p, graph, tributary, reduced, near_pairs, weight, listed)
         for i in range(count):
             e, k = listed[i], free[listed[i]]
             free[e] += 1

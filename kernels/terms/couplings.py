@@ -1,4 +1,4 @@
-"""Which nodes may soon share a term of the energy, so that the matrix needs room for them."""
+"""Couplings of nodes that may soon share a term of the energy: room for them in the matrix."""
 
 import numpy as np
 
@@ -6,28 +6,31 @@ from kernels.arrays import pair, triple
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.terms import fold
 
-LIKELY = 0.2  # of its contact distance: a pair that much farther away gets room; more fills the
-# matrix, less has it analysed anew more often
+MARGIN = 0.2  # of the contact distance, within which a pair gets room before it touches: a larger
+# one fills the matrix, a smaller one has it analysed more often
 
 
 @jit_exact
 def _couple(nodes, n, a, b, c):
-    """Write the ``n``-th three nodes; return the next number."""
+    """Write a triple of nodes at row ``n``; return the next row."""
     nodes[n, 0], nodes[n, 1], nodes[n, 2] = a, b, c
     return n + 1
 
 
 @jit_owning
-def couplings(x, scene, found, lagged_contacts):
-    """Return (c, 3) nodes of what may soon share a term: contacts, lagged ones, springs, folds."""
-    layout, reach = scene.layout, 1.0 + LIKELY
-    most = found.node.size + lagged_contacts.count[0] + scene.fold.limit.size
-    most += scene.contact.plate_nodes.size + scene.spring.l0.size
-    nodes, n = np.empty((most, 3), np.int64), 0
-    for k in range(found.node.size):
-        if found.distance[k] < reach * found.d_contact[k]:
-            a, b = pair(scene.contact.edges, found.edge[k])
-            n = _couple(nodes, n, found.node[k], a, b)
+def couplings(x, scene, pairs, lagged_contacts):
+    """Return the couplings (c, 3) of contacts, lagged contacts, springs and folds.
+
+    A coupling of fewer than three nodes repeats one. The upper platen is node n_nodes.
+    """
+    layout, reach = scene.layout, 1.0 + MARGIN
+    size = pairs.node.size + lagged_contacts.count[0] + scene.fold.limit.size
+    size += scene.contact.plate_nodes.size + scene.spring.l0.size
+    nodes, n = np.empty((size, 3), np.int64), 0
+    for k in range(pairs.node.size):
+        if pairs.distance[k] < reach * pairs.d_contact[k]:
+            a, b = pair(scene.contact.edges, pairs.edge[k])
+            n = _couple(nodes, n, pairs.node[k], a, b)
     for k in range(lagged_contacts.count[0]):
         n = _couple(
             nodes,

@@ -2,8 +2,9 @@
 
     D_mass = alpha / (2 h) |x - y|_M^2;  the others: `rayleigh` and `kelvin_voigt`.
 
-(x - y) / h is the velocity at the end of the step (`integrators`); of backward Euler y = x0, h =
-dt. M is the lattice's: nothing damps the flight of a striker. The force is dD/dx.
+(x - y) / h is the velocity at the end of the step (`solve.integrators`); with backward Euler y = x0
+and h = dt. M is the mass of the lattice alone: the flight of a striker is not damped. The gradient
+is dD/dx.
 """
 
 from typing import NamedTuple
@@ -15,7 +16,7 @@ from kernels.terms import bend, elements, kelvin_voigt, rayleigh, stretch
 
 
 class Damp(NamedTuple):
-    """alpha_m in 1/s, beta_k and relaxation time in s; zero where the scene has none."""
+    """alpha_m in 1/s, beta_k in s, relaxation: tau of `kelvin_voigt` in s; zero: no damping."""
 
     alpha_m: float
     beta_k: float
@@ -23,8 +24,8 @@ class Damp(NamedTuple):
 
 
 class Before(NamedTuple):
-    """The start of a step: the frame of its arms (`bend.aim`), the shape that rates of strain are
-    measured from, and the projected stiffness.
+    """Data of the start of a step: frame of the arms (`bend.aim`), shape from which rates of strain
+    are measured, and projected stiffness K.
     """
 
     frame: np.ndarray
@@ -41,7 +42,7 @@ def _measure(x, terms, frame, shape):
 
 @jit
 def _measure_ahead(x0, terms, before, move, place):
-    """Measure where the step is expected to end, at x0 if walls would be crushed on the way."""
+    """Measure the shape at the expected end of the step, or at x0 if that would crush walls."""
     frame, shape = before.frame, before.shape
     shortest, opened = _measure(x0, terms, frame, shape)
     for i in range(x0.size):
@@ -53,10 +54,9 @@ def _measure_ahead(x0, terms, before, move, place):
 
 @jit
 def prepare(x0, terms, memory, before, ahead, place, past):
-    """Fill ``before`` for a step from ``x0``; what no damping needs is left out.
+    """Fill ``before`` for a step from ``x0``; data that no damping of the scene needs is left out.
 
-    ahead: where rates are measured (`integrators.Ahead`). place (n,), past: scratch, of positions
-    and of a shape.
+    ahead: `integrators.Ahead`. place (n,): scratch positions. past: scratch `Shape`.
     """
     frame, shape, stiffness = before.frame, before.shape, before.stiffness
     bend.aim(x0, terms.walls, terms.bend, frame)
@@ -72,7 +72,7 @@ def prepare(x0, terms, memory, before, ahead, place, past):
     if terms.damp.relaxation > 0.0:
         _measure(x0, terms, frame, shape)
         if ahead.time > 0.0 and ahead.last == 0.0:
-            kelvin_voigt.foresee(terms, ahead.rate, ahead.time, shape)
+            kelvin_voigt.advance(terms, ahead.rate, ahead.time, shape)
         elif ahead.time > 0.0:
             for i in range(x0.size):
                 place[i] = x0[i] - ahead.last * ahead.rate[i]
@@ -82,8 +82,8 @@ def prepare(x0, terms, memory, before, ahead, place, past):
 
 @jit
 def evaluate(u, terms, before, dt, shape, stiffness, projected, g):
-    """Return D in J for a move ``u`` from y in ``dt`` = h; add dD/dx to ``g`` and its walls' part
-    to ``stiffness``. Slopes and moments of ``shape`` start at zero.
+    """Return D in J for a move ``u`` = x - y in ``dt`` = h; add dD/dx to ``g`` and the walls' part
+    of the Hessian to ``stiffness``. Slopes and moments of ``shape`` are zero on entry.
     """
     total = 0.0
     alpha, mass = terms.damp.alpha_m / dt, terms.coordinates.mass

@@ -2,10 +2,10 @@
 
     sigma(e) = c0 + c1 s + c2 s^2 + c3 s^3,   s = e - knot_i,      W(e) = integral_0^e sigma
 
-Beyond either end the last tangent continues. `ElasticCurve` is the nominal stress of a wall over
-its nominal strain; below ``GUARD`` a C2 barrier rises to infinity at e = -1, so that no element can
-be crushed to nothing or turned over. `MomentCurve` is the moment of a section over the strain of
-its surface, an odd function, both divided so that a linear material has slope 1.
+Beyond either end the curve continues along its tangent. `ElasticCurve` is the nominal stress of a
+wall over its nominal strain; below ``GUARD`` a C2 barrier is added that is infinite at e = -1, so
+that no element vanishes or turns over. `MomentCurve` is the moment of a section over the strain at
+its surface, an odd function, normalised to slope 1 for a linear material.
 """
 
 import math
@@ -21,7 +21,7 @@ GUARD = -0.7
 
 @jit
 def _piece(knots, strain):
-    """Return the index of the cubic that holds ``strain`` (beyond the ends: the last one there)."""
+    """Return the index of the cubic at ``strain``; beyond the ends, of the first or last one."""
     low, high = 0, knots.size - 1
     while high - low > 1:
         middle = (low + high) // 2
@@ -75,7 +75,7 @@ def remembers(law):
 
 @jit
 def commit(law, strain, memory, point):
-    """Return what is stored and what is dissipated: nothing."""
+    """Return the stored energy at ``strain`` and no dissipation, J/m^3."""
     return law.respond(strain, memory, point)[0], 0.0
 
 

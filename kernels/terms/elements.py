@@ -1,8 +1,8 @@
-"""Walls as chains of straight elements, and energies written in the elements' own vectors.
+"""Walls as chains of straight elements, and derivatives of energies in the element vectors.
 
-Element k runs along e_k = l t; n is t turned by a quarter, anticlockwise. Stretching and bending of
-a wall depend on the vectors of its elements and the rotations phi of its two joints only, and a
-hinge couples neighbours alone:
+Element k has the vector e_k = l t; n is t rotated by 90 degrees anticlockwise. Stretching and
+bending of a wall depend only on the vectors of its elements and the rotations phi of its two
+joints, and a hinge couples neighbouring elements only:
 
     slope_k = dE/de_k    own_k = d2E/de_k de_k    next_k = d2E/de_k de_{k+1}
     moment_a = -dE/dphi_a    arm_a = (d2E/dphi_a de, d2E/dphi_a dphi_a)    twist = d2E/dphi_a dphi_b
@@ -17,10 +17,10 @@ from kernels.compile.jit import jit
 
 
 class Walls(NamedTuple):
-    """Topology. Elements of wall w: start[w] .. start[w + 1], one after the other.
+    """Topology. The elements of wall w, in their order along it, are start[w] .. start[w + 1].
 
-    edges (m, 2): nodes. start (w + 1,). arm_element, rotation (2 w,): element at each end of each
-    wall, coordinate of the rotation of the joint there.
+    edges (m, 2): nodes. start (w + 1,). arm_element, rotation (2 w,): the element at each end of
+    each wall (its arms 2 w and 2 w + 1), and the coordinate of the rotation of the joint there.
     """
 
     edges: np.ndarray
@@ -30,10 +30,10 @@ class Walls(NamedTuple):
 
 
 class Shape(NamedTuple):
-    """Elements as they lie: t (2, m), length (m,) in m; turns from rest of hinges and arms, rad.
+    """Geometry of the elements, and sums of derivatives over the terms.
 
-    hinge_turn (m,): between an element and the next. arm_turn (2 w,). slope (2, m) in N and moment
-    (2 w,) in N m add up over the terms.
+    t (2, m), length (m,) in m. Turns from rest in rad: hinge_turn (m,) between an element and the
+    next, arm_turn (2 w,). Sums: slope (2, m) in N, moment (2 w,) in N m.
     """
 
     t: np.ndarray
@@ -45,8 +45,8 @@ class Shape(NamedTuple):
 
 
 class Stiffness(NamedTuple):
-    """Second derivatives: own (3, m) xx, xy, yy; next (4, m) xx, xy, yx, yy; arm (3, 2 w) x, y and
-    phi; twist (w,).
+    """Sums of second derivatives: own (3, m) xx, xy, yy; next (4, m) xx, xy, yx, yy; arm (3, 2 w)
+    x, y and phi; twist (w,).
     """
 
     own: np.ndarray
@@ -72,7 +72,7 @@ def measure(x, walls, shape):
 
 @jit
 def clear(shape, stiffness):
-    """Start the sums over the terms at zero."""
+    """Set the sums over the terms to zero."""
     zero_rows(shape.slope)
     zero(shape.moment)
     zero_rows(stiffness.own)
@@ -83,7 +83,10 @@ def clear(shape, stiffness):
 
 @jit
 def stretch(shape, stiffness, k, tension, along, across):
-    """Add an energy of the length of element ``k``: tension t, along t t + across n n."""
+    """Add an energy of the length of element ``k``.
+
+    slope: tension t. own: along t t + across n n.
+    """
     tx, ty = shape.t[0, k], shape.t[1, k]
     shape.slope[0, k] += tension * tx
     shape.slope[1, k] += tension * ty
@@ -94,7 +97,7 @@ def stretch(shape, stiffness, k, tension, along, across):
 
 @jit
 def turn(shape, stiffness, k, moment, rigidity, bent):
-    """Add an energy of the direction of element ``k``, with slope ``moment`` in its bearing.
+    """Add an energy of the bearing of element ``k``, whose derivative in the bearing is ``moment``.
 
     slope: moment n / l. own: rigidity n n / l^2 - bent (t n + n t) / l^2.
     """
@@ -147,7 +150,7 @@ def couple_arms(shape, stiffness, walls, w, rigidity):
 
 @jit
 def gather(walls, shape, g):
-    """Add the sums to the gradient ``g`` by coordinate."""
+    """Add the sums to the gradient ``g`` (n,) by coordinate."""
     for k in range(shape.length.size):
         i, j = 2 * walls.edges[k, 0], 2 * walls.edges[k, 1]
         g[i] -= shape.slope[0, k]
@@ -160,7 +163,7 @@ def gather(walls, shape, g):
 
 @jit
 def product(walls, stiffness, u, factor, shape):
-    """Add ``factor`` K u to slopes and moments for a motion ``u`` (n,); return u . K u."""
+    """Add ``factor`` K u to slopes and moments for a move ``u`` (n,); return u . K u."""
     own, following, arm, total = stiffness.own, stiffness.next, stiffness.arm, 0.0
     for w in range(walls.start.size - 1):
         px, py = 0.0, 0.0

@@ -1,4 +1,4 @@
-"""Fold barrier at joints: two neighbouring arms never close onto one another.
+"""Fold barrier at joints: keeps two neighbouring arms from closing onto each other.
 
 For every opening g between arms that are adjacent round a joint (rest opening g0):
 
@@ -20,7 +20,7 @@ from kernels.terms.barrier import barrier
 
 
 class Fold(NamedTuple):
-    """Openings: nodes (f, 3), counted anticlockwise from arm 1-0 to arm 1-2.
+    """Openings: nodes (f, 3); the angle is anticlockwise from arm 1-0 to arm 1-2.
 
     limit (f,): g_f in rad. stiffness (f,): K (g0 / 2)^2 in N m.
     """
@@ -40,7 +40,7 @@ def _cross_dot(x, a, b, c):
 
 @jit
 def opening(x, fold, k):
-    """Return the opening g up to 45 degrees, which is beyond any limit, and 45 degrees above."""
+    """Return min(g, 45 degrees) in rad; every limit is below 45 degrees."""
     a, b, c = triple(fold.nodes, k)
     cross, dot = _cross_dot(x, a, b, c)
     if cross < 0.0 or dot <= cross:
@@ -50,7 +50,7 @@ def opening(x, fold, k):
 
 @jit
 def _bearing_slope(x, b, c):
-    """Return d arg(c - b) / dc, two numbers in 1/m (minus the same with respect to b)."""
+    """Return d arg(c - b) / dc in 1/m, x and y; the derivative in b is its negative."""
     vx, vy = x[2 * c] - x[2 * b], x[2 * c + 1] - x[2 * b + 1]
     r2 = vx * vx + vy * vy
     return -vy / r2, vx / r2
@@ -81,13 +81,14 @@ def evaluate(x, fold, g):
 
 @jit
 def _outer(matrix, i, j, weight, px, py, qx, qy):
+    """Add weight p q^T to the block of nodes ``i`` and ``j``."""
     i, j = 2 * i, 2 * j
     add_block(matrix, i, j, weight * px * qx, weight * px * qy, weight * py * qx, weight * py * qy)
 
 
 @jit
 def _curl(matrix, b, c, moment, qx, qy):
-    """Add moment * d2 arg(c - b); (qx, qy) is `_bearing_slope`, whose products are its entries."""
+    """Add moment * d2 arg(c - b), whose entries are products of q = (qx, qy), `_bearing_slope`."""
     xx, xy = -2.0 * moment * qx * qy, moment * (qx * qx - qy * qy)
     add_block(matrix, 2 * c, 2 * c, xx, xy, xy, -xx)
     add_block(matrix, 2 * b, 2 * b, xx, xy, xy, -xx)
@@ -96,7 +97,7 @@ def _curl(matrix, b, c, moment, qx, qy):
 
 @jit
 def hessian(x, fold, matrix, projected):
-    """Add d2E_f/dx2; ``projected`` drops the curvature of the angle."""
+    """Add d2E_f/dx2; projected: without the second derivatives of the angle."""
     for k in range(fold.limit.size):
         opened = opening(x, fold, k)
         if opened < fold.limit[k]:

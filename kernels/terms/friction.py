@@ -2,20 +2,21 @@
 
     D_f = sum mu lambda f(u),   f(u) = |u|^2/eps - |u|^3/(3 eps^2) + eps/3 for |u| < eps, else |u|
 
-u is the tangential slip since y (`integrators`), lambda the normal force of a pair at the last
-iterate of a fixed-point loop (Li et al. 2020, eq. 16). Walls have a thickness, so that two walls
-which turn together do not slip: with T the tangent, d the distance and w the rotation of the
-segment,
+u is the tangential slip since y (`solve.integrators`), lambda the normal force of a pair at the
+last iterate of the fixed-point loop (Li et al. 2020, eq. 16). Walls have a thickness, so that two
+walls that rotate together do not slip: with the tangent T, the distance d, the moves dp of the node
+and dc of the closest point, and the rotation w of the segment,
 
     u = T . (dp - dc) - d w,    linear in the moves of p, a, b; `LaggedContacts` keeps the slopes.
 
-A share that the contact sum counts twice is taken off here with a negative force, so that friction
-sees the same normal force as contact.
+Contributions that the contact sum subtracts have a negative normal force here too, so that friction
+and contact have the same normal forces.
 
-f'' is nothing but a spike at u = 0, which Newton's method leaps over, to and fro. So f' is an
-unknown of its own, the dual w: with f' = u / psi(u), what is linearised is psi(u) w = u, and
-(1 - w psi') / psi stands for f'', which it is as soon as w = f' (Chan, Golub & Mulet 1999, SIAM J.
-Sci. Comput. 20, 1964). A contact whose slip changes its sign is held, as w knows the old one.
+f'' is a spike at u = 0, over which Newton's method oscillates. A primal-dual method avoids this:
+the dual w = f' is an unknown, and with f' = u / psi(u) the linearised equation is psi(u) w = u. In
+the Hessian (1 - w psi') / psi replaces f'' and equals it where w = f' (Chan, Golub & Mulet 1999,
+SIAM J. Sci. Comput. 20, 1964). When the slip of a contact changes its sign, w still has the old
+sign, which makes the contact stick.
 """
 
 from typing import NamedTuple
@@ -27,16 +28,16 @@ from kernels.compile.jit import jit, jit_exact, jit_owning
 from kernels.geometry import near_pairs
 from kernels.geometry.distance import direction, normal
 from kernels.linear.block_matrix import add_block
-from kernels.terms.contact import Touching, meet, normal_force, plate_force
+from kernels.terms.contact import Touching, detect, normal_force, plate_force
 from kernels.terms.contact import no_contacts as none_touching
 
-UNKNOWN = 2.0  # as a dual
-FIT = 0.1  # of the load: a dual that is farther off is not what it should be
+UNKNOWN = 2.0  # dual that is not set; a dual is within -1 .. 1
+DUAL_TOLERANCE = 0.1  # largest |w - f'| at which the factor may be reused
 
 
 class Friction(NamedTuple):
-    """mu, and the slip below which friction is smoothed: its speed in m/s, or eps in m of a static
-    step. mu = 0: none.
+    """mu: coefficient, 0 without friction. slip: eps of a static step in m; eps / h in m/s of a
+    dynamic one.
     """
 
     mu: float
@@ -44,11 +45,11 @@ class Friction(NamedTuple):
 
 
 class LaggedContacts(NamedTuple):
-    """Lagged contacts: nodes (n, 3) p, a, b; slopes (n, 3, 2) of the slip in them; load (n,).
+    """Lagged contacts, the first ``count`` (1,) entries.
 
-    load is mu * lambda in N. A rigid platen does not move sideways: a = b = p with slope zero.
-    dual (n,): w so far, or `UNKNOWN`, then f'. count (1,): how many there are, with room for more.
-    touching: the contacts that they were taken from.
+    nodes (n, 3): p, a, b. slopes (n, 3, 2): derivatives of the slip in their moves. load (n,): mu
+    lambda, N. dual (n,): w; `UNKNOWN` stands for f'. A rigid platen does not move sideways: a = b =
+    p with slope zero. touching: scratch for the contacts.
     """
 
     nodes: np.ndarray
@@ -61,20 +62,20 @@ class LaggedContacts(NamedTuple):
 
 @jit_owning
 def no_contacts(pairs, contact, friction):
-    """Return no lagged contacts, with room for all pairs and platens in contact."""
+    """Return an empty `LaggedContacts`, with room for all pairs if there is friction."""
     if friction.mu == 0.0:
         return none()
-    most = 3 * pairs.node.size + 2 * contact.plate_nodes.size
-    nodes, slopes = np.empty((most, 3), np.int64), np.empty((most, 3, 2))
+    size = 3 * pairs.node.size + 2 * contact.plate_nodes.size
+    nodes, slopes = np.empty((size, 3), np.int64), np.empty((size, 3, 2))
     count = np.zeros(1, np.int64)
     return LaggedContacts(
-        nodes, slopes, np.empty(most), np.empty(most), count, none_touching(pairs)
+        nodes, slopes, np.empty(size), np.empty(size), count, none_touching(pairs)
     )
 
 
 @jit_owning
 def none():
-    """Return no lagged contacts, and room for none."""
+    """Return an empty `LaggedContacts` without room."""
     nodes, slopes = np.empty((0, 3), np.int64), np.empty((0, 3, 2))
     count = np.zeros(1, np.int64)
     return LaggedContacts(
@@ -83,8 +84,8 @@ def none():
 
 
 @jit_owning
-def moved(lagged_contacts, larger):
-    """Return ``larger`` with what is in ``lagged_contacts``."""
+def enlarged(lagged_contacts, larger):
+    """Copy the contacts of ``lagged_contacts`` to ``larger``; return ``larger``."""
     larger.count[0] = min(lagged_contacts.count[0], larger.load.size)
     for n in range(larger.count[0]):
         larger.load[n], larger.dual[n] = lagged_contacts.load[n], lagged_contacts.dual[n]
@@ -96,7 +97,8 @@ def moved(lagged_contacts, larger):
 
 
 @jit_exact
-def _put(lagged_contacts, n, nodes, load):
+def _append(lagged_contacts, n, nodes, load):
+    """Write contact ``n`` with zero slopes; return the new count."""
     lagged_contacts.nodes[n, 0], lagged_contacts.nodes[n, 1], lagged_contacts.nodes[n, 2] = nodes
     lagged_contacts.load[n], lagged_contacts.dual[n] = load, UNKNOWN
     for v in range(3):
@@ -106,12 +108,12 @@ def _put(lagged_contacts, n, nodes, load):
 
 @jit_exact
 def _lag_segment(x, lagged_contacts, n, nodes, tau, load):
-    """Add the contact of node p with the point ``tau`` of segment a-b; return the new count."""
+    """Append the contact of node p with the point ``tau`` of segment a-b; return the new count."""
     p, a, b = nodes
     nx, ny, d = normal(x, p, a, b, tau)
     ux, uy, length = direction(x, a, b)
     rx, ry = -d * uy / length, d * ux / length
-    _put(lagged_contacts, n, nodes, load)
+    _append(lagged_contacts, n, nodes, load)
     lagged_contacts.slopes[n, 0, 0], lagged_contacts.slopes[n, 0, 1] = -ny, nx
     lagged_contacts.slopes[n, 1, 0] = rx + (1.0 - tau) * ny
     lagged_contacts.slopes[n, 1, 1] = ry - (1.0 - tau) * nx
@@ -121,11 +123,11 @@ def _lag_segment(x, lagged_contacts, n, nodes, tau, load):
 
 @jit_exact
 def lag(x, contact, pairs, drift, friction, lagged_contacts):
-    """Fill ``lagged_contacts`` with all pairs in contact at ``x``. drift: as in `contact.meet`."""
+    """Fill ``lagged_contacts`` with all contacts at ``x``. drift: as in `contact.detect`."""
     n, lagged_contacts.count[0], touching = 0, 0, lagged_contacts.touching
     if friction.mu == 0.0:
         return
-    meet(x, contact, pairs, drift, touching)
+    detect(x, contact, pairs, drift, touching)
     for i in range(touching.count[0]):
         k = touching.pair[i]
         a, b = pair(contact.edges, pairs.edge[k])
@@ -135,7 +137,7 @@ def lag(x, contact, pairs, drift, friction, lagged_contacts):
         for d in (x[2 * p + 1] - x[contact.low], x[contact.high] - x[2 * p + 1]):
             load = friction.mu * plate_force(contact, p, d)
             if load > 0.0:
-                n = _put(lagged_contacts, n, (p, p, p), load)
+                n = _append(lagged_contacts, n, (p, p, p), load)
                 lagged_contacts.slopes[n - 1, 0, 0] = 1.0
     lagged_contacts.count[0] = n
 
@@ -151,8 +153,8 @@ def smooth(u, slip):
 
 
 @jit
-def _stretched(u, slip):
-    """Return psi with f' = u / psi, and psi'."""
+def _psi(u, slip):
+    """Return psi(u), defined by f' = u / psi, and psi'."""
     s, sign = abs(u) / slip, 1.0 if u > 0.0 else -1.0
     if s >= 1.0:
         return abs(u), sign
@@ -161,8 +163,8 @@ def _stretched(u, slip):
 
 @jit
 def curvature(u, w, slip):
-    """Return (1 - w psi') / psi: f'' where the dual ``w`` is f', or is not known."""
-    psi, slope = _stretched(u, slip)
+    """Return (1 - w psi') / psi, which is f'' if the dual ``w`` is f' or `UNKNOWN`."""
+    psi, slope = _psi(u, slip)
     if w == UNKNOWN:
         w = u / psi
     return (1.0 - w * slope) / psi
@@ -170,6 +172,7 @@ def curvature(u, w, slip):
 
 @jit
 def _slip(u, lagged_contacts, k):
+    """Return the slip of contact ``k`` in the move ``u`` (n,), m."""
     total = 0.0
     for v in range(3):
         i = 2 * lagged_contacts.nodes[k, v]
@@ -179,7 +182,7 @@ def _slip(u, lagged_contacts, k):
 
 @jit
 def evaluate(u, lagged_contacts, slip, g):
-    """Return D_f in J for a move ``u`` (n,) from y, zero at rest; add dD_f/dx to ``g``."""
+    """Return D_f in J for a move ``u`` (n,) from y, shifted to 0 at u = 0; add dD_f/dx to ``g``."""
     total = 0.0
     for k in range(lagged_contacts.count[0]):
         value, slope = smooth(_slip(u, lagged_contacts, k), slip)
@@ -193,33 +196,30 @@ def evaluate(u, lagged_contacts, slip, g):
 
 @jit
 def follow(u, dx, share, lagged_contacts, slip):
-    """Take the duals all along a Newton step ``dx`` (n,), ``share`` of which has led to ``u``.
+    """Update the duals in a Newton step ``dx`` (n,), a ``share`` of which has led to ``u``.
 
-    Return whether they are what they should be there, so that `hessian` is the second derivative.
+    Return whether they agree with f' there, so that `hessian` is the second derivative.
     """
-    fit = True
+    agree = True
     for k in range(lagged_contacts.count[0]):
         move, at = _slip(dx, lagged_contacts, k), _slip(u, lagged_contacts, k)
         before = at - share * move
-        w = (
-            before / _stretched(before, slip)[0]
-            + curvature(before, lagged_contacts.dual[k], slip) * move
-        )
+        w = before / _psi(before, slip)[0] + curvature(before, lagged_contacts.dual[k], slip) * move
         lagged_contacts.dual[k] = min(max(w, -1.0), 1.0)
-        fit = fit and abs(lagged_contacts.dual[k] - at / _stretched(at, slip)[0]) < FIT
-    return fit
+        agree = agree and abs(lagged_contacts.dual[k] - at / _psi(at, slip)[0]) < DUAL_TOLERANCE
+    return agree
 
 
 @jit
 def forget(lagged_contacts):
-    """Forget all duals: `hessian` is then the second derivative."""
+    """Reset all duals: `hessian` is then the second derivative."""
     for k in range(lagged_contacts.count[0]):
         lagged_contacts.dual[k] = UNKNOWN
 
 
 @jit
 def hessian(u, lagged_contacts, slip, matrix, projected):
-    """Add d2D_f/dx2, or what stands for it; ``projected``: without shares of negative force."""
+    """Add the primal-dual d2D_f/dx2; projected: without contributions of negative force."""
     for k in range(lagged_contacts.count[0]):
         weight = lagged_contacts.load[k] * curvature(
             _slip(u, lagged_contacts, k), lagged_contacts.dual[k], slip

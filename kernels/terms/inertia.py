@@ -1,13 +1,13 @@
-"""Inertia of a step as a potential: E_i = |x - x~|_M^2 / (2 h^2), lumped masses (`integrators`)."""
+"""Inertia of a step as a potential: E_i = |x - x~|_M^2 / (2 h^2), M lumped."""
 
 from kernels.compile.jit import jit
 
 
 @jit
 def evaluate(x, x_pred, mass, dt, g):
-    """Return E_i in J and add M (x - x~) / dt^2 to ``g``; ``dt``: h.
+    """Return E_i in J; add M (x - x~) / h^2 to ``g`` (n,).
 
-    ``mass`` (n,) in kg by coordinate, zero for rotations.
+    x_pred (n,): x~ of `solve.integrators`. mass (n,): kg, zero for rotations. dt: h, s.
     """
     total = 0.0
     for i in range(mass.size):

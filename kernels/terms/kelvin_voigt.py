@@ -2,8 +2,8 @@
 
     D = rate / 2 [ sum Y A l0 de^2 + sum K dtheta^2 + sum 2 k12 dtheta_1 dtheta_2 ], rate = tau / h
 
-de, dtheta: changes of strain and turn from where rates are measured (`integrators`), of which
-lengths and turns are combined, not places: a rigid motion costs nothing.
+de, dtheta: changes of strain and turn since y (`solve.integrators`). As y is extrapolated in
+lengths and turns instead of positions, a rigid motion dissipates nothing.
 """
 
 from kernels.compile.jit import jit
@@ -56,8 +56,8 @@ def _arms(walls, bend, before, rate, shape, stiffness, projected):
 
 
 @jit
-def foresee(terms, v, time, shape):
-    """Let the lengths and turns of ``shape`` go on for ``time`` at the rates of ``v`` (n,)."""
+def advance(terms, v, time, shape):
+    """Extrapolate lengths and turns of ``shape`` by ``time`` (s) at the velocities ``v`` (n,)."""
     walls, hinges = terms.walls, terms.bend.hinges
     bearing, stretching = shape.slope[0], shape.slope[1]
     for k in range(shape.length.size):
@@ -76,7 +76,7 @@ def foresee(terms, v, time, shape):
 
 @jit
 def extrapolate(shape, past, share):
-    """Let the lengths and turns of ``shape`` go on by a share of what they have changed by."""
+    """Extrapolate lengths and turns of ``shape`` by a ``share`` of their change since ``past``."""
     for k in range(shape.length.size):
         shape.length[k] += share * (shape.length[k] - past.length[k])
         shape.hinge_turn[k] += share * (shape.hinge_turn[k] - past.hinge_turn[k])
@@ -86,7 +86,7 @@ def extrapolate(shape, past, share):
 
 @jit
 def evaluate(terms, before, rate, shape, stiffness, projected):
-    """Return D in J; add its derivatives. ``before``: the shape that rates are measured from."""
+    """Return D in J; add its derivatives. before: the shape at y, from which rates are measured."""
     total = _strain(terms, before, rate, shape, stiffness, projected)
     total += _hinges(terms.bend, before, rate, shape, stiffness, projected)
     return total + _arms(terms.walls, terms.bend, before, rate, shape, stiffness, projected)

@@ -1,16 +1,15 @@
-"""What a material answers at a point: the interface between the terms and the laws.
+"""The interface between the terms and the material laws: the response at a material point.
 
 A *law* is a named tuple of parameters whose class has the verbs of `Law`; a term calls them at each
-of its material points. With the strain e that is minimised over, the state q that was committed
-last and the duration of the step,
+of its material points. A step, which stays a minimisation, needs only
 
     potential W(e; q, duration),   stress dW/de,   tangent d2W/de2
 
-is all that a step needs of it: the step stays a minimisation. For a law without memory W is the
-stored energy. A law with memory minimises over its internal variables itself, so that W is its
-incremental potential: stored energy and what is dissipated in the step. At commit it tells the two
-apart, for the energy book. The curves of `elastic` have no memory; what a law remembers is kept in
-`solve.history.State.memory`, which `planar.steps.commit` renews.
+with the strain e, the state q committed last and the duration of the step. For a law without memory
+W is the stored energy. A law with memory minimises over its internal variables itself, so that W is
+its incremental potential: stored energy plus dissipation of the step. At commit it returns the two
+separately, for the energy book. The curves of `elastic` have no memory. The state of other laws is
+kept in `solve.history.State.memory`, which `planar.steps.commit` updates.
 
 A strain with several components (axial strain and curvature of a section, three of a plate) is a
 tuple, and so is its stress; the tangent is then the upper triangle, row by row.
@@ -22,10 +21,10 @@ import numpy as np
 
 
 class Memory(NamedTuple):
-    """What a law may know beside the strain.
+    """What a response depends on beside the strain.
 
-    committed (p, k): state at each material point when the last step was accepted; no points where
-    nothing remembers. duration: of the step, s.
+    committed (p, k): state of each material point after the last accepted step; p = 0 if no law has
+    memory. duration: of the step, s.
     """
 
     committed: np.ndarray
@@ -44,9 +43,10 @@ class Law(Protocol):
         """Return potential (J/m^3), stress (Pa) and tangent (Pa) at ``strain``."""
 
     def remembers(self):
-        """Return whether there is any state; a constant, so that its commit costs nothing else."""
+        """Return whether the law has a state; a constant, so that a law without pays nothing."""
 
     def commit(self, strain, memory, point):
-        """Accept ``strain``: renew the committed state; return what is stored then and what has
-        been dissipated in the step, J/m^3.
+        """Accept ``strain``: update the committed state.
+
+        Return the stored energy and the dissipation of the step, J/m^3.
         """

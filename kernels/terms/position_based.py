@@ -1,9 +1,10 @@
-"""Contact by position: after a step that knew nothing of contact, what is too near is moved apart.
+"""Position-based contact: after a step without contact, pairs that are too near are moved apart.
 
     x_i -= w_i c grad_i d / sum_j w_j (grad_j d)^2,   c = d - t_c < 0,   w_i = 1 / m_i
 
-for one pair after the other (Gauss-Seidel) until none is closer than the thickness. That keeps the
-momentum but not the energy, and a node that has passed through a wall comes out on the wrong side.
+for one pair after the other (Gauss-Seidel) until none is closer than the thickness. The projection
+conserves momentum but not energy, and a node that has passed through a wall leaves it on the wrong
+side.
 """
 
 from typing import NamedTuple
@@ -14,55 +15,70 @@ from kernels.arrays import pair
 from kernels.compile.jit import jit_exact
 from kernels.geometry.distance import closest, normal
 
-SWEEPS = 100
-APART = 1e-6  # of the distance of contact: a pair that much closer counts as apart
+SWEEPS = 100  # at most
+TOLERANCE = 1e-6  # relative to the contact distance: a pair this much closer counts as apart
 
 
 class Projection(NamedTuple):
-    """What is moved apart. contact: what may touch, absent where another model sees to it.
+    """Data of the projection. contact: pairs that may touch; absent with other contact models.
 
-    ease (n,): 1 / mass by coordinate, 1/kg; 0 where it is held, led or tied to a platen.
+    inverse_mass (n,): w = 1 / mass by coordinate, 1/kg; 0 where it is held, led or tied to a
+    platen.
     """
 
     contact: object
-    ease: np.ndarray
+    inverse_mass: np.ndarray
 
 
 @jit_exact
 def is_absent(projection):
-    """Return whether nothing is ever moved apart."""
+    """Return whether the scene has no projection."""
     return projection.contact.edges.shape[0] + projection.contact.plate_nodes.size == 0
 
 
 @jit_exact
-def _part(x, ease, p, a, b, d_contact):
-    """Move node ``p`` and segment a-b to ``d_contact``; return whether they were closer."""
+def _separate(x, inverse_mass, p, a, b, d_contact):
+    """Move node ``p`` and segment a-b apart to ``d_contact``; return whether they were closer."""
     tau, _ = closest(x, p, a, b)
     nx, ny, d = normal(x, p, a, b, tau)
-    if d == 0.0 or d >= (1.0 - APART) * d_contact:
+    if d == 0.0 or d >= (1.0 - TOLERANCE) * d_contact:
         return False
     near, far = 1.0 - tau, tau
-    give = nx * nx * (ease[2 * p] + near * near * ease[2 * a] + far * far * ease[2 * b])
-    give += (
-        ny * ny * (ease[2 * p + 1] + near * near * ease[2 * a + 1] + far * far * ease[2 * b + 1])
+    weight = (
+        nx
+        * nx
+        * (
+            inverse_mass[2 * p]
+            + near * near * inverse_mass[2 * a]
+            + far * far * inverse_mass[2 * b]
+        )
     )
-    if give == 0.0:
+    weight += (
+        ny
+        * ny
+        * (
+            inverse_mass[2 * p + 1]
+            + near * near * inverse_mass[2 * a + 1]
+            + far * far * inverse_mass[2 * b + 1]
+        )
+    )
+    if weight == 0.0:
         return False
-    push = (d_contact - d) / give
+    push = (d_contact - d) / weight
     for i, share in ((2 * p, 1.0), (2 * a, -near), (2 * b, -far)):
-        x[i] += push * share * nx * ease[i]
-        x[i + 1] += push * share * ny * ease[i + 1]
+        x[i] += push * share * nx * inverse_mass[i]
+        x[i + 1] += push * share * ny * inverse_mass[i + 1]
     return True
 
 
 @jit_exact
-def _off_platens(x, contact, ease):
-    """Move nodes out of the platens, which give way to nothing; return whether any was inside."""
+def _leave_platens(x, contact, inverse_mass):
+    """Move nodes out of the platens, which do not move; return whether any was inside."""
     moved = False
     for p in contact.plate_nodes:
         i, d_contact = 2 * p + 1, 0.5 * contact.node_thickness[p]
         for plate, side in ((contact.low, 1.0), (contact.high, -1.0)):
-            if ease[i] > 0.0 and side * (x[i] - x[plate]) < (1.0 - APART) * d_contact:
+            if inverse_mass[i] > 0.0 and side * (x[i] - x[plate]) < (1.0 - TOLERANCE) * d_contact:
                 x[i] = x[plate] + side * d_contact
                 moved = True
     return moved
@@ -70,19 +86,19 @@ def _off_platens(x, contact, ease):
 
 @jit_exact
 def move_apart(x, projection, pairs):
-    """Move the nodes of ``x`` (n,) until all are apart, `SWEEPS` times at most.
+    """Move the nodes of ``x`` (n,) until all pairs are apart, in at most `SWEEPS` sweeps.
 
     Return whether any has moved.
     """
-    contact, ease, moved = projection.contact, projection.ease, False
+    contact, inverse_mass, moved = projection.contact, projection.inverse_mass, False
     for _ in range(SWEEPS):
-        close = _off_platens(x, contact, ease)
+        moving = _leave_platens(x, contact, inverse_mass)
         for k in range(pairs.node.size):
             if pairs.d_contact[k] > 0.0:
                 a, b = pair(contact.edges, pairs.edge[k])
-                if _part(x, ease, pairs.node[k], a, b, pairs.d_contact[k]):
-                    close = True
-        if not close:
+                if _separate(x, inverse_mass, pairs.node[k], a, b, pairs.d_contact[k]):
+                    moving = True
+        if not moving:
             break
         moved = True
     return moved

@@ -34,7 +34,7 @@ def evaluate(x, spring, g):
 
 @jit
 def hessian(x, spring, matrix, projected):
-    """Add d2E/dx2; ``projected`` leaves out the softening of a spring that is compressed."""
+    """Add d2E/dx2; projected: without the geometric stiffness of a compressed spring."""
     for k in range(spring.l0.size):
         a, b = pair(spring.nodes, k)
         _, _, d = direction(x, a, b)

@@ -11,8 +11,8 @@ from kernels.terms import elements
 class Stretch(NamedTuple):
     """Elements: l0 (m,) rest length in m, area (m,) cross-section in m^2.
 
-    geometric: whether the Hessian has the part across elements; without it, it is that of the
-    tangent modulus alone, and Newton a quasi-Newton.
+    geometric: whether the Hessian has its geometric part, across elements. Without that it is the
+    material tangent alone, and the iteration is a quasi-Newton method.
     """
 
     l0: np.ndarray
@@ -22,10 +22,11 @@ class Stretch(NamedTuple):
 
 @jit
 def evaluate(stretch, law, memory, shape, stiffness, projected):
-    """Return E_s in J; add A sigma along, A sigma' / l0 along and A sigma / l across elements.
+    """Return E_s in J; add its derivatives: the force A sigma along elements, the stiffness
+    A sigma' / l0 along and A sigma / l across them.
 
-    An element is a material point of the ``law``. ``projected`` clips both stiffnesses at zero,
-    which makes every element positive semi-definite.
+    Elements are the material points of the ``law``. projected: both stiffnesses are clipped at
+    zero, which makes every element positive semi-definite.
     """
     total = 0.0
     for k in range(stretch.l0.size):
@@ -42,8 +43,9 @@ def evaluate(stretch, law, memory, shape, stiffness, projected):
 
 @jit
 def commit(stretch, law, memory, shape):
-    """Let the law accept the strains of ``shape``; return how much less than E_s is stored, and
-    what has been dissipated, J.
+    """Commit the strains of ``shape`` to the law.
+
+    Return (released, dissipated) in J: E_s less the stored energy, and the dissipation of the step.
     """
     released, dissipated = 0.0, 0.0
     for k in range(stretch.l0.size):

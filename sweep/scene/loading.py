@@ -97,8 +97,8 @@ def tolerances(case: Case, scene: Scene, stage: march.Stage) -> Tolerance:
         force=allowed,
         decrement=1e-3 * allowed * case.lattice.wall_thickness,
         friction=GRIP * allowed,
-        grip=GRIP * case.solver.tolerance,
+        friction_share=GRIP * case.solver.tolerance,
         noise=ROUND_OFF * force * size,
-        finest=ROUND_OFF * size,
+        resolution=ROUND_OFF * size,
         iterations=case.solver.max_iterations,
     )

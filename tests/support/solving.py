@@ -169,7 +169,7 @@ class Descent(NamedTuple):
 
 
 def descend(
-    case, scene, start, args, target=None, control=RUN, move=None, there=False, **tolerance
+    case, scene, start, args, target=None, control=RUN, move=None, evaluated=False, **tolerance
 ):
     """Minimise from ``start``, moved by ``move``, with the platen at ``target`` (where it is).
 
@@ -178,24 +178,24 @@ def descend(
     x, space = start.copy(), workspace.make_workspace(start.size, potential.STORED)
     descent, problem, done = np.zeros(1, newton.DESCENT)[0], args.problem, 0
     allowed = tolerances(case, scene, like(args.step))._replace(**tolerance)
-    target, descent.kept = x[-1] if target is None else target, np.inf
+    target, descent.since_factor = x[-1] if target is None else target, np.inf
     space.work.dx[:] = 0.0 if move is None else move
-    if there:
+    if evaluated:
         space.work.trial[:] = x
         problem.evaluate(x, args.step, space.found, False)
     while True:
         left = allowed._replace(iterations=allowed.iterations - done)
         outcome = newton.minimise(
-            x, target, problem, args.step, left, by_reference(space), descent, control, there
+            x, target, problem, args.step, left, by_reference(space), descent, control, evaluated
         )
         done += int(descent.iterations)
         if outcome != newton.OUTGROWN:
             return Descent(outcome, done, x)
-        neighbours = neighbours_of(x, scene.terms, descent.far)._replace(
+        neighbours = neighbours_of(x, scene.terms, descent.travel_bound)._replace(
             lagged_contacts=problem.neighbours.lagged_contacts
         )
-        problem, there = problem._replace(neighbours=by_reference(neighbours)), False
-        space.work.dx[:], descent.kept = 0.0, np.inf
+        problem, evaluated = problem._replace(neighbours=by_reference(neighbours)), False
+        space.work.dx[:], descent.since_factor = 0.0, np.inf
 
 
 def like(step):

@@ -143,7 +143,9 @@ def full_matrix(n: int) -> Blocks:
     nb = (n + 1) // 2
     start = np.cumsum([0, *range(nb - 1, -1, -1)])
     row = np.concatenate([np.arange(j + 1, nb) for j in range(nb)])
-    return block_matrix.shaped(3 * (c // 2) + c % 2, start, row, np.ones(n), periodic_images.NONE)
+    return block_matrix.zero_matrix(
+        3 * (c // 2) + c % 2, start, row, np.ones(n), periodic_images.NONE
+    )
 
 
 def by_home(matrix: Blocks) -> np.ndarray:

@@ -41,7 +41,7 @@ def test_only_a_vector_of_float64_without_gaps_is_taken(array):
 
 def test_blocks_are_updated_four_numbers_at_a_time():
     pattern = np.array([0, 1, 1]), np.array([1])
-    matrix = block_matrix.shaped(np.arange(6), *pattern, np.ones(6), periodic_images.NONE)
+    matrix = block_matrix.zero_matrix(np.arange(6), *pattern, np.ones(6), periodic_images.NONE)
 
     @jit
     def update(matrix):

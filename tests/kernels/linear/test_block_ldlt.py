@@ -32,7 +32,7 @@ def shaped(joined, home=None, ratio=None):
     start = np.cumsum([0, *map(len, below)])
     home = np.arange(3 * nb) if home is None else home
     ratio = np.ones(home.size) if ratio is None else ratio
-    return block_matrix.shaped(home, start, np.concatenate(below), ratio, periodic_images.NONE)
+    return block_matrix.zero_matrix(home, start, np.concatenate(below), ratio, periodic_images.NONE)
 
 
 def put(matrix, full, room=None):
@@ -59,7 +59,7 @@ def made(joined, full, scale):
     """Matrix with these entries, ready to be factored."""
     matrix = shaped(joined)
     put(matrix, full, by_entry(joined))
-    block_ldlt.settle(matrix, scale)
+    block_ldlt.add_diagonal(matrix, scale)
     return matrix
 
 
@@ -136,7 +136,7 @@ def test_ties_and_supports_reduce_the_matrix(seed):
     ratio = np.where(home == DRIVEN, rng.uniform(-1, 1, 10), 1.0)
     matrix = shaped(np.ones((3, 3), dtype=bool), home, ratio)
     put(matrix, full)
-    block_ldlt.settle(matrix, 7.0)
+    block_ldlt.add_diagonal(matrix, 7.0)
     R = reduction_to(home, 3)
     expected = R.T @ full @ R + np.diag(np.where(R.any(axis=0), 0.0, 7.0))
     np.testing.assert_allclose(by_home(matrix), expected, rtol=0, atol=1e-14)
@@ -159,7 +159,7 @@ def test_a_matrix_that_is_used_again_starts_at_zero():
             assert not cleared.any()
         put(matrix, full)
         assert matrix.missing[0] == 1
-        block_ldlt.settle(matrix, scale)
+        block_ldlt.add_diagonal(matrix, scale)
         R = reduction_to(home, 2)
         expected = R.T @ full @ R + np.diag(np.where(R.any(axis=0), 0.0, scale))
         np.testing.assert_allclose(by_home(matrix), expected, rtol=0, atol=1e-14)
@@ -200,7 +200,7 @@ def test_blocks_of_two_points_are_symmetric(home):
     block_matrix.add_block(matrix, 0, 2, *other.ravel())
     full = np.block([[own, other], [other.T, own]])
     R = reduction_to(home, 2)
-    block_ldlt.settle(matrix, 1.0)
+    block_ldlt.add_diagonal(matrix, 1.0)
     expected = R.T @ full @ R + np.diag(np.where(R.any(axis=0), 0.0, 1.0))
     np.testing.assert_allclose(by_home(matrix), expected)
 
@@ -252,7 +252,7 @@ def test_nan_fails(slot):
     matrix = shaped(np.eye(1, dtype=bool))
     for i in range(3):
         block_matrix.add(matrix, i, i, 1.0 if i != slot else np.nan)
-    block_ldlt.settle(matrix, 1.0)
+    block_ldlt.add_diagonal(matrix, 1.0)
     failed, pivot = block_ldlt.factor(matrix, 1.0, block_ldlt.ROUNDED)
     assert failed == slot
     assert np.isnan(pivot)

@@ -19,7 +19,7 @@ def iterated(image, y, loops, leap=1.0):
     """Argument after so many loops, and the shares taken."""
     change, share, shares, known = np.zeros(y.size), 0.0, [], coordinates(y.size, leap)
     for _ in range(loops):
-        share = aitken.approach(image(y), y, change, known, share)
+        share = aitken.relax(image(y), y, change, known, share)
         shares.append(share)
     return y, shares
 

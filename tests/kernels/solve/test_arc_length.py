@@ -216,8 +216,8 @@ def test_length_of_arcs_says_nothing_elsewhere(tmp_path):
 @pytest.mark.parametrize("move", [np.inf, np.nan])
 def test_a_move_out_of_the_range_of_numbers_ends_an_arc(move):
     """Nothing else is looked at: pairs for such a move would be listed for ever."""
-    balance = getattr(arc_length._balance, "__wrapped__", arc_length._balance)
+    correct = getattr(arc_length._correct, "__wrapped__", arc_length._correct)
     space = SimpleNamespace(found=None, work=SimpleNamespace(direction=0, escape=0))
     problem = SimpleNamespace(scene=SimpleNamespace(coordinates=None))
-    found = balance(None, problem, None, 1.0, space, None, SimpleNamespace(move=move))
+    found = correct(None, problem, None, 1.0, space, None, SimpleNamespace(longest_move=move))
     assert found == newton.NOT_FINITE

@@ -29,7 +29,7 @@ def guess():
         u[:], u[driven], u[0] = 0.0, -last, move
         stage = ramp(scene, 1, travel=(0.0, STEP))
         state_, space_ = by_reference(state), by_reference(space)
-        march._set_out(problem, stage, state_, space_, descent, progress)
+        march._begin_share(problem, stage, state_, space_, descent, progress)
         return space.work.dx.copy(), u.copy(), scene.terms.coordinates
 
     return set_out

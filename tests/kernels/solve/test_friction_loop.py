@@ -27,7 +27,7 @@ def looped(*residuals):
     progress = np.zeros(1, march.PROGRESS)[0]
     friction_loop.begin(progress)
     for off in residuals:
-        friction_loop._count(off, 1e-6, 1e-9, progress)
+        friction_loop._update(off, 1e-6, 1e-9, progress)
     return progress
 
 
@@ -48,21 +48,21 @@ def test_rough_minima_end_where_those_found_to_the_end_do():
 
 
 def test_a_minimum_is_found_as_well_as_friction_is_known():
-    assert looped().rough == 1.0
-    assert looped(1.0).rough == pytest.approx(0.1 / 1e-9)
-    assert looped(1.0, 1e-3).rough == pytest.approx(1e-4 / 1e-9)
-    assert looped(1.0, 9e-6).rough == 1.0  # the next may be the last
-    assert looped(*np.geomspace(1.0, 1e-3, friction_loop.CAREFUL + 1)).rough == 1.0
-    assert looped(np.nan).rough == looped(np.inf).rough == 1.0
+    assert looped().loosening == 1.0
+    assert looped(1.0).loosening == pytest.approx(0.1 / 1e-9)
+    assert looped(1.0, 1e-3).loosening == pytest.approx(1e-4 / 1e-9)
+    assert looped(1.0, 9e-6).loosening == 1.0  # the next may be the last
+    assert looped(*np.geomspace(1.0, 1e-3, friction_loop.INEXACT_LOOPS + 1)).loosening == 1.0
+    assert looped(np.nan).loosening == looped(np.inf).loosening == 1.0
 
 
 def test_a_loop_is_given_up_once_it_goes_in_circles():
-    falling = np.geomspace(1.0, 0.1, friction_loop.MOST - 1)
-    assert not friction_loop.in_vain(looped(*falling))
-    assert friction_loop.in_vain(looped(*falling, 0.05))
-    circle = [1.0, *[2.0, 1.0] * (friction_loop.STUCK // 2)]
-    assert not friction_loop.in_vain(looped(*circle[:-1]))
-    assert friction_loop.in_vain(looped(*circle))
+    falling = np.geomspace(1.0, 0.1, friction_loop.MAX_LOOPS - 1)
+    assert not friction_loop.fails(looped(*falling))
+    assert friction_loop.fails(looped(*falling, 0.05))
+    circle = [1.0, *[2.0, 1.0] * (friction_loop.STAGNATION // 2)]
+    assert not friction_loop.fails(looped(*circle[:-1]))
+    assert friction_loop.fails(looped(*circle))
 
 
 def test_duals_that_mislead_are_forgotten():

@@ -108,7 +108,7 @@ def test_what_nothing_holds_keeps_its_momentum(damping, friction):
     kept, whole, touched = 1.0 / (1.0 + (case.damping.mass or 0.0) * DT), 0, 0.0
     for _ in range(12):
         before, taken = momentum(scene, state), state.totals[0].steps
-        tight = {"force": 1e-9, "friction": 1e-8, "grip": 0.0}
+        tight = {"force": 1e-9, "friction": 1e-8, "friction_share": 0.0}
         outcome, rows = go_on(case, scene, state, ramp(scene, 1, DT), **tight)
         assert outcome == newton.CONVERGED
         assert abs(rows[0].residual) < 1e-9 * rows[0].kinetic

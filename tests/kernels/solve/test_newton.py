@@ -66,7 +66,7 @@ def test_it_goes_on_from_what_was_evaluated_before():
     start = straight(scene, BUCKLED)
     start[::2] += 1e-4 * np.linspace(0.0, 1.0, start[::2].size)
     args = whole(scene, start)
-    anew, on = (descend(case, scene, start, args, there=there) for there in (False, True))
+    anew, on = (descend(case, scene, start, args, evaluated=known) for known in (False, True))
     assert on.outcome == newton.CONVERGED
     assert on.iterations == anew.iterations
     np.testing.assert_array_equal(on.x, anew.x)

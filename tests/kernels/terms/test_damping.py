@@ -179,7 +179,7 @@ def test_rates_of_lengths_and_turns_are_their_derivatives(seed):
     terms, x, v = damped(FRAME, VISCOUS), shaken(FRAME, seed), shaken(FRAME, 40 + seed)
     shape = measured(terms, x)
     start = in_a_row(shape)
-    kelvin_voigt.foresee(terms, v, 0.5, shape)
+    kelvin_voigt.advance(terms, v, 0.5, shape)
     slope = (
         in_a_row(measured(terms, x + 1e-6 * v)) - in_a_row(measured(terms, x - 1e-6 * v))
     ) / 2e-6

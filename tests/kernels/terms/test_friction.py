@@ -111,7 +111,7 @@ def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
         fit = friction.follow(u, np.array([move, 0.0]), 1.0, contacts, slip)
         steps += 1
         off = abs(contacts.dual[0] - friction.smooth(u[0], slip)[1])
-        assert fit == (off < friction.FIT)
+        assert fit == (off < friction.DUAL_TOLERANCE)
     assert steps <= most
     assert fit
 

@@ -42,7 +42,7 @@ def test_walls_are_moved_to_their_thickness_and_no_farther(gap, shift):
 def test_one_pair_is_moved_apart_at_once(tau):
     """Along the normal, by masses and levers of its three nodes."""
     x, ease = np.array([tau, 0.1, 0.0, 0.0, 1.0, 0.0]), np.array([9.0, 1.0, 9.0, 2.0, 9.0, 0.5])
-    assert position_based._part(x, ease, 0, 1, 2, 0.2)
+    assert position_based._separate(x, ease, 0, 1, 2, 0.2)
     assert x[1] - (1.0 - tau) * x[3] - tau * x[5] == pytest.approx(0.2, rel=1e-12)
     np.testing.assert_allclose(x[::2], [tau, 0.0, 1.0], rtol=1e-12)
 

@@ -9,13 +9,13 @@ from kernels.planar.problem import Planar, PlanarScene
 from kernels.solve import march, newton
 
 # Whatever stands between these, and what returns arrays to code that counts no references.
-LOOPS = [(march, "march"), (march, "_go"), (march, "_step"), (march, "_balance")]
+LOOPS = [(march, "march"), (march, "_run"), (march, "_step"), (march, "_equilibrate")]
 LOOPS += [(march, "minimise"), (march, "make_workspace")]
 LOOPS += [(PlanarScene, name) for name in ("find_neighbours", "renew_neighbours", "assemble")]
 WATCHED = {
     "evaluate": (Planar, "evaluate"),
     "factor": (Planar, "factor"),
-    "solve": (newton, "_solve"),
+    "solve": (newton, "_newton_direction"),
     "limit": (Planar, "step_limit"),
     "list": (reach, "list_neighbours"),
     "room": (reach, "make_system"),

@@ -178,7 +178,7 @@ def _balance(seen):
     allowed = residual.allowed(step.problem.stiffest(), seen.tolerance)[0]
     if seen.terms.friction.mu > 0.0:
         rubbing = residual.largest(found.friction, coordinates)
-        allowed += LAG * max(seen.tolerance.friction, seen.tolerance.grip * rubbing)
+        allowed += LAG * max(seen.tolerance.friction, seen.tolerance.friction_share * rubbing)
     if not size <= 1.01 * allowed:
         yield f"{size / allowed:.1e} of the allowed residual"
     second = stored(seen.x, seen.terms, seen.x0)
