@@ -42,7 +42,7 @@ def evaluate(problem, x, step, found, projected):
     """Return E in J; fill ``found``, and the walls' part of the (``projected``) Hessian."""
     scene, near, coordinates = problem.scene, problem.near, problem.scene.coordinates
     _start(x, step, found)
-    store_walls(problem, x, step, found, projected)
+    store_walls(problem, x, step.duration, found, projected)
     found.stored[CONTACT] = contact.evaluate(
         x, scene.contact, near.pairs, drift(problem, x), near.touching, found.elastic
     )
@@ -60,18 +60,21 @@ def evaluate(problem, x, step, found, projected):
 
 @jit_exact
 def store(problem, x, step, found):
-    """Fill ``found`` with what the walls store at ``x``; the gradient adds to ``found.elastic``."""
-    store_walls(problem, x, step, found, True)
+    """Fill ``found`` with what the walls store at ``x``; the gradient adds to ``found.elastic``.
+
+    No time passes: a step has been accepted before, and its duration with it.
+    """
+    store_walls(problem, x, 0.0, found, True)
 
 
 @jit_exact
-def store_walls(problem, x, step, found, projected):
+def store_walls(problem, x, duration, found, projected):
     """Fill stored energies of the walls, their shape, stiffness and least measures; add the
-    gradient to ``found.elastic``.
+    gradient to ``found.elastic``. duration: of the step, s.
     """
     scene, shape, stiffness = problem.scene, problem.room.shape, problem.room.stiffness
     walls, least = scene.walls, problem.room.least[0]
-    memory = Memory(problem.room.committed, step.duration)
+    memory = Memory(problem.room.committed, duration)
     least.length = elements.measure(x, walls, shape)
     opened = bend.turns(x, walls, scene.bend, problem.room.before.frame, shape)
     elements.clear(shape, stiffness)

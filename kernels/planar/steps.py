@@ -18,11 +18,11 @@ def commit(problem, x, step, found):
     """Let the material remember what it does; enter what it has stored and dissipated."""
     scene, shape, sums = problem.scene, problem.room.shape, found.sums[0]
     memory = Memory(problem.room.committed, step.duration)
-    if scene.law.remembers():
+    if scene.law.remembers() > 0:
         released, dissipated = stretch.commit(scene.stretch, scene.law, memory, shape)
         found.stored[STRETCH] -= released
         sums.dissipated += dissipated
-    if scene.bend.section.remembers():
+    if scene.bend.section.remembers() > 0:
         released, dissipated = bend.commit(scene.walls, scene.bend, memory, shape)
         found.stored[BEND] -= released
         sums.dissipated += dissipated

@@ -110,13 +110,16 @@ def _off(u, r, v, arc, progress):
 
 
 @jit_exact
-def _step(space, duration, factor):
-    """Return the static `Step` of an arc that ends at a load ``factor``."""
+def _step(space, stage, progress, factor):
+    """Return the static `Step` of an arc that ends at a load ``factor``: a shorter arc takes less
+    time, the start of the path none.
+    """
+    duration = stage.duration * progress.share if progress.row >= 0 else 0.0
     return Step(space.x0, space.y, space.x_pred, duration, duration, False, factor, 0.5)
 
 
 @jit_exact
-def _balance(x, problem, tolerance, duration, space, arc, progress):
+def _balance(x, problem, tolerance, stage, space, arc, progress):
     """Move ``x`` (n,) on by ``work.dx`` and the load by its rise until both are in balance."""
     found, work, coordinates = space.found, space.work, problem.scene.coordinates
     r, v = work.direction, work.escape
@@ -134,7 +137,7 @@ def _balance(x, problem, tolerance, duration, space, arc, progress):
         progress.load = progress.aim if arrives else progress.load + share * progress.rise
         zero(work.dx)
         progress.rise, progress.move, progress.spent = 0.0, 0.0, progress.spent + 1
-        step = _step(space, duration, progress.load)
+        step = _step(space, stage, progress, progress.load)
         problem.evaluate(x, step, found, False)
         problem.reduce(found.g, work.residual)
         size = largest(work.residual, coordinates)
@@ -163,7 +166,7 @@ def _set_out(problem, stage, state, space, arc, trail, progress):
     copy(state.x, space.x0)
     copy(state.x, space.y)
     rates = Ahead(0.0, 0.0, state.rates.position, work.dx)
-    problem.begin(_step(space, stage.duration, factor), rates, work.trial)
+    problem.begin(_step(space, stage, progress, factor), rates, work.trial)
     tangent, way = trail.tangent, trail.way
     progress.spent, progress.load, progress.aim = 0, factor, factor
     progress.length, progress.rise = 0.0, 0.0
@@ -184,7 +187,7 @@ def _return(problem, stage, state, space, progress):
     work, totals, coordinates = space.work, state.totals[0], problem.scene.coordinates
     share = (1.0 - totals.factor) / (progress.load - totals.factor)
     copy(space.x0, state.x)
-    problem.roll_back(_step(space, stage.duration, totals.factor))
+    problem.roll_back(_step(space, stage, progress, totals.factor))
     zero(work.residual)
     progress.move = _combine(work.residual, share, space.found.u, coordinates, work.dx)
     progress.load, progress.rise = totals.factor, 1.0 - totals.factor
@@ -198,12 +201,12 @@ def _go(problem, tolerance, stage, state, out, control, space, arc, trail, progr
 
     Return the outcome and the rows written.
     """
-    found, work, totals, duration = space.found, space.work, state.totals[0], stage.duration
+    found, work, totals = space.found, space.work, state.totals[0]
     while progress.row < stage.steps:
         if progress.spent == AT_START:
             progress.share = min(progress.share, 1.0 - progress.done)
             _set_out(problem, stage, state, space, arc, trail, progress)
-        outcome = _balance(state.x, problem, tolerance, duration, space, arc, progress)
+        outcome = _balance(state.x, problem, tolerance, stage, space, arc, progress)
         if outcome == OUTGROWN and progress.spent <= 2 * TRIES:
             return outcome, progress.row
         if control[0] != 0:
@@ -217,7 +220,7 @@ def _go(problem, tolerance, stage, state, out, control, space, arc, trail, progr
                 outcome = STALLED
         totals.iterations += progress.spent
         progress.spent = AT_START
-        step = _step(space, duration, progress.load)
+        step = _step(space, stage, progress, progress.load)
         if outcome != CONVERGED:
             copy(space.x0, state.x)
             problem.roll_back(step)
@@ -235,7 +238,7 @@ def _go(problem, tolerance, stage, state, out, control, space, arc, trail, progr
             if progress.done < 1.0 and progress.load != 1.0:
                 progress.share *= 2.0
                 continue
-            totals.time += duration
+            totals.time += stage.duration
             problem.write(out, progress.row, state, found)
             control[1] += 1
         progress.row, progress.done, progress.share = progress.row + 1, 0.0, 1.0

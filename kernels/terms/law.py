@@ -8,8 +8,12 @@ last and the duration of the step,
 
 is all that a step needs of it: the step stays a minimisation. For a law without memory W is the
 stored energy. A law with memory minimises over its internal variables itself, so that W is its
-incremental potential: stored energy and what is dissipated in the step. At commit it tells the two
-apart, for the energy book.
+incremental potential: stored energy and the dissipation potential of the step, which for a viscous
+law is half of what is dissipated. At commit it tells stored and dissipated energy apart, for the
+energy book.
+
+A virgin state is zero. A duration of 0 is allowed: no time passes, and what needs time to change
+does not.
 
 A strain with several components (axial strain and curvature of a section, three of a plate) is a
 tuple, and so is its stress; the tangent is then the upper triangle, row by row.
@@ -23,8 +27,8 @@ import numpy as np
 class Memory(NamedTuple):
     """What a law may know beside the strain.
 
-    committed (p, k): state at each material point when the last step was accepted; no points where
-    nothing remembers. duration: of the step, s.
+    committed (p, k): state at each material point when the last step was accepted; only `commit`
+    changes it. No points where nothing remembers. duration: of the step, s.
     """
 
     committed: np.ndarray
@@ -43,7 +47,9 @@ class Law(Protocol):
         """Return potential (J/m^3), stress (Pa) and tangent (Pa) at ``strain``."""
 
     def remembers(self):
-        """Return whether there is any state; a constant, so that its commit costs nothing else."""
+        """Return how many numbers are kept at each point; 0, as a constant, for a law without
+        memory: its commit then costs nothing.
+        """
 
     def commit(self, strain, memory, point):
         """Accept ``strain``: renew the committed state; return what is stored then and what has
