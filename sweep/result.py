@@ -25,8 +25,11 @@ MODEL_VERSION = 2
 
 HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones anew"
 
-OLDER = {"model_version": 1, "git_revision": ""}
-"""What rows are read to have that were written before there were these columns."""
+OLDER: dict[str, float | int | str] = {"model_version": 1, "git_revision": ""}
+"""What rows are read to have that were written before there were these columns.
+
+A new column belongs here too, or no older file is ranked any more: NaN, or "" for text.
+"""
 
 
 class Status(StrEnum):
