@@ -25,8 +25,11 @@ MODEL_VERSION = 2
 
 HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones anew"
 
-OLDER = {"model_version": 1, "git_revision": ""}
-"""Values of columns that rows of older versions do not have."""
+OLDER: dict[str, float | int | str] = {"model_version": 1, "git_revision": ""}
+"""Values of columns that rows of older versions do not have.
+
+A new column must be added here: NaN, or "" for text. Otherwise older files cannot be ranked.
+"""
 
 
 class Status(StrEnum):

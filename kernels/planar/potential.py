@@ -43,7 +43,7 @@ def evaluate(problem, x, step, found, projected):
     """Return E in J; fill ``found`` and the walls' part of the Hessian, ``projected`` or exact."""
     scene, neighbours, coordinates = problem.scene, problem.neighbours, problem.scene.coordinates
     _reset(x, step, found)
-    store_walls(problem, x, step, found, projected)
+    store_walls(problem, x, step.duration, found, projected)
     found.stored[CONTACT] = contact.evaluate(
         x, scene.contact, neighbours.pairs, drift(problem, x), neighbours.touching, found.elastic
     )
@@ -61,18 +61,21 @@ def evaluate(problem, x, step, found, projected):
 
 @jit_exact
 def store(problem, x, step, found):
-    """Fill the stored energies of the walls at ``x``; add their gradient to ``found.elastic``."""
-    store_walls(problem, x, step, found, True)
+    """Fill the stored energies of the walls at ``x``; add their gradient to ``found.elastic``.
+
+    The duration is zero: the step is accepted, and its time has passed.
+    """
+    store_walls(problem, x, 0.0, found, True)
 
 
 @jit_exact
-def store_walls(problem, x, step, found, projected):
+def store_walls(problem, x, duration, found, projected):
     """Fill stored energies, shape and stiffness of the walls and the `LEAST` measures; add the
-    gradient to ``found.elastic``.
+    gradient to ``found.elastic``. duration: of the step, s.
     """
     scene, shape, stiffness = problem.scene, problem.buffers.shape, problem.buffers.stiffness
     walls, least = scene.walls, problem.buffers.least[0]
-    memory = Memory(problem.buffers.committed, step.duration)
+    memory = Memory(problem.buffers.committed, duration)
     least.length = elements.measure(x, walls, shape)
     opened = bend.turns(x, walls, scene.bend, problem.buffers.before.frame, shape)
     elements.clear(shape, stiffness)

@@ -10,6 +10,7 @@ import numpy as np
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.planar import constraints, factoring, lagging, potential, reach, rows, steps
 from kernels.planar.reach import Neighbours
+from kernels.solve import history
 from kernels.solve.problem import Coordinates
 from kernels.terms.damping import Before
 from kernels.terms.elements import Shape, Stiffness
@@ -94,6 +95,18 @@ def make_buffers(scene, memory):
 def assemble(scene, neighbours, buffers):
     """Return the problem."""
     return Planar(scene, neighbours, buffers)
+
+
+def at_rest(scene, x):
+    """Return the `history.State` of a lattice that begins at ``x`` (n,), with a virgin material.
+
+    Elements, hinges and arms have a row of memory each, as long as that of the law that keeps most.
+    """
+    curved = scene.bend.arm_surface.size > 0
+    numbers = max(scene.law.remembers(), scene.bend.section.remembers() if curved else 0)
+    points = scene.stretch.l0.size + scene.bend.hinges.size + scene.walls.rotation.size
+    memory = (points, numbers) if numbers > 0 else (0, 0)
+    return history.at_rest(x, potential.STORED, memory)
 
 
 class PlanarScene(NamedTuple):

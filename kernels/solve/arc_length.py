@@ -110,13 +110,17 @@ def _load_increment(u, r, v, arc, progress):
 
 
 @jit_exact
-def _step(space, duration, factor):
-    """Return the static `Step` of an arc that ends at the load ``factor``."""
+def _step(space, stage, progress, factor):
+    """Return the static `Step` of an arc that ends at the load ``factor``.
+
+    Its duration is the share of the stage's; the start of the path takes no time.
+    """
+    duration = stage.duration * progress.share if progress.row >= 0 else 0.0
     return Step(space.x0, space.y, space.x_pred, duration, duration, False, factor, 0.5)
 
 
 @jit_exact
-def _correct(x, problem, tolerance, duration, space, arc, progress):
+def _correct(x, problem, tolerance, stage, space, arc, progress):
     """Correct ``x`` (n,) and the load factor by Newton's method; return the outcome.
 
     The first move is ``work.dx`` with ``progress.increment``, the predictor.
@@ -140,7 +144,7 @@ def _correct(x, problem, tolerance, duration, space, arc, progress):
         zero(work.dx)
         progress.increment, progress.longest_move = 0.0, 0.0
         progress.iterations += 1
-        step = _step(space, duration, progress.load)
+        step = _step(space, stage, progress, progress.load)
         problem.evaluate(x, step, found, False)
         problem.reduce(found.g, work.residual)
         size = largest(work.residual, coordinates)
@@ -172,7 +176,7 @@ def _predict(problem, stage, state, space, arc, heading, progress):
     copy(state.x, space.x0)
     copy(state.x, space.y)
     rates = Ahead(0.0, 0.0, state.rates.position, work.dx)
-    problem.begin(_step(space, stage.duration, factor), rates, work.trial)
+    problem.begin(_step(space, stage, progress, factor), rates, work.trial)
     tangent, last_move = heading.tangent, heading.last_move
     progress.iterations, progress.load, progress.target_load = 0, factor, factor
     progress.length, progress.increment = 0.0, 0.0
@@ -196,7 +200,7 @@ def _return_to_full_load(problem, stage, state, space, progress):
     work, totals, coordinates = space.work, state.totals[0], problem.scene.coordinates
     share = (1.0 - totals.factor) / (progress.load - totals.factor)
     copy(space.x0, state.x)
-    problem.roll_back(_step(space, stage.duration, totals.factor))
+    problem.roll_back(_step(space, stage, progress, totals.factor))
     zero(work.residual)
     progress.longest_move = _combine(work.residual, share, space.found.u, coordinates, work.dx)
     progress.load, progress.increment = totals.factor, 1.0 - totals.factor
@@ -210,12 +214,12 @@ def _follow_path(problem, tolerance, stage, state, out, control, space, arc, hea
 
     Return (outcome, rows written).
     """
-    found, work, totals, duration = space.found, space.work, state.totals[0], stage.duration
+    found, work, totals = space.found, space.work, state.totals[0]
     while progress.row < stage.steps:
         if progress.iterations == NOT_STARTED:
             progress.share = min(progress.share, 1.0 - progress.done)
             _predict(problem, stage, state, space, arc, heading, progress)
-        outcome = _correct(state.x, problem, tolerance, duration, space, arc, progress)
+        outcome = _correct(state.x, problem, tolerance, stage, space, arc, progress)
         if outcome == OUTGROWN and progress.iterations <= 2 * CORRECTIONS:
             return outcome, progress.row
         if control[0] != 0:
@@ -229,7 +233,7 @@ def _follow_path(problem, tolerance, stage, state, out, control, space, arc, hea
                 outcome = STALLED
         totals.iterations += progress.iterations
         progress.iterations = NOT_STARTED
-        step = _step(space, duration, progress.load)
+        step = _step(space, stage, progress, progress.load)
         if outcome != CONVERGED:
             copy(space.x0, state.x)
             problem.roll_back(step)
@@ -247,7 +251,7 @@ def _follow_path(problem, tolerance, stage, state, out, control, space, arc, hea
             if progress.done < 1.0 and progress.load != 1.0:
                 progress.share *= 2.0
                 continue
-            totals.time += duration
+            totals.time += stage.duration
             problem.write(out, progress.row, state, found)
             control[1] += 1
         progress.row, progress.done, progress.share = progress.row + 1, 0.0, 1.0

@@ -7,9 +7,12 @@ of its material points. A step, which stays a minimisation, needs only
 
 with the strain e, the state q committed last and the duration of the step. For a law without memory
 W is the stored energy. A law with memory minimises over its internal variables itself, so that W is
-its incremental potential: stored energy plus dissipation of the step. At commit it returns the two
+its incremental potential: stored energy plus the dissipation potential of the step, which for a
+viscous law is half of the dissipation. At commit it returns stored and dissipated energy
 separately, for the energy book. The curves of `elastic` have no memory. The state of other laws is
 kept in `solve.history.State.memory`, which `planar.steps.commit` updates.
+
+The initial state is zero. With a duration of zero the state does not change.
 
 A strain with several components (axial strain and curvature of a section, three of a plate) is a
 tuple, and so is its stress; the tangent is then the upper triangle, row by row.
@@ -23,8 +26,8 @@ import numpy as np
 class Memory(NamedTuple):
     """What a response depends on beside the strain.
 
-    committed (p, k): state of each material point after the last accepted step; p = 0 if no law has
-    memory. duration: of the step, s.
+    committed (p, k): state of each material point after the last accepted step, which only `commit`
+    changes; p = 0 if no law has memory. duration: of the step, s.
     """
 
     committed: np.ndarray
@@ -43,7 +46,9 @@ class Law(Protocol):
         """Return potential (J/m^3), stress (Pa) and tangent (Pa) at ``strain``."""
 
     def remembers(self):
-        """Return whether the law has a state; a constant, so that a law without pays nothing."""
+        """Return the length of the state of a point; 0, as a constant, without memory: the commit
+        then costs nothing.
+        """
 
     def commit(self, strain, memory, point):
         """Accept ``strain``: update the committed state.

@@ -72,6 +72,10 @@ def rounded(value: object) -> object:
     return [rounded(item) for item in value] if isinstance(value, tuple) else value
 
 
+BY_CURVE = {"stretch": ("nonlinear",), "bend": ("section",)}
+"""Laws that go by the record's curve, by their keys."""
+
+
 class Material(Table):
     """A material: a named record, whose numbers may be overridden, or numbers without a record.
 
@@ -101,14 +105,14 @@ class Material(Table):
             return {"name": BY_NUMBERS, "stretch": "linear", **given}
         record = read_record(locate(given.get("name", "ninjaflex")))
         known = {key: getattr(record, key) for key in ("modulus", "density", "poisson")}
-        if given.get("stretch") != "linear" or given.get("bend") == "section":
+        if any(given.get(key, cls.model_fields[key].default) in BY_CURVE[key] for key in BY_CURVE):
             known |= {"curve_strain": record.strain, "curve_stress": record.stress}
         return {**known, **given, "name": record.name}
 
     @model_validator(mode="after")
     def _has_its_curve(self) -> Self:
-        measured = {"stretch": "nonlinear", "bend": "section"}
-        used = [(key, word) for key, word in measured.items() if getattr(self, key) == word]
+        chosen = [(key, getattr(self, key)) for key in BY_CURVE]
+        used = [(key, word) for key, word in chosen if word in BY_CURVE[key]]
         if used:
             if not self.curve_strain:
                 key, word = used[0]

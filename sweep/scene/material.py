@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kernels.terms.elastic import ElasticCurve, MomentCurve, respond
-from kernels.terms.law import Memory
+from kernels.terms.law import Law, Memory
 from sweep.config.case import Material
 from sweep.config.material_file import TOE, stress_at
 
@@ -64,13 +64,13 @@ def stress_law(material: Material) -> StressLaw:
 
 
 @lru_cache(maxsize=64)
-def law_in_stretch(material: Material, factor: float) -> ElasticCurve:
+def law_in_stretch(material: Material, factor: float) -> Law:
     """The law of stretching for the kernels, with all stresses times ``factor``."""
     return as_law(stress_law(material), factor, material.modulus)
 
 
 @lru_cache(maxsize=64)
-def law_in_bending(material: Material) -> MomentCurve:
+def law_in_bending(material: Material) -> Law:
     """`section_law` / modulus, for the kernels."""
     law = as_law(section_law(material), 1.0 / material.modulus, material.modulus)
     return MomentCurve(*law)

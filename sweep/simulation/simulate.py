@@ -6,9 +6,10 @@ from dataclasses import replace
 import numpy as np
 
 from kernels.geometry.specimen_height import height
-from kernels.planar.potential import STORED, STRETCH
+from kernels.planar.potential import STRETCH
+from kernels.planar.problem import at_rest
 from kernels.planar.rows import ROW, Output
-from kernels.solve import arc_length, energy_book, friction_loop, history, march, newton
+from kernels.solve import arc_length, energy_book, friction_loop, march, newton
 from kernels.terms import spring
 from sweep.config.case import Case, Lattice, Loading, Solver
 from sweep.config.structure import Load, Structure, Support
@@ -109,7 +110,7 @@ class _Run:
         self.scene, self.case, self.control = scene, case, control
         self.stages = stages(case, scene)
         total = sum(s.stage.steps for s in self.stages)
-        self.state = history.at_rest(scene.x_rest, STORED)
+        self.state = at_rest(scene.terms, scene.x_rest)
         self.state.v[:] = scene.velocity
         self.rows = np.zeros(total + 1, ROW)
         self.probed = np.zeros((total + 1, 2, scene.probes.size))

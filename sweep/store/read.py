@@ -203,8 +203,9 @@ class _Columns(Mapping[str, np.ndarray]):
     def __getitem__(self, name: str) -> np.ndarray:
         with _undamaged(self._path):
             if name in OLDER and name not in self._data:
-                kind = object if isinstance(OLDER[name], str) else np.int64
-                return np.full(self._data["case_id"].shape, OLDER[name], kind)
+                value = OLDER[name]
+                kind = object if isinstance(value, str) else type(value)
+                return np.full(self._data["case_id"].shape, value, kind)
             data = self._data[name]
             return data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
 

@@ -16,6 +16,7 @@ from sweep.config.keys import case_keys, table_keys
 from sweep.config.material_file import COLUMNS as RECORD
 from sweep.config.structure import Structure
 from sweep.config.units import load_config, quantity
+from sweep.design.infill import families
 from sweep.result import COLUMNS
 from sweep.simulation.simulate import simulate
 from sweep.store.write import Writer
@@ -105,6 +106,11 @@ def test_every_key_is_explained(table):
     known = table_keys(table) if table == "rank" else case_keys()
     fields = {name.split(".")[1] for name in known if name.startswith(f"{table}.")}
     assert fields - {"load_steps"} - set(re.findall(r"`(\w+)`", keys_of(table))) == set()
+
+
+def test_every_family_of_infill_is_named():
+    named = re.findall(r'"(\w+)"', keys_of("lattice"))
+    assert {*families()} <= {*named}
 
 
 @pytest.mark.parametrize("table", TABLES)

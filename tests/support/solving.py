@@ -8,9 +8,10 @@ import numpy as np
 
 from kernels.compile.reference import by_reference, referred
 from kernels.planar import potential, reach
+from kernels.planar import problem as planar
 from kernels.planar.problem import Planar
 from kernels.planar.rows import ROW, Output
-from kernels.solve import history, march, newton, workspace
+from kernels.solve import march, newton, workspace
 from kernels.solve.problem import FREE, NEGATIVE, NO_ROOM, Found, Step
 from kernels.terms import contact, fold, friction, spring
 from sweep.scene.lattice import build_scene
@@ -205,7 +206,7 @@ def like(step):
 
 def at_rest(scene):
     """State of a march that begins."""
-    return history.at_rest(scene.x_rest, potential.STORED)
+    return planar.at_rest(scene.terms, scene.x_rest)
 
 
 def ramp(scene, steps, dt=np.inf, factor=(0.0, 0.0), travel=(0.0, 0.0)):

@@ -11,6 +11,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
+from sweep.cli.verbs import VERBS
 from sweep.running.sweep import Interrupted
 from sweep.store.read import read_summary
 from tests.support.command import crumple
@@ -32,8 +33,12 @@ def test_help_teaches_every_verb_by_an_example():
     done = subprocess.run(
         [sys.executable, "-m", "sweep", "--help"], capture_output=True, text=True, check=True
     )
-    verbs = ("run", "accuracy", "warm", "status", "rank", "show")
-    assert all(f"crumple {verb} " in done.stdout for verb in verbs)
+    assert all(f"crumple {verb} " in done.stdout for verb in VERBS)
+
+
+def test_every_verb_has_its_arguments_and_its_function(capsys):
+    _, _, told = crumple(capsys, "fly")
+    assert re.findall(r"\w+", told.split("choose from ")[1].split(")")[0]) == list(VERBS)
 
 
 @pytest.mark.parametrize("module", ["crumple", "sweep"])

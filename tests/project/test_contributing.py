@@ -1,0 +1,41 @@
+"""CONTRIBUTING.md: what it names is there."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+TEXT = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
+QUOTED = re.findall(r"`([^`\n]+)`", TEXT)
+PATHS = sorted({words for words in QUOTED if re.fullmatch(r"\.?[\w/]+/[\w.]+|\w+\.md", words)})
+STEPS = re.findall(r"^\d\. `([\w./]+)`: (.+(?:\n   .+)*)", TEXT, re.MULTILINE)
+NAMES = [
+    (path, name)
+    for path, said in STEPS
+    if "NAME" not in path and not path.endswith(".md")
+    for name in re.findall(r"`(_?[A-Za-z]\w*(?:\.\w+)?)`", said)
+]
+
+
+@pytest.mark.parametrize("path", [path for path in PATHS if "NAME" not in path])
+def test_files_are_there(path):
+    assert (ROOT / path).exists()
+
+
+@pytest.mark.parametrize("path", [path for path in PATHS if "NAME" in path])
+def test_folders_of_new_files_are_there(path):
+    assert (ROOT / path).parent.is_dir()
+
+
+@pytest.mark.parametrize(("path", "name"), NAMES)
+def test_names_are_in_the_files_of_their_steps(path, name):
+    text = (ROOT / path).read_text("utf-8")
+    assert all(re.search(rf"\b{part}\b", text) for part in name.split("."))
+
+
+def test_every_kind_of_addition_is_told():
+    """Files, names and titles are found by the patterns above."""
+    assert len(re.findall(r"^## Add ", TEXT, re.MULTILINE)) == 9
+    assert len(PATHS) > 40
+    assert len(NAMES) > 20
