@@ -1,6 +1,5 @@
 """Structures of a user's own against closed forms: statics."""
 
-import json
 from pathlib import Path
 
 import numpy as np
@@ -273,20 +272,3 @@ def test_arms_that_close_touch():
     np.testing.assert_allclose(whole, 0.0, atol=1e-6 * probe(result, 2, "reaction_y_N").max())
     apart = pushed(clamp, steps=24)
     assert probe(apart, 2, "reaction_y_N")[-1] < 0.5 * probe(result, 2, "reaction_y_N")[-1]
-
-
-def test_files_are_an_axis(tmp_path):
-    for name, thickness in (("thin", 1.0), ("thick", 2.0)):
-        whole = BEAM | {"wall_thickness_mm": thickness}
-        (tmp_path / f"{name}.json").write_text(json.dumps(whole))
-    text = """[lattice]
-    kind = "custom"
-    [grid]
-    lattice.file = ["thin.json", "thick.json"]
-    """
-    (tmp_path / "two.toml").write_text(text)
-    cases = expand(load_config(tmp_path / "two.toml"))
-    assert [case.axes["lattice.file"] for case in cases] == ["thin.json", "thick.json"]
-    assert [case.lattice.wall_thickness for case in cases] == [1e-3, 2e-3]
-    (tmp_path / "one.toml").write_text(f'{text}[[exclude]]\nlattice.file = "thin.json"')
-    assert len(expand(load_config(tmp_path / "one.toml"))) == 1

@@ -1,15 +1,12 @@
 """An endless lattice: what it may not depend on, its derivatives, its period, what it refuses."""
 
-import re
 from unittest.mock import patch
 
 import numpy as np
 import pytest
 import shapely
-from pydantic import ValidationError
 
 from kernels.solve import newton
-from sweep.config.case import Case, Lattice
 from sweep.design import period
 from sweep.design.drawing import welded
 from sweep.design.infill import families
@@ -183,34 +180,3 @@ def test_copies_have_all_walls_round_the_openings_of_a_period(kind):
         assert np.all(np.bincount(beside[0], minlength=network.own) == 2)
         sizes.append(np.sort(shapely.area(cells[beside[1]])))
     np.testing.assert_allclose(*sizes, rtol=1e-9)
-
-
-REFUSED = [
-    ({"grading": 2.0}, {}, "lattice.grading = 2.0; allowed: 1"),
-    ({"perimeters": 1}, {}, "lattice.perimeters = 1; allowed: 0"),
-    ({"solid_layers": 2}, {}, "lattice.solid_layers = 2; allowed: 0"),
-    ({"infill": 0.2}, {}, "lattice.infill = 0.2; allowed: none"),
-    ({"kind": "hex"}, {}, "lattice.cells_y = 3; allowed: an even number"),
-    ({"kind": "hex", "orientation": "flat"}, {}, "lattice.cells_x = 3; allowed: an even number"),
-    ({}, {"mode": "force"}, 'loading.mode = force; allowed: "displacement"'),
-    ({}, {"striker_speed": 1.0}, 'loading.mode = impact; allowed: "displacement"'),
-    ({}, {"strain": 0.5, "platen": "glued"}, 'loading.platen = glued; allowed: "none"'),
-    ({}, {"strain": 0.5, "speed": 0.1}, "loading.quasi_static = 0; allowed: true"),
-]
-
-
-@pytest.mark.parametrize(("lattice", "loading", "words"), REFUSED)
-def test_what_has_no_endless_lattice_is_refused(lattice, loading, words):
-    with pytest.raises(ValidationError, match=re.escape(words)):
-        Case(lattice={"boundary": "periodic"} | lattice, loading=loading or {"strain": 0.5})
-
-
-def test_a_structure_of_ones_own_is_not_repeated(tmp_path):
-    (tmp_path / "bar.json").write_text('{"nodes_mm": [[0, 0], [10, 0]], "walls": [[0, 1]]}')
-    words = 'lattice.boundary = periodic; allowed: "free"'
-    with pytest.raises(ValidationError, match=re.escape(words)):
-        Lattice(kind="custom", file=str(tmp_path / "bar.json"), boundary="periodic")
-
-
-def test_free_sides_keep_their_ids():
-    assert Case().case_id == Case(lattice=Lattice(boundary="free")).case_id
