@@ -1,39 +1,13 @@
-"""Outlines, grading, and lattices asked for by a share of infill or by their mass."""
+"""Lattices asked for by a share of infill or by their mass."""
 
-import numpy as np
 import pytest
 
 from sweep.config.case import Case, Lattice, Loading, Material
-from sweep.design.box import infill_walls
 from sweep.design.infill import families
 from sweep.design.lattice import build_network
-from sweep.design.network import mass, relative_density
+from sweep.design.network import mass
 from sweep.design.sizing import infill_share
 from sweep.scene.lattice import build_scene
-
-T, W, H = 0.8e-3, 12.5e-3, 12.5e-3
-
-
-@pytest.mark.parametrize(
-    ("lines", "sides", "caps"),
-    [
-        ({"perimeters": 3}, 1.2e-3, 1.2e-3),
-        ({"perimeters": 2, "line_width": 0.5e-3}, 1.0e-3, 1.0e-3),
-        ({"solid_layers": 4}, T, 0.8e-3),
-        ({"perimeters": 1, "solid_layers": 5, "layer_height": 0.3e-3}, 0.4e-3, 1.5e-3),
-    ],
-)
-def test_an_outline_is_as_thick_as_its_lines(lines, sides, caps):
-    """Outer box less the openings: those at the sides lose half of the outline."""
-    lattice = Lattice(**lines)
-    network, pitch = build_network(lattice.geometry), W / 3
-    across = [pitch - 0.5 * (sides + T), pitch - T, pitch - 0.5 * (sides + T)]
-    up = [pitch - 0.5 * (caps + T), pitch - T, pitch - 0.5 * (caps + T)]
-    area = (W + sides) * (H + caps) - sum(across) * sum(up)
-    assert network.printed_area == pytest.approx(area, rel=1e-12)
-    box = (W + sides) * (H + caps)
-    assert relative_density(network, lattice.outer_size) == pytest.approx(area / box, rel=1e-12)
-    assert lattice.outer_size == pytest.approx((W + sides, H + caps))
 
 
 def test_platens_touch_an_outline():
@@ -42,19 +16,6 @@ def test_platens_touch_an_outline():
     thickness = scene.terms.contact.node_thickness[scene.mesh.points[:, 1] == 0.0].max()
     assert 0.8e-3 < thickness < 1.2001e-3
     assert scene.x_rest[-2] == pytest.approx(-0.5 * thickness)
-
-
-@pytest.mark.parametrize("kind", families())
-@pytest.mark.parametrize("ratio", [0.25, 1.0, 3.0])
-def test_grading_is_linear_and_keeps_the_mean(kind, ratio):
-    lattice = Lattice(kind=kind, wall_thickness=0.3e-3, grading=ratio)
-    network = build_network(lattice.geometry)
-    length, height = infill_walls(lattice.geometry)
-    thickness = network.wall_thickness
-    assert thickness @ length == pytest.approx(0.3e-3 * length.sum(), rel=1e-12)
-    slope, below = np.polyfit(height, thickness, 1)
-    np.testing.assert_allclose(slope * height + below, thickness, rtol=1e-9)
-    assert (below + slope) / below == pytest.approx(ratio)
 
 
 @pytest.mark.parametrize("kind", families())
