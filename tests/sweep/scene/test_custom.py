@@ -19,6 +19,7 @@ from tests.support.structures import (
     MM,
     ROD,
     THICKNESS,
+    end_load,
     finished,
     probe,
     pushed,
@@ -26,10 +27,6 @@ from tests.support.structures import (
 
 L = LENGTH * MM
 CONFIGS = Path(__file__).parents[3] / "configs"
-
-
-def end_load(force, moment=0.0):
-    return {"loads": [{"node": 1, "force_N": [0.0, force], "moment_Nmm": moment}]}
 
 
 @pytest.mark.parametrize("size", [1.0, 10.0])
@@ -44,14 +41,6 @@ def test_cantilever_under_a_dead_load(size):
     arm = probe(result, 1, "x_m")[-1]
     assert probe(result, 0, "reaction_moment_Nm")[-1] == pytest.approx(force * arm, rel=1e-6)
     assert not probe(result, 1, "reaction_y_N").any()
-
-
-def test_rows_of_equal_increments():
-    result = pushed(BEAM | end_load(-1e-3), steps=4)
-    np.testing.assert_allclose(result.history["load_factor"], [0.0, 0.25, 0.5, 0.75, 1.0])
-    assert np.isnan(result.history["strain"]).all()
-    reaction = probe(result, 0, "reaction_y_N")
-    np.testing.assert_allclose(reaction, 1e-3 * result.history["load_factor"], rtol=1e-6)
 
 
 @pytest.mark.parametrize("pieces", [[1, 1, 1], [4, 2, 1], [8, 8, 8]])

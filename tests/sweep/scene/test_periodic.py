@@ -1,4 +1,4 @@
-"""An endless lattice: what it may not depend on, its derivatives, its period, what it refuses."""
+"""An endless lattice: what it may not depend on, its book, its derivatives."""
 
 from unittest.mock import patch
 
