@@ -1,8 +1,12 @@
 """Endless lattices for tests: a period of one, pressed, and what its unknowns lead."""
 
+from unittest.mock import patch
+
 import numpy as np
 
 from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
+from sweep.design import period
+from sweep.design.drawing import welded
 
 Y, NU, L, DEPTH = 12e6, 0.48, 4e-3, 10e-3
 PLANE = Y / (1 - NU**2)
@@ -39,3 +43,12 @@ def follow(scene):
     for c, of, mean, times in images:
         follows[c] = times * follows[mean] + (follows[of] if of >= 0 else 0.0)
     return follows
+
+
+def cut_elsewhere(cut):
+    """Patch that puts the lower left corner of the period at ``cut``, m."""
+
+    def moved(segments, tolerance):
+        return welded(segments - np.array(cut), tolerance)
+
+    return patch.object(period, "welded", moved)

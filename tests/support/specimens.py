@@ -125,3 +125,8 @@ def write(path, table, attributes=None):
         writer.append(results)
         writer.fold()
     return str(path)
+
+
+def ids(ranking):
+    """Rows of the summary in the order of their places."""
+    return [int(case_id, 16) for case_id in ranking["case_id"]]

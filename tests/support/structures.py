@@ -113,3 +113,8 @@ def momentum(result, masses):
     p = masses[:, None, None] * velocity
     x = at[:, :, 1:]
     return p.sum(axis=0).T, (x[:, 0] * p[:, 1] - x[:, 1] * p[:, 0]).sum(axis=0)
+
+
+def end_load(force, moment=0.0):
+    """Part of a structure: a force (N) up and a moment (N mm) at node 1."""
+    return {"loads": [{"node": 1, "force_N": [0.0, force], "moment_Nmm": moment}]}

@@ -11,7 +11,9 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
+from sweep.__main__ import main
 from sweep.cli.verbs import VERBS
+from sweep.result import absorbed_energy_column
 from sweep.running.sweep import Interrupted
 from sweep.store.read import read_summary
 from tests.support.command import crumple
@@ -293,3 +295,17 @@ def test_interruption_says_what_is_kept(capsys, config, monkeypatch, stop, told)
 
     monkeypatch.setattr("sweep.running.sweep.run_sweep", interrupt)
     assert crumple(capsys, "run", config) == (1, "", told)
+
+
+@pytest.mark.parametrize(
+    ("mode", "told"),
+    [
+        ("displacement", "Energy is counted until the force of a specimen exceeds 0.05 kN."),
+        ("force", "The force of 0.05 kN has no effect: without a crush no energy is ranked."),
+        ("impact", "The force of 0.05 kN has no effect: without a crush no energy is ranked."),
+    ],
+)
+def test_what_an_allowed_force_is_for_is_told(capsys, tmp_path, mode, told):
+    row = {absorbed_energy_column(50.0): 0.01, "loading_mode": mode}
+    main(["rank", write(tmp_path / "trial.h5", summary(row)), "--allowed-force", "0.05 kN"])
+    assert told in capsys.readouterr().out

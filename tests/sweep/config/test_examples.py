@@ -1,10 +1,11 @@
-"""Examples are found by their names, files by their paths."""
+"""Examples are found by their names, files by their paths; all that ship are sweeps."""
 
 from pathlib import Path
 
 import pytest
 
 from sweep.config.examples import FOLDER, examples, find_config
+from sweep.config.grid import expand
 from sweep.config.units import load_config
 
 
@@ -26,3 +27,31 @@ def test_file_comes_before_the_example_of_its_name_and_a_folder_does_not(tmp_pat
     Path("armor").touch()
     assert find_config("armor") == Path("armor")
     assert find_config("smoke.toml") == Path("smoke.toml")
+
+
+CONFIGS = Path(__file__).parents[3] / "configs"
+
+
+@pytest.mark.parametrize(
+    ("name", "cases"),
+    [
+        ("smoke", 6),
+        ("armor", 140),
+        ("infills", 13),
+        ("thousand", 1000),
+        ("custom", 1),
+        ("seed", 14),
+        ("impact", 24),
+        ("khatri_egan_square", 60),
+    ],
+)
+def test_shipped_configs_expand(name, cases):
+    config = load_config(CONFIGS / f"{name}.toml")
+    assert config.name == name
+    assert len({case.case_id for case in expand(config)}) == len(expand(config)) == cases
+
+
+def test_every_shipped_config_is_pinned():
+    studies = {"custom", "seed", "impact", "khatri_egan_square", "extreme"}
+    names = {"smoke", "armor", "infills", "thousand"}
+    assert {path.stem for path in CONFIGS.glob("*.toml")} == names | studies

@@ -177,9 +177,3 @@ def test_keys_of_other_lattices_have_no_effect(lines, more):
     (line,) = lines(GOOD, more)
     assert line.endswith('has no effect, as lattice.kind is "custom"')
     assert len(lines(GOOD, '[loading]\nmode = "custom"\nduration = "5 ms"')) == 0
-
-
-def test_mode_of_a_structure_is_its_own(tmp_path):
-    (tmp_path / "square.toml").write_text('[loading]\nmode = "custom"')
-    with pytest.raises(ConfigError, match=r'unless lattice\.kind is "custom"'):
-        load_config(tmp_path / "square.toml")

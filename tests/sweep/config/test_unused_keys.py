@@ -72,16 +72,6 @@ NEEDED = [
 ]
 
 
-@pytest.fixture
-def load(tmp_path):
-    def loaded(text):
-        path = tmp_path / "sweep.toml"
-        path.write_text(text)
-        return load_config(path)
-
-    return loaded
-
-
 @pytest.mark.parametrize("text", IDLE)
 def test_a_key_that_no_case_needs_is_refused_with_the_reason(load, text):
     with pytest.raises(ConfigError) as caught:
@@ -95,29 +85,34 @@ def test_a_key_that_some_case_needs_is_fine(load, text):
     assert len(expand(load(text))) > 0
 
 
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        (
+            'orientation = "flat"',
+            'lattice.orientation = "flat": has no effect, as lattice.kind is "square"',
+        ),
+        (
+            'line_width = "0.5 mm"',
+            'lattice.line_width = "0.5 mm": has no effect, as there are neither'
+            " lattice.perimeters nor a lattice.infill",
+        ),
+        (
+            'perimeters = 1\nlayer_height = "0.5 mm"',
+            'lattice.layer_height = "0.5 mm": has no effect, as lattice.solid_layers is 0',
+        ),
+    ],
+)
+def test_what_the_infill_does_not_use_is_refused(lines, text, line):
+    assert lines(f"[lattice]\n{text}") == [line]
+
+
 def test_all_idle_keys_are_told_at_once_and_after_a_misspelt_one_none(load):
     text = PRESSED + '[damping]\nmass = "5 1/s"\n[solver]\ntime_step = "1 ms"\n'
     with pytest.raises(ConfigError, match=r"(?s)damping\.mass.*\n.*time_step.*quasi-static$"):
         load(text)
     with pytest.raises(ConfigError, match=r"^lattice\.cels [^\n]*$"):
         load(text + "[lattice]\ncels = 3")
-
-
-def test_mode_is_inferred_in_a_sweep_too(load):
-    cases = expand(load("[grid]\nloading.strain = [0.3, 0.5]"))
-    assert [(case.loading.mode, case.loading.strain) for case in cases] == [
-        ("displacement", 0.3),
-        ("displacement", 0.5),
-    ]
-
-
-def test_keys_of_both_modes_need_the_mode(load):
-    with pytest.raises(ConfigError) as caught:
-        load('[loading]\nstrain = 0.5\n[grid]\nloading.force = ["3 N", "4 N"]')
-    assert str(caught.value) == (
-        'loading.mode is missing; needed: "force" or "displacement", as loading.force needs the'
-        " one and loading.strain the other (2 of 2 combinations)"
-    )
 
 
 def in_statics(folder, integrators, **parts):

@@ -6,23 +6,14 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 import sweep.design.infill
-from sweep.config.case import Case, Lattice, Loading
-from sweep.design.drawing import Sketch, counts, extent, joints_and_walls, sketch
-from sweep.design.infill import families, trait
+from sweep.config.case import Case, Loading
+from sweep.design.drawing import Sketch, counts, extent, joints_and_walls
+from sweep.design.infill import families
 from sweep.design.lattice import build_network
 from sweep.design.network import relative_density
 from sweep.scene.lattice import build_scene
+from tests.support.infills import EDGES, KINDS, lattice_of
 from tests.support.solving import whole
-
-WAYS = {None: ["pointy"], True: ["pointy", "flat"]}
-KINDS = [(kind, way) for kind in families() for way in WAYS[trait(kind, "ORIENTED")]]
-EDGES = {"free": {}, "closed": {"perimeters": 2}, "capped": {"solid_layers": 3}}
-
-
-def lattice_of(kind, way="pointy", cells=(3, 3), **changes):
-    box = {"width": 20e-3, "height": 18e-3, "wall_thickness": 0.2e-3}
-    oriented = {"orientation": way} if trait(kind, "ORIENTED") else {}
-    return Lattice(kind=kind, **oriented, cells_x=cells[0], cells_y=cells[1], **box | changes)
 
 
 def levels(*joints):
@@ -75,14 +66,6 @@ def test_joints_and_walls_are_as_many_as_closed_forms_say(kind, way, cells):
     points, walls = joints_and_walls(drawn)
     expected = COUNTS[kind](*(cells if way == "pointy" else cells[::-1]))
     assert (len(points), len(walls)) == counts(drawn) == expected
-
-
-@pytest.mark.parametrize("edge", EDGES)
-@pytest.mark.parametrize(("kind", "way"), KINDS)
-def test_counts_are_known_without_drawing(kind, way, edge):
-    lattice = lattice_of(kind, way, (13, 14), width=0.1, height=0.1, **EDGES[edge])
-    drawn = sketch(lattice.geometry)
-    assert counts(drawn) == tuple(map(len, joints_and_walls(drawn)))
 
 
 @pytest.mark.parametrize("edge", EDGES)
@@ -202,11 +185,3 @@ def test_a_file_more_is_a_family_more(tmp_path, monkeypatch):
     points, walls = joints_and_walls(Sketch("ladder", None, (1, 3), (1.0, 3.0)))
     assert (len(points), len(walls)) == (8, 9)
     families.cache_clear()
-
-
-def test_square_cells_are_known_without_drawing():
-    closed, drawn = trait("square", "opening"), lattice_of("diamond", cells=(4, 4)).opening
-    assert closed(5e-3, 4.5e-3) == 4.5e-3
-    assert drawn == pytest.approx(5e-3 * 4.5e-3 / np.hypot(5e-3, 4.5e-3), rel=1e-5)
-    low, high = extent("hex", "pointy", (3, 3))
-    np.testing.assert_allclose(high - low, [3.5 * 3**0.5, 5.0], rtol=1e-12)

@@ -9,58 +9,16 @@ import pytest
 from sweep.config.grid import expand
 from sweep.config.units import load_config
 from sweep.ranking.accuracy import AccuracyError, energy, path, peak, studies
-from sweep.report.accuracy_tables import accuracy_sheets, answers, scene_title, setting
-from sweep.result import HISTORY_COLUMNS, Result, Status
+from sweep.report.accuracy_tables import accuracy_sheets, setting
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from sweep.store.read import read_summary
-from sweep.store.write import Writer
 from tests.support import readme
 from tests.support.command import crumple
-from tests.support.specimens import summary, there_and_back
+from tests.support.made_up_studies import ENERGY, ORDERS, PEAK, STEPS, all_steps, made_up, study
+from tests.support.specimens import there_and_back
 
 CONFIGS = Path(__file__).parents[3] / "configs" / "accuracy"
-ORDERS = {"backward_euler": 1, "bdf2": 2, "newmark": 2}
-STEPS = (1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5)
-TIME = np.linspace(0.0, 1.0, 11)
-ENERGY, PEAK = 0.05, 20.0
-
-
-def made_up(integrator, step, **other):
-    """A case whose energy is off by 40 (step in ms)^p %, its path by half of that."""
-    off = 0.4 * (1e3 * step) ** ORDERS[integrator]
-    return {
-        "loading_mode": "force",
-        "force_N": 5.0,
-        "solver.integrator": integrator,
-        "solver.time_step": step,
-        "absorbed_energy_J": ENERGY * (1.0 + off),
-        "peak_force_N": PEAK * (1.0 - off),
-        "cpu_s": 1e-3 / step * (2.2 if integrator == "bdf2" else 1.0),
-        "path": TIME * (1.0 + 0.5 * off),
-        **other,
-    }
-
-
-def all_steps(*integrators, **other):
-    return [made_up(name, step, **other) for name in integrators for step in STEPS]
-
-
-def study(folder, rows):
-    """The studies of made-up rows."""
-    table = summary(*rows)
-    results = []
-    for row in table.to_dict("records"):
-        case_id, status, message, curve = (
-            row.pop(k) for k in ("case_id", "status", "message", "path")
-        )
-        blank = dict.fromkeys(HISTORY_COLUMNS, np.zeros_like(TIME))
-        history = blank | {"time_s": TIME, "strain": curve}
-        results.append(Result(case_id, Status(status), message, row, history, {}))
-    with Writer(folder / "made_up.h5") as writer:
-        writer.append(results)
-        writer.fold()
-    return studies(folder / "made_up.h5", read_summary(folder / "made_up.h5"))
 
 
 def test_errors_are_those_against_the_limit_of_the_highest_order(tmp_path):
@@ -80,31 +38,6 @@ def test_errors_are_those_against_the_limit_of_the_highest_order(tmp_path):
         assert found.orders["bdf2"][name]["solver.time_step"] == pytest.approx(2, abs=0.01)
 
 
-def test_answer_is_the_cheapest_setting(tmp_path):
-    (found,) = study(tmp_path, all_steps("backward_euler", "bdf2"))
-    text = " ".join(answers(found))
-    assert "Reference: the limit of bdf2, 62.5 us: absorbed energy 50.0 mJ ± 0.16 %" in text
-    assert (
-        "The cheapest setting below 1 % in absorbed energy, peak force and strain over time is "
-        "bdf2, 0.125 ms: 17.6 s." in text
-    )
-    assert "The cheapest setting below 0.1 % in strain over time is bdf2, 62.5 us: 35.2 s." in text
-    assert list(found.settings["front"]) == [*[True] * 4, *[False] * 3, *[True] * 3]
-
-
-def test_what_finer_steps_do_not_settle_is_not_resolved(tmp_path):
-    rows = all_steps("bdf2")
-    for row, force in zip(rows, [20.0, 25.0, 30.0, 22.0, 27.0], strict=True):
-        row["peak_force_N"] = force
-    (found,) = study(tmp_path, rows)
-    (sheet, orders) = accuracy_sheets(found, "made up")
-    assert found.resolved == ("energy", "path")
-    assert "Not resolved: peak force, whose limit is uncertain by 30 %." in answers(found)
-    assert "in absorbed energy and strain over time is bdf2" not in " ".join(answers(found))
-    assert [row[sheet.heads.index("peak %")] for row in sheet.rows] == ["< 30"] * 5
-    assert orders.rows[0][2:] == ["2.00", "–", "2.00"]
-
-
 def test_methods_of_one_order_that_disagree_are_doubted(tmp_path):
     rows = all_steps("bdf2", "newmark")
     for row in rows[len(STEPS) :]:
@@ -112,32 +45,6 @@ def test_methods_of_one_order_that_disagree_are_doubted(tmp_path):
     (found,) = study(tmp_path, rows)
     assert found.references["peak"].doubt == pytest.approx(1 / 11 - 0.4 / 256, rel=1e-2)
     assert found.references["energy"].doubt == pytest.approx(0.4 / 256, rel=1e-2)
-
-
-def test_scenes_are_studied_apart(tmp_path):
-    rows = [row | {"loading.force": row["force_N"]} for row in all_steps("bdf2")]
-    others = [row | {"loading.force": 7.0, "force_N": 7.0} for row in all_steps("bdf2")]
-    for row in others:
-        row["absorbed_energy_J"] *= 3.0
-    found = study(tmp_path, rows + others)
-    titles = [scene_title(one, "trial") for one in found]
-    assert titles == [
-        f"trial: dead load of {n} N, glued platens, solver integrator bdf2" for n in (5, 7)
-    ]
-    assert [one.references["energy"].value[0] for one in found] == pytest.approx(
-        [0.05, 0.15], rel=1e-4
-    )
-
-
-def test_failed_settings_keep_their_row(tmp_path):
-    rows = all_steps("backward_euler", "bdf2")
-    rows[0] |= {"status": "stopped", "message": "stopped at once"}
-    (found,) = study(tmp_path, rows)
-    sheet, _ = accuracy_sheets(found, "made up")
-    assert sheet.rows[0][2:5] == ["stopped"] * 3
-    assert sheet.notes[-1] == "Failed: 1 settings; the first stopped at once."
-    assert not found.settings["front"].iloc[0]
-    assert study(tmp_path / "none", [row | {"status": "stopped"} for row in rows]) == []
 
 
 def test_meshes_and_steps_are_extrapolated_together(tmp_path):

@@ -1,8 +1,11 @@
-"""What counts for designs that a striker hits."""
+"""What counts: energy up to a force or until packed, of a panel, and force under a striker."""
 
-from sweep.ranking.rank import ranked
+import pandas as pd
+import pytest
+
+from sweep.ranking.rank import rank, ranked
 from sweep.report.sheets import legend, ranking_sheets
-from tests.support.specimens import summary
+from tests.support.specimens import CRUSHED_SOLID, SPARSE, designs, ids, summary
 
 NAN = float("nan")
 
@@ -36,3 +39,56 @@ def test_under_a_striker_the_least_force_wins():
     assert first.heads[2:] == ["force N", "sink %", "left mm", "rebound %"]
     assert first.rows[1][1:] == ["1.00", "60.0", "0", "2.00", "40"]
     assert "rebound: share" in legend(ranking)
+
+
+def test_what_is_pressed_into_less_than_its_solid_is_marked():
+    """A striker that has used up more than the voids, a dead load on the ground."""
+    struck = {"loading_mode": "impact", "striker_mass_g": 50.0, "peak_force_N": 9.0}
+    table = summary(struck | {"stroke_left_m": -1e-4}, struck | {"stroke_left_m": 1e-4})
+    assert list(rank(table)["beyond_model"]) == [True, False]
+    held = {"loading_mode": "force", "force_N": 5.0, "stroke_left_m": NAN}
+    table = summary(held | {"peak_strain": 0.99}, held | {"peak_strain": 1.03})
+    assert list(rank(table)["beyond_model"]) == [False, True]
+
+
+def test_panel_is_filled_side_by_side():
+    ranking = rank(summary({"mass_g": 1.5, "absorbed_energy_J": 0.2}), panel=(0.130, 0.050))
+    factor = 0.130 * 0.050 / ((12.2e-3 + 0.8e-3) * 10e-3)
+    assert factor == pytest.approx(50.0)
+    assert ranking.loc[0, "panel_mass_g"] == pytest.approx(50.0 * 1.5)
+    assert ranking.loc[0, "panel_energy_J"] == pytest.approx(50.0 * 0.2)
+
+
+def test_numbers_are_si():
+    table = summary(*designs([1.0, 2.0], [0.1, 0.3]))
+    text = rank(table, budget="60 g", panel=("130 mm", "50 mm"))
+    pd.testing.assert_frame_equal(rank(table, budget=0.060, panel=(0.130, 0.050)), text)
+
+
+def test_energy_counts_up_to_the_allowed_force():
+    table = summary(
+        {"absorbed_energy_J": 0.9, "absorbed_energy_at_50N_J": 0.1, "mass_g": 2.0},
+        {"absorbed_energy_J": 0.5, "absorbed_energy_at_50N_J": 0.2, "mass_g": 2.0},
+    )
+    ranking = ranked(table, allowed_force="50 N")
+    assert ids(ranking.table) == [1, 0]
+    assert ranking.table.loc[0, "specific_absorption_at_50N_J_per_g"] == pytest.approx(0.1)
+    assert list(ranking.table["pareto"]) == [True, False]
+
+    assert list(ranking.table["passed_on_N"]) == [20.0, 20.0]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sheet.heads == ["#", "mass g", "absorbs mJ", "J/g", "peak N"]
+    assert not {"pack", "back"} & {line.partition(":")[0] for line in legend(ranking).splitlines()}
+    packed = ranked(table, by="densification_strain", allowed_force="50 N")
+    (sheet,) = ranking_sheets(packed, table)
+    assert sheet.heads[-1] == "densification_strain"
+    strong = table.assign(peak_force_N=80.0, peak_force_at_densification_N=30.0)
+    assert list(rank(strong, allowed_force="50 N")["passed_on_N"]) == [50.0, 50.0]
+
+
+def test_energy_counts_until_the_lattice_has_packed_down():
+    ranking = ranked(summary(CRUSHED_SOLID, SPARSE), budget="2 g")
+    assert ids(ranking.table) == [1, 0]
+    assert ranking.energy == "absorbed_energy_at_densification_J"
+    assert list(ranking.table["passed_on_N"]) == [25.0, 30.0]
+    assert not ranking.table["beyond_model"].any()

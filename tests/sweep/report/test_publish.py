@@ -3,9 +3,6 @@
 import pandas as pd
 import pytest
 
-from sweep.ranking.rank import ranked
-from sweep.report.case_plots import blank
-from sweep.report.pattern_bars import pattern_bars
 from sweep.report.publish import publish_ranking
 from sweep.report.sheets import LOADED, MARKS
 from tests.support.specimens import designs, summary, write
@@ -62,16 +59,3 @@ def test_tables_come_with_their_legend(published):
 def test_each_kind_of_scene_has_its_picture(published):
     pictures = [name for name in published() if name.endswith(".png")]
     assert pictures == ["absorption.png", "sink.png", "winners.png"]
-
-
-def test_several_patterns_are_drawn_side_by_side(tmp_path):
-    kinds = [{"lattice_kind": "hex", "lattice.orientation": "flat"}, {"lattice.orientation": ""}]
-    rows = designs([1.0, 1.0], [0.2, 0.1])
-    table = summary(*[row | kind for row, kind in zip(rows, kinds, strict=True)])
-    ranking = ranked(table, top=None)
-    figure = blank(6, 3)
-    pattern_bars(figure, ranking)
-    (ax,) = figure.axes
-    labels = [label.get_text() for label in ax.get_yticklabels()]
-    assert labels == ["square", "hex, orientation flat"]
-    assert [bar.get_width() for bar in ax.patches] == [0.1, 0.2]

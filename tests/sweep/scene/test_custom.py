@@ -1,6 +1,5 @@
 """Structures of a user's own against closed forms: statics."""
 
-import json
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +19,7 @@ from tests.support.structures import (
     MM,
     ROD,
     THICKNESS,
+    end_load,
     finished,
     probe,
     pushed,
@@ -27,10 +27,6 @@ from tests.support.structures import (
 
 L = LENGTH * MM
 CONFIGS = Path(__file__).parents[3] / "configs"
-
-
-def end_load(force, moment=0.0):
-    return {"loads": [{"node": 1, "force_N": [0.0, force], "moment_Nmm": moment}]}
 
 
 @pytest.mark.parametrize("size", [1.0, 10.0])
@@ -45,14 +41,6 @@ def test_cantilever_under_a_dead_load(size):
     arm = probe(result, 1, "x_m")[-1]
     assert probe(result, 0, "reaction_moment_Nm")[-1] == pytest.approx(force * arm, rel=1e-6)
     assert not probe(result, 1, "reaction_y_N").any()
-
-
-def test_rows_of_equal_increments():
-    result = pushed(BEAM | end_load(-1e-3), steps=4)
-    np.testing.assert_allclose(result.history["load_factor"], [0.0, 0.25, 0.5, 0.75, 1.0])
-    assert np.isnan(result.history["strain"]).all()
-    reaction = probe(result, 0, "reaction_y_N")
-    np.testing.assert_allclose(reaction, 1e-3 * result.history["load_factor"], rtol=1e-6)
 
 
 @pytest.mark.parametrize("pieces", [[1, 1, 1], [4, 2, 1], [8, 8, 8]])
@@ -273,20 +261,3 @@ def test_arms_that_close_touch():
     np.testing.assert_allclose(whole, 0.0, atol=1e-6 * probe(result, 2, "reaction_y_N").max())
     apart = pushed(clamp, steps=24)
     assert probe(apart, 2, "reaction_y_N")[-1] < 0.5 * probe(result, 2, "reaction_y_N")[-1]
-
-
-def test_files_are_an_axis(tmp_path):
-    for name, thickness in (("thin", 1.0), ("thick", 2.0)):
-        whole = BEAM | {"wall_thickness_mm": thickness}
-        (tmp_path / f"{name}.json").write_text(json.dumps(whole))
-    text = """[lattice]
-    kind = "custom"
-    [grid]
-    lattice.file = ["thin.json", "thick.json"]
-    """
-    (tmp_path / "two.toml").write_text(text)
-    cases = expand(load_config(tmp_path / "two.toml"))
-    assert [case.axes["lattice.file"] for case in cases] == ["thin.json", "thick.json"]
-    assert [case.lattice.wall_thickness for case in cases] == [1e-3, 2e-3]
-    (tmp_path / "one.toml").write_text(f'{text}[[exclude]]\nlattice.file = "thin.json"')
-    assert len(expand(load_config(tmp_path / "one.toml"))) == 1

@@ -6,11 +6,10 @@ from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
 
 from sweep.config import material_file
 from sweep.config.case import Material
-from sweep.config.material_file import RecordError, read_record
 from sweep.scene.material import stress_law
+from tests.support.records import HEADER
 
 NAMES = material_file.available()
-HEADER = "# density_kg_m3: 1200\n# poisson: 0.48\nstrain,stress_Pa\n"
 
 
 def polynomial(law):
@@ -21,16 +20,6 @@ def polynomial(law):
 @pytest.fixture(params=NAMES)
 def material(request):
     return Material(name=request.param)
-
-
-@pytest.fixture
-def own_record(tmp_path):
-    def write(text):
-        path = tmp_path / "own.csv"
-        path.write_text(text)
-        return path
-
-    return write
 
 
 @pytest.mark.parametrize(
@@ -144,30 +133,3 @@ def test_a_record_that_ends_early_goes_on_straight(own_record):
     path = own_record(HEADER + "0.01,2e4\n0.05,1e5\n0.1,2e5\n")
     law = polynomial(stress_law(Material(name=str(path))))
     assert law(-0.5) == pytest.approx(-0.7 * 1e6 - 0.3 * 2e6 / 0.25, rel=1e-3)
-
-
-def test_a_stated_modulus_wins(own_record):
-    path = own_record("# modulus_Pa: 3e6\n" + HEADER + "0.01,2e4\n0.05,1e5\n")
-    assert read_record(path).modulus == 3e6
-    assert Material(name=str(path)).name == "own"
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("strain,stress_Pa\n0.01,1\n0.1,2\n", "needs the lines # density_kg_m3"),
-        ("# density_kg_m3: 1.2 g/cm^3\n# poisson: 0.4\nstrain,stress_Pa\n0,0\n1,1\n", "density_kg"),
-        (HEADER.replace("_Pa", "_MPa") + "0.01,1\n", "first row must read strain,stress_Pa"),
-        (HEADER + "0.01,1,3\n", "two numbers"),
-        (HEADER + "0.01,soft\n0.1,2\n", "could not convert"),
-        (HEADER + "0.01,nan\n0.1,2\n", "finite"),
-        (HEADER + "0.02,1\n0.01,2\n", "must increase"),
-        (HEADER + "-1.0,-1\n0.1,2\n", "from above -1"),
-        (HEADER + "0.01,1\n0.02,2\n", "reach a strain of 0.04"),
-        (HEADER + "0.01,-1\n0.5,2\n", "positive at 1 % strain"),
-        (HEADER, "reach a strain"),
-    ],
-)
-def test_unusable_records_are_refused_by_name(own_record, text, message):
-    with pytest.raises(RecordError, match=f"own.csv: .*{message}"):
-        read_record(own_record(text))

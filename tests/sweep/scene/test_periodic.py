@@ -1,34 +1,17 @@
-"""An endless lattice: what it may not depend on, its derivatives, its period, what it refuses."""
+"""An endless lattice: what it may not depend on, its book, its derivatives."""
 
-import re
 from unittest.mock import patch
 
 import numpy as np
 import pytest
-import shapely
-from pydantic import ValidationError
 
 from kernels.solve import newton
-from sweep.config.case import Case, Lattice
-from sweep.design import period
-from sweep.design.drawing import welded
-from sweep.design.infill import families
 from sweep.design.lattice import build_network
-from sweep.design.network import relative_density
 from sweep.scene import periodic
 from sweep.simulation.simulate import simulate
-from tests.support.periods import PITCH, L, follow, lattice_of, pressed
+from tests.support.periods import PITCH, L, cut_elsewhere, follow, lattice_of, pressed
 from tests.support.scenes import is_sound, trapezoid, unbalanced
 from tests.support.solving import at_rest, descend, go_on, ramp, whole
-
-
-def cut_elsewhere(cut):
-    """Patch that puts the lower left corner of the period at ``cut``, m."""
-
-    def moved(segments, tolerance):
-        return welded(segments - np.array(cut), tolerance)
-
-    return patch.object(period, "welded", moved)
 
 
 def cut_at(case, cut=(0.0, 0.0), wave=None):
@@ -149,68 +132,3 @@ def test_a_led_step_converges_as_newton_does():
     case, scene, x, args = crushed(lattice_of("reentrant", (1, 2), 0.12), 0.45)
     found = descend(case, scene, x, args, target=x[-1] - 1e-4 * L)
     assert (found.outcome, found.iterations <= 4) == (newton.CONVERGED, True)
-
-
-@pytest.mark.parametrize("kind", families())
-def test_all_families_have_a_period(kind):
-    """Its density depends neither on the cut nor on the number of periods."""
-    found = []
-    for cells, cut in (((1, 2), (0, 0)), ((2, 2), (0, 0)), ((2, 4), (0.3 * L, 0.7 * L))):
-        with cut_elsewhere(cut):
-            made = period.build_period(lattice_of(kind, cells, 0.05).geometry)
-        found.append(made.printed_area / np.prod(cells))
-    assert found == pytest.approx([found[0]] * 3, rel=1e-9)
-
-
-def test_density_of_the_endless_square_grid():
-    lattice = lattice_of("square", (2, 3), 0.1)
-    assert relative_density(build_network(lattice.geometry), lattice.outer_size) == pytest.approx(
-        1 - 0.9**2
-    )
-
-
-@pytest.mark.parametrize("kind", families())
-def test_copies_have_all_walls_round_the_openings_of_a_period(kind):
-    """More copies make no smaller opening next to its walls."""
-    lattice = lattice_of(kind, (1, 2), 0.05)
-    sizes = []
-    for reach in (period.REACH, 2.5):
-        with patch.object(period, "REACH", reach):
-            network = period.build_period(lattice.geometry)
-        lines = shapely.linestrings(network.points[network.walls])
-        cells = shapely.get_parts(shapely.polygonize(lines))
-        beside = shapely.STRtree(cells).query(lines[: network.own], "covered_by")
-        assert np.all(np.bincount(beside[0], minlength=network.own) == 2)
-        sizes.append(np.sort(shapely.area(cells[beside[1]])))
-    np.testing.assert_allclose(*sizes, rtol=1e-9)
-
-
-REFUSED = [
-    ({"grading": 2.0}, {}, "lattice.grading = 2.0; allowed: 1"),
-    ({"perimeters": 1}, {}, "lattice.perimeters = 1; allowed: 0"),
-    ({"solid_layers": 2}, {}, "lattice.solid_layers = 2; allowed: 0"),
-    ({"infill": 0.2}, {}, "lattice.infill = 0.2; allowed: none"),
-    ({"kind": "hex"}, {}, "lattice.cells_y = 3; allowed: an even number"),
-    ({"kind": "hex", "orientation": "flat"}, {}, "lattice.cells_x = 3; allowed: an even number"),
-    ({}, {"mode": "force"}, 'loading.mode = force; allowed: "displacement"'),
-    ({}, {"striker_speed": 1.0}, 'loading.mode = impact; allowed: "displacement"'),
-    ({}, {"strain": 0.5, "platen": "glued"}, 'loading.platen = glued; allowed: "none"'),
-    ({}, {"strain": 0.5, "speed": 0.1}, "loading.quasi_static = 0; allowed: true"),
-]
-
-
-@pytest.mark.parametrize(("lattice", "loading", "words"), REFUSED)
-def test_what_has_no_endless_lattice_is_refused(lattice, loading, words):
-    with pytest.raises(ValidationError, match=re.escape(words)):
-        Case(lattice={"boundary": "periodic"} | lattice, loading=loading or {"strain": 0.5})
-
-
-def test_a_structure_of_ones_own_is_not_repeated(tmp_path):
-    (tmp_path / "bar.json").write_text('{"nodes_mm": [[0, 0], [10, 0]], "walls": [[0, 1]]}')
-    words = 'lattice.boundary = periodic; allowed: "free"'
-    with pytest.raises(ValidationError, match=re.escape(words)):
-        Lattice(kind="custom", file=str(tmp_path / "bar.json"), boundary="periodic")
-
-
-def test_free_sides_keep_their_ids():
-    assert Case().case_id == Case(lattice=Lattice(boundary="free")).case_id

@@ -6,9 +6,7 @@ from importlib import import_module
 import pytest
 
 from kernels.solve import march
-from sweep.config.case import Case, Loading, Solver
-from sweep.scene.lattice import build_scene
-from sweep.scene.loading import stages
+from sweep.config.case import Case, Loading
 from sweep.simulation.simulate import simulate, warm_up
 
 PARTS = {"scene": "build_scene", "rows": "history_columns", "measures": "summarise"}
@@ -55,18 +53,3 @@ def test_processor_time_counts_the_march(seconds):
 
 def test_processor_time_counts_no_waiting(seconds):
     assert seconds(march, "march", time.sleep) < 0.2
-
-
-@pytest.mark.parametrize(("step", "steps", "dt"), [(15e-3, 2, 10e-3), (10e-3, 2, 10e-3)])
-def test_steps_fill_the_time_until_release_and_after(step, steps, dt):
-    loading = Loading(force=1.0, release_time=20e-3, duration=40e-3)
-    case = Case(loading=loading, solver=Solver(time_step=step))
-    for phase in stages(case, build_scene(case)):
-        assert (phase.stage.steps, phase.stage.duration) == (steps, dt)
-
-
-def test_steps_fill_the_flight_of_a_striker():
-    loading = Loading(mode="impact", duration=10e-3)
-    case = Case(loading=loading, solver=Solver(time_step=6e-3))
-    (phase,) = stages(case, build_scene(case))
-    assert (phase.stage.steps, phase.stage.duration) == (2, 5e-3)

@@ -4,7 +4,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
 from kernels.solve import newton
 from kernels.solve.energy_book import kinetic
@@ -259,37 +258,3 @@ def test_the_usual_integrator_of_an_impact_errs_less():
     assert struck(damping=SEED).solver.integrator == "bdf2"
     truth = left("bdf2", 4000)
     assert abs(left("bdf2") - truth) < 0.1 * abs(left(EULER) - truth)
-
-
-def test_a_striker_on_walls_moved_apart_goes_by_backward_euler():
-    contact = Contact(model="position_based")
-    assert Case(loading=Loading(mode="impact"), contact=contact).solver.integrator == EULER
-
-
-def test_speed_and_energy_follow_from_one_another():
-    by_speed = Loading(striker_mass=0.1, striker_speed=2.0)
-    by_energy = Loading(striker_mass=0.1, energy=0.2)
-    both = Loading(striker_mass=0.1, energy=0.2, striker_speed=2.0)
-    assert by_speed.mode == by_energy.mode == "impact"
-    assert len({Case(loading=loading).case_id for loading in (by_speed, by_energy, both)}) == 1
-    with pytest.raises(ValidationError, match=r"loading\.energy = 0\.3; allowed: 0\.2 J"):
-        Case(loading=Loading(striker_mass=0.1, striker_speed=2.0, energy=0.3))
-
-
-@pytest.mark.parametrize(
-    ("loading", "solver", "words"),
-    [
-        ({"platen": "none"}, {}, r'loading\.platen = none; allowed: "contact", "glued" or'),
-        ({}, {"integrator": "static"}, r"solver\.integrator = static; allowed"),
-    ],
-)
-def test_what_does_not_go_with_an_impact_is_refused(loading, solver, words):
-    with pytest.raises(ValidationError, match=words):
-        Case(loading=Loading(mode="impact", **loading), solver=Solver(**solver))
-
-
-def test_duration_is_a_key_of_loads_and_of_strikers():
-    assert Loading(duration=0.1).mode == "force"
-    assert Loading(duration=0.1, energy=0.1).mode == "impact"
-    with pytest.raises(ValidationError, match=r'"force" or "impact", as loading\.force needs'):
-        Loading(force=1.0, energy=0.1)

@@ -1,0 +1,149 @@
+"""From a config to its cases: products, zips, what is excluded, and faults of many cases."""
+
+import pytest
+
+from sweep.config import material_file
+from sweep.config.grid import case_count, expand
+from sweep.config.units import ConfigError
+
+THOUSAND = [round(0.01 + 1e-4 * i, 6) for i in range(1000)]
+WRONG = {
+    f"[grid]\nlattice.imperfection = {THOUSAND}\ncontact.friction = {THOUSAND}\n"
+    f"contact.stiffness = {THOUSAND}": (
+        "[grid] makes 1,000,000,000 cases; allowed: at most 1,000,000 in one sweep"
+    ),
+    "[grid]\nlattice.cells = [2, 3]\n[[exclude]]\nlattice.cells = 2\n"
+    "[[exclude]]\nlattice.cells = 4\ncontact.friction = 0.3": (
+        "[[exclude]] of lattice.cells, contact.friction, number 2: drops no case; allowed: tables"
+        " that drop at least one"
+    ),
+    "[grid]\nlattice.cells = [2, 3]\n[[exclude]]\nlattice.cells = [2, 3]": (
+        "[[exclude]] drops all 2 cases; allowed: tables that leave at least one"
+    ),
+}
+
+
+@pytest.mark.parametrize("text", WRONG)
+def test_a_sweep_that_is_refused_as_a_whole(lines, text):
+    assert lines(text) == [WRONG[text]]
+
+
+def test_grid_is_a_product(load):
+    config = load(
+        '[grid]\n"lattice.cells" = [2, 3]\nlattice.wall_thickness = ["0.4 mm", "0.8 mm", "1 mm"]'
+    )
+    cases = expand(config)
+    assert case_count(config) == len(cases) == 6
+    assert cases[1].axes == {"lattice.cells": 2, "lattice.wall_thickness": 0.8e-3}
+    assert (cases[-1].lattice.cells_x, cases[-1].lattice.cells_y) == (3, 3)
+
+
+def test_zip_advances_together(load):
+    config = load(
+        "[grid]\nlattice.cells = [2, 3]\n"
+        '[[zip]]\nloading.mode = ["force", "displacement"]\nloading.force = ["5 N", ""]\n'
+        "[[zip]]\ncontact.friction = [0.2, 0.5]\nsolver.tolerance = [1e-7, 1e-9]"
+    )
+    cases = expand(config)
+    assert len(cases) == 2 * 2 * 2
+    assert {(c.loading.mode, c.loading.force) for c in cases} == {
+        ("force", 5.0),
+        ("displacement", None),
+    }
+    assert {(c.contact.friction, c.solver.tolerance) for c in cases} == {(0.2, 1e-7), (0.5, 1e-9)}
+
+
+def test_empty_text_in_a_zip_leaves_the_config_s_own_value(load):
+    config = load('[loading]\nforce = "7 N"\n[[zip]]\nloading.force = ["", "3 N"]')
+    assert [case.loading.force for case in expand(config)] == [7.0, 3.0]
+    assert [case.axes["loading.force"] for case in expand(config)] == [7.0, 3.0]
+
+
+def test_exclude_drops_what_matches_all_its_keys(load):
+    config = load(
+        "[grid]\nlattice.cells = [2, 3, 5]\n"
+        'lattice.wall_thickness = ["0.4 mm", "1.6 mm"]\n'
+        '[[exclude]]\nlattice.cells = [3, 5]\nlattice.wall_thickness = "1600 um"'
+    )
+    kept = [tuple(case.axes.values()) for case in expand(config)]
+    assert kept == [(2, 0.4e-3), (2, 1.6e-3), (3, 0.4e-3), (5, 0.4e-3)]
+
+
+def test_exclude_sees_values_that_are_filled_in(load):
+    config = load(
+        '[grid]\nloading.mode = ["force", "displacement"]\n[[exclude]]\nloading.platen = "none"'
+    )
+    assert [case.loading.mode for case in expand(config)] == ["displacement"]
+
+
+def test_exclude_sees_them_in_cases_that_are_refused_too(load):
+    """Statics without bending would be, but for the table that drops it."""
+    config = load(
+        '[grid]\nmaterial.bend = ["none", "linear"]\nloading.mode = ["force", "displacement"]\n'
+        '[[exclude]]\nmaterial.bend = "none"\nsolver.integrator = "static"'
+    )
+    assert len(expand(config)) == 3
+
+
+def test_equal_cases_are_one(load):
+    config = load(
+        '[grid]\nloading.mode = ["displacement", "force"]\nloading.force = ["5 N", "10 N"]'
+    )
+    assert case_count(config) == 4
+    assert [case.axes["loading.force"] for case in expand(config)] == [None, 5.0, 10.0]
+
+
+def test_cases_are_found_once_and_handed_out_as_a_list_of_one_s_own(load):
+    config = load("[grid]\nlattice.cells = [2, 3]")
+    first = expand(config)
+    assert all(again is case for again, case in zip(expand(config), first, strict=True))
+    first.clear()
+    assert len(expand(config)) == 2
+
+
+def test_labels_of_switches_are_numbers(load):
+    cases = expand(load('[loading]\nmode = "displacement"\n[grid]\nloading.unload = [true, false]'))
+    assert [case.axes["loading.unload"] for case in cases] == [1, 0]
+
+
+def test_default_material_that_is_not_there(lines, tmp_path, monkeypatch):
+    monkeypatch.setattr(material_file, "FOLDER", tmp_path)
+    (line,) = lines("")
+    assert line.startswith('material.name: "ninjaflex" is no material; allowed: ')
+
+
+MANY = {
+    f"[grid]\nlattice.wall_thickness = {[*range(2000)]}": "[grid] lattice.wall_thickness",
+    f"[[zip]]\nlattice.cells = {[-1] * 2000}\nlattice.depth = {['1 mm'] * 2000}": (
+        "[[zip]] lattice.cells"
+    ),
+    "[contact]\n" + "".join(f"key{n} = 1\n" for n in range(2000)): "contact.key",
+    f"[[exclude]]\nlattice.depth = {[*range(2000)]}": "[[exclude]] lattice.depth",
+}
+
+
+@pytest.mark.parametrize("text", MANY)
+def test_of_many_faults_ten_are_told_and_the_rest_counted(load, text):
+    with pytest.raises(ConfigError) as caught:
+        load(text)
+    *told, last = str(caught.value).splitlines()
+    assert len(told) == 10
+    assert all(line.startswith(MANY[text]) for line in told)
+    assert last == "and 1,990 more mistakes"
+    assert len(caught.value.faults) == 2000
+
+
+def test_faults_of_one_key_do_not_hide_those_of_others(lines):
+    bad = ", ".join(["0"] * 10)
+    told = lines(f"[grid]\nlattice.depth = [{bad}]\nsolver.tol = [1]")
+    assert ["lattice.depth" in line for line in told] == [True] * 9 + [False] * 2
+    assert "solver.tol = [1]: unknown key" in told[9]
+    assert told[10] == "and 1 more mistake"
+
+
+def test_one_bad_value_is_one_line_in_many_cases(lines):
+    (line,) = lines(
+        '[lattice]\nwall_thickness = "2 mm"\n'
+        "[grid]\nlattice.cells = [2, 3, 4, 5]\ncontact.friction = [0.1, 0.2]"
+    )
+    assert line.endswith("(4 of 8 combinations)")

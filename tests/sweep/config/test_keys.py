@@ -1,0 +1,62 @@
+"""The keys of a config: what each accepts, in words; other names; the nearest to a misspelt one."""
+
+import pytest
+
+from sweep.config.grid import expand
+from sweep.config.keys import QUANTITIES, case_keys, nearest, table_keys
+from sweep.design.infill import families
+
+
+def test_every_unit_of_the_keys_is_described():
+    units = {key.unit for key in case_keys().values() if key.unit}
+    assert units <= set(QUANTITIES)
+
+
+def test_load_steps_has_two_names(load):
+    (case,) = expand(load('[loading]\nmode = "displacement"\nload_steps = 50'))
+    assert case.solver.load_steps == 50
+
+
+KINDS = ", ".join(f'"{kind}"' for kind in families())
+
+
+CHOICES = {
+    '[loading]\nmode = "shake"': (
+        'loading.mode = "shake"; "force", "displacement", "impact" or "custom"'
+    ),
+    '[lattice]\nkind = "hexagon"': f'lattice.kind = "hexagon"; {KINDS} or "custom"',
+    '[material]\nbend = "curve"': 'material.bend = "curve"; "linear", "section" or "none"',
+    '[contact]\nmodel = "by_position"': (
+        'contact.model = "by_position"; "auto", "none", "barrier" or "position_based"'
+    ),
+    '[solver]\nhessian = "tangent"': 'solver.hessian = "tangent"; "exact" or "tangent_modulus"',
+    '[solver]\nintegrator = "bdf3"': (
+        'solver.integrator = "bdf3"; "backward_euler", "bdf2", "newmark", "static" or "arc_length"'
+    ),
+}
+
+
+@pytest.mark.parametrize("text", CHOICES)
+def test_unknown_choices_name_the_known_ones(lines, text):
+    value, allowed = CHOICES[text].split("; ")
+    assert lines(text) == [f"{value}: unknown choice; allowed: {allowed}"]
+
+
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [
+        ("lattice.wall", "lattice.wall_thickness"),
+        ("cells", "lattice.cells"),
+        ("solver.tolerence", "solver.tolerance"),
+    ],
+)
+def test_the_nearest_key_begins_so_or_looks_most_like_it(name, wanted):
+    assert nearest(name, case_keys()) == wanted
+
+
+def test_keys_tell_their_unit_and_what_they_set():
+    wall, cells = case_keys()["lattice.wall_thickness"], case_keys()["lattice.cells"]
+    assert (wall.unit, wall.bare, wall.is_list) == ("m", False, False)
+    assert cells.targets == ("lattice.cells_x", "lattice.cells_y")
+    assert set(table_keys("rank")) == {"rank.budgets", "rank.panel"}
+    assert "lattice.structure" not in case_keys()

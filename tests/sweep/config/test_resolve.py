@@ -1,0 +1,162 @@
+"""What a case leaves open, filled in: by its mode, by its contact; what cannot go together."""
+
+import pickle
+import re
+
+import pytest
+from pydantic import ValidationError
+
+from sweep.config.case import Case, Contact, Damping, Loading, Solver
+from sweep.config.units import ConfigError, load_config
+from tests.support.cases import pressed
+
+PERIODIC = '[lattice]\nboundary = "periodic"\n'
+LED = 'allowed: "displacement" if lattice.boundary is "periodic"'
+
+UNFIT = {
+    '[loading]\nmode = "displacement"\nstrain = 0.5\nstroke = "5 mm"': (
+        'loading.stroke = "5 mm": does not fit; allowed: 6.25 mm at the strain given; give one'
+        " of them"
+    ),
+    '[loading]\nstroke = "0.5in"': (
+        'loading.stroke = "0.5in": does not fit; allowed: below the height of the lattice,'
+        " 0.4921 in"
+    ),
+    '[solver]\nintegrator = "static"': (
+        'solver.integrator = "static": does not fit; allowed: "backward_euler", "bdf2" or "newmark"'
+        ' if loading.mode is "force"'
+    ),
+    '[solver]\nintegrator = "arc_length"': (
+        'solver.integrator = "arc_length": does not fit; allowed: "static" where quasi-static, else'
+        ' "backward_euler", "bdf2" or "newmark", unless lattice.kind is "custom"'
+    ),
+    '[contact]\nmodel = "position_based"\n[solver]\nintegrator = "newmark"': (
+        'solver.integrator = "newmark": does not fit; allowed: "backward_euler" if contact.model is'
+        ' "position_based"'
+    ),
+    f'{PERIODIC}[loading]\nforce = "3 N"': (
+        f'loading.mode = "force", as loading.force is given: does not fit; {LED}'
+    ),
+    f'{PERIODIC}[loading]\nduration = "1 s"': (
+        f'loading.mode = "force", as loading.duration is given: does not fit; {LED}'
+    ),
+    PERIODIC: f'loading.mode = "force" by default: does not fit; {LED}',
+    f'{PERIODIC}[loading]\nspeed = "1 m/s"': (
+        "loading.quasi_static = false, as loading.speed is given: does not fit; allowed: true if"
+        ' lattice.boundary is "periodic"'
+    ),
+}
+
+
+@pytest.mark.parametrize("text", UNFIT)
+def test_what_does_not_fit_is_one_line(lines, text):
+    assert lines(text) == [UNFIT[text]]
+
+
+def test_keys_that_the_mode_does_not_use_do_not_count():
+    assert pressed(force=5.0, duration=3.0).case_id == pressed().case_id
+    loaded = Loading(mode="force", stroke=1e-3, unload=False)
+    assert Case(loading=loaded).case_id == Case().case_id
+    undamped = Case(damping=Damping(model="none", mass=1.0, relaxation_time=2.0))
+    assert undamped.case_id == Case(damping=Damping(model="none")).case_id
+
+
+def test_displacement_defaults():
+    case = pressed()
+    assert case.loading.stroke == pytest.approx(0.6 * 12.5e-3)
+    assert (case.loading.strain, case.loading.unload, case.loading.platen) == (0.6, True, "glued")
+    assert (case.solver.integrator, case.solver.load_steps) == ("static", 200)
+    assert case.solver.time_step is None
+    assert case.damping.model == "none"
+
+
+def test_contact_by_itself_is_the_barrier():
+    assert Contact().model == "auto"
+    case = Case(contact=Contact(model="auto"))
+    assert case.contact.model == "barrier"
+    assert case.case_id == Case(contact=Contact(model="barrier")).case_id == Case().case_id
+
+
+def test_slip_speed_without_friction_does_not_count():
+    slow, fast = (
+        pressed(speed=1e-3).model_copy(update={"contact": Contact(friction=0.0, slip_speed=v)})
+        for v in (1e-5, 1e-3)
+    )
+    assert Case.model_validate(slow.model_dump()).case_id == (
+        Case.model_validate(fast.model_dump()).case_id
+    )
+
+
+def test_strain_and_stroke_give_each_other():
+    assert pressed(strain=0.5).loading.stroke == pytest.approx(6.25e-3)
+    assert pressed(stroke=6.25e-3).loading.strain == pytest.approx(0.5)
+    assert pressed(strain=0.5).case_id == pressed(stroke=6.25e-3).case_id
+
+
+@pytest.mark.parametrize(
+    "case",
+    [Case(), pressed(), pressed(speed=1e-3), pressed(platen="contact", stroke=4e-3)],
+)
+def test_resolving_twice_changes_nothing(case):
+    again = Case.model_validate(case.model_dump())
+    assert again == case
+    assert Case.model_validate_json(case.model_dump_json()).case_id == case.case_id
+    assert pickle.loads(pickle.dumps(case)) == case
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: pressed(platen="none"), "contact"),
+        (lambda: pressed(strain=0.5, stroke=5e-3), "give one of them"),
+        (lambda: pressed(stroke=12.5e-3), "below the height"),
+        (lambda: pressed(quasi_static=False), "a speed if quasi_static is false"),
+        (lambda: Case(loading=Loading(release_time=0.3)), "up to the duration, 0.2 s"),
+        (lambda: Case(solver=Solver(integrator="static")), "backward_euler"),
+    ],
+)
+def test_refused(make, message):
+    with pytest.raises(ValidationError, match=message):
+        make()
+
+
+def test_speed_and_energy_follow_from_one_another():
+    by_speed = Loading(striker_mass=0.1, striker_speed=2.0)
+    by_energy = Loading(striker_mass=0.1, energy=0.2)
+    both = Loading(striker_mass=0.1, energy=0.2, striker_speed=2.0)
+    assert by_speed.mode == by_energy.mode == "impact"
+    assert len({Case(loading=loading).case_id for loading in (by_speed, by_energy, both)}) == 1
+    with pytest.raises(ValidationError, match=r"loading\.energy = 0\.3; allowed: 0\.2 J"):
+        Case(loading=Loading(striker_mass=0.1, striker_speed=2.0, energy=0.3))
+
+
+@pytest.mark.parametrize(
+    ("loading", "solver", "words"),
+    [
+        ({"platen": "none"}, {}, r'loading\.platen = none; allowed: "contact", "glued" or'),
+        ({}, {"integrator": "static"}, r"solver\.integrator = static; allowed"),
+    ],
+)
+def test_what_does_not_go_with_an_impact_is_refused(loading, solver, words):
+    with pytest.raises(ValidationError, match=words):
+        Case(loading=Loading(mode="impact", **loading), solver=Solver(**solver))
+
+
+ENDLESS = [
+    ({"mode": "force"}, 'loading.mode = force; allowed: "displacement"'),
+    ({"striker_speed": 1.0}, 'loading.mode = impact; allowed: "displacement"'),
+    ({"strain": 0.5, "platen": "glued"}, 'loading.platen = glued; allowed: "none"'),
+    ({"strain": 0.5, "speed": 0.1}, "loading.quasi_static = 0; allowed: true"),
+]
+
+
+@pytest.mark.parametrize(("loading", "words"), ENDLESS)
+def test_what_an_endless_lattice_cannot_be_loaded_by_is_refused(loading, words):
+    with pytest.raises(ValidationError, match=re.escape(words)):
+        Case(lattice={"boundary": "periodic"}, loading=loading)
+
+
+def test_mode_of_a_structure_is_its_own(tmp_path):
+    (tmp_path / "square.toml").write_text('[loading]\nmode = "custom"')
+    with pytest.raises(ConfigError, match=r'unless lattice\.kind is "custom"'):
+        load_config(tmp_path / "square.toml")

@@ -1,0 +1,63 @@
+"""The steps of a case: as many as are asked for, as fit, and as may be; the integrators."""
+
+import pytest
+
+from sweep.config.case import Case, Contact, Loading, Solver
+from tests.support.cases import pressed
+
+UNFIT = {
+    '[solver]\ntime_step = "1e-12 s"': (
+        'solver.time_step = "1e-12 s": does not fit; allowed: at most 1,000,000 steps in all'
+    ),
+    '[loading]\nspeed = "1 mm/s"\n[solver]\ntime_step = "1e-320 s"': (
+        'solver.time_step = "1e-320 s": does not fit; allowed: at most 1,000,000 steps in all'
+    ),
+    '[loading]\nduration = "1000 s"': (
+        "solver.time_step = 0.0001 s by default: does not fit; allowed: at most 1,000,000 steps in"
+        " all"
+    ),
+    "[loading]\nstrain = 0.5\nload_steps = 500_001": (
+        "loading.load_steps = 500001: does not fit; allowed: at most 1,000,000 steps in all,"
+        " 1,000,002 here"
+    ),
+    '[loading]\nstrain = 0.5\n[solver]\nstep_error = "1 um"': (
+        'solver.step_error = "1 um": does not fit; allowed: none unless solver.integrator is'
+        ' "backward_euler", "bdf2" or "newmark"'
+    ),
+    '[lattice]\nnodes_per_wall = 0\n[material]\nbend = "section"': (
+        'material.bend = "section": does not fit; allowed: "linear" if lattice.nodes_per_wall is 0'
+        ' and solver.hinges "exact_beam"'
+    ),
+    '[material]\nbend = "none"\n[loading]\nstrain = 0.5': (
+        'material.bend = "none": does not fit; allowed: "linear" or "section" if solver.integrator'
+        ' is "static"'
+    ),
+}
+
+
+@pytest.mark.parametrize("text", UNFIT)
+def test_what_does_not_fit_is_one_line(lines, text):
+    assert lines(text) == [UNFIT[text]]
+
+
+def test_a_speed_brings_time_back():
+    case = pressed(speed=1e-3, strain=0.4)
+    assert (case.solver.integrator, case.solver.load_steps) == ("backward_euler", 200)
+    assert case.solver.time_step == pytest.approx(5e-3 / 1e-3 / 200)
+    assert case.damping.model == "rayleigh"
+
+
+def test_time_step_under_a_speed_makes_a_whole_number_of_steps():
+    loading = Loading(mode="displacement", speed=1e-3, stroke=5e-3)
+    case = Case(loading=loading, solver=Solver(time_step=0.03))
+    assert case.solver.load_steps == 167
+    assert case.solver.time_step == pytest.approx(5.0 / 167)
+    assert Case(loading=loading, solver=Solver(time_step=0.02)).solver.load_steps == 250
+
+
+EULER = "backward_euler"
+
+
+def test_a_striker_on_walls_moved_apart_goes_by_backward_euler():
+    contact = Contact(model="position_based")
+    assert Case(loading=Loading(mode="impact"), contact=contact).solver.integrator == EULER

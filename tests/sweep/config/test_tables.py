@@ -1,0 +1,88 @@
+"""The tables of a case: what each accepts by itself, and the mode that keys imply."""
+
+import pytest
+from pydantic import ValidationError
+
+from sweep.config.case import Case, Loading, Material
+from sweep.config.grid import expand
+from sweep.config.material_file import locate, read_record
+from sweep.config.units import ConfigError
+from tests.support.cases import pressed
+
+UNFIT = {
+    '[material]\nmodulus = "12 MPa"': (
+        "material.density is missing; needed: a density, as no name is given"
+    ),
+}
+
+
+@pytest.mark.parametrize("text", UNFIT)
+def test_what_does_not_fit_is_one_line(lines, text):
+    assert lines(text) == [UNFIT[text]]
+
+
+@pytest.mark.parametrize(
+    "given",
+    [{"strain": 0.5}, {"stroke": 5e-3}, {"speed": 1e-3}, {"quasi_static": True}, {"unload": False}],
+)
+def test_keys_of_a_platen_say_the_mode(given):
+    assert Case(loading=Loading(**given)) == pressed(**given)
+
+
+@pytest.mark.parametrize(
+    "given", [{}, {"force": 5.0}, {"duration": 0.3, "strain": None}, {"platen": "contact"}]
+)
+def test_without_them_the_mode_is_a_force(given):
+    assert Case(loading=Loading(**given)) == Case(loading=Loading(mode="force", **given))
+
+
+def test_material_by_name_takes_the_numbers_of_its_record():
+    record = read_record(locate("cheetah"))
+    assert Material(name="cheetah").modulus == record.modulus
+    softer = Material(name="cheetah", modulus=70e6)
+    assert (softer.modulus, softer.density) == (70e6, record.density)
+
+
+def test_linear_material_holds_no_curve():
+    assert Material(stretch="linear").curve_strain == ()
+    by_numbers = Material(modulus=12e6, density=1190.0)
+    assert (by_numbers.stretch, by_numbers.poisson, by_numbers.curve_strain) == ("linear", 0.48, ())
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Material(name="chetah"), "allowed: .*cheetah, "),
+        (lambda: Material(modulus=12e6), "a density, as no name is given"),
+        (lambda: Material(modulus=12e6, density=1e3, stretch="nonlinear"), 'allowed: "linear"'),
+        (lambda: Material(curve_strain=(0.0, 1.0), curve_stress=(0.0, 1e6)), "greater than 0"),
+        (lambda: Loading(strain=0.5, force=5.0), "as loading.force needs the one and"),
+    ],
+)
+def test_refused(make, message):
+    with pytest.raises(ValidationError, match=message):
+        make()
+
+
+def test_mode_is_inferred_in_a_sweep_too(load):
+    cases = expand(load("[grid]\nloading.strain = [0.3, 0.5]"))
+    assert [(case.loading.mode, case.loading.strain) for case in cases] == [
+        ("displacement", 0.3),
+        ("displacement", 0.5),
+    ]
+
+
+def test_keys_of_both_modes_need_the_mode(load):
+    with pytest.raises(ConfigError) as caught:
+        load('[loading]\nstrain = 0.5\n[grid]\nloading.force = ["3 N", "4 N"]')
+    assert str(caught.value) == (
+        'loading.mode is missing; needed: "force" or "displacement", as loading.force needs the'
+        " one and loading.strain the other (2 of 2 combinations)"
+    )
+
+
+def test_duration_is_a_key_of_loads_and_of_strikers():
+    assert Loading(duration=0.1).mode == "force"
+    assert Loading(duration=0.1, energy=0.1).mode == "impact"
+    with pytest.raises(ValidationError, match=r'"force" or "impact", as loading\.force needs'):
+        Loading(force=1.0, energy=0.1)

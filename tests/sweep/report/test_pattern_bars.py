@@ -1,0 +1,31 @@
+"""Bars of designs of several patterns."""
+
+from sweep.ranking.rank import ranked
+from sweep.report.case_plots import blank
+from sweep.report.pattern_bars import panel_size, pattern_bars
+from tests.support.specimens import designs, summary
+
+
+def test_several_patterns_are_drawn_side_by_side(tmp_path):
+    kinds = [{"lattice_kind": "hex", "lattice.orientation": "flat"}, {"lattice.orientation": ""}]
+    rows = designs([1.0, 1.0], [0.2, 0.1])
+    table = summary(*[row | kind for row, kind in zip(rows, kinds, strict=True)])
+    ranking = ranked(table, top=None)
+    figure = blank(6, 3)
+    pattern_bars(figure, ranking)
+    (ax,) = figure.axes
+    labels = [label.get_text() for label in ax.get_yticklabels()]
+    assert labels == ["square", "hex, orientation flat"]
+    assert [bar.get_width() for bar in ax.patches] == [0.1, 0.2]
+
+
+def test_what_is_not_to_be_trusted_is_open_and_every_scene_has_a_panel():
+    rows = designs([1.0, 1.0], [0.2, 0.1]) + designs([1.0], [0.3], platen="contact")
+    rows[1] |= {"contact_model": "none", "max_crossings": 2}
+    ranking = ranked(summary(*rows), top=None)
+    figure = blank(*panel_size(ranking.table))
+    pattern_bars(figure, ranking)
+    assert [[bar.get_fill() for bar in ax.patches] for ax in figure.axes] == [[False, True], [True]]
+    scenes = [ax.get_title("left") for ax in figure.axes]
+    assert scenes == [f"crushed to 50 %, {platen} platens" for platen in ("glued", "contact")]
+    assert panel_size(ranking.table)[1] == 0.25 * 3 + 0.9 * 2

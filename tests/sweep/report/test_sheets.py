@@ -1,0 +1,91 @@
+"""Rankings as tables of text: marks, notes, legends, and budgets that share a section."""
+
+import pytest
+
+from sweep.ranking.rank import ranked
+from sweep.report.markdown import markdown
+from sweep.report.sheets import BEYOND, CROSSED, EARLY, LOADED, legend, ranking_sheets
+from tests.support.specimens import CRUSHED_SOLID, SPARSE, designs, summary
+
+NAN = float("nan")
+
+
+def test_energy_of_the_whole_crush_is_marked_where_the_model_does_not_hold_it():
+    table = summary(CRUSHED_SOLID, SPARSE)
+    ranking = ranked(table, by="absorbed_energy_J")
+    assert [int(case_id) for case_id in ranking.table["case_id"]] == [0, 1]
+    assert list(ranking.table["passed_on_N"]) == [900.0, 25.0]
+    assert list(ranking.table["beyond_model"]) == [True, False]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert [row[0] for row in sheet.rows] == ["1*!", "2 "]
+    assert sheet.notes == (BEYOND,)
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert sheet.notes == ()
+
+
+def test_a_crush_that_ends_below_the_allowed_force_absorbs_at_least_so_much():
+    given = {"absorbed_energy_at_50N_J": 0.2, "loading.allowed_forces": 50.0}
+    table = summary(CRUSHED_SOLID | given, SPARSE | given)
+    (sheet,) = ranking_sheets(ranked(table, allowed_force=50.0), table)
+    energy = sheet.heads.index("absorbs mJ")
+    assert sorted(row[energy] for row in sheet.rows) == ["200", "> 200"]
+    assert EARLY in sheet.notes
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert not any(text.startswith(">") for row in sheet.rows for text in row[:energy])
+
+
+def test_walls_that_pass_through_one_another_are_marked():
+    table = summary(CRUSHED_SOLID, SPARSE | {"contact_model": "none", "max_crossings": 3})
+    ranking = ranked(table, by="absorbed_energy_J")
+    assert list(ranking.table["crossed"]) == [False, True]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert [row[0] for row in sheet.rows] == ["1*!", "2 x"]
+    assert sheet.notes == (BEYOND, CROSSED)
+
+
+def test_a_budget_below_all_designs_is_one_sentence_and_no_table():
+    rows = designs([1.0, 2.0], [0.4, 0.5]) + designs([3.0], [0.5], platen="contact")
+    table = summary(*rows)
+    nothing = "Nothing weighs {} g or less: the lightest weighs {} g."
+    (sheet,) = ranking_sheets(ranked(table, budget=["0.5 g", "0.7 g"]), table)
+    assert (sheet.title, sheet.heads, sheet.rows) == ("", [], [])
+    assert sheet.notes == (nothing.format(0.5, 1), nothing.format(0.7, 1))
+    assert markdown([sheet]) == "\n".join([*sheet.notes, ""])
+    glued, loose = ranking_sheets(ranked(table, budget=["0.5 g", "2 g"]), table)
+    assert (len(glued.rows), glued.notes) == (2, (nothing.format(0.5, 1),))
+    assert (loose.title, loose.heads) == ("crushed to 50 %, contact platens", [])
+    assert loose.notes == (nothing.format(0.5, 3), nothing.format(2, 3))
+    assert markdown([loose]).splitlines()[::2] == [f"### {loose.title}", loose.notes[0]]
+
+
+def test_a_scene_in_which_nothing_has_a_place_says_so():
+    table = summary({}, {"platen": "contact", "densification_strain": NAN})
+    _, sheet = ranking_sheets(ranked(table, by="densification_strain"), table)
+    assert (sheet.heads, sheet.notes) == ([], ("No design has a place here.",))
+
+
+def test_what_comes_back_and_what_has_not_packed_is_told():
+    nowhere = {"densification_strain": NAN, "peak_strain": NAN}
+    table = summary(CRUSHED_SOLID, SPARSE, SPARSE | nowhere)
+    ranking = ranked(table)
+    assert list(ranking.table["returned_share"]) == pytest.approx([0.95, 0.95, 0.9])
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sheet.heads[-2:] == ["pack %", "back %"]
+    assert [row[-2:] for row in sheet.rows] == [["> 50", "95"], ["–", "95"], ["55", "90"]]
+
+
+def test_legend_explains_what_is_shown():
+    crushed = summary({"absorbed_energy_at_50N_J": 0.1})
+    assert "are counted until densification" in legend(ranked(crushed))
+    assert "are counted until the force exceeds 50 N" in legend(ranked(crushed, allowed_force=50.0))
+    assert "are counted to the end of the stroke" in legend(ranked(crushed, by="absorbed_energy_J"))
+    assert "sink" not in legend(ranked(crushed))
+    loaded = summary({"loading_mode": "force", "force_N": 5.0})
+    assert legend(ranked(loaded)).splitlines()[1:] == [LOADED]
+
+
+def test_budgets_with_the_same_places_share_a_section():
+    table = summary(*designs([1.0, 2.0], [0.3, 0.1]), {"mass_g": 9.0, "absorbed_energy_J": 0.9})
+    ranking = ranked(table, budget=["1 g", "3 g", "5 g", "9 g"], top=1)
+    sheet = next(ranking_sheets(ranking, table))
+    assert [row[:2] for row in sheet.rows] == [["1-5", "1*"], ["9", "1*"]]

@@ -1,0 +1,51 @@
+"""What of a scene may touch: walls, and nodes with platens."""
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case, Contact, Lattice, Loading
+from sweep.scene.lattice import build_scene
+from tests.studies.verify import MATERIAL
+from tests.support.grids import DEPTH, LOADINGS, THICKNESS, WALL, scene_of
+
+
+def test_stiffness_of_contact_is_c_times_that_of_a_wall():
+    touch = scene_of(contact=Contact(stiffness=2.5)).terms.contact
+    assert touch.stiffness == pytest.approx(2.5 * MATERIAL.modulus * DEPTH)
+    assert touch.reach == THICKNESS
+    np.testing.assert_allclose(touch.node_thickness, THICKNESS, rtol=1e-12)
+    assert touch.tributary.sum() == pytest.approx(24 * WALL)
+
+
+def test_without_contact_its_arrays_are_empty():
+    terms = scene_of(contact=Contact(model="none")).terms
+    touch = terms.contact
+    empty = ("edges", "edge_thickness", "subtract", "special_node", "special_weight",
+             "special_distance", "special_subtract", "plate_nodes")  # fmt: skip
+    assert {name: getattr(touch, name).size for name in empty} == dict.fromkeys(empty, 0)
+    assert touch.reach == 0.0
+    assert not touch.special_start.any()
+    assert terms.friction.mu == 0.0
+
+
+@pytest.mark.parametrize("model", ["none", "barrier"])
+@pytest.mark.parametrize("platen", LOADINGS)
+def test_platens_touch_what_is_not_glued_to_them(platen, model):
+    scene = scene_of(platen=platen, contact=Contact(model=model))
+    y = scene.mesh.points[:, 1]
+    touched = np.full(len(y), platen.endswith("contact"))
+    if platen.endswith("glued") and model == "barrier":
+        touched = (y > 0.0) & (y < 12.5e-3)
+    np.testing.assert_array_equal(scene.terms.contact.plate_nodes, np.flatnonzero(touched))
+    assert len(scene.terms.contact.edges) == (0 if model == "none" else len(scene.mesh.edges))
+    np.testing.assert_allclose(
+        scene.x_rest[-2:], [-0.5 * THICKNESS, 12.5e-3 + 0.5 * THICKNESS], rtol=1e-12
+    )
+
+
+def test_platens_touch_an_outline():
+    lattice = Lattice(solid_layers=6)
+    scene = build_scene(Case(lattice=lattice, loading=Loading(force=1.0, platen="contact")))
+    thickness = scene.terms.contact.node_thickness[scene.mesh.points[:, 1] == 0.0].max()
+    assert 0.8e-3 < thickness < 1.2001e-3
+    assert scene.x_rest[-2] == pytest.approx(-0.5 * thickness)

@@ -1,0 +1,59 @@
+"""Stages of loading, and what counts as converged."""
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case, Loading, Solver
+from sweep.scene.lattice import build_scene
+from sweep.scene.loading import stages, tolerances
+
+
+@pytest.mark.parametrize(("step", "steps", "dt"), [(15e-3, 2, 10e-3), (10e-3, 2, 10e-3)])
+def test_steps_fill_the_time_until_release_and_after(step, steps, dt):
+    loading = Loading(force=1.0, release_time=20e-3, duration=40e-3)
+    case = Case(loading=loading, solver=Solver(time_step=step))
+    for phase in stages(case, build_scene(case)):
+        assert (phase.stage.steps, phase.stage.duration) == (steps, dt)
+
+
+def test_steps_fill_the_flight_of_a_striker():
+    loading = Loading(mode="impact", duration=10e-3)
+    case = Case(loading=loading, solver=Solver(time_step=6e-3))
+    (phase,) = stages(case, build_scene(case))
+    assert (phase.stage.steps, phase.stage.duration) == (2, 5e-3)
+
+
+def ends(case):
+    """Load factor and driven coordinate at the ends of every stage."""
+    scene = build_scene(case)
+    found = [phase.stage for phase in stages(case, scene)]
+    rest = scene.x_rest[-1]
+    return [(s.factor0, s.factor1, s.driven0 - rest, s.driven1 - rest) for s in found]
+
+
+@pytest.mark.parametrize("unload", [True, False])
+def test_a_platen_goes_down_and_back_if_it_is_let_up(unload):
+    loading = Loading(mode="displacement", stroke=4e-3, unload=unload)
+    case = Case(loading=loading, solver=Solver(load_steps=7))
+    there, back = (0.0, 0.0, 0.0, -4e-3), (0.0, 0.0, -4e-3, 0.0)
+    assert np.array(ends(case)) == pytest.approx(np.array([there, back][: 1 + unload]))
+    assert all(phase.stage.steps == 7 for phase in stages(case, build_scene(case)))
+
+
+def test_a_dead_load_is_on_until_its_release():
+    case = Case(loading=Loading(force=1.0, release_time=20e-3, duration=30e-3))
+    assert ends(case) == [(1.0, 1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)]
+    kept = Case(loading=Loading(force=1.0, release_time=30e-3, duration=30e-3))
+    assert ends(kept) == [(1.0, 1.0, 0.0, 0.0)]
+
+
+def test_the_tolerance_goes_with_the_load_and_not_below_round_off():
+    def allowed(force, tolerance):
+        case = Case(loading=Loading(force=force), solver=Solver(tolerance=tolerance))
+        scene = build_scene(case)
+        return tolerances(case, scene, stages(case, scene)[0].stage)
+
+    nodes = 10  # of the row that bears the load
+    assert allowed(4e3, 1e-6).force == pytest.approx(4e3 / nodes * 1e-6)
+    assert allowed(4e3, 1e-6).decrement == pytest.approx(1e-3 * 4e-4 * 0.8e-3)
+    assert allowed(4e3, 1e-30).force == allowed(4e3, 1e-40).force > 0.0

@@ -1,0 +1,82 @@
+"""Meshes of walls: equal elements along them, the imperfection, openings round joints, rows."""
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Lattice
+from sweep.design.infill import families
+from sweep.design.lattice import build_network
+from sweep.scene.mesh import build_mesh, row_nodes, split_walls
+
+SHIFT = 2e-4
+
+
+def network_of(kind):
+    return build_network(Lattice(kind=kind, width=20e-3, height=18e-3).geometry)
+
+
+@pytest.mark.parametrize("kind", families())
+def test_walls_fall_into_equal_elements(kind):
+    network = network_of(kind)
+    count = 1 + np.arange(len(network.walls)) % 4
+    mesh = split_walls(network, count, 0.0)
+    ends = network.points[network.walls]
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    np.testing.assert_array_equal(np.bincount(mesh.wall), count)
+    np.testing.assert_array_equal(np.diff(mesh.start), count)
+    np.testing.assert_allclose(mesh.rest_length, (lengths / count)[mesh.wall], rtol=1e-12)
+    np.testing.assert_array_equal(mesh.arm_joint.reshape(-1, 2), network.walls)
+    before, node, after = mesh.inner.T
+    assert len(node) == len(mesh.points) - len(network.points)
+    np.testing.assert_array_equal(mesh.edges[before, 1], node)
+    np.testing.assert_array_equal(mesh.edges[after, 0], node)
+
+
+def test_nodes_share_out_length_and_area():
+    mesh = split_walls(network_of("hex"), 3, 0.0)
+    assert mesh.node_length.sum() == pytest.approx(mesh.rest_length.sum())
+    np.testing.assert_allclose(mesh.node_area, 0.8e-3 * mesh.node_length, rtol=1e-12)
+    inside = mesh.node_length[mesh.n_joints :]
+    np.testing.assert_allclose(inside, mesh.rest_length[mesh.inner[:, 0]], rtol=1e-12)
+
+
+@pytest.mark.parametrize("kind", families())
+def test_openings_round_a_joint_make_a_turn(kind):
+    mesh = split_walls(network_of(kind), 2, SHIFT)
+    nodes, opened, arms = mesh.openings
+    joints = np.flatnonzero(np.bincount(mesh.arm_joint) > 1)
+    np.testing.assert_array_equal(np.unique(nodes[:, 1]), joints)
+    around = np.bincount(nodes[:, 1], opened, minlength=mesh.n_joints)[joints]
+    np.testing.assert_allclose(around, 2 * np.pi, rtol=1e-12)
+    np.testing.assert_array_equal(mesh.arm_joint[arms], np.repeat(nodes[:, 1:2], 2, axis=1))
+    one, other = (mesh.points[nodes[:, k]] - mesh.points[nodes[:, 1]] for k in (0, 2))
+    cosine = (one * other).sum(axis=1)
+    cosine /= np.linalg.norm(one, axis=1) * np.linalg.norm(other, axis=1)
+    np.testing.assert_allclose(np.cos(opened), cosine, rtol=0, atol=1e-12)
+
+
+def test_the_imperfection_is_half_a_sine_over_the_height():
+    network = network_of("square")
+    straight, bent = (split_walls(network, 4, shift).points for shift in (0.0, SHIFT))
+    moved = bent - straight
+    np.testing.assert_array_equal(moved[:, 1], 0.0)
+    wave = SHIFT * np.sin(np.pi * straight[:, 1] / 18e-3)
+    np.testing.assert_allclose(moved[:, 0], wave, rtol=0, atol=1e-17)
+
+
+def test_the_mesh_of_a_lattice_has_its_nodes_and_its_imperfection():
+    lattice = Lattice(nodes_per_wall=3, imperfection=0.5)
+    mesh = build_mesh(lattice)
+    assert (len(mesh.points), len(mesh.edges)) == (16 + 24 * 3, 24 * 4)
+    assert np.ptp(mesh.points[:, 0]) == pytest.approx(12.5e-3 + 0.5 * 0.8e-3, rel=1e-3)
+
+
+@pytest.mark.parametrize("kind", ["square", "hex"])
+def test_an_outer_row_has_the_nodes_of_its_walls(kind):
+    """Those of a honeycomb are corners of cells, with no wall between them."""
+    network = network_of(kind)
+    mesh = split_walls(network, 4, 0.0)
+    for joints, y in ((network.bottom, 0.0), (network.top, 18e-3)):
+        row = row_nodes(network, mesh, joints)
+        np.testing.assert_array_equal(row, np.flatnonzero(np.isclose(mesh.points[:, 1], y)))
+        assert len(row) == {"square": 3 * 4 + 1, "hex": len(joints)}[kind]
