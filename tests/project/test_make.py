@@ -42,7 +42,7 @@ def test_rank_prints_one_ranking_with_results_and_without(checkout):
         assert done.stdout.split() == ["ranking", "files"]
 
 
-@pytest.mark.parametrize("target", ["validate", "bench", "stability", "continuum"])
+@pytest.mark.parametrize("target", ["validate", "bench", "stability", "continuum", "mutants"])
 def test_what_a_target_runs_finds_all_that_it_imports(target, checkout):
     words = ["make", "-n", target, f"PYTHON={sys.executable}", "STAMP=stamp"]
     told = subprocess.run(words, cwd=checkout, capture_output=True, text=True, check=True).stdout

@@ -137,6 +137,18 @@ def test_parallel_walls_count_once_at_any_mesh(pieces, gap):
     assert term.gradient(of.rest)[upper].sum() == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.parametrize("pieces", [(1, 1), (6, 5)])
+def test_normal_forces_of_parallel_walls_add_up(pieces):
+    """What friction goes by: what is counted twice comes off again."""
+    of = two_walls(0.3, pieces)
+    touch, listed = near(of, of.rest)
+    found = contact.no_contacts(listed)
+    contact.meet(of.rest, touch, listed, 0.0, found)
+    forces = [contact.normal_force(touch, listed, found, n) for n in range(found.count[0])]
+    expected = -4.0 * of.modulus * of.depth * barrier(0.3 / T)[1]
+    assert sum(forces) == pytest.approx(expected, rel=1e-12)
+
+
 @pytest.mark.parametrize("gap", [0.2, 0.5, 0.7])
 @pytest.mark.parametrize("pieces", [3, 6, 12, 24, 48])
 def test_walls_staggered_by_half_an_element_count_once_but_for_their_ends(pieces, gap):

@@ -105,7 +105,7 @@ def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
     def force():
         return u[0] + friction.smooth(u[0], slip)[1] - pull
 
-    while abs(force()) > 1e-12:
+    while abs(force()) > 1e-12 and steps <= most:
         move = -force() / (1.0 + friction.curvature(u[0], contacts.dual[0], slip))
         u[0] += move
         fit = friction.follow(u, np.array([move, 0.0]), 1.0, contacts, slip)
@@ -145,7 +145,7 @@ def test_walls_that_turn_together_do_not_slip():
 def test_a_step_that_stays_costs_nothing():
     x = shaken(WALLS, 1, 0.1)
     contacts, _, _ = lagged_of(WALLS, x)
-    assert term_of(x, contacts, 0.01).energy(x) == 0.0
+    assert term_of(x, contacts, 0.01).energy(x) == pytest.approx(0.0, abs=1e-15)
     assert not term_of(x, contacts, 0.01).gradient(x).any()
 
 

@@ -71,6 +71,25 @@ def test_what_is_held_stays():
     assert nearest > 0.8 * APART
 
 
+@pytest.mark.parametrize(("plate", "side"), [(-2, 1.0), (-1, -1.0)], ids=["lower", "upper"])
+def test_a_platen_keeps_half_a_thickness_from_all_nodes(plate, side):
+    """One that is nearer, or beyond it, is moved straight away from the platen."""
+    walls = two_walls(2.0)
+    x, contacts = walls.rest.copy(), touching(walls)
+    x[-2:] = -50.0, 50.0
+    x[plate] = 1.0 - side
+    x[1] = x[plate] - 0.1 * side
+    nodes, ease = x[:-2].copy(), np.ones(x.size)
+    near = side * (x[contacts.plate_nodes * 2 + 1] - x[plate]) < 0.4
+    assert 0 < near.sum() < near.size
+    assert position_based._off_platens(x, contacts, ease)
+    assert not position_based._off_platens(x, contacts, ease)
+    gaps = side * (x[contacts.plate_nodes * 2 + 1] - x[plate])
+    np.testing.assert_allclose(gaps[near], 0.4, rtol=1e-12)
+    np.testing.assert_array_equal(x[:-2][0::2], nodes[0::2])
+    np.testing.assert_array_equal(gaps[~near], 2.0)
+
+
 @pytest.mark.parametrize("kind", ["square", "hex", "triangle", "reentrant", "diamond"])
 def test_joints_at_rest_are_no_contacts(kind):
     lattice = Lattice(kind=kind, nodes_per_wall=7)

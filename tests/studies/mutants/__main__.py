@@ -1,0 +1,69 @@
+"""Put a wrong sign into the kernels, many times, and look which test turns red: `make mutants`.
+
+python -m tests.studies.mutants FOLDER: the table is printed and written there. The exit status is
+1 if a mutant survives: a test is missing then.
+"""
+
+import os
+import queue
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import track
+
+from sweep.report.markdown import markdown
+from sweep.report.sheets import Sheet
+from tests.studies.mutants.changes import MUTANTS
+from tests.studies.mutants.trial import Copy, StudyError, check
+
+HEADS = ["wrong", "file", "first red test", "s", "as"]
+
+
+def tried(mutants):
+    """The verdicts on ``mutants``, as many at a time as there are processors."""
+    check(mutants)
+    workers, copies = os.cpu_count(), queue.SimpleQueue()
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(workers) as pool:
+        for worker in range(workers):
+            copies.put(Copy(Path(folder) / str(worker)))
+
+        def one(mutant):
+            copy = copies.get()
+            try:
+                return copy.tried(mutant)
+            finally:
+                copies.put(copy)
+
+        found = pool.map(one, mutants)
+        return list(track(found, "mutants", len(mutants), console=Console(stderr=True)))
+
+
+def sheet(verdicts):
+    """The table, the survivors first."""
+    rows = []
+    for mutant, red, seconds, compiled in sorted(verdicts, key=lambda verdict: verdict.red or ""):
+        how = "machine code" if compiled else "plain Python"
+        rows.append([mutant.name, mutant.path, red or "none: it survives", f"{seconds:.1f}", how])
+    killed = sum(verdict.red is not None for verdict in verdicts)
+    told = f"{killed} of {len(verdicts)} turn a test red."
+    return Sheet("Mutants", HEADS, rows, notes=(told,))
+
+
+def main(folder):
+    """Print and write the table; return whether a mutant survives."""
+    try:
+        verdicts = tried(MUTANTS)
+    except StudyError as error:
+        sys.exit(str(error))
+    text = markdown([sheet(verdicts)])
+    sys.stdout.write(text)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "mutants.md").write_text(text, "utf-8")
+    return any(verdict.red is None for verdict in verdicts)
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1])))

@@ -1,0 +1,223 @@
+"""The mutants: one wrong sign, factor or index each, by the file that it is in.
+
+A snippet occurs once in its file. Names say what is wrong.
+"""
+
+from typing import NamedTuple
+
+TERMS, SOLVE, LINEAR = "kernels/terms", "kernels/solve", "kernels/linear"
+
+
+class Mutant(NamedTuple):
+    """What is wrong, in which file of the repository, and how: ``snippet`` becomes ``wrong``.
+
+    tests: the file of tests that run first.
+    """
+
+    name: str
+    path: str
+    snippet: str
+    wrong: str
+    tests: str
+
+
+def _of(path, *changes, tests=None):
+    """Mutants of one file; ``tests``, by default its mirror."""
+    folder, _, name = path.rpartition("/")
+    first = f"tests/{tests or f'{folder}/test_{name}'}"
+    return [Mutant(*change[:1], path, *change[1:], first) for change in changes]
+
+
+MUTANTS = [
+    *_of(
+        f"{TERMS}/stretch.py",
+        ("stretch: energy", "total += area * l0 * density", "total -= area * l0 * density"),
+        ("stretch: gradient", "k, area * stress, along", "k, -area * stress, along"),
+        ("stretch: Hessian along", "along = area * tangent", "along = -area * tangent"),
+        ("stretch: Hessian across", "across = area * stress", "across = -area * stress"),
+        ("stretch: projection left out", "if projected:", "if False:"),
+    ),
+    *_of(
+        f"{TERMS}/elastic.py",
+        ("elastic law: tangent", "c[1] + s * (2.0 * c[2]", "c[1] - s * (2.0 * c[2]"),
+        ("elastic law: stress beyond", "stress + beyond * tangent", "stress - beyond * tangent"),
+        ("elastic law: stress of the guard", "stress += law.modulus", "stress -= law.modulus"),
+    ),
+    *_of(
+        f"{TERMS}/elastic.py",
+        ("elastic law: moment not odd", "math.copysign(moment, strain)", "moment"),
+        tests=f"{TERMS}/test_section.py",
+    ),
+    *_of(
+        f"{TERMS}/elements.py",
+        ("element: turn", "+= moment * by_length * tx", "-= moment * by_length * tx"),
+        ("element: hinge with the next", "weight = -rigidity / (", "weight = rigidity / ("),
+        ("element: moment on the joint", "shape.moment[a] += moment", "shape.moment[a] -= moment"),
+        tests=f"{TERMS}/test_bend.py",
+    ),
+    *_of(
+        f"{TERMS}/bend.py",
+        ("bend: energy of a hinge", "weight * value + folding", "folding - weight * value"),
+        ("bend: moment of a hinge", "moment += weight * slope", "moment -= weight * slope"),
+        ("bend: rigidity of a hinge", "+= weight * second * d1", "-= weight * second * d1"),
+        (
+            "bend: bent measure",
+            "rigidity += weight * slope * d2",
+            "rigidity -= weight * slope * d2",
+        ),
+        ("bend: energy of an arm", "total += weight * value\n", "total -= weight * value\n"),
+        ("bend: coupling of arms", "slope + k12 * other", "slope - k12 * other"),
+        ("bend: moment of a fold", "-side * scale / limit", "side * scale / limit"),
+    ),
+    *_of(
+        f"{TERMS}/fold.py",
+        (
+            "fold: energy",
+            "total += fold.stiffness[k] * value",
+            "total -= fold.stiffness[k] * value",
+        ),
+        ("fold: gradient", "moment = fold.stiffness", "moment = -fold.stiffness"),
+        ("fold: Hessian between arms", "a, c, -rigidity", "a, c, rigidity"),
+        ("fold: curvature of the angle", "b, a, -scale * slope", "b, a, scale * slope"),
+    ),
+    *_of(
+        f"{TERMS}/spring.py",
+        ("spring: energy", "total += 0.5 *", "total -= 0.5 *"),
+        (
+            "spring: gradient",
+            "b, a, spring.stiffness[k] * stretched",
+            "b, a, -spring.stiffness[k] * stretched",
+        ),
+        ("spring: Hessian", "spring.stiffness[k], force", "spring.stiffness[k], -force"),
+    ),
+    *_of(
+        f"{TERMS}/inertia.py",
+        ("inertia: energy", "total += force", "total -= force"),
+        ("inertia: gradient", "g[i] += force", "g[i] -= force"),
+    ),
+    *_of(
+        f"{TERMS}/damping.py",
+        ("damping by mass: energy", "total += 0.5 * alpha", "total -= 0.5 * alpha"),
+        ("damping by mass: gradient", "g[i] += alpha", "g[i] -= alpha"),
+    ),
+    *_of(
+        f"{TERMS}/rayleigh.py",
+        ("Rayleigh: energy", "return 0.5 * rate", "return -0.5 * rate"),
+        ("Rayleigh: gradient", "before, u, rate, shape", "before, u, -rate, shape"),
+        ("Rayleigh: Hessian", "before, rate)", "before, -rate)"),
+        tests=f"{TERMS}/test_damping.py",
+    ),
+    *_of(
+        f"{TERMS}/kelvin_voigt.py",
+        ("Kelvin-Voigt: energy", "total += 0.5 * viscosity", "total -= 0.5 * viscosity"),
+        ("Kelvin-Voigt: gradient", "k, viscosity * change,", "k, -viscosity * change,"),
+        (
+            "Kelvin-Voigt: Hessian",
+            "viscosity * change, viscosity,",
+            "viscosity * change, -viscosity,",
+        ),
+        ("Kelvin-Voigt: moment of arms", "weight * change + k12", "weight * change - k12"),
+        ("Kelvin-Voigt: rate ahead", "time * stretching[k]", "-time * stretching[k]"),
+        tests=f"{TERMS}/test_damping.py",
+    ),
+    *_of(
+        f"{TERMS}/barrier.py",
+        ("barrier: energy", "value = -r * r", "value = r * r"),
+        ("barrier: slope", "slope = -r *", "slope = r *"),
+        ("barrier: curvature", "+ r * r / (s * s)", "- r * r / (s * s)"),
+        tests=f"{TERMS}/test_contact.py",
+    ),
+    *_of(
+        f"{TERMS}/contact.py",
+        (
+            "contact: energy",
+            "        total += value\n        if end < 0",
+            "        total -= value\n        if end < 0",
+        ),
+        ("contact: gradient", "push(g, x, p, a, b, slope)", "push(g, x, p, a, b, -slope)"),
+        ("contact: Hessian", "0.0 if projected else slope)", "0.0 if projected else -slope)"),
+        ("contact: vertices count twice", "end, -0.5 * length", "end, 0.5 * length"),
+        (
+            "contact: normal force",
+            "touching.distance[n])\n    return -slope",
+            "touching.distance[n])\n    return slope",
+        ),
+        ("plates: energy", "                total += value", "                total -= value"),
+        ("plates: force on the platen", "g[plate] -= side * slope", "g[plate] += side * slope"),
+        ("plates: Hessian", "2 * p + 1, -curvature", "2 * p + 1, curvature"),
+        ("plates: step limit", "closing > 0.0", "closing < 0.0"),
+    ),
+    *_of(
+        f"{TERMS}/contact_near_joints.py",
+        ("near joints: farther counts less", "radius - near_end)", "near_end - radius)"),
+        ("near joints: walls stressed at rest", "REST_SHARE = 0.9", "REST_SHARE = 1.1"),
+        (
+            "near joints: vertices not taken off",
+            "weight[k] > weight[e] or",
+            "weight[k] < weight[e] or",
+        ),
+    ),
+    *_of(
+        f"{TERMS}/friction.py",
+        ("friction: energy", "(value - slip / 3.0)", "(slip / 3.0 - value)"),
+        ("friction: gradient", "g[i] += lagged_", "g[i] -= lagged_"),
+        ("friction: Hessian", "return (1.0 - w * slope) / psi", "return (1.0 + w * slope) / psi"),
+        ("friction: turning walls slip", "-d * uy / length", "d * uy / length"),
+        ("friction: duals", "+ curvature(before", "- curvature(before"),
+    ),
+    *_of(
+        f"{TERMS}/position_based.py",
+        ("by position: pulled", "(d_contact - d) / give", "(d - d_contact) / give"),
+        ("by position: off a platen", "x[plate] + side * d_contact", "x[plate] - side * d_contact"),
+    ),
+    *_of(
+        f"{TERMS}/couplings.py",
+        ("couplings: too late", "1.0 + LIKELY", "1.0 - LIKELY"),
+        ("couplings: no springs", "n = _couple(nodes, n, a, a, b)", "pass"),
+        tests=f"{SOLVE}/test_factor.py",
+    ),
+    *_of(
+        f"{LINEAR}/block_ldlt.py",
+        ("factor: second pivot", "values[at + 5] - l10 * a10", "values[at + 5] + l10 * a10"),
+        ("factor: third pivot never negative", "not (c > 0.0 or", "not (c != 0.0 or"),
+    ),
+    *_of(
+        f"{LINEAR}/condense.py",
+        ("walls: elimination", "outer[c, d] -= factor", "outer[c, d] += factor"),
+        ("walls: no negative pivot", "not (pivot > 0.0 or", "not (pivot != 0.0 or"),
+    ),
+    *_of(
+        f"{SOLVE}/newton.py",
+        ("line search: slope", "share * (slope +", "share * (-slope +"),
+        ("Newton: direction", "-found.g[i] - direction[i]", "found.g[i] - direction[i]"),
+        ("Newton: saddles accepted", "if settled and stable and", "if settled and"),
+    ),
+    *_of(
+        f"{SOLVE}/aitken.py",
+        ("friction loop: update", "y[i] += share", "y[i] -= share"),
+    ),
+    *_of(
+        f"{SOLVE}/friction_loop.py",
+        ("friction loop: ends at once", "agree = off <= enough and", "agree = off >= 0.0 and"),
+    ),
+    *_of(
+        f"{SOLVE}/energy_book.py",
+        ("book: dissipation by friction", "book.friction += _work", "book.friction -= _work"),
+        ("book: loss of the integrator", "book.integrator += loss", "book.integrator -= loss"),
+    ),
+    *_of(
+        f"{SOLVE}/integrators.py",
+        ("bdf2: length", "(last + 2.0 * dt)", "(last + 1.5 * dt)"),
+        ("newmark: acceleration", "after - before - ahead", "after - before + ahead"),
+        ("prediction: place", "+ ahead * rates.position[i]", "- ahead * rates.position[i]"),
+    ),
+    *_of(
+        f"{SOLVE}/arc_length.py",
+        ("arc: constraint", "rise = -(0.5 * gap +", "rise = (0.5 * gap +"),
+        (
+            "arc: back along the path",
+            "way, arc.weight) < 0.0 else 1.0)",
+            "way, arc.weight) > 0.0 else 1.0)",
+        ),
+    ),
+]
