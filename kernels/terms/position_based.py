@@ -44,30 +44,16 @@ def _separate(x, inverse_mass, p, a, b, d_contact):
     if d == 0.0 or d >= (1.0 - TOLERANCE) * d_contact:
         return False
     near, far = 1.0 - tau, tau
-    weight = (
-        nx
-        * nx
-        * (
-            inverse_mass[2 * p]
-            + near * near * inverse_mass[2 * a]
-            + far * far * inverse_mass[2 * b]
-        )
-    )
-    weight += (
-        ny
-        * ny
-        * (
-            inverse_mass[2 * p + 1]
-            + near * near * inverse_mass[2 * a + 1]
-            + far * far * inverse_mass[2 * b + 1]
-        )
-    )
+    i, j, k = 2 * p, 2 * a, 2 * b
+    m = inverse_mass
+    weight = nx * nx * (m[i] + near * near * m[j] + far * far * m[k])
+    weight += ny * ny * (m[i + 1] + near * near * m[j + 1] + far * far * m[k + 1])
     if weight == 0.0:
         return False
     push = (d_contact - d) / weight
-    for i, share in ((2 * p, 1.0), (2 * a, -near), (2 * b, -far)):
-        x[i] += push * share * nx * inverse_mass[i]
-        x[i + 1] += push * share * ny * inverse_mass[i + 1]
+    for c, share in ((i, 1.0), (j, -near), (k, -far)):
+        x[c] += push * share * nx * m[c]
+        x[c + 1] += push * share * ny * m[c + 1]
     return True
 
 

@@ -167,14 +167,14 @@ MUTANTS = [
     ),
     *_of(
         f"{TERMS}/position_based.py",
-        ("by position: pulled", "(d_contact - d) / give", "(d - d_contact) / give"),
+        ("by position: pulled", "(d_contact - d) / weight", "(d - d_contact) / weight"),
         ("by position: off a platen", "x[plate] + side * d_contact", "x[plate] - side * d_contact"),
     ),
     *_of(
         f"{TERMS}/couplings.py",
-        ("couplings: too late", "1.0 + LIKELY", "1.0 - LIKELY"),
+        ("couplings: too late", "1.0 + MARGIN", "1.0 - MARGIN"),
         ("couplings: no springs", "n = _couple(nodes, n, a, a, b)", "pass"),
-        tests=f"{SOLVE}/test_factor.py",
+        tests="kernels/planar/test_factoring.py",
     ),
     *_of(
         f"{LINEAR}/block_ldlt.py",
@@ -190,15 +190,19 @@ MUTANTS = [
         f"{SOLVE}/newton.py",
         ("line search: slope", "share * (slope +", "share * (-slope +"),
         ("Newton: direction", "-found.g[i] - direction[i]", "found.g[i] - direction[i]"),
-        ("Newton: saddles accepted", "if settled and stable and", "if settled and"),
+        ("Newton: saddles accepted", "if balanced and stable and", "if balanced and"),
     ),
     *_of(
         f"{SOLVE}/aitken.py",
-        ("friction loop: update", "y[i] += share", "y[i] -= share"),
+        ("friction loop: update", "y[i] += factor", "y[i] -= factor"),
     ),
     *_of(
         f"{SOLVE}/friction_loop.py",
-        ("friction loop: ends at once", "agree = off <= enough and", "agree = off >= 0.0 and"),
+        (
+            "friction loop: ends at once",
+            "converged = error <= limit and",
+            "converged = error >= 0.0 and",
+        ),
     ),
     *_of(
         f"{SOLVE}/energy_book.py",
@@ -213,11 +217,11 @@ MUTANTS = [
     ),
     *_of(
         f"{SOLVE}/arc_length.py",
-        ("arc: constraint", "rise = -(0.5 * gap +", "rise = (0.5 * gap +"),
+        ("arc: constraint", "increment = -(0.5 * gap +", "increment = (0.5 * gap +"),
         (
             "arc: back along the path",
-            "way, arc.weight) < 0.0 else 1.0)",
-            "way, arc.weight) > 0.0 else 1.0)",
+            "(tangent, last_move, arc.weight) < 0.0 else 1.0",
+            "(tangent, last_move, arc.weight) > 0.0 else 1.0",
         ),
     ),
 ]
