@@ -82,8 +82,8 @@ def test_a_platen_keeps_half_a_thickness_from_all_nodes(plate, side):
     nodes, ease = x[:-2].copy(), np.ones(x.size)
     near = side * (x[contacts.plate_nodes * 2 + 1] - x[plate]) < 0.4
     assert 0 < near.sum() < near.size
-    assert position_based._off_platens(x, contacts, ease)
-    assert not position_based._off_platens(x, contacts, ease)
+    assert position_based._leave_platens(x, contacts, ease)
+    assert not position_based._leave_platens(x, contacts, ease)
     gaps = side * (x[contacts.plate_nodes * 2 + 1] - x[plate])
     np.testing.assert_allclose(gaps[near], 0.4, rtol=1e-12)
     np.testing.assert_array_equal(x[:-2][0::2], nodes[0::2])
