@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 MODEL_VERSION = 2
 """Version of the model: raised by every change of the numbers that a case gives."""
 
-HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones anew"
+HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones again"
 
 OLDER: dict[str, float | int | str] = {"model_version": 1, "git_revision": ""}
 """Values of columns that rows of older versions do not have.

@@ -277,8 +277,8 @@ def sized(lattice: Lattice, density: float) -> Lattice:
     if isnan(thickness):
         allowed = f"between {light:.4g} kg and {heavy:.4g} kg with these cells"
         raise refusal("lattice.mass", lattice.mass, allowed)
-    told = "wall_thickness" in lattice.model_fields_set
-    if told and not isclose(lattice.wall_thickness, thickness, rel_tol=1e-9):
+    given = "wall_thickness" in lattice.model_fields_set
+    if given and not isclose(lattice.wall_thickness, thickness, rel_tol=1e-9):
         allowed = f"{thickness:.6g} m at the mass given; give one of them"
         raise refusal("lattice.wall_thickness", lattice.wall_thickness, allowed)
     made = lattice.model_copy(update={"wall_thickness": thickness})

@@ -186,10 +186,10 @@ def _mean(loading: Loading, height: float, integrator: str | None) -> Loading:
         raise refusal("loading.mode", loading.mode, allowed, loading.says_mode)
     if loading.platen not in (None, "none"):
         raise refusal("loading.platen", loading.platen, f'"none" {endless}')
-    led = _displacement(loading.model_copy(update={"platen": None}), height, integrator)
-    if not led.quasi_static:
+    pressed = _displacement(loading.model_copy(update={"platen": None}), height, integrator)
+    if not pressed.quasi_static:
         raise refusal("loading.quasi_static", False, f"true {endless}", "loading.speed")
-    return led.model_copy(update={"platen": "none"})
+    return pressed.model_copy(update={"platen": "none"})
 
 
 def _stroke_and_strain(loading: Loading, height: float) -> tuple[float, float]:

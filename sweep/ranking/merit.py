@@ -60,7 +60,7 @@ def merits(
     """
     if missing := [name for name in COLUMNS if name not in finished and name not in OLDER]:
         raise RankError(
-            f"no {missing[0]}: an older version wrote these results; run them anew into a new file"
+            f"no {missing[0]}: an older version wrote these results; run them again into a new file"
         )
     energy, force, until = _counted(finished, by, allowed_force)
     per_gram = f"{energy}_per_g".replace("absorbed_energy", "specific_absorption")

@@ -193,18 +193,18 @@ def _words(won: DataFrame, among: DataFrame, ranking: Ranking, name: str) -> str
     """
     (design,), energy = design_labels(won, ranking.table), ranking.energy
     merit, value = merits(won, energy).item(), three_digits(won[name].item())
-    worths = {
+    words_by_mode = {
         "force": f"sinks {three_digits(merit)} %",
         "impact": f"{three_digits(merit)} N on the support",
     }
-    worth = worths.get(won["loading_mode"].item(), energy_text(merit))
+    words = words_by_mode.get(won["loading_mode"].item(), energy_text(merit))
     if name == ranking.per_gram:
-        worth += f", {value} J/g"
+        words += f", {value} J/g"
     elif name != _compared(won, energy)[0]:
-        worth += f", {name} {value}"
+        words += f", {name} {value}"
     beyond = ", beyond the model" if won["beyond_model"].item() else ""
     crossed = ", walls cross" if won["crossed"].item() else ""
-    return f"{design}, {worth}{_ties(among, won, name)}{beyond}{crossed}"
+    return f"{design}, {words}{_ties(among, won, name)}{beyond}{crossed}"
 
 
 def _ties(rows: DataFrame, won: DataFrame, name: str) -> str:

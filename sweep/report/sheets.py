@@ -90,12 +90,12 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
         if rows.empty:
             yield Sheet(scene, [], [], notes=missed or (NO_PLACE,))
             continue
-        lead = {}
+        first = {}
         if len(budgets) > 1:
             rows = _without_repeats(rows)
-            lead["up to g"] = rows["up_to"].where(~rows["up_to"].duplicated(), "")
+            first["up to g"] = rows["up_to"].where(~rows["up_to"].duplicated(), "")
         columns = {
-            **lead,
+            **first,
             "#": _places(rows),
             **design_text(rows, summary),
             **_measures(rows, ranking),
@@ -105,7 +105,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             title=f"{scene}{order}",
             heads=list(columns),
             rows=[list(row) for row in zip(*columns.values(), strict=True)],
-            opens=frozenset(i for i, text in enumerate(lead.get("up to g", ())) if text),
+            opens=frozenset(i for i, text in enumerate(first.get("up to g", ())) if text),
             notes=(
                 *((BEYOND,) if rows["beyond_model"].any() else ()),
                 *((CROSSED,) if rows["crossed"].any() else ()),

@@ -169,7 +169,7 @@ def _undamaged(path: Path) -> Iterator[None]:
     except DAMAGE as error:
         if isinstance(error, OSError) and error.errno:
             raise StoreError(f"{path} cannot be read: {os.strerror(error.errno)}.") from error
-        advice = "move it away, and `crumple run` computes its cases anew"
+        advice = "move it away, and `crumple run` computes its cases again"
         line = f"{path} is not a results file of Crumple, or is damaged: {advice}."
         raise StoreError(line) from error
 

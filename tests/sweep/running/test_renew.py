@@ -145,7 +145,7 @@ def test_a_kill_keeps_the_rows_that_are_not_renewed_yet(out, tmp_path, monkeypat
 def test_the_command_line_tells_of_older_rows_and_renews_them(capsys, config):
     crumple(capsys, "run", config)
     forget_version("results/trial.h5")
-    renew = "crumple run CONFIG --renew computes older ones anew"
+    renew = "crumple run CONFIG --renew computes older ones again"
     told = f"rows of model version 1 (3); {renew}\n"
     assert told in crumple(capsys, "status", "results/trial.h5")[1]
     assert "Ranked together" not in crumple(capsys, "rank", "results/trial.h5")[1]
