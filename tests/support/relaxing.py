@@ -25,7 +25,7 @@ from sweep.scene.material import as_law, linear_law
 from sweep.simulation.simulate import simulate
 from tests.studies.validation.frames import TRUSS
 from tests.support.laws import Clock, standard_solid
-from tests.support.solving import at_rest, go_on, near_of, problem_of
+from tests.support.solving import at_rest, go_on, neighbours_of, problem_of
 from tests.support.structures import BEAM, MATERIAL, structure
 from tests.support.terms import nowhere
 
@@ -115,7 +115,7 @@ def kept():
     case, scene = crushed(nodes=2, imperfection=0.01)
     state, terms = at_rest(scene), scene.terms
     marched(case, scene, state, [pressed(scene, 2, TIME, (0.0, STRAIN))])
-    problem = problem_of(terms, near_of(state.x, terms), terms.make_room(state.memory))
+    problem = problem_of(terms, neighbours_of(state.x, terms), terms.make_buffers(state.memory))
     step = Step(state.x, state.x, state.x, TIME, TIME, False, 0.0, 0.5)
     problem.begin(step, nowhere(state.x.size), np.zeros(state.x.size))
     found = make_workspace(state.x.size, STORED).found
