@@ -98,9 +98,9 @@ def assemble(scene, neighbours, buffers):
 
 
 def at_rest(scene, x):
-    """Return the `history.State` of a lattice that begins at ``x`` (n,), with a virgin material.
+    """Return the `history.State` of a lattice at rest at ``x`` (n,), with a virgin material.
 
-    Elements, hinges and arms have a row of memory each, as long as that of the law that keeps most.
+    Every element, hinge and arm has a row of memory, as long as the largest state of the laws.
     """
     curved = scene.bend.arm_surface.size > 0
     numbers = max(scene.law.remembers(), scene.bend.section.remembers() if curved else 0)

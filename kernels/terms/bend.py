@@ -60,7 +60,7 @@ def between(cos_a, sin_a, cos_b, sin_b):
 
 
 @jit
-def aim(x, walls, bend, frame):
+def renew_frame(x, walls, bend, frame):
     """Update ``frame`` (2 w, 3): rest bearing of every arm rotated with its joint (cos, sin), and
     phi.
 

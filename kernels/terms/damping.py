@@ -24,8 +24,8 @@ class Damp(NamedTuple):
 
 
 class Before(NamedTuple):
-    """Data of the start of a step: frame of the arms (`bend.aim`), shape from which rates of strain
-    are measured, and projected stiffness K.
+    """Data of the start of a step: frame of the arms (`bend.renew_frame`), shape from which rates
+    of strain are measured, and projected stiffness K.
     """
 
     frame: np.ndarray
@@ -59,7 +59,7 @@ def prepare(x0, terms, memory, before, ahead, place, past):
     ahead: `integrators.Ahead`. place (n,): scratch positions. past: scratch `Shape`.
     """
     frame, shape, stiffness = before.frame, before.shape, before.stiffness
-    bend.aim(x0, terms.walls, terms.bend, frame)
+    bend.renew_frame(x0, terms.walls, terms.bend, frame)
     if terms.damp.beta_k > 0.0:
         if ahead.time > 0.0:
             _measure_ahead(x0, terms, before, ahead.move, place)

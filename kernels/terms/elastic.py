@@ -69,7 +69,7 @@ def respond_odd(law, strain, memory, point):
 
 @jit
 def remembers(law):
-    """Return that an elastic law keeps no number."""
+    """Return 0: an elastic law has no state."""
     return 0
 
 

@@ -82,7 +82,7 @@ def of_walls(walls: elements.Walls, bending: bend.Bend, add, x0=None) -> Term:
     def found(x, projected):
         shape, stiffness = room(walls)
         frame = np.full((walls.rotation.size, 3), np.inf)
-        bend.aim(x if x0 is None else x0, walls, bending, frame)
+        bend.renew_frame(x if x0 is None else x0, walls, bending, frame)
         elements.measure(x, walls, shape)
         bend.turns(x, walls, bending, frame, shape)
         return add(shape, stiffness, projected), shape, stiffness

@@ -102,7 +102,7 @@ def test_turns_returns_the_least_opening_of_a_hinge(opening, side):
     x[4:6] = x[8:10] + two * np.array([-np.sin(back), np.cos(back)])
     shape, _ = room(walls)
     aimed = np.full((4, 3), np.inf)
-    bend.aim(x, walls, bending, aimed)
+    bend.renew_frame(x, walls, bending, aimed)
     elements.measure(x, walls, shape)
     assert bend.turns(x, walls, bending, aimed, shape) == pytest.approx(opening, rel=1e-9)
 
