@@ -95,13 +95,20 @@ def assemble(scene, near, room):
     return Planar(scene, near, room)
 
 
+def _numbers(law):
+    """Return how many numbers a law keeps at a point. As plain Python: no kernel is compiled or
+    loaded for it.
+    """
+    verb = type(law).remembers
+    return getattr(verb, "__wrapped__", verb)(law)
+
+
 def at_rest(scene, x):
     """Return the `history.State` of a lattice that begins at ``x`` (n,), with a virgin material.
 
     Elements, hinges and arms have a row of memory each, as long as that of the law that keeps most.
     """
-    curved = scene.bend.arm_surface.size > 0
-    numbers = max(scene.law.remembers(), scene.bend.section.remembers() if curved else 0)
+    numbers = max(_numbers(scene.law), _numbers(scene.bend.section))
     points = scene.stretch.l0.size + scene.bend.hinges.size + scene.walls.rotation.size
     memory = (points, numbers) if numbers > 0 else (0, 0)
     return history.at_rest(x, potential.STORED, memory)
