@@ -97,13 +97,20 @@ def assemble(scene, neighbours, buffers):
     return Planar(scene, neighbours, buffers)
 
 
+def _numbers(law):
+    """Return how many numbers a law keeps at a point. As plain Python: no kernel is compiled or
+    loaded for it.
+    """
+    verb = type(law).remembers
+    return getattr(verb, "__wrapped__", verb)(law)
+
+
 def at_rest(scene, x):
     """Return the `history.State` of a lattice at rest at ``x`` (n,), with a virgin material.
 
     Every element, hinge and arm has a row of memory, as long as the largest state of the laws.
     """
-    curved = scene.bend.arm_surface.size > 0
-    numbers = max(scene.law.remembers(), scene.bend.section.remembers() if curved else 0)
+    numbers = max(_numbers(scene.law), _numbers(scene.bend.section))
     points = scene.stretch.l0.size + scene.bend.hinges.size + scene.walls.rotation.size
     memory = (points, numbers) if numbers > 0 else (0, 0)
     return history.at_rest(x, potential.STORED, memory)
