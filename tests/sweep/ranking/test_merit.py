@@ -38,7 +38,7 @@ def test_under_a_striker_the_least_force_wins():
     assert first.title.endswith("least force first")
     assert first.heads[2:] == ["force N", "sink %", "left mm", "rebound %"]
     assert first.rows[1][1:] == ["1.00", "60.0", "0", "2.00", "40"]
-    assert "rebound: share" in legend(ranking)
+    assert "rebound: energy" in legend(ranking)
 
 
 def test_what_is_pressed_into_less_than_its_solid_is_marked():
