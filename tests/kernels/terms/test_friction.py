@@ -135,11 +135,14 @@ def test_derivatives_while_sticking_and_sliding(amount):
     assert error < (1e-3 if amount == 0.0 else 1e-6)  # |u|^3 has a kink in its third derivative
 
 
-def test_walls_that_turn_together_do_not_slip():
+@pytest.mark.parametrize("bearing", [0.0, 0.7, -2.0])
+def test_walls_that_turn_together_do_not_slip(bearing):
+    x = carried(WALLS, WALLS.rest, bearing)
+    turned, (moved, _, _) = carried(WALLS, x, 1e-6), lagged_of(WALLS, x)
     contacts, _, _ = lagged_of(WALLS, WALLS.rest)
-    small = carried(WALLS, WALLS.rest, 1e-6)
-    term = term_of(WALLS.rest, contacts, 1e-3)
-    assert term.energy(small) < 1e-9 * term.energy(slid(1e-6))
+    slides = term_of(WALLS.rest, contacts, 1e-3).energy(slid(1e-6))
+    assert moved.load.sum() == pytest.approx(contacts.load.sum(), rel=1e-9)
+    assert term_of(x, moved, 1e-3).energy(turned) < 1e-9 * slides
 
 
 def test_a_step_that_stays_costs_nothing():

@@ -11,7 +11,7 @@ TERMS, SOLVE, LINEAR = "kernels/terms", "kernels/solve", "kernels/linear"
 class Mutant(NamedTuple):
     """What is wrong, in which file of the repository, and how: ``snippet`` becomes ``wrong``.
 
-    tests: the file of tests that run first.
+    tests: a file of tests, or one of them, that run first.
     """
 
     name: str
@@ -174,7 +174,6 @@ MUTANTS = [
         f"{TERMS}/couplings.py",
         ("couplings: too late", "1.0 + MARGIN", "1.0 - MARGIN"),
         ("couplings: no springs", "n = _couple(nodes, n, a, a, b)", "pass"),
-        tests="kernels/planar/test_factoring.py",
     ),
     *_of(
         f"{LINEAR}/block_ldlt.py",
@@ -203,17 +202,20 @@ MUTANTS = [
             "converged = error <= limit and",
             "converged = error >= 0.0 and",
         ),
+        tests=f"{SOLVE}/test_chain.py::test_friction_of_a_loaded_particle_is_that_of_where_it_ends",
     ),
     *_of(
         f"{SOLVE}/energy_book.py",
         ("book: dissipation by friction", "book.friction += _work", "book.friction -= _work"),
         ("book: loss of the integrator", "book.integrator += loss", "book.integrator -= loss"),
+        tests=f"{SOLVE}/test_one_degree_of_freedom.py",
     ),
     *_of(
         f"{SOLVE}/integrators.py",
         ("bdf2: length", "(last + 2.0 * dt)", "(last + 1.5 * dt)"),
         ("newmark: acceleration", "after - before - ahead", "after - before + ahead"),
         ("prediction: place", "+ ahead * rates.position[i]", "- ahead * rates.position[i]"),
+        tests=f"{SOLVE}/test_one_degree_of_freedom.py",
     ),
     *_of(
         f"{SOLVE}/arc_length.py",
@@ -223,5 +225,6 @@ MUTANTS = [
             "(tangent, last_move, arc.weight) < 0.0 else 1.0",
             "(tangent, last_move, arc.weight) > 0.0 else 1.0",
         ),
+        tests=f"{SOLVE}/test_chain.py::test_an_arc_follows_the_slope_of_the_well",
     ),
 ]
