@@ -12,7 +12,7 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test verify validate continuum accuracy bars stability bench experiment \
+.PHONY: help setup sweep rank test stock verify validate continuum accuracy bars stability bench experiment \
         figures lint clean
 .DELETE_ON_ERROR:
 
@@ -40,6 +40,9 @@ lint: setup  ## check style and types
 
 test: lint  ## check style and types, then run the tests
 	$(PYTHON) -m pytest
+
+stock: setup  ## run the tests with the stock compiler (kernels/compile/README.md)
+	CRUMPLE_COMPILER=stock $(PYTHON) -m pytest
 
 verify: setup  ## print the numbers of README.md anew, from results/armor.h5 and beside references
 	@test -f results/armor.h5 || $(PYTHON) -m sweep run configs/armor.toml

@@ -31,6 +31,7 @@ REFUSALS = {
     f"{HOME}.config.grid": "ConfigError",
     f"{HOME}.store.read": "StoreError",
     f"{HOME}.running.dask_graph": "GraphError",
+    f"{HOME}.running.provenance": "CompilerError",
     f"{HOME}.ranking.rank": "RankError",
     f"{HOME}.ranking.accuracy": "AccuracyError",
 }

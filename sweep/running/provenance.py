@@ -8,10 +8,12 @@ from pathlib import Path
 from platform import platform, python_version
 from typing import Any
 
+from kernels.compile.choice import CompilerError, compiler
 from sweep.config.case import Case
 from sweep.config.grid import Config, Written
 from sweep.version import installed_version
 
+__all__ = ["CompilerError", "config_text", "describe_run"]
 PACKAGES = ("crumple", "numpy", "numba", "h5py", "dask")
 
 
@@ -24,6 +26,7 @@ def describe_run(config: str) -> dict[str, str]:
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "git_revision": git_revision(),
         "platform": platform(),
+        "compiler": compiler(),
         "version_python": python_version(),
     } | versions
 
