@@ -31,9 +31,9 @@ REFUSALS = {
     f"{HOME}.config.grid": "ConfigError",
     f"{HOME}.store.read": "StoreError",
     f"{HOME}.running.dask_graph": "GraphError",
-    f"{HOME}.running.provenance": "CompilerError",
     f"{HOME}.ranking.rank": "RankError",
     f"{HOME}.ranking.accuracy": "AccuracyError",
+    f"{HOME.rpartition('.')[0]}.kernels.compile.choice".lstrip("."): "CompilerError",
 }
 
 

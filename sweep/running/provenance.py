@@ -8,12 +8,11 @@ from pathlib import Path
 from platform import platform, python_version
 from typing import Any
 
-from kernels.compile.choice import CompilerError, compiler
+from kernels.compile.choice import compiler
 from sweep.config.case import Case
 from sweep.config.grid import Config, Written
 from sweep.version import installed_version
 
-__all__ = ["CompilerError", "config_text", "describe_run"]
 PACKAGES = ("crumple", "numpy", "numba", "h5py", "dask")
 
 
