@@ -12,8 +12,8 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test mutants verify validate continuum accuracy bars stability bench \
-        experiment figures lint clean
+.PHONY: help setup sweep rank test stock mutants verify validate continuum accuracy bars stability \
+        bench experiment figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -40,6 +40,9 @@ lint: setup  ## check style and types
 
 test: lint  ## check style and types, then run the tests
 	$(PYTHON) -m pytest
+
+stock: setup  ## run the tests with the stock compiler (kernels/compile/README.md)
+	CRUMPLE_COMPILER=stock $(PYTHON) -m pytest
 
 mutants: setup  ## flip signs in the kernels and see which test turns red; goes to results/mutants/
 	@$(PYTHON) -m tests.studies.mutants results/mutants

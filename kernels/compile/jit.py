@@ -1,98 +1,31 @@
-"""How kernels are compiled: the only numba options.
+"""How kernels are compiled: the only options of Numba.
 
 ``@jit`` is for arithmetic; ``@jit_exact`` keeps every rounding as written, for collision detection,
 distances, tests of a sign or a pivot, and sums of the energy book (fast-math destroys exact zeros
 and compensated sums); ``@jit_owning`` is exact too and may make arrays. All release the GIL, so
 that threads run side by side.
 
-A kernel that other kernels call is only linked into them, and is machine code only there; one that
-is ``@separate`` they call where it is. What is called from Python becomes machine code at the first
-such call, together with all that it calls, and is kept (`cache`).
+What is called from Python becomes machine code at the first such call, together with all that it
+calls, and is kept (`cache`). Which compiler does that: `choice`.
 """
 
-import functools
-import gc
-from contextvars import ContextVar
-
 import numba
-from numba.core.compiler_lock import global_compiler_lock
-from numba.core.sigutils import normalize_signature
 
-from kernels.compile import verbs
-from kernels.compile.cache import SealedCache
-from kernels.compile.linking import EntryCompiler, LinkedCompiler
-from kernels.compile.outlined import link
+from kernels.compile import cache, verbs  # noqa: F401  (cache: Numba keeps code in that folder)
+from kernels.compile.choice import FAST, compiler
 
-FRAME = 70_000  # words: more than half of a chunk of a megabyte, see `_undisturbed`
-rehearsal = ContextVar("rehearsal", default=None)
-"""What is called in place of a kernel, with the kernel and its arguments (`precompile`)."""
-
-
-class Kernel:
-    """A function for other kernels to call, and for Python: that is its `entry`."""
-
-    def __init__(self, function, options):
-        linked = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-        self.linked = _dispatcher(function, options | linked, pipeline_class=LinkedCompiler)
-        self.linked.compile = self._compile_linked
-        self._numba_type_ = numba.types.Dispatcher(self.linked)
-        self.options = options
-        self.is_separate = False
-        functools.update_wrapper(self, function)
-
-    def _compile_linked(self, signature):
-        """Compile it for a kernel that calls it, without the clocks that numba starts for it."""
-        args, _ = normalize_signature(signature)
-        if args not in self.linked.overloads:
-            if self.is_separate:
-                link(self, args)
-            else:
-                self.linked.add_overload(self.linked._compiler.compile(args, None))
-        return self.linked.overloads[args].entry_point
-
-    @functools.cached_property
-    def entry(self):
-        """The dispatcher for calls from Python, whose machine code is kept."""
-        return self._dispatcher()
-
-    @functools.cached_property
-    def separated(self):
-        """The dispatcher of the code that other kernels call where it is, which is kept too."""
-        return self._dispatcher("separated", no_cpython_wrapper=True)
-
-    def _dispatcher(self, kind="", **more):
-        options = self.options | {"no_cfunc_wrapper": True} | more
-        dispatcher = _dispatcher(self.__wrapped__, options, pipeline_class=EntryCompiler)
-        dispatcher._cache = SealedCache(self.__wrapped__, kind)
-        dispatcher.compile = _undisturbed(dispatcher.compile)
-        return dispatcher
-
-    def compiled(self, args):
-        """Return numba's result for arguments of these types, from what is kept if it is there."""
-        dispatcher = self.separated if self.is_separate else self.entry
-        dispatcher.compile(args)
-        return dispatcher.overloads[args]
-
-    def __call__(self, *args):
-        """Call it from Python."""
-        rehearsed = rehearsal.get()
-        return self.entry(*args) if rehearsed is None else rehearsed(self, args)
-
-    def __get__(self, problem, kind=None):
-        """Return it as a verb of a named tuple (`verbs`)."""
-        return self if problem is None else functools.partial(self, problem)
-
-    def __getattr__(self, name):
-        if name == "linked":  # unpickled, or not made yet
-            raise AttributeError(name)
-        return getattr(self.linked, name)
-
+if compiler() == FAST:
+    from kernels.compile.fast.kernel import Kernel
+else:
+    from kernels.compile.stock import Kernel
 
 verbs.register(lambda found: isinstance(found, Kernel))
 
 
 def separate(kernel):
-    """Have other kernels call the machine code of ``kernel``, one of a module, where it is."""
+    """Have other kernels call the machine code of ``kernel``, one of a module, where it is, if the
+    compiler can do that.
+    """
     if "<locals>" in kernel.__qualname__:
         raise TypeError(f"{kernel.__qualname__}: allowed are kernels that can be imported")
     if isinstance(kernel, Kernel):  # else all is plain Python
@@ -100,57 +33,20 @@ def separate(kernel):
     return kernel
 
 
-def _undisturbed(compile_):
-    """Compile without the garbage collector, which takes a sixth of the time and finds little, and
-    in a frame that fills half of a chunk of Python's stack.
-
-    The other half is room for all calls of the compiler. Else Python takes a small chunk from the
-    system whenever a call needs one more and gives it back when that returns: as long again.
-    """
-
-    def compiled(signature):
-        collects = gc.isenabled()
-        gc.disable()
-        try:
-            return compile_(signature)
-        finally:
-            if collects:
-                gc.enable()
-
-    compiled.__code__ = compiled.__code__.replace(co_stacksize=FRAME)
-    return global_compiler_lock(functools.wraps(compile_)(compiled))
-
-
-def _dispatcher(function, options, **how):
-    """Numba's dispatcher.
-
-    A constant argument gets no version of its own, which Numba would compile for every one.
-    """
-    dispatcher = numba.njit(nogil=True, error_model="numpy", **how, **options)(function)
-    typed = dispatcher.get_call_template
-    dispatcher.get_call_template = lambda args, kws: typed(
-        [numba.types.unliteral(a) for a in args], kws
-    )
-    return dispatcher
-
-
-def compiler(fastmath, owning=False):
+def decorator(fastmath, owning=False):
     """Decorator that compiles a function for the argument types it meets, and keeps the code.
 
-    Without ``owning`` the code counts no references, which costs four times the arithmetic of an
-    assembly; such a function may read and fill arrays but must not make any, nor return one but to
-    another that does not count.
+    Only what is ``owning`` may make arrays.
     """
-    options = {"fastmath": fastmath, "_nrt": owning}
 
     def decorate(function):
         if numba.config.DISABLE_JIT:
             return function
-        return Kernel(function, options)
+        return Kernel(function, fastmath, owning)
 
     return decorate
 
 
-jit = compiler({"contract", "reassoc", "nsz", "arcp"})
-jit_exact = compiler(False)
-jit_owning = compiler(False, owning=True)
+jit = decorator({"contract", "reassoc", "nsz", "arcp"})
+jit_exact = decorator(False)
+jit_owning = decorator(False, owning=True)

@@ -10,15 +10,13 @@ The tuple must outlive its reference, which is left to the caller.
 
 import functools
 
-from numba.core import cgutils, types
+from numba import types
+from numba.core import cgutils
 from numba.core.imputils import impl_ret_borrowed
-from numba.core.typing.templates import (
-    AttributeTemplate,
-    infer_getattr,
-    make_intrinsic_template,
-)
+from numba.core.typing.templates import AttributeTemplate, make_intrinsic_template
 from numba.extending import (
     NativeValue,
+    infer_getattr,
     lower_getattr_generic,
     models,
     register_model,

@@ -4,10 +4,10 @@
 verbs is compiled for each class of problem that it meets, and for no other.
 """
 
-from numba.core import types
-from numba.core.imputils import lower_builtin
+from numba import typeof, types
 from numba.core.typing import signature
-from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_getattr
+from numba.core.typing.templates import AbstractTemplate, AttributeTemplate
+from numba.extending import infer_getattr, lower_builtin
 
 from kernels.compile.reference import Reference
 
@@ -20,7 +20,7 @@ class _Verb(AbstractTemplate):
 
     def generic(self, args, kws):
         kernel = getattr(self.this.instance_class, self.name)
-        found = kernel._numba_type_.get_call_type(self.context, (self.this, *args), kws)
+        found = typeof(kernel).get_call_type(self.context, (self.this, *args), kws)
         return signature(found.return_type, *found.args[1:], recvr=self.this)
 
 
@@ -33,7 +33,7 @@ def _declare(name):
     @lower_builtin((VERB, name), types.BaseNamedTuple, types.VarArg(types.Any))
     @lower_builtin((VERB, name), Reference, types.VarArg(types.Any))
     def code(context, builder, sig, args):
-        kernel = getattr(sig.args[0].instance_class, name)._numba_type_
+        kernel = typeof(getattr(sig.args[0].instance_class, name))
         found = kernel.get_call_type(context.typing_context, sig.args, {})
         call = context.get_function(kernel, found)
         context.add_linking_libs(getattr(call, "libs", ()))

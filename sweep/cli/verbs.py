@@ -33,6 +33,7 @@ REFUSALS = {
     f"{HOME}.running.dask_graph": "GraphError",
     f"{HOME}.ranking.rank": "RankError",
     f"{HOME}.ranking.accuracy": "AccuracyError",
+    f"{HOME.rpartition('.')[0]}.kernels.compile.choice".lstrip("."): "CompilerError",
 }
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from platform import platform, python_version
 from typing import Any
 
+from kernels.compile.choice import compiler
 from sweep.config.case import Case
 from sweep.config.grid import Config, Written
 from sweep.version import installed_version
@@ -24,6 +25,7 @@ def describe_run(config: str) -> dict[str, str]:
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "git_revision": git_revision(),
         "platform": platform(),
+        "compiler": compiler(),
         "version_python": python_version(),
     } | versions
 

@@ -18,8 +18,8 @@ from numba.core.compiler import CompileResult
 from numba.core.funcdesc import FunctionDescriptor
 from numba.core.typing import Signature
 
-from kernels.compile import abi
-from kernels.compile.linking import NOWHERE, Linked
+from kernels.compile.fast import abi
+from kernels.compile.fast.linking import NOWHERE, Linked
 
 foreseen = ContextVar("foreseen", default=MappingProxyType({}))
 """Return types of what another process compiles, by module, name and types of the arguments: code

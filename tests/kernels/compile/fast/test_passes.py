@@ -12,7 +12,7 @@ from numba.core.registry import cpu_target
 from numba.core.targetconfig import ConfigStack
 from numba.extending import overload
 
-from kernels.compile import fast_passes
+from kernels.compile.fast import passes
 from kernels.compile.jit import jit, jit_exact, jit_owning
 
 
@@ -49,16 +49,16 @@ class Searched:
         return self._impl_keys[signature.args]
 
     def code(self, found, *args, **kws):
-        """The code for some types, by a search of `fast_passes`."""
+        """The code for some types, by a search of `passes`."""
         return self.get_impl_key(found(self, None, args, kws))
 
 
-FOUND = fast_passes._remembered(Searched.find)
+FOUND = passes._remembered(Searched.find)
 
 
 def test_a_kernel_has_a_signature_looked_for_once_for_the_same_types():
     function, other = Searched(), Searched()
-    with ConfigStack().enter(fast_passes.QuickFlags()):
+    with ConfigStack().enter(passes.QuickFlags()):
         assert [function.code(FOUND, types.int64) for _ in range(3)] == ["code 1"] * 3
         assert function.code(FOUND, types.float64) == "code 2"
         assert other.code(FOUND, types.int64) == "code 1"
@@ -66,7 +66,7 @@ def test_a_kernel_has_a_signature_looked_for_once_for_the_same_types():
 
 
 def test_what_is_found_under_other_flags_is_other_code():
-    function, exact, fast = Searched(), fast_passes.QuickFlags(), fast_passes.QuickFlags()
+    function, exact, fast = Searched(), passes.QuickFlags(), passes.QuickFlags()
     fast.fastmath = True
     for _ in range(2):
         for flags, code in ((exact, "code 1"), (fast, "code 2"), (exact.copy(), "code 1")):
@@ -84,7 +84,7 @@ def test_what_is_no_kernel_is_compiled_as_ever():
 
 def test_a_search_in_vain_is_made_again():
     function = Searched()
-    with ConfigStack().enter(fast_passes.QuickFlags()):
+    with ConfigStack().enter(passes.QuickFlags()):
         for _ in range(2):
             with pytest.raises(TypingError):
                 function.code(FOUND, types.none)
@@ -159,7 +159,7 @@ def test_closures_are_refused():
 
 
 def test_flags_are_equal_when_the_same_are_set():
-    one, same, other = fast_passes.QuickFlags(), fast_passes.QuickFlags(), fast_passes.QuickFlags()
+    one, same, other = passes.QuickFlags(), passes.QuickFlags(), passes.QuickFlags()
     one.nrt, same.nrt, other.nrt = True, True, False
     assert one == same == one.copy()
     assert hash(one) == hash(same)

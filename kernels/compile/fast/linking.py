@@ -11,8 +11,8 @@ from numba.core.compiler_machinery import register_pass
 from numba.core.lowering import Lower
 from numba.core.typed_passes import NativeLowering
 
-from kernels.compile.abi import ShortLower, is_short, register
-from kernels.compile.fast_passes import QuickCompiler
+from kernels.compile.fast.abi import ShortLower, is_short, register
+from kernels.compile.fast.passes import QuickCompiler
 
 WRAPPER = "_ZN7cpython"  # so begin the names of what Python calls
 NOWHERE = 1  # an address that is not called

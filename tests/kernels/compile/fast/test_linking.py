@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 from numba.extending import overload
 
-from kernels.compile import linking
-from kernels.compile.jit import _undisturbed, jit, jit_owning
+from kernels.compile.fast import linking
+from kernels.compile.jit import jit, jit_owning
+from kernels.compile.undisturbed import undisturbed
 
 
 @pytest.fixture(autouse=True)
@@ -159,7 +160,7 @@ def test_deep_calls_while_compiling_take_no_memory_from_the_system_again_and_aga
         return deeper(depth - 1) if depth else None
 
     leaf.__code__ = leaf.__code__.replace(co_stacksize=100)
-    compiled = _undisturbed(deeper)
+    compiled = undisturbed(deeper)
     compiled(200)
     before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
     compiled(200)

@@ -61,7 +61,7 @@ print(*loaded(callee.dot.separated), *loaded(callee.pair.separated))
 AHEAD = """
 import os
 from kernels import caller
-from kernels.compile import precompile as ahead
+from kernels.compile.fast import precompile as ahead
 
 os.sched_getaffinity = lambda _: {0, 1}  # processes even where there is one core
 ahead.compile_ahead(lambda: print(caller.value(4), len(caller.value.entry.signatures)))
@@ -69,7 +69,7 @@ ahead.compile_ahead(lambda: print(caller.value(4), len(caller.value.entry.signat
 MISTAKEN = """
 from numba import types
 from kernels import caller
-from kernels.compile import outlined as separate, precompile as ahead
+from kernels.compile.fast import outlined as separate, precompile as ahead
 
 versions = ahead.rehearse(lambda: caller.value(4))
 returns = {"dot": types.%s}
@@ -156,7 +156,7 @@ print(*both(np.arange(4.0), np.full((4, 2), 3.0), 4))
 BROKEN = """
 import subprocess
 from kernels import caller
-from kernels.compile import precompile as ahead
+from kernels.compile.fast import precompile as ahead
 
 {trouble}
 ahead.compile_ahead(lambda: caller.value(4))
@@ -180,7 +180,7 @@ def test_what_cannot_be_compiled_ahead_is_compiled_when_it_is_called(package, tr
 
 ORPHANED = """
 import os
-from kernels.compile import precompile as ahead
+from kernels.compile.fast import precompile as ahead
 
 with ahead._helper() as process:
     print(process.pid, flush=True)

@@ -45,7 +45,7 @@ from sweep.__main__ import main
 assert main(["warm"]) == 0
 """
 THEN = """
-from tests.kernels.compile.test_precompile import added, unforeseen
+from tests.kernels.compile.fast.test_precompile import added, unforeseen
 
 print("then", *added(), *unforeseen())
 """
@@ -53,7 +53,7 @@ print("then", *added(), *unforeseen())
 
 def versions():
     """How many compiled versions of each kernel this process has loaded."""
-    from kernels.compile.jit import Kernel
+    from kernels.compile.fast.kernel import Kernel
 
     modules = [module for name, module in sys.modules.items() if name.startswith("kernels.")]
     kernels = {id(k): k for m in modules for k in vars(m).values() if isinstance(k, Kernel)}
@@ -76,7 +76,7 @@ def added():
 
 def unforeseen():
     """Kernels that a rehearsal in plain Python foresees with other types than they have."""
-    from kernels.compile.precompile import rehearse
+    from kernels.compile.fast.precompile import rehearse
     from sweep.simulation.simulate import warm_up
 
     foreseen = rehearse(lambda: warm_up(arcs=True))
@@ -92,7 +92,7 @@ def run(script):
     """What a process of its own prints: no other test has loaded anything there."""
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", script],
-        env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[3])},
+        env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[4])},
         capture_output=True,
         text=True,
         check=False,

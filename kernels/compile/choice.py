@@ -1,0 +1,58 @@
+"""Which compiler the kernels have: the environment variable CRUMPLE_COMPILER, else what fits Numba.
+
+"fast" is made of private parts of the Numba that it knows; "stock" is `numba.njit`. Both give the
+same results.
+"""
+
+import functools
+import os
+import sys
+from importlib.metadata import PackageNotFoundError, version
+
+VARIABLE = "CRUMPLE_COMPILER"
+FAST, STOCK = "fast", "stock"
+KNOWN = (("0.68", "0.50"),)  # Numba and llvmlite whose private parts are known
+
+
+class CompilerError(ValueError):
+    """A compiler that does not exist was asked for."""
+
+
+def _installed(package):
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "unknown"
+
+
+def choose(asked, numba, llvmlite):
+    """Return the compiler for what was ``asked`` ("" for nothing) and for these versions, and what
+    the user should know of that, if anything.
+    """
+    if asked in (FAST, STOCK):
+        return asked, None
+    if asked:
+        raise CompilerError(f"{VARIABLE} = {asked!r}; allowed: {FAST}, {STOCK}")
+    series = tuple(".".join(text.split(".")[:2]) for text in (numba, llvmlite))
+    if series in KNOWN:
+        return FAST, None
+    known = " or ".join(f"{one}.x with llvmlite {other}.x" for one, other in KNOWN)
+    return STOCK, (
+        f"crumple: the stock compiler is used, as Numba {numba} with llvmlite {llvmlite} is not "
+        f"{known}: results are the same, the first start takes longer ({VARIABLE}={STOCK} "
+        "says so without this line)"
+    )
+
+
+@functools.cache
+def compiler():
+    """Return the compiler of this process; tell on stderr, once, if it is not the usual one.
+
+    Processes that this one starts find the choice in their environment, and tell nothing.
+    """
+    asked = os.environ.get(VARIABLE, "")
+    chosen, notice = choose(asked, _installed("numba"), _installed("llvmlite"))
+    if notice:
+        sys.stderr.write(f"{notice}\n")
+        os.environ[VARIABLE] = chosen
+    return chosen

@@ -1,0 +1,39 @@
+"""What kernels of the fast compiler do not do."""
+
+import numba
+import numpy as np
+import pytest
+
+from kernels.compile.jit import jit, jit_exact, jit_owning
+
+
+@pytest.fixture
+def cache(tmp_path, monkeypatch):
+    """Folder that kernels decorated from here on are kept in."""
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
+
+
+def product(x, n):
+    return x * n
+
+
+def test_a_constant_argument_makes_no_new_version(cache):
+    times = jit(product)
+
+    @jit
+    def sixfold(x):
+        return times(x, 2) + times(x, 3) + times(x, 1)
+
+    assert sixfold(1.5) == 9.0
+    assert len(times.linked.signatures) == 1
+    assert times.entry.signatures == []
+
+
+def test_only_an_owning_kernel_may_make_an_array(cache):
+    def total(n):
+        return np.ones(n).sum()
+
+    for decorator in (jit, jit_exact):
+        with pytest.raises(numba.TypingError, match=r"No implementation of function .*ones"):
+            decorator(total)(3)
+    assert jit_owning(total)(3) == 3.0
