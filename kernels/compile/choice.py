@@ -10,7 +10,7 @@ import sys
 from importlib.metadata import PackageNotFoundError, version
 
 VARIABLE = "CRUMPLE_COMPILER"
-FAST, STOCK = "fast", "stock"
+FAST, STOCK, NONE = "fast", "stock", "none"
 KNOWN = (("0.68", "0.50"),)  # Numba and llvmlite whose private parts are known
 
 
@@ -46,10 +46,13 @@ def choose(asked, numba, llvmlite):
 
 @functools.cache
 def compiler():
-    """Return the compiler of this process; tell on stderr, once, if it is not the usual one.
+    """Return the compiler of this process, "none" where Numba is told to leave all as plain Python;
+    tell on stderr, once, if it is not the usual one.
 
     Processes that this one starts find the choice in their environment, and tell nothing.
     """
+    if os.environ.get("NUMBA_DISABLE_JIT", "0") != "0":
+        return NONE
     asked = os.environ.get(VARIABLE, "")
     chosen, notice = choose(asked, _installed("numba"), _installed("llvmlite"))
     if notice:

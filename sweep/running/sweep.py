@@ -74,6 +74,7 @@ def run_sweep(
 def real_simulate(arcs: bool = False) -> Simulate:
     """The function `simulate`, imported only here since it loads or compiles the kernels."""
     from kernels.compile.cache import is_cold, is_lasting, warmed_up
+    from kernels.compile.choice import FAST, compiler
 
     def load() -> Simulate:
         from sweep.simulation.simulate import simulate, warm_up
@@ -86,7 +87,8 @@ def real_simulate(arcs: bool = False) -> Simulate:
         return load()
     from kernels.compile.precompile import compile_ahead
 
-    tell("compiling the kernels, once: this takes half a minute to one")
+    takes = "half a minute to one" if compiler() == FAST else "two minutes"
+    tell(f"compiling the kernels, once: this takes {takes}")
     if not is_lasting():
         tell(f"for this run alone: {UNWRITABLE}")
     compile_ahead(load)

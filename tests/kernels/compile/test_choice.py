@@ -87,6 +87,12 @@ def test_a_tree_of_processes_tells_its_choice_once(tmp_path):
     assert "Numba 9.1.2" in done.stderr
 
 
+def test_plain_python_has_no_compiler():
+    script = "from sweep.running.provenance import describe_run as d; print(d('')['compiler'])"
+    assert run("-c", script, NUMBA_DISABLE_JIT="1").stdout == "none\n"
+    assert run("-c", script, **{VARIABLE: STOCK}).stdout == "stock\n"
+
+
 def test_the_stock_compiler_loads_nothing_of_the_fast_one():
     assert run("-c", LOADED, **{VARIABLE: FAST}).stdout.split()
     done = run("-c", LOADED, **{VARIABLE: STOCK})

@@ -1,0 +1,80 @@
+"""What the stock compiler keeps, and what it must not."""
+
+import gc
+from typing import NamedTuple
+
+import numba
+import numpy as np
+import pytest
+
+from kernels.compile import stock
+from kernels.compile.reference import by_reference
+from kernels.solve.problem import Found
+
+
+@pytest.fixture(autouse=True)
+def cache(tmp_path, monkeypatch):
+    """Folder that kernels are kept in from here on."""
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
+    return tmp_path
+
+
+class Pair(NamedTuple):
+    """A tuple whose verbs are not in the hash of the sources of kernels."""
+
+    first: object
+    second: float
+
+
+def first(pair):
+    return pair[0]
+
+
+def second(pair):
+    return pair.second
+
+
+def compiled(function):
+    return stock.Kernel(function, fastmath=False, owning=True)
+
+
+def kept(folder):
+    return len([*folder.rglob("*.nbc")])
+
+
+def test_what_is_compiled_for_tuples_from_elsewhere_is_not_kept(cache):
+    kernel = compiled(first)
+    assert kernel(Pair(2.0, 3.0)) == 2.0
+    assert kernel((Pair(2.0, 3.0), 1)) == (2.0, 3.0)
+    assert compiled(second)(by_reference(Pair(2.0, 3.0))) == 3.0
+    assert kept(cache) == 0
+    assert kernel((2.0, 1)) == 2.0
+    assert kept(cache) == 1
+
+
+def test_tuples_of_kernels_are_known():
+    array = np.zeros(1)
+    found = Found(*[array] * len(Found._fields))
+    assert stock.is_of_kernels(found)
+    assert stock.is_of_kernels(by_reference(found))
+    assert not stock.is_of_kernels(found._replace(u=Pair(array, 1.0)))
+
+
+def test_kernels_call_kernels(cache):
+    inner = compiled(first)
+
+    def outer(x):
+        return 2.0 * inner((x, 1))
+
+    assert compiled(outer)(4.0) == 8.0
+    assert inner.linked.signatures
+    assert "entry" not in vars(inner)
+    assert kept(cache) == 1
+
+
+def test_the_collector_rests_while_all_is_compiled_ahead():
+    seen = []
+    assert gc.isenabled()
+    stock.compile_ahead(lambda: seen.append(gc.isenabled()))
+    assert seen == [False]
+    assert gc.isenabled()
