@@ -56,6 +56,36 @@ for name in {readers}:
 from sweep.__main__ import main
 print([main(words) for words in {calls}])
 """
+# Modules without a test file at their place, or packages of them, and which file tests them.
+TESTED_ELSEWHERE = {
+    "kernels.compile.cache": "kernels/compile/test_jit.py",
+    "kernels.compile.reference": "kernels/solve/test_first_guess.py",
+    "kernels.compile.verbs": "kernels/solve/test_chain.py",
+    "kernels.planar.constraints": "sweep/scene/test_custom.py",
+    "kernels.planar.lagging": "kernels/planar/test_potential.py",
+    "kernels.planar.problem": "kernels/planar/test_potential.py",
+    "kernels.planar.rows": "sweep/simulation/test_custom_history.py",
+    "kernels.planar.steps": "kernels/terms/test_law.py",
+    "kernels.solve.history": "kernels/solve/test_chain.py",
+    "kernels.solve.residual": "kernels/solve/test_newton.py",
+    "kernels.solve.workspace": "kernels/solve/test_first_guess.py",
+    "kernels.terms.barrier": "kernels/terms/test_contact.py",
+    "kernels.terms.couplings": "kernels/solve/test_newton.py",
+    "kernels.terms.kelvin_voigt": "kernels/terms/test_damping.py",
+    "kernels.terms.rayleigh": "kernels/terms/test_damping.py",
+    "sweep.__main__": "sweep/cli/test_verbs.py",
+    "sweep.design.infill": "sweep/design/test_infill.py",
+    "sweep.running.batches": "sweep/running/test_dask_graph.py",
+    "sweep.running.provenance": "sweep/running/test_sweep.py",
+    "sweep.running.writer_thread": "sweep/running/test_sweep.py",
+    "sweep.store.batch": "sweep/store/test_read.py",
+    "sweep.store.columns": "sweep/store/test_read.py",
+    "sweep.store.hdf5": "sweep/store/test_read.py",
+    "sweep.store.lock": "sweep/store/test_read.py",
+    "sweep.store.parts": "sweep/store/test_read.py",
+    "sweep.studies.course_report": "sweep/studies/test_course_report.py",
+    "sweep.version": "sweep/cli/test_verbs.py",
+}
 HEAVY = ["numba", "kernels", "dask", "distributed", "scipy", "pandas", "matplotlib", "h5py"]
 
 
@@ -220,6 +250,28 @@ def test_names_say_what_a_thing_is():
     names = [f"{m}.{f.name}" for m in PROGRAM for f in functions(m) if f.name.startswith(empty)]
     assert modules == []
     assert set(names) <= {"kernels.compile.abi.get_argument_type"}  # as numba asks for it
+
+
+def test_every_module_has_its_tests_at_its_place():
+    """Every module with a public function: sweep/config/units.py, tests/sweep/config/test_units.py.
+
+    An exception whose tests have come is to be struck out.
+    """
+
+    def at_its_place(module):
+        *package, name = module.split(".")
+        return ROOT.joinpath("tests", *package, f"test_{name}.py")
+
+    public = [
+        m
+        for m in PROGRAM
+        if any(isinstance(n, ast.FunctionDef) and n.name[0] != "_" for n in TREES[m].body)
+    ]
+    without = {m for m in public if not at_its_place(m).exists()}
+    elsewhere = {m: [k for k in TESTED_ELSEWHERE if is_within(m, k)] for m in without}
+    assert {m for m, found in elsewhere.items() if not found} == set()
+    assert set(TESTED_ELSEWHERE) == {key for found in elsewhere.values() for key in found}
+    assert {f for f in TESTED_ELSEWHERE.values() if not (ROOT / "tests" / f).exists()} == set()
 
 
 def test_every_test_asserts():
