@@ -143,7 +143,7 @@ def test_normal_forces_of_parallel_walls_add_up(pieces):
     of = two_walls(0.3, pieces)
     touch, listed = near(of, of.rest)
     found = contact.no_contacts(listed)
-    contact.meet(of.rest, touch, listed, 0.0, found)
+    contact.detect(of.rest, touch, listed, 0.0, found)
     forces = [contact.normal_force(touch, listed, found, n) for n in range(found.count[0])]
     expected = -4.0 * of.modulus * of.depth * barrier(0.3 / T)[1]
     assert sum(forces) == pytest.approx(expected, rel=1e-12)
