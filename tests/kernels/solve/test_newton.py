@@ -143,10 +143,10 @@ def test_a_moment_counts_as_the_force_that_it_is_over_an_element(share, settled)
 def test_a_step_must_fall_by_a_share_of_what_its_model_promises(model):
     """Half a step: the model promises 1 J, the search asks for `ARMIJO` of it."""
     start, asked = 1.0, newton.ARMIJO
-    assert newton._falls(start - 1.01 * asked, start, 0.5, model, 0.0)
-    assert not newton._falls(start - 0.99 * asked, start, 0.5, model, 0.0)
-    assert newton._falls(start + 1.9, start, 0.5, model, 2.0)  # round-off hides such a fall
-    assert not newton._falls(start + 2.1, start, 0.5, model, 2.0)
+    assert newton._decreases(start - 1.01 * asked, start, 0.5, model, 0.0)
+    assert not newton._decreases(start - 0.99 * asked, start, 0.5, model, 0.0)
+    assert newton._decreases(start + 1.9, start, 0.5, model, 2.0)  # round-off hides such a fall
+    assert not newton._decreases(start + 2.1, start, 0.5, model, 2.0)
 
 
 @pytest.mark.parametrize("dt", [1e-3, np.inf])
