@@ -99,7 +99,7 @@ def test_a_material_given_by_numbers_says_so():
 def test_gaps_are_described_alike_in_summary_and_history():
     said = COLUMNS["min_gap_m"]
     assert said == HISTORY_COLUMNS["min_gap_m"]
-    assert "platens" in said.description
+    assert "platen" in said.description
 
 
 def test_status_is_its_word():
