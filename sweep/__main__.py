@@ -45,8 +45,9 @@ solver.integrator, solver.hinges, contact.model and the like; solver.time_step, 
 .step_error and lattice.nodes_per_wall refine it."""
 WARM = """Compile the kernels now, so that the next run starts at once; otherwise the first run
 compiles them. It takes half a minute to a minute, or two by the stock compiler (CRUMPLE_COMPILER),
-and again after an update of Crumple or of its packages. The code is kept in CRUMPLE_CACHE_DIR, else in ~/.cache/crumple: one call serves all
-machines of a cluster that share this folder and have the same processor."""
+and again after an update of Crumple or of its packages. The code is kept in CRUMPLE_CACHE_DIR, else
+in ~/.cache/crumple: one call serves all machines of a cluster that share this folder and have the
+same processor."""
 RANK = """List the designs that absorb the most energy, one table for each loading scene.
 Budgets and panel are those of [rank] in the config, unless they are given here; --by alone ranks
 single specimens of any mass."""
