@@ -38,11 +38,11 @@ lint: setup  ## check style and types
 	$(PYTHON) -m ruff check
 	$(PYTHON) -m mypy
 
-test: lint  ## check style and types, then run the tests
-	$(PYTHON) -m pytest
+test: lint  ## check style and types, then run the tests, in two processes
+	$(PYTHON) -m pytest -n 2 --dist loadfile
 
 stock: setup  ## run the tests with the stock compiler (kernels/compile/README.md)
-	CRUMPLE_COMPILER=stock $(PYTHON) -m pytest
+	CRUMPLE_COMPILER=stock $(PYTHON) -m pytest -n 2 --dist loadfile
 
 mutants: setup  ## flip signs in the kernels and see which test turns red; goes to results/mutants/
 	@$(PYTHON) -m tests.studies.mutants results/mutants

@@ -9,8 +9,8 @@ from kernels.planar.problem import Planar, PlanarScene
 from kernels.solve import march, newton
 
 # Whatever stands between these, and what returns arrays to code that counts no references.
-LOOPS = [(march, "march"), (march, "_run"), (march, "_step"), (march, "_equilibrate")]
-LOOPS += [(march, "minimise"), (march, "make_workspace")]
+LOOPS = [(march, "march"), (march, "_run"), (march, "_begin_share"), (march, "_step")]
+LOOPS += [(march, "_equilibrate"), (march, "minimise"), (march, "make_workspace")]
 LOOPS += [(PlanarScene, name) for name in ("find_neighbours", "renew_neighbours", "assemble")]
 WATCHED = {
     "evaluate": (Planar, "evaluate"),
