@@ -47,7 +47,7 @@ stock: setup  ## run the tests with the stock compiler (kernels/compile/README.m
 mutants: setup  ## flip signs in the kernels and see which test turns red; goes to results/mutants/
 	@$(PYTHON) -m tests.studies.mutants results/mutants
 
-verify: setup  ## print the numbers of README.md anew, from results/armor.h5 and beside references
+verify: setup  ## compute the numbers of README.md again, from results/armor.h5, with references
 	@test -f results/armor.h5 || $(PYTHON) -m sweep run configs/armor.toml
 	@$(PYTHON) -m tests.studies.verify results/armor.h5
 
@@ -70,7 +70,7 @@ stability: setup  ## crush 500 stiff and extreme scenes and look for violations;
 bench: setup  ## measure how fast it is; table and figure go to results/bench/
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.bench results/bench
 
-experiment: setup  ## predict a measured crush, and what the answer hangs on: into results/experiment/
+experiment: setup  ## predict a measured crush and its sensitivities; goes to results/experiment/
 	@$(PYTHON) -m sweep.studies.khatri_egan results/experiment
 
 figures: setup  ## draw the figures of the course report beside ours, with captions, into results/figures/

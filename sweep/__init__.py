@@ -13,18 +13,22 @@ if TYPE_CHECKING:
     from sweep.config.grid import Config, ConfigError, expand
     from sweep.config.units import load_config
     from sweep.ranking.merit import RankError
-    from sweep.ranking.rank import rank
+    from sweep.ranking.rank import rank, ranked
+    from sweep.ranking.ranking import Ranking
     from sweep.result import Result, Status
-    from sweep.running.sweep import run_sweep
+    from sweep.running.sweep import Interrupted, run_sweep
     from sweep.simulation.simulate import simulate
-    from sweep.store.read import StoreError, read_frames, read_history, read_summary
+    from sweep.store.read import Rerun, StoreError, read_frames, read_history, read_summary
     from sweep.version import __version__
 
 __all__ = [
     "Case",
     "Config",
     "ConfigError",
+    "Interrupted",
     "RankError",
+    "Ranking",
+    "Rerun",
     "Result",
     "Status",
     "StoreError",
@@ -32,6 +36,7 @@ __all__ = [
     "expand",
     "load_config",
     "rank",
+    "ranked",
     "read_frames",
     "read_history",
     "read_summary",
@@ -43,7 +48,10 @@ _HOME = {
     "Case": "config.case",
     "Config": "config.grid",
     "ConfigError": "config.grid",
+    "Interrupted": "running.sweep",
     "RankError": "ranking.merit",
+    "Ranking": "ranking.ranking",
+    "Rerun": "store.read",
     "Result": "result",
     "Status": "result",
     "StoreError": "store.read",
@@ -51,6 +59,7 @@ _HOME = {
     "expand": "config.grid",
     "load_config": "config.units",
     "rank": "ranking.rank",
+    "ranked": "ranking.rank",
     "read_frames": "store.read",
     "read_history": "store.read",
     "read_summary": "store.read",

@@ -58,7 +58,7 @@ def last_used(folder):
 def prune(home):
     """Remove folders of other sources, but neither the newest nor those used in the last week.
 
-    A process that still runs on a removed folder loses nothing: it makes the folder anew.
+    A process that still runs on a removed folder loses nothing: it makes the folder again.
     """
     folders = sorted(home.glob(f"{FOLDER}*"), key=last_used, reverse=True)
     for folder in folders[FOLDERS_KEPT:]:

@@ -49,7 +49,7 @@ def compiler():
     """Return the compiler of this process, "none" where Numba is told to leave all as plain Python;
     tell on stderr, once, if it is not the usual one.
 
-    Processes that this one starts find the choice in their environment, and tell nothing.
+    Processes that this one starts find the choice in their environment, and print nothing.
     """
     if os.environ.get("NUMBA_DISABLE_JIT", "0") != "0":
         return NONE

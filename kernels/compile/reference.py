@@ -2,8 +2,8 @@
 
 Numba hands a named tuple on by value, every array of it with its shape and strides. A kernel that
 only passes a tuple on is then mostly arguments, which costs time to compile and none to run. What
-is `by_reference` is an address: a field is loaded, by value, where it is read. Only what Numba
-documents for extensions is used here.
+is `by_reference` is an address: a field is loaded, by value, where it is read. Only public names of
+Numba are used here (README.md).
 
 The tuple must outlive its reference, which is left to the caller.
 """
@@ -66,7 +66,7 @@ def _load(context, builder, reference, address, name):
 
 
 def _address(_, value):
-    """Keep a tuple in the frame of the kernel that calls this, and hand out where."""
+    """Keep a tuple in the frame of the kernel that calls this, and return its address."""
 
     def code(context, builder, signature, args):
         place = cgutils.alloca_once(builder, args[0].type)

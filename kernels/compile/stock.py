@@ -2,7 +2,7 @@
 
 Code for Python takes hundreds of arrays out of named tuples, which is more to compile than most
 kernels are. So a kernel is two functions of Numba: one that kernels call, without such code, and
-one for Python, made when it is called first. Only the latter is kept: it has with it what it calls.
+one for Python, made at its first call. Only the latter is kept: it contains all that it calls.
 """
 
 import functools
@@ -18,7 +18,7 @@ PACKAGE = __name__.rsplit(".", 2)[0] + "."
 
 def is_of_kernels(value):
     """Whether the sources that name the folder hold what an argument stands for: the verbs of a
-    named tuple from elsewhere may change, and nobody would see it.
+    named tuple from elsewhere may change, and the change would go unnoticed.
     """
     if isinstance(value, Referenced):
         value = referred(value)

@@ -179,7 +179,7 @@ def _graph(layout, walls, kind, couplings):
 
 
 @jit_owning
-def _homes(layout, kind, index, sequence):
+def _homes(layout, index, sequence):
     """Return the home (n,) of every coordinate; ``sequence``: order of elimination."""
     position = np.empty(sequence.size, np.int64)
     for p in range(sequence.size):
@@ -255,7 +255,7 @@ def analyse(layout, walls, couplings):
     index, bits = _graph(layout, walls, kind, couplings)
     sequence = minimum_degree.minimum_degree(bits)
     start, row = minimum_degree.columns(bits, sequence)
-    home = _homes(layout, kind, index, sequence)
+    home = _homes(layout, index, sequence)
     target_start, target = _targets(layout, row_start, kind, home, start, row)
     matrix = block_matrix.zero_matrix(home, start, row, layout.ratio, layout.images)
     return System(

@@ -8,7 +8,7 @@ from kernels.terms import elements
 
 @jit
 def reduce(problem, g, residual):
-    """Fill ``residual`` (n,) with the gradient ``g`` (n,) of the free coordinates.
+    """Fill ``residual`` (n,) with the gradient ``g`` (n,) of the free and driven coordinates.
 
     Entries of tied coordinates are added to their leaders; those of held ones are zero.
     """

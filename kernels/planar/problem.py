@@ -101,7 +101,7 @@ def _numbers(law):
     """Return how many numbers a law keeps at a point. As plain Python: no kernel is compiled or
     loaded for it.
     """
-    verb = type(law).remembers
+    verb = type(law).state_size
     return getattr(verb, "__wrapped__", verb)(law)
 
 

@@ -18,11 +18,11 @@ def commit(problem, x, step, found):
     """Commit the state of the laws; correct stored energies, add the dissipation of the step."""
     scene, shape, sums = problem.scene, problem.buffers.shape, found.sums[0]
     memory = Memory(problem.buffers.committed, step.duration)
-    if scene.law.remembers() > 0:
+    if scene.law.state_size() > 0:
         released, dissipated = stretch.commit(scene.stretch, scene.law, memory, shape)
         found.stored[STRETCH] -= released
         sums.dissipated += dissipated
-    if scene.bend.section.remembers() > 0:
+    if scene.bend.section.state_size() > 0:
         released, dissipated = bend.commit(scene.walls, scene.bend, memory, shape)
         found.stored[BEND] -= released
         sums.dissipated += dissipated

@@ -1,6 +1,6 @@
 """The fixed-point loop of a step for lagged forces, such as friction.
 
-Minimise with the lagged forces fixed, lag them anew at the minimum, and repeat until the minimum
+Minimise with the lagged forces fixed, lag them again at the minimum, and repeat until the minimum
 remains an equilibrium. The loop is inexact: a minimum is found to a share of the present error of
 the lagged forces, as each iteration reduces that error by about a constant factor. The first
 minimum, which mostly decides which way a lattice folds, and the last one are found to the full
@@ -30,7 +30,7 @@ def begin(progress):
 
 @jit_exact
 def is_converged(x, problem, step, tolerance, space, progress):
-    """Lag the forces anew; return whether ``x`` (n,) is still an equilibrium.
+    """Lag the forces again; return whether ``x`` (n,) is still an equilibrium.
 
     If so, ``space.found`` is unchanged. Otherwise ``space.found`` holds the evaluation at ``x``
     with the new lagged forces, and ``space.work.trial`` is ``x``.

@@ -27,7 +27,7 @@ DESCENT = np.dtype(
         np.record,  # for attributes in plain Python too
         [
             # bound of the move, m, since the last factor of an exact Hessian without a negative
-            # pivot; infinite: there is none. Forces may have been lagged anew since.
+            # pivot; infinite: there is none. Lagged forces may have changed since.
             ("since_factor", np.float64),
             ("travel_bound", np.float64),  # move that the neighbour lists must cover, m
             ("iterations", np.int64),  # of the last minimisation
@@ -147,7 +147,7 @@ def _choose_move(slope, stable, to_target, escape, coordinates, remaining, work)
         copy(work.escape, work.dx)
     longest = _longest(work.dx, coordinates)
     cut = _cap(work.dx, longest, max(coordinates.cap, 5.0 * abs(remaining)))
-    return (fall * cut, curvature), max(longest * cut, abs(remaining)), cut == 1.0
+    return (fall * cut, curvature * cut * cut), max(longest * cut, abs(remaining)), cut == 1.0
 
 
 @jit_exact

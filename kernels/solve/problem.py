@@ -145,7 +145,9 @@ class Problem(Protocol):
     # Constraints.
 
     def reduce(self, g, residual):
-        """Fill ``residual`` with ``g`` of FREE coordinates and their followers; else 0."""
+        """Fill ``residual`` with ``g`` of the FREE coordinates and, as its reaction, of the driven
+        one, each with its followers; else 0.
+        """
 
     def lead(self, move, direction):
         """Write the moves of LED coordinates when the driven coordinate moves by ``move``."""

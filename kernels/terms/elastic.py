@@ -68,7 +68,7 @@ def respond_odd(law, strain, memory, point):
 
 
 @jit
-def remembers(law):
+def state_size(law):
     """Return 0: an elastic law has no state."""
     return 0
 
@@ -92,7 +92,7 @@ class ElasticCurve(NamedTuple):
     modulus: float
 
     respond = respond
-    remembers = remembers
+    state_size = state_size
     commit = commit
 
 
@@ -105,5 +105,5 @@ class MomentCurve(NamedTuple):
     modulus: float
 
     respond = respond_odd
-    remembers = remembers
+    state_size = state_size
     commit = commit

@@ -45,7 +45,7 @@ class Law(Protocol):
     def respond(self, strain, memory, point):
         """Return potential (J/m^3), stress (Pa) and tangent (Pa) at ``strain``."""
 
-    def remembers(self):
+    def state_size(self):
         """Return the length of the state of a point; 0, as a constant, without memory: the commit
         then costs nothing.
         """

@@ -103,7 +103,7 @@ def build_structure(case: Case) -> Scene:
         top=none,
         base=2 * np.arange(numbering.n_nodes) + 1,
         force_scale=force_scale(network, rigidity),
-        velocity=_velocity(structure, mesh, layout),
+        velocity=_velocity(structure, layout),
         probes=_probed(structure, numbering),
         travel=travel,
     )  # fmt: skip
@@ -221,7 +221,7 @@ def _probed(structure: Structure, numbering: Ground) -> Ints:
     return np.array(probed, np.int64)
 
 
-def _velocity(structure: Structure, mesh: Mesh, layout: analysis.Layout) -> Floats:
+def _velocity(structure: Structure, layout: analysis.Layout) -> Floats:
     """Initial velocity of each coordinate, linear along walls; zero if held or prescribed."""
     nodes = MM * np.array(structure.velocity_mm_s)
     network = Network(

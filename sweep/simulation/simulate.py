@@ -63,7 +63,7 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
     scene = _scene(case)
     run = _Run(scene, case, stop)
     status, message = run.complete()
-    curves = history_columns(run.rows[: run.done], scene, case)
+    curves = history_columns(run.rows[: run.done], case)
     if case.lattice.structure is not None:
         curves = structure_columns(curves, run.probed[: run.done], scene, case)
         curves |= path_columns(run.arc, run.done)

@@ -41,7 +41,7 @@ PLATEAU = ("plateau_stress_Pa", "densification_strain", "efficiency")
 PLATEAU_START = 0.05  # strain where the average over the plateau starts
 
 
-def history_columns(rows: np.ndarray, scene: Scene, case: Case) -> dict[str, Floats]:
+def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
     """Columns of the history, (rows,) each, from the rows of the march, (rows,) of `rows.ROW`."""
     travel = rows["height"][0] - rows["height"]
     endless = case.lattice.boundary == "periodic"  # one mean stress, so both reactions are equal

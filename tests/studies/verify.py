@@ -129,7 +129,7 @@ def crush_rows(file):
     returned = 100.0 * crushes["returned_energy_J"] / crushes["absorbed_energy_J"]
     squeezed = 1.0 + crushes["least_element_strain"]
     for name, values, digits in (
-        ("work given back when let up, %", returned, 0),
+        ("work returned on unloading, %", returned, 0),
         ("printed area still covered at 60 %, %", 100.0 * crushes["kept_area"], 0),
         ("shortest element, in its length at rest", squeezed, 2),
         ("walls that cross", crushes["max_crossings"], 0),

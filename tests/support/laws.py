@@ -41,7 +41,7 @@ def respond(law, strain, memory, point):
 
 
 @jit
-def remembers(law):
+def state_size(law):
     return 1
 
 
@@ -65,7 +65,7 @@ class StandardSolid(NamedTuple):
     modulus: float
 
     respond = respond
-    remembers = remembers
+    state_size = state_size
     commit = commit
 
 
@@ -93,7 +93,7 @@ class Clock(NamedTuple):
     modulus: float
 
     respond = respond_as_spring
-    remembers = remembers
+    state_size = state_size
     commit = commit_time
 
 
@@ -121,8 +121,8 @@ def respond_section(section, strain, memory, point):
 
 
 @jit
-def section_remembers(section):
-    return section.height.size * section.fibre.remembers()
+def section_state_size(section):
+    return section.height.size * section.fibre.state_size()
 
 
 @jit
@@ -147,5 +147,5 @@ class Section(NamedTuple):
     modulus: float
 
     respond = respond_section
-    remembers = section_remembers
+    state_size = section_state_size
     commit = commit_section

@@ -59,7 +59,7 @@ class Version:
         return getattr(import_module(self.module), self.name).compiled(self.args)
 
     def __call__(self):
-        """Let code that calls it find it, or refuse: then that is compiled anew."""
+        """Let code that calls it find it, or refuse: then that is compiled again."""
         compiled = self.compiled()
         if compiled.signature.return_type != self.returns:
             raise TypeError(f"{self.symbol} returns {compiled.signature.return_type}")

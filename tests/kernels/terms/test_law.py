@@ -118,7 +118,7 @@ def test_work_is_stored_or_dissipated():
 
 def test_an_elastic_law_keeps_no_number():
     law, none = linear_law(MODULUS), Memory(np.empty((0, 0)), TIME)
-    assert (law.remembers(), solid().remembers()) == (0, 1)
+    assert (law.state_size(), solid().state_size()) == (0, 1)
     assert law.commit(0.1, none, 0) == pytest.approx((0.5 * MODULUS * 0.1**2, 0.0))
 
 
@@ -164,7 +164,7 @@ def test_a_coupled_section_commits_its_fibres():
     potential = section.respond((0.05, 300.0), memory, 0)[0]
     stored, lost = section.commit((0.05, 300.0), memory, 0)
     strain = 0.05 + 300.0 * section.height
-    assert section.remembers() == 4
+    assert section.state_size() == 4
     assert potential == pytest.approx(stored + 0.5 * lost, rel=1e-12)
     np.testing.assert_allclose(memory.committed[0], 0.5 * (strain + before), rtol=1e-12)
 
