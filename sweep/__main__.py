@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from textwrap import fill
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from sweep.config.examples import examples
 
@@ -66,7 +66,10 @@ Without CASE: list the ids and the designs of all cases."""
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser whose error message has two lines."""
+    """A parser whose error message has two lines, and that takes no abbreviations."""
+
+    def __init__(self, **options: Any):
+        super().__init__(**options, allow_abbrev=False)
 
     def error(self, message: str) -> NoReturn:
         """Print what is wrong, and how to get help."""

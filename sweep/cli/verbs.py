@@ -126,6 +126,8 @@ def status(arguments: Namespace) -> int:
     known = {name.removeprefix("version_"): about[name] for name in about if "version_" in name}
     say(f"last run {about.get('created', '?')}, revision {about.get('git_revision', '?')}")
     say(", ".join(f"{name} {version}" for name, version in known.items()))
+    if "compiler" in about:
+        say(f"kernels: {about['compiler']} compiler")
     return _exit_status(summary)
 
 

@@ -309,3 +309,9 @@ def test_what_an_allowed_force_is_for_is_told(capsys, tmp_path, mode, told):
     row = {absorbed_energy_column(50.0): 0.01, "loading_mode": mode}
     main(["rank", write(tmp_path / "trial.h5", summary(row)), "--allowed-force", "0.05 kN"])
     assert told in capsys.readouterr().out
+
+
+def test_options_are_not_abbreviated(capsys, config):
+    status, _, err = crumple(capsys, "run", config, "--worker", "1")
+    assert status == 2
+    assert "--worker" in err

@@ -6,6 +6,7 @@ from pydantic import ValidationError
 from sweep.config.case import Case, Loading, Material
 from sweep.config.grid import expand
 from sweep.config.material_file import locate, read_record
+from sweep.config.tables import MODES
 from sweep.config.units import ConfigError
 from tests.support.cases import pressed
 
@@ -86,3 +87,9 @@ def test_duration_is_a_key_of_loads_and_of_strikers():
     assert Loading(duration=0.1, energy=0.1).mode == "impact"
     with pytest.raises(ValidationError, match=r'"force" or "impact", as loading\.force needs'):
         Loading(force=1.0, energy=0.1)
+
+
+def test_every_key_of_a_loading_belongs_to_a_mode_or_to_all():
+    """A key that no mode names would be taken without a sentence where it has no effect."""
+    of_all = {"mode", "platen", "duration", "allowed_forces"}
+    assert {key for keys in MODES.values() for key in keys} == set(Loading.model_fields) - of_all
