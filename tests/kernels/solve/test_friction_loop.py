@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from kernels.compile.choice import FAST, compiler
 from kernels.solve import friction_loop, march
 from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
 from sweep.simulation.simulate import simulate
@@ -77,6 +78,7 @@ def test_duals_that_mislead_are_forgotten():
     assert simulate(case).status == "converged"
 
 
+@pytest.mark.skipif(compiler() != FAST, reason="in which scene it does not settle, rounding tells")
 def test_a_loop_that_does_not_settle_is_told():
     found = simulate(draw.scene(492)[1])
     assert found.status == "stopped"
