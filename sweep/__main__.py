@@ -41,7 +41,7 @@ ACCURACY = """Simulate a sweep over numerical settings, then print error against
 the observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 the limit to which the finest settings of the method of highest order converge. Cases that differ in
 anything other than numerical settings are studied separately. A method is a choice of
-solver.integrator, solver.hinges, contact.model and the like; solver.time_step, .load_steps,
+solver.integrator, solver.element, contact.model and the like; solver.time_step, .load_steps,
 .step_error and lattice.nodes_per_wall refine it."""
 WARM = """Compile the kernels now, so that the next run starts at once; otherwise the first run
 compiles them. It takes half a minute to a minute, or two by the stock compiler (CRUMPLE_COMPILER),

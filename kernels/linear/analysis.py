@@ -27,18 +27,18 @@ PLACE = np.dtype(
 
 
 class Layout(NamedTuple):
-    """The coordinates and their unknowns. A *point* has a block of the matrix: each node, and the
-    upper platen as point n_nodes.
+    """The coordinates and their unknowns. A *point* has a block of the matrix: each node, the upper
+    platen as point n_nodes, and after it each rotation beside that of a node.
 
     leader (n,): the coordinate itself if it is free, that of the upper platen if it is tied to it,
     -1 if held. ratio (n,): move divided by that of the leader; 1 unless the leader is driven.
     images (k, 4): see `periodic_images`; their leader is the coordinate itself. driven: coordinate
     with a prescribed value, -1 if none. point, slot (n,): point of each coordinate, and its place
     in the block of the point. first (n_nodes,): first coordinate of the position of each node.
-    origin (n_nodes + 1,): the point itself, or the point of which it is an image. inner (w,): first
-    inner coordinate of each wall; the others follow it. wall_of (n_nodes + 1,): wall of an inner
-    node, else -1. outer (w, 6): coordinates of the two joints of a wall; the second joint may be an
-    image. scale: stiffness of the stiffest element, N/m.
+    origin (points,): the point itself, or the point of which it is an image. inner (r,): coordinates
+    of the nodes inside walls, wall by wall. wall_of (points,): wall of an inner node, else -1.
+    outer (w, 6): coordinates of the two joints of a wall; the second joint may be an image. scale:
+    stiffness of the stiffest element, N/m.
     """
 
     leader: np.ndarray
@@ -91,18 +91,18 @@ def _is_fixed(layout, c):
 
 
 @jit_exact
-def _kind(layout, w, m, touched):
-    """Return the kind of wall ``w`` with ``m`` inner unknowns.
+def _kind(layout, w, inner, touched):
+    """Return the kind of wall ``w`` with the ``inner`` coordinates.
 
     RIGID: all coordinates are fixed and move together, so that the wall adds nothing.
     """
     inside, ends = 0, 0
-    for c in range(layout.inner[w], layout.inner[w] + m):
+    for c in inner:
         inside += _is_fixed(layout, c)
     for c in layout.outer[w]:
         ends += _is_fixed(layout, c)
     together = layout.leader[layout.outer[w, 1]] == layout.leader[layout.outer[w, 4]]
-    if inside + ends == m + condense.OUTER and together:
+    if inside + ends == inner.size + condense.OUTER and together:
         return RIGID
     return CONDENSED if inside == 0 and not touched else OPEN
 
@@ -143,10 +143,19 @@ def _is_tied(layout, node):
     return False
 
 
+@jit_exact
+def _turning(layout, c, points, count):
+    """Append the point of the rotation ``c`` if it is not that of a node; return the new count."""
+    if layout.point[c] > layout.n_nodes:
+        points[count] = layout.point[c]
+        return count + 1
+    return count
+
+
 @jit_owning
 def _graph(layout, walls, kind, couplings):
     """Return (index (n_nodes + 1,), bits): number of each point, -1 if none, and their graph."""
-    index = np.full(layout.n_nodes + 1, -1)
+    index = np.full(layout.origin.size, -1)
     count = 0
     for c in range(layout.leader.size):
         p = _point(layout, c)
@@ -162,13 +171,15 @@ def _graph(layout, walls, kind, couplings):
         if kind[w] == CONDENSED:
             n = _points_of(layout, walls.edges[first, 0], points, 0)
             n = _points_of(layout, walls.edges[last - 1, 1], points, n)
+            n = _turning(layout, walls.dofs[first, 2], points, n)
+            n = _turning(layout, walls.dofs[last - 1, 5], points, n)
             _link(bits, index, points, n)
         elif kind[w] == OPEN:
             for k in range(first, last):
                 n = _points_of(layout, walls.edges[k, 0], points, 0)
                 n = _points_of(layout, walls.edges[k, 1], points, n)
-                if k + 1 < last:
-                    n = _points_of(layout, walls.edges[k + 1, 1], points, n)
+                n = _turning(layout, walls.dofs[k, 2], points, n)
+                n = _turning(layout, walls.dofs[k, 5], points, n)
                 _link(bits, index, points, n)
     for k in range(couplings.shape[0]):
         n = 0
@@ -199,9 +210,9 @@ def _homes(layout, index, sequence):
 
 
 @jit_exact
-def _coordinate(layout, w, m, i):
-    """Return the coordinate of local unknown ``i`` of wall ``w``: m inner ones, then the joints."""
-    return layout.inner[w] + i if i < m else layout.outer[w, i - m]
+def _coordinate(layout, w, inner, i):
+    """Return the coordinate of local unknown ``i`` of wall ``w``: ``inner`` ones, then joints."""
+    return inner[i] if i < inner.size else layout.outer[w, i - inner.size]
 
 
 @jit_owning
@@ -216,12 +227,14 @@ def _targets(layout, row_start, kind, home, start, row):
     target = np.full(target_start[-1], nowhere)
     for w in range(kind.size):
         m, t = row_start[w + 1] - row_start[w], target_start[w]
+        inner = layout.inner[row_start[w] : row_start[w + 1]]
         if kind[w] == OPEN:
             for k in range(m):
                 for c in range(condense.WIDTH):
                     other = k + c if c < condense.BAND else m + c - condense.BAND
                     if other < m or c >= condense.BAND:
-                        i, j = _coordinate(layout, w, m, k), _coordinate(layout, w, m, other)
+                        i = _coordinate(layout, w, inner, k)
+                        j = _coordinate(layout, w, inner, other)
                         if home[i] >= 0 and home[j] >= 0:
                             at = block_matrix.position(home, start, row, i, j)
                             target[t] = at if at >= 0 else nowhere
@@ -249,9 +262,9 @@ def analyse(layout, walls, couplings):
             touched[layout.wall_of[point]] = True
     kind, row_start = np.empty(n_walls, np.int64), np.zeros(n_walls + 1, np.int64)
     for w in range(n_walls):
-        m = 2 * (walls.start[w + 1] - walls.start[w] - 1)
+        m = condense.NODE * (walls.start[w + 1] - walls.start[w] - 1)
         row_start[w + 1] = row_start[w] + m
-        kind[w] = _kind(layout, w, m, touched[w])
+        kind[w] = _kind(layout, w, layout.inner[row_start[w] : row_start[w] + m], touched[w])
     index, bits = _graph(layout, walls, kind, couplings)
     sequence = minimum_degree.minimum_degree(bits)
     start, row = minimum_degree.columns(bits, sequence)

@@ -7,6 +7,12 @@ from kernels.linear.analysis import CONDENSED, OPEN, RIGID
 from kernels.linear.block_matrix import IMAGE, INNER, add_image
 
 
+@jit_exact
+def _rows(system, w):
+    """Return the slice of rows that are the inner unknowns of wall ``w``."""
+    return slice(system.row_start[w], system.row_start[w + 1])
+
+
 @jit
 def _scatter(values, target, rows, outer):
     """Add the entries of a wall to the block matrix: ``outer``, and ``rows`` of an open wall."""
@@ -30,7 +36,7 @@ def _scatter_image(system, layout, w, rows):
     Entries of an open wall that are zero have no room: they belong to nodes too far apart to
     couple.
     """
-    matrix, outer = system.matrix, layout.outer[w]
+    matrix, outer, inner = system.matrix, layout.outer[w], layout.inner[_rows(system, w)]
     for c in range(condense.OUTER):
         is_image = matrix.home[outer[c]] <= IMAGE
         for d in range(c + 1):
@@ -43,14 +49,7 @@ def _scatter_image(system, layout, w, rows):
             for k in range(rows.shape[0]):
                 entry = rows[k, condense.BAND + c]
                 if entry != 0.0:
-                    add_image(matrix, layout.inner[w] + k, outer[c], entry, False)
-
-
-@jit_exact
-def _inner(system, layout, w):
-    """Return the slice of coordinates that are the inner unknowns of wall ``w``."""
-    first = layout.inner[w]
-    return slice(first, first + system.row_start[w + 1] - system.row_start[w])
+                    add_image(matrix, inner[k], outer[c], entry, False)
 
 
 @jit_exact
@@ -67,14 +66,14 @@ def factor(system, layout, walls, stiffness, projected, through):
     for w in range(system.kind.size):
         if system.kind[w] == RIGID:
             continue
-        span = slice(system.row_start[w], system.row_start[w + 1])
+        span = _rows(system, w)
         rows, own = system.rows[span], system.own[span]
-        condense.fill(walls.start[w], walls.start[w + 1], w, stiffness, rows, system.outer)
+        condense.fill(walls.start[w], walls.start[w + 1], stiffness, rows, system.outer)
         if system.kind[w] == CONDENSED:
-            diagonal = system.matrix.diagonal[_inner(system, layout, w)]
             failed, pivot = condense.eliminate(
-                rows, diagonal, own, system.outer, layout.scale, rounded
-            )
+                rows, layout.inner[span], system.matrix.diagonal, own, system.outer,
+                layout.scale, rounded,
+            )  # fmt: skip
             if failed >= 0:
                 wall = w
                 break
@@ -113,10 +112,11 @@ def _expand(system, layout, b):
     periodic_images.spread(layout.images, b)
     for w in range(system.kind.size):
         if system.kind[w] == CONDENSED:
-            rows = system.rows[system.row_start[w] : system.row_start[w + 1]]
+            span = _rows(system, w)
+            rows = system.rows[span]
             for c in range(condense.OUTER):
                 joints[c] = b[layout.outer[w, c]]
-            condense.backward(rows, b[_inner(system, layout, w)], joints, rows.shape[0])
+            condense.backward(rows, layout.inner[span], b, joints, rows.shape[0])
     periodic_images.spread(layout.images, b)
 
 
@@ -127,9 +127,9 @@ def solve(system, layout, b):
     periodic_images.collect(layout.images, b)
     for w in range(system.kind.size):
         if system.kind[w] == CONDENSED:
-            rows = system.rows[system.row_start[w] : system.row_start[w + 1]]
+            span = _rows(system, w)
             zero(joints)
-            condense.forward(rows, b[_inner(system, layout, w)], joints)
+            condense.forward(system.rows[span], layout.inner[span], b, joints)
             for c in range(condense.OUTER):
                 b[layout.outer[w, c]] += joints[c]
     periodic_images.collect(layout.images, b)
@@ -148,11 +148,11 @@ def descend(system, layout, direction):
     wall, failed = system.place[0].wall, system.place[0].row
     zero(direction)
     if wall >= 0:
-        rows = system.rows[system.row_start[wall] : system.row_start[wall + 1]]
+        span = _rows(system, wall)
+        rows, inner = system.rows[span], layout.inner[span]
         zero(system.joints)
-        inner = direction[_inner(system, layout, wall)]
-        inner[failed] = 1.0
-        condense.backward(rows, inner, system.joints, failed)
+        direction[inner[failed]] = 1.0
+        condense.backward(rows, inner, direction, system.joints, failed)
         periodic_images.spread(layout.images, direction)
     else:
         block_ldlt.descend(system.matrix, failed)

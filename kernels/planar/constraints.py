@@ -42,7 +42,6 @@ def pull(problem, move, direction):
     matrix = problem.neighbours.system.matrix
     lead(problem, move, direction)
     zero_rows(shape.slope)
-    zero(shape.moment)
     elements.product(walls, stiffness, direction, 1.0, shape)
     zero(direction)
     elements.gather(walls, shape, direction)

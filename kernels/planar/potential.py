@@ -32,7 +32,7 @@ LEAST = np.dtype(
         np.record,  # for attributes in plain Python too
         [
             ("length", np.float64),  # shortest element, m
-            ("opening", np.float64),  # smallest opening between two arms or elements, rad
+            ("opening", np.float64),  # smallest opening between two elements at a node, rad
         ],
     )
 )
@@ -73,21 +73,20 @@ def store_walls(problem, x, duration, found, projected):
     """Fill stored energies, shape and stiffness of the walls and the `LEAST` measures; add the
     gradient to ``found.elastic``. duration: of the step, s.
     """
-    scene, shape, stiffness = problem.scene, problem.buffers.shape, problem.buffers.stiffness
-    walls, least = scene.walls, problem.buffers.least[0]
-    memory = Memory(problem.buffers.committed, duration)
-    least.length = elements.measure(x, walls, shape)
-    opened = bend.turns(x, walls, scene.bend, problem.buffers.before.frame, shape)
-    elements.clear(shape, stiffness)
+    scene, buffers = problem.scene, problem.buffers
+    shape, stiffness, resultants = buffers.shape, buffers.stiffness, buffers.resultants
+    memory, least = Memory(buffers.committed, duration), buffers.least[0]
+    least.length = elements.measure(x, scene.walls, buffers.before.frame, shape)
     found.stored[STRETCH] = stretch.evaluate(
-        scene.stretch, scene.law, memory, shape, stiffness, projected
+        scene.stretch, scene.law, memory, shape, resultants, projected
     )
-    found.stored[BEND] = bend.evaluate(walls, scene.bend, memory, shape, stiffness, projected)
-    elements.gather(walls, shape, found.elastic)
+    found.stored[BEND] = bend.evaluate(scene.bend, memory, shape, resultants, projected)
+    elements.clear(shape, stiffness)
+    elements.add(resultants, scene.stretch.geometric, projected, shape, stiffness)
+    elements.gather(scene.walls, shape, found.elastic)
     found.stored[STRETCH] += spring.evaluate(x, scene.spring, found.elastic)
-    folding, opening = fold.evaluate(x, scene.fold, found.elastic)
+    folding, least.opening = fold.evaluate(x, scene.fold, found.elastic)
     found.stored[BEND] += folding
-    least.opening = min(opened, opening)
 
 
 @jit_exact
@@ -103,11 +102,10 @@ def _reset(x, step, found):
 def _damping(problem, step, found, projected):
     """Return D in J; fill ``found.material`` and add it to the gradient."""
     buffers = problem.buffers
-    before, shape, stiffness = buffers.before, buffers.shape, buffers.stiffness
-    zero_rows(shape.slope)
-    zero(shape.moment)
+    zero_rows(buffers.shape.slope)
     total = damping.evaluate(
-        found.u, problem.scene, before, step.h, shape, stiffness, projected, found.material
+        found.u, problem.scene, buffers.before, step.h,
+        buffers.shape, buffers.resultants, buffers.stiffness, projected, found.material,
     )  # fmt: skip
     add(found.material, found.g)
     return total

@@ -1,6 +1,6 @@
 """The lattice of walls in the plane: data of a scene, and the problem assembled from it.
 
-Coordinates are x and y of every node, the rotations of joints, and the surfaces of the platens.
+Coordinates are x and y of every node, the rotations of the nodes, and the surfaces of the platens.
 """
 
 from typing import NamedTuple
@@ -12,20 +12,22 @@ from kernels.planar import constraints, factoring, lagging, potential, reach, ro
 from kernels.planar.reach import Neighbours
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
+from kernels.terms import bend
 from kernels.terms.damping import Before
-from kernels.terms.elements import Shape, Stiffness
+from kernels.terms.elements import Resultants, Shape, Stiffness
 
 
 class Buffers(NamedTuple):
     """Arrays that are allocated once a march.
 
-    before: data of the start of the step for damping. shape, stiffness: of the walls at the last
-    `evaluate`; least (1,): smallest measures there, see `potential.LEAST`. committed (p, k): state
-    of the laws at the material points (`law.Memory`): elements, then hinges, then arms.
+    before: data of the start of the step for damping. shape, resultants, stiffness: of the walls at
+    the last `evaluate`; least (1,): smallest measures there, see `potential.LEAST`. committed (p,
+    k): state of the laws at the material points (`law.Memory`): elements, then those of bending.
     """
 
     before: Before
     shape: Shape
+    resultants: Resultants
     stiffness: Stiffness
     least: np.ndarray
     committed: np.ndarray
@@ -71,24 +73,22 @@ class Planar(NamedTuple):
 
 
 @jit_owning
-def _zero_shape(scene):
-    """Return zero `Shape` and `Stiffness` of all walls."""
-    m, arms = scene.stretch.l0.size, scene.walls.rotation.size
-    shape = Shape(
-        np.zeros((2, m)), np.zeros(m), np.zeros(m), np.zeros(arms), np.zeros((2, m)), np.zeros(arms)
-    )
-    twist = np.zeros(arms // 2)
-    return shape, Stiffness(np.zeros((3, m)), np.zeros((4, m)), np.zeros((3, arms)), twist)
+def _zero_shape(m):
+    """Return zero `Shape` and `Stiffness` of ``m`` elements."""
+    shape = Shape(np.zeros((2, m)), np.zeros(m), np.zeros((2, m)), np.zeros((4, m)))
+    return shape, Stiffness(np.zeros((3, m)), np.zeros((4, m)), np.zeros((3, m)))
 
 
 @jit_owning
 def make_buffers(scene, memory):
     """Return the `Buffers`. memory: `solve.history.State.memory`, which becomes ``committed``."""
-    frame = np.full((scene.walls.rotation.size, 3), np.inf)  # far off: the first step renews it
-    shape, stiffness = _zero_shape(scene)
+    m = scene.stretch.l0.size
+    shape, stiffness = _zero_shape(m)
+    frame = np.full((m, 3), np.inf)  # far off: the first step renews it
     before = Before(frame, shape, stiffness)
-    shape, stiffness = _zero_shape(scene)
-    return Buffers(before, shape, stiffness, np.zeros(1, potential.LEAST), memory)
+    shape, stiffness = _zero_shape(m)
+    resultants = Resultants(np.zeros((3, m)), np.zeros((6, m)))
+    return Buffers(before, shape, resultants, stiffness, np.zeros(1, potential.LEAST), memory)
 
 
 @jit_exact
@@ -108,10 +108,10 @@ def _numbers(law):
 def at_rest(scene, x):
     """Return the `history.State` of a lattice at rest at ``x`` (n,), with a virgin material.
 
-    Every element, hinge and arm has a row of memory, as long as the largest state of the laws.
+    Every material point has a row of memory, as long as the largest state of the laws.
     """
     numbers = max(_numbers(scene.law), _numbers(scene.bend.section))
-    points = scene.stretch.l0.size + scene.bend.hinges.size + scene.walls.rotation.size
+    points = (1 + bend.POINTS) * scene.stretch.l0.size
     memory = (points, numbers) if numbers > 0 else (0, 0)
     return history.at_rest(x, potential.STORED, memory)
 

@@ -60,13 +60,11 @@ def step_limit(problem, x, dx, far):
 
 @jit_exact
 def _first_fold(x, dx, scene):
-    """Return the first share of ``dx`` at which two arms or neighbouring elements fold flat."""
-    first, edges = np.inf, scene.walls.edges
+    """Return the first share of ``dx`` at which two elements at a node fold flat."""
+    first = np.inf
     for k in range(scene.fold.limit.size):
         a, b, c = triple(scene.fold.nodes, k)
         first = min(first, ccd.first_fold(x, dx, a, b, c))
-    for k in scene.bend.hinges:
-        first = min(first, ccd.first_fold(x, dx, edges[k, 0], edges[k, 1], edges[k + 1, 1]))
     return first
 
 

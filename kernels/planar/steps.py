@@ -8,9 +8,12 @@ from kernels.terms.law import Memory
 
 @jit_exact
 def begin(problem, step, ahead, scratch):
-    """Renew the frames of the joints at x0, and measure the shape that damping starts from."""
+    """Renew the frames of the elements at x0, and measure the shape that damping starts from."""
     buffers, memory = problem.buffers, Memory(problem.buffers.committed, step.duration)
-    damping.prepare(step.x0, problem.scene, memory, buffers.before, ahead, scratch, buffers.shape)
+    damping.prepare(
+        step.x0, problem.scene, memory, buffers.before, ahead, scratch, buffers.shape,
+        buffers.resultants,
+    )  # fmt: skip
 
 
 @jit_exact
@@ -23,7 +26,7 @@ def commit(problem, x, step, found):
         found.stored[STRETCH] -= released
         sums.dissipated += dissipated
     if scene.bend.section.state_size() > 0:
-        released, dissipated = bend.commit(scene.walls, scene.bend, memory, shape)
+        released, dissipated = bend.commit(scene.bend, memory, shape)
         found.stored[BEND] -= released
         sums.dissipated += dissipated
 

@@ -24,8 +24,8 @@ class Damp(NamedTuple):
 
 
 class Before(NamedTuple):
-    """Data of the start of a step: frame of the arms (`bend.renew_frame`), shape from which rates
-    of strain are measured, and projected stiffness K.
+    """Data of the start of a step: frame of the elements (`elements.renew_frame`), shape from which
+    rates of strain are measured, and projected stiffness K.
     """
 
     frame: np.ndarray
@@ -34,56 +34,48 @@ class Before(NamedTuple):
 
 
 @jit
-def _measure(x, terms, frame, shape):
-    """Fill ``shape``; return the shortest length in m and the least opening in rad."""
-    shortest = elements.measure(x, terms.walls, shape)
-    return shortest, bend.turns(x, terms.walls, terms.bend, frame, shape)
-
-
-@jit
 def _measure_ahead(x0, terms, before, move, place):
     """Measure the shape at the expected end of the step, or at x0 if that would crush walls."""
-    frame, shape = before.frame, before.shape
-    shortest, opened = _measure(x0, terms, frame, shape)
+    walls, frame, shape = terms.walls, before.frame, before.shape
+    shortest = elements.measure(x0, walls, frame, shape)
     for i in range(x0.size):
         place[i] = x0[i] + move[i]
-    length, opening = _measure(place, terms, frame, shape)
-    if 2.0 * length < shortest or 2.0 * opening < opened:
-        _measure(x0, terms, frame, shape)
+    if 2.0 * elements.measure(place, walls, frame, shape) < shortest:
+        elements.measure(x0, walls, frame, shape)
 
 
 @jit
-def prepare(x0, terms, memory, before, ahead, place, past):
+def prepare(x0, terms, memory, before, ahead, place, past, resultants):
     """Fill ``before`` for a step from ``x0``; data that no damping of the scene needs is left out.
 
-    ahead: `integrators.Ahead`. place (n,): scratch positions. past: scratch `Shape`.
+    ahead: `integrators.Ahead`. place (n,), past (`Shape`), resultants: scratch.
     """
-    frame, shape, stiffness = before.frame, before.shape, before.stiffness
-    bend.renew_frame(x0, terms.walls, terms.bend, frame)
+    walls, frame, shape, stiffness = terms.walls, before.frame, before.shape, before.stiffness
+    elements.renew_frame(x0, walls, frame)
     if terms.damp.beta_k > 0.0:
         if ahead.time > 0.0:
             _measure_ahead(x0, terms, before, ahead.move, place)
         else:
-            _measure(x0, terms, frame, shape)
+            elements.measure(x0, walls, frame, shape)
         elements.clear(shape, stiffness)
-        whole = stretch.Stretch(terms.stretch.l0, terms.stretch.area, True)
-        stretch.evaluate(whole, terms.law, memory, shape, stiffness, True)
-        bend.evaluate(terms.walls, terms.bend, memory, shape, stiffness, True)
+        stretch.evaluate(terms.stretch, terms.law, memory, shape, resultants, True)
+        bend.evaluate(terms.bend, memory, shape, resultants, True)
+        elements.add(resultants, True, True, shape, stiffness)
     if terms.damp.relaxation > 0.0:
-        _measure(x0, terms, frame, shape)
+        elements.measure(x0, walls, frame, shape)
         if ahead.time > 0.0 and ahead.last == 0.0:
             kelvin_voigt.advance(terms, ahead.rate, ahead.time, shape)
         elif ahead.time > 0.0:
             for i in range(x0.size):
                 place[i] = x0[i] - ahead.last * ahead.rate[i]
-            _measure(place, terms, frame, past)
+            elements.measure(place, walls, frame, past)
             kelvin_voigt.extrapolate(shape, past, ahead.time / ahead.last)
 
 
 @jit
-def evaluate(u, terms, before, dt, shape, stiffness, projected, g):
+def evaluate(u, terms, before, dt, shape, resultants, stiffness, projected, g):
     """Return D in J for a move ``u`` = x - y in ``dt`` = h; add dD/dx to ``g`` and the walls' part
-    of the Hessian to ``stiffness``. Slopes and moments of ``shape`` are zero on entry.
+    of the Hessian to ``stiffness``. Slopes of ``shape`` are zero on entry.
     """
     total = 0.0
     alpha, mass = terms.damp.alpha_m / dt, terms.coordinates.mass
@@ -96,7 +88,8 @@ def evaluate(u, terms, before, dt, shape, stiffness, projected, g):
         total += rayleigh.evaluate(u, terms.walls, before.stiffness, rate, shape, stiffness)
     if terms.damp.relaxation > 0.0:
         rate = terms.damp.relaxation / dt
-        total += kelvin_voigt.evaluate(terms, before.shape, rate, shape, stiffness, projected)
+        total += kelvin_voigt.evaluate(terms, before.shape, rate, shape, resultants, projected)
+        elements.add(resultants, True, projected, shape, stiffness)
     if terms.damp.beta_k > 0.0 or terms.damp.relaxation > 0.0:
         elements.gather(terms.walls, shape, g)
     return total

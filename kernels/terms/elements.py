@@ -1,72 +1,118 @@
-"""Walls as chains of straight elements, and derivatives of energies in the element vectors.
+"""Walls as chains of beam elements, and derivatives of energies in their deformations.
 
-Element k has the vector e_k = l t; n is t rotated by 90 degrees anticlockwise. Stretching and
-bending of a wall depend only on the vectors of its elements and the rotations phi of its two
-joints, and a hinge couples neighbouring elements only:
+Element k joins two nodes, each with a position and a rotation phi. Its chord is e = l t, and n is t
+rotated by 90 degrees anticlockwise. A rigid motion changes none of its three *deformations*
 
-    slope_k = dE/de_k    own_k = d2E/de_k de_k    next_k = d2E/de_k de_{k+1}
-    moment_a = -dE/dphi_a    arm_a = (d2E/dphi_a de, d2E/dphi_a dphi_a)    twist = d2E/dphi_a dphi_b
+    l,   a_i = bearing of e - bearing at rest - phi_i,   i = 1, 2
+
+(the natural deformations of a corotational beam; J. Argyris et al., 1979). For an energy
+E(l, a_1, a_2) with N = dE/dl, M_i = dE/da_i and M = M_1 + M_2 the chain rule gives
+
+    dE/de = N t + M n / l                  dE/dphi_i = -M_i
+    d2E/de2 = E_ll t t + E_lb (t n + n t) / l + E_bb n n / l^2 + N n n / l - M (t n + n t) / l^2
+    d2E/de dphi_i = -E_li t - E_bi n / l   d2E/dphi_i dphi_j = E_ij
+
+with d/db = d/da_1 + d/da_2. An element couples its own two nodes only.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
-from kernels.arrays import zero, zero_rows
+from kernels.arrays import zero_rows
 from kernels.compile.jit import jit
+
+NEAR_ENOUGH = 0.5  # rad
 
 
 class Walls(NamedTuple):
     """Topology. The elements of wall w, in their order along it, are start[w] .. start[w + 1].
 
-    edges (m, 2): nodes. start (w + 1,). arm_element, rotation (2 w,): the element at each end of
-    each wall (its arms 2 w and 2 w + 1), and the coordinate of the rotation of the joint there.
+    edges (m, 2): nodes. start (w + 1,). rest (m, 2): direction at rest. dofs (m, 6): coordinates
+    x, y, phi of both ends.
     """
 
     edges: np.ndarray
     start: np.ndarray
-    arm_element: np.ndarray
-    rotation: np.ndarray
+    rest: np.ndarray
+    dofs: np.ndarray
 
 
 class Shape(NamedTuple):
-    """Geometry of the elements, and sums of derivatives over the terms.
+    """Geometry of the elements, and sums over the terms.
 
-    t (2, m), length (m,) in m. Turns from rest in rad: hinge_turn (m,) between an element and the
-    next, arm_turn (2 w,). Sums: slope (2, m) in N, moment (2 w,) in N m.
+    t (2, m), length (m,) in m, turn (2, m): a_1 and a_2 in rad. slope (4, m): sums of dE/de in N
+    and of dE/dphi in N m.
     """
 
     t: np.ndarray
     length: np.ndarray
-    hinge_turn: np.ndarray
-    arm_turn: np.ndarray
+    turn: np.ndarray
     slope: np.ndarray
-    moment: np.ndarray
+
+
+class Resultants(NamedTuple):
+    """Derivatives of an energy in the deformations.
+
+    force (3, m): N, M_1, M_2. rigidity (6, m): ll, l1, l2, 11, 12, 22.
+    """
+
+    force: np.ndarray
+    rigidity: np.ndarray
 
 
 class Stiffness(NamedTuple):
-    """Sums of second derivatives: own (3, m) xx, xy, yy; next (4, m) xx, xy, yx, yy; arm (3, 2 w)
-    x, y and phi; twist (w,).
+    """Second derivatives, summed over the terms: own (3, m) of e: xx, xy, yy; lean (4, m): of e and
+    phi_1 x, y, of e and phi_2 x, y; twist (3, m): of phi 11, 12, 22.
     """
 
     own: np.ndarray
-    next: np.ndarray
-    arm: np.ndarray
+    lean: np.ndarray
     twist: np.ndarray
 
 
 @jit
-def measure(x, walls, shape):
-    """Fill directions and lengths; return the shortest length in m."""
+def between(cos_a, sin_a, cos_b, sin_b):
+    """Return the angle from direction a to direction b, in (-pi, pi]."""
+    return math.atan2(cos_a * sin_b - sin_a * cos_b, cos_a * cos_b + sin_a * sin_b)
+
+
+@jit
+def renew_frame(x, walls, frame):
+    """Update ``frame`` (m, 3): direction at rest of every element rotated with its first node (cos,
+    sin), and phi of that node.
+
+    Turns are measured from the frame, so that they never wrap. A frame within `NEAR_ENOUGH` of the
+    present phi is kept.
+    """
+    for k in range(frame.shape[0]):
+        phi = x[walls.dofs[k, 2]]
+        if abs(phi - frame[k, 2]) < NEAR_ENOUGH:
+            continue
+        co, si = math.cos(phi), math.sin(phi)
+        frame[k, 0] = co * walls.rest[k, 0] - si * walls.rest[k, 1]
+        frame[k, 1] = si * walls.rest[k, 0] + co * walls.rest[k, 1]
+        frame[k, 2] = phi
+
+
+@jit
+def measure(x, walls, frame, shape):
+    """Fill directions, lengths and turns; return the shortest length in m."""
     shortest = np.inf
     for k in range(shape.length.size):
         i, j = 2 * walls.edges[k, 0], 2 * walls.edges[k, 1]
         ex, ey = x[j] - x[i], x[j + 1] - x[i + 1]
-        length = np.sqrt(ex * ex + ey * ey)
+        length = math.sqrt(ex * ex + ey * ey)
         shape.length[k] = length
         shape.t[0, k] = ex / length
         shape.t[1, k] = ey / length
         shortest = min(shortest, length)
+    for k in range(shape.length.size):
+        one, two = x[walls.dofs[k, 2]], x[walls.dofs[k, 5]]
+        turned = between(frame[k, 0], frame[k, 1], shape.t[0, k], shape.t[1, k])
+        shape.turn[0, k] = turned - (one - frame[k, 2])
+        shape.turn[1, k] = turned - (two - frame[k, 2])
     return shortest
 
 
@@ -74,123 +120,77 @@ def measure(x, walls, shape):
 def clear(shape, stiffness):
     """Set the sums over the terms to zero."""
     zero_rows(shape.slope)
-    zero(shape.moment)
     zero_rows(stiffness.own)
-    zero_rows(stiffness.next)
-    zero_rows(stiffness.arm)
-    zero(stiffness.twist)
+    zero_rows(stiffness.lean)
+    zero_rows(stiffness.twist)
 
 
 @jit
-def stretch(shape, stiffness, k, tension, along, across):
-    """Add an energy of the length of element ``k``.
+def add(resultants, geometric, projected, shape, stiffness):
+    """Add the derivatives of an energy by the chain rule.
 
-    slope: tension t. own: along t t + across n n.
+    geometric: with N n n / l. projected: without second derivatives of the bearing, and with N n n
+    / l in tension only; then a semi-definite ``rigidity`` yields a semi-definite Hessian.
     """
-    tx, ty = shape.t[0, k], shape.t[1, k]
-    shape.slope[0, k] += tension * tx
-    shape.slope[1, k] += tension * ty
-    stiffness.own[0, k] += along * tx * tx + across * ty * ty
-    stiffness.own[1, k] += (along - across) * tx * ty
-    stiffness.own[2, k] += along * ty * ty + across * tx * tx
-
-
-@jit
-def turn(shape, stiffness, k, moment, rigidity, bent):
-    """Add an energy of the bearing of element ``k``, whose derivative in the bearing is ``moment``.
-
-    slope: moment n / l. own: rigidity n n / l^2 - bent (t n + n t) / l^2.
-    """
-    tx, ty = shape.t[0, k], shape.t[1, k]
-    by_length = 1.0 / shape.length[k]
-    shape.slope[0, k] -= moment * by_length * ty
-    shape.slope[1, k] += moment * by_length * tx
-    nn, tn = rigidity * by_length * by_length, bent * by_length * by_length
-    stiffness.own[0, k] += nn * ty * ty + 2.0 * tn * tx * ty
-    stiffness.own[1, k] -= nn * tx * ty + tn * (tx * tx - ty * ty)
-    stiffness.own[2, k] += nn * tx * tx - 2.0 * tn * tx * ty
-
-
-@jit
-def turn_hinge(shape, stiffness, k, moment, rigidity, bent):
-    """Add an energy of the angle between elements ``k`` and ``k`` + 1."""
-    turn(shape, stiffness, k, -moment, rigidity, -bent)
-    turn(shape, stiffness, k + 1, moment, rigidity, bent)
-    weight = -rigidity / (shape.length[k] * shape.length[k + 1])
-    tx, ty, ux, uy = shape.t[0, k], shape.t[1, k], shape.t[0, k + 1], shape.t[1, k + 1]
-    stiffness.next[0, k] += weight * ty * uy
-    stiffness.next[1, k] -= weight * ty * ux
-    stiffness.next[2, k] -= weight * tx * uy
-    stiffness.next[3, k] += weight * tx * ux
-
-
-@jit
-def turn_arm(shape, stiffness, walls, a, moment, rigidity, bent):
-    """Add an energy of the turn of arm ``a`` against its joint."""
-    k = walls.arm_element[a]
-    turn(shape, stiffness, k, moment, rigidity, bent)
-    shape.moment[a] += moment
-    weight = rigidity / shape.length[k]
-    stiffness.arm[0, a] += weight * shape.t[1, k]
-    stiffness.arm[1, a] -= weight * shape.t[0, k]
-    stiffness.arm[2, a] += rigidity
-
-
-@jit
-def couple_arms(shape, stiffness, walls, w, rigidity):
-    """Add the mixed second derivative ``rigidity`` in the turns of both arms of one element."""
-    k = walls.arm_element[2 * w]
-    turn(shape, stiffness, k, 0.0, 2.0 * rigidity, 0.0)
-    weight = rigidity / shape.length[k]
-    for a in (2 * w, 2 * w + 1):
-        stiffness.arm[0, a] += weight * shape.t[1, k]
-        stiffness.arm[1, a] -= weight * shape.t[0, k]
-    stiffness.twist[w] += rigidity
+    force, rigidity = resultants.force, resultants.rigidity
+    own, lean, twist, slope = stiffness.own, stiffness.lean, stiffness.twist, shape.slope
+    curls = 0.0 if projected else 1.0
+    for k in range(shape.length.size):
+        tx, ty, by_length = shape.t[0, k], shape.t[1, k], 1.0 / shape.length[k]
+        tension, moment = force[0, k], (force[1, k] + force[2, k]) * by_length
+        slope[0, k] += tension * tx - moment * ty
+        slope[1, k] += tension * ty + moment * tx
+        slope[2, k] -= force[1, k]
+        slope[3, k] -= force[2, k]
+        b1 = (rigidity[3, k] + rigidity[4, k]) * by_length
+        b2 = (rigidity[4, k] + rigidity[5, k]) * by_length
+        across = max(tension, 0.0) if projected else tension
+        nn = (b1 + b2) * by_length + (across * by_length if geometric else 0.0)
+        tn = (rigidity[1, k] + rigidity[2, k] - curls * moment) * by_length
+        tt = rigidity[0, k]
+        own[0, k] += tt * tx * tx - 2.0 * tn * tx * ty + nn * ty * ty
+        own[1, k] += (tt - nn) * tx * ty + tn * (tx * tx - ty * ty)
+        own[2, k] += tt * ty * ty + 2.0 * tn * tx * ty + nn * tx * tx
+        lean[0, k] += b1 * ty - rigidity[1, k] * tx
+        lean[1, k] -= b1 * tx + rigidity[1, k] * ty
+        lean[2, k] += b2 * ty - rigidity[2, k] * tx
+        lean[3, k] -= b2 * tx + rigidity[2, k] * ty
+        twist[0, k] += rigidity[3, k]
+        twist[1, k] += rigidity[4, k]
+        twist[2, k] += rigidity[5, k]
 
 
 @jit
 def gather(walls, shape, g):
-    """Add the sums to the gradient ``g`` (n,) by coordinate."""
+    """Add the sums of slopes to the gradient ``g`` (n,) by coordinate."""
+    dofs, slope = walls.dofs, shape.slope
     for k in range(shape.length.size):
-        i, j = 2 * walls.edges[k, 0], 2 * walls.edges[k, 1]
-        g[i] -= shape.slope[0, k]
-        g[i + 1] -= shape.slope[1, k]
-        g[j] += shape.slope[0, k]
-        g[j + 1] += shape.slope[1, k]
-    for a in range(shape.moment.size):
-        g[walls.rotation[a]] -= shape.moment[a]
+        g[dofs[k, 0]] -= slope[0, k]
+        g[dofs[k, 1]] -= slope[1, k]
+        g[dofs[k, 2]] += slope[2, k]
+        g[dofs[k, 3]] += slope[0, k]
+        g[dofs[k, 4]] += slope[1, k]
+        g[dofs[k, 5]] += slope[3, k]
 
 
 @jit
 def product(walls, stiffness, u, factor, shape):
-    """Add ``factor`` K u to slopes and moments for a move ``u`` (n,); return u . K u."""
-    own, following, arm, total = stiffness.own, stiffness.next, stiffness.arm, 0.0
-    for w in range(walls.start.size - 1):
-        px, py = 0.0, 0.0
-        for k in range(walls.start[w], walls.start[w + 1]):
-            i, j = 2 * walls.edges[k, 0], 2 * walls.edges[k, 1]
-            ex, ey = u[j] - u[i], u[j + 1] - u[i + 1]
-            fx, fy = own[0, k] * ex + own[1, k] * ey, own[1, k] * ex + own[2, k] * ey
-            if k > walls.start[w]:
-                b = following[:, k - 1]
-                shape.slope[0, k - 1] += factor * (b[0] * ex + b[1] * ey)
-                shape.slope[1, k - 1] += factor * (b[2] * ex + b[3] * ey)
-                gx, gy = b[0] * px + b[2] * py, b[1] * px + b[3] * py
-                fx, fy = fx + gx, fy + gy
-                total += gx * ex + gy * ey
-            shape.slope[0, k] += factor * fx
-            shape.slope[1, k] += factor * fy
-            total += fx * ex + fy * ey
-            px, py = ex, ey
-        for a in (2 * w, 2 * w + 1):
-            k, phi = walls.arm_element[a], u[walls.rotation[a]]
-            i, j = 2 * walls.edges[k, 0], 2 * walls.edges[k, 1]
-            turned = arm[0, a] * (u[j] - u[i]) + arm[1, a] * (u[j + 1] - u[i + 1])
-            bent = arm[2, a] * phi + stiffness.twist[w] * u[walls.rotation[4 * w + 1 - a]]
-            shape.slope[0, k] += factor * arm[0, a] * phi
-            shape.slope[1, k] += factor * arm[1, a] * phi
-            shape.moment[a] -= factor * (turned + bent)
-            total += (2.0 * turned + bent) * phi
+    """Add ``factor`` K u to the slopes for a move ``u`` (n,); return u . K u."""
+    own, lean, twist, slope = stiffness.own, stiffness.lean, stiffness.twist, shape.slope
+    total = 0.0
+    for k in range(shape.length.size):
+        dofs = walls.dofs[k]
+        ex, ey = u[dofs[3]] - u[dofs[0]], u[dofs[4]] - u[dofs[1]]
+        phi, psi = u[dofs[2]], u[dofs[5]]
+        px = own[0, k] * ex + own[1, k] * ey + lean[0, k] * phi + lean[2, k] * psi
+        py = own[1, k] * ex + own[2, k] * ey + lean[1, k] * phi + lean[3, k] * psi
+        m1 = lean[0, k] * ex + lean[1, k] * ey + twist[0, k] * phi + twist[1, k] * psi
+        m2 = lean[2, k] * ex + lean[3, k] * ey + twist[1, k] * phi + twist[2, k] * psi
+        slope[0, k] += factor * px
+        slope[1, k] += factor * py
+        slope[2, k] += factor * m1
+        slope[3, k] += factor * m2
+        total += px * ex + py * ey + m1 * phi + m2 * psi
     return total
 
 
@@ -200,10 +200,6 @@ def add_scaled(stiffness, other, factor):
     for k in range(stiffness.own.shape[1]):
         for c in range(3):
             stiffness.own[c, k] += factor * other.own[c, k]
+            stiffness.twist[c, k] += factor * other.twist[c, k]
         for c in range(4):
-            stiffness.next[c, k] += factor * other.next[c, k]
-    for a in range(stiffness.arm.shape[1]):
-        for c in range(3):
-            stiffness.arm[c, a] += factor * other.arm[c, a]
-    for w in range(stiffness.twist.size):
-        stiffness.twist[w] += factor * other.twist[w]
+            stiffness.lean[c, k] += factor * other.lean[c, k]

@@ -1,12 +1,12 @@
-"""Fold barrier at joints: keeps two neighbouring arms from closing onto each other.
+"""Fold barrier: keeps two neighbouring elements of a node from closing onto each other.
 
-For every opening g between arms that are adjacent round a joint (rest opening g0):
+For every opening g between elements that are adjacent round a node (rest opening g0; two openings
+at a node inside a wall):
 
     E_f = K (g0 / 2)^2 b(g / g_f)   for g < g_f = min(20 degrees, g0 / 2),   else 0
 
-With u, v the arms and psi = arg v - arg u: d arg(v) = (-v_y, v_x) / r^2 =: q, and
-d2 arg(v) = [[-2 q_x q_y, q_x^2 - q_y^2], [., 2 q_x q_y]]. (Folds of hinges are in `bend`.)
-"""
+With u, v the elements and psi = arg v - arg u: d arg(v) = (-v_y, v_x) / r^2 =: q, and
+d2 arg(v) = [[-2 q_x q_y, q_x^2 - q_y^2], [., 2 q_x q_y]]. """
 
 import math
 from typing import NamedTuple
@@ -18,9 +18,11 @@ from kernels.compile.jit import jit
 from kernels.linear.block_matrix import add_block
 from kernels.terms.barrier import barrier
 
+LIMIT = math.radians(20.0)
+
 
 class Fold(NamedTuple):
-    """Openings: nodes (f, 3); the angle is anticlockwise from arm 1-0 to arm 1-2.
+    """Openings: nodes (f, 3); the angle is anticlockwise from element 1-0 to element 1-2.
 
     limit (f,): g_f in rad. stiffness (f,): K (g0 / 2)^2 in N m.
     """

@@ -1,43 +1,79 @@
-"""Stretching of straight elements: E_s = sum A l0 W(e), nominal strain e = l / l0 - 1."""
+"""Stretching: E_s = sum A l0 W(e), with W the energy density of a material law.
+
+e is the strain of the centre line, which is an arc over its chord of length l:
+
+    e = l / l0 - 1 + c_s (a_1^2 + a_2^2) + c_m a_1 a_2
+
+c_s = 1/15 and c_m = -1/30 for a cubic, whose arc is longer than its chord by h times the mean of
+half the square of its slope against the chord; both are zero for the strain of the chord.
+"""
 
 from typing import NamedTuple
 
 import numpy as np
 
 from kernels.compile.jit import jit
-from kernels.terms import elements
 
 
 class Stretch(NamedTuple):
-    """Elements: l0 (m,) rest length in m, area (m,) cross-section in m^2.
+    """l0 (m,) rest length in m, area (m,) in m^2, arc (2, m): c_s and c_m.
 
-    geometric: whether the Hessian has its geometric part, across elements. Without that it is the
+    geometric: the Hessian has its geometric part, across elements. Without that it is the
     material tangent alone, and the iteration is a quasi-Newton method.
     """
 
     l0: np.ndarray
     area: np.ndarray
+    arc: np.ndarray
     geometric: bool
 
 
 @jit
-def evaluate(stretch, law, memory, shape, stiffness, projected):
-    """Return E_s in J; add its derivatives: the force A sigma along elements, the stiffness
-    A sigma' / l0 along and A sigma / l across them.
+def strain(stretch, shape, k):
+    """Return the strain e of element ``k`` and its derivatives in a_1 and a_2."""
+    one, two = shape.turn[0, k], shape.turn[1, k]
+    same, mixed = stretch.arc[0, k], stretch.arc[1, k]
+    along = shape.length[k] / stretch.l0[k] - 1.0
+    arc = same * (one * one + two * two) + mixed * one * two
+    return along + arc, 2.0 * same * one + mixed * two, 2.0 * same * two + mixed * one
 
-    Elements are the material points of the ``law``. projected: both stiffnesses are clipped at
-    zero, which makes every element positive semi-definite.
+
+@jit
+def push(stretch, resultants, k, volume, slopes, stress, tangent, projected):
+    """Write the derivatives of ``volume`` x W(e) of element ``k``: W' = ``stress``, W'' =
+    ``tangent``; ``slopes``: of e in a_1 and a_2.
+    """
+    force, rigidity = resultants.force, resultants.rigidity
+    one, two = slopes
+    by_l0 = 1.0 / stretch.l0[k]
+    force[0, k] = volume * stress * by_l0
+    force[1, k] = volume * stress * one
+    force[2, k] = volume * stress * two
+    if projected:
+        stress, tangent = max(stress, 0.0), max(tangent, 0.0)
+    same, mixed = 2.0 * stress * stretch.arc[0, k], stress * stretch.arc[1, k]
+    rigidity[0, k] = volume * tangent * by_l0 * by_l0
+    rigidity[1, k] = volume * tangent * by_l0 * one
+    rigidity[2, k] = volume * tangent * by_l0 * two
+    rigidity[3, k] = volume * (tangent * one * one + same)
+    rigidity[4, k] = volume * (tangent * one * two + mixed)
+    rigidity[5, k] = volume * (tangent * two * two + same)
+
+
+@jit
+def evaluate(stretch, law, memory, shape, resultants, projected):
+    """Return E_s in J; write its derivatives into ``resultants``.
+
+    Elements are the material points of the ``law``. projected: stress and tangent are clipped at
+    zero in second derivatives, which makes every element positive semi-definite.
     """
     total = 0.0
     for k in range(stretch.l0.size):
-        l0, area, length = stretch.l0[k], stretch.area[k], shape.length[k]
-        density, stress, tangent = law.respond(length / l0 - 1.0, memory, k)
-        total += area * l0 * density
-        along = area * tangent / l0
-        across = area * stress / length if stretch.geometric else 0.0
-        if projected:
-            along, across = max(along, 0.0), max(across, 0.0)
-        elements.stretch(shape, stiffness, k, area * stress, along, across)
+        e, one, two = strain(stretch, shape, k)
+        density, stress, tangent = law.respond(e, memory, k)
+        volume = stretch.area[k] * stretch.l0[k]
+        total += volume * density
+        push(stretch, resultants, k, volume, (one, two), stress, tangent, projected)
     return total
 
 
@@ -49,9 +85,9 @@ def commit(stretch, law, memory, shape):
     """
     released, dissipated = 0.0, 0.0
     for k in range(stretch.l0.size):
-        strain, volume = shape.length[k] / stretch.l0[k] - 1.0, stretch.area[k] * stretch.l0[k]
-        potential = law.respond(strain, memory, k)[0]
-        stored, lost = law.commit(strain, memory, k)
+        e, volume = strain(stretch, shape, k)[0], stretch.area[k] * stretch.l0[k]
+        potential = law.respond(e, memory, k)[0]
+        stored, lost = law.commit(e, memory, k)
         released += volume * (potential - stored)
         dissipated += volume * lost
     return released, dissipated

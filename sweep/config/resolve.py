@@ -42,7 +42,7 @@ def resolve(
             found["lattice"] = sized(found["lattice"], found["material"].density)
         settled = _settled(*(found[name] for name in ("lattice", *DEPENDENT)))
         found |= zip(DEPENDENT, settled, strict=True)
-        check_bending(found["material"], found["lattice"], found["solver"])
+        check_bending(found["material"], found["solver"])
     except PydanticCustomError as refused:
         return found, refused
     return found, None

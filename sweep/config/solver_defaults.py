@@ -13,23 +13,11 @@ STEPS_OF_PASSAGE = 1000  # time steps in which a free striker travels the lattic
 IN_TIME = '"backward_euler", "bdf2" or "newmark"'  # the integrators
 
 
-def check_bending(material: Material, lattice: Lattice, solver: Solver) -> None:
-    """Refuse statics without bending, and exact-beam walls of one element with `bend` "section".
-
-    Without bending stiffness there is no static equilibrium. The exact beam of a single element
-    needs a moment proportional to the angle.
-    """
+def check_bending(material: Material, solver: Solver) -> None:
+    """Refuse statics without bending: there is no static equilibrium."""
     if material.bend == "none" and solver.integrator in ("static", ARCS):
         allowed = f'"linear" or "section" if solver.integrator is "{solver.integrator}"'
         raise refusal("material.bend", "none", allowed)
-    if material.bend == "section" and solver.hinges == "exact_beam":
-        cause = "lattice.nodes_per_wall is 0"
-        single = lattice.nodes_per_wall == 0
-        if lattice.structure is not None:
-            cause, single = "subdivide of lattice.file is 1", 1 in lattice.structure.pieces
-        if single:
-            allowed = f'"linear" if {cause} and solver.hinges "exact_beam"'
-            raise refusal("material.bend", "section", allowed)
 
 
 def steps(loading: Loading, solver: Solver) -> float:

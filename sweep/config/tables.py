@@ -219,7 +219,7 @@ class Solver(Table):
     tolerance: Annotated[float, Field(gt=0, lt=1)] = 1e-8
     max_iterations: Count = 100
     time_limit: Duration = 300.0
-    hinges: Literal["exact_beam", "classical"] = "exact_beam"
+    element: Literal["cubic", "classical"] = "cubic"
     bend_measure: Literal["angle", "tangent"] = "angle"
     hessian: Literal["exact", "tangent_modulus"] = "exact"
 

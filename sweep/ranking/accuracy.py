@@ -214,7 +214,7 @@ def _merit(
         -float(sum(key in references["energy"].orders for key in refined)),
         -float(FORMAL_ORDER.get(finest.get("solver.integrator", ""), 0)),
         float(finest.get("contact.model") not in ("auto", "barrier")),
-        float(finest.get("solver.hinges") != "exact_beam"),
+        float(finest.get("solver.element") != "cubic"),
         float(finest.get("solver.tolerance", 0.0)),
         float(np.nansum(np.minimum(doubts, 1.0))),
     )

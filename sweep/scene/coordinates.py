@@ -1,6 +1,6 @@
 """The order of the coordinates of a scene, and which of them move.
 
-The order: x and y of every node, the rotations of the joints, the heights of the surfaces of the
+The order: x and y of every node, the rotation of every node, the heights of the surfaces of the
 lower and the upper platen.
 """
 
@@ -18,31 +18,30 @@ class Numbering:
     """Indices of the coordinates. bottom, top: nodes of the outer rows."""
 
     n_nodes: int
-    n_joints: int
     bottom: Ints
     top: Ints
 
     @property
     def rotation(self) -> Ints:
-        """Coordinates of the joints' rotations, (n_joints,)."""
-        return 2 * self.n_nodes + np.arange(self.n_joints)
+        """Coordinates of the rotations of the nodes, (n_nodes,)."""
+        return 2 * self.n_nodes + np.arange(self.n_nodes)
 
     @property
     def point(self) -> Ints:
         """Point of each coordinate, (size,): its node, or n_nodes for a platen."""
         nodes, platens = np.arange(self.n_nodes), np.full(2, self.n_nodes)
-        return np.concatenate([nodes.repeat(2), nodes[: self.n_joints], platens])
+        return np.concatenate([nodes.repeat(2), nodes, platens])
 
     @property
     def slot(self) -> Ints:
         """Place of each coordinate in the block of its point, (size,): x, y, rotation."""
         along, platens = np.tile([0, 1], self.n_nodes), np.zeros(2, np.int64)
-        return np.concatenate([along, np.full(self.n_joints, 2), platens])
+        return np.concatenate([along, np.full(self.n_nodes, 2), platens])
 
     @property
     def low(self) -> int:
         """Coordinate of the lower platen's surface."""
-        return 2 * self.n_nodes + self.n_joints
+        return 3 * self.n_nodes
 
     @property
     def high(self) -> int:
@@ -58,8 +57,8 @@ class Numbering:
 def held(numbering: Numbering, platen: str | None) -> Ints:
     """Coordinates that never move: those of clamped rows, and the lower platen."""
     bottom, top = numbering.bottom, numbering.top
-    clamped = [2 * bottom, 2 * bottom + 1, numbering.rotation[bottom[bottom < numbering.n_joints]]]
-    turning = numbering.rotation[top[top < numbering.n_joints]]
+    clamped = [2 * bottom, 2 * bottom + 1, numbering.rotation[bottom]]
+    turning = numbering.rotation[top]
     low, high = np.array([numbering.low]), np.array([numbering.high])
     if platen == "contact":
         return low

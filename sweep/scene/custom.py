@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kernels.linear import analysis
-from kernels.terms import bend, contact, spring
+from kernels.terms import contact, spring
 from sweep.config.case import Case, given
 from sweep.config.structure import Structure
 from sweep.design.network import Network, mass
@@ -27,6 +27,7 @@ from sweep.scene.terms import (
     masses_of,
     rigidity_of,
     solved_by,
+    walls_of,
 )
 
 MM = 1e-3
@@ -37,7 +38,35 @@ DIRECTIONS = ("x", "y", "rotation")
 
 @dataclass(frozen=True)
 class Ground(Numbering):
-    """Numbering with a floor, a ceiling out of reach, and the driver as the last coordinate."""
+    """Numbering with a floor, a ceiling out of reach, and the driver as the last coordinate.
+
+    pinned: number of walls' ends at pins. Each has a rotation and a point of its own, after those
+    of the nodes and of the platens.
+    """
+
+    pinned: int
+
+    @property
+    def free_ends(self) -> Ints:
+        """Coordinates of the rotations of walls' ends at pins, (pinned,)."""
+        return 3 * self.n_nodes + np.arange(self.pinned)
+
+    @property
+    def point(self) -> Ints:
+        """Point of each coordinate, (size,)."""
+        nodes, n = np.arange(self.n_nodes), self.n_nodes
+        return np.r_[nodes.repeat(2), nodes, n + 1 + np.arange(self.pinned), n, n, n]
+
+    @property
+    def slot(self) -> Ints:
+        """Place of each coordinate in the block of its point, (size,)."""
+        turning = np.full(self.n_nodes + self.pinned, 2)
+        return np.r_[np.tile([0, 1], self.n_nodes), turning, 0, 0, 0]
+
+    @property
+    def low(self) -> int:
+        """Coordinate of the floor."""
+        return 3 * self.n_nodes + self.pinned
 
     @property
     def ceiling(self) -> int:
@@ -72,20 +101,24 @@ def build_structure(case: Case) -> Scene:
     network = network_of(structure)
     mesh = split_walls(network, np.array(structure.pieces), 0.0)
     none = np.empty(0, np.int64)
-    numbering = Ground(len(mesh.points), mesh.n_joints, none, none)
-    rigidity = rigidity_of(mesh, case)
-    bending = build_bend(mesh, rigidity, case)
+    at_pin = np.isin(mesh.edges, structure.pins)
+    numbering = Ground(len(mesh.points), none, none, int(at_pin.sum()))
+    rotation = numbering.rotation[mesh.edges]
+    rotation[at_pin] = numbering.free_ends
+    rigidity, walls = rigidity_of(mesh, case), walls_of(mesh, rotation)
     leader = _leaders(structure, numbering)
     if not bends(case):
-        leader[numbering.rotation] = -1
-    layout, travel = _led(structure, solved_by(mesh, numbering, leader, case), numbering, mesh)
+        leader[rotation] = -1
+    layout = solved_by(mesh, walls, numbering, leader, case)
+    layout, travel = _led(structure, layout, numbering, mesh)
     touch = contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True)
     printed = mass(network, case.lattice.depth, case.material.density)
     masses = _masses(structure, masses_of(mesh, numbering, printed, case.loading))
     parts = Parts(
+        walls=walls,
         layout=layout,
-        bend=_unpinned(bending, mesh, structure.pins),
-        fold=build_fold(mesh, bending, case),
+        bend=build_bend(mesh, rigidity, case),
+        fold=build_fold(mesh, rigidity, case),
         contact=_on_floor(touch, structure, numbering),
         project=projection_of(mesh, numbering, layout, masses, case),
         mass=masses,
@@ -158,18 +191,6 @@ def _led(
     return layout._replace(ratio=ratio, driven=numbering.high), travel
 
 
-def _unpinned(bending: bend.Bend, mesh: Mesh, pins: tuple[int, ...]) -> bend.Bend:
-    """Bending without moments at pins; the other end of a wall of one element keeps 3 Y I / l."""
-    free = np.isin(mesh.arm_joint, pins)
-    other = free.reshape(-1, 2)[:, ::-1].ravel()
-    coupled = np.repeat(bending.coupling, 2) > 0.0
-    stiffness = np.where(coupled & other, 0.75 * bending.arm_stiffness, bending.arm_stiffness)
-    return bending._replace(
-        arm_stiffness=np.where(free, 0.0, stiffness),
-        coupling=np.where(free.reshape(-1, 2).any(axis=1), 0.0, bending.coupling),
-    )
-
-
 def _springs(structure: Structure) -> spring.Spring:
     nodes = [part.nodes for part in structure.springs]
     rest = zip(structure.springs, _distances(structure, nodes), strict=True)
@@ -208,7 +229,9 @@ def _load(structure: Structure, numbering: Ground, masses: Floats) -> Floats:
 def _rest(structure: Structure, mesh: Mesh, numbering: Ground) -> Floats:
     floor = MM * (structure.floor_y_mm or 0.0)
     far = mesh.points[:, 1].max() + FAR * np.ptp(mesh.points)
-    return np.concatenate([mesh.points.ravel(), np.zeros(numbering.n_joints), [floor, far, 0.0]])
+    return np.concatenate(
+        [mesh.points.ravel(), np.zeros(numbering.low - mesh.points.size), [floor, far, 0.0]]
+    )
 
 
 def _probed(structure: Structure, numbering: Ground) -> Ints:

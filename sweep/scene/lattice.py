@@ -18,6 +18,7 @@ from sweep.scene.terms import (
     masses_of,
     rigidity_of,
     solved_by,
+    walls_of,
 )
 
 
@@ -43,23 +44,23 @@ def build_scene(case: Case) -> Scene:
     network, mesh = build_network(lattice.geometry), build_mesh(lattice)
     numbering = Numbering(
         len(mesh.points),
-        mesh.n_joints,
         row_nodes(network, mesh, network.bottom),
         row_nodes(network, mesh, network.top),
     )
     rigidity = rigidity_of(mesh, case)
-    bending = build_bend(mesh, rigidity, case)
     printed = mass(network, lattice.depth, case.material.density)
     fixed = held(numbering, platen)
     if not bends(case):
         fixed = np.union1d(fixed, numbering.rotation)
     tied = 2 * numbering.top + 1 if platen in BONDED else np.empty(0, np.int64)
-    layout = solved_by(mesh, numbering, leaders(numbering, fixed, tied), case)
+    walls = walls_of(mesh, numbering.rotation[mesh.edges])
+    layout = solved_by(mesh, walls, numbering, leaders(numbering, fixed, tied), case)
     masses = masses_of(mesh, numbering, printed, case.loading)
     parts = Parts(
+        walls=walls,
         layout=layout,
-        bend=bending,
-        fold=build_fold(mesh, bending, case),
+        bend=build_bend(mesh, rigidity, case),
+        fold=build_fold(mesh, rigidity, case),
         contact=contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True),
         project=projection_of(mesh, numbering, layout, masses, case),
         mass=masses,
@@ -78,7 +79,7 @@ def _rest(mesh: Mesh, numbering: Numbering, thickness: Floats) -> Floats:
     """Coordinates at rest, with platens on the outermost walls. thickness (n,): of nodes, m."""
     y, half = mesh.points[:, 1], 0.5 * thickness.round(15)
     platens = [(y - half).min(), (y + half).max()]
-    return np.concatenate([mesh.points.ravel(), np.zeros(numbering.n_joints), platens])
+    return np.concatenate([mesh.points.ravel(), np.zeros(numbering.n_nodes), platens])
 
 
 def _reported(numbering: Numbering, loading: Loading) -> tuple[Ints, Ints, Ints]:

@@ -1,4 +1,4 @@
-"""From a network of walls to nodes, elements, hinges, arms and folds: indices and rest geometry."""
+"""From a network of walls to nodes, elements and folds: indices and geometry at rest."""
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -42,44 +42,36 @@ class Mesh:
         return np.column_stack([at_end, self.edges[at_end, 1], at_end + 1])
 
     @cached_property
+    def direction(self) -> Floats:
+        """Direction of every element, (m, 2)."""
+        along = self.points[self.edges[:, 1]] - self.points[self.edges[:, 0]]
+        return np.asarray(along / self.rest_length[:, None])
+
+    @cached_property
     def start(self) -> Ints:
         """First element of every wall, and the number of elements, (w + 1,)."""
         changes = 1 + np.flatnonzero(self.wall[1:] != self.wall[:-1])
         return np.concatenate([[0], changes, [len(self.wall)]])
 
     @cached_property
-    def arm_element(self) -> Ints:
-        """Elements at both ends of every wall, (2 w,)."""
-        return np.column_stack([self.start[:-1], self.start[1:] - 1]).ravel()
-
-    @cached_property
-    def arm_joint(self) -> Ints:
-        """Joints at both ends of every wall, (2 w,)."""
-        first, last = self.start[:-1], self.start[1:] - 1
-        return np.column_stack([self.edges[first, 0], self.edges[last, 1]]).ravel()
-
-    @cached_property
     def openings(self) -> tuple[Ints, Floats, Ints]:
-        """Openings between neighbouring arms of every joint.
+        """Openings between neighbouring elements of every node.
 
-        Nodes (f, 3): the joint is in the middle, and the opening is the angle anticlockwise from
-        the first node to the last. Opening at rest (f,), rad. Its two arms (f, 2), numbered as in
-        `arm_joint`.
+        Nodes (f, 3): the opening is at the one in the middle, the angle anticlockwise from the
+        first node to the last. Opening at rest (f,), rad. Its two elements (f, 2).
         """
-        node, at_start = self.arm_joint, np.arange(2 * len(self.start) - 2) % 2 == 0
-        first, second = self.edges[self.arm_element].T
-        other = np.where(at_start, second, first)
-        arm = self.points[other] - self.points[node]
-        bearing = np.arctan2(arm[:, 1], arm[:, 0])
+        node, other = self.edges.ravel(), self.edges[:, ::-1].ravel()
+        along = self.points[other] - self.points[node]
+        bearing = np.arctan2(along[:, 1], along[:, 0])
         order = np.lexsort([bearing, node])
         node, other, bearing = node[order], other[order], bearing[order]
         start = np.searchsorted(node, node, side="left")
         count = np.searchsorted(node, node, side="right") - start
         following = start + (np.arange(len(node)) - start + 1) % count
         opened = np.mod(bearing[following] - bearing, 2 * np.pi)
-        kept = count > 1
+        kept, element = count > 1, order // 2
         nodes = np.column_stack([other, node, other[following]])
-        return nodes[kept], opened[kept], np.column_stack([order, order[following]])[kept]
+        return nodes[kept], opened[kept], np.column_stack([element, element[following]])[kept]
 
     @cached_property
     def node_length(self) -> Floats:

@@ -25,6 +25,7 @@ from sweep.scene.terms import (
     force_scale,
     rigidity_of,
     solved_by,
+    walls_of,
 )
 
 
@@ -42,8 +43,8 @@ class Repeated(Numbering):
 
     @property
     def rotation(self) -> Ints:
-        """Coordinates of the joints' rotations, (n_joints,); an image has that of its original."""
-        return 2 * self.n_nodes + self.origin[: self.n_joints]
+        """Coordinates of the rotations, (n_nodes,); an image has that of its original."""
+        return 2 * self.n_nodes + self.origin
 
     @property
     def own(self) -> np.ndarray:
@@ -66,11 +67,11 @@ def build_periodic(case: Case) -> Scene:
         thickness=whole.thickness[elements],
     )
     rigidity = rigidity_of(whole, case)
-    bending, around = build_bend(mesh, rigidity[elements], case), build_bend(whole, rigidity, case)
-    fold = build_fold(whole, around, case)
+    fold = build_fold(whole, rigidity, case)
     inside = numbering.own[fold.nodes[:, 1]]
     leader = _leaders(numbering, case)
-    layout = solved_by(mesh, numbering, leader, case)
+    walls = walls_of(mesh, numbering.rotation[mesh.edges])
+    layout = solved_by(mesh, walls, numbering, leader, case)
     origin = np.append(numbering.origin, numbering.n_nodes)
     layout = layout._replace(
         images=_images(numbering, leader), origin=origin, wall_of=layout.wall_of[origin]
@@ -78,8 +79,9 @@ def build_periodic(case: Case) -> Scene:
     touch = contact_of(whole, numbering, contact_stiffness(case), case, by_force=True)
     masses = _masses(mesh, numbering, mass(network, lattice.depth, case.material.density))
     parts = Parts(
+        walls=walls,
         layout=layout,
-        bend=bending,
+        bend=build_bend(mesh, rigidity[elements], case),
         fold=fold._replace(
             nodes=fold.nodes[inside], limit=fold.limit[inside], stiffness=fold.stiffness[inside]
         ),
@@ -90,7 +92,7 @@ def build_periodic(case: Case) -> Scene:
     )
     return Scene(
         mesh, network, assemble(case, mesh, numbering, parts),
-        np.concatenate([whole.points.ravel(), np.zeros(numbering.n_joints), network.period]),
+        np.concatenate([whole.points.ravel(), np.zeros(numbering.n_nodes), network.period]),
         bottom=np.empty(0, np.int64),
         top=np.array([numbering.high]),
         base=np.array([2 * numbering.anchor + 1]),
@@ -112,7 +114,7 @@ def _repeated(network: Endless, lattice: Lattice) -> tuple[Mesh, Repeated]:
     points = mesh.points[origin]
     points[:, 0] += imperfection(lattice, points[:, 1])
     rows, anchor = np.empty(0, np.int64), int(network.bottom[0])
-    numbering = Repeated(len(points), mesh.n_joints, rows, rows, origin, shift, anchor)
+    numbering = Repeated(len(points), rows, rows, origin, shift, anchor)
     return replace(mesh, points=points + shift * network.period), numbering
 
 
@@ -129,8 +131,8 @@ def _leaders(numbering: Repeated, case: Case) -> Ints:
     """The coordinate that each one follows: itself, or -1 if held."""
     leader = np.arange(numbering.size)
     leader[[2 * numbering.anchor, 2 * numbering.anchor + 1]] = -1
-    joints = np.arange(numbering.n_joints)
-    leader[2 * numbering.n_nodes + joints[~numbering.own[joints] | (not bends(case))]] = -1
+    nodes = np.arange(numbering.n_nodes)
+    leader[2 * numbering.n_nodes + nodes[~numbering.own | (not bends(case))]] = -1
     return leader
 
 

@@ -19,6 +19,7 @@ from kernels.terms.position_based import Projection
 from kernels.terms.spring import Spring
 from sweep.config.case import Case, Loading, Material, given
 from sweep.design.network import Network
+from sweep.scene.bending import arc_of
 from sweep.scene.coordinates import Numbering
 from sweep.scene.material import law_in_stretch
 from sweep.scene.mesh import Floats, Ints, Mesh
@@ -54,10 +55,11 @@ class Scene:
 class Parts(NamedTuple):
     """The data that depend on the kind of scene.
 
-    layout: constraints and structure of the linear system. mass (n,) in kg and load (n,) in N or
+    walls, layout: topology, constraints and structure of the linear system. mass (n,) in kg and load (n,) in N or
     N m of each coordinate. The others are terms of the energy.
     """
 
+    walls: elements.Walls
     layout: analysis.Layout
     bend: Bend
     fold: Fold
@@ -75,8 +77,10 @@ def assemble(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -> Plan
     return PlanarScene(
         coordinates=coordinates_of(case, mesh, numbering, parts),
         law=law_in_stretch(case.material, in_stretch),
-        walls=walls_of(mesh, numbering),
-        stretch=stretch.Stretch(mesh.rest_length, area, case.solver.hessian == "exact"),
+        walls=parts.walls,
+        stretch=stretch.Stretch(
+            mesh.rest_length, area, arc_of(mesh, case), case.solver.hessian == "exact"
+        ),
         bend=parts.bend,
         fold=parts.fold,
         spring=parts.spring,
@@ -151,17 +155,18 @@ def contact_stiffness(case: Case) -> float:
     return modulus * case.lattice.depth * (case.contact.stiffness or 0.0)
 
 
-def walls_of(mesh: Mesh, numbering: Numbering) -> elements.Walls:
-    """The elements of every wall, and the rotations at its two ends."""
-    rotation = numbering.rotation[mesh.arm_joint]
-    return elements.Walls(mesh.edges, mesh.start, mesh.arm_element, rotation)
+def walls_of(mesh: Mesh, rotation: Ints) -> elements.Walls:
+    """The elements of every wall. rotation (m, 2): coordinates of rotations at their ends."""
+    dofs = np.stack([2 * mesh.edges, 2 * mesh.edges + 1, rotation], axis=-1).reshape(-1, 6)
+    return elements.Walls(mesh.edges, mesh.start, mesh.direction, dofs)
 
 
-def solved_by(mesh: Mesh, numbering: Numbering, leader: Ints, case: Case) -> analysis.Layout:
+def solved_by(
+    mesh: Mesh, walls: elements.Walls, numbering: Numbering, leader: Ints, case: Case
+) -> analysis.Layout:
     """The layout of the linear system. leader (n,): the coordinate that each one follows."""
-    joints = mesh.arm_joint.reshape(-1, 2)
-    outer = np.stack([2 * joints, 2 * joints + 1, numbering.rotation[joints]], axis=-1)
-    wall_of = np.full(numbering.n_nodes + 1, -1)
+    first, last, points = mesh.start[:-1], mesh.start[1:] - 1, 1 + numbering.point.max()
+    wall_of = np.full(points, -1)
     before, node, _ = mesh.inner.T
     wall_of[node] = mesh.wall[before]
     axial = case.material.modulus * case.lattice.depth * mesh.thickness / mesh.rest_length
@@ -174,10 +179,10 @@ def solved_by(mesh: Mesh, numbering: Numbering, leader: Ints, case: Case) -> ana
         slot=numbering.slot,
         n_nodes=numbering.n_nodes,
         first=2 * np.arange(numbering.n_nodes),
-        origin=np.arange(numbering.n_nodes + 1),
-        inner=2 * mesh.edges[mesh.start[:-1], 1],
+        origin=np.arange(points),
+        inner=walls.dofs[before, 3:].ravel(),
         wall_of=wall_of,
-        outer=outer.reshape(-1, 6),
+        outer=np.hstack([walls.dofs[first, :3], walls.dofs[last, 3:]]),
         scale=float(axial.max()),
     )
 

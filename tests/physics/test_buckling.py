@@ -21,8 +21,8 @@ LOADS = (8.0, 10.0, 20.0, 40.0)
 RELEASE, REST = 0.138, 0.1  # s: until the load goes, and then to come to rest
 
 
-def strain_under(force, hinges, damping):
-    result = run(loaded(force, damping=damping, hinges=hinges))
+def strain_under(force, element, damping):
+    result = run(loaded(force, damping=damping, element=element))
     assert result.status == "converged"
     return np.interp(WATCHED, result.history["time_s"], result.history["strain"])
 
@@ -35,13 +35,13 @@ def on_platens(force, time_step, damping, friction):
 @pytest.mark.parametrize("damping", [UNDAMPED, SEED], ids=lambda damping: damping.model)
 def test_grid_bears_7_newtons_and_no_7_and_a_half(damping):
     """The exact frame loses stability at 7.35 N."""
-    assert strain_under(7.0, "exact_beam", damping) < 0.025
-    assert strain_under(7.5, "exact_beam", damping) > 0.04
+    assert strain_under(7.0, "cubic", damping) < 0.025
+    assert strain_under(7.5, "cubic", damping) > 0.04
 
 
 @pytest.mark.parametrize("damping", [UNDAMPED, SEED], ids=lambda damping: damping.model)
-def test_classical_hinges_give_way_too_early(damping):
-    assert strain_under(6.6, "exact_beam", damping) < 0.025
+def test_classical_elements_give_way_too_early(damping):
+    assert strain_under(6.6, "cubic", damping) < 0.025
     assert strain_under(6.6, "classical", damping) > 0.1
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import stages
-from tests.studies.bench import cases, descent, elements, marching, rods, scenes, sweeps
+from tests.studies.bench import cases, descent, elements, marching, beams, scenes, sweeps
 from tests.support.solving import at_rest
 from tests.support.states import shaken, unit
 from tests.support.terms import Term, derivative_error
@@ -38,14 +38,14 @@ def test_opensees_moves_as_we_do():
 
 
 @pytest.mark.parametrize(
-    ("model", "inner"), [(rods.Rods, 0), (rods.Rods, 2), (elements.Elements, 2)]
+    ("model", "inner"), [(beams.Beams, 0), (beams.Beams, 2), (elements.Elements, 2)]
 )
 def test_numpy_moves_as_we_do(model, inner):
     own, others = loaded(partial(descent.Peer, model=model), *seed(inner))
     np.testing.assert_allclose(others, own, rtol=0, atol=1e-7 * np.abs(own).max())
 
 
-def hessian_of_rods(model, x):
+def hessian_of_band(model, x):
     band = model.band(model.found(x))
     lower = sum(np.diag(row[: x.size - k], -k) for k, row in enumerate(band))
     return lower + np.tril(lower, -1).T
@@ -54,8 +54,8 @@ def hessian_of_rods(model, x):
 @pytest.mark.parametrize(
     ("model", "inner", "hessian"),
     [
-        (rods.Rods, 0, hessian_of_rods),
-        (rods.Rods, 2, hessian_of_rods),
+        (beams.Beams, 0, hessian_of_band),
+        (beams.Beams, 2, hessian_of_band),
         (elements.Elements, 2, lambda model, x: model.found(x).hessian),
     ],
 )
@@ -72,7 +72,7 @@ def test_derivatives_in_numpy(model, inner, hessian):
     assert derivative_error(term, x, unit(scene)[walls.free]) < 1e-7
 
 
-@pytest.mark.parametrize("model", [rods.Rods, elements.Elements])
+@pytest.mark.parametrize("model", [beams.Beams, elements.Elements])
 def test_numpy_steps_from_a_positive_hessian_only(model):
     _, scene = seed()
     walls = model(scene)

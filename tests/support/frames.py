@@ -62,21 +62,16 @@ class Frame:
         return np.append(np.flatnonzero(self.edges[:, 0] < self.joints), len(self.edges))
 
     @property
-    def arm_element(self) -> np.ndarray:
-        """Elements at both ends of every wall, (2 w,)."""
-        return np.column_stack([self.start[:-1], self.start[1:] - 1]).ravel()
-
-    @property
-    def arm_joint(self) -> np.ndarray:
-        """Joints at both ends of every wall, (2 w,)."""
-        first, last = self.start[:-1], self.start[1:] - 1
-        return np.column_stack([self.edges[first, 0], self.edges[last, 1]]).ravel()
-
-    @property
     def rest(self) -> np.ndarray:
-        """Coordinates: nodes, rotations of the joints, lower and upper platen far away."""
+        """Coordinates: nodes, their rotations, lower and upper platen far away."""
         far = 100.0 * self.millimetre
-        return np.concatenate([self.points.ravel(), np.zeros(self.joints), [-far, far]])
+        return np.concatenate([self.points.ravel(), np.zeros(len(self.points)), [-far, far]])
+
+    @property
+    def direction(self) -> np.ndarray:
+        """Direction of every element at rest, (m, 2)."""
+        along = self.points[self.edges[:, 1]] - self.points[self.edges[:, 0]]
+        return along / self.l0[:, None]
 
     @property
     def unit(self) -> np.ndarray:
@@ -140,7 +135,7 @@ def shaken(of: Frame, seed: int, amount: float = 0.2) -> np.ndarray:
 
 
 def carried(of: Frame, x: np.ndarray, angle: float, shift=(0.7, -0.4)) -> np.ndarray:
-    """State ``x`` after a rigid motion of all nodes and joints."""
+    """State ``x`` after a rigid motion of all nodes."""
     n = 2 * len(of.points)
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     nodes = x[:n].reshape(-1, 2) @ turn.T + of.millimetre * np.array(shift)
@@ -169,38 +164,36 @@ def curve_law(modulus: float) -> elastic.ElasticCurve:
 
 
 def walls_of(of: Frame) -> elements.Walls:
-    return elements.Walls(of.edges, of.start, of.arm_element, 2 * len(of.points) + of.arm_joint)
+    x, turn = 2 * of.edges, 2 * len(of.points) + of.edges
+    dofs = np.stack([x, x + 1, turn], axis=-1).reshape(-1, 6)
+    return elements.Walls(of.edges, of.start, of.direction, dofs)
 
 
-def stretch_of(of: Frame) -> stretch.Stretch:
-    return stretch.Stretch(of.l0, of.depth * of.thickness, True)
+def stretch_of(of: Frame, arc: tuple[float, float] = (1 / 15, -1 / 30)) -> stretch.Stretch:
+    m = len(of.edges)
+    return stretch.Stretch(of.l0, of.depth * of.thickness, np.tile(np.array(arc)[:, None], m), True)
 
 
-def bend_of(of: Frame, measure: int = bend.ANGLE, exact: bool = True) -> bend.Bend:
-    """Hinges inside walls, arms at joints, couplings of single elements, exact-beam weights.
-
-    K = YI/h (1 - 1/n^2) inside, k = 2 YI/h (1 + 1/n) at ends; YI/h and 2 YI/h if not ``exact``.
-    """
-    n, per_length = of.pieces, of.rigidity / of.l0
-    inside = per_length * (1 - 1 / n**2 if exact else 1.0)
-    at_end = 2 * per_length * (1 + 1 / n if exact else 1.0)
-    before = np.flatnonzero(of.edges[:, 1] >= of.joints)
-    along = (of.points[of.edges[:, 1]] - of.points[of.edges[:, 0]]) / of.l0[:, None]
-    one, two = along[before], along[before + 1]
-    cosine, sine = np.sum(one * two, axis=1), one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
-    single = exact & (n[of.start[:-1]] == 1)
+def bend_of(of: Frame, measure: int = bend.ANGLE, cubic: bool = True) -> bend.Bend:
+    """Linear bending of ``cubic`` or classical elements."""
+    factors = (4.0, 2.0, 4.0) if cubic else (2.0, 0.0, 2.0)
     return bend.Bend(
         measure=measure,
-        hinges=before,
-        hinge_angle=np.arctan2(sine, cosine),
-        hinge_stiffness=inside[before],
-        arm_rest=along[of.arm_element],
-        arm_stiffness=at_end[of.arm_element],
-        coupling=np.where(single, 2 * per_length[of.start[:-1]], 0.0),
+        stiffness=np.outer(factors, of.rigidity / of.l0),
+        side=np.where(of.edges < of.joints, 2.0, 1.0).T.copy(),
         section=elastic.MomentCurve(*linear_law(1.0)),
-        hinge_surface=np.empty(0),
-        arm_surface=np.empty(0),
+        points=points_of(cubic),
+        surface=np.empty(0),
+        weight=np.empty((2, 0)),
     )
+
+
+def points_of(cubic: bool) -> np.ndarray:
+    """Curvature x length at two points for a turn of either end, (2, 2): (4 - 6 s, 2 - 6 s)."""
+    if not cubic:
+        return 2.0 * np.eye(2)
+    s = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)
+    return np.column_stack([4.0 - 6.0 * s, 2.0 - 6.0 * s])
 
 
 def contact_of(of: Frame, stiffness: float = 1.0) -> contact.Contact:
@@ -221,17 +214,17 @@ def contact_of(of: Frame, stiffness: float = 1.0) -> contact.Contact:
 def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> analysis.Layout:
     """``held`` coordinates and the lower platen do not move, ``tied`` ones follow the upper one."""
     n, size, nodes = len(of.points), of.rest.size, np.arange(len(of.points))
-    point = np.concatenate([nodes.repeat(2), nodes[: of.joints], [n, n]])
-    slot = np.concatenate([np.tile([0, 1], n), np.full(of.joints, 2), [0, 0]])
+    point = np.concatenate([nodes.repeat(2), nodes, [n, n]])
+    slot = np.concatenate([np.tile([0, 1], n), np.full(n, 2), [0, 0]])
     leader = np.arange(size)
     leader[list(tied)] = size - 1
     leader[[*held, size - 2]] = -1
     wall_of = np.full(n + 1, -1)
     inside = np.flatnonzero(of.edges[:, 1] >= of.joints)
     wall_of[of.edges[inside, 1]] = np.searchsorted(of.start, inside, "right") - 1
-    joints = of.arm_joint.reshape(-1, 2)
-    outer = np.stack([2 * joints, 2 * joints + 1, 2 * n + joints], axis=-1).reshape(-1, 6)
-    inner, axial = 2 * of.edges[of.start[:-1], 1], of.modulus * of.depth * of.thickness / of.l0
+    dofs = walls_of(of).dofs
+    outer = np.hstack([dofs[of.start[:-1], :3], dofs[of.start[1:] - 1, 3:]])
+    inner, axial = dofs[inside, 3:].ravel(), of.modulus * of.depth * of.thickness / of.l0
     return analysis.Layout(
         leader, np.ones(size), periodic_images.NONE, size - 1 if driven else -1, point, slot,
         n, 2 * nodes, np.arange(n + 1), inner, wall_of, outer, float(axial.max()),

@@ -26,5 +26,4 @@ def scene_of(elements=3, platen="none", imperfection=0.0, **tables):
 def row_of_nodes(scene, height):
     """x, y and rotation coordinates of an outer row."""
     nodes = np.flatnonzero(np.isclose(scene.mesh.points[:, 1], height))
-    joints = nodes[nodes < scene.mesh.n_joints]
-    return 2 * nodes, 2 * nodes + 1, 2 * len(scene.mesh.points) + joints
+    return 2 * nodes, 2 * nodes + 1, 2 * len(scene.mesh.points) + nodes

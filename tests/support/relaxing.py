@@ -32,6 +32,7 @@ from tests.support.terms import nowhere
 MODULUS, BRANCH, TIME = 12e6, 0.5, 0.2  # of the spring, Pa; of the branch over it; s
 STRAIN, DEEP = 0.02, 0.1
 TIP = 1e-5  # N
+SURFACE = 0.1  # strain at the surface of a wall per turn of an element
 PROGRAM = """
 import json
 from tests.support import relaxing
@@ -194,8 +195,8 @@ def crept(steps):
     of = scene.terms.bend
     curved = of._replace(
         section=standard_solid(linear(1.0), BRANCH, TIME),
-        hinge_surface=np.full(of.hinges.size, 0.1),
-        arm_surface=np.full(of.arm_stiffness.size, 0.1),
+        surface=np.full(of.stiffness.shape[1], SURFACE),
+        weight=np.tile(0.125 * of.stiffness[0] / SURFACE**2, (2, 1)),
     )
     scene = replace(scene, terms=scene.terms._replace(bend=curved))
     state, sunk = at_rest(scene), []

@@ -59,7 +59,7 @@ def loaded(
     damping=UNDAMPED,
     release_time=0.138,
     duration=0.2,
-    hinges="exact_beam",
+    element="cubic",
 ):
     """Sudden dead load, three elements a wall; contact only between platens in contact."""
     return Case(
@@ -73,7 +73,7 @@ def loaded(
         ),
         contact=Contact(model="none" if platen == "none" else "barrier", friction=friction),
         damping=damping,
-        solver=Solver(time_step=time_step, hinges=hinges),
+        solver=Solver(time_step=time_step, element=element),
     )
 
 

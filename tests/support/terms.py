@@ -41,51 +41,54 @@ class Term:
         return self.second(x, projected)
 
 
-def room(walls: elements.Walls) -> tuple[elements.Shape, elements.Stiffness]:
-    """Zero shape and stiffness of ``walls``."""
-    m, arms = len(walls.edges), walls.rotation.size
-    shape = elements.Shape(*map(np.zeros, ((2, m), m, m, arms, (2, m), arms)))
-    return shape, elements.Stiffness(*map(np.zeros, ((3, m), (4, m), (3, arms), arms // 2)))
+def room(
+    walls: elements.Walls,
+) -> tuple[elements.Shape, elements.Resultants, elements.Stiffness]:
+    """Zero shape, resultants and stiffness of ``walls``."""
+    m = len(walls.edges)
+    return (
+        elements.Shape(*map(np.zeros, ((2, m), m, (2, m), (4, m)))),
+        elements.Resultants(*map(np.zeros, ((3, m), (6, m)))),
+        elements.Stiffness(*map(np.zeros, ((3, m), (4, m), (3, m)))),
+    )
 
 
 def motions(walls: elements.Walls, n: int) -> np.ndarray:
-    """Motion (2 m + 2 w, n) of every element vector and of the rotation of every arm's joint."""
-    m = len(walls.edges)
-    moved = np.zeros((2 * m + walls.rotation.size, n))
-    for k, (i, j) in enumerate(walls.edges):
-        moved[2 * k : 2 * k + 2, 2 * i : 2 * i + 2] = -np.eye(2)
-        moved[2 * k : 2 * k + 2, 2 * j : 2 * j + 2] = np.eye(2)
-    moved[2 * m + np.arange(walls.rotation.size), walls.rotation] = 1.0
+    """Motion (m, 4, n) of the chord of every element and of the rotations of its two ends."""
+    moved = np.zeros((len(walls.edges), 4, n))
+    for k, (a, b, phi, c, d, psi) in enumerate(walls.dofs):
+        moved[k, [0, 1, 0, 1], [c, d, a, b]] = 1.0, 1.0, -1.0, -1.0
+        moved[k, [2, 3], [phi, psi]] = 1.0
     return moved
 
 
+def matrices(stiffness: elements.Stiffness) -> np.ndarray:
+    """Symmetric matrices (m, 4, 4) of every element: chord x, y, rotations of its two ends."""
+    (xx, xy, yy), (ax, ay, bx, by), (aa, ab, bb) = stiffness
+    rows = [[xx, xy, ax, bx], [xy, yy, ay, by], [ax, ay, aa, ab], [bx, by, ab, bb]]
+    return np.array(rows).transpose(2, 0, 1)
+
+
 def assembled(walls: elements.Walls, stiffness: elements.Stiffness, n: int) -> np.ndarray:
-    """Hessian (n, n) of walls from what their elements, arms and hinges have."""
-    m, arms = len(walls.edges), walls.rotation.size
-    half = np.zeros((2 * m + arms, 2 * m + arms))  # diagonal blocks halved: the rest is mirrored
-    for k, (xx, xy, yy) in enumerate(stiffness.own.T):
-        half[2 * k : 2 * k + 2, 2 * k : 2 * k + 2] = [[0.5 * xx, 0.5 * xy], [0.5 * xy, 0.5 * yy]]
-    for k in range(m - 1):
-        half[2 * k : 2 * k + 2, 2 * k + 2 : 2 * k + 4] = stiffness.next[:, k].reshape(2, 2)
-    for a, (k, (x, y, phi)) in enumerate(zip(walls.arm_element, stiffness.arm.T, strict=True)):
-        half[2 * m + a, 2 * k : 2 * k + 2] = x, y
-        half[2 * m + a, 2 * m + a] = 0.5 * phi
-    for w, twist in enumerate(stiffness.twist):
-        half[2 * m + 2 * w, 2 * m + 2 * w + 1] = twist
+    """Hessian (n, n) of walls from those of their elements."""
     moved = motions(walls, n)
-    return moved.T @ (half + half.T) @ moved
+    return np.einsum("kpi,kpq,kqj->ij", moved, matrices(stiffness), moved)
 
 
-def of_walls(walls: elements.Walls, bending: bend.Bend, add, x0=None) -> Term:
-    """Term of walls that ``add(shape, stiffness, projected)`` adds; turns count from x0 (or x)."""
+def of_walls(walls: elements.Walls, write, x0=None) -> Term:
+    """Term of walls that ``write(shape, resultants, projected)`` writes.
+
+    Turns count from x0 (or x).
+    """
 
     def found(x, projected):
-        shape, stiffness = room(walls)
-        frame = np.full((walls.rotation.size, 3), np.inf)
-        bend.renew_frame(x if x0 is None else x0, walls, bending, frame)
-        elements.measure(x, walls, shape)
-        bend.turns(x, walls, bending, frame, shape)
-        return add(shape, stiffness, projected), shape, stiffness
+        shape, resultants, stiffness = room(walls)
+        frame = np.full((len(walls.edges), 3), np.inf)
+        elements.renew_frame(x if x0 is None else x0, walls, frame)
+        elements.measure(x, walls, frame, shape)
+        value = write(shape, resultants, projected)
+        elements.add(resultants, True, projected, shape, stiffness)
+        return value, shape, stiffness
 
     def slope(x, g):
         value, shape, _ = found(x, False)
@@ -96,12 +99,12 @@ def of_walls(walls: elements.Walls, bending: bend.Bend, add, x0=None) -> Term:
 
 
 def bending_of(walls: elements.Walls, bending: bend.Bend, x0=None) -> Term:
-    """Bending with the folds of hinges; turns count from x0 (or x)."""
+    """Bending; turns count from x0 (or x)."""
 
-    def add(shape, stiffness, projected):
-        return bend.evaluate(walls, bending, NO_MEMORY, shape, stiffness, projected)
+    def write(shape, resultants, projected):
+        return bend.evaluate(bending, NO_MEMORY, shape, resultants, projected)
 
-    return of_walls(walls, bending, add, x0)
+    return of_walls(walls, write, x0)
 
 
 def nowhere(n: int) -> Ahead:
@@ -112,9 +115,10 @@ def nowhere(n: int) -> Ahead:
 def before_of(terms: PlanarScene, x0: np.ndarray) -> damping.Before:
     """The start of a step from x0."""
     walls = terms.walls
-    before = damping.Before(np.full((walls.rotation.size, 3), np.inf), *room(walls))
+    shape, resultants, stiffness = room(walls)
+    before = damping.Before(np.full((len(walls.edges), 3), np.inf), shape, stiffness)
     where, place = nowhere(x0.size), np.zeros_like(x0)
-    damping.prepare(x0, terms, NO_MEMORY, before, where, place, room(walls)[0])
+    damping.prepare(x0, terms, NO_MEMORY, before, where, place, room(walls)[0], resultants)
     return before
 
 
@@ -123,10 +127,11 @@ def damping_of(terms: PlanarScene, x0: np.ndarray, dt: float) -> Term:
     walls, before = terms.walls, before_of(terms, x0)
 
     def found(x, projected, g):
-        shape, stiffness = room(walls)
-        elements.measure(x, walls, shape)
-        bend.turns(x, walls, terms.bend, before.frame, shape)
-        value = damping.evaluate(x - x0, terms, before, dt, shape, stiffness, projected, g)
+        shape, resultants, stiffness = room(walls)
+        elements.measure(x, walls, before.frame, shape)
+        value = damping.evaluate(
+            x - x0, terms, before, dt, shape, resultants, stiffness, projected, g
+        )
         return value, stiffness
 
     def second(x, projected):

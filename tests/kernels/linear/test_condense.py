@@ -18,24 +18,23 @@ class Wall:
         of = frame([(0, 0), (3, 0), (4, 3)], [(0, 1), (1, 2)], [2, pieces])
         rng = np.random.default_rng(seed)
         walls = walls_of(of)
-        _, stiffness = room(walls)
+        *_, stiffness = room(walls)
         for part in stiffness:
             part[:] = size * rng.uniform(-1, 1, part.shape)
         stiffness.own[[0, 2]] += 5.0 * size
-        stiffness.next[:, walls.start[1:] - 1] = 0.0
-        for part in (stiffness.own, stiffness.next):
+        stiffness.twist[[0, 2]] += 5.0 * size
+        for part in stiffness:
             part[:, :2] = 0.0
-        stiffness.arm[:, :2] = stiffness.twist[0] = 0.0
-        inner = np.arange(6 + 2, 6 + 2 * pieces)
-        n = 2 * len(of.points)
-        outer = np.array([2, 3, n + 1, 4, 5, n + 2])
+        inner = walls.dofs[2:-1, 3:].ravel()
+        outer = np.array([*walls.dofs[2, :3], *walls.dofs[-1, 3:]])
         self.m, self.size = inner.size, size
+        self.dofs = np.random.default_rng(9).permutation(self.m)  # where they stand in b
         self.diagonal = size * rng.uniform(0.5, 1.0, self.m)
         full = assembled(walls, stiffness, of.rest.size)
         self.full = full[np.ix_([*inner, *outer], [*inner, *outer])]
         self.rows, self.own = np.full((self.m, 12), np.nan), np.full(self.m, np.nan)
         self.outer = np.full((6, 6), np.nan)
-        condense.fill(walls.start[1], walls.start[2], 1, stiffness, self.rows, self.outer)
+        condense.fill(walls.start[1], walls.start[2], stiffness, self.rows, self.outer)
 
     def dense(self):
         """Hessian (m + 6, m + 6): inner unknowns, then those of the joints."""
@@ -44,9 +43,25 @@ class Wall:
     def eliminate(self):
         """Place of the first negative pivot, and that pivot."""
         scale = SCALE * self.size
+        diagonal = np.empty(self.m)
+        diagonal[self.dofs] = self.diagonal
         return condense.eliminate(
-            self.rows, self.diagonal, self.own, self.outer, scale, block_ldlt.ROUNDED
+            self.rows, self.dofs, diagonal, self.own, self.outer, scale, block_ldlt.ROUNDED
         )
+
+    def forward(self, b, joints):
+        """Right side (m,) after the forward substitution; condense it onto ``joints``."""
+        y = np.empty(self.m)
+        y[self.dofs] = b
+        condense.forward(self.rows, self.dofs, y, joints)
+        return y[self.dofs]
+
+    def backward(self, y, joints, last):
+        """Solution (m,) for the right side ``y`` after the forward substitution."""
+        x = np.empty(self.m)
+        x[self.dofs] = y
+        condense.backward(self.rows, self.dofs, x, joints, last)
+        return x[self.dofs]
 
 
 def mirrored(lower):
@@ -89,13 +104,13 @@ def test_forward_and_backward_solve_for_what_is_inside(seed, pieces):
     inner, mixed = full[:m, :m], full[:m, m:]
     wall.eliminate()
     b, joints = rng.uniform(-1, 1, m), rng.uniform(-1, 1, 6)
-    carried, y = joints.copy(), b.copy()
-    condense.forward(wall.rows, y, carried)
+    carried = joints.copy()
+    y = wall.forward(b, carried)
     np.testing.assert_allclose(
         carried, joints - mixed.T @ np.linalg.solve(inner, b), rtol=0, atol=1e-12
     )
     moved = rng.uniform(-1, 1, 6)
-    condense.backward(wall.rows, y, moved, m)
+    y = wall.backward(y, moved, m)
     np.testing.assert_allclose(inner @ y + mixed @ moved, b, rtol=0, atol=1e-12)
 
 
@@ -111,7 +126,7 @@ def test_descent_along_a_negative_pivot(seed, pieces):
     assert pivot < 0.0
     d = np.zeros(wall.m)
     d[failed] = 1.0
-    condense.backward(wall.rows, d, np.zeros(6), failed)
+    d = wall.backward(d, np.zeros(6), failed)
     assert d @ wall.dense()[: wall.m, : wall.m] @ d == pytest.approx(pivot, rel=1e-9)
     assert not d[failed + 1 :].any()
 
@@ -124,10 +139,9 @@ def test_what_has_no_stiffness_inside_has_a_little():
     wall.rows[0, 0] = wall.full[0, 0] = 3.0
     wall.diagonal[:] = 0.0
     assert wall.eliminate() == (-1, 0.0)
-    y = np.array([6.0, 6.0])
-    condense.forward(wall.rows, y, np.zeros(6))
-    condense.backward(wall.rows, y, np.zeros(6), 2)
-    np.testing.assert_allclose(y, [2.0, 6.0 / (block_ldlt.SOFT * SCALE)])
+    y = wall.backward(wall.forward(np.full(3, 6.0), np.zeros(6)), np.zeros(6), 3)
+    little = 6.0 / (block_ldlt.SOFT * SCALE)
+    np.testing.assert_allclose(y, [2.0, little, little])
 
 
 def test_nan_fails():

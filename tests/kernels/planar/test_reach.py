@@ -65,14 +65,12 @@ def hits(scene, x, dx):
     )
     near = zip(everything.node, terms.contact.edges[everything.edge], strict=True)
     met = [ccd.first_contact(x, dx, p, a, b) for p, (a, b) in near]
-    edges, hinges = terms.walls.edges, terms.bend.hinges
-    corners = [*terms.fold.nodes, *np.column_stack([edges[hinges], edges[hinges + 1, 1]])]
-    met += [ccd.first_fold(x, dx, a, b, c) for a, b, c in corners]
+    met += [ccd.first_fold(x, dx, a, b, c) for a, b, c in terms.fold.nodes]
     for p in terms.contact.plate_nodes:
         gaps = x[2 * p + 1] - x[low], x[high] - x[2 * p + 1]
         closing = dx[low] - dx[2 * p + 1], dx[2 * p + 1] - dx[high]
         met += [gap / way for gap, way in zip(gaps, closing, strict=True) if way > 0.0]
-    short = [ccd.first_shrink(x, dx, a, b, reach.LEAST_LENGTH) for a, b in edges]
+    short = [ccd.first_shrink(x, dx, a, b, reach.LEAST_LENGTH) for a, b in terms.walls.edges]
     return np.array(met), np.array(short)
 
 

@@ -1,4 +1,4 @@
-"""Orders of accuracy, as slopes: hinges in the length of elements, steps in time, Newton."""
+"""Orders of accuracy, as slopes: the length of elements, steps in time, Newton."""
 
 from functools import cache
 
@@ -15,27 +15,30 @@ from tests.support.solving import descend, free_of, residual, whole
 ROUND_OFF = 1e-11  # N
 
 
-def buckled_force(elements, hinges):
+def buckled_force(elements, element):
     """Force (N) at 5 % without contact, past buckling, where every wall bends."""
-    case = pressed(elements, 0.05, 8, contact="none", solver={"hinges": hinges})
+    case = pressed(elements, 0.05, 8, contact="none", solver={"element": element})
     return run(case).history["reaction_top_N"][-1]
 
 
 @cache
 def converged_force():
-    coarse, fine = (buckled_force(elements, "exact_beam") for elements in (24, 48))
-    return fine + (fine - coarse) / 3
+    coarse, fine = (buckled_force(elements, "cubic") for elements in (12, 24))
+    return fine + (fine - coarse) / 15
 
 
-@pytest.mark.parametrize("hinges", ["exact_beam", "classical"])
-def test_hinges_are_of_second_order(hinges):
-    errors = [buckled_force(n, hinges) - converged_force() for n in (6, 12, 24)]
-    np.testing.assert_allclose(slopes(errors), 2.0, atol=0.06)
+@pytest.mark.parametrize(
+    ("element", "meshes", "order", "atol"),
+    [("cubic", (2, 4, 8), 4.0, 0.3), ("classical", (6, 12, 24), 2.0, 0.06)],
+)
+def test_elements_have_their_order(element, meshes, order, atol):
+    errors = [buckled_force(n, element) - converged_force() for n in meshes]
+    np.testing.assert_allclose(slopes(errors), order, atol=atol)
 
 
-def test_exact_beam_hinges_err_far_less():
-    exact, classical = (buckled_force(6, hinges) for hinges in ("exact_beam", "classical"))
-    assert abs(exact - converged_force()) < 0.05 * abs(classical - converged_force())
+def test_two_cubics_err_less_than_twelve_hinges():
+    cubic, classical = buckled_force(2, "cubic"), buckled_force(12, "classical")
+    assert abs(cubic - converged_force()) < abs(classical - converged_force())
 
 
 @pytest.mark.parametrize("damping", [SEED, VISCOUS], ids=["rayleigh", "kelvin_voigt"])

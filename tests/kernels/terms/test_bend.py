@@ -1,4 +1,4 @@
-"""Bending: derivatives, exact beams, joints, both measures, rigid motions."""
+"""Bending: derivatives, exact beams, joints, both elements and measures."""
 
 from dataclasses import replace
 
@@ -6,33 +6,24 @@ import numpy as np
 import pytest
 
 from kernels.terms import bend
-from tests.support.frames import (
-    Frame,
-    bend_of,
-    carried,
-    frame,
-    joint_of_four,
-    scaled,
-    shaken,
-    walls_of,
-)
+from tests.support.frames import Frame, bend_of, frame, joint_of_four, scaled, shaken, walls_of
 from tests.support.terms import Term, bending_of, derivative_error, least_share
 
 FRAME = joint_of_four()
 MEASURES = [bend.ANGLE, bend.TANGENT]
+ELEMENTS = ["cubic", "classical"]
 HINGE = frame([(0, 0), (2.0, 0)], [(0, 1)], 2)
 
 
-def term_of(of: Frame, bending: bend.Bend | None = None, x0=None) -> Term:
-    """Bending of a frame, by default as `bend_of`; turns count from x0 (or x)."""
-    return bending_of(walls_of(of), bend_of(of) if bending is None else bending, x0)
+def term_of(of: Frame, measure: int = bend.ANGLE, element: str = "cubic") -> Term:
+    return bending_of(walls_of(of), bend_of(of, measure, element == "cubic"))
 
 
 def bent(turn: float, rotation: float = 0.0) -> np.ndarray:
-    """Wall of two elements with its hinge turned, and both ends' rotations."""
+    """Wall of two elements with its inner node turned, and both ends' rotations."""
     x = HINGE.rest.copy()
     x[2:4] = [1.0 + 1.2 * np.cos(turn), 1.2 * np.sin(turn)]
-    x[6:8] = rotation
+    x[6:9] = rotation, rotation, 0.5 * turn
     return x
 
 
@@ -45,11 +36,12 @@ def beam(rigidity: float, length: float) -> np.ndarray:
     )  # fmt: skip
 
 
-def condensed(of: Frame, exact: bool = True) -> np.ndarray:
+def condensed(of: Frame, element: str = "cubic") -> np.ndarray:
     """Stiffness of a wall along x against (v1, phi1, v2, phi2), its inner nodes free."""
     n = len(of.points)
-    k = term_of(of, bend_of(of, exact=exact)).hessian(of.rest)
-    ends, inside = [1, 2 * n, 3, 2 * n + 1], [2 * i + 1 for i in range(2, n)]
+    k = term_of(of, element=element).hessian(of.rest)
+    ends = [1, 2 * n, 3, 2 * n + 1]
+    inside = [c for i in range(2, n) for c in (2 * i + 1, 2 * n + i)]
     outer, mixed, inner = k[np.ix_(ends, ends)], k[np.ix_(inside, ends)], k[np.ix_(inside, inside)]
     return outer - mixed.T @ np.linalg.solve(inner, mixed) if inside else outer
 
@@ -61,134 +53,88 @@ def test_derivatives_of_a_bent_wall(turn, measure, length):
     of = scaled(HINGE, length)
     x = bent(turn, 0.3 * turn)
     x[:6] *= length
-    assert derivative_error(term_of(of, bend_of(of, measure)), x, of.unit, 2e-4) < 1e-7
+    assert derivative_error(term_of(of, measure), x, of.unit, 2e-4) < 1e-7
 
 
+@pytest.mark.parametrize("element", ELEMENTS)
 @pytest.mark.parametrize("measure", MEASURES)
 @pytest.mark.parametrize("seed", range(4))
-def test_derivatives_in_random_states(seed, measure):
+def test_derivatives_in_random_states(seed, measure, element):
     x = shaken(FRAME, seed, 0.3)
-    assert derivative_error(term_of(FRAME, bend_of(FRAME, measure)), x, FRAME.unit, 2e-4) < 1e-7
+    assert derivative_error(term_of(FRAME, measure, element), x, FRAME.unit, 2e-4) < 1e-7
 
 
 def test_derivatives_at_rest():
     assert derivative_error(term_of(FRAME), FRAME.rest, FRAME.unit, 2e-4) < 1e-7
 
 
+@pytest.mark.parametrize("element", ELEMENTS)
 @pytest.mark.parametrize("measure", MEASURES)
 @pytest.mark.parametrize("seed", range(4))
-def test_projected_hessian_is_semi_definite(seed, measure):
+def test_projected_hessian_is_semi_definite(seed, measure, element):
     x = shaken(FRAME, seed, 0.5)
-    term = term_of(FRAME, bend_of(FRAME, measure))
+    term = term_of(FRAME, measure, element)
     assert np.linalg.eigvalsh(term.hessian(x))[0] < -1.0
     assert least_share(term, x, FRAME.unit) > -1e-12
 
 
-def test_a_joint_of_single_elements_is_semi_definite():
-    """The coupling of a single element alone is indefinite: only the sum with its arms is not."""
-    of = frame([(0, 0), (2, 0), (0, 2)], [(0, 1), (2, 0)], 1)
-    x = shaken(of, 2, 0.6)
-    assert least_share(term_of(of), x, of.unit) > -1e-12
-    alone = with_arms(bend_of(of), 0.0)
-    assert least_share(term_of(of, alone), x, of.unit) < -0.1
-
-
-def with_arms(of: bend.Bend, share: float) -> bend.Bend:
-    """The same joints with a share of the stiffness of their arms."""
-    return of._replace(arm_stiffness=share * of.arm_stiffness)
-
-
-@pytest.mark.parametrize("measure", MEASURES)
-@pytest.mark.parametrize("turn", [0.3, np.pi / 2, 3.1, 3.2, -40.0])
-def test_a_rigid_motion_changes_no_energy(turn, measure):
-    """Any number of turns: arms are measured against the rotated joint and never wrap."""
-    x, bending = shaken(FRAME, 5), bend_of(FRAME, measure)
-    term = term_of(FRAME, bending)
-    assert term.energy(x) > 0.1
-    moved = carried(FRAME, x, turn)
-    assert term.energy(moved) == pytest.approx(term.energy(x), rel=1e-11)
-    within = term_of(FRAME, bending, carried(FRAME, x, turn - 2.0))
-    assert within.energy(moved) == pytest.approx(term.energy(x), rel=1e-11)
-
-
-@pytest.mark.parametrize("measure", MEASURES)
-@pytest.mark.parametrize("turn", [-1.9, 0.0, 1.0, 1.9])
-def test_turns_do_not_depend_on_where_they_are_counted_from(turn, measure):
-    x, bending = shaken(FRAME, 6, 0.3), bend_of(FRAME, measure)
-    here, there = (
-        term_of(FRAME, bending, x0) for x0 in (x, carried(FRAME, shaken(FRAME, 7, 0.3), turn))
-    )
-    assert there.energy(x) == pytest.approx(here.energy(x), rel=1e-11)
-    np.testing.assert_allclose(there.gradient(x), here.gradient(x), rtol=0, atol=1e-9)
-    np.testing.assert_allclose(there.hessian(x), here.hessian(x), rtol=0, atol=1e-9)
-
-
-@pytest.mark.parametrize("turn", [0.3, 2.0, 50.0])
-def test_the_rest_state_stays_free_of_energy_when_turned(turn):
-    assert term_of(FRAME).energy(carried(FRAME, FRAME.rest, turn)) < 1e-20
-
-
+@pytest.mark.parametrize("element", ELEMENTS)
 @pytest.mark.parametrize("pieces", range(1, 9))
-def test_a_straight_wall_is_exactly_a_beam(pieces):
+def test_a_straight_wall_of_cubics_is_exactly_a_beam(pieces, element):
     of = frame([(0, 0), (5.0, 0)], [(0, 1)], pieces)
-    expected = beam(of.rigidity[0], 5.0)
-    np.testing.assert_allclose(condensed(of), expected, rtol=1e-10)
-    if pieces > 1:
-        assert condensed(of, exact=False)[1, 1] < expected[1, 1] * (1 - 0.2 / pieces**2)
+    expected, found = beam(of.rigidity[0], 5.0), condensed(of, element)
+    if element == "cubic":
+        np.testing.assert_allclose(found, expected, rtol=1e-9)
+    else:
+        assert found[1, 1] < expected[1, 1] * (1 - 0.2 / pieces**2)
 
 
-def test_a_slender_end_rotation_meets_4_and_2_rigidities_over_length():
-    of = frame([(0, 0), (5.0, 0)], [(0, 1)], 3)
-    k, unit = condensed(of), of.rigidity[0] / 5.0
-    assert (k[1, 1], k[1, 3]) == pytest.approx((4 * unit, 2 * unit), rel=1e-12)
+def test_a_classical_wall_has_discrete_hinges():
+    """Eliminating phi of the node leaves Y I / h (turn of the hinge)^2 / 2."""
+    x = bent(0.8)
+    x[8] = 0.4
+    k = HINGE.rigidity[0]
+    ends = 0.5 * 2.0 * k * 0.8**2  # of the second element against its clamped end
+    for measure, turned in ((bend.ANGLE, 0.8), (bend.TANGENT, 2 * np.tan(0.4))):
+        term = term_of(HINGE, measure, "classical")
+        assert np.abs(term.gradient(x)[8]) < 1e-9 * k
+        clamped = ends if measure == bend.ANGLE else 0.5 * 2.0 * k * (2 * np.tan(0.4)) ** 2
+        expected = 0.5 * k * turned**2 + clamped
+        assert term.energy(x) == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.parametrize("turn", [0.5 * np.pi, 0.6 * np.pi, -2.0])
+def test_half_a_hinge_that_turns_too_far_takes_infinite_energy(turn):
+    """The tangent would come back from minus infinity beyond 90 degrees of half a hinge."""
+    x = HINGE.rest.copy()
+    x[8] = turn
+    assert term_of(HINGE, bend.TANGENT, "classical").energy(x) == np.inf
+
+
+@pytest.mark.parametrize("element", ELEMENTS)
 @pytest.mark.parametrize("seed", range(3))
-def test_the_measures_agree_to_the_second_order(seed):
-    """2 tan(d/2) = d + d^3/12: energies of 1/2 K d^2 differ in the fourth power of d."""
+def test_the_measures_agree_to_the_second_order(seed, element):
+    """c tan(d/c) = d + d^3/(3 c^2): energies differ in the fourth power of d."""
     move = shaken(FRAME, seed) - FRAME.rest
     apart = []
     for size in (0.1, 0.05):
         x = FRAME.rest + size * move
-        one, two = (term_of(FRAME, bend_of(FRAME, measure)).energy(x) for measure in MEASURES)
+        one, two = (term_of(FRAME, measure, element).energy(x) for measure in MEASURES)
         apart.append(two - one)
     assert apart[0] > 0
     assert np.log2(apart[0] / apart[1]) == pytest.approx(4.0, abs=0.06)
 
 
-def test_tangent_measure_of_one_hinge():
-    stiffness = bend_of(HINGE).hinge_stiffness[0]
-    angle, tangent = (
-        term_of(HINGE, with_arms(bend_of(HINGE, measure), 0.0)) for measure in MEASURES
-    )
-    expected = 0.5 * stiffness * (2 * np.tan(0.4)) ** 2
-    assert tangent.energy(bent(0.8)) == pytest.approx(expected, rel=1e-12)
-    assert angle.energy(bent(0.8)) == pytest.approx(0.5 * stiffness * 0.64, rel=1e-12)
-
-
 def test_eliminating_the_rotation_leaves_a_hinge_between_every_pair_of_arms():
-    """K_ij = k_i k_j / sum k."""
+    """K_ij = k_i k_j / sum k, for classical elements whose far ends turn with them."""
     of = frame([(0, 0), (2, 0), (0, 3), (-2, 1)], [(0, 1), (0, 2), (0, 3)], 1, [0.8, 0.5, 0.6])
-    at_centre = of.arm_joint == 0
-    joint = bend_of(of)
-    k, rest = joint.arm_stiffness[at_centre], joint.arm_rest[at_centre]
-    only = joint._replace(
-        arm_stiffness=np.where(at_centre, joint.arm_stiffness, 0.0), coupling=np.zeros(3)
-    )
+    k = 2.0 * of.rigidity / of.l0
     x = shaken(of, 1)
     arms = x[:8].reshape(4, 2)[1:] - x[:2]
-    turn = np.arctan2(*arms.T[::-1]) - np.arctan2(*rest.T[::-1])
-    x[8] = k @ turn / k.sum()
+    turn = np.arctan2(*arms.T[::-1]) - np.arctan2(*of.direction.T[::-1])
+    x[8], x[9:12] = k @ turn / k.sum(), turn
     pairs = 0.5 * np.outer(k, k) / k.sum() * 0.5 * (turn[:, None] - turn) ** 2
-    assert term_of(of, only).energy(x) == pytest.approx(pairs.sum(), rel=1e-12)
-
-
-@pytest.mark.parametrize("psi", [0.1, 1.5, 3.1, -3.1, -1.0])
-@pytest.mark.parametrize("rest", [0.0, 1.0, np.pi, -2.5])
-def test_between_is_the_angle_from_one_direction_to_another(psi, rest):
-    one, two = (rest, rest + psi)
-    found = bend.between(np.cos(one), np.sin(one), np.cos(two), np.sin(two))
-    assert found == pytest.approx(psi, abs=1e-12)
+    assert term_of(of, element="classical").energy(x) == pytest.approx(pairs.sum(), rel=1e-12)
 
 
 def test_units_change_nothing():

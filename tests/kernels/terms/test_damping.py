@@ -47,13 +47,11 @@ def term_of(terms, x0) -> Term:
 def elastic(terms, x, projected=False):
     """Hessian of stretching and bending."""
 
-    def add(shape, stiffness, projected):
-        value = stretch.evaluate(terms.stretch, terms.law, NO_MEMORY, shape, stiffness, projected)
-        return value + bend.evaluate(
-            terms.walls, terms.bend, NO_MEMORY, shape, stiffness, projected
-        )
+    def write(shape, resultants, projected):
+        value = stretch.evaluate(terms.stretch, terms.law, NO_MEMORY, shape, resultants, projected)
+        return value + bend.evaluate(terms.bend, NO_MEMORY, shape, resultants, projected)
 
-    return of_walls(terms.walls, terms.bend, add).hessian(x, projected)
+    return of_walls(terms.walls, write).hessian(x, projected)
 
 
 @pytest.mark.parametrize("measure", MEASURES)
@@ -113,7 +111,7 @@ def test_viscous_stiffness_at_rest_is_the_elastic_one(seed):
 
 @pytest.mark.parametrize("turn", [0.0, 0.3, 2.5])
 def test_a_rigid_motion_has_no_viscous_cost(turn):
-    """Of less than half a turn: arms are measured against the start of the step."""
+    """Of less than half a turn: turns are measured against the start of the step."""
     x0 = shaken(FRAME, 4)
     x = carried(FRAME, x0, turn)
     term = term_of(damped(FRAME, VISCOUS), x0)
@@ -163,15 +161,14 @@ def test_viscous_stress_of_a_bar_that_is_pulled():
 
 
 def measured(terms, x):
-    """Lengths and turns of hinges and arms in a row."""
+    """Lengths and turns."""
     before = before_of(terms, FRAME.rest)
-    elements.measure(x, terms.walls, before.shape)
-    bend.turns(x, terms.walls, terms.bend, before.frame, before.shape)
+    elements.measure(x, terms.walls, before.frame, before.shape)
     return before.shape
 
 
 def in_a_row(shape):
-    return np.concatenate([shape.length, shape.hinge_turn, shape.arm_turn])
+    return np.concatenate([shape.length, *shape.turn])
 
 
 @pytest.mark.parametrize("seed", range(3))

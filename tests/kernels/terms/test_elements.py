@@ -1,41 +1,124 @@
-"""Walls as chains: how elements lie, and products with the stiffness of their vectors."""
+"""Elements: deformations of the chord and the ends, the chain rule, products with a stiffness."""
 
 import numpy as np
 import pytest
 
 from kernels.terms import elements
-from tests.support.frames import joint_of_four, shaken, walls_of
-from tests.support.terms import assembled, motions, room
+from tests.support.frames import carried, frame, joint_of_four, scaled, shaken, walls_of
+from tests.support.terms import Term, assembled, derivative_error, least_share, motions, of_walls, room
 
 FRAME = joint_of_four()
 WALLS = walls_of(FRAME)
+BAR = frame([(0, 0), (2.0, 1.0)], [(0, 1)], 1)
 
 
 def random_stiffness(seed):
-    """Any symmetric one, but without hinges behind the last elements of walls."""
-    _, stiffness = room(WALLS)
+    """Any symmetric one."""
+    *_, stiffness = room(WALLS)
     rng = np.random.default_rng(seed)
     for part in stiffness:
         part[:] = rng.uniform(-1, 1, part.shape)
-    stiffness.next[:, WALLS.start[1:] - 1] = 0.0
     return stiffness
+
+
+def measured(x, x0=None, of=FRAME):
+    """Shape of the elements, and the shortest length; turns count from x0 (or x)."""
+    walls, frame = walls_of(of), np.full((len(of.edges), 3), np.inf)
+    shape, *_ = room(walls)
+    elements.renew_frame(x if x0 is None else x0, walls, frame)
+    return elements.measure(x, walls, frame, shape), shape
+
+
+def quadratic(of, seed, definite=True) -> Term:
+    """1/2 q K q + k q of the deformations q of each element, a different K and k for each."""
+    rng, m = np.random.default_rng(seed), len(of.edges)
+    half = rng.uniform(-1, 1, (m, 3, 3))
+    square = half @ half.transpose(0, 2, 1) if definite else half + half.transpose(0, 2, 1)
+    line = rng.uniform(-1, 1, (m, 3)) * (not definite)
+    unit = np.array([of.millimetre, 1.0, 1.0])
+    square, line = square / np.outer(unit, unit), line / unit
+
+    def write(shape, resultants, projected):
+        q = np.column_stack([shape.length - of.l0, *shape.turn])
+        pull = np.einsum("kij,kj->ki", square, q)
+        resultants.force[:] = (pull + line).T
+        resultants.rigidity[:] = square[:, [0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]].T
+        return np.sum(q * (0.5 * pull + line))
+
+    return of_walls(walls_of(of), write)
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_measure_fills_directions_and_lengths(seed):
-    x, (shape, _) = shaken(FRAME, seed), room(WALLS)
-    along = (motions(WALLS, x.size) @ x)[: 2 * len(FRAME.edges)].reshape(-1, 2)
+    x = shaken(FRAME, seed)
+    shortest, shape = measured(x)
+    along = (motions(WALLS, x.size) @ x)[:, :2]
     length = np.linalg.norm(along, axis=1)
-    assert elements.measure(x, WALLS, shape) == pytest.approx(length.min(), rel=1e-14)
+    assert shortest == pytest.approx(length.min(), rel=1e-14)
     np.testing.assert_allclose(shape.length, length, rtol=1e-14)
     np.testing.assert_allclose(shape.t, (along / length[:, None]).T, rtol=0, atol=1e-14)
 
 
+@pytest.mark.parametrize("turn", [0.3, np.pi / 2, 3.1, 3.2, -40.0])
+def test_a_rigid_motion_changes_no_deformation(turn):
+    """Any number of turns: ends are measured against their own rotation and never wrap."""
+    x = shaken(FRAME, 5)
+    moved = carried(FRAME, x, turn)
+    _, expected = measured(x)
+    assert np.abs(expected.turn).max() > 0.1
+    for x0 in (moved, carried(FRAME, x, turn - 2.0)):
+        _, shape = measured(moved, x0)
+        np.testing.assert_allclose(shape.length, expected.length, rtol=1e-12)
+        np.testing.assert_allclose(shape.turn, expected.turn, rtol=0, atol=1e-12)
+
+
+def test_the_rest_state_has_no_turns():
+    _, shape = measured(FRAME.rest)
+    np.testing.assert_allclose(shape.turn, 0.0, atol=1e-15)
+    np.testing.assert_allclose(shape.length, FRAME.l0, rtol=1e-15)
+
+
+@pytest.mark.parametrize("psi", [0.1, 1.5, 3.1, -3.1, -1.0])
+@pytest.mark.parametrize("rest", [0.0, 1.0, np.pi, -2.5])
+def test_between_is_the_angle_from_one_direction_to_another(psi, rest):
+    one, two = (rest, rest + psi)
+    found = elements.between(np.cos(one), np.sin(one), np.cos(two), np.sin(two))
+    assert found == pytest.approx(psi, abs=1e-12)
+
+
+@pytest.mark.parametrize("definite", [True, False])
+@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
+@pytest.mark.parametrize("seed", range(3))
+def test_the_chain_rule(seed, length, definite):
+    of = scaled(FRAME, length)
+    term, x = quadratic(of, seed, definite), shaken(of, seed, 0.3)
+    assert derivative_error(term, x, of.unit, 3e-4) < 1e-7
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_projected_second_derivatives_are_semi_definite(seed):
+    term, x = quadratic(FRAME, seed), shaken(FRAME, seed, 0.5)
+    assert np.linalg.eigvalsh(term.hessian(x))[0] < -0.1
+    assert least_share(term, x, FRAME.unit) > -1e-12
+
+
+def test_without_the_geometric_part_a_pulled_bar_resists_nothing_across():
+    walls, x = walls_of(BAR), BAR.rest
+    for geometric, expected in ((True, 5.0 / np.sqrt(5.0)), (False, 0.0)):
+        (shape, resultants, stiffness) = room(walls)
+        elements.measure(x, walls, np.array([[*BAR.direction[0], 0.0]]), shape)
+        resultants.force[0] = 5.0
+        elements.add(resultants, geometric, False, shape, stiffness)
+        across = np.array([-1.0, 2.0]) / np.sqrt(5.0)
+        found = across @ assembled(walls, stiffness, x.size)[2:4, 2:4] @ across
+        assert found == pytest.approx(expected, abs=1e-14)
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_a_product_is_that_of_the_whole_matrix(seed):
-    stiffness, (shape, _) = random_stiffness(seed), room(WALLS)
+    stiffness, (shape, *_) = random_stiffness(seed), room(WALLS)
     u = np.random.default_rng(seed + 9).uniform(-1, 1, FRAME.rest.size)
-    shape.slope[0], shape.moment[:] = 0.3, -0.2  # of another term: they stay
+    shape.slope[:] = 0.3  # of another term: it stays
     before, found = np.zeros((2, u.size))
     elements.gather(WALLS, shape, before)
     form = elements.product(WALLS, stiffness, u, 0.7, shape)
@@ -47,18 +130,17 @@ def test_a_product_is_that_of_the_whole_matrix(seed):
 
 
 def test_gather_is_the_transpose_of_the_motions():
-    """A moment turns against the rotation of its joint. What is there stays."""
-    shape, _ = room(WALLS)
-    rng = np.random.default_rng(1)
-    shape.slope[:], shape.moment[:] = rng.uniform(-1, 1, (2, 7)), rng.uniform(-1, 1, 8)
-    forces = np.concatenate([shape.slope.T.ravel(), -shape.moment])
+    """What is there stays."""
+    shape, *_ = room(WALLS)
+    shape.slope[:] = np.random.default_rng(1).uniform(-1, 1, shape.slope.shape)
     g = np.ones(FRAME.rest.size)
     elements.gather(WALLS, shape, g)
-    np.testing.assert_allclose(g, 1.0 + motions(WALLS, g.size).T @ forces, rtol=0, atol=1e-14)
+    expected = np.einsum("kpi,pk->i", motions(WALLS, g.size), shape.slope)
+    np.testing.assert_allclose(g, 1.0 + expected, rtol=0, atol=1e-14)
 
 
 def test_sums_are_scaled_and_cleared():
-    one, other, (shape, _) = random_stiffness(1), random_stiffness(2), room(WALLS)
+    one, other, (shape, *_) = random_stiffness(1), random_stiffness(2), room(WALLS)
     expected = [a + 0.3 * b for a, b in zip(one, other, strict=True)]
     elements.add_scaled(one, other, 0.3)
     for found, part in zip(one, expected, strict=True):
@@ -67,5 +149,5 @@ def test_sums_are_scaled_and_cleared():
     shape.length[:] = 1.0
     assert shape.slope.any()
     elements.clear(shape, one)
-    assert not any(part.any() for part in (*one, shape.slope, shape.moment))
+    assert not any(part.any() for part in (*one, shape.slope))
     assert np.all(shape.length == 1.0)

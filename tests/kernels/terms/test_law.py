@@ -127,11 +127,11 @@ def test_walls_release_what_the_law_dissipates():
     of, law = frame([(0, 0), (3, 0), (0.3, 2.2)], [(0, 1), (0, 2)], [2, 1]), solid(modulus=12.0)
     walls, elements = walls_of(of), stretch_of(of)
     memory = Memory(np.array([[0.01], [-0.02], [0.03], [9.0]]), TIME)
-    shape, stiffness = room(walls)
+    shape, resultants, _ = room(walls)
     x = shaken(of, 1).reshape(-1)
     ends = x[: 2 * len(of.points)].reshape(-1, 2)[of.edges]
     shape.length[:] = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    before = stretch.evaluate(elements, law, memory, shape, stiffness, False)
+    before = stretch.evaluate(elements, law, memory, shape, resultants, False)
     q, strain = memory.committed[:3, 0].copy(), shape.length / of.l0 - 1.0
     released, lost = stretch.commit(elements, law, memory, shape)
     volume, after = elements.area * of.l0, 0.5 * (strain - q)

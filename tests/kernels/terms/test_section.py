@@ -15,7 +15,6 @@ from sweep.scene.mesh import split_walls
 from tests.support.frames import (
     Frame,
     bend_of,
-    carried,
     frame,
     joint_of_four,
     scaled,
@@ -23,7 +22,6 @@ from tests.support.frames import (
     walls_of,
 )
 from tests.support.scenes import at, is_sound, run, unbalanced
-from tests.support.structures import structure
 from tests.support.terms import NO_MEMORY, bending_of, derivative_error, differences, least_share
 
 MEASURES = [bend.ANGLE, bend.TANGENT]
@@ -38,20 +36,12 @@ def table(name="ninjaflex"):
     return law_in_bending(material)
 
 
-def responded(section, surface, kappa):
-    """Energy, moment and rigidity over the stiffness."""
-    return bend.response(section, surface, kappa, NO_MEMORY, 0)
-
-
-def through(of: Frame, measure=bend.ANGLE, name="ninjaflex", thickness=None, exact=True):
-    """Bending of a frame through the curve of a material; no coupling of single elements."""
-    plain = bend_of(of, measure, exact)
-    reach = (of.thickness if thickness is None else np.full(len(of.l0), thickness)) / of.l0
-    return plain._replace(
-        coupling=np.zeros_like(plain.coupling),
-        section=table(name),
-        hinge_surface=0.5 * reach[plain.hinges],
-        arm_surface=reach[of.arm_element],
+def through(of: Frame, measure=bend.ANGLE, name="ninjaflex", thickness=None, cubic=True):
+    """Bending of a frame through the curve of a material."""
+    surface = 0.5 * (of.thickness if thickness is None else np.full(len(of.l0), thickness)) / of.l0
+    weight = 0.5 * of.rigidity / of.l0 / surface**2
+    return bend_of(of, measure, cubic)._replace(
+        section=table(name), surface=surface, weight=np.tile(weight, (2, 1))
     )
 
 
@@ -92,19 +82,17 @@ def test_a_linear_curve_bends_linearly():
 @pytest.mark.parametrize("name", NAMES)
 def test_moment_and_rigidity_are_derivatives_of_the_energy(name):
     """At zero, at every knot and beyond the table."""
-    law, surface = table(name), 0.3
-    kappas = np.concatenate([[0.0, 1e-4], law.knots / surface, [2.6, 4.0]])
-    for kappa in np.concatenate([kappas, -kappas, kappas + 1e-3]):
-        at, step = np.array([kappa]), np.array([2e-5])
-        found = responded(law, surface, kappa)
+    law = table(name)
+    strains = np.concatenate([[0.0, 3e-5], law.knots, [0.8, 1.2]])
+    for strain in np.concatenate([strains, -strains, strains + 3e-4]):
+        at, step = np.array([strain]), np.array([6e-6])
+        found = law.respond(strain, NO_MEMORY, 0)
         parts = [
-            differences(
-                lambda k, i=i: bend.response(law, surface, k[0], NO_MEMORY, 0)[i], at, step
-            )[0]
+            differences(lambda e, i=i: law.respond(e[0], NO_MEMORY, 0)[i], at, step)[0]
             for i in (0, 1)
         ]
         np.testing.assert_allclose(found[1:], parts, rtol=0, atol=2e-4)
-        assert responded(law, surface, -kappa) == pytest.approx(
+        assert law.respond(-strain, NO_MEMORY, 0) == pytest.approx(
             (found[0], -found[1], found[2]), rel=1e-12
         )
 
@@ -123,7 +111,7 @@ def test_derivatives_of_a_bent_wall(turn, measure, length):
     of = scaled(HINGE, length)
     x = of.rest.copy()
     x[2:4] = length * np.array([1.0 + 1.2 * np.cos(turn), 1.2 * np.sin(turn)])
-    x[6:8] = 0.3 * turn
+    x[6:9] = 0.3 * turn, 0.3 * turn, 0.6 * turn
     step = 1e-4 if abs(turn) > 0.1 else 1e-6  # the third derivative jumps where a wall is straight
     assert derivative_error(term_of(of, through(of, measure)), x, of.unit, step) < 1e-6
 
@@ -148,54 +136,62 @@ def test_projected_hessian_is_semi_definite(seed, measure):
     assert np.linalg.eigvalsh(term_of(FRAME, steep).hessian(x))[0] < -1.0
 
 
-@pytest.mark.parametrize("turn", [0.3, 3.1, -40.0])
-def test_a_rigid_motion_changes_no_energy(turn):
-    x, term = shaken(FRAME, 5), term_of(FRAME, through(FRAME))
-    assert term.energy(x) > 0.1
-    assert term.energy(carried(FRAME, x, turn)) == pytest.approx(term.energy(x), rel=1e-11)
-
-
+@pytest.mark.parametrize("cubic", [True, False])
 @pytest.mark.parametrize("radius", [0.4, 0.6, 1.0, 4.0])
 @pytest.mark.parametrize("pieces", [8, 32])
-def test_a_strip_bent_to_a_circle(pieces, radius):
+def test_a_strip_bent_to_a_circle(pieces, radius, cubic):
     """Pure bending: every section bears b t^2 / 4 m(t / 2R), whatever the mesh."""
     thickness, length = 0.5, 2.0
     of = frame([(0, 0), (length, 0)], [(0, 1)], pieces)
     material = Material(bend="section")
-    bending = through(of, thickness=thickness, exact=False)
-    turn = length / pieces / radius  # of every hinge; half of it at either end
+    bending = through(of, thickness=thickness, cubic=cubic)
+    turn = length / pieces / radius  # of every element; half of it at either end
     bearing = turn * (np.arange(pieces) + 0.5)
     steps = length / pieces * np.column_stack([np.cos(bearing), np.sin(bearing)])
     along = np.concatenate([[(0.0, 0.0)], np.cumsum(steps, axis=0)])
-    x = of.rest.copy()
-    ordered = np.r_[0, np.arange(2, pieces + 1), 1]
-    x[: 2 * (pieces + 1)].reshape(-1, 2)[ordered] = along
-    x[-4:-2] = 0.0, length / radius
+    x, n = of.rest.copy(), pieces + 1
+    ordered = np.r_[0, np.arange(2, n), 1]
+    x[: 2 * n].reshape(-1, 2)[ordered] = along
+    x[2 * n : 3 * n][ordered] = turn * np.arange(n)
     strain = 0.5 * thickness / radius
     rigidity = of.rigidity[0]
     expected = rigidity * moment(material, strain) / material.modulus / (0.5 * thickness)
     gradient = term_of(of, bending).gradient(x)
-    np.testing.assert_allclose(gradient[-4:-2], [-expected, expected], rtol=1e-6)
-    np.testing.assert_allclose(gradient[:-4], 0.0, atol=1e-8 * expected)
+    np.testing.assert_allclose(gradient[2 * n : 2 * n + 2], [-expected, expected], rtol=1e-6)
+    gradient[2 * n : 2 * n + 2] = 0.0
+    np.testing.assert_allclose(gradient, 0.0, atol=1e-8 * expected)
+
+
+@pytest.mark.parametrize("cubic", [True, False])
+@pytest.mark.parametrize("seed", range(3))
+def test_the_points_integrate_linear_bending_exactly(seed, cubic):
+    line = bend_of(FRAME).section
+    x, plain = shaken(FRAME, seed, 0.3), bend_of(FRAME, cubic=cubic)
+    points = through(FRAME, cubic=cubic)._replace(section=line)
+    one, two = (term_of(FRAME, bending) for bending in (plain, points))
+    assert two.energy(x) == pytest.approx(one.energy(x), rel=1e-12)
+    np.testing.assert_allclose(two.hessian(x), one.hessian(x), rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("plane", ["strain", "stress", "strain_bending"])
-@pytest.mark.parametrize("hinges", ["exact_beam", "classical"])
-def test_surface_strain_and_weights_of_a_scene(plane, hinges):
-    """C = t / 2h inside a wall and t / h at its ends; weights are those of linear bending."""
+@pytest.mark.parametrize("element", ["cubic", "classical"])
+def test_surface_strain_and_weights_of_a_scene(plane, element):
+    """C = t / 2h; weights are those of linear bending."""
     lattice, t, h = Lattice(nodes_per_wall=2), 0.8e-3, 12.5e-3 / 9
     mesh = split_walls(build_network(lattice.geometry), 3, 0.0)
     linear, section = (
         build_bend(mesh, np.ones(len(mesh.edges)), Case(
-            lattice=lattice, material=Material(bend=kind, plane=plane), solver=Solver(hinges=hinges)
+            lattice=lattice, material=Material(bend=kind, plane=plane),
+            solver=Solver(element=element),
         ))
         for kind in ("linear", "section")
     )  # fmt: skip
-    assert linear.hinge_surface.size == linear.arm_surface.size == 0
-    np.testing.assert_allclose(section.hinge_surface, np.full(48, t / (2 * h)), rtol=1e-9)
-    np.testing.assert_allclose(section.arm_surface, np.full(48, t / h), rtol=1e-9)
-    np.testing.assert_array_equal(section.hinge_stiffness, linear.hinge_stiffness)
-    np.testing.assert_array_equal(section.arm_stiffness, linear.arm_stiffness)
+    assert linear.surface.size == linear.weight.size == 0
+    np.testing.assert_allclose(section.surface, np.full(72, t / (2 * h)), rtol=1e-9)
+    np.testing.assert_array_equal(section.stiffness, linear.stiffness)
+    rows = section.points * section.surface[0]
+    k11, k12, k22 = np.einsum("p,pi,pj->ij", section.weight[:, 0], rows, rows)[[0, 0, 1], [0, 1, 1]]
+    np.testing.assert_allclose([k11, k12, k22], linear.stiffness[:, 0], rtol=1e-12, atol=1e-9)
 
 
 def crushed(kind, **material):
@@ -220,21 +216,6 @@ def test_section_bending_of_linear_walls():
     assert result.summary["absorbed_energy_J"] != crushed("section").summary["absorbed_energy_J"]
 
 
-def test_section_bending_needs_a_curve_and_more_than_one_element():
+def test_section_bending_needs_a_curve():
     with pytest.raises(ValidationError, match=r"material\.bend = section; allowed: \"linear\""):
         Material(modulus=1e6, density=1e3, bend="section")
-    single = Lattice(nodes_per_wall=0)
-    with pytest.raises(ValidationError, match=r'"linear" if lattice\.nodes_per_wall is 0'):
-        Case(lattice=single, material=Material(bend="section"))
-    Case(lattice=single, material=Material(bend="section"), solver=Solver(hinges="classical"))
-
-
-def test_section_bending_needs_more_than_one_element_in_every_wall_of_a_structure():
-    walls = {"nodes_mm": [[0, 0], [10, 0], [20, 0]], "walls": [[0, 1], [1, 2]]}
-    for subdivide, refused in (1, True), ([8, 1], True), ([8, 2], False):
-        lattice = Lattice(kind="custom", structure=structure(**walls, subdivide=subdivide))
-        if not refused:
-            Case(lattice=lattice, material=Material(bend="section"))
-            continue
-        with pytest.raises(ValidationError, match=r"subdivide of lattice\.file is 1"):
-            Case(lattice=lattice, material=Material(bend="section"))

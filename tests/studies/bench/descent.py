@@ -11,22 +11,22 @@ import numpy as np
 from sweep.scene.loading import stages, tolerances
 from tests.studies.bench.clock import seconds
 from tests.studies.bench.marching import Spent
-from tests.studies.bench.rods import Rods
+from tests.studies.bench.beams import Beams
 
 
 class Step:
     """What the steps of a stage minimise, each from its own x~."""
 
-    def __init__(self, case, scene, rods, stage):
+    def __init__(self, case, scene, beams, stage):
         assert stage.factor0 == stage.factor1, "the load must be dead"
-        self.rods, self.allowed = rods, tolerances(case, scene, stage)
-        self.inert = scene.terms.coordinates.mass[rods.free] / stage.duration**2
-        self.load = stage.factor1 * scene.terms.coordinates.load[rods.free]
-        self.lever = scene.terms.coordinates.lever[rods.free]
+        self.beams, self.allowed = beams, tolerances(case, scene, stage)
+        self.inert = scene.terms.coordinates.mass[beams.free] / stage.duration**2
+        self.load = stage.factor1 * scene.terms.coordinates.load[beams.free]
+        self.lever = scene.terms.coordinates.lever[beams.free]
 
     def at(self, x, x_pred):
-        """Energy, gradient (n,) and what the rods found."""
-        found, inertia = self.rods.found(x), self.inert * (x - x_pred)
+        """Energy, gradient (n,) and what the beams found."""
+        found, inertia = self.beams.found(x), self.inert * (x - x_pred)
         energy = found.energy + 0.5 * inertia @ (x - x_pred) - self.load @ x
         return energy, found.gradient + inertia - self.load, found
 
@@ -36,7 +36,7 @@ class Step:
         for spent in range(self.allowed.iterations):
             if np.abs(g * self.lever).max() <= self.allowed.force:
                 return x, spent
-            dx = self.rods.towards(found, self.inert, g)
+            dx = self.beams.towards(found, self.inert, g)
             most = energy + self.allowed.noise
             energy, g, found = self.at(x + dx, x_pred)
             while energy > most:
@@ -49,8 +49,8 @@ class Step:
 class Peer:
     """A case in numpy, with one of the models of what its walls store."""
 
-    def __init__(self, case, scene, model=Rods):
-        self.case, self.scene, self.rods = case, scene, model(scene)
+    def __init__(self, case, scene, model=Beams):
+        self.case, self.scene, self.beams = case, scene, model(scene)
         self.x = scene.x_rest.copy()
 
     def whole(self, released=True):
@@ -60,10 +60,10 @@ class Peer:
         return Spent(spent, sum(iterations))
 
     def _through(self, ramps, iterations):
-        free = self.rods.free
+        free = self.beams.free
         x, v = self.scene.x_rest[free], self.scene.velocity[free]
         for stage in ramps:
-            step = Step(self.case, self.scene, self.rods, stage)
+            step = Step(self.case, self.scene, self.beams, stage)
             for _ in range(stage.steps):
                 end, spent = step.minimum(x + stage.duration * v)
                 x, v = end, (end - x) / stage.duration

@@ -6,30 +6,18 @@ from scipy import sparse
 from kernels.linear.block_matrix import HELD
 
 
-def _motions(walls, n):
-    """Motion (2 m + 2 w, n) of every element vector and of the rotation of every arm's joint."""
-    m, arms = len(walls.edges), walls.rotation.size
-    columns = (2 * walls.edges[:, None, :] + np.array([[0], [1]])).ravel()  # x and y of both ends
-    ends = np.tile([-1.0, 1.0], 2 * m), (np.repeat(np.arange(2 * m), 2), columns)
-    turns = np.ones(arms), (np.arange(arms), walls.rotation)
-    parts = sparse.csr_array(ends, shape=(2 * m, n)), sparse.csr_array(turns, shape=(arms, n))
-    return sparse.vstack(parts, format="csr")
-
-
-def _half(walls, stiffness):
-    """Second derivatives in these motions, those on the diagonal halved: (row, column, value)."""
-    m, arms = len(walls.edges), walls.rotation.size
-    x, phi = 2 * np.arange(m), 2 * m + np.arange(arms)
-    inside = np.setdiff1d(np.arange(m), walls.start[1:] - 1)
-    yield x, x, 0.5 * stiffness.own[0]
-    yield x, x + 1, stiffness.own[1]
-    yield x + 1, x + 1, 0.5 * stiffness.own[2]
-    for c, following in enumerate(stiffness.next):
-        yield x[inside] + c // 2, x[inside] + 2 + c % 2, following[inside]
-    for c in range(2):
-        yield x[walls.arm_element] + c, phi, stiffness.arm[c]
-    yield phi, phi, 0.5 * stiffness.arm[2]
-    yield phi[::2], phi[1::2], stiffness.twist
+def _parts(walls, stiffness, n):
+    """Motions (4 m, n) of chords and rotations of all elements, and their Hessian (4 m, 4 m)."""
+    m, dofs = len(walls.edges), walls.dofs
+    rows = 4 * np.arange(m)[:, None] + np.array([0, 1, 2, 0, 1, 3])
+    signs = np.tile([-1.0, -1.0, 1.0, 1.0, 1.0, 1.0], m)
+    motions = sparse.csr_array((signs, (rows.ravel(), dofs.ravel())), shape=(4 * m, n))
+    (xx, xy, yy), (ax, ay, bx, by), (aa, ab, bb) = stiffness
+    full = [[xx, xy, ax, bx], [xy, yy, ay, by], [ax, ay, aa, ab], [bx, by, ab, bb]]
+    place = 4 * np.arange(m)[:, None, None] + np.arange(4)[:, None] + np.zeros(4, np.int64)
+    other = 4 * np.arange(m)[:, None, None] + np.arange(4) + np.zeros((4, 1), np.int64)
+    values = np.array(full).transpose(2, 0, 1).ravel()
+    return motions, sparse.csr_array((values, (place.ravel(), other.ravel())), shape=2 * (4 * m,))
 
 
 def reduction(layout):
@@ -43,13 +31,11 @@ def reduction(layout):
 
 def assembled(terms, stiffness):
     """Hessian (free, free) of the walls; every place where elements couple holds an entry."""
-    motions = _motions(terms.walls, terms.coordinates.mass.size) @ reduction(terms.layout)
-    rows, columns, values = map(np.concatenate, zip(*_half(terms.walls, stiffness), strict=True))
-    size = motions.shape[0]
-    half = sparse.coo_array((values, (rows, columns)), shape=(size, size)).tocsr()
-    hessian = motions.T @ (half + half.T) @ motions
-    half.data[:] = 1.0
-    full = (abs(motions).T @ (half + half.T) @ abs(motions)).tocsc()  # product: zeros are dropped
+    motions, own = _parts(terms.walls, stiffness, terms.coordinates.mass.size)
+    motions = motions @ reduction(terms.layout)
+    hessian, pattern = motions.T @ own @ motions, own.copy()
+    pattern.data[:] = 1.0
+    full = (abs(motions).T @ pattern @ abs(motions)).tocsc()  # product: zeros are dropped
     full.sort_indices()
     columns = np.repeat(np.arange(full.shape[1]), np.diff(full.indptr))
     full.data = hessian.tocsr()[full.indices, columns]

@@ -161,7 +161,7 @@ def _damping(draw):
 
 def _solver(draw):
     return {
-        "solver.hinges": "classical" if draw.chance(0.15) else "exact_beam",
+        "solver.element": "classical" if draw.chance(0.15) else "cubic",
         "solver.bend_measure": "tangent" if draw.chance(0.15) else "angle",
     }
 

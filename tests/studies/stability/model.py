@@ -22,17 +22,19 @@ class Stored(NamedTuple):
 
 
 def stored(x, terms, x0):
-    """What the walls of a scene store at ``x`` (n,) in a step from ``x0``, see `_bending`."""
-    g, edges = np.zeros_like(x), terms.walls.edges
+    """What the walls of a scene store at ``x`` (n,) in a step from ``x0``, see `_turns`."""
+    g, edges, stretch = np.zeros_like(x), terms.walls.edges, terms.stretch
     vector = np.diff(x[: 2 * terms.layout.n_nodes].reshape(-1, 2)[edges], axis=1)[:, 0]
-    length = np.hypot(*vector.T)
-    strain = length / terms.stretch.l0 - 1.0
+    length, turn = np.hypot(*vector.T), _turns(x, x0, vector, terms.walls)
+    same, mixed = stretch.arc
+    strain = length / stretch.l0 - 1.0 + same * np.sum(turn**2, axis=0) + mixed * turn[0] * turn[1]
     density, stress = _guarded(terms.law, strain)
-    tension = terms.stretch.area * stress
-    stretching = np.sum(terms.stretch.area * terms.stretch.l0 * density)
-    bearing = np.arctan2(vector[:, 1], vector[:, 0])
-    bending, moment = _bending(x, x0, bearing, terms, g)
-    along, across = vector / length[:, None], moment / length
+    volume, tension = stretch.area * stretch.l0, stretch.area * stress
+    stretching = np.sum(volume * density)
+    bending, moments = _bending(turn, terms.bend)
+    moments += volume * stress * (2.0 * same * turn + mixed * turn[::-1])
+    np.add.at(g, terms.walls.dofs[:, [2, 5]].T, -moments)
+    along, across = vector / length[:, None], moments.sum(axis=0) / length
     force = tension[:, None] * along + across[:, None] * np.column_stack(
         [-along[:, 1], along[:, 0]]
     )
@@ -79,51 +81,45 @@ def _guarded(law, strain):
     return energy + law.modulus * width**2 * value, stress + law.modulus * width * slope
 
 
-def _response(section, surface, kappa):
-    """Energy and moment over the stiffness; linear where no strain of the surface is given."""
-    if len(surface) == 0:
-        return 0.5 * kappa**2, kappa
-    energy, moment = _curve(section, np.abs(surface * kappa))
-    return energy / surface**2, np.sign(kappa) * moment / surface
-
-
-def _curvature(measure, turn):
-    if measure == TANGENT:
-        return 2.0 * np.tan(0.5 * turn), 1.0 + np.tan(0.5 * turn) ** 2
+def _curvature(bend, turn):
+    if bend.measure == TANGENT:
+        t = np.tan(turn / bend.side)
+        return bend.side * t, 1.0 + t**2
     return turn, np.ones_like(turn)
 
 
-def _bending(x, x0, bearing, terms, g):
-    """Energy, and the moment on the bearing of every element; rotations get theirs in ``g``.
+def _through_section(bend, kappa):
+    """Energy and its derivatives in both curvatures, (2, m)."""
+    strain = bend.surface * (bend.points @ kappa)
+    energy, moment = _curve(bend.section, np.abs(strain))
+    pulled = bend.weight * np.sign(strain) * moment * bend.surface
+    return np.sum(bend.weight * energy), bend.points.T @ pulled
 
-    An arm turns less than half round from where its joint held it when the step began.
+
+def _turns(x, x0, vector, walls):
+    """Turns of both ends of every element, (2, m).
+
+    An end turns less than half round from where its node held it when the step began.
     """
-    bend, moment, before = terms.bend, np.zeros_like(bearing), terms.bend.hinges
-    angle = _wrapped(bearing[before + 1] - bearing[before])
-    kappa, slope = _curvature(bend.measure, angle - bend.hinge_angle)
-    value, response = _response(bend.section, bend.hinge_surface, kappa)
-    opened, rest = np.pi - np.abs(angle), np.pi - np.sign(angle) * bend.hinge_angle
-    limit, fold = np.minimum(FOLD, 0.5 * rest), bend.hinge_stiffness * (0.5 * rest) ** 2
-    folded, closing = barrier(opened / limit)
-    turning = bend.hinge_stiffness * response * slope - np.sign(angle) * fold / limit * closing
-    np.add.at(moment, before + 1, turning)
-    np.add.at(moment, before, -turning)
-    total = np.sum(bend.hinge_stiffness * value + fold * folded)
+    rotation = walls.dofs[:, [2, 5]].T
+    bearing, rest = np.arctan2(*vector.T[::-1]), np.arctan2(*walls.rest.T[::-1])
+    return _wrapped(bearing - rest - x0[rotation]) - (x[rotation] - x0[rotation])
 
-    element, rotation = terms.walls.arm_element, terms.walls.rotation
-    rest = np.arctan2(*bend.arm_rest.T[::-1])
-    turn = _wrapped(bearing[element] - rest - x0[rotation]) - (x[rotation] - x0[rotation])
-    kappa, slope = _curvature(bend.measure, turn)
-    value, response = _response(bend.section, bend.arm_surface, kappa)
-    coupled, other = np.repeat(bend.coupling, 2), kappa.reshape(-1, 2)[:, ::-1].ravel()
-    turning = (bend.arm_stiffness * response + coupled * other) * slope
-    np.add.at(moment, element, turning)
-    np.add.at(g, rotation, -turning)
-    return total + np.sum(bend.arm_stiffness * value + 0.5 * coupled * kappa * other), moment
+
+def _bending(turn, bend):
+    """Energy, and the moments of both ends of every element, (2, m)."""
+    kappa, slope = _curvature(bend, turn)
+    if bend.weight.size:
+        total, pulled = _through_section(bend, kappa)
+    else:
+        k11, k12, k22 = bend.stiffness
+        pulled = np.stack([k11 * kappa[0] + k12 * kappa[1], k12 * kappa[0] + k22 * kappa[1]])
+        total = 0.5 * np.sum(pulled * kappa)
+    return total, pulled * slope
 
 
 def _folding(x, fold, g):
-    """Energy of the openings between neighbouring arms of joints."""
+    """Energy of the openings between neighbouring elements of nodes."""
     if len(fold.limit) == 0:
         return 0.0
     one, middle, two = x[: 2 * (len(x) // 2)].reshape(-1, 2)[fold.nodes].swapaxes(0, 1)

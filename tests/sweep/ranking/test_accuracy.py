@@ -125,7 +125,7 @@ def chosen(name, **values):
         "how": "solver.integrator",
         "nodes": "lattice.nodes_per_wall",
     }
-    keys |= {"steps": "solver.load_steps", "hinges": "solver.hinges", "strain": "loading.strain"}
+    keys |= {"steps": "solver.load_steps", "hinges": "solver.element", "strain": "loading.strain"}
     keys |= {"error": "solver.step_error"}
     (case,) = (
         case
@@ -137,8 +137,8 @@ def chosen(name, **values):
 
 # Of every study in the README the file, and which cases are enough for its rows.
 TOLD = {
-    "buckled": ("crush", {"loading.strain": 0.3, "solver.hinges": "exact_beam"}),
-    "packed": ("crush", {"contact.friction": 0.0, "solver.hinges": "exact_beam"}),
+    "buckled": ("crush", {"loading.strain": 0.3, "solver.element": "cubic"}),
+    "packed": ("crush", {"contact.friction": 0.0, "solver.element": "cubic"}),
     "force": ("force", {"solver.integrator": "bdf2", "solver.step_error": None}),
     "impact": ("impact", {"solver.integrator": "newmark"}),
     "vibration": ("vibration", {"solver.step_error": None}),
@@ -170,7 +170,7 @@ def test_readme_tells_what_the_studies_find(name, tmp_path):
     [
         (
             "crush",
-            {"strain": 0.3, "nodes": 2, "steps": 50, "hinges": "exact_beam"},
+            {"strain": 0.3, "nodes": 2, "steps": 50, "hinges": "cubic"},
             "absorbed_energy_J",
             0.0956,
         ),

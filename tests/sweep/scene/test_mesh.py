@@ -25,7 +25,8 @@ def test_walls_fall_into_equal_elements(kind):
     np.testing.assert_array_equal(np.bincount(mesh.wall), count)
     np.testing.assert_array_equal(np.diff(mesh.start), count)
     np.testing.assert_allclose(mesh.rest_length, (lengths / count)[mesh.wall], rtol=1e-12)
-    np.testing.assert_array_equal(mesh.arm_joint.reshape(-1, 2), network.walls)
+    first, last = mesh.edges[mesh.start[:-1], 0], mesh.edges[mesh.start[1:] - 1, 1]
+    np.testing.assert_array_equal(np.column_stack([first, last]), network.walls)
     before, node, after = mesh.inner.T
     assert len(node) == len(mesh.points) - len(network.points)
     np.testing.assert_array_equal(mesh.edges[before, 1], node)
@@ -41,14 +42,16 @@ def test_nodes_share_out_length_and_area():
 
 
 @pytest.mark.parametrize("kind", families())
-def test_openings_round_a_joint_make_a_turn(kind):
+def test_openings_round_a_node_make_a_turn(kind):
     mesh = split_walls(network_of(kind), 2, SHIFT)
-    nodes, opened, arms = mesh.openings
-    joints = np.flatnonzero(np.bincount(mesh.arm_joint) > 1)
-    np.testing.assert_array_equal(np.unique(nodes[:, 1]), joints)
-    around = np.bincount(nodes[:, 1], opened, minlength=mesh.n_joints)[joints]
+    nodes, opened, ends = mesh.openings
+    shared = np.flatnonzero(np.bincount(mesh.edges.ravel()) > 1)
+    np.testing.assert_array_equal(np.unique(nodes[:, 1]), shared)
+    around = np.bincount(nodes[:, 1], opened)[shared]
     np.testing.assert_allclose(around, 2 * np.pi, rtol=1e-12)
-    np.testing.assert_array_equal(mesh.arm_joint[arms], np.repeat(nodes[:, 1:2], 2, axis=1))
+    for k, outer in ((0, 0), (1, 2)):
+        found = np.sort(mesh.edges[ends[:, k]], axis=1)
+        np.testing.assert_array_equal(found, np.sort(nodes[:, [1, outer]], axis=1))
     one, other = (mesh.points[nodes[:, k]] - mesh.points[nodes[:, 1]] for k in (0, 2))
     cosine = (one * other).sum(axis=1)
     cosine /= np.linalg.norm(one, axis=1) * np.linalg.norm(other, axis=1)

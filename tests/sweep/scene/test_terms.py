@@ -83,8 +83,7 @@ def test_plane_factors(plane, in_stretch, in_bend):
         (flat.law.energy, plain.law.energy, in_stretch),
         (flat.law.modulus, plain.law.modulus, in_stretch),
         (flat.contact.stiffness, plain.contact.stiffness, in_stretch),
-        (flat.bend.hinge_stiffness, plain.bend.hinge_stiffness, in_bend),
-        (flat.bend.arm_stiffness, plain.bend.arm_stiffness, in_bend),
+        (flat.bend.stiffness, plain.bend.stiffness, in_bend),
         (flat.fold.stiffness, plain.fold.stiffness, in_bend),
     ):
         np.testing.assert_allclose(found, factor * expected, rtol=1e-12)

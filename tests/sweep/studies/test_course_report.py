@@ -49,7 +49,7 @@ def test_report_and_ours_differ_in_the_model_alone():
     assert one.damping == other.damping
     assert (one.contact.model, other.contact.model) == ("position_based", "barrier")
     assert (one.solver.hessian, other.solver.hessian) == ("tangent_modulus", "exact")
-    assert (one.solver.hinges, other.solver.hinges) == ("classical", "exact_beam")
+    assert (one.solver.element, other.solver.element) == ("classical", "cubic")
     assert (one.solver.bend_measure, other.solver.bend_measure) == ("tangent", "angle")
 
 

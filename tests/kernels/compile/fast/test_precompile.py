@@ -20,7 +20,7 @@ CASES = {
     "at a speed": Case(loading=Loading(**PRESSED, speed=0.1), solver=TWO),
     "classical": Case(
         loading=Loading(**PRESSED),
-        solver=Solver(load_steps=2, hinges="classical", bend_measure="tangent"),
+        solver=Solver(load_steps=2, element="classical", bend_measure="tangent"),
     ),
     "dead load": Case(loading=Loading(**BRIEF)),
     "dead load on a platen": Case(loading=Loading(**BRIEF, platen="glued")),
