@@ -35,10 +35,10 @@ class Layout(NamedTuple):
     images (k, 4): see `periodic_images`; their leader is the coordinate itself. driven: coordinate
     with a prescribed value, -1 if none. point, slot (n,): point of each coordinate, and its place
     in the block of the point. first (n_nodes,): first coordinate of the position of each node.
-    origin (points,): the point itself, or the point of which it is an image. inner (r,): coordinates
-    of the nodes inside walls, wall by wall. wall_of (points,): wall of an inner node, else -1.
-    outer (w, 6): coordinates of the two joints of a wall; the second joint may be an image. scale:
-    stiffness of the stiffest element, N/m.
+    origin (points,): the point itself, or the point of which it is an image. inner (r,):
+    coordinates of the nodes inside walls, wall by wall. wall_of (points,): wall of an inner node,
+    else -1. outer (w, 6): coordinates of the two joints of a wall; the second joint may be an
+    image. scale: stiffness of the stiffest element, N/m.
     """
 
     leader: np.ndarray
@@ -154,7 +154,7 @@ def _turning(layout, c, points, count):
 
 @jit_owning
 def _graph(layout, walls, kind, couplings):
-    """Return (index (n_nodes + 1,), bits): number of each point, -1 if none, and their graph."""
+    """Return (index (points,), bits): number of each point, -1 if none, and their graph."""
     index = np.full(layout.origin.size, -1)
     count = 0
     for c in range(layout.leader.size):

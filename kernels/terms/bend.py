@@ -112,9 +112,7 @@ def evaluate(bend, memory, shape, resultants, projected):
         if math.isinf(one) or math.isinf(two):
             return math.inf
         if curved:
-            value, f1, f2, f11, f12, f22 = _through_section(
-                bend, memory, m, k, one, two, projected
-            )
+            value, f1, f2, f11, f12, f22 = _through_section(bend, memory, m, k, one, two, projected)
         else:
             value, f1, f2, f11, f12, f22 = _linear(bend, k, one, two)
         if projected:

@@ -6,7 +6,8 @@ at a node inside a wall):
     E_f = K (g0 / 2)^2 b(g / g_f)   for g < g_f = min(20 degrees, g0 / 2),   else 0
 
 With u, v the elements and psi = arg v - arg u: d arg(v) = (-v_y, v_x) / r^2 =: q, and
-d2 arg(v) = [[-2 q_x q_y, q_x^2 - q_y^2], [., 2 q_x q_y]]. """
+d2 arg(v) = [[-2 q_x q_y, q_x^2 - q_y^2], [., 2 q_x q_y]].
+"""
 
 import math
 from typing import NamedTuple

@@ -58,8 +58,6 @@ def evaluate(terms, before, rate, shape, resultants, projected):
         change = strain - stretch.strain(terms.stretch, before, k)[0]
         stress = viscosity * change
         total += 0.5 * volume * stress * change
-        stretch.push(
-            terms.stretch, resultants, k, volume, (one, two), stress, viscosity, projected
-        )
+        stretch.push(terms.stretch, resultants, k, volume, (one, two), stress, viscosity, projected)
         total += _bend(terms.bend, before, rate, k, shape, resultants)
     return total

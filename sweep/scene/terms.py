@@ -55,8 +55,8 @@ class Scene:
 class Parts(NamedTuple):
     """The data that depend on the kind of scene.
 
-    walls, layout: topology, constraints and structure of the linear system. mass (n,) in kg and load (n,) in N or
-    N m of each coordinate. The others are terms of the energy.
+    walls: topology. layout: constraints and structure of the linear system. mass (n,) in kg and
+    load (n,) in N or N m of each coordinate. The others are terms of the energy.
     """
 
     walls: elements.Walls

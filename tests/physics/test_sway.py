@@ -15,7 +15,7 @@ THIN = 0.02
 
 def hinged(scene):
     """The scene whose walls have no moments at joints: free ends have 3 Y I / h and no k12."""
-    bend, at_joint = scene.terms.bend, scene.mesh.edges.T < scene.mesh.n_joints
+    bend, at_joint = scene.terms.bend, scene.mesh.n_joints > scene.mesh.edges.T
     k11, k12, k22 = bend.stiffness
     stiffness = np.stack([
         np.where(at_joint[0], 0.0, np.where(at_joint[1], 0.75 * k11, k11)),

@@ -7,7 +7,7 @@ import pytest
 
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import stages
-from tests.studies.bench import cases, descent, elements, marching, beams, scenes, sweeps
+from tests.studies.bench import beams, cases, descent, elements, marching, scenes, sweeps
 from tests.support.solving import at_rest
 from tests.support.states import shaken, unit
 from tests.support.terms import Term, derivative_error

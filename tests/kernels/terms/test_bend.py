@@ -114,7 +114,7 @@ def test_half_a_hinge_that_turns_too_far_takes_infinite_energy(turn):
 @pytest.mark.parametrize("element", ELEMENTS)
 @pytest.mark.parametrize("seed", range(3))
 def test_the_measures_agree_to_the_second_order(seed, element):
-    """c tan(d/c) = d + d^3/(3 c^2): energies differ in the fourth power of d."""
+    """C tan(d/c) = d + d^3/(3 c^2): energies differ in the fourth power of d."""
     move = shaken(FRAME, seed) - FRAME.rest
     apart = []
     for size in (0.1, 0.05):

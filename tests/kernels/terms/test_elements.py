@@ -5,7 +5,15 @@ import pytest
 
 from kernels.terms import elements
 from tests.support.frames import carried, frame, joint_of_four, scaled, shaken, walls_of
-from tests.support.terms import Term, assembled, derivative_error, least_share, motions, of_walls, room
+from tests.support.terms import (
+    Term,
+    assembled,
+    derivative_error,
+    least_share,
+    motions,
+    of_walls,
+    room,
+)
 
 FRAME = joint_of_four()
 WALLS = walls_of(FRAME)

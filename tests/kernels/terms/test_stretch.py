@@ -1,4 +1,4 @@
-"""Stretching: derivatives in every part of the curve, the arc, geometric stiffness, rigid motions."""
+"""Stretching: derivatives along the curve, the arc, geometric stiffness, rigid motions."""
 
 import numpy as np
 import pytest

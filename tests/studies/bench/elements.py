@@ -18,7 +18,7 @@ class Found(NamedTuple):
 
 
 def beam(x, l0, axial, bending, arc, rest):
-    """Energy of a beam with its derivatives in the six coordinates ``x``: x, y, phi of both ends."""
+    """Energy of a beam with its derivatives in ``x`` (6,): x, y, phi of both ends."""
     ex, ey = x[3] - x[0], x[4] - x[1]
     length = math.hypot(ex, ey)
     tx, ty = ex / length, ey / length

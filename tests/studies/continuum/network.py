@@ -10,6 +10,7 @@ from unittest.mock import patch
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
+from kernels.terms.elastic import MomentCurve
 from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
 from sweep.scene.lattice import build_scene
 from sweep.scene.material import StressLaw, as_law
@@ -25,7 +26,9 @@ def thick_law(softening):
     below = 1.0 + 4.0 * softening * SURFACE**2
     slope = (2.0 - below) / below**2
     spline = CubicHermiteSpline(SURFACE, SURFACE / below, slope)
-    return as_law(StressLaw(spline.x, np.ascontiguousarray(spline.c[::-1].T)), 1.0, 1.0)
+    return MomentCurve(
+        *as_law(StressLaw(spline.x, np.ascontiguousarray(spline.c[::-1].T)), 1.0, 1.0)
+    )
 
 
 def built(case, spared, softening):
@@ -33,13 +36,15 @@ def built(case, spared, softening):
     scene, lattice = build_scene(case), case.lattice
     bending, pitch = scene.terms.bend, lattice.width / lattice.cells_x
     stiffer = 1.0 / (1.0 - spared * lattice.wall_thickness / pitch)
-    arm, hinge = stiffer * bending.arm_stiffness, stiffer * bending.hinge_stiffness
-    bending = bending._replace(arm_stiffness=arm, hinge_stiffness=hinge)
+    bending = bending._replace(stiffness=stiffer * bending.stiffness)
     if softening > 0.0:
-        rigidity = stiffer * case.material.modulus * lattice.depth * lattice.wall_thickness**3 / 12
-        surface = 0.5 * lattice.wall_thickness / rigidity  # strain by a moment
+        surface, per_length = (
+            0.5 * scene.mesh.thickness / scene.mesh.rest_length,
+            bending.stiffness[1],
+        )
+        weight = 0.25 * per_length / surface**2  # half of Y I / h at each of two points
         bending = bending._replace(
-            section=thick_law(softening), arm_surface=surface * arm, hinge_surface=surface * hinge
+            section=thick_law(softening), surface=surface, weight=np.tile(weight, (2, 1))
         )
     return replace(scene, terms=scene.terms._replace(bend=bending))
 

@@ -40,7 +40,7 @@ def test_stiffness_of_elements(element, factors, arc, elements):
 
 def test_a_half_turn_is_shared_inside_walls_only():
     scene = scene_of(3)
-    at_joint = scene.mesh.edges.T < scene.mesh.n_joints
+    at_joint = scene.mesh.n_joints > scene.mesh.edges.T
     np.testing.assert_array_equal(scene.terms.bend.side, np.where(at_joint, 2.0, 1.0))
 
 
