@@ -22,9 +22,10 @@ import numpy as np
 from kernels.arrays import copy, dot, zero
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.compile.reference import by_reference
+from kernels.solve import resolution
 from kernels.solve.energy_book import enter
 from kernels.solve.integrators import Ahead
-from kernels.solve.march import NOT_STARTED, SMALLEST_SHARE
+from kernels.solve.march import NOT_STARTED, SMALLEST_SHARE, UNRESOLVED
 from kernels.solve.newton import CONVERGED, INTERRUPTED, ITERATIONS, NOT_FINITE, OUTGROWN, STALLED
 from kernels.solve.problem import NO_ROOM, TIED, Step
 from kernels.solve.residual import largest
@@ -44,6 +45,7 @@ PROGRESS = np.dtype(
             ("longest_move", np.float64),  # of a coordinate in the next iteration, m
             ("travel_bound", np.float64),  # of a point in the next iteration, m
             ("iterations", np.int64),  # Newton iterations of the attempt
+            ("decrement", np.float64),  # of Newton where it converged, J
         ],
     )
 )
@@ -159,7 +161,8 @@ def _correct(x, problem, tolerance, stage, space, arc, progress):
         problem.solve(v)
         increment, on_constraint = _load_increment(found.u, r, v, arc, progress)
         if on_constraint and size <= tolerance.force:
-            if abs(0.5 * dot(found.g, r)) <= tolerance.decrement:
+            progress.decrement = abs(0.5 * dot(found.g, r))
+            if progress.decrement <= tolerance.decrement:
                 return CONVERGED
         if progress.iterations > min(CORRECTIONS, tolerance.iterations):
             return ITERATIONS
@@ -234,6 +237,10 @@ def _follow_path(problem, tolerance, stage, state, out, control, space, arc, hea
         totals.iterations += progress.iterations
         progress.iterations = NOT_STARTED
         step = _step(space, stage, progress, progress.load)
+        if outcome == CONVERGED and not resolution.is_resolved(
+            problem, step, tolerance, state, found, work, progress.decrement
+        ):
+            outcome = UNRESOLVED
         if outcome != CONVERGED:
             copy(space.x0, state.x)
             problem.roll_back(step)
@@ -243,6 +250,7 @@ def _follow_path(problem, tolerance, stage, state, out, control, space, arc, hea
             continue
         problem.commit(state.x, step, found)
         enter(problem, step, state, found, work)
+        totals.force = resolution.largest_force(problem, step, state, found, work)
         copy(work.escape, heading.tangent)
         if progress.row >= 0:
             copy(found.u, heading.last_move)

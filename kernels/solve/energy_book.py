@@ -72,38 +72,37 @@ def energy_gain(state, found, mass, dt):
 
 
 @jit_exact
-def _largest_energy(state):
-    """Return the largest energy in the book, J."""
-    book = state.book[0]
+def largest_energy(problem, step, state, found):
+    """Return the largest energy in the book and in a step that is not entered yet, J."""
+    book, coordinates = state.book[0], problem.scene.coordinates
     largest = max(abs(book.work), abs(book.kinetic), abs(book.material), abs(book.friction))
     largest = max(largest, abs(book.integrator), abs(book.injected))
-    for energy in state.stored:
-        largest = max(largest, abs(energy))
-    return largest
+    for k in range(found.stored.size):
+        largest = max(largest, abs(state.stored[k]), found.stored[k])
+    work = 0.0
+    for i in range(coordinates.load.size):
+        work += step.factor * coordinates.load[i] * (state.x[i] - step.x0[i])
+    if step.dynamic:
+        largest = max(largest, kinetic(found.u, coordinates.mass) / step.h**2)
+    return max(largest, abs(work))
 
 
 @jit_exact
-def unbalanced(x0, problem, tolerance, state, found, work):
-    """Return whether the work of the residual in a step from ``x0`` is too large.
+def unbalanced(problem, step, tolerance, state, found, work):
+    """Return whether the work of the residual in a step is too large.
 
     Where positions cannot resolve very small elements or openings, the admissible residual
     (`residual.allowed`) has no bound; this test bounds its work.
     """
-    imbalance, noise, largest, coordinates = (
-        0.0,
-        0.0,
-        _largest_energy(state),
-        problem.scene.coordinates,
-    )
+    imbalance, noise, coordinates = 0.0, 0.0, problem.scene.coordinates
     problem.reduce(found.g, work.residual)
-    for i in range(x0.size):
+    for i in range(state.x.size):
         if coordinates.role[i] == FREE:
-            move = state.x[i] - x0[i]
+            move = state.x[i] - step.x0[i]
             imbalance += work.residual[i] * move
             noise += tolerance.force * abs(move) * coordinates.scale[i]
-    for energy in found.stored:
-        largest = max(largest, energy)
-    return abs(imbalance) > LARGEST_IMBALANCE * largest + noise
+    limit = LARGEST_IMBALANCE * largest_energy(problem, step, state, found) + noise
+    return not abs(imbalance) <= limit
 
 
 @jit_exact

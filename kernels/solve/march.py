@@ -11,10 +11,18 @@ import numpy as np
 from kernels.arrays import copy, zero
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.compile.reference import by_reference
-from kernels.solve import energy_book, friction_loop, integrators
+from kernels.solve import energy_book, friction_loop, integrators, resolution
 from kernels.solve.energy_book import energy_gain, enter, kinetic, strike, unbalanced
 from kernels.solve.integrators import BACKWARD_EULER, BDF2, Ahead
-from kernels.solve.newton import CONVERGED, DESCENT, INTERRUPTED, ITERATIONS, OUTGROWN, minimise
+from kernels.solve.newton import (
+    CONVERGED,
+    DESCENT,
+    INTERRUPTED,
+    ITERATIONS,
+    OUTGROWN,
+    STALLED,
+    minimise,
+)
 from kernels.solve.problem import Step
 from kernels.solve.residual import loosen
 from kernels.solve.workspace import make_workspace
@@ -25,7 +33,7 @@ MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple
 EASY_LOOPS = 10  # friction loops of an easy share, at most
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
 UNCHECKED_SHARE = 2.0**-12  # share of a step that may generate more: the whole run is checked later
-INACCURATE, UNBALANCED = 7, 9  # outcomes, beside those of `newton` and `friction_loop`
+INACCURATE, UNBALANCED, UNRESOLVED = 7, 9, 10  # beside those of `newton` and `friction_loop`
 NOT_STARTED = -1  # friction loops of a share before `_begin_share`
 PROGRESS = np.dtype(
     (
@@ -35,6 +43,7 @@ PROGRESS = np.dtype(
             ("done", np.float64),  # completed share of the step of the row
             ("share", np.float64),  # share of the step of the row that is attempted
             ("failed", np.int64),  # failed attempts since the last accepted share
+            ("cause", np.int64),  # outcome of the last of them that was not `UNRESOLVED`
             ("row_iterations", np.int64),  # Newton iterations for the row
             ("share_iterations", np.int64),  # Newton iterations for the share
             ("minimum_iterations", np.int64),  # Newton iterations for the present minimum
@@ -103,15 +112,19 @@ def _extrapolation(u, driven, remaining):
 
 
 @jit_exact
-def _begin_share(problem, stage, state, space, descent, progress):
+def _begin_share(problem, tolerance, stage, state, space, descent, progress):
     """Begin the next share of a step.
 
     The minimisation starts from the extrapolated positions, except after a snap in a static step,
     where it starts from x0.
     """
-    last = state.totals[0].last
+    last, work = state.totals[0].last, space.work
     if stage.scheme != BACKWARD_EULER and last == 0.0:
-        progress.share = min(progress.share, integrators.FIRST_SHARE)
+        factor = stage.factor0 + (stage.factor1 - stage.factor0) * _stage_fraction(stage, progress)
+        first = resolution.first_share(
+            problem, tolerance, stage.duration, factor, state, space.work
+        )
+        progress.share = min(progress.share, first)
     duration, coordinates = stage.duration * progress.share, problem.scene.coordinates
     u, work, driven, remaining = space.found.u, space.work, coordinates.driven, 0.0
     if driven >= 0:
@@ -194,10 +207,12 @@ def _reject(outcome, problem, step, state, space, descent, progress):
     copy(space.x0, state.x)
     problem.roll_back(step)
     zero(space.found.u)
+    progress.loops, descent.since_factor = NOT_STARTED, np.inf
+    if outcome != UNRESOLVED:
+        progress.cause = outcome
     if outcome != INACCURATE:
         progress.failed += 1
     progress.share *= 0.5 ** max(progress.failed, 1)  # repeated failures shorten it faster
-    progress.loops, descent.since_factor = NOT_STARTED, np.inf
 
 
 @jit_exact
@@ -210,6 +225,7 @@ def _accept(problem, stage, step, state, space, descent):
         totals.last = step.duration
     problem.commit(state.x, step, found)
     enter(problem, step, state, found, work)
+    totals.force = resolution.largest_force(problem, step, state, found, work)
     if energy_book.project(problem, step, state, found, work.trial):
         descent.since_factor = np.inf
     totals.steps += 1
@@ -224,6 +240,7 @@ def _next_share(ratio, iterations, descent, progress):
     easy = progress.share_iterations <= iterations and progress.loops <= EASY_LOOPS
     easy = easy and ratio < DOUBLING_ERROR
     progress.done, progress.failed, progress.loops = progress.done + progress.share, 0, NOT_STARTED
+    progress.cause = CONVERGED
     if progress.share < 1.0:
         descent.since_factor = np.inf
     if easy and progress.done % (2.0 * progress.share) == 0.0:
@@ -242,10 +259,12 @@ def _run(problem, tolerance, stage, state, out, control, space, descent, progres
             if not problem.covers(state.x, 0.0):  # after a rejected share
                 descent.travel_bound = 0.0
                 return OUTGROWN, progress.row
-            _begin_share(problem, stage, state, space, descent, progress)
+            _begin_share(problem, tolerance, stage, state, space, descent, progress)
         step, target = _step(stage, space, progress), _target(stage, progress)
+        load = resolution.largest_load(problem, step.factor, work)
+        fitting = resolution.fit(tolerance, step, problem.scene.coordinates, load)
         outcome = _equilibrate(
-            state.x, target, problem, step, tolerance, space, descent, control, progress
+            state.x, target, problem, step, fitting, space, descent, control, progress
         )
         if outcome == CONVERGED and not problem.covers_projection(state.x):
             outcome, progress.minimum_iterations = OUTGROWN, 0
@@ -254,15 +273,26 @@ def _run(problem, tolerance, stage, state, out, control, space, descent, progres
             if stage.dynamic:
                 zero(work.dx)  # the present point is the better guess
             return outcome, progress.row
+        if resolution.is_tighter(fitting, tolerance) and outcome in (ITERATIONS, STALLED):
+            outcome = UNRESOLVED
         ratio = 0.0
         if outcome == CONVERGED:
             accurate, ratio = _assess(problem, stage, state, step, tolerance.noise, space, progress)
             outcome = CONVERGED if accurate else INACCURATE
-            if accurate and unbalanced(step.x0, problem, tolerance, state, space.found, work):
+            if accurate and not resolution.is_resolved(
+                problem, step, fitting, state, space.found, work, descent.decrement
+            ):
+                outcome = UNRESOLVED
+            elif accurate and unbalanced(problem, step, fitting, state, space.found, work):
                 outcome = UNBALANCED
         if outcome != CONVERGED:
+            coarse = outcome == UNRESOLVED or outcome == UNBALANCED
+            coarse = coarse and resolution.is_coarse(fitting, step, problem, load)
+            outcome = UNRESOLVED if coarse else outcome
             _reject(outcome, problem, step, state, space, descent, progress)
-            if outcome == INTERRUPTED or progress.share < SMALLEST_SHARE:
+            if outcome == INTERRUPTED or progress.share < SMALLEST_SHARE or coarse:
+                if outcome == UNRESOLVED and progress.cause != CONVERGED:
+                    outcome = progress.cause  # that made the shares so short
                 return (ITERATIONS if outcome == OUTGROWN else outcome), progress.row
             continue
         _accept(problem, stage, step, state, space, descent)

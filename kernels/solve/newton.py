@@ -31,6 +31,7 @@ DESCENT = np.dtype(
             ("since_factor", np.float64),
             ("travel_bound", np.float64),  # move that the neighbour lists must cover, m
             ("iterations", np.int64),  # of the last minimisation
+            ("decrement", np.float64),  # of Newton where it converged, J
         ],
     )
 )
@@ -180,7 +181,8 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
     new_direction, line_search, accepted, accept_any = not evaluated, not evaluated, evaluated, True
     uncapped = _reaches_target(x, work.dx, target, coordinates.driven)
     projected, balanced = False, False
-    value, remaining, share, model, escape, duals_fit = 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0), True
+    value, remaining, share, size, duals_fit = 0.0, 0.0, 0.0, 0.0, True
+    model, escape = (0.0, 0.0), (0.0, 0.0)
     limit, stable = (0.0, 0.0), True  # stable: of the last exact factor
     longest, previous_size, descent.travel_bound = _longest(work.dx, coordinates), np.inf, 0.0
     while True:  # each turn evaluates a trial point, or the same point for the projected Hessian
@@ -231,7 +233,8 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
                 outcome = SINGULAR
                 break
             if not projected:
-                stable = met == POSITIVE
+                limit = allowed(problem.stiffest(), tolerance)
+                balanced, stable = balanced and size <= limit[0], met == POSITIVE
                 descent.since_factor = 0.0 if stable and duals_fit else np.inf
                 if not stable:
                     escape = _escape_direction(problem, found, work, pivot)
@@ -241,7 +244,7 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
         has_direction = stable or projected
         slope = _newton_direction(problem, found, work, remaining) if has_direction else 0.0
         if balanced and stable and -0.5 * slope <= limit[1]:
-            outcome = CONVERGED
+            outcome, descent.decrement = CONVERGED, -0.5 * slope
             break
         if iteration == tolerance.iterations:
             break

@@ -50,6 +50,22 @@ def allowed(stiffest, tolerance):
     return force, tolerance.decrement * (force / tolerance.force) ** 2
 
 
+@jit_exact
+def tighten(tolerance, share, sharpness):
+    """Return the tolerance with a ``share`` of the residual, its square of the decrement, and the
+    resolution times ``sharpness``.
+    """
+    return Tolerance(
+        share * tolerance.force,
+        share * share * tolerance.decrement,
+        tolerance.friction,
+        tolerance.friction_share,
+        tolerance.noise,
+        sharpness * tolerance.resolution,
+        tolerance.iterations,
+    )
+
+
 @jit
 def loosen(tolerance, factor):
     """Return the tolerance with the residual times ``factor``, the decrement times its square."""

@@ -42,6 +42,8 @@ ADVICE = {
     march.INACCURATE: "no step was short enough for solver.step_error; "
     "try a larger one or {shorter}",
     march.UNBALANCED: f"work and energies do not balance; {SOUNDER}",
+    march.UNRESOLVED: "the forces are too small, or the steps too short, for the motion to exceed "
+    "round-off; try larger steps or loads",
     newton.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
 }
 

@@ -8,6 +8,7 @@ from kernels.planar.potential import STORED
 from kernels.solve import march, newton
 from kernels.solve.workspace import make_workspace
 from sweep.scene.lattice import build_scene
+from sweep.scene.loading import tolerances
 from tests.studies.bench import cases, counts
 from tests.studies.bench.crushes import Crush
 from tests.support.solving import at_rest, ramp, whole
@@ -18,7 +19,8 @@ STEP = 1e-4  # m
 @pytest.fixture
 def guess():
     """The move with which a static step sets out after one of ``move`` m by a node."""
-    scene = build_scene(cases.crush(2, 0.1, 10))
+    case = cases.crush(2, 0.1, 10)
+    scene = build_scene(case)
     state, problem = at_rest(scene), whole(scene, scene.x_rest).problem
     space, driven = make_workspace(state.x.size, STORED), scene.terms.coordinates.driven
     progress, descent = np.zeros(1, march.PROGRESS)[0], np.zeros(1, newton.DESCENT)[0]
@@ -29,7 +31,8 @@ def guess():
         u[:], u[driven], u[0] = 0.0, -last, move
         stage = ramp(scene, 1, travel=(0.0, STEP))
         state_, space_ = by_reference(state), by_reference(space)
-        march._begin_share(problem, stage, state_, space_, descent, progress)
+        allowed = tolerances(case, scene, stage)
+        march._begin_share(problem, allowed, stage, state_, space_, descent, progress)
         return space.work.dx.copy(), u.copy(), scene.terms.coordinates
 
     return set_out

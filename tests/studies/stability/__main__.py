@@ -1,7 +1,8 @@
-"""Simulate the scenes of `configs/extreme.toml` under observation, and count what became of them.
+"""Simulate stiff and extreme scenes under observation, and count what became of them.
 
-python -m tests.studies.stability FOLDER: the table is printed and written there, with a
-line a scene.
+They are those of `configs/extreme.toml`, lattices that move by integrators of second order, and
+custom structures. python -m tests.studies.stability FOLDER: the table is printed and written there,
+with a line a scene.
 """
 
 import csv
@@ -18,15 +19,22 @@ from sweep.config.grid import expand
 from sweep.config.units import load_config
 from sweep.simulation.simulate import warm_up
 from tests.studies.stability.audit import audit
-from tests.studies.stability.draw import CONFIGS
+from tests.studies.stability.draw import CONFIGS, second_order
+from tests.studies.stability.structures import COUNT, structure_scene
 
 WORKERS = 2
+SECOND_ORDER = 100  # numbers of lattices that are drawn for integrators of second order
 ALL, VIOLATED, BALANCED = "all", "violated something", "steps balanced anew"
-KINDS = ("static crush", "crush in time", "dead load", "impact", ALL)
+KINDS = ("static crush", "crush in time", "dead load", "impact", "second order", "custom", ALL)
+SECOND = "bdf2", "newmark"
 
 
 def kind_of(case):
     """What is done to the lattice of a case, in words."""
+    if case.lattice.structure is not None:
+        return "custom"
+    if case.solver.integrator in SECOND:
+        return "second order"
     if case.loading.mode == "displacement":
         return "static crush" if case.loading.quasi_static else "crush in time"
     return {"force": "dead load", "impact": "impact"}[case.loading.mode]
@@ -56,14 +64,24 @@ def counted(cases, audits):
 
 def markdown(counts):
     """The table, a line of text each."""
-    rows = [("scenes that", *KINDS), ("---",) * 6]
+    rows = [("scenes that", *KINDS), ("---",) * (1 + len(KINDS))]
     rows += [(name, *(row[kind] for kind in KINDS)) for name, row in counts.items()]
     return [f"| {' | '.join(map(str, row))} |" for row in rows]
 
 
+def scenes():
+    """The cases of all scenes."""
+    lattices = (second_order(number) for number in range(SECOND_ORDER))
+    return [
+        *expand(load_config(CONFIGS / "extreme.toml")),
+        *(case for case in lattices if case is not None),
+        *(structure_scene(number) for number in range(COUNT)),
+    ]
+
+
 def main(folder):
     """Print the table; write it and what every scene did."""
-    cases = expand(load_config(CONFIGS / "extreme.toml"))
+    cases = scenes()
     with ProcessPoolExecutor(WORKERS, get_context("spawn"), warm_up) as pool:
         found = pool.map(audit, cases)
         audits = list(track(found, "scenes", len(cases), console=Console(stderr=True)))

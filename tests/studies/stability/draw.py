@@ -48,8 +48,8 @@ max_iterations = 500
 class Draws:
     """Random choices of one scene."""
 
-    def __init__(self, number):
-        self.rng = np.random.default_rng([SEED, number])
+    def __init__(self, number, seed=SEED):
+        self.rng = np.random.default_rng([seed, number])
 
     def one(self, *choices):
         """One of some values."""
@@ -78,6 +78,14 @@ def scene(number):
             return keys, case_of(keys)
         except ValidationError:
             continue
+
+
+def second_order(number):
+    """The case of a scene beyond `COUNT` that moves, by an integrator of second order; or none."""
+    keys, case = scene(COUNT + number)
+    if case.loading.quasi_static:
+        return None
+    return case_of(keys | {"solver.integrator": ("bdf2", "newmark")[number % 2]})
 
 
 def case_of(keys):

@@ -42,6 +42,7 @@ def stored(x, terms, x0):
     np.add.at(g, _coordinates(edges[:, 0]), -force)
     bending += _folding(x, terms.fold, g)
     elastic = np.abs(force).max()
+    stretching += _springs(x, terms.spring, g)
     touching, push = _walls(x, terms.contact, g)
     touching += _plates(x, terms.contact, g)
     return Stored(np.array([stretching, bending, touching]), g, max(elastic, push))
@@ -132,6 +133,19 @@ def _folding(x, fold, g):
         np.add.at(g, _coordinates(fold.nodes[:, node]), force)
         np.add.at(g, _coordinates(fold.nodes[:, 1]), -force)
     return np.sum(fold.stiffness * value)
+
+
+def _springs(x, spring, g):
+    """Energy of springs between two nodes."""
+    if len(spring.l0) == 0:
+        return 0.0
+    points = x[: 2 * (len(x) // 2)].reshape(-1, 2)
+    apart = points[spring.nodes[:, 1]] - points[spring.nodes[:, 0]]
+    d = np.hypot(*apart.T)
+    force = (spring.stiffness * (1.0 - spring.l0 / d))[:, None] * apart
+    np.add.at(g, _coordinates(spring.nodes[:, 1]), force)
+    np.add.at(g, _coordinates(spring.nodes[:, 0]), -force)
+    return 0.5 * np.sum(spring.stiffness * (d - spring.l0) ** 2)
 
 
 def _walls(x, contact, g):

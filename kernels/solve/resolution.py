@@ -1,0 +1,145 @@
+"""Whether a point at which Newton has converged is resolved well enough to be a step.
+
+The admissible residual is at least the force of the stiffest coordinate in the smallest move that
+positions resolve (`residual.allowed`), and that force has no bound. In a very short step inertia
+alone, m / h^2, makes any load admissible: the structure would stay where it is, and lose the
+momentum that the load gives it. A point is therefore a step only if
+
+    max |r| <= LARGEST_RESIDUAL F,   F: the largest force of this step and of all before,
+
+or if the energy that the residual can still release (twice the Newton decrement) and its work are
+small as compared with the energies of the run: this is the case of a stiff contact, or of a small
+element or opening. It is no excuse for a coordinate whose own inertia is not resolved, as the loss
+of momentum adds up from step to step.
+"""
+
+from kernels.compile.jit import jit_exact
+from kernels.solve.energy_book import LARGEST_IMBALANCE, largest_energy
+from kernels.solve.integrators import FIRST_SHARE
+from kernels.solve.problem import FREE
+from kernels.solve.residual import largest, tighten
+
+LARGEST_RESIDUAL = 1e-2  # as a share of the largest force
+TOLERATED = 1e-4  # residual that Newton may leave, as a share of the load, unless it is round-off
+SHARPEST = 0.0625  # of `Tolerance.resolution`, which is about 20 times the round-off of positions
+
+
+@jit_exact
+def largest_load(problem, factor, work):
+    """Return the largest dead load on a free coordinate, N."""
+    coordinates = problem.scene.coordinates
+    for i in range(work.trial.size):
+        work.trial[i] = factor * coordinates.load[i]
+    problem.reduce(work.trial, work.residual)
+    return largest(work.residual, coordinates)
+
+
+@jit_exact
+def _largest_mass(coordinates):
+    """Return the largest mass of a free coordinate, kg."""
+    mass = 0.0
+    for i in range(coordinates.mass.size):
+        if coordinates.role[i] == FREE:
+            mass = max(mass, coordinates.mass[i])
+    return mass
+
+
+@jit_exact
+def first_share(problem, tolerance, duration, factor, state, work):
+    """Return the share of a first step of ``duration``: `integrators.FIRST_SHARE`, or as much more
+    as the next share needs, of half the length h, to be resolved.
+    """
+    coordinates, momentum, share = problem.scene.coordinates, 0.0, FIRST_SHARE
+    load = largest_load(problem, factor, work)
+    for i in range(state.v.size):
+        momentum = max(momentum, coordinates.mass[i] * abs(state.v[i]))
+    unresolved = tolerance.resolution * _largest_mass(coordinates)
+    while share < 1.0:
+        h = 0.5 * share * duration
+        force = max(load, momentum / h)
+        if force == 0.0 or unresolved <= 0.5 * LARGEST_IMBALANCE * force * h * h:
+            break
+        share *= 2.0
+    return share
+
+
+@jit_exact
+def fit(tolerance, step, coordinates, load):
+    """Return the tolerance of a step, tightened to `TOLERATED` of the ``load`` (N).
+
+    Where inertia alone makes a larger residual than `LARGEST_RESIDUAL` admissible, the resolution
+    is tightened too, as far as the round-off of positions admits.
+    """
+    if load == 0.0:
+        return tolerance
+    limit, sharpness = 0.5 * LARGEST_RESIDUAL * load, 1.0
+    if step.dynamic:
+        unresolved = tolerance.resolution * _largest_mass(coordinates) / step.h**2
+        if unresolved > limit:
+            sharpness = max(limit / unresolved, SHARPEST)
+    return tighten(tolerance, min(1.0, TOLERATED * load / tolerance.force), sharpness)
+
+
+@jit_exact
+def is_coarse(tolerance, step, problem, load):
+    """Return whether inertia makes a considerable part of the ``load`` (N) unresolved.
+
+    No shorter step is resolved better.
+    """
+    unresolved = tolerance.resolution * _largest_mass(problem.scene.coordinates)
+    return step.dynamic and unresolved > LARGEST_IMBALANCE * load * step.h**2 > 0.0
+
+
+@jit_exact
+def is_tighter(one, other):
+    """Return whether one tolerance is tighter than the other, of which `fit` made it."""
+    return one.force < other.force or one.resolution < other.resolution
+
+
+@jit_exact
+def largest_force(problem, step, state, found, work):
+    """Return the largest force on a coordinate in the step ``found`` and all before, N.
+
+    Damping is left out: in a very short step it magnifies the round-off of positions.
+    """
+    lever, force = problem.scene.coordinates.lever, state.totals[0].force
+    force = max(force, largest_load(problem, step.factor, work))
+    for part in (found.elastic, found.friction):
+        for i in range(part.size):
+            force = max(force, abs(part[i]) * lever[i])
+    return force
+
+
+@jit_exact
+def _largest_inertia(coordinates, v, h):
+    """Return the largest force that stops a coordinate, of velocity ``v`` (n,), in h, N."""
+    force = 0.0
+    for i in range(v.size):
+        force = max(force, coordinates.mass[i] * abs(v[i]) / h)
+    return force
+
+
+@jit_exact
+def is_resolved(problem, step, tolerance, state, found, work, decrement):
+    """Return whether the residual of a step is small enough; it is if nothing moves the problem.
+
+    decrement: of Newton at the point, J.
+    """
+    coordinates, driving = problem.scene.coordinates, largest_load(problem, step.factor, work)
+    if step.dynamic and state.book[0].kinetic > tolerance.noise:
+        driving = max(driving, _largest_inertia(coordinates, state.v, step.h))
+    if driving == 0.0:
+        return True
+    force = max(driving, largest_force(problem, step, state, found, work))
+    limit, left, h2 = LARGEST_RESIDUAL * force, 2.0 * decrement, step.h * step.h
+    problem.reduce(found.g, work.residual)
+    if largest(work.residual, coordinates) <= limit:
+        return True
+    for i in range(state.x.size):
+        if coordinates.role[i] != FREE:
+            continue
+        heavy = step.dynamic and tolerance.resolution * coordinates.mass[i] > limit * h2
+        if heavy and abs(work.residual[i]) > limit:
+            return False
+        left += abs(work.residual[i] * (state.x[i] - step.x0[i]))
+    return left <= LARGEST_IMBALANCE * largest_energy(problem, step, state, found)

@@ -1,0 +1,122 @@
+"""What is loaded moves, however short its steps and small its load are, or the run says why not."""
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from kernels.compile.reference import by_reference
+from kernels.solve import newton, workspace
+from kernels.solve.problem import Step
+from sweep.config.case import Case, Lattice, Loading, Material, Solver
+from sweep.simulation.simulate import simulate
+from tests.kernels.solve.test_chain import TIGHT, WIDTH, line
+from tests.support.chain import Chain
+from tests.support.structures import APART, CLAMPED, UNDAMPED, probe, structure
+
+LENGTH, THICKNESS, DEPTH, DENSITY, ELEMENTS = 30.0, 2.0, 12.0, 1190.0, 6
+AREA = THICKNESS * DEPTH * 1e-6
+PIECE = 1e-3 * LENGTH / ELEMENTS
+STEPS = 50
+SCHEMES = {"newmark": 1e-2, "bdf2": 1e-2, "backward_euler": 5e-2}  # errors at `STEPS` steps
+
+
+def pulled(integrator, modulus=12e6, force=1.0, time_step=1e-6):
+    """A cantilever from rest, with a dead ``force`` (N) along itself."""
+    parts = {
+        "nodes_mm": [[0.0, 0.0], [LENGTH, 0.0]],
+        "walls": [[0, 1]],
+        "subdivide": ELEMENTS,
+        "wall_thickness_mm": THICKNESS,
+        "depth_mm": DEPTH,
+        "supports": [{"node": 0, "fix": CLAMPED}],
+        "loads": [{"node": 1, "force_N": [force, 0.0]}],
+        "probes": [1],
+    }
+    in_time = integrator in SCHEMES
+    steps = {"time_step": time_step} if in_time else {"load_steps": 40}
+    return Case(
+        lattice=Lattice(kind="custom", structure=structure(**parts)),
+        material=Material(modulus=modulus, density=DENSITY, poisson=0.48, plane="stress"),
+        loading=Loading(duration=STEPS * time_step) if in_time else Loading(),
+        contact=APART,
+        damping=UNDAMPED,
+        solver=Solver(integrator=integrator, **steps),
+    )
+
+
+def stretched(time, modulus=12e6, force=1.0):
+    """Displacement (m) of the end after a ``time``: the modes of six lumped masses on springs."""
+    n = ELEMENTS
+    stiffness = modulus * AREA / PIECE * (2.0 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1))
+    stiffness[-1, -1] *= 0.5
+    mass = DENSITY * AREA * PIECE * np.append(np.ones(n - 1), 0.5)
+    squares, modes = eigh(stiffness, np.diag(mass))
+    return np.sum(modes[-1] ** 2 * force / squares * (1.0 - np.cos(np.sqrt(squares) * time)))
+
+
+def end(result):
+    """Displacement (m) of the loaded end."""
+    return probe(result, 1, "x_m")[-1] - 1e-3 * LENGTH
+
+
+@pytest.mark.parametrize("integrator", SCHEMES)
+@pytest.mark.parametrize("modulus", [1.2e4, 12e6, 70e9])
+@pytest.mark.parametrize("force", [1e-2, 1.0, -1.0])
+@pytest.mark.parametrize("time_step", [1e-7, 1e-6])
+def test_a_cantilever_under_a_load_along_itself_moves(integrator, modulus, force, time_step):
+    """From rest, by the closed form, as long as a step is shorter than the fastest oscillation."""
+    fastest = 2.0 / PIECE * np.sqrt(modulus / DENSITY)  # rad/s
+    if fastest * time_step > 0.3:
+        time_step = 0.1 / fastest
+    result = simulate(pulled(integrator, modulus, force, time_step))
+    assert result.status == "converged", result.message
+    moved = stretched(STEPS * time_step, modulus, force)
+    assert end(result) == pytest.approx(moved, rel=SCHEMES[integrator], abs=1e-16)
+    assert np.all(np.diff(result.history["work_in_J"])[:5] > 0.0)
+    assert result.summary["newton_iterations"] < 4 * STEPS
+
+
+@pytest.mark.parametrize("integrator", SCHEMES)
+@pytest.mark.parametrize("time_step", [1e-12, 1e-10])
+def test_steps_too_short_for_round_off_are_a_failure(integrator, time_step):
+    """In 1e-10 s the end moves by 1e-16 m, which its position does not resolve."""
+    result = simulate(pulled(integrator, time_step=time_step))
+    assert result.status == "stopped"
+    assert "round-off" in result.message
+    assert len(result.history["time_s"]) < STEPS
+
+
+@pytest.mark.parametrize("integrator", ["static", "arc_length"])
+@pytest.mark.parametrize("force", [1e-5, 1.0])
+def test_a_small_load_is_borne_in_statics(integrator, force):
+    """However small it is beside Y I / L^2, 0.1 N: u = F L / (Y A)."""
+    result = simulate(pulled(integrator, force=force))
+    assert result.status == "converged", result.message
+    u = force * 1e-3 * LENGTH / (12e6 * AREA)
+    assert end(result) == pytest.approx(u, rel=1e-3)
+
+
+@pytest.mark.parametrize("integrator", ["static", "arc_length"])
+def test_a_load_below_round_off_is_a_failure_in_statics(integrator):
+    """1e-12 N move the end by 1e-20 m."""
+    result = simulate(pulled(integrator, modulus=70e9, force=1e-12))
+    assert result.status == "stopped"
+
+
+def test_the_residual_is_not_measured_by_an_old_factor():
+    """The last point of another step may have been very stiff: any force would be admissible."""
+    chain = line(1, load=1.0)
+    x0, zero = np.full(1, -WIDTH), np.zeros(1)
+    buffers = chain.make_buffers(np.empty((0, 0)))
+    buffers.diagonal[:] = 1e20
+    neighbours = chain.find_neighbours(x0)
+    problem = Chain(*(by_reference(part) for part in (chain, neighbours, buffers)))
+    step = Step(x0, x0.copy(), x0.copy(), 1.0, 1.0, False, 1.0, 0.5)
+    space, descent = workspace.make_workspace(1, 2), np.zeros(1, newton.DESCENT)[0]
+    x, descent.since_factor, space.work.dx[:] = x0.copy(), np.inf, zero
+    outcome = newton.minimise(
+        x, 0.0, problem, step, TIGHT, by_reference(space), descent, np.zeros(2, int), False
+    )
+    assert outcome == newton.CONVERGED
+    assert abs(space.found.g[0]) < 1e-10
+    assert x[0] > -WIDTH + 0.01
