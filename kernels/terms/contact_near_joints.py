@@ -41,15 +41,20 @@ UNLISTED = -1.0  # weight of an edge without a rule
 
 
 class Graph(NamedTuple):
-    """The network: coordinates x of the nodes at rest, edges (m, 2) of lengths l0 (m,), m. The
-    edges at node p, ascending, are incident[start[p]:start[p + 1]].
+    """The network: edges (m, 2) of lengths l0 (m,), m.
+
+    The edges at node p, ascending, are incident[start[p]:start[p + 1]], d of them; place (m, 2):
+    of an edge among those at its ends. At its node, corner[first[p] + d i + j] is tan(tau/2) -
+    tau/2 of the path along the edge at place i and then that at j.
     """
 
-    x: np.ndarray
     edges: np.ndarray
     l0: np.ndarray
     start: np.ndarray
     incident: np.ndarray
+    place: np.ndarray
+    first: np.ndarray
+    corner: np.ndarray
 
 
 class Paths(NamedTuple):
@@ -121,21 +126,44 @@ def _other(graph, k, p):
 
 
 @jit_exact
-def _half_turn(graph, k, p, following):
-    """Return tau / 2 of the path along edge ``k`` to node ``p``, then along ``following``."""
-    ux, uy, _ = direction(graph.x, _other(graph, k, p), p)
-    vx, vy, _ = direction(graph.x, p, _other(graph, following, p))
-    return 0.5 * math.atan2(ux * vy - uy * vx, ux * vx + uy * vy)
+def _corner(x, edges, k, p, following):
+    """Return tan(tau/2) - tau/2 of the path along edge ``k`` to node ``p``, then ``following``."""
+    before = edges[k, 0] + edges[k, 1] - p
+    after = edges[following, 0] + edges[following, 1] - p
+    ux, uy, _ = direction(x, before, p)
+    vx, vy, _ = direction(x, p, after)
+    half = 0.5 * math.atan2(ux * vy - uy * vx, ux * vx + uy * vy)
+    return math.tan(half) - half
+
+
+@jit_owning
+def _graph(x, n_nodes, edges, l0):
+    """Return the `Graph` of a network at rest at ``x``."""
+    start, incident = incidence(n_nodes, edges)
+    place, first = np.empty(edges.shape, np.int64), np.zeros(n_nodes + 1, np.int64)
+    for p in range(n_nodes):
+        first[p + 1] = first[p] + (start[p + 1] - start[p]) ** 2
+        for q in range(start[p], start[p + 1]):
+            k = incident[q]
+            place[k, 0 if edges[k, 0] == p else 1] = q - start[p]
+    corner, n = np.zeros(first[n_nodes]), 0
+    for p in range(n_nodes):
+        for q in range(start[p], start[p + 1]):
+            for r in range(start[p], start[p + 1]):
+                if q != r:
+                    corner[n] = _corner(x, edges, incident[q], p, incident[r])
+                n += 1
+    return Graph(edges, l0, start, incident, place, first, corner)
 
 
 @jit_exact
 def _corners(graph, paths, p, k):
     """Return c of the path to node ``p`` and on along edge ``k``, if it does not come along it."""
-    last, before = paths.last[p], paths.corners[p]
-    if k == last:
-        return before
-    half = _half_turn(graph, last, p, k)
-    return before + math.tan(half) - half
+    last = paths.last[p]
+    i = graph.place[last, 0 if graph.edges[last, 0] == p else 1]
+    j = graph.place[k, 0 if graph.edges[k, 0] == p else 1]
+    degree = graph.start[p + 1] - graph.start[p]
+    return paths.corners[p] + graph.corner[graph.first[p] + degree * i + j]
 
 
 @jit_exact
@@ -148,17 +176,13 @@ def _least_path(corners):
 def _longest_path(graph):
     """Return the largest D / t of paths that turn by no more than pi in all.
 
-    c grows faster than in proportion to the turn: all turns are as sharp as the sharpest.
+    c grows faster than in proportion to the turn: no such path has more than two turns as sharp as
+    the sharpest one, or as a right angle.
     """
-    sharpest = 0.0
-    for p in range(graph.start.size - 1):
-        for q in range(graph.start[p], graph.start[p + 1]):
-            for r in range(graph.start[p], q):
-                half = _half_turn(graph, graph.incident[q], p, graph.incident[r])
-                sharpest = max(sharpest, abs(half))
-    if sharpest == 0.0:
-        return _least_path(0.0)
-    return _least_path(0.5 * math.pi * (math.tan(sharpest) / sharpest - 1.0))
+    sharpest = 1.0 - 0.25 * math.pi
+    for c in graph.corner:
+        sharpest = max(sharpest, abs(c))
+    return _least_path(2.0 * sharpest)
 
 
 @jit_exact
@@ -256,7 +280,7 @@ def _reduced(graph, node_thickness, edge_thickness, tributary):
         np.full(n, np.inf), np.empty(n, np.int64), np.empty(n), np.empty(n, np.int64),
         np.empty(n, np.int64), np.zeros(n, np.bool_),
     )  # fmt: skip
-    size = 8 * n
+    size = 16 * n
     while True:
         found = Reduced(
             np.empty(size, np.int64), np.empty(size, np.int64), np.empty(size), np.empty(size),
@@ -324,8 +348,7 @@ def special_pairs(x, edges, l0, node_thickness, edge_thickness, tributary):
     Every segment that shares a vertex with such a pair has a rule too, so that vertices count once.
     """
     n, m = tributary.size, edges.shape[0]
-    start, incident = incidence(n, edges)
-    graph = Graph(x, edges, l0, start, incident)
+    graph = _graph(x, n, edges, l0)
     found = _reduced(graph, node_thickness, edge_thickness, tributary)
     start, order = grouped(found.node[: found.count[0]], n)
     reduced = start, order, found

@@ -154,7 +154,7 @@ MUTANTS = [
             "math.tan(half) - half",
             "math.tan(half) - math.tan(half)",
         ),
-        ("near joints: part in place of node", "length / moment)", "moment / length)"),
+        ("near joints: angle of no account", "math.hypot(path, t)", "path"),
         ("near joints: walls stressed at rest", "REST_SHARE = 0.9", "REST_SHARE = 1.1"),
         (
             "near joints: vertices not taken off",
