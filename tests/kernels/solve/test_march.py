@@ -139,10 +139,11 @@ def test_contact_energy_and_gap_are_those_of_all_pairs():
         assert state.stored[CONTACT] == pytest.approx(energy, rel=1e-12, abs=1e-18)
         ends, start = touch.edges[everything.edge], everything.d_contact
         listed = zip(everything.node, ends, start, strict=True)
-        gap = min(squared_distance(state.x, p, *ends) for p, ends, dc in listed if dc > 0.0) ** 0.5
+        gaps = [(squared_distance(state.x, p, *at) ** 0.5, dc) for p, at, dc in listed if dc > 0.0]
+        gap, _ = min(gaps)
+        assert (energy > 0.0) == any(d < dc for d, dc in gaps)
         if gap < touch.reach:
-            near += 1
-            assert energy > 0.0
+            near += energy > 0.0
             assert rows[-1].gap == pytest.approx(gap, rel=1e-12)
     assert near > 2
 

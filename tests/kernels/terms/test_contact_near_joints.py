@@ -88,34 +88,143 @@ def test_every_vertex_is_counted_once_by_its_heaviest_element(name, pieces):
     assert checked > 10 or pieces < 3
 
 
-def far_share(of, p, e, radius, samples=400):
-    """Tributary length of node ``p`` farther than ``radius`` along the network from ``e``."""
-    far = np.full(len(of.points), np.inf)
-    far[of.edges[e]] = 0.0
-    for _ in of.points:
-        for k, (a, b) in enumerate(of.edges):
-            far[a], far[b] = min(far[a], far[b] + of.l0[k]), min(far[b], far[a] + of.l0[k])
-    total = 0.0
+def excess(of, one, p, two):
+    """tan(tau/2) - tau/2 of the turn from element ``one`` to ``two`` at node ``p``."""
+    at = of.points @ [1.0, 1.0j]
+    before, after = (of.edges[k].sum() - p for k in (one, two))
+    turn = np.angle((at[after] - at[p]) / (at[p] - at[before]))
+    return np.tan(turn / 2) - turn / 2
+
+
+def paths(of, e):
+    """Of the shortest path from element ``e`` to every node: length, sum of excesses, last element;
+    by trying all.
+    """
+    found = {}
+
+    def walk(p, last, length, corners):
+        if p in found and length >= found[p][0]:
+            return
+        found[p] = length, corners, last
+        for k in np.flatnonzero(np.any(of.edges == p, axis=1)):
+            if k != last:
+                walk(of.edges[k].sum() - p, k, length + of.l0[k], corners + excess(of, last, p, k))
+
+    for p in of.edges[e]:
+        walk(p, e, 0.0, 0.0)
+    return found
+
+
+def far_part(of, p, e, t, samples=400):
+    """Tributary length of node ``p`` farther than D along the network from ``e``; its mean path."""
+    found, total, moment = paths(of, e), 0.0, 0.0
     for k in np.flatnonzero(np.any(of.edges == p, axis=1)):
-        other = of.edges[k].sum() - p
         s = (np.arange(samples) + 0.5) / samples * 0.5 * of.l0[k]
-        away = np.minimum(far[p] + s, far[other] + of.l0[k] - s)
-        total += 0.5 * of.l0[k] * np.mean(away > radius)
-    return total
+        far, least = np.ones(samples, bool), np.full(samples, np.inf)
+        for v, along in ((p, s), (of.edges[k].sum() - p, of.l0[k] - s)):
+            length, corners, last = found[v]
+            corners += 0.0 if k == last else excess(of, last, v, k)
+            far &= length + along > t * (np.pi / 2 + abs(corners))
+            least = np.minimum(least, length + along)
+        total += 0.5 * of.l0[k] * np.mean(far)
+        moment += 0.5 * of.l0[k] * np.mean(far * least)
+    return total, moment / total if total > 0.0 else np.inf
 
 
 @pytest.mark.parametrize("of", [joint_of_four(), star(0, 30, 90, pieces=[1, 4, 9]), zigzag(5)])
-def test_weights_against_distances_along_the_network(of):
+def test_weights_and_distances_against_paths_along_the_network(of):
     touch = contact_of(of)
-    reduced = 0
+    reduced = shifted = 0
     for p in range(len(of.points)):
-        weight, _, _ = rules(touch, p)
+        weight, distance, _ = rules(touch, p)
         for e in np.flatnonzero(~np.any(of.edges == p, axis=1)):
-            radius = 1.5 * 0.5 * (touch.node_thickness[p] + touch.edge_thickness[e])
-            expected = far_share(of, p, e, radius)
+            t = 0.5 * (touch.node_thickness[p] + touch.edge_thickness[e])
+            expected, path = far_part(of, p, e, t)
             assert weight[e] == pytest.approx(expected, abs=2.0 * of.l0.max() / 400)
             reduced += expected < 0.99 * touch.tributary[p]
+            if 0.1 * touch.tributary[p] < expected < 0.99 * touch.tributary[p]:
+                starts = t * min(paths(of, e)[p][0], path) / np.hypot(path, t)
+                starts = starts if path < 5.0 * t else t
+                rest = least_distance(of, of.rest, p, [e])
+                shifted += rest >= starts
+                expected = starts if rest >= starts else 0.9 * rest
+                assert distance[e] == pytest.approx(expected, rel=1e-2)
     assert reduced > 10
+    assert shifted > 2
+
+
+@pytest.mark.parametrize("opening", [30.0, 60.0, 90.0, 120.0, 180.0])
+def test_faces_round_a_corner_touch_where_they_can_be_bent_to(opening):
+    """Where paths are longer than t (cot(g/2) + g/2), g the opening of the arms."""
+    of, half = star(0.0, opening, pieces=16), np.radians(opening) / 2
+    touch, h = contact_of(of), 4.0 / 16
+    least = T * (1 / np.tan(half) + half)
+    node = np.append(np.flatnonzero(of.points[:, 1] == 0.0)[2:], 1)  # along the first wall
+    for p in node:
+        s = of.points[p, 0]
+        expected = np.clip(s + h / 2 - (least - h * np.arange(16)), 0.0, h if s < 4.0 else h / 2)
+        found = rules(touch, p)[0][16:]
+        np.testing.assert_allclose(found, np.minimum(expected, touch.tributary[p]), atol=1e-12)
+
+
+@pytest.mark.parametrize("pieces", [2, 3, 7, 12, 30])
+@pytest.mark.parametrize("opening", [12.0, 45.0, 60.0, 90.0, 135.0])
+def test_what_touches_was_apart(opening, pieces):
+    """At rest, arms are apart by cos(g/2) + g/2 sin(g/2) times the distance of contact at least."""
+    of, half = star(0.0, opening, pieces=pieces), np.radians(opening) / 2
+    touch, least = contact_of(of), np.cos(half) + half * np.sin(half)
+    checked = 0
+    for p in range(len(of.points)):
+        weight, distance, _ = rules(touch, p)
+        for e in np.flatnonzero((weight > 0.0) & ~np.any(of.edges == p, axis=1)):
+            rest = least_distance(of, of.rest, p, [e])
+            assert rest > (1.0 - 1e-12) * least * distance[e]
+            checked += 1
+    assert checked > 3
+
+
+def folded(of, pieces, opening):
+    """State of a `star` of two walls after the second has turned rigidly to an ``opening``."""
+    x, turned = of.rest.copy(), of.edges[pieces:, 1]
+    away = np.linalg.norm(of.points[turned], axis=1)
+    x[2 * turned] = away * np.cos(opening)
+    x[2 * turned + 1] = away * np.sin(opening)
+    return x
+
+
+FIRST = 2 * np.arctan(1 / (1 + np.pi / 4))  # of a right angle: its faces touch at t (1 + pi/4) / 2
+
+
+def test_contact_of_a_closing_corner_converges():
+    """It is nothing at first, and energies are of the first order in the element at least."""
+    energies = []
+    for pieces in (12, 24, 48, 96):
+        of = star(0.0, 90.0, pieces=pieces)
+        touch = contact_of(of)
+        states = [folded(of, pieces, FIRST + np.radians(turn)) for turn in (1, -6, -30, -40)]
+        pairs = [near_pairs.find(x, touch, 2.0) for x in states]
+        found = [touch_of(touch, *at).energy(at[1]) for at in zip(pairs, states, strict=True)]
+        assert found[0] == 0.0
+        assert np.all(np.diff(found) >= 0.0)
+        energies.append(found[2:])
+    change = np.abs(np.diff(energies, axis=0)) / energies[-1]
+    assert np.all(change[2] < 0.04)
+    assert np.all(change[2] < 0.7 * change[1])
+
+
+@pytest.mark.parametrize("opening", [15.0, 25.0, 35.0, 50.0])
+def test_straight_arms_touch_about_as_far_as_their_faces_overlap(opening):
+    """Up to t / (2 tan(g/2)) along both arms in a solid. Here up to where s sin(g) = t_c."""
+    of, g = star(0.0, 90.0, pieces=96), np.radians(opening)
+    touch, x = contact_of(of), folded(of, 96, g)
+    listed = near_pairs.find(x, touch, 2.0)
+    found = contact.no_contacts(listed)
+    contact.detect(x, touch, listed, 0.0, found)
+    kept = found.pair[: found.count[0]][found.end[: found.count[0]] < 0]
+    farthest = np.linalg.norm(of.points[listed.node[kept]], axis=1).max()
+    path = T * np.sqrt(np.tan(g / 2) ** -2 - 1)
+    assert farthest * (1 + np.cos(g)) == pytest.approx(path, abs=2.5 * 4.0 / 96)
+    assert 0.97 < farthest / (0.5 * T / np.tan(g / 2)) < 1.1
 
 
 def test_a_pair_near_at_rest_starts_at_nine_tenths_of_its_distance():
@@ -193,9 +302,9 @@ def test_a_node_that_slides_along_a_wall_is_counted_once(seed, rise):
     assert len(met) > 7
 
 
-def least_distance(of, x, p):
+def least_distance(of, x, p, elements=None):
     a, b = (x[: 2 * len(of.points)].reshape(-1, 2)[of.edges[:, side]] for side in (0, 1))
     u, w = b - a, x[2 * p : 2 * p + 2] - a
     tau = np.clip(np.sum(u * w, axis=1) / np.sum(u * u, axis=1), 0, 1)
     away = np.linalg.norm(w - tau[:, None] * u, axis=1)
-    return away[~np.any(of.edges == p, axis=1)].min()
+    return away[~np.any(of.edges == p, axis=1) if elements is None else elements].min()

@@ -150,7 +150,12 @@ MUTANTS = [
     ),
     *_of(
         f"{TERMS}/contact_near_joints.py",
-        ("near joints: farther counts less", "radius - near_end)", "near_end - radius)"),
+        (
+            "near joints: corners of no account",
+            "math.tan(half) - half",
+            "math.tan(half) - math.tan(half)",
+        ),
+        ("near joints: angle of no account", "math.hypot(path, t)", "path"),
         ("near joints: walls stressed at rest", "REST_SHARE = 0.9", "REST_SHARE = 1.1"),
         (
             "near joints: vertices not taken off",
