@@ -8,7 +8,7 @@ from tests.studies.continuum.grid import Grid
 from tests.studies.continuum.joint import coefficients, spared
 from tests.studies.continuum.network import Network, thick_law
 from tests.studies.continuum.press import Press, StuckError, factor
-from tests.studies.continuum.rubber import Rubber
+from tests.studies.continuum.rubber import DeepRubber, Rubber
 from tests.studies.continuum.solid import Solid
 from tests.studies.continuum.strip import energy, moment, softening
 
@@ -44,6 +44,19 @@ def test_rubber_is_free_across_and_its_slopes_are_derivatives(poisson):
     assert (ahead - behind) / (2.0 * step) == pytest.approx(p, rel=1e-7)
     ahead, behind = rubber.pressure(logs + step)[0], rubber.pressure(logs - step)[0]
     assert (ahead - behind) / (2.0 * step) == pytest.approx(second, rel=1e-6, abs=1e-9)
+
+
+def test_deep_rubber_has_slopes_that_are_derivatives_and_the_modulus_of_plane_strain():
+    rubber, logs, step = DeepRubber(12.0, 0.3), np.linspace(-1.0, 1.0, 5), 1e-5
+    p, second = rubber.pressure(logs)
+    ahead, behind = rubber.energy(2.0, logs + step), rubber.energy(2.0, logs - step)
+    assert (ahead - behind) / (2.0 * step) == pytest.approx(p, rel=1e-7)
+    ahead, behind = rubber.pressure(logs + step)[0], rubber.pressure(logs - step)[0]
+    assert (ahead - behind) / (2.0 * step) == pytest.approx(second)
+    strain = 1e-4
+    along, beside = 1.0 + strain, 1.0 - strain * 0.3 / 0.7
+    stored = rubber.energy(along**2 + beside**2, np.log(along * beside))
+    assert stored == pytest.approx(0.5 * 12.0 / (1.0 - 0.3**2) * strain**2, rel=1e-3)
 
 
 def test_rubber_is_hooke_at_small_strain():
