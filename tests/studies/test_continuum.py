@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from skfem import MeshQuad
 
+from tests.studies.continuum.arms import ARMS, Joint
 from tests.studies.continuum.grid import Grid
 from tests.studies.continuum.joint import coefficients, spared
 from tests.studies.continuum.network import Network, thick_law
@@ -177,6 +178,31 @@ def test_elastic_joint_spares_the_same_whatever_poissons_ratio():
     assert rubber[0] == pytest.approx(cork[0], rel=0.02)
     assert rubber[2] > cork[2] + 0.05
     assert spared(8, 0.48) == pytest.approx(0.515, rel=0.04)
+
+
+@pytest.mark.parametrize(
+    ("kind", "shears"), [("X", 1 / 2), ("T", 1 / 3), ("L", 0.0), ("Y", 3**-0.5)]
+)
+def test_arms_of_joints_are_linear_in_poissons_ratio(kind, shears):
+    """The terms that hold it are integrals over the rim, hence round numbers."""
+    cork, middle, rubber = (Joint(kind, 4, poisson).sway() for poisson in (0.0, 0.2, 0.4))
+    assert middle == pytest.approx(0.5 * (cork + rubber), abs=4e-3)
+    assert (rubber - cork) / 0.4 == pytest.approx([0.0, -1.2, shears], abs=0.02)
+
+
+@pytest.mark.parametrize("kind", ARMS)
+def test_arms_yield_the_same_however_long(kind, monkeypatch):
+    short = Joint(kind, 4, 0.3).sway()
+    monkeypatch.setattr("tests.studies.continuum.arms.LENGTH", 3.0)
+    assert Joint(kind, 4, 0.3).sway() == pytest.approx(short, abs=0.02)
+
+
+def test_arms_of_joints_are_as_measured():
+    """Moment with moment, moment with shear, shear with shear; finer meshes agree to 0.01."""
+    assert Joint("X", 8, 0.0).sway() == pytest.approx([-1.544, -1.689, 0.868], abs=0.02)
+    assert Joint("T", 8, 0.0).sway() == pytest.approx([-1.757, -1.215, 0.286], abs=0.02)
+    assert Joint("L", 8, 0.0).sway() == pytest.approx([-1.443, -1.182, 0.052], abs=0.02)
+    assert Joint("Y", 8, 0.0).sway() == pytest.approx([-0.701, -0.981, 0.088], abs=0.02)
 
 
 def test_thick_strip_softens_as_it_bends():
