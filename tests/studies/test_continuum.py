@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from skfem import MeshQuad
 
+from tests.studies.continuum.arms import ARMS, Joint
 from tests.studies.continuum.grid import Grid
 from tests.studies.continuum.joint import coefficients, spared
 from tests.studies.continuum.network import Network, thick_law
 from tests.studies.continuum.press import Press, StuckError, factor
-from tests.studies.continuum.rubber import Rubber
+from tests.studies.continuum.rubber import DeepRubber, Rubber
 from tests.studies.continuum.solid import Solid
 from tests.studies.continuum.strip import energy, moment, softening
 
@@ -44,6 +45,19 @@ def test_rubber_is_free_across_and_its_slopes_are_derivatives(poisson):
     assert (ahead - behind) / (2.0 * step) == pytest.approx(p, rel=1e-7)
     ahead, behind = rubber.pressure(logs + step)[0], rubber.pressure(logs - step)[0]
     assert (ahead - behind) / (2.0 * step) == pytest.approx(second, rel=1e-6, abs=1e-9)
+
+
+def test_deep_rubber_has_slopes_that_are_derivatives_and_the_modulus_of_plane_strain():
+    rubber, logs, step = DeepRubber(12.0, 0.3), np.linspace(-1.0, 1.0, 5), 1e-5
+    p, second = rubber.pressure(logs)
+    ahead, behind = rubber.energy(2.0, logs + step), rubber.energy(2.0, logs - step)
+    assert (ahead - behind) / (2.0 * step) == pytest.approx(p, rel=1e-7)
+    ahead, behind = rubber.pressure(logs + step)[0], rubber.pressure(logs - step)[0]
+    assert (ahead - behind) / (2.0 * step) == pytest.approx(second)
+    strain = 1e-4
+    along, beside = 1.0 + strain, 1.0 - strain * 0.3 / 0.7
+    stored = rubber.energy(along**2 + beside**2, np.log(along * beside))
+    assert stored == pytest.approx(0.5 * 12.0 / (1.0 - 0.3**2) * strain**2, rel=1e-3)
 
 
 def test_rubber_is_hooke_at_small_strain():
@@ -164,6 +178,31 @@ def test_elastic_joint_spares_the_same_whatever_poissons_ratio():
     assert rubber[0] == pytest.approx(cork[0], rel=0.02)
     assert rubber[2] > cork[2] + 0.05
     assert spared(8, 0.48) == pytest.approx(0.515, rel=0.04)
+
+
+@pytest.mark.parametrize(
+    ("kind", "shears"), [("X", 1 / 2), ("T", 1 / 3), ("L", 0.0), ("Y", 3**-0.5)]
+)
+def test_arms_of_joints_are_linear_in_poissons_ratio(kind, shears):
+    """The terms that hold it are integrals over the rim, hence round numbers."""
+    cork, middle, rubber = (Joint(kind, 4, poisson).sway() for poisson in (0.0, 0.2, 0.4))
+    assert middle == pytest.approx(0.5 * (cork + rubber), abs=4e-3)
+    assert (rubber - cork) / 0.4 == pytest.approx([0.0, -1.2, shears], abs=0.02)
+
+
+@pytest.mark.parametrize("kind", ARMS)
+def test_arms_yield_the_same_however_long(kind, monkeypatch):
+    short = Joint(kind, 4, 0.3).sway()
+    monkeypatch.setattr("tests.studies.continuum.arms.LENGTH", 3.0)
+    assert Joint(kind, 4, 0.3).sway() == pytest.approx(short, abs=0.02)
+
+
+def test_arms_of_joints_are_as_measured():
+    """Moment with moment, moment with shear, shear with shear; finer meshes agree to 0.01."""
+    assert Joint("X", 8, 0.0).sway() == pytest.approx([-1.544, -1.689, 0.868], abs=0.02)
+    assert Joint("T", 8, 0.0).sway() == pytest.approx([-1.757, -1.215, 0.286], abs=0.02)
+    assert Joint("L", 8, 0.0).sway() == pytest.approx([-1.443, -1.182, 0.052], abs=0.02)
+    assert Joint("Y", 8, 0.0).sway() == pytest.approx([-0.701, -0.981, 0.088], abs=0.02)
 
 
 def test_thick_strip_softens_as_it_bends():

@@ -8,10 +8,10 @@ from skfem import MeshQuad
 CROWDING = 1.5  # exponent: stress is singular at the inner corners of the joints
 
 
-def crowded(pieces):
+def crowded(pieces, crowding=CROWDING):
     """Ends of the pieces of a unit length, which are shorter towards both of its ends."""
     from_middle = np.linspace(-1.0, 1.0, pieces + 1)
-    return 0.5 + 0.5 * np.sign(from_middle) * (1.0 - (1.0 - np.abs(from_middle)) ** CROWDING)
+    return 0.5 + 0.5 * np.sign(from_middle) * (1.0 - (1.0 - np.abs(from_middle)) ** crowding)
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,10 @@
-"""Compressible neo-Hookean rubber in plane stress.
+"""Compressible neo-Hookean rubber in plane stress, and in plane strain.
 
     W = mu/2 (F : F + s - 3) - mu ln J + lambda/2 (ln J)^2,    J = det F sqrt(s),
 
 F (2, 2) in the plane, s the squared stretch across it, which makes W least:
-mu (s - 1) + lambda ln J = 0. With L = ln det F, dW/dL at that s is p = -mu s.
+mu (s - 1) + lambda ln J = 0. With L = ln det F, dW/dL at that s is p = -mu s. In plane
+strain s is 1.
 """
 
 from dataclasses import dataclass
@@ -53,3 +54,15 @@ class Rubber:
         """Slope p = dW/dL and dp/dL in MPa."""
         s = self.across(logarithm)
         return -self.mu * s, self.mu * s * self.lame / (self.mu * s + 0.5 * self.lame)
+
+
+class DeepRubber(Rubber):
+    """The same in plane strain: dW/dL is p = lambda L - mu."""
+
+    def across(self, logarithm):
+        """No stretch."""
+        return np.ones_like(logarithm)
+
+    def pressure(self, logarithm):
+        """Slope p = dW/dL and dp/dL in MPa."""
+        return self.lame * logarithm - self.mu, np.full_like(logarithm, self.lame)
