@@ -7,6 +7,7 @@ argument cannot be used.
 import argparse
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -207,6 +208,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     arguments = parser().parse_args(argv)
     from sweep.cli import verbs
 
+    warnings.formatwarning = lambda message, *_: f"crumple: {message}\n"  # without a place in ours
     sys.stdout = sys.stdout or os.fdopen(_nowhere(), "w")  # None if the caller closed it
     sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # ASCII has no dash
     try:

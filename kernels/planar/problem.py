@@ -85,7 +85,7 @@ def make_buffers(scene, memory):
     m = scene.stretch.l0.size
     shape, stiffness = _zero_shape(m)
     frame = np.full((m, 3), np.inf)  # far off: the first step renews it
-    before = Before(frame, shape, stiffness)
+    before = Before(frame, shape, np.zeros(m), stiffness)
     shape, stiffness = _zero_shape(m)
     resultants = Resultants(np.zeros((3, m)), np.zeros((6, m)))
     return Buffers(before, shape, resultants, stiffness, np.zeros(1, potential.LEAST), memory)

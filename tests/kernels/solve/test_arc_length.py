@@ -38,7 +38,7 @@ def case_of(parts, arcs=200, contact="none", **solver):
 
 
 def test_truss_follows_its_closed_form_through_both_limit_points():
-    result = finished(case_of(TRUSS | {"subdivide": 1}, arc_length=1e-3))
+    result = finished(case_of(TRUSS | {"subdivide": 1}, arc_length=1e-3, element="classical"))
     factor, height = result.history["load_factor"], probe(result, 1, "y_m")
     force = truss_force(height)
     np.testing.assert_allclose(4e-3 * AXIAL * factor, force, atol=1e-9 * AXIAL)
@@ -61,7 +61,7 @@ def test_frame_of_lee_snaps_back():
     first, lowest, farthest = np.argmax(factor[:100]), np.argmin(factor), np.argmax(sunk[:120])
     assert 0 < first < farthest < lowest < len(factor) - 1
     assert 20.0 * factor[first] == pytest.approx(18.55, rel=1e-3)
-    assert 20.0 * factor[lowest] == pytest.approx(-9.3, abs=0.1)
+    assert 20.0 * factor[lowest] == pytest.approx(-9.42, abs=0.02)
     assert sunk[farthest : lowest - 5].min() < sunk[farthest] - 0.08 * 0.12
     modes = result.history["unstable_modes"]
     assert not modes[:first].any()

@@ -108,7 +108,7 @@ def dropped(model="position_based", force=15.0, time_step=2e-4, duration=0.016):
         loading=Loading(force=force, release_time=0.75 * duration, duration=duration),
         contact=Contact(model=model, friction=0.0),
         damping=Damping(),
-        solver=Solver(time_step=time_step),
+        solver=Solver(time_step=time_step, element="classical"),
     )
 
 

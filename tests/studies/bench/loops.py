@@ -36,10 +36,11 @@ def _condense(terms, neighbours, stiffness):
         span = slice(solver.row_start[w], solver.row_start[w + 1])
         rows, own = solver.rows[span], solver.own[span]
         first, last = terms.walls.start[w], terms.walls.start[w + 1]
-        condense.fill(first, last, w, stiffness, rows, solver.outer)
+        condense.fill(first, last, stiffness, rows, solver.outer)
         failed += condense.eliminate(
-            rows, own, own, solver.outer, terms.layout.scale, block_ldlt.ROUNDED
-        )[0]
+            rows, terms.layout.inner[span], solver.matrix.diagonal, own, solver.outer,
+            terms.layout.scale, block_ldlt.ROUNDED,
+        )[0]  # fmt: skip
     return failed
 
 
@@ -50,6 +51,7 @@ def repeat(which, count, x, dx, most, problem, step, found, ones):
     """
     terms, neighbours, buffers = problem.scene, problem.neighbours, problem.buffers
     shape, stiffness, before = buffers.shape, buffers.stiffness, buffers.before
+    resultants = buffers.resultants
     memory = Memory(buffers.committed, step.duration)
     total, walls, matrix, b = 0.0, terms.walls, neighbours.system.matrix, found.material
     for _ in range(count):
@@ -64,21 +66,21 @@ def repeat(which, count, x, dx, most, problem, step, found, ones):
             total += problem.covers(x, most)
             total += problem.step_limit(x, dx, most)
         elif which == SHAPE:
-            total += elements.measure(x, walls, shape)
-            total += bend.turns(x, walls, terms.bend, before.frame, shape)
+            total += elements.measure(x, walls, before.frame, shape)
             elements.clear(shape, stiffness)
+            elements.add(resultants, True, False, shape, stiffness)
             elements.gather(walls, shape, found.elastic)
         elif which == STRETCH:
-            total += stretch.evaluate(terms.stretch, terms.law, memory, shape, stiffness, False)
+            total += stretch.evaluate(terms.stretch, terms.law, memory, shape, resultants, False)
         elif which == BEND:
-            total += bend.evaluate(walls, terms.bend, memory, shape, stiffness, False)
+            total += bend.evaluate(terms.bend, memory, shape, resultants, False)
         elif which == FOLD:
             total += fold.evaluate(x, terms.fold, found.elastic)[0]
         elif which == INERTIA:
             total += inertia.evaluate(x, step.x_pred, terms.coordinates.mass, step.h, found.elastic)
         elif which == DAMP:
             total += damping.evaluate(
-                found.u, terms, before, step.h, shape, stiffness, False, found.material
+                found.u, terms, before, step.h, shape, resultants, stiffness, False, found.material
             )
         elif which == CONTACT:
             total += contact.evaluate(

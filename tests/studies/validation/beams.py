@@ -112,6 +112,6 @@ PROBLEMS = (
     Problem("beam rolled up by a moment: width", rolled, 1.0 / np.pi, "circle"),
     Problem("hinged column: buckling load", critical(False), shortened(False), EULER),
     Problem("clamped column: buckling load", critical(True), shortened(True), EULER),
-    Problem("hinged column at 1.5 of that: bow", bent(False), bent_exactly(False), RODS),
+    Problem("hinged column at 1.5 of that: bow", bent(False), bent_exactly(False), RODS, (2, 4, 8)),
     Problem("clamped column at 1.5 of that: bow", bent(True), bent_exactly(True), RODS),
 )

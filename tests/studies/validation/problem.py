@@ -28,9 +28,9 @@ class Problem:
     value: Callable[[int], float]
     truth: float | Callable[[], float]
     source: str
-    meshes: tuple[int, int, int] = (16, 32, 64)
-    order: int = 2
-    within: float = 1e-3
+    meshes: tuple[int, int, int] = (4, 8, 16)
+    order: int = 4
+    within: float = 1e-4
 
 
 @dataclass(frozen=True)

@@ -24,10 +24,6 @@ UNFIT = {
         'solver.step_error = "1 um": does not fit; allowed: none unless solver.integrator is'
         ' "backward_euler", "bdf2" or "newmark"'
     ),
-    '[lattice]\nnodes_per_wall = 0\n[material]\nbend = "section"': (
-        'material.bend = "section": does not fit; allowed: "linear" if lattice.nodes_per_wall is 0'
-        ' and solver.hinges "exact_beam"'
-    ),
     '[material]\nbend = "none"\n[loading]\nstrain = 0.5': (
         'material.bend = "none": does not fit; allowed: "linear" or "section" if solver.integrator'
         ' is "static"'

@@ -34,7 +34,7 @@ def density(result, name):
     return result.history[name] / (result.summary["width_m"] * result.summary["height_m"])
 
 
-CRUSHES = {"hex": 0.15, "kagome": 0.08, "reentrant": 0.12}  # thickness / pitch
+CRUSHES = {"hex": 0.2, "kagome": 0.08, "reentrant": 0.12}  # thickness / pitch
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])
@@ -45,9 +45,10 @@ def test_it_does_not_matter_where_the_period_is_cut(kind, friction):
     one, other = (cut_at(case, cut) for cut in ((0.0, 0.0), (0.37 * L, 0.61 * L)))
     assert is_sound(one)
     assert one.history["contact_J"][-1] > 1e-4 * one.history["stretch_J"][-1]
+    most = np.abs(one.history["work_in_J"]).max()
+    within = 1e-4 * most if friction else 1e-6 * most  # rounding decides which of two walls sticks
     for name in ("work_in_J", "contact_J", "dissipated_friction_J"):
-        most = np.abs(one.history["work_in_J"]).max()
-        np.testing.assert_allclose(other.history[name], one.history[name], rtol=0, atol=1e-6 * most)
+        np.testing.assert_allclose(other.history[name], one.history[name], rtol=0, atol=within)
 
 
 @pytest.mark.parametrize("kind", CRUSHES)

@@ -41,7 +41,7 @@ def test_the_solver_knows_who_leads_and_where_walls_are(platen, elements):
     n = len(mesh.points)
     assert layout.n_nodes == n
     places = zip(layout.point, layout.slot, strict=True)
-    pairs = [(p, s) for p in range(n) for s in (0, 1)] + [(p, 2) for p in range(16)]
+    pairs = [(p, s) for p in range(n) for s in (0, 1)] + [(p, 2) for p in range(n)]
     assert list(places) == [*pairs, (n, 0), (n, 0)]
     np.testing.assert_array_equal(layout.first, np.flatnonzero(layout.slot == 0)[:n])
     assert layout.driven == scene.terms.coordinates.driven
@@ -51,9 +51,10 @@ def test_the_solver_knows_who_leads_and_where_walls_are(platen, elements):
     for w in range(24):
         chain = walls.edges[walls.start[w] : walls.start[w + 1]]
         expected[chain[1:, 0]] = w
-        if elements > 1:
-            assert layout.inner[w] == 2 * chain[0, 1]
-            np.testing.assert_array_equal(np.diff(chain[:-1, 1]), 1)
+        inside = chain[:-1, 1]
+        inner = np.column_stack([2 * inside, 2 * inside + 1, 2 * n + inside])
+        found = layout.inner.reshape(24, elements - 1, 3)[w]
+        np.testing.assert_array_equal(found, inner)
         ends = np.array([chain[0, 0], chain[-1, 1]])
         outer = np.column_stack([2 * ends, 2 * ends + 1, 2 * len(mesh.points) + ends])
         np.testing.assert_array_equal(layout.outer[w], outer.ravel())
@@ -63,9 +64,9 @@ def test_the_solver_knows_who_leads_and_where_walls_are(platen, elements):
 
 def test_rotations_are_scaled_by_the_length_of_an_element():
     scene = scene_of(3)
-    scale, nodes = scene.terms.coordinates.scale, 2 * len(scene.mesh.points)
-    np.testing.assert_allclose(scale[nodes:-2], WALL / 3, rtol=1e-12)
-    np.testing.assert_array_equal(np.delete(scale, np.arange(nodes, nodes + 16)), 1.0)
+    scale, n = scene.terms.coordinates.scale, len(scene.mesh.points)
+    np.testing.assert_allclose(scale[2 * n : 3 * n], WALL / 3, rtol=1e-12)
+    np.testing.assert_array_equal(np.delete(scale, np.arange(2 * n, 3 * n)), 1.0)
     np.testing.assert_allclose(scene.terms.coordinates.lever * scale, 1.0, rtol=1e-15)
 
 
