@@ -12,8 +12,8 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test stock mutants verify validate continuum accuracy bars stability \
-        bench experiment figures lint clean
+.PHONY: help setup sweep rank test stock mutants verify validate continuum accuracy bars spread \
+        stability bench experiment figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -63,6 +63,9 @@ accuracy: setup  ## tell error against run time; tables and figures go to result
 
 bars: setup  ## measure whether error bars cover the error; kept in results/bars/ (10 min)
 	@$(PYTHON) -m tests.studies.bars results/bars
+
+spread: setup  ## measure how much columns move with mesh, imperfection, steps; kept in results/spread/
+	@$(PYTHON) -m tests.studies.spread results/spread
 
 stability: setup  ## crush 500 stiff and extreme scenes and look for violations; goes to results/stability/
 	@$(PYTHON) -m tests.studies.stability results/stability

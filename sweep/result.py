@@ -25,7 +25,15 @@ MODEL_VERSION = 3
 
 HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones again"
 
-OLDER: dict[str, float | int | str] = {"model_version": 1, "git_revision": ""}
+OLDER: dict[str, float | int | str] = {
+    "model_version": 1,
+    "git_revision": "",
+    "absorbed_energy_until_packed_J": nan,
+    "peak_force_until_packed_N": nan,
+    "packing_strain": nan,
+    "packing_span": nan,
+    "plateau_stress_iso_Pa": nan,
+}
 """Values of columns that rows of older versions do not have.
 
 A new column must be added here: NaN, or "" for text. Otherwise older files cannot be ranked.
@@ -105,6 +113,12 @@ COLUMNS: dict[str, Column] = {
     "absorbed_energy_at_densification_J": Column(
         "J", "work done until densification; all of it if there is no densification", "more"
     ),
+    "absorbed_energy_until_packed_J": Column(
+        "J",
+        "work done so far, mean over strains of nearly the greatest efficiency; all of it unless "
+        "the mode is displacement",
+        "more",
+    ),
     "absorbed_energy_within_model_J": Column(
         "J",
         "work done until an element is shorter than 0.7 of its rest length; all of it if none is",
@@ -129,10 +143,24 @@ COLUMNS: dict[str, Column] = {
         "mean nominal stress from about 5 % strain to densification or the end; NaN for dead loads",
         "more",
     ),
+    "plateau_stress_iso_Pa": Column(
+        "Pa",
+        "mean nominal stress from 20 to 40 % strain (ISO 13314); NaN for dead loads and shorter "
+        "crushes",
+        "more",
+    ),
     "densification_strain": Column(
         "1",
         "strain of greatest efficiency; NaN if the efficiency still rises, and for dead loads",
         "more",
+    ),
+    "packing_strain": Column(
+        "1", "mean of the strains of nearly the greatest efficiency; NaN for dead loads", "more"
+    ),
+    "packing_span": Column(
+        "1",
+        "from the first to the last strain with an efficiency within 2 % of the greatest; if it is "
+        "long, densification_strain is uncertain; NaN for dead loads",
     ),
     "efficiency": Column(
         "1", "greatest ratio of work per volume to peak stress so far; NaN for dead loads", "more"
@@ -145,6 +173,12 @@ COLUMNS: dict[str, Column] = {
     ),
     "peak_force_at_densification_N": Column(
         "N", "greatest force on a platen or support until densification or release", "less"
+    ),
+    "peak_force_until_packed_N": Column(
+        "N",
+        "greatest force on a platen or support so far, mean over strains of nearly the greatest "
+        "efficiency; of the whole loading unless the mode is displacement",
+        "less",
     ),
     "peak_strain": Column("1", "greatest top displacement / height", "less"),
     "peak_deceleration_m_per_s2": Column(
@@ -253,7 +287,7 @@ FRAME_COLUMNS: dict[str, Column] = {
 
 PROBE = re.compile(r"probe_(\d+)_(.+)_(m|rad|N|Nm)")
 ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
-PER_GRAM = re.compile(r"specific_absorption_at_(.+)_J_per_g")
+PER_GRAM = re.compile(r"specific_absorption_((?:at|until)_.+)_J_per_g")
 ERROR = re.compile(r"^error_(.+)")
 
 
@@ -298,7 +332,7 @@ def describe_column(name: str) -> Column:
         meaning = f"work done until a force of {match[1]} N is exceeded; all of it if it never is"
         return Column("J", meaning, "more")
     if match := PER_GRAM.fullmatch(name):
-        return Column("J/g", f"energy absorbed at {match[1]} / mass", "more")
+        return Column("J/g", f"energy absorbed {match[1].replace('_', ' ')} / mass", "more")
     return Column(_unit_of_key(name), f"grid key {name}")
 
 

@@ -1,8 +1,8 @@
 """The merit of a design: its counted energy, in all, per gram, and for a panel of specimens.
 
-Energy is counted until densification, or until the force exceeds the allowed force. Beyond
-densification a lattice absorbs energy as a solid block does, at a multiple of the force, whatever
-its infill. Where the loading sets the energy, the columns of `LEAST` are compared instead.
+Energy is counted until the lattice has packed, or until the force exceeds the allowed force. A
+packed lattice absorbs energy as a solid block does, at a multiple of the force, whatever its
+infill. Where the loading sets the energy, the columns of `LEAST` are compared instead.
 
 A panel consists of specimens side by side, of outer width w and depth b:
 factor = panel area / (w b),  panel mass = factor mass,  panel energy = factor energy.
@@ -30,6 +30,10 @@ used up.
 """
 
 WHOLE_CRUSH = ("absorbed_energy_J", "specific_absorption_J_per_g")
+AT_DENSIFICATION = (
+    "absorbed_energy_at_densification_J",
+    "specific_absorption_at_densification_J_per_g",
+)
 ROUND_OFF = 1e-9
 
 
@@ -128,8 +132,11 @@ def _counted(
         return energy, finished["peak_force_N"].clip(upper=limit), until
     if by in WHOLE_CRUSH:
         return "absorbed_energy_J", finished["peak_force_N"], "to the end of the stroke"
-    packed = finished["peak_force_at_densification_N"]
-    return "absorbed_energy_at_densification_J", packed, "until densification"
+    if by in AT_DENSIFICATION:
+        force = finished["peak_force_at_densification_N"]
+        return AT_DENSIFICATION[0], force, "until densification"
+    force = finished["peak_force_until_packed_N"]
+    return "absorbed_energy_until_packed_J", force, "until the lattice has packed"
 
 
 def _energy_column(frame: DataFrame, force: float) -> str:

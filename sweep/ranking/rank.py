@@ -89,9 +89,10 @@ def rank(
     panel : the two lengths (m, or text with a unit) of the area that the specimens fill.
     by : column to sort by, the better values first (`Column.better`); a column without better
         values is refused. Default: under a dead load the least strain, under a striker the least
-        force on the support (`merit.LEAST`). Otherwise the greatest energy absorbed until
-        densification if a budget or a panel is given, else the greatest energy per gram. With
-        `absorbed_energy_J` or `specific_absorption_J_per_g`, energy is counted to full stroke.
+        force on the support (`merit.LEAST`). Otherwise the greatest energy absorbed until the
+        lattice has packed if a budget or a panel is given, else the greatest energy per gram. With
+        `absorbed_energy_J` or `specific_absorption_J_per_g`, energy is counted to full stroke, with
+        `absorbed_energy_at_densification_J` or the same per gram to the greatest efficiency.
     top : number of designs listed for each scene and budget; None lists all.
     allowed_force : count energy only up to this force (N, or text) of one specimen; this needs the
         column `absorbed_energy_at_..N_J`.

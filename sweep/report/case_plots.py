@@ -83,7 +83,7 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     bottom = history["reaction_bottom_N"]
     if np.abs(bottom - force).max() > 0.02 * np.abs(force).max():
         ax.plot(strain, bottom, color=GREY, lw=1.0, zorder=1, label="on the support")
-    _plateau(ax, row)
+    _until_packed(ax, row)
     ax.set(xlabel="strain, %", ylabel="force, N")
     ax.set_title(headline(row), loc="left", fontsize="medium")
     ax.set(xlim=(0.0, 1.02 * strain.max()), ylim=(min(0.0, force[down].min()), None))
@@ -94,20 +94,20 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     plain(ax, top=True)
 
 
-def _plateau(ax: Axes, row: Mapping[str, Any]) -> None:
-    """The plateau force up to densification or full stroke, with the energy until densification."""
-    area = row["outer_width_m"] * row["depth_m"]
-    plateau, packed = area * row["plateau_stress_Pa"], 100.0 * row["densification_strain"]
-    if row["loading_mode"] != "displacement" or np.isnan(plateau):
+def _until_packed(ax: Axes, row: Mapping[str, Any]) -> None:
+    """The mean force until the lattice has packed, with the energy; the area below is that energy.
+
+    If the efficiency still rises at full stroke, the lattice has not packed.
+    """
+    strain, energy = row["packing_strain"], row["absorbed_energy_until_packed_J"]
+    if row["loading_mode"] != "displacement" or not strain > 0.0:
         return
-    packs = np.isfinite(packed)
-    end = packed if packs else 100.0 * row["peak_strain"]
-    energy = _energy(row["absorbed_energy_at_densification_J"], row)
-    words = f"packed at {packed:.0f} %, until then\n{energy}" if packs else "not packed"
-    stairs = [0.0, end, end], [plateau, plateau, 0.0]
-    ax.plot(
-        *stairs, color="black", lw=1.0, ls=":", label=f"plateau {three_digits(plateau)} N,\n{words}"
-    )
+    mean, end = energy / (strain * row["height_m"]), 100.0 * strain
+    packs = np.isfinite(row["densification_strain"])
+    words = f"packed at {end:.0f} %, until then\n{_energy(energy, row)}" if packs else "not packed"
+    stairs = [0.0, end, end], [mean, mean, 0.0]
+    label = f"mean force {three_digits(mean)} N,\n{words}"
+    ax.plot(*stairs, color="black", lw=1.0, ls=":", label=label)
 
 
 def _energy(joules: float, row: Mapping[str, Any]) -> str:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of one specimen."
 CRUSHED = "peak: greatest force of one specimen. Peak and energy are counted {until}."
 WHOLE = """\
-pack: strain of densification, at which the lattice has packed down.
+pack: strain at which the lattice has packed down: mean over those of nearly the best efficiency.
 back: returned energy / work of the whole crush; this energy is stored, not dissipated."""
 LOADED = "sink: greatest strain under the load, including its swing."
 STRUCK = """\
@@ -34,6 +34,10 @@ BEYOND = """\
 !: beyond the model: an element is shorter than 0.7 of its rest length, or the lattice is compressed
 to less than its solid height. Do not trust this result."""
 NO_PLACE = "No design has a place here."
+LONG_SPAN = 0.1  # of strain
+UNSURE = """\
+~: packs at two strains, or slowly: the efficiency is within 2 % of the greatest over more than 10 %
+of strain, and pack is a mean over it."""
 EARLY = ">: at least: the crush ended before that force was reached; a longer one absorbs more."
 CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
 
@@ -109,6 +113,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             notes=(
                 *((BEYOND,) if rows["beyond_model"].any() else ()),
                 *((CROSSED,) if rows["crossed"].any() else ()),
+                *((UNSURE,) if "~" in "".join(columns.get("pack %", ())) else ()),
                 *((EARLY,) if _stops_early(rows, ranking).any() else ()),
                 *_cut_off(rows),
                 *_not_shown(placed),
@@ -254,7 +259,7 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
         shown |= {ranking.energy, ranking.per_gram}
         if not ranking.limited:
             columns |= _whole(rows)
-            shown |= {"densification_strain", "returned_share"}
+            shown |= {"packing_strain", "returned_share"}
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
         if "ranked_error" in rows:
@@ -295,14 +300,19 @@ def _stops_early(rows: DataFrame, ranking: Ranking) -> Series:
 
 def _whole(rows: DataFrame) -> dict[str, Series]:
     """Columns about the whole crush."""
-    packed = rows["densification_strain"]
+    packed = rows["densification_strain"].notna() | rows["peak_strain"].isna()
+    unsure = _unsure(rows).map({True: "~", False: ""})
     return {
-        "pack %": packed.map(percent).where(
-            packed.notna() | rows["peak_strain"].isna(),
-            rows["peak_strain"].map(lambda strain: f"> {percent(strain)}"),
+        "pack %": (rows["packing_strain"].map(percent) + unsure).where(
+            packed, rows["peak_strain"].map(lambda strain: f"> {percent(strain)}")
         ),
         "back %": rows["returned_share"].map(percent),
     }
+
+
+def _unsure(rows: DataFrame) -> Series:
+    """True for lattices that have nearly the greatest efficiency over a long span of strain."""
+    return rows["packing_span"] > LONG_SPAN
 
 
 def _varies(frame: DataFrame, *names: str) -> bool:

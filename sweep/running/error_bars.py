@@ -33,14 +33,17 @@ from sweep.store.read import ONLY_MISSING, Rerun, exists, finished_ids, read_sum
 from sweep.store.write import Writer
 
 FEWEST = 3  # elements per wall of the mesh of a companion
-PEAKS = ("peak_force_N", "peak_force_at_densification_N")
+PEAKS = ("peak_force_N", "peak_force_at_densification_N", "peak_force_until_packed_N")
 HEADLINE = (
     "absorbed_energy_J",
     "absorbed_energy_at_densification_J",
+    "absorbed_energy_until_packed_J",
     "returned_energy_J",
     "specific_absorption_J_per_g",
     "plateau_stress_Pa",
+    "plateau_stress_iso_Pa",
     "densification_strain",
+    "packing_strain",
     "efficiency",
     *PEAKS,
     "peak_strain",

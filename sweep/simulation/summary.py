@@ -2,11 +2,12 @@
 
 import numpy as np
 
-from sweep.config.case import Case, Lattice
+from sweep.config.case import Case
 from sweep.design.network import mass, relative_density
 from sweep.result import absorbed_energy_column, design_columns
 from sweep.scene.mesh import Floats
 from sweep.scene.terms import Scene
+from sweep.simulation.packing import efficiency, packed_row, span, weights
 from sweep.simulation.shape_checks import (
     Frames,
     crossings,
@@ -37,8 +38,17 @@ BOOK = {
 }
 DISSIPATED = ("dissipated_material_J", "dissipated_friction_J", "dissipated_integrator_J")
 TOUCHING = ("contact_J", "injected_by_projection_J")
-PLATEAU = ("plateau_stress_Pa", "densification_strain", "efficiency")
-PLATEAU_START = 0.05  # strain where the average over the plateau starts
+OF_A_CRUSH = (
+    "plateau_stress_Pa",
+    "plateau_stress_iso_Pa",
+    "densification_strain",
+    "packing_strain",
+    "packing_span",
+    "efficiency",
+)
+ROUND_OFF = 1e-9
+PLATEAU_START = 0.05  # strain where the mean up to densification starts
+ISO_13314 = (0.2, 0.4)  # strains between which the standard takes the mean
 
 
 def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
@@ -74,38 +84,24 @@ def absorbed_until(force: float, transmitted: Floats, work: Floats) -> float:
     return float(work[k - 1] + share * (work[k] - work[k - 1]))
 
 
-def efficiency(stress: Floats, work_density: Floats) -> Floats:
-    """Energy-absorption efficiency: work density / largest stress so far, (rows,).
+def plateau_stress(strain: Floats, density: Floats, row: int) -> float:
+    """Mean stress (Pa) from about 5 % strain, or from half of a shorter crush, to a row.
 
-    Its maximum marks densification (Miltz & Gruenbaum 1981; Li, Magkiriadis & Harrigan 2006).
+    strain and density (work per volume, Pa): (rows,).
     """
-    largest = np.maximum.accumulate(np.abs(stress))
-    safe = np.where(largest > 0, largest, 1.0)
-    return np.where(largest > 0, work_density / safe, 0.0)
-
-
-def plateau(
-    lattice: Lattice, strain: Floats, force: Floats, work: Floats
-) -> tuple[int, dict[str, float]]:
-    """The row of densification, and the columns `PLATEAU` there.
-
-    At densification the efficiency is greatest. If it is greatest in the last row, the efficiency
-    may still rise: then that row is returned, and the densification strain is NaN.
-
-    strain, force (N), work (J): (rows,), of the way down.
-    """
-    area = lattice.outer_size[0] * lattice.depth
-    stress, density = force / area, work / (area * lattice.height)
-    gained = efficiency(stress, density)
-    best, last = int(np.argmax(gained)), len(strain) - 1
-    packs = 0 < best < last
-    row = best if packs else last
     begun = int(np.searchsorted(strain, min(PLATEAU_START, 0.5 * strain[row])))
-    mean = np.nan
-    if strain[row] > strain[begun]:
-        mean = (density[row] - density[begun]) / (strain[row] - strain[begun])
-    packed = strain[row] if packs else np.nan
-    return row, dict(zip(PLATEAU, map(float, (mean, packed, gained[row])), strict=True))
+    if strain[row] <= strain[begun]:
+        return np.nan
+    return float((density[row] - density[begun]) / (strain[row] - strain[begun]))
+
+
+def iso_plateau_stress(strain: Floats, density: Floats) -> float:
+    """Mean stress (Pa) from 20 to 40 % strain (ISO 13314); NaN if the crush is shorter."""
+    start, end = ISO_13314
+    if strain[-1] < end - ROUND_OFF:
+        return np.nan
+    work = np.interp(ISO_13314, strain, density)
+    return float((work[1] - work[0]) / (end - start))
 
 
 def summarise(
@@ -156,19 +152,44 @@ def transmitted(case: Case, history: dict[str, Floats]) -> Floats:
 
 
 def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
-    """Columns from the force-displacement curve of the loading; a dead load has no plateau."""
-    strain, work, force = loading["strain"], loading["work_in_J"], transmitted(case, loading)
-    row, found = len(strain) - 1, dict.fromkeys(PLATEAU, np.nan)
+    """Columns from the force-displacement curve of the loading; only a crush can pack."""
+    work, force = loading["work_in_J"], transmitted(case, loading)
+    row, share = len(work) - 1, np.eye(len(work))[-1]
+    found = dict.fromkeys(OF_A_CRUSH, np.nan)
     if case.loading.mode == "displacement":
-        row, found = plateau(case.lattice, strain, loading["reaction_top_N"], work)
+        row, share, found = packing_columns(case, loading)
+    peak = np.maximum.accumulate(force)
     found |= {
         "absorbed_energy_at_densification_J": float(work[row]),
-        "peak_force_at_densification_N": float(force[: row + 1].max()),
+        "absorbed_energy_until_packed_J": float(share @ work),
+        "peak_force_at_densification_N": float(peak[row]),
+        "peak_force_until_packed_N": float(share @ peak),
     }
     return found | {
         absorbed_energy_column(allowed): absorbed_until(allowed, force, work)
         for allowed in case.loading.allowed_forces
     }
+
+
+def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats, dict[str, float]]:
+    """The row of densification, the `weights` of the rows, and the columns `OF_A_CRUSH`.
+
+    Without densification the row is the last one.
+    """
+    area = case.lattice.outer_size[0] * case.lattice.depth
+    strain, density = loading["strain"], loading["work_in_J"] / (area * case.lattice.height)
+    gained = efficiency(loading["reaction_top_N"] / area, density)
+    packed, share = packed_row(gained), weights(strain, gained)
+    row = len(strain) - 1 if packed is None else packed
+    values = (
+        plateau_stress(strain, density, row),
+        iso_plateau_stress(strain, density),
+        np.nan if packed is None else strain[row],
+        share @ strain,
+        span(strain, gained),
+        gained[row],
+    )
+    return row, share, dict(zip(OF_A_CRUSH, map(float, values), strict=True))
 
 
 def shape_columns(

@@ -208,7 +208,7 @@ def quick_armor(tmp_path_factory):
 
 
 def is_quick(case):
-    lattice, thin = case.lattice, case.lattice.wall_thickness < 1e-3
+    lattice, thin = case.lattice, case.lattice.wall_thickness < 1.3e-3
     return case.loading.platen == "glued" and lattice.cells_x <= (3 if thin else 2)
 
 

@@ -31,6 +31,8 @@ _DEFAULTS = {
     "absorbed_energy_J": 0.05,
     "peak_force_N": 20.0,
     "densification_strain": 0.55,
+    "packing_strain": 0.54,
+    "packing_span": 0.02,
     "touched": 1,
     "max_crossings": 0,
     "cpu_s": 2.0,
@@ -40,10 +42,10 @@ _DEFAULTS = {
 
 CRUSHED_SOLID = {
     "absorbed_energy_J": 0.9,
-    "absorbed_energy_at_densification_J": 0.2,
+    "absorbed_energy_until_packed_J": 0.2,
     "absorbed_energy_within_model_J": 0.5,
     "peak_force_N": 900.0,
-    "peak_force_at_densification_N": 30.0,
+    "peak_force_until_packed_N": 30.0,
     "returned_energy_J": 0.81,
 }
 SPARSE = {"absorbed_energy_J": 0.3, "returned_energy_J": 0.285, "densification_strain": np.nan}
@@ -60,9 +62,10 @@ def summary(*rows):
     full = [{"case_id": f"{next(ids):016x}"} | _DEFAULTS | dict(row) for row in rows]
     for row in full:
         row["specific_absorption_J_per_g"] = row["absorbed_energy_J"] / row["mass_g"]
-        for name in ("absorbed_energy_at_densification_J", "absorbed_energy_within_model_J"):
-            row.setdefault(name, row["absorbed_energy_J"])
-        row.setdefault("peak_force_at_densification_N", row["peak_force_N"])
+        for point in ("at_densification", "until_packed", "within_model"):
+            row.setdefault(f"absorbed_energy_{point}_J", row["absorbed_energy_J"])
+        for point in ("at_densification", "until_packed"):
+            row.setdefault(f"peak_force_{point}_N", row["peak_force_N"])
     names = dict.fromkeys([*COLUMNS, *(name for row in full for name in row)])
     return pd.DataFrame({name: [row.get(name, 0.0) for row in full] for name in names})
 

@@ -3,6 +3,7 @@
 import pandas as pd
 import pytest
 
+from sweep.ranking.merit import AT_DENSIFICATION
 from sweep.ranking.rank import rank, ranked
 from sweep.report.sheets import legend, ranking_sheets
 from tests.support.specimens import CRUSHED_SOLID, SPARSE, designs, ids, summary
@@ -82,13 +83,22 @@ def test_energy_counts_up_to_the_allowed_force():
     packed = ranked(table, by="densification_strain", allowed_force="50 N")
     (sheet,) = ranking_sheets(packed, table)
     assert sheet.heads[-1] == "densification_strain"
-    strong = table.assign(peak_force_N=80.0, peak_force_at_densification_N=30.0)
+    strong = table.assign(peak_force_N=80.0, peak_force_until_packed_N=30.0)
     assert list(rank(strong, allowed_force="50 N")["passed_on_N"]) == [50.0, 50.0]
+
+
+def test_energy_counts_until_the_greatest_efficiency_if_asked():
+    row = {"absorbed_energy_at_densification_J": 0.1, "peak_force_at_densification_N": 7.0}
+    for by in AT_DENSIFICATION:
+        ranking = ranked(summary(row, {}), by=by)
+        assert (ranking.by, ranking.energy) == (by, "absorbed_energy_at_densification_J")
+        assert (ids(ranking.table), ranking.until) == ([0, 1], "until densification")
+        assert list(ranking.table["passed_on_N"]) == [7.0, 20.0]
 
 
 def test_energy_counts_until_the_lattice_has_packed_down():
     ranking = ranked(summary(CRUSHED_SOLID, SPARSE), budget="2 g")
     assert ids(ranking.table) == [1, 0]
-    assert ranking.energy == "absorbed_energy_at_densification_J"
+    assert ranking.energy == "absorbed_energy_until_packed_J"
     assert list(ranking.table["passed_on_N"]) == [25.0, 30.0]
     assert not ranking.table["beyond_model"].any()

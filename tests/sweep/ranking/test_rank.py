@@ -18,7 +18,7 @@ def test_best_per_gram_comes_first():
     ranking = ranked(summary(*designs([1.0, 2.0, 4.0], [0.10, 0.30, 0.40])))
     assert ids(ranking.table) == [1, 0, 2]
     assert list(ranking.table["place"]) == [1, 2, 2]
-    assert ranking.by == "specific_absorption_at_densification_J_per_g"
+    assert ranking.by == "specific_absorption_until_packed_J_per_g"
     assert set(ranking.table["ranked_by"]) == {ranking.by}
 
 
@@ -152,8 +152,8 @@ def test_attrs_of_the_table_still_say_what_else_is_known():
     assert rank(table, **asked).attrs == {
         "mass": "panel_mass_g",
         "energy": "panel_energy_J",
-        "per_gram": "specific_absorption_at_densification_J_per_g",
-        "until": "until densification",
+        "per_gram": "specific_absorption_until_packed_J_per_g",
+        "until": "until the lattice has packed",
         "limited": False,
         "by": "panel_energy_J",
         "cases": 4,

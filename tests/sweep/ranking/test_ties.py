@@ -18,9 +18,9 @@ def with_bars(energies, errors, **common):
     """Designs of 1 g with these energies (mJ) and error bars."""
     rows = designs([1.0] * len(energies), [1e-3 * energy for energy in energies], **common)
     for row, error in zip(rows, errors, strict=True):
-        for name in ("absorbed_energy_J", "absorbed_energy_at_densification_J"):
+        for name in ("absorbed_energy_J", "absorbed_energy_until_packed_J"):
             row[f"error_{name}"] = 1e-3 * error
-        row["error_peak_force_at_densification_N"] = row["error_peak_force_N"] = 0.5
+        row["error_peak_force_until_packed_N"] = row["error_peak_force_N"] = 0.5
     return rows
 
 

@@ -22,10 +22,10 @@ def row():
             "wall_thickness_m": T,
             "outer_width_m": 10e-3 + T,
             "stroke_m": 4e-3,
-            "plateau_stress_Pa": 0.2e6,
-            "densification_strain": 0.3,
+            "densification_strain": 0.31,
+            "packing_strain": 0.3,
             "absorbed_energy_J": 0.096,
-            "absorbed_energy_at_densification_J": 0.066,
+            "absorbed_energy_until_packed_J": 0.066,
             "returned_energy_J": 0.048,
             "peak_strain": 0.4,
         }
@@ -70,20 +70,21 @@ def test_way_down_and_way_back_are_told_apart(row):
     assert labels(ax)[1:3] == ["loading", "unloading,\nreturns 50 %"]
 
 
-def test_plateau_is_the_mean_force_up_to_densification(row):
+def test_the_area_below_the_mean_force_is_the_energy_until_packed(row):
     ax = axes_of(case_plots.force_displacement, there_and_back(), row)
     dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
     assert dotted.get_xdata()[-1] == pytest.approx(30.0)
-    assert dotted.get_ydata()[0] == pytest.approx(0.2e6 * 11e-3 * 10e-3)
-    assert labels(ax)[-1] == "plateau 22.0 N,\npacked at 30 %, until then\n66.0 mJ, 0.0660 J/g"
+    assert dotted.get_ydata()[0] == pytest.approx(0.066 / (0.3 * HEIGHT))
+    assert labels(ax)[-1] == "mean force 22.0 N,\npacked at 30 %, until then\n66.0 mJ, 0.0660 J/g"
 
 
-def test_plateau_without_densification_goes_to_the_stroke(row):
+def test_what_has_not_packed_is_told(row):
     never = row | {"densification_strain": np.nan}
     ax = axes_of(case_plots.force_displacement, there_and_back(), never)
-    dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
-    assert dotted.get_xdata()[-1] == pytest.approx(40.0)
-    assert labels(ax)[-1] == "plateau 22.0 N,\nnot packed"
+    assert labels(ax)[-1] == "mean force 22.0 N,\nnot packed"
+    older = row | {"packing_strain": np.nan, "absorbed_energy_until_packed_J": np.nan}
+    ax = axes_of(case_plots.force_displacement, there_and_back(), older)
+    assert ":" not in [line.get_linestyle() for line in ax.get_lines()]
 
 
 def test_dead_load_comes_and_goes_in_a_step(dead):

@@ -158,8 +158,8 @@ def test_winners_say_how_sure_they_are_and_whom_they_tie_with(ranking):
 
 def test_of_equal_winners_the_one_named_tells_its_own_error():
     rows = designs([1.0, 2.0], [0.3, 0.3])
-    error = "error_absorbed_energy_at_densification_J"
-    force = {"error_peak_force_at_densification_N": 0.0}
+    error = "error_absorbed_energy_until_packed_J"
+    force = {"error_peak_force_until_packed_N": 0.0}
     rows[0] |= {"case_id": "f" * 16, error: 0.01} | force
     rows[1] |= {"case_id": "0" * 16, error: 0.1} | force
     ((words, *_),) = winners(ranked(summary(*rows), top=None, budget="9 g"))

@@ -4,7 +4,7 @@ import pytest
 
 from sweep.ranking.rank import ranked
 from sweep.report.markdown import markdown
-from sweep.report.sheets import BEYOND, CROSSED, EARLY, LOADED, legend, ranking_sheets
+from sweep.report.sheets import BEYOND, CROSSED, EARLY, LOADED, UNSURE, legend, ranking_sheets
 from tests.support.specimens import CRUSHED_SOLID, SPARSE, designs, summary
 
 NAN = float("nan")
@@ -65,18 +65,28 @@ def test_a_scene_in_which_nothing_has_a_place_says_so():
 
 
 def test_what_comes_back_and_what_has_not_packed_is_told():
-    nowhere = {"densification_strain": NAN, "peak_strain": NAN}
+    nowhere = {"densification_strain": NAN, "packing_strain": NAN, "peak_strain": NAN}
     table = summary(CRUSHED_SOLID, SPARSE, SPARSE | nowhere)
     ranking = ranked(table)
     assert list(ranking.table["returned_share"]) == pytest.approx([0.95, 0.95, 0.9])
     (sheet,) = ranking_sheets(ranking, table)
     assert sheet.heads[-2:] == ["pack %", "back %"]
-    assert [row[-2:] for row in sheet.rows] == [["> 50", "95"], ["–", "95"], ["55", "90"]]
+    assert [row[-2:] for row in sheet.rows] == [["> 50", "95"], ["–", "95"], ["54", "90"]]
+
+
+def test_a_lattice_that_packs_at_two_strains_is_marked():
+    rising = {"packing_span": 0.21, "densification_strain": NAN, "peak_strain": 0.5}
+    table = summary({"packing_span": 0.21}, rising, {})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert [row[-2] for row in sheet.rows] == ["54~", "> 50", "54"]
+    assert UNSURE in sheet.notes
+    (sheet,) = ranking_sheets(ranked(table.iloc[2:]), table)
+    assert UNSURE not in sheet.notes
 
 
 def test_legend_explains_what_is_shown():
     crushed = summary({"absorbed_energy_at_50N_J": 0.1})
-    assert "are counted until densification" in legend(ranked(crushed))
+    assert "are counted until the lattice has packed" in legend(ranked(crushed))
     assert "are counted until the force exceeds 50 N" in legend(ranked(crushed, allowed_force=50.0))
     assert "are counted to the end of the stroke" in legend(ranked(crushed, by="absorbed_energy_J"))
     assert "sink" not in legend(ranked(crushed))

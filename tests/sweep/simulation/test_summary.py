@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Lattice, Loading
+from sweep.simulation.packing import efficiency
 from sweep.simulation.summary import (
+    OF_A_CRUSH,
     absorbed_until,
     crush_columns,
-    efficiency,
-    plateau,
     returned,
     transmitted,
 )
@@ -37,13 +37,18 @@ def curve(strain, force, work, **columns):
     return history | {"reaction_bottom_N": force} | columns
 
 
+def measured(strain, force, work):
+    """Columns of a crush."""
+    case = Case(lattice=LATTICE, loading=Loading(strain=0.6))
+    return crush_columns(case, curve(strain, force, work))
+
+
 FOAM = crushed([0.0, 0.1, 0.5, 0.6], [0.0, 10.0, 10.0, 50.0])
 """Rises to 10 N at 10 %, yields at 10 N to 50 %, then 4 N for each percent."""
 
 
 def test_plateau_of_a_foam():
-    row, found = plateau(LATTICE, *FOAM)
-    assert row == 500
+    found = measured(*FOAM)
     assert found["densification_strain"] == pytest.approx(0.5)
     # 0.5 x 10 N x 1 mm + 10 N x 4 mm = 45 mJ; stress 0.1 MPa; over 5 to 50 %: 45 - 1.25 mJ.
     assert found["efficiency"] == pytest.approx(45e-3 / (AREA * HEIGHT) / 0.1e6)
@@ -61,10 +66,10 @@ def test_energy_and_force_until_packed():
 
 def test_the_greatest_force_so_far_counts_even_where_the_curve_falls():
     """A peak of 20 N at 10 %, then 10 N: at 50 % 0.5 x 20 + 15 x 1 + 10 x 3 = 55 mJ."""
-    row, found = plateau(LATTICE, *crushed([0.0, 0.1, 0.2, 0.5, 0.6], [0, 20, 10, 10, 60]))
+    found = measured(*crushed([0.0, 0.1, 0.2, 0.5, 0.6], [0, 20, 10, 10, 60]))
     # 20 N are met again at 52 %: 55 mJ + 15 N x 0.2 mm
     assert found["densification_strain"] == pytest.approx(0.52)
-    assert row == 520
+    assert found["absorbed_energy_at_densification_J"] == pytest.approx(58e-3)
     assert found["efficiency"] == pytest.approx(58e-3 / 20.0 / HEIGHT)
 
 
@@ -93,17 +98,26 @@ def test_what_is_still_gaining_at_the_stroke_has_not_packed(strains, forces):
 
 
 def test_a_short_crush_averages_from_half_of_it():
-    _, found = plateau(LATTICE, *crushed([0.0, 0.04], [0.0, 8.0]))
+    found = measured(*crushed([0.0, 0.04], [0.0, 8.0]))
     assert found["plateau_stress_Pa"] == pytest.approx(6.0 / AREA)
+
+
+def test_the_plateau_of_the_standard_is_between_fixed_strains():
+    """14 N on average from 20 to 40 %, whatever comes before and after."""
+    curve = crushed([0.0, 0.1, 0.2, 0.3, 0.4, 0.6], [0, 30, 10, 18, 10, 90])
+    assert measured(*curve)["plateau_stress_iso_Pa"] == pytest.approx(14.0 / AREA)
+    whole = crushed([0.0, 0.4], [0.0, 40.0])
+    assert measured(*whole)["plateau_stress_iso_Pa"] == pytest.approx(30.0 / AREA)
+    short = (column[:-1] for column in whole)
+    assert np.isnan(measured(*short)["plateau_stress_iso_Pa"])
 
 
 def test_nothing_is_measured_on_one_row_or_without_force():
     still = np.zeros(1)
-    row, found = plateau(LATTICE, still, still, still)
-    assert row == 0
+    found = measured(still, still, still)
     assert np.isnan([found["plateau_stress_Pa"], found["densification_strain"]]).all()
     assert found["efficiency"] == 0.0
-    _, found = plateau(LATTICE, *crushed([0.0, 0.3], [0.0, 0.0]))
+    found = measured(*crushed([0.0, 0.3], [0.0, 0.0]))
     assert np.isnan(found["densification_strain"])
     assert (found["plateau_stress_Pa"], found["efficiency"]) == (0.0, 0.0)
 
@@ -111,10 +125,10 @@ def test_nothing_is_measured_on_one_row_or_without_force():
 def test_a_dead_load_has_no_plateau():
     case = Case(lattice=LATTICE, loading=Loading(force=50.0, allowed_forces=(20.0,)))
     found = crush_columns(case, curve(*FOAM))
-    measures = ("plateau_stress_Pa", "densification_strain", "efficiency")
-    assert np.isnan([found[name] for name in measures]).all()
-    assert found["absorbed_energy_at_densification_J"] == pytest.approx(FOAM[2][-1])
-    assert found["peak_force_at_densification_N"] == pytest.approx(50.0)
+    assert np.isnan([found[name] for name in OF_A_CRUSH]).all()
+    for point in ("at_densification", "until_packed"):
+        assert found[f"absorbed_energy_{point}_J"] == pytest.approx(FOAM[2][-1])
+        assert found[f"peak_force_{point}_N"] == pytest.approx(50.0)
 
 
 def test_absorbed_until_a_force():
