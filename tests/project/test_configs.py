@@ -32,7 +32,7 @@ def test_smoke_runs_from_end_to_end(tmp_path):
     assert set(table["git_revision"]) == {read_attributes(out)["git_revision"]}
     assert (abs(table["energy_residual_J"]) < 1e-6 * table["absorbed_energy_J"]).all()
     pinned = table.loc[(3, "displacement", "glued")]
-    assert 1e3 * pinned["absorbed_energy_J"] == pytest.approx(134.1, rel=1e-3)
+    assert 1e3 * pinned["absorbed_energy_J"] == pytest.approx(133.2, rel=1e-3)
     case_id = pinned["case_id"]
     assert read_history(out, case_id)["strain"].max() == pytest.approx(0.4)
     assert read_frames(out, case_id)["position_m"].shape[1:] == (64, 2)
@@ -42,9 +42,9 @@ def test_smoke_runs_from_end_to_end(tmp_path):
 @pytest.mark.parametrize(
     ("mode", "platen", "force", "energy"),
     [
-        ("displacement", "glued", None, 92.98),
-        ("displacement", "contact", None, 70.83),
-        ("force", "contact", 20.0, 175.0),
+        ("displacement", "glued", None, 86.92),
+        ("displacement", "contact", None, 68.33),
+        ("force", "contact", 20.0, 175.26),
     ],
 )
 def test_armor_holds_its_numbers(mode, platen, force, energy):
@@ -75,7 +75,7 @@ def infills():
 
 
 @pytest.mark.parametrize(
-    ("design", "energy"), [(("hex", "flat", 0), 162.5), (("diamond", None, 0), 102.2)]
+    ("design", "energy"), [(("hex", "flat", 0), 159.8), (("diamond", None, 0), 106.9)]
 )
 def test_infills_hold_their_numbers(design, energy):
     result = simulate(infills()[design])
@@ -106,7 +106,7 @@ def seed(model, hinges):
 
 @pytest.mark.parametrize(
     ("model", "hinges", "energy", "within"),
-    [("position_based", "classical", 122.0, 1e-2), ("barrier", "cubic", 132.3, 1e-3)],
+    [("position_based", "classical", 122.0, 1e-2), ("barrier", "cubic", 99.28, 1e-3)],
 )
 def test_seed_holds_its_numbers(model, hinges, energy, within):
     """What is moved apart in another order comes to rest a little elsewhere."""

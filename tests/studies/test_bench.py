@@ -239,10 +239,10 @@ def test_sweep_with_a_failure_is_no_figure(monkeypatch):
 
 def test_long_crush_says_when_it_has_packed(monkeypatch):
     monkeypatch.setattr(densify, "alone", lambda case: simulate(case).summary | {alone.MEMORY: 1.0})
-    table = densify.table(2, 0.6, 30)
-    assert full(table, ["to 60 % in 30 steps"])
+    table = densify.table(2, 0.75, 30)
+    assert full(table, ["to 75 % in 30 steps"])
     monkeypatch.setattr(densify, "alone", lambda case: {"status": "stopped", "message": "why"})
-    assert densify.table(2, 0.6, 30).texts["to 60 % in 30 steps", "CPU s"] == "why"
+    assert densify.table(2, 0.75, 30).texts["to 75 % in 30 steps", "CPU s"] == "why"
 
 
 def test_figure_draws_what_is_there():

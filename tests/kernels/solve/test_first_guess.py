@@ -54,7 +54,7 @@ def test_no_step_sets_out_as_a_snap_went(guess):
 
 
 def test_a_factor_outlives_the_list_of_pairs():
-    crush = Crush(3, cases.SMOOTH, (0.0, 0.1), 10)
+    crush = Crush(3, cases.SMOOTH, (0.0, 0.1), 40)
     calls, iterations = counts.counted(crush), crush.onwards()[0].iterations
     assert 1.0 < calls["list"] * iterations < crush.steps + 1.5
     assert calls["factor"] < 1.0

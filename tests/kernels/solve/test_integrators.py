@@ -52,13 +52,13 @@ def orders(cases, column):
     return slopes([np.sqrt(np.mean((b - a) ** 2)) for a, b in pairwise(seen)])
 
 
-def check_orders(case, integrator, steps, columns):
+def check_orders(case, integrator, steps, columns, atol=0.15):
     """case(steps): as many as ``steps`` and 2 and 4 times as many, or 8 times of first order."""
     finer = 4 // ORDERS[integrator]
     cases = [case(n * steps * finer) for n in (1, 2, 4)]
     for column in columns:
         found = orders(cases, column)
-        np.testing.assert_allclose(found, ORDERS[integrator], atol=0.15, err_msg=column)
+        np.testing.assert_allclose(found, ORDERS[integrator], atol=atol, err_msg=column)
 
 
 MOTION = ["probe_3_x_m", "probe_3_y_m", "probe_3_rotation_rad"]
@@ -106,7 +106,7 @@ def test_orders_of_contact_and_friction(integrator):
     columns = ["strain", "contact_J", "work_in_J"]
     check_orders(
         lambda steps: rubbed(steps, integrator),
-        integrator, STEPS_OF_A_PLATE[integrator], columns,
+        integrator, STEPS_OF_A_PLATE[integrator], columns, atol=0.2,
     )  # fmt: skip
 
 

@@ -46,7 +46,7 @@ def test_it_does_not_matter_where_the_period_is_cut(kind, friction):
     assert is_sound(one)
     assert one.history["contact_J"][-1] > 1e-4 * one.history["stretch_J"][-1]
     most = np.abs(one.history["work_in_J"]).max()
-    within = 1e-4 * most if friction else 1e-6 * most  # rounding decides which of two walls sticks
+    within = 1e-3 * most if friction else 1e-6 * most  # rounding decides which of two walls sticks
     for name in ("work_in_J", "contact_J", "dissipated_friction_J"):
         np.testing.assert_allclose(other.history[name], one.history[name], rtol=0, atol=within)
 
