@@ -1,6 +1,6 @@
 """Error against run time: a sweep over numerical settings, compared with an extrapolated reference.
 
-A method is a choice of settings without a size (integrator, hinges, contact model ...). It is
+A method is a choice of settings without a size (integrator, element, contact model ...). It is
 refined in time step, load steps or error of a step, and in elements per wall. Cases that differ in
 anything other than numerical settings belong to different scenes.
 """
@@ -203,8 +203,8 @@ def _merit(
 ) -> tuple[float, ...]:
     """Numbers that sort methods; the least is the reference.
 
-    Preferred are constant steps, refinement in all keys, high order, the barrier, exact-beam
-    hinges, a small tolerance and little doubt. Methods that agree in the first `EQUALS` numbers
+    Preferred are constant steps, refinement in all keys, high order, the barrier, cubic elements,
+    a small tolerance and little doubt. Methods that agree in the first `EQUALS` numbers
     should have the same limit.
     """
     steps_by_error = "solver.step_error" in finest and np.isfinite(finest["solver.step_error"])
