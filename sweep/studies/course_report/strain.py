@@ -45,7 +45,8 @@ def draw(folder: Path) -> tuple[str, ...]:
         f"{1e3 * HELD:.0f} ms the strain is {held}. "
         f"At the end all models are back at rest, to within a strain of {rests:.1e}.",
         "The phases are the same. Classical elements are softer and buckle earlier. The strain "
-        "under the load depends on sharp folds, which the tangent measure stiffens; contact by position "
-        "carries less load than the barrier. Three elements per wall do not resolve these folds: "
+        "under the load depends on sharp folds, which the tangent measure stiffens; contact by "
+        "position carries less load than the barrier. Three elements per wall do not resolve these "
+        "folds: "
         f"with nine, the strain of our model is {100 * at(fine, 'strain'):.1f} %.",
     )
