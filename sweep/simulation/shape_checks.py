@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from shapely import intersects, linestrings
 
 from kernels.geometry import crossing
+from kernels.terms.elements import Walls
+from kernels.terms.stretch import Stretch
 from sweep.design.area import covered_area
 
 Floats = NDArray[np.float64]
@@ -23,12 +25,21 @@ SQUEEZED = -0.3  # element strain below which the model does not hold
 CHUNK = 1 << 16  # pairs in one call of shapely
 
 
-def element_strains(frames: Frames) -> Floats:
-    """Nominal strain of every element in every stored shape, (f, m)."""
-    x, y = np.ascontiguousarray(frames["position_m"].T)
-    start, end = frames["edges"].T
-    length = np.sqrt((x[end] - x[start]) ** 2 + (y[end] - y[start]) ** 2).T
-    return length / length[0] - 1.0
+def element_strains(x: Floats, walls: Walls, stretch: Stretch) -> Floats:
+    """Nominal strain of every element in every stored shape, (f, m), that of its arc.
+
+    x (f, n): coordinates of the stored shapes.
+    """
+    ends = x[:, walls.dofs]
+    along = ends[..., 3:5] - ends[..., :2]
+    bearing = np.arctan2(along[..., 1], along[..., 0])
+    rest = np.arctan2(walls.rest[:, 1], walls.rest[:, 0])
+    one, two = (
+        np.remainder(bearing - rest - ends[..., phi] + np.pi, 2.0 * np.pi) - np.pi for phi in (2, 5)
+    )
+    same, mixed = stretch.arc
+    arc = same * (one**2 + two**2) + mixed * one * two
+    return np.asarray(np.hypot(*np.moveaxis(along, -1, 0)) / stretch.l0 - 1.0 + arc)
 
 
 def work_within_model(strains: Floats, stored: Floats, time: Floats, work: Floats) -> float:

@@ -22,6 +22,7 @@ from sweep.scene.mesh import Floats
 from sweep.scene.periodic import build_periodic
 from sweep.scene.terms import Scene
 from sweep.simulation.custom_history import structure_columns
+from sweep.simulation.shape_checks import element_strains
 from sweep.simulation.summary import BOOK, history_columns, summarise
 from sweep.simulation.time_limit import WATCH
 
@@ -70,7 +71,9 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
         curves = structure_columns(curves, run.probed[: run.done], scene, case)
         curves |= path_columns(run.arc, run.done)
     frames = run.frames()
-    summary = summarise(case, scene, curves, frames, run.loading_rows)
+    shapes = run.positions[: len(frames["time_s"])]
+    strains = element_strains(shapes, scene.terms.walls, scene.terms.stretch)
+    summary = summarise(case, scene, curves, frames, strains, run.loading_rows)
     case_id = case.case_id
     summary |= {
         "case_id": case_id,

@@ -11,7 +11,6 @@ from sweep.simulation.packing import efficiency, packed_row, span, weights
 from sweep.simulation.shape_checks import (
     Frames,
     crossings,
-    element_strains,
     kept_area,
     shortening,
     work_within_model,
@@ -105,9 +104,18 @@ def iso_plateau_stress(strain: Floats, density: Floats) -> float:
 
 
 def summarise(
-    case: Case, scene: Scene, history: dict[str, Floats], frames: Frames, loading_rows: int
+    case: Case,
+    scene: Scene,
+    history: dict[str, Floats],
+    frames: Frames,
+    strains: Floats,
+    loading_rows: int,
 ) -> dict[str, float | int | str]:
-    """Summary columns of a run. loading_rows: number of rows of the history that are loading."""
+    """Summary columns of a run.
+
+    strains (f, m): of the elements in the stored shapes. loading_rows: number of rows of the
+    history that are loading.
+    """
     curves = history | {"work_in_J": work_on_lattice(case, history)}
     loading = {name: column[:loading_rows] for name, column in curves.items()}
     grams = 1e3 * mass(scene.network, case.lattice.depth, case.material.density)
@@ -130,7 +138,7 @@ def summarise(
         "touched": int(any(np.any(history[name] != 0.0) for name in TOUCHING)),
         **impact_columns(case, scene, history),
         **crush_columns(case, loading),
-        **shape_columns(scene, frames, loading),
+        **shape_columns(scene, frames, strains, loading),
     }
 
 
@@ -193,10 +201,13 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
 
 
 def shape_columns(
-    scene: Scene, frames: Frames, loading: dict[str, Floats]
+    scene: Scene, frames: Frames, strains: Floats, loading: dict[str, Floats]
 ) -> dict[str, float | int]:
-    """Columns from the stored shapes, and the work done while the model holds."""
-    strains, network = element_strains(frames), scene.network
+    """Columns from the stored shapes, and the work done while the model holds.
+
+    strains (f, m): of the elements.
+    """
+    network = scene.network
     walls = np.concatenate([frames["edges"], scene.around])
     return {
         "residual_strain": shortening(frames, network.bottom, network.top),

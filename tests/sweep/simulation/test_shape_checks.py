@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 import shapely
 
+from kernels.terms.elements import Walls
+from kernels.terms.stretch import Stretch
 from sweep.simulation.shape_checks import (
     crossings,
     element_strains,
@@ -35,13 +37,34 @@ def scaled(x, y):
     return np.array(SQUARE) * [x, y]
 
 
+def strains_of(shapes, rotation=0.0, arc=(0.0, 0.0)):
+    """Strains of elements whose ends have all turned by ``rotation``, from the first shape on."""
+    edges, position = shapes["edges"], shapes["position_m"]
+    n = len(position[0])
+    turns = np.full((len(position), n), rotation)
+    x = np.hstack([position.reshape(len(position), -1), turns])
+    dofs = np.stack([2 * edges, 2 * edges + 1, 2 * n + edges], axis=-1).reshape(-1, 6)
+    along = position[0][edges[:, 1]] - position[0][edges[:, 0]]
+    length = np.linalg.norm(along, axis=1)
+    walls = Walls(edges, np.array([0, len(edges)]), along / length[:, None], dofs)
+    stretch = Stretch(length, length, np.tile(np.array(arc)[:, None], len(edges)), True)
+    return element_strains(x, walls, stretch)
+
+
 def test_strains_of_elements():
-    strains = element_strains(frames(SQUARE, scaled(1.25, 0.6)))
+    strains = strains_of(frames(SQUARE, scaled(1.25, 0.6)))
     assert strains == pytest.approx(np.array([[0.0] * 4, [0.25, -0.4, 0.25, -0.4]]))
 
 
+@pytest.mark.parametrize("turn", [0.3, -0.3, 2 * np.pi + 0.3])
+def test_strains_are_those_of_arcs(turn):
+    """Both ends turned against the chord by 0.3: 0.3^2 (2 c_s + c_m) longer, however often."""
+    strains = strains_of(frames(SQUARE), turn, (1 / 15, -1 / 30))
+    assert strains == pytest.approx(np.full((1, 4), 0.009))
+
+
 def within_model(shapes, time, work):
-    return work_within_model(element_strains(shapes), shapes["time_s"], time, work)
+    return work_within_model(strains_of(shapes), shapes["time_s"], time, work)
 
 
 def test_work_within_the_model_ends_where_an_element_is_squeezed_too_far():
