@@ -80,14 +80,14 @@ def between(cos_a, sin_a, cos_b, sin_b):
 
 @jit
 def renew_frame(x, walls, frame):
-    """Update ``frame`` (m, 3): direction at rest of every element rotated with its first node (cos,
-    sin), and phi of that node.
+    """Update ``frame`` (m, 3): direction at rest of every element rotated with its ends (cos, sin),
+    and the mean phi of both.
 
     Turns are measured from the frame, so that they never wrap. A frame within `NEAR_ENOUGH` of the
     present phi is kept.
     """
     for k in range(frame.shape[0]):
-        phi = x[walls.dofs[k, 2]]
+        phi = 0.5 * (x[walls.dofs[k, 2]] + x[walls.dofs[k, 5]])
         if abs(phi - frame[k, 2]) < NEAR_ENOUGH:
             continue
         co, si = math.cos(phi), math.sin(phi)

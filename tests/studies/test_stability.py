@@ -16,7 +16,7 @@ from tests.support.scenes import pressed, run
 from tests.support.solving import at_rest, ramp, whole
 from tests.support.states import STATES, driven, loaded
 
-FEW, CONVERGED = 40, 14
+FEW, CONVERGED = 40, 13
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +43,7 @@ def test_the_second_model_agrees_with_the_kernels(scene, state):
 
 
 @pytest.mark.parametrize("turn", [-3.3, 3.3])
-def test_the_second_model_follows_a_joint_that_turns_by_more_than_half(turn):
+def test_both_models_follow_a_node_that_turns_by_more_than_half(turn):
     scene = loaded()
     x0 = scene.x_rest
     x = x0.copy()
@@ -53,7 +53,7 @@ def test_the_second_model_follows_a_joint_that_turns_by_more_than_half(turn):
     second = model.stored(x, scene.terms, x0)
     np.testing.assert_allclose(second.energy, at.stored, rtol=1e-11)
     np.testing.assert_allclose(second.gradient, at.elastic, atol=1e-13 * second.scale)
-    assert model.stored(x, scene.terms, x).energy[1] < 0.9 * second.energy[1]
+    assert model.stored(x, scene.terms, x).energy[1] == pytest.approx(second.energy[1])
 
 
 def test_light_scenes_violate_nothing(drawn):
@@ -83,8 +83,8 @@ def test_a_load_that_moves_nothing_is_a_failure():
     assert "round-off" in found.message
 
 
-STRUCTURES, MOVING = range(100, 160), 59
-SECOND_ORDER, MOVED = (6, 12, 15, 23, 25, 29), 4
+STRUCTURES, MOVING = range(100, 160), 58
+SECOND_ORDER, MOVED = (6, 12, 15, 23, 25, 29), 5
 
 
 def test_custom_structures_violate_nothing():

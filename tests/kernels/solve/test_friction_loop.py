@@ -80,7 +80,7 @@ def test_duals_that_mislead_are_forgotten():
 
 @pytest.mark.skipif(compiler() != FAST, reason="in which scene it does not settle, rounding tells")
 def test_a_loop_that_does_not_settle_is_told():
-    found = simulate(draw.scene(287)[1])
+    found = simulate(draw.scene(478)[1])
     assert found.status == "stopped"
     assert found.message.endswith(
         "friction did not settle; try more solver.load_steps or a smaller contact.friction"

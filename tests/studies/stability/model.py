@@ -100,11 +100,12 @@ def _through_section(bend, kappa):
 def _turns(x, x0, vector, walls):
     """Turns of both ends of every element, (2, m).
 
-    An end turns less than half round from where its node held it when the step began.
+    The chord turns less than half round from where both nodes held it when the step began.
     """
     rotation = walls.dofs[:, [2, 5]].T
     bearing, rest = np.arctan2(*vector.T[::-1]), np.arctan2(*walls.rest.T[::-1])
-    return _wrapped(bearing - rest - x0[rotation]) - (x[rotation] - x0[rotation])
+    mean = x0[rotation].mean(axis=0)
+    return _wrapped(bearing - rest - mean) - (x[rotation] - mean)
 
 
 def _bending(turn, bend):

@@ -162,6 +162,7 @@ def test_readme_tells_what_the_studies_find(name, tmp_path):
         (key,) = (key for key in errors if f", {words}".endswith(f", {key}"))
         said, shown = ["", *texts], ["", *errors[key]]
         assert readme.words(said) == readme.words(shown)
+        said, shown = ([text for text in row if "<" not in text] for row in (said, shown))
         assert readme.numbers(said) == pytest.approx(readme.numbers(shown), rel=0.1)
 
 
