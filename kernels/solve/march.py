@@ -24,7 +24,7 @@ from kernels.solve.newton import (
     minimise,
 )
 from kernels.solve.problem import Step
-from kernels.solve.residual import loosen
+from kernels.solve.residual import scaled
 from kernels.solve.workspace import make_workspace
 
 SMALLEST_SHARE = 2.0**-24  # share of a step
@@ -164,7 +164,7 @@ def _equilibrate(x, target, problem, step, tolerance, space, descent, control, p
     """Minimise until the lagged forces are consistent with the minimum; return the outcome."""
     outcome, evaluated = CONVERGED, False
     while True:
-        loose = loosen(tolerance, progress.loosening)
+        loose = scaled(tolerance, progress.loosening, 1.0)
         outcome = minimise(x, target, problem, step, loose, space, descent, control, evaluated)
         evaluated = True
         progress.row_iterations += descent.iterations

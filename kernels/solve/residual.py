@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from kernels.compile.jit import jit, jit_exact
+from kernels.compile.jit import jit_exact
 
 
 class Tolerance(NamedTuple):
@@ -51,30 +51,16 @@ def allowed(stiffest, tolerance):
 
 
 @jit_exact
-def tighten(tolerance, share, sharpness):
-    """Return the tolerance with a ``share`` of the residual, its square of the decrement, and the
-    resolution times ``sharpness``.
+def scaled(tolerance, factor, sharpness):
+    """Return the tolerance with the residual times ``factor``, the decrement times its square, and
+    the resolution times ``sharpness``.
     """
-    return Tolerance(
-        share * tolerance.force,
-        share * share * tolerance.decrement,
-        tolerance.friction,
-        tolerance.friction_share,
-        tolerance.noise,
-        sharpness * tolerance.resolution,
-        tolerance.iterations,
-    )
-
-
-@jit
-def loosen(tolerance, factor):
-    """Return the tolerance with the residual times ``factor``, the decrement times its square."""
     return Tolerance(
         factor * tolerance.force,
         factor * factor * tolerance.decrement,
         tolerance.friction,
         tolerance.friction_share,
         tolerance.noise,
-        tolerance.resolution,
+        sharpness * tolerance.resolution,
         tolerance.iterations,
     )

@@ -17,7 +17,7 @@ from kernels.compile.jit import jit_exact
 from kernels.solve.energy_book import LARGEST_IMBALANCE, largest_energy
 from kernels.solve.integrators import FIRST_SHARE
 from kernels.solve.problem import FREE
-from kernels.solve.residual import largest, tighten
+from kernels.solve.residual import largest, scaled
 
 LARGEST_RESIDUAL = 1e-2  # as a share of the largest force
 TOLERATED = 1e-4  # residual that Newton may leave, as a share of the load, unless it is round-off
@@ -77,7 +77,7 @@ def fit(tolerance, step, coordinates, load):
         unresolved = tolerance.resolution * _largest_mass(coordinates) / step.h**2
         if unresolved > limit:
             sharpness = max(limit / unresolved, SHARPEST)
-    return tighten(tolerance, min(1.0, TOLERATED * load / tolerance.force), sharpness)
+    return scaled(tolerance, min(1.0, TOLERATED * load / tolerance.force), sharpness)
 
 
 @jit_exact
