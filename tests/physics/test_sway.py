@@ -68,7 +68,7 @@ def grid(cells, nodes_per_wall):
     ids=["alternate sway", "no sway", "hinged walls", "clamped row"],
 )
 def test_square_grid_buckles_as_its_closed_forms(cells, expected, held, pinned):
-    straight = stability(grid(cells, 11), held, pinned)
+    straight = stability(grid(cells, 5), held, pinned)
     assert straight(0.98 * expected) > 0.0 > straight(1.02 * expected)
 
 

@@ -268,4 +268,5 @@ def test_readme_shows_rows_of_the_bench():
     assert chosen | {libraries.OURS} <= said
     absent = [name.split()[0] for name in libraries.LIBRARIES if name not in said]
     assert len(absent) < len(libraries.LIBRARIES)
-    assert not absent or readme.says(f"{' and '.join(absent)} were not installed")
+    were = "was" if len(absent) == 1 else "were"
+    assert not absent or readme.says(f"{' and '.join(absent)} {were} not installed")
