@@ -10,7 +10,10 @@ RENAMED = {"solver.hinges": ("solver.element", {"exact_beam": "cubic"})}
 
 
 def present(document: dict[str, Any]) -> dict[str, Any]:
-    """A document of TOML with the present names of all keys."""
+    """A document of TOML with the present names of all keys.
+
+    An old key beside its present one is left as it is, for the reader to refuse.
+    """
     return {
         name: _present(value, f"{name}." if name in TABLES else "")
         for name, value in document.items()
@@ -25,8 +28,8 @@ def _present(value: Any, prefix: str) -> Any:
     found: dict[str, Any] = {}
     for name, inner in value.items():
         old = f"{prefix}{name}"
-        if old in RENAMED:
-            key, values = RENAMED[old]
+        key, values = RENAMED.get(old, ("", {}))
+        if key and key.removeprefix(prefix) not in value:
             warnings.warn(_sentence(old), FutureWarning, stacklevel=2)
             found[key.removeprefix(prefix)] = _translated(inner, values)
         else:
