@@ -80,7 +80,9 @@ def store_walls(problem, x, duration, found, projected):
     found.stored[STRETCH] = stretch.evaluate(
         scene.stretch, scene.law, memory, shape, resultants, projected
     )
-    found.stored[BEND] = bend.evaluate(scene.bend, memory, shape, resultants, projected)
+    found.stored[BEND] = bend.evaluate(
+        scene.bend, scene.stretch, memory, shape, resultants, projected
+    )
     elements.clear(shape, stiffness)
     elements.add(resultants, scene.stretch.geometric, projected, shape, stiffness)
     elements.gather(scene.walls, shape, found.elastic)

@@ -12,7 +12,6 @@ from kernels.planar import constraints, factoring, lagging, potential, reach, ro
 from kernels.planar.reach import Neighbours
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
-from kernels.terms import bend
 from kernels.terms.damping import Before
 from kernels.terms.elements import Resultants, Shape, Stiffness
 
@@ -111,7 +110,7 @@ def at_rest(scene, x):
     Every material point has a row of memory, as long as the largest state of the laws.
     """
     numbers = max(_numbers(scene.law), _numbers(scene.bend.section))
-    points = (1 + bend.POINTS) * scene.stretch.l0.size
+    points = scene.stretch.l0.size + scene.bend.volume.size
     memory = (points, numbers) if numbers > 0 else (0, 0)
     return history.at_rest(x, potential.STORED, memory)
 

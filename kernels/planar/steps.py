@@ -26,7 +26,7 @@ def commit(problem, x, step, found):
         found.stored[STRETCH] -= released
         sums.dissipated += dissipated
     if scene.bend.section.state_size() > 0:
-        released, dissipated = bend.commit(scene.bend, memory, shape)
+        released, dissipated = bend.commit(scene.bend, scene.stretch, memory, shape)
         found.stored[BEND] -= released
         sums.dissipated += dissipated
 

@@ -14,9 +14,14 @@ k_12 = 0. Eliminating phi of a node inside a wall leaves a hinge of Y I / h betw
 The measure `TANGENT` of such a rod is kappa = c tan(a / c): c = 2 at joints and c = 1 inside walls,
 where two elements share the turn of a hinge.
 
-With a measured curve (``section``) E_b is a sum over two points of each element, the Gauss points
-of a cubic and the ends of a classical element: E_b = sum_p w_p U(e_p), e_p = c (b_p1 kappa_1 + b_p2
-kappa_2) the strain at the surface of the wall; U(e) = e^2 / 2 for a linear curve.
+With a measured curve (``section``) the curvature counts at two points of an element, the Gauss
+points of a cubic or the ends of a classical element:
+
+    theta = s_0 (a_2 - a_1) +- s_1 (a_1 + a_2),
+    E_b = V w(e, theta_1, theta_2) + 1/2 k_s (a_1 + a_2)^2
+
+with the law w of `section` over the strain e of `stretch` and the bending theta of a fibre at both,
+V the volume that each of its fibres stands for, and the stiffness k_s of the element in shear.
 """
 
 import math
@@ -25,25 +30,27 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit
+from kernels.terms.section import LEAST
+from kernels.terms.stretch import strain
 
 ANGLE, TANGENT = 0, 1
-POINTS = 2  # material points of an element
 
 
 class Bend(NamedTuple):
     """stiffness (3, m): k_11, k_12, k_22 in N m. side (2, m): c of the measure `TANGENT`.
 
-    section: law of U' over the surface strain. points (2, 2): b. surface (m,): c, dimensionless;
-    weight (2, m): w in J, empty where bending is linear.
+    section: law over e, theta_1, theta_2; an element is one material point. spread (2, m): s_0,
+    s_1. volume (m,): V in m^3, zero where an element bends linearly. shear (m,): k_s in N m. The
+    three are empty where all bending is linear.
     """
 
     measure: int
     stiffness: np.ndarray
     side: np.ndarray
     section: object
-    points: np.ndarray
-    surface: np.ndarray
-    weight: np.ndarray
+    spread: np.ndarray
+    volume: np.ndarray
+    shear: np.ndarray
 
 
 @jit
@@ -62,85 +69,104 @@ def curvature(bend, k, end, turn):
 
 
 @jit
-def _linear(bend, k, one, two):
-    """Return E_b of element ``k`` with its derivatives in kappa_1, kappa_2: 1, 2, 11, 12, 22."""
+def _linear(bend, k, shape, resultants, projected):
+    """Return E_b of element ``k`` of linear bending; add its derivatives."""
+    one, d1, s1 = curvature(bend, k, 0, shape.turn[0, k])
+    two, d2, s2 = curvature(bend, k, 1, shape.turn[1, k])
+    if math.isinf(one) or math.isinf(two):
+        return math.inf
+    if projected:
+        s1, s2 = 0.0, 0.0
+    force, rigidity = resultants.force, resultants.rigidity
     k11, k12, k22 = bend.stiffness[0, k], bend.stiffness[1, k], bend.stiffness[2, k]
     first, second = k11 * one + k12 * two, k12 * one + k22 * two
-    return 0.5 * (first * one + second * two), first, second, k11, k12, k22
+    force[1, k] += first * d1
+    force[2, k] += second * d2
+    rigidity[3, k] += k11 * d1 * d1 + first * s1
+    rigidity[4, k] += k12 * d1 * d2
+    rigidity[5, k] += k22 * d2 * d2 + second * s2
+    return 0.5 * (first * one + second * two)
 
 
 @jit
-def surface_strain(bend, k, p, one, two):
-    """Return e_p of element ``k`` and its derivatives in kappa_1 and kappa_2."""
-    b1, b2 = bend.surface[k] * bend.points[p, 0], bend.surface[k] * bend.points[p, 1]
-    return b1 * one + b2 * two, b1, b2
+def bending(bend, shape, k):
+    """Return theta_1 and theta_2 of element ``k``."""
+    across = bend.spread[0, k] * (shape.turn[1, k] - shape.turn[0, k])
+    along = bend.spread[1, k] * (shape.turn[0, k] + shape.turn[1, k])
+    return across + along, across - along
 
 
 @jit
-def _through_section(bend, memory, first_point, k, one, two, projected):
-    """Return the same as `_linear` through the curve of the section."""
-    total, f1, f2, f11, f12, f22 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    for p in range(POINTS):
-        strain, b1, b2 = surface_strain(bend, k, p, one, two)
-        point = first_point + POINTS * k + p
-        value, slope, second = bend.section.respond(strain, memory, point)
-        weight = bend.weight[p, k]
-        if projected:
-            second = max(second, 0.0)
-        total += weight * value
-        f1 += weight * slope * b1
-        f2 += weight * slope * b2
-        f11 += weight * second * b1 * b1
-        f12 += weight * second * b1 * b2
-        f22 += weight * second * b2 * b2
-    return total, f1, f2, f11, f12, f22
+def _through_section(bend, stretch, memory, k, shape, resultants, projected):
+    """Return E_b of element ``k`` through the law of its section; add its derivatives."""
+    force, rigidity, volume = resultants.force, resultants.rigidity, bend.volume[k]
+    e, e1, e2 = strain(stretch, shape, k)
+    if e <= LEAST - 1.0:
+        return math.inf
+    one, two = bending(bend, shape, k)
+    value, (by_e, m1, m2), (ee, et1, et2, tt1, _, tt2) = bend.section.respond(
+        (e, one, two), memory, bend.volume.size + k
+    )
+    s0, s1 = bend.spread[0, k], bend.spread[1, k]
+    p, q = s1 - s0, s1 + s0  # of theta_1 in a_1 and a_2; of theta_2: -q, -p
+    both = shape.turn[0, k] + shape.turn[1, k]
+    sheared, by_length = bend.shear[k], volume / stretch.l0[k]
+    force[0, k] += by_length * by_e
+    force[1, k] += volume * (by_e * e1 + m1 * p - m2 * q) + sheared * both
+    force[2, k] += volume * (by_e * e2 + m1 * q - m2 * p) + sheared * both
+    if projected:
+        by_e, ee, et1, et2, tt1, tt2 = 0.0, 0.0, 0.0, 0.0, max(tt1, 0.0), max(tt2, 0.0)
+    c1, c2 = et1 * p - et2 * q, et1 * q - et2 * p  # second derivatives in e and a_1, a_2
+    same, mixed = 2.0 * by_e * stretch.arc[0, k], by_e * stretch.arc[1, k]
+    rigidity[0, k] += by_length / stretch.l0[k] * ee
+    rigidity[1, k] += by_length * (ee * e1 + c1)
+    rigidity[2, k] += by_length * (ee * e2 + c2)
+    rigidity[3, k] += sheared + volume * (
+        (ee * e1 + 2.0 * c1) * e1 + tt1 * p * p + tt2 * q * q + same
+    )
+    rigidity[4, k] += sheared + volume * (
+        ee * e1 * e2 + c1 * e2 + c2 * e1 + (tt1 + tt2) * p * q + mixed
+    )
+    rigidity[5, k] += sheared + volume * (
+        (ee * e2 + 2.0 * c2) * e2 + tt1 * q * q + tt2 * p * p + same
+    )
+    return volume * value + 0.5 * sheared * both * both
 
 
 @jit
-def evaluate(bend, memory, shape, resultants, projected):
-    """Return E_b in J; add its derivatives in the turns of ``shape`` to ``resultants``. Where E_b
-    is infinite, these are incomplete.
+def evaluate(bend, stretch, memory, shape, resultants, projected):
+    """Return E_b in J; add its derivatives to ``resultants``. Where E_b is infinite, these are
+    incomplete.
 
-    The points of the section are numbered after the elements. projected: without the second
-    derivatives of kappa, and with no falling moment, which makes every element semi-definite.
+    The points of the section are numbered after those of stretching. projected: without the second
+    derivatives of kappa and of e, and with no falling moment, which makes every element
+    semi-definite.
     """
-    force, rigidity, total = resultants.force, resultants.rigidity, 0.0
-    curved, m = bend.weight.size > 0, shape.length.size
-    for k in range(m):
-        one, d1, s1 = curvature(bend, k, 0, shape.turn[0, k])
-        two, d2, s2 = curvature(bend, k, 1, shape.turn[1, k])
-        if math.isinf(one) or math.isinf(two):
-            return math.inf
-        if curved:
-            value, f1, f2, f11, f12, f22 = _through_section(bend, memory, m, k, one, two, projected)
+    total, curved = 0.0, bend.volume.size > 0
+    for k in range(shape.length.size):
+        if curved and bend.volume[k] > 0.0:
+            total += _through_section(bend, stretch, memory, k, shape, resultants, projected)
         else:
-            value, f1, f2, f11, f12, f22 = _linear(bend, k, one, two)
-        if projected:
-            s1, s2 = 0.0, 0.0
-        total += value
-        force[1, k] += f1 * d1
-        force[2, k] += f2 * d2
-        rigidity[3, k] += f11 * d1 * d1 + f1 * s1
-        rigidity[4, k] += f12 * d1 * d2
-        rigidity[5, k] += f22 * d2 * d2 + f2 * s2
+            total += _linear(bend, k, shape, resultants, projected)
+        if math.isinf(total):
+            return math.inf
     return total
 
 
 @jit
-def commit(bend, memory, shape):
-    """Commit the curvatures of ``shape`` to the section.
+def commit(bend, stretch, memory, shape):
+    """Commit the strains of ``shape`` to the section.
 
     Return (released, dissipated) in J: E_b less the stored energy, and the dissipation of the step.
     """
-    released, dissipated, m = 0.0, 0.0, shape.length.size
-    for k in range(bend.weight.shape[1]):
-        one = curvature(bend, k, 0, shape.turn[0, k])[0]
-        two = curvature(bend, k, 1, shape.turn[1, k])[0]
-        for p in range(POINTS):
-            strain = surface_strain(bend, k, p, one, two)[0]
-            point, weight = m + POINTS * k + p, bend.weight[p, k]
-            potential = bend.section.respond(strain, memory, point)[0]
-            stored, lost = bend.section.commit(strain, memory, point)
-            released += weight * (potential - stored)
-            dissipated += weight * lost
+    released, dissipated = 0.0, 0.0
+    for k in range(bend.volume.size):
+        volume = bend.volume[k]
+        if volume == 0.0:
+            continue
+        at, point = (strain(stretch, shape, k)[0], *bending(bend, shape, k)), bend.volume.size + k
+        potential = bend.section.respond(at, memory, point)[0]
+        stored, lost = bend.section.commit(at, memory, point)
+        released += volume * (potential - stored)
+        dissipated += volume * lost
     return released, dissipated

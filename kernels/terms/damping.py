@@ -60,7 +60,7 @@ def prepare(x0, terms, memory, before, ahead, place, past, resultants):
             elements.measure(x0, walls, frame, shape)
         elements.clear(shape, stiffness)
         stretch.evaluate(terms.stretch, terms.law, memory, shape, resultants, True)
-        bend.evaluate(terms.bend, memory, shape, resultants, True)
+        bend.evaluate(terms.bend, terms.stretch, memory, shape, resultants, True)
         elements.add(resultants, True, True, shape, stiffness)
     if terms.damp.relaxation > 0.0:
         elements.measure(x0, walls, frame, shape)

@@ -4,11 +4,10 @@
 
 Beyond either end the curve continues along its tangent. `ElasticCurve` is the nominal stress of a
 wall over its nominal strain; below ``GUARD`` a C2 barrier is added that is infinite at e = -1, so
-that no element vanishes or turns over. `MomentCurve` is the moment of a section over the strain at
-its surface, an odd function, normalised to slope 1 for a linear material.
+that no element vanishes or turns over. `FibreCurve` is the same curve for a fibre of a bent
+section, without the barrier: the centre line keeps walls from vanishing.
 """
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -61,10 +60,9 @@ def respond(law, strain, memory, point):
 
 
 @jit
-def respond_odd(law, strain, memory, point):
-    """Return the integral of the moment, the moment and its slope at a surface ``strain``."""
-    energy, moment, rigidity = curve(law, abs(strain))
-    return energy, math.copysign(moment, strain), rigidity
+def respond_fibre(law, strain, memory, point):
+    """Return the same without the barrier."""
+    return curve(law, strain)
 
 
 @jit
@@ -96,14 +94,14 @@ class ElasticCurve(NamedTuple):
     commit = commit
 
 
-class MomentCurve(NamedTuple):
-    """Moment over the strain of the surface, for strains from 0; fields as in `ElasticCurve`."""
+class FibreCurve(NamedTuple):
+    """Stress-strain curve of a fibre; fields as in `ElasticCurve`."""
 
     knots: np.ndarray
     coefficients: np.ndarray
     energy: np.ndarray
     modulus: float
 
-    respond = respond_odd
+    respond = respond_fibre
     state_size = state_size
     commit = commit

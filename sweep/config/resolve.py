@@ -16,9 +16,11 @@ from sweep.config.solver_defaults import (
     ARCS,
     IN_TIME,
     check_bending,
+    check_section,
     check_steps,
     given_or,
     settle,
+    with_joints,
 )
 from sweep.config.structure import Structure
 from sweep.config.tables import Contact, Damping, Loading, Solver, refusal
@@ -43,6 +45,9 @@ def resolve(
         settled = _settled(*(found[name] for name in ("lattice", *DEPENDENT)))
         found |= zip(DEPENDENT, settled, strict=True)
         check_bending(found["material"], found["solver"])
+        check_section(found["material"], found["solver"])
+        custom = found["lattice"].structure is not None
+        found["solver"] = with_joints(found["solver"], found["material"], custom)
     except PydanticCustomError as refused:
         return found, refused
     return found, None

@@ -20,6 +20,27 @@ def check_bending(material: Material, solver: Solver) -> None:
         raise refusal("material.bend", "none", allowed)
 
 
+def check_section(material: Material, solver: Solver) -> None:
+    """Refuse a section whose curvature is not that of its fibres."""
+    if material.bend == "section" and solver.bend_measure != "angle":
+        allowed = '"angle" if material.bend is "section"'
+        raise refusal("solver.bend_measure", solver.bend_measure, allowed)
+
+
+def with_joints(solver: Solver, material: Material, custom: bool) -> Solver:
+    """The solver table with its joints: solid for cubic elements of a lattice."""
+    solid = solver.element == "cubic" and material.bend != "none"
+    if solver.joints == "solid" and not solid:
+        why = (
+            'material.bend is "none"'
+            if solver.element == "cubic"
+            else 'solver.element is "classical"'
+        )
+        raise refusal("solver.joints", "solid", f'"points" if {why}')
+    joints = solver.joints or ("solid" if solid and not custom else "points")
+    return solver.model_copy(update={"joints": joints})
+
+
 def steps(loading: Loading, solver: Solver) -> float:
     """Number of steps of a resolved case."""
     if solver.load_steps is not None:

@@ -85,7 +85,7 @@ class Material(Table):
 
     name: str = "ninjaflex"
     stretch: Literal["nonlinear", "linear"] = "nonlinear"
-    bend: Literal["linear", "section", "none"] = "linear"
+    bend: Literal["linear", "section", "none"] = "section"
     plane: Literal["strain", "stress", "strain_bending"] = "strain"
     # Filled in from the record before validation, which refuses the zeros if they remain.
     modulus: Stress = Field(default=0.0, validate_default=True)
@@ -102,7 +102,9 @@ class Material(Table):
         if "modulus" in given and "name" not in given:
             if "density" not in given:
                 raise refusal("material.density", None, "a density, as no name is given")
-            return {"name": BY_NUMBERS, "stretch": "linear", **given}
+            return {"name": BY_NUMBERS, "stretch": "linear", "bend": "linear", **given}
+        if given.get("stretch", "nonlinear") == "linear":
+            given = {"bend": "linear", **given}
         record = read_record(locate(given.get("name", "ninjaflex")))
         known = {key: getattr(record, key) for key in ("modulus", "density", "poisson")}
         if any(given.get(key, cls.model_fields[key].default) in BY_CURVE[key] for key in BY_CURVE):
@@ -220,6 +222,7 @@ class Solver(Table):
     max_iterations: Count = 100
     time_limit: Duration = 300.0
     element: Literal["cubic", "classical"] = "cubic"
+    joints: Literal["solid", "points"] | None = None
     bend_measure: Literal["angle", "tangent"] = "angle"
     hessian: Literal["exact", "tangent_modulus"] = "exact"
 

@@ -4,44 +4,43 @@ import numpy as np
 
 from kernels.terms import bend, fold
 from sweep.config.case import Case
-from sweep.scene.material import law_in_bending
+from sweep.scene.beams import Beams, bends, contraction, plane_factors
+from sweep.scene.material import law_of_section
 from sweep.scene.mesh import Floats, Mesh
 
-ARC = (1.0 / 15.0, -1.0 / 30.0)  # of a cubic, see `kernels.terms.stretch`
-GAUSS = np.sqrt(3.0)
-SECTIONS = {  # points of a section: b of `kernels.terms.bend`, both of weight 1/2
-    "cubic": np.array([[1.0 + GAUSS, GAUSS - 1.0], [1.0 - GAUSS, -1.0 - GAUSS]]),
-    "classical": np.array([[2.0, 0.0], [0.0, 2.0]]),
-}
+FIBRE = np.sqrt(3.0 / 20.0)  # of a thickness: place of the outer Gauss points, which weigh 5/18
+OUTER = 5.0 / 18.0
+ALONG = {"cubic": np.sqrt(3.0), "classical": 1.0}  # s_1 over s_0, without shear
 
 
-def bends(case: Case) -> bool:
-    """False if walls have no bending stiffness: chains of axial springs with free hinges."""
-    return case.material.bend != "none"
-
-
-def arc_of(mesh: Mesh, case: Case) -> Floats:
-    """The data of the arc of every element, (2, m): zero where the strain is that of the chord."""
-    cubic = bends(case) and case.solver.element == "cubic"
-    return np.tile(np.array(ARC)[:, None] * cubic, len(mesh.edges))
-
-
-def build_bend(mesh: Mesh, rigidity: Floats, case: Case) -> bend.Bend:
-    """The data of bending. ``rigidity`` (m,): Y' I of every element, N m^2."""
-    length, material, element = mesh.rest_length, case.material, case.solver.element
-    per_length = rigidity * bends(case) / length
-    factors = {"cubic": (4.0, 2.0, 4.0), "classical": (2.0, 0.0, 2.0)}[element]
-    surface = 0.5 * mesh.thickness / length
+def build_bend(mesh: Mesh, beams: Beams, case: Case) -> bend.Bend:
+    """The data of bending."""
+    material = case.material
     through = slice(None if material.bend == "section" else 0)
+    spread, volume, shear = (part[..., through] for part in _sections(mesh, beams, case))
     return bend.Bend(
         measure=bend.TANGENT if case.solver.bend_measure == "tangent" else bend.ANGLE,
-        stiffness=np.outer(factors, per_length),
+        stiffness=beams.stiffness,
         side=np.where(mesh.edges < mesh.n_joints, 2.0, 1.0).T.copy(),
-        section=law_in_bending(material),
-        points=SECTIONS[element],
-        surface=surface[through],
-        weight=np.tile((0.5 * per_length / surface**2)[through], (2, 1)),
+        section=law_of_section(material, plane_factors(material)[1], contraction(material)),
+        spread=np.ascontiguousarray(spread),
+        volume=volume,
+        shear=shear,
     )
+
+
+def _sections(mesh: Mesh, beams: Beams, case: Case) -> tuple[Floats, Floats, Floats]:
+    """``spread`` (2, m), ``volume`` (m,) and ``shear`` (m,) of `kernels.terms.bend.Bend`.
+
+    The moments of Timoshenko's element are those of its curvature, less their part in shear:
+    k_s = 3 P / (1 + P)^2 Y' I / h.
+    """
+    h, by = mesh.rest_length, 1.0 / (1.0 + beams.shear)
+    across = FIBRE * mesh.thickness / h
+    along = ALONG[case.solver.element] * across * by
+    volume = np.where(beams.joint, 0.0, 0.5 * OUTER * case.lattice.depth * mesh.thickness * h)
+    shear = 3.0 * beams.shear * by**2 * beams.rigidity / h
+    return np.stack([across, along]), volume, shear
 
 
 def build_fold(mesh: Mesh, rigidity: Floats, case: Case) -> fold.Fold:

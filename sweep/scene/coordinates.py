@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sweep.scene.mesh import Ints
+from sweep.design.drawing import Indices
 
 BONDED = ("glued", "sliding")  # platens that hold the outer rows; "sliding": the top moves in x
 
@@ -18,22 +18,22 @@ class Numbering:
     """Indices of the coordinates. bottom, top: nodes of the outer rows."""
 
     n_nodes: int
-    bottom: Ints
-    top: Ints
+    bottom: Indices
+    top: Indices
 
     @property
-    def rotation(self) -> Ints:
+    def rotation(self) -> Indices:
         """Coordinates of the rotations of the nodes, (n_nodes,)."""
         return 2 * self.n_nodes + np.arange(self.n_nodes)
 
     @property
-    def point(self) -> Ints:
+    def point(self) -> Indices:
         """Point of each coordinate, (size,): its node, or n_nodes for a platen."""
         nodes, platens = np.arange(self.n_nodes), np.full(2, self.n_nodes)
         return np.concatenate([nodes.repeat(2), nodes, platens])
 
     @property
-    def slot(self) -> Ints:
+    def slot(self) -> Indices:
         """Place of each coordinate in the block of its point, (size,): x, y, rotation."""
         along, platens = np.tile([0, 1], self.n_nodes), np.zeros(2, np.int64)
         return np.concatenate([along, np.full(self.n_nodes, 2), platens])
@@ -54,7 +54,7 @@ class Numbering:
         return self.high + 1
 
 
-def held(numbering: Numbering, platen: str | None) -> Ints:
+def held(numbering: Numbering, platen: str | None) -> Indices:
     """Coordinates that never move: those of clamped rows, and the lower platen."""
     bottom, top = numbering.bottom, numbering.top
     clamped = [2 * bottom, 2 * bottom + 1, numbering.rotation[bottom]]
@@ -68,7 +68,7 @@ def held(numbering: Numbering, platen: str | None) -> Ints:
     return np.concatenate([*clamped, low, high])
 
 
-def leaders(numbering: Numbering, held: Ints, tied: Ints) -> Ints:
+def leaders(numbering: Numbering, held: Indices, tied: Indices) -> Indices:
     """The coordinate that each one follows, (size,).
 
     Itself, or that of the upper platen if it is among ``tied``, or -1 if it is among ``held``.

@@ -14,9 +14,11 @@ from kernels.terms import contact, spring
 from sweep.config.case import Case, given
 from sweep.config.structure import Structure
 from sweep.design.network import Network, mass
-from sweep.scene.bending import bends, build_bend, build_fold
+from sweep.scene.beams import bends, build_beams
+from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import Numbering
+from sweep.scene.joints import Arms, find_arms, point_joints
 from sweep.scene.mesh import Floats, Ints, Mesh, split_walls
 from sweep.scene.terms import (
     Parts,
@@ -25,7 +27,6 @@ from sweep.scene.terms import (
     contact_stiffness,
     force_scale,
     masses_of,
-    rigidity_of,
     solved_by,
     walls_of,
 )
@@ -99,13 +100,14 @@ def build_structure(case: Case) -> Scene:
     """Build the arrays of a ``case`` with a custom structure."""
     structure = given(case.lattice.structure)
     network = network_of(structure)
-    mesh = split_walls(network, np.array(structure.pieces), 0.0)
+    arms = _arms(network, structure, case)
+    mesh = split_walls(network, np.array(structure.pieces), 0.0, arms.length)
     none = np.empty(0, np.int64)
     at_pin = np.isin(mesh.edges, structure.pins)
     numbering = Ground(len(mesh.points), none, none, int(at_pin.sum()))
     rotation = numbering.rotation[mesh.edges]
     rotation[at_pin] = numbering.free_ends
-    rigidity, walls = rigidity_of(mesh, case), walls_of(mesh, rotation)
+    beams, walls = build_beams(mesh, arms, case), walls_of(mesh, rotation)
     leader = _leaders(structure, numbering)
     if not bends(case):
         leader[rotation] = -1
@@ -116,9 +118,10 @@ def build_structure(case: Case) -> Scene:
     masses = _masses(structure, masses_of(mesh, numbering, printed, case.loading))
     parts = Parts(
         walls=walls,
+        beams=beams,
         layout=layout,
-        bend=build_bend(mesh, rigidity, case),
-        fold=build_fold(mesh, rigidity, case),
+        bend=build_bend(mesh, beams, case),
+        fold=build_fold(mesh, beams.rigidity, case),
         contact=_on_floor(touch, structure, numbering),
         project=projection_of(mesh, numbering, layout, masses, case),
         mass=masses,
@@ -135,11 +138,20 @@ def build_structure(case: Case) -> Scene:
         bottom=np.array([numbering.low]),
         top=none,
         base=2 * np.arange(numbering.n_nodes) + 1,
-        force_scale=force_scale(network, rigidity),
-        velocity=_velocity(structure, layout),
+        force_scale=force_scale(network, beams.rigidity),
+        velocity=_velocity(structure, mesh, layout),
         probes=_probed(structure, numbering),
         travel=travel,
     )  # fmt: skip
+
+
+def _arms(network: Network, structure: Structure, case: Case) -> Arms:
+    """The ends of the walls; a wall is a beam up to a support or a pin."""
+    if case.solver.joints == "points":
+        return point_joints(len(network.walls))
+    supported = [node for node, _ in structure.held] + [part.node for part in structure.prescribed]
+    plain = np.array([*supported, *structure.pins], np.int64)
+    return find_arms(network, network.walls, plain[:0], plain)
 
 
 def _distances(structure: Structure, pairs: Iterable[tuple[int, int]]) -> Floats:
@@ -244,16 +256,15 @@ def _probed(structure: Structure, numbering: Ground) -> Ints:
     return np.array(probed, np.int64)
 
 
-def _velocity(structure: Structure, layout: analysis.Layout) -> Floats:
+def _velocity(structure: Structure, mesh: Mesh, layout: analysis.Layout) -> Floats:
     """Initial velocity of each coordinate, linear along walls; zero if held or prescribed."""
-    nodes = MM * np.array(structure.velocity_mm_s)
-    network = Network(
-        nodes,
-        np.array(structure.walls),
-        np.zeros(len(structure.walls)),
-        *2 * [np.empty(0, np.int64)],
-    )
-    moving = split_walls(network, np.array(structure.pieces), 0.0).points.ravel()
+    moving, walls = MM * np.array(structure.velocity_mm_s), np.array(structure.walls)
+    inner, wall = mesh.inner[:, 1], mesh.wall[mesh.inner[:, 0]]
+    start, end = mesh.points[walls[wall]].swapaxes(0, 1)
+    share = np.linalg.norm(mesh.points[inner] - start, axis=1) / np.linalg.norm(end - start, axis=1)
+    first, last = moving[walls[wall]].swapaxes(0, 1)
+    between = first + share[:, None] * (last - first)
+    moving = np.concatenate([moving, between]).ravel()
     velocity = np.zeros(layout.leader.size)
     free = layout.leader[: moving.size] == np.arange(moving.size)
     velocity[: moving.size] = np.where(free, moving, 0.0)

@@ -5,7 +5,8 @@ import numpy as np
 from sweep.config.case import Case, Loading, given
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
-from sweep.scene.bending import bends, build_bend, build_fold
+from sweep.scene.beams import bends, build_beams
+from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import BONDED, Numbering, held, leaders
 from sweep.scene.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
@@ -16,7 +17,6 @@ from sweep.scene.terms import (
     contact_stiffness,
     force_scale,
     masses_of,
-    rigidity_of,
     solved_by,
     walls_of,
 )
@@ -41,13 +41,14 @@ def _load(numbering: Numbering, case: Case) -> Floats:
 def build_scene(case: Case) -> Scene:
     """Build the arrays of ``case``."""
     lattice, platen = case.lattice, case.loading.platen
-    network, mesh = build_network(lattice.geometry), build_mesh(lattice)
+    network, solid = build_network(lattice.geometry), case.solver.joints == "solid"
+    mesh, arms = build_mesh(lattice, solid, platen)
     numbering = Numbering(
         len(mesh.points),
         row_nodes(network, mesh, network.bottom),
         row_nodes(network, mesh, network.top),
     )
-    rigidity = rigidity_of(mesh, case)
+    beams = build_beams(mesh, arms, case)
     printed = mass(network, lattice.depth, case.material.density)
     fixed = held(numbering, platen)
     if not bends(case):
@@ -58,9 +59,10 @@ def build_scene(case: Case) -> Scene:
     masses = masses_of(mesh, numbering, printed, case.loading)
     parts = Parts(
         walls=walls,
+        beams=beams,
         layout=layout,
-        bend=build_bend(mesh, rigidity, case),
-        fold=build_fold(mesh, rigidity, case),
+        bend=build_bend(mesh, beams, case),
+        fold=build_fold(mesh, beams.rigidity, case),
         contact=contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True),
         project=projection_of(mesh, numbering, layout, masses, case),
         mass=masses,
@@ -70,7 +72,7 @@ def build_scene(case: Case) -> Scene:
         mesh, network, assemble(case, mesh, numbering, parts),
         _rest(mesh, numbering, parts.contact.node_thickness),
         *_reported(numbering, case.loading),
-        force_scale=force_scale(network, rigidity),
+        force_scale=force_scale(network, beams.rigidity),
         velocity=_velocity(numbering, layout.leader, case.loading),
     )  # fmt: skip
 

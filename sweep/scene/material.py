@@ -9,11 +9,6 @@ e < 0 and stretch s = 1 + e:
     upper(e) = -P(1/s - 1) / s^2         Cauchy stress odd in log strain, incompressible
 
 (weights fitted to one moulded grade; error about 30 % beyond 15 % compression).
-
-Bending with the curve: let s be the strain at the surface of a wall of depth b and thickness t, and
-s eta that at a distance eta t / 2 from the centroid. The moment is b t^2 / 4 m(s),
-
-    m(s) = integral over eta in -1..1 of sigma(s eta) eta,    odd in s;  2/3 Y s for a linear curve.
 """
 
 from dataclasses import dataclass
@@ -22,14 +17,14 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from kernels.terms.elastic import ElasticCurve, MomentCurve, respond
-from kernels.terms.law import Law, Memory
+from kernels.terms.elastic import ElasticCurve, FibreCurve
+from kernels.terms.law import Law
+from kernels.terms.section import BentSection
 from sweep.config.case import Material
 from sweep.config.material_file import TOE, stress_at
 
 Floats = NDArray[np.float64]
 
-SURFACE_STEPS = 70  # intervals of the table of moments, within the toe and over the whole range
 LOWER_WEIGHT, UPPER_WEIGHT = 0.7, 0.3
 COMPRESSION = -np.array(
     [
@@ -60,6 +55,10 @@ def stress_law(material: Material) -> StressLaw:
     """The law of a material under uniaxial stress, without the factor of plane strain."""
     if material.stretch == "linear":
         return linear_law(material.modulus)
+    return _record_law(material)
+
+
+def _record_law(material: Material) -> StressLaw:
     return _spline(*_knots(material.curve_strain, material.curve_stress))
 
 
@@ -70,37 +69,12 @@ def law_in_stretch(material: Material, factor: float) -> Law:
 
 
 @lru_cache(maxsize=64)
-def law_in_bending(material: Material) -> Law:
-    """`section_law` / modulus, for the kernels."""
-    law = as_law(section_law(material), 1.0 / material.modulus, material.modulus)
-    return MomentCurve(*law)
-
-
-@lru_cache(maxsize=64)
-def section_law(material: Material) -> StressLaw:
-    """3/2 m(s) in Pa for s >= 0: the surface stress of a linear curve with the same moment.
-
-    With d(u) = sigma(u) - sigma(-u):  m = 1/s^2 integral_0^s d(u) u du,  m' = (d(s) - 2 m) / s.
-    The table ends where the inner surface is compressed to 0.3 of its length; beyond it the last
-    tangent continues.
-    """
-    if material.bend != "section":
-        return linear_law(material.modulus)
-    knots, values, slopes = _knots(material.curve_strain, material.curve_stress)
-    curve = as_law(_spline(knots, values, slopes), 1.0, material.modulus)
-    none = Memory(np.empty((0, 0)), 0.0)
-    odd = np.vectorize(lambda u: respond(curve, u, none, 0)[1] - respond(curve, -u, none, 0)[1])
-    end = -COMPRESSION[0]
-    even = [np.linspace(0.0, reach, SURFACE_STEPS + 1) for reach in (TOE, end)]
-    s = np.unique(np.concatenate([np.abs(knots), *even]).round(12))
-    s = s[s <= end]
-    at, weight = np.polynomial.legendre.leggauss(3)  # exact: d is cubic between knots
-    u = s[:-1, None] + 0.5 * np.diff(s)[:, None] * (1.0 + at)
-    gained = 0.5 * np.diff(s) * (odd(u) * u @ weight)
-    moment = np.cumsum(gained) / s[1:] ** 2
-    slope = (odd(s[1:]) - 2.0 * moment) / s[1:]
-    start = respond(curve, 0.0, none, 0)[2]
-    return _spline(s, 1.5 * np.r_[0.0, moment], np.r_[start, 1.5 * slope])
+def law_of_section(material: Material, factor: float, nu: float) -> BentSection:
+    """The law of bent sections for the kernels, with all stresses times ``factor``; nu: nu'."""
+    through = material.bend == "section"
+    curve = _record_law(material) if through else linear_law(material.modulus)
+    fibre = FibreCurve(*as_law(curve, factor, material.modulus))
+    return BentSection(fibre, 1.0 + nu, 2.0 / 3.0 * (1.0 - nu**2) * fibre.modulus, fibre.modulus)
 
 
 def as_law(curve: StressLaw, factor: float, modulus: float) -> ElasticCurve:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from sweep.config.case import Lattice
 from sweep.design.lattice import build_network
 from sweep.design.network import Network
+from sweep.scene.joints import Arms, point_joints, solid_joints
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -16,17 +17,18 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Mesh:
-    """Walls split into equal elements. The first nodes are the joints of the network.
+    """Walls split into equal elements, between short ones for solid joints at their ends.
 
-    points (n, 2): nodes at rest, m. edges (m, 2): nodes of an element, in the direction of its
-    wall. wall (m,): wall of an element. pieces (m,): number of elements in that wall.
-    thickness (m,) of an element, m. n_joints: number of joints.
+    The first nodes are the joints of the network. points (n, 2): nodes at rest, m. edges (m, 2):
+    nodes of an element, in the direction of its wall. wall (m,): wall of an element. joint (m,):
+    2 w or 2 w + 1 for the solid joint at either end of a wall w, else -1. thickness (m,) of an
+    element, m. n_joints: number of joints.
     """
 
     points: Floats
     edges: Ints
     wall: Ints
-    pieces: Ints
+    joint: Ints
     thickness: Floats
     n_joints: int
 
@@ -91,39 +93,58 @@ class Mesh:
 
 
 @lru_cache(maxsize=16)
-def build_mesh(lattice: Lattice) -> Mesh:
-    """The mesh of a lattice. It is cached, since consecutive cases often share it."""
-    shift = lattice.imperfection * lattice.wall_thickness
-    return split_walls(build_network(lattice.geometry), lattice.nodes_per_wall + 1, shift)
+def build_mesh(lattice: Lattice, solid: bool, platen: str | None) -> tuple[Mesh, Arms]:
+    """The mesh of a lattice between platens, and the ends of its walls.
+
+    solid: joints are solid; else they are points. It is cached, since consecutive cases often share
+    it.
+    """
+    network, shift = build_network(lattice.geometry), lattice.imperfection * lattice.wall_thickness
+    arms = solid_joints(network, platen) if solid else point_joints(len(network.walls))
+    return split_walls(network, lattice.nodes_per_wall + 1, shift, arms.length), arms
 
 
-def split_walls(network: Network, pieces: int | Ints, imperfection: float) -> Mesh:
+def split_walls(
+    network: Network, pieces: int | Ints, imperfection: float, joint_length: Floats | None = None
+) -> Mesh:
     """Split every wall into equal elements and shift all points sideways.
 
-    pieces: number of elements, one for all walls or (w,). imperfection (m): amplitude of the
-    stress-free shift in x, imperfection x sin(pi y / height).
+    pieces: number of equal elements, one for all walls or (w,). imperfection (m): amplitude of the
+    stress-free shift in x, imperfection x sin(pi y / height). joint_length (w, 2): of the elements
+    for solid joints, m; 0: none.
     """
-    pieces = np.broadcast_to(np.asarray(pieces), len(network.walls))
-    inside = pieces - 1
-    of_wall = np.repeat(np.arange(len(pieces)), inside)
+    walls = len(network.walls)
+    if joint_length is None:
+        joint_length = np.zeros((walls, 2))
+    pieces, solid = np.broadcast_to(np.asarray(pieces), walls), joint_length > 0.0
+    count = pieces + solid.sum(axis=1)
+    inside = count - 1
+    of_wall = np.repeat(np.arange(walls), inside)
     number = np.arange(len(of_wall)) - np.repeat(np.cumsum(inside) - inside, inside) + 1
-    share = (number / pieces[of_wall])[:, None]
-    start, end = network.points[network.walls[of_wall]].swapaxes(0, 1)
-    points = np.concatenate([network.points, start + share * (end - start)])
+    start, end = network.points[network.walls].swapaxes(0, 1)
+    length = np.linalg.norm(end - start, axis=1)
+    equal = (length - joint_length.sum(axis=1)) / pieces
+    place = joint_length[of_wall, 0] + (number - solid[of_wall, 0]) * equal[of_wall]
+    share = (place / length[of_wall])[:, None]
+    points = np.concatenate([network.points, start[of_wall] + share * (end - start)[of_wall]])
     if imperfection > 0.0:
         height = np.ptp(network.points[:, 1])
         points[:, 0] += imperfection * np.sin(np.pi * (points[:, 1] - points[:, 1].min()) / height)
-    wall = np.repeat(np.arange(len(pieces)), pieces)
-    last = np.cumsum(pieces)
+    wall = np.repeat(np.arange(walls), count)
+    last = np.cumsum(count) - 1
+    first = last - inside
     node = len(network.points) + np.arange(len(wall)) - wall  # inner node at an element's end
     before, after = node - 1, node
-    before[last - pieces], after[last - 1] = network.walls.T
+    before[first], after[last] = network.walls.T
+    joint = np.full(len(wall), -1)
+    for side, at in enumerate((first, last)):
+        joint[at[solid[:, side]]] = 2 * np.flatnonzero(solid[:, side]) + side
     return Mesh(
         points=points,
         edges=np.column_stack([before, after]),
         wall=wall,
-        pieces=pieces[wall],
-        thickness=np.repeat(network.wall_thickness, pieces),
+        joint=joint,
+        thickness=np.repeat(network.wall_thickness, count),
         n_joints=len(network.points),
     )
 

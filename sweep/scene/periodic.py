@@ -13,9 +13,11 @@ from sweep.config.case import Case, Lattice
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
 from sweep.design.period import Endless
-from sweep.scene.bending import bends, build_bend, build_fold
+from sweep.scene.beams import bends, build_beams
+from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import Numbering
+from sweep.scene.joints import Arms, find_arms, point_joints
 from sweep.scene.mesh import Floats, Ints, Mesh, split_walls
 from sweep.scene.terms import (
     Parts,
@@ -23,7 +25,6 @@ from sweep.scene.terms import (
     assemble,
     contact_stiffness,
     force_scale,
-    rigidity_of,
     solved_by,
     walls_of,
 )
@@ -57,16 +58,18 @@ def build_periodic(case: Case) -> Scene:
     lattice = case.lattice
     network = build_network(lattice.geometry)
     assert isinstance(network, Endless)
-    whole, numbering = _repeated(network, lattice)
-    elements = slice(network.own * (lattice.nodes_per_wall + 1))
+    arms = _arms(network, case)
+    whole, numbering = _repeated(network, lattice, arms)
+    elements = slice(int(np.searchsorted(whole.wall, network.own)))
     mesh = replace(
         whole,
         edges=whole.edges[elements],
         wall=whole.wall[elements],
-        pieces=whole.pieces[elements],
+        joint=whole.joint[elements],
         thickness=whole.thickness[elements],
     )
-    rigidity = rigidity_of(whole, case)
+    beams = build_beams(mesh, arms, case)
+    rigidity = build_beams(whole, arms, case).rigidity
     fold = build_fold(whole, rigidity, case)
     inside = numbering.own[fold.nodes[:, 1]]
     leader = _leaders(numbering, case)
@@ -80,8 +83,9 @@ def build_periodic(case: Case) -> Scene:
     masses = _masses(mesh, numbering, mass(network, lattice.depth, case.material.density))
     parts = Parts(
         walls=walls,
+        beams=beams,
         layout=layout,
-        bend=build_bend(mesh, rigidity[elements], case),
+        bend=build_bend(mesh, beams, case),
         fold=fold._replace(
             nodes=fold.nodes[inside], limit=fold.limit[inside], stiffness=fold.stiffness[inside]
         ),
@@ -102,15 +106,27 @@ def build_periodic(case: Case) -> Scene:
     )  # fmt: skip
 
 
-def _repeated(network: Endless, lattice: Lattice) -> tuple[Mesh, Repeated]:
+def _arms(network: Endless, case: Case) -> Arms:
+    """The ends of all walls: those of a copy are those of the wall that it copies."""
+    if case.solver.joints == "points":
+        return point_joints(len(network.walls))
+    none, own = np.empty(0, np.int64), network.walls[: network.own]
+    arms = find_arms(network, network.origin[own], none, none)
+    of = network.original
+    return Arms(arms.length[of], arms.compliance[of], arms.sheared[of])
+
+
+def _repeated(network: Endless, lattice: Lattice, arms: Arms) -> tuple[Mesh, Repeated]:
     """Mesh of all walls, those of the period first, and its numbering."""
-    mesh = split_walls(network, lattice.nodes_per_wall + 1, 0.0)
-    inside = lattice.nodes_per_wall
-    number = np.arange(inside)
-    inner = len(network.points) + inside * network.original[:, None] + number
+    mesh = split_walls(network, lattice.nodes_per_wall + 1, 0.0, arms.length)
+    inside = np.diff(mesh.start) - 1
+    first = len(network.points) + np.cumsum(inside) - inside
+    wall = np.repeat(np.arange(len(inside)), inside)
+    number = len(network.points) + np.arange(len(wall)) - first[wall]
+    inner = first[network.original[wall]] + number
     copied = network.shift[network.walls[:, 0]]
-    origin = np.concatenate([network.origin, inner.ravel()])
-    shift = np.concatenate([network.shift, np.repeat(copied, inside, axis=0)])
+    origin = np.concatenate([network.origin, inner])
+    shift = np.concatenate([network.shift, copied[wall]])
     points = mesh.points[origin]
     points[:, 0] += imperfection(lattice, points[:, 1])
     rows, anchor = np.empty(0, np.int64), int(network.bottom[0])

@@ -17,9 +17,9 @@ from kernels.terms.contact import Contact
 from kernels.terms.fold import Fold
 from kernels.terms.position_based import Projection
 from kernels.terms.spring import Spring
-from sweep.config.case import Case, Loading, Material, given
+from sweep.config.case import Case, Loading, given
 from sweep.design.network import Network
-from sweep.scene.bending import arc_of
+from sweep.scene.beams import Beams, plane_factors
 from sweep.scene.coordinates import Numbering
 from sweep.scene.material import law_in_stretch
 from sweep.scene.mesh import Floats, Ints, Mesh
@@ -55,11 +55,13 @@ class Scene:
 class Parts(NamedTuple):
     """The data that depend on the kind of scene.
 
-    walls: topology. layout: constraints and structure of the linear system. mass (n,) in kg and
+    walls: topology. beams: constants of the elements. layout: constraints and structure of the
+    linear system. mass (n,) in kg and
     load (n,) in N or N m of each coordinate. The others are terms of the energy.
     """
 
     walls: elements.Walls
+    beams: Beams
     layout: analysis.Layout
     bend: Bend
     fold: Fold
@@ -73,13 +75,12 @@ class Parts(NamedTuple):
 def assemble(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -> PlanarScene:
     """The data of all terms of a scene."""
     in_stretch, _ = plane_factors(case.material)
-    area = case.lattice.depth * mesh.thickness
     return PlanarScene(
         coordinates=coordinates_of(case, mesh, numbering, parts),
         law=law_in_stretch(case.material, in_stretch),
         walls=parts.walls,
         stretch=stretch.Stretch(
-            mesh.rest_length, area, arc_of(mesh, case), case.solver.hessian == "exact"
+            mesh.rest_length, parts.beams.area, parts.beams.arc, case.solver.hessian == "exact"
         ),
         bend=parts.bend,
         fold=parts.fold,
@@ -132,20 +133,6 @@ def _heavy(layout: analysis.Layout, mass: Floats) -> Floats:
     heavy = np.zeros(mass.size)
     heavy[moving] = (moved[leader] > 0.0) & (leader != layout.driven)
     return heavy
-
-
-def plane_factors(material: Material) -> tuple[float, float]:
-    """Y'/Y in stretching and contact, and in bending."""
-    strain = 1.0 / (1.0 - material.poisson**2)
-    return {"strain": (strain, strain), "stress": (1.0, 1.0), "strain_bending": (1.0, strain)}[
-        material.plane
-    ]
-
-
-def rigidity_of(mesh: Mesh, case: Case) -> Floats:
-    """Bending stiffness Y' I of every element, (m,) N m^2."""
-    second_moment = case.lattice.depth * mesh.thickness**3 / 12
-    return plane_factors(case.material)[1] * case.material.modulus * second_moment
 
 
 def contact_stiffness(case: Case) -> float:

@@ -1,0 +1,118 @@
+"""Solid joints: how the ends of walls yield beyond beams that meet at a point.
+
+A solid joint of arms of thickness t yields as Timoshenko's beams that reach its centre, and
+r . C r / (2 Y' depth) for each arm, r = (N, V, M / t) at the centre: along the arm, to its left,
+turning left (tests/studies/continuum/arms.py finds C from solids). An arm therefore ends in one
+short element, from the centre to x t, whose flexibility in r is C and that of a beam:
+
+    F = C + [[x, 0, 0], [0, 2.4 (1 + nu') x + 4 x^3, -6 x^2], [0, -6 x^2, 12 x]]
+
+nu' is nu in plane stress and nu / (1 - nu) in plane strain. Between its joints the wall is a beam
+with shear. Shear and C belong together, as C is an excess over sheared beams: a wall with an end
+whose C is not known has neither, and its joints are points.
+"""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sweep.design.drawing import Floats
+from sweep.design.drawing import Indices as Ints
+from sweep.design.network import Network
+from sweep.scene.coordinates import BONDED
+from sweep.scene.joint_kinds import compliance, reach
+
+ALIKE = 1.25  # greatest ratio of thicknesses that count as equal
+STRAIGHT = 15.0  # degrees: two arms that meet at less are one bent wall
+MOST = 0.6  # of the length of a wall: joints that take more are points
+
+
+class Arms(NamedTuple):
+    """Ends of walls at solid joints.
+
+    length (w, 2): x t of both ends in m; 0: a point. compliance (w, 2, 4, 3): coefficients in nu'
+    of MM, MV, VV, NN of C. sheared (w,): True for walls of known joints.
+    """
+
+    length: Floats
+    compliance: Floats
+    sheared: NDArray[np.bool_]
+
+
+def point_joints(walls: int) -> Arms:
+    """Joints that are points, and walls without shear."""
+    return Arms(np.zeros((walls, 2)), np.zeros((walls, 2, 4, 3)), np.zeros(walls, np.bool_))
+
+
+def solid_joints(network: Network, platen: str | None) -> Arms:
+    """The ends of the walls of a lattice. Loose platens hold no row, and others both; without a
+    platen the lower row is held.
+    """
+    top = network.top if platen in BONDED else network.top[:0]
+    bottom = network.bottom[:0] if platen == "contact" else network.bottom
+    rows = np.concatenate([bottom, top])
+    return find_arms(network, network.walls, rows, rows[:0])
+
+
+def find_arms(network: Network, joints: Ints, rows: Ints, plain: Ints) -> Arms:
+    """The ends of the first walls of a network, with the number of the joint of each end.
+
+    joints (w, 2). rows: joints of rows that are glued to platens. plain: joints that walls reach as
+    beams.
+    """
+    count = len(joints)
+    start, end = network.points[network.walls[:count]].swapaxes(0, 1)
+    length = np.linalg.norm(end - start, axis=1)
+    thickness = network.wall_thickness[:count]
+    bearing = np.degrees(np.arctan2(*(end - start).T[::-1]))
+    bearings = np.column_stack([bearing, bearing + 180.0]) % 360.0
+    in_row: NDArray[np.bool_] = np.all(np.isin(joints, rows), axis=1, keepdims=True)[:, 0]
+    arms = point_joints(count)
+    length_of, compliance_of = arms.length.reshape(-1), arms.compliance.reshape(-1, 4, 3)
+    known = np.zeros(2 * count, np.bool_)
+    for ends in _by_joint(joints.ravel(), bearings.ravel()):
+        t = thickness[ends // 2]
+        bearing = bearings.ravel()[ends]
+        opened = np.diff(bearing, append=bearing[0] + 360.0)
+        straight = len(ends) == 2 and abs(opened[0] - 180.0) < STRAIGHT
+        if len(ends) == 1 or straight or joints.ravel()[ends[0]] in plain:
+            known[ends] = True
+            continue
+        found = compliance(opened, in_row[ends // 2])
+        if found is None or t.max() > ALIKE * t.min():
+            continue
+        known[ends] = True
+        standing = ends[~in_row[ends // 2]]
+        compliance_of[standing] = found
+        length_of[standing] = thickness[standing // 2] * reach(opened)
+    arms.sheared[:] = known.reshape(-1, 2).all(axis=1) & (arms.length.sum(axis=1) <= MOST * length)
+    arms.length[~arms.sheared] = 0.0
+    return arms
+
+
+def _by_joint(joint: Ints, bearing: Floats) -> Iterator[Ints]:
+    """Ends of walls at each joint, in the order of their bearings."""
+    order = np.lexsort([bearing, joint])
+    changes = np.flatnonzero(np.diff(joint[order])) + 1
+    yield from np.split(order, changes)
+
+
+def joint_elements(side: Ints, x: Floats, compliance: Floats, nu: float) -> tuple[Floats, Floats]:
+    """The elements of solid joints: x (j,) and C (j, 4, 3). side (j,): the end 0 or 1 at the joint.
+
+    Return stiffness along the chord, over Y' depth (j,), and k_11, k_12, k_22 of
+    `kernels.terms.bend` over Y' depth t^2, (3, j).
+    """
+    powers = nu ** np.arange(compliance.shape[2])
+    mm, mv, vv, nn = (compliance @ powers).T
+    flexible, balance = np.empty((2, len(side), 2, 2))
+    flexible[:, 0, 0] = vv + 2.4 * (1.0 + nu) * x + 4.0 * x**3
+    flexible[:, 0, 1] = flexible[:, 1, 0] = mv - 6.0 * x**2
+    flexible[:, 1, 1] = mm + 12.0 * x
+    balance[:, 0] = -1.0 / x[:, None]  # V and M / t under M_1 / t, M_2 / t
+    balance[:, 1] = -1.0, 0.0
+    k = np.linalg.inv(balance.swapaxes(1, 2) @ flexible @ balance)
+    k[side == 1] = k[side == 1, ::-1, ::-1]
+    return 1.0 / (nn + x), np.stack([k[:, 0, 0], k[:, 0, 1], k[:, 1, 1]])
