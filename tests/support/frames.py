@@ -22,9 +22,11 @@ from kernels.terms import (
     fold,
     friction,
     position_based,
+    section,
     spring,
     stretch,
 )
+from sweep.scene.bending import FIBRE, OUTER
 
 MODULUS, DEPTH = 12.0, 10.0
 NO_SPRINGS = spring.Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
@@ -181,19 +183,21 @@ def bend_of(of: Frame, measure: int = bend.ANGLE, cubic: bool = True) -> bend.Be
         measure=measure,
         stiffness=np.outer(factors, of.rigidity / of.l0),
         side=np.where(of.edges < of.joints, 2.0, 1.0).T.copy(),
-        section=elastic.MomentCurve(*linear_law(1.0)),
-        points=points_of(cubic),
-        surface=np.empty(0),
-        weight=np.empty((2, 0)),
+        section=section.BentSection(elastic.FibreCurve(*linear_law(1.0)), 1.0, 0.0, 1.0),
+        spread=np.empty((2, 0)),
+        volume=np.empty(0),
+        shear=np.empty(0),
     )
 
 
-def points_of(cubic: bool) -> np.ndarray:
-    """Curvature x length at two points for a turn of either end, (2, 2): (4 - 6 s, 2 - 6 s)."""
-    if not cubic:
-        return 2.0 * np.eye(2)
-    s = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)
-    return np.column_stack([4.0 - 6.0 * s, 2.0 - 6.0 * s])
+def sections_of(of: Frame, law: section.BentSection, cubic: bool = True) -> bend.Bend:
+    """Bending of elements without shear through the ``law`` of their section."""
+    across = FIBRE * of.thickness / of.l0
+    along = across * (np.sqrt(3.0) if cubic else 1.0)
+    volume = OUTER / 2 * of.depth * of.thickness * of.l0
+    return bend_of(of, cubic=cubic)._replace(
+        section=law, spread=np.stack([across, along]), volume=volume, shear=np.zeros(len(of.l0))
+    )
 
 
 def contact_of(of: Frame, stiffness: float = 1.0) -> contact.Contact:

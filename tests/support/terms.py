@@ -11,10 +11,11 @@ from kernels.linear import block_matrix, periodic_images
 from kernels.linear.block_matrix import Blocks
 from kernels.planar.problem import PlanarScene
 from kernels.solve.integrators import Ahead
-from kernels.terms import bend, contact, damping, elements
+from kernels.terms import bend, contact, damping, elements, stretch
 from kernels.terms.law import Memory
 
 NO_MEMORY = Memory(np.empty((0, 0)), 0.0)
+NO_STRETCH = stretch.Stretch(np.empty(0), np.empty(0), np.empty((2, 0)), True)
 
 
 class Term:
@@ -98,11 +99,11 @@ def of_walls(walls: elements.Walls, write, x0=None) -> Term:
     return Term(slope, lambda x, projected: assembled(walls, found(x, projected)[2], x.size))
 
 
-def bending_of(walls: elements.Walls, bending: bend.Bend, x0=None) -> Term:
-    """Bending; turns count from x0 (or x)."""
+def bending_of(walls: elements.Walls, bending: bend.Bend, x0=None, along=NO_STRETCH) -> Term:
+    """Bending; turns count from x0 (or x). along: what sections know of the stretching."""
 
     def write(shape, resultants, projected):
-        return bend.evaluate(bending, NO_MEMORY, shape, resultants, projected)
+        return bend.evaluate(bending, along, NO_MEMORY, shape, resultants, projected)
 
     return of_walls(walls, write, x0)
 

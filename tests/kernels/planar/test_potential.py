@@ -103,7 +103,7 @@ def potentials(args):
 
     found = {
         "stretch": of_walls(terms.walls, stretching),
-        "bend": bending_of(terms.walls, terms.bend),
+        "bend": bending_of(terms.walls, terms.bend, along=terms.stretch),
         "fold": of_points(
             lambda x, g: fold.evaluate(x, terms.fold, g)[0],
             lambda x, matrix, projected: fold.hessian(x, terms.fold, matrix, projected),

@@ -1,0 +1,161 @@
+"""Solid joints: which joints are known, what their elements yield, which walls they are in."""
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case, Lattice, Solver
+from sweep.design.infill import families
+from sweep.design.lattice import build_network
+from sweep.scene.joint_kinds import KINDS, compliance, reach, table
+from sweep.scene.joints import MOST, joint_elements, point_joints, solid_joints
+from sweep.scene.lattice import build_scene
+from sweep.scene.mesh import split_walls
+
+NONE = np.zeros(6, np.bool_)
+
+
+def found(*openings, in_row=()):
+    opened = np.array(openings, float)
+    row = np.isin(np.arange(len(opened)), in_row)
+    return compliance(opened, row)
+
+
+def network_of(kind="square", **keys):
+    return build_network(Lattice(kind=kind, width=20e-3, height=20e-3, **keys).geometry)
+
+
+@pytest.mark.parametrize(
+    ("openings", "mm"),
+    [
+        ((90, 90, 90, 90), -1.541),
+        ((90, 180, 90), -1.755),
+        ((270, 90), -1.441),
+        ((120, 120, 120), -0.701),
+        ((60, 120, 60, 120), -4.201),
+        ((60,) * 6, -5.281),
+        ((117, 180, 63), -3.443 + 0.3 * (3.443 - 2.469)),
+    ],
+)
+def test_a_joint_is_known_by_its_openings(openings, mm):
+    """In any order and either way round; between two angles by interpolation."""
+    for turned in range(len(openings)):
+        one = np.roll(openings, turned)
+        for way in (one, one[::-1]):
+            assert found(*way)[0, 0] == pytest.approx(mm, abs=2e-3)
+
+
+def test_other_joints_are_not_known():
+    for openings in ((80, 150, 130), (20, 160, 20, 160), (72,) * 5, (45,) * 8):
+        assert found(*openings) is None
+
+
+def test_an_arm_on_a_glued_row_differs():
+    """If it stands upright on the row; an oblique one is as any other."""
+    inner, corner = found(90, 90, 180, in_row=(0, 2)), found(90, 270, in_row=(0,))
+    assert (inner[0, 0], corner[0, 0]) == (-1.57, 0.303)
+    np.testing.assert_array_equal(found(60, 120, 180, in_row=(0, 2)), found(60, 120, 180))
+
+
+@pytest.mark.parametrize("nu", [0.3, 0.48, 0.923])
+@pytest.mark.parametrize("kind", KINDS)
+def test_joint_elements_are_stable(kind, nu):
+    """Their flexibility is positive definite at every angle of the table."""
+    for angle in table()[kind][0]:
+        opened = np.array(KINDS[kind](angle))
+        c = compliance(opened, NONE[: len(opened)])
+        x = np.array([reach(opened)])
+        along, k = joint_elements(np.zeros(1, int), x, c[None], nu)
+        assert along[0] > 0.0
+        assert k[0, 0] > 0.0
+        assert k[0, 0] * k[2, 0] > k[1, 0] ** 2
+
+
+@pytest.mark.parametrize("x", [0.6, 2.0])
+@pytest.mark.parametrize("side", [0, 1])
+def test_a_joint_without_excess_is_a_sheared_beam(x, side):
+    """K of Timoshenko with P = 12 Y' I / (S h^2) = 2.4 (1 + nu') / x^2, over Y' depth t^2."""
+    nu = 0.4
+    along, k = joint_elements(np.array([side]), np.array([x]), np.zeros((1, 4, 3)), nu)
+    p = 2.4 * (1.0 + nu) / x**2
+    expected = np.array([4.0 + p, 2.0 - p, 4.0 + p]) / (12.0 * x * (1.0 + p))
+    np.testing.assert_allclose(k[:, 0], expected, rtol=1e-12)
+    assert along[0] == pytest.approx(1.0 / x)
+
+
+def test_the_other_side_is_the_mirror_image():
+    c = found(90, 90, 90, 90)[None]
+    (_, one), (_, two) = (joint_elements(np.array([s]), np.array([0.6]), c, 0.48) for s in (0, 1))
+    np.testing.assert_allclose(one, two[::-1], rtol=1e-12)
+    assert one[0] > 1.5 * one[2]
+
+
+def half_wall(c, half, nu):
+    """Flexibility of half a wall that sways: a joint and a beam of half (in t), by closed form."""
+    mm, mv, vv = c[:3] @ np.array([1.0, nu, nu**2])
+    return 4.0 * half**3 + mm * half**2 + (2.4 * (1.0 + nu) + 2.0 * mv) * half + vv
+
+
+@pytest.mark.parametrize("nu", [0.3, 0.48])
+def test_a_half_wall_yields_as_the_solid(nu):
+    """A force at the end of a joint element and a Timoshenko beam, against F of both in series."""
+    c, half, x = found(90, 90, 90, 90), 5.0, 0.6
+    _, k = joint_elements(np.zeros(1, int), np.array([x]), c[None], nu)
+    matrix = np.array([[k[0, 0], k[1, 0]], [k[1, 0], k[2, 0]]])
+    p = 2.4 * (1.0 + nu) / (half - x) ** 2
+    beam = np.array([[4.0 + p, 2.0 - p], [2.0 - p, 4.0 + p]]) / (12.0 * (half - x) * (1.0 + p))
+    total = np.zeros((4, 4))  # deflection and rotation of the inner node, of the end
+    for stiffness, ends, h in ((matrix, (None, 0), x), (beam, (0, 2), half - x)):
+        b = np.zeros((2, 4))
+        for row, (node, sign) in enumerate(zip(ends, (1.0, -1.0), strict=True)):
+            if node is not None:
+                b[:, node] += sign / h  # turn of the chord with the deflections
+                b[row, node + 1] += 1.0
+        total += b.T @ stiffness @ b
+    flexibility = np.linalg.inv(total)[2, 2]
+    assert flexibility == pytest.approx(half_wall(c, half, nu), rel=1e-9)
+
+
+@pytest.mark.parametrize("kind", families())
+def test_all_joints_of_the_infills_are_known(kind):
+    """But those of circles where two of them touch, whose arms are too short for them."""
+    network = network_of(kind, wall_thickness=0.5e-3)
+    for platen in ("glued", "contact"):
+        arms = solid_joints(network, platen)
+        assert arms.sheared.all() == (kind != "circle")
+        assert np.all(arms.length.sum(axis=1)[arms.sheared] <= MOST * 20e-3)
+        assert np.all(arms.length[~arms.sheared] == 0.0)
+
+
+def test_joints_of_unequal_walls_are_points():
+    network = network_of(perimeters=3, line_width=0.4e-3, wall_thickness=0.4e-3)
+    arms = solid_joints(network, "contact")
+    assert 0 < np.count_nonzero(arms.sheared) < len(arms.sheared)
+
+
+def test_a_mesh_with_solid_joints():
+    """A short element at either end of a wall, and equal ones between."""
+    network = network_of()
+    arms = solid_joints(network, "glued")
+    mesh = split_walls(network, 3, 0.0, arms.length)
+    standing = np.flatnonzero((arms.length > 0.0).all(axis=1))
+    for wall in standing:
+        own = slice(mesh.start[wall], mesh.start[wall + 1])
+        np.testing.assert_array_equal(mesh.joint[own], [2 * wall, -1, -1, -1, 2 * wall + 1])
+        length = mesh.rest_length[own]
+        np.testing.assert_allclose(length[[0, 4]], 0.6 * 0.8e-3, rtol=1e-12)
+        np.testing.assert_allclose(length[1:4], length[1], rtol=1e-12)
+    total = np.bincount(mesh.wall, mesh.rest_length)
+    ends = network.points[network.walls]
+    np.testing.assert_allclose(total, np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), rtol=1e-12)
+
+
+def test_points_are_beams_without_shear():
+    arms = point_joints(3)
+    assert not arms.sheared.any()
+    assert not arms.length.any()
+    solid, points = (
+        build_scene(Case(solver=Solver(joints=joints))).terms for joints in ("solid", "points")
+    )
+    assert len(points.stretch.l0) == 24 * 3
+    assert len(solid.stretch.l0) > len(points.stretch.l0)
+    np.testing.assert_allclose(points.stretch.arc, np.outer([1 / 15, -1 / 30], np.ones(72)))
