@@ -29,10 +29,12 @@ def stored(x, terms, x0):
     same, mixed = stretch.arc
     strain = length / stretch.l0 - 1.0 + same * np.sum(turn**2, axis=0) + mixed * turn[0] * turn[1]
     density, stress = _guarded(terms.law, strain)
-    volume, tension = stretch.area * stretch.l0, stretch.area * stress
+    volume = stretch.area * stretch.l0
     stretching = np.sum(volume * density)
-    bending, moments = _bending(turn, terms.bend)
-    moments += volume * stress * (2.0 * same * turn + mixed * turn[::-1])
+    bending, moments, by_strain = _bending(turn, strain, terms.bend)
+    by_strain += volume * stress
+    tension = by_strain / stretch.l0
+    moments += by_strain * (2.0 * same * turn + mixed * turn[::-1])
     np.add.at(g, terms.walls.dofs[:, [2, 5]].T, -moments)
     along, across = vector / length[:, None], moments.sum(axis=0) / length
     force = tension[:, None] * along + across[:, None] * np.column_stack(
@@ -89,12 +91,31 @@ def _curvature(bend, turn):
     return turn, np.ones_like(turn)
 
 
-def _through_section(bend, kappa):
-    """Energy and its derivatives in both curvatures, (2, m)."""
-    strain = bend.surface * (bend.points @ kappa)
-    energy, moment = _curve(bend.section, np.abs(strain))
-    pulled = bend.weight * np.sign(strain) * moment * bend.surface
-    return np.sum(bend.weight * energy), bend.points.T @ pulled
+def _through_sections(turn, strain, bend):
+    """Energy (m,) of bent sections, its derivatives in the turns (2, m) and in the strain (m,)."""
+    law, stretched = bend.section, 1.0 + strain
+    m, (across, along) = law.m, bend.spread
+    rows = np.array([[along - across, along + across], [-along - across, across - along]])
+    theta = np.einsum("pik,ik->pk", rows, turn)
+    middle, stress = _curve(law.curve, strain)
+    energy, by_strain, by_theta = -4.0 * middle, -4.0 * stress, np.zeros_like(theta)
+    for p in range(2):
+        q = theta[p] ** 2
+        energy -= law.radial * q**2 / (1.0 + 5.0 * q / 3.0)
+        by_theta[p] -= (
+            law.radial * theta[p] * q * (4.0 + 10.0 * q / 3.0) / (1.0 + 5.0 * q / 3.0) ** 2
+        )
+        for side in (1.0, -1.0):
+            u = np.polynomial.Polynomial([1.0, 1.0, (1.0 - m) / 2, (1.0 - m) * (1.0 - 2.0 * m) / 6])
+            bent = side * theta[p] * stretched**-m
+            value, pulled = _curve(law.curve, stretched * u(bent) - 1.0)
+            energy += value
+            by_strain += pulled * (u(bent) - m * bent * u.deriv()(bent))
+            by_theta[p] += side * pulled * stretched ** (1.0 - m) * u.deriv()(bent)
+    sheared = bend.shear * turn.sum(axis=0)
+    moments = bend.volume * np.einsum("pik,pk->ik", rows, by_theta) + sheared
+    energy = bend.volume * energy + 0.5 * sheared * turn.sum(axis=0)
+    return energy, moments, bend.volume * by_strain
 
 
 def _turns(x, x0, vector, walls):
@@ -108,16 +129,20 @@ def _turns(x, x0, vector, walls):
     return _wrapped(bearing - rest - mean) - (x[rotation] - mean)
 
 
-def _bending(turn, bend):
-    """Energy, and the moments of both ends of every element, (2, m)."""
+def _bending(turn, strain, bend):
+    """Energy, the moments of both ends of every element (2, m), derivatives in its strain (m,)."""
     kappa, slope = _curvature(bend, turn)
-    if bend.weight.size:
-        total, pulled = _through_section(bend, kappa)
-    else:
-        k11, k12, k22 = bend.stiffness
-        pulled = np.stack([k11 * kappa[0] + k12 * kappa[1], k12 * kappa[0] + k22 * kappa[1]])
-        total = 0.5 * np.sum(pulled * kappa)
-    return total, pulled * slope
+    k11, k12, k22 = bend.stiffness
+    moments = np.stack([k11 * kappa[0] + k12 * kappa[1], k12 * kappa[0] + k22 * kappa[1]])
+    energy, moments = 0.5 * np.sum(moments * kappa, axis=0), moments * slope
+    by_strain = np.zeros_like(strain)
+    if bend.volume.size:
+        through = bend.volume > 0.0
+        for linear, found in zip(
+            (energy, moments, by_strain), _through_sections(turn, strain, bend), strict=True
+        ):
+            linear[..., through] = found[..., through]
+    return np.sum(energy), moments, by_strain
 
 
 def _folding(x, fold, g):
