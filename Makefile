@@ -12,8 +12,8 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test stock mutants verify validate continuum accuracy bars spread \
-        stability bench experiment figures lint clean
+.PHONY: help setup sweep rank test stock mutants verify validate elements continuum accuracy \
+        bars spread stability bench experiment figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -53,6 +53,9 @@ verify: setup  ## compute the numbers of README.md again, from results/armor.h5,
 
 validate: setup  ## solve reference problems at three meshes; the table goes to results/validation/
 	@$(PYTHON) -m tests.studies.validation results/validation
+
+elements: setup  ## compare cubic and classical elements on coarse meshes; goes to results/elements/
+	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.validation.elements results/elements
 
 continuum: setup  ## compare with solid finite elements (extra packages); goes to results/continuum/
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.continuum results/continuum

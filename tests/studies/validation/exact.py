@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.integrate import solve_bvp
+from scipy.interpolate import CubicSpline
 
 from tests.studies.validation.problem import axial, bending
 from tests.support.structures import MM, structure
@@ -21,8 +22,8 @@ POINTS = 7
 
 @dataclass
 class Frame:
-    """A structure of straight walls with supports, pins and loads at nodes; lengths over ``unit``,
-    forces times unit^2 / YI of the first wall. What was found last is where the next search starts.
+    """A structure of straight walls with supports, pins, loads and prescribed moves; lengths over
+    ``unit``, forces times unit^2 / YI of the first wall. Searches start from what was found last.
     """
 
     parts: dict
@@ -48,6 +49,11 @@ class Frame:
         for part in of.loads:
             size = [*part.force_N, MM * part.moment_Nmm / self.unit]
             self.load[part.node] += np.array(size) / self.force
+        self.move = dict.fromkeys(of.held, 0.0)
+        for part in of.prescribed:
+            turns = part.direction == "rotation"
+            move = part.angle_rad if turns else MM * part.displacement_mm / self.unit
+            self.move[part.node, part.direction] = move
         self.s = np.linspace(0.0, 1.0, 33)
         straight = points[ends[:, 0], :, None] + along[:, :, None] * self.s
         self.y = np.zeros((self.walls, 6, len(self.s)))
@@ -72,25 +78,55 @@ class Frame:
         for node, meeting in self.at.items():
             moves = np.array([ends[end, wall, :3] for wall, end in meeting])
             moves[:, 2] -= self.rest[[wall for wall, _ in meeting]]
-            pushes = np.array([(2 * end - 1) * ends[end, wall, [4, 5, 3]] for wall, end in meeting])
+            pushes = self._pushes(meeting, ends)
             start = [*self.points[node], 0.0]
             for way, name in enumerate(WAYS):
                 if name == "rotation" and node in self.of.pins:
                     left += list(pushes[:, way])
                     continue
                 left += list(np.diff(moves[:, way]))
-                if (node, name) in self.of.held:
-                    left.append(moves[0, way] - start[way])
+                if (node, name) in self.move:
+                    left.append(moves[0, way] - start[way] - factor * self.move[node, name])
                 else:
                     left.append(pushes[:, way].sum() - factor * self.load[node][way])
         return left
 
+    @staticmethod
+    def _pushes(meeting, ends):
+        """Forces and moments that walls' ends bear at a node, (walls' ends, 3)."""
+        return np.array([(2 * end - 1) * ends[end, wall, [4, 5, 3]] for wall, end in meeting])
+
+    @property
+    def ends(self):
+        """Both ends of every wall, (2, m, 6)."""
+        return np.moveaxis(self.y[:, :, [0, -1]], 2, 0)
+
+    def reaction(self, node, way):
+        """Force (N) or moment (N m) that holds a node."""
+        unit = self.force * (self.unit if way == "rotation" else 1.0)
+        return unit * self._pushes(self.at[node], self.ends)[:, WAYS.index(way)].sum()
+
     def place(self, node, way, ends=None):
         """Coordinate (over unit) or rotation of a node; ``ends`` (2, m, 6): of walls, elsewhere."""
         wall, end = self.at[node][0]
-        ends = np.moveaxis(self.y[:, :, [0, -1]], 2, 0) if ends is None else ends
+        ends = self.ends if ends is None else ends
         value = ends[end, wall, WAYS.index(way)]
         return value - (self.rest[wall] if way == "rotation" else 0.0)
+
+    def near(self, places):
+        """Begin the next search at the shape of a mesh with equally many elements in every wall.
+
+        places (n, 2): of the joints, then of the nodes inside each wall, m.
+        """
+        places = places / self.unit
+        inner = places[len(self.points) :].reshape(self.walls, -1, 2)
+        for wall, (first, last) in enumerate(self.of.walls):
+            passed = np.stack([places[first], *inner[wall], places[last]])
+            through = CubicSpline(np.linspace(0.0, 1.0, len(passed)), passed)
+            angle = np.unwrap(np.arctan2(*through(self.s, 1).T[::-1]))
+            angle += 2.0 * np.pi * np.round((self.rest[wall] - angle.mean()) / (2.0 * np.pi))
+            self.y[wall, :3] = *through(self.s).T, angle
+        return self
 
     def solve(self, factor, steps=1):
         """Find the shape under a share of the loads, from the last one, in equal steps."""

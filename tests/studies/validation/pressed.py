@@ -1,0 +1,83 @@
+"""Columns, a cross, cells, grids and a patch of hexagons, of which some nodes are moved far."""
+
+import numpy as np
+
+from sweep.config.case import Lattice
+from sweep.design.lattice import build_network
+from tests.studies.validation.joints import ARM, CROSS
+from tests.support.structures import CLAMPED, LENGTH, MM
+
+HINGED = ["x", "y"]
+FLAT = 12.5  # mm, height and width of the grid
+SIDE = 4.0  # mm, of a hexagon
+REGULAR = {"width": 2.5 * 3.0**0.5 * SIDE, "height": 3.5 * SIDE}  # of two rows of two hexagons
+
+
+def column(clamped, slenderness, share):
+    """A column of this thickness / length whose end moves along it by a share of its length."""
+    fix = CLAMPED if clamped else HINGED
+    return {
+        "nodes_mm": [[0, 0], [LENGTH, 0]],
+        "walls": [[0, 1]],
+        "wall_thickness_mm": slenderness * LENGTH,
+        "supports": [{"node": node, "fix": fix} for node in (0, 1)],
+    } | _moved([1], "x", displacement_mm=-share * LENGTH)
+
+
+def cross(slenderness, angle):
+    """Four clamped arms of this thickness / length; the joint turns by an angle, rad."""
+    turned = _moved([0], "rotation", angle_rad=angle)
+    return CROSS | turned | {"wall_thickness_mm": slenderness * ARM}
+
+
+def cell(slenderness, share):
+    """A square cell whose walls bend as two plates come nearer; its corners are hinged to them."""
+    corners = LENGTH * np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+    return {
+        "nodes_mm": corners.tolist(),
+        "walls": [[0, 1], [1, 2], [2, 3], [3, 0]],
+        "wall_thickness_mm": slenderness * LENGTH,
+        "supports": [{"node": node, "fix": HINGED} for node in range(4)],
+    } | _moved([2, 3], "y", displacement_mm=-share * LENGTH)
+
+
+def on_corner(slenderness, share):
+    """A square cell that stands on a corner, with a share of its height pressed upon the other."""
+    half = LENGTH / np.sqrt(2.0)
+    return {
+        "nodes_mm": [[0, 0], [half, half], [0, 2 * half], [-half, half]],
+        "walls": [[0, 1], [1, 2], [2, 3], [3, 0]],
+        "wall_thickness_mm": slenderness * LENGTH,
+        "supports": [{"node": node, "fix": CLAMPED} for node in (0, 2)],
+    } | _moved([2], "y", displacement_mm=-share * 2 * half)
+
+
+def grid(thickness, share):
+    """The grid of 3 x 3 cells, glued, perfect; thickness in mm, and a share of the height."""
+    box = {"cells_x": 3, "cells_y": 3, "width": FLAT * MM, "height": FLAT * MM}
+    return _glued(Lattice(kind="square", **box), thickness, share)
+
+
+def hexagons(slenderness, share):
+    """Two rows of two regular hexagons, glued; thickness / side, and a share of the height."""
+    box = {"cells_x": 2, "cells_y": 2, **{key: size * MM for key, size in REGULAR.items()}}
+    return _glued(Lattice(kind="hex", **box), slenderness * SIDE, share)
+
+
+def _glued(lattice, thickness, share):
+    """A lattice as a structure; its outer rows are clamped, and their own walls left out."""
+    network = build_network(lattice.geometry)
+    points, rows = network.points / MM, [network.bottom.tolist(), network.top.tolist()]
+    held = {*rows[0], *rows[1]}
+    return {
+        "nodes_mm": points.tolist(),
+        "walls": [wall for wall in network.walls.tolist() if not set(wall) <= held],
+        "wall_thickness_mm": thickness,
+        "supports": [{"node": node, "fix": CLAMPED} for node in sorted(held)],
+    } | _moved(rows[1], "y", displacement_mm=-share * np.ptp(points[:, 1]))
+
+
+def _moved(nodes, direction, **move):
+    """Prescribed moves of nodes, which are the probes too."""
+    led = [{"node": node, "direction": direction, **move} for node in nodes]
+    return {"prescribed": led, "probes": nodes}
