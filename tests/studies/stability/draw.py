@@ -73,6 +73,8 @@ def scene(number):
     draw = Draws(number)
     while True:
         keys = _material(draw) | _lattice(draw) | _contact(draw) | _damping(draw) | _solver(draw)
+        if keys.get("material.bend") == "section":
+            keys["solver.bend_measure"] = "angle"
         try:
             keys |= _loading(draw, keys)
             return keys, case_of(keys)

@@ -56,7 +56,7 @@ def test_an_arm_on_a_glued_row_differs():
     np.testing.assert_array_equal(found(60, 120, 180, in_row=(0, 2)), found(60, 120, 180))
 
 
-@pytest.mark.parametrize("nu", [0.3, 0.48, 0.923])
+@pytest.mark.parametrize("nu", [0.0, 0.3, 0.48, 0.923, 1.0])
 @pytest.mark.parametrize("kind", KINDS)
 def test_joint_elements_are_stable(kind, nu):
     """Their flexibility is positive definite at every angle of the table."""
