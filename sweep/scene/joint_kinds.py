@@ -8,6 +8,7 @@ lattice of such joints deforms.
 from collections.abc import Callable, Iterator
 from functools import lru_cache
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,10 @@ from numpy.typing import NDArray
 from sweep.design.drawing import Floats
 
 NEAR = 6.0  # degrees: difference of an opening from that of a known joint
-SHORTEST, BEYOND = 0.6, 0.05  # the least reach of an arm, and that beyond an overlap
+SHEARED = -1.2  # slope of MV in nu' at all joints: the one of a beam's shear, with the sign changed
+LENGTHS = np.linspace(0.6, 3.0, 241)  # x: lengths of an arm over t, of which the first stable one
+CONTRACTIONS = np.array([0.0, 0.25, 0.5, 0.75, 1.0])  # nu' for which it is stable
+LEAST = 0.1  # eigenvalue of F in V, M / t: F of a beam of that length has 0.5 to 1
 
 
 def _halves(angle: float) -> float:
@@ -43,20 +47,22 @@ GLUED = {  # an arm that stands on a row whose outer face is glued: within the r
 }
 
 
-def reach(opened: Floats) -> float:
-    """The length of the arms over t: a little beyond the overlap of any two, cot(g / 2) / 2."""
-    return max(SHORTEST, float(0.5 / np.tan(np.radians(0.5 * opened.min()))) + BEYOND)
+class Joint(NamedTuple):
+    """C (4, 3): coefficients in nu' of MM, MV, VV, NN. length: x of an arm."""
+
+    compliance: Floats
+    length: float
 
 
-def compliance(opened: Floats, in_row: NDArray[np.bool_]) -> Floats | None:
-    """Coefficients in nu' of MM, MV, VV, NN of C, (4, 3); None where they are not known.
+def find_joint(opened: Floats, in_row: NDArray[np.bool_]) -> Joint | None:
+    """The joint of some openings; None where it is not known.
 
     opened (k,): openings round the joint, degrees. in_row (k,): arms that are part of a glued row.
     """
     if in_row.any() and np.count_nonzero(~in_row) == 1:
         for openings, known in GLUED.items():
             if any(_off(turned, openings) < NEAR for turned in _turned(opened)):
-                return np.array(known)
+                return Joint(np.array(known), float(LENGTHS[0]))
     fits = [
         (_off(turned, drawn(turned[0])), kind, turned[0])
         for turned in _turned(opened)
@@ -66,9 +72,27 @@ def compliance(opened: Floats, in_row: NDArray[np.bool_]) -> Floats | None:
     off, kind, angle = min(fits, default=(NEAR, "", 0.0))
     if off >= NEAR:
         return None
-    angles, values = table()[kind]
-    mm, mv, vv, nn, mv_nu, vv_nu, nn_nu = (np.interp(angle, angles, column) for column in values)
-    return np.array([[mm, 0.0, 0.0], [mv, mv_nu, 0.0], [vv, vv_nu, 0.0], [nn, nn_nu, 0.0]])
+    return _joint(kind, round(float(angle), 6))
+
+
+@lru_cache(maxsize=256)
+def _joint(kind: str, angle: float) -> Joint | None:
+    """A joint of the table; None if it needs longer arms than any of `LENGTHS`."""
+    angles, columns = table()[kind]
+    mm, mv, vv, nn, vv_nu, nn_nu = (np.interp(angle, angles, column) for column in columns)
+    c = np.array([[mm, 0.0, 0.0], [mv, SHEARED, 0.0], [vv, vv_nu, 0.0], [nn, nn_nu, 0.0]])
+    least = np.min(
+        [np.linalg.eigvalsh(flexibility(c, LENGTHS, nu))[:, 0] for nu in CONTRACTIONS], axis=0
+    )
+    stable = np.flatnonzero(least >= LEAST)
+    return Joint(c, float(LENGTHS[stable[0]])) if len(stable) else None
+
+
+def flexibility(compliance: Floats, x: Floats, nu: float) -> Floats:
+    """F of arms in V and M / t, (j, 2, 2). compliance (.., 4, 3), x (j,)."""
+    mm, mv, vv, _ = np.moveaxis(compliance @ nu ** np.arange(3), -1, 0)
+    across, mixed = vv + 2.4 * (1.0 + nu) * x + 4.0 * x**3, mv - 6.0 * x**2
+    return np.stack([across, mixed, mixed, mm + 12.0 * x], axis=-1).reshape(-1, 2, 2)
 
 
 def _turned(opened: Floats) -> Iterator[Floats]:
@@ -87,11 +111,12 @@ def _off(opened: Floats, openings: tuple[float, ...]) -> float:
 
 @lru_cache(maxsize=1)
 def table() -> dict[str, tuple[Floats, Floats]]:
-    """Angles (k,) and values (7, k) of each kind of joint, in the columns of `joints.csv`."""
+    """Angles (k,) and values (6, k) of each kind of joint, in the columns of `joints.csv`."""
     lines = (Path(__file__).parent / "joints.csv").read_text("utf-8").splitlines()
     rows = [line.split(",") for line in lines if not line.startswith(("#", "kind"))]
     found = {}
     for kind in KINDS:
-        values = np.array([row[1:] for row in rows if row[0] == kind], np.float64).T
+        mine = [[row[1], *row[3:9]] for row in rows if row[0] == kind and row[2] == "all"]
+        values = np.array(mine, np.float64).T
         found[kind] = values[0], values[1:]
     return found

@@ -22,7 +22,7 @@ from sweep.design.drawing import Floats
 from sweep.design.drawing import Indices as Ints
 from sweep.design.network import Network
 from sweep.scene.coordinates import BONDED
-from sweep.scene.joint_kinds import compliance, reach
+from sweep.scene.joint_kinds import find_joint, flexibility
 
 ALIKE = 1.25  # greatest ratio of thicknesses that count as equal
 STRAIGHT = 15.0  # degrees: two arms that meet at less are one bent wall
@@ -80,13 +80,13 @@ def find_arms(network: Network, joints: Ints, rows: Ints, plain: Ints) -> Arms:
         if len(ends) == 1 or straight or joints.ravel()[ends[0]] in plain:
             known[ends] = True
             continue
-        found = compliance(opened, in_row[ends // 2])
+        found = find_joint(opened, in_row[ends // 2])
         if found is None or t.max() > ALIKE * t.min():
             continue
         known[ends] = True
         standing = ends[~in_row[ends // 2]]
-        compliance_of[standing] = found
-        length_of[standing] = thickness[standing // 2] * reach(opened)
+        compliance_of[standing] = found.compliance
+        length_of[standing] = found.length * thickness[standing // 2]
     arms.sheared[:] = known.reshape(-1, 2).all(axis=1) & (arms.length.sum(axis=1) <= MOST * length)
     arms.length[~arms.sheared] = 0.0
     return arms
@@ -105,14 +105,10 @@ def joint_elements(side: Ints, x: Floats, compliance: Floats, nu: float) -> tupl
     Return stiffness along the chord, over Y' depth (j,), and k_11, k_12, k_22 of
     `kernels.terms.bend` over Y' depth t^2, (3, j).
     """
-    powers = nu ** np.arange(compliance.shape[2])
-    mm, mv, vv, nn = (compliance @ powers).T
-    flexible, balance = np.empty((2, len(side), 2, 2))
-    flexible[:, 0, 0] = vv + 2.4 * (1.0 + nu) * x + 4.0 * x**3
-    flexible[:, 0, 1] = flexible[:, 1, 0] = mv - 6.0 * x**2
-    flexible[:, 1, 1] = mm + 12.0 * x
+    balance = np.empty((len(side), 2, 2))
     balance[:, 0] = -1.0 / x[:, None]  # V and M / t under M_1 / t, M_2 / t
     balance[:, 1] = -1.0, 0.0
-    k = np.linalg.inv(balance.swapaxes(1, 2) @ flexible @ balance)
+    k = np.linalg.inv(balance.swapaxes(1, 2) @ flexibility(compliance, x, nu) @ balance)
     k[side == 1] = k[side == 1, ::-1, ::-1]
-    return 1.0 / (nn + x), np.stack([k[:, 0, 0], k[:, 0, 1], k[:, 1, 1]])
+    along = compliance[:, 3] @ nu ** np.arange(3) + x
+    return 1.0 / along, np.stack([k[:, 0, 0], k[:, 0, 1], k[:, 1, 1]])

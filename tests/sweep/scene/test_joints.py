@@ -6,7 +6,7 @@ import pytest
 from sweep.config.case import Case, Lattice, Solver
 from sweep.design.infill import families
 from sweep.design.lattice import build_network
-from sweep.scene.joint_kinds import KINDS, compliance, reach, table
+from sweep.scene.joint_kinds import KINDS, find_joint, table
 from sweep.scene.joints import MOST, joint_elements, point_joints, solid_joints
 from sweep.scene.lattice import build_scene
 from sweep.scene.mesh import split_walls
@@ -17,7 +17,8 @@ NONE = np.zeros(6, np.bool_)
 def found(*openings, in_row=()):
     opened = np.array(openings, float)
     row = np.isin(np.arange(len(opened)), in_row)
-    return compliance(opened, row)
+    joint = find_joint(opened, row)
+    return joint and joint.compliance
 
 
 def network_of(kind="square", **keys):
@@ -33,7 +34,7 @@ def network_of(kind="square", **keys):
         ((120, 120, 120), -0.701),
         ((60, 120, 60, 120), -4.201),
         ((60,) * 6, -5.281),
-        ((117, 180, 63), -3.443 + 0.3 * (3.443 - 2.469)),
+        ((119, 180, 61), -3.443 + 0.2 * (3.443 - 2.895)),
     ],
 )
 def test_a_joint_is_known_by_its_openings(openings, mm):
@@ -45,7 +46,7 @@ def test_a_joint_is_known_by_its_openings(openings, mm):
 
 
 def test_other_joints_are_not_known():
-    for openings in ((80, 150, 130), (20, 160, 20, 160), (72,) * 5, (45,) * 8):
+    for openings in ((70, 150, 140), (20, 160, 20, 160), (72,) * 5, (45,) * 8):
         assert found(*openings) is None
 
 
@@ -62,9 +63,8 @@ def test_joint_elements_are_stable(kind, nu):
     """Their flexibility is positive definite at every angle of the table."""
     for angle in table()[kind][0]:
         opened = np.array(KINDS[kind](angle))
-        c = compliance(opened, NONE[: len(opened)])
-        x = np.array([reach(opened)])
-        along, k = joint_elements(np.zeros(1, int), x, c[None], nu)
+        c, x = find_joint(opened, NONE[: len(opened)])
+        along, k = joint_elements(np.zeros(1, int), np.array([x]), c[None], nu)
         assert along[0] > 0.0
         assert k[0, 0] > 0.0
         assert k[0, 0] * k[2, 0] > k[1, 0] ** 2
