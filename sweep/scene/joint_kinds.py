@@ -6,6 +6,7 @@ lattice of such joints deforms.
 """
 
 from collections.abc import Callable, Iterator
+from csv import DictReader
 from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from sweep.design.drawing import Floats
 
 NEAR = 6.0  # degrees: difference of an opening from that of a known joint
+COLUMNS = ("MM", "MV", "VV", "NN", "VV_nu", "NN_nu")
 SHEARED = -1.2  # slope of MV in nu' at all joints: the one of a beam's shear, with the sign changed
 LENGTHS = np.linspace(0.6, 3.0, 241)  # x: lengths of an arm over t, of which the first stable one
 CONTRACTIONS = np.array([0.0, 0.25, 0.5, 0.75, 1.0])  # nu' for which it is stable
@@ -111,12 +113,12 @@ def _off(opened: Floats, openings: tuple[float, ...]) -> float:
 
 @lru_cache(maxsize=1)
 def table() -> dict[str, tuple[Floats, Floats]]:
-    """Angles (k,) and values (6, k) of each kind of joint, in the columns of `joints.csv`."""
+    """Angles (k,) and values (6, k) of `COLUMNS` for each kind of joint, from `joints.csv`."""
     lines = (Path(__file__).parent / "joints.csv").read_text("utf-8").splitlines()
-    rows = [line.split(",") for line in lines if not line.startswith(("#", "kind"))]
+    rows = list(DictReader(line for line in lines if line[0] != "#"))
     found = {}
     for kind in KINDS:
-        mine = [[row[1], *row[3:9]] for row in rows if row[0] == kind and row[2] == "all"]
-        values = np.array(mine, np.float64).T
-        found[kind] = values[0], values[1:]
+        mine = [row for row in rows if (row["kind"], row["arm"]) == (kind, "all")]
+        angles = np.array([float(row["angle"]) for row in mine])
+        found[kind] = angles, np.array([[float(row[name]) for row in mine] for name in COLUMNS])
     return found
