@@ -1,8 +1,8 @@
 """C of the arms of solid joints, by the openings between them: kinds of joints, tables, look-up.
 
 `joints.py` says what C is. `joints.csv` has it for each kind of joint at several angles; between
-them it is interpolated. All arms of a joint have the same C, a mean over the states in which a
-lattice of such joints deforms.
+them it is interpolated. It is a mean over the states in which a lattice of such joints deforms,
+and the same for all arms but of joints with an axis.
 """
 
 from collections.abc import Callable, Iterator
@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sweep.design.drawing import Floats
+from sweep.design.drawing import Indices as Ints
 
 NEAR = 6.0  # degrees: difference of an opening from that of a known joint
 COLUMNS = ("MM", "MV", "VV", "NN", "VV_nu", "NN_nu")
@@ -37,6 +38,16 @@ KINDS: dict[str, Callable[[float], tuple[float, ...]]] = {  # openings by the fi
     "5": lambda g: (g, _halves(g), _halves(g), g, 180.0 - g),
     "6": lambda g: (g, _halves(g), _halves(g), g, _halves(g), _halves(g)),
 }
+ANGLES = {  # degrees, of the first opening
+    "V": (30.0, 165.0),
+    "Y": (90.0, 285.0),
+    "T": (30.0, 90.0),
+    "X": (20.0, 90.0),
+    "K": (30.0, 130.0),
+    "5": (30.0, 90.0),
+    "6": (30.0, 90.0),
+}
+AXIS = {"Y": 2, "T": 1}  # which arm, in order, is the axis of the other two
 GLUED = {  # an arm that stands on a row whose outer face is glued: within the row, and at its end
     (90.0, 90.0, 180.0): (
         *((-1.57, -0.224, -0.183), (-0.251, -0.88, 0.0)),
@@ -50,44 +61,56 @@ GLUED = {  # an arm that stands on a row whose outer face is glued: within the r
 
 
 class Joint(NamedTuple):
-    """C (4, 3): coefficients in nu' of MM, MV, VV, NN. length: x of an arm."""
+    """The arms of a joint. compliance (k, 4, 3): coefficients in nu' of MM, MV, VV, NN of C.
+    length (k,): x.
+    """
 
     compliance: Floats
-    length: float
+    length: Floats
 
 
 def find_joint(opened: Floats, in_row: NDArray[np.bool_]) -> Joint | None:
     """The joint of some openings; None where it is not known.
 
-    opened (k,): openings round the joint, degrees. in_row (k,): arms that are part of a glued row.
+    opened (k,): openings round the joint, degrees; opening i follows arm i. in_row (k,): arms that
+    are part of a glued row.
     """
     if in_row.any() and np.count_nonzero(~in_row) == 1:
         for openings, known in GLUED.items():
-            if any(_off(turned, openings) < NEAR for turned in _turned(opened)):
-                return Joint(np.array(known), float(LENGTHS[0]))
+            if any(_off(turned, openings) < NEAR for turned, _ in _turned(opened)):
+                shape = len(opened), 1, 1
+                return Joint(np.tile(known, shape), np.full(len(opened), LENGTHS[0]))
     fits = [
-        (_off(turned, drawn(turned[0])), kind, turned[0])
-        for turned in _turned(opened)
+        (_off(turned, drawn(turned[0])), kind, turned[0], tuple(arms))
+        for turned, arms in _turned(opened)
         for kind, drawn in KINDS.items()
-        if table()[kind][0][0] <= turned[0] <= table()[kind][0][-1]
+        if ANGLES[kind][0] <= turned[0] <= ANGLES[kind][1]
     ]
-    off, kind, angle = min(fits, default=(NEAR, "", 0.0))
+    off, kind, angle, arms = min(fits, default=(NEAR, "", 0.0, ()))
     if off >= NEAR:
         return None
-    return _joint(kind, round(float(angle), 6))
+    compliance = np.empty((len(arms), 4, 3))
+    length = np.empty(len(arms))
+    for place, arm in enumerate(arms):
+        part = "all" if kind not in AXIS else "axis" if place == AXIS[kind] else "side"
+        found = _arm(kind, part, round(float(angle), 6))
+        if found is None:
+            return None
+        compliance[arm], length[arm] = found
+    return Joint(compliance, length)
 
 
 @lru_cache(maxsize=256)
-def _joint(kind: str, angle: float) -> Joint | None:
-    """A joint of the table; None if it needs longer arms than any of `LENGTHS`."""
-    angles, columns = table()[kind]
+def _arm(kind: str, part: str, angle: float) -> tuple[Floats, float] | None:
+    """C (4, 3) and x of an arm; None if it would have to be longer than all `LENGTHS`."""
+    angles, columns = table()[kind, part]
     mm, mv, vv, nn, vv_nu, nn_nu = (np.interp(angle, angles, column) for column in columns)
     c = np.array([[mm, 0.0, 0.0], [mv, SHEARED, 0.0], [vv, vv_nu, 0.0], [nn, nn_nu, 0.0]])
     least = np.min(
         [np.linalg.eigvalsh(flexibility(c, LENGTHS, nu))[:, 0] for nu in CONTRACTIONS], axis=0
     )
     stable = np.flatnonzero(least >= LEAST)
-    return Joint(c, float(LENGTHS[stable[0]])) if len(stable) else None
+    return (c, float(LENGTHS[stable[0]])) if len(stable) else None
 
 
 def flexibility(compliance: Floats, x: Floats, nu: float) -> Floats:
@@ -97,11 +120,12 @@ def flexibility(compliance: Floats, x: Floats, nu: float) -> Floats:
     return np.stack([across, mixed, mixed, mm + 12.0 * x], axis=-1).reshape(-1, 2, 2)
 
 
-def _turned(opened: Floats) -> Iterator[Floats]:
-    """The openings, begun at each of them, in both ways round."""
-    for way in (opened, opened[::-1]):
-        for k in range(len(opened)):
-            yield np.roll(way, k)
+def _turned(opened: Floats) -> Iterator[tuple[Floats, Ints]]:
+    """The openings, begun at each of them, in both ways round, and the arm before each."""
+    n = len(opened)
+    for first in range(n):
+        yield opened[(first + np.arange(n)) % n], (first + np.arange(n)) % n
+        yield opened[(first - np.arange(n)) % n], (first + 1 - np.arange(n)) % n
 
 
 def _off(opened: Floats, openings: tuple[float, ...]) -> float:
@@ -112,13 +136,13 @@ def _off(opened: Floats, openings: tuple[float, ...]) -> float:
 
 
 @lru_cache(maxsize=1)
-def table() -> dict[str, tuple[Floats, Floats]]:
-    """Angles (k,) and values (6, k) of `COLUMNS` for each kind of joint, from `joints.csv`."""
+def table() -> dict[tuple[str, str], tuple[Floats, Floats]]:
+    """Angles (k,) and values (6, k) of `COLUMNS` by kind of joint and arm, from `joints.csv`."""
     lines = (Path(__file__).parent / "joints.csv").read_text("utf-8").splitlines()
     rows = list(DictReader(line for line in lines if line[0] != "#"))
     found = {}
-    for kind in KINDS:
-        mine = [row for row in rows if (row["kind"], row["arm"]) == (kind, "all")]
+    for key in {(row["kind"], row["arm"]) for row in rows}:
+        mine = [row for row in rows if (row["kind"], row["arm"]) == key]
         angles = np.array([float(row["angle"]) for row in mine])
-        found[kind] = angles, np.array([[float(row[name]) for row in mine] for name in COLUMNS])
+        found[key] = angles, np.array([[float(row[name]) for row in mine] for name in COLUMNS])
     return found

@@ -24,7 +24,7 @@ from sweep.design.network import Network
 from sweep.scene.coordinates import BONDED
 from sweep.scene.joint_kinds import find_joint, flexibility
 
-ALIKE = 1.25  # greatest ratio of thicknesses that count as equal
+ALIKE = 1.5  # greatest ratio of thicknesses that count as equal; C is that of equal arms
 STRAIGHT = 15.0  # degrees: two arms that meet at less are one bent wall
 MOST = 0.6  # of the length of a wall: joints that take more are points
 
@@ -84,9 +84,9 @@ def find_arms(network: Network, joints: Ints, rows: Ints, plain: Ints) -> Arms:
         if found is None or t.max() > ALIKE * t.min():
             continue
         known[ends] = True
-        standing = ends[~in_row[ends // 2]]
-        compliance_of[standing] = found.compliance
-        length_of[standing] = found.length * thickness[standing // 2]
+        standing = ~in_row[ends // 2]
+        compliance_of[ends[standing]] = found.compliance[standing]
+        length_of[ends[standing]] = (found.length * t)[standing]
     arms.sheared[:] = known.reshape(-1, 2).all(axis=1) & (arms.length.sum(axis=1) <= MOST * length)
     arms.length[~arms.sheared] = 0.0
     return arms
