@@ -7,7 +7,9 @@ from skfem import MeshQuad
 from tests.studies.continuum.arms import ARMS, Joint
 from tests.studies.continuum.grid import Grid
 from tests.studies.continuum.joint import coefficients, spared
+from tests.studies.continuum.lattices import Lattice, from_table, placed, table
 from tests.studies.continuum.network import Network, thick_law
+from tests.studies.continuum.openings import KINDS, Star, Yield, rows
 from tests.studies.continuum.press import Press, StuckError, factor
 from tests.studies.continuum.rubber import DeepRubber, Rubber
 from tests.studies.continuum.solid import Solid
@@ -203,6 +205,55 @@ def test_arms_of_joints_are_as_measured():
     assert Joint("T", 8, 0.0).sway() == pytest.approx([-1.757, -1.215, 0.286], abs=0.02)
     assert Joint("L", 8, 0.0).sway() == pytest.approx([-1.443, -1.182, 0.052], abs=0.02)
     assert Joint("Y", 8, 0.0).sway() == pytest.approx([-0.701, -0.981, 0.088], abs=0.02)
+
+
+@pytest.mark.parametrize(("kind", "arms"), [("X", "X"), ("V", "L")])
+def test_triangles_find_what_quadrilaterals_do(kind, arms):
+    found = dict(Yield(Star(KINDS[kind][0](90)), 0.3).arms())["all"]
+    assert found[:3] == pytest.approx(Joint(arms, 8, 0.3).sway(), abs=0.02)
+
+
+def test_acute_openings_are_linear_in_poissons_ratio():
+    """A coarse mesh at the re-entrant corner, or a slit between arms, would break it."""
+    star = Star((35, 325))
+    cork, rubber = (dict(Yield(star, poisson).arms())["all"] for poisson in (0.0, 0.4))
+    assert (rubber - cork) / 0.4 == pytest.approx([0.0, -1.2, 0.0, 0.0, 0.0, 0.0], abs=1e-3)
+    assert cork[:2] == pytest.approx([-12.030, 4.608], abs=2e-3)
+
+
+def test_arms_of_unequal_crosses_yield_as_if_moved_to_the_side_of_the_other_line():
+    """In own thicknesses: C at a point off the centre, less the beam up to there."""
+    thickness = np.array([1.0, 1.25, 1.0, 1.25])
+    form = Star((90,) * 4, tuple(thickness)).beyond(0.3)[:, 2, :, 2]
+    moments = np.array([1.0, -1.0, 1.0, -1.0]) / thickness
+    off = 0.5 * (thickness[::-1] / thickness - 1.0)
+    assert moments @ form @ moments == pytest.approx(moments**2 @ (-1.541 - 12.0 * off), rel=0.012)
+    assert moments @ form @ moments < 1.25 * moments**2 @ np.full(4, -1.541)
+
+
+@pytest.mark.parametrize(("kind", "angle"), [("X", 60), ("Y", 110)])
+def test_table_of_joints_is_as_computed(kind, angle):
+    for arm, values in rows(kind, angle):
+        lines = table()[kind, arm]
+        assert lines[lines[:, 0] == angle, 1:] == pytest.approx(values[None], abs=2e-3)
+
+
+@pytest.mark.parametrize("turn", [1, -1])
+def test_arms_of_a_joint_are_found_in_the_table_either_way_round(turn):
+    openings = (180.0, 60.0, 120.0)[::turn]
+    kind, angle, order = placed(openings)
+    assert (kind, angle, openings[order[0]]) == ("T", 60.0, 180.0)
+    stem = {1: 2, -1: 1}[turn]  # between 60 and 120 degrees
+    moments = from_table(openings, 0.0)[:, 2, 2]
+    assert moments[stem] == moments.min() < np.delete(moments, stem).min()
+    with pytest.raises(ValueError, match="no kind of joint"):
+        placed((100.0, 130.0, 70.0, 60.0))
+
+
+def test_hexagons_are_as_stiff_with_joints_of_the_table_as_if_solid():
+    lattice = Lattice("hex", 1.0, 0.2)
+    assert lattice.errors(0.48, from_table) == pytest.approx(0.0, abs=0.1)
+    assert lattice.errors(0.48, None) == pytest.approx([-17.0, -16.1, -13.7], abs=0.2)
 
 
 def test_thick_strip_softens_as_it_bends():
