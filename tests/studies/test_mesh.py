@@ -16,6 +16,7 @@ from tests.studies.mesh import (
     cases_of,
     compare,
     covered,
+    order,
     parted,
     slenderness,
     verdict,
@@ -112,6 +113,14 @@ def test_design_without_a_truth_is_marked_and_enters_no_average(piece):
     assert by_design(found).rows[0][4] == "0 %"
 
 
+def test_wrong_orders_and_ties_are_counted_in_pairs():
+    """Limits have the last two in the other order; corrections let these and the first two tie."""
+    values, limits = np.array([10.0, 9.0, 5.0, 4.0]), np.array([10.0, 9.0, 4.0, 5.0])
+    corrections = np.array([0.5, -0.5, -0.5, 0.5])
+    assert list(order(values, corrections, limits)) == [6, 1, 1, 1]
+    assert list(order(values, 0.0 * corrections, limits)) == [6, 1, 0, 0]
+
+
 def test_error_bars_of_the_usual_mesh_are_measured_and_cheap(piece):
     cases, rows, _ = piece
     sheet = covered(cases, rows)
@@ -119,3 +128,4 @@ def test_error_bars_of_the_usual_mesh_are_measured_and_cheap(piece):
     assert float(sheet.rows[0][3]) > 50.0
     factor = float(sheet.notes[0].split()[-4])
     assert 1.2 < factor < 3.0
+    assert sheet.notes[1].startswith("Of 0 pairs")  # a design of each platen
