@@ -199,10 +199,10 @@ def error_bars(design: Case, rows: Rows) -> dict[str, float]:
 
 
 def _median_share(change: Mapping[str, float], own: Mapping[str, Any]) -> float:
-    """Median of the changes as shares of the values, where both are known; NaN without any."""
+    """Median of the changes as shares of the values, where both are known; 0 without any."""
     shares = [abs(change[name] / own[name]) for name in change if own[name] != 0.0]
     known = [share for share in shares if isfinite(share)]
-    return median(known) if known else nan
+    return median(known) if known else 0.0
 
 
 def _converged(file: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:
