@@ -6,21 +6,18 @@ import pytest
 
 from sweep.running.error_bars import companions
 from sweep.simulation.simulate import simulate
-from tests.studies.mesh import (
+from tests.studies.mesh.certainty import covered, order
+from tests.studies.mesh.crushes import (
     COLUMNS,
     DESIGNS,
     USUAL,
-    by_column,
-    by_design,
-    by_group,
     cases_of,
     compare,
-    covered,
-    order,
     parted,
     slenderness,
-    verdict,
+    without_contact,
 )
+from tests.studies.mesh.tables import by_column, by_design, by_group, verdict
 
 FEW = [("square", ("glued", 1.2e-3)), ("hex", ("contact", 1.2e-3))]
 COARSE, FINE, FINEST = 1, 6, 8
@@ -51,6 +48,9 @@ def test_all_infills_glued_and_loose_on_every_mesh():
     cases = cases_of()
     assert len(DESIGNS) == 8 * 2 * 3
     assert len({case.case_id for case in cases.values()}) == len(cases) == 48 * 8
+    alone = without_contact(cases)
+    assert {case.contact.model for case in alone.values()} == {"none"}
+    assert len({case.case_id for case in alone.values()}) == 24 * 8
     assert slenderness(cases[DESIGNS[0], 1]) == pytest.approx(slenderness(cases[DESIGNS[0], 6]))
 
 
