@@ -12,7 +12,7 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test stock mutants verify validate elements continuum accuracy \
+.PHONY: help setup sweep rank test stock mutants verify validate elements continuum accuracy mesh \
         bars spread stability bench experiment figures lint clean
 .DELETE_ON_ERROR:
 
@@ -63,6 +63,9 @@ continuum: setup  ## compare with solid finite elements (extra packages); goes t
 accuracy: setup  ## tell error against run time; tables and figures go to results/accuracy/
 	@failed=0; for study in configs/accuracy/*.toml; do $(PYTHON) -m sweep accuracy $$study || failed=$$?; \
 	test $$failed -le 1 || break; done; exit $$failed
+
+mesh: setup  ## measure how many elements a wall needs; kept in results/mesh/ (4 min)
+	@$(PYTHON) -m tests.studies.mesh results/mesh
 
 bars: setup  ## measure whether error bars cover the error; kept in results/bars/ (10 min)
 	@$(PYTHON) -m tests.studies.bars results/bars

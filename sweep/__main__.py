@@ -36,8 +36,8 @@ CONFIG = "TOML file with the case and its [grid], or the name of an example"
 RUN = """Simulate every case of CONFIG that the results file does not hold yet, then rank.
 Finished cases are never lost and never computed twice: after a stop or a kill, or after an
 extension of the grid, run the same command again. Rows of an older model stay until --renew
-computes them again. With --error-bars every design runs again on another mesh and again with longer
-steps: 3 to 11 times the work if walls have 3 elements."""
+computes them again. With --error-bars every design runs again with half the elements and again with
+half the steps: about twice the work."""
 ACCURACY = """Simulate a sweep over numerical settings, then print error against run time: a table,
 the observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 the limit to which the finest settings of the method of highest order converge. Cases that differ in

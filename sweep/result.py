@@ -289,6 +289,7 @@ PROBE = re.compile(r"probe_(\d+)_(.+)_(m|rad|N|Nm)")
 ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
 PER_GRAM = re.compile(r"specific_absorption_((?:at|until)_.+)_J_per_g")
 ERROR = re.compile(r"^error_(.+)")
+CORRECTION = re.compile(r"^correction_(.+)")
 
 
 def absorbed_energy_column(force: float) -> str:
@@ -299,6 +300,11 @@ def absorbed_energy_column(force: float) -> str:
 def error_column(name: str) -> str:
     """Name of the column of the estimated discretisation error of a column."""
     return f"error_{name}"
+
+
+def correction_column(name: str) -> str:
+    """Name of the column of the estimated limit of fine meshes and short steps - value."""
+    return f"correction_{name}"
 
 
 def describe_array(group: str, name: str) -> Column:
@@ -317,7 +323,8 @@ def describe_history(name: str) -> Column:
 def is_grid_key(name: str) -> bool:
     """True for the column of a grid key, such as `lattice.wall_thickness`."""
     known = {*COLUMNS, *STORED_COLUMNS, *RANKING_COLUMNS}
-    return not (name in known or any(p.fullmatch(name) for p in (ABSORBED_AT, PER_GRAM, ERROR)))
+    derived = (ABSORBED_AT, PER_GRAM, ERROR, CORRECTION)
+    return not (name in known or any(pattern.fullmatch(name) for pattern in derived))
 
 
 def describe_column(name: str) -> Column:
@@ -328,6 +335,9 @@ def describe_column(name: str) -> Column:
         units = describe_column(match[1]).units
         meaning = f"estimated discretisation error of {match[1]}, no bound; NaN: no estimate"
         return Column(units, meaning, "less")
+    if match := CORRECTION.fullmatch(name):
+        meaning = f"estimated limit of fine meshes and short steps - {match[1]}"
+        return Column(describe_column(match[1]).units, meaning)
     if match := ABSORBED_AT.fullmatch(name):
         meaning = f"work done until a force of {match[1]} N is exceeded; all of it if it never is"
         return Column("J", meaning, "more")

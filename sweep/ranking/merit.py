@@ -13,7 +13,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from sweep.result import ABSORBED_AT, COLUMNS, OLDER, absorbed_energy_column, error_column
+from sweep.result import (
+    ABSORBED_AT,
+    COLUMNS,
+    OLDER,
+    absorbed_energy_column,
+    correction_column,
+    error_column,
+)
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -60,7 +67,7 @@ def merits(
 
     Other added columns: `passed_on_N`, the greatest force while that energy is absorbed;
     `returned_share`, returned energy / work of the whole crush; `beyond_model`; `crossed`; and
-    error bars of added columns, if the energy has one.
+    errors and corrections of added columns, if the energy has them.
     """
     if missing := [name for name in COLUMNS if name not in finished and name not in OLDER]:
         raise RankError(
@@ -77,15 +84,16 @@ def merits(
         "crossed": finished["max_crossings"] > 0,
     }
     names = Compared("mass_g", energy, per_gram, until)
-    if (bar := error_column(energy)) in finished:
-        added[error_column(per_gram)] = finished[bar] / finished["mass_g"]
-        added[error_column("passed_on_N")] = finished[error_column(str(force.name))]
-    if panel is not None:
-        factor = panel_factor(finished, panel)
+    factor = None if panel is None else panel_factor(finished, panel)
+    for column in (error_column, correction_column):
+        if (known := column(energy)) in finished:
+            added[column(per_gram)] = finished[known] / finished["mass_g"]
+            added[column("passed_on_N")] = finished[column(str(force.name))]
+            if factor is not None:
+                added[column("panel_energy_J")] = factor * finished[known]
+    if factor is not None:
         added["panel_mass_g"] = factor * finished["mass_g"]
         added["panel_energy_J"] = factor * finished[energy]
-        if bar in finished:
-            added[error_column("panel_energy_J")] = factor * finished[bar]
         names = names._replace(mass="panel_mass_g", energy="panel_energy_J")
     return finished.assign(**added), names
 

@@ -22,6 +22,7 @@ from sweep.ranking.ranking import Ranking
 from sweep.result import (
     OLDER,
     Status,
+    correction_column,
     describe_column,
     error_column,
     is_grid_key,
@@ -102,8 +103,8 @@ def rank(
     The rows of the summary that have a place. The first columns are:
 
     budget_g, scene : the ranking to which a row belongs.
-    place : equal values share a place, and so do values that error bars cannot distinguish from
-        the first value of the place (`shared_places`).
+    place : equal values share a place, and so do values whose order the estimated errors may
+        reverse (`shared_places`).
     tied, ranked_error : with error bars: True if the place is shared; the error of the value.
     sharing, contenders : number of designs with this place, and with any place, including those
         that `top` cuts off.
@@ -215,23 +216,34 @@ def pareto(mass: Series, energy: Series) -> Series:
     return (energy == mass.map(best)) & (energy > mass.map(lighter))
 
 
-def shared_places(values: Series, errors: Series | None = None) -> Series:
+def places_by(rows: DataFrame, by: str) -> Series:
+    """Places of the rows of one scene, sorted by a column, the best first (`shared_places`)."""
+    return shared_places(rows[by], rows.get(error_column(by)), rows.get(correction_column(by)))
+
+
+def shared_places(
+    values: Series, errors: Series | None = None, corrections: Series | None = None
+) -> Series:
     """Places of sorted values, the best first.
 
-    A value shares a place if its interval, value ± error, overlaps or touches that of the first
-    value of the place; a missing error is 0. Otherwise it starts a new place, whose number is
-    1 + the number of values before it.
+    A value shares a place if it differs from the first value of the place by no more than their
+    corrections differ. An error that is common to both thus does not count. Without corrections,
+    which older results do not have, it shares a place if the intervals, value ± error, overlap or
+    touch. A missing correction or error is 0. Otherwise the value starts a new place, whose number
+    is 1 + the number of values before it.
     """
-    places: list[int] = []
-    best = slack = np.nan
-    widths = np.zeros(len(values)) if errors is None else errors.fillna(0.0)
-    for value, error in zip(values, widths, strict=True):
-        if abs(value - best) <= slack + error:
-            places.append(places[-1])
+    known = errors if corrections is None else corrections
+    widths = np.zeros(len(values)) if known is None else known.fillna(0.0)
+    found: list[int] = []
+    best = first = np.nan
+    for value, width in zip(values, widths, strict=True):
+        slack = width + first if corrections is None else abs(width - first)
+        if abs(value - best) <= slack:
+            found.append(found[-1])
         else:
-            best, slack = value, error
-            places.append(len(places) + 1)
-    return Series(places, index=values.index, dtype=int)
+            best, first = value, width
+            found.append(len(found) + 1)
+    return Series(found, index=values.index, dtype=int)
 
 
 def _order(rows: DataFrame, by: str | None, usual: str) -> str:
@@ -262,7 +274,7 @@ def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | Non
     rows = rows[rows[mass] <= greatest_mass(budget_g)].dropna(subset=by)
     rows = rows.sort_values(order, ascending=upwards)
     error = rows.get(error_column(by))
-    place = shared_places(rows[by], error)
+    place = places_by(rows, by)
     known = {} if error is None else {"ranked_error": error, "tied": place.duplicated(keep=False)}
     limit = budget_g if np.isfinite(budget_g) else np.nan
     sharing = place.map(place.value_counts()).astype(int)  # where nothing is, too

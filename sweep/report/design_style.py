@@ -16,7 +16,7 @@ from pandas import concat
 
 from sweep.numbers import energy_text, tenths, three_digits
 from sweep.ranking.merit import LEAST, greatest_mass
-from sweep.ranking.rank import shared_places
+from sweep.ranking.rank import places_by
 from sweep.report.sheets import design_labels
 from sweep.result import error_column, less_is_better
 
@@ -214,7 +214,7 @@ def _ties(rows: DataFrame, won: DataFrame, name: str) -> str:
         return ""
     others = rows.drop(index=won.index).sort_values(name, ascending=less_is_better(name))
     ordered = concat([won, others])
-    count = int((shared_places(ordered[name], errors_of(ordered, name)) == 1).sum())
+    count = int((places_by(ordered, name) == 1).sum())
     share = f" ± {tenths(error / abs(won[name].item()))} %"
     return f"{share}, a tie of {count}" if count > 1 else share
 

@@ -28,7 +28,7 @@ rebound: energy of the striker when it leaves / at first touch."""
 FIRST = {"peak_strain": ": least sink first", "peak_force_N": ": least force first"}
 TIED = """\
 ±: estimated error of the sorted column, from mesh and steps, in % of the value; not a bound.
-=: the place is shared, as the interval value ± error overlaps that of the first design there.
+=: the place is shared: errors may reverse the order. What all designs err alike does not count.
 ?: the error is unknown; the place is that of the value alone."""
 BEYOND = """\
 !: beyond the model: an element is shorter than 0.7 of its rest length, or the lattice is compressed

@@ -1,14 +1,17 @@
-"""Error bars: every design is simulated again on another mesh, and again with longer steps.
+"""Error bars: every design is simulated again on a coarser mesh, and again with longer steps.
 
 These two companions are ordinary cases, in a results file of their own beside that of the sweep:
-`armor.companions.h5` beside `armor.h5`. The difference between a design and each companion is
-extrapolated to the limit of fine meshes or short steps at first order; the two errors are added:
+`armor.companions.h5` beside `armor.h5`. With half the elements or half the steps they cost less
+than the design. h, H: size of an element or a step of the design and of the companion, r = H / h:
 
-    error = sum |value - companion's value| h / |H - h|
+    error = sum (change^2 + usual^2)^(1/2) / |r - 1|,    change = value - companion's value
+    correction = sum change / (r^p - 1)
 
-h, H: size of an element or a step of the design and of the companion. The other mesh has half the
-elements, or twice as many if half are too few: walls of two elements buckle and touch in another
-way. First order is assumed because walls touch and snap; smooth scenes converge faster.
+`usual` is the median relative change of the design's columns times the value, since one column may
+agree by chance. The error is extrapolated at first order because walls touch and snap. The
+correction is an estimate of limit - value with p = 2 for meshes, about the order of `make mesh`,
+and p = 1 for steps. Two designs are compared by the difference of their corrections: most of the
+error is common to them.
 
 An estimate from two sizes is no bound. It sees a buckling branch that only one of the two follows,
 but not a branch that only finer meshes or shorter steps would follow.
@@ -16,15 +19,16 @@ but not a branch that only finer meshes or shorter steps would follow.
 
 import os
 from collections.abc import Mapping, Sequence
-from math import isnan, nan
+from math import hypot, isfinite, isnan, nan
 from pathlib import Path
+from statistics import median
 from typing import Any, NamedTuple
 
 from sweep.config.case import Case
 from sweep.config.grid import Config, expand
 from sweep.config.lattice_table import Lattice
 from sweep.config.tables import Solver
-from sweep.result import ABSORBED_AT, Status, error_column
+from sweep.result import ABSORBED_AT, Status, correction_column, error_column
 from sweep.running.dask_graph import Simulate
 from sweep.running.progress import tell
 from sweep.running.provenance import config_text, describe_run
@@ -32,7 +36,6 @@ from sweep.running.sweep import run_sweep
 from sweep.store.read import ONLY_MISSING, Rerun, exists, finished_ids, read_summary
 from sweep.store.write import Writer
 
-FEWEST = 3  # elements per wall of the mesh of a companion
 PEAKS = ("peak_force_N", "peak_force_at_densification_N", "peak_force_until_packed_N")
 HEADLINE = (
     "absorbed_energy_J",
@@ -58,10 +61,21 @@ Rows = Mapping[str, Mapping[str, Any]]
 
 
 class Companion(NamedTuple):
-    """A case, and the factor h / |H - h| from the difference of results to the error."""
+    """A case, the ratio H / h to the size of the design, and the order p of the correction."""
 
     case: Case
-    weight: float
+    ratio: float
+    order: int
+
+    @property
+    def weight(self) -> float:
+        """The factor from the change of a value to its error, at first order."""
+        return 1.0 / abs(self.ratio - 1.0)
+
+    @property
+    def correction(self) -> float:
+        """The factor from the change of a value to limit - value."""
+        return 1.0 / (self.ratio**self.order - 1.0)
 
 
 def companions(design: Case) -> list[Companion]:
@@ -69,8 +83,8 @@ def companions(design: Case) -> list[Companion]:
     lattice, mesh = _remeshed(design.lattice)
     solver, steps = _longer_steps(design.solver)
     return [
-        Companion(_labelled(design.model_copy(update={"lattice": lattice})), mesh),
-        Companion(_labelled(design.model_copy(update={"solver": solver})), steps),
+        Companion(_labelled(design.model_copy(update={"lattice": lattice})), mesh, order=2),
+        Companion(_labelled(design.model_copy(update={"solver": solver})), steps, order=1),
     ]
 
 
@@ -85,20 +99,19 @@ def _labelled(case: Case) -> Case:
 
 
 def _remeshed(lattice: Lattice) -> tuple[Lattice, float]:
-    """Half the elements per wall, or twice as many if half are too few; the factor to the error."""
+    """Half the elements per wall, or twice as many if a wall has only one; the ratio of sizes."""
     structure = lattice.structure
     pieces = (lattice.nodes_per_wall + 1,) if structure is None else structure.pieces
-    fine = min(pieces) >= 2 * FEWEST
-    others = tuple(n // 2 if fine else 2 * n for n in pieces)
-    weight = max(other / abs(n - other) for n, other in zip(pieces, others, strict=True))
+    others = tuple(n // 2 if min(pieces) > 1 else 2 * n for n in pieces)
+    ratio = min(n / other for n, other in zip(pieces, others, strict=True))
     if structure is None:
-        return lattice.model_copy(update={"nodes_per_wall": others[0] - 1}), weight
+        return lattice.model_copy(update={"nodes_per_wall": others[0] - 1}), ratio
     remeshed = structure.model_copy(update={"subdivide": others})
-    return lattice.model_copy(update={"structure": remeshed}), weight
+    return lattice.model_copy(update={"structure": remeshed}), ratio
 
 
 def _longer_steps(solver: Solver) -> tuple[Solver, float]:
-    """Half as many steps, or two instead of a single one; the factor to the error.
+    """Half as many steps, or two instead of a single one; the ratio of their lengths.
 
     The error of one step grows with its length to the power order + 1 of the integrator.
     """
@@ -111,7 +124,7 @@ def _longer_steps(solver: Solver) -> tuple[Solver, float]:
     scales = {"time_step": ratio, "arc_length": ratio, "step_error": ratio ** (order + 1)}
     values = {key: getattr(solver, key) for key in scales}
     scaled = {key: scales[key] * value for key, value in values.items() if value is not None}
-    return solver.model_copy(update=scaled | {"load_steps": other}), 1.0 / abs(ratio - 1.0)
+    return solver.model_copy(update=scaled | {"load_steps": other}), ratio
 
 
 def companions_file(out: str | os.PathLike[str]) -> Path:
@@ -160,22 +173,36 @@ def add_error_bars(
 
 
 def error_bars(design: Case, rows: Rows) -> dict[str, float]:
-    """Error columns of a design; `rows`: all rows of converged cases.
+    """Error and correction columns of a design; `rows`: all rows of converged cases.
 
     NaN if a companion is missing or of another version of the model. The peak force of a sudden
     load belongs to a wave: it grows as steps get shorter, and has no error bar.
     """
     own = rows[design.case_id]
-    names = [name for name in own if name in HEADLINE or ABSORBED_AT.fullmatch(name)]
-    others = [(c.weight, rows.get(c.case.case_id, {})) for c in companions(design)]
-    version = own["model_version"]
-    found = [(w, row if row.get("model_version") == version else {}) for w, row in others]
-    bars = {
-        name: sum(weight * abs(own[name] - other.get(name, nan)) for weight, other in found)
-        for name in names
-    }
     unsettled = PEAKS if design.loading.mode == "force" else ()
-    return {error_column(name): nan if name in unsettled else bars[name] for name in names}
+    names = [name for name in own if name in HEADLINE or ABSORBED_AT.fullmatch(name)]
+    errors = dict.fromkeys(names, 0.0)
+    corrections = dict.fromkeys(names, 0.0)
+    for companion in companions(design):
+        row = rows.get(companion.case.case_id, {})
+        other = row if row.get("model_version") == own["model_version"] else {}
+        change = {name: own[name] - other.get(name, nan) for name in names}
+        settled = {name: change[name] for name in names if name not in unsettled}
+        usual = _median_share(settled, own)
+        for name in names:
+            errors[name] += companion.weight * hypot(change[name], usual * own[name])
+            corrections[name] += companion.correction * change[name]
+    for name in unsettled:
+        errors[name] = corrections[name] = nan
+    bars = {error_column(name): error for name, error in errors.items()}
+    return bars | {correction_column(name): value for name, value in corrections.items()}
+
+
+def _median_share(change: Mapping[str, float], own: Mapping[str, Any]) -> float:
+    """Median of the changes as shares of the values, where both are known; 0 without any."""
+    shares = [abs(change[name] / own[name]) for name in change if own[name] != 0.0]
+    known = [share for share in shares if isfinite(share)]
+    return median(known) if known else 0.0
 
 
 def _converged(file: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:

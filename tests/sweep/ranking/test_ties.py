@@ -41,6 +41,24 @@ def test_values_share_the_place_of_the_first_that_they_overlap(values, errors, p
     assert list(shared_places(pd.Series(values), errors)) == places
 
 
+def test_errors_that_all_designs_share_make_no_ties():
+    """Two designs tie if their values differ by no more than their corrections do."""
+    table = summary(*with_bars([10.0, 9.5, 8.0, 7.9], [0.9] * 4))
+    table["correction_peak_force_until_packed_N"] = 0.0
+    assert list(ranked(table).table["place"]) == [1, 1, 3, 3]
+    table["correction_absorbed_energy_until_packed_J"] = [1e-3] * 4
+    assert list(ranked(table).table["place"]) == [1, 2, 3, 4]
+    table["correction_absorbed_energy_until_packed_J"] = [1e-3, 1e-3, -1e-3, -0.8e-3]
+    assert list(ranked(table, panel=(0.1, 0.05)).table["place"]) == [1, 2, 2, 2]
+    assert list(ranked(table).table["tied"]) == [False, True, True, True]
+
+
+def test_missing_correction_is_none():
+    values, errors = pd.Series([5.0, 4.5, 4.4]), pd.Series([1.0, 1.0, 1.0])
+    corrections = pd.Series([NAN, 0.3, -0.6])
+    assert list(shared_places(values, errors, corrections)) == [1, 2, 2]
+
+
 def test_ties_are_marked_also_where_the_other_is_not_shown():
     table = summary(*with_bars([10.0, 9.0, 8.0, 7.9], [0.6, 0.6, 0.16, 0.1]))
     ranking = ranked(table, top=3)

@@ -1,0 +1,1 @@
+"""How many elements a wall needs: see `__main__`."""

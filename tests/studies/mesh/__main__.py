@@ -1,0 +1,48 @@
+"""How many elements a wall needs: every column of a ranking beside a converged mesh.
+
+Run by `make mesh`: all infills, light and heavy, glued and loose, crushed to 60 % with one element
+per wall and with more, up to `FINEST`; the last stands for the truth. Where the two finest meshes
+follow different paths there is no truth: such designs are marked and enter no average.
+How many elements bending alone needs is told by the same crushes without contact. Finished cases
+are kept in the given folder.
+"""
+
+import sys
+from pathlib import Path
+
+from sweep.report.markdown import markdown
+from sweep.running.error_bars import companions
+from sweep.running.sweep import run_sweep
+from sweep.store.read import read_history, read_summary
+from tests.studies.mesh.certainty import covered
+from tests.studies.mesh.crushes import USUAL, cases_of, compare, without_contact
+from tests.studies.mesh.tables import by_column, by_design, by_group
+
+
+def main(folder):
+    """Run what is missing, and print the tables."""
+    folder.mkdir(parents=True, exist_ok=True)
+    file, cases = folder / "mesh.h5", cases_of()
+    bending = without_contact(cases)
+    usual = [case for (_, n), case in cases.items() if n == USUAL]
+    others = [companion.case for case in usual for companion in companions(case)]
+    crushes = [*cases.values(), *bending.values()]
+    run_sweep(list({case.case_id: case for case in (*crushes, *others)}.values()), file)
+    rows = read_summary(file).set_index("case_id")
+    curves = {case.case_id: curve(file, case.case_id) for case in crushes}
+    found = compare(cases, rows, curves)
+    alone = by_column(compare(bending, rows, curves), "Errors by column, glued, without contact")
+    sheets = [by_column(found), alone, by_group(found), by_design(found), covered(cases, rows)]
+    text = markdown(sheets)
+    (folder / "mesh.md").write_text(text, "utf-8")
+    sys.stdout.write(text)
+
+
+def curve(file, case_id):
+    """Strain and work of a crush, (rows,) each."""
+    history = read_history(file, case_id)
+    return history["strain"].to_numpy(), history["work_in_J"].to_numpy()
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

@@ -1,0 +1,98 @@
+"""Crushes of all infills on meshes from one element per wall up, each beside the finest one."""
+
+from itertools import product
+
+import numpy as np
+import pandas as pd
+
+from sweep.config.case import Case, Contact, Lattice
+from sweep.result import Status
+from sweep.scene.mesh import build_mesh
+from tests.studies.spread import ALLOWED, CELLS, crush
+
+MESHES = (1, 2, 3, 4, 6, 8)  # elements of a wall
+FINEST = (12, 24)
+USUAL = Lattice().nodes_per_wall + 1
+MASSES = (0.6e-3, 1.2e-3, 2.0e-3)  # kg: about 0.1, 0.2 and 0.35 of a solid block
+DESIGNS = tuple(product(CELLS, product(("glued", "contact"), MASSES)))
+COLUMNS = {
+    "absorbed_energy_J": "energy per gram",
+    "absorbed_energy_until_packed_J": "until packed",
+    "packing_strain": "packing strain",
+    "peak_force_until_packed_N": "peak force",
+    "plateau_stress_iso_Pa": "plateau stress",
+    **{f"absorbed_energy_at_{force:g}N_J": f"up to {force:g} N" for force in ALLOWED},
+}
+WINDOW, APART, LASTING = 0.02, 0.05, 3  # strain; share of the mean force; windows
+NAMES = {"glued": "glued", "contact": "loose"}
+DESIGN = ["infill", "platens", "g"]
+
+
+def cases_of(designs=DESIGNS, meshes=(*MESHES, USUAL, *FINEST)):
+    """The crush of every design, as those of `spread`, on every mesh."""
+    sizes = product(designs, meshes)
+    return {(design, n): crush(design, n, imperfection=0.01, steps=200) for design, n in sizes}
+
+
+def without_contact(cases):
+    """The crushes between glued platens, with walls that pass through one another."""
+    return {
+        (design, n): Case(
+            lattice=case.lattice,
+            loading=case.loading,
+            contact=Contact(model="none"),
+            solver=case.solver,
+        )
+        for (design, n), case in cases.items()
+        if case.loading.platen == "glued"
+    }
+
+
+def slenderness(case):
+    """Median length of a wall, joint to joint, / wall thickness."""
+    mesh = build_mesh(case.lattice)
+    return float(np.median(mesh.rest_length * mesh.pieces / mesh.thickness))
+
+
+def parted(curve, other):
+    """The strain at which two crushes part, and stay apart for `LASTING` windows; else NaN.
+
+    curves: strain and work, (rows,) each. Compared are mean forces over windows of strain, so that
+    a snap that is a little later is no other path.
+    """
+    edges = np.arange(0.0, min(curve[0][-1], other[0][-1]) + 0.5 * WINDOW, WINDOW)
+    force, beside = (np.diff(np.interp(edges, *each)) for each in (curve, other))
+    apart = np.abs(force - beside) > APART * np.fmax(np.abs(force), np.abs(beside))
+    lasting = np.lib.stride_tricks.sliding_window_view(apart, LASTING).all(axis=1)
+    return float(edges[lasting.argmax()]) if lasting.any() else np.nan
+
+
+def compare(cases, rows, curves):
+    """Every crush beside the one of its design on the finest mesh: a row for each.
+
+    rows: the summary by case id; curves: case id -> (strain, work). `parted`: the strain at which
+    the crush leaves the path of the finest mesh; `branches`: where the finest but one does, 0 if
+    one of both failed; `work`: Newton iterations x elements. Other columns: relative errors.
+    """
+    *_, fine, finest = sorted({n for _, n in cases})
+    found = []
+    for (design, n), case in cases.items():
+        ids = [cases[design, mesh].case_id for mesh in (n, fine, finest)]
+        row, near, truth = (rows.loc[case_id] for case_id in ids)
+        path, _, true_path = (curves[case_id] for case_id in ids)
+        failed = [each["status"] != Status.CONVERGED for each in (row, near, truth)]
+        kind, (platen, mass) = design
+        found.append(
+            {"infill": kind, "platens": NAMES[platen], "g": 1e3 * mass, "elements": n}
+            | {"l/t": slenderness(case), "failed": failed[0]}
+            | {"work": work(case, rows), "cpu": row["cpu_s"]}
+            | {"parted": parted(path, true_path)}
+            | {"branches": 0.0 if any(failed[1:]) else parted(curves[ids[1]], true_path)}
+            | {name: abs(row[name] / truth[name] - 1.0) for name in COLUMNS}
+        )
+    return pd.DataFrame(found)
+
+
+def work(case, rows):
+    """Newton iterations x elements of a wall."""
+    return (case.lattice.nodes_per_wall + 1) * rows.loc[case.case_id, "newton_iterations"]
