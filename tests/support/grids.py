@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sweep.config.case import Case, Lattice, Loading
+from sweep.config.case import Case, Lattice, Loading, Solver
 from sweep.scene.lattice import build_scene
 from tests.studies.verify import MATERIAL
 
@@ -17,9 +17,10 @@ LOADINGS = {
 
 
 def scene_of(elements=3, platen="none", imperfection=0.0, **tables):
-    """A 3 x 3 grid of a linear material in plane stress."""
+    """A 3 x 3 grid of a linear material in plane stress, with joints that are points."""
     lattice = Lattice(nodes_per_wall=elements - 1, imperfection=imperfection)
-    chosen = {"lattice": lattice, "material": MATERIAL, "loading": LOADINGS[platen]} | tables
+    chosen = {"lattice": lattice, "material": MATERIAL, "loading": LOADINGS[platen]}
+    chosen |= {"solver": Solver(joints="points")} | tables
     return build_scene(Case(**chosen))
 
 

@@ -32,7 +32,7 @@ def pressed(
     solver=None,
 ):
     """Crush to ``strain`` in equal steps, quasi-static without a ``speed`` (m/s); ``elements`` a
-    wall.
+    wall, joints that are points.
     """
     return Case(
         lattice=Lattice(nodes_per_wall=elements - 1, imperfection=imperfection),
@@ -47,7 +47,7 @@ def pressed(
         ),
         contact=Contact(model=contact, friction=friction),
         damping=damping,
-        solver=Solver(load_steps=steps, **(solver or {})),
+        solver=Solver(load_steps=steps, **{"joints": "points"} | (solver or {})),
     )
 
 
@@ -73,7 +73,7 @@ def loaded(
         ),
         contact=Contact(model="none" if platen == "none" else "barrier", friction=friction),
         damping=damping,
-        solver=Solver(time_step=time_step, element=element),
+        solver=Solver(time_step=time_step, element=element, joints="points"),
     )
 
 
@@ -143,5 +143,5 @@ def grid(force, platen="none", contact="none", elements=3):
         loading=Loading(force=force, platen=platen),
         contact=Contact(model=contact, friction=0.0),
         damping=Damping(model="none"),
-        solver=Solver(time_step=1e-3),
+        solver=Solver(time_step=1e-3, joints="points"),
     )

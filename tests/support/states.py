@@ -9,7 +9,7 @@ from tests.support.solving import whole
 DT = 1e-3
 RAYLEIGH = Damping(model="rayleigh", mass=300.0, stiffness=1e-3)
 VISCOUS = Damping(model="kelvin_voigt", relaxation_time=1e-3)
-CURVE = Material(name="ninjaflex")
+CURVE = Material(name="ninjaflex", bend="linear")
 SIZE = 12.5e-3
 GRIP = Contact(friction=0.3, slip_speed=0.1)  # smoothed below 0.1 mm in a step
 SLIDE = Contact(friction=0.3, slip_speed=1e-4)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.terms import fold, friction, stretch
-from sweep.config.case import Solver
+from sweep.config.case import Material, Solver
 from tests.studies.verify import MATERIAL
 from tests.support.solving import whole
 from tests.support.states import (
@@ -44,6 +44,14 @@ def test_derivatives(seed, state, damping, dt):
     scene = loaded(damping=damping)
     x = STATES[state](scene, seed)
     assert error(scene, x, step_to(scene, x, seed, dt)) < 1e-9
+
+
+@pytest.mark.parametrize("state", STATES)
+def test_derivatives_through_sections(state):
+    """The third derivative of a measured curve jumps at its knots."""
+    scene = loaded(damping=VISCOUS, material=Material())
+    x = STATES[state](scene)
+    assert error(scene, x, step_to(scene, x, 0), 1e-6) < 1e-6
 
 
 @pytest.mark.parametrize("dt", [DT, np.inf])

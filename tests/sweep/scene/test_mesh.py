@@ -69,7 +69,7 @@ def test_the_imperfection_is_half_a_sine_over_the_height():
 
 def test_the_mesh_of_a_lattice_has_its_nodes_and_its_imperfection():
     lattice = Lattice(nodes_per_wall=3, imperfection=0.5)
-    mesh = build_mesh(lattice)
+    mesh, _ = build_mesh(lattice, False, "glued")
     assert (len(mesh.points), len(mesh.edges)) == (16 + 24 * 3, 24 * 4)
     assert np.ptp(mesh.points[:, 0]) == pytest.approx(12.5e-3 + 0.5 * 0.8e-3, rel=1e-3)
 

@@ -6,7 +6,7 @@ import pytest
 from kernels.solve.problem import HELD
 from sweep.config.case import Contact, Damping, Material, Solver
 from sweep.design.network import mass
-from sweep.scene.terms import plane_factors
+from sweep.scene.beams import plane_factors
 from tests.studies.verify import MATERIAL
 from tests.support.grids import DEPTH, LOADINGS, THICKNESS, WALL, scene_of
 
