@@ -43,7 +43,7 @@ def pressed(pieces, strain, contact, **solver):
         material=MATERIAL,
         loading=Loading(mode="displacement", strain=strain, unload=False),
         contact=Contact(model=contact, friction=0.0),
-        solver=Solver(load_steps=round(100 * strain), **solver),
+        solver=Solver(load_steps=round(100 * strain), joints="points", **solver),
     )
     return simulate(case)
 
@@ -55,7 +55,7 @@ def loaded(force, contact="none", platen="none", **solver):
         loading=Loading(mode="force", force=force, platen=platen),
         contact=Contact(model=contact, friction=0.0),
         damping=Damping(model="none"),
-        solver=Solver(time_step=1e-3, **solver),
+        solver=Solver(time_step=1e-3, joints="points", **solver),
     )
     return simulate(case)
 
