@@ -34,7 +34,7 @@ def endless(kind, way, slenderness, cells=(2, 2), strain=STRAIN, **chosen):
             lattice=lattice,
             material=MATERIAL,
             loading=Loading(mode="displacement", strain=strain, unload=False),
-            solver=Solver(load_steps=1),
+            solver=Solver(load_steps=1, joints="points"),
             **chosen,
         )
     )
@@ -100,7 +100,7 @@ def block(cells, t):
             material=MATERIAL,
             loading=Loading(mode="displacement", strain=1e-4, unload=False, platen="contact"),
             contact=Contact(model="none", friction=0.0),
-            solver=Solver(load_steps=2),
+            solver=Solver(load_steps=2, joints="points"),
         )
     )
     assert result.status == "converged"

@@ -10,6 +10,9 @@ twice the last part.
 
 `Clock`: an elastic law that remembers how much time has passed.
 
+`Bent`: the sections of an element of linear bending, whose two curvatures follow any law, as
+`kernels.terms.section` has them.
+
 `Section`: fibres of any law through the thickness of a wall. Its strain is a pair, the axial strain
 e and the curvature kappa; a fibre at the height z has the strain e + z kappa.
 """
@@ -149,3 +152,42 @@ class Section(NamedTuple):
     respond = respond_section
     state_size = section_state_size
     commit = commit_section
+
+
+@jit
+def _sections(memory, point):
+    """Return the memory of the two sections of an element, a row each."""
+    return Memory(memory.committed[point].reshape((2, -1)), memory.duration)
+
+
+@jit
+def respond_bent(bent, strain, memory, point):
+    rows = _sections(memory, point)
+    one, slope1, rigid1 = bent.fibre.respond(strain[1], rows, 0)
+    two, slope2, rigid2 = bent.fibre.respond(strain[2], rows, 1)
+    slopes = 0.0, 2.0 * slope1, 2.0 * slope2
+    return 2.0 * (one + two), slopes, (0.0, 0.0, 0.0, 2.0 * rigid1, 0.0, 2.0 * rigid2)
+
+
+@jit
+def bent_state_size(bent):
+    return 2 * bent.fibre.state_size()
+
+
+@jit
+def commit_bent(bent, strain, memory, point):
+    rows = _sections(memory, point)
+    stored1, lost1 = bent.fibre.commit(strain[1], rows, 0)
+    stored2, lost2 = bent.fibre.commit(strain[2], rows, 1)
+    return 2.0 * (stored1 + stored2), 2.0 * (lost1 + lost2)
+
+
+class Bent(NamedTuple):
+    """fibre: law of the bending of a fibre. modulus: of it, Pa."""
+
+    fibre: object
+    modulus: float
+
+    respond = respond_bent
+    state_size = bent_state_size
+    commit = commit_bent

@@ -29,7 +29,7 @@ def pressed(lattice, strain=0.6, steps=60, friction=0.0, model="barrier", unload
         material=MATERIAL,
         loading=Loading(mode="displacement", strain=strain, unload=unload),
         contact=Contact(model=model, friction=friction),
-        solver=Solver(load_steps=steps),
+        solver=Solver(load_steps=steps, joints="points"),
     )
 
 

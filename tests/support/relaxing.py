@@ -24,7 +24,7 @@ from sweep.scene.lattice import build_scene
 from sweep.scene.material import as_law, linear_law
 from sweep.simulation.simulate import simulate
 from tests.studies.validation.frames import TRUSS
-from tests.support.laws import Clock, standard_solid
+from tests.support.laws import Bent, Clock, standard_solid
 from tests.support.solving import at_rest, go_on, neighbours_of, problem_of
 from tests.support.structures import BEAM, MATERIAL, structure
 from tests.support.terms import nowhere
@@ -192,11 +192,14 @@ def crept(steps):
         solver=Solver(integrator="static", load_steps=1),
     )
     scene = build_structure(case)
-    of = scene.terms.bend
+    of, spring = scene.terms.bend, linear(MODULUS)
+    solid = standard_solid(spring, BRANCH, TIME)
+    per_volume = of.stiffness[1] / (MODULUS * SURFACE**2)
     curved = of._replace(
-        section=standard_solid(linear(1.0), BRANCH, TIME),
-        surface=np.full(of.stiffness.shape[1], SURFACE),
-        weight=np.tile(0.125 * of.stiffness[0] / SURFACE**2, (2, 1)),
+        section=Bent(solid, solid.modulus),
+        spread=np.outer([1.0, np.sqrt(3.0)], np.full(len(per_volume), SURFACE)),
+        volume=per_volume / 8.0,  # so that 2 V Y (theta_1^2 + theta_2^2) / 2 is E_b
+        shear=np.zeros(len(per_volume)),
     )
     scene = replace(scene, terms=scene.terms._replace(bend=curved))
     state, sunk = at_rest(scene), []

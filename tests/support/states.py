@@ -16,13 +16,19 @@ SLIDE = Contact(friction=0.3, slip_speed=1e-4)
 
 
 def loaded(elements=3, platen="contact", damping=RAYLEIGH, size=1.0, **tables):
-    """A 2 x 2 grid, ``size`` times as large as the usual one, under as much stress as by 3 N."""
+    """A 2 x 2 grid, ``size`` times as large as the usual one, under as much stress as by 3 N; joints that
+    are points.
+    """
     lattice = Lattice(
         cells_x=2, cells_y=2, nodes_per_wall=elements - 1, width=size * SIZE, height=size * SIZE,
         depth=size * 12e-3, wall_thickness=size * 1.2e-3,
     )  # fmt: skip
     loading = Loading(force=3.0 * size**2, platen=platen, duration=0.01)
-    chosen = {"material": CURVE, "contact": GRIP, "solver": Solver(time_step=DT)} | tables
+    chosen = {
+        "material": CURVE,
+        "contact": GRIP,
+        "solver": Solver(time_step=DT, joints="points"),
+    } | tables
     return build_scene(Case(lattice=lattice, loading=loading, damping=damping, **chosen))
 
 
@@ -33,6 +39,7 @@ def driven(platen, elements=3):
             lattice=Lattice(cells_x=2, cells_y=2, nodes_per_wall=elements - 1),
             loading=Loading(mode="displacement", strain=0.5, platen=platen),
             material=CURVE,
+            solver=Solver(joints="points"),
         )
     )
 

@@ -5,7 +5,7 @@ import pytest
 
 from kernels.geometry import ccd, near_pairs
 from kernels.planar import reach
-from sweep.config.case import Case, Contact, Lattice, Loading
+from sweep.config.case import Case, Contact, Lattice, Loading, Solver
 from sweep.scene.lattice import build_scene
 from tests.support.solving import whole
 from tests.support.states import GRIP, STATES, loaded, nodes, unit
@@ -34,6 +34,7 @@ def one_cell(platen):
             ),
             loading=Loading(platen=platen),
             contact=Contact(model="none" if platen == "none" else "barrier"),
+            solver=Solver(joints="points"),
         )
     )
 

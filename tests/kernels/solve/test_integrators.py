@@ -29,7 +29,9 @@ def loaded(duration, steps, integrator, damping, platen="none", release=0.5, **l
     """A grid under a dead load, let go after a share of the duration; friction on a platen."""
     loads = Loading(platen=platen, duration=duration, release_time=release * duration, **loading)
     touch = {"none": APART, "contact": Contact(friction=0.3, slip_speed=0.5)}[platen]
-    solver = Solver(time_step=duration / steps, integrator=integrator, tolerance=1e-10)
+    solver = Solver(
+        time_step=duration / steps, integrator=integrator, tolerance=1e-10, joints="points"
+    )
     return Case(
         material=MATERIAL, loading=loads, contact=touch, damping=damping, solver=solver
     )  # fmt: skip

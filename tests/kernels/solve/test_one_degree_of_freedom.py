@@ -28,7 +28,7 @@ def single(loading, damping=UNDAMPED, **solver):
         loading=loading,
         contact=Contact(model="none"),
         damping=damping,
-        solver=Solver(tolerance=1e-12, **solver),
+        solver=Solver(tolerance=1e-12, joints="points", **solver),
     )
 
 

@@ -49,7 +49,9 @@ def elastic(terms, x, projected=False):
 
     def write(shape, resultants, projected):
         value = stretch.evaluate(terms.stretch, terms.law, NO_MEMORY, shape, resultants, projected)
-        return value + bend.evaluate(terms.bend, NO_MEMORY, shape, resultants, projected)
+        return value + bend.evaluate(
+            terms.bend, terms.stretch, NO_MEMORY, shape, resultants, projected
+        )
 
     return of_walls(terms.walls, write).hessian(x, projected)
 

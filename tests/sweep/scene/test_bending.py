@@ -13,13 +13,13 @@ RIGIDITY = MATERIAL.modulus * DEPTH * THICKNESS**3 / 12
 
 
 def scene_of(elements=3, imperfection=0.0, solver=None):
-    """A 3 x 3 grid of a linear material in plane stress."""
+    """A 3 x 3 grid of a linear material in plane stress, with joints that are points."""
     return build_scene(
         Case(
             lattice=Lattice(nodes_per_wall=elements - 1, imperfection=imperfection),
             material=MATERIAL,
             loading=Loading(force=5.0),
-            solver=Solver() if solver is None else solver,
+            solver=Solver(joints="points") if solver is None else solver,
         )
     )
 
@@ -30,7 +30,7 @@ def scene_of(elements=3, imperfection=0.0, solver=None):
     [("cubic", (4.0, 2.0, 4.0), (1 / 15, -1 / 30)), ("classical", (2.0, 0.0, 2.0), (0.0, 0.0))],
 )
 def test_stiffness_of_elements(element, factors, arc, elements):
-    terms = scene_of(elements, solver=Solver(element=element)).terms
+    terms = scene_of(elements, solver=Solver(element=element, joints="points")).terms
     per_length, every = RIGIDITY / (WALL / elements), np.ones(24 * elements)
     np.testing.assert_allclose(
         terms.bend.stiffness, np.outer(factors, per_length * every), rtol=1e-12
@@ -56,7 +56,9 @@ def test_walls_without_bending_have_neither_rotations_nor_arcs():
 @pytest.mark.parametrize("measure", ["angle", "tangent"])
 @pytest.mark.parametrize("imperfection", [0.0, 0.5])
 def test_elements_are_free_of_stress_at_rest(imperfection, measure):
-    scene = scene_of(4, imperfection=imperfection, solver=Solver(bend_measure=measure))
+    scene = scene_of(
+        4, imperfection=imperfection, solver=Solver(bend_measure=measure, joints="points")
+    )
     assert scene.terms.bend.measure == {"angle": 0, "tangent": 1}[measure]
     g = whole(scene, scene.x_rest).gradient(scene.x_rest)
     np.testing.assert_allclose(g, -scene.terms.coordinates.load, rtol=0, atol=1e-9)
