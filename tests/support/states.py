@@ -16,8 +16,8 @@ SLIDE = Contact(friction=0.3, slip_speed=1e-4)
 
 
 def loaded(elements=3, platen="contact", damping=RAYLEIGH, size=1.0, **tables):
-    """A 2 x 2 grid, ``size`` times as large as the usual one, under as much stress as by 3 N; joints that
-    are points.
+    """A 2 x 2 grid, ``size`` times as large as the usual one, under as much stress as by 3 N. Its
+    joints are points.
     """
     lattice = Lattice(
         cells_x=2, cells_y=2, nodes_per_wall=elements - 1, width=size * SIZE, height=size * SIZE,
