@@ -10,10 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
+from kernels.compile.simd import LANES
 from kernels.linear import block_matrix, condense, minimum_degree
 from kernels.linear.block_matrix import DRIVEN, HELD, IMAGE, INNER
+from kernels.linear.bundles import CONDENSED, OPEN, RIGID, Bundles, bundled
 
-CONDENSED, OPEN, RIGID = range(3)
 LENGTHS = 2  # coordinates of a position
 PLACE = np.dtype(
     (
@@ -57,16 +58,19 @@ class Layout(NamedTuple):
 
 
 class System(NamedTuple):
-    """kind (w,): CONDENSED, OPEN or RIGID. row_start (w + 1,), rows (r, 12), own (r,): `condense`.
+    """kind (w,): CONDENSED, OPEN or RIGID. bundles: of all walls but rigid ones.
 
-    target_start (w + 1,), target: positions of the entries of a wall in the values of ``matrix``.
-    outer (6, 6), joints (6,): scratch. place (1,): of the first negative pivot (`PLACE`).
+    rows (48 r,), own (4 r,), inside (4 r,): of the r rows of all bundles, see `condense`; inside:
+    right side and solution. target_start (w + 1,), target: positions of the entries of a wall in
+    the values of ``matrix``. outer (144,), joints (24,): scratch. place (1,): of the first negative
+    pivot (`PLACE`).
     """
 
     kind: np.ndarray
-    row_start: np.ndarray
+    bundles: Bundles
     rows: np.ndarray
     own: np.ndarray
+    inside: np.ndarray
     target_start: np.ndarray
     target: np.ndarray
     matrix: object
@@ -271,7 +275,10 @@ def analyse(layout, walls, couplings):
     home = _homes(layout, index, sequence)
     target_start, target = _targets(layout, row_start, kind, home, start, row)
     matrix = block_matrix.zero_matrix(home, start, row, layout.ratio, layout.images)
+    bundles = bundled(kind, walls.start, row_start, layout.inner, layout.outer)
+    n = LANES * bundles.start[-1]
     return System(
-        kind, row_start, np.zeros((row_start[-1], condense.WIDTH)), np.zeros(row_start[-1]),
-        target_start, target, matrix, np.zeros((6, 6)), np.zeros(6), np.zeros(1, PLACE),
+        kind, bundles, np.zeros(condense.WIDTH * n), np.zeros(n), np.zeros(n),
+        target_start, target, matrix, np.zeros(LANES * condense.OUTER**2),
+        np.zeros(LANES * condense.OUTER), np.zeros(1, PLACE),
     )  # fmt: skip
