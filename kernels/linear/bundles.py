@@ -70,8 +70,10 @@ def bundled(kind, start, row_start, inner, outer):
         for lane in range(LANES):
             w = wall[g, lane]
             place[w], first[g, lane] = LANES * g + min(lane, size[g] - 1), start[w]
-            inside[rows[g] : rows[g + 1], lane] = inner[row_start[w] : row_start[w + 1]]
-            ends[g, :, lane] = outer[w]
+            for k in range(rows[g + 1] - rows[g]):
+                inside[rows[g] + k, lane] = inner[row_start[w] + k]
+            for c in range(outer.shape[1]):
+                ends[g, c, lane] = outer[w, c]
     return Bundles(
         wall, first, size, pieces, rows, inside.ravel(), ends.reshape(size.size, -1), place
     )
