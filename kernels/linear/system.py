@@ -9,17 +9,13 @@ from kernels.linear.bundles import CONDENSED, OPEN, rows_of
 
 
 @jit
-def _scatter(values, target, rows, outer, lane):
-    """Add the entries of a wall to the block matrix: ``outer``, and ``rows`` of an open wall."""
-    t = 0
-    if target.size > 21:
-        for at in range(lane, rows.size, LANES):
-            values[target[t]] += rows[at]
-            t += 1
-    for c in range(condense.OUTER):
-        for d in range(c + 1):
-            values[target[t]] += outer[condense.joint_entry(c, d) + lane]
-            t += 1
+def _scatter(values, scattered, w, rows, outer, lane):
+    """Add the entries of wall ``w`` to the block matrix: ``outer``, and ``rows`` of an open one."""
+    start, source, target = scattered.start, scattered.source, scattered.target
+    for t in range(start[2 * w], start[2 * w + 1]):
+        values[target[t]] += rows[source[t] + lane]
+    for t in range(start[2 * w + 1], start[2 * w + 2]):
+        values[target[t]] += outer[source[t] + lane]
 
 
 @jit
@@ -67,8 +63,7 @@ def add_walls(system, layout, stiffness, rounded):
                 wall, row, pivot = bundles.wall[g, lane], failed, first
         for lane in range(bundles.size[g]):
             w = bundles.wall[g, lane]
-            target = system.target[system.target_start[w] : system.target_start[w + 1]]
-            _scatter(matrix.values, target, rows, system.outer, lane)
+            _scatter(matrix.values, system.scattered, w, rows, system.outer, lane)
             if matrix.home[layout.outer[w, 3]] <= IMAGE:
                 _scatter_image(system, layout, w, inner, rows, lane)
     return wall, row, pivot

@@ -96,5 +96,5 @@ def analyse(count, x, terms, pairs):
     """Make the system of the matrix, with room for ``pairs``, ``count`` times."""
     made = 0
     for _ in range(count):
-        made += reach.make_system(terms, x, pairs, friction.none()).target.size
+        made += reach.make_system(terms, x, pairs, friction.none()).scattered.target.size
     return made
