@@ -78,7 +78,7 @@ def repeat(which, count, x, dx, most, problem, step, found, ones):
             )[2]
         elif which == BLOCKS:
             copy(ones, matrix.values)
-            total += block_ldlt.factor(matrix, terms.layout.scale, False)[1]
+            total += block_ldlt.factor(matrix, terms.layout.scale, block_ldlt.ROUNDED)[1]
     return total
 
 
