@@ -55,9 +55,9 @@ def greatest(vector):
     return most
 
 
-@jit_exact
+@jit
 def dot(a, b):
-    """Return the sum of the products of ``a`` (n,) and ``b`` (n,)."""
+    """Return the sum of the products of ``a`` (n,) and ``b`` (n,), added in any order."""
     value = 0.0
     for i in range(a.size):
         value += a[i] * b[i]

@@ -1,21 +1,23 @@
-"""Vectors of four float64, which LLVM does not form by itself from the blocks of a matrix.
+"""Vectors of four float64, which LLVM does not form by itself from the entries of matrices.
 
 One register of AVX, two of SSE2 or NEON. A `Four` lives inside a kernel only: loaded from an array
-(n,), computed with, stored. Where kernels run as plain Python it is an array.
+(n,), computed with (+, -, *, /, lane by lane), stored. Where kernels run as plain Python it is an
+array.
 """
 
 import functools
+import operator
 
 import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core.typing.templates import make_intrinsic_template
-from numba.extending import models, register_model
+from numba.extending import lower_builtin, models, register_model, type_callable
 from numba.np.arrayobj import make_array
 
 LANES = 4
 VECTOR = ir.VectorType(ir.DoubleType(), LANES)
-INDEX = ir.IntType(32)
+INDEX, WORD = ir.IntType(32), ir.IntType(64)
 ANYTHING = ir.Constant(VECTOR, ir.Undefined)
 
 
@@ -27,6 +29,12 @@ class Four(types.Type):
 
 
 four = Four()
+ARITHMETIC = {
+    operator.add: "fadd",
+    operator.sub: "fsub",
+    operator.mul: "fmul",
+    operator.truediv: "fdiv",
+}
 
 
 @register_model(Four)
@@ -104,12 +112,50 @@ def spread(_, number):
     return four(types.float64), code
 
 
-@_instruction(lambda value, a, b: value + a * b)
-def added(_, value, a, b):
-    """Return ``value`` + ``a`` * ``b``, lane by lane."""
+@_instruction(lambda array, places, at: array[places[at : at + LANES]])
+def collect(_, array, places, at):
+    """Return the entries of ``array`` whose indices are entries ``at`` .. ``at`` + 3 of ``places``,
+    of which none is negative.
+    """
+    if not (_is_vector(array) and places == types.int64[::1]):
+        return None
 
     def code(context, builder, signature, args):
-        product = builder.fmul(args[1], args[2], flags=["contract"])
-        return builder.fadd(args[0], product, flags=["contract"])
+        data = make_array(signature.args[0])(context, builder, args[0]).data
+        index = make_array(signature.args[1])(context, builder, args[1]).data
+        found = ANYTHING
+        for lane in range(LANES):
+            place = builder.load(builder.gep(index, [builder.add(args[2], WORD(lane))]))
+            entry = builder.load(builder.gep(data, [place]))
+            found = builder.insert_element(found, entry, INDEX(lane))
+        return found
 
-    return four(four, four, four), code
+    return four(array, places, types.intp), code
+
+
+@_instruction(lambda a, b: bool(np.all(a > b)))
+def exceeds(_, a, b):
+    """Return whether ``a`` > ``b`` in all lanes."""
+
+    def code(context, builder, signature, args):
+        lanes = builder.fcmp_ordered(">", *args)
+        every = ir.Constant(ir.IntType(LANES), -1)
+        return builder.icmp_unsigned("==", builder.bitcast(lanes, every.type), every)
+
+    return types.boolean(four, four), code
+
+
+def _declare(operation, instruction):
+    """Let kernels compute with vectors."""
+
+    @type_callable(operation)
+    def kind(context):
+        return lambda a, b: four if a == b == four else None
+
+    @lower_builtin(operation, Four, Four)
+    def code(context, builder, signature, args):
+        return getattr(builder, instruction)(*args, flags=["contract"])
+
+
+for name in ARITHMETIC.items():
+    _declare(*name)

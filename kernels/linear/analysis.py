@@ -10,10 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
+from kernels.compile.simd import LANES
 from kernels.linear import block_matrix, condense, minimum_degree
 from kernels.linear.block_matrix import DRIVEN, HELD, IMAGE, INNER
+from kernels.linear.bundles import CONDENSED, OPEN, RIGID, Bundles, bundled
 
-CONDENSED, OPEN, RIGID = range(3)
 LENGTHS = 2  # coordinates of a position
 PLACE = np.dtype(
     (
@@ -56,19 +57,33 @@ class Layout(NamedTuple):
     scale: float
 
 
-class System(NamedTuple):
-    """kind (w,): CONDENSED, OPEN or RIGID. row_start (w + 1,), rows (r, 12), own (r,): `condense`.
+class Scattered(NamedTuple):
+    """Entries of the walls that have a place in the block matrix.
 
-    target_start (w + 1,), target: positions of the entries of a wall in the values of ``matrix``.
-    outer (6, 6), joints (6,): scratch. place (1,): of the first negative pivot (`PLACE`).
+    start (2 w + 1,): first of the rows of wall w, if it is open, at 2 w; first of its joints at 2 w
+    + 1. source: as of `condense.entry` and `condense.joint_entry`. target: positions in the values
+    of the matrix.
+    """
+
+    start: np.ndarray
+    source: np.ndarray
+    target: np.ndarray
+
+
+class System(NamedTuple):
+    """kind (w,): CONDENSED, OPEN or RIGID. bundles: of all walls but rigid ones.
+
+    rows (48 r,), own (4 r,), inside (4 r,): of the r rows of all bundles, see `condense`; inside:
+    right side and solution. outer (144,), joints (24,): scratch. place (1,): of the first negative
+    pivot (`PLACE`).
     """
 
     kind: np.ndarray
-    row_start: np.ndarray
+    bundles: Bundles
     rows: np.ndarray
     own: np.ndarray
-    target_start: np.ndarray
-    target: np.ndarray
+    inside: np.ndarray
+    scattered: Scattered
     matrix: object
     outer: np.ndarray
     joints: np.ndarray
@@ -215,39 +230,42 @@ def _coordinate(layout, w, inner, i):
     return inner[i] if i < inner.size else layout.outer[w, i - inner.size]
 
 
+@jit_exact
+def _is_coupled(k, c, m):
+    """Return whether entry ``c`` of row ``k`` of ``m`` may differ from zero before elimination."""
+    if c < condense.BAND:
+        return c < condense.BAND - k % condense.NODE and k + c < m
+    return k < condense.NODE if c < condense.BAND + condense.NODE else k >= m - condense.NODE
+
+
 @jit_owning
-def _targets(layout, row_start, kind, home, start, row):
-    """Return (target_start, target): positions to which `system` scatters the entries of walls."""
-    target_start = np.zeros(kind.size + 1, np.int64)
-    for w in range(kind.size):
-        m = row_start[w + 1] - row_start[w]
-        size = 0 if kind[w] == RIGID else 21 + (condense.WIDTH * m if kind[w] == OPEN else 0)
-        target_start[w + 1] = target_start[w] + size
-    nowhere = block_matrix.SIZE * (start.size - 1 + row.size)
-    target = np.full(target_start[-1], nowhere)
-    for w in range(kind.size):
-        m, t = row_start[w + 1] - row_start[w], target_start[w]
-        inner = layout.inner[row_start[w] : row_start[w + 1]]
-        if kind[w] == OPEN:
-            for k in range(m):
-                for c in range(condense.WIDTH):
+def _scattered(layout, row_start, kind, home, start, row):
+    """Return the `Scattered` entries of all walls."""
+    n_walls, t = kind.size, 0
+    most = n_walls * condense.OUTER**2 + condense.WIDTH * row_start[-1]
+    first = np.zeros(2 * n_walls + 1, np.int64)
+    source, target = np.empty(most, np.int64), np.empty(most, np.int64)
+    for w in range(n_walls):
+        m, inner = row_start[w + 1] - row_start[w], layout.inner[row_start[w] : row_start[w + 1]]
+        for k in range(m if kind[w] == OPEN else 0):
+            for c in range(condense.WIDTH):
+                if _is_coupled(k, c, m):
                     other = k + c if c < condense.BAND else m + c - condense.BAND
-                    if other < m or c >= condense.BAND:
-                        i = _coordinate(layout, w, inner, k)
-                        j = _coordinate(layout, w, inner, other)
-                        if home[i] >= 0 and home[j] >= 0:
-                            at = block_matrix.position(home, start, row, i, j)
-                            target[t] = at if at >= 0 else nowhere
-                    t += 1
-        if kind[w] != RIGID:
-            for c in range(condense.OUTER):
-                for d in range(c + 1):
-                    i, j = layout.outer[w, c], layout.outer[w, d]
+                    i, j = inner[k], _coordinate(layout, w, inner, other)
+                    source[t], target[t] = condense.entry(k, c), -1
                     if home[i] >= 0 and home[j] >= 0:
-                        at = block_matrix.position(home, start, row, i, j)
-                        target[t] = at if at >= 0 else nowhere
-                    t += 1
-    return target_start, target
+                        target[t] = block_matrix.position(home, start, row, i, j)
+                    t += target[t] >= 0
+        first[2 * w + 1] = t
+        for c in range(condense.OUTER if kind[w] != RIGID else 0):
+            for d in range(c + 1):
+                i, j = layout.outer[w, c], layout.outer[w, d]
+                source[t], target[t] = condense.joint_entry(c, d), -1
+                if home[i] >= 0 and home[j] >= 0:
+                    target[t] = block_matrix.position(home, start, row, i, j)
+                t += target[t] >= 0
+        first[2 * w + 2] = t
+    return Scattered(first, source[:t].copy(), target[:t].copy())
 
 
 @jit_owning
@@ -269,9 +287,12 @@ def analyse(layout, walls, couplings):
     sequence = minimum_degree.minimum_degree(bits)
     start, row = minimum_degree.columns(bits, sequence)
     home = _homes(layout, index, sequence)
-    target_start, target = _targets(layout, row_start, kind, home, start, row)
+    scattered = _scattered(layout, row_start, kind, home, start, row)
     matrix = block_matrix.zero_matrix(home, start, row, layout.ratio, layout.images)
+    bundles = bundled(kind, walls.start, row_start, layout.inner, layout.outer)
+    n = LANES * bundles.start[-1]
     return System(
-        kind, row_start, np.zeros((row_start[-1], condense.WIDTH)), np.zeros(row_start[-1]),
-        target_start, target, matrix, np.zeros((6, 6)), np.zeros(6), np.zeros(1, PLACE),
+        kind, bundles, np.zeros(condense.WIDTH * n), np.zeros(n), np.zeros(n),
+        scattered, matrix, np.zeros(LANES * condense.OUTER**2),
+        np.zeros(LANES * condense.OUTER), np.zeros(1, PLACE),
     )  # fmt: skip

@@ -8,7 +8,7 @@ import math
 
 from kernels.arrays import zero
 from kernels.compile.jit import jit, jit_exact
-from kernels.compile.simd import added, load, spread, store
+from kernels.compile.simd import load, spread, store
 from kernels.linear.block_matrix import SIZE, STRIDE
 
 ZERO_PIVOT = 1e-11  # a pivot below this share of its diagonal is zero within round-off
@@ -95,7 +95,7 @@ def _weights(values, at):
 def _combined(sums, columns, weights):
     """Return ``sums`` + the ``columns`` times their weights."""
     for c in range(3):
-        sums = added(sums, columns[c], weights[c])
+        sums = sums + columns[c] * weights[c]
     return sums
 
 
@@ -108,7 +108,7 @@ def _scale_column(blocks, j, nb):
     for at in range(SIZE * (nb + blocks.start[j]), SIZE * (nb + blocks.start[j + 1]), SIZE):
         columns = _columns(values, at)
         for column in columns:
-            store(blocks.column, offset, added(nothing, minus, column))
+            store(blocks.column, offset, minus * column)
             offset += STRIDE
         store(values, at, _combined(nothing, columns, one))
         store(values, at + STRIDE, _combined(nothing, columns, two))

@@ -26,11 +26,11 @@ class Blocks(NamedTuple):
 
     home (n,): of each coordinate. whole (n,): block whose first two slots are a coordinate and the
     next one, else -1. start (nb + 1,), row (nl,): rows of the blocks below each diagonal block.
-    update (nu,): targets of updates in the order of `block_ldlt.factor`. values (12 (nb + nl) +
-    1,): entries; the last one collects entries without a place. own (3 nb,): diagonal before the
-    factor. diagonal, pull (n,): by coordinate, diagonal entries and couplings with the driven
-    coordinate. ratio (n,), images (k, 4): as in `analysis.Layout`. vector (3 nb,), column (12 x
-    longest column,): scratch. missing (1,): set to 1 when an entry has no room.
+    update (nu,): targets of updates in the order of `block_ldlt.factor`. values (12 (nb + nl),):
+    entries. own (3 nb,): diagonal before the factor. diagonal, pull (n,): by coordinate, diagonal
+    entries and couplings with the driven coordinate. ratio (n,), images (k, 4): as in
+    `analysis.Layout`. vector (3 nb,), column (12 x longest column,): scratch. missing (1,): set to
+    1 when an entry has no room.
     """
 
     home: np.ndarray
@@ -109,7 +109,7 @@ def zero_matrix(home, start, row, ratio, images):
         longest = max(longest, start[j + 1] - start[j])
     return Blocks(
         home, _whole(home), start, row, updates(start, row),
-        np.zeros(SIZE * (nb + row.size) + 1), np.zeros(3 * nb), np.zeros(n), np.zeros(n),
+        np.zeros(SIZE * (nb + row.size)), np.zeros(3 * nb), np.zeros(n), np.zeros(n),
         ratio, images, np.zeros(3 * nb), np.zeros(SIZE * longest), np.zeros(1, np.int64),
     )  # fmt: skip
 

@@ -27,7 +27,7 @@ def factor(problem, x, step, found, projected, through):
         for i in range(2 * scene.layout.n_nodes):
             matrix.diagonal[i] += drag * coordinates.mass[i]
     failed, pivot = system.factor(
-        neighbours.system, scene.layout, scene.walls, problem.buffers.stiffness, projected, through
+        neighbours.system, scene.layout, problem.buffers.stiffness, projected, through
     )
     if matrix.missing[0] != 0:
         return NO_ROOM, pivot

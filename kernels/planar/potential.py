@@ -9,7 +9,7 @@ inertia and damping vanish. A term that is absent from a scene has empty arrays.
 
 import numpy as np
 
-from kernels.arrays import add, zero, zero_rows
+from kernels.arrays import add, dot, zero, zero_rows
 from kernels.compile.jit import jit_exact
 from kernels.planar import lagging
 from kernels.planar.reach import drift
@@ -48,8 +48,8 @@ def evaluate(problem, x, step, found, projected):
         x, scene.contact, neighbours.pairs, drift(problem, x), neighbours.touching, found.elastic
     )
     total = found.stored[STRETCH] + found.stored[BEND] + found.stored[CONTACT]
+    total -= step.factor * dot(coordinates.load, found.u)
     for i in range(x.size):
-        total -= step.factor * coordinates.load[i] * found.u[i]
         found.g[i] = found.elastic[i] - step.factor * coordinates.load[i]
     if step.dynamic:
         total += inertia.evaluate(x, step.x_pred, coordinates.mass, step.h, found.g)

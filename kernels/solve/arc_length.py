@@ -237,8 +237,9 @@ def _follow_path(problem, tolerance, stage, state, out, control, space, arc, hea
         totals.iterations += progress.iterations
         progress.iterations = NOT_STARTED
         step = _step(space, stage, progress, progress.load)
+        load = resolution.largest_load(problem, step.factor, work)
         if outcome == CONVERGED and not resolution.is_resolved(
-            problem, step, tolerance, state, found, work, progress.decrement
+            problem, step, tolerance, state, found, work, load, progress.decrement
         ):
             outcome = UNRESOLVED
         if outcome != CONVERGED:
@@ -250,7 +251,7 @@ def _follow_path(problem, tolerance, stage, state, out, control, space, arc, hea
             continue
         problem.commit(state.x, step, found)
         enter(problem, step, state, found, work)
-        totals.force = resolution.largest_force(problem, step, state, found, work)
+        totals.force = resolution.largest_force(problem.scene.coordinates, state, found, load)
         copy(work.escape, heading.tangent)
         if progress.row >= 0:
             copy(found.u, heading.last_move)

@@ -28,13 +28,19 @@ def kinetic(v, mass):
 
 
 @jit_exact
-def _work(force, past, u, theta):
-    """Return the work of ``force`` (n,) along ``u`` (n,); copy ``force`` to ``past``."""
-    value = 0.0
+def _works(found, past, theta):
+    """Return the work of the elastic forces, of damping and of friction along ``found.u``; copy
+    these forces to ``past``.
+    """
+    u, elastic, material, friction, before = found.u, 0.0, 0.0, 0.0, 1.0 - theta
     for i in range(u.size):
-        value += (theta * force[i] + (1.0 - theta) * past[i]) * u[i]
-        past[i] = force[i]
-    return value
+        elastic += (theta * found.elastic[i] + before * past.elastic[i]) * u[i]
+        material += (theta * found.material[i] + before * past.material[i]) * u[i]
+        friction += (theta * found.friction[i] + before * past.friction[i]) * u[i]
+    copy(found.elastic, past.elastic)
+    copy(found.material, past.material)
+    copy(found.friction, past.friction)
+    return elastic, material, friction
 
 
 @jit_exact
@@ -117,10 +123,10 @@ def enter(problem, step, state, found, work):
     book.work += factor * dot(problem.scene.coordinates.load, found.u)
     book.work += (theta * reaction + (1.0 - theta) * totals.reaction) * move
     dissipated = found.sums[0].dissipated
-    book.material += _work(found.material, past.material, found.u, theta) + dissipated
-    book.friction += _work(found.friction, past.friction, found.u, theta)
-    loss = _work(found.elastic, past.elastic, found.u, theta) - dissipated
-    total = 0.0
+    elastic, material, friction = _works(found, past, theta)
+    book.material += material + dissipated
+    book.friction += friction
+    loss, total = elastic - dissipated, 0.0
     for k in range(found.stored.size):
         loss -= found.stored[k] - state.stored[k]
         total += found.stored[k]

@@ -216,8 +216,11 @@ def _reject(outcome, problem, step, state, space, descent, progress):
 
 
 @jit_exact
-def _accept(problem, stage, step, state, space, descent):
-    """Accept a share: update rates, commit the material, enter the energy book, project."""
+def _accept(problem, stage, step, state, space, load, descent):
+    """Accept a share: update rates, commit the material, enter the energy book, project.
+
+    load: `resolution.largest_load` of the step.
+    """
     found, work, book, totals = space.found, space.work, state.book[0], state.totals[0]
     if stage.dynamic:
         book.integrator += integrators.update(stage.scheme, state, step, problem, found.u)
@@ -225,7 +228,7 @@ def _accept(problem, stage, step, state, space, descent):
         totals.last = step.duration
     problem.commit(state.x, step, found)
     enter(problem, step, state, found, work)
-    totals.force = resolution.largest_force(problem, step, state, found, work)
+    totals.force = resolution.largest_force(problem.scene.coordinates, state, found, load)
     if energy_book.project(problem, step, state, found, work.trial):
         descent.since_factor = np.inf
     totals.steps += 1
@@ -280,7 +283,7 @@ def _run(problem, tolerance, stage, state, out, control, space, descent, progres
             accurate, ratio = _assess(problem, stage, state, step, tolerance.noise, space, progress)
             outcome = CONVERGED if accurate else INACCURATE
             if accurate and not resolution.is_resolved(
-                problem, step, fitting, state, space.found, work, descent.decrement
+                problem, step, fitting, state, space.found, work, load, descent.decrement
             ):
                 outcome = UNRESOLVED
             elif accurate and unbalanced(problem, step, fitting, state, space.found, work):
@@ -295,7 +298,7 @@ def _run(problem, tolerance, stage, state, out, control, space, descent, progres
                     outcome = progress.cause  # that made the shares so short
                 return (ITERATIONS if outcome == OUTGROWN else outcome), progress.row
             continue
-        _accept(problem, stage, step, state, space, descent)
+        _accept(problem, stage, step, state, space, load, descent)
         _next_share(ratio, tolerance.iterations, descent, progress)
         if progress.done == 1.0:
             totals.iterations += progress.row_iterations

@@ -97,13 +97,13 @@ def is_tighter(one, other):
 
 
 @jit_exact
-def largest_force(problem, step, state, found, work):
+def largest_force(coordinates, state, found, load):
     """Return the largest force on a coordinate in the step ``found`` and all before, N.
 
-    Damping is left out: in a very short step it magnifies the round-off of positions.
+    load: `largest_load` of the step. Damping is left out: in a very short step it magnifies the
+    round-off of positions.
     """
-    lever, force = problem.scene.coordinates.lever, state.totals[0].force
-    force = max(force, largest_load(problem, step.factor, work))
+    lever, force = coordinates.lever, max(state.totals[0].force, load)
     for part in (found.elastic, found.friction):
         for i in range(part.size):
             force = max(force, abs(part[i]) * lever[i])
@@ -120,17 +120,17 @@ def _largest_inertia(coordinates, v, h):
 
 
 @jit_exact
-def is_resolved(problem, step, tolerance, state, found, work, decrement):
+def is_resolved(problem, step, tolerance, state, found, work, load, decrement):
     """Return whether the residual of a step is small enough; it is if nothing moves the problem.
 
-    decrement: of Newton at the point, J.
+    load: `largest_load` of the step. decrement: of Newton at the point, J.
     """
-    coordinates, driving = problem.scene.coordinates, largest_load(problem, step.factor, work)
+    coordinates, driving = problem.scene.coordinates, load
     if step.dynamic and state.book[0].kinetic > tolerance.noise:
         driving = max(driving, _largest_inertia(coordinates, state.v, step.h))
     if driving == 0.0:
         return True
-    force = max(driving, largest_force(problem, step, state, found, work))
+    force = max(driving, largest_force(coordinates, state, found, load))
     limit, left, h2 = LARGEST_RESIDUAL * force, 2.0 * decrement, step.h * step.h
     problem.reduce(found.g, work.residual)
     if largest(work.residual, coordinates) <= limit:

@@ -22,6 +22,7 @@ import numpy as np
 
 from kernels.arrays import zero_rows
 from kernels.compile.jit import jit
+from kernels.geometry.angle import between
 
 NEAR_ENOUGH = 0.5  # rad
 
@@ -70,12 +71,6 @@ class Stiffness(NamedTuple):
     own: np.ndarray
     lean: np.ndarray
     twist: np.ndarray
-
-
-@jit
-def between(cos_a, sin_a, cos_b, sin_b):
-    """Return the angle from direction a to direction b, in (-pi, pi]."""
-    return math.atan2(cos_a * sin_b - sin_a * cos_b, cos_a * cos_b + sin_a * sin_b)
 
 
 @jit

@@ -16,6 +16,7 @@ import numpy as np
 
 from kernels.arrays import triple
 from kernels.compile.jit import jit
+from kernels.geometry.angle import LARGEST, arctangent
 from kernels.linear.block_matrix import add_block
 from kernels.terms.barrier import barrier
 
@@ -48,7 +49,7 @@ def opening(x, fold, k):
     cross, dot = _cross_dot(x, a, b, c)
     if cross < 0.0 or dot <= cross:
         return 0.25 * math.pi
-    return math.atan2(cross, dot)
+    return arctangent(cross / dot) if cross < LARGEST * dot else math.atan2(cross, dot)
 
 
 @jit

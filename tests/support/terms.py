@@ -158,7 +158,7 @@ def full_matrix(n: int) -> Blocks:
 def by_home(matrix: Blocks) -> np.ndarray:
     """Symmetric (3 nb, 3 nb) array of the blocks of a matrix."""
     nb = matrix.start.size - 1
-    cells = matrix.values[:-1].reshape(-1, 3, block_matrix.STRIDE)[:, :, :3].transpose(0, 2, 1)
+    cells = matrix.values.reshape(-1, 3, block_matrix.STRIDE)[:, :, :3].transpose(0, 2, 1)
     full = np.zeros((nb, nb, 3, 3))
     full[np.arange(nb), np.arange(nb)] = cells[:nb]
     full[matrix.row, np.repeat(np.arange(nb), np.diff(matrix.start))] = cells[nb:]

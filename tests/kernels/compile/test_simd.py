@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from kernels.compile.jit import jit
-from kernels.compile.simd import added, load, spread, store
+from kernels.compile.simd import collect, exceeds, load, spread, store
 from kernels.linear import block_ldlt, block_matrix, periodic_images
 
 
@@ -16,7 +16,7 @@ def cache(tmp_path, monkeypatch):
 
 
 def combined(array, at, factor, to):
-    store(array, to, added(load(array, to), spread(factor), load(array, at)))
+    store(array, to, load(array, to) + spread(factor) * load(array, at))
 
 
 @pytest.mark.parametrize(("at", "to"), [(0, 4), (3, 4), (1, 0), (4, 4)])
@@ -27,6 +27,32 @@ def test_four_entries_are_loaded_computed_with_and_stored(at, to):
     expected[to : to + 4] += 3.0 * array[at : at + 4]
     jit(combined)(array, at, 3.0, to)
     np.testing.assert_allclose(array, expected, rtol=1e-15)
+
+
+def collected(array, places, at, to):
+    store(array, to, collect(array, places, at) / load(array, to))
+
+
+def test_entries_are_collected_from_all_over_an_array():
+    array, places = np.arange(1.0, 9.0), np.array([9, 7, 0, 7, 2])
+    expected = np.array([8.0, 1.0, 8.0, 3.0]) / array[3:7]
+    jit(collected)(array, places, 1, 3)
+    np.testing.assert_allclose(array, [1, 2, 3, *expected, 8], rtol=1e-15)
+
+
+def all_exceed(array, bound):
+    return exceeds(load(array, 0), spread(bound) - spread(1.0))
+
+
+@pytest.mark.parametrize(
+    ("lowest", "found"), [(3.0, True), (2.0, False), (1.0, False), (np.nan, False)]
+)
+@pytest.mark.parametrize("lane", range(4))
+def test_what_exceeds_does_so_in_all_lanes(lane, lowest, found):
+    array = np.full(4, 5.0)
+    array[lane] = lowest
+    for kernel in (jit(all_exceed), all_exceed):
+        assert kernel(array, 3.0) is found
 
 
 @pytest.mark.parametrize(

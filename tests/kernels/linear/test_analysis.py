@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.linear.analysis import CONDENSED, OPEN, RIGID
+from kernels.linear.bundles import CONDENSED, OPEN, RIGID
 from tests.support.frames import frame, layout_of
 from tests.support.webs import MIXED, WALLS, Problem, couplings, supported, web
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from kernels.compile.simd import LANES
 from kernels.linear import block_ldlt, condense
 from tests.support.frames import frame, walls_of
 from tests.support.terms import assembled, room
@@ -12,10 +13,12 @@ SCALE = 7.0
 
 
 class Wall:
-    """The second one of two walls, of random stiffness, with ``diagonal`` more inside it."""
+    """One of four walls, of random stiffness, with ``diagonal`` more inside it."""
 
     def __init__(self, pieces, seed=0, size=1.0):
-        of = frame([(0, 0), (3, 0), (4, 3)], [(0, 1), (1, 2)], [2, pieces])
+        joints = [(0, 0), (3, 0), (4, 3), (8, 3), (8, 6), (5, 7)]
+        chain = [(k, k + 1) for k in range(5)]
+        of = frame(joints, chain, [2, pieces, pieces, pieces, pieces])
         rng = np.random.default_rng(seed)
         walls = walls_of(of)
         *_, stiffness = room(walls)
@@ -23,45 +26,74 @@ class Wall:
             part[:] = size * rng.uniform(-1, 1, part.shape)
         stiffness.own[[0, 2]] += 5.0 * size
         stiffness.twist[[0, 2]] += 5.0 * size
-        for part in stiffness:
-            part[:, :2] = 0.0
-        inner = walls.dofs[2:-1, 3:].ravel()
-        outer = np.array([*walls.dofs[2, :3], *walls.dofs[-1, 3:]])
+        self.lane = seed % LANES
+        first = 2 + pieces * np.array([2, 0, 3, 1])
+        span = slice(first[self.lane], first[self.lane] + pieces)
+        inner = walls.dofs[span, 3:].ravel()[:-3]
+        outer = np.array([*walls.dofs[span][0, :3], *walls.dofs[span][-1, 3:]])
         self.m, self.size = inner.size, size
-        self.dofs = np.random.default_rng(9).permutation(self.m)  # where they stand in b
-        self.diagonal = size * rng.uniform(0.5, 1.0, self.m)
-        full = assembled(walls, stiffness, of.rest.size)
+        self.dofs = np.random.default_rng(9).permutation(LANES * self.m)  # where they stand
+        self.diagonal = size * rng.uniform(0.5, 1.0, (self.m, LANES))
+        alone = type(stiffness)(*(np.zeros_like(part) for part in stiffness))
+        for part, given in zip(alone, stiffness, strict=True):
+            part[:, span] = given[:, span]
+        full = assembled(walls, alone, of.rest.size)
         self.full = full[np.ix_([*inner, *outer], [*inner, *outer])]
-        self.rows, self.own = np.full((self.m, 12), np.nan), np.full(self.m, np.nan)
-        self.outer = np.full((6, 6), np.nan)
-        condense.fill(walls.start[1], walls.start[2], stiffness, self.rows, self.outer)
+        self.all_rows = np.full(LANES * 12 * self.m, np.nan)
+        self.all_own = np.full(LANES * self.m, np.nan)
+        self.all_outer = np.full(LANES * 36, np.nan)
+        condense.fill(first, pieces, stiffness, self.all_rows, self.all_outer)
+
+    def _lane(self, array, *shape):
+        return array.reshape(*shape, LANES)[..., self.lane]
+
+    @property
+    def rows(self):
+        """Rows (m, 12) of the wall."""
+        return self._lane(self.all_rows, self.m, 12)
+
+    @property
+    def own(self):
+        """Diagonal (m,) before elimination."""
+        return self._lane(self.all_own, self.m)
+
+    @property
+    def outer(self):
+        """What the wall adds to its joints (6, 6)."""
+        return self._lane(self.all_outer, 6, 6)
 
     def dense(self):
         """Hessian (m + 6, m + 6): inner unknowns, then those of the joints."""
-        return self.full + np.diag([*self.diagonal, *np.zeros(6)])
+        return self.full + np.diag([*self.diagonal[:, self.lane], *np.zeros(6)])
 
     def eliminate(self):
         """Place of the first negative pivot, and that pivot."""
         scale = SCALE * self.size
-        diagonal = np.empty(self.m)
-        diagonal[self.dofs] = self.diagonal
-        return condense.eliminate(
-            self.rows, self.dofs, diagonal, self.own, self.outer, scale, block_ldlt.ROUNDED
-        )
+        diagonal = np.empty(LANES * self.m)
+        diagonal[self.dofs] = self.diagonal.ravel()
+        lane, row, pivot = condense.eliminate(
+            self.all_rows, self.dofs, diagonal, self.all_own, self.all_outer, scale,
+            block_ldlt.ROUNDED,
+        )  # fmt: skip
+        assert lane == (LANES if row < 0 else self.lane)
+        return row, pivot
 
     def forward(self, b, joints):
         """Right side (m,) after the forward substitution; condense it onto ``joints``."""
-        y = np.empty(self.m)
-        y[self.dofs] = b
-        condense.forward(self.rows, self.dofs, y, joints)
-        return y[self.dofs]
+        inside, carried = np.zeros(LANES * self.m), np.zeros(LANES * 6)
+        self._lane(inside, self.m)[:] = b
+        self._lane(carried, 6)[:] = joints
+        condense.forward(self.all_rows, inside, carried)
+        joints[:] = self._lane(carried, 6)
+        return self._lane(inside, self.m)
 
     def backward(self, y, joints, last):
         """Solution (m,) for the right side ``y`` after the forward substitution."""
-        x = np.empty(self.m)
-        x[self.dofs] = y
-        condense.backward(self.rows, self.dofs, x, joints, last)
-        return x[self.dofs]
+        inside, moved = np.zeros(LANES * self.m), np.zeros(LANES * 6)
+        self._lane(inside, self.m)[:] = y
+        self._lane(moved, 6)[:] = joints
+        condense.backward(self.all_rows, inside, moved, last)
+        return self._lane(inside, self.m)
 
 
 def mirrored(lower):
@@ -120,7 +152,7 @@ def test_descent_along_a_negative_pivot(seed, pieces):
     """From rest at the first negative pivot: d^T A d is that pivot."""
     wall = Wall(pieces, seed)
     bad = int(np.random.default_rng(seed).integers(0, wall.m))
-    wall.diagonal[bad] -= 1.5 * wall.dense()[bad, bad]
+    wall.diagonal[bad, wall.lane] -= 1.5 * wall.dense()[bad, bad]
     failed, pivot = wall.eliminate()
     assert 0 <= failed <= bad
     assert pivot < 0.0

@@ -86,6 +86,20 @@ def test_a_negative_pivot_inside_a_condensed_wall_names_the_wall():
     assert problem.found.place[0]["wall"] == -1
 
 
+@pytest.mark.parametrize("pieces", [3, MIXED])
+def test_of_several_walls_with_a_negative_pivot_the_first_is_named(pieces):
+    """In whatever bundles they are."""
+    of = web(pieces)
+    problem = Problem(of, supported(of, "clamped"), couplings(of, "condensed"))
+    for wall in (7, 3, 2, 1):
+        weakened(problem, 2 * of.edges[of.start[wall], 1] + 1)
+        assert problem.factor()[0]
+        assert (*problem.found.place[0],) == (wall, 1)
+        d = np.zeros(problem.n)
+        system.descend(problem.found, problem.layout, d)
+        assert d @ problem.dense() @ d == pytest.approx(problem.factor()[1], rel=1e-8)
+
+
 @pytest.mark.parametrize("coupled", ["condensed", "some open", "all open", "in contact"])
 @pytest.mark.parametrize("pieces", [1, 3, MIXED])
 @pytest.mark.parametrize("size", [1.0, 1e6, 1e-6])

@@ -86,14 +86,6 @@ def test_the_rest_state_has_no_turns():
     np.testing.assert_allclose(shape.length, FRAME.l0, rtol=1e-15)
 
 
-@pytest.mark.parametrize("psi", [0.1, 1.5, 3.1, -3.1, -1.0])
-@pytest.mark.parametrize("rest", [0.0, 1.0, np.pi, -2.5])
-def test_between_is_the_angle_from_one_direction_to_another(psi, rest):
-    one, two = (rest, rest + psi)
-    found = elements.between(np.cos(one), np.sin(one), np.cos(two), np.sin(two))
-    assert found == pytest.approx(psi, abs=1e-12)
-
-
 @pytest.mark.parametrize("definite", [True, False])
 @pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
 @pytest.mark.parametrize("seed", range(3))

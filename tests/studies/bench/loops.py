@@ -5,8 +5,7 @@ The one file of the bench that knows how the kernels of a step are called.
 
 from kernels.arrays import copy
 from kernels.compile.jit import jit_exact, jit_owning
-from kernels.linear import block_ldlt, condense
-from kernels.linear.analysis import RIGID
+from kernels.linear import block_ldlt, system
 from kernels.planar import reach
 from kernels.terms import (  # fmt: skip
     bend,
@@ -24,24 +23,6 @@ from kernels.terms.law import Memory
     NOTHING, EVALUATE, FACTOR, SOLVE, LIMIT, SHAPE, STRETCH, BEND, FOLD, INERTIA, DAMP, CONTACT,
     FRICTION, WALLS, BLOCKS, CONTACT_HESSIAN,
 ) = range(16)  # fmt: skip
-
-
-@jit_exact
-def _condense(terms, neighbours, stiffness):
-    """Fill the rows of all walls and eliminate their inner unknowns."""
-    solver, failed = neighbours.system, 0
-    for w in range(solver.kind.size):
-        if solver.kind[w] == RIGID:
-            continue
-        span = slice(solver.row_start[w], solver.row_start[w + 1])
-        rows, own = solver.rows[span], solver.own[span]
-        first, last = terms.walls.start[w], terms.walls.start[w + 1]
-        condense.fill(first, last, stiffness, rows, solver.outer)
-        failed += condense.eliminate(
-            rows, terms.layout.inner[span], solver.matrix.diagonal, own, solver.outer,
-            terms.layout.scale, block_ldlt.ROUNDED,
-        )[0]  # fmt: skip
-    return failed
 
 
 @jit_exact
@@ -92,10 +73,12 @@ def repeat(which, count, x, dx, most, problem, step, found, ones):
             problem.exchange(step, found)
             total += found.sums[0].friction
         elif which == WALLS:
-            total += _condense(terms, neighbours, stiffness)
+            total += system.add_walls(
+                neighbours.system, terms.layout, stiffness, block_ldlt.ROUNDED
+            )[2]
         elif which == BLOCKS:
             copy(ones, matrix.values)
-            total += block_ldlt.factor(matrix, terms.layout.scale, False)[1]
+            total += block_ldlt.factor(matrix, terms.layout.scale, block_ldlt.ROUNDED)[1]
     return total
 
 
@@ -113,5 +96,5 @@ def analyse(count, x, terms, pairs):
     """Make the system of the matrix, with room for ``pairs``, ``count`` times."""
     made = 0
     for _ in range(count):
-        made += reach.make_system(terms, x, pairs, friction.none()).target.size
+        made += reach.make_system(terms, x, pairs, friction.none()).scattered.target.size
     return made

@@ -188,7 +188,7 @@ MUTANTS = [
     ),
     *_of(
         f"{LINEAR}/condense.py",
-        ("walls: elimination", "outer[c, d] -= factor", "outer[c, d] += factor"),
+        ("walls: elimination", "spread(-1.0) * load", "spread(1.0) * load"),
         ("walls: no negative pivot", "not (pivot > 0.0 or", "not (pivot != 0.0 or"),
     ),
     *_of(
