@@ -105,15 +105,15 @@ def eliminate(rows, dofs, diagonal, own, outer, scale, rounded):
     """Eliminate all rows (m, 12) in place, with entries of ``diagonal`` (n,) added to them.
 
     Return (failed, pivot): row of the first negative pivot, -1 if none. dofs (m,): coordinates of
-    the rows. own (m,): filled with the diagonal before elimination. rounded: as in
-    `block_ldlt.regularised`.
+    the rows. own (m,): filled with the diagonal before elimination. scale (3,), rounded: as
+    in `block_ldlt.regularised`.
     """
     m = rows.shape[0]
     for k in range(m):
         rows[k, 0] += diagonal[dofs[k]]
         own[k] = rows[k, 0]
     for k in range(m):
-        pivot = regularised(rows[k, 0], own[k], scale, rounded)
+        pivot = regularised(rows[k, 0], own[k], scale[k % NODE], rounded)
         if not (pivot > 0.0 or rounded == THROUGH):
             return k, pivot
         rows[k, 0] = 1.0 / pivot

@@ -170,6 +170,7 @@ def solved_by(
     before, node, _ = mesh.inner.T
     wall_of[node] = mesh.wall[before]
     axial = case.material.modulus * case.lattice.depth * mesh.thickness / mesh.rest_length
+    stiffest = float(axial.max())
     return analysis.Layout(
         leader=leader,
         ratio=np.ones(numbering.size),
@@ -183,7 +184,7 @@ def solved_by(
         inner=walls.dofs[before, 3:].ravel(),
         wall_of=wall_of,
         outer=np.hstack([walls.dofs[first, :3], walls.dofs[last, 3:]]),
-        scale=float(axial.max()),
+        scale=(stiffest, stiffest, float((axial * mesh.thickness**2).max()) / 3.0),
     )
 
 

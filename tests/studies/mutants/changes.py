@@ -183,7 +183,7 @@ MUTANTS = [
     ),
     *_of(
         f"{LINEAR}/block_ldlt.py",
-        ("factor: second pivot", "values[at + 5] - l10 * a10", "values[at + 5] + l10 * a10"),
+        ("factor: second pivot", "values[at + 5] -= l10", "values[at + 5] += l10"),
         ("factor: third pivot never negative", "not (c > 0.0 or", "not (c != 0.0 or"),
     ),
     *_of(

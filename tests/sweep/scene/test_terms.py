@@ -59,7 +59,8 @@ def test_the_solver_knows_who_leads_and_where_walls_are(platen, elements):
         outer = np.column_stack([2 * ends, 2 * ends + 1, 2 * len(mesh.points) + ends])
         np.testing.assert_array_equal(layout.outer[w], outer.ravel())
     np.testing.assert_array_equal(layout.wall_of, expected)
-    assert layout.scale == pytest.approx(MATERIAL.modulus * DEPTH * THICKNESS * elements / WALL)
+    axial = MATERIAL.modulus * DEPTH * THICKNESS * elements / WALL
+    assert layout.scale == pytest.approx((axial, axial, axial * THICKNESS**2 / 3.0))
 
 
 def test_rotations_are_scaled_by_the_length_of_an_element():
