@@ -105,7 +105,7 @@ def coordinates_of(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -
         heavy=_heavy(layout, parts.mass),
         load=parts.load,
         driven=layout.driven,
-        cap=0.25 * min(lattice.width, lattice.height) / max(lattice.cells_x, lattice.cells_y),
+        cap=0.25 * min(lattice.width / lattice.cells_x, lattice.height / lattice.cells_y),
         leap=0.1 * lattice.wall_thickness,
         close=1e-3 * lattice.wall_thickness,
     )
