@@ -48,7 +48,6 @@ PROGRESS = np.dtype(
             ("share_iterations", np.int64),  # Newton iterations for the share
             ("minimum_iterations", np.int64),  # Newton iterations for the present minimum
             ("loops", np.int64),  # friction loops in the share
-            ("relaxation", np.float64),  # factor w of the last loop (`aitken`)
             ("least_error", np.float64),  # least residual after lagging friction again, N
             ("stagnant", np.int64),  # loops since the least error
             ("loosening", np.float64),  # factor on the tolerance of the next minimum

@@ -198,8 +198,8 @@ MUTANTS = [
         ("Newton: saddles accepted", "if balanced and stable and", "if balanced and"),
     ),
     *_of(
-        f"{SOLVE}/aitken.py",
-        ("friction loop: update", "y[i] += factor", "y[i] -= factor"),
+        f"{SOLVE}/anderson.py",
+        ("friction loop: extrapolation", "y[i] = x[i] - (past.step", "y[i] = x[i] + (past.step"),
     ),
     *_of(
         f"{SOLVE}/friction_loop.py",
