@@ -39,7 +39,7 @@ class Layout(NamedTuple):
     origin (points,): the point itself, or the point of which it is an image. inner (r,):
     coordinates of the nodes inside walls, wall by wall. wall_of (points,): wall of an inner node,
     else -1. outer (w, 6): coordinates of the two joints of a wall; the second joint may be an
-    image. scale: stiffness of the stiffest element, N/m.
+    image. scale (3,): stiffness of the stiffest element in each slot, N/m and N m.
     """
 
     leader: np.ndarray
@@ -54,7 +54,7 @@ class Layout(NamedTuple):
     inner: np.ndarray
     wall_of: np.ndarray
     outer: np.ndarray
-    scale: float
+    scale: tuple[float, float, float]
 
 
 class Scattered(NamedTuple):

@@ -13,23 +13,32 @@ from kernels.linear.block_matrix import SIZE, STRIDE
 
 ZERO_PIVOT = 1e-11  # a pivot below this share of its diagonal is zero within round-off
 SOFT = 1e-6  # share of its diagonal that replaces such a pivot
-ROUNDED = -1e-7  # a negative pivot above this share is round-off too: stiff entries cancel
+ROUNDED = -1e-13  # a negative pivot above this share is round-off too: see `_is_rounded`
 CONVEX = -math.inf  # in a positive semi-definite matrix every negative pivot is round-off
 THROUGH = math.inf  # no pivot is replaced, negative ones are no failure: see `negatives`
 
 
 @jit_exact
+def _diagonal(home):
+    """Return the position in `Blocks.values` of the diagonal entry of a ``home``."""
+    return SIZE * (home // 3) + (STRIDE + 1) * (home % 3)
+
+
+@jit_exact
 def add_diagonal(blocks, scale):
-    """Add ``diagonal`` to the blocks and keep the result in ``own``; unused slots are ``scale``."""
+    """Add ``diagonal`` to the blocks and keep the result in ``own``; unused slots are ``scale``.
+
+    scale (3,): of each slot.
+    """
     for i in range(blocks.home.size):
         h = blocks.home[i]
         if h >= 0:
-            blocks.values[SIZE * (h // 3) + (STRIDE + 1) * (h % 3)] += blocks.diagonal[i]
+            blocks.values[_diagonal(h)] += blocks.diagonal[i]
             blocks.own[h] = -1.0
     for h in range(blocks.own.size):
-        at = SIZE * (h // 3) + (STRIDE + 1) * (h % 3)
+        at = _diagonal(h)
         if blocks.own[h] != -1.0:
-            blocks.values[at] = scale
+            blocks.values[at] = scale[h % 3]
         blocks.own[h] = blocks.values[at]
 
 
@@ -38,43 +47,66 @@ def regularised(pivot, own, scale, rounded):
     """Return ``pivot``, or its replacement if it is zero within round-off.
 
     Such a pivot, between ``rounded`` and `ZERO_PIVOT` times its diagonal ``own``, belongs to a
-    motion without stiffness. It is replaced by a small share of the diagonal (or of ``scale``): the
-    solution follows a force along the motion, but hardly the round-off in forces. With `THROUGH` no
-    pivot is replaced, as true pivots are as small near limit points.
+    motion without stiffness. It is replaced by a small share of the diagonal (or of ``scale``, of
+    the same unit): the solution follows a force along the motion, but hardly the round-off in
+    forces. With `THROUGH` no pivot is replaced, as true pivots are as small near limit points.
     """
     size = max(abs(own), 1e-3 * scale)
-    return SOFT * max(abs(own), scale) if rounded * size <= pivot <= ZERO_PIVOT * size else pivot
+    if rounded * size <= pivot <= ZERO_PIVOT * size:
+        return SOFT * max(abs(own), scale)
+    return pivot
 
 
 @jit_exact
-def _invert(values, at, own, scale, rounded):
-    """Replace the diagonal block at ``at`` by its inverse; return the failed slot and its pivot.
+def _is_rounded(blocks, failed, pivot):
+    """Return whether the negative pivot at home ``failed`` is round-off.
 
-    diag(a, b, c) and the unit lower triangle l are the LDL^T factor of the block. Until the block
-    is inverted, the completed rows of l^{-T} are stored above its diagonal, for `descend`. Entry
-    (r, s) is at 4 s + r. Slot -1: no failure.
+    It is d . A d with the vector d of `descend`. Entries of A are known to a share of themselves,
+    so that the round-off of this sum is a share of sum A_ii d_i^2. In a motion of the whole, such
+    as a rotation, that is far more than the diagonal of the pivot.
     """
-    a = regularised(values[at], own[0], scale, rounded)
+    descend(blocks, failed)
+    size = 0.0
+    for i in range(failed + 1):
+        size += abs(blocks.own[i]) * blocks.vector[i] ** 2
+    return pivot >= ROUNDED * size
+
+
+@jit_exact
+def _pivot(blocks, home, scale, rounded):
+    """Return the pivot at ``home``, or its replacement if it is zero within round-off."""
+    own = blocks.own[home]
+    pivot = regularised(blocks.values[_diagonal(home)], own, scale, rounded)
+    if pivot < 0.0 and rounded != THROUGH and _is_rounded(blocks, home, pivot):
+        return SOFT * max(abs(own), scale)
+    return pivot
+
+
+@jit_exact
+def _factor_block(blocks, j, scale, rounded):
+    """Replace diagonal block ``j`` by its LDL^T factor: l below the diagonal, 1 / d on it.
+
+    Return the failed slot and its pivot. Slot -1: no failure. Entry (r, s) is at 4 s + r.
+    """
+    values, at = blocks.values, SIZE * j
+    a = _pivot(blocks, 3 * j, scale[0], rounded)
     if not (a > 0.0 or rounded == THROUGH):
         return 0, a
-    a10, a20, a21 = values[at + 1], values[at + 2], values[at + 6]
-    l10, l20 = a10 / a, a20 / a
-    values[at + 4] = -l10
-    b = regularised(values[at + 5] - l10 * a10, own[1], scale, rounded)
+    l10, l20 = values[at + 1] / a, values[at + 2] / a
+    values[at + 5] -= l10 * values[at + 1]
+    values[at + 6] -= l10 * values[at + 2]
+    values[at + 10] -= l20 * values[at + 2]
+    values[at + 1], values[at + 2] = l10, l20
+    b = _pivot(blocks, 3 * j + 1, scale[1], rounded)
     if not (b > 0.0 or rounded == THROUGH):
         return 1, b
-    l21 = (a21 - l20 * a10) / b
-    m20 = l10 * l21 - l20
-    values[at + 8], values[at + 9] = m20, -l21
-    c = regularised(values[at + 10] - l20 * a20 - l21 * l21 * b, own[2], scale, rounded)
+    l21 = values[at + 6] / b
+    values[at + 10] -= l21 * values[at + 6]
+    values[at + 6] = l21
+    c = _pivot(blocks, 3 * j + 2, scale[2], rounded)
     if not (c > 0.0 or rounded == THROUGH):
         return 2, c
-    values[at + 10] = 1.0 / c
-    values[at + 6] = values[at + 9] = -l21 / c
-    values[at + 2] = values[at + 8] = m20 / c
-    values[at + 5] = 1.0 / b + l21 * l21 / c
-    values[at + 1] = values[at + 4] = -l10 / b - l21 * m20 / c
-    values[at] = 1.0 / a + l10 * l10 / b + m20 * m20 / c
+    values[at], values[at + 5], values[at + 10] = 1.0 / a, 1.0 / b, 1.0 / c
     return -1, 0.0
 
 
@@ -101,18 +133,23 @@ def _combined(sums, columns, weights):
 
 @jit
 def _scale_column(blocks, j, nb):
-    """Copy -A of column ``j`` to ``column``, then multiply the blocks A by D^{-1}."""
-    values, minus, nothing, offset = blocks.values, spread(-1.0), spread(0.0), 0
-    one, two = _weights(values, SIZE * j), _weights(values, SIZE * j + 1)
-    three = _weights(values, SIZE * j + 2)
+    """Replace the blocks A of column ``j`` by A l^{-T} D^{-1}; copy -A l^{-T} to ``column``.
+
+    Column by column, not with the inverse of the block: where that is large, stiff entries would
+    cancel, and the sign of a soft pivot would be lost.
+    """
+    values, minus, offset, at = blocks.values, spread(-1.0), 0, SIZE * j
+    l10, l20, l21 = spread(-values[at + 1]), spread(-values[at + 2]), spread(-values[at + 6])
+    a, b, c = spread(-values[at]), spread(-values[at + 5]), spread(-values[at + 10])
     for at in range(SIZE * (nb + blocks.start[j]), SIZE * (nb + blocks.start[j + 1]), SIZE):
-        columns = _columns(values, at)
-        for column in columns:
-            store(blocks.column, offset, minus * column)
+        one, two, three = _columns(values, at)
+        one = minus * one
+        two = minus * two + l10 * one
+        three = minus * three + l20 * one + l21 * two
+        for column, weight in ((one, a), (two, b), (three, c)):
+            store(blocks.column, offset, column)
+            store(values, at + offset % SIZE, column * weight)
             offset += STRIDE
-        store(values, at, _combined(nothing, columns, one))
-        store(values, at + STRIDE, _combined(nothing, columns, two))
-        store(values, at + 2 * STRIDE, _combined(nothing, columns, three))
 
 
 @jit
@@ -139,15 +176,14 @@ def _update(blocks, j, nb, count):
 
 @jit_exact
 def factor(blocks, scale, rounded):
-    """Factor in place: A = L D L^T; L replaces the blocks below, D^{-1} the diagonal blocks.
+    """Factor in place: A = L D L^T; L replaces the blocks below, 1 / D the diagonal.
 
-    Return (failed, pivot): home of the first negative pivot, -1 if none. rounded: as in
+    Return (failed, pivot): home of the first negative pivot, -1 if none. scale (3,), rounded: as in
     `regularised`.
     """
     nb, count = blocks.start.size - 1, 0
     for j in range(nb):
-        own = blocks.own[3 * j : 3 * j + 3]
-        slot, pivot = _invert(blocks.values, SIZE * j, own, scale, rounded)
+        slot, pivot = _factor_block(blocks, j, scale, rounded)
         if slot >= 0:
             return 3 * j + slot, pivot
         _scale_column(blocks, j, nb)
@@ -169,14 +205,10 @@ def stiffest(blocks, lengths):
 
 @jit_exact
 def negatives(blocks):
-    """Return the number of negative pivots of the factor, from the inverses of its blocks."""
-    count, v = 0, blocks.values
-    for at in range(0, SIZE * (blocks.start.size - 1), SIZE):
-        a = v[at]
-        b = v[at + 5] - v[at + 1] * v[at + 1] / a
-        l21 = (v[at + 6] - v[at + 2] * v[at + 1] / a) / b
-        c = v[at + 10] - v[at + 2] * v[at + 2] / a - l21 * l21 * b
-        count += (a < 0.0) + (b < 0.0) + (c < 0.0)
+    """Return the number of negative pivots of the factor."""
+    count = 0
+    for home in range(3 * (blocks.start.size - 1)):
+        count += blocks.values[_diagonal(home)] < 0.0
     return count
 
 
@@ -185,15 +217,15 @@ def forward(blocks):
     """Solve L D y = vector, in place."""
     nb, values, v = blocks.start.size - 1, blocks.values, blocks.vector
     for j in range(nb):
-        x, y, z = v[3 * j], v[3 * j + 1], v[3 * j + 2]
+        k, x = SIZE * j, v[3 * j]
+        y = v[3 * j + 1] - values[k + 1] * x
+        z = v[3 * j + 2] - values[k + 2] * x - values[k + 6] * y
         for q in range(blocks.start[j], blocks.start[j + 1]):
             at, to = SIZE * (nb + q), 3 * blocks.row[q]
             for r in range(3):
-                k = at + r
-                v[to + r] -= values[k] * x + values[k + STRIDE] * y + values[k + 2 * STRIDE] * z
-        for r in range(3):
-            k = SIZE * j + r
-            v[3 * j + r] = values[k] * x + values[k + STRIDE] * y + values[k + 2 * STRIDE] * z
+                i = at + r
+                v[to + r] -= values[i] * x + values[i + STRIDE] * y + values[i + 2 * STRIDE] * z
+        v[3 * j], v[3 * j + 1], v[3 * j + 2] = values[k] * x, values[k + 5] * y, values[k + 10] * z
 
 
 @jit
@@ -207,6 +239,9 @@ def backward(blocks, first):
             for s in range(3):
                 k = at + STRIDE * s
                 v[3 * j + s] -= values[k] * x + values[k + 1] * y + values[k + 2] * z
+        k = SIZE * j
+        v[3 * j + 1] -= values[k + 6] * v[3 * j + 2]
+        v[3 * j] -= values[k + 1] * v[3 * j + 1] + values[k + 2] * v[3 * j + 2]
 
 
 @jit_exact
@@ -219,6 +254,10 @@ def descend(blocks, failed):
     zero(v)
     v[failed] = 1.0
     j, slot = failed // 3, failed % 3
-    for s in range(slot):
-        v[3 * j + s] = values[SIZE * j + STRIDE * slot + s]
+    k = SIZE * j
+    if slot == 2:
+        v[3 * j + 1] = -values[k + 6]
+        v[3 * j] = -values[k + 2] - values[k + 1] * v[3 * j + 1]
+    elif slot == 1:
+        v[3 * j] = -values[k + 1]
     backward(blocks, j)

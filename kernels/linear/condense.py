@@ -146,7 +146,7 @@ def eliminate(rows, dofs, diagonal, own, outer, scale, rounded):
 
     Return (lane, row, pivot): the first wall that fails, with its first negative pivot; lane 4 if
     none does. Entries of a wall that fails are wrong from that row on. dofs (4 m,): coordinates of
-    the rows. own (4 m,): filled with the diagonal before elimination. rounded: as in
+    the rows. own (4 m,): filled with the diagonal before elimination. scale (3,), rounded: as in
     `block_ldlt.regularised`.
     """
     m, failure = own.size // LANES, (LANES, -1, 0.0)
@@ -154,10 +154,11 @@ def eliminate(rows, dofs, diagonal, own, outer, scale, rounded):
         first = load(rows, entry(k, 0)) + collect(diagonal, dofs, LANES * k)
         store(rows, entry(k, 0), first)
         store(own, LANES * k, first)
-    one, share, least = spread(1.0), spread(ZERO_PIVOT), spread(1e-3 * scale)
+    one, share = spread(1.0), spread(ZERO_PIVOT)
     for k in range(m):
+        least = spread(1e-3 * scale[k % NODE])
         if not exceeds(load(rows, entry(k, 0)), share * (load(own, LANES * k) + least)):
-            failure = _regularise(rows, k, own, scale, rounded, failure)
+            failure = _regularise(rows, k, own, scale[k % NODE], rounded, failure)
         store(rows, entry(k, 0), one / load(rows, entry(k, 0)))
         _reduce(rows, k, m, outer)
     return failure

@@ -11,8 +11,9 @@ import numpy as np
 
 from kernels.arrays import copy, zero
 from kernels.compile.jit import jit_exact
-from kernels.solve.aitken import relax
+from kernels.solve.anderson import extrapolate
 from kernels.solve.residual import allowed, largest
+from kernels.solve.resolution import LARGEST_RESIDUAL
 
 MAX_LOOPS = 30
 STAGNATION = 8  # loops without a new least error after which the loop fails
@@ -24,7 +25,7 @@ UNSETTLED = 8  # outcome of a loop that fails, beside those of `newton` and `mar
 @jit_exact
 def begin(progress):
     """Reset the loop for a step. progress: `march.PROGRESS`."""
-    progress.loops, progress.relaxation, progress.loosening = 0, 0.0, 1.0
+    progress.loops, progress.loosening = 0, 1.0
     progress.least_error, progress.stagnant = np.inf, 0
 
 
@@ -40,14 +41,13 @@ def is_converged(x, problem, step, tolerance, space, progress):
     potential, friction = sums.potential, sums.friction
     copy(found.g, work.trial)
     copy(found.friction, work.escape)
-    progress.relaxation = relax(x, space.lagged, space.drift, coordinates, progress.relaxation)
+    extrapolate(x, space.lagged, coordinates, progress.loops, space.past)
     if not problem.lag(space.lagged) and progress.loosening == 1.0:
         return True
     problem.exchange(step, found)
     problem.reduce(found.g, work.residual)
     error = largest(work.residual, coordinates)
-    limit = max(tolerance.friction, tolerance.friction_share * largest(found.friction, coordinates))
-    limit = max(limit, allowed(problem.stiffest(), tolerance)[0])
+    limit = _admissible(largest(found.friction, coordinates), problem.stiffest(), tolerance)
     converged = error <= limit and progress.loosening == 1.0
     if converged:
         copy(work.trial, found.g)
@@ -57,6 +57,17 @@ def is_converged(x, problem, step, tolerance, space, progress):
     copy(x, work.trial)
     zero(work.dx)
     return converged
+
+
+@jit_exact
+def _admissible(force, stiffest, tolerance):
+    """Return the admissible error of lagged forces in N. force: the largest of them, N.
+
+    The round-off of the ``stiffest`` contact (N/m) is no error, but it has no bound: what is more
+    than `LARGEST_RESIDUAL` of the force is not resolved.
+    """
+    rounded = min(allowed(stiffest, tolerance)[0], LARGEST_RESIDUAL * force)
+    return max(tolerance.friction, tolerance.friction_share * force, rounded)
 
 
 @jit_exact

@@ -31,6 +31,7 @@ SMALLEST_SHARE = 2.0**-24  # share of a step
 DOUBLING_ERROR = 0.1  # of the allowed error: below it the next share may be twice as long
 MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple of it
 EASY_LOOPS = 10  # friction loops of an easy share, at most
+MOST_PATIENCE = 63  # shares after a failure until a longer one is tried again, at most
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
 UNCHECKED_SHARE = 2.0**-12  # share of a step that may generate more: the whole run is checked later
 INACCURATE, UNBALANCED, UNRESOLVED = 7, 9, 10  # beside those of `newton` and `friction_loop`
@@ -43,12 +44,13 @@ PROGRESS = np.dtype(
             ("done", np.float64),  # completed share of the step of the row
             ("share", np.float64),  # share of the step of the row that is attempted
             ("failed", np.int64),  # failed attempts since the last accepted share
+            ("patience", np.int64),  # shares to be accepted after a failure before one is doubled
+            ("wait", np.int64),  # those of them that are still to come
             ("cause", np.int64),  # outcome of the last of them that was not `UNRESOLVED`
             ("row_iterations", np.int64),  # Newton iterations for the row
             ("share_iterations", np.int64),  # Newton iterations for the share
             ("minimum_iterations", np.int64),  # Newton iterations for the present minimum
             ("loops", np.int64),  # friction loops in the share
-            ("relaxation", np.float64),  # factor w of the last loop (`aitken`)
             ("least_error", np.float64),  # least residual after lagging friction again, N
             ("stagnant", np.int64),  # loops since the least error
             ("loosening", np.float64),  # factor on the tolerance of the next minimum
@@ -212,6 +214,8 @@ def _reject(outcome, problem, step, state, space, descent, progress):
         progress.cause = outcome
     if outcome != INACCURATE:
         progress.failed += 1
+        progress.patience = min(2 * progress.patience + 1, MOST_PATIENCE)
+        progress.wait = progress.patience
     progress.share *= 0.5 ** max(progress.failed, 1)  # repeated failures shorten it faster
 
 
@@ -239,6 +243,8 @@ def _next_share(ratio, iterations, descent, progress):
     """Complete a share; double the next one if this one was easy and the double fits the grid.
 
     Shares stay multiples of their own length from the start of the step, so that they end with it.
+    A failed attempt costs more than a double share saves: after every failure more shares have to
+    be accepted before a double one is tried.
     """
     easy = progress.share_iterations <= iterations and progress.loops <= EASY_LOOPS
     easy = easy and ratio < DOUBLING_ERROR
@@ -246,8 +252,11 @@ def _next_share(ratio, iterations, descent, progress):
     progress.cause = CONVERGED
     if progress.share < 1.0:
         descent.since_factor = np.inf
-    if easy and progress.done % (2.0 * progress.share) == 0.0:
+    if progress.wait > 0:
+        progress.wait -= 1
+    elif easy and progress.done % (2.0 * progress.share) == 0.0:
         progress.share *= 2.0
+        progress.patience //= 2
 
 
 @jit_exact

@@ -106,7 +106,7 @@ def coordinates_of(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -
         heavy=_heavy(layout, parts.mass),
         load=parts.load,
         driven=layout.driven,
-        cap=0.25 * min(lattice.width, lattice.height) / max(lattice.cells_x, lattice.cells_y),
+        cap=0.25 * min(lattice.width / lattice.cells_x, lattice.height / lattice.cells_y),
         leap=0.1 * lattice.wall_thickness,
         close=1e-3 * lattice.wall_thickness,
     )
@@ -157,6 +157,7 @@ def solved_by(
     before, node, _ = mesh.inner.T
     wall_of[node] = mesh.wall[before]
     axial = case.material.modulus * case.lattice.depth * mesh.thickness / mesh.rest_length
+    stiffest = float(axial.max())
     return analysis.Layout(
         leader=leader,
         ratio=np.ones(numbering.size),
@@ -170,7 +171,7 @@ def solved_by(
         inner=walls.dofs[before, 3:].ravel(),
         wall_of=wall_of,
         outer=np.hstack([walls.dofs[first, :3], walls.dofs[last, 3:]]),
-        scale=float(axial.max()),
+        scale=(stiffest, stiffest, float((axial * mesh.thickness**2).max()) / 3.0),
     )
 
 

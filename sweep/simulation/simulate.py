@@ -35,7 +35,7 @@ SOUNDER = "try a smaller solver.tolerance, and look for values out of all propor
 GAP = 1e-3  # of the greatest energy in the book: residual that is allowed
 CREATED = 0.1  # of the work done: energy that an integrator may create
 ADVICE = {
-    newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {shorter}",
+    newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {further}",
     friction_loop.UNSETTLED: "friction did not settle; try {shorter} or a smaller contact.friction",
     newton.STALLED: "the energy could not be lowered further; "
     "try a looser solver.tolerance or smaller steps",
@@ -230,7 +230,12 @@ class _Run:
         solver = self.case.solver
         timed = solver.load_steps is None
         shorter = "a smaller solver.time_step" if timed else "more solver.load_steps"
-        advice = ADVICE[outcome].format(limit=solver.max_iterations, shorter=shorter)
+        # What buckles under a dead load goes all the way at once, in however short a step.
+        buckles = not timed and self.scene.terms.coordinates.driven < 0
+        further = "a larger solver.max_iterations" if buckles else shorter
+        advice = ADVICE[outcome].format(
+            limit=solver.max_iterations, shorter=shorter, further=further
+        )
         if self.arc is not None:
             advice = LOST
         return Status.STOPPED, f"stopped {where}: {advice}"

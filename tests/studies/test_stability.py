@@ -101,7 +101,7 @@ def test_a_load_that_moves_nothing_is_a_failure():
 
 
 STRUCTURES, MOVING = range(100, 160), 58
-SECOND_ORDER, MOVED = (6, 12, 15, 23, 25, 29), 5
+SECOND_ORDER, MOVED = (6, 12, 15, 23, 25, 29), 4
 
 
 def test_custom_structures_violate_nothing():
@@ -115,6 +115,7 @@ def test_custom_structures_violate_nothing():
 
 
 def test_lattices_that_move_by_schemes_of_second_order_violate_nothing():
+    """Scene 23, by newmark in steps far too long, is stopped for the energy that it creates."""
     audits = [audit.audit(draw.second_order(number)) for number in SECOND_ORDER]
     assert [found.violations for found in audits] == [()] * len(audits)
     assert [found.status for found in audits].count("converged") == MOVED

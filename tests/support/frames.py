@@ -229,9 +229,10 @@ def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> analysis.Lay
     dofs = walls_of(of).dofs
     outer = np.hstack([dofs[of.start[:-1], :3], dofs[of.start[1:] - 1, 3:]])
     inner, axial = dofs[inside, 3:].ravel(), of.modulus * of.depth * of.thickness / of.l0
+    scale = axial.max() * np.array([1.0, 1.0, of.thickness.max() ** 2 / 3.0])
     return analysis.Layout(
         leader, np.ones(size), periodic_images.NONE, size - 1 if driven else -1, point, slot,
-        n, 2 * nodes, np.arange(n + 1), inner, wall_of, outer, float(axial.max()),
+        n, 2 * nodes, np.arange(n + 1), inner, wall_of, outer, tuple(scale),
     )  # fmt: skip
 
 

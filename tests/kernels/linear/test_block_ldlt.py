@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.linear import block_ldlt, block_matrix
-from tests.support.blocks import NB, by_entry, put, random_pattern, shaped
+from tests.support.blocks import NB, by_entry, filled, put, random_pattern, shaped
 from tests.support.terms import by_home
 
 
@@ -16,10 +16,10 @@ def definite(rng, joined):
 
 
 def made(joined, full, scale):
-    """Matrix with these entries, ready to be factored."""
+    """Matrix with these entries, ready to be factored. scale: of all slots."""
     matrix = shaped(joined)
     put(matrix, full, by_entry(joined))
-    block_ldlt.add_diagonal(matrix, scale)
+    block_ldlt.add_diagonal(matrix, (scale,) * 3)
     return matrix
 
 
@@ -39,7 +39,7 @@ def test_factor_and_solve(seed, scale):
     full = scale * definite(rng, joined)
     matrix, b = made(joined, full, scale), rng.uniform(-1, 1, len(full))
     np.testing.assert_array_equal(by_home(matrix), full)
-    assert block_ldlt.factor(matrix, scale, block_ldlt.ROUNDED) == (-1, 0.0)
+    assert block_ldlt.factor(matrix, (scale,) * 3, block_ldlt.ROUNDED) == (-1, 0.0)
     np.testing.assert_allclose(full @ solved(matrix, b), b, rtol=0, atol=1e-12)
 
 
@@ -49,11 +49,10 @@ def test_the_factor_times_its_diagonal_times_its_transpose_is_the_matrix(seed):
     joined = random_pattern(rng)
     full = definite(rng, joined)
     matrix = made(joined, full, 1.0)
-    block_ldlt.factor(matrix, 1.0, block_ldlt.ROUNDED)
+    block_ldlt.factor(matrix, (1.0,) * 3, block_ldlt.ROUNDED)
     kept = by_home(matrix)
-    inside = by_entry(np.eye(NB, dtype=bool))
-    lower = np.tril(np.where(inside, 0.0, kept)) + np.eye(len(full))
-    diagonal = np.linalg.inv(np.where(inside, kept, 0.0))
+    lower = np.tril(kept, -1) + np.eye(len(full))
+    diagonal = np.diag(1.0 / np.diag(kept))
     np.testing.assert_allclose(lower @ diagonal @ lower.T, full, rtol=0, atol=1e-13 * len(full))
     assert not matrix.values.reshape(-1, block_matrix.STRIDE)[:, 3].any()
 
@@ -69,7 +68,7 @@ def test_descent_along_a_negative_pivot(seed, slot, scale):
     full[bad, bad] -= np.abs(full[bad]).sum() + rng.uniform(0.01, 3)
     full *= scale
     matrix = made(joined, full, scale)
-    failed, pivot = block_ldlt.factor(matrix, scale, block_ldlt.ROUNDED)
+    failed, pivot = block_ldlt.factor(matrix, (scale,) * 3, block_ldlt.ROUNDED)
     minors = [np.linalg.eigvalsh(full[:k, :k])[0] for k in range(1, len(full) + 1)]
     assert failed == next(k for k, least in enumerate(minors) if least < 0) == bad
     assert pivot < 0
@@ -92,7 +91,7 @@ def test_descent_leaves_out_a_motion_without_stiffness(loose, bad, noise):
     full[3 + bad, 3 + loose] = full[3 + loose, 3 + bad] = 3.0 * noise
     full[3 + bad, 3 + bad] = -1.0
     matrix = made(np.ones((2, 2), dtype=bool), full, 1.0)
-    failed, pivot = block_ldlt.factor(matrix, 1.0, block_ldlt.ROUNDED)
+    failed, pivot = block_ldlt.factor(matrix, (1.0,) * 3, block_ldlt.ROUNDED)
     assert failed == 3 + bad
     block_ldlt.descend(matrix, failed)
     d = matrix.vector
@@ -105,8 +104,8 @@ def test_nan_fails(slot):
     matrix = shaped(np.eye(1, dtype=bool))
     for i in range(3):
         block_matrix.add(matrix, i, i, 1.0 if i != slot else np.nan)
-    block_ldlt.add_diagonal(matrix, 1.0)
-    failed, pivot = block_ldlt.factor(matrix, 1.0, block_ldlt.ROUNDED)
+    block_ldlt.add_diagonal(matrix, (1.0,) * 3)
+    failed, pivot = block_ldlt.factor(matrix, (1.0,) * 3, block_ldlt.ROUNDED)
     assert failed == slot
     assert np.isnan(pivot)
 
@@ -119,16 +118,50 @@ def test_motions_without_stiffness_are_not_moved_along(loose, scale):
     half = rng.uniform(-1, 1, (12, 12 - loose))
     full = scale * half @ half.T
     matrix = made(np.ones((4, 4), dtype=bool), full, scale)
-    assert block_ldlt.factor(matrix, scale, block_ldlt.ROUNDED) == (-1, 0.0)
+    assert block_ldlt.factor(matrix, (scale,) * 3, block_ldlt.ROUNDED) == (-1, 0.0)
     b = full @ rng.uniform(-1, 1, 12)
     y = solved(matrix, b)
     assert np.abs(y).max() < 1e3
     np.testing.assert_allclose(full @ y, b, rtol=0, atol=1e-7 * scale)
 
 
+def column(slender, compression, angle):
+    """Hessian of a clamped column of discrete hinges, and the pattern of its blocks.
+
+    Axial stiffness 1; compression as a share of the buckling load.
+    """
+    n = 12
+    first = np.eye(n) - np.eye(n, k=-1)
+    second = np.diff(np.vstack([np.zeros(n), first]), axis=0)
+    bending = (n / slender) ** 2 / 12.0 * second.T @ second
+    buckling = np.linalg.eigvals(np.linalg.solve(first.T @ first, bending)).real.min()
+    across = bending - compression * buckling * first.T @ first
+    along, normal = (
+        np.array([np.cos(angle), np.sin(angle)]),
+        np.array([-np.sin(angle), np.cos(angle)]),
+    )
+    full = np.zeros((n, 3, n, 3))
+    full[:, :2, :, :2] += np.einsum("ij,r,s->irjs", first.T @ first, along, along)
+    full[:, :2, :, :2] += np.einsum("ij,r,s->irjs", across, normal, normal)
+    full[:, 2, :, 2] = np.eye(n)
+    near = np.abs(np.subtract.outer(np.arange(n), np.arange(n))) < 3
+    return full.reshape(3 * n, 3 * n), filled(near)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.5])
+@pytest.mark.parametrize("slender", [20.0, 200.0, 2000.0])
+def test_a_slender_column_is_unstable_above_its_buckling_load(slender, angle):
+    """Its pivots are far smaller than the round-off of an inverted block."""
+    for compression, stable in ((0.98, True), (1.02, False)):
+        full, joined = column(slender, compression, angle)
+        matrix = made(joined, full, 1.0)
+        failed, _ = block_ldlt.factor(matrix, (1.0,) * 3, block_ldlt.ROUNDED)
+        assert (failed < 0) == stable
+
+
 def test_a_coordinate_without_any_stiffness_gets_a_share_of_the_scale():
     matrix = made(np.eye(1, dtype=bool), np.diag([4.0, 0.0, 1.0]), 4.0)
-    assert block_ldlt.factor(matrix, 4.0, block_ldlt.ROUNDED)[0] == -1
+    assert block_ldlt.factor(matrix, (4.0,) * 3, block_ldlt.ROUNDED)[0] == -1
     np.testing.assert_allclose(solved(matrix, np.full(3, 8.0)), [2.0, 2.0 / block_ldlt.SOFT, 8.0])
 
 
@@ -139,6 +172,6 @@ def test_a_small_but_true_negative_pivot_is_seen(apart):
     full[apart, 0] = full[0, apart] = 1.0
     full[apart, apart] -= 1e-6
     matrix = made(np.ones((2, 2), dtype=bool), full, 1.0)
-    failed, pivot = block_ldlt.factor(matrix, 1.0, block_ldlt.ROUNDED)
+    failed, pivot = block_ldlt.factor(matrix, (1.0,) * 3, block_ldlt.ROUNDED)
     assert failed == apart
     assert pivot == pytest.approx(-1e-6, rel=1e-6)

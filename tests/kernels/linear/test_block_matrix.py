@@ -42,7 +42,7 @@ def test_ties_and_supports_reduce_the_matrix(seed):
     ratio = np.where(home == DRIVEN, rng.uniform(-1, 1, 10), 1.0)
     matrix = shaped(np.ones((3, 3), dtype=bool), home, ratio)
     put(matrix, full)
-    block_ldlt.add_diagonal(matrix, 7.0)
+    block_ldlt.add_diagonal(matrix, (7.0,) * 3)
     R = reduction_to(home, 3)
     expected = R.T @ full @ R + np.diag(np.where(R.any(axis=0), 0.0, 7.0))
     np.testing.assert_allclose(by_home(matrix), expected, rtol=0, atol=1e-14)
@@ -65,11 +65,11 @@ def test_a_matrix_that_is_used_again_starts_at_zero():
             assert not cleared.any()
         put(matrix, full)
         assert matrix.missing[0] == 1
-        block_ldlt.add_diagonal(matrix, scale)
+        block_ldlt.add_diagonal(matrix, (scale,) * 3)
         R = reduction_to(home, 2)
         expected = R.T @ full @ R + np.diag(np.where(R.any(axis=0), 0.0, scale))
         np.testing.assert_allclose(by_home(matrix), expected, rtol=0, atol=1e-14)
-        assert block_ldlt.factor(matrix, scale, block_ldlt.ROUNDED)[0] == -1
+        assert block_ldlt.factor(matrix, (scale,) * 3, block_ldlt.ROUNDED)[0] == -1
 
 
 NO_ROOM = [(0, 5, True), (0, 3, False), (0, 7, True), (6, 7, False), (1, 0, False), (9, 0, False)]
@@ -106,7 +106,7 @@ def test_blocks_of_two_points_are_symmetric(home):
     block_matrix.add_block(matrix, 0, 2, *other.ravel())
     full = np.block([[own, other], [other.T, own]])
     R = reduction_to(home, 2)
-    block_ldlt.add_diagonal(matrix, 1.0)
+    block_ldlt.add_diagonal(matrix, (1.0,) * 3)
     expected = R.T @ full @ R + np.diag(np.where(R.any(axis=0), 0.0, 1.0))
     np.testing.assert_allclose(by_home(matrix), expected)
 
@@ -131,7 +131,7 @@ def test_blocks_of_images_go_to_what_they_follow():
     for i in (0, 2, 4):
         for j in range(0, i + 1, 2):
             block_matrix.add_block(matrix, i, j, *full[i : i + 2, j : j + 2].ravel())
-    block_ldlt.add_diagonal(matrix, 1.0)
+    block_ldlt.add_diagonal(matrix, (1.0,) * 3)
     follows = np.eye(6, 8)
     follows[4:, 4:] = 0.0
     follows[4, [0, 6]], follows[5, [1, 7]] = (1.0, 2.0), (1.0, -3.0)

@@ -68,7 +68,7 @@ class Wall:
 
     def eliminate(self):
         """Place of the first negative pivot, and that pivot."""
-        scale = SCALE * self.size
+        scale = (SCALE * self.size,) * 3
         diagonal = np.empty(LANES * self.m)
         diagonal[self.dofs] = self.diagonal.ravel()
         lane, row, pivot = condense.eliminate(

@@ -111,7 +111,7 @@ def test_a_frame_that_floats_is_not_moved_as_a_whole(size, pieces, coupled):
     for part in problem.stiffness:
         part *= size
     problem.diagonal[-2:] = size
-    problem.layout = problem.layout._replace(scale=7.0 * size)
+    problem.layout = problem.layout._replace(scale=(7.0 * size,) * 3)
     assert problem.factor() == (False, 0.0)
     full = problem.dense()
     values = np.linalg.eigvalsh(full)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.compile.choice import FAST, compiler
-from kernels.solve import friction_loop, march
+from kernels.solve import friction_loop, march, residual
 from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
 from sweep.simulation.simulate import simulate
 from tests.studies.stability import draw
@@ -55,6 +55,14 @@ def test_a_minimum_is_found_as_well_as_friction_is_known():
     assert looped(1.0, 9e-6).loosening == 1.0  # the next may be the last
     assert looped(*np.geomspace(1.0, 1e-3, friction_loop.INEXACT_LOOPS + 1)).loosening == 1.0
     assert looped(np.nan).loosening == looped(np.inf).loosening == 1.0
+
+
+def test_round_off_of_a_stiff_contact_is_admissible_up_to_a_share_of_friction():
+    tolerance = residual.Tolerance(1e-9, 1e-12, 1e-6, 1e-5, 1e-15, 1e-16, 100)
+    assert friction_loop._admissible(0.0, 1e9, tolerance) == 1e-6
+    assert friction_loop._admissible(1.0, 1e9, tolerance) == 1e-5
+    assert friction_loop._admissible(1.0, 1e12, tolerance) == pytest.approx(1e-4)
+    assert friction_loop._admissible(1.0, 1e30, tolerance) == 1e-2
 
 
 def test_a_loop_is_given_up_once_it_goes_in_circles():

@@ -2,6 +2,7 @@
 
 import threading
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from kernels.geometry import near_pairs
 from kernels.geometry.distance import squared_distance
 from kernels.geometry.specimen_height import height
 from kernels.planar.potential import CONTACT
-from kernels.solve import newton
+from kernels.solve import march, newton
 from kernels.solve.energy_book import kinetic
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.scene.lattice import build_scene
@@ -304,3 +305,22 @@ def test_buckling_is_seen_however_small_the_steps(steps):
     assert bent > 0.5 * stretched
     before = rows[steps // 8].bend
     assert before < 1e-12 * bent
+
+
+def test_after_each_failure_more_shares_are_accepted_before_one_is_doubled():
+    """1, then 3; easy steps bring it back."""
+    progress, descent = np.zeros(1, march.PROGRESS)[0], np.zeros(1, newton.DESCENT)[0]
+    still, state = SimpleNamespace(roll_back=lambda step: None), SimpleNamespace(x=np.zeros(1))
+    space = SimpleNamespace(x0=np.zeros(1), found=SimpleNamespace(u=np.zeros(1)))
+    reject, next_share = (
+        getattr(kernel, "py_func", kernel) for kernel in (march._reject, march._next_share)
+    )
+    progress.share, shares = 2.0**-4, []
+    for fails in (True, False, True, False, False, False, False, False, False, False):
+        if fails:
+            reject(newton.ITERATIONS, still, None, state, space, descent, progress)
+            progress.done = 0.0
+        else:
+            next_share(0.0, 100, descent, progress)
+        shares.append(int(-np.log2(progress.share)))
+    assert shares == [5, 5, 6, 6, 6, 6, 5, 5, 4, 4]

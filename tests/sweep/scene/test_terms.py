@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from kernels.solve.problem import HELD
-from sweep.config.case import Contact, Damping, Material, Solver
+from sweep.config.case import Case, Contact, Damping, Lattice, Material, Solver
 from sweep.design.network import mass
 from sweep.scene.beams import plane_factors
+from sweep.scene.lattice import build_scene
 from tests.studies.verify import MATERIAL
 from tests.support.grids import DEPTH, LOADINGS, THICKNESS, WALL, scene_of
 
@@ -59,7 +60,14 @@ def test_the_solver_knows_who_leads_and_where_walls_are(platen, elements):
         outer = np.column_stack([2 * ends, 2 * ends + 1, 2 * len(mesh.points) + ends])
         np.testing.assert_array_equal(layout.outer[w], outer.ravel())
     np.testing.assert_array_equal(layout.wall_of, expected)
-    assert layout.scale == pytest.approx(MATERIAL.modulus * DEPTH * THICKNESS * elements / WALL)
+    axial = MATERIAL.modulus * DEPTH * THICKNESS * elements / WALL
+    assert layout.scale == pytest.approx((axial, axial, axial * THICKNESS**2 / 3.0))
+
+
+def test_a_move_is_at_most_a_quarter_of_a_cell():
+    """However unlike its two sizes are, and the numbers of cells."""
+    lattice = Lattice(cells_x=2, cells_y=8, width=0.03, height=0.16, wall_thickness=4e-4)
+    assert build_scene(Case(lattice=lattice)).terms.coordinates.cap == pytest.approx(0.25 * 0.015)
 
 
 def test_rotations_are_scaled_by_the_length_of_an_element():
