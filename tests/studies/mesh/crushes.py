@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 
 from sweep.config.case import Case, Contact, Lattice
+from sweep.design.lattice import build_network
 from sweep.result import Status
-from sweep.scene.mesh import build_mesh
 from tests.studies.spread import ALLOWED, CELLS, crush
 
 MESHES = (1, 2, 3, 4, 6, 8)  # elements of a wall
@@ -50,8 +50,9 @@ def without_contact(cases):
 
 def slenderness(case):
     """Median length of a wall, joint to joint, / wall thickness."""
-    mesh = build_mesh(case.lattice)
-    return float(np.median(mesh.rest_length * mesh.pieces / mesh.thickness))
+    network = build_network(case.lattice.geometry)
+    start, end = network.points[network.walls].swapaxes(0, 1)
+    return float(np.median(np.linalg.norm(end - start, axis=1) / network.wall_thickness))
 
 
 def parted(curve, other):
