@@ -13,6 +13,7 @@ from sweep.scene.joints import Arms, point_joints, solid_joints
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+SHORTEST = 0.5  # length of an element over its thickness, between solid joints
 
 
 @dataclass(frozen=True)
@@ -101,7 +102,20 @@ def build_mesh(lattice: Lattice, solid: bool, platen: str | None) -> tuple[Mesh,
     """
     network, shift = build_network(lattice.geometry), lattice.imperfection * lattice.wall_thickness
     arms = solid_joints(network, platen) if solid else point_joints(len(network.walls))
-    return split_walls(network, lattice.nodes_per_wall + 1, shift, arms.length), arms
+    pieces = elements_of(network, lattice.nodes_per_wall + 1, arms)
+    return split_walls(network, pieces, shift, arms.length), arms
+
+
+def elements_of(network: Network, most: int, arms: Arms) -> Ints:
+    """Number of equal elements of each wall, (w,): ``most``, or fewer between solid joints.
+
+    There none is shorter than `SHORTEST` thicknesses, below which a wall is no beam.
+    """
+    start, end = network.points[network.walls].swapaxes(0, 1)
+    free = np.linalg.norm(end - start, axis=1) - arms.length.sum(axis=1)
+    fit = np.floor(free / (SHORTEST * network.wall_thickness)).astype(np.int64)
+    solid = (arms.length > 0.0).any(axis=1)
+    return np.where(solid, np.clip(fit, 1, most), most)
 
 
 def split_walls(

@@ -18,7 +18,7 @@ from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import Numbering
 from sweep.scene.joints import Arms, find_arms, point_joints
-from sweep.scene.mesh import Floats, Ints, Mesh, split_walls
+from sweep.scene.mesh import Floats, Ints, Mesh, elements_of, split_walls
 from sweep.scene.terms import (
     Parts,
     Scene,
@@ -118,7 +118,8 @@ def _arms(network: Endless, case: Case) -> Arms:
 
 def _repeated(network: Endless, lattice: Lattice, arms: Arms) -> tuple[Mesh, Repeated]:
     """Mesh of all walls, those of the period first, and its numbering."""
-    mesh = split_walls(network, lattice.nodes_per_wall + 1, 0.0, arms.length)
+    pieces = elements_of(network, lattice.nodes_per_wall + 1, arms)
+    mesh = split_walls(network, pieces, 0.0, arms.length)
     inside = np.diff(mesh.start) - 1
     first = len(network.points) + np.cumsum(inside) - inside
     wall = np.repeat(np.arange(len(inside)), inside)
