@@ -61,6 +61,7 @@ FACTORS = {
     "lattice.grading": Factor("wall at top / at bottom"),
     "lattice.nodes_per_wall": Factor("nodes inside a wall"),
     "solver.load_steps": Factor("load steps"),
+    "solver.joints": Factor("joints"),
     "damping.relaxation_time": Factor("real speed, relaxation time", "s"),
 }
 
