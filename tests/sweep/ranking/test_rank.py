@@ -8,7 +8,7 @@ import pytest
 
 from sweep.ranking.rank import RankError, pareto, rank, ranked, scene_label
 from sweep.report.sheets import ranking_sheets
-from sweep.result import COLUMNS
+from sweep.result import COLUMNS, MODEL_VERSION
 from tests.support.specimens import designs, ids, summary
 
 NAN = float("nan")
@@ -160,7 +160,7 @@ def test_attrs_of_the_table_still_say_what_else_is_known():
         "failed": 1,
         "unranked": 1,
         "without_bar": 0,
-        "versions": {3: 3},
+        "versions": {MODEL_VERSION: 3},
         "budgets_g": [2.0, 1.0],
         "lightest_g": {"crushed to 50 %, glued platens": pytest.approx(50.0)},
     }

@@ -293,12 +293,11 @@ def test_error_columns_have_the_unit_of_what_they_are_about():
 
 
 def test_error_bar_covers_the_error_of_a_crush():
-    """A slice of what `make bars` measures: a cell pressed to half its height."""
+    """A slice of what `make bars` measures: four cells pressed to half their height."""
+    cells = {"cells_x": 2, "cells_y": 2, "wall_thickness": 0.6e-3}
     loading = Loading(mode="displacement", strain=0.5)
-    design = Case(
-        lattice=Lattice(cells_x=2, cells_y=2), loading=loading, solver=Solver(load_steps=50)
-    )
-    fine = Lattice(cells_x=2, cells_y=2, nodes_per_wall=11)
+    design = Case(lattice=Lattice(**cells), loading=loading, solver=Solver(load_steps=50))
+    fine = Lattice(**cells, nodes_per_wall=11)
     reference = crush(Case(lattice=fine, loading=loading, solver=Solver(load_steps=200))).summary
     rows = {c.case_id: crush(c).summary for c in [design, *(c.case for c in companions(design))]}
     for name in (ENERGY, "plateau_stress_Pa", "peak_force_N", "absorbed_energy_until_packed_J"):

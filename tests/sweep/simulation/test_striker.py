@@ -52,7 +52,7 @@ def struck(
         loading=loads,
         contact=Contact(friction=friction),
         damping=damping,
-        solver=Solver(time_step=steps and passage / steps, integrator=integrator),
+        solver=Solver(joints="points", time_step=steps and passage / steps, integrator=integrator),
     )
 
 
