@@ -74,7 +74,7 @@ def frame_rows():
     yield ["exact frame", *(f"{force:.2f}" for force in reference)]
     for name, pieces, solver in (
         ("12 elements a wall", 12, {}),
-        ("3 elements a wall (default)", 3, {}),
+        ("3 elements a wall", 3, {}),
         ("3, classical, tangent measure", 3, ROD),
     ):
         history = pressed(pieces, 0.3, "none", **solver).history

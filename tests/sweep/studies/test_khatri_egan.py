@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Contact, Lattice, Loading, Material
+from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
 from sweep.config.grid import expand
 from sweep.config.units import load_config
 from sweep.running.sweep import run_sweep
@@ -123,6 +123,7 @@ def test_two_columns_buckle_at_eulers_load(platen, buckles_at):
         material=Material(modulus=10e6, density=1200.0, plane="stress"),
         loading=Loading(strain=strain, platen=platen, unload=False),
         contact=Contact(model="none"),
+        solver=Solver(joints="points"),
     )  # fmt: skip
     result = simulate(case)
     second_moment = 10e-3 * thickness**3 / 12
