@@ -35,7 +35,7 @@ def test_smoke_runs_from_end_to_end(tmp_path):
     assert 1e3 * pinned["absorbed_energy_J"] == pytest.approx(136.6, rel=1e-3)
     case_id = pinned["case_id"]
     assert read_history(out, case_id)["strain"].max() == pytest.approx(0.4)
-    assert read_frames(out, case_id)["position_m"].shape[1:] == (64, 2)
+    assert read_frames(out, case_id)["position_m"].shape[1:] == (100, 2)
     assert set(rank(out)["case_id"]) == set(table["case_id"])
 
 

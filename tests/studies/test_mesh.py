@@ -94,8 +94,9 @@ def test_a_piece_of_the_study(piece):
 
 
 def cheap(found, n):
-    """Whether both designs have errors of less than 1 % in all columns."""
-    return found.loc[found["elements"] == n, list(COLUMNS)].max(axis=None) < 0.01
+    """Whether in all columns the mean of both errors is below 1 %, and 9/10 of the way up 2 %."""
+    errors = np.sort(found.loc[found["elements"] == n, list(COLUMNS)], axis=0)
+    return (errors.mean(axis=0) <= 0.01).all() and (errors.T @ [0.1, 0.9] <= 0.02).all()
 
 
 def test_design_without_a_truth_is_marked_and_enters_no_average(piece):

@@ -86,14 +86,14 @@ def solid_rows():
     """Absorbed energy with contact against solid finite elements; walls of a linear material."""
     reference = list(SOLID.values())
     yield [
-        "absorbed energy in mJ up to",
+        "elements, joints: energy in mJ to",
         *(f"{100 * strain:.0f} %" for strain in SOLID),
     ]
-    yield ["solid finite elements", *(f"{energy:.1f}" for energy in reference)]
+    yield ["solid", *(f"{energy:.1f}" for energy in reference)]
     for pieces, joints in ((6, "solid"), (3, "solid"), (3, "points")):
         history = pressed(pieces, 0.6, "barrier", joints=joints).history
         energy = np.interp(list(SOLID), history["strain"], 1e3 * history["work_in_J"])
-        yield beside(f"{pieces} elements, joints: {joints}", energy, reference, 1)
+        yield beside(f"{pieces}, {joints}", energy, reference, 1)
 
 
 def buckling_rows():

@@ -50,8 +50,19 @@ MUTANTS = [
     ),
     *_of(
         f"{TERMS}/elastic.py",
-        ("elastic law: moment not odd", "math.copysign(moment, strain)", "moment"),
+        (
+            "fibres: with the barrier",
+            "return curve(law, strain)",
+            "return respond(law, strain, memory, point)",
+        ),
         tests=f"{TERMS}/test_section.py",
+    ),
+    *_of(
+        f"{TERMS}/section.py",
+        ("section: thinning of a fibre", "0.5 * (1.0 - m), (1.0", "-0.5 * (1.0 - m), (1.0"),
+        ("section: other side", "side * slope * a_t", "slope * a_t"),
+        ("section: radial stress", "tt = 0.0, 0.0, -law.radial", "tt = 0.0, 0.0, law.radial"),
+        ("section: centre line", "w1 + w2 - 4.0 * value", "w1 + w2 + 4.0 * value"),
     ),
     *_of(
         f"{TERMS}/elements.py",
@@ -64,14 +75,20 @@ MUTANTS = [
     *_of(
         f"{TERMS}/bend.py",
         ("bend: energy", "first * one + second * two", "first * one - second * two"),
-        ("bend: moment", "force[1, k] += f1", "force[1, k] -= f1"),
-        ("bend: rigidity between the ends", "+= f12 * d1 * d2", "-= f12 * d1 * d2"),
-        ("bend: bent measure", "d1 * d1 + f1 * s1", "d1 * d1 - f1 * s1"),
+        ("bend: moment", "force[1, k] += first", "force[1, k] -= first"),
+        ("bend: rigidity between the ends", "+= k12 * d1 * d2", "-= k12 * d1 * d2"),
+        ("bend: bent measure", "d1 * d1 + first * s1", "d1 * d1 - first * s1"),
     ),
     *_of(
         f"{TERMS}/bend.py",
-        ("bend: slope of the section", "f1 += weight * slope", "f1 -= weight * slope"),
-        ("bend: rigidity of the section", "f12 += weight", "f12 -= weight"),
+        ("bend: moment of the section", "e1 + m1 * p - m2 * q", "e1 + m1 * p + m2 * q"),
+        ("bend: rigidity of the section", "(tt1 + tt2) * p * q", "(tt1 - tt2) * p * q"),
+        ("bend: force of the section", "+= by_length * by_e", "-= by_length * by_e"),
+        (
+            "bend: shear",
+            "+= sheared + volume * (\n        ee * e1",
+            "+= volume * (\n        ee * e1",
+        ),
         tests=f"{TERMS}/test_section.py",
     ),
     *_of(
@@ -212,7 +229,7 @@ MUTANTS = [
     ),
     *_of(
         f"{SOLVE}/energy_book.py",
-        ("book: dissipation by friction", "book.friction += _work", "book.friction -= _work"),
+        ("book: dissipation by friction", "book.friction += friction", "book.friction -= friction"),
         ("book: loss of the integrator", "book.integrator += loss", "book.integrator -= loss"),
         tests=f"{SOLVE}/test_one_degree_of_freedom.py",
     ),

@@ -32,7 +32,7 @@ def changes(case):
 
 
 def coarse(case):
-    rough = varied(case, lattice={"nodes_per_wall": 2}, solver={"load_steps": 100})
+    rough = varied(case, lattice={"nodes_per_wall": 2}, solver={"load_steps": 120})
     return rough.model_copy(update={"axes": case.axes})
 
 
