@@ -57,7 +57,7 @@ validate: setup  ## solve reference problems at three meshes; the table goes to 
 elements: setup  ## compare cubic and classical elements on coarse meshes; goes to results/elements/
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.validation.elements results/elements
 
-continuum: setup  ## compare with solid finite elements (extra packages); goes to results/continuum/
+continuum: setup  ## compare with stored crushes of solids; goes to results/continuum/
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.continuum results/continuum
 
 accuracy: setup  ## tell error against run time; tables and figures go to results/accuracy/

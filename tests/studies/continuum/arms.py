@@ -15,16 +15,19 @@ import numpy as np
 from skfem import MeshQuad
 
 from tests.studies.continuum.grid import crowded
-from tests.studies.continuum.joint import GROWTH, shear
 from tests.studies.continuum.press import factor
 from tests.studies.continuum.rubber import Rubber
 from tests.studies.continuum.solid import Solid
 
-CROWDING = 2.5  # exponent: finer at the inner corners than the grid is
+GROWTH = 1.7  # exponent: elements of the arms become longer outwards
 LENGTH = 4.0  # of an arm, thicknesses
 SIDE = 2.0 * np.pi / 3.0  # angle between the arms of a Y
 REST = 0.51  # of a thickness: farther off its axis is not in an arm
-TRACTIONS = (np.ones_like, shear, lambda o: -12.0 * o)  # of N, V and M at an end
+TRACTIONS = (
+    np.ones_like,
+    lambda o: 1.5 - 6.0 * o * o,
+    lambda o: -12.0 * o,
+)  # of N, V and M at an end
 ARMS = {"X": (0, 90, 180, 270), "T": (0, 90, 180), "L": (0, 90), "Y": (90, 210, 330)}
 SWAY = {"X": (1, -1, 1, -1), "T": (1, -2, 1), "L": (1, -1), "Y": (2, -1, -1)}
 
@@ -43,7 +46,7 @@ def axes(angle):
 def square(angles, across):
     """Mesh of arms at multiples of 90 degrees."""
     out = outwards(4 * across, 0.5, LENGTH)[1:]
-    lines = np.sort(np.concatenate([crowded(across, CROWDING) - 0.5, out, -out]))
+    lines = np.sort(np.concatenate([crowded(across) - 0.5, out, -out]))
     full = MeshQuad.init_tensor(lines, lines)
     centre = full.p[:, full.t].mean(axis=1)
     wall = np.all(np.abs(centre) < 0.5, axis=0)
@@ -63,8 +66,8 @@ def patch(corner):
 def three(angles, across):
     """Mesh of three arms at 120 degrees: a triangle of side 1 between them; across is even."""
     height = 0.5 / np.sqrt(3.0)  # of its sides over its centre
-    edge, out = crowded(across, CROWDING) - 0.5, outwards(4 * across, height, LENGTH)
-    share = 2.0 * crowded(across, CROWDING)[: across // 2 + 1, None]
+    edge, out = crowded(across) - 0.5, outwards(4 * across, height, LENGTH)
+    share = 2.0 * crowded(across)[: across // 2 + 1, None]
     pieces = []
     for angle in np.radians(angles):
         along, left = axes(angle)

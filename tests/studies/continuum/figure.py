@@ -1,56 +1,44 @@
-"""The picture of the comparison: curves, a crushed solid, errors over the slenderness."""
+"""The picture of the comparison: the crush with contact, and errors over the slenderness."""
 
-from matplotlib.collections import PolyCollection
-
-from sweep.report.case_plots import BLUE, GREY, ORANGE, SKY, VERMILION, WALL, blank
+from sweep.report.case_plots import BLUE, GREY, ORANGE, SKY, VERMILION, blank
 from tests.studies.continuum import study
 
-COLORS = (SKY, "#9ecae1", BLUE, ORANGE, GREY, "black")
-SHOWN = {study.POINTS: BLUE, study.BLOCKS: SKY, study.THICK: ORANGE, study.COARSER: GREY}
-MEASURED = ("force at", "energy to")
-APART = [f"{what} {100 * strain:.0f} %" for what in MEASURED for strain in study.APART]
-NAMES = ("stiffness at rest", *APART)
-CURVES = {1: "o-", 4: "s--"}  # force at the first strain, energy to the last
+COLORS = (BLUE, "#9ecae1", SKY, ORANGE, VERMILION, GREY)
+STYLES = {"stress": "o-", "strain": "s--"}
+LAST = -1  # energy to the last strain
 
 
-def draw(sides, rows):
-    """sides: of the crush, the finest solid last. rows: of the slendernesses."""
-    figure = blank(15.0, 4.8)
-    left, middle, right = figure.subplots(1, 3, width_ratios=(1.2, 0.9, 1.1))
-    _curves(left, sides)
-    _shape(middle, sides[-1])
-    _errors(right, rows)
+def draw(grids, crush):
+    """grids, crush: `study.Compared`."""
+    figure = blank(12.0, 4.8)
+    left, right = figure.subplots(1, 2)
+    _curves(left, crush)
+    _errors(right, grids)
     for ax in (left, right):
         ax.spines[["top", "right"]].set_visible(False)
+        ax.legend(frameon=False, fontsize="x-small")
     return figure
 
 
-def _curves(ax, sides):
-    for side, color in zip(sides, COLORS, strict=True):
+def _curves(ax, crush):
+    for side, color in zip((*crush.sides, crush.truth), (*COLORS, "black"), strict=True):
         strain, force, _ = side.rows
         ax.plot(100.0 * strain, force, color=color, lw=1.6, label=side.name)
-    ax.set(xlabel="strain, %", ylabel="force, N", title="3 x 3 cells, walls of 0.8 mm")
-    ax.legend(frameon=False, fontsize="small")
+    thickness = crush.case.grid().thickness
+    ax.set(xlabel="strain, %", ylabel="force, N", title=f"3 x 3 cells, walls of {thickness:g} mm")
 
 
-def _shape(ax, side):
-    """Elements of a solid as they end, drawn by their corners."""
-    mesh, corner = side.body.mesh, side.body.basis.nodal_dofs[0]
-    placed = side.body.points + side.shape.reshape(-1, 2)
-    quads = placed[corner[mesh.t.T]]
-    ax.add_collection(PolyCollection(quads, facecolor="#dbe6f1", edgecolor=WALL, lw=0.25))
-    ax.set_aspect("equal")
-    ax.autoscale()
-    ax.set(xlabel="mm", title=f"the finer solid at {100 * study.WATCHED[-1]:.0f} %")
-
-
-def _errors(ax, rows):
-    slender = [row.slenderness for row in rows]
-    for name, color in SHOWN.items():
-        for place, style in CURVES.items():
-            label = f"{name}: {NAMES[place]}"
-            errors = [row.errors[name][place] for row in rows]
-            ax.plot(slender, errors, style, color=color, lw=1.4, ms=4, label=label)
-    ax.axhline(0.0, color=VERMILION, lw=0.8)
-    ax.set(xlabel="wall thickness / pitch", ylabel="%", title="off the finer solid, no contact")
-    ax.legend(frameon=False, fontsize="x-small")
+def _errors(ax, grids):
+    """Of the energy, by models and planes."""
+    for plane, style in STYLES.items():
+        rows = [found for found in grids if found.case.plane == plane]
+        slender = [found.case.slenderness for found in rows]
+        errors = [[values[LAST] for _, values in found.errors()] for found in rows]
+        for (name, pieces, _), color, line in zip(
+            study.MODELS, COLORS, zip(*errors, strict=True), strict=False
+        ):
+            label = f"{name}, {pieces} elements" if plane == "stress" else None
+            ax.plot(slender, line, style, color=color, lw=1.4, ms=4, label=label)
+    ax.axhline(0.0, color="black", lw=0.8)
+    title = "error of the energy to 30 %; dashed: plane strain"
+    ax.set(xlabel="wall thickness / pitch", ylabel="%", title=title)

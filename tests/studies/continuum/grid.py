@@ -3,15 +3,14 @@
 from dataclasses import dataclass
 
 import numpy as np
-from skfem import MeshQuad
 
-CROWDING = 1.5  # exponent: stress is singular at the inner corners of the joints
+CROWDING = 2.5  # exponent: stress is singular at the inner corners of the joints
 
 
-def crowded(pieces, crowding=CROWDING):
+def crowded(pieces):
     """Ends of the pieces of a unit length, which are shorter towards both of its ends."""
     from_middle = np.linspace(-1.0, 1.0, pieces + 1)
-    return 0.5 + 0.5 * np.sign(from_middle) * (1.0 - (1.0 - np.abs(from_middle)) ** crowding)
+    return 0.5 + 0.5 * np.sign(from_middle) * (1.0 - (1.0 - np.abs(from_middle)) ** CROWDING)
 
 
 @dataclass(frozen=True)
@@ -50,6 +49,8 @@ class Grid:
 
     def mesh(self):
         """Elements where there is wall."""
+        from skfem import MeshQuad  # not needed for the network
+
         lines = self.lines()
         full = MeshQuad.init_tensor(lines, lines)
         centre = full.p[:, full.t].mean(axis=1)

@@ -118,11 +118,6 @@ class Press:
         ahead[self.free] = -solver.solve((matrix @ ahead)[self.free])
         return ahead
 
-    def stiffness(self):
-        """Force at rest over the strain, N."""
-        rest = np.zeros(self.size)
-        return self.force(self.hessian(rest) @ self.onwards(rest, 1.0))
-
     def force(self, gradient):
         """Of the upper platen, N."""
         return -float(gradient[2 * self.high + 1].sum())

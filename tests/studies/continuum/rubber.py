@@ -50,6 +50,19 @@ class Rubber:
             0.5 * self.mu * (square + s - 3.0) - self.mu * log_j + 0.5 * self.lame * log_j * log_j
         )
 
+    def uniaxial(self, stretch):
+        """Nominal stress, MPa, of a bar that is free in the plane: mu (a - b^2 / a), where the
+        stretch b across the bar has mu b^2 + p = 0, by Newton's steps in ln b.
+        """
+        a, v = np.asarray(stretch), -self.poisson * np.log(stretch)
+        while True:
+            p, slope = self.pressure(np.log(a) + v)
+            square = self.mu * np.exp(2.0 * v)
+            step = (square + p) / (2.0 * square + slope)
+            v = v - step
+            if np.max(np.abs(step)) < TOLERANCE * (1.0 + np.max(np.abs(v))):
+                return self.mu * (a - np.exp(2.0 * v) / a)
+
     def pressure(self, logarithm):
         """Slope p = dW/dL and dp/dL in MPa."""
         s = self.across(logarithm)
@@ -66,3 +79,6 @@ class DeepRubber(Rubber):
     def pressure(self, logarithm):
         """Slope p = dW/dL and dp/dL in MPa."""
         return self.lame * logarithm - self.mu, np.full_like(logarithm, self.lame)
+
+
+RUBBERS = {"stress": Rubber, "strain": DeepRubber}

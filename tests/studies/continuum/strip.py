@@ -9,7 +9,6 @@ from scipy.optimize import minimize
 
 LAYERS = 60
 STEP = 0.01  # of the curvature: central difference
-BENT = (0.4, 0.8, 1.2)  # kappa t
 
 
 def energy(rubber, kappa):
@@ -32,7 +31,6 @@ def moment(rubber, kappa):
     return (energy(rubber, kappa + near) - energy(rubber, kappa - near)) / (2.0 * near)
 
 
-def softening(rubber):
-    """Mean c of Y I kappa / M - 1 = c (kappa t)^2."""
-    found = [rubber.modulus * k / 12.0 / moment(rubber, k) - 1.0 for k in BENT]
-    return float(np.mean(found / np.array(BENT) ** 2))
+def softening(rubber, stiffness, kappa):
+    """1 - M / (Y I kappa). stiffness: Y I."""
+    return 1.0 - moment(rubber, kappa) / (stiffness * kappa)
