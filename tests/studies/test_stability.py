@@ -16,7 +16,7 @@ from tests.support.scenes import pressed, run
 from tests.support.solving import at_rest, ramp, whole
 from tests.support.states import STATES, driven, loaded
 
-FEW, CONVERGED = 40, 13
+FEW, CONVERGED = 40, 14
 
 
 @pytest.fixture(scope="module")

@@ -54,7 +54,7 @@ def repeat(which, count, x, dx, most, problem, step, found, ones):
         elif which == STRETCH:
             total += stretch.evaluate(terms.stretch, terms.law, memory, shape, resultants, False)
         elif which == BEND:
-            total += bend.evaluate(terms.bend, memory, shape, resultants, False)
+            total += bend.evaluate(terms.bend, terms.stretch, memory, shape, resultants, False)
         elif which == FOLD:
             total += fold.evaluate(x, terms.fold, found.elastic)[0]
         elif which == INERTIA:

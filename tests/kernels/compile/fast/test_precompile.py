@@ -20,6 +20,7 @@ CASES = {
     "at a speed": Case(loading=Loading(**PRESSED, speed=0.1), solver=TWO),
     "classical": Case(
         loading=Loading(**PRESSED),
+        material=Material(bend="linear"),
         solver=Solver(load_steps=2, element="classical", bend_measure="tangent"),
     ),
     "dead load": Case(loading=Loading(**BRIEF)),
