@@ -79,9 +79,14 @@ def corner(case, cells_x, cells_y):
     )
 
 
+def between_points(case):
+    """The same scene with joints that are points; with solid ones, friction does not settle."""
+    return case.model_copy(update={"solver": case.solver.model_copy(update={"joints": "points"})})
+
+
 EXTREMES = {
     "far too long steps": draw.scene(463)[1],
-    "folded beyond resolution": corner(draw.scene(55)[1], 3, 5),
+    "folded beyond resolution": between_points(corner(draw.scene(55)[1], 3, 5)),
 }
 
 
