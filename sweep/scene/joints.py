@@ -1,9 +1,10 @@
 """Solid joints: how the ends of walls yield beyond beams that meet at a point.
 
-A solid joint of arms of thickness t yields as Timoshenko's beams that reach its centre, and
-r . C r / (2 Y' depth) for each arm, r = (N, V, M / t) at the centre: along the arm, to its left,
-turning left (tests/studies/continuum/arms.py finds C from solids). An arm therefore ends in one
-short element, from the centre to x t, whose flexibility in r is C and that of a beam:
+The complementary energy of a solid joint of arms of thickness t is that of Timoshenko's beams that
+reach its centre, plus r . C r / (2 Y' depth) for each arm, with r = (N, V, M / t) at the centre:
+along the arm, to its left, turning left (tests/studies/continuum/arms.py finds C from solids). An
+arm therefore ends in one short element, from the centre to x t, whose flexibility in r is the sum
+of C and that of a beam:
 
     F = C + [[x, 0, 0], [0, 2.4 (1 + nu') x + 4 x^3, -6 x^2], [0, -6 x^2, 12 x]]
 
@@ -32,8 +33,8 @@ MOST = 0.6  # of the length of a wall: joints that take more are points
 class Arms(NamedTuple):
     """Ends of walls at solid joints.
 
-    length (w, 2): x t of both ends in m; 0: a point. compliance (w, 2, 4, 3): coefficients in nu'
-    of MM, MV, VV, NN of C. sheared (w,): True for walls of known joints.
+    length (w, 2): x t of both ends in m; 0: a point. compliance (w, 2, 4, 3): coefficients of
+    1, nu', nu'^2 in MM, MV, VV, NN of C. sheared (w,): True for walls of known joints.
     """
 
     length: Floats
