@@ -151,7 +151,7 @@ def _arms(network: Network, structure: Structure, case: Case) -> Arms:
         return point_joints(len(network.walls))
     supported = [node for node, _ in structure.held] + [part.node for part in structure.prescribed]
     plain = np.array([*supported, *structure.pins], np.int64)
-    return find_arms(network, network.walls, plain[:0], plain)
+    return find_arms(network, network.walls, (), plain)
 
 
 def _distances(structure: Structure, pairs: Iterable[tuple[int, int]]) -> Floats:

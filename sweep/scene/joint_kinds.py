@@ -2,7 +2,8 @@
 
 `joints.py` says what C is. `joints.csv` has it for each kind of joint at several angles; between
 them it is interpolated. It is a mean over the states in which a lattice of such joints deforms,
-and the same for all arms but of joints with an axis.
+and the same for all arms, except at joints with an axis. The columns NM, NV, NV_nu and x0 are not
+used.
 """
 
 from collections.abc import Callable, Iterator
@@ -19,8 +20,8 @@ from sweep.design.drawing import Indices as Ints
 
 NEAR = 6.0  # degrees: difference of an opening from that of a known joint
 COLUMNS = ("MM", "MV", "VV", "NN", "VV_nu", "NN_nu")
-SHEARED = -1.2  # slope of MV in nu' at all joints: the one of a beam's shear, with the sign changed
-LENGTHS = np.linspace(0.6, 3.0, 241)  # x: lengths of an arm over t, of which the first stable one
+MV_NU = -1.2  # slope of MV in nu' at all joints: the one of a beam's shear, with the sign changed
+LENGTHS = np.linspace(0.6, 3.0, 241)  # x, length of an element over t: the first stable one
 CONTRACTIONS = np.array([0.0, 0.25, 0.5, 0.75, 1.0])  # nu' for which it is stable
 LEAST = 0.1  # eigenvalue of F in V, M / t: F of a beam of that length has 0.5 to 1
 
@@ -61,8 +62,8 @@ GLUED = {  # an arm that stands on a row whose outer face is glued: within the r
 
 
 class Joint(NamedTuple):
-    """The arms of a joint. compliance (k, 4, 3): coefficients in nu' of MM, MV, VV, NN of C.
-    length (k,): x.
+    """The arms of a joint. compliance (k, 4, 3): coefficients of 1, nu', nu'^2 in MM, MV,
+    VV, NN of C. length (k,): x.
     """
 
     compliance: Floats
@@ -105,7 +106,7 @@ def _arm(kind: str, part: str, angle: float) -> tuple[Floats, float] | None:
     """C (4, 3) and x of an arm; None if it would have to be longer than all `LENGTHS`."""
     angles, columns = table()[kind, part]
     mm, mv, vv, nn, vv_nu, nn_nu = (np.interp(angle, angles, column) for column in columns)
-    c = np.array([[mm, 0.0, 0.0], [mv, SHEARED, 0.0], [vv, vv_nu, 0.0], [nn, nn_nu, 0.0]])
+    c = np.array([[mm, 0.0, 0.0], [mv, MV_NU, 0.0], [vv, vv_nu, 0.0], [nn, nn_nu, 0.0]])
     least = np.min(
         [np.linalg.eigvalsh(flexibility(c, LENGTHS, nu))[:, 0] for nu in CONTRACTIONS], axis=0
     )

@@ -1,9 +1,10 @@
 """Solid joints: how the ends of walls yield beyond beams that meet at a point.
 
-A solid joint of arms of thickness t yields as Timoshenko's beams that reach its centre, and
-r . C r / (2 Y' depth) for each arm, r = (N, V, M / t) at the centre: along the arm, to its left,
-turning left (tests/studies/continuum/arms.py finds C from solids). An arm therefore ends in one
-short element, from the centre to x t, whose flexibility in r is C and that of a beam:
+The complementary energy of a solid joint of arms of thickness t is that of Timoshenko's beams that
+reach its centre, plus r . C r / (2 Y' depth) for each arm, with r = (N, V, M / t) at the centre:
+along the arm, to its left, turning left (tests/studies/continuum/arms.py finds C from solids). An
+arm therefore ends in one short element, from the centre to x t, whose flexibility in r is the sum
+of C and that of a beam:
 
     F = C + [[x, 0, 0], [0, 2.4 (1 + nu') x + 4 x^3, -6 x^2], [0, -6 x^2, 12 x]]
 
@@ -12,7 +13,7 @@ with shear. Shear and C belong together, as C is an excess over sheared beams: a
 whose C is not known has neither, and its joints are points.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -32,8 +33,8 @@ MOST = 0.6  # of the length of a wall: joints that take more are points
 class Arms(NamedTuple):
     """Ends of walls at solid joints.
 
-    length (w, 2): x t of both ends in m; 0: a point. compliance (w, 2, 4, 3): coefficients in nu'
-    of MM, MV, VV, NN of C. sheared (w,): True for walls of known joints.
+    length (w, 2): x t of both ends in m; 0: a point. compliance (w, 2, 4, 3): coefficients of
+    1, nu', nu'^2 in MM, MV, VV, NN of C. sheared (w,): True for walls of known joints.
     """
 
     length: Floats
@@ -50,17 +51,17 @@ def solid_joints(network: Network, platen: str | None) -> Arms:
     """The ends of the walls of a lattice. Loose platens hold no row, and others both; without a
     platen the lower row is held.
     """
-    top = network.top if platen in BONDED else network.top[:0]
-    bottom = network.bottom[:0] if platen == "contact" else network.bottom
-    rows = np.concatenate([bottom, top])
-    return find_arms(network, network.walls, rows, rows[:0])
+    rows = [] if platen == "contact" else [network.bottom]
+    if platen in BONDED:
+        rows.append(network.top)
+    return find_arms(network, network.walls, rows, network.walls[:0])
 
 
-def find_arms(network: Network, joints: Ints, rows: Ints, plain: Ints) -> Arms:
+def find_arms(network: Network, joints: Ints, rows: Iterable[Ints], plain: Ints) -> Arms:
     """The ends of the first walls of a network, with the number of the joint of each end.
 
-    joints (w, 2). rows: joints of rows that are glued to platens. plain: joints that walls reach as
-    beams.
+    joints (w, 2). rows: joints of each row that is glued to a platen; a wall with both ends in the
+    same one is part of it. plain: joints that walls reach as beams.
     """
     count = len(joints)
     start, end = network.points[network.walls[:count]].swapaxes(0, 1)
@@ -68,7 +69,9 @@ def find_arms(network: Network, joints: Ints, rows: Ints, plain: Ints) -> Arms:
     thickness = network.wall_thickness[:count]
     bearing = np.degrees(np.arctan2(*(end - start).T[::-1]))
     bearings = np.column_stack([bearing, bearing + 180.0]) % 360.0
-    in_row: NDArray[np.bool_] = np.all(np.isin(joints, rows), axis=1, keepdims=True)[:, 0]
+    in_row = np.zeros(count, np.bool_)
+    for row in rows:
+        in_row |= np.isin(joints, row).all(axis=1)
     arms = point_joints(count)
     length_of, compliance_of = arms.length.reshape(-1), arms.compliance.reshape(-1, 4, 3)
     known = np.zeros(2 * count, np.bool_)

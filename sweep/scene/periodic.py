@@ -110,8 +110,8 @@ def _arms(network: Endless, case: Case) -> Arms:
     """The ends of all walls: those of a copy are those of the wall that it copies."""
     if case.solver.joints == "points":
         return point_joints(len(network.walls))
-    none, own = np.empty(0, np.int64), network.walls[: network.own]
-    arms = find_arms(network, network.origin[own], none, none)
+    own = network.origin[network.walls[: network.own]]
+    arms = find_arms(network, own, (), own[:0])
     of = network.original
     return Arms(arms.length[of], arms.compliance[of], arms.sheared[of])
 

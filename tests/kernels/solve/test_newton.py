@@ -5,7 +5,7 @@ import pytest
 
 from kernels.solve import newton
 from kernels.solve.problem import HELD
-from sweep.config.case import Case, Contact, Lattice, Loading
+from sweep.config.case import Case, Contact, Lattice, Loading, Solver
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
 from tests.studies.verify import MATERIAL
@@ -24,6 +24,7 @@ def column(elements=6):
         material=MATERIAL,
         loading=Loading(mode="displacement", strain=BUCKLED),
         contact=Contact(model="none"),
+        solver=Solver(joints="points"),
     )
 
 

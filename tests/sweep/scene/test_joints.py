@@ -94,6 +94,17 @@ def test_all_joints_of_the_infills_are_known(kind):
         assert np.all(arms.length[~arms.sheared] == 0.0)
 
 
+@pytest.mark.parametrize("platen", ["glued", "sliding", "contact", "none"])
+def test_walls_between_the_rows_of_a_single_cell_stand_on_them(platen):
+    """They end in solid joints although both their ends are in glued rows."""
+    network = network_of(cells_x=2, cells_y=1)
+    arms = solid_joints(network, platen)
+    standing = np.ptp(network.points[network.walls][:, :, 0], axis=1) < 1e-9
+    assert np.count_nonzero(standing) == 3
+    assert np.all(arms.length[standing] > 0.0)
+    assert arms.sheared.all()
+
+
 def test_joints_of_unequal_walls_are_points():
     network = network_of(perimeters=3, line_width=0.4e-3, wall_thickness=0.4e-3)
     arms = solid_joints(network, "contact")
