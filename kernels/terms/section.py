@@ -20,6 +20,7 @@ line, (1 - nu'^2) Y' t^5 kappa^4 / 240 per length and depth, here bounded for la
 from typing import NamedTuple
 
 from kernels.compile.jit import jit
+from kernels.terms.elastic import commit, state_size
 
 LEAST = 0.05  # stretch of the centre line below which the energy is infinite
 
@@ -84,18 +85,6 @@ def respond(law, strain, memory, point):
         (e1 + e2 - 4.0 * slope, t1, t2),
         (ee1 + ee2 - 4.0 * second, et1, et2, tt1, 0.0, tt2),
     )
-
-
-@jit
-def state_size(law):
-    """Return 0: the fibres are elastic."""
-    return 0
-
-
-@jit
-def commit(law, strain, memory, point):
-    """Return the stored energy at ``strain`` and no dissipation, J/m^3."""
-    return law.respond(strain, memory, point)[0], 0.0
 
 
 class BentSection(NamedTuple):

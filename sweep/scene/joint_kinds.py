@@ -2,8 +2,7 @@
 
 `joints.py` says what C is. `joints.csv` has it for each kind of joint at several angles; between
 them it is interpolated. It is a mean over the states in which a lattice of such joints deforms,
-and the same for all arms, except at joints with an axis. The columns NM, NV, NV_nu and x0 are not
-used.
+and the same for all arms, except at joints with an axis. The columns NM, NV and NV_nu are not used.
 """
 
 from collections.abc import Callable, Iterator
@@ -38,15 +37,6 @@ KINDS: dict[str, Callable[[float], tuple[float, ...]]] = {  # openings by the fi
     "K": lambda g: (g, _halves(g), 180.0, _halves(g)),
     "5": lambda g: (g, _halves(g), _halves(g), g, 180.0 - g),
     "6": lambda g: (g, _halves(g), _halves(g), g, _halves(g), _halves(g)),
-}
-ANGLES = {  # degrees, of the first opening
-    "V": (30.0, 165.0),
-    "Y": (90.0, 285.0),
-    "T": (30.0, 90.0),
-    "X": (20.0, 90.0),
-    "K": (30.0, 130.0),
-    "5": (30.0, 90.0),
-    "6": (30.0, 90.0),
 }
 AXIS = {"Y": 2, "T": 1}  # which arm, in order, is the axis of the other two
 GLUED = {  # an arm that stands on a row whose outer face is glued: within the row, and at its end
@@ -85,7 +75,7 @@ def find_joint(opened: Floats, in_row: NDArray[np.bool_]) -> Joint | None:
         (_off(turned, drawn(turned[0])), kind, turned[0], tuple(arms))
         for turned, arms in _turned(opened)
         for kind, drawn in KINDS.items()
-        if ANGLES[kind][0] <= turned[0] <= ANGLES[kind][1]
+        if _has(kind, turned[0])
     ]
     off, kind, angle, arms = min(fits, default=(NEAR, "", 0.0, ()))
     if off >= NEAR:
@@ -99,6 +89,12 @@ def find_joint(opened: Floats, in_row: NDArray[np.bool_]) -> Joint | None:
             return None
         compliance[arm], length[arm] = found
     return Joint(compliance, length)
+
+
+def _has(kind: str, angle: float) -> bool:
+    """Whether the table has joints of a kind at an angle, or on both sides of it."""
+    angles = table()[kind, "side" if kind in AXIS else "all"][0]
+    return bool(angles[0] <= angle <= angles[-1])
 
 
 @lru_cache(maxsize=256)

@@ -25,7 +25,7 @@ HEIGHTS = (1.0, 1.3)  # of a period of a width of 1
 
 @cache
 def table():
-    """Angles and values (k, 11) of each kind and arm."""
+    """Angles and values (k, 10) of each kind and arm."""
     found = {}
     for line in TABLE.read_text("utf-8").splitlines():
         if not line.startswith(("#", "kind")):

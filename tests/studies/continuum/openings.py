@@ -200,37 +200,23 @@ KINDS = {  # openings by the angle, and its range
     "6": (lambda g: 2 * (g, 90 - g / 2, 90 - g / 2), (30, 90)),
 }
 ACUTE, STEPS = 40, (2.5, 5)  # degrees; steps of the table below and above
-POISSON = (0.0, 0.923)  # a piece is definite between them, as its matrix is linear in it
-LEAST, SHORTEST = 0.1, 0.6  # eigenvalue, length of a piece
 HEAD = """\
 # What one arm of a joint yields beyond Timoshenko beams (k = 5/6) that meet in the centre, linear.
 # Source: plane elasticity of the solid joint, python -m tests.studies.continuum.openings
 # Energy: 1/(2 Y' depth) r.C r, r = (N, V, M/t), lengths in t. nu': Poisson's ratio of the plane.
 # C: MM; MV - 1.2 nu'; VV + VV_nu nu'; and so on; NM does not depend on nu'. Between angles: linear.
-# x0: a piece of the wall as long as the overlap of the arms, 0.5 cot(least opening / 2), and 0.6 at
-#   least, whose C + beam is definite (eigenvalue 0.1, nu' up to 0.923).
 # Openings round the joint, degrees, by the angle g, with h = (180 - g)/2:
 #   V: g, 360 - g.  Y: g, 180 - g/2, 180 - g/2.  T: 180, g, 180 - g.  X: g, 180 - g, g, 180 - g.
 #   K: h, g, h, 180.  5: g, h, h, g, 180 - g.  6: g, h, h, g, h, h.
 # arm: all; or, more closely, axis (of Y and T: the arm opposite the first opening) and side.
 # NM, NV: of the side arm with the first opening to its left; the other one has opposite signs.
-kind,angle,arm,MM,MV,VV,NN,NM,NV,VV_nu,NN_nu,NV_nu,x0"""
+kind,angle,arm,MM,MV,VV,NN,NM,NV,VV_nu,NN_nu,NV_nu"""
 
 
 def matrix(values):
     """C of an arm, (3, 3) over (N, V, M)."""
     mm, mv, vv, nn, nm, nv = values
     return np.array([[nn, nv, nm], [nv, vv, mv], [nm, mv, mm]])
-
-
-def piece(star, at_none, slope):
-    """Length of a piece of a wall: where arms overlap, and definite with C of an arm."""
-    overlap = max(SHORTEST, np.ceil(100.0 * star.port.max()) / 100.0)
-    for x0 in np.arange(overlap, 2.0 * overlap, 0.01):
-        sizes = [matrix(at_none + nu * slope) + beam(x0, nu) for nu in POISSON]
-        if np.linalg.eigvalsh(sizes).min() >= LEAST:
-            return x0
-    raise ValueError("no piece is definite")
 
 
 def rows(kind, angle):
@@ -240,7 +226,7 @@ def rows(kind, angle):
         Yield(star, 0.0).arms(), Yield(star, 0.4).arms(), strict=True
     ):
         slope = (other - one) / 0.4
-        yield arm, np.array([*one, *slope[[2, 3, 5]], piece(star, one, slope)])
+        yield arm, np.array([*one, *slope[[2, 3, 5]]])
 
 
 def main(out):
@@ -252,8 +238,8 @@ def main(out):
             *range(max(low, ACUTE), high + 1, STEPS[1]),
         ):
             for arm, values in rows(kind, angle):
-                cells = ",".join(f"{value + 0.0:.3f}" for value in values[:-1].round(3))
-                out.write(f"{kind},{angle:g},{arm},{cells},{values[-1]:.2f}\n")
+                cells = ",".join(f"{value + 0.0:.3f}" for value in values.round(3))
+                out.write(f"{kind},{angle:g},{arm},{cells}\n")
             out.flush()
 
 

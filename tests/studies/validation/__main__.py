@@ -9,15 +9,11 @@ from pathlib import Path
 
 from tests.studies.validation import PROBLEMS, energy
 from tests.studies.validation.problem import SOURCES, find
+from tests.studies.validation.tables import line, tell
 
 HEAD = ("problem", "source", "truth", "coarse", "middle", "fine", "order")
 MORE = ("error, %", "extrapolated, %", "meshes")
 NOTES = "\n".join(f"{source}: {more}." for source, more in SOURCES.items())
-
-
-def line(texts):
-    """A row of the table."""
-    return f"| {' | '.join(texts)} |"
 
 
 def row(problem, found):
@@ -34,14 +30,8 @@ def row(problem, found):
 
 
 def main(folder):
-    """Print the rows as they are found; write them to a folder."""
-    lines = []
-    for text in table():
-        lines.append(text)
-        sys.stdout.write(f"{text}\n")
-        sys.stdout.flush()
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "validation.md").write_text("\n".join([*lines, ""]), "utf-8")
+    """Print the lines as they are found; write them to a folder."""
+    tell(table(), folder / "validation.md")
 
 
 def table():

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from tests.studies.validation.problem import NOISE
 from tests.studies.validation.scenes import FINEST, SCENES
+from tests.studies.validation.tables import line, tell
 
 ELEMENTS = ("cubic", "classical")
 MESHES = (1, 2, 3, 4, 6, 12)
@@ -98,11 +99,6 @@ def rows(scene):
         yield [scene.name, "former", *shown, ""]
 
 
-def line(texts):
-    """A row of the table."""
-    return f"| {' | '.join(texts)} |"
-
-
 def table():
     """Lines, each as soon as its scene is solved."""
     yield line(HEAD)
@@ -114,13 +110,7 @@ def table():
 
 def main(folder):
     """Print the lines as they are found; write them to a folder."""
-    lines = []
-    for text in table():
-        lines.append(text)
-        sys.stdout.write(f"{text}\n")
-        sys.stdout.flush()
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "elements.md").write_text("\n".join([*lines, ""]), "utf-8")
+    tell(table(), folder / "elements.md")
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ import pytest
 from sweep.config.case import Case, Lattice, Solver
 from sweep.design.infill import families
 from sweep.design.lattice import build_network
-from sweep.scene.joint_kinds import ANGLES, KINDS, find_joint
+from sweep.scene.joint_kinds import AXIS, KINDS, find_joint, table
 from sweep.scene.joints import MOST, joint_elements, point_joints, solid_joints
 from sweep.scene.lattice import build_scene
 from sweep.scene.mesh import split_walls
@@ -29,7 +29,8 @@ def network_of(kind="square", **keys):
 @pytest.mark.parametrize("kind", KINDS)
 def test_joint_elements_are_stable(kind, nu):
     """Their flexibility is positive definite at every angle of the table."""
-    for angle in np.linspace(*ANGLES[kind], 60):
+    angles = table()[kind, "side" if kind in AXIS else "all"][0]
+    for angle in np.linspace(angles[0], angles[-1], 60):
         opened = np.array(KINDS[kind](angle))
         c, x = find_joint(opened, NONE[: len(opened)])
         along, k = joint_elements(np.zeros(len(x), int), x, c, nu)
