@@ -23,7 +23,6 @@ from kernels.terms import (
     spring,
     stretch,
 )
-from kernels.terms.law import Memory
 
 STRETCH, BEND, CONTACT = range(3)  # stored energies: E_s with springs, E_b with folds, E_c
 STORED = 3
@@ -43,7 +42,7 @@ def evaluate(problem, x, step, found, projected):
     """Return E in J; fill ``found`` and the walls' part of the Hessian, ``projected`` or exact."""
     scene, neighbours, coordinates = problem.scene, problem.neighbours, problem.scene.coordinates
     _reset(x, step, found)
-    store_walls(problem, x, step.duration, found, projected)
+    store_walls(problem, x, found, projected)
     found.stored[CONTACT] = contact.evaluate(
         x, scene.contact, neighbours.pairs, drift(problem, x), neighbours.touching, found.elastic
     )
@@ -65,17 +64,29 @@ def store(problem, x, step, found):
 
     The duration is zero: the step is accepted, and its time has passed.
     """
-    store_walls(problem, x, 0.0, found, True)
+    recall(problem, 0.0)
+    store_walls(problem, x, found, True)
 
 
 @jit_exact
-def store_walls(problem, x, duration, found, projected):
+def recall(problem, duration):
+    """Prepare the laws for a step of ``duration`` in s; return their `Memory`."""
+    scene, memory = problem.scene, problem.buffers.memory
+    if scene.law.state_size() > 0:
+        scene.law.set_pace(duration, memory.pace)
+        stretch.begin(scene.stretch, scene.law, memory)
+        bend.begin(scene.bend, memory)
+    return memory
+
+
+@jit_exact
+def store_walls(problem, x, found, projected):
     """Fill stored energies, shape and stiffness of the walls and the `LEAST` measures; add the
-    gradient to ``found.elastic``. duration: of the step, s.
+    gradient to ``found.elastic``.
     """
     scene, buffers = problem.scene, problem.buffers
     shape, stiffness, resultants = buffers.shape, buffers.stiffness, buffers.resultants
-    memory, least = Memory(buffers.committed, duration), buffers.least[0]
+    memory, least = buffers.memory, buffers.least[0]
     least.length = elements.measure(x, scene.walls, buffers.before.frame, shape)
     found.stored[STRETCH] = stretch.evaluate(
         scene.stretch, scene.law, memory, shape, resultants, projected

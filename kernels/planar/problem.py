@@ -14,14 +14,15 @@ from kernels.solve import history
 from kernels.solve.problem import Coordinates
 from kernels.terms.damping import Before
 from kernels.terms.elements import Resultants, Shape, Stiffness
+from kernels.terms.law import Memory
 
 
 class Buffers(NamedTuple):
     """Arrays that are allocated once a march.
 
     before: data of the start of the step for damping. shape, resultants, stiffness: of the walls at
-    the last `evaluate`; least (1,): smallest measures there, see `potential.LEAST`. committed (p,
-    k): state of the laws at the material points (`law.Memory`): elements, then those of bending.
+    the last `evaluate`; least (1,): smallest measures there, see `potential.LEAST`. memory: of the
+    laws; its material points are the elements, then those of bending.
     """
 
     before: Before
@@ -29,7 +30,7 @@ class Buffers(NamedTuple):
     resultants: Resultants
     stiffness: Stiffness
     least: np.ndarray
-    committed: np.ndarray
+    memory: Memory
 
 
 class Planar(NamedTuple):
@@ -79,15 +80,17 @@ def _zero_shape(m):
 
 
 @jit_owning
-def make_buffers(scene, memory):
-    """Return the `Buffers`. memory: `solve.history.State.memory`, which becomes ``committed``."""
+def make_buffers(scene, committed):
+    """Return the `Buffers`. committed: `solve.history.State.memory`."""
     m = scene.stretch.l0.size
     shape, stiffness = _zero_shape(m)
     frame = np.full((m, 3), np.inf)  # far off: the first step renews it
     before = Before(frame, shape, np.zeros(m), stiffness)
     shape, stiffness = _zero_shape(m)
     resultants = Resultants(np.zeros((3, m)), np.zeros((6, m)))
-    return Buffers(before, shape, resultants, stiffness, np.zeros(1, potential.LEAST), memory)
+    least = np.zeros(1, potential.LEAST)
+    memory = Memory(committed, np.zeros((committed.shape[0], 2)), scene.law.make_pace())
+    return Buffers(before, shape, resultants, stiffness, least, memory)
 
 
 @jit_exact
@@ -96,21 +99,19 @@ def assemble(scene, neighbours, buffers):
     return Planar(scene, neighbours, buffers)
 
 
-def _numbers(law):
-    """Return how many numbers a law keeps at a point. As plain Python: no kernel is compiled or
-    loaded for it.
-    """
-    verb = type(law).state_size
+def _told(law, name):
+    """Return the number that a verb of a law tells, as plain Python: no kernel is compiled."""
+    verb = getattr(type(law), name)
     return getattr(verb, "__wrapped__", verb)(law)
 
 
 def at_rest(scene, x):
     """Return the `history.State` of a lattice at rest at ``x`` (n,), with a virgin material.
 
-    Every material point has a row of memory, as long as the largest state of the laws.
+    Every material point has a row of memory.
     """
-    numbers = max(_numbers(scene.law), _numbers(scene.bend.section))
-    points = scene.stretch.l0.size + scene.bend.volume.size
+    numbers, elements = _told(scene.law, "state_size"), scene.stretch.l0.size
+    points = elements * (2 + _told(scene.bend.section, "points"))
     memory = (points, numbers) if numbers > 0 else (0, 0)
     return history.at_rest(x, potential.STORED, memory)
 

@@ -1,15 +1,16 @@
 """Start and end of a step of a lattice: data of damping, commit, roll back, projection."""
 
 from kernels.compile.jit import jit_exact
-from kernels.planar.potential import BEND, STRETCH
+from kernels.planar.potential import BEND, STRETCH, recall
 from kernels.terms import bend, damping, position_based, stretch
-from kernels.terms.law import Memory
 
 
 @jit_exact
 def begin(problem, step, ahead, scratch):
-    """Renew the frames of the elements at x0, and measure the shape that damping starts from."""
-    buffers, memory = problem.buffers, Memory(problem.buffers.committed, step.duration)
+    """Set the pace of the laws, renew the frames of the elements at x0, and measure the shape that
+    damping starts from.
+    """
+    buffers, memory = problem.buffers, recall(problem, step.duration)
     damping.prepare(
         step.x0, problem.scene, memory, buffers.before, ahead, scratch, buffers.shape,
         buffers.resultants,
@@ -19,16 +20,14 @@ def begin(problem, step, ahead, scratch):
 @jit_exact
 def commit(problem, x, step, found):
     """Commit the state of the laws; correct stored energies, add the dissipation of the step."""
-    scene, shape, sums = problem.scene, problem.buffers.shape, found.sums[0]
-    memory = Memory(problem.buffers.committed, step.duration)
+    scene, memory, shape = problem.scene, problem.buffers.memory, problem.buffers.shape
     if scene.law.state_size() > 0:
         released, dissipated = stretch.commit(scene.stretch, scene.law, memory, shape)
         found.stored[STRETCH] -= released
-        sums.dissipated += dissipated
-    if scene.bend.section.state_size() > 0:
+        found.sums[0].dissipated += dissipated
         released, dissipated = bend.commit(scene.bend, scene.stretch, memory, shape)
         found.stored[BEND] -= released
-        sums.dissipated += dissipated
+        found.sums[0].dissipated += dissipated
 
 
 @jit_exact

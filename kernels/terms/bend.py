@@ -22,6 +22,11 @@ points of a cubic or the ends of a classical element:
 
 with the law w of `section` over the strain e of `stretch` and the bending theta of a fibre at both,
 V the volume that each of its fibres stands for, and the stiffness k_s of the element in shear.
+
+Linear springs are of a `hinge`, a law of unit stiffness that relaxes as the material does. Those of
+linear bending are
+
+    k_11 (kappa_1 + k_12 / k_11 kappa_2)^2 / 2 + (k_22 - k_12^2 / k_11) kappa_2^2 / 2.
 """
 
 import math
@@ -29,8 +34,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.compile.jit import jit
-from kernels.terms.section import LEAST
+from kernels.compile.jit import jit, jit_exact
+from kernels.terms.section import LEAST, commit_fibre
 from kernels.terms.stretch import strain
 
 ANGLE, TANGENT = 0, 1
@@ -39,18 +44,33 @@ ANGLE, TANGENT = 0, 1
 class Bend(NamedTuple):
     """stiffness (3, m): k_11, k_12, k_22 in N m. side (2, m): c of the measure `TANGENT`.
 
-    section: law over e, theta_1, theta_2; an element is one material point. spread (2, m): s_0,
-    s_1. volume (m,): V in m^3, zero where an element bends linearly. shear (m,): k_s in N m. The
-    three are empty where all bending is linear.
+    section: law over e, theta_1, theta_2. hinge: law of linear springs, of unit stiffness. spread
+    (2, m): s_0, s_1. volume (m,): V in m^3, zero where an element bends linearly. shear (m,): k_s
+    in N m. The last three are empty where all bending is linear.
     """
 
     measure: int
     stiffness: np.ndarray
     side: np.ndarray
     section: object
+    hinge: object
     spread: np.ndarray
     volume: np.ndarray
     shear: np.ndarray
+
+
+@jit
+def points(bend):
+    """Return the number of material points of an element: those of its section, and its shear; or
+    both springs of linear bending.
+    """
+    return bend.section.points() + 1
+
+
+@jit
+def is_bent(bend, k):
+    """Return whether element ``k`` bends through its section."""
+    return bend.volume.size > 0 and bend.volume[k] > 0.0
 
 
 @jit
@@ -69,7 +89,38 @@ def curvature(bend, k, end, turn):
 
 
 @jit
-def _linear(bend, k, shape, resultants, projected):
+def _spring(bend, strain, memory, point):
+    """Return potential, force and tangent of a spring of unit stiffness."""
+    if bend.hinge.state_size() == 0:
+        return 0.5 * strain * strain, strain, 1.0
+    return bend.hinge.respond(strain, memory, point)
+
+
+@jit
+def _springs(bend, k):
+    """Return k_11, k_12 / k_11 and k_22 - k_12^2 / k_11."""
+    k11, k12 = bend.stiffness[0, k], bend.stiffness[1, k]
+    ratio = k12 / k11 if k11 > 0.0 else 0.0
+    return k11, ratio, bend.stiffness[2, k] - ratio * k12
+
+
+@jit
+def _moments(bend, k, one, two, memory, point):
+    """Return E_b of linear bending, its slopes in both kappa, and its second derivatives."""
+    if bend.hinge.state_size() == 0:
+        k11, k12, k22 = bend.stiffness[0, k], bend.stiffness[1, k], bend.stiffness[2, k]
+        first, second = k11 * one + k12 * two, k12 * one + k22 * two
+        return 0.5 * (first * one + second * two), first, second, k11, k12, k22
+    stiff, ratio, rest = _springs(bend, k)
+    v1, s1, t1 = bend.hinge.respond(one + ratio * two, memory, point)
+    v2, s2, t2 = bend.hinge.respond(two, memory, point + 1)
+    first, k11 = stiff * s1, stiff * t1
+    second, k12, k22 = ratio * first + rest * s2, ratio * k11, ratio * ratio * k11 + rest * t2
+    return stiff * v1 + rest * v2, first, second, k11, k12, k22
+
+
+@jit
+def _linear(bend, memory, point, k, shape, resultants, projected):
     """Return E_b of element ``k`` of linear bending; add its derivatives."""
     one, d1, s1 = curvature(bend, k, 0, shape.turn[0, k])
     two, d2, s2 = curvature(bend, k, 1, shape.turn[1, k])
@@ -78,14 +129,13 @@ def _linear(bend, k, shape, resultants, projected):
     if projected:
         s1, s2 = 0.0, 0.0
     force, rigidity = resultants.force, resultants.rigidity
-    k11, k12, k22 = bend.stiffness[0, k], bend.stiffness[1, k], bend.stiffness[2, k]
-    first, second = k11 * one + k12 * two, k12 * one + k22 * two
+    energy, first, second, k11, k12, k22 = _moments(bend, k, one, two, memory, point)
     force[1, k] += first * d1
     force[2, k] += second * d2
     rigidity[3, k] += k11 * d1 * d1 + first * s1
     rigidity[4, k] += k12 * d1 * d2
     rigidity[5, k] += k22 * d2 * d2 + second * s2
-    return 0.5 * (first * one + second * two)
+    return energy
 
 
 @jit
@@ -97,7 +147,7 @@ def bending(bend, shape, k):
 
 
 @jit
-def _through_section(bend, stretch, memory, k, shape, resultants, projected):
+def _through_section(bend, stretch, memory, point, k, shape, resultants, projected):
     """Return E_b of element ``k`` through the law of its section; add its derivatives."""
     force, rigidity, volume = resultants.force, resultants.rigidity, bend.volume[k]
     e, e1, e2 = strain(stretch, shape, k)
@@ -105,15 +155,16 @@ def _through_section(bend, stretch, memory, k, shape, resultants, projected):
         return math.inf
     one, two = bending(bend, shape, k)
     value, (by_e, m1, m2), (ee, et1, et2, tt1, _, tt2) = bend.section.respond(
-        (e, one, two), memory, bend.volume.size + k
+        (e, one, two), memory, point
     )
     s0, s1 = bend.spread[0, k], bend.spread[1, k]
     p, q = s1 - s0, s1 + s0  # of theta_1 in a_1 and a_2; of theta_2: -q, -p
-    both = shape.turn[0, k] + shape.turn[1, k]
-    sheared, by_length = bend.shear[k], volume / stretch.l0[k]
+    both, by_length = shape.turn[0, k] + shape.turn[1, k], volume / stretch.l0[k]
+    work, push, rigid = _spring(bend, both, memory, point + bend.section.points())
+    push, rigid = bend.shear[k] * push, bend.shear[k] * rigid
     force[0, k] += by_length * by_e
-    force[1, k] += volume * (by_e * e1 + m1 * p - m2 * q) + sheared * both
-    force[2, k] += volume * (by_e * e2 + m1 * q - m2 * p) + sheared * both
+    force[1, k] += volume * (by_e * e1 + m1 * p - m2 * q) + push
+    force[2, k] += volume * (by_e * e2 + m1 * q - m2 * p) + push
     if projected:
         by_e, ee, et1, et2, tt1, tt2 = 0.0, 0.0, 0.0, 0.0, max(tt1, 0.0), max(tt2, 0.0)
     c1, c2 = et1 * p - et2 * q, et1 * q - et2 * p  # second derivatives in e and a_1, a_2
@@ -121,16 +172,16 @@ def _through_section(bend, stretch, memory, k, shape, resultants, projected):
     rigidity[0, k] += by_length / stretch.l0[k] * ee
     rigidity[1, k] += by_length * (ee * e1 + c1)
     rigidity[2, k] += by_length * (ee * e2 + c2)
-    rigidity[3, k] += sheared + volume * (
+    rigidity[3, k] += rigid + volume * (
         (ee * e1 + 2.0 * c1) * e1 + tt1 * p * p + tt2 * q * q + same
     )
-    rigidity[4, k] += sheared + volume * (
+    rigidity[4, k] += rigid + volume * (
         ee * e1 * e2 + c1 * e2 + c2 * e1 + (tt1 + tt2) * p * q + mixed
     )
-    rigidity[5, k] += sheared + volume * (
+    rigidity[5, k] += rigid + volume * (
         (ee * e2 + 2.0 * c2) * e2 + tt1 * q * q + tt2 * p * p + same
     )
-    return volume * value + 0.5 * sheared * both * both
+    return volume * value + bend.shear[k] * work
 
 
 @jit
@@ -138,35 +189,73 @@ def evaluate(bend, stretch, memory, shape, resultants, projected):
     """Return E_b in J; add its derivatives to ``resultants``. Where E_b is infinite, these are
     incomplete.
 
-    The points of the section are numbered after those of stretching. projected: without the second
+    Material points are numbered after those of stretching. projected: without the second
     derivatives of kappa and of e, and with no falling moment, which makes every element
     semi-definite.
     """
-    total, curved = 0.0, bend.volume.size > 0
+    total, point, each = 0.0, shape.length.size, points(bend)
     for k in range(shape.length.size):
-        if curved and bend.volume[k] > 0.0:
-            total += _through_section(bend, stretch, memory, k, shape, resultants, projected)
+        if is_bent(bend, k):
+            total += _through_section(bend, stretch, memory, point, k, shape, resultants, projected)
         else:
-            total += _linear(bend, k, shape, resultants, projected)
+            total += _linear(bend, memory, point, k, shape, resultants, projected)
+        point += each
         if math.isinf(total):
             return math.inf
     return total
 
 
-@jit
+@jit_exact
+def begin(bend, memory):
+    """Set the data of all material points of bending for the present step."""
+    point, each = bend.stiffness.shape[1], points(bend)
+    for k in range(bend.stiffness.shape[1]):
+        if is_bent(bend, k):
+            bend.section.begin(memory, point)
+            bend.hinge.begin(memory, point + bend.section.points())
+        else:
+            bend.hinge.begin(memory, point)
+            bend.hinge.begin(memory, point + 1)
+        point += each
+
+
+@jit_exact
+def _commit_section(bend, stretch, memory, point, k, shape):
+    """Commit the strains of element ``k`` to its section, as `commit`."""
+    at = (strain(stretch, shape, k)[0], *bending(bend, shape, k))
+    released, dissipated = bend.section.commit(at, memory, point)
+    both = shape.turn[0, k] + shape.turn[1, k]
+    gone, lost = commit_fibre(bend.hinge, both, memory, point + bend.section.points())
+    volume, shear = bend.volume[k], bend.shear[k]
+    return volume * released + shear * gone, volume * dissipated + shear * lost
+
+
+@jit_exact
+def _commit_linear(bend, memory, point, k, shape):
+    """Commit the curvatures of element ``k``, as `commit`."""
+    stiff, ratio, rest = _springs(bend, k)
+    one, two = (
+        curvature(bend, k, 0, shape.turn[0, k])[0],
+        curvature(bend, k, 1, shape.turn[1, k])[0],
+    )
+    gone1, lost1 = commit_fibre(bend.hinge, one + ratio * two, memory, point)
+    gone2, lost2 = commit_fibre(bend.hinge, two, memory, point + 1)
+    return stiff * gone1 + rest * gone2, stiff * lost1 + rest * lost2
+
+
+@jit_exact
 def commit(bend, stretch, memory, shape):
-    """Commit the strains of ``shape`` to the section.
+    """Commit the strains of ``shape`` to the laws of bending.
 
     Return (released, dissipated) in J: E_b less the stored energy, and the dissipation of the step.
     """
-    released, dissipated = 0.0, 0.0
-    for k in range(bend.volume.size):
-        volume = bend.volume[k]
-        if volume == 0.0:
-            continue
-        at, point = (strain(stretch, shape, k)[0], *bending(bend, shape, k)), bend.volume.size + k
-        potential = bend.section.respond(at, memory, point)[0]
-        stored, lost = bend.section.commit(at, memory, point)
-        released += volume * (potential - stored)
-        dissipated += volume * lost
+    released, dissipated, point, each = 0.0, 0.0, shape.length.size, points(bend)
+    for k in range(shape.length.size):
+        if is_bent(bend, k):
+            gone, lost = _commit_section(bend, stretch, memory, point, k, shape)
+        else:
+            gone, lost = _commit_linear(bend, memory, point, k, shape)
+        released += gone
+        dissipated += lost
+        point += each
     return released, dissipated

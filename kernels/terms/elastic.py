@@ -47,7 +47,7 @@ def curve(law, strain):
 
 
 @jit
-def respond(law, strain, memory, point):
+def respond(law, strain):
     """Return energy density W (J/m^3), nominal stress sigma (Pa) and tangent (Pa) at ``strain``."""
     density, stress, tangent = curve(law, strain)
     if strain < GUARD:
@@ -60,21 +60,9 @@ def respond(law, strain, memory, point):
 
 
 @jit
-def respond_fibre(law, strain, memory, point):
+def respond_fibre(law, strain):
     """Return the same without the barrier."""
     return curve(law, strain)
-
-
-@jit
-def state_size(law):
-    """Return 0: an elastic law has no state."""
-    return 0
-
-
-@jit
-def commit(law, strain, memory, point):
-    """Return the stored energy at ``strain`` and no dissipation, J/m^3."""
-    return law.respond(strain, memory, point)[0], 0.0
 
 
 class ElasticCurve(NamedTuple):
@@ -90,8 +78,6 @@ class ElasticCurve(NamedTuple):
     modulus: float
 
     respond = respond
-    state_size = state_size
-    commit = commit
 
 
 class FibreCurve(NamedTuple):
@@ -103,5 +89,3 @@ class FibreCurve(NamedTuple):
     modulus: float
 
     respond = respond_fibre
-    state_size = state_size
-    commit = commit

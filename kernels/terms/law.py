@@ -5,17 +5,14 @@ of its material points. A step, which stays a minimisation, needs only
 
     potential W(e; q, duration),   stress dW/de,   tangent d2W/de2
 
-with the strain e, the state q committed last and the duration of the step. For a law without memory
-W is the stored energy. A law with memory minimises over its internal variables itself, so that W is
-its incremental potential: stored energy plus the dissipation potential of the step, which for a
-viscous law is half of the dissipation. At commit it returns stored and dissipated energy
-separately, for the energy book. The curves of `elastic` have no memory. The state of other laws is
-kept in `solve.history.State.memory`, which `planar.steps.commit` updates.
+with the strain e, the state q committed last and the duration of the step. Without memory W is the
+stored energy. A law with memory minimises over its internal variables itself, so that W is its
+incremental potential. At commit it returns stored and dissipated energy separately, for the energy
+book. The state is kept in `solve.history.State.memory`, which `planar.steps.commit` updates; a law
+without memory keeps none.
 
-The initial state is zero. With a duration of zero the state does not change.
-
-A strain with several components (axial strain and curvature of a section, three of a plate) is a
-tuple, and so is its stress; the tangent is then the upper triangle, row by row.
+The initial state is zero. With a duration of zero the state does not change, and W is the stored
+energy. The law of a `section` has several points, of one strain each.
 """
 
 from typing import NamedTuple, Protocol
@@ -27,11 +24,13 @@ class Memory(NamedTuple):
     """What a response depends on beside the strain.
 
     committed (p, k): state of each material point after the last accepted step, which only `commit`
-    changes; p = 0 if no law has memory. duration: of the step, s.
+    changes; p = 0 if no law has memory. line (p, 2): data of a point for the present step, which
+    `begin` sets. pace: data of the step that all points share, which `set_pace` sets.
     """
 
     committed: np.ndarray
-    duration: float
+    line: np.ndarray
+    pace: object
 
 
 class Law(Protocol):
@@ -42,12 +41,21 @@ class Law(Protocol):
 
     modulus: float
 
+    def make_pace(self):
+        """Return the data of a step that all points share, for `set_pace` to fill."""
+
+    def set_pace(self, duration, pace):
+        """Fill ``pace`` for steps of ``duration`` in s."""
+
+    def begin(self, memory, point):
+        """Set the data of a point for the present step."""
+
     def respond(self, strain, memory, point):
         """Return potential (J/m^3), stress (Pa) and tangent (Pa) at ``strain``."""
 
     def state_size(self):
-        """Return the length of the state of a point; 0, as a constant, without memory: the commit
-        then costs nothing.
+        """Return the length of the state of a point; 0 without memory: no other verb than `respond`
+        is then called.
         """
 
     def commit(self, strain, memory, point):

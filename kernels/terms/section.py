@@ -7,20 +7,23 @@ dy/dz = a^(-nu'), and its stretch is a = lambda + kappa y, lambda = 1 + e. Hence
     a = (lambda^m + m kappa z)^(1/m)
       = lambda (1 + u + (1 - m)/2 u^2 + (1 - m)(1 - 2 m)/6 u^3 + ..),   u = kappa z lambda^(-m).
 
-Three Gauss points through the thickness are at z and weigh 5, 8 and 5 of 18; the one in the middle
-belongs to stretching. The potential is that of the outer two, over their part of the volume,
+Fibres are at Gauss points through the thickness, in pairs at +-z and one in the middle, which
+belongs to stretching. The potential of a section is that of its pairs, over their part of the
+volume,
 
-    w(e, theta) = W(a(theta) - 1) + W(a(-theta) - 1) - 2 W(e) - r(theta),   theta = kappa z,
-    r = 2/3 (1 - nu'^2) Y' theta^4 / (1 + 5/3 theta^2).
+    w(e, theta) = sum of v (W(a(theta p) - 1) + W(a(-theta p) - 1) - 2 W(e)) - r(theta),
+    r = 2/3 (1 - nu'^2) Y' theta^4 / (1 + 5/3 theta^2),   theta = kappa z of the pair p = 1.
 
-r is the energy of the radial stress Y' kappa^2 (t^2/4 - z^2) / 2 that keeps fibres on their bent
-line, (1 - nu'^2) Y' t^5 kappa^4 / 240 per length and depth, here bounded for large bending.
+With three fibres there is one pair, p = v = 1. r is the energy of the radial stress
+Y' kappa^2 (t^2/4 - z^2) / 2 that keeps fibres on their bent line, (1 - nu'^2) Y' t^5 kappa^4 / 240
+per length and depth, here bounded for large bending. It stays elastic where fibres relax.
 """
 
 from typing import NamedTuple
 
-from kernels.compile.jit import jit
-from kernels.terms.elastic import commit, state_size
+import numpy as np
+
+from kernels.compile.jit import jit, jit_exact
 
 LEAST = 0.05  # stretch of the centre line below which the energy is infinite
 
@@ -54,49 +57,101 @@ def radial(theta):
 
 @jit
 def bent(law, stretched, r, theta, memory, point):
-    """Return w + 2 W(e) of one point, its slopes in e and theta, and ee, e theta, theta theta."""
+    """Return w without its W(e), its slopes in e and theta, and ee, e theta, theta theta.
+
+    point: of the first fibre.
+    """
     value, slope, second = radial(theta)
     energy, by_e, by_theta = -law.radial * value, 0.0, -law.radial * slope
     ee, et, tt = 0.0, 0.0, -law.radial * second
-    for side in (1.0, -1.0):
-        a, a_e, a_t, a_ee, a_et, a_tt = fibre(law.m, stretched, r, side * theta)
-        value, slope, second = law.curve.respond(a - 1.0, memory, point)
-        energy += value
-        by_e += slope * a_e
-        by_theta += side * slope * a_t
-        ee += second * a_e * a_e + slope * a_ee
-        et += side * (second * a_e * a_t + slope * a_et)
-        tt += second * a_t * a_t + slope * a_tt
+    for k in range(law.place.size):
+        place, weight = law.place[k], law.weight[k]
+        a, a_e, a_t, a_ee, a_et, a_tt = fibre(law.m, stretched, r, place * theta)
+        value, slope, second = law.curve.respond(a - 1.0, memory, point + k)
+        energy += weight * value
+        by_e += weight * slope * a_e
+        by_theta += weight * place * slope * a_t
+        ee += weight * (second * a_e * a_e + slope * a_ee)
+        et += weight * place * (second * a_e * a_t + slope * a_et)
+        tt += weight * place * place * (second * a_t * a_t + slope * a_tt)
     return energy, by_e, by_theta, ee, et, tt
 
 
 @jit
 def respond(law, strain, memory, point):
-    """Return the sum of w over both points of an element (J/m^3), its slopes in e, theta_1, theta_2
-    and the upper triangle of its second derivatives, row by row (Pa).
+    """Return the sum of w over both sections of an element (J/m^3), its slopes in e, theta_1,
+    theta_2 and the upper triangle of its second derivatives, row by row (Pa).
+
+    point: of the first fibre of the first section; those of the second follow, then the middle.
     """
     e, one, two = strain
-    value, slope, second = law.curve.respond(e, memory, point)
+    fibres = law.place.size
+    value, slope, second = law.curve.respond(e, memory, point + 2 * fibres)
     stretched, r = 1.0 + e, (1.0 + e) ** (-law.m)
     w1, e1, t1, ee1, et1, tt1 = bent(law, stretched, r, one, memory, point)
-    w2, e2, t2, ee2, et2, tt2 = bent(law, stretched, r, two, memory, point)
+    w2, e2, t2, ee2, et2, tt2 = bent(law, stretched, r, two, memory, point + fibres)
     return (
-        w1 + w2 - 4.0 * value,
-        (e1 + e2 - 4.0 * slope, t1, t2),
-        (ee1 + ee2 - 4.0 * second, et1, et2, tt1, 0.0, tt2),
+        w1 + w2 - law.middle * value,
+        (e1 + e2 - law.middle * slope, t1, t2),
+        (ee1 + ee2 - law.middle * second, et1, et2, tt1, 0.0, tt2),
     )
 
 
+@jit
+def points(law):
+    """Return the number of material points of an element."""
+    return 2 * law.place.size + 1
+
+
+@jit_exact
+def begin(law, memory, point):
+    """Set the data of all points of an element for the present step."""
+    for k in range(law.points()):
+        law.curve.begin(memory, point + k)
+
+
+@jit_exact
+def commit(law, strain, memory, point):
+    """Accept ``strain`` at all points of an element.
+
+    Return (released, dissipated), J/m^3: potential less stored energy, and the dissipation.
+    """
+    e, middle = strain[0], point + 2 * law.place.size
+    released, dissipated = commit_fibre(law.curve, e, memory, middle)
+    released, dissipated = -law.middle * released, -law.middle * dissipated
+    r = (1.0 + e) ** (-law.m)
+    for section in range(2):
+        for k in range(law.place.size):
+            theta = law.place[k] * (strain[2] if section == 1 else strain[1])
+            a = fibre(law.m, 1.0 + e, r, theta)[0]
+            gone, lost = commit_fibre(law.curve, a - 1.0, memory, point)
+            released += law.weight[k] * gone
+            dissipated += law.weight[k] * lost
+            point += 1
+    return released, dissipated
+
+
+@jit_exact
+def commit_fibre(law, strain, memory, point):
+    """Commit the strain of one point; return potential less stored energy, and the dissipation."""
+    potential = law.respond(strain, memory, point)[0]
+    stored, dissipated = law.commit(strain, memory, point)
+    return potential - stored, dissipated
+
+
 class BentSection(NamedTuple):
-    """curve: elastic law of the fibres. m: 1 + nu'. radial: 2/3 (1 - nu'^2) Y', Pa. modulus: of the
-    curve, Pa.
+    """curve: law of a fibre. place, weight (f,): +-p and v of the fibres of a section but the
+    middle. middle: sum of v over both sections. m: 1 + nu'. radial: 2/3 (1 - nu'^2) Y', Pa.
     """
 
     curve: object
+    place: np.ndarray
+    weight: np.ndarray
+    middle: float
     m: float
     radial: float
-    modulus: float
 
+    points = points
+    begin = begin
     respond = respond
-    state_size = state_size
     commit = commit

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.compile.jit import jit
+from kernels.compile.jit import jit, jit_exact
 
 
 class Stretch(NamedTuple):
@@ -77,7 +77,14 @@ def evaluate(stretch, law, memory, shape, resultants, projected):
     return total
 
 
-@jit
+@jit_exact
+def begin(stretch, law, memory):
+    """Set the data of all material points for the present step."""
+    for k in range(stretch.l0.size):
+        law.begin(memory, k)
+
+
+@jit_exact
 def commit(stretch, law, memory, shape):
     """Commit the strains of ``shape`` to the law.
 

@@ -1,7 +1,8 @@
 """Material records: the tables in `configs/materials/`, which are in SI.
 
 A record is a csv file. Its comment lines hold the source and, one per line, `# key: value` for
-`density_kg_m3`, `poisson` and, optionally, `modulus_Pa`. The columns `strain,stress_Pa` follow
+`density_kg_m3`, `poisson` and, optionally, `modulus_Pa` and `reference_time_s`, the time after
+loading for which the curve holds if the material relaxes. The columns `strain,stress_Pa` follow
 (nominal, tension positive, strains increasing; the origin is implied and may be left out).
 Rows of negative strain, if there are any, are the material's own compression branch.
 """
@@ -18,9 +19,10 @@ Numbers = tuple[float, ...]
 FOLDER = Path(__file__).parents[2] / "configs" / "materials"
 COLUMNS = ["strain", "stress_Pa"]
 TOE = 0.01  # below this strain a record is replaced by a straight line from the origin
+REFERENCE_TIME = 1.0  # s; of a record that states none
 SECANT = (0.01, 0.04)  # strains of the secant that is the modulus of a curve
 
-_HEADER = re.compile(r"#\s*(density_kg_m3|poisson|modulus_Pa):\s*([\d.eE+-]+)\s*")
+_HEADER = re.compile(r"#\s*(density_kg_m3|poisson|modulus_Pa|reference_time_s):\s*([\d.eE+-]+)\s*")
 
 
 class RecordError(ValueError):
@@ -41,6 +43,7 @@ class Record:
     density: float
     poisson: float
     modulus: float
+    reference_time: float
 
 
 def available() -> list[str]:
@@ -75,7 +78,8 @@ def read_record(path: Path) -> Record:
         raise RecordError(f"{path.name}: needs the lines # density_kg_m3: ... and # poisson: ...")
     modulus = stated.get("modulus_Pa", secant_modulus(strain, stress))
     density, poisson = stated["density_kg_m3"], stated["poisson"]
-    return Record(path.stem, strain, stress, density, poisson, modulus)
+    reference_time = stated.get("reference_time_s", REFERENCE_TIME)
+    return Record(path.stem, strain, stress, density, poisson, modulus, reference_time)
 
 
 def _columns(lines: list[str]) -> tuple[Numbers, Numbers]:

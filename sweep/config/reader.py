@@ -25,6 +25,7 @@ _REASONS = {
     "missing": "too few values",
     "too_long": "too many values",
 }
+BRANCH = ("time", "share")  # keys of a branch of relaxation
 _NAME = re.compile(r"\w[\w.-]*")
 
 
@@ -97,7 +98,7 @@ class Reader:
         base: Values = {}
         names: dict[str, str] = {}  # key of a case -> the name under which the config sets it
         for table in TABLES:
-            for field, raw in self._section(document, table).items():
+            for field, raw in self._branches(self._section(document, table), table).items():
                 name = f"{table}.{field}"
                 if (written := self._value(name, raw)) is None:
                     continue
@@ -108,6 +109,19 @@ class Reader:
                         wrong = f"set twice; allowed: the same as {other} = {first.text}"
                         self._refuse(name, raw, wrong)
         return base
+
+    def _branches(self, section: dict[str, Any], table: str) -> dict[str, Any]:
+        """A table whose branches of relaxation, if it has any, are lists of times and of shares."""
+        if table != "material" or "relaxation" not in section:
+            return section
+        left = {name: value for name, value in section.items() if name != "relaxation"}
+        branches = section["relaxation"]
+        if not isinstance(branches, list) or not all(map(_is_branch, branches)) or not branches:
+            allowed = 'a list of tables, each {time = "1 ms", share = 0.05}'
+            self._refuse("material.relaxation", branches, f"no branches; allowed: {allowed}")
+            return left
+        lists = {f"relaxation_{name}s": [b[name] for b in branches] for name in BRANCH}
+        return left | lists
 
     def _rank(self, section: dict[str, Any]) -> Rank:
         read = {field: self._value(f"rank.{field}", raw) for field, raw in section.items()}
@@ -208,6 +222,11 @@ class Reader:
             kind = error.errors()[0]["type"]
             wrong_type = "wrong type" if kind.endswith("_type") else "out of range"
             raise ValueError(_REASONS.get(kind, wrong_type)) from None
+
+
+def _is_branch(value: object) -> bool:
+    """Whether a value is a branch of relaxation: a table with a time and a share."""
+    return isinstance(value, dict) and sorted(value) == sorted(BRANCH)
 
 
 def _material(name: str, folder: Path) -> str:

@@ -25,6 +25,7 @@ from sweep.config.solver_defaults import (
 from sweep.config.structure import Structure
 from sweep.config.tables import Contact, Damping, Loading, Solver, refusal
 
+STRAIN_RATE = 0.01  # 1/s, of a quasi-static crush of a material that relaxes
 PASSAGES = 10  # default duration of an impact / time the striker takes for the lattice's height
 PLATENS = '"contact", "glued" or "sliding"'
 DEPENDENT = ("loading", "contact", "damping", "solver")
@@ -42,7 +43,8 @@ def resolve(
     try:
         if sound:
             found["lattice"] = sized(found["lattice"], found["material"].density)
-        settled = _settled(*(found[name] for name in ("lattice", *DEPENDENT)))
+        relaxes = found["material"].relaxes
+        settled = _settled(relaxes, *(found[name] for name in ("lattice", *DEPENDENT)))
         found |= zip(DEPENDENT, settled, strict=True)
         check_bending(found["material"], found["solver"])
         check_section(found["material"], found["solver"])
@@ -55,17 +57,27 @@ def resolve(
 
 @lru_cache(maxsize=4096)  # cases of a sweep share most of their tables
 def _settled(
-    lattice: Lattice, loading: Loading, contact: Contact, damping: Damping, solver: Solver
+    relaxes: bool,
+    lattice: Lattice,
+    loading: Loading,
+    contact: Contact,
+    damping: Damping,
+    solver: Solver,
 ) -> tuple[Loading, Contact, Damping, Solver]:
-    """The tables that depend on one another and on the lattice, completed."""
+    """The tables that depend on one another and on the lattice, completed; ``relaxes``: whether the
+    stress of the material depends on time.
+    """
     loading, wish = _loading(loading, lattice, solver.integrator), solver.time_step
+    if relaxes and solver.integrator == ARCS:
+        raise refusal("solver.integrator", ARCS, f'"static" or {IN_TIME} if the material relaxes')
+    loading = _paced(loading, relaxes, lattice.height)
     solver = settle(solver, loading, lattice, contact.model == "position_based")
     check_steps(solver, loading, wish)
     contact = _contact(contact, loading, lattice.structure, solver)
     if contact.model == "position_based" and solver.integrator != "backward_euler":
         allowed = '"backward_euler" if contact.model is "position_based"'
         raise refusal("solver.integrator", solver.integrator, allowed)
-    return loading, contact, _damping(damping, loading), solver
+    return loading, contact, _damping(damping, loading, relaxes), solver
 
 
 def _loading(loading: Loading, lattice: Lattice, integrator: str | None) -> Loading:
@@ -162,7 +174,12 @@ def _displacement(loading: Loading, height: float, integrator: str | None) -> Lo
     if loading.platen == "none":
         allowed = f'{PLATENS} if loading.mode is "displacement"'
         raise refusal("loading.platen", "none", allowed)
-    quasi_static = given_or(loading.quasi_static, loading.speed is None or integrator == "static")
+    rate, timed = loading.strain_rate, loading.speed is not None
+    if rate is not None and timed:
+        raise refusal("loading.strain_rate", rate, "one of speed and strain_rate")
+    quasi_static = given_or(loading.quasi_static, not timed or integrator == "static")
+    if rate is not None and not quasi_static:
+        raise refusal("loading.strain_rate", rate, "a speed, if quasi_static is false")
     if not quasi_static and integrator == "static":
         raise refusal("solver.integrator", "static", f"{IN_TIME} if not quasi_static")
     if not quasi_static and loading.speed is None:
@@ -172,12 +189,22 @@ def _displacement(loading: Loading, height: float, integrator: str | None) -> Lo
         mode="displacement",
         stroke=stroke,
         strain=strain,
-        speed=None if quasi_static else loading.speed,
+        speed=loading.speed if rate is None else rate * height,
         quasi_static=quasi_static,
         unload=given_or(loading.unload, True),
         platen=loading.platen or "glued",
         allowed_forces=loading.allowed_forces,
     )
+
+
+def _paced(loading: Loading, relaxes: bool, height: float) -> Loading:
+    """A loading whose quasi-static crush takes time only if the stress of the material depends on
+    it.
+    """
+    if not (loading.mode == "displacement" and loading.quasi_static):
+        return loading
+    speed = given_or(loading.speed, STRAIN_RATE * height) if relaxes else None
+    return loading.model_copy(update={"speed": speed})
 
 
 def _mean(loading: Loading, height: float, integrator: str | None) -> Loading:
@@ -245,12 +272,15 @@ def _by_position(contact: Contact, loading: Loading, structure: Structure | None
     return contact.model_copy(update={"friction": None, "stiffness": None, "slip_speed": None})
 
 
-def _damping(damping: Damping, loading: Loading) -> Damping:
-    """The damping model, without the keys of others; a quasi-static case has no damping."""
+def _damping(damping: Damping, loading: Loading, relaxes: bool) -> Damping:
+    """The damping model, without the keys of others; a quasi-static case has no damping, and a
+    material that relaxes has none unless it is asked for.
+    """
     unused = {
         "none": ("mass", "stiffness", "relaxation_time"),
         "rayleigh": ("relaxation_time",),
         "kelvin_voigt": ("mass", "stiffness"),
     }
-    model = "none" if loading.quasi_static else damping.model
+    chosen = damping.model or ("none" if relaxes else "rayleigh")
+    model = "none" if loading.quasi_static else chosen
     return damping.model_copy(update={"model": model, **dict.fromkeys(unused[model])})

@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from sweep.config.material_file import check_curve, locate, read_record
+from sweep.config.material_file import REFERENCE_TIME, check_curve, locate, read_record
 
 BY_NUMBERS = "by numbers"
 SIGNIFICANT = 12  # digits of a number that enter an id; unit conversions do not change them
@@ -16,6 +16,7 @@ Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m"})]
 Size = Annotated[float, Field(gt=0, le=1e3, json_schema_extra={"unit": "m"})]
 Duration = Annotated[float, Field(gt=0, json_schema_extra={"unit": "s"})]
 Lag = Annotated[float, Field(ge=0, json_schema_extra={"unit": "s"})]
+Frequency = Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/s"})]
 Rate = Annotated[float, Field(ge=0, json_schema_extra={"unit": "1/s"})]
 # The unit may be left out: 0.6 is 60 %.
 Strain = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1", "bare": True})]
@@ -30,6 +31,9 @@ Few = Annotated[int, Field(ge=1, le=1000)]  # a typo must not fill the memory
 # JSON returns lists, so that lists are accepted too.
 Curve = Annotated[tuple[float, ...], Field(strict=False)]
 Forces = Annotated[tuple[Force, ...], Field(strict=False)]
+Durations = Annotated[tuple[Duration, ...], Field(strict=False)]
+Shares = Annotated[tuple[Strain, ...], Field(strict=False)]
+Loss = Annotated[float, Field(gt=0, le=0.8, json_schema_extra={"unit": "1", "bare": True})]
 # A million rows of history take 120 MB, and a million steps of one square cell half a minute.
 MAX_STEPS = 1_000_000
 NonNegative = Annotated[float, Field(ge=0)]
@@ -79,9 +83,15 @@ BY_CURVE = {"stretch": ("nonlinear",), "bend": ("section",)}
 class Material(Table):
     """A material: a named record, whose numbers may be overridden, or numbers without a record.
 
+    It relaxes if it has a `loss`, the share of the work that is lost in a cycle of loading and
+    unloading, or branches: shares of the instantaneous stress, each with the time in which it
+    relaxes. The curve, or the modulus, then holds at `reference_time` after loading.
+
     `curve_strain`, `curve_stress` (k,) in Pa hold the record itself, so that a case needs no file.
     They are empty if neither stretching nor bending uses the curve.
     """
+
+    neutral: ClassVar[dict[str, Any]] = {"relaxation_times": (), "relaxation_shares": ()}
 
     name: str = "ninjaflex"
     stretch: Literal["nonlinear", "linear"] = "nonlinear"
@@ -91,25 +101,50 @@ class Material(Table):
     modulus: Stress = Field(default=0.0, validate_default=True)
     density: Density = Field(default=0.0, validate_default=True)
     poisson: Annotated[float, Field(ge=0, lt=0.5)] = 0.48
+    loss: Loss | None = None
+    relaxation_times: Durations = ()
+    relaxation_shares: Shares = ()
+    reference_time: Duration | None = None
     curve_strain: Curve = ()
     curve_stress: Curve = ()
+
+    @property
+    def relaxes(self) -> bool:
+        """Whether the stress depends on time."""
+        return self.loss is not None or bool(self.relaxation_times)
 
     @model_validator(mode="before")
     @classmethod
     def _fill_in(cls, given: Any) -> Any:
         if not isinstance(given, dict) or "curve_strain" in given:
             return given
+        relaxes = given.get("loss") is not None or given.get("relaxation_times")
+        if not relaxes:
+            given = {**given, "reference_time": None}
         if "modulus" in given and "name" not in given:
             if "density" not in given:
                 raise refusal("material.density", None, "a density, as no name is given")
-            return {"name": BY_NUMBERS, "stretch": "linear", "bend": "linear", **given}
+            usual = {"reference_time": REFERENCE_TIME} if relaxes else {}
+            return {"name": BY_NUMBERS, "stretch": "linear", "bend": "linear", **usual, **given}
         if given.get("stretch", "nonlinear") == "linear":
             given = {"bend": "linear", **given}
         record = read_record(locate(given.get("name", "ninjaflex")))
-        known = {key: getattr(record, key) for key in ("modulus", "density", "poisson")}
+        numbers = ("modulus", "density", "poisson", *(["reference_time"] if relaxes else []))
+        known = {key: getattr(record, key) for key in numbers}
         if any(given.get(key, cls.model_fields[key].default) in BY_CURVE[key] for key in BY_CURVE):
             known |= {"curve_strain": record.strain, "curve_stress": record.stress}
         return {**known, **given, "name": record.name}
+
+    @model_validator(mode="after")
+    def _relaxes_in_part(self) -> Self:
+        times, shares = self.relaxation_times, self.relaxation_shares
+        if len(times) != len(shares):
+            raise refusal("material.relaxation", list(times), "a share for each time")
+        if times and self.loss is not None:
+            raise refusal("material.loss", self.loss, "one of loss and relaxation")
+        if sum(shares) >= 1.0:
+            raise refusal("material.relaxation", list(shares), "shares whose sum is below 1")
+        return self
 
     @model_validator(mode="after")
     def _has_its_curve(self) -> Self:
@@ -128,7 +163,7 @@ class Material(Table):
 # Keys that imply the mode.
 MODES = {
     "force": ("force", "release_time"),
-    "displacement": ("stroke", "strain", "speed", "quasi_static", "unload"),
+    "displacement": ("stroke", "strain", "speed", "strain_rate", "quasi_static", "unload"),
     "impact": ("striker_mass", "striker_speed", "energy"),
 }
 
@@ -147,6 +182,7 @@ class Loading(Table):
     stroke: Length | None = None
     strain: Strain | None = None
     speed: Speed | None = None
+    strain_rate: Frequency | None = None
     quasi_static: bool | None = None
     unload: bool | None = None
     striker_mass: Mass | None = None
@@ -195,9 +231,9 @@ class Contact(Table):
 
 
 class Damping(Table):
-    """Rayleigh: `mass` alpha, `stiffness` beta. Kelvin-Voigt: viscosity = modulus x time."""
+    """None: chosen by the material and the loading. Rayleigh: `mass` alpha, `stiffness` beta. Kelvin-Voigt: viscosity = modulus x time."""
 
-    model: Literal["none", "rayleigh", "kelvin_voigt"] = "rayleigh"
+    model: Literal["none", "rayleigh", "kelvin_voigt"] | None = None
     mass: Rate | None = 5.0
     stiffness: Lag | None = 1e-4
     relaxation_time: Lag | None = 1e-4

@@ -7,6 +7,8 @@ from sweep.config.case import Case
 from sweep.config.solver_defaults import ARCS
 from sweep.config.structure import Structure
 
+STEADY = "the stress of the material does not depend on time: it has neither loss nor relaxation"
+
 
 def still_unused(unused: Mapping[str, str], given: Mapping[str, Any], case: Case) -> dict[str, str]:
     """The keys of `unused` that have no effect in this case either, each with the reason.
@@ -44,6 +46,8 @@ def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
         return "" if key in ("lattice.kind", "lattice.file") else 'lattice.kind is "custom"'
     table, name = key.split(".")
     resolved = getattr(getattr(case, table), name)
+    if key == "material.reference_time" and not case.material.relaxes:
+        return STEADY
     if key == "material.poisson" and case.material.plane == "stress":
         return 'material.plane is "stress"'
     used = resolved == given[key] or _used_otherwise(key, resolved, given, case)
@@ -72,6 +76,8 @@ def _used_otherwise(key: str, resolved: object, given: Mapping[str, Any], case: 
         return given[key] == "auto"
     if key == "solver.time_step":
         return resolved is not None and "solver.load_steps" not in given
+    if key == "loading.strain_rate":
+        return case.loading.speed is not None
     return key == "loading.speed" and case.loading.mode == "displacement"
 
 
@@ -85,6 +91,8 @@ def _reason(key: str, case: Case) -> str:
         return f'loading.mode is "{case.loading.mode}"'
     if key.startswith("contact.") and case.contact.friction is None:
         return f'contact.model is "{case.contact.model}"'
+    if key == "loading.strain_rate":
+        return STEADY
     if case.loading.quasi_static:
         return "the crush is quasi-static"
     if key.startswith("damping."):

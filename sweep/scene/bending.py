@@ -5,7 +5,7 @@ import numpy as np
 from kernels.terms import bend, fold
 from sweep.config.case import Case
 from sweep.scene.beams import Beams, bends, contraction, plane_factors
-from sweep.scene.material import law_of_section
+from sweep.scene.material import law_of_hinge, law_of_section
 from sweep.scene.mesh import Floats, Mesh
 
 FIBRE = np.sqrt(3.0 / 20.0)  # of a thickness: place of the outer Gauss points, which weigh 5/18
@@ -23,6 +23,7 @@ def build_bend(mesh: Mesh, beams: Beams, case: Case) -> bend.Bend:
         stiffness=beams.stiffness,
         side=np.where(mesh.edges < mesh.n_joints, 2.0, 1.0).T.copy(),
         section=law_of_section(material, plane_factors(material)[1], contraction(material)),
+        hinge=law_of_hinge(material),
         spread=np.ascontiguousarray(spread),
         volume=volume,
         shear=shear,

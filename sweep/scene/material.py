@@ -18,10 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kernels.terms.elastic import ElasticCurve, FibreCurve
-from kernels.terms.law import Law
+from kernels.terms.relaxation import Relaxing
 from kernels.terms.section import BentSection
 from sweep.config.case import Material
 from sweep.config.material_file import TOE, stress_at
+from sweep.scene.relaxation import relaxation_of
 
 Floats = NDArray[np.float64]
 
@@ -63,9 +64,11 @@ def _record_law(material: Material) -> StressLaw:
 
 
 @lru_cache(maxsize=64)
-def law_in_stretch(material: Material, factor: float) -> Law:
+def law_in_stretch(material: Material, factor: float) -> Relaxing:
     """The law of stretching for the kernels, with all stresses times ``factor``."""
-    return as_law(stress_law(material), factor, material.modulus)
+    shares, times, instant = relaxation_of(material)
+    elastic = as_law(stress_law(material), factor * instant, material.modulus)
+    return Relaxing(elastic, shares, times, factor * material.modulus)
 
 
 @lru_cache(maxsize=64)
@@ -73,8 +76,20 @@ def law_of_section(material: Material, factor: float, nu: float) -> BentSection:
     """The law of bent sections for the kernels, with all stresses times ``factor``; nu: nu'."""
     through = material.bend == "section"
     curve = _record_law(material) if through else linear_law(material.modulus)
-    fibre = FibreCurve(*as_law(curve, factor, material.modulus))
-    return BentSection(fibre, 1.0 + nu, 2.0 / 3.0 * (1.0 - nu**2) * fibre.modulus, fibre.modulus)
+    shares, times, instant = relaxation_of(material)
+    elastic = FibreCurve(*as_law(curve, factor * instant, material.modulus))
+    modulus = factor * material.modulus
+    fibre = Relaxing(elastic, shares, times, modulus)
+    radial = 2.0 / 3.0 * (1.0 - nu**2) * modulus
+    return BentSection(fibre, np.array([1.0, -1.0]), np.ones(2), 4.0, 1.0 + nu, radial)
+
+
+@lru_cache(maxsize=64)
+def law_of_hinge(material: Material) -> Relaxing:
+    """The law of linear springs for the kernels, of unit stiffness at the reference time."""
+    shares, times, instant = relaxation_of(material)
+    elastic = FibreCurve(*as_law(linear_law(1.0), instant, 1.0))
+    return Relaxing(elastic, shares, times, 1.0)
 
 
 def as_law(curve: StressLaw, factor: float, modulus: float) -> ElasticCurve:
