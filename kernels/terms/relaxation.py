@@ -14,7 +14,8 @@ as phi is convex. A step of duration dt in which s changes evenly has with x_i =
 x_i' = a_i x_i + c_i (s' - s), a_i = exp(-dt / tau_i), c_i = (1 - a_i) tau_i / dt, so that its
 stress is a multiple of s plus a constant. Both follow from the potential
 
-    scale phi(e) + slope e + const,   scale = 1 - sum g_i (1 - c_i),   slope = sum g_i (a_i x_i - c_i s)
+    scale phi(e) + slope e + const,   scale = 1 - sum g_i (1 - c_i),
+                                      slope = sum g_i (a_i x_i - c_i s)
 
 whose constant makes it the stored energy in a step without duration. A step thus costs hardly more
 than an elastic one; only the commit goes through the branches.

@@ -231,7 +231,9 @@ class Contact(Table):
 
 
 class Damping(Table):
-    """None: chosen by the material and the loading. Rayleigh: `mass` alpha, `stiffness` beta. Kelvin-Voigt: viscosity = modulus x time."""
+    """Rayleigh: `mass` alpha, `stiffness` beta. Kelvin-Voigt: viscosity = modulus x time. None:
+    Rayleigh, or no damping if the material relaxes.
+    """
 
     model: Literal["none", "rayleigh", "kelvin_voigt"] | None = None
     mass: Rate | None = 5.0

@@ -50,7 +50,7 @@ def relaxation_of(material: Material) -> Relaxation:
     else:
         return ELASTIC
     assert material.reference_time is not None
-    left = 1.0 - shares @ -np.expm1(-material.reference_time / times)
+    left = 1.0 + float(shares @ np.expm1(-material.reference_time / times))
     return Relaxation(shares, times, 1.0 / left)
 
 
