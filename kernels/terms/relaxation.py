@@ -30,11 +30,11 @@ import numpy as np
 
 from kernels.compile.jit import jit, jit_exact, jit_owning
 
-STRAIN, STORED, BRANCHES = range(3)  # places in the state of a point; all s_i and all e_i follow
+STRAIN, STORED, MOST, BRANCHES = range(4)  # places in a state; from the last all s_i, all e_i
 SMALL = 1e-2  # of dt / tau: below it `_square` is a series
 NEAR = 1e-4  # difference of two strains between which a curve is straight: its energy is then
 # wrong by less than 1e-8 of that of a strain of 1 %
-MOST = 60  # steps of Newton's method
+TRIES = 60  # steps of Newton's method
 
 
 class Pace(NamedTuple):
@@ -86,7 +86,7 @@ def set_pace(law, duration, pace):
 def begin(law, memory, point):
     """Set slope and constant of the potential of a point for a step at the pace of ``memory``."""
     state, pace, n, slope = memory.committed[point], memory.pace, law.shares.size, 0.0
-    density, stress, _ = law.elastic.respond(state[STRAIN])
+    density, stress, _ = law.elastic.respond(state[STRAIN], state[MOST])
     for i in range(n):
         x = stress - state[BRANCHES + i]
         slope += law.shares[i] * (pace.decay[i] * x - pace.gain[i] * stress)
@@ -97,22 +97,22 @@ def begin(law, memory, point):
 @jit
 def respond(law, strain, memory, point):
     """Return the potential of the step (J/m^3), the stress and its tangent (Pa) at ``strain``."""
-    density, stress, tangent = law.elastic.respond(strain)
-    if law.shares.size == 0:
-        return density, stress, tangent
+    if law.state_size() == 0:
+        return law.elastic.respond(strain, 0.0)
+    density, stress, tangent = law.elastic.respond(strain, memory.committed[point, MOST])
     scale, slope = memory.pace.scale[0], memory.line[point, 1]
     density = scale * density + slope * strain + memory.line[point, 0]
     return density, scale * stress + slope, scale * tangent
 
 
 @jit_exact
-def inverse(elastic, stress, guess):
+def inverse(elastic, most, stress, guess):
     """Return the strain at which an elastic law whose stress rises has ``stress``, from a guess;
-    and its complementary energy, the integral of strain over stress.
+    and its complementary energy, the integral of strain over stress. most: see `softening`.
     """
     low, high, strain = -1.0, math.inf, guess
-    for _ in range(MOST):
-        energy, found, tangent = elastic.respond(strain)
+    for _ in range(TRIES):
+        energy, found, tangent = elastic.respond(strain, most)
         gap = stress - found
         move = gap / tangent
         if abs(move) < NEAR:
@@ -125,46 +125,74 @@ def inverse(elastic, stress, guess):
 
 
 @jit
+def _branch(law, most, strain, response, x, guess):
+    """Return viscous strain, stored energy per share, and secant compliance of a branch whose
+    stress is ``x`` per share. response: of the elastic law at ``strain``.
+    """
+    energy, stress, tangent = response
+    if abs(x) < NEAR * tangent:
+        return strain - x / tangent, 0.5 * x * x / tangent, 1.0 / tangent
+    e, complement = inverse(law.elastic, most, stress - x, guess)
+    return e, energy + complement - (stress - x) * strain, (strain - e) / x
+
+
+@jit
+def _stored(law, strain, state):
+    """Return the stored energy at ``strain`` with the branches of ``state``, J/m^3."""
+    most, n = state[MOST], law.shares.size
+    response = law.elastic.respond(strain, most)
+    energy, stress, _ = response
+    stored = energy
+    for i in range(n):
+        x, guess = stress - state[BRANCHES + i], state[BRANCHES + n + i]
+        e, kept, _ = _branch(law, most, strain, response, x, guess)
+        state[BRANCHES + n + i] = e
+        stored += law.shares[i] * (kept - energy)
+    return stored
+
+
+@jit
 def commit(law, strain, memory, point):
-    """Accept ``strain``: update the branches. Return the stored energy and the dissipation of the
+    """Accept ``strain``: update the state. Return the stored energy and the dissipation of the
     step, J/m^3.
 
     The dissipation is exact where the curve is straight and the strain changes evenly.
     """
-    energy, stress, tangent = law.elastic.respond(strain)
-    n = law.shares.size
-    if n == 0:
-        return energy, 0.0
-    state, pace, flow, dissipated = memory.committed[point], memory.pace, NEAR * tangent, 0.0
-    _, past, past_tangent = law.elastic.respond(state[STRAIN])
-    before, stored, change = state[STRAIN], energy, stress - past
+    if law.state_size() == 0:
+        return law.elastic.respond(strain, 0.0)[0], 0.0
+    state, pace, n, dissipated = memory.committed[point], memory.pace, law.shares.size, 0.0
+    before, most = state[STRAIN], state[MOST]
+    _, past, past_tangent = law.elastic.respond(before, most)
+    response = law.elastic.respond(strain, most)
+    energy, stress, _ = response
+    stored, change = energy, stress - past
     for i in range(n):
         weights, x, e = pace.square[i], past - state[BRANCHES + i], state[BRANCHES + n + i]
         work = weights[0] * x * x + weights[1] * x * change + weights[2] * change * change
         soft = 1.0 / past_tangent if abs(before - e) < NEAR else (before - e) / x
         x = pace.decay[i] * x + pace.gain[i] * change
-        if abs(x) < flow:
-            e, kept = strain - x / tangent, 0.5 * x * x / tangent
-            soft += 1.0 / tangent
-        else:
-            e, complement = inverse(law.elastic, stress - x, e)
-            kept = energy + complement - (stress - x) * strain
-            soft += (strain - e) / x
+        e, kept, softer = _branch(law, most, strain, response, x, e)
         state[BRANCHES + i], state[BRANCHES + n + i] = stress - x, e
-        dissipated += 0.5 * law.shares[i] * soft * work
+        dissipated += 0.5 * law.shares[i] * (soft + softer) * work
         stored += law.shares[i] * (kept - energy)
-    state[STRAIN], state[STORED] = strain, stored
+    state[STRAIN], state[MOST] = strain, law.elastic.greatest(strain, most)
+    if law.elastic.softening > 0.0 and state[MOST] > most:
+        state[STORED] = _stored(law, strain, state)
+        return state[STORED], dissipated + stored - state[STORED]
+    state[STORED] = stored
     return stored, dissipated
 
 
 @jit
 def state_size(law):
-    """Return the length of the state of a point; 0 without branches."""
-    return BRANCHES + 2 * law.shares.size if law.shares.size > 0 else 0
+    """Return the length of the state of a point; 0 without branches and softening."""
+    memory = law.shares.size > 0 or law.elastic.softening > 0.0
+    return BRANCHES + 2 * law.shares.size if memory else 0
 
 
 class Relaxing(NamedTuple):
-    """elastic: law of the instantaneous stress, which rises with the strain if there are branches.
+    """elastic: `Softening` of the instantaneous stress, which rises with the strain if there are
+    branches.
     shares (n,): g_i, which sum to less than 1. times (n,): tau_i in s. modulus: of ``elastic``, Pa.
     """
 

@@ -43,8 +43,11 @@ def resolve(
     try:
         if sound:
             found["lattice"] = sized(found["lattice"], found["material"].density)
-        relaxes = found["material"].relaxes
-        settled = _settled(relaxes, *(found[name] for name in ("lattice", *DEPENDENT)))
+        material = found["material"]
+        settled = _settled(
+            (material.relaxes, material.remembers),
+            *(found[name] for name in ("lattice", *DEPENDENT)),
+        )
         found |= zip(DEPENDENT, settled, strict=True)
         check_bending(found["material"], found["solver"])
         check_section(found["material"], found["solver"])
@@ -57,19 +60,21 @@ def resolve(
 
 @lru_cache(maxsize=4096)  # cases of a sweep share most of their tables
 def _settled(
-    relaxes: bool,
+    memory: tuple[bool, bool],
     lattice: Lattice,
     loading: Loading,
     contact: Contact,
     damping: Damping,
     solver: Solver,
 ) -> tuple[Loading, Contact, Damping, Solver]:
-    """The tables that depend on one another and on the lattice, completed; ``relaxes``: whether the
-    stress of the material depends on time.
+    """The tables that depend on one another and on the lattice, completed; ``memory``: whether the
+    stress of the material depends on time, and on the past.
     """
+    relaxes, remembers = memory
     loading, wish = _loading(loading, lattice, solver.integrator), solver.time_step
-    if relaxes and solver.integrator == ARCS:
-        raise refusal("solver.integrator", ARCS, f'"static" or {IN_TIME} if the material relaxes')
+    if remembers and solver.integrator == ARCS:
+        allowed = f'"static" or {IN_TIME} if the material has a memory'
+        raise refusal("solver.integrator", ARCS, allowed)
     loading = _paced(loading, relaxes, lattice.height)
     solver = settle(solver, loading, lattice, contact.model == "position_based")
     check_steps(solver, loading, wish)

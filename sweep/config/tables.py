@@ -10,6 +10,7 @@ from pydantic_core import PydanticCustomError
 from sweep.config.material_file import REFERENCE_TIME, check_curve, locate, read_record
 
 BY_NUMBERS = "by numbers"
+SOFTENING_BETA = 0.1
 SIGNIFICANT = 12  # digits of a number that enter an id; unit conversions do not change them
 
 Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m"})]
@@ -85,7 +86,8 @@ class Material(Table):
 
     It relaxes if it has a `loss`, the share of the work that is lost in a cycle of loading and
     unloading, or branches: shares of the instantaneous stress, each with the time in which it
-    relaxes. The curve, or the modulus, then holds at `reference_time` after loading.
+    relaxes. The curve, or the modulus, then holds at `reference_time` after loading. It softens on
+    reuse if it has the numbers r, m (J/m^3) and beta of Ogden and Roxburgh.
 
     `curve_strain`, `curve_stress` (k,) in Pa hold the record itself, so that a case needs no file.
     They are empty if neither stretching nor bending uses the curve.
@@ -105,6 +107,9 @@ class Material(Table):
     relaxation_times: Durations = ()
     relaxation_shares: Shares = ()
     reference_time: Duration | None = None
+    softening_r: Annotated[float, Field(gt=1)] | None = None
+    softening_m: Stress | None = None
+    softening_beta: NonNegative | None = None
     curve_strain: Curve = ()
     curve_stress: Curve = ()
 
@@ -112,6 +117,11 @@ class Material(Table):
     def relaxes(self) -> bool:
         """Whether the stress depends on time."""
         return self.loss is not None or bool(self.relaxation_times)
+
+    @property
+    def remembers(self) -> bool:
+        """Whether the stress depends on the past."""
+        return self.relaxes or self.softening_r is not None
 
     @model_validator(mode="before")
     @classmethod
@@ -121,6 +131,10 @@ class Material(Table):
         relaxes = given.get("loss") is not None or given.get("relaxation_times")
         if not relaxes:
             given = {**given, "reference_time": None}
+        if given.get("softening_r") is None:
+            given = {**given, "softening_m": None, "softening_beta": None}
+        else:
+            given = {"softening_beta": SOFTENING_BETA, **given}
         if "modulus" in given and "name" not in given:
             if "density" not in given:
                 raise refusal("material.density", None, "a density, as no name is given")
@@ -144,6 +158,16 @@ class Material(Table):
             raise refusal("material.loss", self.loss, "one of loss and relaxation")
         if sum(shares) >= 1.0:
             raise refusal("material.relaxation", list(shares), "shares whose sum is below 1")
+        return self
+
+    @model_validator(mode="after")
+    def _softens_through_its_sections(self) -> Self:
+        if self.softening_r is None:
+            return self
+        if self.softening_m is None:
+            raise refusal("material.softening_m", None, "a stress, as softening_r is given")
+        if self.bend != "section":
+            raise refusal("material.bend", self.bend, '"section" if softening_r is given')
         return self
 
     @model_validator(mode="after")

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from kernels.terms.elastic import ElasticCurve, FibreCurve
 from kernels.terms.relaxation import Relaxing
 from kernels.terms.section import BentSection
+from kernels.terms.softening import Softening
 from sweep.config.case import Material
 from sweep.config.material_file import TOE, stress_at
 from sweep.scene.relaxation import relaxation_of
@@ -68,7 +69,9 @@ def law_in_stretch(material: Material, factor: float) -> Relaxing:
     """The law of stretching for the kernels, with all stresses times ``factor``."""
     shares, times, instant = relaxation_of(material)
     elastic = as_law(stress_law(material), factor * instant, material.modulus)
-    return Relaxing(elastic, shares, times, factor * material.modulus)
+    return Relaxing(
+        _softening(elastic, material, instant * factor), shares, times, factor * material.modulus
+    )
 
 
 @lru_cache(maxsize=64)
@@ -79,7 +82,7 @@ def law_of_section(material: Material, factor: float, nu: float) -> BentSection:
     shares, times, instant = relaxation_of(material)
     elastic = FibreCurve(*as_law(curve, factor * instant, material.modulus))
     modulus = factor * material.modulus
-    fibre = Relaxing(elastic, shares, times, modulus)
+    fibre = Relaxing(_softening(elastic, material, instant * factor), shares, times, modulus)
     radial = 2.0 / 3.0 * (1.0 - nu**2) * modulus
     return BentSection(fibre, np.array([1.0, -1.0]), np.ones(2), 4.0, 1.0 + nu, radial)
 
@@ -89,7 +92,15 @@ def law_of_hinge(material: Material) -> Relaxing:
     """The law of linear springs for the kernels, of unit stiffness at the reference time."""
     shares, times, instant = relaxation_of(material)
     elastic = FibreCurve(*as_law(linear_law(1.0), instant, 1.0))
-    return Relaxing(elastic, shares, times, 1.0)
+    return Relaxing(Softening(elastic, 0.0, 0.0, 0.0), shares, times, 1.0)
+
+
+def _softening(curve: ElasticCurve | FibreCurve, material: Material, factor: float) -> Softening:
+    """A curve that softens on reuse; factor: of all stresses."""
+    r, m, beta = material.softening_r, material.softening_m, material.softening_beta
+    if r is None or m is None or beta is None:
+        return Softening(curve, 0.0, 0.0, 0.0)
+    return Softening(curve, 1.0 / r, factor * m, beta)
 
 
 def as_law(curve: StressLaw, factor: float, modulus: float) -> ElasticCurve:
