@@ -47,16 +47,21 @@ def curve(law, strain):
 
 
 @jit
+def guard(modulus, strain):
+    """Return the barrier below ``GUARD`` and its two derivatives."""
+    if strain >= GUARD or modulus == 0.0:
+        return 0.0, 0.0, 0.0
+    width = 1.0 + GUARD
+    value, slope, curvature = barrier((1.0 + strain) / width)
+    return modulus * width * width * value, modulus * width * slope, modulus * curvature
+
+
+@jit
 def respond(law, strain):
     """Return energy density W (J/m^3), nominal stress sigma (Pa) and tangent (Pa) at ``strain``."""
     density, stress, tangent = curve(law, strain)
-    if strain < GUARD:
-        width = 1.0 + GUARD
-        value, slope, curvature = barrier((1.0 + strain) / width)
-        density += law.modulus * width * width * value
-        stress += law.modulus * width * slope
-        tangent += law.modulus * curvature
-    return density, stress, tangent
+    value, slope, curvature = guard(law.modulus, strain)
+    return density + value, stress + slope, tangent + curvature
 
 
 @jit

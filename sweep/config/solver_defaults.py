@@ -22,8 +22,8 @@ def check_bending(material: Material, solver: Solver) -> None:
 
 def check_section(material: Material, solver: Solver) -> None:
     """Refuse a section whose curvature is not that of its fibres."""
-    if material.bend == "section" and solver.bend_measure != "angle":
-        allowed = '"angle" if material.bend is "section"'
+    if material.through_fibres and solver.bend_measure != "angle":
+        allowed = f'"angle" if material.bend is "{material.bend}"'
         raise refusal("solver.bend_measure", solver.bend_measure, allowed)
 
 

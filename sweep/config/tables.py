@@ -11,6 +11,8 @@ from sweep.config.material_file import REFERENCE_TIME, check_curve, locate, read
 
 BY_NUMBERS = "by numbers"
 SOFTENING_BETA = 0.1
+FIBRE_COUNT = 7
+FIBRES = '"section" or "fibres"'
 SIGNIFICANT = 12  # digits of a number that enter an id; unit conversions do not change them
 
 Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m"})]
@@ -37,6 +39,7 @@ Shares = Annotated[tuple[Strain, ...], Field(strict=False)]
 Loss = Annotated[float, Field(gt=0, le=0.8, json_schema_extra={"unit": "1", "bare": True})]
 # A million rows of history take 120 MB, and a million steps of one square cell half a minute.
 MAX_STEPS = 1_000_000
+Positive = Annotated[float, Field(gt=0, json_schema_extra={"unit": "1", "bare": True})]
 NonNegative = Annotated[float, Field(ge=0)]
 
 
@@ -77,7 +80,7 @@ def rounded(value: object) -> object:
     return [rounded(item) for item in value] if isinstance(value, tuple) else value
 
 
-BY_CURVE = {"stretch": ("nonlinear",), "bend": ("section",)}
+BY_CURVE = {"stretch": ("nonlinear",), "bend": ("section", "fibres")}
 """Laws that go by the record's curve, by their keys."""
 
 
@@ -87,7 +90,11 @@ class Material(Table):
     It relaxes if it has a `loss`, the share of the work that is lost in a cycle of loading and
     unloading, or branches: shares of the instantaneous stress, each with the time in which it
     relaxes. The curve, or the modulus, then holds at `reference_time` after loading. It softens on
-    reuse if it has the numbers r, m (J/m^3) and beta of Ogden and Roxburgh.
+    reuse if it has the numbers r, m (J/m^3) and beta of Ogden and Roxburgh. It yields, instead of
+    following a curve, if it has a `yield_stress`; `hardening` is its slope beyond that over plastic
+    strain. A fibre that is stretched beyond `fracture_strain` counts as broken.
+
+    `bend` "fibres" is "section" with `fibres` points through the thickness in place of three.
 
     `curve_strain`, `curve_stress` (k,) in Pa hold the record itself, so that a case needs no file.
     They are empty if neither stretching nor bending uses the curve.
@@ -97,7 +104,8 @@ class Material(Table):
 
     name: str = "ninjaflex"
     stretch: Literal["nonlinear", "linear"] = "nonlinear"
-    bend: Literal["linear", "section", "none"] = "section"
+    bend: Literal["linear", "section", "fibres", "none"] = "section"
+    fibres: Annotated[int, Field(ge=4, le=15)] | None = None
     plane: Literal["strain", "stress", "strain_bending"] = "strain"
     # Filled in from the record before validation, which refuses the zeros if they remain.
     modulus: Stress = Field(default=0.0, validate_default=True)
@@ -110,6 +118,9 @@ class Material(Table):
     softening_r: Annotated[float, Field(gt=1)] | None = None
     softening_m: Stress | None = None
     softening_beta: NonNegative | None = None
+    yield_stress: Stress | None = None
+    hardening: Annotated[float, Field(ge=0, json_schema_extra={"unit": "Pa"})] | None = None
+    fracture_strain: Positive | None = None
     curve_strain: Curve = ()
     curve_stress: Curve = ()
 
@@ -121,7 +132,17 @@ class Material(Table):
     @property
     def remembers(self) -> bool:
         """Whether the stress depends on the past."""
-        return self.relaxes or self.softening_r is not None
+        return self.relaxes or self.softening_r is not None or self.yields
+
+    @property
+    def yields(self) -> bool:
+        """Whether it deforms plastically."""
+        return self.yield_stress is not None
+
+    @property
+    def through_fibres(self) -> bool:
+        """Whether bending goes by fibres through the thickness."""
+        return self.bend in ("section", "fibres")
 
     @model_validator(mode="before")
     @classmethod
@@ -135,6 +156,7 @@ class Material(Table):
             given = {**given, "softening_m": None, "softening_beta": None}
         else:
             given = {"softening_beta": SOFTENING_BETA, **given}
+        given = _with_plasticity(given)
         if "modulus" in given and "name" not in given:
             if "density" not in given:
                 raise refusal("material.density", None, "a density, as no name is given")
@@ -166,15 +188,17 @@ class Material(Table):
             return self
         if self.softening_m is None:
             raise refusal("material.softening_m", None, "a stress, as softening_r is given")
-        if self.bend != "section":
-            raise refusal("material.bend", self.bend, '"section" if softening_r is given')
+        if not self.through_fibres:
+            raise refusal("material.bend", self.bend, f"{FIBRES} if softening_r is given")
         return self
 
     @model_validator(mode="after")
     def _has_its_curve(self) -> Self:
         chosen = [(key, getattr(self, key)) for key in BY_CURVE]
         used = [(key, word) for key, word in chosen if word in BY_CURVE[key]]
-        if used:
+        if self.yields:
+            self._check_plasticity()
+        elif used:
             if not self.curve_strain:
                 key, word = used[0]
                 raise refusal(f"material.{key}", word, '"linear", as no curve is given')
@@ -182,6 +206,29 @@ class Material(Table):
         elif self.curve_strain:
             raise refusal("material.curve_strain", self.curve_strain, "no curve if linear")
         return self
+
+    def _check_plasticity(self) -> None:
+        """Refuse a plastic material with other laws beside."""
+        if self.stretch != "linear":
+            raise refusal("material.stretch", self.stretch, '"linear" if yield_stress is given')
+        if not self.through_fibres:
+            raise refusal("material.bend", self.bend, f"{FIBRES} if yield_stress is given")
+        if self.relaxes or self.softening_r is not None:
+            other = (
+                "loss" if self.loss is not None else "relaxation" if self.relaxes else "softening_r"
+            )
+            raise refusal("material.yield_stress", self.yield_stress, f"none if {other} is given")
+
+
+def _with_plasticity(given: dict[str, Any]) -> dict[str, Any]:
+    """The given keys with the defaults of fibres and of a material that yields."""
+    if given.get("yield_stress") is not None:
+        given = {"stretch": "linear", "bend": "fibres", "hardening": 0.0, **given}
+    else:
+        given = {**given, "hardening": None, "fracture_strain": None}
+    if given.get("bend") == "fibres":
+        return {"fibres": FIBRE_COUNT, **given}
+    return {**given, "fibres": None}
 
 
 # Keys that imply the mode.

@@ -7,6 +7,7 @@ from sweep.config.case import Case
 from sweep.config.solver_defaults import ARCS
 from sweep.config.structure import Structure
 
+PLASTICITY = ("material.hardening", "material.fracture_strain")
 SOFTENING = ("material.softening_m", "material.softening_beta")
 STEADY = "the stress of the material does not depend on time: it has neither loss nor relaxation"
 
@@ -49,6 +50,10 @@ def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
     resolved = getattr(getattr(case, table), name)
     if key == "material.reference_time" and not case.material.relaxes:
         return STEADY
+    if key == "material.fibres" and case.material.fibres is None:
+        return f'material.bend is "{case.material.bend}"'
+    if key in PLASTICITY and not case.material.yields:
+        return "material.yield_stress is not given"
     if key in SOFTENING and case.material.softening_r is None:
         return "material.softening_r is not given"
     if key == "material.poisson" and case.material.plane == "stress":

@@ -5,18 +5,16 @@ import numpy as np
 from kernels.terms import bend, fold
 from sweep.config.case import Case
 from sweep.scene.beams import Beams, bends, contraction, plane_factors
-from sweep.scene.material import law_of_hinge, law_of_section
+from sweep.scene.material import FIBRE, OUTER, law_of_hinge, law_of_section
 from sweep.scene.mesh import Floats, Mesh
 
-FIBRE = np.sqrt(3.0 / 20.0)  # of a thickness: place of the outer Gauss points, which weigh 5/18
-OUTER = 5.0 / 18.0
 ALONG = {"cubic": np.sqrt(3.0), "classical": 1.0}  # s_1 over s_0, without shear
 
 
 def build_bend(mesh: Mesh, beams: Beams, case: Case) -> bend.Bend:
     """The data of bending."""
     material = case.material
-    through = slice(None if material.bend == "section" else 0)
+    through = slice(None if material.through_fibres else 0)
     spread, volume, shear = (part[..., through] for part in _sections(mesh, beams, case))
     return bend.Bend(
         measure=bend.TANGENT if case.solver.bend_measure == "tangent" else bend.ANGLE,

@@ -18,15 +18,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kernels.terms.elastic import ElasticCurve, FibreCurve
+from kernels.terms.fibre import Fibre
 from kernels.terms.relaxation import Relaxing
 from kernels.terms.section import BentSection
 from kernels.terms.softening import Softening
+from kernels.terms.yielding import Yielding
 from sweep.config.case import Material
 from sweep.config.material_file import TOE, stress_at
 from sweep.scene.relaxation import relaxation_of
 
 Floats = NDArray[np.float64]
 
+FIBRE = np.sqrt(3.0 / 20.0)  # of a thickness: place of the outer of three Gauss points
+OUTER = 5.0 / 18.0  # weight of these
+MIDDLE = 1e-9  # of half a thickness: nearer points are in the middle
 LOWER_WEIGHT, UPPER_WEIGHT = 0.7, 0.3
 COMPRESSION = -np.array(
     [
@@ -65,34 +70,54 @@ def _record_law(material: Material) -> StressLaw:
 
 
 @lru_cache(maxsize=64)
-def law_in_stretch(material: Material, factor: float) -> Relaxing:
+def law_in_stretch(material: Material, factor: float) -> Fibre:
     """The law of stretching for the kernels, with all stresses times ``factor``."""
-    shares, times, instant = relaxation_of(material)
-    elastic = as_law(stress_law(material), factor * instant, material.modulus)
-    return Relaxing(
-        _softening(elastic, material, instant * factor), shares, times, factor * material.modulus
-    )
+    return _fibre(material, stress_law(material), ElasticCurve, factor)
 
 
 @lru_cache(maxsize=64)
 def law_of_section(material: Material, factor: float, nu: float) -> BentSection:
-    """The law of bent sections for the kernels, with all stresses times ``factor``; nu: nu'."""
-    through = material.bend == "section"
-    curve = _record_law(material) if through else linear_law(material.modulus)
-    shares, times, instant = relaxation_of(material)
-    elastic = FibreCurve(*as_law(curve, factor * instant, material.modulus))
-    modulus = factor * material.modulus
-    fibre = Relaxing(_softening(elastic, material, instant * factor), shares, times, modulus)
-    radial = 2.0 / 3.0 * (1.0 - nu**2) * modulus
-    return BentSection(fibre, np.array([1.0, -1.0]), np.ones(2), 4.0, 1.0 + nu, radial)
+    """The law of bent sections for the kernels, with all stresses times ``factor``; nu: nu'.
+
+    The radial stress of a wall that yields is left out.
+    """
+    curve = _record_law(material) if material.curve_strain else linear_law(material.modulus)
+    fibre = _fibre(material, curve, FibreCurve, factor)
+    radial = 0.0 if material.yields else 2.0 / 3.0 * (1.0 - nu**2) * fibre.modulus
+    place, weight = _fibres(material.fibres or 3)
+    return BentSection(fibre, place, weight, 2.0 * float(weight.sum()), 1.0 + nu, radial)
+
+
+def _fibres(count: int) -> tuple[Floats, Floats]:
+    """Places and weights of ``count`` Gauss points but the middle one, in those of the outer two of
+    three.
+    """
+    place, weight = np.polynomial.legendre.leggauss(count)
+    outer = np.abs(place) > MIDDLE
+    return 0.5 / FIBRE * place[outer], 0.5 / OUTER * weight[outer]
 
 
 @lru_cache(maxsize=64)
-def law_of_hinge(material: Material) -> Relaxing:
+def law_of_hinge(material: Material) -> Fibre:
     """The law of linear springs for the kernels, of unit stiffness at the reference time."""
     shares, times, instant = relaxation_of(material)
-    elastic = FibreCurve(*as_law(linear_law(1.0), instant, 1.0))
-    return Relaxing(Softening(elastic, 0.0, 0.0, 0.0), shares, times, 1.0)
+    curve = FibreCurve(*as_law(linear_law(1.0), instant, 1.0))
+    relaxing = Relaxing(Softening(curve, 0.0, 0.0, 0.0), shares, times, 1.0)
+    return Fibre(relaxing, Yielding(1.0, 0.0, 0.0, 0.0), 1.0)
+
+
+def _fibre(
+    material: Material, curve: StressLaw, kind: type[ElasticCurve | FibreCurve], factor: float
+) -> Fibre:
+    """The law of a material point; kind: a wall, which has a barrier, or a fibre of its section."""
+    shares, times, instant = relaxation_of(material)
+    elastic = kind(*as_law(curve, factor * instant, material.modulus))
+    modulus = factor * material.modulus
+    relaxing = Relaxing(_softening(elastic, material, instant * factor), shares, times, modulus)
+    guarded = modulus if kind is ElasticCurve else 0.0
+    limit, hardening = material.yield_stress or 0.0, material.hardening or 0.0
+    yielding = Yielding(modulus, factor * limit, factor * hardening, guarded)
+    return Fibre(relaxing, yielding, modulus)
 
 
 def _softening(curve: ElasticCurve | FibreCurve, material: Material, factor: float) -> Softening:
