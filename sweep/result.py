@@ -33,6 +33,8 @@ OLDER: dict[str, float | int | str] = {
     "packing_strain": nan,
     "packing_span": nan,
     "plateau_stress_iso_Pa": nan,
+    "greatest_fibre_strain": nan,
+    "broke_at_strain": nan,
 }
 """Values of columns that rows of older versions do not have.
 
@@ -83,7 +85,9 @@ class Result:
 COLUMNS: dict[str, Column] = {
     "case_id": Column("", "hash of all parameters of the case"),
     "status": Column("", "converged, stopped, timed_out or worker_died"),
-    "message": Column("", "why the case did not converge and what to try; empty if it did"),
+    "message": Column(
+        "", "why the case did not converge and what to try, or where it broke; else empty"
+    ),
     "lattice_kind": Column("", "family of the infill pattern"),
     "cells_x": Column("1", "cells across the width"),
     "cells_y": Column("1", "cells over the height"),
@@ -121,7 +125,8 @@ COLUMNS: dict[str, Column] = {
     ),
     "absorbed_energy_within_model_J": Column(
         "J",
-        "work done until an element is shorter than 0.7 of its rest length; all of it if none is",
+        "work done until an element is shorter than 0.7 of its rest length or a wall breaks; all "
+        "of it if neither happens",
         "more",
     ),
     "returned_energy_J": Column(
@@ -202,6 +207,12 @@ COLUMNS: dict[str, Column] = {
     ),
     "least_element_strain": Column("1", "least element strain in any stored shape", "more"),
     "greatest_element_strain": Column("1", "greatest element strain in any stored shape", "less"),
+    "greatest_fibre_strain": Column(
+        "1", "greatest strain of the surface of a wall in any stored shape", "less"
+    ),
+    "broke_at_strain": Column(
+        "1", "strain at which a fibre exceeds material.fracture_strain; NaN if none does", "more"
+    ),
     "kept_area": Column(
         "1",
         "area covered by walls at the greatest strain / at rest; 1 for incompressible walls",

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from shapely import intersects, linestrings
 
 from kernels.geometry import crossing
+from kernels.terms.bend import Bend
 from kernels.terms.elements import Walls
 from kernels.terms.stretch import Stretch
 from sweep.design.area import covered_area
@@ -21,6 +22,7 @@ from sweep.design.area import covered_area
 Floats = NDArray[np.float64]
 Frames = Mapping[str, np.ndarray]
 
+SURFACE = np.sqrt(5.0 / 3.0)  # place of the surface of a wall over that of `terms.bend`
 SQUEEZED = -0.3  # element strain below which the model does not hold
 CHUNK = 1 << 16  # pairs in one call of shapely
 
@@ -30,6 +32,41 @@ def element_strains(x: Floats, walls: Walls, stretch: Stretch) -> Floats:
 
     x (f, n): coordinates of the stored shapes.
     """
+    length, one, two = _deformations(x, walls)
+    same, mixed = stretch.arc
+    return np.asarray(length / stretch.l0 - 1.0 + same * (one**2 + two**2) + mixed * one * two)
+
+
+def surface_strains(x: Floats, walls: Walls, strains: Floats, bend: Bend) -> Floats:
+    """Nominal strain of the most stretched surface of every element, (f, m).
+
+    x as in `element_strains`, whose result is ``strains``. Elements that do not bend through their
+    section, such as solid joints, count with their strain alone.
+    """
+    if bend.volume.size == 0:
+        return strains
+    _, one, two = _deformations(x, walls)
+    across, along = bend.spread[0] * (two - one), bend.spread[1] * (one + two)
+    bent = SURFACE * np.maximum(np.abs(across + along), np.abs(across - along))
+    m, stretched = bend.section.m, 1.0 + strains
+    surface = (stretched**m + m * bent) ** (1.0 / m) - 1.0  # closed form of `terms.section`
+    return np.asarray(np.where(bend.volume > 0.0, surface, strains))
+
+
+def moment_of(values: Floats, limit: float, stored: Floats) -> float:
+    """Time (s) at which ``values`` (f,) first exceed a limit, interpolated; NaN if they never do.
+
+    stored (f,): times of the shapes that they are of.
+    """
+    beyond = np.flatnonzero(values > limit)
+    if len(beyond) == 0:
+        return float("nan")
+    at = slice(max(beyond[0] - 1, 0), beyond[0] + 1)
+    return float(np.interp(limit, values[at], stored[at]))
+
+
+def _deformations(x: Floats, walls: Walls) -> tuple[Floats, Floats, Floats]:
+    """Length (m) and turns of both ends (rad) of every element in every stored shape, (f, m)."""
     ends = x[:, walls.dofs]
     along = ends[..., 3:5] - ends[..., :2]
     bearing = np.arctan2(along[..., 1], along[..., 0])
@@ -37,24 +74,21 @@ def element_strains(x: Floats, walls: Walls, stretch: Stretch) -> Floats:
     one, two = (
         np.remainder(bearing - rest - ends[..., phi] + np.pi, 2.0 * np.pi) - np.pi for phi in (2, 5)
     )
-    same, mixed = stretch.arc
-    arc = same * (one**2 + two**2) + mixed * one * two
-    return np.asarray(np.hypot(*np.moveaxis(along, -1, 0)) / stretch.l0 - 1.0 + arc)
+    return np.hypot(*np.moveaxis(along, -1, 0)), one, two
 
 
-def work_within_model(strains: Floats, stored: Floats, time: Floats, work: Floats) -> float:
-    """Work (J) done until an element strain is first below `SQUEEZED`; all of it if none is.
+def work_within_model(
+    strains: Floats, broken: float, stored: Floats, time: Floats, work: Floats
+) -> float:
+    """Work (J) done until an element strain is first below `SQUEEZED`, or until a wall is broken;
+    all of it if neither happens.
 
-    strains (f, m): of the elements in the stored shapes. stored (f,): times of these shapes, s.
-    time (rows,) s, work (rows,) J: of the loading. Interpolated between stored shapes.
+    strains (f, m): of the elements in the stored shapes. broken: time of the break, s; NaN: none.
+    stored (f,): times of these shapes, s. time (rows,) s, work (rows,) J: of the loading.
     """
-    least = strains.min(axis=1)
-    beyond = np.flatnonzero(least < SQUEEZED)
-    if len(beyond) == 0:
-        return float(work[-1])
-    at = slice(beyond[0] - 1, beyond[0] + 1)
-    moment = np.interp(-SQUEEZED, -least[at], stored[at])
-    return float(np.interp(moment, time, work))
+    squeezed = moment_of(-strains.min(axis=1), -SQUEEZED, stored)
+    moment = np.fmin(squeezed, broken)
+    return float(work[-1] if np.isnan(moment) else np.interp(moment, time, work))
 
 
 def kept_area(frames: Frames) -> float:

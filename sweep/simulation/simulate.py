@@ -22,7 +22,7 @@ from sweep.scene.mesh import Floats
 from sweep.scene.periodic import build_periodic
 from sweep.scene.terms import Scene
 from sweep.simulation.custom_history import structure_columns
-from sweep.simulation.shape_checks import element_strains
+from sweep.simulation.shape_checks import element_strains, surface_strains
 from sweep.simulation.summary import BOOK, history_columns, summarise
 from sweep.simulation.time_limit import WATCH
 
@@ -73,7 +73,11 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
     frames = run.frames()
     shapes = run.positions[: len(frames["time_s"])]
     strains = element_strains(shapes, scene.terms.walls, scene.terms.stretch)
-    summary = summarise(case, scene, curves, frames, strains, run.loading_rows)
+    surface = surface_strains(shapes, scene.terms.walls, strains, scene.terms.bend)
+    summary = summarise(case, scene, curves, frames, (strains, surface), run.loading_rows)
+    broke = summary["broke_at_strain"]
+    if status == Status.CONVERGED and broke == broke:
+        message = f"broke at a strain of {broke:.3g}: later rows are those of unbroken walls"
     case_id = case.case_id
     summary |= {
         "case_id": case_id,

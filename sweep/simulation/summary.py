@@ -3,6 +3,7 @@
 import numpy as np
 
 from sweep.config.case import Case
+from sweep.config.solver_defaults import given_or
 from sweep.design.network import mass, relative_density
 from sweep.result import absorbed_energy_column, design_columns
 from sweep.scene.mesh import Floats
@@ -12,6 +13,7 @@ from sweep.simulation.shape_checks import (
     Frames,
     crossings,
     kept_area,
+    moment_of,
     shortening,
     work_within_model,
 )
@@ -108,13 +110,13 @@ def summarise(
     scene: Scene,
     history: dict[str, Floats],
     frames: Frames,
-    strains: Floats,
+    strains: tuple[Floats, Floats],
     loading_rows: int,
 ) -> dict[str, float | int | str]:
     """Summary columns of a run.
 
-    strains (f, m): of the elements in the stored shapes. loading_rows: number of rows of the
-    history that are loading.
+    strains (f, m): of the elements in the stored shapes, and of their most stretched surfaces.
+    loading_rows: number of rows of the history that are loading.
     """
     curves = history | {"work_in_J": work_on_lattice(case, history)}
     loading = {name: column[:loading_rows] for name, column in curves.items()}
@@ -138,7 +140,7 @@ def summarise(
         "touched": int(any(np.any(history[name] != 0.0) for name in TOUCHING)),
         **impact_columns(case, scene, history),
         **crush_columns(case, loading),
-        **shape_columns(scene, frames, strains, loading),
+        **shape_columns(case, scene, frames, strains, loading),
     }
 
 
@@ -201,21 +203,29 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
 
 
 def shape_columns(
-    scene: Scene, frames: Frames, strains: Floats, loading: dict[str, Floats]
+    case: Case,
+    scene: Scene,
+    frames: Frames,
+    strains: tuple[Floats, Floats],
+    loading: dict[str, Floats],
 ) -> dict[str, float | int]:
     """Columns from the stored shapes, and the work done while the model holds.
 
-    strains (f, m): of the elements.
+    strains (f, m): of the elements, and of their most stretched surfaces.
     """
-    network = scene.network
+    network, (along, surface) = scene.network, strains
+    limit = given_or(case.material.fracture_strain, np.inf)
+    broken = moment_of(surface.max(axis=1), limit, frames["time_s"])
     walls = np.concatenate([frames["edges"], scene.around])
     return {
         "residual_strain": shortening(frames, network.bottom, network.top),
-        "least_element_strain": float(strains.min()),
-        "greatest_element_strain": float(strains.max()),
+        "least_element_strain": float(along.min()),
+        "greatest_element_strain": float(along.max()),
         "kept_area": kept_area(frames),
+        "greatest_fibre_strain": float(surface.max()),
+        "broke_at_strain": float(np.interp(broken, loading["time_s"], loading["strain"])),
         "absorbed_energy_within_model_J": work_within_model(
-            strains, frames["time_s"], loading["time_s"], loading["work_in_J"]
+            along, broken, frames["time_s"], loading["time_s"], loading["work_in_J"]
         ),
         "max_crossings": crossings({**frames, "edges": walls}),
     }
