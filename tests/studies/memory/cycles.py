@@ -50,8 +50,8 @@ def losses(rows):
             shares.append(tenths(1.0 - row["returned_energy_J"] / row["absorbed_energy_J"]))
         table.append([pattern, LOOSE[platen], f"{friction:g}", *shares])
     notes = (
-        "Share of the work of a crush to 2 and 60 % that is not given back, in %. Heads: loss of the",
-        "material, that of a strip which is stretched and released evenly. –: stopped.",
+        "Share of the work of a crush to 2 and 60 % that is not given back, in %. Heads: loss of",
+        "the material, that of a strip which is stretched and released evenly. –: stopped.",
     )
     return Sheet("Loss of a lattice and of its material", heads, table, notes=notes)
 
