@@ -13,8 +13,10 @@ from kernels.planar.problem import PlanarScene
 from kernels.solve.integrators import Ahead
 from kernels.terms import bend, contact, damping, elements, stretch
 from kernels.terms.law import Memory
+from kernels.terms.relaxation import Pace
 
-NO_MEMORY = Memory(np.empty((0, 0)), 0.0)
+NO_PACE = Pace(np.empty(0), np.empty(0), np.empty((0, 3)), np.ones(1))
+NO_MEMORY = Memory(np.empty((0, 0)), np.empty((0, 2)), NO_PACE)
 NO_STRETCH = stretch.Stretch(np.empty(0), np.empty(0), np.empty((2, 0)), True)
 
 
