@@ -206,6 +206,11 @@ class Reader:
         line = f"{where} {_one_line(name)} = {in_words(raw)}: {wrong}".lstrip()
         self.faults.append(Fault(about or name, line))
 
+    def _in_si(self, key: Key, raw: Any) -> Any:
+        """A single value in SI; ValueError without its unit."""
+        bare = key.unit is None or (key.bare and isinstance(raw, int | float))
+        return raw if bare else self.to_si(raw, key.unit or "")
+
     def _checked(self, key: Key, raw: Any) -> Any:
         """A value in SI; raises ValueError with the reason if it is wrong."""
         if key.targets == ("material.name",) and isinstance(raw, str):
@@ -213,9 +218,7 @@ class Reader:
         if key.targets == ("lattice.file",) and isinstance(raw, str):
             return _structure(self.folder / raw)
         many = isinstance(raw, list)
-        value: Any = raw
-        if key.unit and not (key.bare and isinstance(raw, int | float)):
-            value = [self.to_si(v, key.unit) for v in raw] if many else self.to_si(raw, key.unit)
+        value: Any = [self._in_si(key, v) for v in raw] if many else self._in_si(key, raw)
         try:
             return key.adapter.validate_python(tuple(value) if many else value)
         except ValidationError as error:

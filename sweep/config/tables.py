@@ -2,6 +2,7 @@
 
 import json
 from functools import lru_cache
+from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
@@ -175,11 +176,11 @@ class Material(Table):
     def _relaxes_in_part(self) -> Self:
         times, shares = self.relaxation_times, self.relaxation_shares
         if len(times) != len(shares):
-            raise refusal("material.relaxation", list(times), "a share for each time")
+            raise refusal("material.relaxation_shares", list(shares), "a share for each time")
         if times and self.loss is not None:
             raise refusal("material.loss", self.loss, "one of loss and relaxation")
         if sum(shares) >= 1.0:
-            raise refusal("material.relaxation", list(shares), "shares whose sum is below 1")
+            raise refusal("material.relaxation_shares", list(shares), "shares whose sum is below 1")
         return self
 
     @model_validator(mode="after")
@@ -190,6 +191,18 @@ class Material(Table):
             raise refusal("material.softening_m", None, "a stress, as softening_r is given")
         if not self.through_fibres:
             raise refusal("material.bend", self.bend, f"{FIBRES} if softening_r is given")
+        return self
+
+    @model_validator(mode="after")
+    def _rises_if_it_remembers(self) -> Self:
+        """The energies of `kernels.terms.relaxation` need a stress that rises with the strain."""
+        points = list(zip(self.curve_strain, self.curve_stress, strict=False))
+        falls = next((e for (e, s), (_, t) in pairwise(points) if t <= s), None)
+        if self.remembers and not self.yields and falls is not None:
+            key = "loss" if self.loss is not None else "relaxation_times"
+            key = key if self.relaxes else "softening_r"
+            allowed = f"none, as the stress of the curve does not rise beyond a strain of {falls:g}"
+            raise refusal(f"material.{key}", getattr(self, key), allowed)
         return self
 
     @model_validator(mode="after")
