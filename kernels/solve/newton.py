@@ -22,6 +22,7 @@ DUAL_HALVINGS = 3  # after more halvings the duals of lagged forces are reset
 SLOW_REDUCTION = 0.1  # a reused factor is renewed if the ratio of two residuals is larger
 LEAST_SHARE = 1e-12  # of a move: a shorter one is a stall
 RESOLVED = 1e-11  # relative energy changes below it are round-off
+MOST_CUT_MOVES = 20  # of a dynamic step: more do not pay, as a shorter step is easier
 DESCENT = np.dtype(
     (
         np.record,  # for attributes in plain Python too
@@ -32,6 +33,7 @@ DESCENT = np.dtype(
             ("travel_bound", np.float64),  # move that the neighbour lists must cover, m
             ("iterations", np.int64),  # of the last minimisation
             ("decrement", np.float64),  # of Newton where it converged, J
+            ("cut_moves", np.int64),  # of the step, shortened by `Coordinates.cap` or a step limit
         ],
     )
 )
@@ -179,7 +181,7 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
     found, work, coordinates = space.found, space.work, problem.scene.coordinates
     outcome, iteration, halvings = ITERATIONS, 0 if evaluated else -1, 0
     new_direction, line_search, accepted, accept_any = not evaluated, not evaluated, evaluated, True
-    uncapped = _reaches_target(x, work.dx, target, coordinates.driven)
+    shortened, uncapped = False, _reaches_target(x, work.dx, target, coordinates.driven)
     projected, balanced = False, False
     value, remaining, share, size, duals_fit = 0.0, 0.0, 0.0, 0.0, True
     model, escape = (0.0, 0.0), (0.0, 0.0)
@@ -194,6 +196,9 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
             share = problem.step_limit(x, work.dx, descent.travel_bound)
             if share < LEAST_SHARE:
                 outcome = STALLED
+                break
+            descent.cut_moves += share < 1.0 or shortened
+            if step.dynamic and descent.cut_moves > MOST_CUT_MOVES:
                 break
             new_direction, line_search, halvings = False, True, 0
             _set_trial(x, work, share)
@@ -252,7 +257,7 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
         model, longest, uncapped = _choose_move(
             slope, stable, accept_any, escape, coordinates, remaining, work
         )
-        new_direction = True
+        shortened, new_direction = not uncapped, True
     if outcome == OUTGROWN and iteration >= 0:
         zero(work.dx)
     descent.iterations = max(iteration, 0)
