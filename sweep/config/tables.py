@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from sweep.config.material_file import REFERENCE_TIME, check_curve, locate, read_record
+from sweep.config.material_file import REFERENCE_TIME, check_curve, locate, not_rising, read_record
 
 BY_NUMBERS = "by numbers"
 SOFTENING_BETA = 0.1
@@ -175,11 +175,11 @@ class Material(Table):
     def _relaxes_in_part(self) -> Self:
         times, shares = self.relaxation_times, self.relaxation_shares
         if len(times) != len(shares):
-            raise refusal("material.relaxation", list(times), "a share for each time")
+            raise refusal("material.relaxation_times", list(times), "a time for each share")
         if times and self.loss is not None:
             raise refusal("material.loss", self.loss, "one of loss and relaxation")
         if sum(shares) >= 1.0:
-            raise refusal("material.relaxation", list(shares), "shares whose sum is below 1")
+            raise refusal("material.relaxation_shares", list(shares), "shares whose sum is below 1")
         return self
 
     @model_validator(mode="after")
@@ -203,9 +203,19 @@ class Material(Table):
                 key, word = used[0]
                 raise refusal(f"material.{key}", word, '"linear", as no curve is given')
             check_curve(self.curve_strain, self.curve_stress)
+            self._check_that_it_rises()
         elif self.curve_strain:
             raise refusal("material.curve_strain", self.curve_strain, "no curve if linear")
         return self
+
+    def _check_that_it_rises(self) -> None:
+        """Refuse a material that relaxes if its stress does not rise with strain."""
+        at = not_rising(self.curve_strain, self.curve_stress) if self.relaxes else None
+        if at is not None:
+            key = "relaxation_times" if self.loss is None else "loss"
+            value = list(self.relaxation_times) if self.loss is None else self.loss
+            falls = f"the stress of {self.name} does not rise from a strain of {at:g} on"
+            raise refusal(f"material.{key}", value, f"none, as {falls}")
 
     def _check_plasticity(self) -> None:
         """Refuse a plastic material with other laws beside."""
