@@ -53,7 +53,7 @@ class Pace(NamedTuple):
 @jit_exact
 def _square(z, decay, gain):
     """Return the weights of `Pace.square` for z = dt / tau."""
-    mixed = gain * (1.0 - decay)
+    mixed = z * gain * gain
     if z < SMALL:
         last = z * (1.0 / 3.0 - z * (1.0 / 4.0 - z * (7.0 / 60.0 - z / 24.0)))
     else:
