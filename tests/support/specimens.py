@@ -34,6 +34,7 @@ _DEFAULTS = {
     "densification_strain": 0.55,
     "packing_strain": 0.54,
     "packing_span": 0.02,
+    "second_cycle_share": float("nan"),
     "touched": 1,
     "max_crossings": 0,
     "cpu_s": 2.0,
