@@ -22,12 +22,11 @@ WHOLE = """\
 pack: strain at which the lattice has packed down: mean over those of nearly the best efficiency.
 back: returned energy / work of the whole crush."""
 AGAIN = "again: energy absorbed in the second cycle / in the first; other columns are of the first."
-MISSING = "friction, damping, snaps or time steps"
-ELASTIC = f"Walls are elastic, without loss: what is missing from 100 % is {MISSING}."
+ELASTIC = "Walls are elastic: what is missing from 100 % is friction, damping, snaps or time steps."
 LOSSY = "What is missing from 100 % is lost in the material first of all."
-MIXED = f"""\
-Walls without memory are elastic: what is missing from 100 % is {MISSING}.
-What is missing for the others is lost in the material first of all."""
+MIXED = """\
+Where memory is "none", walls are elastic: what is missing from 100 % is friction, damping, snaps
+or time steps. Elsewhere it is lost in the material first of all."""
 LOADED = "sink: greatest strain under the load, including its swing."
 STRUCK = """\
 force: greatest force on the support. left: stroke that closes all voids - greatest stroke.
