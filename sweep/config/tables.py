@@ -31,6 +31,7 @@ Mass = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
 Density = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg/m^3"})]
 Count = Annotated[int, Field(ge=1)]
 Few = Annotated[int, Field(ge=1, le=1000)]  # a typo must not fill the memory
+Cycles = Annotated[int, Field(ge=1, le=100)]
 # JSON returns lists, so that lists are accepted too.
 Curve = Annotated[tuple[float, ...], Field(strict=False)]
 Forces = Annotated[tuple[Force, ...], Field(strict=False)]
@@ -133,6 +134,13 @@ class Material(Table):
     def remembers(self) -> bool:
         """Whether the stress depends on the past."""
         return self.relaxes or self.softening_r is not None or self.yields
+
+    @property
+    def memory(self) -> str:
+        """What the walls do that springs do not: "relaxes, softens" and the like, or "none"."""
+        softens = self.softening_r is not None
+        words = {"relaxes": self.relaxes, "softens": softens, "yields": self.yields}
+        return ", ".join(word for word, true in words.items() if true) or "none"
 
     @property
     def yields(self) -> bool:
@@ -244,7 +252,10 @@ def _with_plasticity(given: dict[str, Any]) -> dict[str, Any]:
 # Keys that imply the mode.
 MODES = {
     "force": ("force", "release_time"),
-    "displacement": ("stroke", "strain", "speed", "strain_rate", "quasi_static", "unload"),
+    "displacement": (
+        *("stroke", "strain", "speed", "strain_rate"),
+        *("quasi_static", "unload", "cycles"),
+    ),
     "impact": ("striker_mass", "striker_speed", "energy"),
 }
 
@@ -253,8 +264,11 @@ class Loading(Table):
     """The loading of the specimen. None: not given, or not used by the mode.
 
     If the mode is not given, keys that only one mode has imply it. The mode of a custom structure
-    is "custom": the file of the structure has its loading.
+    is "custom": the file of the structure has its loading. `cycles`: how often a platen moves down
+    and back up.
     """
+
+    neutral: ClassVar[dict[str, Any]] = {"cycles": 1}
 
     mode: Literal["force", "displacement", "impact", "custom"] = "force"
     force: Force | None = None
@@ -266,6 +280,7 @@ class Loading(Table):
     strain_rate: Frequency | None = None
     quasi_static: bool | None = None
     unload: bool | None = None
+    cycles: Cycles | None = None
     striker_mass: Mass | None = None
     striker_speed: Speed | None = None
     energy: Energy | None = None
