@@ -27,6 +27,7 @@ EXAMPLES = """examples:
   crumple show results/armor.h5                 the ids of all cases
   crumple show results/armor.h5 7a85            pictures of the case whose id begins with 7a85
   crumple accuracy accuracy/impact              error against run time, method by method
+  crumple materials                             the materials, their numbers and sources
 
 armor and accuracy/impact are examples that come with Crumple; your own config is a file: mine.toml
 
@@ -64,6 +65,21 @@ RANK_EXAMPLES = """examples:
 """
 SHOW = """Draw one case: force against strain, the parts of its energy, and six deformed shapes.
 Without CASE: list the ids and the designs of all cases."""
+
+MATERIALS = """Without WORD: a table of the materials that come with Crumple. With names, also of
+your own .csv files: all that their files state, with sources. With the word plot: their stress-strain
+curves, in materials.png. With the word fit: the material of your own test of a printed strip or
+puck, loaded, unloaded and loaded again, as a .csv file for material.name, and a picture of the fit.
+The file has the columns time_s, strain and stress_Pa; or displacement_mm and force_N in place of
+strain and stress_Pa, with --gauge and --area. configs/materials/README.md says how to test."""
+MATERIALS_EXAMPLES = """examples:
+  crumple materials                                         all of them, as a table
+  crumple materials cheetah                                 one in full
+  crumple materials plot                                    all curves, in materials.png
+  crumple materials plot cheetah mine.csv --out two.png     two of them
+  crumple materials fit coupon.csv --out mine.csv           curve, loss and softening
+  crumple materials fit pull.csv --gauge "33 mm" --area "8 mm^2" --density "1210 kg/m^3"
+"""
 
 
 class Parser(argparse.ArgumentParser):
@@ -156,7 +172,26 @@ def parser() -> Parser:
     show.add_argument(
         "--out", type=_folder, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
     )
+    _add_materials(verbs)
     return main
+
+
+def _add_materials(verbs: Any) -> None:
+    """Add the verb that lists, shows, plots and fits materials."""
+    materials = verbs.add_parser(
+        "materials",
+        help="list, plot and fit materials",
+        description=MATERIALS,
+        epilog=MATERIALS_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    materials.add_argument(
+        "words", type=_path, metavar="WORD", nargs="*", help="NAME ..., plot [NAME ...], fit F.csv"
+    )
+    materials.add_argument("--out", type=_path, metavar="FILE", help="of plot: .png; of fit: .csv")
+    materials.add_argument("--gauge", metavar="LENGTH", help="of displacement_mm: strain's length")
+    materials.add_argument("--area", metavar="AREA", help='of force_N: section, such as "8 mm^2"')
+    materials.add_argument("--density", metavar="DENSITY", help="of a fit; assumed if not given")
 
 
 def _add_question(rank: argparse.ArgumentParser) -> None:

@@ -29,6 +29,9 @@ NUMBER = re.compile(r"(?:(?<!\w)-)?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 HOME = __name__.removesuffix(".cli.verbs")
 REFUSALS = {
     f"{HOME}.config.grid": "ConfigError",
+    f"{HOME}.config.material_file": "RecordError",
+    f"{HOME}.coupon.record": "CouponError",
+    f"{HOME}.cli.materials": "MaterialsError",
     f"{HOME}.store.read": "StoreError",
     f"{HOME}.running.dask_graph": "GraphError",
     f"{HOME}.ranking.rank": "RankError",
@@ -182,7 +185,15 @@ def show(arguments: Namespace) -> int:
     return DONE
 
 
-VERBS = {verb.__name__: verb for verb in (run, accuracy, warm, status, rank, show)}
+def materials(arguments: Namespace) -> int:
+    """List, show, plot or fit materials."""
+    from sweep.cli.materials import materials as answer
+
+    answer(arguments)
+    return DONE
+
+
+VERBS = {verb.__name__: verb for verb in (run, accuracy, warm, status, rank, show, materials)}
 
 
 def _config(name: str) -> Config:
