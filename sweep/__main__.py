@@ -21,6 +21,7 @@ EXAMPLES = """examples:
   crumple run armor --dry-run                   how many cases, how long, how much disk
   crumple run armor                             simulate; after a stop, the same command continues
   crumple run armor --error-bars                also estimate the error of each number, and ties
+  crumple run armor --spread                    also show what uncertain numbers change
   crumple warm                                  compile the kernels before the first run
   crumple status results/armor.h5               what is done, what failed and why
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
@@ -38,7 +39,9 @@ RUN = """Simulate every case of CONFIG that the results file does not hold yet, 
 Finished cases are never lost and never computed twice: after a stop or a kill, or after an
 extension of the grid, run the same command again. Rows of an older model stay until --renew
 computes them again. With --error-bars every design runs again with half the elements and again with
-half the steps: about twice the work."""
+half the steps: about twice the work. With --spread the five best designs of each ranking run again
+with every uncertain number at both ends of its range (crumple materials lists them; friction from
+0.2 to 0.9), and a table shows how far their values move and whether their order changes."""
 ACCURACY = """Simulate a sweep over numerical settings, then print error against run time: a table,
 the observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 the limit to which the finest settings of the method of highest order converge. Cases that differ in
@@ -67,9 +70,9 @@ SHOW = """Draw one case: force against strain, the parts of its energy, and six 
 Without CASE: list the ids and the designs of all cases."""
 
 MATERIALS = """Without WORD: a table of the materials that come with Crumple. With names, also of
-your own .csv files: all that their files state, with sources. With the word plot: their stress-strain
-curves, in materials.png. With the word fit: the material of your own test of a printed strip or
-puck, loaded, unloaded and loaded again, as a .csv file for material.name, and a picture of the fit.
+your own .csv files: all that their files state, with sources. With the word plot: their curves of
+stress over strain, in materials.png. With the word fit: the material of your own test of a printed
+strip or puck, loaded, unloaded and loaded again, as a .csv file for material.name, with a picture.
 The file has the columns time_s, strain and stress_Pa; or displacement_mm and force_N in place of
 strain and stress_Pa, with --gauge and --area. configs/materials/README.md says how to test."""
 MATERIALS_EXAMPLES = """examples:
@@ -132,6 +135,9 @@ def parser() -> Parser:
         "--error-bars",
         action="store_true",
         help="estimate the error of mesh and steps",
+    )
+    run.add_argument(
+        "--spread", action="store_true", help="run the best designs with uncertain numbers"
     )
     run.add_argument("--retry-failed", action="store_true", help="compute failed cases again")
     run.add_argument("--renew", action="store_true", help="compute rows of an older model again")

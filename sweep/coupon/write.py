@@ -1,6 +1,7 @@
 """The material that a coupon has, as a csv file for `material.name`, and how well it fits."""
 
 from collections.abc import Iterator
+from textwrap import wrap
 
 from sweep.config.material_file import Record
 from sweep.coupon.branches import branch_name
@@ -22,8 +23,8 @@ def _header(fit: Fit, density: float | None) -> Iterator[str]:
     pulled = "pulled" if coupon.sign > 0.0 else "pressed"
     yield f"# {coupon.name}: a printed coupon, {pulled}."
     yield "# Marks: [D] derived from the test, [A] an assumption."
-    yield f"# Source: own coupon {coupon.name}: fitted by crumple materials fit [D]."
-    yield f"#   {fit_sentence(fit)}"
+    yield "# Source: own coupon: fitted by crumple materials fit [D]."
+    yield from wrap(fit_sentence(fit), 100, initial_indent="#   ", subsequent_indent="#   ")
     if "loss" in fit.memory:
         yield "# Curve [D]: at the reference time after loading. The test, in which the material"
         yield '#   relaxes meanwhile, follows from it with material.memory = "measured".'
