@@ -434,7 +434,7 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
         "depth_m": lattice.depth,
         "outer_width_m": lattice.outer_size[0],
         "material": case.material.name,
-        "material_memory": case.material.memory,
+        "material_memory": case.material.inelasticity,
         "loading_mode": loading.mode,
         "platen": loading.platen or "",
         "force_N": nan if loading.force is None else loading.force,

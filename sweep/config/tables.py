@@ -150,7 +150,7 @@ class Material(Table):
         return self.relaxes or self.softening_r is not None or self.yields
 
     @property
-    def memory(self) -> str:
+    def inelasticity(self) -> str:
         """What the walls do that springs do not: "relaxes, softens" and the like, or "none"."""
         softens = self.softening_r is not None
         words = {"relaxes": self.relaxes, "softens": softens, "yields": self.yields}
