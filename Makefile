@@ -38,7 +38,9 @@ lint: setup  ## check style and types
 	$(PYTHON) -m ruff check
 	$(PYTHON) -m mypy
 
+# Kernels that both processes need are compiled before, once.
 test: lint  ## check style and types, then run the tests, in two processes
+	@$(PYTHON) -m sweep warm
 	$(PYTHON) -m pytest -n 2 --dist loadfile
 
 stock: setup  ## run the tests with the stock compiler (kernels/compile/README.md)

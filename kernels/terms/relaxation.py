@@ -110,7 +110,7 @@ def inverse(elastic, most, stress, guess):
     """Return the strain at which an elastic law whose stress rises has ``stress``, from a guess;
     and its complementary energy, the integral of strain over stress. most: see `softening`.
     """
-    low, high, strain = -1.0, math.inf, guess
+    low, high, strain = elastic.least(), math.inf, guess
     for _ in range(TRIES):
         energy, found, tangent = elastic.respond(strain, most)
         gap = stress - found

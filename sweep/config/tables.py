@@ -175,7 +175,7 @@ class Material(Table):
     def _relaxes_in_part(self) -> Self:
         times, shares = self.relaxation_times, self.relaxation_shares
         if len(times) != len(shares):
-            raise refusal("material.relaxation_times", list(times), "a time for each share")
+            raise refusal("material.relaxation_shares", list(shares), "a share for each time")
         if times and self.loss is not None:
             raise refusal("material.loss", self.loss, "one of loss and relaxation")
         if sum(shares) >= 1.0:
@@ -203,19 +203,22 @@ class Material(Table):
                 key, word = used[0]
                 raise refusal(f"material.{key}", word, '"linear", as no curve is given')
             check_curve(self.curve_strain, self.curve_stress)
-            self._check_that_it_rises()
         elif self.curve_strain:
             raise refusal("material.curve_strain", self.curve_strain, "no curve if linear")
         return self
 
-    def _check_that_it_rises(self) -> None:
-        """Refuse a material that relaxes if its stress does not rise with strain."""
-        at = not_rising(self.curve_strain, self.curve_stress) if self.relaxes else None
-        if at is not None:
-            key = "relaxation_times" if self.loss is None else "loss"
-            value = list(self.relaxation_times) if self.loss is None else self.loss
-            falls = f"the stress of {self.name} does not rise from a strain of {at:g} on"
-            raise refusal(f"material.{key}", value, f"none, as {falls}")
+    @model_validator(mode="after")
+    def _rises_if_it_remembers(self) -> Self:
+        """The energies of `kernels.terms.relaxation` need a stress that rises with the strain."""
+        if not self.remembers or not self.curve_strain:
+            return self
+        falls = not_rising(self.curve_strain, self.curve_stress)
+        if falls is not None:
+            key = "loss" if self.loss is not None else "relaxation_times"
+            key = key if self.relaxes else "softening_r"
+            allowed = f"none, as the stress of the curve does not rise beyond a strain of {falls:g}"
+            raise refusal(f"material.{key}", getattr(self, key), allowed)
+        return self
 
     def _check_plasticity(self) -> None:
         """Refuse a plastic material with other laws beside."""
