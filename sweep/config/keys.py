@@ -23,6 +23,7 @@ RESOLVED = {
     "lattice.structure",
     "material.curve_strain",
     "material.curve_stress",
+    "material.uncertain",
 }  # parts of a case that a config cannot set
 QUANTITIES = {
     "m": 'a length with a unit, such as "0.8 mm"',

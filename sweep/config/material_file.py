@@ -1,18 +1,22 @@
 """Material records: the tables in `configs/materials/`, which are in SI.
 
 A record is a csv file. Its comment lines hold the source and, one per line, `# key: value` for
-`density_kg_m3`, `poisson` and, optionally, `modulus_Pa` and `reference_time_s`, the time after
-loading for which the curve holds if the material relaxes. The columns `strain,stress_Pa` follow
+`density_kg_m3`, `poisson` and, optionally, `modulus_Pa`; `reference_time_s`, the time after
+loading for which the curve holds if the material relaxes; and the measured `loss`, `softening_r`,
+`softening_m_Pa` and `softening_beta`, which act where a config asks for them. Any of them may have
+a range (`material_header`). The columns `strain,stress_Pa` follow
 (nominal, tension positive, strains increasing; the origin is implied and may be left out).
 Rows of negative strain, if there are any, are the material's own compression branch.
 """
 
 import csv
-import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from math import isfinite
 from pathlib import Path
+
+from sweep.config.material_header import Stated, comments, stated
 
 Numbers = tuple[float, ...]
 
@@ -21,8 +25,8 @@ COLUMNS = ["strain", "stress_Pa"]
 TOE = 0.01  # below this strain a record is replaced by a straight line from the origin
 REFERENCE_TIME = 1.0  # s; of a record that states none
 SECANT = (0.01, 0.04)  # strains of the secant that is the modulus of a curve
-
-_HEADER = re.compile(r"#\s*(density_kg_m3|poisson|modulus_Pa|reference_time_s):\s*([\d.eE+-]+)\s*")
+MEMORY = ("loss", "softening_r", "softening_m", "softening_beta")
+RANGE_ALONE = ("modulus", "friction")  # of which a range may be stated without a number
 
 
 class RecordError(ValueError):
@@ -35,7 +39,11 @@ class UnknownMaterialError(RecordError):
 
 @dataclass(frozen=True)
 class Record:
-    """One material: nominal strain (k,), nominal stress (k,) in Pa, and its numbers in SI."""
+    """One material: nominal strain (k,), nominal stress (k,) in Pa, and its numbers in SI.
+
+    memory: measured loss and softening, by the keys of a case. ranges: low and high end of every
+    number that has a range, by the same keys. comments: the text of the header.
+    """
 
     name: str
     strain: Numbers
@@ -44,6 +52,9 @@ class Record:
     poisson: float
     modulus: float
     reference_time: float
+    memory: Mapping[str, float]
+    ranges: Mapping[str, tuple[float, float]]
+    comments: tuple[str, ...]
 
 
 def available() -> list[str]:
@@ -69,17 +80,47 @@ def read_record(path: Path) -> Record:
     """Read and check one record. Modulus: the stated one, else the secant between 1 and 4 %."""
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
-        stated = {match[1]: float(match[2]) for line in lines if (match := _HEADER.fullmatch(line))}
+        numbers = stated(lines)
         strain, stress = _columns(lines)
         check_curve(strain, stress)
+        _check_numbers(numbers)
+        return _record(path.stem, strain, stress, numbers, comments(lines))
     except (OSError, ValueError) as error:
         raise RecordError(f"{path.name}: {error}") from None
-    if "density_kg_m3" not in stated or "poisson" not in stated:
-        raise RecordError(f"{path.name}: needs the lines # density_kg_m3: ... and # poisson: ...")
-    modulus = stated.get("modulus_Pa", secant_modulus(strain, stress))
-    density, poisson = stated["density_kg_m3"], stated["poisson"]
-    reference_time = stated.get("reference_time_s", REFERENCE_TIME)
-    return Record(path.stem, strain, stress, density, poisson, modulus, reference_time)
+
+
+def _record(
+    name: str, strain: Numbers, stress: Numbers, numbers: dict[str, Stated], texts: tuple[str, ...]
+) -> Record:
+    known = {key: number.value for key, number in numbers.items() if number.value is not None}
+    ranges = {
+        key: (low, high)
+        for key, (_, low, high) in numbers.items()
+        if low is not None and high is not None
+    }
+    return Record(
+        name=name,
+        strain=strain,
+        stress=stress,
+        density=known["density"],
+        poisson=known["poisson"],
+        modulus=known.get("modulus", secant_modulus(strain, stress)),
+        reference_time=known.get("reference_time", REFERENCE_TIME),
+        memory={key: known[key] for key in MEMORY if key in known},
+        ranges=ranges,
+        comments=texts,
+    )
+
+
+def _check_numbers(numbers: Mapping[str, Stated]) -> None:
+    """Refuse a header without the numbers that every material needs."""
+    if "density" not in numbers or "poisson" not in numbers:
+        raise RecordError("needs the lines # density_kg_m3: ... and # poisson: ...")
+    alone = [key for key, number in numbers.items() if number.value is None]
+    if any(key not in RANGE_ALONE for key in alone):
+        raise RecordError(f"{alone[0]} needs a number beside its range")
+    if ("softening_r" in numbers) != ("softening_m" in numbers):
+        raise RecordError("softening needs the lines # softening_r: ... and # softening_m_Pa: ...")
 
 
 def _columns(lines: list[str]) -> tuple[Numbers, Numbers]:

@@ -8,7 +8,13 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from sweep.config.material_file import REFERENCE_TIME, check_curve, locate, read_record
+from sweep.config.material_file import (
+    REFERENCE_TIME,
+    Record,
+    check_curve,
+    locate,
+    read_record,
+)
 
 BY_NUMBERS = "by numbers"
 SOFTENING_BETA = 0.1
@@ -34,6 +40,7 @@ Count = Annotated[int, Field(ge=1)]
 Few = Annotated[int, Field(ge=1, le=1000)]  # a typo must not fill the memory
 # JSON returns lists, so that lists are accepted too.
 Curve = Annotated[tuple[float, ...], Field(strict=False)]
+Range = Annotated[tuple[str, float, float], Field(strict=False)]
 Forces = Annotated[tuple[Force, ...], Field(strict=False)]
 Durations = Annotated[tuple[Duration, ...], Field(strict=False)]
 Shares = Annotated[tuple[Strain, ...], Field(strict=False)]
@@ -95,12 +102,16 @@ class Material(Table):
     following a curve, if it has a `yield_stress`; `hardening` is its slope beyond that over plastic
     strain. A fibre that is stretched beyond `fracture_strain` counts as broken.
 
+    memory "measured": loss and softening are those that the record states, unless they are given.
+
     `bend` "fibres" is "section" with `fibres` points through the thickness in place of three.
 
     `curve_strain`, `curve_stress` (k,) in Pa hold the record itself, so that a case needs no file.
-    They are empty if neither stretching nor bending uses the curve.
+    They are empty if neither stretching nor bending uses the curve. `uncertain`: key, low and high
+    end of each number that is the record's and has a range there.
     """
 
+    labels: ClassVar[tuple[str, ...]] = ("memory", "uncertain")
     neutral: ClassVar[dict[str, Any]] = {"relaxation_times": (), "relaxation_shares": ()}
 
     name: str = "ninjaflex"
@@ -116,6 +127,7 @@ class Material(Table):
     relaxation_times: Durations = ()
     relaxation_shares: Shares = ()
     reference_time: Duration | None = None
+    memory: Literal["none", "measured"] = "none"
     softening_r: Annotated[float, Field(gt=1)] | None = None
     softening_m: Stress | None = None
     softening_beta: NonNegative | None = None
@@ -124,6 +136,7 @@ class Material(Table):
     fracture_strain: Positive | None = None
     curve_strain: Curve = ()
     curve_stress: Curve = ()
+    uncertain: Annotated[tuple[Range, ...], Field(strict=False)] = ()
 
     @property
     def relaxes(self) -> bool:
@@ -150,6 +163,7 @@ class Material(Table):
     def _fill_in(cls, given: Any) -> Any:
         if not isinstance(given, dict) or "curve_strain" in given:
             return given
+        asked, given = given, _with_memory(given)
         relaxes = given.get("loss") is not None or given.get("relaxation_times")
         if not relaxes:
             given = {**given, "reference_time": None}
@@ -170,7 +184,8 @@ class Material(Table):
         known = {key: getattr(record, key) for key in numbers}
         if any(given.get(key, cls.model_fields[key].default) in BY_CURVE[key] for key in BY_CURVE):
             known |= {"curve_strain": record.strain, "curve_stress": record.stress}
-        return {**known, **given, "name": record.name}
+        uncertain = _uncertain(record, asked, {**known, **given})
+        return {**known, **given, "name": record.name, "uncertain": uncertain}
 
     @model_validator(mode="after")
     def _relaxes_in_part(self) -> Self:
@@ -231,6 +246,31 @@ class Material(Table):
                 "loss" if self.loss is not None else "relaxation" if self.relaxes else "softening_r"
             )
             raise refusal("material.yield_stress", self.yield_stress, f"none if {other} is given")
+
+
+def _with_memory(given: dict[str, Any]) -> dict[str, Any]:
+    """The given keys with the loss and softening of the record, where they are asked for."""
+    if given.get("memory") != "measured":
+        return given
+    if "modulus" in given and "name" not in given:
+        raise refusal("material.memory", "measured", '"none", as no name is given')
+    record = read_record(locate(given.get("name", "ninjaflex")))
+    if not record.memory:
+        allowed = f'"none", as {record.name} states neither loss nor softening'
+        raise refusal("material.memory", "measured", allowed)
+    stated = dict(record.memory)
+    if given.get("relaxation_times"):
+        stated.pop("loss", None)
+    return {**stated, **given}
+
+
+def _uncertain(
+    record: Record, asked: dict[str, Any], known: dict[str, Any]
+) -> tuple[tuple[str, float, float], ...]:
+    """The ranges of the record's numbers that a material uses, without those that it is given."""
+    used = [key for key in record.ranges if asked.get(key) is None]
+    used = [key for key in used if known.get(key) is not None or key == "friction"]
+    return tuple((key, *record.ranges[key]) for key in used)
 
 
 def _with_plasticity(given: dict[str, Any]) -> dict[str, Any]:

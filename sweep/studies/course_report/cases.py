@@ -16,7 +16,7 @@ from sweep.simulation.simulate import simulate
 
 CONFIG = Path(__file__).parents[3] / "configs" / "seed.toml"
 HELD = 0.137  # s, just before the load is removed
-RECORD = ("modulus", "density", "poisson", "curve_strain", "curve_stress")  # from the record
+RECORD = ("modulus", "density", "poisson", "curve_strain", "curve_stress", "uncertain")
 
 
 @cache

@@ -9,6 +9,7 @@ from sweep.config.material_file import locate, read_record
 from sweep.config.tables import MODES
 from sweep.config.units import ConfigError
 from tests.support.cases import pressed
+from tests.support.records import HEADER
 
 UNFIT = {
     '[material]\nmodulus = "12 MPa"': (
@@ -44,6 +45,30 @@ def test_material_by_name_takes_the_numbers_of_its_record():
     assert (softer.modulus, softer.density) == (70e6, record.density)
 
 
+MEASURED = "# loss: 0.3 (0.2 .. 0.4)\n# softening_r: 2\n# softening_m_Pa: 1e5\n"
+MEASURED += HEADER.replace("0.48", "0.48 (0.45 .. 0.48)") + "0.01,2e4\n0.05,1e5\n"
+
+
+def test_measured_memory_acts_only_if_asked_for(own_record):
+    name = str(own_record(MEASURED))
+    plain, measured = Material(name=name), Material(name=name, memory="measured")
+    assert not plain.remembers
+    assert (measured.loss, measured.softening_r, measured.softening_beta) == (0.3, 2.0, 0.1)
+    assert Material(name=name, memory="measured", loss=0.2).loss == 0.2
+    stated = {"loss": 0.3, "softening_r": 2.0, "softening_m": 1e5}
+    by_keys = Material(name=name, **stated)
+    assert Case(material=by_keys).case_id == Case(material=measured).case_id
+
+
+def test_uncertain_are_the_numbers_of_the_record_that_are_used(own_record):
+    name = str(own_record(MEASURED))
+    poisson, loss = ("poisson", 0.45, 0.48), ("loss", 0.2, 0.4)
+    assert Material(name=name).uncertain == (poisson,)
+    assert set(Material(name=name, memory="measured").uncertain) == {poisson, loss}
+    assert Material(name=name, memory="measured", poisson=0.4).uncertain == (loss,)
+    assert Material(modulus=12e6, density=1190.0).uncertain == ()
+
+
 def test_linear_material_holds_no_curve():
     assert Material(stretch="linear").curve_strain == ()
     by_numbers = Material(modulus=12e6, density=1190.0)
@@ -54,6 +79,8 @@ def test_linear_material_holds_no_curve():
     ("make", "message"),
     [
         (lambda: Material(name="chetah"), "allowed: .*cheetah, "),
+        (lambda: Material(memory="measured"), 'allowed: "none", as ninjaflex states neither loss'),
+        (lambda: Material(modulus=1e6, density=1e3, memory="measured"), "as no name is given"),
         (lambda: Material(modulus=12e6), "a density, as no name is given"),
         (lambda: Material(modulus=12e6, density=1e3, stretch="nonlinear"), 'allowed: "linear"'),
         (lambda: Material(curve_strain=(0.0, 1.0), curve_stress=(0.0, 1e6)), "greater than 0"),
