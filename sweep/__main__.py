@@ -21,12 +21,14 @@ EXAMPLES = """examples:
   crumple run armor --dry-run                   how many cases, how long, how much disk
   crumple run armor                             simulate; after a stop, the same command continues
   crumple run armor --error-bars                also estimate the error of each number, and ties
+  crumple run armor --spread                    also show what uncertain numbers change
   crumple warm                                  compile the kernels before the first run
   crumple status results/armor.h5               what is done, what failed and why
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
   crumple show results/armor.h5                 the ids of all cases
   crumple show results/armor.h5 7a85            pictures of the case whose id begins with 7a85
   crumple accuracy accuracy/impact              error against run time, method by method
+  crumple materials                             the materials, their numbers and sources
 
 armor and accuracy/impact are examples that come with Crumple; your own config is a file: mine.toml
 
@@ -37,7 +39,9 @@ RUN = """Simulate every case of CONFIG that the results file does not hold yet, 
 Finished cases are never lost and never computed twice: after a stop or a kill, or after an
 extension of the grid, run the same command again. Rows of an older model stay until --renew
 computes them again. With --error-bars every design runs again with half the elements and again with
-half the steps: about twice the work."""
+half the steps: about twice the work. With --spread the five best designs of each ranking run again
+with every uncertain number at both ends of its range (crumple materials lists them; friction from
+0.2 to 0.9), and a table shows how far their values move and whether their order changes."""
 ACCURACY = """Simulate a sweep over numerical settings, then print error against run time: a table,
 the observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 the limit to which the finest settings of the method of highest order converge. Cases that differ in
@@ -64,6 +68,21 @@ RANK_EXAMPLES = """examples:
 """
 SHOW = """Draw one case: force against strain, the parts of its energy, and six deformed shapes.
 Without CASE: list the ids and the designs of all cases."""
+
+MATERIALS = """Without WORD: a table of the materials that come with Crumple. With names, also of
+your own .csv files: all that their files state, with sources. With the word plot: their curves of
+stress over strain, in materials.png. With the word fit: the material of your own test of a printed
+strip or puck, loaded, unloaded and loaded again, as a .csv file for material.name, with a picture.
+The file has the columns time_s, strain and stress_Pa; or displacement_mm and force_N in place of
+strain and stress_Pa, with --gauge and --area. configs/materials/README.md says how to test."""
+MATERIALS_EXAMPLES = """examples:
+  crumple materials                                         all of them, as a table
+  crumple materials cheetah                                 one in full
+  crumple materials plot                                    all curves, in materials.png
+  crumple materials plot cheetah mine.csv --out two.png     two of them
+  crumple materials fit coupon.csv --out mine.csv           curve, loss and softening
+  crumple materials fit pull.csv --gauge "33 mm" --area "8 mm^2" --density "1210 kg/m^3"
+"""
 
 
 class Parser(argparse.ArgumentParser):
@@ -117,6 +136,9 @@ def parser() -> Parser:
         action="store_true",
         help="estimate the error of mesh and steps",
     )
+    run.add_argument(
+        "--spread", action="store_true", help="run the best designs with uncertain numbers"
+    )
     run.add_argument("--retry-failed", action="store_true", help="compute failed cases again")
     run.add_argument("--renew", action="store_true", help="compute rows of an older model again")
 
@@ -156,7 +178,26 @@ def parser() -> Parser:
     show.add_argument(
         "--out", type=_folder, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
     )
+    _add_materials(verbs)
     return main
+
+
+def _add_materials(verbs: Any) -> None:
+    """Add the verb that lists, shows, plots and fits materials."""
+    materials = verbs.add_parser(
+        "materials",
+        help="list, plot and fit materials",
+        description=MATERIALS,
+        epilog=MATERIALS_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    materials.add_argument(
+        "words", type=_path, metavar="WORD", nargs="*", help="NAME ..., plot [NAME ...], fit F.csv"
+    )
+    materials.add_argument("--out", type=_path, metavar="FILE", help="of plot: .png; of fit: .csv")
+    materials.add_argument("--gauge", metavar="LENGTH", help="of displacement_mm: strain's length")
+    materials.add_argument("--area", metavar="AREA", help='of force_N: section, such as "8 mm^2"')
+    materials.add_argument("--density", metavar="DENSITY", help="of a fit; assumed if not given")
 
 
 def _add_question(rank: argparse.ArgumentParser) -> None:

@@ -24,11 +24,15 @@ if TYPE_CHECKING:
 DONE, SOME_FAILED = 0, 1
 WORKERS = 2
 TOP, TOP_OF_A_BUDGET = 10, 3
+UNKNOWN_BEST = "--spread runs more cases, of designs that are known only after the sweep"
 IDS = 3  # shown for each kind of failure
 NUMBER = re.compile(r"(?:(?<!\w)-)?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 HOME = __name__.removesuffix(".cli.verbs")
 REFUSALS = {
     f"{HOME}.config.grid": "ConfigError",
+    f"{HOME}.config.material_file": "RecordError",
+    f"{HOME}.coupon.record": "CouponError",
+    f"{HOME}.cli.materials": "MaterialsError",
     f"{HOME}.store.read": "StoreError",
     f"{HOME}.running.dask_graph": "GraphError",
     f"{HOME}.ranking.rank": "RankError",
@@ -66,6 +70,7 @@ def run(arguments: Namespace) -> int:
         from sweep.running.estimate import dry_run
 
         say(dry_run(config, out, workers, rerun, arguments.error_bars))
+        say_all([UNKNOWN_BEST] if arguments.spread else [])
         return DONE
     from sweep.running.error_bars import add_error_bars
     from sweep.running.sweep import run_sweep
@@ -73,8 +78,33 @@ def run(arguments: Namespace) -> int:
     how = workers, arguments.scheduler, rerun
     failed = run_sweep(config, out, *how)
     failed += add_error_bars(config, out, *how) if arguments.error_bars else 0
-    print_ranking(out, read_summary(out), _question(config.rank.budgets, config.rank.panel))
+    question = _question(config.rank.budgets, config.rank.panel)
+    print_ranking(out, read_summary(out), question)
+    failed += _spread(config, out, how, question) if arguments.spread else 0
     return SOME_FAILED if failed else DONE
+
+
+def _spread(config: Config, out: str, how: tuple[Any, ...], question: dict[str, Any]) -> int:
+    """Run the best designs with uncertain numbers and print their spread; return how many values
+    are missing.
+    """
+    from sweep.ranking.rank import ranked
+    from sweep.ranking.spread import spreads
+    from sweep.report.spread_sheets import spread_sheets
+    from sweep.running.spread import BEST, corners_of, run_corners, spread_file
+    from sweep.store.read import read_summary
+
+    summary = read_summary(out)
+    ranking = ranked(summary, **question | {"top": BEST})
+    corners = corners_of(config, ranking.table["case_id"])
+    if not any(corners.values()):
+        say("No number of the best designs is uncertain.")
+        return 0
+    run_corners(corners, out, *how)
+    ids = {design: [(c.name, c.case_id) for c in found] for design, found in corners.items()}
+    found = spreads(ranking, read_summary(spread_file(out)), ids, question)
+    print_sheets(spread_sheets(found, summary))
+    return sum(spread.failed for spread in found)
 
 
 def accuracy(arguments: Namespace) -> int:
@@ -182,7 +212,15 @@ def show(arguments: Namespace) -> int:
     return DONE
 
 
-VERBS = {verb.__name__: verb for verb in (run, accuracy, warm, status, rank, show)}
+def materials(arguments: Namespace) -> int:
+    """List, show, plot or fit materials."""
+    from sweep.cli.materials import materials as answer
+
+    answer(arguments)
+    return DONE
+
+
+VERBS = {verb.__name__: verb for verb in (run, accuracy, warm, status, rank, show, materials)}
 
 
 def _config(name: str) -> Config:

@@ -27,6 +27,7 @@ RESOLVED = {
 }  # parts of a case that a config cannot set
 QUANTITIES = {
     "m": 'a length with a unit, such as "0.8 mm"',
+    "m^2": 'an area with a unit, such as "8 mm^2"',
     "s": 'a time with a unit, such as "0.2 s"',
     "1/s": 'a rate with a unit, such as "5 1/s"',
     "m/s": 'a speed with a unit, such as "100 mm/min"',

@@ -167,6 +167,29 @@ def check_curve(strain: Numbers, stress: Numbers) -> None:
         raise RecordError("the stress of a curve must be positive at 1 % strain")
 
 
+def not_rising(strain: Numbers, stress: Numbers) -> float | None:
+    """The first strain from which the stress of a curve does not rise; None if it rises throughout.
+
+    Beyond its ends a curve goes on as a shape-preserving cubic ends: level, if its last secant is
+    so much flatter than the one before that a parabola through the last three points would fall.
+    """
+    pairs = list(zip(strain, stress, strict=True))
+    below = [(e, s) for e, s in pairs if e < 0.0]
+    toe = (TOE, stress_at(TOE, strain, stress))
+    points = [*below, (0.0, 0.0), toe, *((e, s) for e, s in pairs if e > TOE)]
+    steps = [(a, b - a, (t - s) / (b - a)) for (a, s), (b, t) in pairwise(points)]
+    for at, _, slope in steps:
+        if slope <= 0.0:
+            return at
+    ends = [(points[-1][0], steps[-1], steps[-2])]
+    if below:
+        ends.append((points[0][0], steps[0], steps[1]))
+    for at, (_, last, slope), (_, width, before) in ends:
+        if (2.0 * last + width) * slope <= last * before:
+            return at
+    return None
+
+
 def secant_modulus(strain: Numbers, stress: Numbers) -> float:
     """Slope of the record between 1 and 4 % tension (Pa)."""
     low, high = SECANT

@@ -206,11 +206,6 @@ class Reader:
         line = f"{where} {_one_line(name)} = {in_words(raw)}: {wrong}".lstrip()
         self.faults.append(Fault(about or name, line))
 
-    def _in_si(self, key: Key, raw: Any) -> Any:
-        """A single value in SI; ValueError without its unit."""
-        bare = key.unit is None or (key.bare and isinstance(raw, int | float))
-        return raw if bare else self.to_si(raw, key.unit or "")
-
     def _checked(self, key: Key, raw: Any) -> Any:
         """A value in SI; raises ValueError with the reason if it is wrong."""
         if key.targets == ("material.name",) and isinstance(raw, str):
@@ -225,6 +220,11 @@ class Reader:
             kind = error.errors()[0]["type"]
             wrong_type = "wrong type" if kind.endswith("_type") else "out of range"
             raise ValueError(_REASONS.get(kind, wrong_type)) from None
+
+    def _in_si(self, key: Key, raw: Any) -> Any:
+        """One value without its unit, if its key has one."""
+        bare = key.bare and isinstance(raw, int | float)
+        return self.to_si(raw, key.unit) if key.unit and not bare else raw
 
 
 def _is_branch(value: object) -> bool:

@@ -2,7 +2,6 @@
 
 import json
 from functools import lru_cache
-from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
@@ -13,6 +12,7 @@ from sweep.config.material_file import (
     Record,
     check_curve,
     locate,
+    not_rising,
     read_record,
 )
 
@@ -38,6 +38,7 @@ Mass = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
 Density = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg/m^3"})]
 Count = Annotated[int, Field(ge=1)]
 Few = Annotated[int, Field(ge=1, le=1000)]  # a typo must not fill the memory
+Cycles = Annotated[int, Field(ge=1, le=100)]
 # JSON returns lists, so that lists are accepted too.
 Curve = Annotated[tuple[float, ...], Field(strict=False)]
 Range = Annotated[tuple[str, float, float], Field(strict=False)]
@@ -149,6 +150,13 @@ class Material(Table):
         return self.relaxes or self.softening_r is not None or self.yields
 
     @property
+    def inelasticity(self) -> str:
+        """What the walls do that springs do not: "relaxes, softens" and the like, or "none"."""
+        softens = self.softening_r is not None
+        words = {"relaxes": self.relaxes, "softens": softens, "yields": self.yields}
+        return ", ".join(word for word, true in words.items() if true) or "none"
+
+    @property
     def yields(self) -> bool:
         """Whether it deforms plastically."""
         return self.yield_stress is not None
@@ -196,7 +204,7 @@ class Material(Table):
     def _relaxes_in_part(self) -> Self:
         times, shares = self.relaxation_times, self.relaxation_shares
         if len(times) != len(shares):
-            raise refusal("material.relaxation_shares", list(shares), "a share for each time")
+            raise refusal("material.relaxation_times", list(times), "a time for each share")
         if times and self.loss is not None:
             raise refusal("material.loss", self.loss, "one of loss and relaxation")
         if sum(shares) >= 1.0:
@@ -214,18 +222,6 @@ class Material(Table):
         return self
 
     @model_validator(mode="after")
-    def _rises_if_it_remembers(self) -> Self:
-        """The energies of `kernels.terms.relaxation` need a stress that rises with the strain."""
-        points = list(zip(self.curve_strain, self.curve_stress, strict=False))
-        falls = next((e for (e, s), (_, t) in pairwise(points) if t <= s), None)
-        if self.remembers and not self.yields and falls is not None:
-            key = "loss" if self.loss is not None else "relaxation_times"
-            key = key if self.relaxes else "softening_r"
-            allowed = f"none, as the stress of the curve does not rise beyond a strain of {falls:g}"
-            raise refusal(f"material.{key}", getattr(self, key), allowed)
-        return self
-
-    @model_validator(mode="after")
     def _has_its_curve(self) -> Self:
         chosen = [(key, getattr(self, key)) for key in BY_CURVE]
         used = [(key, word) for key, word in chosen if word in BY_CURVE[key]]
@@ -236,9 +232,19 @@ class Material(Table):
                 key, word = used[0]
                 raise refusal(f"material.{key}", word, '"linear", as no curve is given')
             check_curve(self.curve_strain, self.curve_stress)
+            self._check_that_it_rises()
         elif self.curve_strain:
             raise refusal("material.curve_strain", self.curve_strain, "no curve if linear")
         return self
+
+    def _check_that_it_rises(self) -> None:
+        """Refuse a material that relaxes if its stress does not rise with strain."""
+        at = not_rising(self.curve_strain, self.curve_stress) if self.relaxes else None
+        if at is not None:
+            key = "relaxation_times" if self.loss is None else "loss"
+            value = list(self.relaxation_times) if self.loss is None else self.loss
+            falls = f"the stress of {self.name} does not rise from a strain of {at:g} on"
+            raise refusal(f"material.{key}", value, f"none, as {falls}")
 
     def _check_plasticity(self) -> None:
         """Refuse a plastic material with other laws beside."""
@@ -291,7 +297,10 @@ def _with_plasticity(given: dict[str, Any]) -> dict[str, Any]:
 # Keys that imply the mode.
 MODES = {
     "force": ("force", "release_time"),
-    "displacement": ("stroke", "strain", "speed", "strain_rate", "quasi_static", "unload"),
+    "displacement": (
+        *("stroke", "strain", "speed", "strain_rate"),
+        *("quasi_static", "unload", "cycles"),
+    ),
     "impact": ("striker_mass", "striker_speed", "energy"),
 }
 
@@ -300,8 +309,11 @@ class Loading(Table):
     """The loading of the specimen. None: not given, or not used by the mode.
 
     If the mode is not given, keys that only one mode has imply it. The mode of a custom structure
-    is "custom": the file of the structure has its loading.
+    is "custom": the file of the structure has its loading. `cycles`: how often a platen moves down
+    and back up.
     """
+
+    neutral: ClassVar[dict[str, Any]] = {"cycles": 1}
 
     mode: Literal["force", "displacement", "impact", "custom"] = "force"
     force: Force | None = None
@@ -313,6 +325,7 @@ class Loading(Table):
     strain_rate: Frequency | None = None
     quasi_static: bool | None = None
     unload: bool | None = None
+    cycles: Cycles | None = None
     striker_mass: Mass | None = None
     striker_speed: Speed | None = None
     energy: Energy | None = None

@@ -94,7 +94,7 @@ def _reason(key: str, case: Case) -> str:
         return f'solver.integrator is "{case.solver.integrator}"'
     if case.lattice.structure is not None and key.startswith("loading."):
         return 'lattice.kind is "custom"'
-    if key == "loading.strain_rate":
+    if key == "loading.strain_rate" and case.loading.mode == "displacement":
         return STEADY
     timed = key == "solver.load_steps" and case.loading.mode != "displacement"
     if key.startswith("loading.") or timed:

@@ -14,6 +14,7 @@ from kernels.planar.rows import ROW, Output
 from kernels.solve import arc_length, energy_book, friction_loop, march, newton
 from kernels.terms import spring
 from sweep.config.case import Case, Lattice, Loading, Solver
+from sweep.config.solver_defaults import given_or
 from sweep.config.structure import Load, Structure, Support
 from sweep.result import Result, Status
 from sweep.scene.arcs import arc_of, path_columns
@@ -144,7 +145,8 @@ class _Run:
         self._begin()
         self.struck = case.loading.mode == "impact"
         early = self.struck or case.solver.integrator == "arc_length"
-        self.frame_of, kept = _frames(total + 1, EARLY_FRAMES if early else FRAMES)
+        count = EARLY_FRAMES if early else FRAMES * given_or(case.loading.cycles, 1)
+        self.frame_of, kept = _frames(total + 1, count)
         self.positions = np.tile(scene.x_rest, (kept, 1))
         self.arc = arc_of(scene, case)
         self.done, self.noise, self.expired = 1, 0.0, False
@@ -209,7 +211,9 @@ class _Run:
 
     @property
     def loading_rows(self) -> int:
-        """Number of rows of the history until release, full stroke, or the striker's stop."""
+        """Number of rows of the history until release, full stroke, or the striker's stop; in the
+        first cycle.
+        """
         if self.struck:
             return int(np.argmin(self.rows["height"][: self.done])) + 1
         return self.stages[0].stage.steps + 1

@@ -24,8 +24,8 @@ FLOORS = [
     "kernels.compile", "kernels.arrays", "kernels.solve", "kernels.linear", "kernels.geometry",
     "kernels.terms", "kernels.planar",
     "sweep.version", "sweep.numbers", "sweep.design", "sweep.config", "sweep.result", "sweep.scene",
-    "sweep.simulation", "sweep.store", "sweep.ranking", "sweep.report", "sweep.running",
-    "sweep.studies", "sweep.cli", "sweep.__main__",
+    "sweep.coupon", "sweep.simulation", "sweep.store", "sweep.ranking", "sweep.report",
+    "sweep.running", "sweep.studies", "sweep.cli", "sweep.__main__",
 ]  # fmt: skip
 HOMES = {
     "numba": "kernels.compile",

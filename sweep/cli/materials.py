@@ -1,0 +1,133 @@
+"""The verb `materials`: list them, show one, plot several, fit one to a coupon."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sweep.cli.terminal import print_sheets, say, say_all
+
+if TYPE_CHECKING:
+    from argparse import Namespace
+
+    from sweep.config.material_file import Record
+
+PLOTTED = -0.6, 1.0, 401  # strains and number of points of a picture
+PICTURE = "materials.png"
+OF_A_FIT = ("gauge", "area", "density")
+
+
+class MaterialsError(ValueError):
+    """Words that the verb does not know; the text is one sentence with what is allowed."""
+
+
+def materials(arguments: Namespace) -> None:
+    """List, show, plot or fit."""
+    from sweep.config.material_file import available
+
+    first, *names = arguments.words or [""]
+    if first != "fit":
+        _refuse_options_of_a_fit(arguments)
+    if first == "fit":
+        _fit(arguments, names)
+    elif first == "plot":
+        _plot(names or available(), Path(arguments.out or PICTURE))
+    elif arguments.out:
+        raise MaterialsError("--out belongs to plot and fit")
+    elif first:
+        _show([first, *names])
+    else:
+        _list(available())
+
+
+def _refuse_options_of_a_fit(arguments: Namespace) -> None:
+    given = [name for name in OF_A_FIT if getattr(arguments, name)]
+    if given:
+        raise MaterialsError(f"--{given[0]} belongs to fit")
+
+
+def _record(name: str) -> Record:
+    from sweep.config.material_file import locate, read_record
+
+    return read_record(locate(name))
+
+
+def _list(names: list[str]) -> None:
+    from sweep.report.material_sheets import material_sheet
+
+    print_sheets([material_sheet(map(_record, names))])
+
+
+def _show(names: list[str]) -> None:
+    from sweep.report.material_sheets import details
+
+    for name in names:
+        say(name)
+        say_all(f"  {line}" for line in details(_record(name)))
+
+
+def _plot(names: list[str], out: Path) -> None:
+    from sweep.config.tables import Material
+    from sweep.report.case_plots import blank, save
+    from sweep.report.material_plots import material_curves
+    from sweep.scene.material import stress_law
+
+    curves = {}
+    for record in map(_record, names):
+        low, high, count = PLOTTED
+        strain = np.linspace(max(low, -0.95), min(high, max(record.strain)), count)
+        material = Material(
+            name=record.name,
+            modulus=record.modulus,
+            density=record.density,
+            poisson=record.poisson,
+            curve_strain=record.strain,
+            curve_stress=record.stress,
+        )
+        curves[record.name] = strain, stress_law(material).at(strain)
+    figure = blank(11.0, 4.6)
+    material_curves(figure, curves)
+    say(save(figure, _png(out)))
+
+
+def _png(path: Path) -> Path:
+    if path.suffix != ".png":
+        raise MaterialsError(f"--out {path}; allowed: a file whose name ends in .png")
+    return path
+
+
+def _fit(arguments: Namespace, names: list[str]) -> None:
+    from sweep.config.material_file import read_record
+    from sweep.coupon.fit import fit
+    from sweep.coupon.record import read_coupon
+    from sweep.coupon.write import fit_sentence, material_text, told
+    from sweep.report.case_plots import blank, save
+    from sweep.report.material_plots import coupon_fit
+
+    if len(names) != 1:
+        raise MaterialsError("fit needs the file of one coupon: crumple materials fit coupon.csv")
+    file = Path(names[0])
+    out = Path(arguments.out or file.with_name(f"{file.stem}_material.csv"))
+    if out.suffix != ".csv" or out.resolve() == file.resolve():
+        raise MaterialsError(f"--out {out}; allowed: another file, whose name ends in .csv")
+    coupon = read_coupon(file, _size(arguments.gauge, "m"), _size(arguments.area, "m^2"))
+    found = fit(coupon)
+    out.write_text(material_text(found, _size(arguments.density, "kg/m^3")), encoding="utf-8")
+    say_all(told(found, read_record(out)))
+    figure = blank(8.0, 6.0)
+    record, model = (coupon.strain, coupon.stress), (coupon.strain, found.model)
+    coupon_fit(figure, record, model, f"{coupon.name}: {fit_sentence(found)}")
+    picture = save(figure, out.with_suffix(".png"))
+    say(f'{out}: for material.name; its loss and softening act with material.memory = "measured"')
+    say(picture)
+
+
+def _size(text: str | None, unit: str) -> float | None:
+    """An option with a unit in SI."""
+    if text is None:
+        return None
+    from sweep.ranking.merit import in_si
+
+    return in_si(text, unit)

@@ -1,0 +1,136 @@
+"""The curve of a coupon: a few points of its first loading, that a law of its memory follows.
+
+A test takes time, in which the material relaxes, so that its first loading is not the curve that
+holds at one time after loading. The stresses at the points are therefore those with which the law,
+taken through the same test, has the same first loading: every stress times record / law, until they
+agree. Record and law are compared as least-squares fits of straight lines between the points.
+"""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kernels.terms.one_point import stresses
+from sweep.config.case import Material
+from sweep.coupon import branches
+from sweep.coupon.record import Coupon, Floats
+from sweep.scene.material import LOWER_WEIGHT, UPPER_WEIGHT, law_in_stretch
+
+STRAINS = np.array(
+    [0.01, 0.02, 0.03, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0]
+)
+LAST = 0.9  # of the greatest strain: no point but the last beyond
+FEWEST = 3  # points
+UNSURE = 0.05  # greatest standard error of a stress, relative
+ROUNDS = 4  # of record / law
+RISE = 1e-3  # least relative rise of the stress from point to point
+MIDDLE = 0.025  # strain: the middle of the secant modulus
+DENSITY, POISSON = 1200.0, 0.48  # of a material that serves as law alone
+
+
+class Loading:
+    """The first loading of a coupon, and the path of the whole test, for laws to follow."""
+
+    def __init__(self, coupon: Coupon, rows: list[int]) -> None:
+        self.sign = coupon.sign
+        self.time, self.strain = branches.path(coupon, rows)
+        self.all_times = coupon.time
+        self.rows = _first_time(self.sign * coupon.strain, rows)
+        reached = self.sign * coupon.strain[self.rows]
+        stress = self.sign * coupon.stress[self.rows]
+        self.points = _sure_points(reached, stress)
+        self.fitting = np.linalg.pinv(_hats(reached, self.points))
+        self.record = _rising(self.fitting @ stress)
+        first = np.maximum.accumulate(self.sign * coupon.strain[: rows[1] + 1])
+        self.reference_time = float(np.interp(MIDDLE, first, coupon.time[: rows[1] + 1]))
+
+    def follow(self, memory: dict[str, float]) -> tuple[Floats, Floats]:
+        """Stresses (k,) at the points, in Pa, with which a law of this memory has the first loading
+        of the record; and the stress (n,) of that law in all rows.
+        """
+        at_points, found = self.record, self.replay(self.record, memory)
+        for _ in range(ROUNDS):
+            model = _rising(self.fitting @ (self.sign * found[self.rows]))
+            at_points = _rising(at_points * self.record / model)
+            found = self.replay(at_points, memory)
+        return at_points, found
+
+    def replay(self, at_points: Floats, memory: dict[str, float]) -> Floats:
+        """The stress (n,) in all rows of a material with these stresses at the points."""
+        law = law_in_stretch(self.material(at_points, memory), 1.0)
+        return np.interp(self.all_times, self.time, stresses(law, self.time, self.strain))
+
+    def material(self, at_points: Floats, memory: dict[str, float]) -> Material:
+        """A material with these stresses at the points and this memory."""
+        strain, stress = self.curve(at_points)
+        numbers: dict[str, Any] = dict(memory)
+        if "loss" in memory:
+            numbers["reference_time"] = self.reference_time
+        return Material(
+            name="coupon",
+            modulus=float(at_points[0] / self.points[0]),
+            density=DENSITY,
+            poisson=POISSON,
+            curve_strain=tuple(strain.tolist()),
+            curve_stress=tuple(stress.tolist()),
+            **numbers,
+        )
+
+    def curve(self, at_points: Floats) -> tuple[Floats, Floats]:
+        """Strains and stresses of the curve; that of a puck has both signs, see `tension`."""
+        if self.sign > 0.0:
+            return self.points, at_points
+        pulled = tension(self.points, at_points)
+        return np.r_[-self.points[::-1], self.points], np.r_[-at_points[::-1], pulled]
+
+
+def tension(strain: Floats, stress: Floats) -> Floats:
+    """Stress in tension of a material whose compression is known: the rule of `scene.material` the
+    other way, between stress odd in nominal strain and Cauchy stress odd in log strain.
+    """
+    stretch = 1.0 + strain
+    cauchy = np.interp(strain / stretch, np.r_[0.0, strain], np.r_[0.0, stress])
+    return _rising(LOWER_WEIGHT * stress + UPPER_WEIGHT * cauchy / stretch**2)
+
+
+def _first_time(strain: Floats, rows: list[int]) -> NDArray[np.intp]:
+    """The rows of all loadings in which the strain is greater than ever before."""
+    found, most = [np.arange(rows[1] + 1)], strain[rows[1]]
+    for low, high in zip(rows[2::2], rows[3::2], strict=False):
+        loading = np.arange(low, high + 1)
+        found.append(loading[strain[loading] > most])
+        most = max(most, strain[high])
+    return np.concatenate(found)
+
+
+def _sure_points(strain: Floats, stress: Floats) -> Floats:
+    """The points whose stresses a noisy record tells, to `UNSURE`."""
+    most = strain.max()
+    points = np.r_[STRAINS[LAST * most > STRAINS], most]
+    while True:
+        hats = _hats(strain, points)
+        inverse = np.linalg.pinv(hats.T @ hats)
+        fitted = inverse @ hats.T @ stress
+        noise = np.std(stress - hats @ fitted)
+        unsure = noise * np.sqrt(np.diag(inverse)) / np.maximum(fitted, RISE * fitted.max())
+        if points.size <= FEWEST or unsure.max() < UNSURE:
+            return points
+        points = np.delete(points, int(np.argmax(unsure[:-1])))
+
+
+def _hats(strain: Floats, points: Floats) -> Floats:
+    """Values (n, k) at ``strain`` of the k functions that are 1 at one of the points, 0 at the
+    others and at the origin, and straight in between.
+    """
+    knots = np.r_[0.0, points]
+    return np.column_stack([np.interp(strain, knots, row) for row in np.eye(knots.size)[1:]])
+
+
+def _rising(stress: Floats) -> Floats:
+    """Stresses that rise from point to point."""
+    found = np.array(stress)
+    found[0] = max(found[0], RISE * found[-1])
+    for k in range(1, found.size):
+        found[k] = max(found[k], (1.0 + RISE) * found[k - 1])
+    return found

@@ -1,0 +1,147 @@
+"""Fits the curve, the loss and the softening of a material to the test of a coupon.
+
+Loss and softening (r, m, beta) are those of least squares between the record and the law, taken
+through the same test (`Loading.follow`). What the record cannot tell is left out: without unloading
+there is no loss, without reloading no softening, and unless a second cycle is larger than the first
+one only m + beta W is known, W being the greatest energy: beta is then an assumption. Of the laws
+that are as good as the best, the one with the fewest numbers is chosen.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sweep.coupon import branches
+from sweep.coupon.curve import Loading
+from sweep.coupon.record import Coupon, CouponError, Floats
+
+BETA = 0.1  # assumed where the record does not tell
+LARGER = 1.2  # of the first peak: a second one that tells beta
+SLACK = 0.02  # of the greatest stress: below it a strip may be slack
+UNLOADED = 0.05  # of the greatest stress
+AS_GOOD = 1.05, 5e-4  # of the least misfit, and of the greatest stress
+STEP = 1e-3  # relative, of the numbers, for differences
+BOUNDS = {
+    "loss": (0.005, 0.7),
+    "softening": (0.0, 0.95),
+    "width": (0.01, 3.0),
+    "softening_beta": (0.0, 2.0),
+}
+"""Of the numbers that are fitted: softening 1 / r; width: m over the work of the first loading."""
+START = {"loss": 0.3, "softening": 0.4, "width": 0.3, "softening_beta": BETA}
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A material that follows a coupon.
+
+    strain, stress (k,): curve at ``reference_time`` (s) after loading. memory: loss and softening.
+    model (n,): stress of the law in every row, Pa. misfit: root mean square of record - law over
+    the greatest stress. worst: the greatest of it, with its row. shares: lost share of the work of
+    the first cycle and of the second, None where there is none.
+    """
+
+    coupon: Coupon
+    rows: list[int]
+    strain: Floats
+    stress: Floats
+    reference_time: float
+    memory: dict[str, float]
+    knows_beta: bool
+    model: Floats
+    misfit: float
+    worst: tuple[float, int]
+    shares: tuple[float | None, float | None]
+
+
+def fit(coupon: Coupon) -> Fit:
+    """The material of a coupon."""
+    rows = branches.turns(coupon)
+    loading = Loading(coupon, rows)
+    if loading.record[0] <= 0.0:
+        raise CouponError(f"{coupon.name}: the stress does not rise with the strain")
+    grows = len(rows) > 3 and _peak(coupon, rows[3]) > LARGER * _peak(coupon, rows[1])
+    scale = branches.work(coupon, 0, rows[1])
+    found = [_fitted(coupon, loading, names, scale) for names in _laws(rows, grows)]
+    least = min(misfit for _, misfit in found)
+    memory = next(m for m, misfit in found if misfit <= AS_GOOD[0] * least + AS_GOOD[1])
+    at_points, model = loading.follow(memory)
+    strain, stress = loading.curve(at_points)
+    apart = _apart(coupon, model)
+    worst = int(np.argmax(np.abs(apart)))
+    return Fit(
+        coupon=coupon,
+        rows=rows,
+        strain=strain,
+        stress=stress,
+        reference_time=loading.reference_time,
+        memory=memory,
+        knows_beta=grows,
+        model=model,
+        misfit=float(np.sqrt(np.mean(apart**2))),
+        worst=(float(abs(apart[worst])), worst),
+        shares=(_lost(coupon, rows, 0), _lost(coupon, rows, 2)),
+    )
+
+
+def _peak(coupon: Coupon, row: int) -> float:
+    return float(coupon.sign * coupon.strain[row])
+
+
+def _most(coupon: Coupon) -> float:
+    return float(np.abs(coupon.stress).max())
+
+
+def _laws(rows: list[int], grows: bool) -> list[tuple[str, ...]]:
+    """The numbers of each law that the record can tell, the fewest first."""
+    softening = ("softening", "width", *(("softening_beta",) if grows else ()))
+    if len(rows) < 3:
+        return [()]
+    if len(rows) < 4:
+        return [(), ("loss",)]
+    return [(), ("loss",), softening, ("loss", *softening)]
+
+
+def _fitted(
+    coupon: Coupon, loading: Loading, names: tuple[str, ...], scale: float
+) -> tuple[dict[str, float], float]:
+    """The memory of least squares with these numbers, and its misfit."""
+
+    def apart(numbers: Floats) -> Floats:
+        memory = _memory(dict(zip(names, numbers.tolist(), strict=True)), scale)
+        return _apart(coupon, loading.follow(memory)[1])
+
+    if not names:
+        return {}, float(np.sqrt(np.mean(apart(np.empty(0)) ** 2)))
+    from scipy.optimize import least_squares
+
+    start = np.array([START[name] for name in names])
+    bounds = np.array([BOUNDS[name] for name in names]).T
+    done = least_squares(apart, start, bounds=bounds, diff_step=STEP, x_scale=start, ftol=1e-6)
+    memory = _memory(dict(zip(names, done.x.tolist(), strict=True)), scale)
+    return memory, float(np.sqrt(np.mean(done.fun**2)))
+
+
+def _memory(numbers: dict[str, float], scale: float) -> dict[str, float]:
+    """The keys of a material of fitted numbers."""
+    memory = {"loss": numbers["loss"]} if "loss" in numbers else {}
+    if numbers.get("softening", 0.0) > 0.0:
+        memory["softening_r"] = 1.0 / numbers["softening"]
+        memory["softening_m"] = scale * numbers["width"]
+        memory["softening_beta"] = numbers.get("softening_beta", BETA)
+    return memory
+
+
+def _apart(coupon: Coupon, model: Floats) -> Floats:
+    """Law - record over the greatest stress, where the specimen is not slack."""
+    most = _most(coupon)
+    taut = coupon.sign * coupon.stress > SLACK * most
+    return np.where(taut, model - coupon.stress, 0.0) / most
+
+
+def _lost(coupon: Coupon, rows: list[int], first: int) -> float | None:
+    """Lost share of the work of the cycle that begins with a branch, if it ends unloaded."""
+    if len(rows) < first + 3 or abs(coupon.stress[rows[first + 2]]) > UNLOADED * _most(coupon):
+        return None
+    done = branches.work(coupon, *rows[first : first + 2])
+    return 1.0 + branches.work(coupon, *rows[first + 1 : first + 3]) / done

@@ -1,0 +1,148 @@
+"""Reads the record of a coupon, a printed strip or puck that was loaded, unloaded and loaded again.
+
+A csv file with the columns time_s, strain or displacement_mm, stress_Pa or force_N, in any order,
+and others, which are not read. Nominal strain and stress, positive in tension: of a puck that is
+pressed, both are negative. Displacements need the gauge length, forces the area of the section.
+"""
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sweep.config.material_file import SECANT
+
+Floats = NDArray[np.float64]
+
+FEWEST = 20  # rows
+MOST_STRAIN = 5.0
+SOFTEST, STIFFEST = 1e5, 1e11  # Pa
+OFFSET = 0.005, 0.05  # greatest first strain, and first stress over the greatest one
+MM = 1e-3
+
+
+class CouponError(ValueError):
+    """A record that cannot be used; the text is one sentence with the file and the fault."""
+
+
+@dataclass(frozen=True)
+class Coupon:
+    """Time (n,) in s from the first row, nominal strain (n,) and stress (n,) in Pa.
+
+    sign: 1 of a strip that is pulled, -1 of a puck that is pressed.
+    """
+
+    name: str
+    time: Floats
+    strain: Floats
+    stress: Floats
+
+    @property
+    def sign(self) -> float:
+        """The sign of the strains."""
+        return 1.0 if self.strain.max() > -self.strain.min() else -1.0
+
+
+def read_coupon(path: Path, gauge: float | None = None, area: float | None = None) -> Coupon:
+    """Read and check a record; gauge in m, area in m^2."""
+    try:
+        columns = _columns(path)
+        time = _column(columns, "time_s")
+        strain = _measured(columns, "strain", "displacement_mm", "gauge", gauge, MM)
+        stress = _measured(columns, "stress_Pa", "force_N", "area", area, 1.0)
+        coupon = Coupon(path.stem, time - time[0], strain, stress)
+        _check(coupon)
+    except (OSError, ValueError) as error:
+        raise CouponError(f"{path}: {error}") from None
+    return coupon
+
+
+def _columns(path: Path) -> dict[str, Floats]:
+    """The columns of numbers of a csv file by their names."""
+    lines = path.read_text(encoding="utf-8-sig").splitlines()
+    rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))
+    if not rows:
+        raise ValueError("no rows; needed: columns time_s, strain, stress_Pa")
+    heads, rows = [head.strip() for head in rows[0]], rows[1:]
+    if len(rows) < FEWEST:
+        raise ValueError(f"{len(rows)} rows are too few for a curve; needed: at least {FEWEST}")
+    if any(len(row) != len(heads) for row in rows):
+        raise ValueError(f"every row must have {len(heads)} values, as its first row has")
+    known = ("time_s", "strain", "displacement_mm", "stress_Pa", "force_N")
+    return {
+        head: np.array([float(row[k]) for row in rows])
+        for k, head in enumerate(heads)
+        if head in known
+    }
+
+
+def _column(columns: dict[str, Floats], name: str) -> Floats:
+    if name not in columns:
+        raise ValueError(f"no column {name}; its columns: {', '.join(columns) or 'none known'}")
+    return columns[name]
+
+
+def _measured(
+    columns: dict[str, Floats], name: str, raw: str, word: str, size: float | None, unit: float
+) -> Floats:
+    """A column, or what was measured over a size of the specimen; ``word``: the option for it."""
+    if name in columns:
+        if size is not None:
+            raise ValueError(f"--{word} has no effect, as there is a column {name}")
+        return columns[name]
+    if raw not in columns:
+        raise ValueError(f"no column {name}, and no {raw} in its place")
+    if size is None:
+        raise ValueError(f"{raw} in place of {name}: needed: --{word}")
+    return unit * columns[raw] / size
+
+
+def _check(coupon: Coupon) -> None:
+    """Refuse what is no test of a coupon, and what has other units than its heads say."""
+    time, strain, stress = coupon.time, coupon.strain, coupon.stress
+    if not all(np.isfinite(column).all() for column in (time, strain, stress)):
+        raise ValueError("every row must have three finite numbers")
+    steps = np.diff(time)
+    if (steps <= 0.0).any():
+        row = int(np.argmax(steps <= 0.0)) + 2
+        raise ValueError(f"time_s does not increase from row {row - 1} to row {row}")
+    most = np.abs(strain).max()
+    if most > MOST_STRAIN:
+        raise ValueError(f"a strain of {most:g}: is it in percent? allowed: up to {MOST_STRAIN:g}")
+    if most < SECANT[1]:
+        raise ValueError(f"strains up to {most:.3g}; needed: at least {SECANT[1]:g}")
+    if strain.min() <= -1.0:
+        raise ValueError("a strain of -1 or less; allowed: above -1")
+    if abs(strain[0]) > OFFSET[0] or abs(stress[0]) > OFFSET[1] * np.abs(stress).max():
+        raise ValueError(
+            f"begins at a strain of {strain[0]:.3g} and {stress[0]:.3g} Pa; needed: a record that "
+            "begins unloaded, with both set to zero"
+        )
+    _check_modulus(coupon)
+
+
+def _check_modulus(coupon: Coupon) -> None:
+    """Refuse a modulus that no plastic has, and say which unit it may be."""
+    found = coarse_modulus(coupon)
+    if found <= 0.0:
+        raise ValueError(
+            "stress and strain have opposite signs between 1 and 4 %; allowed: both positive in "
+            "tension, both negative in compression"
+        )
+    told = f"a modulus of {found:.3g} Pa between 1 and 4 % strain"
+    if found < SOFTEST:
+        raise ValueError(f"{told}: is stress_Pa in MPa, a force, or the strain in percent?")
+    if found > STIFFEST:
+        raise ValueError(f"{told}: are stress_Pa or the size of the specimen in another unit?")
+
+
+def coarse_modulus(coupon: Coupon) -> float:
+    """Slope of the first loading between 1 and 4 %, Pa, by a straight line through its rows."""
+    strain, stress = coupon.sign * coupon.strain, coupon.sign * coupon.stress
+    end = int(np.argmax(strain >= SECANT[1])) + 1
+    rows = strain[:end] >= SECANT[0]
+    if rows.sum() < 2:
+        return float(stress[end - 1] / strain[end - 1])
+    return float(np.polyfit(strain[:end][rows], stress[:end][rows], 1)[0])

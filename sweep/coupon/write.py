@@ -1,0 +1,99 @@
+"""The material that a coupon has, as a csv file for `material.name`, and how well it fits."""
+
+from collections.abc import Iterator
+from textwrap import wrap
+
+from sweep.config.material_file import Record
+from sweep.coupon.branches import branch_name
+from sweep.coupon.fit import Fit
+
+DENSITY = 1200.0, "1190 .. 1220", "of printed TPU"  # kg/m^3
+POISSON = "0.48 (0.45 .. 0.48)"
+
+
+def material_text(fit: Fit, density: float | None = None) -> str:
+    """The csv file; density in kg/m^3, assumed if it is not given."""
+    lines = [*_header(fit, density), "strain,stress_Pa"]
+    rows = zip(fit.strain.tolist(), fit.stress.tolist(), strict=True)
+    return "\n".join([*lines, *(f"{e:.6g},{s:.6g}" for e, s in rows), ""])
+
+
+def _header(fit: Fit, density: float | None) -> Iterator[str]:
+    coupon = fit.coupon
+    pulled = "pulled" if coupon.sign > 0.0 else "pressed"
+    yield f"# {coupon.name}: a printed coupon, {pulled}."
+    yield "# Marks: [D] derived from the test, [A] an assumption."
+    yield "# Source: own coupon: fitted by crumple materials fit [D]."
+    yield from wrap(fit_sentence(fit), 100, initial_indent="#   ", subsequent_indent="#   ")
+    if "loss" in fit.memory:
+        yield "# Curve [D]: at the reference time after loading. The test, in which the material"
+        yield '#   relaxes meanwhile, follows from it with material.memory = "measured".'
+    if coupon.sign < 0.0:
+        yield "# Tension [A]: derived from compression."
+    yield "# Reference time [D]: in which the test reaches a strain of 2.5 %."
+    yield f"# reference_time_s: {fit.reference_time:.4g}"
+    if density is None:
+        value, ends, why = DENSITY
+        yield f"# Density [A]: {why}."
+        yield f"# density_kg_m3: {value:g} ({ends})"
+    else:
+        yield f"# density_kg_m3: {density:.6g}"
+    yield "# Poisson's ratio [A]: no measurement; others use 0.45-0.48."
+    yield f"# poisson: {POISSON}"
+    yield from _memory(fit)
+
+
+def _memory(fit: Fit) -> Iterator[str]:
+    memory = fit.memory
+    if "loss" in memory:
+        yield "# Loss [D]: share of the work of a cycle that is lost without softening."
+        yield f"# loss: {memory['loss']:.4g}"
+    if "softening_r" in memory:
+        yield "# Softening on reuse [D]: Ogden and Roxburgh."
+        yield f"# softening_r: {memory['softening_r']:.4g}"
+        yield f"# softening_m_Pa: {memory['softening_m']:.4g}"
+        if not fit.knows_beta:
+            yield "# Softening beta [A]: the cycles of the test are of one size."
+        yield f"# softening_beta: {memory['softening_beta']:.4g}"
+
+
+def fit_sentence(fit: Fit) -> str:
+    """How well the law follows the record, in words."""
+    apart, row = fit.worst
+    where = f"{branch_name(fit.rows, row)} at a strain of {fit.coupon.strain[row]:.3g}"
+    return (
+        f"The law follows the record within {100 * fit.misfit:.2g} % of the greatest stress (root "
+        f"mean square), and at worst within {100 * apart:.2g} %, in {where}."
+    )
+
+
+def told(fit: Fit, record: Record) -> Iterator[str]:
+    """What was found, a line each; record: the file that was written, read again."""
+    yield f"modulus         {record.modulus / 1e6:.4g} MPa, secant from 1 to 4 % strain"
+    yield f"reference time  {fit.reference_time:.3g} s"
+    shares = [share for share in fit.shares if share is not None]
+    cycles = " and ".join(f"{100 * share:.3g} %" for share in shares)
+    of = "first cycle" if len(shares) == 1 else "first and second cycle"
+    if shares:
+        yield f"lost work       {cycles} of the {of} of the record"
+    yield from _told_memory(fit)
+    yield fit_sentence(fit)
+
+
+def _told_memory(fit: Fit) -> Iterator[str]:
+    memory = fit.memory
+    if len(fit.rows) < 3:
+        yield "loss            not known, as the record has no unloading: the curve alone is fitted"
+        return
+    if "loss" in memory:
+        yield f"loss            {memory['loss']:.3g}, without softening"
+    else:
+        yield "loss            none: the law follows the record as well without"
+    if len(fit.rows) < 4:
+        yield "softening       not known, as the record has no reloading"
+    elif "softening_r" not in memory:
+        yield "softening       none: the law follows the record as well without"
+    else:
+        numbers = f"r {memory['softening_r']:.3g}, m {memory['softening_m'] / 1e6:.3g} MPa"
+        known = "" if fit.knows_beta else ", which is assumed: the cycles are of one size"
+        yield f"softening       {numbers}, beta {memory['softening_beta']:.3g}{known}"

@@ -1,0 +1,99 @@
+"""How far the values of the best designs move with the uncertain numbers, and whether their order
+changes.
+
+At a corner one uncertain number is at an end of its range, for all designs at once. A design whose
+material has no range of that number keeps its value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from pandas import DataFrame
+
+from sweep.ranking.merit import merits
+from sweep.result import Status, less_is_better
+
+if TYPE_CHECKING:
+    from pandas import Series
+
+    from sweep.ranking.ranking import Ranking
+
+ROUND_OFF = 1e-9
+AS_GIVEN = "as given"  # the corner at which no number is at an end of its range
+Corners = Mapping[str, Sequence[tuple[str, str]]]
+"""Name and case id of the corners of each design, by the id of the design."""
+
+
+class Spread(NamedTuple):
+    """The best designs of one scene and budget, with what becomes of them.
+
+    rows (k, ...): their rows of the ranking, best first. column: what is ranked.
+    at_corners (k, n): values by name of the corner, the first of which is `AS_GIVEN`; NaN where it
+    failed. places (k, n): among these designs. failed: number of missing values.
+    """
+
+    rows: DataFrame
+    column: str
+    at_corners: DataFrame
+    places: DataFrame
+    failed: int
+
+    @property
+    def swaps(self) -> list[str]:
+        """Corners that change the order of the designs."""
+        usual = self.rows[self.column].to_numpy()
+        signed = -1.0 if less_is_better(self.column) else 1.0
+        return [
+            str(name)
+            for name, values in self.at_corners.items()
+            if _overtakes(signed * usual, signed * values.to_numpy())
+        ]
+
+    def first(self, corner: str) -> int:
+        """The row that is the best at a corner."""
+        return int(np.nanargmin(self.places[corner].to_numpy()))
+
+
+def _overtakes(before: Any, after: Any) -> bool:
+    """True if a value that was greater than another one is less now; missing ones are left out."""
+    slack = ROUND_OFF * np.nanmax(np.abs(after), initial=0.0)
+    greater = before[:, None] > before[None, :] + ROUND_OFF * np.abs(before).max()
+    return bool((greater & (after[:, None] < after[None, :] - slack)).any())
+
+
+def spreads(
+    ranking: Ranking, summary: DataFrame, corners: Corners, question: Mapping[str, Any]
+) -> list[Spread]:
+    """The spread of each scene and budget of a ranking.
+
+    summary: rows of the corners. question: panel, allowed force and column of the ranking.
+    """
+    finished = summary[summary["status"] == Status.CONVERGED]
+    asked = (question.get(key) for key in ("by", "panel", "allowed_force"))
+    compared = merits(finished, *asked)[0].set_index("case_id")
+    known = ranking.table[ranking.table["case_id"].isin(corners)]
+    groups = known.groupby(["budget_g", "scene"], dropna=False, sort=False)
+    return [_spread(rows, corners, compared) for _, rows in groups]
+
+
+def _spread(rows: DataFrame, corners: Corners, compared: DataFrame) -> Spread:
+    column = str(rows["ranked_by"].iloc[0])
+    ids = [str(case_id) for case_id in rows["case_id"]]
+    names = dict.fromkeys(name for design in ids for name, _ in corners[design])
+    usual = rows[column].to_numpy(dtype=float)
+    values = DataFrame(dict.fromkeys((AS_GIVEN, *names), usual), index=ids)
+    for design in ids:
+        for name, case_id in corners[design]:
+            there = case_id in compared.index
+            values.loc[design, name] = compared.loc[case_id, column] if there else np.nan
+    places = values.rank(ascending=less_is_better(column), method="min")
+    return Spread(rows, column, values, places, int(values.isna().to_numpy().sum()))
+
+
+def ends(values: Series) -> tuple[str, str] | None:
+    """The corners with the least and the greatest value; None without any value."""
+    known = values.dropna()
+    return None if known.empty else (str(known.idxmin()), str(known.idxmax()))

@@ -1,0 +1,72 @@
+"""The spread of the best designs as tables of text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from sweep.numbers import NOTHING, three_digits
+from sweep.ranking.spread import Spread, ends
+from sweep.report.sheets import Sheet, design_labels
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+ABOUT = (
+    "lowest, highest: at the ends of the ranges of uncertain numbers, one at a time.\n"
+    "places: among these designs; others, which did not run again, may pass them there."
+)
+
+
+def spread_sheets(found: Iterable[Spread], summary: DataFrame) -> Iterator[Sheet]:
+    """A sheet for each scene and budget; summary: all designs, among which they are described."""
+    for spread in found:
+        rows = spread.rows
+        budget = rows["budget_g"].iloc[0]
+        within = f", up to {budget:g} g" if budget > 0.0 else ""
+        labels = design_labels(rows, summary)
+        heads = ["#", "design", "value", "lowest", "at", "highest", "at", "places"]
+        yield Sheet(
+            f"Spread of {spread.column}: {rows['scene'].iloc[0]}{within}",
+            heads,
+            [_row(spread, k, label) for k, label in enumerate(labels)],
+            notes=(ABOUT, *_order(spread, labels)),
+        )
+
+
+def _row(spread: Spread, k: int, label: str) -> list[str]:
+    row, values = spread.rows.iloc[k], spread.at_corners.iloc[k]
+    value = three_digits(float(row[spread.column]))
+    found = ends(values)
+    if found is None:
+        return [str(row["place"]), label, value, *[NOTHING] * 5]
+    low, high = found
+    places = spread.places.iloc[k].dropna()
+    best, worst = int(places.min()), int(places.max())
+    return [
+        str(row["place"]),
+        label,
+        value,
+        three_digits(float(values[low])),
+        low,
+        three_digits(float(values[high])),
+        high,
+        str(best) if best == worst else f"{best} to {worst}",
+    ]
+
+
+def _order(spread: Spread, labels: list[str]) -> Iterator[str]:
+    """Sentences about the order of the designs, and about what is missing."""
+    swaps = spread.swaps
+    others = {name: labels[spread.first(name)] for name in swaps if spread.first(name) != 0}
+    if spread.at_corners.columns.size == 1:
+        yield "No number is uncertain here."
+    elif not swaps:
+        yield "The order of these designs does not change."
+    elif not others:
+        yield f"The first design stays the first; others change places with {', '.join(swaps)}."
+    else:
+        firsts = "; ".join(f"with {name}, {label}" for name, label in others.items())
+        yield f"The order changes. The first is another one {firsts}."
+    if spread.failed:
+        yield f"{spread.failed} values are missing, as these cases failed or have no such value."
