@@ -20,6 +20,9 @@ KEYS = {
     "softening_r": "softening_r",
     "softening_m_Pa": "softening_m",
     "softening_beta": "softening_beta",
+    "yield_stress_Pa": "yield_stress",
+    "hardening_Pa": "hardening",
+    "fracture_strain": "fracture_strain",
 }
 """Keys of a header, and what they are called in a case."""
 

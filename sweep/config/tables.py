@@ -171,7 +171,12 @@ class Material(Table):
     def _fill_in(cls, given: Any) -> Any:
         if not isinstance(given, dict) or "curve_strain" in given:
             return given
-        asked, given = given, _with_memory(given)
+        by_numbers = "modulus" in given and "name" not in given
+        record = None if by_numbers else read_record(locate(given.get("name", "ninjaflex")))
+        asked, given = given, _with_memory(given, record)
+        if record is not None:
+            plastic = record.plasticity.items()
+            given = given | {key: value for key, value in plastic if given.get(key) is None}
         relaxes = given.get("loss") is not None or given.get("relaxation_times")
         if not relaxes:
             given = {**given, "reference_time": None}
@@ -180,17 +185,17 @@ class Material(Table):
         else:
             given = {"softening_beta": SOFTENING_BETA, **given}
         given = _with_plasticity(given)
-        if "modulus" in given and "name" not in given:
+        if record is None:
             if "density" not in given:
                 raise refusal("material.density", None, "a density, as no name is given")
             usual = {"reference_time": REFERENCE_TIME} if relaxes else {}
             return {"name": BY_NUMBERS, "stretch": "linear", "bend": "linear", **usual, **given}
         if given.get("stretch", "nonlinear") == "linear":
             given = {"bend": "linear", **given}
-        record = read_record(locate(given.get("name", "ninjaflex")))
         numbers = ("modulus", "density", "poisson", *(["reference_time"] if relaxes else []))
         known = {key: getattr(record, key) for key in numbers}
-        if any(given.get(key, cls.model_fields[key].default) in BY_CURVE[key] for key in BY_CURVE):
+        laws = [(key, given.get(key, cls.model_fields[key].default)) for key in BY_CURVE]
+        if given["hardening"] is None and any(law in BY_CURVE[key] for key, law in laws):
             known |= {"curve_strain": record.strain, "curve_stress": record.stress}
         uncertain = _uncertain(record, asked, {**known, **given})
         return {**known, **given, "name": record.name, "uncertain": uncertain}
@@ -254,13 +259,12 @@ class Material(Table):
             raise refusal("material.yield_stress", self.yield_stress, f"none if {other} is given")
 
 
-def _with_memory(given: dict[str, Any]) -> dict[str, Any]:
+def _with_memory(given: dict[str, Any], record: Record | None) -> dict[str, Any]:
     """The given keys with the loss and softening of the record, where they are asked for."""
     if given.get("memory") != "measured":
         return given
-    if "modulus" in given and "name" not in given:
+    if record is None:
         raise refusal("material.memory", "measured", '"none", as no name is given')
-    record = read_record(locate(given.get("name", "ninjaflex")))
     if not record.memory:
         allowed = f'"none", as {record.name} states neither loss nor softening'
         raise refusal("material.memory", "measured", allowed)

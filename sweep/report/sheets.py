@@ -38,7 +38,8 @@ TIED = """\
 ?: the error is unknown; the place is that of the value alone."""
 BEYOND = """\
 !: beyond the model: an element is shorter than 0.7 of its rest length, or the lattice is compressed
-to less than its solid height. Do not trust this result."""
+to less than its solid height, or a wall is broken (the column message says at which strain). Do not
+trust this result."""
 NO_PLACE = "No design has a place here."
 LONG_SPAN = 0.1  # of strain
 UNSURE = """\

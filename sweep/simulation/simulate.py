@@ -1,7 +1,9 @@
 """From a case to its result: build the arrays, march through the stages, measure. No files."""
 
 import time
+from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -76,9 +78,8 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
     strains = element_strains(shapes, scene.terms.walls, scene.terms.stretch)
     surface = surface_strains(shapes, scene.terms.walls, strains, scene.terms.bend)
     summary = summarise(case, scene, curves, frames, (strains, surface), run.loading_rows)
-    broke = summary["broke_at_strain"]
-    if status == Status.CONVERGED and broke == broke:
-        message = f"broke at a strain of {broke:.3g}: later rows are those of unbroken walls"
+    if status == Status.CONVERGED and _broke(summary, case):
+        message = _break_message(summary)
     case_id = case.case_id
     summary |= {
         "case_id": case_id,
@@ -88,6 +89,22 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
         "newton_iterations": int(run.state.totals["iterations"][0]),
     }
     return Result(case_id, status, message, summary, curves, frames)
+
+
+def _broke(summary: Mapping[str, Any], case: Case) -> bool:
+    """Whether a fibre was stretched beyond the strain at which its material breaks."""
+    limit = case.material.fracture_strain
+    return limit is not None and summary["greatest_fibre_strain"] > limit
+
+
+def _break_message(summary: Mapping[str, Any]) -> str:
+    """Where the specimen broke; a custom structure has no strain of its own."""
+    broke = summary["broke_at_strain"]
+    where = f"broke at a strain of {broke:.3g}:"
+    if np.isnan(broke):
+        strain = summary["greatest_fibre_strain"]
+        where = f"a wall broke: the greatest strain of a fibre is {strain:.3g},"
+    return f"{where} later rows are those of unbroken walls"
 
 
 def _scene(case: Case) -> Scene:
