@@ -221,6 +221,11 @@ class Reader:
             wrong_type = "wrong type" if kind.endswith("_type") else "out of range"
             raise ValueError(_REASONS.get(kind, wrong_type)) from None
 
+    def _in_si(self, key: Key, raw: Any) -> Any:
+        """One value without its unit, if its key has one."""
+        bare = key.bare and isinstance(raw, int | float)
+        return self.to_si(raw, key.unit) if key.unit and not bare else raw
+
 
 def _is_branch(value: object) -> bool:
     """Whether a value is a branch of relaxation: a table with a time and a share."""

@@ -101,7 +101,7 @@ def test_a_curve_that_ends_level_does_not_relax(own_record):
 def test_shipped_curves_rise(name):
     record = read_record(locate(name))
     assert not_rising(record.strain, record.stress) is None
-    assert Material(name=name, loss=0.3).reference_time == record.reference_time == 1.0
+    assert Material(name=name, loss=0.3).reference_time == record.reference_time
 
 
 @pytest.mark.parametrize(
