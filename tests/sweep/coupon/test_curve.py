@@ -60,7 +60,7 @@ def test_tension_from_compression_undoes_compression_from_tension():
     strain = np.linspace(0.01, 0.5, 50)
     law = stress_law(ninjaflex())
     found = tension(strain, -law.at(-strain))
-    for most, within in {0.1: 0.05, 0.3: 0.18}.items():
+    for most, within in {0.1: 0.05, 0.3: 0.2}.items():
         near = strain < most
         assert found[near] == pytest.approx(law.at(strain)[near], rel=within)
     assert tension(strain, strain)[0] == pytest.approx(0.01, rel=0.02)
