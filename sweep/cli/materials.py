@@ -66,9 +66,9 @@ def _list(names: list[str]) -> None:
 def _show(names: list[str]) -> None:
     from sweep.report.material_sheets import details
 
-    for name in names:
+    for name, record in [(name, _record(name)) for name in names]:
         say(name)
-        say_all(f"  {line}" for line in details(_record(name)))
+        say_all(f"  {line}" for line in details(record))
 
 
 def _plot(names: list[str], out: Path) -> None:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 COLORS = (BLUE, VERMILION, ORANGE, SKY, PURPLE, GREY, YELLOW)
 STYLES = ("-", "--", ":")
 MPA = 1e-6
+NEAR = -0.1, 0.1  # strain
 
 
 def material_curves(figure: Figure, curves: Mapping[str, Curve]) -> None:
@@ -33,9 +34,9 @@ def material_curves(figure: Figure, curves: Mapping[str, Curve]) -> None:
             ax.plot(strain, MPA * stress, style, color=COLORS[k % len(COLORS)], lw=1.6, label=name)
     whole.set_title("compression and tension", loc="left", fontsize="medium")
     near.set_title("up to 10 %", loc="left", fontsize="medium")
-    inside = [stress[np.abs(strain) <= 0.1] for strain, stress in curves.values()]
-    low, high = min(map(np.min, inside)), max(map(np.max, inside))
-    near.set(xlim=(-0.1, 0.1), ylim=(1.05 * MPA * low, 1.05 * MPA * high))
+    ends = [np.interp(NEAR, strain, stress) for strain, stress in curves.values()]
+    low, high = 1.05 * MPA * np.array(ends).min(), 1.05 * MPA * np.array(ends).max()
+    near.set(xlim=NEAR, ylim=(low, high))
     for ax in (whole, near):
         _cross(ax)
     near.legend(frameon=False, loc="upper left")

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 from sweep.numbers import NOTHING, three_digits
 from sweep.ranking.spread import Spread, ends
-from sweep.report.sheets import Sheet, design_labels
+from sweep.report.sheets import Sheet, design_text
 
 if TYPE_CHECKING:
-    from pandas import DataFrame
+    from pandas import DataFrame, Series
 
 ABOUT = (
     "lowest, highest: at the ends of the ranges of uncertain numbers, one at a time.\n"
@@ -24,28 +24,36 @@ def spread_sheets(found: Iterable[Spread], summary: DataFrame) -> Iterator[Sheet
         rows = spread.rows
         budget = rows["budget_g"].iloc[0]
         within = f", up to {budget:g} g" if budget > 0.0 else ""
-        labels = design_labels(rows, summary)
-        heads = ["#", "design", "value", "lowest", "at", "highest", "at", "places"]
+        design = _differing(rows, summary)
+        texts = [list(text) for text in zip(*design.values(), strict=True)]
+        labels = [", ".join(filter(None, text)) for text in texts]
+        heads = ["#", *design, "value", "lowest", "at", "highest", "at", "places"]
         yield Sheet(
             f"Spread of {spread.column}: {rows['scene'].iloc[0]}{within}",
             heads,
-            [_row(spread, k, label) for k, label in enumerate(labels)],
+            [_row(spread, k, text) for k, text in enumerate(texts)],
             notes=(ABOUT, *_order(spread, labels)),
         )
 
 
-def _row(spread: Spread, k: int, label: str) -> list[str]:
+def _differing(rows: DataFrame, summary: DataFrame) -> dict[str, Series]:
+    """The columns that describe the designs, without those in which all shown ones are equal."""
+    columns = design_text(rows, summary) or {"material": rows["material"].astype(str)}
+    return {head: text for head, text in columns.items() if len(set(text)) > 1} or columns
+
+
+def _row(spread: Spread, k: int, design: list[str]) -> list[str]:
     row, values = spread.rows.iloc[k], spread.at_corners.iloc[k]
     value = three_digits(float(row[spread.column]))
     found = ends(values)
     if found is None:
-        return [str(row["place"]), label, value, *[NOTHING] * 5]
+        return [str(row["place"]), *design, value, *[NOTHING] * 5]
     low, high = found
     places = spread.places.iloc[k].dropna()
     best, worst = int(places.min()), int(places.max())
     return [
         str(row["place"]),
-        label,
+        *design,
         value,
         three_digits(float(values[low])),
         low,

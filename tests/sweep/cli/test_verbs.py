@@ -285,6 +285,19 @@ def test_error_bars_run_companions_in_a_file_of_their_own(capsys, config):
     assert len(read_summary("results/trial.companions.h5")) == 4
 
 
+def test_spread_runs_the_best_designs_in_a_file_of_their_own(capsys, config):
+    assert "known only after" in crumple(capsys, "run", config, "--spread", "--dry-run")[1]
+    status, out, _ = crumple(capsys, "run", config, "--spread")
+    assert status == 1
+    corners = read_summary("results/trial.spread.h5")
+    assert f"spread of 2 designs: {len(corners)} cases, in results/trial.spread.h5" in out
+    assert {"contact.friction", "material.modulus", "material.poisson"} < set(corners)
+    assert "Spread of " in out
+    assert "The order of these designs does not change." in out
+    assert len(read_summary("results/trial.h5")) == 3
+    assert "cases, in" not in crumple(capsys, "run", config, "--spread")[1]
+
+
 @pytest.mark.parametrize(
     ("stop", "told"),
     [(KeyboardInterrupt(), "interrupted\n"), (Interrupted("it keeps 3 of 4"), "it keeps 3 of 4\n")],

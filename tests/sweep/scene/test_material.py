@@ -39,6 +39,16 @@ def test_records_are_as_published(name, at_10, at_100, modulus):
     assert Material(name=name).modulus == pytest.approx(modulus * 1e6, rel=2e-3)
 
 
+def test_law_at_strains_is_its_polynomial_and_beyond_its_ends_the_last_tangent(material):
+    law = stress_law(material)
+    strain = np.linspace(-0.7, 5.0, 300)
+    assert law.at(strain) == pytest.approx(polynomial(law)(strain), rel=1e-12, abs=1e-3)
+    for end, beyond in ((-0.7, -0.8), (5.0, 6.0)):
+        slope = polynomial(law)(end, 1)
+        expected = polynomial(law)(end) + (beyond - end) * slope
+        assert law.at(np.array([beyond])) == pytest.approx(expected, rel=1e-9)
+
+
 def test_law_passes_through_the_record(material):
     law = polynomial(stress_law(material))
     assert law(material.curve_strain) == pytest.approx(material.curve_stress, rel=1e-12)

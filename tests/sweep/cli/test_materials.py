@@ -1,0 +1,78 @@
+"""The verb `materials`: what it lists, draws and fits, and what it refuses."""
+
+import pytest
+
+from sweep.config.case import Material
+from sweep.config.material_file import available
+from tests.support.command import crumple
+from tests.support.coupons import coupon, written
+
+
+def test_without_words_all_materials_are_listed(capsys):
+    status, out, _ = crumple(capsys, "materials")
+    assert status == 0
+    assert all(name in out for name in available())
+    assert "±9 %" in out
+
+
+def test_with_a_name_everything_is_told(capsys):
+    status, out, _ = crumple(capsys, "materials", "cheetah", "ninjaflex")
+    assert status == 0
+    assert out.startswith("cheetah\n  Cheetah (95A), printed")
+    assert "doi 10.1089/3dp.2023.0010" in out
+    assert "\nninjaflex\n" in out
+
+
+def test_curves_are_drawn(capsys, tmp_path):
+    picture = tmp_path / "two.png"
+    words = ("plot", "cheetah", "ninjaflex", "--out", str(picture))
+    assert crumple(capsys, "materials", *words) == (0, f"{picture}\n", "")
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_coupon_becomes_a_material(capsys, tmp_path):
+    test = coupon(0.5, 0.05, 0.5, loss=0.35)
+    heads = "time_s,displacement_mm,force_N"
+    file, mine = written(tmp_path, test, heads, (1.0, 33.0, 8e-6)), tmp_path / "mine.csv"
+    words = ["fit", str(file), "--out", str(mine), "--gauge", "33 mm", "--area", "8 mm^2"]
+    status, out, err = crumple(capsys, "materials", *words, "--density", "1.21 g/cm^3")
+    assert (status, err) == (0, "")
+    assert "loss            0.35, without softening" in out
+    found = Material(name=str(mine), memory="measured")
+    assert found.loss == pytest.approx(0.35, rel=0.01)
+    assert found.density == pytest.approx(1210.0)
+    assert (tmp_path / "mine.png").exists()
+
+
+def test_material_lies_beside_its_coupon_by_default(capsys, tmp_path):
+    crumple(capsys, "materials", "fit", str(written(tmp_path, coupon(0.3))))
+    assert {path.name for path in tmp_path.iterdir()} == {
+        *("coupon.csv", "coupon_material.csv", "coupon_material.png")
+    }
+
+
+@pytest.mark.parametrize(
+    ("words", "wrong"),
+    [
+        (["chetah"], '"chetah" is no material; allowed: cheetah, '),
+        (["plot", "chetah"], '"chetah" is no material'),
+        (["plot", "--out", "a.pdf"], "a.pdf; allowed: a file whose name ends in .png"),
+        (["cheetah", "--out", "a.png"], "--out belongs to plot and fit"),
+        (["--area", "8 mm^2"], "--area belongs to fit"),
+        (["fit"], "fit needs the file of one coupon"),
+        (["fit", "none.csv"], "none.csv: "),
+        (["fit", "COUPON", "--out", "COUPON"], "allowed: another file, whose name ends in .csv"),
+        (["fit", "COUPON", "--out", "a.txt"], "allowed: another file, whose name ends in .csv"),
+        (["fit", "COUPON", "--gauge", "33"], "a bare number"),
+        (["fit", "COUPON", "--area", "8 mm"], "another kind"),
+        (["fit", "COUPON", "--area", "8 mm^2"], "--area has no effect"),
+    ],
+)
+def test_refusals_take_a_line_and_exit_with_2(capsys, tmp_path, words, wrong):
+    file = str(written(tmp_path, coupon(0.3)))
+    given = [file if word == "COUPON" else word for word in words]
+    status, out, err = crumple(capsys, "materials", *given)
+    assert (status, out) == (2, "")
+    assert err.startswith("crumple materials: ")
+    assert wrong in err
+    assert err.count("\n") == 1

@@ -1,0 +1,56 @@
+"""Fits of coupons that the law made: its numbers are found again, with noise of 1 % too."""
+
+import pytest
+
+from sweep.coupon.fit import BETA, fit
+from tests.support.coupons import coupon
+
+BOTH = {"loss": 0.35, "softening_r": 2.5, "softening_m": 3e5}
+GROWING = BOTH | {"softening_beta": 0.3}
+
+
+@pytest.mark.parametrize(("noise", "within"), [(0.0, 0.01), (0.01, 0.04)])
+def test_loss_and_softening_are_found_again(noise, within):
+    found = fit(coupon(0.5, 0.07, 0.5, noise=noise, **BOTH))
+    assert found.memory == pytest.approx(BOTH | {"softening_beta": BETA}, rel=within)
+    assert not found.knows_beta
+    assert found.misfit == pytest.approx(noise, abs=1e-3)
+
+
+@pytest.mark.parametrize(("noise", "within"), [(0.0, 0.02), (0.01, 0.1)])
+def test_a_larger_second_cycle_tells_beta(noise, within):
+    found = fit(coupon(0.3, 0.05, 0.6, 0.1, 0.6, noise=noise, **GROWING))
+    assert found.knows_beta
+    assert found.memory == pytest.approx(GROWING, rel=within)
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.01])
+@pytest.mark.parametrize("memory", [{}, {"loss": 0.35}, {"softening_r": 2.0, "softening_m": 2e5}])
+def test_what_a_material_does_not_do_is_left_out(memory, noise):
+    found = fit(coupon(0.5, 0.03, 0.5, noise=noise, **memory))
+    beta = {"softening_beta": BETA} if "softening_r" in memory else {}
+    assert found.memory == pytest.approx(memory | beta, rel=0.03)
+
+
+def test_what_a_record_does_not_tell_is_left_out():
+    pulled = fit(coupon(0.5, **BOTH))
+    assert (pulled.memory, pulled.shares) == ({}, (None, None))
+    assert pulled.misfit < 2e-3
+    assert list(fit(coupon(0.5, 0.05, **BOTH)).memory) == ["loss"]
+
+
+def test_lost_work_is_that_of_cycles_that_end_unloaded():
+    cycle = fit(coupon(0.3, 0.045, 0.3, 0.05, loss=0.35))
+    first, second = cycle.shares
+    assert first == pytest.approx(0.33, abs=0.03)
+    assert second < first
+    assert fit(coupon(0.3, 0.2, 0.3, loss=0.35)).shares == (None, None)
+    assert fit(coupon(0.3, 0.0, 0.3)).shares == (pytest.approx(0.0, abs=1e-9), None)
+
+
+def test_the_worst_row_is_told():
+    test = coupon(0.5, 0.07, 0.5, **BOTH)
+    test.stress[500] *= 1.2
+    apart, row = fit(test).worst
+    assert row == 500
+    assert apart == pytest.approx(0.2 * test.stress[500] / 1.2 / test.stress.max(), rel=0.05)

@@ -1,0 +1,105 @@
+"""Records of coupons: both kinds of columns, and a sentence for each fault."""
+
+import numpy as np
+import pytest
+
+from sweep.coupon.record import Coupon, CouponError, coarse_modulus, read_coupon
+from tests.support.coupons import coupon, written
+
+TEST = coupon(0.3, 0.02)
+
+
+def changed(**columns):
+    """`TEST` with other columns."""
+    return Coupon("trial", *(columns.get(name, getattr(TEST, name)) for name in NAMES))
+
+
+NAMES = ("time", "strain", "stress")
+
+
+def test_strains_and_stresses_are_read_as_they_are(tmp_path):
+    found = read_coupon(written(tmp_path, TEST))
+    for name in NAMES:
+        assert getattr(found, name) == pytest.approx(getattr(TEST, name))
+    assert (found.name, found.sign) == ("coupon", 1.0)
+
+
+def test_displacements_and_forces_need_the_size(tmp_path):
+    heads = "time_s,displacement_mm,force_N"
+    path = written(tmp_path, TEST, heads, (1.0, 33.0, 8e-6))
+    found = read_coupon(path, gauge=33e-3, area=8e-6)
+    assert found.strain == pytest.approx(TEST.strain)
+    assert found.stress == pytest.approx(TEST.stress)
+    with pytest.raises(CouponError, match="displacement_mm in place of strain: needed: --gauge"):
+        read_coupon(path, area=8e-6)
+    with pytest.raises(CouponError, match="force_N in place of stress_Pa: needed: --area"):
+        read_coupon(path, gauge=33e-3)
+
+
+def test_pressed_puck_has_negative_strains(tmp_path):
+    found = read_coupon(written(tmp_path, TEST, scales=(1.0, -1.0, -1.0)))
+    assert found.sign == -1.0
+    assert coarse_modulus(found) == pytest.approx(coarse_modulus(TEST))
+
+
+def test_modulus_is_the_slope_between_one_and_four_percent():
+    strain = np.linspace(0.0, 0.1, 101)
+    stress = 2e7 * np.minimum(strain, 0.05) + 1e4
+    assert coarse_modulus(Coupon("trial", strain, strain, stress)) == pytest.approx(2e7)
+
+
+@pytest.mark.parametrize(
+    ("heads", "scales", "wrong"),
+    [
+        ("time_s,strain,stress_Pa", (1, 1, 1e-6), "is stress_Pa in MPa, a force, or the strain"),
+        ("time_s,strain,stress_Pa", (1, 1, 8e-6), "a modulus of .* Pa between 1 and 4 % strain"),
+        ("time_s,strain,stress_Pa", (1, 1, 1e6), "in another unit"),
+        ("time_s,strain,stress_Pa", (1, 100, 1), "a strain of 30: is it in percent"),
+        ("time_s,strain,stress_Pa", (1, 0.1, 1), "strains up to 0.03; needed: at least 0.04"),
+        ("time_s,strain,stress_Pa", (1, -1, 1), "opposite signs"),
+        ("time_s,strain,stress_Pa", (1, -4, -1), "a strain of -1 or less"),
+        ("time_s,strain,stress_Pa", (-1, 1, 1), "time_s does not increase from row 1 to row 2"),
+        ("time,strain,stress_Pa", (1, 1, 1), "no column time_s; its columns: strain, stress_Pa"),
+        ("time_s,e,stress_Pa", (1, 1, 1), "no column strain, and no displacement_mm in its place"),
+        ("time_s,strain,stress_MPa", (1, 1, 1e-6), "no column stress_Pa, and no force_N"),
+    ],
+)
+def test_what_has_other_units_or_columns_is_refused(tmp_path, heads, scales, wrong):
+    with pytest.raises(CouponError, match=rf"coupon.csv: .*{wrong}"):
+        read_coupon(written(tmp_path, TEST, heads, scales))
+
+
+@pytest.mark.parametrize(
+    ("test", "wrong"),
+    [
+        (changed(time=TEST.time[:, None] @ [[0.0]]), "time_s does not increase from row 1"),
+        (changed(stress=TEST.stress * np.nan), "three finite numbers"),
+        (changed(stress=TEST.stress + 1e6), "begins at a strain of 0 and 1e.06 Pa"),
+        (changed(strain=TEST.strain + 0.01), "begins at a strain of 0.01"),
+        (
+            Coupon("short", TEST.time[:19], TEST.strain[:19], TEST.stress[:19]),
+            "19 rows are too few",
+        ),
+    ],
+)
+def test_what_is_no_test_is_refused(tmp_path, test, wrong):
+    flat = Coupon(test.name, test.time.reshape(-1), test.strain, test.stress)
+    with pytest.raises(CouponError, match=wrong):
+        read_coupon(written(tmp_path, flat))
+
+
+def test_options_without_effect_and_files_that_are_none_are_refused(tmp_path):
+    path = written(tmp_path, TEST)
+    with pytest.raises(CouponError, match="--area has no effect, as there is a column stress_Pa"):
+        read_coupon(path, area=8e-6)
+    with pytest.raises(CouponError, match="No such file"):
+        read_coupon(tmp_path / "none.csv")
+    path.write_text("")
+    with pytest.raises(CouponError, match="no rows"):
+        read_coupon(path)
+    path.write_text("time_s,strain,stress_Pa\n" + "0,1\n" * 30)
+    with pytest.raises(CouponError, match="every row must have 3 values"):
+        read_coupon(path)
+    path.write_text("time_s,strain,stress_Pa\n" + "0,1,soft\n" * 30)
+    with pytest.raises(CouponError, match="could not convert"):
+        read_coupon(path)

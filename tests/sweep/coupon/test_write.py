@@ -1,0 +1,70 @@
+"""The file of a fitted material is one that a config can name, and says what was found."""
+
+import pytest
+
+from sweep.config.case import Material
+from sweep.config.material_file import read_record
+from sweep.config.material_header import assumed, source
+from sweep.coupon.fit import fit
+from sweep.coupon.write import fit_sentence, material_text, told
+from tests.support.coupons import coupon
+
+BOTH = {"loss": 0.35, "softening_r": 2.5, "softening_m": 3e5}
+
+
+@pytest.fixture(scope="module")
+def both():
+    return fit(coupon(0.5, 0.07, 0.5, **BOTH))
+
+
+def read(own_record, *given):
+    """The record of the file of a fit."""
+    return read_record(own_record(material_text(*given)))
+
+
+def test_material_is_read_with_what_was_fitted(own_record, both):
+    record = read(own_record, both)
+    assert record.memory == pytest.approx(BOTH | {"softening_beta": 0.1}, rel=0.01)
+    assert record.reference_time == pytest.approx(both.reference_time, rel=1e-3)
+    assert record.stress == pytest.approx(both.stress.tolist(), rel=1e-5)
+    assert source(record.comments) == "own coupon"
+    assert assumed(record.comments) == ("Density", "Poisson's ratio", "Softening beta")
+    assert max(map(len, material_text(both).splitlines())) <= 100
+    measured = Material(name=str(own_record(material_text(both))), memory="measured")
+    assert measured.loss == record.memory["loss"]
+
+
+def test_density_is_assumed_unless_it_is_given(own_record, both):
+    assert read(own_record, both).ranges["density"] == (1190.0, 1220.0)
+    weighed = read(own_record, both, 1234.5)
+    assert (weighed.density, "density" in weighed.ranges) == (1234.5, False)
+
+
+def test_puck_says_that_its_tension_is_derived(own_record):
+    record = read(own_record, fit(coupon(-0.4, -0.06, -0.4, loss=0.3)))
+    assert "Tension" in assumed(record.comments)
+    assert min(record.strain) == pytest.approx(-0.4)
+
+
+def test_what_was_found_is_told(own_record, both):
+    lines = [*told(both, read(own_record, both))]
+    words = "\n".join(lines)
+    assert "loss            0.35, without softening" in words
+    assert "r 2.5, m 0.3 MPa, beta 0.1, which is assumed: the cycles are of one size" in words
+    assert lines[-1] == fit_sentence(both)
+    assert "The law follows the record within 0.0" in lines[-1]
+
+
+@pytest.mark.parametrize(
+    ("ends", "line"),
+    [
+        ((0.5,), "loss            not known, as the record has no unloading: the curve alone is f"),
+        ((0.5, 0.0), "softening       not known, as the record has no reloading"),
+        ((0.5, 0.0, 0.5), "loss            none: the law follows the record as well without"),
+        ((0.5, 0.0, 0.5), "softening       none: the law follows the record as well without"),
+        ((0.5, 0.0, 0.5, 0.0), "lost work       0 % and 0 % of the first and second cycle"),
+    ],
+)
+def test_what_is_not_known_is_told(own_record, ends, line):
+    found = fit(coupon(*ends))
+    assert line in "\n".join(told(found, read(own_record, found)))

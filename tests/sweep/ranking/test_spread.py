@@ -1,0 +1,61 @@
+"""Spreads of rankings: values at the corners, places, and whether the order changes."""
+
+import numpy as np
+import pytest
+
+from sweep.ranking.rank import ranked
+from sweep.ranking.spread import AS_GIVEN, ends, spreads
+from sweep.result import Status
+from tests.support.specimens import designs, summary
+
+QUESTION = {"budget": None, "panel": None, "top": 5}
+NAMES = ("soft", "hard")
+
+
+def found(at_corners, masses=(1.0, 1.0), energies=(0.4, 0.3), **question):
+    """The spread of designs; at_corners: energies (J) at two corners of each design."""
+    own = summary(*designs(list(masses), list(energies)))
+    flat = [energy for several in at_corners for energy in several]
+    rows = designs([mass for mass in masses for _ in NAMES], flat)
+    for k, row in enumerate(rows):
+        row["case_id"] = f"corner {k}"
+        row["status"] = Status.CONVERGED if np.isfinite(flat[k]) else Status.STOPPED
+    corners = {
+        case_id: [(name, f"corner {2 * k + j}") for j, name in enumerate(NAMES)]
+        for k, case_id in enumerate(own["case_id"])
+    }
+    asked = QUESTION | question
+    return spreads(ranked(own, **asked), summary(*rows), corners, asked)
+
+
+def test_values_and_places_at_the_corners():
+    (spread,) = found([(0.2, 0.8), (0.25, 0.5)])
+    assert spread.rows["place"].tolist() == [1, 2]
+    assert spread.at_corners["soft"].tolist() == pytest.approx([0.2, 0.25])
+    assert spread.at_corners[AS_GIVEN].tolist() == pytest.approx([0.4, 0.3])
+    assert spread.places.to_numpy().tolist() == [[1.0, 2.0, 1.0], [2.0, 1.0, 2.0]]
+    assert (spread.swaps, spread.failed) == (["soft"], 0)
+    assert [spread.first(name) for name in NAMES] == [1, 0]
+
+
+def test_order_that_stays_has_no_swaps():
+    (spread,) = found([(0.2, 0.8), (0.15, 0.8)])
+    assert spread.swaps == []
+
+
+def test_failed_corners_are_counted_and_left_out():
+    (spread,) = found([(np.nan, 0.8), (0.25, 0.5)])
+    assert (spread.failed, spread.swaps) == (1, [])
+    assert ends(spread.at_corners.iloc[0]) == (AS_GIVEN, "hard")
+    assert ends(spread.at_corners.loc[:, ["soft"]].iloc[0]) is None
+
+
+def test_less_is_better_where_the_column_says_so():
+    (spread,) = found([(0.2, 0.8), (0.25, 0.5)], by="mass_g", masses=(1.0, 2.0))
+    assert spread.places[AS_GIVEN].tolist() == [1.0, 2.0]
+    assert spread.swaps == []
+
+
+def test_each_budget_has_its_own():
+    several = found([(0.2, 0.8), (0.25, 0.5)], masses=(1.0, 2.0), budget=[1e-3, 5e-3])
+    assert [len(spread.rows) for spread in several] == [1, 2]
