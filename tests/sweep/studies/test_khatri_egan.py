@@ -26,9 +26,9 @@ CASES = expand(load_config(CONFIG))
 
 
 def changes(case):
-    """The keys that differ from the first case, but for the platens."""
-    base = CASES[0].axes
-    return {key for key in base if case.axes[key] != base[key]} - {"loading.platen"}
+    """The keys that differ from the first case, but for platens and inertia."""
+    base, apart = CASES[0].axes, {"loading.platen", "loading.quasi_static"}
+    return {key for key in base if case.axes[key] != base[key]} - apart
 
 
 def coarse(case):
