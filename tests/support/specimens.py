@@ -33,6 +33,7 @@ _DEFAULTS = {
     "densification_strain": 0.55,
     "packing_strain": 0.54,
     "packing_span": 0.02,
+    "solid_joint_share": 1.0,
     "touched": 1,
     "max_crossings": 0,
     "cpu_s": 2.0,
