@@ -8,9 +8,11 @@ of C and that of a beam:
 
     F = C + [[x, 0, 0], [0, 2.4 (1 + nu') x + 4 x^3, -6 x^2], [0, -6 x^2, 12 x]]
 
-For arms of unequal thickness see `joint_kinds.unequal`. Joints can take most of a short wall. Those
-that would take more than `MOST` of it are joints of a wall so much thinner that they just fit: x t,
-MM and NN are multiplied by the ratio of the thicknesses, MV by its square and VV by its cube.
+For arms of unequal thickness see `joint_kinds.unequal`. In short walls the sum of both C and the beam
+holds until the joints meet (tests/studies/continuum/pixels.py). Joints that would take more than
+`MOST` of the wall are those of a wall so much thinner that they just fit: x t, MM and NN are
+multiplied by the ratio of the thicknesses, MV by its square and VV by its cube. That is no result
+of elasticity, but F stays positive definite, and nothing jumps.
 
 nu' is nu in plane stress and nu / (1 - nu) in plane strain. Between its joints the wall is a beam
 with shear. Shear and C belong together, as C is an excess over sheared beams: a wall with an end
@@ -30,7 +32,7 @@ from sweep.scene.coordinates import BONDED
 from sweep.scene.joint_kinds import find_joint, flexibility, unequal
 
 STRAIGHT = 15.0  # degrees: two arms that meet at less are one bent wall
-MOST = 0.9  # of the length of a wall, that its joints can take
+MOST = 0.95  # of the length of a wall, that its joints can take
 POWERS = np.array([1.0, 2.0, 3.0, 1.0])  # of a thickness in MM, MV, VV, NN of C
 
 
