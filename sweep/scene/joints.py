@@ -8,9 +8,9 @@ of C and that of a beam:
 
     F = C + [[x, 0, 0], [0, 2.4 (1 + nu') x + 4 x^3, -6 x^2], [0, -6 x^2, 12 x]]
 
-For arms of unequal thickness see `joint_kinds.unequal`. In short walls the sum of both C and the beam
-holds until the joints meet (tests/studies/continuum/pixels.py). Joints that would take more than
-`MOST` of the wall are those of a wall so much thinner that they just fit: x t, MM and NN are
+For arms of unequal thickness see `joint_kinds.unequal`. In short walls the sum of both C and the
+beam holds until the joints meet (tests/studies/continuum/pixels.py). Joints that would take more
+than `MOST` of the wall are those of a wall so much thinner that they just fit: x t, MM and NN are
 multiplied by the ratio of the thicknesses, MV by its square and VV by its cube. That is no result
 of elasticity, but F stays positive definite, and nothing jumps.
 
