@@ -13,7 +13,7 @@ STAMP = .venv/.ready
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
 .PHONY: help setup sweep rank test stock mutants verify validate elements continuum accuracy mesh \
-        bars spread stability bench experiment figures lint clean
+        bars spread memory stability bench experiment figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -38,7 +38,9 @@ lint: setup  ## check style and types
 	$(PYTHON) -m ruff check
 	$(PYTHON) -m mypy
 
+# Kernels that both processes need are compiled before, once.
 test: lint  ## check style and types, then run the tests, in two processes
+	@$(PYTHON) -m sweep warm
 	$(PYTHON) -m pytest -n 2 --dist loadfile
 
 stock: setup  ## run the tests with the stock compiler (kernels/compile/README.md)
@@ -72,6 +74,9 @@ bars: setup  ## measure whether error bars cover the error; kept in results/bars
 
 spread: setup  ## measure how much columns move with mesh, imperfection, steps; kept in results/spread/
 	@$(PYTHON) -m tests.studies.spread results/spread
+
+memory: setup  ## measure what loss and softening change; goes to results/memory/ (10 min)
+	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.memory results/memory
 
 stability: setup  ## crush 500 stiff and extreme scenes and look for violations; goes to results/stability/
 	@$(PYTHON) -m tests.studies.stability results/stability

@@ -35,6 +35,13 @@ OLDER: dict[str, float | int | str] = {
     "plateau_stress_iso_Pa": nan,
     "greatest_fibre_strain": nan,
     "broke_at_strain": nan,
+    "material_memory": "none",
+    "lost_energy_J": nan,
+    "lost_share": nan,
+    "lost_energy_J_per_g": nan,
+    "second_cycle_share": nan,
+    "dissipated_material_J": nan,
+    "dissipated_friction_J": nan,
 }
 """Values of columns that rows of older versions do not have.
 
@@ -97,6 +104,9 @@ COLUMNS: dict[str, Column] = {
     "depth_m": Column("m", "depth of the walls, out of the plane"),
     "outer_width_m": Column("m", "width over all, walls included"),
     "material": Column("", 'name of the material; "by numbers" if it has none'),
+    "material_memory": Column(
+        "", "what walls do that springs do not: relaxes, softens, yields; none if they are elastic"
+    ),
     "loading_mode": Column("", "force, displacement, impact or custom"),
     "platen": Column("", "none, contact, glued or sliding"),
     "force_N": Column("N", "dead load on the top; NaN unless the mode is force"),
@@ -137,7 +147,26 @@ COLUMNS: dict[str, Column] = {
     "dissipated_energy_J": Column(
         "J", "dissipated by material, friction and time integrator", "more"
     ),
+    "dissipated_material_J": Column(
+        "J", "dissipated by the material and its damping in the whole run", "more"
+    ),
+    "dissipated_friction_J": Column("J", "dissipated by friction in the whole run", "more"),
     "dissipated_integrator_J": Column("J", "energy removed by the time integrator itself"),
+    "lost_energy_J": Column(
+        "J",
+        "absorbed energy - returned energy; of an impact, energy of the striker at first touch - "
+        "that of its rebound; NaN if none moves back",
+        "more",
+    ),
+    "lost_share": Column(
+        "1",
+        "lost energy / absorbed energy; of an impact, / energy of the striker at first touch",
+        "more",
+    ),
+    "lost_energy_J_per_g": Column("J/g", "lost energy / mass", "more"),
+    "second_cycle_share": Column(
+        "1", "energy absorbed in the second cycle / in the first; NaN with a single cycle", "more"
+    ),
     "injected_by_projection_J": Column(
         "J", "energy added by position-based contact; negative if it removes energy"
     ),
@@ -298,7 +327,14 @@ FRAME_COLUMNS: dict[str, Column] = {
 
 PROBE = re.compile(r"probe_(\d+)_(.+)_(m|rad|N|Nm)")
 ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
+IN_CYCLE = re.compile(r"(absorbed_energy|lost_energy|peak_force)_in_cycle_(\d+)_[JN]")
 PER_GRAM = re.compile(r"specific_absorption_((?:at|until)_.+)_J_per_g")
+CYCLED: dict[str, tuple[str, Literal["more", "less"], str]] = {
+    "absorbed_energy": ("J", "more", "work done on the lattice as cycle {} loads it"),
+    "lost_energy": ("J", "more", "work done in cycle {}, unloading included"),
+    "peak_force": ("N", "less", "greatest force on a platen in cycle {}"),
+}
+"""Units, better values and meaning of the columns of a cycle."""
 ERROR = re.compile(r"^error_(.+)")
 CORRECTION = re.compile(r"^correction_(.+)")
 
@@ -306,6 +342,18 @@ CORRECTION = re.compile(r"^correction_(.+)")
 def absorbed_energy_column(force: float) -> str:
     """Name of the column of the energy absorbed until `force` (N) is first transmitted."""
     return f"absorbed_energy_at_{force:.10g}N_J"
+
+
+def cycle_columns(number: int) -> tuple[str, str, str]:
+    """Names of the columns of the absorbed energy, the lost energy and the peak force of a cycle.
+
+    number: of the cycle, from 1.
+    """
+    return (
+        f"absorbed_energy_in_cycle_{number}_J",
+        f"lost_energy_in_cycle_{number}_J",
+        f"peak_force_in_cycle_{number}_N",
+    )
 
 
 def error_column(name: str) -> str:
@@ -334,7 +382,7 @@ def describe_history(name: str) -> Column:
 def is_grid_key(name: str) -> bool:
     """True for the column of a grid key, such as `lattice.wall_thickness`."""
     known = {*COLUMNS, *STORED_COLUMNS, *RANKING_COLUMNS}
-    derived = (ABSORBED_AT, PER_GRAM, ERROR, CORRECTION)
+    derived = (ABSORBED_AT, IN_CYCLE, PER_GRAM, ERROR, CORRECTION)
     return not (name in known or any(pattern.fullmatch(name) for pattern in derived))
 
 
@@ -352,6 +400,10 @@ def describe_column(name: str) -> Column:
     if match := ABSORBED_AT.fullmatch(name):
         meaning = f"work done until a force of {match[1]} N is exceeded; all of it if it never is"
         return Column("J", meaning, "more")
+    if match := IN_CYCLE.fullmatch(name):
+        what, number = match.groups()
+        units, better, meaning = CYCLED[what]
+        return Column(units, meaning.format(number), better)
     if match := PER_GRAM.fullmatch(name):
         return Column("J/g", f"energy absorbed {match[1].replace('_', ' ')} / mass", "more")
     return Column(_unit_of_key(name), f"grid key {name}")
@@ -382,6 +434,7 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
         "depth_m": lattice.depth,
         "outer_width_m": lattice.outer_size[0],
         "material": case.material.name,
+        "material_memory": case.material.inelasticity,
         "loading_mode": loading.mode,
         "platen": loading.platen or "",
         "force_N": nan if loading.force is None else loading.force,
@@ -398,5 +451,8 @@ def failed_result(case: Case, status: Status, message: str) -> Result:
     """Result of a case without any measurement: its design, NaN for all measures, no curves."""
     measures = {name: nan for name in COLUMNS if name not in ("case_id", "status", "message")}
     measures |= {absorbed_energy_column(force): nan for force in case.loading.allowed_forces or ()}
+    cycles = case.loading.cycles or 1
+    for number in range(1, cycles + 1) if cycles > 1 else ():
+        measures |= dict.fromkeys(cycle_columns(number), nan)
     counts = {"touched": 0, "max_crossings": 0, "steps": 0, "newton_iterations": 0}
     return Result(case.case_id, status, message, measures | counts | design_columns(case))

@@ -8,6 +8,9 @@ import pytest
 # Pictures are drawn into files: no test needs a screen, whatever the user's settings say.
 os.environ["MPLBACKEND"] = "Agg"
 
+# Matrices are small: threads of BLAS would only wait for each other. It reads this when it loads.
+os.environ["OMP_NUM_THREADS"] = "1"
+
 CONFIG = """
 name = "trial"
 [grid]

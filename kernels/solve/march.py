@@ -157,7 +157,7 @@ def _begin_share(problem, tolerance, stage, state, space, descent, progress):
     problem.begin(_step(stage, space, progress), rates, work.trial)
     if problem.lag(state.x):  # the Hessian of friction changes
         descent.since_factor = np.inf
-    progress.share_iterations, progress.minimum_iterations = 0, 0
+    progress.share_iterations, progress.minimum_iterations, descent.cut_moves = 0, 0, 0
     friction_loop.begin(progress)
 
 

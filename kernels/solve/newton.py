@@ -18,10 +18,11 @@ from kernels.solve.residual import allowed, largest
 CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
 ARMIJO = 1e-4  # share of the predicted decrease that is sufficient
 HALVINGS = 40  # of a line search, at most
-DUAL_HALVINGS = 3  # after more halvings the duals of lagged forces are reset
+DUAL_HALVINGS = 3  # after more halvings lagged forces are softened
 SLOW_REDUCTION = 0.1  # a reused factor is renewed if the ratio of two residuals is larger
 LEAST_SHARE = 1e-12  # of a move: a shorter one is a stall
 RESOLVED = 1e-11  # relative energy changes below it are round-off
+MOST_CUT_MOVES = 20  # of a dynamic step: more do not pay, as a shorter step is easier
 DESCENT = np.dtype(
     (
         np.record,  # for attributes in plain Python too
@@ -32,6 +33,7 @@ DESCENT = np.dtype(
             ("travel_bound", np.float64),  # move that the neighbour lists must cover, m
             ("iterations", np.int64),  # of the last minimisation
             ("decrement", np.float64),  # of Newton where it converged, J
+            ("cut_moves", np.int64),  # of the step, shortened by `Coordinates.cap` or a step limit
         ],
     )
 )
@@ -92,12 +94,12 @@ def _accept_trial(x, problem, step, found, work, share, predicted, halvings):
     """Copy the trial point, a ``share`` of dx, to ``x``; return whether its factor may be reused.
 
     predicted: dx is a predictor instead of a Newton step, so that the duals of lagged forces are
-    not updated. After many halvings the duals are unreliable, and are reset.
+    not updated. Many halvings mean that the duals mislead: the lagged forces are then softened.
     """
     copy(work.trial, x)
     if halvings > DUAL_HALVINGS:
-        problem.forget()
-        return True
+        problem.soften()
+        return not problem.lags()
     return predicted or problem.follow(work.dx, share, step, found)
 
 
@@ -179,7 +181,7 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
     found, work, coordinates = space.found, space.work, problem.scene.coordinates
     outcome, iteration, halvings = ITERATIONS, 0 if evaluated else -1, 0
     new_direction, line_search, accepted, accept_any = not evaluated, not evaluated, evaluated, True
-    uncapped = _reaches_target(x, work.dx, target, coordinates.driven)
+    shortened, uncapped = False, _reaches_target(x, work.dx, target, coordinates.driven)
     projected, balanced = False, False
     value, remaining, share, size, duals_fit = 0.0, 0.0, 0.0, 0.0, True
     model, escape = (0.0, 0.0), (0.0, 0.0)
@@ -194,6 +196,9 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
             share = problem.step_limit(x, work.dx, descent.travel_bound)
             if share < LEAST_SHARE:
                 outcome = STALLED
+                break
+            descent.cut_moves += share < 1.0 or shortened
+            if step.dynamic and descent.cut_moves > MOST_CUT_MOVES:
                 break
             new_direction, line_search, halvings = False, True, 0
             _set_trial(x, work, share)
@@ -224,6 +229,9 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
             if not balanced and size > SLOW_REDUCTION * previous_size:
                 descent.since_factor = np.inf
             previous_size = size
+            if balanced and not duals_fit:  # stable means: by the exact Hessian
+                problem.forget()
+                duals_fit = True
         if descent.since_factor > coordinates.close:
             met, pivot = problem.factor(x, step, found, projected, False)
             if met == NO_ROOM:
@@ -252,7 +260,7 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
         model, longest, uncapped = _choose_move(
             slope, stable, accept_any, escape, coordinates, remaining, work
         )
-        new_direction = True
+        shortened, new_direction = not uncapped, True
     if outcome == OUTGROWN and iteration >= 0:
         zero(work.dx)
     descent.iterations = max(iteration, 0)

@@ -13,6 +13,7 @@ element or opening. It is no excuse for a coordinate whose own inertia is not re
 of momentum adds up from step to step.
 """
 
+from kernels.arrays import total
 from kernels.compile.jit import jit_exact
 from kernels.solve.energy_book import LARGEST_IMBALANCE, largest_energy
 from kernels.solve.integrators import FIRST_SHARE
@@ -121,15 +122,19 @@ def _largest_inertia(coordinates, v, h):
 
 @jit_exact
 def is_resolved(problem, step, tolerance, state, found, work, load, decrement):
-    """Return whether the residual of a step is small enough; it is if nothing moves the problem.
+    """Return whether the residual of a step is small enough.
 
-    load: `largest_load` of the step. decrement: of Newton at the point, J.
+    It is if only a prescribed move drives the problem, or nothing drives it in a static step.
+    Without a load, motion from rest is due to stored energy: of a strained spring, or after a
+    release. load: `largest_load` of the step. decrement: of Newton at the point, J.
     """
     coordinates, driving = problem.scene.coordinates, load
     if step.dynamic and state.book[0].kinetic > tolerance.noise:
         driving = max(driving, _largest_inertia(coordinates, state.v, step.h))
     if driving == 0.0:
-        return True
+        stored = total(state.stored) + total(found.stored)
+        if coordinates.driven >= 0 or not step.dynamic or stored <= tolerance.noise:
+            return True
     force = max(driving, largest_force(coordinates, state, found, load))
     limit, left, h2 = LARGEST_RESIDUAL * force, 2.0 * decrement, step.h * step.h
     problem.reduce(found.g, work.residual)

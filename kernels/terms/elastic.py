@@ -8,6 +8,7 @@ that no element vanishes or turns over. `FibreCurve` is the same curve for a fib
 section, without the barrier: the centre line keeps walls from vanishing.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -70,6 +71,18 @@ def respond_fibre(law, strain):
     return curve(law, strain)
 
 
+@jit
+def least(law):
+    """Return the strain to which stresses fall without bound: that of the barrier."""
+    return -1.0
+
+
+@jit
+def least_of_fibre(law):
+    """Return the same of a fibre, which has no such strain."""
+    return -math.inf
+
+
 class ElasticCurve(NamedTuple):
     """Stress-strain curve of a wall.
 
@@ -83,6 +96,7 @@ class ElasticCurve(NamedTuple):
     modulus: float
 
     respond = respond
+    least = least
 
 
 class FibreCurve(NamedTuple):
@@ -94,3 +108,4 @@ class FibreCurve(NamedTuple):
     modulus: float
 
     respond = respond_fibre
+    least = least_of_fibre

@@ -53,7 +53,7 @@ class Pace(NamedTuple):
 @jit_exact
 def _square(z, decay, gain):
     """Return the weights of `Pace.square` for z = dt / tau."""
-    mixed = gain * (1.0 - decay)
+    mixed = z * gain * gain
     if z < SMALL:
         last = z * (1.0 / 3.0 - z * (1.0 / 4.0 - z * (7.0 / 60.0 - z / 24.0)))
     else:
@@ -110,7 +110,7 @@ def inverse(elastic, most, stress, guess):
     """Return the strain at which an elastic law whose stress rises has ``stress``, from a guess;
     and its complementary energy, the integral of strain over stress. most: see `softening`.
     """
-    low, high, strain = -1.0, math.inf, guess
+    low, high, strain = elastic.least(), math.inf, guess
     for _ in range(TRIES):
         energy, found, tangent = elastic.respond(strain, most)
         gap = stress - found

@@ -58,6 +58,12 @@ def greatest(law, strain, most):
     return max(most, law.curve.respond(strain)[0])
 
 
+@jit
+def least(law):
+    """Return the strain to which stresses fall without bound."""
+    return law.curve.least()
+
+
 class Softening(NamedTuple):
     """curve: elastic law. softening: 1 / r, below 1; zero: none. m: J/m^3. beta: a number."""
 
@@ -68,3 +74,4 @@ class Softening(NamedTuple):
 
     respond = respond
     greatest = greatest
+    least = least

@@ -12,9 +12,12 @@ from sweep.cli.terminal import print_sheets, say, say_all
 if TYPE_CHECKING:
     from argparse import Namespace
 
+    from numpy.typing import NDArray
+
     from sweep.config.material_file import Record
 
 PLOTTED = -0.6, 1.0, 401  # strains and number of points of a picture
+UNBROKEN = 0.1  # strain to which a plastic is drawn that states no break
 PICTURE = "materials.png"
 OF_A_FIT = ("gauge", "area", "density")
 
@@ -69,27 +72,30 @@ def _show(names: list[str]) -> None:
 
 
 def _plot(names: list[str], out: Path) -> None:
-    from sweep.config.tables import Material
     from sweep.report.case_plots import blank, save
     from sweep.report.material_plots import material_curves
-    from sweep.scene.material import stress_law
 
-    curves = {}
-    for record in map(_record, names):
-        low, high, count = PLOTTED
-        strain = np.linspace(max(low, -0.95), min(high, max(record.strain)), count)
-        material = Material(
-            name=record.name,
-            modulus=record.modulus,
-            density=record.density,
-            poisson=record.poisson,
-            curve_strain=record.strain,
-            curve_stress=record.stress,
-        )
-        curves[record.name] = strain, stress_law(material).at(strain)
     figure = blank(11.0, 4.6)
-    material_curves(figure, curves)
+    material_curves(figure, {record.name: _curve(record) for record in map(_record, names)})
     say(save(figure, _png(out)))
+
+
+def _curve(record: Record) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Strain and stress of the first loading, to the end of the record or to the break."""
+    from sweep.config.tables import Material
+    from sweep.scene.material import monotonic_law
+
+    low, high, count = PLOTTED
+    broken = record.plasticity.get("fracture_strain", UNBROKEN)
+    ends = (-broken, broken) if record.plasticity else (-0.95, max(record.strain))
+    strain = np.linspace(max(low, ends[0]), min(high, ends[1]), count)
+    numbers = {"modulus": record.modulus, "density": record.density, "poisson": record.poisson}
+    if record.plasticity:
+        material = Material.model_validate({**numbers, **record.plasticity})
+    else:
+        curve = {"curve_strain": record.strain, "curve_stress": record.stress}
+        material = Material.model_validate({"name": record.name, **numbers, **curve})
+    return strain, monotonic_law(material).at(strain)
 
 
 def _png(path: Path) -> Path:

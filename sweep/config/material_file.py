@@ -7,6 +7,9 @@ loading for which the curve holds if the material relaxes; and the measured `los
 a range (`material_header`). The columns `strain,stress_Pa` follow
 (nominal, tension positive, strains increasing; the origin is implied and may be left out).
 Rows of negative strain, if there are any, are the material's own compression branch.
+
+A plastic that yields has `yield_stress_Pa` instead of columns, a `modulus_Pa`, and optionally
+`hardening_Pa` and `fracture_strain`.
 """
 
 import csv
@@ -26,6 +29,7 @@ TOE = 0.01  # below this strain a record is replaced by a straight line from the
 REFERENCE_TIME = 1.0  # s; of a record that states none
 SECANT = (0.01, 0.04)  # strains of the secant that is the modulus of a curve
 MEMORY = ("loss", "softening_r", "softening_m", "softening_beta")
+PLASTICITY = ("yield_stress", "hardening", "fracture_strain")
 RANGE_ALONE = ("modulus", "friction")  # of which a range may be stated without a number
 
 
@@ -41,7 +45,8 @@ class UnknownMaterialError(RecordError):
 class Record:
     """One material: nominal strain (k,), nominal stress (k,) in Pa, and its numbers in SI.
 
-    memory: measured loss and softening, by the keys of a case. ranges: low and high end of every
+    memory: measured loss and softening, by the keys of a case. plasticity: numbers of a material
+    that yields, which has no curve; else empty. ranges: low and high end of every
     number that has a range, by the same keys. comments: the text of the header.
     """
 
@@ -53,6 +58,7 @@ class Record:
     modulus: float
     reference_time: float
     memory: Mapping[str, float]
+    plasticity: Mapping[str, float]
     ranges: Mapping[str, tuple[float, float]]
     comments: tuple[str, ...]
 
@@ -81,9 +87,8 @@ def read_record(path: Path) -> Record:
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
         numbers = stated(lines)
-        strain, stress = _columns(lines)
-        check_curve(strain, stress)
         _check_numbers(numbers)
+        strain, stress = _curve(lines, "yield_stress" in numbers)
         return _record(path.stem, strain, stress, numbers, comments(lines))
     except (OSError, ValueError) as error:
         raise RecordError(f"{path.name}: {error}") from None
@@ -104,9 +109,10 @@ def _record(
         stress=stress,
         density=known["density"],
         poisson=known["poisson"],
-        modulus=known.get("modulus", secant_modulus(strain, stress)),
+        modulus=known["modulus"] if "modulus" in known else secant_modulus(strain, stress),
         reference_time=known.get("reference_time", REFERENCE_TIME),
         memory={key: known[key] for key in MEMORY if key in known},
+        plasticity={key: known[key] for key in PLASTICITY if key in known},
         ranges=ranges,
         comments=texts,
     )
@@ -121,6 +127,22 @@ def _check_numbers(numbers: Mapping[str, Stated]) -> None:
         raise RecordError(f"{alone[0]} needs a number beside its range")
     if ("softening_r" in numbers) != ("softening_m" in numbers):
         raise RecordError("softening needs the lines # softening_r: ... and # softening_m_Pa: ...")
+    yields = "yield_stress" in numbers
+    if not yields and (other := [key for key in PLASTICITY if key in numbers]):
+        raise RecordError(f"{other[0]} needs the line # yield_stress_Pa: ...")
+    if yields and ("modulus" not in numbers or "modulus" in alone):
+        raise RecordError("a material that yields needs the line # modulus_Pa: ...")
+
+
+def _curve(lines: list[str], yields: bool) -> tuple[Numbers, Numbers]:
+    """The checked curve of a record; none if it yields."""
+    if not yields:
+        strain, stress = _columns(lines)
+        check_curve(strain, stress)
+        return strain, stress
+    if any(line.strip() and not line.startswith("#") for line in lines):
+        raise RecordError("a material that yields has no curve")
+    return (), ()
 
 
 def _columns(lines: list[str]) -> tuple[Numbers, Numbers]:
@@ -143,6 +165,29 @@ def check_curve(strain: Numbers, stress: Numbers) -> None:
         raise RecordError(f"a curve must reach a strain of {SECANT[1]:g}")
     if stress_at(TOE, strain, stress) <= 0.0:
         raise RecordError("the stress of a curve must be positive at 1 % strain")
+
+
+def not_rising(strain: Numbers, stress: Numbers) -> float | None:
+    """The first strain from which the stress of a curve does not rise; None if it rises throughout.
+
+    Beyond its ends a curve goes on as a shape-preserving cubic ends: level, if its last secant is
+    so much flatter than the one before that a parabola through the last three points would fall.
+    """
+    pairs = list(zip(strain, stress, strict=True))
+    below = [(e, s) for e, s in pairs if e < 0.0]
+    toe = (TOE, stress_at(TOE, strain, stress))
+    points = [*below, (0.0, 0.0), toe, *((e, s) for e, s in pairs if e > TOE)]
+    steps = [(a, b - a, (t - s) / (b - a)) for (a, s), (b, t) in pairwise(points)]
+    for at, _, slope in steps:
+        if slope <= 0.0:
+            return at
+    ends = [(points[-1][0], steps[-1], steps[-2])]
+    if below:
+        ends.append((points[0][0], steps[0], steps[1]))
+    for at, (_, last, slope), (_, width, before) in ends:
+        if (2.0 * last + width) * slope <= last * before:
+            return at
+    return None
 
 
 def secant_modulus(strain: Numbers, stress: Numbers) -> float:

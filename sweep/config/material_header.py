@@ -1,10 +1,12 @@
 """The header of a material record: comment lines with its source and, one per line, its numbers.
 
-# poisson: 0.48
-# poisson: 0.48 (0.45 .. 0.48)       and the range in which it may lie
-# modulus_Pa: 67e6 +- 6e6            the same, for a range around the number
-# modulus_Pa: 19e6 .. 27e6           a range alone; the number is that of the curve
-# Density [A]: of another grade.     a comment; [Q] quoted, [D] derived, [A] assumed
+    # poisson: 0.48
+    # poisson: 0.48 (0.45 .. 0.48)       and the range in which it may lie
+    # modulus_Pa: 67e6 +- 6e6            the same, for a range around the number
+    # modulus_Pa: 19e6 .. 27e6           a range alone; the number is that of the curve
+    # Density [A]: of another grade.     a comment; [Q] quoted, [D] derived, [A] assumed
+
+A comment goes on in the next line if that begins with "#  ".
 """
 
 import re
@@ -20,6 +22,9 @@ KEYS = {
     "softening_r": "softening_r",
     "softening_m_Pa": "softening_m",
     "softening_beta": "softening_beta",
+    "yield_stress_Pa": "yield_stress",
+    "hardening_Pa": "hardening",
+    "fracture_strain": "fracture_strain",
 }
 """Keys of a header, and what they are called in a case."""
 

@@ -213,15 +213,18 @@ class Reader:
         if key.targets == ("lattice.file",) and isinstance(raw, str):
             return _structure(self.folder / raw)
         many = isinstance(raw, list)
-        value: Any = raw
-        if key.unit and not (key.bare and isinstance(raw, int | float)):
-            value = [self.to_si(v, key.unit) for v in raw] if many else self.to_si(raw, key.unit)
+        value: Any = [self._in_si(key, v) for v in raw] if many else self._in_si(key, raw)
         try:
             return key.adapter.validate_python(tuple(value) if many else value)
         except ValidationError as error:
             kind = error.errors()[0]["type"]
             wrong_type = "wrong type" if kind.endswith("_type") else "out of range"
             raise ValueError(_REASONS.get(kind, wrong_type)) from None
+
+    def _in_si(self, key: Key, raw: Any) -> Any:
+        """One value without its unit, if its key has one."""
+        bare = key.bare and isinstance(raw, int | float)
+        return self.to_si(raw, key.unit) if key.unit and not bare else raw
 
 
 def _is_branch(value: object) -> bool:

@@ -175,7 +175,7 @@ def _speed_and_energy(loading: Loading, striker_mass: float) -> tuple[float, flo
 
 
 def _displacement(loading: Loading, height: float, integrator: str | None) -> Loading:
-    """A platen that moves down by `stroke`, and back up if `unload`."""
+    """A platen that moves down by `stroke`, and back up if `unload`; the whole `cycles` times."""
     if loading.platen == "none":
         allowed = f'{PLATENS} if loading.mode is "displacement"'
         raise refusal("loading.platen", "none", allowed)
@@ -190,13 +190,17 @@ def _displacement(loading: Loading, height: float, integrator: str | None) -> Lo
     if not quasi_static and loading.speed is None:
         raise refusal("loading.speed", None, "a speed if quasi_static is false")
     stroke, strain = _stroke_and_strain(loading, height)
+    unload, cycles = given_or(loading.unload, True), given_or(loading.cycles, 1)
+    if cycles > 1 and not unload:
+        raise refusal("loading.cycles", cycles, "1 if loading.unload is false")
     return Loading(
         mode="displacement",
         stroke=stroke,
         strain=strain,
         speed=loading.speed if rate is None else rate * height,
         quasi_static=quasi_static,
-        unload=given_or(loading.unload, True),
+        unload=unload,
+        cycles=cycles,
         platen=loading.platen or "glued",
         allowed_forces=loading.allowed_forces,
     )

@@ -44,7 +44,7 @@ def with_joints(solver: Solver, material: Material, custom: bool) -> Solver:
 def steps(loading: Loading, solver: Solver) -> float:
     """Number of steps of a resolved case."""
     if solver.load_steps is not None:
-        return solver.load_steps * (2 if loading.unload else 1)
+        return solver.load_steps * (2 if loading.unload else 1) * given_or(loading.cycles, 1)
     assert loading.duration is not None
     assert solver.time_step is not None
     return loading.duration / solver.time_step

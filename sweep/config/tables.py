@@ -12,6 +12,7 @@ from sweep.config.material_file import (
     Record,
     check_curve,
     locate,
+    not_rising,
     read_record,
 )
 
@@ -37,6 +38,7 @@ Mass = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
 Density = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg/m^3"})]
 Count = Annotated[int, Field(ge=1)]
 Few = Annotated[int, Field(ge=1, le=1000)]  # a typo must not fill the memory
+Cycles = Annotated[int, Field(ge=1, le=100)]
 # JSON returns lists, so that lists are accepted too.
 Curve = Annotated[tuple[float, ...], Field(strict=False)]
 Range = Annotated[tuple[str, float, float], Field(strict=False)]
@@ -148,6 +150,13 @@ class Material(Table):
         return self.relaxes or self.softening_r is not None or self.yields
 
     @property
+    def inelasticity(self) -> str:
+        """What the walls do that springs do not: "relaxes, softens" and the like, or "none"."""
+        softens = self.softening_r is not None
+        words = {"relaxes": self.relaxes, "softens": softens, "yields": self.yields}
+        return ", ".join(word for word, true in words.items() if true) or "none"
+
+    @property
     def yields(self) -> bool:
         """Whether it deforms plastically."""
         return self.yield_stress is not None
@@ -162,7 +171,12 @@ class Material(Table):
     def _fill_in(cls, given: Any) -> Any:
         if not isinstance(given, dict) or "curve_strain" in given:
             return given
-        asked, given = given, _with_memory(given)
+        by_numbers = "modulus" in given and "name" not in given
+        record = None if by_numbers else read_record(locate(given.get("name", "ninjaflex")))
+        asked, given = given, _with_memory(given, record)
+        if record is not None:
+            plastic = record.plasticity.items()
+            given = given | {key: value for key, value in plastic if given.get(key) is None}
         relaxes = given.get("loss") is not None or given.get("relaxation_times")
         if not relaxes:
             given = {**given, "reference_time": None}
@@ -171,17 +185,17 @@ class Material(Table):
         else:
             given = {"softening_beta": SOFTENING_BETA, **given}
         given = _with_plasticity(given)
-        if "modulus" in given and "name" not in given:
+        if record is None:
             if "density" not in given:
                 raise refusal("material.density", None, "a density, as no name is given")
             usual = {"reference_time": REFERENCE_TIME} if relaxes else {}
             return {"name": BY_NUMBERS, "stretch": "linear", "bend": "linear", **usual, **given}
         if given.get("stretch", "nonlinear") == "linear":
             given = {"bend": "linear", **given}
-        record = read_record(locate(given.get("name", "ninjaflex")))
         numbers = ("modulus", "density", "poisson", *(["reference_time"] if relaxes else []))
         known = {key: getattr(record, key) for key in numbers}
-        if any(given.get(key, cls.model_fields[key].default) in BY_CURVE[key] for key in BY_CURVE):
+        laws = [(key, given.get(key, cls.model_fields[key].default)) for key in BY_CURVE]
+        if given["hardening"] is None and any(law in BY_CURVE[key] for key, law in laws):
             known |= {"curve_strain": record.strain, "curve_stress": record.stress}
         uncertain = _uncertain(record, asked, {**known, **given})
         return {**known, **given, "name": record.name, "uncertain": uncertain}
@@ -190,11 +204,11 @@ class Material(Table):
     def _relaxes_in_part(self) -> Self:
         times, shares = self.relaxation_times, self.relaxation_shares
         if len(times) != len(shares):
-            raise refusal("material.relaxation", list(times), "a share for each time")
+            raise refusal("material.relaxation_times", list(times), "a time for each share")
         if times and self.loss is not None:
             raise refusal("material.loss", self.loss, "one of loss and relaxation")
         if sum(shares) >= 1.0:
-            raise refusal("material.relaxation", list(shares), "shares whose sum is below 1")
+            raise refusal("material.relaxation_shares", list(shares), "shares whose sum is below 1")
         return self
 
     @model_validator(mode="after")
@@ -218,9 +232,19 @@ class Material(Table):
                 key, word = used[0]
                 raise refusal(f"material.{key}", word, '"linear", as no curve is given')
             check_curve(self.curve_strain, self.curve_stress)
+            self._check_that_it_rises()
         elif self.curve_strain:
             raise refusal("material.curve_strain", self.curve_strain, "no curve if linear")
         return self
+
+    def _check_that_it_rises(self) -> None:
+        """Refuse a material that relaxes if its stress does not rise with strain."""
+        at = not_rising(self.curve_strain, self.curve_stress) if self.relaxes else None
+        if at is not None:
+            key = "relaxation_times" if self.loss is None else "loss"
+            value = list(self.relaxation_times) if self.loss is None else self.loss
+            falls = f"the stress of {self.name} does not rise from a strain of {at:g} on"
+            raise refusal(f"material.{key}", value, f"none, as {falls}")
 
     def _check_plasticity(self) -> None:
         """Refuse a plastic material with other laws beside."""
@@ -235,13 +259,12 @@ class Material(Table):
             raise refusal("material.yield_stress", self.yield_stress, f"none if {other} is given")
 
 
-def _with_memory(given: dict[str, Any]) -> dict[str, Any]:
+def _with_memory(given: dict[str, Any], record: Record | None) -> dict[str, Any]:
     """The given keys with the loss and softening of the record, where they are asked for."""
     if given.get("memory") != "measured":
         return given
-    if "modulus" in given and "name" not in given:
+    if record is None:
         raise refusal("material.memory", "measured", '"none", as no name is given')
-    record = read_record(locate(given.get("name", "ninjaflex")))
     if not record.memory:
         allowed = f'"none", as {record.name} states neither loss nor softening'
         raise refusal("material.memory", "measured", allowed)
@@ -274,7 +297,10 @@ def _with_plasticity(given: dict[str, Any]) -> dict[str, Any]:
 # Keys that imply the mode.
 MODES = {
     "force": ("force", "release_time"),
-    "displacement": ("stroke", "strain", "speed", "strain_rate", "quasi_static", "unload"),
+    "displacement": (
+        *("stroke", "strain", "speed", "strain_rate"),
+        *("quasi_static", "unload", "cycles"),
+    ),
     "impact": ("striker_mass", "striker_speed", "energy"),
 }
 
@@ -283,8 +309,11 @@ class Loading(Table):
     """The loading of the specimen. None: not given, or not used by the mode.
 
     If the mode is not given, keys that only one mode has imply it. The mode of a custom structure
-    is "custom": the file of the structure has its loading.
+    is "custom": the file of the structure has its loading. `cycles`: how often a platen moves down
+    and back up.
     """
+
+    neutral: ClassVar[dict[str, Any]] = {"cycles": 1}
 
     mode: Literal["force", "displacement", "impact", "custom"] = "force"
     force: Force | None = None
@@ -296,6 +325,7 @@ class Loading(Table):
     strain_rate: Frequency | None = None
     quasi_static: bool | None = None
     unload: bool | None = None
+    cycles: Cycles | None = None
     striker_mass: Mass | None = None
     striker_speed: Speed | None = None
     energy: Energy | None = None

@@ -94,13 +94,13 @@ def _reason(key: str, case: Case) -> str:
         return f'solver.integrator is "{case.solver.integrator}"'
     if case.lattice.structure is not None and key.startswith("loading."):
         return 'lattice.kind is "custom"'
+    if key == "loading.strain_rate" and case.loading.mode == "displacement":
+        return STEADY
     timed = key == "solver.load_steps" and case.loading.mode != "displacement"
     if key.startswith("loading.") or timed:
         return f'loading.mode is "{case.loading.mode}"'
     if key.startswith("contact.") and case.contact.friction is None:
         return f'contact.model is "{case.contact.model}"'
-    if key == "loading.strain_rate":
-        return STEADY
     if case.loading.quasi_static:
         return "the crush is quasi-static"
     if key.startswith("damping."):

@@ -114,8 +114,8 @@ def rank(
     panel_mass_g, panel_energy_J : with a panel.
     passed_on_N : greatest force while the counted energy is absorbed.
     returned_share : returned energy / work of the whole crush.
-    beyond_model : True if an element is too short while the counted energy is absorbed, or if the
-        lattice is compressed to less than its solid height.
+    beyond_model : True if an element is too short or a wall breaks while the counted energy is
+        absorbed, or if the lattice is compressed to less than its solid height.
     crossed : True if walls crossed one another.
 
     `attrs` holds the other fields of `Ranking`, for one more release; use `ranked` for them.

@@ -67,7 +67,8 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     """
     strain, force = 100.0 * history["strain"], history["reaction_top_N"]
     turn = last_loaded(history, row)
-    down, back = slice(turn + 1), slice(turn, None)
+    first = 2 * turn + 1 if row["loading_mode"] == "displacement" else None  # rows of a cycle
+    down, back = slice(turn + 1), slice(turn, first)
     dead = row["loading_mode"] == "force"
     absorbed = row["absorbed_energy_J"]
     given_back = f"returns {100.0 * row['returned_energy_J'] / absorbed:.0f} %"
@@ -80,6 +81,9 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     if turn + 1 < len(history):
         dashes: dict[str, Any] = {"color": ORANGE, "lw": 1.6, "ls": "--", "drawstyle": style}
         ax.plot(strain[back], force[back], label=words[1], **dashes)
+    if first is not None and first < len(history):
+        again = slice(first - 1, None)
+        ax.plot(strain[again], force[again], color=PURPLE, lw=1.0, label="further cycles")
     bottom = history["reaction_bottom_N"]
     if np.abs(bottom - force).max() > 0.02 * np.abs(force).max():
         ax.plot(strain, bottom, color=GREY, lw=1.0, zorder=1, label="on the support")

@@ -5,31 +5,35 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from sweep.config.material_file import MEMORY
+from sweep.config.material_file import MEMORY, PLASTICITY
 from sweep.config.material_header import assumed, source
-from sweep.numbers import NOTHING
+from sweep.numbers import NOTHING, percent
 from sweep.report.sheets import Sheet
 
 if TYPE_CHECKING:
     from sweep.config.material_file import Record
 
-SCALES = {"modulus": 1e-6, "softening_m": 1e-6}  # to MPa
+SCALES = dict.fromkeys(("modulus", "softening_m", "yield_stress", "hardening"), 1e-6)  # to MPa
 SHOWN = {
     "modulus MPa": "modulus",
     "density kg/m3": "density",
     "poisson": "poisson",
-    "reference s": "reference_time",
+    "after s": "reference_time",
     "loss": "loss",
     "softening r": "softening_r",
+    "yield MPa": "yield_stress",
 }
 UNITS = {
     "modulus": " MPa",
     "density": " kg/m3",
     "reference_time": " s",
     "softening_m": " MPa",
+    "yield_stress": " MPa",
+    "hardening": " MPa",
 }
 NOTE = (
-    "+40 %, ±9 %: how far a number may lie from its value; crumple run --spread runs both ends.\n"
+    "after s: the time after loading for which the curve holds, if the material relaxes.\n"
+    "+40, ±9: by how many percent a number may be off; crumple run --spread runs both ends.\n"
     "crumple materials NAME: all that the file of a material states, with its sources."
 )
 
@@ -40,7 +44,8 @@ def material_sheet(records: Iterable[Record]) -> Sheet:
     keys = {
         head: key
         for head, key in SHOWN.items()
-        if key not in MEMORY or any(key in record.memory for record in known)
+        if key not in (*MEMORY, *PLASTICITY)
+        or any(key in (*record.memory, *record.plasticity) for record in known)
     }
     rows = [
         [
@@ -65,15 +70,20 @@ def _with_range(record: Record, key: str) -> str:
         return NOTHING
     text = f"{SCALES.get(key, 1.0) * value:.4g}"
     low, high = record.ranges.get(key, (value, value))
-    less, more = (round(100.0 * abs(end / value - 1.0), 1) for end in (low, high))
+    less, more = (percent(abs(end / value - 1.0)) for end in (low, high))
     if less == more:
-        return f"{text} ±{less:.2g} %" if less else text
-    below, above = (f"{sign}{end:.2g}" if end else "" for sign, end in (("-", less), ("+", more)))
-    return f"{text} {' '.join(filter(None, (below, above)))} %"
+        return f"{text} ±{less}" if less != "0" else text
+    below, above = (
+        f"{sign}{end}" if end != "0" else "" for sign, end in zip("-+", (less, more), strict=True)
+    )
+    return f"{text} {' '.join(filter(None, (below, above)))}"
 
 
 def _value(record: Record, key: str) -> float | None:
-    value: float | None = record.memory.get(key, getattr(record, key, None))
+    if key == "reference_time" and record.plasticity:
+        return None
+    stated = {**record.memory, **record.plasticity}
+    value: float | None = stated.get(key, getattr(record, key, None))
     return value
 
 
@@ -92,7 +102,8 @@ def details(record: Record) -> Iterator[str]:
     """All that the file of a material states, a line each."""
     yield from record.comments
     keys = dict.fromkeys(["modulus", "density", "poisson", "reference_time"])
-    for key in keys | dict.fromkeys(record.memory) | dict.fromkeys(record.ranges):
+    for key in keys | dict.fromkeys([*record.memory, *record.plasticity, *record.ranges]):
         yield f"{key.replace('_', ' '):16}{number(record, key)}{UNITS.get(key, '')}"
     strain = record.strain
-    yield f"{'curve':16}{len(strain)} points from {min(strain):g} to {max(strain):g} strain"
+    if strain:
+        yield f"{'curve':16}{len(strain)} points from {min(strain):g} to {max(strain):g} strain"

@@ -20,7 +20,13 @@ MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass
 CRUSHED = "peak: greatest force of one specimen. Peak and energy are counted {until}."
 WHOLE = """\
 pack: strain at which the lattice has packed down: mean over those of nearly the best efficiency.
-back: returned energy / work of the whole crush; this energy is stored, not dissipated."""
+back: returned energy / work of the whole crush."""
+AGAIN = "again: energy absorbed in the second cycle / in the first; other columns are of the first."
+ELASTIC = "Walls are elastic: what is missing from 100 % is friction, damping, snaps or time steps."
+LOSSY = "What is missing from 100 % is lost in the material first of all."
+MIXED = """\
+Where memory is "none", walls are elastic: what is missing from 100 % is friction, damping, snaps
+or time steps. Elsewhere it is lost in the material first of all."""
 LOADED = "sink: greatest strain under the load, including its swing."
 STRUCK = """\
 force: greatest force on the support. left: stroke that closes all voids - greatest stroke.
@@ -32,7 +38,8 @@ TIED = """\
 ?: the error is unknown; the place is that of the value alone."""
 BEYOND = """\
 !: beyond the model: an element is shorter than 0.7 of its rest length, or the lattice is compressed
-to less than its solid height. Do not trust this result."""
+to less than its solid height, or a wall is broken (the column message says at which strain). Do not
+trust this result."""
 NO_PLACE = "No design has a place here."
 LONG_SPAN = 0.1  # of strain
 UNSURE = """\
@@ -135,14 +142,24 @@ def legend(ranking: Ranking) -> str:
     """The meaning of the marks and column heads in the sheets of a ranking."""
     modes = set(ranking.table["loading_mode"])
     heads = {
-        "displacement": CRUSHED.format(until=ranking.until),
-        "force": LOADED,
-        "impact": STRUCK,
+        "displacement": [CRUSHED.format(until=ranking.until)],
+        "force": [LOADED],
+        "impact": [STRUCK, _what_is_missing(ranking.table)],
     }
     if not ranking.limited:
-        heads["displacement"] += f"\n{WHOLE}"
-    lines = [MARKS, *(words for mode, words in heads.items() if mode in modes)]
-    return "\n".join([*lines, TIED] if "ranked_error" in ranking.table else lines)
+        again = [AGAIN] if ranking.table["second_cycle_share"].notna().any() else []
+        heads["displacement"] += [WHOLE, *again, _what_is_missing(ranking.table)]
+    lines = [line for mode, words in heads.items() if mode in modes for line in words]
+    bars = [TIED] if "ranked_error" in ranking.table else []
+    return "\n".join(dict.fromkeys([MARKS, *lines, *bars]))
+
+
+def _what_is_missing(rows: DataFrame) -> str:
+    """What takes the energy that does not come back: the material, or anything but the material."""
+    elastic = rows["material_memory"] == "none"
+    if elastic.all():
+        return ELASTIC
+    return MIXED if elastic.any() else LOSSY
 
 
 def _places(rows: DataFrame) -> Series:
@@ -217,6 +234,8 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
             columns[head] = (frame[name] * 1e3).map("{:.3g}".format)
     if _varies(among, "material"):
         columns["material"] = frame["material"].astype(str)
+    if _varies(among, "material_memory"):
+        columns["memory"] = frame["material_memory"].astype(str)
     for key in frame:
         if "." in key and key not in SHOWN_BY_NAME and not key.startswith(ASSUMPTIONS):
             columns[key.split(".")[-1].replace("_", " ")] = frame[key].map(short)
@@ -259,7 +278,7 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
         shown |= {ranking.energy, ranking.per_gram}
         if not ranking.limited:
             columns |= _whole(rows)
-            shown |= {"packing_strain", "returned_share"}
+            shown |= {"packing_strain", "returned_share", "second_cycle_share"}
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
         if "ranked_error" in rows:
@@ -302,12 +321,13 @@ def _whole(rows: DataFrame) -> dict[str, Series]:
     """Columns about the whole crush."""
     packed = rows["densification_strain"].notna() | rows["peak_strain"].isna()
     unsure = _unsure(rows).map({True: "~", False: ""})
+    again = rows["second_cycle_share"]
     return {
         "pack %": (rows["packing_strain"].map(percent) + unsure).where(
             packed, rows["peak_strain"].map(lambda strain: f"> {percent(strain)}")
         ),
         "back %": rows["returned_share"].map(percent),
-    }
+    } | ({"again %": again.map(percent)} if again.notna().any() else {})
 
 
 def _unsure(rows: DataFrame) -> Series:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 SHAPES = 6
 RELEASED = 0.01  # below this strain a specimen counts as released
+ROUND_OFF = 1e-12
 FLOWN = 0.5  # of its height: a specimen that is lifted farther is not drawn
 
 
@@ -33,11 +34,12 @@ def last_loaded(history: DataFrame, row: Mapping[str, Any]) -> int:
         return int(np.flatnonzero(history["reaction_top_N"]).max(initial=0))
     if row["loading_mode"] == "custom":
         return len(history) - 1
-    return int(history["strain"].argmax())
+    return _turn(history["strain"].to_numpy())
 
 
 def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple[int, str]]:
-    """Frames to draw, with captions: at even strains of loading, then the last one of unloading.
+    """Frames to draw, with captions: at even strains of the first loading, then the last one of the
+    last unloading.
 
     frames : from `read_frames`; release : time (s) at which a dead load is removed. Frames of a
     structure without strain are at even times.
@@ -45,7 +47,7 @@ def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple
     strain, time = frames["strain"], frames["time_s"]
     if np.isnan(strain).all():
         return [(i, f"{time[i]:.3g} s") for i in dict.fromkeys(_even(time, SHAPES))]
-    turn = int(strain.argmax()) if release is None else int((time <= release).sum()) - 1
+    turn = _turn(strain) if release is None else int((time <= release).sum()) - 1
     back = _last_standing(frames["position_m"], turn)
     count = SHAPES - len(back) - (release is not None)
     down = sorted({*_even(strain[: turn + 1], count), turn})
@@ -54,6 +56,11 @@ def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple
     captions |= dict.fromkeys(back if free else [], "released")
     clock = "" if release is None else "\n{:.0f} ms"
     return [(i, text + clock.format(1e3 * time[i])) for i, text in captions.items()]
+
+
+def _turn(strain: NDArray[np.float64]) -> int:
+    """Number of the first row at the greatest strain, which later cycles reach again."""
+    return int((strain >= (1.0 - ROUND_OFF) * np.nanmax(strain)).argmax())
 
 
 def _even(strain: NDArray[np.float64], count: int) -> list[int]:

@@ -28,7 +28,7 @@ from sweep.config.case import Case
 from sweep.config.grid import Config, expand
 from sweep.config.lattice_table import Lattice
 from sweep.config.tables import Solver
-from sweep.result import ABSORBED_AT, Status, correction_column, error_column
+from sweep.result import ABSORBED_AT, IN_CYCLE, Status, correction_column, error_column
 from sweep.running.dask_graph import Simulate
 from sweep.running.progress import tell
 from sweep.running.provenance import config_text, describe_run
@@ -54,7 +54,10 @@ HEADLINE = (
     "stroke_left_m",
     "rebound_share",
 )
-"""Columns with an error bar, besides the energies up to allowed forces."""
+"""Columns with an error bar, besides the energies up to allowed forces and those of cycles."""
+
+FOLLOWING = ("lost_energy_J", "lost_share", "lost_energy_J_per_g", "second_cycle_share")
+"""Columns that follow from others: they have an error bar, but no part in the usual change."""
 
 Rows = Mapping[str, Mapping[str, Any]]
 """Rows of a summary by case id."""
@@ -180,14 +183,14 @@ def error_bars(design: Case, rows: Rows) -> dict[str, float]:
     """
     own = rows[design.case_id]
     unsettled = PEAKS if design.loading.mode == "force" else ()
-    names = [name for name in own if name in HEADLINE or ABSORBED_AT.fullmatch(name)]
+    names = [name for name in own if _has_bar(name)]
     errors = dict.fromkeys(names, 0.0)
     corrections = dict.fromkeys(names, 0.0)
     for companion in companions(design):
         row = rows.get(companion.case.case_id, {})
         other = row if row.get("model_version") == own["model_version"] else {}
         change = {name: own[name] - other.get(name, nan) for name in names}
-        settled = {name: change[name] for name in names if name not in unsettled}
+        settled = {n: change[n] for n in names if n not in (*unsettled, *FOLLOWING)}
         usual = _median_share(settled, own)
         for name in names:
             errors[name] += companion.weight * hypot(change[name], usual * own[name])
@@ -196,6 +199,12 @@ def error_bars(design: Case, rows: Rows) -> dict[str, float]:
         errors[name] = corrections[name] = nan
     bars = {error_column(name): error for name, error in errors.items()}
     return bars | {correction_column(name): value for name, value in corrections.items()}
+
+
+def _has_bar(name: str) -> bool:
+    """Whether a column has an error bar."""
+    derived = ABSORBED_AT.fullmatch(name) or IN_CYCLE.fullmatch(name)
+    return name in (*HEADLINE, *FOLLOWING) or derived is not None
 
 
 def _median_share(change: Mapping[str, float], own: Mapping[str, Any]) -> float:

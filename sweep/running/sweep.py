@@ -13,6 +13,7 @@ from sweep.running.batches import Plan, cost
 from sweep.running.dask_graph import Simulate, Stop, check_scheduler, run
 from sweep.running.progress import Progress, tell
 from sweep.running.provenance import config_text, describe_run
+from sweep.running.relaxation_times import lossless
 from sweep.running.writer_thread import result_sink, writer_thread
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids, older_ids, read_statuses
 from sweep.store.write import Writer
@@ -49,6 +50,8 @@ def run_sweep(
         if old := done & older_ids(out):
             tell(f"{len(old)} of {len(done)} finished cases are of an older model; {HOW_TO_RENEW}")
         waiting = {case_id: case for case_id, case in cases.items() if case_id not in done}
+        for line in lossless(list(waiting.values())):
+            tell(line)
         chosen = simulate or real_simulate() if waiting else None
         with interruptible(stop):
             if not chosen:

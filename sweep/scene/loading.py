@@ -55,7 +55,8 @@ def _stages(case: Case, scene: Scene) -> list[Phase]:
         low, steps = rest - given(loading.stroke), given(solver.load_steps)
         down = march.Stage(steps, pace, dynamic, 0.0, 0.0, rest, low)
         up = march.Stage(steps, pace, dynamic, 0.0, 0.0, low, rest)
-        return [Phase("loading", down)] + ([Phase("unloading", up)] if loading.unload else [])
+        cycle = [Phase("loading", down)] + ([Phase("unloading", up)] if loading.unload else [])
+        return _repeated(cycle, given(loading.cycles))
     still, release, duration = (rest, rest), loading.release_time, given(loading.duration)
     if loading.mode == "impact":
         return _flight(_lasting(duration, pace, (0.0, 0.0), still))
@@ -64,6 +65,12 @@ def _stages(case: Case, scene: Scene) -> list[Phase]:
         return [Phase("loading", held)]
     released = _lasting(duration - given(release), pace, (0.0, 0.0), still)
     return [Phase("loading", held), Phase("released", released)]
+
+
+def _repeated(cycle: list[Phase], cycles: int) -> list[Phase]:
+    """The phases of all cycles; from the second on, their names say the cycle."""
+    later = [f" in cycle {number}" for number in range(2, cycles + 1)]
+    return [phase._replace(name=phase.name + which) for which in ["", *later] for phase in cycle]
 
 
 def _lasting(

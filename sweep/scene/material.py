@@ -75,6 +75,20 @@ def stress_law(material: Material) -> StressLaw:
     return _record_law(material)
 
 
+def monotonic_law(material: Material) -> StressLaw:
+    """The law of the first loading: that of `stress_law`, or the straight lines of a plastic."""
+    if material.yield_stress is None or material.hardening is None:
+        return stress_law(material)
+    modulus, hardening = material.modulus, material.hardening
+    knee = material.yield_stress / modulus
+    tangent = modulus * hardening / (modulus + hardening)
+    knots = np.array([-1.0, -knee, knee, 1.0])
+    starts = [-material.yield_stress - tangent * (1.0 - knee), *(modulus * knots[1:3])]
+    slopes = [tangent, modulus, tangent]
+    lines = [[start, slope, 0.0, 0.0] for start, slope in zip(starts, slopes, strict=True)]
+    return StressLaw(knots, np.array(lines))
+
+
 def _record_law(material: Material) -> StressLaw:
     return _spline(*_knots(material.curve_strain, material.curve_stress))
 

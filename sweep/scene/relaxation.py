@@ -11,8 +11,8 @@ until its stress is zero loses, with k = 2^(1 / (1 - beta)) and the time t = k /
 
     loss = 2 - t^(2 - beta) + 2 (t - 1)^(2 - beta)
 
-of the work; near 2.4 beta. (Linear viscoelasticity; the spectrum of a power law: J. D. Ferry,
-Viscoelastic Properties of Polymers, 1980.)
+of the work: 2.8 beta where it is small, 2.4 beta near 0.4. (Linear viscoelasticity; the spectrum of
+a power law: J. D. Ferry, Viscoelastic Properties of Polymers, 1980.)
 """
 
 from functools import lru_cache

@@ -1,7 +1,9 @@
 """From a case to its result: build the arrays, march through the stages, measure. No files."""
 
 import time
+from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +14,7 @@ from kernels.planar.rows import ROW, Output
 from kernels.solve import arc_length, energy_book, friction_loop, march, newton
 from kernels.terms import spring
 from sweep.config.case import Case, Lattice, Loading, Solver
+from sweep.config.solver_defaults import given_or
 from sweep.config.structure import Load, Structure, Support
 from sweep.result import Result, Status
 from sweep.scene.arcs import arc_of, path_columns
@@ -75,9 +78,8 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
     strains = element_strains(shapes, scene.terms.walls, scene.terms.stretch)
     surface = surface_strains(shapes, scene.terms.walls, strains, scene.terms.bend)
     summary = summarise(case, scene, curves, frames, (strains, surface), run.loading_rows)
-    broke = summary["broke_at_strain"]
-    if status == Status.CONVERGED and broke == broke:
-        message = f"broke at a strain of {broke:.3g}: later rows are those of unbroken walls"
+    if status == Status.CONVERGED and _broke(summary, case):
+        message = _break_message(summary)
     case_id = case.case_id
     summary |= {
         "case_id": case_id,
@@ -87,6 +89,22 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
         "newton_iterations": int(run.state.totals["iterations"][0]),
     }
     return Result(case_id, status, message, summary, curves, frames)
+
+
+def _broke(summary: Mapping[str, Any], case: Case) -> bool:
+    """Whether a fibre was stretched beyond the strain at which its material breaks."""
+    limit = case.material.fracture_strain
+    return limit is not None and summary["greatest_fibre_strain"] > limit
+
+
+def _break_message(summary: Mapping[str, Any]) -> str:
+    """Where the specimen broke; a custom structure has no strain of its own."""
+    broke = summary["broke_at_strain"]
+    where = f"broke at a strain of {broke:.3g}:"
+    if np.isnan(broke):
+        strain = summary["greatest_fibre_strain"]
+        where = f"a wall broke: the greatest strain of a fibre is {strain:.3g},"
+    return f"{where} later rows are those of unbroken walls"
 
 
 def _scene(case: Case) -> Scene:
@@ -127,7 +145,8 @@ class _Run:
         self._begin()
         self.struck = case.loading.mode == "impact"
         early = self.struck or case.solver.integrator == "arc_length"
-        self.frame_of, kept = _frames(total + 1, EARLY_FRAMES if early else FRAMES)
+        count = EARLY_FRAMES if early else FRAMES * given_or(case.loading.cycles, 1)
+        self.frame_of, kept = _frames(total + 1, count)
         self.positions = np.tile(scene.x_rest, (kept, 1))
         self.arc = arc_of(scene, case)
         self.done, self.noise, self.expired = 1, 0.0, False
@@ -192,7 +211,9 @@ class _Run:
 
     @property
     def loading_rows(self) -> int:
-        """Number of rows of the history until release, full stroke, or the striker's stop."""
+        """Number of rows of the history until release, full stroke, or the striker's stop; in the
+        first cycle.
+        """
         if self.struck:
             return int(np.argmin(self.rows["height"][: self.done])) + 1
         return self.stages[0].stage.steps + 1

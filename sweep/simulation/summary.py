@@ -2,12 +2,13 @@
 
 import numpy as np
 
-from sweep.config.case import Case
+from sweep.config.case import Case, given
 from sweep.config.solver_defaults import given_or
 from sweep.design.network import mass, relative_density
 from sweep.result import absorbed_energy_column, design_columns
 from sweep.scene.mesh import Floats
 from sweep.scene.terms import Scene
+from sweep.simulation.cycles import columns_of_cycles
 from sweep.simulation.packing import efficiency, packed_row, span, weights
 from sweep.simulation.shape_checks import (
     Frames,
@@ -128,9 +129,9 @@ def summarise(
         "mass_g": grams,
         "relative_density": relative_density(scene.network, case.lattice.outer_size),
         "absorbed_energy_J": absorbed,
-        "returned_energy_J": returned(case, history, loading_rows),
+        **lost_columns(case, absorbed, returned(case, history, loading_rows), grams),
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),
-        "dissipated_integrator_J": float(history["dissipated_integrator_J"][-1]),
+        **{name: float(history[name][-1]) for name in DISSIPATED},
         "injected_by_projection_J": float(history["injected_by_projection_J"][-1]),
         "energy_residual_J": float(history["energy_residual_J"][-1]),
         "specific_absorption_J_per_g": absorbed / grams,
@@ -138,6 +139,7 @@ def summarise(
         "peak_strain": float(history["strain"].max()),
         "min_gap_m": float(gaps.min()) if len(gaps) else np.nan,
         "touched": int(any(np.any(history[name] != 0.0) for name in TOUCHING)),
+        **columns_of_cycles(case, history["work_in_J"], transmitted(case, history)),
         **impact_columns(case, scene, history),
         **crush_columns(case, loading),
         **shape_columns(case, scene, frames, strains, loading),
@@ -145,13 +147,31 @@ def summarise(
 
 
 def returned(case: Case, history: dict[str, Floats], loading_rows: int) -> float:
-    """Work given back to a platen or a striker that moves back up (J); NaN if none does."""
+    """Work given back to a platen or a striker that moves back up (J), in the first cycle; NaN if
+    none does.
+    """
     if case.loading.mode == "impact":
         return float(kinetic(case, rebound_speed(history)))
     work = history["work_in_J"]
     if case.loading.mode == "force" or len(work) <= loading_rows:
         return np.nan
-    return float(work[loading_rows - 1] - work[-1])
+    turned = loading_rows - 1
+    return float(work[turned] - work[: 2 * turned + 1][-1])
+
+
+def lost_columns(case: Case, absorbed: float, back: float, grams: float) -> dict[str, float]:
+    """Columns of the energy that comes back and of that which is lost.
+
+    absorbed, back: work done and given back, J. grams: mass of the specimen, g.
+    """
+    brought = given(case.loading.energy) if case.loading.mode == "impact" else absorbed
+    lost = brought - back
+    return {
+        "returned_energy_J": back,
+        "lost_energy_J": lost,
+        "lost_share": lost / brought if brought else np.nan,
+        "lost_energy_J_per_g": lost / grams,
+    }
 
 
 def transmitted(case: Case, history: dict[str, Floats]) -> Floats:

@@ -63,6 +63,7 @@ FACTORS = {
     "solver.load_steps": Factor("load steps"),
     "solver.joints": Factor("joints"),
     "damping.relaxation_time": Factor("real speed, relaxation time", "s"),
+    "material.loss": Factor("real speed, loss"),
 }
 
 

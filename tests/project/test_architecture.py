@@ -5,6 +5,7 @@ import graphlib
 import re
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 from tests.support.specimens import summary, write
@@ -15,8 +16,7 @@ SOURCES = {
     for package in ("sweep", "kernels", "tests")
     for path in sorted((ROOT / package).rglob("*.py"))
 } | {"crumple": ROOT / "crumple.py"}
-TREES = {module: ast.parse(path.read_text("utf-8")) for module, path in SOURCES.items()}
-PROGRAM = [module for module in TREES if not module.startswith("tests")]
+PROGRAM = [module for module in SOURCES if not module.startswith("tests")]
 KERNELS = [module for module in PROGRAM if module.startswith("kernels")]
 
 # From the ground up: a package imports those before it and itself, inside of functions too.
@@ -88,6 +88,11 @@ TESTED_ELSEWHERE = {
 HEAVY = ["numba", "kernels", "dask", "distributed", "scipy", "pandas", "matplotlib", "h5py"]
 
 
+@cache
+def tree(module):
+    return ast.parse(SOURCES[module].read_text("utf-8"))
+
+
 def walk(node, lazy):
     """Nodes below this one but those for type checkers; without `lazy`, none inside functions."""
     for child in ast.iter_child_nodes(node):
@@ -98,10 +103,11 @@ def walk(node, lazy):
             yield from walk(child, lazy)
 
 
+@cache
 def imports(module, lazy=True):
     """Dotted names that a module imports; a name that is no module of ours is cut at its module."""
     found = set()
-    for node in walk(TREES[module], lazy):
+    for node in walk(tree(module), lazy):
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
@@ -117,7 +123,7 @@ def packages(module):
 
 
 def functions(module):
-    return [n for n in ast.walk(TREES[module]) if isinstance(n, ast.FunctionDef)]
+    return [n for n in ast.walk(tree(module)) if isinstance(n, ast.FunctionDef)]
 
 
 def called(function):
@@ -192,7 +198,7 @@ def test_the_solver_and_the_physics_do_not_know_each_other():
 
 def strings(module):
     """Texts of a module that are no docstrings."""
-    nodes = [*ast.walk(TREES[module])]
+    nodes = [*ast.walk(tree(module))]
     stated = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
     constants = [n for n in nodes if isinstance(n, ast.Constant) and id(n) not in stated]
     return [node.value for node in constants if isinstance(node.value, str)]
@@ -206,7 +212,7 @@ def test_only_imports_from_our_packages_name_them():
         r"(?<![\w.])(sweep|kernels)\.\w|^(sweep|kernels)\.?$|\b(from|import) (sweep|kernels)\b"
     )
     assert {m: found for m in PROGRAM if (found := [*filter(named.search, strings(m))])} == {}
-    bare = [n for m in PROGRAM for n in ast.walk(TREES[m]) if isinstance(n, ast.Import)]
+    bare = [n for m in PROGRAM for n in ast.walk(tree(m)) if isinstance(n, ast.Import)]
     names = {alias.name for node in bare for alias in node.names}
     assert {name for name in names if is_within(name, "sweep kernels")} == set()
 
@@ -264,7 +270,7 @@ def test_every_module_has_its_tests_at_its_place():
     public = [
         m
         for m in PROGRAM
-        if any(isinstance(n, ast.FunctionDef) and n.name[0] != "_" for n in TREES[m].body)
+        if any(isinstance(n, ast.FunctionDef) and n.name[0] != "_" for n in tree(m).body)
     ]
     without = {m for m in public if not at_its_place(m).exists()}
     elsewhere = {m: [k for k in TESTED_ELSEWHERE if is_within(m, k)] for m in without}
@@ -292,26 +298,28 @@ def test_help_and_a_refused_config_need_no_heavy_imports():
     assert done.stdout.split() == []
 
 
-def defined(tree):
+@cache
+def defined(module):
     """Names that a module binds at its top, in branches of it too."""
-    for node in ast.walk(tree):
+    names = {"*"}
+    for node in ast.walk(tree(module)):
         if isinstance(node, ast.FunctionDef | ast.ClassDef):
-            yield node.name
+            names.add(node.name)
         elif isinstance(node, ast.Import | ast.ImportFrom):
-            yield from (alias.asname or alias.name for alias in node.names)
+            names |= {alias.asname or alias.name for alias in node.names}
         elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-            yield node.id
+            names.add(node.id)
+    return names
 
 
 def test_what_is_imported_of_our_own_is_there():
     """In the programs of slow studies too, which no test runs."""
     missing = [
         f"{module}: {node.module}.{alias.name}"
-        for module, tree in TREES.items()
-        for node in ast.walk(tree)
-        if isinstance(node, ast.ImportFrom) and node.module in TREES
+        for module in SOURCES
+        for node in ast.walk(tree(module))
+        if isinstance(node, ast.ImportFrom) and node.module in SOURCES
         for alias in node.names
-        if alias.name not in {"*", *defined(TREES[node.module])}
-        and f"{node.module}.{alias.name}" not in TREES
+        if alias.name not in defined(node.module) and f"{node.module}.{alias.name}" not in SOURCES
     ]
     assert missing == []

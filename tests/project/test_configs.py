@@ -5,12 +5,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from sweep.config.case import Material
 from sweep.config.grid import expand
 from sweep.config.units import load_config
 from sweep.ranking.rank import rank
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from sweep.store.read import read_attributes, read_frames, read_history, read_summary
+from tests.support.strips import pulled
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 
@@ -19,7 +21,7 @@ def test_no_config_is_forgotten():
     """`thousand` is held by the bench, `others` by tests of their own."""
     names = {path.stem for path in CONFIGS.glob("*.toml")}
     others = {"custom", "extreme", "impact", "khatri_egan_square"}
-    assert names == others | {"armor", "infills", "seed", "smoke", "thousand"}
+    assert names == others | {"armor", "infills", "reuse", "seed", "smoke", "thousand"}
 
 
 def test_smoke_runs_from_end_to_end(tmp_path):
@@ -91,6 +93,29 @@ def test_infills_hold_their_numbers(design, energy):
 
 def test_infills_are_twelve_designs_and_more():
     assert len(infills()) == 12
+
+
+def test_reuse_holds_its_numbers():
+    found = {case.lattice.kind: case for case in expand(load_config(CONFIGS / "reuse.toml"))}
+    assert list(found) == ["square", "hex", "diamond", "circle"]
+    summary = simulate(found["square"]).summary
+    assert summary["status"] == "converged"
+    assert summary["mass_g"] == pytest.approx(1.4, rel=1e-12)
+    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
+    assert 1e3 * summary["absorbed_energy_in_cycle_2_J"] == pytest.approx(24.03, rel=1e-3)
+    assert summary["second_cycle_share"] == pytest.approx(0.6435, rel=1e-3)
+
+
+def test_reuse_softens_as_it_says():
+    """A strip that is stretched by 20 % absorbs 0.7 of the first cycle; 0.79 without softening."""
+    (material,) = {case.material for case in expand(load_config(CONFIGS / "reuse.toml"))}
+    relaxing = Material(loss=material.loss)
+    assert relaxing.softening_r is None
+    works = [pulled(each, 0.2, 50.0) for each in (Material(), relaxing, material)]
+    shares = [second / first for first, _, second, _ in works]
+    assert shares == pytest.approx([1.0, 0.79, 0.70], abs=0.01)
+    lost = [1.0 + back / there for there, back, *_ in works]
+    assert lost == pytest.approx([0.0, 0.38, 0.48], abs=0.01)
 
 
 def seed(model, hinges):

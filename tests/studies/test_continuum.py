@@ -18,6 +18,7 @@ from tests.studies.continuum.solid import Solid
 from tests.studies.continuum.solids import PACKED, PAIRS, Crush, crushed
 from tests.studies.continuum.strip import energy, moment, softening
 from tests.studies.continuum.study import APART, POINTS, WATCHED, Side, networks, stored
+from tests.support.terms import NO_MEMORY
 
 OUTER = 0.5 * 0.6**0.5  # place of the outer fibres of a section of thickness 1
 RUBBER = Rubber(12.0, 0.48)
@@ -281,13 +282,12 @@ def moment_of_law(rubber, plane, kappa):
     """Of a section of thickness 1 without axial force, by the law of the network."""
     bent = material(rubber, plane, "section")
     law = law_of_section(bent, plane_factors(bent)[1], contraction(bent))
-    memory = np.zeros((0, 0))
 
     def respond(e):
         """Force and moment; both of the outer points weigh 5/18, and both ends are counted."""
         theta = kappa * OUTER
-        _, (by_e, by_theta, _), _ = law.respond((e, theta, theta), memory, 0)
-        along = law.curve.respond(e, memory, 0)[1]
+        _, (by_e, by_theta, _), _ = law.respond((e, theta, theta), NO_MEMORY, 0)
+        along = law.curve.respond(e, NO_MEMORY, 0)[1]
         return along + 5.0 / 36.0 * by_e, 5.0 / 18.0 * OUTER * by_theta
 
     e = brentq(lambda e: respond(e)[0], -0.2, 0.2, xtol=1e-12)

@@ -296,6 +296,11 @@ def follow(problem, dx, share, step, found):
 
 
 @jit_exact
+def soften(problem):
+    """Friction keeps its second derivative."""
+
+
+@jit_exact
 def forget(problem):
     """Nothing is carried along."""
 
@@ -349,6 +354,7 @@ class Chain(NamedTuple):
     lag = lag
     exchange = exchange
     follow = follow
+    soften = soften
     forget = forget
     project = project
     covers_projection = covers_projection

@@ -26,6 +26,10 @@ from kernels.terms import (
     spring,
     stretch,
 )
+from kernels.terms.fibre import Fibre
+from kernels.terms.relaxation import Relaxing
+from kernels.terms.softening import Softening
+from kernels.terms.yielding import Yielding
 from sweep.scene.bending import FIBRE, OUTER
 
 MODULUS, DEPTH = 12.0, 10.0
@@ -165,6 +169,23 @@ def curve_law(modulus: float) -> elastic.ElasticCurve:
     return elastic.ElasticCurve(knots, pieces, energy - energy[1], modulus)
 
 
+def point_of(curve: elastic.ElasticCurve | elastic.FibreCurve) -> Fibre:
+    """The law of a material point without a memory."""
+    softening = Softening(curve, 0.0, 0.0, 0.0)
+    relaxing = Relaxing(softening, np.empty(0), np.empty(0), curve.modulus)
+    return Fibre(relaxing, Yielding(curve.modulus, 0.0, 0.0, 0.0), curve.modulus)
+
+
+def fibre_of(curve: elastic.ElasticCurve) -> Fibre:
+    """The law of a fibre without a memory."""
+    return point_of(elastic.FibreCurve(*curve))
+
+
+def section_of(fibre: Fibre, m: float = 1.0, radial: float = 0.0) -> section.BentSection:
+    """A section of three fibres."""
+    return section.BentSection(fibre, np.array([1.0, -1.0]), np.ones(2), 4.0, m, radial)
+
+
 def walls_of(of: Frame) -> elements.Walls:
     x, turn = 2 * of.edges, 2 * len(of.points) + of.edges
     dofs = np.stack([x, x + 1, turn], axis=-1).reshape(-1, 6)
@@ -183,7 +204,8 @@ def bend_of(of: Frame, measure: int = bend.ANGLE, cubic: bool = True) -> bend.Be
         measure=measure,
         stiffness=np.outer(factors, of.rigidity / of.l0),
         side=np.where(of.edges < of.joints, 2.0, 1.0).T.copy(),
-        section=section.BentSection(elastic.FibreCurve(*linear_law(1.0)), 1.0, 0.0, 1.0),
+        section=section_of(fibre_of(linear_law(1.0))),
+        hinge=fibre_of(linear_law(1.0)),
         spread=np.empty((2, 0)),
         volume=np.empty(0),
         shear=np.empty(0),
@@ -236,9 +258,7 @@ def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> analysis.Lay
     )  # fmt: skip
 
 
-def terms_of(
-    of: Frame, curve: elastic.ElasticCurve, measure: int, damped: damping.Damp
-) -> PlanarScene:
+def terms_of(of: Frame, law: Fibre, measure: int, damped: damping.Damp) -> PlanarScene:
     """What damping reads: law, walls, stretch, bend, damp and mass; no folds and no contact."""
     share = np.bincount(of.edges.ravel(), np.repeat(of.l0 * of.thickness, 2), len(of.points))
     n = of.rest.size
@@ -246,7 +266,7 @@ def terms_of(
     mass[: 2 * len(of.points)] = np.repeat(share, 2)
     role, load = np.full(n, FREE), np.zeros(n)
     return PlanarScene(
-        Coordinates(role, one, one, mass, one, load, -1, 1.0, 1.0, 1.0), curve, walls_of(of),
+        Coordinates(role, one, one, mass, one, load, -1, 1.0, 1.0, 1.0), law, walls_of(of),
         stretch_of(of), bend_of(of, measure), fold.Fold(np.empty((0, 3), np.int64), none, none),
         NO_SPRINGS, contact_of(of), friction.Friction(0.0, 1.0), damped, layout_of(of),
         position_based.Projection(contact_of(of), none),

@@ -51,6 +51,11 @@ class Whole:
         found = workspace.make_workspace(x.size, potential.STORED).found
         return self.problem.evaluate(x, self.step, found, projected), found
 
+    def energy_gradient(self, x):
+        """Energy and gradient (n,) at ``x``."""
+        energy, found = self.found(x)
+        return energy, found.g
+
     def energy(self, x):
         """Energy at ``x``."""
         return self.found(x)[0]

@@ -13,8 +13,10 @@ from kernels.planar.problem import PlanarScene
 from kernels.solve.integrators import Ahead
 from kernels.terms import bend, contact, damping, elements, stretch
 from kernels.terms.law import Memory
+from kernels.terms.relaxation import Pace
 
-NO_MEMORY = Memory(np.empty((0, 0)), 0.0)
+NO_PACE = Pace(np.empty(0), np.empty(0), np.empty((0, 3)), np.ones(1))
+NO_MEMORY = Memory(np.empty((0, 0)), np.empty((0, 2)), NO_PACE)
 NO_STRETCH = stretch.Stretch(np.empty(0), np.empty(0), np.empty((2, 0)), True)
 
 
@@ -27,15 +29,18 @@ class Term:
     def __init__(self, slope, second):
         self.slope, self.second = slope, second
 
+    def energy_gradient(self, x: np.ndarray) -> tuple[float, np.ndarray]:
+        """Energy and gradient (n,) at ``x``."""
+        g = np.zeros_like(x)
+        return self.slope(x, g), g
+
     def energy(self, x: np.ndarray) -> float:
         """Energy at ``x``."""
-        return self.slope(x, np.zeros_like(x))
+        return self.energy_gradient(x)[0]
 
     def gradient(self, x: np.ndarray) -> np.ndarray:
         """Gradient (n,) at ``x``."""
-        g = np.zeros_like(x)
-        self.slope(x, g)
-        return g
+        return self.energy_gradient(x)[1]
 
     def hessian(self, x: np.ndarray, projected: bool = False) -> np.ndarray:
         """Hessian (n, n) at ``x``, exact or ``projected``."""
@@ -73,7 +78,8 @@ def matrices(stiffness: elements.Stiffness) -> np.ndarray:
 def assembled(walls: elements.Walls, stiffness: elements.Stiffness, n: int) -> np.ndarray:
     """Hessian (n, n) of walls from those of their elements."""
     moved = motions(walls, n)
-    return np.einsum("kpi,kpq,kqj->ij", moved, matrices(stiffness), moved)
+    pulled = matrices(stiffness) @ moved
+    return moved.reshape(-1, n).T @ pulled.reshape(-1, n)
 
 
 def of_walls(walls: elements.Walls, write, x0=None) -> Term:
@@ -218,8 +224,8 @@ def derivative_error(term, x: np.ndarray, unit=1.0, step: float = 1e-3) -> float
     unit = np.broadcast_to(unit, x.shape)
     slope = term.gradient(x) * unit
     curvature = term.hessian(x) * np.outer(unit, unit)
-    by_energy = differences(term.energy, x, step * unit) * unit
-    by_slope = differences(term.gradient, x, step * unit) * np.outer(unit, unit)
+    change = differences(lambda x: np.append(*term.energy_gradient(x)), x, step * unit)
+    by_energy, by_slope = change[:, 0] * unit, change[:, 1:] * np.outer(unit, unit)
     stiffest, steepest = np.abs(curvature).max(), np.abs(slope).max()
     in_slope = np.abs(slope - by_energy).max() / (steepest + step * stiffest or 1.0)
     in_curvature = np.abs(curvature - by_slope).max() / (stiffest or steepest or 1.0)

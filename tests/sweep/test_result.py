@@ -16,6 +16,7 @@ from sweep.result import (
     Result,
     Status,
     absorbed_energy_column,
+    cycle_columns,
     describe_column,
     design_columns,
     failed_result,
@@ -28,11 +29,11 @@ def a_case(**loading):
     lattice = {"kind": "square", "cells_x": 3, "cells_y": 2, "wall_thickness": 8e-4}
     lattice |= {"width": 0.0125, "height": 0.0125, "depth": 0.012, "outer_size": (0.0133, 0.0133)}
     loads = {"mode": "force", "platen": "none", "force": 10.0, "stroke": None}
-    loads |= dict.fromkeys(("striker_mass", "striker_speed", "energy"))
+    loads |= dict.fromkeys(("striker_mass", "striker_speed", "energy", "cycles"))
     return SimpleNamespace(
         case_id="0123456789abcdef",
         lattice=SimpleNamespace(**lattice),
-        material=SimpleNamespace(name="ninjaflex"),
+        material=SimpleNamespace(name="ninjaflex", memory="none"),
         loading=SimpleNamespace(**(loads | {"allowed_forces": (50.0,)} | loading)),
         contact=SimpleNamespace(model="barrier"),
     )
@@ -60,6 +61,17 @@ def test_energy_per_gram_is_a_column_with_units():
         found = describe_column(name)
         assert (found.units, found.better) == ("J/g", "more")
         assert not is_grid_key(name)
+
+
+def test_columns_of_a_cycle_say_what_is_better():
+    found = [describe_column(name) for name in cycle_columns(2)]
+    assert [(each.units, each.better) for each in found] == [
+        ("J", "more"),
+        ("J", "more"),
+        ("N", "less"),
+    ]
+    assert all("cycle 2" in each.description for each in found)
+    assert not any(map(is_grid_key, cycle_columns(12)))
 
 
 def test_text_is_neither_better_nor_worse():
@@ -123,3 +135,9 @@ def test_failed_result_keeps_the_design_and_measures_nothing():
     assert result.summary["wall_thickness_m"] == 8e-4
     assert result.summary["newton_iterations"] == 0
     assert isnan(result.summary["absorbed_energy_at_50N_J"])
+
+
+def test_failed_result_has_the_columns_of_all_cycles():
+    named = {*cycle_columns(1), *cycle_columns(2)}
+    once, twice = (set(failed_result(a_case(cycles=n), Status.STOPPED, "").summary) for n in (1, 2))
+    assert twice - once == named

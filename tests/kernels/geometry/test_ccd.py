@@ -5,7 +5,7 @@ import pytest
 
 from kernels.geometry import ccd
 
-SAMPLES = np.linspace(0.0, 1.0, 1501)
+SAMPLES = np.linspace(0.0, 1.0, 301)
 LENGTHS = [1.0, 1e-3, 1e3]
 
 

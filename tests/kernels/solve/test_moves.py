@@ -64,3 +64,19 @@ def test_walls_that_fly_at_one_another_do_not_pass(angle):
     found = descend(case, scene, start, args, move=move, iterations=0)
     expected = start + 0.9 * 0.5 * size / reach * move
     np.testing.assert_allclose(found.x, expected, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("moves", [15.5, 30.5])
+def test_a_step_of_too_many_shortened_moves_is_given_up(moves):
+    """A free lattice flies so many times the longest move: in time a shorter step is easier."""
+    case = grid(2.0)
+    scene = floating(case)
+    start, v, cap = scene.x_rest, np.zeros_like(scene.x_rest), scene.terms.coordinates.cap
+    v[: scene.mesh.points.size : 2] = moves * cap / 1e-3
+    found = descend(case, scene, start, whole(scene, start, dt=1e-3, v=v, factor=0.0))
+    gone = (found.x[0] - start[0]) / cap
+    if moves < newton.MOST_CUT_MOVES:
+        assert (found.outcome, gone) == (newton.CONVERGED, pytest.approx(moves))
+    else:
+        most = pytest.approx(newton.MOST_CUT_MOVES)
+        assert (found.outcome, found.iterations, gone) == (newton.ITERATIONS, most, most)

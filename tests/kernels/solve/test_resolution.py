@@ -86,6 +86,40 @@ def test_steps_too_short_for_round_off_are_a_failure(integrator, time_step):
     assert len(result.history["time_s"]) < STEPS
 
 
+def drawn_by_a_spring(integrator, time_step, force=1.0):
+    """The cantilever, pulled with a ``force`` (N) by a strained spring instead of a load."""
+    parts = {
+        "nodes_mm": [[0.0, 0.0], [LENGTH, 0.0], [LENGTH + 10.0, 0.0], [LENGTH + 20.0, 0.0]],
+        "walls": [[0, 1], [2, 3]],
+        "subdivide": ELEMENTS,
+        "wall_thickness_mm": THICKNESS,
+        "depth_mm": DEPTH,
+        "supports": [{"node": node, "fix": CLAMPED} for node in (0, 2, 3)],
+        "springs": [{"nodes": [1, 2], "stiffness_N_mm": force, "rest_length_mm": 9.0}],
+        "probes": [1],
+    }
+    lattice = Lattice(kind="custom", structure=structure(**parts))
+    return pulled(integrator, force=0.0, time_step=time_step).model_copy(
+        update={"lattice": lattice}
+    )
+
+
+@pytest.mark.parametrize("integrator", SCHEMES)
+def test_a_strained_spring_moves_what_no_load_moves(integrator):
+    result = simulate(drawn_by_a_spring(integrator, 1e-7))
+    assert result.status == "converged", result.message
+    assert end(result) == pytest.approx(stretched(STEPS * 1e-7), rel=SCHEMES[integrator])
+
+
+@pytest.mark.parametrize("integrator", SCHEMES)
+@pytest.mark.parametrize("time_step", [1e-12, 1e-10])
+def test_steps_too_short_for_round_off_are_a_failure_without_a_load(integrator, time_step):
+    """What is at rest stays there although nothing bears the force of the spring."""
+    result = simulate(drawn_by_a_spring(integrator, time_step))
+    assert result.status == "stopped"
+    assert "round-off" in result.message
+
+
 @pytest.mark.parametrize("integrator", ["static", "arc_length"])
 @pytest.mark.parametrize("force", [1e-5, 1.0])
 def test_a_small_load_is_borne_in_statics(integrator, force):

@@ -10,6 +10,7 @@ from tests.support.frames import (
     frame,
     joint_of_four,
     linear_law,
+    point_of,
     scaled,
     shaken,
     terms_of,
@@ -37,7 +38,7 @@ MEASURES = [bend.ANGLE, bend.TANGENT]
 
 
 def damped(of, model, measure=bend.ANGLE, law=curve_law):
-    return terms_of(of, law(of.modulus), measure, damping.Damp(*map(float, model)))
+    return terms_of(of, point_of(law(of.modulus)), measure, damping.Damp(*map(float, model)))
 
 
 def term_of(terms, x0) -> Term:

@@ -7,7 +7,7 @@ from kernels.terms import elastic
 from kernels.terms.barrier import barrier
 from kernels.terms.elastic import GUARD
 from tests.support.frames import curve_law, linear_law
-from tests.support.terms import NO_MEMORY, differences
+from tests.support.terms import differences
 
 MODULUS = 12e6
 KNOTS = [-0.5, 0.0, 0.1, 0.4, 1.0]
@@ -16,7 +16,7 @@ JUST = 1e-3
 
 def uniaxial(law, strain):
     """Energy density, stress and tangent."""
-    return elastic.respond(law, strain, NO_MEMORY, 0)
+    return elastic.respond(law, strain)
 
 
 def errors(curve, strain, step):

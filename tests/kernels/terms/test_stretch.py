@@ -11,6 +11,7 @@ from tests.support.frames import (
     frame,
     joint_of_four,
     linear_law,
+    point_of,
     scaled,
     shaken,
     stretch_of,
@@ -23,10 +24,10 @@ FRAME = joint_of_four()
 
 
 def term_of(of, law=curve_law) -> Term:
-    elements, curve = stretch_of(of), law(of.modulus)
+    elements, point = stretch_of(of), point_of(law(of.modulus))
 
     def write(shape, resultants, projected):
-        return stretch.evaluate(elements, curve, NO_MEMORY, shape, resultants, projected)
+        return stretch.evaluate(elements, point, NO_MEMORY, shape, resultants, projected)
 
     return of_walls(walls_of(of), write)
 

@@ -17,7 +17,6 @@ from kernels.terms import (  # fmt: skip
     inertia,
     stretch,
 )
-from kernels.terms.law import Memory
 
 (
     NOTHING, EVALUATE, FACTOR, SOLVE, LIMIT, SHAPE, STRETCH, BEND, FOLD, INERTIA, DAMP, CONTACT,
@@ -33,7 +32,7 @@ def repeat(which, count, x, dx, most, problem, step, found, ones):
     terms, neighbours, buffers = problem.scene, problem.neighbours, problem.buffers
     shape, stiffness, before = buffers.shape, buffers.stiffness, buffers.before
     resultants = buffers.resultants
-    memory = Memory(buffers.committed, step.duration)
+    memory = buffers.memory
     total, walls, matrix, b = 0.0, terms.walls, neighbours.system.matrix, found.material
     for _ in range(count):
         if which == EVALUATE:

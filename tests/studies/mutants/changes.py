@@ -46,7 +46,7 @@ MUTANTS = [
         f"{TERMS}/elastic.py",
         ("elastic law: tangent", "c[1] + s * (2.0 * c[2]", "c[1] - s * (2.0 * c[2]"),
         ("elastic law: stress beyond", "stress + beyond * tangent", "stress - beyond * tangent"),
-        ("elastic law: stress of the guard", "stress += law.modulus", "stress -= law.modulus"),
+        ("elastic law: stress of the guard", "stress + slope, tangent", "stress - slope, tangent"),
     ),
     *_of(
         f"{TERMS}/elastic.py",
@@ -58,11 +58,21 @@ MUTANTS = [
         tests=f"{TERMS}/test_section.py",
     ),
     *_of(
+        f"{TERMS}/relaxation.py",
+        ("relaxation: stress", "scale * stress + slope, scale", "scale * stress - slope, scale"),
+        ("relaxation: tangent", "+ slope, scale * tangent", "+ slope, tangent"),
+        ("relaxation: past", "decay[i] * x - pace.gain", "decay[i] * x + pace.gain"),
+        ("relaxation: dissipation", "+ weights[1] * x * change", "- weights[1] * x * change"),
+        ("relaxation: stored energy", "kept - energy)\n    state[", "kept + energy)\n    state["),
+        ("relaxation: branch", "* x + pace.gain[i] * change", "* x - pace.gain[i] * change"),
+        ("relaxation: complement", "+ 0.5 * move * gap", "- 0.5 * gap"),
+    ),
+    *_of(
         f"{TERMS}/section.py",
         ("section: thinning of a fibre", "0.5 * (1.0 - m), (1.0", "-0.5 * (1.0 - m), (1.0"),
-        ("section: other side", "side * slope * a_t", "slope * a_t"),
+        ("section: other side", "+= weight * place * slope * a_t", "+= weight * slope * a_t"),
         ("section: radial stress", "tt = 0.0, 0.0, -law.radial", "tt = 0.0, 0.0, law.radial"),
-        ("section: centre line", "w1 + w2 - 4.0 * value", "w1 + w2 + 4.0 * value"),
+        ("section: centre line", "w1 + w2 - law.middle * value", "w1 + w2 + law.middle * value"),
     ),
     *_of(
         f"{TERMS}/elements.py",
@@ -86,8 +96,8 @@ MUTANTS = [
         ("bend: force of the section", "+= by_length * by_e", "-= by_length * by_e"),
         (
             "bend: shear",
-            "+= sheared + volume * (\n        ee * e1",
-            "+= volume * (\n        ee * e1",
+            "+= rigid + volume * (\n        (ee * e1",
+            "+= volume * (\n        (ee * e1",
         ),
         tests=f"{TERMS}/test_section.py",
     ),

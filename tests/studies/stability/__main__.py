@@ -1,8 +1,8 @@
 """Simulate stiff and extreme scenes under observation, and count what became of them.
 
-They are those of `configs/extreme.toml`, lattices that move by integrators of second order, and
-custom structures. python -m tests.studies.stability FOLDER: the table is printed and written there,
-with a line a scene.
+They are those of `configs/extreme.toml`, lattices that move by integrators of second order or whose
+material has a memory, and custom structures. python -m tests.studies.stability FOLDER: the table is
+printed and written there, with a line a scene.
 """
 
 import csv
@@ -19,13 +19,17 @@ from sweep.config.grid import expand
 from sweep.config.units import load_config
 from sweep.simulation.simulate import warm_up
 from tests.studies.stability.audit import audit
-from tests.studies.stability.draw import CONFIGS, second_order
+from tests.studies.stability.draw import CONFIGS, remembering, second_order
 from tests.studies.stability.structures import COUNT, structure_scene
 
 WORKERS = 2
+MEMORIES = 150  # lattices whose material has a memory
 SECOND_ORDER = 100  # numbers of lattices that are drawn for integrators of second order
 ALL, VIOLATED, BALANCED = "all", "violated something", "steps balanced anew"
-KINDS = ("static crush", "crush in time", "dead load", "impact", "second order", "custom", ALL)
+KINDS = (
+    *("static crush", "crush in time", "dead load", "impact"),
+    *("second order", "memory", "custom", ALL),
+)
 SECOND = "bdf2", "newmark"
 
 
@@ -33,6 +37,8 @@ def kind_of(case):
     """What is done to the lattice of a case, in words."""
     if case.lattice.structure is not None:
         return "custom"
+    if case.material.remembers:
+        return "memory"
     if case.solver.integrator in SECOND:
         return "second order"
     if case.loading.mode == "displacement":
@@ -75,6 +81,7 @@ def scenes():
     return [
         *expand(load_config(CONFIGS / "extreme.toml")),
         *(case for case in lattices if case is not None),
+        *(remembering(number) for number in range(MEMORIES)),
         *(structure_scene(number) for number in range(COUNT)),
     ]
 

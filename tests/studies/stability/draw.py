@@ -17,6 +17,7 @@ from sweep.design.lattice import build_network
 from sweep.design.network import mass
 
 COUNT, SEED = 500, 20
+MEMORY = 1000  # beyond `COUNT`: first number of a scene with a memory
 MOST_NODES = 1200
 CONFIGS = Path(__file__).parents[3] / "configs"
 SWAY = 0.474  # buckling stress of a square grid / (Y' (t / L)^3), rows swaying
@@ -88,6 +89,47 @@ def second_order(number):
     if case.loading.quasi_static:
         return None
     return case_of(keys | {"solver.integrator": ("bdf2", "newmark")[number % 2]})
+
+
+def remembering(number):
+    """The case of a scene beyond those of `second_order` whose material has a memory."""
+    keys, _ = scene(COUNT + MEMORY + number)
+    draw = Draws(number, SEED + 1)
+    while True:
+        try:
+            return case_of(keys | _memory(draw, keys))
+        except ValidationError:
+            continue
+
+
+def _memory(draw, keys):
+    """Keys of a loss, of branches, of softening or of yielding; all with any step."""
+    by_numbers = "material.modulus" in keys
+    kind = draw.one("loss", "branches", "softening", "yielding" if by_numbers else "softening")
+    steady = {"material.bend": "linear" if by_numbers else "section", "material.name": "ninjaflex"}
+    found = {} if by_numbers else steady
+    if kind == "yielding":
+        modulus = keys["material.modulus"]
+        return {
+            "material.yield_stress": modulus * draw.between(1e-3, 0.3),
+            "material.hardening": modulus * draw.one(0.0, draw.between(1e-4, 1.0)),
+            "solver.bend_measure": "angle",
+        }
+    if kind == "branches":
+        times = [draw.between(1e-9, 1e5) for _ in range(draw.whole(1, 6))]
+        share = draw.between(0.01, 0.99) / len(times)
+        found |= {
+            "material.relaxation_times": tuple(times),
+            "material.relaxation_shares": tuple(share for _ in times),
+        }
+    else:
+        found |= {"material.loss": draw.between(0.02, 0.8)}
+    if kind == "softening" and not by_numbers:
+        found |= {"material.softening_r": draw.between(1.1, 10.0)}
+        found |= {"material.softening_m": draw.between(1e2, 1e7), "solver.bend_measure": "angle"}
+    if not by_numbers:
+        found |= {"solver.bend_measure": "angle"}
+    return found | {"damping.model": None, "material.reference_time": draw.between(1e-6, 1e4)}
 
 
 def case_of(keys):

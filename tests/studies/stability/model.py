@@ -28,7 +28,7 @@ def stored(x, terms, x0):
     length, turn = np.hypot(*vector.T), _turns(x, x0, vector, terms.walls)
     same, mixed = stretch.arc
     strain = length / stretch.l0 - 1.0 + same * np.sum(turn**2, axis=0) + mixed * turn[0] * turn[1]
-    density, stress = _guarded(terms.law, strain)
+    density, stress = _guarded(terms.law.relaxing.elastic.curve, strain)
     volume = stretch.area * stretch.l0
     stretching = np.sum(volume * density)
     bending, moments, by_strain = _bending(turn, strain, terms.bend)
@@ -97,7 +97,8 @@ def _through_sections(turn, strain, bend):
     m, (across, along) = law.m, bend.spread
     rows = np.array([[along - across, along + across], [-along - across, across - along]])
     theta = np.einsum("pik,ik->pk", rows, turn)
-    middle, stress = _curve(law.curve, strain)
+    curve = law.curve.relaxing.elastic.curve
+    middle, stress = _curve(curve, strain)
     energy, by_strain, by_theta = -4.0 * middle, -4.0 * stress, np.zeros_like(theta)
     for p in range(2):
         q = theta[p] ** 2
@@ -108,7 +109,7 @@ def _through_sections(turn, strain, bend):
         for side in (1.0, -1.0):
             u = np.polynomial.Polynomial([1.0, 1.0, (1.0 - m) / 2, (1.0 - m) * (1.0 - 2.0 * m) / 6])
             bent = side * theta[p] * stretched**-m
-            value, pulled = _curve(law.curve, stretched * u(bent) - 1.0)
+            value, pulled = _curve(curve, stretched * u(bent) - 1.0)
             energy += value
             by_strain += pulled * (u(bent) - m * bent * u.deriv()(bent))
             by_theta[p] += side * pulled * stretched ** (1.0 - m) * u.deriv()(bent)

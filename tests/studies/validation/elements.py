@@ -56,8 +56,9 @@ def truth(scene):
     return scene.truth(scene)
 
 
+@cache
 def errors(scene, element):
-    """Relative errors by mesh; NaN where there is nothing to measure."""
+    """Relative errors by mesh, found once; NaN where there is nothing to measure."""
     return {n: scene.value(n, element) / truth(scene) - 1.0 for n in (*MESHES, FINER)}
 
 

@@ -42,7 +42,7 @@ CONFIGS = Path(__file__).parents[3] / "configs"
         ("custom", 1),
         ("seed", 14),
         ("impact", 24),
-        ("khatri_egan_square", 63),
+        ("khatri_egan_square", 72),
     ],
 )
 def test_shipped_configs_expand(name, cases):

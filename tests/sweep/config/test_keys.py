@@ -25,7 +25,9 @@ CHOICES = {
         'loading.mode = "shake"; "force", "displacement", "impact" or "custom"'
     ),
     '[lattice]\nkind = "hexagon"': f'lattice.kind = "hexagon"; {KINDS} or "custom"',
-    '[material]\nbend = "curve"': 'material.bend = "curve"; "linear", "section" or "none"',
+    '[material]\nbend = "curve"': (
+        'material.bend = "curve"; "linear", "section", "fibres" or "none"'
+    ),
     '[contact]\nmodel = "by_position"': (
         'contact.model = "by_position"; "auto", "none", "barrier" or "position_based"'
     ),

@@ -40,6 +40,9 @@ UNFIT = {
     f'{PERIODIC}[loading]\nduration = "1 s"': (
         f'loading.mode = "force", as loading.duration is given: does not fit; {LED}'
     ),
+    "[loading]\nunload = false\ncycles = 2": (
+        "loading.cycles = 2: does not fit; allowed: 1 if loading.unload is false"
+    ),
     PERIODIC: f'loading.mode = "force" by default: does not fit; {LED}',
     f'{PERIODIC}[loading]\nspeed = "1 m/s"': (
         "loading.quasi_static = false, as loading.speed is given: does not fit; allowed: true if"
@@ -68,6 +71,13 @@ def test_displacement_defaults():
     assert (case.solver.integrator, case.solver.load_steps) == ("static", 200)
     assert case.solver.time_step is None
     assert case.damping.model == "none"
+
+
+def test_a_crush_has_one_cycle_unless_more_are_given():
+    assert pressed().loading.cycles == pressed(unload=False).loading.cycles == 1
+    assert pressed(cycles=1).case_id == pressed().case_id == "4ffe28fe5c9c5794"
+    assert pressed(cycles=2).case_id != pressed().case_id
+    assert Case().loading.cycles is None
 
 
 def test_contact_by_itself_is_the_barrier():

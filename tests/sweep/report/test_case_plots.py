@@ -1,6 +1,7 @@
 """Pictures: what they show is what the numbers say."""
 
 import numpy as np
+import pandas
 import pytest
 
 from sweep.report import case_plots
@@ -68,6 +69,17 @@ def test_way_down_and_way_back_are_told_apart(row):
     assert down.get_color() != back.get_color()
     assert down.get_linestyle() != back.get_linestyle()
     assert labels(ax)[1:3] == ["loading", "unloading,\nreturns 50 %"]
+
+
+def test_further_cycles_have_a_line_of_their_own(row):
+    once = there_and_back()
+    thrice = pandas.concat([once, once[1:], once[1:]], ignore_index=True)
+    ax = axes_of(case_plots.force_displacement, thrice, row)
+    down, back, again = ax.get_lines()[:3]
+    lengths = [len(line.get_xdata()) for line in (down, back, again)]
+    assert lengths == [21, 21, 81]
+    assert again.get_xdata()[0] == back.get_xdata()[-1] == 0.0
+    assert labels(ax)[3] == "further cycles"
 
 
 def test_the_area_below_the_mean_force_is_the_energy_until_packed(row):

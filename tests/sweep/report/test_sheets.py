@@ -4,7 +4,19 @@ import pytest
 
 from sweep.ranking.rank import ranked
 from sweep.report.markdown import markdown
-from sweep.report.sheets import BEYOND, CROSSED, EARLY, LOADED, UNSURE, legend, ranking_sheets
+from sweep.report.sheets import (
+    AGAIN,
+    BEYOND,
+    CROSSED,
+    EARLY,
+    ELASTIC,
+    LOADED,
+    LOSSY,
+    MIXED,
+    UNSURE,
+    legend,
+    ranking_sheets,
+)
 from tests.support.specimens import CRUSHED_SOLID, SPARSE, designs, summary
 
 NAN = float("nan")
@@ -92,6 +104,49 @@ def test_legend_explains_what_is_shown():
     assert "sink" not in legend(ranked(crushed))
     loaded = summary({"loading_mode": "force", "force_N": 5.0})
     assert legend(ranked(loaded)).splitlines()[1:] == [LOADED]
+
+
+def test_legend_says_what_takes_the_energy_that_does_not_come_back():
+    relaxing = {"material_memory": "relaxes", "material": "mine"}
+    struck = {"loading_mode": "impact", "striker_mass_g": 50.0, "striker_speed_m_per_s": 1.0}
+    for common in ({}, struck):
+        said = legend(ranked(summary(common, common)))
+        assert said.endswith(ELASTIC)
+        assert max(map(len, f"{said}\n{MIXED}\n{AGAIN}".splitlines())) <= 100
+        assert legend(ranked(summary(common | relaxing))).endswith(LOSSY)
+        assert legend(ranked(summary(common, common | relaxing))).endswith(MIXED)
+    pulled = summary({"absorbed_energy_at_50N_J": 0.1})
+    assert ELASTIC not in legend(ranked(pulled, allowed_force=50.0))
+
+
+def test_memory_is_shown_where_it_differs():
+    table = summary({}, {"material_memory": "softens"})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert sorted(row[sheet.heads.index("memory")] for row in sheet.rows) == ["none", "softens"]
+    table = summary({}, {})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert "memory" not in sheet.heads
+
+
+def test_second_cycle_is_told_where_there_is_one():
+    table = summary({"second_cycle_share": 0.7}, {})
+    ranking = ranked(table)
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sorted(row[sheet.heads.index("again %")] for row in sheet.rows) == ["70", "–"]
+    assert AGAIN in legend(ranking)
+    table = summary({})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert "again %" not in sheet.heads
+    assert AGAIN not in legend(ranked(table))
+
+
+@pytest.mark.parametrize("by", ["lost_energy_J", "lost_share", "lost_energy_J_per_g"])
+def test_what_is_lost_ranks_designs(by):
+    table = summary({by: 0.1}, {by: 0.3}, {by: NAN})
+    ranking = ranked(table, by=by)
+    assert [int(case_id) for case_id in ranking.table["case_id"]] == [1, 0]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sheet.heads[-1] == by
 
 
 def test_budgets_with_the_same_places_share_a_section():

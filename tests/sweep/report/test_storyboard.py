@@ -1,5 +1,6 @@
 """Which shapes of a case are drawn, and what stands above them."""
 
+import pandas
 import pytest
 
 from sweep.report.storyboard import headline, last_loaded, shots
@@ -48,6 +49,14 @@ def test_what_is_gone_at_once_is_not_drawn():
 )
 def test_load_goes_where_the_way_turns_or_the_force_ends(mode, history):
     assert last_loaded(history, {"loading_mode": mode}) == 20
+
+
+def test_later_cycles_do_not_move_the_turn():
+    once = there_and_back()
+    again = pandas.concat([once, once[1:]], ignore_index=True)
+    again.loc[21:, "strain"] *= 1.0 + 1e-15
+    assert again["strain"].argmax() > 20
+    assert last_loaded(again, {"loading_mode": "displacement"}) == 20
 
 
 def test_headline_names_cells_wall_material_and_scene():

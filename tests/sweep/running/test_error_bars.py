@@ -180,6 +180,24 @@ def test_column_that_agrees_by_chance_has_the_error_of_the_others():
     assert bars["correction_peak_force_N"] == pytest.approx(2.0 * mesh.correction)
 
 
+def test_what_follows_from_other_columns_has_a_bar_and_no_part_in_the_others():
+    """With 40 and 80 % for the columns of losses and cycles, the energy still has 20 %."""
+    own = {"peak_force_N": 10.0, ENERGY: 5.0}
+    following = dict.fromkeys(("lost_energy_J", "lost_share", "absorbed_energy_in_cycle_2_J"), 1.0)
+    coarse = {"peak_force_N": 8.0, ENERGY: 4.0} | dict.fromkeys(following, 1.6)
+    design, *_ = expand(config())
+    mesh, steps = companions(design)
+    version = {"model_version": 1}
+    rows = {
+        design.case_id: own | following | version,
+        steps.case.case_id: own | following | version,
+    }
+    bars = error_bars(design, rows | {mesh.case.case_id: coarse | version})
+    assert bars[BAR] == pytest.approx(mesh.weight * math.hypot(1.0, 1.0))
+    for name in following:
+        assert bars[f"error_{name}"] == pytest.approx(mesh.weight * math.hypot(0.6, 0.2))
+
+
 def test_peak_force_under_a_load_that_is_put_on_at_once_has_no_error_bar():
     design = Case()
     rows = {c.case_id: simulate(c).summary for c in [design, *(c.case for c in companions(design))]}

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Loading, Solver
+from sweep.config.solver_defaults import steps
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import stages, tolerances
+from tests.support.cases import pressed
 
 
 @pytest.mark.parametrize(("step", "steps", "dt"), [(15e-3, 2, 10e-3), (10e-3, 2, 10e-3)])
@@ -38,6 +40,15 @@ def test_a_platen_goes_down_and_back_if_it_is_let_up(unload):
     there, back = (0.0, 0.0, 0.0, -4e-3), (0.0, 0.0, -4e-3, 0.0)
     assert np.array(ends(case)) == pytest.approx(np.array([there, back][: 1 + unload]))
     assert all(phase.stage.steps == 7 for phase in stages(case, build_scene(case)))
+
+
+def test_a_crush_is_repeated():
+    loading = Loading(mode="displacement", stroke=4e-3, cycles=3)
+    case = Case(loading=loading, solver=Solver(load_steps=7))
+    assert ends(case) == ends(pressed(stroke=4e-3)) * 3
+    phases = stages(case, build_scene(case))
+    assert [phase.name for phase in phases[:3]] == ["loading", "unloading", "loading in cycle 2"]
+    assert steps(case.loading, case.solver) == sum(phase.stage.steps for phase in phases) == 42
 
 
 def test_a_dead_load_is_on_until_its_release():

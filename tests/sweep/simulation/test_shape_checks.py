@@ -63,8 +63,8 @@ def test_strains_are_those_of_arcs(turn):
     assert strains == pytest.approx(np.full((1, 4), 0.009))
 
 
-def within_model(shapes, time, work):
-    return work_within_model(strains_of(shapes), shapes["time_s"], time, work)
+def within_model(shapes, time, work, broken=np.nan):
+    return work_within_model(strains_of(shapes), broken, shapes["time_s"], time, work)
 
 
 def test_work_within_the_model_ends_where_an_element_is_squeezed_too_far():
@@ -72,6 +72,8 @@ def test_work_within_the_model_ends_where_an_element_is_squeezed_too_far():
     shapes = frames(SQUARE, scaled(1.0, 0.8), scaled(1.0, 0.6), scaled(1.0, 0.9))
     time = np.linspace(0.0, 3.0, 31)
     assert within_model(shapes, time, time**2) == pytest.approx(2.25)
+    assert within_model(shapes, time, time**2, 1.2) == pytest.approx(1.44)
+    assert within_model(shapes, time, time**2, 1.8) == pytest.approx(2.25)
 
 
 def test_all_work_is_within_the_model_where_none_is():

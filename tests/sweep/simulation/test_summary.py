@@ -9,6 +9,7 @@ from sweep.simulation.summary import (
     OF_A_CRUSH,
     absorbed_until,
     crush_columns,
+    lost_columns,
     returned,
     transmitted,
 )
@@ -169,6 +170,17 @@ def test_work_is_split_where_the_platen_turns():
     turned = returned(Case(loading=Loading(strain=0.5)), history, 501)
     # The force falls from 10 to 2 N in the first step up: 6 N x 10 um, less 2 N x 10 um.
     assert turned == pytest.approx(10e-3 + 4.0 * STEP * HEIGHT)
+    again = {"work_in_J": np.append(history["work_in_J"], np.full(1000, 7.0))}
+    assert returned(Case(loading=Loading(strain=0.5, cycles=2)), again, 501) == turned
+
+
+def test_what_does_not_come_back_is_lost():
+    crushed_once = lost_columns(Case(loading=Loading(strain=0.5)), 0.5, 0.2, 2.0)
+    assert list(crushed_once.values()) == pytest.approx([0.2, 0.3, 0.6, 0.15])
+    struck = lost_columns(Case(loading=Loading(energy=0.4)), 0.5, 0.1, 2.0)
+    assert list(struck.values()) == pytest.approx([0.1, 0.3, 0.75, 0.15])
+    assert np.isnan(lost_columns(Case(), 0.5, np.nan, 2.0)["lost_share"])
+    assert np.isnan(lost_columns(Case(), 0.0, 0.0, 2.0)["lost_share"])
 
 
 @pytest.mark.parametrize(

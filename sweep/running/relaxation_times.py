@@ -1,0 +1,50 @@
+"""Cases that last so short or so long that branches of relaxation do not lose energy in them."""
+
+from collections.abc import Sequence
+
+from sweep.config.case import Case
+
+FAR = 100.0  # factor from a time of relaxation beyond which its branch loses next to nothing
+
+
+def lossless(cases: Sequence[Case]) -> list[str]:
+    """A sentence about the cases that are too short for their times of relaxation, and another one
+    about those that are too long; none if all are fine.
+    """
+    lasting = [(case, loading_time(case)) for case in cases if case.material.relaxation_times]
+    short = [
+        (time, min(case.material.relaxation_times))
+        for case, time in lasting
+        if FAR * time < min(case.material.relaxation_times)
+    ]
+    long = [
+        (time, max(case.material.relaxation_times))
+        for case, time in lasting
+        if time > FAR * max(case.material.relaxation_times)
+    ]
+    return [
+        *_sentence(short, len(cases), "less than a hundredth of the shortest"),
+        *_sentence(long, len(cases), "more than a hundred times the longest"),
+    ]
+
+
+def loading_time(case: Case) -> float:
+    """About how long the walls are loaded, s: a stroke down and back up, or a striker's passage."""
+    loading = case.loading
+    if loading.stroke is not None and loading.speed is not None:
+        return 2.0 * loading.stroke / loading.speed
+    if loading.striker_speed is not None:
+        return 2.0 * case.lattice.height / loading.striker_speed
+    assert loading.duration is not None
+    return loading.duration
+
+
+def _sentence(found: list[tuple[float, float]], count: int, how: str) -> list[str]:
+    """What is told of cases with these durations and times, s."""
+    if not found:
+        return []
+    time, limit = found[0]
+    return [
+        f"{len(found)} of {count} cases last {how} material.relaxation time "
+        f"({time:.2g} s and {limit:.2g} s): the material loses next to nothing in them"
+    ]

@@ -1,0 +1,107 @@
+"""Lattices of a material that relaxes: the energy book, holds, rates."""
+
+import numpy as np
+import pytest
+
+from kernels.solve import march, newton
+from sweep.config.case import Case, Lattice, Loading, Material, Solver
+from sweep.scene.lattice import build_scene
+from sweep.scene.relaxation import relaxation_of
+from tests.support.scenes import is_sound, run, unbalanced
+from tests.support.solving import at_rest, go_on
+from tests.support.structures import APART
+
+LOSS = 0.4
+CRUSH = {"mode": "displacement", "strain": 0.3}
+RATES = (1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0)
+LOADINGS = {
+    "quasi-static": (CRUSH, {"load_steps": 60}),
+    "bdf2": (CRUSH | {"speed": 1.0}, {"integrator": "bdf2", "load_steps": 200}),
+    "newmark": (CRUSH | {"speed": 1.0}, {"integrator": "newmark", "load_steps": 200}),
+    "impact": ({"mode": "impact", "energy": 0.05}, {}),
+}
+
+
+def case(loading, bend="section", loss=LOSS, **solver):
+    return Case(
+        material=Material(bend=bend, loss=loss), loading=Loading(**loading), solver=Solver(**solver)
+    )
+
+
+@pytest.mark.parametrize("bend", ["section", "linear"])
+@pytest.mark.parametrize("kind", LOADINGS)
+def test_the_book_of_a_crush_closes(kind, bend):
+    """3 x 3 cells with solid joints, in contact; no step gives back what is lost."""
+    loading, solver = LOADINGS[kind]
+    result = run(case(loading, bend, **solver))
+    history = result.history
+    assert is_sound(result)
+    assert unbalanced(history) < 1e-6
+    lost = history["dissipated_material_J"]
+    assert np.diff(lost, prepend=0.0).min() >= 0.0
+    assert lost[-1] > 0.2 * history["work_in_J"].max()
+
+
+@pytest.mark.parametrize("bend", ["section", "linear"])
+def test_what_is_absorbed_is_lost_returned_or_left_in_the_branches(bend):
+    result = run(case(CRUSH, bend, load_steps=60))
+    history, summary = result.history, result.summary
+    left = sum(history[f"{part}_J"][-1] for part in ("stretch", "bend", "contact"))
+    lost, absorbed = summary["dissipated_energy_J"], summary["absorbed_energy_J"]
+    assert lost + summary["returned_energy_J"] + left == pytest.approx(absorbed, rel=1e-6)
+    assert left > 0.01 * absorbed
+    elastic = run(case(CRUSH, bend, None, load_steps=60)).summary
+    assert elastic["returned_energy_J"] == pytest.approx(elastic["absorbed_energy_J"], rel=1e-4)
+
+
+def slender(rate, loss=0.3, strain=1e-4):
+    """A cell of slender walls pressed a little at a rate (1/s), linear all over."""
+    material = Material(modulus=20e6, density=1190.0, loss=loss, plane="stress")
+    return Case(
+        lattice=Lattice(cells_x=1, cells_y=1, wall_thickness=4e-4, imperfection=0.0),
+        material=material,
+        loading=Loading(mode="displacement", strain=strain, strain_rate=rate, unload=False),
+        contact=APART,
+        solver=Solver(load_steps=4, joints="points"),
+    )
+
+
+def mean_modulus(material, start, end):
+    """Mean of the modulus from one time to another over that at 1 s: what is seen, at ``end``, of
+    an even ramp of strain that began then and stopped at ``end - start``.
+    """
+    shares, times, instant = relaxation_of(material)
+    left = times * (np.exp(-start / times) - np.exp(-end / times)) / (end - start)
+    return instant * (1.0 + shares @ (left - 1.0))
+
+
+def test_a_lattice_stiffens_with_the_rate_as_its_material():
+    forces = []
+    for rate in RATES:
+        pressed = slender(rate)
+        result = run(pressed)
+        assert is_sound(result)
+        forces.append(
+            result.history["reaction_top_N"][-1] / mean_modulus(pressed.material, 0.0, 1e-4 / rate)
+        )
+    np.testing.assert_allclose(forces, forces[0], rtol=2e-3)
+    assert forces[0] > 0.0
+
+
+def test_a_hold_relaxes_as_the_material():
+    """Pressed in 10 ms, then held for a minute in steps of any length."""
+    pressed = slender(0.01)
+    scene = build_scene(pressed)
+    state, held = at_rest(scene), (1e-3, 0.1, 1.0, 60.0)
+    down = scene.x_rest[-1] - 1e-4 * np.ptp(scene.mesh.points[:, 1])
+    way = march.Stage(4, 2.5e-3, False, 0.0, 0.0, scene.x_rest[-1], down)
+    outcome, rows = go_on(pressed, scene, state, way)
+    forces, passed = [rows["reaction_top"][-1] / mean_modulus(pressed.material, 0.0, 0.01)], 0.0
+    for end in held:
+        stay = march.Stage(3, (end - passed) / 3, False, 0.0, 0.0, down, down)
+        outcome, rows = go_on(pressed, scene, state, stay)
+        assert outcome == newton.CONVERGED
+        modulus = mean_modulus(pressed.material, end, end + 0.01)
+        forces.append(rows["reaction_top"][-1] / modulus)
+        passed = end
+    np.testing.assert_allclose(forces, forces[0], rtol=2e-3)

@@ -1,0 +1,122 @@
+"""Walls that yield: a cantilever, breaks of closed form, and what remains of a crushed lattice.
+
+Closed form of the cantilever: W. Prager and P. G. Hodge, Theory of Perfectly Plastic Solids, 1951.
+"""
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
+from sweep.simulation.simulate import simulate
+from tests.support.structures import APART, CLAMPED, MM, finished, structure
+
+LENGTH, THICKNESS, DEPTH = 100.0, 1.0, 10.0  # mm
+MODULUS, LIMIT = 2e9, 2e5  # a limit so low that deflections stay small
+YIELD_FORCE = LIMIT * DEPTH * THICKNESS**2 / (6.0 * LENGTH) * MM**2  # at the tip, N
+YIELD_TIP = 2.0 / 3.0 * LIMIT / MODULUS * LENGTH**2 / THICKNESS  # mm
+ROD = {"nodes_mm": [[0, 0], [LENGTH, 0]], "walls": [[0, 1]], "probes": [1]}
+ROOT = [{"node": 0, "fix": CLAMPED}]
+BOOK = 1e-6  # of the work
+
+
+def plastic(limit=LIMIT, hardening=0.0, **keys):
+    numbers = {"modulus": MODULUS, "density": 1200.0, "poisson": 0.0, "plane": "stress"}
+    return Material(**numbers, yield_stress=limit, hardening=hardening, **keys)
+
+
+def loaded(material, steps=40, **parts):
+    """Result of a rod that is loaded in equal increments."""
+    whole = {"wall_thickness_mm": THICKNESS, "depth_mm": DEPTH, **ROD, **parts}
+    return Case(
+        lattice=Lattice(kind="custom", structure=structure(**whole)),
+        material=material,
+        contact=APART,
+        damping=Damping(model="none"),
+        solver=Solver(integrator="static", load_steps=steps),
+    )
+
+
+def tip(elements, fibres, share):
+    """Deflection of the tip under a share of the yield force / deflection at the yield force."""
+    force = {"node": 1, "force_N": [0.0, -share * YIELD_FORCE]}
+    material = plastic(fibres=fibres)
+    result = finished(loaded(material, 10, supports=ROOT, loads=[force], subdivide=elements))
+    return -result.history["probe_1_y_m"][-1] / (MM * YIELD_TIP)
+
+
+@pytest.mark.parametrize(("elements", "most"), [(4, 3e-3), (8, 1e-3), (32, 5e-4)])
+def test_a_cantilever_bends_beyond_yield(elements, most):
+    share = 1.2
+    exact = (5.0 - (3.0 + share) * np.sqrt(3.0 - 2.0 * share)) / share**2
+    assert tip(elements, 15, share) == pytest.approx(exact, rel=most)
+
+
+def test_a_cantilever_is_elastic_below_yield():
+    assert tip(8, 7, 0.5) == pytest.approx(0.5, rel=2e-4)
+
+
+def test_a_stretched_wall_breaks_at_its_strain():
+    """The work until then has a closed form; the rest of the loading is beyond the model."""
+    strain, limit, hardening = 0.02, 20e6, 0.1 * MODULUS
+    pull = [{"node": 1, "direction": "x", "displacement_mm": 2.0 * strain * LENGTH}]
+    material = plastic(limit, hardening, fracture_strain=strain)
+    result = finished(loaded(material, supports=ROOT, prescribed=pull, subdivide=4))
+    tangent, volume = MODULUS * hardening / (MODULUS + hardening), LENGTH * THICKNESS * DEPTH
+    beyond = strain - limit / MODULUS
+    density = limit**2 / (2.0 * MODULUS) + beyond * (limit + 0.5 * tangent * beyond)
+    work = result.summary["absorbed_energy_within_model_J"]
+    assert work == pytest.approx(density * volume * MM**3, rel=1e-3)
+    assert work < 0.6 * result.summary["absorbed_energy_J"]
+    assert result.message.startswith("a wall broke: the greatest strain of a fibre is 0.04,")
+
+
+def test_a_bent_wall_breaks_at_the_strain_of_its_surface():
+    """Turned at both ends, its curvature is even: broken where kappa t / 2 is the strain."""
+    strain = 0.02
+    turned = [
+        {"node": 0, "direction": "rotation", "angle_rad": -2.0 * strain * LENGTH / THICKNESS},
+        {"node": 1, "direction": "rotation", "angle_rad": 2.0 * strain * LENGTH / THICKNESS},
+    ]
+    held = [{"node": 0, "fix": ["x", "y"]}, {"node": 1, "fix": ["y"]}]
+    material = plastic(20e6, 0.5 * MODULUS, fracture_strain=strain, fibres=15)
+    result = finished(loaded(material, 80, supports=held, prescribed=turned, subdivide=16))
+    history, work = result.history, result.summary["absorbed_energy_within_model_J"]
+    assert np.interp(work, history["work_in_J"], history["load_factor"]) == pytest.approx(
+        0.5, rel=5e-3
+    )
+
+
+@pytest.fixture(scope="module")
+def crushed():
+    """A loose grid of PLA, crushed and let go."""
+    return simulate(
+        Case(
+            lattice=Lattice(cells_x=2, cells_y=2, wall_thickness=1e-3),
+            material=Material(name="pla"),
+            loading=Loading(mode="displacement", strain=0.2, platen="contact"),
+            contact=Contact(friction=0.0),
+        )
+    )
+
+
+def test_a_crushed_lattice_stays_short(crushed):
+    summary = crushed.summary
+    assert crushed.status == "converged"
+    assert 0.02 < summary["residual_strain"] < 0.2
+    assert 0.0 < summary["returned_energy_J"] < 0.5 * summary["absorbed_energy_J"]
+    assert summary["dissipated_energy_J"] > 0.5 * summary["absorbed_energy_J"]
+
+
+def test_the_book_of_a_crushed_plastic_closes(crushed):
+    history = crushed.history
+    residual = np.abs(history["energy_residual_J"]).max()
+    assert residual < BOOK * history["work_in_J"].max()
+    assert np.all(np.diff(history["dissipated_material_J"]) >= 0.0)
+
+
+def test_a_lattice_says_at_which_strain_it_broke(crushed):
+    summary = crushed.summary
+    assert 0.0 < summary["broke_at_strain"] < 0.2
+    assert summary["greatest_fibre_strain"] > 0.025
+    assert crushed.message.startswith(f"broke at a strain of {summary['broke_at_strain']:.3g}")
+    assert summary["absorbed_energy_within_model_J"] < summary["absorbed_energy_J"]

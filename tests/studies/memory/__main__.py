@@ -1,0 +1,47 @@
+"""What a material with a memory changes.
+
+Run by `make memory`: the loss of lattices beside that of their material, crushes at rates over five
+decades, the order of the designs of the shipped sweeps with and without each part, and error
+against run time. Finished cases are kept in the given folder.
+"""
+
+import sys
+from pathlib import Path
+
+from sweep.report.markdown import markdown
+from sweep.running.sweep import run_sweep
+from sweep.store.read import read_summary
+from tests.studies.memory.costs import costs
+from tests.studies.memory.cycles import cycles, losses, rated, rates
+from tests.studies.memory.orders import by_loss, table, variants
+
+CONFIGS = Path(__file__).parents[3] / "configs"
+
+
+def main(folder):
+    """Run what is missing, and print the tables."""
+    folder.mkdir(parents=True, exist_ok=True)
+    file, orders = folder / "memory.h5", variants(CONFIGS)
+    crushes, at_rates = cycles(), rated()
+    cases = [
+        *crushes.values(),
+        *at_rates.values(),
+        *(c for group in orders.values() for c in group),
+    ]
+    run_sweep(list({case.case_id: case for case in cases}.values()), file)
+    rows = read_summary(file).set_index("case_id", drop=False)
+    summaries = {key: rows.loc[[c.case_id for c in group]] for key, group in orders.items()}
+    sheets = [
+        losses({key: rows.loc[case.case_id] for key, case in crushes.items()}),
+        rates({key: rows.loc[case.case_id] for key, case in at_rates.items()}),
+        table(summaries),
+        by_loss(summaries, "loss 40 %"),
+        costs(),
+    ]
+    text = markdown(sheets)
+    (folder / "memory.md").write_text(text, "utf-8")
+    sys.stdout.write(text)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

@@ -1,0 +1,69 @@
+"""Laws with a memory, and single material points that follow a path of strains."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels.terms.elastic import ElasticCurve
+from kernels.terms.fibre import Fibre
+from kernels.terms.law import Memory
+from kernels.terms.relaxation import Relaxing
+from kernels.terms.softening import Softening
+from kernels.terms.yielding import Yielding
+
+NO_SOFTENING = (0.0, 0.0, 0.0)
+
+
+class Path(NamedTuple):
+    """What a point has after each step: stress, work by the trapezoidal rule, stored energy, and
+    dissipation so far; (steps,) each.
+    """
+
+    stress: np.ndarray
+    work: np.ndarray
+    stored: np.ndarray
+    dissipated: np.ndarray
+
+    @property
+    def gap(self):
+        """Largest gap of the book of all steps, as a share of the most work."""
+        return np.abs(self.work - self.stored - self.dissipated).max() / np.abs(self.work).max()
+
+
+def relaxing(curve: ElasticCurve, shares=(), times=(), softening=NO_SOFTENING) -> Fibre:
+    """A law that relaxes and softens: 1 / r, m, beta."""
+    branches = np.array(shares, float), np.array(times, float)
+    law = Relaxing(Softening(curve, *softening), *branches, curve.modulus)
+    return Fibre(law, Yielding(curve.modulus, 0.0, 0.0, 0.0), curve.modulus)
+
+
+def virgin(law: Fibre, points=1) -> Memory:
+    """The memory of some points at rest."""
+    size = law.state_size()
+    return Memory(np.zeros((points, size)), np.zeros((points, 2)), law.make_pace())
+
+
+def prepare(law: Fibre, memory: Memory, duration: float) -> None:
+    """Prepare the first point for a step."""
+    law.set_pace(duration, memory.pace)
+    law.begin(memory, 0)
+
+
+def follow(law: Fibre, strains, durations, memory=None) -> Path:
+    """Follow a path of strains (steps,) from rest, or from a memory, in steps of ``durations``."""
+    memory = virgin(law) if memory is None else memory
+    rows, work, lost, before, last = [], 0.0, 0.0, 0.0, 0.0
+    for strain, duration in zip(strains, np.broadcast_to(durations, len(strains)), strict=True):
+        prepare(law, memory, duration)
+        stress = law.respond(strain, memory, 0)[1]
+        work += 0.5 * (before + stress) * (strain - last)
+        stored, dissipated = law.commit(strain, memory, 0)
+        lost, before, last = lost + dissipated, stress, strain
+        rows.append((stress, work, stored, lost))
+    return Path(*np.array(rows).T)
+
+
+def there_and_back(strain: float, steps: int) -> np.ndarray:
+    """Even steps to a strain and back, (2 steps,)."""
+    up = np.linspace(0.0, strain, steps + 1)
+    return np.concatenate([up[1:], up[-2::-1]])

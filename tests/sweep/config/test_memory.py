@@ -1,0 +1,65 @@
+"""Keys of materials that soften, yield, or bend through fibres: what they imply, what is refused.
+
+Those of materials that relax: `test_relaxation`.
+"""
+
+import pytest
+from pydantic import ValidationError
+
+from sweep.config.case import Case, Loading, Material
+from sweep.config.material_file import REFERENCE_TIME
+
+CRUSH = Loading(mode="displacement", strain=0.5)
+SOFT = {"softening_r": 2.0, "softening_m": 1e5}
+NUMBERS = {"modulus": 2e9, "density": 1240.0, "poisson": 0.35}
+PLASTIC = NUMBERS | {"yield_stress": 50e6}
+
+
+def test_every_part_of_a_memory_is_part_of_the_id():
+    materials = [
+        *({}, {"loss": 0.4}, {"loss": 0.3}, {"loss": 0.4, "reference_time": 2.0}),
+        *(
+            SOFT,
+            SOFT | {"softening_beta": 0.2},
+            {"bend": "fibres"},
+            {"bend": "fibres", "fibres": 9},
+        ),
+        *(NUMBERS, PLASTIC, PLASTIC | {"hardening": 1e7}, PLASTIC | {"fracture_strain": 0.1}),
+    ]
+    ids = {Case(material=Material(**given), loading=CRUSH).case_id for given in materials}
+    assert len(ids) == len(materials)
+
+
+def test_numbers_have_a_reference_time_too():
+    material = Material(**NUMBERS, loss=0.2)
+    assert material.reference_time == REFERENCE_TIME
+    assert material.bend == "linear"
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ('softening_m = "1 MPa"', "has no effect, as material.softening_r is not given"),
+        ("softening_r = 2.0", "a stress, as softening_r is given"),
+        ('softening_r = 2.0\nsoftening_m = "1 MPa"\nbend = "linear"', '"section" or "fibres"'),
+        ("fibres = 7", 'has no effect, as material.bend is "section"'),
+        ("fracture_strain = 0.1", "has no effect, as material.yield_stress is not given"),
+        (
+            'modulus = "2 GPa"\ndensity = "1240 kg/m^3"\nyield_stress = "50 MPa"\nloss = 0.2',
+            "none if loss is given",
+        ),
+    ],
+)
+def test_what_contradicts_or_has_no_effect_is_refused(lines, text, line):
+    (told,) = lines(f"[material]\n{text}")
+    assert line in told
+
+
+def test_a_material_that_yields_bends_through_fibres():
+    material = Material(**PLASTIC)
+    assert (material.stretch, material.bend, material.fibres) == ("linear", "fibres", 7)
+    assert material.hardening == 0.0
+    assert material.remembers
+    assert not material.relaxes
+    with pytest.raises(ValidationError, match="linear"):
+        Material(**PLASTIC, stretch="nonlinear")

@@ -1,0 +1,151 @@
+"""Keys of a material that relaxes: how branches are written, what cannot go with a memory."""
+
+import pytest
+
+from sweep.config.case import Case, Damping, Lattice, Loading, Material, Solver
+from sweep.config.grid import expand
+from sweep.config.material_file import available, locate, not_rising, read_record
+from sweep.scene.material import stress_law
+from tests.support.records import HEADER
+from tests.support.structures import BEAM, structure
+
+SAGS = "0.01,1e5\n0.05,4e5\n0.1,3e5\n1,2e6\n"
+LEVEL = "0.01,1e5\n0.05,2e5\n0.1,10e5\n0.2,10.1e5\n"
+BRANCHES = 'relaxation = [{time = "1 ms", share = 0.1}, {time = "2 s", share = "20 %"}]'
+NO_BRANCHES = 'no branches; allowed: a list of tables, each {time = "1 ms", share = 0.05}'
+STEADY = "the stress of the material does not depend on time: it has neither loss nor relaxation"
+PRESSED = '[material]\nloss = 0.4\n[loading]\nstrain_rate = "1 1/s"\n'
+
+REFUSED = {
+    f"loss = 0.4\n{BRANCHES}": (
+        "material.loss = 0.4: does not fit; allowed: one of loss and relaxation"
+    ),
+    'relaxation = [{time = "1 ms", share = 0.5}, {time = "1 s", share = "50 %"}]': (
+        'material.relaxation_shares = [0.5, "50 %"]: does not fit; allowed: shares whose sum is'
+        " below 1"
+    ),
+    "relaxation = []": f"material.relaxation = []: {NO_BRANCHES}",
+    "relaxation = 0.3": f"material.relaxation = 0.3: {NO_BRANCHES}",
+    'relaxation = [{time = "1 ms"}]': f'material.relaxation = [{{"time": "1 ms"}}]: {NO_BRANCHES}',
+    'relaxation_times = ["1 ms"]': (
+        'material.relaxation_times = ["1 ms"]: does not fit; allowed: a time for each share'
+    ),
+    "loss = 0.9": (
+        'material.loss = 0.9: out of range; allowed: a number or a share in percent, such as "20 %"'
+        ", above 0, at most 0.8"
+    ),
+    'reference_time = "1 s"': (
+        f'material.reference_time = "1 s": has no effect, as {STEADY}'
+    ),
+    '[loading]\nmode = "displacement"\nstrain_rate = "1 1/s"': (
+        f'loading.strain_rate = "1 1/s": has no effect, as {STEADY}'
+    ),
+    f'{PRESSED}speed = "1 mm/s"': (
+        'loading.strain_rate = "1 1/s": does not fit; allowed: one of speed and strain_rate'
+    ),
+    f"{PRESSED}quasi_static = false": (
+        'loading.strain_rate = "1 1/s": does not fit; allowed: a speed, if quasi_static is false'
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", REFUSED)
+def test_refused(text, lines):
+    given = text if text.startswith("[") else f"[material]\n{text}"
+    assert lines(given) == [REFUSED[text]]
+
+
+def test_branches_are_a_list_of_tables(load):
+    (case,) = expand(load(f'[material]\n{BRANCHES}\nreference_time = "0.5 s"'))
+    material = case.material
+    assert material.relaxation_times == pytest.approx((1e-3, 2.0))
+    assert material.relaxation_shares == pytest.approx((0.1, 0.2))
+    assert (material.relaxes, material.reference_time) == (True, 0.5)
+    (tables,) = expand(load(
+        '[material]\nreference_time = "500 ms"\n[[material.relaxation]]\ntime = "0.001 s"\n'
+        'share = 0.1\n[[material.relaxation]]\ntime = "2 s"\nshare = 0.2\n'
+    ))  # fmt: skip
+    assert tables.case_id == case.case_id
+
+
+def test_a_loss_may_vary(load):
+    cases = expand(load('[grid]\nmaterial.loss = [0.2, "40 %"]'))
+    assert [case.material.loss for case in cases] == pytest.approx([0.2, 0.4])
+    assert len({case.case_id for case in cases}) == 2
+
+
+def test_a_curve_that_falls_does_not_relax(own_record):
+    path = own_record(HEADER + SAGS)
+    assert not Material(name=str(path)).relaxes
+    falls = r"does not rise from a strain of 0\.05 on"
+    with pytest.raises(ValueError, match=rf"material\.loss = 0\.3; .* {falls}"):
+        Material(name=str(path), loss=0.3)
+    branch = {"relaxation_times": (1.0,), "relaxation_shares": (0.3,)}
+    with pytest.raises(ValueError, match=rf"material\.relaxation_times = .* {falls}"):
+        Material(name=str(path), **branch)
+
+
+def test_a_curve_that_ends_level_does_not_relax(own_record):
+    """Its record rises, but the last tangent of its law, with which it goes on, is flat."""
+    path = own_record(HEADER + LEVEL)
+    law = stress_law(Material(name=str(path)))
+    _, c1, c2, c3 = law.coefficients[-1]
+    width = law.knots[-1] - law.knots[-2]
+    modulus = law.coefficients[0, 1]
+    assert c1 + 2.0 * c2 * width + 3.0 * c3 * width**2 == pytest.approx(0.0, abs=1e-9 * modulus)
+    with pytest.raises(ValueError, match=r"does not rise from a strain of 0\.2 on"):
+        Material(name=str(path), loss=0.3)
+
+
+@pytest.mark.parametrize("name", available())
+def test_shipped_curves_rise(name):
+    record = read_record(locate(name))
+    assert not_rising(record.strain, record.stress) is None
+    assert Material(name=name, loss=0.3).reference_time == record.reference_time
+
+
+@pytest.mark.parametrize(
+    ("strain", "stress", "at"),
+    [
+        ((-0.5, -0.2, 0.1, 0.2), (-2.0, -2.0, 1.0, 2.0), -0.5),
+        ((-0.5, -0.2, 0.1, 0.2), (-2.0, -1.0, 1.0, 1.0), 0.1),
+        ((-0.5, -0.4, -0.2, 0.1, 0.2), (-10.1, -10.0, -1.0, 1.0, 2.0), -0.5),
+        ((0.002, 0.02, 0.1), (-0.1, 1.0, 5.0), None),
+    ],
+)
+def test_where_a_curve_does_not_rise(strain, stress, at):
+    """Its toe does not count, which is replaced by a straight line."""
+    assert not_rising(strain, stress) == at
+
+
+def test_a_crush_with_memory_takes_its_time():
+    lattice, loss = Lattice(), Material(loss=0.3)
+    press = {"mode": "displacement", "strain": 0.3}
+
+    def settled(material=loss, **loading):
+        found = Case(lattice=lattice, material=material, loading=Loading(**press | loading)).loading
+        return found.quasi_static, found.speed
+
+    assert settled() == (True, pytest.approx(0.01 * lattice.height))
+    assert settled(strain_rate=2.0) == (True, pytest.approx(2.0 * lattice.height))
+    assert settled(speed=0.1) == (False, 0.1)
+    assert settled(speed=0.1, quasi_static=True) == (True, 0.1)
+    assert settled(Material()) == settled(Material(), quasi_static=True, speed=0.1) == (True, None)
+
+
+def test_a_material_with_memory_has_no_other_damping_unless_asked():
+    loss, push = Material(loss=0.3), Loading(force=5.0)
+    assert Case(loading=push).damping.model == "rayleigh"
+    assert Case(loading=push, material=loss).damping.model == "none"
+    asked = Case(loading=push, material=loss, damping=Damping(model="rayleigh"))
+    assert asked.damping.model == "rayleigh"
+
+
+def test_arcs_have_no_time():
+    lattice = Lattice(kind="custom", structure=structure(
+        **BEAM, loads=[{"node": 1, "force_N": [0.0, -1e-3]}]
+    ))  # fmt: skip
+    arcs = Solver(integrator="arc_length")
+    assert Case(lattice=lattice, solver=arcs).solver.integrator == "arc_length"
+    with pytest.raises(ValueError, match=r"arc_length; allowed: .* if the material has a memory"):
+        Case(lattice=lattice, solver=arcs, material=Material(loss=0.3))

@@ -1,0 +1,68 @@
+"""Cases in which a relaxing material loses nothing are told."""
+
+import pytest
+
+from sweep.config.case import Case, Loading, Material
+from sweep.running.relaxation_times import loading_time, lossless
+from sweep.running.sweep import run_sweep
+from sweep.simulation.simulate import simulate
+from tests.support import standin
+from tests.support.cases import pressed
+
+SLOW = Material(relaxation_times=(2.0, 60.0), relaxation_shares=(0.2, 0.1), reference_time=1.0)
+
+
+@pytest.mark.parametrize(
+    ("loading", "time"),
+    [
+        ({"strain": 0.5, "speed": 0.1}, 0.125),
+        ({"mode": "impact", "striker_speed": 2.5}, 0.01),
+        ({"force": 2.0, "duration": 0.3}, 0.3),
+    ],
+)
+def test_time_of_a_loading(loading, time):
+    assert loading_time(Case(loading=Loading(**loading))) == pytest.approx(time)
+
+
+def test_an_impact_is_too_short_for_slow_branches_and_is_told():
+    struck = Case(material=SLOW, loading=Loading(mode="impact", striker_speed=2.5))
+    (line,) = lossless([struck, struck, pressed()])
+    assert line == (
+        "2 of 3 cases last less than a hundredth of the shortest material.relaxation time "
+        "(0.01 s and 2 s): the material loses next to nothing in them"
+    )
+
+
+@pytest.mark.parametrize(("rate", "lines"), [(1e-5, 1), (1e-3, 0), (0.1, 0), (20.0, 0), (100.0, 1)])
+def test_only_what_is_far_from_all_times_is_told(rate, lines):
+    """Times of 1.2 over the rate: 1.2e5 s, 1200 s, 12 s, 60 ms and 12 ms; limits: 6000 s, 20 ms."""
+    case = Case(material=SLOW, loading=Loading(mode="displacement", strain_rate=rate))
+    assert len(lossless([case])) == lines
+    assert "longest" in "".join(lossless([case])) or rate > 1e-4
+
+
+def test_a_sweep_tells_before_it_runs(tmp_path, capsys):
+    struck = Case(material=SLOW, loading=Loading(mode="impact", striker_speed=2.5))
+    for line in ("1 of 1 cases last less than", ""):
+        run_sweep([struck], tmp_path / "trial.h5", simulate=standin.simulate)
+        told = capsys.readouterr().out
+        assert told.count("relaxation time") == len(line[:1])
+        assert line in told
+
+
+def test_elastic_walls_and_a_measured_loss_are_never_told():
+    short = Loading(mode="impact", striker_speed=100.0)
+    assert lossless([Case(loading=short), Case(loading=short, material=Material(loss=0.4))]) == []
+
+
+def test_what_is_told_is_true():
+    """Walls whose branches are a hundred times slower than the crush lose 1 % of it at most."""
+    shares = []
+    for rate in (0.6, 1200.0):
+        loading = Loading(mode="displacement", strain=0.3, strain_rate=rate)
+        lines = lossless([case := Case(material=SLOW, loading=loading)])
+        assert len(lines) == (rate > 1.0)
+        shares.append(simulate(case).summary["lost_share"])
+    elastic = simulate(Case(loading=loading)).summary["lost_share"]
+    assert shares[0] - elastic > 0.03
+    assert shares[1] - elastic < 0.01
