@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from sweep.config.case import Case
 
 
-MODEL_VERSION = 4
+MODEL_VERSION = 5
 """Version of the model: raised by every change of the numbers that a case gives."""
 
 HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones again"
@@ -42,6 +42,7 @@ OLDER: dict[str, float | int | str] = {
     "second_cycle_share": nan,
     "dissipated_material_J": nan,
     "dissipated_friction_J": nan,
+    "solid_joint_share": nan,
 }
 """Values of columns that rows of older versions do not have.
 
@@ -253,6 +254,10 @@ COLUMNS: dict[str, Column] = {
     ),
     "touched": Column("1", "1 if contact acted in any row; if 0, contact is not needed"),
     "max_crossings": Column("1", "walls that pass through one another in any stored frame", "less"),
+    "solid_joint_share": Column(
+        "1",
+        "share of walls between solid joints, others end in points; NaN if points are asked for",
+    ),
     "steps": Column("1", "accepted time or load steps", "less"),
     "newton_iterations": Column("1", "Newton iterations of the whole run", "less"),
     "cpu_s": Column("s", "processor time of the run", "less"),

@@ -53,6 +53,9 @@ def warnings(file: str, ranking: Ranking) -> Iterator[str]:
         yield f"{cases_have} no error bar: placed by value alone."
     if ranking.unranked:
         yield f"{_counted(ranking.unranked, 'case')} no {ranking.by} and so no place."
+    if ranking.pointed:
+        some = f"In {ranking.pointed} of {ranking.cases} cases some walls end in points"
+        yield f"{some}, not in solid joints: see solid_joint_share."
     if ranking.failed:
         yield f"{ranking.failed} of {ranking.cases} cases failed: crumple status {file} says why"
 

@@ -153,6 +153,9 @@ def ranked(
         failed=len(summary) - len(finished),
         unranked=sum(int(rows[order].isna().sum()) for rows, order in scenes),
         without_bar=sum(_without_bar(rows, order) for rows, order in scenes),
+        pointed=int(
+            (finished.get("solid_joint_share", Series(np.nan, finished.index)) < 1.0).sum()
+        ),
         versions=model_versions(finished),
         budgets_g=tuple(limit for limit in limits if np.isfinite(limit)),
         lightest_g=labelled.groupby("scene", sort=False)[names.mass].min().to_dict(),

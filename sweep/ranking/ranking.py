@@ -24,6 +24,7 @@ class Ranking:
     cases, failed : number of cases, and number of those that did not converge.
     unranked : number of converged cases without a value in the sorting column of their scene.
     without_bar : number of cases with that value but without its error bar, if others have one.
+    pointed : number of converged cases with solid joints in which some walls end in points.
     versions : number of converged cases of each version of the model, the oldest first.
     budgets_g : the budgets (g), each once.
     lightest_g : the least mass (g) of each scene.
@@ -40,6 +41,7 @@ class Ranking:
     failed: int
     unranked: int
     without_bar: int
+    pointed: int
     versions: Mapping[int, int]
     budgets_g: tuple[float, ...]
     lightest_g: Mapping[str, float]

@@ -142,6 +142,7 @@ def build_structure(case: Case) -> Scene:
         velocity=_velocity(structure, mesh, layout),
         probes=_probed(structure, numbering),
         travel=travel,
+        solid_joint_share=float(arms.sheared.mean()),
     )  # fmt: skip
 
 

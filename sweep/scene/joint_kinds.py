@@ -22,6 +22,7 @@ COLUMNS = ("MM", "MV", "VV", "NN", "VV_nu", "NN_nu")
 MV_NU = -1.2  # slope of MV in nu' at all joints: the one of a beam's shear, with the sign changed
 LENGTHS = np.linspace(0.6, 3.0, 241)  # x, length of an element over t: the first stable one
 CONTRACTIONS = np.array([0.0, 0.25, 0.5, 0.75, 1.0])  # nu' for which it is stable
+FLAT = 179.0  # degrees: two arms with a wider opening between them have no corner
 LEAST = 0.1  # eigenvalue of F in V, M / t: F of a beam of that length has 0.5 to 1
 
 
@@ -89,6 +90,34 @@ def find_joint(opened: Floats, in_row: NDArray[np.bool_]) -> Joint | None:
             return None
         compliance[arm], length[arm] = found
     return Joint(compliance, length)
+
+
+def unequal(joint: Joint, opened: Floats, thickness: Floats) -> Joint:
+    """The joint of arms of unequal thickness (k,) with the same openings (k,), from that of equals.
+
+    Beside a thicker arm, an arm yields up to their corner as beside its equal, and the corner is
+    farther out, by d in the mean of both sides: F is that of equals for V and M - V d, and C that
+    less a beam from the centre,
+
+        MM - 12 d,  MV - MM d + 6 d^2,  VV - (2.4 + 2 MV) d + MM d^2 - 4 d^3,  x + d,
+
+    with MV at nu' = 0, as its slope is that of the beam.
+
+    Axial forces pass straight through and spread into about half of d: NN - d / 2. Beside a thinner
+    arm, C is less, in the ratio of the thicknesses: without the other arm it is 0.
+    """
+    gap = np.stack([opened, np.roll(opened, 1)])  # after and before each arm
+    corner, beside = gap < FLAT, np.stack([np.roll(thickness, way) for way in (-1, 1)]) / thickness
+    beyond = np.where(corner, np.maximum(beside - 1.0, 0.0) / np.sin(np.radians(gap)), 0.0)
+    d = 0.5 * beyond.mean(axis=0)
+    share = np.minimum(beside, 1.0).mean(axis=0, where=corner)
+    c = joint.compliance * share[:, None, None]
+    mm, mv = c[:, :2, 0].T.copy()
+    c[:, 0, 0] -= 12.0 * d
+    c[:, 1, 0] += 6.0 * d**2 - mm * d
+    c[:, 2, 0] += mm * d**2 - 2.0 * mv * d - 2.4 * d - 4.0 * d**3
+    c[:, 3, 0] -= 0.5 * d
+    return Joint(c, joint.length + d)
 
 
 def _has(kind: str, angle: float) -> bool:

@@ -8,6 +8,12 @@ of C and that of a beam:
 
     F = C + [[x, 0, 0], [0, 2.4 (1 + nu') x + 4 x^3, -6 x^2], [0, -6 x^2, 12 x]]
 
+For arms of unequal thickness see `joint_kinds.unequal`. In short walls the sum of both C and the
+beam holds until the joints meet (tests/studies/continuum/pixels.py). Joints that would take more
+than `MOST` of the wall are those of a wall so much thinner that they just fit: x t, MM and NN are
+multiplied by the ratio of the thicknesses, MV by its square and VV by its cube. That is no result
+of elasticity, but F stays positive definite, and nothing jumps.
+
 nu' is nu in plane stress and nu / (1 - nu) in plane strain. Between its joints the wall is a beam
 with shear. Shear and C belong together, as C is an excess over sheared beams: a wall with an end
 whose C is not known has neither, and its joints are points.
@@ -23,11 +29,11 @@ from sweep.design.drawing import Floats
 from sweep.design.drawing import Indices as Ints
 from sweep.design.network import Network
 from sweep.scene.coordinates import BONDED
-from sweep.scene.joint_kinds import find_joint, flexibility
+from sweep.scene.joint_kinds import find_joint, flexibility, unequal
 
-ALIKE = 1.5  # greatest ratio of thicknesses that count as equal; C is that of equal arms
 STRAIGHT = 15.0  # degrees: two arms that meet at less are one bent wall
-MOST = 0.6  # of the length of a wall: joints that take more are points
+MOST = 0.95  # of the length of a wall, that its joints can take
+POWERS = np.array([1.0, 2.0, 3.0, 1.0])  # of a thickness in MM, MV, VV, NN of C
 
 
 class Arms(NamedTuple):
@@ -84,15 +90,24 @@ def find_arms(network: Network, joints: Ints, rows: Iterable[Ints], plain: Ints)
             known[ends] = True
             continue
         found = find_joint(opened, in_row[ends // 2])
-        if found is None or t.max() > ALIKE * t.min():
+        if found is None:
             continue
+        found = unequal(found, opened, t)
         known[ends] = True
         standing = ~in_row[ends // 2]
         compliance_of[ends[standing]] = found.compliance[standing]
         length_of[ends[standing]] = (found.length * t)[standing]
-    arms.sheared[:] = known.reshape(-1, 2).all(axis=1) & (arms.length.sum(axis=1) <= MOST * length)
+    arms.sheared[:] = known.reshape(-1, 2).all(axis=1)
     arms.length[~arms.sheared] = 0.0
+    _fit(arms, length)
     return arms
+
+
+def _fit(arms: Arms, length: Floats) -> None:
+    """Shrink joints that would take more than `MOST` of the length (w,) of their wall, in place."""
+    share = np.maximum(1.0, arms.length.sum(axis=1) / (MOST * length))[:, None]
+    arms.length[:] /= share
+    arms.compliance[:] /= (share**POWERS)[:, None, :, None]
 
 
 def _by_joint(joint: Ints, bearing: Floats) -> Iterator[Ints]:

@@ -74,6 +74,7 @@ def build_scene(case: Case) -> Scene:
         *_reported(numbering, case.loading),
         force_scale=force_scale(network, beams.rigidity),
         velocity=_velocity(numbering, layout.leader, case.loading),
+        solid_joint_share=float(arms.sheared.mean()),
     )  # fmt: skip
 
 

@@ -103,6 +103,7 @@ def build_periodic(case: Case) -> Scene:
         force_scale=force_scale(network, rigidity),
         velocity=np.zeros(numbering.size),
         around=whole.edges[elements.stop :],
+        solid_joint_share=float(arms.sheared.mean()),
     )  # fmt: skip
 
 

@@ -35,7 +35,7 @@ class Scene:
     x_rest (n,): coordinates at rest, m and rad. bottom, top, base, probes: as in `rows.Output`.
     force_scale: a typical force, N. velocity (n,): at the start, m/s and rad/s. travel: of the
     driven coordinate of a custom structure, m. around (k, 2): elements of the copies round a
-    period.
+    period. solid_joint_share: of the walls that are between solid joints.
     """
 
     mesh: Mesh
@@ -50,6 +50,7 @@ class Scene:
     probes: Ints = field(default_factory=lambda: np.empty(0, np.int64))
     travel: float = 0.0
     around: Ints = field(default_factory=lambda: np.empty((0, 2), np.int64))
+    solid_joint_share: float = 0.0
 
 
 class Parts(NamedTuple):

@@ -137,6 +137,7 @@ def summarise(
         "specific_absorption_J_per_g": absorbed / grams,
         "peak_force_N": float(transmitted(case, history).max()),
         "peak_strain": float(history["strain"].max()),
+        "solid_joint_share": scene.solid_joint_share if case.solver.joints == "solid" else np.nan,
         "min_gap_m": float(gaps.min()) if len(gaps) else np.nan,
         "touched": int(any(np.any(history[name] != 0.0) for name in TOUCHING)),
         **columns_of_cycles(case, history["work_in_J"], transmitted(case, history)),

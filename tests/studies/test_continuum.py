@@ -7,9 +7,10 @@ from skfem import MeshQuad
 
 from sweep.scene.beams import contraction, plane_factors
 from sweep.scene.material import law_of_section
+from tests.studies.continuum import pixels
 from tests.studies.continuum.arms import ARMS, Joint
 from tests.studies.continuum.grid import Grid
-from tests.studies.continuum.lattices import Lattice, from_table, placed, table
+from tests.studies.continuum.lattices import Lattice, exact, from_table, placed, table
 from tests.studies.continuum.network import MPA, material
 from tests.studies.continuum.openings import KINDS, Star, Yield, rows
 from tests.studies.continuum.press import Press, StuckError, factor
@@ -252,6 +253,50 @@ def test_hexagons_are_as_stiff_with_joints_of_the_table_as_if_solid():
     lattice = Lattice("hex", 1.0, 0.2)
     assert lattice.errors(0.48, from_table) == pytest.approx(0.0, abs=0.1)
     assert lattice.errors(0.48, None) == pytest.approx([-17.0, -16.1, -13.7], abs=0.2)
+
+
+@pytest.mark.parametrize(
+    ("kind", "ratio", "within", "equal"),
+    [
+        ("square", 1.5, 4.0, -9.7),
+        ("square", 1.0 / 3.0, 4.0, -31.7),
+        ("brick", 2.0, 2.0, -12.0),
+        ("brick", 2.0 / 3.0, 3.0, -11.3),
+    ],
+)
+def test_joints_of_unequal_lines_are_near_the_solid(kind, ratio, within, equal):
+    """And nearer than C of equal arms, whose worst error of three is the last number."""
+    lattice = Lattice(kind, 1.0, 0.2 / max(ratio, 1.0), ratio)
+    errors = lattice.errors(0.48, lattice.of_scene(0.48))
+    assert np.abs(errors).max() < within
+    worst = lattice.errors(0.48, from_table)
+    assert worst[np.abs(worst).argmax()] == pytest.approx(equal, abs=0.2)
+
+
+def test_a_rectangle_of_pixels_bends_and_stretches_as_hooke_says():
+    a, b, poisson = 2.0, 0.5, 0.3
+    one = pixels.rectangle(a, b, poisson)
+    along = np.array([(x * a, -poisson * y * b) for x, y in pixels.CORNERS]).ravel()
+    assert along @ one @ along == pytest.approx(a * b)
+    bent = np.array([((x - 0.5) * (y - 0.5) * a * b, 0.0) for x, y in pixels.CORNERS]).ravel()
+    assert bent @ one @ bent == pytest.approx(a * b**3 / 12.0)
+    assert one @ np.tile([1.0, -2.0], 4) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_solid_of_pixels_is_as_stiff_as_the_exact_joints():
+    lattice = Lattice("square", 1.0, 0.2)
+    found = pixels.solid(lattice.network, 100, 0.48)
+    assert found == pytest.approx(np.diag(lattice.yields(0.48, exact)), rel=0.015)
+    share = pixels.covered(lattice.network, (100, 100)).mean()
+    assert share == pytest.approx(1.0 - 0.8**2, rel=2e-3)
+
+
+def test_joints_that_fill_most_of_their_walls_are_near_the_solid():
+    lattice = Lattice("hex", 1.0, 0.7)
+    assert lattice.filled() == pytest.approx(0.84, abs=0.01)
+    truth = pixels.solid(lattice.network, 100, 0.48)
+    stiff = np.diag(lattice.yields(0.48, lattice.of_scene(0.48)))
+    assert 100.0 * (truth / stiff - 1.0) == pytest.approx([-8.0, 2.0, 2.5], abs=1.0)
 
 
 @pytest.mark.parametrize("plane", RUBBERS)

@@ -35,6 +35,7 @@ _DEFAULTS = {
     "packing_strain": 0.54,
     "packing_span": 0.02,
     "second_cycle_share": float("nan"),
+    "solid_joint_share": 1.0,
     "touched": 1,
     "max_crossings": 0,
     "cpu_s": 2.0,

@@ -13,6 +13,7 @@ from sweep.running.sweep import run_sweep
 from sweep.store.read import read_summary
 from tests.studies.memory.costs import costs
 from tests.studies.memory.cycles import cycles, losses, rated, rates
+from tests.studies.memory.laws import prices
 from tests.studies.memory.orders import by_loss, table, variants
 
 CONFIGS = Path(__file__).parents[3] / "configs"
@@ -37,6 +38,7 @@ def main(folder):
         table(summaries),
         by_loss(summaries, "loss 40 %"),
         costs(),
+        prices(),
     ]
     text = markdown(sheets)
     (folder / "memory.md").write_text(text, "utf-8")

@@ -2,7 +2,7 @@
 
 from sweep.config.case import TABLES, Case, Damping, Material
 
-SOFTENED = {"softening_r": 2.0, "softening_m": 2e5}  # assumed: see configs/reuse.toml
+SOFTENED = {"softening_r": 7.0, "softening_m": 1e5}  # assumed: see configs/reuse.toml
 PARTS = {
     "loss 20 %": {"loss": 0.2},
     "loss 40 %": {"loss": 0.4},

@@ -62,3 +62,30 @@ def test_own_file_is_looked_for_in_its_folder_and_shipped_ones_are_not(tmp_path)
     for name in ("mine", "yours.csv"):
         with pytest.raises(UnknownMaterialError, match=f'"{name}" is no material; allowed: .*chee'):
             locate(name, tmp_path)
+
+
+PLASTIC = "# density_kg_m3: 1200\n# poisson: 0.35\n# modulus_Pa: 2e9\n# yield_stress_Pa: 4e7\n"
+
+
+def test_a_material_with_a_yield_stress_yields_unless_told_otherwise(own_record):
+    path = own_record(PLASTIC + "# hardening_Pa: 1e7\n# fracture_strain: 0.05\n")
+    material = Material(name=str(path))
+    assert (material.stretch, material.bend, material.fibres) == ("linear", "fibres", 7)
+    assert (material.modulus, material.yield_stress, material.hardening) == (2e9, 4e7, 1e7)
+    assert material.fracture_strain == 0.05
+    assert material.curve_strain == ()
+    other = Material(name=str(path), yield_stress=3e7, bend="section", hardening=None)
+    assert (other.yield_stress, other.hardening, other.fibres) == (3e7, 1e7, None)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (PLASTIC + "strain,stress_Pa\n0.1,1e6\n", "yields has no curve"),
+        (PLASTIC.replace("# modulus_Pa: 2e9\n", ""), "yields needs the line # modulus_Pa"),
+        ("# fracture_strain: 0.1\n" + HEADER + "0.1,1e6\n", "fracture_strain needs the line # y"),
+    ],
+)
+def test_unusable_plastics_are_refused_by_name(own_record, text, message):
+    with pytest.raises(RecordError, match=f"own.csv: .*{message}"):
+        read_record(own_record(text))

@@ -25,7 +25,10 @@ def test_what_does_not_fit_is_one_line(lines, text):
 
 @pytest.mark.parametrize(
     "given",
-    [{"strain": 0.5}, {"stroke": 5e-3}, {"speed": 1e-3}, {"quasi_static": True}, {"cycles": 2}],
+    [
+        *({"strain": 0.5}, {"stroke": 5e-3}, {"speed": 1e-3}),
+        *({"quasi_static": True}, {"unload": False}, {"cycles": 2}),
+    ],
 )
 def test_keys_of_a_platen_say_the_mode(given):
     assert Case(loading=Loading(**given)) == pressed(**given)

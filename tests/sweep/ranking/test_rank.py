@@ -160,6 +160,7 @@ def test_attrs_of_the_table_still_say_what_else_is_known():
         "failed": 1,
         "unranked": 1,
         "without_bar": 0,
+        "pointed": 0,
         "versions": {MODEL_VERSION: 3},
         "budgets_g": [2.0, 1.0],
         "lightest_g": {"crushed to 50 %, glued platens": pytest.approx(50.0)},

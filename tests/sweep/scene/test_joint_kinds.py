@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sweep.scene.joint_kinds import AXIS, KINDS, find_joint, table
+from sweep.scene.joint_kinds import AXIS, KINDS, find_joint, flexibility, table, unequal
 
 
 def found(*openings, in_row=(), arm=0):
@@ -69,3 +69,38 @@ def test_the_table_has_all_angles():
         for angles in several:
             np.testing.assert_array_equal(angles, several[0])
             assert np.all(np.diff(angles) > 0.0)
+
+
+def test_arms_of_equal_thickness_are_as_in_the_table():
+    opened = np.array([70.0, 110.0, 70.0, 110.0])
+    joint = find_joint(opened, np.zeros(4, np.bool_))
+    same = unequal(joint, opened, np.full(4, 2e-3))
+    np.testing.assert_array_equal(same.compliance, joint.compliance)
+    np.testing.assert_array_equal(same.length, joint.length)
+
+
+def test_an_arm_beside_a_thick_one_is_the_same_joint_farther_out():
+    """F of both, as a rigid piece of length d precedes the joint of equal arms."""
+    opened, nu = np.full(4, 90.0), 0.4
+    joint = find_joint(opened, np.zeros(4, np.bool_))
+    moved = unequal(joint, opened, np.array([1.0, 1.5, 1.0, 1.5]))
+    d = 0.25
+    assert moved.length[0] == pytest.approx(joint.length[0] + d)
+    turned = np.array([[1.0, 0.0], [-d, 1.0]])  # V and M - V d
+    before, after = (flexibility(part.compliance, part.length, nu)[0] for part in (joint, moved))
+    np.testing.assert_allclose(after, turned.T @ before @ turned, rtol=1e-12)
+    assert moved.compliance[0, 3, 0] == pytest.approx(joint.compliance[0, 3, 0] - 0.5 * d)
+    np.testing.assert_allclose(moved.compliance[1], joint.compliance[1] / 1.5)
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.48, 0.923])
+@pytest.mark.parametrize("kind", KINDS)
+def test_joints_of_unequal_arms_are_stable(kind, nu):
+    rng = np.random.default_rng(2)
+    angles = table()[kind, "side" if kind in AXIS else "all"][0]
+    for angle in np.linspace(angles[0], angles[-1], 20):
+        opened = np.array(KINDS[kind](angle))
+        joint = find_joint(opened, np.zeros(len(opened), np.bool_))
+        found = unequal(joint, opened, rng.uniform(1.0, 4.0, len(opened)))
+        assert np.linalg.eigvalsh(flexibility(*found, nu)).min() > 0.0
+        assert np.all(found.compliance[:, 3] @ nu ** np.arange(3) + found.length > 0.0)

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
 
-from sweep.config import material_file
+from kernels.terms.law import Memory
+from kernels.terms.yielding import STATE
 from sweep.config.case import Material
-from sweep.scene.material import stress_law
-from tests.support.records import HEADER
+from sweep.scene.material import law_in_stretch, monotonic_law, stress_law
+from tests.support.records import HEADER, RUBBERS
 
-RECORDS = map(material_file.read_record, map(material_file.locate, material_file.available()))
-NAMES = [record.name for record in RECORDS if record.strain]  # plastics that yield have no curve
+NAMES = RUBBERS
 
 
 def polynomial(law):
@@ -144,3 +144,14 @@ def test_a_record_that_ends_early_goes_on_straight(own_record):
     path = own_record(HEADER + "0.01,2e4\n0.05,1e5\n0.1,2e5\n")
     law = polynomial(stress_law(Material(name=str(path))))
     assert law(-0.5) == pytest.approx(-0.7 * 1e6 - 0.3 * 2e6 / 0.25, rel=1e-3)
+
+
+@pytest.mark.parametrize("name", ["pla", "abs"])
+def test_a_plastic_is_first_straight_and_then_hardens(name):
+    """As the kernels' law pulls it in one step from rest."""
+    material = Material(name=name)
+    law = law_in_stretch(material, 1.0).yielding
+    memory = Memory(np.zeros((1, STATE)), np.empty((1, 2)), None)
+    for strain in (-0.08, -0.01, 0.0, 0.005, 0.03, 0.09):
+        stress = law.respond(strain, memory, 0)[1]
+        assert monotonic_law(material).at(np.array([strain])) == pytest.approx(stress, abs=1.0)
