@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from sweep.config.material_file import MEMORY, PLASTICITY
 from sweep.config.material_header import assumed, source
-from sweep.numbers import NOTHING
+from sweep.numbers import NOTHING, percent
 from sweep.report.sheets import Sheet
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ SHOWN = {
     "modulus MPa": "modulus",
     "density kg/m3": "density",
     "poisson": "poisson",
-    "reference s": "reference_time",
+    "after s": "reference_time",
     "loss": "loss",
     "softening r": "softening_r",
     "yield MPa": "yield_stress",
@@ -32,7 +32,8 @@ UNITS = {
     "hardening": " MPa",
 }
 NOTE = (
-    "+40 %, ±9 %: how far a number may lie from its value; crumple run --spread runs both ends.\n"
+    "after s: the time after loading for which the curve holds, if the material relaxes.\n"
+    "+40, ±9: by how many percent a number may be off; crumple run --spread runs both ends.\n"
     "crumple materials NAME: all that the file of a material states, with its sources."
 )
 
@@ -69,11 +70,13 @@ def _with_range(record: Record, key: str) -> str:
         return NOTHING
     text = f"{SCALES.get(key, 1.0) * value:.4g}"
     low, high = record.ranges.get(key, (value, value))
-    less, more = (round(100.0 * abs(end / value - 1.0), 1) for end in (low, high))
+    less, more = (percent(abs(end / value - 1.0)) for end in (low, high))
     if less == more:
-        return f"{text} ±{less:.2g} %" if less else text
-    below, above = (f"{sign}{end:.2g}" if end else "" for sign, end in (("-", less), ("+", more)))
-    return f"{text} {' '.join(filter(None, (below, above)))} %"
+        return f"{text} ±{less}" if less != "0" else text
+    below, above = (
+        f"{sign}{end}" if end != "0" else "" for sign, end in zip("-+", (less, more), strict=True)
+    )
+    return f"{text} {' '.join(filter(None, (below, above)))}"
 
 
 def _value(record: Record, key: str) -> float | None:

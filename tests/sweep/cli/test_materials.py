@@ -12,7 +12,7 @@ def test_without_words_all_materials_are_listed(capsys):
     status, out, _ = crumple(capsys, "materials")
     assert status == 0
     assert all(name in out for name in available())
-    assert "±9 %" in out
+    assert "±9" in out
 
 
 def test_with_a_name_everything_is_told(capsys):
@@ -54,7 +54,7 @@ def test_material_lies_beside_its_coupon_by_default(capsys, tmp_path):
 @pytest.mark.parametrize(
     ("words", "wrong"),
     [
-        (["chetah"], '"chetah" is no material; allowed: cheetah, '),
+        (["chetah"], '"chetah" is no material; allowed: abs, cheetah, '),
         (["plot", "chetah"], '"chetah" is no material'),
         (["plot", "--out", "a.pdf"], "a.pdf; allowed: a file whose name ends in .png"),
         (["cheetah", "--out", "a.png"], "--out belongs to plot and fit"),

@@ -14,11 +14,11 @@ def test_every_material_has_a_row_with_ranges_and_assumptions():
     table = {row[0]: dict(zip(sheet.heads, row, strict=True)) for row in sheet.rows}
     assert list(table) == available()
     ultimaker = table["ultimaker_tpu95a"]
-    assert ultimaker["modulus MPa"] == "67 ±9 %"
+    assert ultimaker["modulus MPa"] == "67 ±9"
     assert ultimaker["assumed"] == "curve, reference, poisson"
-    assert table["polymaker_tpu90"]["density kg/m3"] == "1200 -0.8 +1.7 %"
-    assert table["cheetah"]["poisson"] == "0.48 -6.2 %"
-    assert all(row["source"].endswith(("2023", "2024")) for row in table.values())
+    assert table["polymaker_tpu90"]["density kg/m3"] == "1200 -1 +2"
+    assert table["cheetah"]["poisson"] == "0.48 -6"
+    assert all(row["source"] != "–" for row in table.values())
     assert "loss" not in sheet.heads
 
 
