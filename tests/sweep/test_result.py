@@ -33,7 +33,7 @@ def a_case(**loading):
     return SimpleNamespace(
         case_id="0123456789abcdef",
         lattice=SimpleNamespace(**lattice),
-        material=SimpleNamespace(name="ninjaflex", memory="none"),
+        material=SimpleNamespace(name="ninjaflex", inelasticity="none"),
         loading=SimpleNamespace(**(loads | {"allowed_forces": (50.0,)} | loading)),
         contact=SimpleNamespace(model="barrier"),
     )

@@ -93,7 +93,8 @@ def test_the_curve_holds_at_the_reference_time(memory, reference):
 
 
 def test_branches_are_those_given_or_none():
-    given = Material(relaxation_times=(1e-3, 2.0), relaxation_shares=(0.1, 0.2))
+    branches = {"relaxation_times": (1e-3, 2.0), "relaxation_shares": (0.1, 0.2)}
+    given = Material(**branches, reference_time=1.0)
     shares, times, instant = relaxation_of(given)
     assert (list(shares), list(times)) == ([0.1, 0.2], [1e-3, 2.0])
     left = 1.0 - 0.1 * -np.expm1(-1e3) - 0.2 * -np.expm1(-0.5)
