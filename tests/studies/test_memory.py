@@ -32,12 +32,6 @@ def test_all_cases_are_there():
     assert len(found["armor", "loss 20 %"]) == len(found["armor", "elastic"]) == 140
 
 
-def test_orders_are_compared_where_both_are_known():
-    one, two = pd.Series([1.0, 2.0, 3.0, np.nan]), pd.Series([1.0, 3.0, 2.0, 9.0])
-    assert orders.compared(one, one) == (pytest.approx(1.0), True)
-    assert orders.compared(one, two) == (pytest.approx(0.5), False)
-
-
 def row(case):
     return pd.Series(simulate(case).summary)
 

@@ -1,48 +1,26 @@
 """Which answers change: the order of the designs of a sweep, with and without each part."""
 
-import numpy as np
-from scipy.stats import spearmanr
-
-from sweep.config.units import load_config
 from sweep.ranking.rank import by_scene, scene_label
 from sweep.report.sheets import Sheet
 from tests.studies.memory.variants import PARTS, changed
+from tests.studies.orders import CONFIGS, cases_of, compared, merits
 
-CONFIGS = ("armor", "infills", "impact")
-BY = {"force": "peak_strain", "impact": "peak_force_N", "displacement": "energy"}
-LEAST = ("peak_strain", "peak_force_N")
 ELASTIC = "elastic"
 
 
 def variants(folder, parts=PARTS):
     """Every case of the configs, without and with each part: (config, part) -> cases."""
     found = {}
-    for name in CONFIGS:
-        cases = list(load_config(folder / f"{name}.toml").cases)
+    for name, cases in cases_of(folder).items():
         found[name, ELASTIC] = [changed(case, {}) for case in cases]
         for part, keys in parts.items():
             found[name, part] = [changed(case, keys) for case in cases]
     return found
 
 
-def merits(rows):
-    """What the designs of a table are compared by, more being better; NaN where a run failed."""
-    mode = rows["loading_mode"].iloc[0]
-    energy = rows["absorbed_energy_until_packed_J"] / rows["mass_g"]
-    values = energy if mode == "displacement" else rows[BY[mode]]
-    return (-values if BY[mode] in LEAST else values).where(rows["status"] == "converged")
-
-
 def lost(rows):
     """Energy per gram that is not given back."""
     return (rows["absorbed_energy_J"] - rows["returned_energy_J"]) / rows["mass_g"]
-
-
-def compared(before, after):
-    """Rank correlation of two columns, and whether both have the same best row."""
-    both = before.notna().to_numpy() & after.notna().to_numpy()
-    one, two = before.to_numpy()[both], after.to_numpy()[both]
-    return float(spearmanr(one, two).statistic), int(np.argmax(one)) == int(np.argmax(two))
 
 
 def table(summaries, parts=PARTS):

@@ -3,8 +3,9 @@
 Run by `make mesh`: all infills, light and heavy, glued and loose, crushed to 60 % with one element
 per wall and with more, up to `FINEST`; the last stands for the truth. Where the two finest meshes
 follow different paths there is no truth: such designs are marked and enter no average.
-How many elements bending alone needs is told by the same crushes without contact. Finished cases
-are kept in the given folder.
+How many elements bending alone needs is told by the same crushes without contact; the order of
+the designs of the shipped sweeps is compared with that on a fine mesh. Finished cases are kept in
+the given folder.
 """
 
 import sys
@@ -16,7 +17,11 @@ from sweep.running.sweep import run_sweep
 from sweep.store.read import read_history, read_summary
 from tests.studies.mesh.certainty import covered
 from tests.studies.mesh.crushes import USUAL, cases_of, compare, without_contact
+from tests.studies.mesh.orders import by_order, finer
 from tests.studies.mesh.tables import by_column, by_design, by_group
+from tests.studies.orders import cases_of as cases_of_sweeps
+
+CONFIGS = Path(__file__).parents[3] / "configs"
 
 
 def main(folder):
@@ -27,12 +32,20 @@ def main(folder):
     usual = [case for (_, n), case in cases.items() if n == USUAL]
     others = [companion.case for case in usual for companion in companions(case)]
     crushes = [*cases.values(), *bending.values()]
+    shipped = cases_of_sweeps(CONFIGS)
+    fine = {name: [finer(case) for case in group] for name, group in shipped.items()}
+    others += [case for table in (shipped, fine) for group in table.values() for case in group]
     run_sweep(list({case.case_id: case for case in (*crushes, *others)}.values()), file)
     rows = read_summary(file).set_index("case_id")
     curves = {case.case_id: curve(file, case.case_id) for case in crushes}
     found = compare(cases, rows, curves)
     alone = by_column(compare(bending, rows, curves), "Errors by column, glued, without contact")
     sheets = [by_column(found), alone, by_group(found), by_design(found), covered(cases, rows)]
+    tables = (
+        {name: rows.loc[[case.case_id for case in group]] for name, group in table.items()}
+        for table in (shipped, fine)
+    )
+    sheets.append(by_order(*tables))
     text = markdown(sheets)
     (folder / "mesh.md").write_text(text, "utf-8")
     sys.stdout.write(text)

@@ -1,0 +1,36 @@
+"""The order of the designs of the shipped sweeps at the default mesh and at a fine one."""
+
+from sweep.ranking.rank import by_scene, scene_label
+from sweep.report.sheets import Sheet
+from tests.studies.orders import compared, merits
+
+FINE = 12  # elements of a wall
+PATIENCE = 600.0  # s for a case
+
+
+def finer(case, elements=FINE):
+    """The same case with more elements."""
+    lattice = case.lattice.model_copy(update={"nodes_per_wall": elements - 1})
+    solver = case.solver.model_copy(update={"time_limit": PATIENCE})
+    return case.model_copy(update={"lattice": lattice, "solver": solver})
+
+
+def by_order(usual, fine):
+    """Correlations of all scenes; usual, fine: config -> rows in the order of its cases."""
+    heads = ["config", "scene", "designs", "failed", "correlation", "same best", "worst place"]
+    body = []
+    for name, rows in usual.items():
+        rows, others = (table[name].reset_index(drop=True) for table in (usual, fine))
+        for scene in by_scene(rows):
+            before, after = merits(scene), merits(others.loc[scene.index])
+            known = before.notna() & after.notna()
+            rho, same = compared(before, after)
+            ranks = [merit[known].rank(ascending=False) for merit in (before, after)]
+            moved = (ranks[0] - ranks[1]).abs().max()
+            cells = [name, scene_label(scene), str(len(scene)), str(int((~known).sum()))]
+            body.append([*cells, f"{rho:.3f}", "yes" if same else "no", f"{moved:g}"])
+    notes = (
+        f"Spearman's correlation of the order with three elements a wall and with {FINE}; worst",
+        "place: by how many places a design is off at most.",
+    )
+    return Sheet("Orders at the default and at a fine mesh", heads, body, notes=notes)
