@@ -57,12 +57,6 @@ def follow(problem, dx, share, step, found):
 
 
 @jit_exact
-def soften(problem):
-    """Let the Hessian of friction be that of quadratics above it."""
-    friction.soften(problem.neighbours.lagged_contacts)
-
-
-@jit_exact
 def forget(problem):
     """Reset the duals of friction."""
     friction.forget(problem.neighbours.lagged_contacts)

@@ -65,7 +65,6 @@ class Planar(NamedTuple):
     lag = lagging.lag
     exchange = lagging.exchange
     follow = lagging.follow
-    soften = lagging.soften
     forget = lagging.forget
 
     project = steps.project

@@ -18,7 +18,7 @@ from kernels.solve.residual import allowed, largest
 CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
 ARMIJO = 1e-4  # share of the predicted decrease that is sufficient
 HALVINGS = 40  # of a line search, at most
-DUAL_HALVINGS = 3  # after more halvings lagged forces are softened
+DUAL_HALVINGS = 3  # after more halvings the duals of lagged forces are reset
 SLOW_REDUCTION = 0.1  # a reused factor is renewed if the ratio of two residuals is larger
 LEAST_SHARE = 1e-12  # of a move: a shorter one is a stall
 RESOLVED = 1e-11  # relative energy changes below it are round-off
@@ -94,12 +94,12 @@ def _accept_trial(x, problem, step, found, work, share, predicted, halvings):
     """Copy the trial point, a ``share`` of dx, to ``x``; return whether its factor may be reused.
 
     predicted: dx is a predictor instead of a Newton step, so that the duals of lagged forces are
-    not updated. Many halvings mean that the duals mislead: the lagged forces are then softened.
+    not updated. After many halvings the duals are unreliable, and are reset.
     """
     copy(work.trial, x)
     if halvings > DUAL_HALVINGS:
-        problem.soften()
-        return not problem.lags()
+        problem.forget()
+        return True
     return predicted or problem.follow(work.dx, share, step, found)
 
 
@@ -229,9 +229,6 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
             if not balanced and size > SLOW_REDUCTION * previous_size:
                 descent.since_factor = np.inf
             previous_size = size
-            if balanced and not duals_fit:  # stable means: by the exact Hessian
-                problem.forget()
-                duals_fit = True
         if descent.since_factor > coordinates.close:
             met, pivot = problem.factor(x, step, found, projected, False)
             if met == NO_ROOM:

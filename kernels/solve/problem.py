@@ -186,11 +186,8 @@ class Problem(Protocol):
         Return whether they agree with the primal ones at the end, so that the factor may be kept.
         """
 
-    def soften(self):
-        """Let the Hessian of lagged forces be that of a quadratic above their potential."""
-
     def forget(self):
-        """Let the Hessian of lagged forces be exact: reset the dual variables of `follow`."""
+        """Reset the dual variables of `follow`."""
 
     # After a step: projection and output.
 

@@ -16,9 +16,7 @@ f'' is a spike at u = 0, over which Newton's method oscillates. A primal-dual me
 the dual w = f' is an unknown, and with f' = u / psi(u) the linearised equation is psi(u) w = u. In
 the Hessian (1 - w psi') / psi replaces f'' and equals it where w = f' (Chan, Golub & Mulet 1999,
 SIAM J. Sci. Comput. 20, 1964). When the slip of a contact changes its sign, w still has the old
-sign, which makes the contact stick. Where many contacts change theirs at once, even this
-oscillates: the line search then ends at one kink after another. With w = 0 the energy of friction
-is replaced by quadratics above it, as in iteratively reweighted least squares; see `soften`.
+sign, which makes the contact stick.
 """
 
 from typing import NamedTuple
@@ -217,17 +215,6 @@ def forget(lagged_contacts):
     """Reset all duals: `hessian` is then the second derivative."""
     for k in range(lagged_contacts.count[0]):
         lagged_contacts.dual[k] = UNKNOWN
-
-
-@jit
-def soften(lagged_contacts):
-    """Set all duals to zero: `hessian` then has 1 / psi, with which no move overshoots u = 0.
-
-    The quadratic in u with the slope f' at u and the curvature 1 / psi is nowhere below f.
-    Contributions of negative force keep their second derivative.
-    """
-    for k in range(lagged_contacts.count[0]):
-        lagged_contacts.dual[k] = 0.0 if lagged_contacts.load[k] > 0.0 else UNKNOWN
 
 
 @jit

@@ -296,11 +296,6 @@ def follow(problem, dx, share, step, found):
 
 
 @jit_exact
-def soften(problem):
-    """Friction keeps its second derivative."""
-
-
-@jit_exact
 def forget(problem):
     """Nothing is carried along."""
 
@@ -354,7 +349,6 @@ class Chain(NamedTuple):
     lag = lag
     exchange = exchange
     follow = follow
-    soften = soften
     forget = forget
     project = project
     covers_projection = covers_projection

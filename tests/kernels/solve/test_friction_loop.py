@@ -74,7 +74,7 @@ def test_a_loop_is_given_up_once_it_goes_in_circles():
     assert friction_loop.fails(looped(*circle))
 
 
-def test_friction_is_softened_where_duals_mislead():
+def test_duals_that_mislead_are_forgotten():
     """Stout walls snap: Newton goes on by a hundredth of a step at a time if it keeps them."""
     case = Case(
         lattice=Lattice(wall_thickness=1.2e-3, nodes_per_wall=8),
@@ -84,15 +84,6 @@ def test_friction_is_softened_where_duals_mislead():
         solver=Solver(load_steps=100),
     )
     assert simulate(case).status == "converged"
-
-
-def test_many_contacts_that_slip_and_stick_at_once_settle():
-    """Packed walls, friction 2: by the second derivative the line search halves moves ten times,
-    takes twice as many iterations, and fails in fifteen steps after 500 of them.
-    """
-    found = simulate(draw.scene(403)[1])
-    assert found.status == "converged"
-    assert found.summary["newton_iterations"] < 6000
 
 
 @pytest.mark.skipif(compiler() != FAST, reason="in which scene it does not settle, rounding tells")

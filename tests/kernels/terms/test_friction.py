@@ -91,40 +91,16 @@ def test_smooth_size_joins_the_size_at_the_slip():
     assert friction.curvature(0.0, friction.UNKNOWN, 2.0) == 1.0
 
 
-@pytest.mark.parametrize("load", [2.0, -2.0])
-@pytest.mark.parametrize("u", [1e-9, 0.3, -0.7, 1.0, -1.3, 40.0])
-def test_softened_friction_is_a_quadratic_above_it(u, load):
-    """It meets the smoothed size at u with its slope; negative loads keep the second derivative."""
-    contacts = one_contact(load)
-    friction.soften(contacts)
-    value, slope = friction.smooth(u, 1.0)
-    curvature, others = friction.curvature(u, contacts.dual[0], 1.0), np.linspace(-60.0, 60.0, 9999)
-    above = [
-        value + slope * (x - u) + 0.5 * curvature * (x - u) ** 2 - friction.smooth(x, 1.0)[0]
-        for x in others
-    ]
-    if load > 0.0:
-        assert min(above) > -1e-12
-    else:
-        assert curvature == friction.curvature(u, friction.UNKNOWN, 1.0)
-
-
-def one_contact(load):
-    """A contact of node 0 that slips along x, under a ``load`` in N."""
-    contacts = friction.LaggedContacts(
-        np.zeros((1, 3), np.int64), np.eye(3, 2)[None], np.array([load]),
-        np.full(1, friction.UNKNOWN), np.ones(1, np.int64), contact.no_contacts(near_pairs.empty()),
-    )  # fmt: skip
-    contacts.slopes[0, 1] = 0.0
-    return contacts
-
-
 @pytest.mark.parametrize("start", [3.0, 0.02, -0.4, -50.0])
 @pytest.mark.parametrize(("pull", "most"), [(0.0, 15), (0.9, 15), (-0.9, 15), (5.0, 15), (1.0, 30)])
 def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
     """At the least of u^2 / 2 + |u| - pull u; with f'' alone it leaps to and fro for ever."""
     slip, steps, u = 1e-4, 0, np.array([start, 0.0])
-    contacts = one_contact(1.0)
+    contacts = friction.LaggedContacts(
+        np.zeros((1, 3), np.int64), np.eye(3, 2)[None], np.ones(1), np.full(1, friction.UNKNOWN),
+        np.ones(1, np.int64), contact.no_contacts(near_pairs.empty()),
+    )  # fmt: skip
+    contacts.slopes[0, 1] = 0.0
 
     def force():
         return u[0] + friction.smooth(u[0], slip)[1] - pull
