@@ -73,10 +73,12 @@ def scene(number):
     """Keys of one scene with their values in SI, and its case."""
     draw = Draws(number)
     while True:
-        keys = _material(draw) | _lattice(draw) | _contact(draw) | _damping(draw) | _solver(draw)
-        if keys.get("material.bend") == "section":
-            keys["solver.bend_measure"] = "angle"
         try:
+            keys = (
+                _material(draw) | _lattice(draw) | _contact(draw) | _damping(draw) | _solver(draw)
+            )
+            if keys.get("material.bend") == "section":
+                keys["solver.bend_measure"] = "angle"
             keys |= _loading(draw, keys)
             return keys, case_of(keys)
         except ValidationError:
