@@ -38,7 +38,7 @@ TRIES = 60  # steps of Newton's method
 
 
 class Pace(NamedTuple):
-    """Data of a step that all points share, see `pace`.
+    """Data of a step that all points share.
 
     decay, gain (n,): a_i and c_i. square (n, 3): weights of x^2, x s. and s.^2 in the integral of
     x_i^2 / tau_i over the step, s. being the change of s. scale (1,).
@@ -192,8 +192,8 @@ def state_size(law):
 
 class Relaxing(NamedTuple):
     """elastic: `Softening` of the instantaneous stress, which rises with the strain if there are
-    branches.
-    shares (n,): g_i, which sum to less than 1. times (n,): tau_i in s. modulus: of ``elastic``, Pa.
+    branches. shares (n,): g_i, which sum to less than 1. times (n,): tau_i in s. modulus: at the
+    reference time, Pa.
     """
 
     elastic: object

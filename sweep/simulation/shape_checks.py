@@ -16,6 +16,7 @@ from shapely import intersects, linestrings
 from kernels.geometry import crossing
 from kernels.terms.bend import Bend
 from kernels.terms.elements import Walls
+from kernels.terms.section import LEAST
 from kernels.terms.stretch import Stretch
 from sweep.design.area import covered_area
 
@@ -48,7 +49,7 @@ def surface_strains(x: Floats, walls: Walls, strains: Floats, bend: Bend) -> Flo
     _, one, two = _deformations(x, walls)
     across, along = bend.spread[0] * (two - one), bend.spread[1] * (one + two)
     bent = SURFACE * np.maximum(np.abs(across + along), np.abs(across - along))
-    m, stretched = bend.section.m, 1.0 + strains
+    m, stretched = bend.section.m, np.maximum(1.0 + strains, LEAST)
     surface = (stretched**m + m * bent) ** (1.0 / m) - 1.0  # closed form of `terms.section`
     return np.asarray(np.where(bend.volume > 0.0, surface, strains))
 
@@ -66,15 +67,22 @@ def moment_of(values: Floats, limit: float, stored: Floats) -> float:
 
 
 def _deformations(x: Floats, walls: Walls) -> tuple[Floats, Floats, Floats]:
-    """Length (m) and turns of both ends (rad) of every element in every stored shape, (f, m)."""
+    """Length (m) and turns of both ends (rad) of every element in every stored shape, (f, m).
+
+    The first shape is that at rest; between two shapes an end turns by less than half a turn.
+    """
     ends = x[:, walls.dofs]
     along = ends[..., 3:5] - ends[..., :2]
     bearing = np.arctan2(along[..., 1], along[..., 0])
     rest = np.arctan2(walls.rest[:, 1], walls.rest[:, 0])
-    one, two = (
-        np.remainder(bearing - rest - ends[..., phi] + np.pi, 2.0 * np.pi) - np.pi for phi in (2, 5)
-    )
+    one, two = (_unwrapped(bearing - rest - ends[..., phi]) for phi in (2, 5))
     return np.hypot(*np.moveaxis(along, -1, 0)), one, two
+
+
+def _unwrapped(turns: Floats) -> Floats:
+    """Angles (f, m) without jumps by whole turns from shape to shape, the first near zero."""
+    first = np.remainder(turns[:1] + np.pi, 2.0 * np.pi) - np.pi
+    return np.unwrap(np.concatenate([first, turns[1:]]), axis=0)
 
 
 def work_within_model(
