@@ -68,12 +68,13 @@ def bent(law, stretched, r, theta, memory, point):
         place, weight = law.place[k], law.weight[k]
         a, a_e, a_t, a_ee, a_et, a_tt = fibre(law.m, stretched, r, place * theta)
         value, slope, second = law.curve.respond(a - 1.0, memory, point + k)
+        slope, second, a_t = weight * slope, weight * second, place * a_t
         energy += weight * value
-        by_e += weight * slope * a_e
-        by_theta += weight * place * slope * a_t
-        ee += weight * (second * a_e * a_e + slope * a_ee)
-        et += weight * place * (second * a_e * a_t + slope * a_et)
-        tt += weight * place * place * (second * a_t * a_t + slope * a_tt)
+        by_e += slope * a_e
+        by_theta += slope * a_t
+        ee += second * a_e * a_e + slope * a_ee
+        et += second * a_e * a_t + slope * (place * a_et)
+        tt += second * a_t * a_t + slope * (place * place * a_tt)
     return energy, by_e, by_theta, ee, et, tt
 
 

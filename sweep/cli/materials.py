@@ -126,7 +126,8 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
     record, model = (coupon.strain, coupon.stress), (coupon.strain, found.model)
     coupon_fit(figure, record, model, f"{coupon.name}: {fit_sentence(found)}")
     picture = save(figure, out.with_suffix(".png"))
-    say(f'{out}: for material.name; its loss and softening act with material.memory = "measured"')
+    acts = '; its loss and softening act with material.memory = "measured"'
+    say(f"{out}: for material.name{acts if found.memory else ''}")
     say(picture)
 
 

@@ -179,15 +179,14 @@ def _displacement(loading: Loading, height: float, integrator: str | None) -> Lo
     if loading.platen == "none":
         allowed = f'{PLATENS} if loading.mode is "displacement"'
         raise refusal("loading.platen", "none", allowed)
-    rate, timed = loading.strain_rate, loading.speed is not None
-    if rate is not None and timed:
-        raise refusal("loading.strain_rate", rate, "one of speed and strain_rate")
+    speed, rate = _speed(loading, height), loading.strain_rate
+    timed = speed is not None and rate is None
     quasi_static = given_or(loading.quasi_static, not timed or integrator == "static")
     if rate is not None and not quasi_static:
         raise refusal("loading.strain_rate", rate, "a speed, if quasi_static is false")
     if not quasi_static and integrator == "static":
         raise refusal("solver.integrator", "static", f"{IN_TIME} if not quasi_static")
-    if not quasi_static and loading.speed is None:
+    if not quasi_static and speed is None:
         raise refusal("loading.speed", None, "a speed if quasi_static is false")
     stroke, strain = _stroke_and_strain(loading, height)
     unload, cycles = given_or(loading.unload, True), given_or(loading.cycles, 1)
@@ -197,7 +196,8 @@ def _displacement(loading: Loading, height: float, integrator: str | None) -> Lo
         mode="displacement",
         stroke=stroke,
         strain=strain,
-        speed=loading.speed if rate is None else rate * height,
+        speed=speed,
+        strain_rate=rate,
         quasi_static=quasi_static,
         unload=unload,
         cycles=cycles,
@@ -206,14 +206,27 @@ def _displacement(loading: Loading, height: float, integrator: str | None) -> Lo
     )
 
 
+def _speed(loading: Loading, height: float) -> float | None:
+    """The speed of a platen, from the strain rate if that is given."""
+    if loading.strain_rate is None:
+        return loading.speed
+    speed = loading.strain_rate * height
+    if not isclose(given_or(loading.speed, speed), speed, rel_tol=1e-9):
+        raise refusal("loading.strain_rate", loading.strain_rate, "one of speed and strain_rate")
+    return speed
+
+
 def _paced(loading: Loading, relaxes: bool, height: float) -> Loading:
     """A loading whose quasi-static crush takes time only if the stress of the material depends on
     it.
     """
     if not (loading.mode == "displacement" and loading.quasi_static):
         return loading
-    speed = given_or(loading.speed, STRAIN_RATE * height) if relaxes else None
-    return loading.model_copy(update={"speed": speed})
+    if not relaxes:
+        return loading.model_copy(update={"speed": None, "strain_rate": None})
+    speed = given_or(loading.speed, STRAIN_RATE * height)
+    rate = given_or(loading.strain_rate, speed / height)
+    return loading.model_copy(update={"speed": speed, "strain_rate": rate})
 
 
 def _mean(loading: Loading, height: float, integrator: str | None) -> Loading:

@@ -16,7 +16,7 @@ IN_TIME = '"backward_euler", "bdf2" or "newmark"'  # the integrators
 def check_bending(material: Material, solver: Solver) -> None:
     """Refuse statics without bending: there is no static equilibrium."""
     if material.bend == "none" and solver.integrator in ("static", ARCS):
-        allowed = f'"linear" or "section" if solver.integrator is "{solver.integrator}"'
+        allowed = f'"linear", "section" or "fibres" if solver.integrator is "{solver.integrator}"'
         raise refusal("material.bend", "none", allowed)
 
 

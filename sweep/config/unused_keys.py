@@ -84,8 +84,6 @@ def _used_otherwise(key: str, resolved: object, given: Mapping[str, Any], case: 
         return given[key] == "auto"
     if key == "solver.time_step":
         return resolved is not None and "solver.load_steps" not in given
-    if key == "loading.strain_rate":
-        return case.loading.speed is not None
     return key == "loading.speed" and case.loading.mode == "displacement"
 
 

@@ -127,7 +127,7 @@ def law_of_hinge(material: Material) -> Fibre:
     shares, times, instant = relaxation_of(material)
     curve = FibreCurve(*as_law(linear_law(1.0), instant, 1.0))
     relaxing = Relaxing(Softening(curve, 0.0, 0.0, 0.0), shares, times, 1.0)
-    return Fibre(relaxing, Yielding(1.0, 0.0, 0.0, 0.0), 1.0)
+    return Fibre(relaxing, Yielding(1.0, 0.0, 0.0, 0.0), 1.0, not material.relaxes)
 
 
 def _fibre(
@@ -141,7 +141,7 @@ def _fibre(
     guarded = modulus if kind is ElasticCurve else 0.0
     limit, hardening = material.yield_stress or 0.0, material.hardening or 0.0
     yielding = Yielding(modulus, factor * limit, factor * hardening, guarded)
-    return Fibre(relaxing, yielding, modulus)
+    return Fibre(relaxing, yielding, modulus, not material.remembers)
 
 
 def _softening(curve: ElasticCurve | FibreCurve, material: Material, factor: float) -> Softening:

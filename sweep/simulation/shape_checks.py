@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from shapely import intersects, linestrings
 
 from kernels.geometry import crossing
+from kernels.planar.problem import PlanarScene
 from kernels.terms.bend import Bend
 from kernels.terms.elements import Walls
 from kernels.terms.section import LEAST
@@ -21,6 +22,7 @@ from kernels.terms.stretch import Stretch
 from sweep.design.area import covered_area
 
 Floats = NDArray[np.float64]
+Deformations = tuple[Floats, Floats, Floats]
 Frames = Mapping[str, np.ndarray]
 
 SURFACE = np.sqrt(5.0 / 3.0)  # place of the surface of a wall over that of `terms.bend`
@@ -28,25 +30,29 @@ SQUEEZED = -0.3  # element strain below which the model does not hold
 CHUNK = 1 << 16  # pairs in one call of shapely
 
 
-def element_strains(x: Floats, walls: Walls, stretch: Stretch) -> Floats:
-    """Nominal strain of every element in every stored shape, (f, m), that of its arc.
+def strains_of(x: Floats, terms: PlanarScene) -> tuple[Floats, Floats]:
+    """`element_strains` and `surface_strains` of the stored shapes x (f, n)."""
+    found = deformations(x, terms.walls)
+    strains = element_strains(found, terms.stretch)
+    return strains, surface_strains(found, strains, terms.bend)
 
-    x (f, n): coordinates of the stored shapes.
-    """
-    length, one, two = _deformations(x, walls)
+
+def element_strains(found: Deformations, stretch: Stretch) -> Floats:
+    """Nominal strain of every element in every stored shape, (f, m), that of its arc."""
+    length, one, two = found
     same, mixed = stretch.arc
     return np.asarray(length / stretch.l0 - 1.0 + same * (one**2 + two**2) + mixed * one * two)
 
 
-def surface_strains(x: Floats, walls: Walls, strains: Floats, bend: Bend) -> Floats:
+def surface_strains(found: Deformations, strains: Floats, bend: Bend) -> Floats:
     """Nominal strain of the most stretched surface of every element, (f, m).
 
-    x as in `element_strains`, whose result is ``strains``. Elements that do not bend through their
-    section, such as solid joints, count with their strain alone.
+    strains: `element_strains`. Elements that do not bend through their section, such as solid
+    joints, count with their strain alone.
     """
     if bend.volume.size == 0:
         return strains
-    _, one, two = _deformations(x, walls)
+    _, one, two = found
     across, along = bend.spread[0] * (two - one), bend.spread[1] * (one + two)
     bent = SURFACE * np.maximum(np.abs(across + along), np.abs(across - along))
     m, stretched = bend.section.m, np.maximum(1.0 + strains, LEAST)
@@ -66,7 +72,7 @@ def moment_of(values: Floats, limit: float, stored: Floats) -> float:
     return float(np.interp(limit, values[at], stored[at]))
 
 
-def _deformations(x: Floats, walls: Walls) -> tuple[Floats, Floats, Floats]:
+def deformations(x: Floats, walls: Walls) -> Deformations:
     """Length (m) and turns of both ends (rad) of every element in every stored shape, (f, m).
 
     The first shape is that at rest; between two shapes an end turns by less than half a turn.

@@ -25,7 +25,7 @@ from sweep.scene.mesh import Floats
 from sweep.scene.periodic import build_periodic
 from sweep.scene.terms import Scene
 from sweep.simulation.custom_history import structure_columns
-from sweep.simulation.shape_checks import element_strains, surface_strains
+from sweep.simulation.shape_checks import strains_of
 from sweep.simulation.summary import BOOK, history_columns, summarise
 from sweep.simulation.time_limit import WATCH
 
@@ -75,9 +75,8 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
         curves |= path_columns(run.arc, run.done)
     frames = run.frames()
     shapes = run.positions[: len(frames["time_s"])]
-    strains = element_strains(shapes, scene.terms.walls, scene.terms.stretch)
-    surface = surface_strains(shapes, scene.terms.walls, strains, scene.terms.bend)
-    summary = summarise(case, scene, curves, frames, (strains, surface), run.loading_rows)
+    strains = strains_of(shapes, scene.terms)
+    summary = summarise(case, scene, curves, frames, strains, run.loading_rows)
     if status == Status.CONVERGED and _broke(summary, case):
         message = _break_message(summary)
     case_id = case.case_id

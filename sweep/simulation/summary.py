@@ -237,6 +237,7 @@ def shape_columns(
     network, (along, surface) = scene.network, strains
     limit = given_or(case.material.fracture_strain, np.inf)
     broken = moment_of(surface.max(axis=1), limit, frames["time_s"])
+    broke_at = np.interp(broken, loading["time_s"], loading["strain"])
     walls = np.concatenate([frames["edges"], scene.around])
     return {
         "residual_strain": shortening(frames, network.bottom, network.top),
@@ -244,7 +245,7 @@ def shape_columns(
         "greatest_element_strain": float(along.max()),
         "kept_area": kept_area(frames),
         "greatest_fibre_strain": float(surface.max()),
-        "broke_at_strain": float(np.interp(broken, loading["time_s"], loading["strain"])),
+        "broke_at_strain": float("nan") if np.isnan(broken) else float(broke_at),
         "absorbed_energy_within_model_J": work_within_model(
             along, broken, frames["time_s"], loading["time_s"], loading["work_in_J"]
         ),

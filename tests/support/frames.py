@@ -173,7 +173,7 @@ def point_of(curve: elastic.ElasticCurve | elastic.FibreCurve) -> Fibre:
     """The law of a material point without a memory."""
     softening = Softening(curve, 0.0, 0.0, 0.0)
     relaxing = Relaxing(softening, np.empty(0), np.empty(0), curve.modulus)
-    return Fibre(relaxing, Yielding(curve.modulus, 0.0, 0.0, 0.0), curve.modulus)
+    return Fibre(relaxing, Yielding(curve.modulus, 0.0, 0.0, 0.0), curve.modulus, True)
 
 
 def fibre_of(curve: elastic.ElasticCurve) -> Fibre:

@@ -135,6 +135,12 @@ def test_a_crush_with_memory_takes_its_time():
     assert settled(Material()) == settled(Material(), quasi_static=True, speed=0.1) == (True, None)
 
 
+def test_strain_rates_may_vary(load):
+    text = '[material]\nloss = 0.4\n[loading]\nstrain = 0.3\n[grid]\n"loading.strain_rate" = '
+    cases = expand(load(text + '["1 1/s", "2 1/s"]'))
+    assert [case.axes["loading.strain_rate"] for case in cases] == [1.0, 2.0]
+
+
 def test_a_material_with_memory_has_no_other_damping_unless_asked():
     loss, push = Material(loss=0.3), Loading(force=5.0)
     assert Case(loading=push).damping.model == "rayleigh"

@@ -25,8 +25,8 @@ UNFIT = {
         ' "backward_euler", "bdf2" or "newmark"'
     ),
     '[material]\nbend = "none"\n[loading]\nstrain = 0.5': (
-        'material.bend = "none": does not fit; allowed: "linear" or "section" if solver.integrator'
-        ' is "static"'
+        'material.bend = "none": does not fit; allowed: "linear", "section" or "fibres" if'
+        ' solver.integrator is "static"'
     ),
 }
 

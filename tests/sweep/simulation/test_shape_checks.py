@@ -10,6 +10,7 @@ from kernels.terms.elements import Walls
 from kernels.terms.stretch import Stretch
 from sweep.simulation.shape_checks import (
     crossings,
+    deformations,
     element_strains,
     kept_area,
     shortening,
@@ -48,7 +49,7 @@ def strains_of(shapes, rotation=0.0, arc=(0.0, 0.0)):
     length = np.linalg.norm(along, axis=1)
     walls = Walls(edges, np.array([0, len(edges)]), along / length[:, None], dofs)
     stretch = Stretch(length, length, np.tile(np.array(arc)[:, None], len(edges)), True)
-    return element_strains(x, walls, stretch)
+    return element_strains(deformations(x, walls), stretch)
 
 
 def test_strains_of_elements():
