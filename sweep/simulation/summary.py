@@ -163,15 +163,16 @@ def returned(case: Case, history: dict[str, Floats], loading_rows: int) -> float
 def lost_columns(case: Case, absorbed: float, back: float, grams: float) -> dict[str, float]:
     """Columns of the energy that comes back and of that which is lost.
 
-    absorbed, back: work done and given back, J. grams: mass of the specimen, g.
+    absorbed, back: work done and given back, J; negative if a glued platen has to pull the lattice
+    back, which is no loss of the loading. grams: mass of the specimen, g.
     """
     brought = given(case.loading.energy) if case.loading.mode == "impact" else absorbed
-    lost = brought - back
+    lost = brought - np.maximum(back, 0.0)  # NaN stays NaN
     return {
         "returned_energy_J": back,
-        "lost_energy_J": lost,
-        "lost_share": lost / brought if brought else np.nan,
-        "lost_energy_J_per_g": lost / grams,
+        "lost_energy_J": float(lost),
+        "lost_share": float(lost / brought) if brought else np.nan,
+        "lost_energy_J_per_g": float(lost / grams),
     }
 
 

@@ -34,7 +34,7 @@ def relaxing(curve: ElasticCurve, shares=(), times=(), softening=NO_SOFTENING) -
     """A law that relaxes and softens: 1 / r, m, beta."""
     branches = np.array(shares, float), np.array(times, float)
     law = Relaxing(Softening(curve, *softening), *branches, curve.modulus)
-    elastic = not shares and softening == NO_SOFTENING
+    elastic = len(shares) == 0 and softening == NO_SOFTENING
     return Fibre(law, Yielding(curve.modulus, 0.0, 0.0, 0.0), curve.modulus, elastic)
 
 

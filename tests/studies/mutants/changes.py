@@ -70,7 +70,7 @@ MUTANTS = [
     *_of(
         f"{TERMS}/section.py",
         ("section: thinning of a fibre", "0.5 * (1.0 - m), (1.0", "-0.5 * (1.0 - m), (1.0"),
-        ("section: other side", "+= weight * place * slope * a_t", "+= weight * slope * a_t"),
+        ("section: other side", "weight * second, place * a_t", "weight * second, a_t"),
         ("section: radial stress", "tt = 0.0, 0.0, -law.radial", "tt = 0.0, 0.0, law.radial"),
         ("section: centre line", "w1 + w2 - law.middle * value", "w1 + w2 + law.middle * value"),
     ),
