@@ -20,7 +20,7 @@ def columns_of_cycles(case: Case, work: Floats, force: Floats) -> dict[str, floa
         begun, turned, ended = (steps * (2 * number + stages) for stages in range(3))
         absorbed = _gained(work, begun, turned)
         peak = force[begun : ended + 1].max() if ended < len(force) else nan
-        lost = min(_gained(work, begun, ended), absorbed)  # no work to pull a lattice back
+        lost = min(_gained(work, begun, ended), absorbed)  # pulling back is no loss
         values = absorbed, lost, float(peak)
         found |= zip(cycle_columns(number + 1), values, strict=True)
     first, second = (found[cycle_columns(number)[0]] for number in (1, 2))
