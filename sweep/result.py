@@ -155,8 +155,8 @@ COLUMNS: dict[str, Column] = {
     "dissipated_integrator_J": Column("J", "energy removed by the time integrator itself"),
     "lost_energy_J": Column(
         "J",
-        "absorbed energy - returned energy, if that is positive; of an impact, energy of the striker "
-        "at first touch - that of its rebound; NaN if none moves back",
+        "absorbed energy - returned energy, if that is positive; of an impact, energy of the "
+        "striker at first touch - that of its rebound; NaN if none moves back",
         "more",
     ),
     "lost_share": Column(
