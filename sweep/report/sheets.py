@@ -23,10 +23,12 @@ pack: strain at which the lattice has packed down: mean over those of nearly the
 back: returned energy / work of the whole crush."""
 AGAIN = "again: energy absorbed in the second cycle / in the first; other columns are of the first."
 ELASTIC = "Walls are elastic: what is missing from 100 % is friction, damping, snaps or time steps."
-LOSSY = "What is missing from 100 % is lost in the material first of all."
+LOSSY = """\
+What is missing from 100 % is lost in the material (dissipated_material_J), in friction and snaps,
+or still stored in walls that relax."""
 MIXED = """\
 Where memory is "none", walls are elastic: what is missing from 100 % is friction, damping, snaps
-or time steps. Elsewhere it is lost in the material first of all."""
+or time steps. Elsewhere it is also lost in the material, or still stored in walls that relax."""
 LOADED = "sink: greatest strain under the load, including its swing."
 STRUCK = """\
 force: greatest force on the support. left: stroke that closes all voids - greatest stroke.
