@@ -8,13 +8,13 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
+from kernels.laws.law import Memory
 from kernels.planar import constraints, factoring, lagging, potential, reach, rows, steps
 from kernels.planar.reach import Neighbours
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
 from kernels.terms.damping import Before
 from kernels.terms.elements import Resultants, Shape, Stiffness
-from kernels.terms.law import Memory
 
 
 class Buffers(NamedTuple):

@@ -35,7 +35,8 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit, jit_exact
-from kernels.terms.section import LEAST, commit_fibre
+from kernels.laws.law import commit_point
+from kernels.terms.section import LEAST
 from kernels.terms.stretch import strain
 
 ANGLE, TANGENT = 0, 1
@@ -225,7 +226,7 @@ def _commit_section(bend, stretch, memory, point, k, shape):
     at = (strain(stretch, shape, k)[0], *bending(bend, shape, k))
     released, dissipated = bend.section.commit(at, memory, point)
     both = shape.turn[0, k] + shape.turn[1, k]
-    gone, lost = commit_fibre(bend.hinge, both, memory, point + bend.section.points())
+    gone, lost = commit_point(bend.hinge, both, memory, point + bend.section.points())
     volume, shear = bend.volume[k], bend.shear[k]
     return volume * released + shear * gone, volume * dissipated + shear * lost
 
@@ -238,8 +239,8 @@ def _commit_linear(bend, memory, point, k, shape):
         curvature(bend, k, 0, shape.turn[0, k])[0],
         curvature(bend, k, 1, shape.turn[1, k])[0],
     )
-    gone1, lost1 = commit_fibre(bend.hinge, one + ratio * two, memory, point)
-    gone2, lost2 = commit_fibre(bend.hinge, two, memory, point + 1)
+    gone1, lost1 = commit_point(bend.hinge, one + ratio * two, memory, point)
+    gone2, lost2 = commit_point(bend.hinge, two, memory, point + 1)
     return stiff * gone1 + rest * gone2, stiff * lost1 + rest * lost2
 
 

@@ -17,8 +17,8 @@ import numpy as np
 from kernels.arrays import triple
 from kernels.compile.jit import jit
 from kernels.geometry.angle import LARGEST, arctangent
+from kernels.laws.barrier import barrier
 from kernels.linear.block_matrix import add_block
-from kernels.terms.barrier import barrier
 
 LIMIT = math.radians(20.0)
 

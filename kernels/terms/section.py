@@ -24,6 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit, jit_exact
+from kernels.laws.law import commit_point
 
 LEAST = 0.05  # stretch of the centre line below which the energy is infinite
 
@@ -140,26 +141,18 @@ def commit(law, strain, memory, point):
     Return (released, dissipated), J/m^3: potential less stored energy, and the dissipation.
     """
     e, middle = strain[0], point + 2 * law.place.size
-    released, dissipated = commit_fibre(law.curve, e, memory, middle)
+    released, dissipated = commit_point(law.curve, e, memory, middle)
     released, dissipated = -law.middle * released, -law.middle * dissipated
     r = (1.0 + e) ** (-law.m)
     for section in range(2):
         for k in range(law.place.size):
             theta = law.place[k] * (strain[2] if section == 1 else strain[1])
             a = fibre(law.m, 1.0 + e, r, theta)[0]
-            gone, lost = commit_fibre(law.curve, a - 1.0, memory, point)
+            gone, lost = commit_point(law.curve, a - 1.0, memory, point)
             released += law.weight[k] * gone
             dissipated += law.weight[k] * lost
             point += 1
     return released, dissipated
-
-
-@jit_exact
-def commit_fibre(law, strain, memory, point):
-    """Commit the strain of one point; return potential less stored energy, and the dissipation."""
-    potential = law.respond(strain, memory, point)[0]
-    stored, dissipated = law.commit(strain, memory, point)
-    return potential - stored, dissipated
 
 
 class BentSection(NamedTuple):

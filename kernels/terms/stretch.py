@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit, jit_exact
+from kernels.laws.law import commit_point
 
 
 class Stretch(NamedTuple):
@@ -93,8 +94,7 @@ def commit(stretch, law, memory, shape):
     released, dissipated = 0.0, 0.0
     for k in range(stretch.l0.size):
         e, volume = strain(stretch, shape, k)[0], stretch.area[k] * stretch.l0[k]
-        potential = law.respond(e, memory, k)[0]
-        stored, lost = law.commit(e, memory, k)
-        released += volume * (potential - stored)
+        gone, lost = commit_point(law, e, memory, k)
+        released += volume * gone
         dissipated += volume * lost
     return released, dissipated

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kernels.terms.one_point import stresses
+from kernels.laws.one_point import stresses
 from sweep.config.case import Material
 from sweep.coupon import branches
 from sweep.coupon.record import Coupon, Floats

@@ -17,12 +17,12 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from kernels.terms.elastic import ElasticCurve, FibreCurve
-from kernels.terms.fibre import Fibre
-from kernels.terms.relaxation import Relaxing
+from kernels.laws.elastic import ElasticCurve, FibreCurve
+from kernels.laws.fibre import Fibre
+from kernels.laws.relaxation import Relaxing
+from kernels.laws.softening import Softening
+from kernels.laws.yielding import Yielding
 from kernels.terms.section import BentSection
-from kernels.terms.softening import Softening
-from kernels.terms.yielding import Yielding
 from sweep.config.case import Material
 from sweep.config.material_file import TOE, stress_at
 from sweep.scene.relaxation import relaxation_of

@@ -22,7 +22,7 @@ KERNELS = [module for module in PROGRAM if module.startswith("kernels")]
 # From the ground up: a package imports those before it and itself, inside of functions too.
 FLOORS = [
     "kernels.compile", "kernels.arrays", "kernels.solve", "kernels.linear", "kernels.geometry",
-    "kernels.terms", "kernels.planar",
+    "kernels.laws", "kernels.terms", "kernels.planar",
     "sweep.version", "sweep.numbers", "sweep.design", "sweep.config", "sweep.result", "sweep.scene",
     "sweep.coupon", "sweep.simulation", "sweep.store", "sweep.ranking", "sweep.report",
     "sweep.running", "sweep.studies", "sweep.cli", "sweep.__main__",
@@ -69,7 +69,8 @@ TESTED_ELSEWHERE = {
     "kernels.solve.history": "kernels/solve/test_chain.py",
     "kernels.solve.residual": "kernels/solve/test_newton.py",
     "kernels.solve.workspace": "kernels/solve/test_first_guess.py",
-    "kernels.terms.barrier": "kernels/terms/test_contact.py",
+    "kernels.laws.barrier": "kernels/terms/test_contact.py",
+    "kernels.laws.law": "physics/test_memories.py",
     "kernels.terms.kelvin_voigt": "kernels/terms/test_damping.py",
     "kernels.terms.rayleigh": "kernels/terms/test_damping.py",
     "sweep.__main__": "sweep/cli/test_verbs.py",
@@ -184,7 +185,7 @@ def test_imports_point_one_way():
 
 def test_the_solver_and_the_physics_do_not_know_each_other():
     """Only a problem, `kernels.planar`, has both."""
-    physics = "kernels.linear kernels.geometry kernels.terms"
+    physics = "kernels.linear kernels.geometry kernels.laws kernels.terms"
     known = {m: imports(m) for m in KERNELS if is_within(m, f"kernels.solve {physics}")}
     meet = [
         f"{m} -> {name}"

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from kernels.terms.one_point import stresses
+from kernels.laws.one_point import stresses
 from sweep.config.case import Material
 from sweep.coupon.record import Coupon
 from sweep.scene.material import law_in_stretch

@@ -4,12 +4,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.terms.elastic import ElasticCurve
-from kernels.terms.fibre import Fibre
-from kernels.terms.law import Memory
-from kernels.terms.relaxation import Relaxing
-from kernels.terms.softening import Softening
-from kernels.terms.yielding import Yielding
+from kernels.laws.elastic import ElasticCurve
+from kernels.laws.fibre import Fibre
+from kernels.laws.law import Memory
+from kernels.laws.relaxation import Relaxing
+from kernels.laws.softening import Softening
+from kernels.laws.yielding import Yielding
 
 NO_SOFTENING = (0.0, 0.0, 0.0)
 

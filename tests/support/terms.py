@@ -7,13 +7,13 @@ and `system`, which are compared with it.
 import numpy as np
 
 from kernels.geometry import near_pairs
+from kernels.laws.law import Memory
+from kernels.laws.relaxation import Pace
 from kernels.linear import block_matrix, periodic_images
 from kernels.linear.block_matrix import Blocks
 from kernels.planar.problem import PlanarScene
 from kernels.solve.integrators import Ahead
 from kernels.terms import bend, contact, damping, elements, stretch
-from kernels.terms.law import Memory
-from kernels.terms.relaxation import Pace
 
 NO_PACE = Pace(np.empty(0), np.empty(0), np.empty((0, 3)), np.ones(1))
 NO_MEMORY = Memory(np.empty((0, 0)), np.empty((0, 2)), NO_PACE)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from kernels.geometry import distance, near_pairs
+from kernels.laws.barrier import barrier
 from kernels.terms import contact
-from kernels.terms.barrier import barrier
 from tests.support.frames import carried, frame, grid, only, scaled, shaken, touching, two_walls
 from tests.support.terms import Term, derivative_error, least_share, of_points, touch_of
 

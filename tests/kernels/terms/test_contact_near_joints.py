@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from kernels.geometry import near_pairs
+from kernels.laws.barrier import barrier
 from kernels.terms import contact, contact_near_joints
-from kernels.terms.barrier import barrier
 from tests.support.frames import carried, contact_of, frame, grid, joint_of_four, only, scaled
 from tests.support.terms import touch_of
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from kernels.terms.law import Memory
+from kernels.laws.law import Memory
+from kernels.laws.yielding import STATE
 from kernels.terms.section import bent
-from kernels.terms.yielding import STATE
 from sweep.config.case import Material
 from sweep.scene.material import FIBRE, OUTER, law_of_section
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from kernels.geometry import near_pairs
+from kernels.laws.barrier import barrier
 from kernels.terms import contact, friction
-from kernels.terms.barrier import barrier
 from tests.support.frames import carried, only, scaled, shaken, touching, two_walls
 from tests.support.terms import (
     Term,

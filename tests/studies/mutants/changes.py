@@ -5,7 +5,8 @@ A snippet occurs once in its file. Names say what is wrong.
 
 from typing import NamedTuple
 
-TERMS, SOLVE, LINEAR = "kernels/terms", "kernels/solve", "kernels/linear"
+LAWS, TERMS = "kernels/laws", "kernels/terms"
+SOLVE, LINEAR = "kernels/solve", "kernels/linear"
 
 
 class Mutant(NamedTuple):
@@ -43,13 +44,13 @@ MUTANTS = [
         ("stretch: projection left out", "if projected:", "if False:"),
     ),
     *_of(
-        f"{TERMS}/elastic.py",
+        f"{LAWS}/elastic.py",
         ("elastic law: tangent", "c[1] + s * (2.0 * c[2]", "c[1] - s * (2.0 * c[2]"),
         ("elastic law: stress beyond", "stress + beyond * tangent", "stress - beyond * tangent"),
         ("elastic law: stress of the guard", "stress + slope, tangent", "stress - slope, tangent"),
     ),
     *_of(
-        f"{TERMS}/elastic.py",
+        f"{LAWS}/elastic.py",
         (
             "fibres: with the barrier",
             "return curve(law, strain)",
@@ -58,7 +59,7 @@ MUTANTS = [
         tests=f"{TERMS}/test_section.py",
     ),
     *_of(
-        f"{TERMS}/relaxation.py",
+        f"{LAWS}/relaxation.py",
         ("relaxation: stress", "scale * stress + slope, scale", "scale * stress - slope, scale"),
         ("relaxation: tangent", "+ slope, scale * tangent", "+ slope, tangent"),
         ("relaxation: past", "decay[i] * x - pace.gain", "decay[i] * x + pace.gain"),
@@ -149,7 +150,7 @@ MUTANTS = [
         tests=f"{TERMS}/test_damping.py",
     ),
     *_of(
-        f"{TERMS}/barrier.py",
+        f"{LAWS}/barrier.py",
         ("barrier: energy", "value = -r * r", "value = r * r"),
         ("barrier: slope", "slope = -r *", "slope = r *"),
         ("barrier: curvature", "+ r * r / (s * s)", "- r * r / (s * s)"),

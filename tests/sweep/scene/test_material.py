@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
 
-from kernels.terms.law import Memory
-from kernels.terms.yielding import STATE
+from kernels.laws.law import Memory
+from kernels.laws.yielding import STATE
 from sweep.config.case import Material
 from sweep.scene.material import law_in_stretch, monotonic_law, stress_law
 from tests.support.records import HEADER, RUBBERS

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.terms.relaxation import _square
+from kernels.laws.relaxation import _square
 from sweep.config.case import Material
 from sweep.scene.material import law_in_stretch, law_of_hinge, law_of_section, stress_law
 from sweep.scene.relaxation import ELASTIC, exponent, lost_share, power_law, relaxation_of

@@ -1,0 +1,26 @@
+"""The barrier function of contact, folds and element lengths.
+
+    b(s) = -(s - 1)^2 ln s   for 0 < s < 1,   0 beyond,
+
+It is infinite at s = 0 and twice continuously differentiable at s = 1 (Li et al. 2020, Incremental
+Potential Contact, eq. 6, with distances in units of that at which the barrier starts to act).
+"""
+
+import math
+
+from kernels.compile.jit import jit
+
+
+@jit
+def barrier(s):
+    """Return b, b' and b'' at ``s`` (dimensionless); infinite where ``s`` is not positive."""
+    if s >= 1.0:
+        return 0.0, 0.0, 0.0
+    if not s > 0.0:
+        return math.inf, -math.inf, math.inf
+    log = math.log(s)
+    r = s - 1.0
+    value = -r * r * log
+    slope = -r * (2.0 * log + r / s)
+    curvature = -2.0 * log - 4.0 * r / s + r * r / (s * s)
+    return value, slope, curvature

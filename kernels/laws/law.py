@@ -1,0 +1,75 @@
+"""The interface between the terms and the material laws: the response at a material point.
+
+A *law* is a named tuple of parameters whose class has the verbs of `Law`; a term calls them at each
+of its material points. A step, which stays a minimisation, needs only
+
+    potential W(e; q, duration),   stress dW/de,   tangent d2W/de2
+
+with the strain e, the state q committed last and the duration of the step. Without memory W is the
+stored energy. A law with memory minimises over its internal variables itself, so that W is its
+incremental potential. At commit it returns stored and dissipated energy separately, for the energy
+book. The state is kept in `solve.history.State.memory`, which `planar.steps.commit` updates; a law
+without memory keeps none.
+
+The initial state is zero. With a duration of zero the state does not change, and W is the stored
+energy. The law of a `section` has several points, of one strain each.
+"""
+
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from kernels.compile.jit import jit_exact
+
+
+class Memory(NamedTuple):
+    """What a response depends on beside the strain.
+
+    committed (p, k): state of each material point after the last accepted step, which only `commit`
+    changes; p = 0 if no law has memory. line (p, 2): data of a point for the present step, which
+    `begin` sets. pace: data of the step that all points share, which `set_pace` sets.
+    """
+
+    committed: np.ndarray
+    line: np.ndarray
+    pace: object
+
+
+class Law(Protocol):
+    """The verbs of a law; ``point``: number of the material point, row of `Memory.committed`.
+
+    modulus: slope at the origin, Pa.
+    """
+
+    modulus: float
+
+    def make_pace(self):
+        """Return the data of a step that all points share, for `set_pace` to fill."""
+
+    def set_pace(self, duration, pace):
+        """Fill ``pace`` for steps of ``duration`` in s."""
+
+    def begin(self, memory, point):
+        """Set the data of a point for the present step."""
+
+    def respond(self, strain, memory, point):
+        """Return potential (J/m^3), stress (Pa) and tangent (Pa) at ``strain``."""
+
+    def state_size(self):
+        """Return the length of the state of a point; 0 without memory: no other verb than `respond`
+        is then called.
+        """
+
+    def commit(self, strain, memory, point):
+        """Accept ``strain``: update the committed state.
+
+        Return the stored energy and the dissipation of the step, J/m^3.
+        """
+
+
+@jit_exact
+def commit_point(law, strain, memory, point):
+    """Accept the strain of a point; return potential less stored energy, and the dissipation."""
+    potential = law.respond(strain, memory, point)[0]
+    stored, dissipated = law.commit(strain, memory, point)
+    return potential - stored, dissipated

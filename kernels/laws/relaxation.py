@@ -1,0 +1,209 @@
+"""Relaxation: a law whose branches forget a share of its stress (quasi-linear viscoelasticity).
+
+With the instantaneous stress s(e) = phi'(e) of an elastic law, branch i carries g_i (s(e) - s_i):
+
+    stress = s - sum g_i s_i,   d s_i / dt = (s - s_i) / tau_i,   s_i = s(e_i) at its viscous strain
+
+For a straight curve this is the generalised Maxwell model (Prony series); else Fung's model, with
+shares of stress in place of stiffness. Where s rises with e it is a material with the energies
+
+    stored = phi(e) - sum g_i (phi(e_i) + s_i (e - e_i))
+    dissipation / time = sum g_i (s - s_i) (e - e_i) / tau_i >= 0
+
+as phi is convex. A step of duration dt in which s changes evenly has with x_i = s - s_i the exact
+x_i' = a_i x_i + c_i (s' - s), a_i = exp(-dt / tau_i), c_i = (1 - a_i) tau_i / dt, so that its
+stress is a multiple of s plus a constant. Both follow from the potential
+
+    scale phi(e) + slope e + const,   scale = 1 - sum g_i (1 - c_i),
+                                      slope = sum g_i (a_i x_i - c_i s)
+
+whose constant makes it the stored energy in a step without duration. A step thus costs hardly more
+than an elastic one; only the commit goes through the branches.
+
+Source: Y. C. Fung, Biomechanics, 1981; the energies: this page, by the Legendre transform of phi.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels.compile.jit import jit, jit_exact, jit_owning
+
+STRAIN, STORED, MOST, BRANCHES = range(4)  # places in a state; from the last all s_i, all e_i
+SMALL = 1e-2  # of dt / tau: below it `_square` is a series
+NEAR = 1e-4  # difference of two strains between which a curve is straight: its energy is then
+# wrong by less than 1e-8 of that of a strain of 1 %
+TRIES = 60  # steps of Newton's method
+
+
+class Pace(NamedTuple):
+    """Data of a step that all points share.
+
+    decay, gain (n,): a_i and c_i. square (n, 3): weights of x^2, x s. and s.^2 in the integral of
+    x_i^2 / tau_i over the step, s. being the change of s. scale (1,).
+    """
+
+    decay: np.ndarray
+    gain: np.ndarray
+    square: np.ndarray
+    scale: np.ndarray
+
+
+@jit_exact
+def _square(z, decay, gain):
+    """Return the weights of `Pace.square` for z = dt / tau."""
+    mixed = z * gain * gain
+    if z < SMALL:
+        last = z * (1.0 / 3.0 - z * (1.0 / 4.0 - z * (7.0 / 60.0 - z / 24.0)))
+    else:
+        last = (z - 2.0 * (1.0 - decay) + 0.5 * (1.0 - decay * decay)) / (z * z)
+    return -0.5 * math.expm1(-2.0 * z), mixed, last
+
+
+@jit_owning
+def make_pace(law):
+    """Return the `Pace` of a step without duration."""
+    n = law.shares.size
+    return Pace(np.ones(n), np.ones(n), np.zeros((n, 3)), np.ones(1))
+
+
+@jit_exact
+def set_pace(law, duration, pace):
+    """Fill ``pace`` for steps of ``duration`` in s."""
+    pace.scale[0] = 1.0
+    for i in range(law.shares.size):
+        z = duration / law.times[i]
+        pace.decay[i] = math.exp(-z)
+        pace.gain[i] = -math.expm1(-z) / z if z > 0.0 else 1.0
+        pace.square[i, 0], pace.square[i, 1], pace.square[i, 2] = _square(
+            z, pace.decay[i], pace.gain[i]
+        )
+        pace.scale[0] -= law.shares[i] * (1.0 - pace.gain[i])
+
+
+@jit
+def begin(law, memory, point):
+    """Set slope and constant of the potential of a point for a step at the pace of ``memory``."""
+    state, pace, n, slope = memory.committed[point], memory.pace, law.shares.size, 0.0
+    density, stress, _ = law.elastic.respond(state[STRAIN], state[MOST])
+    for i in range(n):
+        x = stress - state[BRANCHES + i]
+        slope += law.shares[i] * (pace.decay[i] * x - pace.gain[i] * stress)
+    constant = state[STORED] - pace.scale[0] * density - slope * state[STRAIN]
+    memory.line[point, 0], memory.line[point, 1] = constant, slope
+
+
+@jit
+def respond(law, strain, memory, point):
+    """Return the potential of the step (J/m^3), the stress and its tangent (Pa) at ``strain``."""
+    if law.state_size() == 0:
+        return law.elastic.respond(strain, 0.0)
+    density, stress, tangent = law.elastic.respond(strain, memory.committed[point, MOST])
+    scale, slope = memory.pace.scale[0], memory.line[point, 1]
+    density = scale * density + slope * strain + memory.line[point, 0]
+    return density, scale * stress + slope, scale * tangent
+
+
+@jit_exact
+def inverse(elastic, most, stress, guess):
+    """Return the strain at which an elastic law whose stress rises has ``stress``, from a guess;
+    and its complementary energy, the integral of strain over stress. most: see `softening`.
+    """
+    low, high, strain = elastic.least(), math.inf, guess
+    for _ in range(TRIES):
+        energy, found, tangent = elastic.respond(strain, most)
+        gap = stress - found
+        move = gap / tangent
+        if abs(move) < NEAR:
+            break
+        low, high = (strain, high) if gap > 0.0 else (low, strain)
+        if not low < strain + move < high:
+            move = 0.5 * ((low if move < 0.0 else high) - strain)
+        strain += move
+    return strain + move, stress * strain - energy + 0.5 * move * gap
+
+
+@jit
+def _branch(law, most, strain, response, x, guess):
+    """Return viscous strain, stored energy per share, and secant compliance of a branch whose
+    stress is ``x`` per share. response: of the elastic law at ``strain``.
+    """
+    energy, stress, tangent = response
+    if abs(x) < NEAR * tangent:
+        return strain - x / tangent, 0.5 * x * x / tangent, 1.0 / tangent
+    e, complement = inverse(law.elastic, most, stress - x, guess)
+    return e, energy + complement - (stress - x) * strain, (strain - e) / x
+
+
+@jit
+def _stored(law, strain, state):
+    """Return the stored energy at ``strain`` with the branches of ``state``, J/m^3."""
+    most, n = state[MOST], law.shares.size
+    response = law.elastic.respond(strain, most)
+    energy, stress, _ = response
+    stored = energy
+    for i in range(n):
+        x, guess = stress - state[BRANCHES + i], state[BRANCHES + n + i]
+        e, kept, _ = _branch(law, most, strain, response, x, guess)
+        state[BRANCHES + n + i] = e
+        stored += law.shares[i] * (kept - energy)
+    return stored
+
+
+@jit
+def commit(law, strain, memory, point):
+    """Accept ``strain``: update the state. Return the stored energy and the dissipation of the
+    step, J/m^3.
+
+    The dissipation is exact where the curve is straight and the strain changes evenly.
+    """
+    if law.state_size() == 0:
+        return law.elastic.respond(strain, 0.0)[0], 0.0
+    state, pace, n, dissipated = memory.committed[point], memory.pace, law.shares.size, 0.0
+    before, most = state[STRAIN], state[MOST]
+    _, past, past_tangent = law.elastic.respond(before, most)
+    response = law.elastic.respond(strain, most)
+    energy, stress, _ = response
+    stored, change = energy, stress - past
+    for i in range(n):
+        weights, x, e = pace.square[i], past - state[BRANCHES + i], state[BRANCHES + n + i]
+        work = weights[0] * x * x + weights[1] * x * change + weights[2] * change * change
+        soft = 1.0 / past_tangent if abs(before - e) < NEAR else (before - e) / x
+        x = pace.decay[i] * x + pace.gain[i] * change
+        e, kept, softer = _branch(law, most, strain, response, x, e)
+        state[BRANCHES + i], state[BRANCHES + n + i] = stress - x, e
+        dissipated += 0.5 * law.shares[i] * (soft + softer) * work
+        stored += law.shares[i] * (kept - energy)
+    state[STRAIN], state[MOST] = strain, law.elastic.greatest(strain, most)
+    if law.elastic.softening > 0.0 and state[MOST] > most:
+        state[STORED] = _stored(law, strain, state)
+        return state[STORED], dissipated + stored - state[STORED]
+    state[STORED] = stored
+    return stored, dissipated
+
+
+@jit
+def state_size(law):
+    """Return the length of the state of a point; 0 without branches and softening."""
+    memory = law.shares.size > 0 or law.elastic.softening > 0.0
+    return BRANCHES + 2 * law.shares.size if memory else 0
+
+
+class Relaxing(NamedTuple):
+    """elastic: `Softening` of the instantaneous stress, which rises with the strain if there are
+    branches. shares (n,): g_i, which sum to less than 1. times (n,): tau_i in s. modulus: at the
+    reference time, Pa.
+    """
+
+    elastic: object
+    shares: np.ndarray
+    times: np.ndarray
+    modulus: float
+
+    make_pace = make_pace
+    set_pace = set_pace
+    begin = begin
+    respond = respond
+    state_size = state_size
+    commit = commit

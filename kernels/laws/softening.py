@@ -1,0 +1,77 @@
+"""Softening on reuse (Mullins): below its greatest strain so far a wall is softer than at first.
+
+With the energy W(e) of the curve and the greatest one W_m of the past, below that
+
+    stress = eta W'(e),   eta = 1 - erf((W_m - W) / b) / r,   b = m + beta W_m
+
+and the curve itself beyond. The potential is a function of W alone,
+
+    phi = W - (I(W_m / b) - I((W_m - W) / b)) b / r,   I(u) = u erf(u) + exp(-u^2) / sqrt(pi)
+
+up to W_m, from where it rises as W does. As W_m grows, phi falls at the same strain: that is
+dissipated.
+
+Source: R. W. Ogden and D. G. Roxburgh, A pseudo-elastic model for the Mullins effect, 1999; beta:
+Abaqus Theory Guide, 4.7.1.
+"""
+
+import math
+from typing import NamedTuple
+
+from kernels.compile.jit import jit
+
+BY_ROOT_PI = 1.0 / math.sqrt(math.pi)
+
+
+@jit
+def _integral(u):
+    """Return I(u)."""
+    return u * math.erf(u) + BY_ROOT_PI * math.exp(-u * u)
+
+
+@jit
+def _lost(law, energy, most):
+    """Return W - phi at an ``energy`` W up to the greatest one."""
+    b = law.m + law.beta * most
+    return (_integral(most / b) - _integral((most - energy) / b)) * b * law.softening
+
+
+@jit
+def respond(law, strain, most):
+    """Return phi (J/m^3), stress and tangent (Pa) at ``strain``. most: W_m, J/m^3."""
+    energy, stress, tangent = law.curve.respond(strain)
+    if law.softening == 0.0 or most == 0.0:
+        return energy, stress, tangent
+    if energy > most:
+        return energy - _lost(law, most, most), stress, tangent
+    b = law.m + law.beta * most
+    u = (most - energy) / b
+    share = 1.0 - law.softening * math.erf(u)
+    slope = 2.0 * BY_ROOT_PI * law.softening / b * math.exp(-u * u)
+    tangent = share * tangent + slope * stress * stress
+    return energy - _lost(law, energy, most), share * stress, tangent
+
+
+@jit
+def greatest(law, strain, most):
+    """Return the greatest energy W of the past, that at ``strain`` included."""
+    return max(most, law.curve.respond(strain)[0])
+
+
+@jit
+def least(law):
+    """Return the strain to which stresses fall without bound."""
+    return law.curve.least()
+
+
+class Softening(NamedTuple):
+    """curve: elastic law. softening: 1 / r, below 1; zero: none. m: J/m^3. beta: a number."""
+
+    curve: object
+    softening: float
+    m: float
+    beta: float
+
+    respond = respond
+    greatest = greatest
+    least = least

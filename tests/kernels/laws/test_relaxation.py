@@ -1,0 +1,230 @@
+"""Laws that relax: derivatives, closed forms over decades of time, energies, limits."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+from kernels.laws import relaxation
+from kernels.laws.elastic import GUARD
+from kernels.laws.relaxation import NEAR, inverse
+from kernels.laws.softening import Softening
+from sweep.config.tables import Material
+from sweep.scene.material import as_law, linear_law, stress_law
+from tests.support.frames import MODULUS
+from tests.support.memory import follow, prepare, relaxing, there_and_back, virgin
+from tests.support.scenes import slopes
+from tests.support.terms import differences
+
+SHARES, TIMES = (0.3, 0.2, 0.25), (0.01, 0.5, 40.0)
+STRAIN = 0.12
+HISTORY = (0.05, -0.03, 0.08)
+DURATIONS = pytest.mark.parametrize("duration", [0.0, 1e-9, 0.01, 0.5, 40.0, 1e9])
+
+
+def straight():
+    return as_law(linear_law(MODULUS), 1.0, MODULUS)
+
+
+def measured(name="ninjaflex"):
+    """A measured curve, in MPa."""
+    material = Material(name=name)
+    return as_law(stress_law(material), 1e-6, material.modulus)
+
+
+def solid(curve, share=0.6, time=0.5):
+    """A spring beside one branch."""
+    return relaxing(curve, [share], [time])
+
+
+def remembered(law, duration):
+    """The memory of a point with a past, prepared for a step."""
+    memory = virgin(law)
+    follow(law, HISTORY, 0.3, memory)
+    prepare(law, memory, duration)
+    return memory
+
+
+def error(law, memory, strain, step):
+    """Error of stress and tangent against differences of potential and stress, in moduli."""
+    at, steps = np.array([strain]), np.array([step])
+    _, stress, tangent = law.respond(strain, memory, 0)
+    by_energy = differences(lambda e: law.respond(e[0], memory, 0)[0], at, steps)[0]
+    by_stress = differences(lambda e: law.respond(e[0], memory, 0)[1], at, steps)[0]
+    return max(abs(stress - by_energy), abs(tangent - by_stress)) / law.modulus
+
+
+@DURATIONS
+@pytest.mark.parametrize("strain", [1e-4, HISTORY[-1], -0.22, 0.35, 0.9, GUARD - 0.1])
+def test_stress_and_tangent_are_derivatives(strain, duration):
+    law = relaxing(measured(), SHARES, TIMES)
+    assert error(law, remembered(law, duration), strain, 1e-5) < 1e-6
+
+
+@DURATIONS
+@pytest.mark.parametrize("strain", [0.0, 0.05, GUARD])
+def test_stress_and_tangent_are_derivatives_at_knots(strain, duration):
+    """The slope of the tangent jumps there: differences are of the first order."""
+    law = relaxing(measured(), SHARES, TIMES)
+    assert error(law, remembered(law, duration), strain, 1e-6) < 1e-4
+
+
+@pytest.mark.parametrize("time", [1e-6, 1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("steps", [1, 7])
+def test_a_held_strain_relaxes_as_the_closed_form(time, steps):
+    """Exactly, for any step: Y e (1 - g + g exp(-t / tau)); nothing is done from outside."""
+    for held in (0.0, 1e-2 * time, time, 1e3 * time):
+        law = solid(straight(), time=time)
+        path = follow(law, np.full(1 + steps, STRAIN), [0.0, *np.full(steps, held / steps)])
+        decay = 0.4 + 0.6 * np.exp(-held / time)
+        assert path.stress[-1] == pytest.approx(MODULUS * STRAIN * decay, rel=1e-12)
+        lost = 0.5 * 0.6 * MODULUS * STRAIN**2 * (1.0 - np.exp(-2.0 * held / time))
+        assert path.dissipated[-1] == pytest.approx(lost, rel=1e-11, abs=1e-15)
+
+
+def ramp(t, time, rate=1.0):
+    """Stress of a spring and a branch of 0.4 and 0.6 Y in a ramp of strain, after ``t``."""
+    return MODULUS * rate * (0.4 * t + 0.6 * time * -np.expm1(-t / time))
+
+
+@pytest.mark.parametrize("period", [1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3])
+@pytest.mark.parametrize("steps", [1, 2, 20])
+def test_a_cycle_of_even_ramps_is_exact(period, steps):
+    """Six decades of dt over the time of the branch; work by quadrature of the closed form."""
+    time, rate = 0.5, STRAIN / period
+
+    def stress(t):
+        return ramp(t, time, rate) - (2.0 * ramp(t - period, time, rate) if t > period else 0.0)
+
+    law = solid(straight(), time=time)
+    path = follow(law, there_and_back(STRAIN, steps), period / steps)
+    times = period / steps * np.arange(1, 2 * steps + 1)
+    np.testing.assert_allclose(path.stress, [stress(t) for t in times], atol=1e-12 * MODULUS)
+    up, down = (quad(stress, a, b, epsabs=0.0, epsrel=1e-12)[0] for a, b in
+                ((0.0, period), (period, 2.0 * period)))  # fmt: skip
+    assert path.stored[-1] + path.dissipated[-1] == pytest.approx(rate * (up - down), rel=1e-9)
+
+
+def test_a_sinusoidal_strain_is_of_second_order():
+    """In the end the stress is that of the complex modulus."""
+    time, omega = 0.5, 3.0
+    complex_modulus = MODULUS * (0.4 + 0.6 * 1j * omega * time / (1.0 + 1j * omega * time))
+    off = []
+    for steps in (32, 64, 128):
+        t = np.arange(1, 10 * steps + 1) * 2.0 * np.pi / (omega * steps)
+        path = follow(solid(straight(), time=time), STRAIN * np.sin(omega * t), t[0])
+        steady = np.imag(complex_modulus * STRAIN * np.exp(1j * omega * t))
+        off.append(np.abs(path.stress - steady)[-steps:].max() / MODULUS)
+        assert path.gap < 10.0 / steps**2
+    np.testing.assert_allclose(slopes(off), 2.0, atol=0.05)
+
+
+@pytest.mark.parametrize("name", ["ninjaflex", "filaflex_60a"])
+@pytest.mark.parametrize("strain", [0.3, -0.3])
+def test_work_is_stored_or_dissipated(name, strain):
+    """To the second order for a curve; exactly for a straight one but for the trapezoidal work."""
+    law = relaxing(measured(name), SHARES, TIMES)
+    gaps = [
+        follow(law, there_and_back(strain, steps), 4.0 / steps).gap for steps in (200, 400, 800)
+    ]
+    assert gaps[-1] < 2e-4
+    assert min(slopes(gaps)) > 1.6
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_dissipation_never_falls(seed):
+    """In random steps of random length, with random branches."""
+    rng = np.random.default_rng(seed)
+    shares = 0.98 * rng.dirichlet(np.ones(6))[:5]
+    law = relaxing(measured(), shares, 10.0 ** rng.uniform(-6, 4, 5))
+    path = follow(law, rng.uniform(-0.5, 1.0, 60), 10.0 ** rng.uniform(-7, 5, 60))
+    assert np.diff(path.dissipated, prepend=0.0).min() >= -1e-12 * path.dissipated[-1]
+    assert path.stored.min() > 0.0
+
+
+def test_stored_energy_is_the_potential_in_no_time():
+    law = relaxing(measured(), SHARES, TIMES)
+    memory = remembered(law, 0.0)
+    for strain in (HISTORY[-1], -0.2, 0.4):
+        potential, stress, _ = law.respond(strain, memory, 0)
+        again = memory._replace(committed=memory.committed.copy())
+        stored, lost = law.commit(strain, again, 0)
+        assert potential == pytest.approx(stored, rel=1e-7)
+        assert lost == pytest.approx(0.0, abs=1e-15)
+        assert law.respond(strain, memory, 0)[1] == stress
+
+
+def test_stored_energy_is_a_function_of_state():
+    """Of the strain and of what each branch has forgotten, whatever the way there."""
+    law = solid(measured(), 0.6, 0.5)
+    one, two = virgin(law), virgin(law)
+    follow(law, [0.2, 0.1], [0.0, 0.3], one)
+    follow(law, [0.4, -0.1, 0.1], [0.0, 0.01, 0.02], two)
+    state = one.committed[0]
+    two.committed[0, relaxation.BRANCHES :] = state[relaxation.BRANCHES :]
+    prepare(law, two, 0.0)
+    stored, lost = law.commit(0.1, two, 0)
+    assert stored == pytest.approx(state[relaxation.STORED], rel=1e-9)
+    assert lost == 0.0
+
+
+def test_limits_are_the_instantaneous_and_the_relaxed_curve():
+    curve = measured()
+    law = relaxing(curve, SHARES, TIMES)
+    whole = np.array(curve.respond(STRAIN))
+    sudden, slow = follow(law, [STRAIN], 1e-12), follow(law, [STRAIN, STRAIN], [0.0, 1e9])
+    assert sudden.stress[-1] == pytest.approx(whole[1], rel=1e-9)
+    assert sudden.stored[-1] == pytest.approx(whole[0], rel=1e-9)
+    assert slow.stress[-1] == pytest.approx((1.0 - sum(SHARES)) * whole[1], rel=1e-6)
+    assert slow.stored[-1] == pytest.approx((1.0 - sum(SHARES)) * whole[0], rel=1e-6)
+
+
+def test_only_a_commit_changes_what_is_remembered():
+    law = relaxing(measured(), SHARES, TIMES)
+    memory = remembered(law, 0.2)
+    before = memory.committed.copy()
+    once = [law.respond(strain, memory, 0) for strain in (0.3, -0.2, 0.3)]
+    assert once[0] == once[2]
+    np.testing.assert_array_equal(memory.committed, before)
+    law.commit(0.3, memory, 0)
+    assert (memory.committed != before).all()
+
+
+def test_an_elastic_law_keeps_no_number():
+    law = relaxing(measured())
+    assert law.state_size() == 0
+    assert relaxing(measured(), SHARES, TIMES).state_size() == relaxation.BRANCHES + 6
+    density = measured().respond(0.1)[0]
+    assert law.commit(0.1, virgin(law), 0) == (density, 0.0)
+
+
+@pytest.mark.parametrize("strain", [-0.9, -0.4, -1e-3, 0.02, 0.5, 3.0, 7.0])
+@pytest.mark.parametrize("guess", [0.0, -0.3, 2.0])
+def test_inverse_finds_the_strain_of_a_stress(strain, guess):
+    curve = measured()
+    stress = curve.respond(strain)[1]
+    found, complement = inverse(Softening(curve, 0.0, 0.0, 0.0), 0.0, stress, guess)
+    exact = brentq(lambda e: curve.respond(e)[1] - stress, -0.999, 9.0, xtol=1e-14)
+    assert found == pytest.approx(exact, abs=10.0 * NEAR**2)
+    assert complement == pytest.approx(stress * exact - curve.respond(exact)[0], rel=1e-7)
+
+
+def test_straight_pieces_do_not_show():
+    """`NEAR` changes energies by less than 1e-7."""
+    law = relaxing(measured(), SHARES, TIMES)
+    path = follow(law, there_and_back(0.2, 50), 0.05)
+    fine = _stored_by_quadrature(measured(), law, there_and_back(0.2, 50), 0.05)
+    assert path.stored[-1] == pytest.approx(fine, rel=1e-6)
+
+
+def _stored_by_quadrature(curve, law, strains, duration):
+    """Stored energy by the definition: integrals of the curve between its strains."""
+    memory = virgin(law)
+    follow(law, strains, duration, memory)
+    branches = memory.committed[0, relaxation.BRANCHES : relaxation.BRANCHES + 3]
+    at = strains[-1]
+    stored = (1.0 - sum(SHARES)) * curve.respond(at)[0]
+    for share, s in zip(SHARES, branches, strict=True):
+        start = brentq(lambda e, s=s: curve.respond(e)[1] - s, -0.9, 2.0, xtol=1e-15)
+        stored += share * quad(lambda e, s=s: curve.respond(e)[1] - s, start, at, epsrel=1e-12)[0]
+    return stored

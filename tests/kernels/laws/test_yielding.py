@@ -1,0 +1,136 @@
+"""The yielding law: derivatives, return mapping, cycles of closed form, commits."""
+
+import numpy as np
+import pytest
+
+from kernels.laws.elastic import GUARD
+from kernels.laws.law import Memory
+from kernels.laws.yielding import PATH, PLASTIC, STATE, Yielding
+from tests.support.terms import differences
+
+MODULUS, LIMIT, HARDENING = 2e9, 40e6, 150e6
+YIELD = LIMIT / MODULUS
+LAWS = {
+    "perfect": Yielding(MODULUS, LIMIT, 0.0, MODULUS),
+    "hardening": Yielding(MODULUS, LIMIT, HARDENING, MODULUS),
+}
+
+
+@pytest.fixture(params=LAWS)
+def law(request):
+    return LAWS[request.param]
+
+
+def memory_of(plastic=0.0, path=0.0):
+    """Memory of one point with a plastic strain and the sum of its changes."""
+    return Memory(np.array([[plastic, path]]), np.empty((1, 2)), None)
+
+
+def pulled(law, strains, memory):
+    """Stress after each of ``strains`` (k,), and the dissipation of all; each is committed."""
+    stresses, dissipated = [], 0.0
+    for strain in strains:
+        potential, stress, _ = law.respond(strain, memory, 0)
+        stored, lost = law.commit(strain, memory, 0)
+        assert potential == pytest.approx(stored + lost, rel=1e-12)
+        dissipated += lost
+        stresses.append(stress)
+    return np.array(stresses), dissipated
+
+
+@pytest.mark.parametrize(
+    "state", [(0.0, 0.0), (0.03, 0.03), (-0.015, 0.05)], ids=["new", "pulled", "reversed"]
+)
+@pytest.mark.parametrize("strain", [0.0, 0.7 * YIELD, 3 * YIELD, -3 * YIELD, 0.2, -0.72, -0.85])
+def test_derivatives_match_differences(law, state, strain):
+    memory, step = memory_of(*state), np.array([1e-3 * YIELD])
+    value, stress, tangent = law.respond(strain, memory, 0)
+
+    def of(part):
+        return differences(lambda x: law.respond(x[0], memory, 0)[part], np.array([strain]), step)
+
+    stiff = MODULUS + abs(tangent)
+    assert stress == pytest.approx(of(0)[0], abs=1e-8 * (abs(stress) + stiff * YIELD))
+    assert tangent == pytest.approx(of(1)[0], abs=1e-6 * stiff)
+    assert value >= 0.0
+
+
+@pytest.mark.parametrize("at", [YIELD, -YIELD, GUARD])
+def test_potential_and_stress_are_continuous_at_yield_and_guard(law, at):
+    near = [law.respond(at + side * 1e-13, memory_of(), 0) for side in (-1, 1)]
+    assert near[0][0] == pytest.approx(near[1][0], rel=1e-9)
+    assert near[0][1] == pytest.approx(near[1][1], rel=1e-9)
+    assert (abs(near[0][2] - near[1][2]) < 1e-6 * MODULUS) == (at == GUARD)
+
+
+def test_the_potential_is_the_least_over_the_flow(law):
+    """Of elastic energy and plastic work; tried by flows around the one that was found."""
+    memory, strain = memory_of(0.01, 0.02), 0.06
+    value = law.respond(strain, memory, 0)[0]
+    d = np.linspace(0.0, 0.05, 100_001)
+    elastic, limit = strain - 0.01 - d, law.limit + law.hardening * 0.02
+    tried = 0.5 * law.modulus * elastic**2 + d * (limit + 0.5 * law.hardening * d)
+    assert value <= tried.min() * (1.0 + 1e-12)
+    assert value == pytest.approx(tried.min(), rel=1e-6)
+
+
+def test_the_return_map_follows_a_fine_explicit_integration(law):
+    """Of the rate law along a path that turns three times."""
+    turns = np.array([0.0, 0.05, -0.03, 0.08, 0.02])
+    memory, stress, grown = memory_of(), 0.0, 0.0
+    stresses, _ = pulled(law, turns, memory)
+    share = law.modulus / (law.modulus + law.hardening)
+    for k in range(1, len(turns)):
+        steps = 50_000
+        change = (turns[k] - turns[k - 1]) / steps
+        for _ in range(steps):
+            flows = stress * change > 0.0 and abs(stress) >= law.limit + law.hardening * grown
+            stress += law.modulus * change * (1.0 - share if flows else 1.0)
+            grown += abs(change) * share if flows else 0.0
+        assert stresses[k] == pytest.approx(stress, rel=1e-4)
+    assert memory.committed[0, PATH] == pytest.approx(grown, rel=1e-4)
+
+
+def test_a_cycle_loses_the_area_of_its_loop(law):
+    """Trapezoids of the loop are exact as it is straight between the turns and the yield points."""
+    memory, top = memory_of(), 0.06
+    pulled(law, [top], memory)
+    d = (MODULUS * top - LIMIT) / (MODULUS + law.hardening)
+    peak = LIMIT + law.hardening * d
+    knee = top - 2.0 * peak / MODULUS  # where it yields backwards
+    strains = np.array([knee, -top])
+    stresses, lost = pulled(law, strains, memory)
+    back = -stresses[-1]
+    again = np.array([-top + 2.0 * back / MODULUS, top])
+    returned, lost_up = pulled(law, again, memory)
+    e, s = np.r_[top, strains, again], np.r_[peak, stresses, returned]
+    area = np.sum(0.5 * (s[1:] + s[:-1]) * np.diff(e))
+    before, after = peak**2 / (2.0 * MODULUS), returned[-1] ** 2 / (2.0 * MODULUS)
+    assert stresses[0] == pytest.approx(-peak)
+    assert lost + lost_up == pytest.approx(area - (after - before), rel=1e-12)
+    assert lost + lost_up > 2.0 * LIMIT * YIELD
+    if law.hardening == 0.0:
+        assert area == pytest.approx(2.0 * LIMIT * (2.0 * top - 2.0 * YIELD), rel=1e-12)
+
+
+def test_the_strain_that_remains_is_plastic(law):
+    memory, strain = memory_of(), 0.05
+    pulled(law, [strain], memory)
+    plastic = (MODULUS * strain - LIMIT) / (MODULUS + law.hardening)
+    assert memory.committed[0] == pytest.approx([plastic, plastic])
+    assert law.respond(plastic, memory, 0)[1] == pytest.approx(0.0, abs=1e-6)
+    pulled(law, [plastic - 0.1], memory)
+    assert memory.committed[0, PLASTIC] < 0.0 < memory.committed[0, PATH]
+
+
+def test_only_a_commit_changes_the_state(law):
+    memory = memory_of(0.01, 0.03)
+    for strain in (0.3, -0.3):
+        law.respond(strain, memory, 0)
+    assert memory.committed.tolist() == [[0.01, 0.03]]
+    kept = memory.committed.copy()
+    once = law.commit(0.1, memory, 0)
+    memory.committed[:] = kept
+    assert law.commit(0.1, memory, 0) == once
+    assert law.commit(0.1, memory, 0) == (pytest.approx(once[0]), pytest.approx(0.0, abs=1e-6))
+    assert memory.committed.shape == (1, STATE)
