@@ -42,10 +42,13 @@ class Neighbours(NamedTuple):
 def step_limit(problem, x, dx, far):
     """Return the admissible share of ``dx`` (at most 1): no wall touches, folds or vanishes.
 
-    far: longest move of a node in ``dx``, m. Folds and lengths are checked only if ``far`` allows
-    them to become critical.
+    far: `travel` of ``dx``, m. Folds and lengths are checked only if ``far`` allows them to become
+    critical.
     """
-    scene, least, shortest = problem.scene, problem.buffers.least[0], np.inf
+    scene, least, shortest = problem.scene, problem.buffers.least[0], 1.0
+    if far == scene.contact.most_move:
+        shortest = far / near_pairs.longest(dx, scene.layout.n_nodes)
+        far /= shortest
     first = contact.step_limit(
         x, dx, far, scene.contact, problem.neighbours.pairs, drift(problem, x)
     )
@@ -55,7 +58,7 @@ def step_limit(problem, x, dx, far):
         for k in range(scene.walls.edges.shape[0]):
             i, j = pair(scene.walls.edges, k)
             shortest = min(shortest, ccd.first_shrink(x, dx, i, j, LEAST_LENGTH))
-    return min(1.0, ADVANCE * first, shortest)
+    return min(ADVANCE * first, shortest)
 
 
 @jit_exact
@@ -140,8 +143,9 @@ def drift(problem, x):
 
 @jit_exact
 def travel(problem, dx):
-    """Return the longest move of a node in ``dx``, m."""
-    return near_pairs.longest(dx, problem.scene.layout.n_nodes)
+    """Return the longest move of a node in ``dx``, m, at most the longest that lists may cover."""
+    longest = near_pairs.longest(dx, problem.scene.layout.n_nodes)
+    return min(longest, problem.scene.contact.most_move)
 
 
 @jit_exact

@@ -26,14 +26,15 @@ from kernels.geometry.distance import (
     push_stiffen,
 )
 from kernels.geometry.near_pairs import counted, within
+from kernels.laws.barrier import barrier
 from kernels.linear.block_matrix import add
-from kernels.terms.barrier import barrier
 
 
 class Contact(NamedTuple):
     """Data of contact. Lengths in m; an absent contact has empty arrays.
 
-    stiffness: c Y' depth, N/m. reach: largest contact distance. edges (m, 2). tributary (n,): l_p.
+    stiffness: c Y' depth, N/m. reach: largest contact distance. most_move: longest move of a node
+    that neighbour lists cover. edges (m, 2). tributary (n,): l_p.
     node_thickness (n,), edge_thickness (m,). subtract (m, 2): 1 for ends that another segment
     counts. special_*: rules of pairs near a joint or near at rest, by edge (start (m + 1,)): node,
     weight, contact distance, subtract. plate_nodes (k,): nodes that may touch a platen. low, high:
@@ -42,6 +43,7 @@ class Contact(NamedTuple):
 
     stiffness: float
     reach: float
+    most_move: float
     edges: np.ndarray
     tributary: np.ndarray
     node_thickness: np.ndarray

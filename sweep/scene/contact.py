@@ -3,10 +3,26 @@
 import numpy as np
 
 from kernels.linear import analysis
+from kernels.planar.reach import MOVE_MARGIN
 from kernels.terms import contact, contact_near_joints, position_based
 from sweep.config.case import Case
 from sweep.scene.coordinates import BONDED, Numbering
 from sweep.scene.mesh import Floats, Ints, Mesh
+
+PAIRS = 200  # of a node on average, in the widest list of neighbours at rest
+
+
+def _most_move(mesh: Mesh, edges: Ints, reach: float) -> float:
+    """The longest move in m that a list of neighbours covers: it limits the memory of the list.
+
+    Such a list has `PAIRS` segments about each node, if they lie evenly in a square that is half as
+    wide as the structure is wide and high together.
+    """
+    if edges.shape[0] == 0:
+        return np.inf
+    area = (0.5 * np.ptp(mesh.points, axis=0).sum()) ** 2
+    radius = np.sqrt(PAIRS * area / (np.pi * edges.shape[0]))
+    return max(radius - reach, reach) / MOVE_MARGIN
 
 
 def _no_special_pairs() -> tuple[Ints, Ints, Floats, Floats, Floats]:
@@ -27,14 +43,15 @@ def contact_of(
     tributary, node_thickness = mesh.node_length, mesh.node_area / mesh.node_length
     walls = acts and case.contact.model != "none"
     edges, thickness = mesh.edges[: None if walls else 0], mesh.thickness[: None if walls else 0]
-    special = _no_special_pairs()
+    special, reach = _no_special_pairs(), thickness.max(initial=0.0)
     if walls:
         special = contact_near_joints.special_pairs(
             mesh.points.ravel(), edges, mesh.rest_length, node_thickness, thickness, tributary
         )
     return contact.Contact(
         stiffness=stiffness,
-        reach=thickness.max(initial=0.0),
+        reach=reach,
+        most_move=_most_move(mesh, edges, reach),
         edges=edges,
         tributary=tributary,
         node_thickness=node_thickness,

@@ -9,6 +9,11 @@ from itertools import pairwise
 import numpy as np
 
 from kernels.geometry import near_pairs
+from kernels.laws import elastic
+from kernels.laws.fibre import Fibre
+from kernels.laws.relaxation import Relaxing
+from kernels.laws.softening import Softening
+from kernels.laws.yielding import Yielding
 from kernels.linear import analysis, periodic_images
 from kernels.planar.problem import PlanarScene
 from kernels.solve.problem import FREE, Coordinates
@@ -17,7 +22,6 @@ from kernels.terms import (
     contact,
     contact_near_joints,
     damping,
-    elastic,
     elements,
     fold,
     friction,
@@ -26,10 +30,6 @@ from kernels.terms import (
     spring,
     stretch,
 )
-from kernels.terms.fibre import Fibre
-from kernels.terms.relaxation import Relaxing
-from kernels.terms.softening import Softening
-from kernels.terms.yielding import Yielding
 from sweep.scene.bending import FIBRE, OUTER
 
 MODULUS, DEPTH = 12.0, 10.0
@@ -230,7 +230,7 @@ def contact_of(of: Frame, stiffness: float = 1.0) -> contact.Contact:
     node_thickness = np.bincount(of.edges.ravel(), half * np.repeat(of.thickness, 2), n) / tributary
     mesh = of.points.ravel(), of.edges, of.l0, node_thickness, of.thickness, tributary
     return contact.Contact(
-        stiffness * of.modulus * of.depth, of.thickness.max(), of.edges, tributary,
+        stiffness * of.modulus * of.depth, of.thickness.max(), np.inf, of.edges, tributary,
         node_thickness, of.thickness, contact_near_joints.owners(n, of.edges),
         *contact_near_joints.special_pairs(*mesh),
         np.arange(n), of.rest.size - 2, of.rest.size - 1,

@@ -58,6 +58,15 @@ def test_limits_of_a_step(platen, start, by, share):
     assert args.limit(scene.x_rest, dx) == pytest.approx(share, rel=1e-9)
 
 
+@pytest.mark.parametrize("share", [1.0, 0.4])
+def test_moves_are_as_long_as_lists_may_cover(share):
+    scene = one_cell("contact")
+    dx = moving(scene, node_at(scene, 0.0, 5e-3), (5e-3, 0.0))
+    touch = scene.terms.contact._replace(most_move=share * 5e-3)
+    args = whole(scene._replace(terms=scene.terms._replace(contact=touch)), scene.x_rest)
+    assert args.limit(scene.x_rest, dx) == pytest.approx(share, rel=1e-9)
+
+
 def hits(scene, x, dx):
     """Shares at which anything of a scene meets or folds, and those at which elements are short."""
     terms, high, low = scene.terms, x.size - 1, x.size - 2

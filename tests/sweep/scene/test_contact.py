@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
+from kernels.planar import reach
 from sweep.config.case import Case, Contact, Lattice, Loading
+from sweep.scene.contact import PAIRS
 from sweep.scene.lattice import build_scene
 from tests.studies.verify import MATERIAL
 from tests.support.grids import DEPTH, LOADINGS, THICKNESS, WALL, scene_of
@@ -49,3 +51,14 @@ def test_platens_touch_an_outline():
     thickness = scene.terms.contact.node_thickness[scene.mesh.points[:, 1] == 0.0].max()
     assert 0.8e-3 < thickness < 1.2001e-3
     assert scene.x_rest[-2] == pytest.approx(-0.5 * thickness)
+
+
+@pytest.mark.parametrize("kind", ["square", "circle"])
+def test_lists_of_neighbours_do_not_grow_with_the_square_of_a_lattice(kind):
+    lattice = Lattice(kind=kind, cells_x=24, cells_y=12, wall_thickness=5e-5, nodes_per_wall=1)
+    scene = build_scene(Case(lattice=lattice))
+    touch = scene.terms.contact
+    pairs, margin, _ = reach.list_neighbours(scene.terms, scene.x_rest, touch.most_move)
+    assert margin == pytest.approx(reach.MOVE_MARGIN * touch.most_move)
+    assert 50 * len(scene.mesh.points) < pairs.node.size < PAIRS * len(scene.mesh.points)
+    assert touch.most_move > 0.5 * 12.5e-3 / 24  # half a cell
