@@ -1,5 +1,7 @@
 """How far a step may go: nothing meets, folds or shrinks to nothing, however far it wants to."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -63,7 +65,8 @@ def test_moves_are_as_long_as_lists_may_cover(share):
     scene = one_cell("contact")
     dx = moving(scene, node_at(scene, 0.0, 5e-3), (5e-3, 0.0))
     touch = scene.terms.contact._replace(most_move=share * 5e-3)
-    args = whole(scene._replace(terms=scene.terms._replace(contact=touch)), scene.x_rest)
+    scene = replace(scene, terms=scene.terms._replace(contact=touch))
+    args = whole(scene, scene.x_rest)
     assert args.limit(scene.x_rest, dx) == pytest.approx(share, rel=1e-9)
 
 
