@@ -46,9 +46,9 @@ def step_limit(problem, x, dx, far):
     critical.
     """
     scene, least, shortest = problem.scene, problem.buffers.least[0], 1.0
-    if far == scene.contact.most_move:
-        shortest = far / near_pairs.longest(dx, scene.layout.n_nodes)
-        far /= shortest
+    if far >= scene.contact.most_move:
+        far = near_pairs.longest(dx, scene.layout.n_nodes)
+        shortest = min(1.0, scene.contact.most_move / far)
     first = contact.step_limit(
         x, dx, far, scene.contact, problem.neighbours.pairs, drift(problem, x)
     )
