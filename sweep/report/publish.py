@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 MAX_SCENES = 12  # in one figure
 MAX_WINNERS = 6
+MAX_DRAWN = 40  # bars with a drawing in one figure
 Named = Iterator[tuple[str, "Figure"]]
 
 
@@ -94,8 +95,9 @@ def _sweep_figures(file: str, shown: Ranking, ranking: Ranking) -> Named:
     crushed = drawn["absorption"]
     designs = crushed.table
     if len(designs["lattice_kind"].unique()) > 1:
-        figure = case_plots.blank(*panel_size(designs))
-        pattern_bars(figure, crushed)
+        shapes = _shapes(file, designs)
+        figure = case_plots.blank(*panel_size(designs, drawn=bool(shapes)))
+        pattern_bars(figure, crushed, shapes)
         yield "patterns", figure
     if design_map.has_trends(designs):
         figure = case_plots.blank(*_size(designs))
@@ -105,6 +107,14 @@ def _sweep_figures(file: str, shown: Ranking, ranking: Ranking) -> Named:
         figure = case_plots.blank(12.0, 2.6 * len(winners))
         case_plots.winners(figure, winners)
         yield "winners", figure
+
+
+def _shapes(file: str, designs: DataFrame) -> dict[str, Any]:
+    """Frames of all designs by their id; none if there are too many to draw, or if one has none."""
+    if len(designs) > MAX_DRAWN:
+        return {}
+    found = {case_id: read_frames(file, case_id) for case_id in designs["case_id"]}
+    return found if all(found.values()) else {}
 
 
 def _some_scenes(ranking: Ranking, mode: str) -> Ranking:
