@@ -53,10 +53,10 @@ class Lattice(Table):
     box that lines of `line_width` fill, as slicers count. `mass` replaces `wall_thickness`, which
     `sized` computes. A lattice of kind "custom" is the `structure` in `file`, which is connected;
     box and thickness are measured from it.
-    slicer: the infill is laid as this slicer lays it, in a `pattern` of the slicer's own name, within
-    `perimeters`; the layers are stacked along `depth`. `infill`, or the `mass` as extruded, then sets
-    `fill_distance`, that of parallel lines. printable: what does not print is refused, by lines of
-    `line_width`, or as wide as the `nozzle` where lines are not used otherwise.
+    slicer: the infill is laid as this slicer lays it, in a `pattern` of the slicer's own name,
+    within `perimeters`; the layers are stacked along `depth`. `infill`, or the `mass` as extruded,
+    then sets `fill_distance`, that of parallel lines. printable: what does not print is refused, by
+    lines of `line_width`, or as wide as the `nozzle` where lines are not used otherwise.
     boundary "periodic": one period of an endless lattice, of size `width` x `height`. Opposite
     sides are tied to each other; the mean shear strain and the mean lateral stress are zero.
     """

@@ -15,9 +15,9 @@ from sweep.design.drawing import (
     Indices,
     clipped,
     on_outline,
-    with_outline,
     segments_of,
     welded,
+    with_outline,
 )
 from sweep.design.geometry import Geometry
 from sweep.design.infill import drawer

@@ -1,9 +1,9 @@
 """Infills as slicers print them: widths of lines, distances of lines, names of patterns.
 
 A line of width w and height h has rounded sides. PrusaSlicer and its children lay lines at a
-distance s = w - h (1 - pi/4), so that a line fills h s; Cura lays them w apart and extrudes w h. With a
-share r of infill, the parallel lines of a pattern are at a distance of n s / r, where n is the
-number of its directions; from flat to flat a hexagon of the honeycomb measures 2 s / r.
+distance s = w - h (1 - pi/4), so that a line fills h s; Cura lays them w apart and extrudes w h.
+With a share r of infill, the parallel lines of a pattern are at a distance of n s / r, where n is
+the number of its directions; from flat to flat a hexagon of the honeycomb measures 2 s / r.
 
 In a layer of honeycomb the walls of one direction are printed twice, side by side, and each layer
 is turned by 60 degrees: a wall is 2 s, s, s thick in turn, its mean thickness is 4 s / 3, its mean
@@ -22,11 +22,11 @@ ROUNDED = 1.0 - pi / 4.0
 class Pattern(NamedTuple):
     """A pattern that is the same in all layers.
 
-    family: of `design.infill`, or "" for parallel lines. directions: of its lines, n. side: the unit
-    of the family over the distance of lines. turn: of the family's drawing at a fill angle of 0,
-    rad. middle: of a drawing, in the unit of the family. opening: clear width of the narrowest cell
-    over the distance of lines. wall: mean thickness over s; gyration: radius of gyration of
-    its section over that of a wall of the mean thickness.
+    family: of `design.infill`, or "" for parallel lines. directions: of its lines, n. side: the
+    unit of the family over the distance of lines. opening: clear width of the narrowest cell over
+    the distance of lines. turn: of the family's drawing at a fill angle of 0, rad. middle: of the
+    drawing, in the unit of the family. wall: mean thickness over s; gyration: radius of gyration of
+    the section over that of a rectangle of the mean thickness.
     """
 
     family: str

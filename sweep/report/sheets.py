@@ -42,6 +42,12 @@ BEYOND = """\
 !: beyond the model: an element is shorter than 0.7 of its rest length, or the lattice is compressed
 to less than its solid height, or a wall is broken (the column message says at which strain). Do not
 trust this result."""
+PRINTED = """\
+print g: mass as the slicer extrudes it, crossings twice. Budgets, panels and J/g count it; for
+designs without a slicer they count mass."""
+UNPRINTABLE = """\
+p: does not print as drawn (does_not_print): walls are no whole number of lines, or gaps are below
+one line of lattice.line_width, or of lattice.nozzle."""
 NO_PLACE = "No design has a place here."
 LONG_SPAN = 0.1  # of strain
 UNSURE = """\
@@ -58,6 +64,8 @@ MILLIMETRES = {
 }
 SHOWN_BY_NAME = {
     "lattice.kind",
+    "lattice.pattern",
+    "lattice.infill",
     "lattice.mass",
     "lattice.cells",
     "lattice.cells_x",
@@ -122,6 +130,8 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             notes=(
                 *((BEYOND,) if rows["beyond_model"].any() else ()),
                 *((CROSSED,) if rows["crossed"].any() else ()),
+                *((PRINTED,) if "print g" in columns else ()),
+                *((UNPRINTABLE,) if (_unprintable(rows) != "").any() else ()),
                 *((UNSURE,) if "~" in "".join(columns.get("pack %", ())) else ()),
                 *((EARLY,) if _stops_early(rows, ranking).any() else ()),
                 *_cut_off(rows),
@@ -171,7 +181,13 @@ def _places(rows: DataFrame) -> Series:
         places += rows["tied"].map({True: "="}).fillna("")
     pareto = rows["pareto"].map({True: "*", False: " "})
     beyond = rows["beyond_model"].map({True: "!", False: ""})
-    return places + pareto + beyond + rows["crossed"].map({True: "x", False: ""})
+    crossed = rows["crossed"].map({True: "x", False: ""})
+    return places + pareto + beyond + crossed + _unprintable(rows).map(lambda why: "p" * bool(why))
+
+
+def _unprintable(rows: DataFrame) -> Series:
+    """What of each design does not print, in words; empty for results of older versions."""
+    return rows.get("does_not_print", Series("", rows.index))
 
 
 def _cut_off(rows: DataFrame) -> Iterator[str]:
@@ -229,8 +245,11 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
     columns = {}
     if _varies(among, "lattice_kind"):
         columns["pattern"] = frame["lattice_kind"].astype(str)
-    if _varies(among, "cells_x", "cells_y"):
+    laid = "infill_share" in frame and frame["infill_share"].notna().all()  # cells have no number
+    if _varies(among, "cells_x", "cells_y") and not laid:
         columns["cells"] = frame["cells_x"].astype(str) + " x " + frame["cells_y"].astype(str)
+    if "infill_share" in frame and _varies(among, "infill_share"):
+        columns["infill %"] = (100.0 * frame["infill_share"]).map("{:.3g}".format)
     for name, head in MILLIMETRES.items():
         if _varies(among, name):
             columns[head] = (frame[name] * 1e3).map("{:.3g}".format)
@@ -269,9 +288,14 @@ def _with_noun(head: str, text: str) -> str:
 def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     """Columns of measured values; the sorted column is always among them."""
     columns = {"mass g": numerals(rows["mass_g"])}
+    if "counted_mass_g" in rows:
+        columns["print g"] = numerals(rows["printed_mass_g"])
     if "panel_mass_g" in rows:
         columns["panel g"] = numerals(rows["panel_mass_g"])
-    mode, shown = rows["loading_mode"].iloc[0], {"mass_g", "panel_mass_g"}
+    mode, shown = (
+        rows["loading_mode"].iloc[0],
+        {"mass_g", "printed_mass_g", "counted_mass_g", "panel_mass_g"},
+    )
     if mode in LEAST:
         columns |= _under_load(rows) if mode == "force" else _struck(rows)
         shown |= {LEAST[mode]}

@@ -11,9 +11,9 @@ section, which is turned from the axis by g = p (a_1 + a_2),
 
     e = l / h - 1 + (2 b_1^2 - b_1 b_2 + 2 b_2^2) / 30 - g^2 / 2.
 
-A wall whose layers have unequal thicknesses (`Network.gyration`, i) has t of the mean area, I of the
-mean second moment, i^2 t^3 / 12, and fibres i times as far from its centre line; its joints are
-stiffer in bending by i^2.
+A wall whose layers have unequal thicknesses (`Network.gyration`, i) has the mean area, of a
+thickness t, the mean second moment I = i^2 t^3 / 12, and fibres i times as far from its centre
+line; its joints are stiffer in bending by i^2.
 
 A solid joint is an element of a stiffness of its own (`joints`), which yields along its chord as a
 wall of another area.

@@ -93,7 +93,7 @@ def test_only_walls_of_honeycomb_bend_otherwise():
 
 
 def test_crossings_are_extruded_twice():
-    """The union of a grid is less by a square of a line at every crossing, and where it overlaps."""
+    """The union has less than is extruded: at crossings, and where lines reach the outline."""
     drawn = geometry("grid", angle=0.0, perimeters=1)
     network = build_network(drawn)
     lines = 2 * 10.0  # 20 mm at 4.07 mm: 5 lines each way, one in the middle

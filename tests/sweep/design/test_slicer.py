@@ -15,7 +15,7 @@ def laid(pattern, share, line=LINE):
 
 
 def test_a_line_with_round_sides_fills_less_than_its_width():
-    assert LINE == pytest.approx(0.407e-3, abs=0.0005e-3)
+    assert pytest.approx(0.407e-3, abs=0.0005e-3) == LINE
     assert line_of("orca", 0.45e-3, 0.2e-3) == LINE
     assert line_of("cura", 0.45e-3, 0.2e-3) == 0.45e-3
 
