@@ -249,7 +249,7 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
     if _varies(among, "cells_x", "cells_y") and not laid:
         columns["cells"] = frame["cells_x"].astype(str) + " x " + frame["cells_y"].astype(str)
     if "infill_share" in frame and _varies(among, "infill_share"):
-        columns["infill %"] = (100.0 * frame["infill_share"]).map("{:.3g}".format)
+        columns["infill %"] = (100.0 * frame["infill_share"]).round(1).map(short)
     for name, head in MILLIMETRES.items():
         if _varies(among, name):
             columns[head] = (frame[name] * 1e3).map("{:.3g}".format)
