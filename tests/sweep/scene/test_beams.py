@@ -93,7 +93,7 @@ def test_a_printed_honeycomb_bends_as_its_layers_do():
     np.testing.assert_allclose(found.rigidity[between], expected, rtol=1e-12)
     bend = build_bend(mesh, found, case.model_copy(update={"material": Material()}))
     across = bend.spread[0, between] * mesh.rest_length[between]
-    fibres = 2.0 * bend.volume[between] / mesh.rest_length[between] * across**2  # at both sides
+    fibres = 4.0 * bend.volume[between] / mesh.rest_length[between] * across**2  # two pairs
     np.testing.assert_allclose(Y * fibres, expected, rtol=1e-12)
     even = build_beams(replace(mesh, gyration=np.ones_like(mesh.thickness)), arms, case)
     joints = infill & found.joint & (even.stiffness[0] > 0.0)
