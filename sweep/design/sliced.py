@@ -1,7 +1,8 @@
 """The network that a slicer prints: its infill within a box of perimeters, and what is extruded.
 
 A joint of the pattern is in the middle of the box, or a cell of the honeycomb; slicers place the
-pattern otherwise. Joints nearer to one another than a line are one.
+pattern otherwise. Joints nearer to one another than a line are one, and so are those between which
+less than a line is open beside the perimeters.
 """
 
 from functools import lru_cache
@@ -31,9 +32,8 @@ CLOSE = 5e-3  # relative error allowed in a mass, where lines appear all at once
 def build_sliced(geometry: Geometry) -> Network:
     """The infill cut at the perimeters and joined to them."""
     sliced, box = _sliced(geometry), np.array(geometry.box)
-    points, walls = _merged(
-        with_outline(infill(sliced, geometry.box), box, [True, True]), sliced, box
-    )
+    lines = with_outline(infill(sliced, geometry.box), box, [True, True])
+    points, walls = _merged(lines, box, sliced.line, 0.5 * max(geometry.outline))
     thickness = np.full(len(walls), geometry.wall_thickness)
     gyration = np.full(len(walls), PATTERNS[sliced.pattern].gyration)
     for axis, outline in enumerate(geometry.outline):
@@ -87,22 +87,24 @@ def _upright(family: str) -> str | None:
     return "pointy" if family == "hex" else None
 
 
-def _merged(segments: Floats, sliced: Sliced, box: Floats) -> tuple[Floats, Indices]:
-    """Joints (j, 2) and walls (w, 2), without walls shorter than a line.
+def _merged(segments: Floats, box: Floats, line: float, half: float) -> tuple[Floats, Indices]:
+    """Joints (j, 2) and walls (w, 2), none shorter than a ``line``, with ``half`` the thickness of
+    the outline added beside it; all in m.
 
-    The joints of such walls become one: at a corner or on the outline if one of them is there, else
-    in the middle of them.
+    The joints of shorter walls become one: at a corner or on the outline if one of them is there,
+    else in the middle of them.
     """
     tolerance = TOLERANCE * box.max()
     points, walls = welded(segments, tolerance)
     for _ in range(len(walls)):
-        length = np.linalg.norm(np.diff(points[walls], axis=1)[:, 0], axis=1)
-        if length.min() >= sliced.line:
-            break
-        points = _joined(points, walls[length < sliced.line], box)
         ends = points[walls]
-        ends = ends[np.any(ends[:, 0] != ends[:, 1], axis=1)]
-        points, walls = welded(ends, tolerance)
+        length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        beside = np.any((ends == 0.0) | (ends == box), axis=(1, 2))
+        short = length < (1.0 - TOLERANCE) * (line + half * beside)
+        if not short.any():
+            break
+        ends = _joined(points, walls[short], box)[walls]
+        points, walls = welded(ends[np.any(ends[:, 0] != ends[:, 1], axis=1)], tolerance)
     return points, walls
 
 

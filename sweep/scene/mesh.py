@@ -110,13 +110,15 @@ def build_mesh(lattice: Lattice, solid: bool, platen: str | None) -> tuple[Mesh,
 def elements_of(network: Network, most: int, arms: Arms) -> Ints:
     """Number of equal elements of each wall, (w,): ``most``, or fewer between solid joints.
 
-    There none is shorter than `SHORTEST` thicknesses, below which a wall is no beam; nor is any in
-    what a slicer prints, whose infill cuts the perimeters into pieces of any length.
+    There none is shorter than `SHORTEST` thicknesses, below which a wall is no beam; in what a
+    slicer prints, than a thickness, as the infill cuts the perimeters into pieces of any length.
     """
     start, end = network.points[network.walls].swapaxes(0, 1)
     free = np.linalg.norm(end - start, axis=1) - arms.length.sum(axis=1)
-    fit = np.floor(free / (SHORTEST * network.wall_thickness)).astype(np.int64)
-    solid = (arms.length > 0.0).any(axis=1) | (network.gyration is not None)
+    sliced = network.gyration is not None
+    least = (1.0 if sliced else SHORTEST) * network.wall_thickness
+    fit = np.floor(free / least).astype(np.int64)
+    solid = (arms.length > 0.0).any(axis=1) | sliced
     return np.where(solid, np.clip(fit, 1, most), most)
 
 

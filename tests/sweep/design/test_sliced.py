@@ -25,9 +25,9 @@ def geometry(pattern, share=0.2, angle=45.0, size=20e-3, perimeters=2, line=LINE
 
 def infill_density(pattern, share, line=LINE):
     """Share of a large part that is extruded, without its perimeters."""
-    drawn = geometry(pattern, share, size=0.5, perimeters=0, line=line)
+    drawn = geometry(pattern, share, size=0.25, perimeters=0, line=line)
     drawn = drawn._replace(sliced=drawn.sliced._replace(inset=0.0))
-    return extruded_area(drawn) / 0.25
+    return extruded_area(drawn) / 0.25**2
 
 
 @pytest.mark.parametrize(("share", "printed"), [(0.1, 13.0), (0.2, 25.3), (0.35, 42.6)])
@@ -38,13 +38,13 @@ def test_honeycomb_extrudes_more_than_it_says(share, printed):
 @pytest.mark.parametrize("pattern", [name for name in PATTERNS if name != "honeycomb"])
 @pytest.mark.parametrize("share", [0.1, 0.35])
 def test_other_patterns_extrude_what_they_say(pattern, share):
-    assert infill_density(pattern, share) == pytest.approx(share, rel=2e-3)
+    assert infill_density(pattern, share) == pytest.approx(share, rel=5e-3)
 
 
 def test_lines_of_cura_are_as_far_apart_as_they_are_wide():
     """With w instead of s: fewer lines, of which each extrudes more."""
     width = line_of("cura", 0.4e-3, 0.2e-3)
-    assert infill_density("grid", 0.2, width) == pytest.approx(0.2, rel=2e-3)
+    assert infill_density("grid", 0.2, width) == pytest.approx(0.2, rel=5e-3)
     assert distance_of("grid", 0.2, width) == pytest.approx(2 * 0.4e-3 / 0.2)
 
 
@@ -69,7 +69,11 @@ def test_networks_are_in_one_piece_and_have_no_slivers(pattern, angle, share):
     points, walls = network.points, network.walls
     graph = coo_array((np.ones(len(walls)), walls.T), shape=(len(points),) * 2)
     assert connected_components(graph, directed=False)[0] == 1
-    assert np.linalg.norm(np.diff(points[walls], axis=1)[:, 0], axis=1).min() >= LINE
+    ends = points[walls]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    beside = np.any((ends == 0.0) | (ends == 20e-3), axis=(1, 2))
+    assert length.min() >= LINE
+    assert length[beside].min() > (2.0 - 1e-6) * LINE  # a line beside half of two perimeters
     assert (points.min(), points.max()) == (0.0, 20e-3)
     for x, y in ((0.0, 0.0), (20e-3, 0.0), (0.0, 20e-3), (20e-3, 20e-3)):
         assert ((points == (x, y)).all(axis=1)).sum() == 1
