@@ -65,7 +65,6 @@ MILLIMETRES = {
 SHOWN_BY_NAME = {
     "lattice.kind",
     "lattice.pattern",
-    "lattice.infill",
     "lattice.mass",
     "lattice.cells",
     "lattice.cells_x",
@@ -249,7 +248,8 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
     if _varies(among, "cells_x", "cells_y") and not laid:
         columns["cells"] = frame["cells_x"].astype(str) + " x " + frame["cells_y"].astype(str)
     if "infill_share" in frame and _varies(among, "infill_share"):
-        columns["infill %"] = (100.0 * frame["infill_share"]).round(1).map(short)
+        share = (100.0 * frame["infill_share"]).map("{:.3g}".format)
+        columns["infill %"] = share.where(frame["infill_share"].notna(), "")
     for name, head in MILLIMETRES.items():
         if _varies(among, name):
             columns[head] = (frame[name] * 1e3).map("{:.3g}".format)
@@ -257,8 +257,9 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
         columns["material"] = frame["material"].astype(str)
     if _varies(among, "material_memory"):
         columns["memory"] = frame["material_memory"].astype(str)
+    shown = SHOWN_BY_NAME | ({"lattice.infill"} if "infill %" in columns else set())
     for key in frame:
-        if "." in key and key not in SHOWN_BY_NAME and not key.startswith(ASSUMPTIONS):
+        if "." in key and key not in shown and not key.startswith(ASSUMPTIONS):
             columns[key.split(".")[-1].replace("_", " ")] = frame[key].map(short)
     return columns
 
@@ -282,6 +283,8 @@ def _with_noun(head: str, text: str) -> str:
     """A value with the head of its column: "wall mm", "0.8" -> "wall 0.8 mm"."""
     if head in MILLIMETRES.values():
         return f"{head.removesuffix('mm')}{text} mm"
+    if head == "infill %":
+        return f"{text} % infill"
     return text if head in ("material", "pattern") else f"{head} {text}"
 
 
@@ -292,10 +295,8 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
         columns["print g"] = numerals(rows["printed_mass_g"])
     if "panel_mass_g" in rows:
         columns["panel g"] = numerals(rows["panel_mass_g"])
-    mode, shown = (
-        rows["loading_mode"].iloc[0],
-        {"mass_g", "printed_mass_g", "counted_mass_g", "panel_mass_g"},
-    )
+    shown = {"mass_g", "printed_mass_g", "counted_mass_g", "panel_mass_g"}
+    mode = rows["loading_mode"].iloc[0]
     if mode in LEAST:
         columns |= _under_load(rows) if mode == "force" else _struck(rows)
         shown |= {LEAST[mode]}

@@ -38,13 +38,13 @@ def test_honeycomb_extrudes_more_than_it_says(share, printed):
 @pytest.mark.parametrize("pattern", [name for name in PATTERNS if name != "honeycomb"])
 @pytest.mark.parametrize("share", [0.1, 0.35])
 def test_other_patterns_extrude_what_they_say(pattern, share):
-    assert infill_density(pattern, share) == pytest.approx(share, rel=5e-3)
+    assert infill_density(pattern, share) == pytest.approx(share, rel=2e-3)
 
 
 def test_lines_of_cura_are_as_far_apart_as_they_are_wide():
     """With w instead of s: fewer lines, of which each extrudes more."""
     width = line_of("cura", 0.4e-3, 0.2e-3)
-    assert infill_density("grid", 0.2, width) == pytest.approx(0.2, rel=5e-3)
+    assert infill_density("grid", 0.2, width) == pytest.approx(0.2, rel=2e-3)
     assert distance_of("grid", 0.2, width) == pytest.approx(2 * 0.4e-3 / 0.2)
 
 
