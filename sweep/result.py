@@ -43,6 +43,10 @@ OLDER: dict[str, float | int | str] = {
     "dissipated_material_J": nan,
     "dissipated_friction_J": nan,
     "solid_joint_share": nan,
+    "printed_mass_g": nan,
+    "infill_share": nan,
+    "slicer_settings": "",
+    "does_not_print": "",
 }
 """Values of columns that rows of older versions do not have.
 
@@ -96,10 +100,17 @@ COLUMNS: dict[str, Column] = {
     "message": Column(
         "", "why the case did not converge and what to try, or where it broke; else empty"
     ),
-    "lattice_kind": Column("", "family of the infill pattern"),
+    "lattice_kind": Column("", "family of the infill pattern, or pattern of the slicer"),
     "cells_x": Column("1", "cells across the width"),
     "cells_y": Column("1", "cells over the height"),
     "wall_thickness_m": Column("m", "thickness of a wall"),
+    "infill_share": Column("1", "share of infill in a slicer's words; NaN without lattice.slicer"),
+    "slicer_settings": Column(
+        "", "settings of the slicer; those nearest to a design without one, if there are any"
+    ),
+    "does_not_print": Column(
+        "", "walls that are no whole number of lines, gaps below a line; empty if all prints"
+    ),
     "width_m": Column("m", "width over centre lines"),
     "height_m": Column("m", "height over centre lines"),
     "depth_m": Column("m", "depth of the walls, out of the plane"),
@@ -121,6 +132,12 @@ COLUMNS: dict[str, Column] = {
     ),
     "contact_model": Column("", "how walls touch: none, barrier or position_based"),
     "mass_g": Column("g", "density x exact area of the printed walls x depth", "less"),
+    "printed_mass_g": Column(
+        "g",
+        "mass as the slicer extrudes it, crossings twice; budgets and columns per gram count it; "
+        "NaN without lattice.slicer",
+        "less",
+    ),
     "relative_density": Column("1", "printed area / area of the bounding box", "less"),
     "absorbed_energy_J": Column(
         "J", "work done on the lattice until release, full stroke or stop", "more"
@@ -164,7 +181,7 @@ COLUMNS: dict[str, Column] = {
         "lost energy / absorbed energy; of an impact, / energy of the striker at first touch",
         "more",
     ),
-    "lost_energy_J_per_g": Column("J/g", "lost energy / mass", "more"),
+    "lost_energy_J_per_g": Column("J/g", "lost energy / mass, as extruded if known", "more"),
     "second_cycle_share": Column(
         "1", "energy absorbed in the second cycle / in the first; NaN with a single cycle", "more"
     ),
@@ -172,7 +189,9 @@ COLUMNS: dict[str, Column] = {
         "J", "energy added by position-based contact; negative if it removes energy"
     ),
     "energy_residual_J": Column("J", "residual of the energy book"),
-    "specific_absorption_J_per_g": Column("J/g", "absorbed energy / mass", "more"),
+    "specific_absorption_J_per_g": Column(
+        "J/g", "absorbed energy / mass, as extruded if known", "more"
+    ),
     "plateau_stress_Pa": Column(
         "Pa",
         "mean nominal stress from about 5 % strain to densification or the end; NaN for dead loads",
@@ -311,6 +330,7 @@ LOAD_COLUMNS: dict[str, Column] = {
 """Further columns of the history of a custom structure in statics; the second only along arcs."""
 
 RANKING_COLUMNS: dict[str, Column] = {
+    "counted_mass_g": Column("g", "mass as extruded, or of the drawn walls without slicer", "less"),
     "panel_mass_g": Column("g", "mass of the specimens that fill the panel", "less"),
     "panel_energy_J": Column("J", "energy that the specimens of the panel absorb", "more"),
     "passed_on_N": Column("N", "greatest force while the counted energy is absorbed", "less"),
@@ -428,12 +448,18 @@ def _unit_of_key(name: str) -> str:
 
 def design_columns(case: Case) -> dict[str, float | int | str]:
     """The summary columns that are known before the case runs."""
+    from sweep.config.printable import what_does_not_print
+    from sweep.config.slicer_settings import slicer_settings
+
     lattice, loading = case.lattice, case.loading
     return {
-        "lattice_kind": lattice.kind,
+        "lattice_kind": lattice.pattern or lattice.kind,
         "cells_x": lattice.cells_x,
         "cells_y": lattice.cells_y,
         "wall_thickness_m": lattice.wall_thickness,
+        "infill_share": nan if lattice.slicer is None else lattice.infill or nan,
+        "slicer_settings": str(slicer_settings(case) or ""),
+        "does_not_print": what_does_not_print(lattice),
         "width_m": lattice.width,
         "height_m": lattice.height,
         "depth_m": lattice.depth,

@@ -206,6 +206,8 @@ def show(arguments: Namespace) -> int:
     folder = Path(arguments.out or Path(arguments.file).with_suffix("") / row["case_id"])
     say(f"case {row['case_id']}, {describe_case(row, summary)}: {row['status']}")
     say_all([row["message"]] if row["message"] else [])
+    say_all([f"printed by {row['slicer_settings']}"] if row["slicer_settings"] else [])
+    say_all([f"does not print: {row['does_not_print']}"] if row["does_not_print"] else [])
     with _writing(folder):
         pictures = publish_case(arguments.file, row, folder)
     say_all(pictures or ["nothing to draw: the case has no curves and no shapes"])
@@ -230,6 +232,8 @@ def _config(name: str) -> Config:
     config = load_config(name)
     if config.path != Path(name):
         say(f"example {name}: {config.path} (copy it to change it)")
+    if config.unprintable:
+        say(f"left out {config.unprintable:,} combinations, which do not print (lattice.printable)")
     return config
 
 

@@ -23,6 +23,7 @@ from sweep.config.unused_keys import still_unused
 MAX_CASES = 1_000_000
 SHOWN = 10  # faults that the text of a ConfigError lists
 _QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
+PRINTABLE = "lattice.printable"
 MAY_BE_UNUSED = ("material.poisson",)  # a property of the material, stated even in plane stress
 
 
@@ -85,9 +86,19 @@ class Config:
     path: Path | None = None
 
     @cached_property
+    def _expanded(self) -> tuple[tuple[Case, ...], int]:
+        cases, unprintable = _cases(self)
+        return tuple(cases), unprintable
+
+    @property
     def cases(self) -> tuple[Case, ...]:
         """The cases that `expand` returns, computed once."""
-        return tuple(_cases(self))
+        return self._expanded[0]
+
+    @property
+    def unprintable(self) -> int:
+        """Number of combinations that are left out, as they do not print (`lattice.printable`)."""
+        return self._expanded[1]
 
 
 def case_count(config: Config) -> int:
@@ -100,12 +111,14 @@ def expand(config: Config) -> list[Case]:
     """All cases; the first axis of the grid varies slowest, and of equal cases the first is kept.
 
     A key that no case uses is refused, since it has no effect. So is a table of [[exclude]] that
-    drops no case.
+    drops no case. Of several combinations, those that do not print are left out if
+    `lattice.printable` asks for it, but not all of them.
     """
     return list(config.cases)
 
 
-def _cases(config: Config) -> Iterable[Case]:
+def _cases(config: Config) -> tuple[Iterable[Case], int]:
+    """The cases, and the number of combinations that are left out as they do not print."""
     count = case_count(config)
     if count > MAX_CASES:
         line = f"[grid] makes {count:,} cases; allowed: at most {MAX_CASES:,} in one sweep"
@@ -114,10 +127,14 @@ def _cases(config: Config) -> Iterable[Case]:
     refused: dict[str, list[Fault]] = {}
     unused = dict.fromkeys(_keys_to_use(config), "")
     dropped: set[int] = set()
+    unprintable: list[Fault] = []
     for draft in _drafts(config):
         matching = {k for k, table in enumerate(config.exclude) if draft.matches(table)}
         dropped |= matching
         if matching:
+            continue
+        if count > 1 and [fault.key for fault in draft.faults] == [PRINTABLE]:
+            unprintable += draft.faults
             continue
         for fault in draft.faults:
             refused.setdefault(fault.key, []).append(fault)
@@ -126,6 +143,8 @@ def _cases(config: Config) -> Iterable[Case]:
             unused = still_unused(unused, draft.given, draft.case) if unused else unused
     if refused:
         raise ConfigError([_merged(faults, count) for faults in refused.values()])
+    if unprintable and not cases:
+        raise ConfigError([_merged(unprintable, count)])
     if not cases:
         line = f"[[exclude]] drops all {count:,} cases; allowed: tables that leave at least one"
         raise ConfigError([Fault("exclude", line)])
@@ -134,7 +153,7 @@ def _cases(config: Config) -> Iterable[Case]:
         faults += _without_effect(config, unused)
     if faults:
         raise ConfigError(faults)
-    return cases.values()
+    return cases.values(), len(unprintable)
 
 
 @dataclass(frozen=True)

@@ -17,10 +17,12 @@ from sweep.config.tables import Rank, Table
 
 ALIASES = {
     "lattice.cells": ("lattice.cells_x", "lattice.cells_y"),
+    "lattice.extrusion_width": ("lattice.line_width",),
     "loading.load_steps": ("solver.load_steps",),
 }
 RESOLVED = {
     "lattice.structure",
+    "lattice.fill_distance",
     "material.curve_strain",
     "material.curve_stress",
     "material.uncertain",
@@ -36,6 +38,7 @@ QUANTITIES = {
     "Pa": 'a stress with a unit, such as "12 MPa"',
     "kg": 'a mass with a unit, such as "25 g"',
     "1": 'a share in percent, such as "20 %"',
+    "rad": 'an angle with a unit, such as "45 deg"',
     "kg/m^3": 'a density with a unit, such as "1190 kg/m^3"',
 }
 _BOUNDS = {

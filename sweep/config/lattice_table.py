@@ -1,6 +1,6 @@
 """The table `lattice`: the specimen, and the values that follow from other keys."""
 
-from math import isclose, isnan
+from math import isclose, isnan, radians
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -12,9 +12,21 @@ from sweep.config.structure_file import read_structure
 from sweep.config.tables import Few, Length, Mass, Size, Table, refusal
 from sweep.design.geometry import Geometry
 from sweep.design.infill import families, trait
+from sweep.design.slicer import (
+    NO_PRISMS,
+    OVERLAP,
+    PATTERNS,
+    SLICERS,
+    WIDTH_PER_NOZZLE,
+    Pattern,
+    Sliced,
+    distance_of,
+    line_of,
+)
 
 CUSTOM = "custom"
-LINE_WIDTH, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m, of a 0.4 mm nozzle
+NOZZLE, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m
+FILL_ANGLE, PERIMETERS = radians(45.0), 2  # of a slicer
 # The factor of a lattice of 70 000 nodes takes 8 GB, and a step several minutes.
 MAX_NODES = 50_000
 MAX_ASPECT = 1000.0  # of the box; above it the computed areas lose their accuracy
@@ -31,6 +43,7 @@ Kind = Annotated[
 ]
 Lines = Annotated[int, Field(ge=0, le=100)]
 Share = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})]
+Angle = Annotated[float, Field(json_schema_extra={"unit": "rad"})]
 
 
 class Lattice(Table):
@@ -40,6 +53,10 @@ class Lattice(Table):
     box that lines of `line_width` fill, as slicers count. `mass` replaces `wall_thickness`, which
     `sized` computes. A lattice of kind "custom" is the `structure` in `file`, which is connected;
     box and thickness are measured from it.
+    slicer: the infill is laid as this slicer lays it, in a `pattern` of the slicer's own name,
+    within `perimeters`; the layers are stacked along `depth`. `infill`, or the `mass` as extruded,
+    then sets `fill_distance`, that of parallel lines. printable: what does not print is refused, by
+    lines of `line_width`, or as wide as the `nozzle` where lines are not used otherwise.
     boundary "periodic": one period of an endless lattice, of size `width` x `height`. Opposite
     sides are tied to each other; the mean shear strain and the mean lateral stress are zero.
     """
@@ -50,7 +67,7 @@ class Lattice(Table):
         "perimeters": 0,
         "solid_layers": 0,
     }
-    labels: ClassVar[tuple[str, ...]] = ("infill", "mass", "file")
+    labels: ClassVar[tuple[str, ...]] = ("infill", "mass", "file", "nozzle", "printable")
 
     kind: Kind = "square"
     file: str | None = None
@@ -65,6 +82,12 @@ class Lattice(Table):
     wall_thickness: Length = 0.8e-3
     mass: Mass | None = None
     infill: Share | None = None
+    slicer: Literal["prusa", "orca", "cura"] | None = None
+    pattern: str | None = None
+    fill_angle: Angle | None = None
+    fill_distance: Length | None = None
+    nozzle: Length = NOZZLE
+    printable: bool = False
     grading: Annotated[float, Field(gt=0)] = 1.0
     perimeters: Lines = 0
     line_width: Length | None = None
@@ -89,15 +112,19 @@ class Lattice(Table):
         if self.structure is not None:
             return self._measured(self.structure)
         be_in_proportion(self)
+        if self.slicer is not None:
+            return self._cut(SLICERS[self.slicer])
         lines = self.perimeters > 0 or self.infill is not None
         used = {
             "file": None,
             "orientation": (self.orientation or "pointy") if trait(self.kind, "ORIENTED") else None,
-            "line_width": (self.line_width or LINE_WIDTH) if lines else None,
+            "pattern": None,
+            "fill_angle": None,
+            "fill_distance": None,
+            "line_width": (self.line_width or self.nozzle) if lines else None,
             "layer_height": (self.layer_height or LAYER_HEIGHT) if self.solid_layers else None,
         }
-        for key, value in used.items():
-            object.__setattr__(self, key, value)  # the model is frozen
+        self._set(used)
         if self.infill is not None:
             self._fill(self.infill)
         self._be_small_enough()
@@ -120,9 +147,36 @@ class Lattice(Table):
             "nodes_per_wall": 0,
             "imperfection": 0.0,
         }
-        for key, value in measures.items():
-            object.__setattr__(self, key, value)  # the model is frozen
+        self._set(measures)
         return self
+
+    def _cut(self, patterns: dict[str, str]) -> Self:
+        """The table of a lattice that a slicer fills; ``patterns``: those that it prints."""
+        be_laid(self, patterns)
+        width = self.nozzle * (1.0 if self.slicer == "cura" else WIDTH_PER_NOZZLE)
+        given = self.model_fields_set
+        used = {
+            "file": None,
+            "line_width": self.line_width or width,
+            "layer_height": self.layer_height or LAYER_HEIGHT,
+            "fill_angle": FILL_ANGLE if self.fill_angle is None else self.fill_angle,
+            "perimeters": self.perimeters if "perimeters" in given else PERIMETERS,
+        }
+        self._set(used)
+        be_lines(self)
+        thickness = self.printed_as.wall * self.line
+        self._follow("wall_thickness", thickness, f"{thickness:g} m, as lattice.slicer is given")
+        if self.infill is not None:
+            if self.mass is not None:
+                raise refusal("lattice.mass", self.mass, "none where lattice.infill is given")
+            self._set(laid(self, self.infill))
+            self._be_small_enough()
+            leave_openings(self)
+        return self
+
+    def _set(self, values: dict[str, Any]) -> None:
+        for key, value in values.items():
+            object.__setattr__(self, key, value)  # the model is frozen
 
     def _fill(self, share: float) -> None:
         """Fill in the cells and the wall thickness of a share of infill."""
@@ -168,6 +222,32 @@ class Lattice(Table):
             self.grading,
             self.outline,
             self.boundary == "periodic",
+            self._lines,
+        )
+
+    @property
+    def printed_as(self) -> Pattern:
+        """The pattern of a lattice with a slicer."""
+        return PATTERNS[SLICERS[self.slicer or "prusa"][self.pattern or ""]]
+
+    @property
+    def line(self) -> float:
+        """What one line fills (m); without a slicer its width."""
+        width = self.line_width or self.nozzle
+        if self.slicer is None:
+            return width
+        return line_of(self.slicer, width, self.layer_height or LAYER_HEIGHT)
+
+    @property
+    def _lines(self) -> Sliced | None:
+        if self.slicer is None or self.fill_distance is None:
+            return None
+        return Sliced(
+            SLICERS[self.slicer][self.pattern or ""],
+            self.fill_distance,
+            self.fill_angle or 0.0,
+            self.line,
+            (0.5 * self.perimeters - OVERLAP) * self.line,
         )
 
     @property
@@ -180,6 +260,11 @@ class Lattice(Table):
         """Numbers of joints and walls; of a custom structure, of nodes and elements."""
         if self.structure is not None:
             return len(self.structure.nodes_mm), sum(self.structure.pieces)
+        if self.slicer is not None:
+            from sweep.design.lattice import build_network
+
+            network = build_network(self.geometry)
+            return len(network.points), len(network.walls)
         if known := trait(self.kind, "counts"):
             return known(self.cells_x, self.cells_y)
         from sweep.design.drawing import counts, sketch
@@ -189,6 +274,8 @@ class Lattice(Table):
     @property
     def opening(self) -> float:
         """Clear width of the narrowest whole cell between centre lines, m."""
+        if self.slicer is not None:
+            return self.printed_as.opening * (self.fill_distance or 0.0)
         if known := trait(self.kind, "opening"):
             return known(self.width / self.cells_x, self.height / self.cells_y)
         from sweep.design.box import opening
@@ -207,7 +294,7 @@ class Lattice(Table):
     @property
     def outline(self) -> tuple[float, float]:
         """Thickness (m) of the outline: at the left and right sides, at the bottom and top."""
-        sides = self.perimeters * (self.line_width or 0.0)
+        sides = self.perimeters * self.line if self.perimeters else 0.0
         return sides, self.solid_layers * (self.layer_height or 0.0) or sides
 
     @property
@@ -241,6 +328,8 @@ def leave_openings(lattice: Lattice) -> None:
             raise refusal("lattice.infill", lattice.infill, allowed)
         allowed = f"below half the width of the narrowest cell, {limit:.4g} m here"
         raise refusal("lattice.wall_thickness", thickness, allowed)
+    if lattice.slicer is not None:
+        return
     gap = lattice.opening - thickness
     for axis, key in enumerate(("perimeters", "solid_layers")):
         outline, count = lattice.outline[axis], getattr(lattice, key)
@@ -250,11 +339,66 @@ def leave_openings(lattice: Lattice) -> None:
             raise refusal(f"lattice.{key}", count, allowed)
 
 
+def be_laid(lattice: Lattice, patterns: dict[str, str]) -> None:
+    """Refuse a pattern that is no prism of the slicer, and keys that a slicer has no use for."""
+    key, pattern, names = (
+        "lattice.pattern",
+        lattice.pattern,
+        ", ".join(map('"{}"'.format, patterns)),
+    )
+    if pattern is None:
+        raise refusal(key, None, f"{names}, as lattice.slicer is given")
+    if pattern not in patterns:
+        named = pattern.lower().replace(" ", "")
+        why, nearest = NO_PRISMS.get(named, ("", "grid"))
+        nearest = next((own for own, known in patterns.items() if known == nearest), "grid")
+        reason = f"; {pattern} is no prism, as {why}: the nearest is {nearest}" if why else ""
+        raise refusal(key, pattern, f"{names}{reason}")
+    if lattice.mass is None and lattice.infill is None:
+        raise refusal("lattice.infill", None, 'a share such as "20 %", or a lattice.mass')
+    fixed = {"kind": "square", "orientation": None, "grading": 1.0, "solid_layers": 0}
+    for name, value in fixed.items():
+        if getattr(lattice, name) != value:
+            allowed = f"none, as lattice.slicer is given and lattice.pattern is {pattern}"
+            raise refusal(f"lattice.{name}", getattr(lattice, name), allowed)
+
+
+def be_lines(lattice: Lattice) -> None:
+    """Refuse lines that are higher than wide, and perimeters that are absent or leave no room."""
+    width, height = lattice.line_width or 0.0, lattice.layer_height or 0.0
+    if height > width:
+        raise refusal("lattice.layer_height", height, f"at most the line width, {width:g} m")
+    most = int(0.5 * min(lattice.width, lattice.height) / lattice.line)
+    if not 1 <= lattice.perimeters < most:
+        allowed = f"1 to {most - 1}, as lattice.slicer is given: perimeters hold the infill"
+        raise refusal("lattice.perimeters", lattice.perimeters, allowed)
+
+
+def laid(lattice: Lattice, share: float) -> dict[str, Any]:
+    """What follows from a share of infill: the distance of lines, and about how many cells fit."""
+    pattern = SLICERS[lattice.slicer or ""][lattice.pattern or ""]
+    distance = distance_of(pattern, share, lattice.line)
+    cells = {
+        f"cells_{axis}": max(1, round(size / distance))
+        for axis, size in (("x", lattice.width), ("y", lattice.height))
+    }
+    if cells["cells_x"] * cells["cells_y"] > MAX_NODES:
+        allowed = f"a share whose lines make at most {MAX_NODES:,} cells in this box"
+        raise refusal("lattice.infill", share, allowed)
+    for key, value in cells.items():
+        if key in lattice.model_fields_set and getattr(lattice, key) != value:
+            allowed = f"{value}, as lattice.slicer is given"
+            raise refusal(f"lattice.{key}", getattr(lattice, key), allowed)
+    return {"infill": share, "fill_distance": distance, **cells}
+
+
 def repeat(lattice: Lattice) -> None:
     """Refuse a lattice that cannot be the period of an endless one."""
     endless = 'if lattice.boundary is "periodic"'
     if lattice.kind == CUSTOM:
         raise refusal("lattice.boundary", "periodic", '"free" if lattice.kind is "custom"')
+    if lattice.slicer is not None:
+        raise refusal("lattice.boundary", "periodic", '"free" if lattice.slicer is given')
     for key, value in {**lattice.neutral, "infill": None}.items():
         if key != "boundary" and getattr(lattice, key) != value:
             wanted = "none" if value is None else f"{value:g}"
@@ -269,6 +413,8 @@ def sized(lattice: Lattice, density: float) -> Lattice:
     """The lattice with the wall thickness that gives its `mass`; `density` in kg/m^3."""
     if lattice.mass is None or lattice.structure is not None:
         return lattice
+    if lattice.slicer is not None:
+        return _filled(lattice, density)
     from sweep.design.sizing import thickness_for
 
     thickness, light, heavy = thickness_for(
@@ -282,5 +428,27 @@ def sized(lattice: Lattice, density: float) -> Lattice:
         allowed = f"{thickness:.6g} m at the mass given; give one of them"
         raise refusal("lattice.wall_thickness", lattice.wall_thickness, allowed)
     made = lattice.model_copy(update={"wall_thickness": thickness})
+    leave_openings(made)
+    return made
+
+
+def _filled(lattice: Lattice, density: float) -> Lattice:
+    """The lattice with the share of infill with which its `mass` is extruded."""
+    from sweep.design.sliced import LEAST_SHARE, share_for
+
+    wanted = lattice.mass or 0.0
+    pattern = lattice.printed_as
+    most = 0.5 * pattern.opening * pattern.directions / pattern.wall
+    first = lattice.model_copy(update=laid(lattice, LEAST_SHARE))
+    per_area = density * lattice.depth
+    share, *bounds = share_for(first.geometry, wanted / per_area, (1.0 - 1e-9) * most)
+    if isnan(share):
+        light, heavy = (per_area * area for area in bounds)
+        allowed = f"between {light:.4g} kg and {heavy:.4g} kg as extruded with this pattern"
+        if light < wanted < heavy:
+            allowed = "another mass: there a line along a side appears; or another fill_angle"
+        raise refusal("lattice.mass", lattice.mass, allowed)
+    made = lattice.model_copy(update=laid(lattice, share))
+    made._be_small_enough()
     leave_openings(made)
     return made

@@ -12,6 +12,7 @@ from typing import Any
 from pydantic_core import PydanticCustomError
 
 from sweep.config.lattice_table import Lattice, sized
+from sweep.config.printable import be_printable
 from sweep.config.solver_defaults import (
     ARCS,
     IN_TIME,
@@ -43,6 +44,7 @@ def resolve(
     try:
         if sound:
             found["lattice"] = sized(found["lattice"], found["material"].density)
+            be_printable(found["lattice"])
         material = found["material"]
         settled = _settled(
             (material.relaxes, material.remembers),

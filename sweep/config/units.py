@@ -46,6 +46,8 @@ joule = newton * meter = J
 bar = 1e5 * pascal
 psi = pound_force / inch ** 2
 percent = 0.01 = %
+radian = [angle] = rad
+degree = 3.14159265358979323846 / 180 * radian = deg = degrees
 """
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 

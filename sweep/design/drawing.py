@@ -64,7 +64,7 @@ def joints_and_walls(sketch: Sketch) -> tuple[Floats, Indices]:
     if sketch.closed or sketch.capped:
         inside = np.all((segments[..., 0] >= 0.0) & (segments[..., 0] <= box[0]), axis=1)
         segments = segments if sketch.closed else segments[inside]
-        segments = _outlined(segments, box, [sketch.closed, True])
+        segments = with_outline(segments, box, [sketch.closed, True])
     points, walls = welded(segments, tolerance)
     points.flags.writeable = walls.flags.writeable = False
     return points, walls
@@ -145,13 +145,13 @@ def _snapped(segments: Floats, box: Floats, tolerance: float) -> Floats:
     return segments
 
 
-def _outlined(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
+def with_outline(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
     """Segments clipped at the sides of the box, and these sides; ``axes``: in x, in y.
 
     The outline has joints at its corners and wherever a segment ends on it.
     """
     tolerance = TOLERANCE * box.max()
-    segments = _snapped(_clipped(segments, box, axes), box, tolerance)
+    segments = _snapped(clipped(segments, box, axes), box, tolerance)
     lines = [(axis, side) for axis in (0, 1) if axes[axis] for side in (0.0, box[axis])]
     outline = []
     for axis, side in lines:
@@ -164,7 +164,7 @@ def _outlined(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
     return np.concatenate([segments, *outline])
 
 
-def _clipped(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
+def clipped(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
     """The parts of segments inside the box, without segments that lie on its sides."""
     start, along = segments[:, 0], segments[:, 1] - segments[:, 0]
     enter, leave = np.zeros(len(segments)), np.ones(len(segments))

@@ -2,6 +2,8 @@
 
 from typing import NamedTuple
 
+from sweep.design.slicer import Sliced
+
 
 class Geometry(NamedTuple):
     """A family of infill in a box; lengths in m.
@@ -9,7 +11,8 @@ class Geometry(NamedTuple):
     kind, orientation: as in `infill`. cells: columns and rows. box: width and height over centre
     lines, those of one period if ``periodic``. grading: thickness of the walls at the top over
     that at the bottom. outline: thickness of the walls round the infill, at the left and right
-    sides and at the bottom and top; 0: no outline.
+    sides and at the bottom and top; 0: no outline. sliced: how a slicer lays the infill; then kind,
+    orientation and cells have no meaning.
     """
 
     kind: str
@@ -20,3 +23,4 @@ class Geometry(NamedTuple):
     grading: float = 1.0
     outline: tuple[float, float] = (0.0, 0.0)
     periodic: bool = False
+    sliced: Sliced | None = None

@@ -1,4 +1,4 @@
-"""The lattice as drawn: the infill of a box, or one period of an endless one."""
+"""The lattice as drawn: the infill of a box, one period of an endless one, or a slicer's."""
 
 from functools import lru_cache
 
@@ -6,9 +6,12 @@ from sweep.design.box import build_box
 from sweep.design.geometry import Geometry
 from sweep.design.network import Network
 from sweep.design.period import build_period
+from sweep.design.sliced import build_sliced
 
 
 @lru_cache(maxsize=1024)
 def build_network(geometry: Geometry) -> Network:
     """The joints and walls of a lattice."""
+    if geometry.sliced is not None:
+        return build_sliced(geometry)
     return build_period(geometry) if geometry.periodic else build_box(geometry)

@@ -1,6 +1,6 @@
 """A network of walls as drawn: joints, walls, printed area and mass."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -15,7 +15,8 @@ class Network:
 
     points (j, 2): joints in m; walls (w, 2): the two joints of each wall; wall_thickness (w,) in m.
     bottom, top: the joints of least and of greatest y, from left to right. Platens hold these
-    joints; without a platen a dead load acts on the top ones.
+    joints; without a platen a dead load acts on the top ones. gyration (w,): radius of gyration of
+    the section of each wall over that of a rectangle of its thickness; None: 1.
     """
 
     points: Floats
@@ -23,6 +24,7 @@ class Network:
     wall_thickness: Floats
     bottom: Indices
     top: Indices
+    gyration: Floats | None = field(default=None, kw_only=True)
 
     @cached_property
     def printed_area(self) -> float:

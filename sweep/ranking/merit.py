@@ -65,6 +65,7 @@ def merits(
 ) -> tuple[DataFrame, Compared]:
     """Rows with the compared columns added, and the names of these columns.
 
+    A budget counts the mass as extruded where there is a slicer (`counted_mass_g`).
     Other added columns: `passed_on_N`, the greatest force while that energy is absorbed;
     `returned_share`, returned energy / work of the whole crush; `beyond_model`; `crossed`; and
     errors and corrections of added columns, if the energy has them.
@@ -75,27 +76,37 @@ def merits(
         )
     energy, force, until = _counted(finished, by, allowed_force)
     per_gram = f"{energy}_per_g".replace("absorbed_energy", "specific_absorption")
+    mass, grams = counted_mass(finished)
     within = finished["absorbed_energy_within_model_J"] * (1.0 + ROUND_OFF)
     added = {
-        per_gram: finished[energy] / finished["mass_g"],
+        mass: grams,
+        per_gram: finished[energy] / grams,
         "passed_on_N": force,
         "returned_share": finished["returned_energy_J"] / finished["absorbed_energy_J"],
         "beyond_model": (finished[energy] > within) | _through_solid(finished),
         "crossed": finished["max_crossings"] > 0,
     }
-    names = Compared("mass_g", energy, per_gram, until)
+    names = Compared(mass, energy, per_gram, until)
     factor = None if panel is None else panel_factor(finished, panel)
     for column in (error_column, correction_column):
         if (known := column(energy)) in finished:
-            added[column(per_gram)] = finished[known] / finished["mass_g"]
+            added[column(per_gram)] = finished[known] / grams
             added[column("passed_on_N")] = finished[column(str(force.name))]
             if factor is not None:
                 added[column("panel_energy_J")] = factor * finished[known]
     if factor is not None:
-        added["panel_mass_g"] = factor * finished["mass_g"]
+        added["panel_mass_g"] = factor * grams
         added["panel_energy_J"] = factor * finished[energy]
         names = names._replace(mass="panel_mass_g", energy="panel_energy_J")
     return finished.assign(**added), names
+
+
+def counted_mass(finished: DataFrame) -> tuple[str, Series]:
+    """The column of the mass that counts, and its values, g: as extruded if there is a slicer."""
+    printed = finished.get("printed_mass_g")
+    if printed is None or printed.isna().all():
+        return "mass_g", finished["mass_g"]
+    return "counted_mass_g", printed.fillna(finished["mass_g"])
 
 
 def _through_solid(finished: DataFrame) -> Series:

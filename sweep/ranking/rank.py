@@ -63,6 +63,7 @@ LEADING = [
     "ranked_error",
     "sharing",
     "contenders",
+    "counted_mass_g",
     "panel_mass_g",
     "panel_energy_J",
     "passed_on_N",
@@ -111,6 +112,7 @@ def rank(
     pareto : True if no design of the scene is lighter and absorbs as much, and none absorbs more
         and is as light; where `LEAST` is compared, the same with that column.
     ranked_by : the sorting column.
+    counted_mass_g : where designs have a slicer: mass as extruded, for others that of the walls.
     panel_mass_g, panel_energy_J : with a panel.
     passed_on_N : greatest force while the counted energy is absorbed.
     returned_share : returned energy / work of the whole crush.

@@ -116,7 +116,8 @@ def _until_packed(ax: Axes, row: Mapping[str, Any]) -> None:
 
 def _energy(joules: float, row: Mapping[str, Any]) -> str:
     """An energy of a case, in all and per gram."""
-    return f"{energy_text(joules)}, {three_digits(joules / row['mass_g'])} J/g"
+    grams = row["mass_g"] if np.isnan(row["printed_mass_g"]) else row["printed_mass_g"]
+    return f"{energy_text(joules)}, {three_digits(joules / grams)} J/g"
 
 
 def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 RAMP = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98))  # viridis: few to many cells
 SIGNS = "o^sDvP*Xh<>pd"
 LIKE_PATTERNS = {"circle": "o", "triangle": "^", "square": "s", "diamond": "D", "hex": "h"}
+LIKE_PATTERNS |= {"triangles": "^", "grid": "s", "honeycomb": "h", "stars": "*"}
 SIZES = 5  # greatest number of wall thicknesses in a legend
 AREAS = (15.0, 75.0)  # points^2: sign of the thinnest and of the thickest wall
 PLAIN = {"ls": "", "marker": "o", "ms": 6.0, "color": "#8a8a8a"}

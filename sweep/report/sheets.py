@@ -42,6 +42,12 @@ BEYOND = """\
 !: beyond the model: an element is shorter than 0.7 of its rest length, or the lattice is compressed
 to less than its solid height, or a wall is broken (the column message says at which strain). Do not
 trust this result."""
+PRINTED = """\
+print g: mass as the slicer extrudes it, crossings twice. Budgets, panels and J/g count it; for
+designs without a slicer they count mass."""
+UNPRINTABLE = """\
+p: does not print as drawn (does_not_print): walls are no whole number of lines, or gaps are below
+one line of lattice.line_width, or of lattice.nozzle."""
 NO_PLACE = "No design has a place here."
 LONG_SPAN = 0.1  # of strain
 UNSURE = """\
@@ -58,6 +64,7 @@ MILLIMETRES = {
 }
 SHOWN_BY_NAME = {
     "lattice.kind",
+    "lattice.pattern",
     "lattice.mass",
     "lattice.cells",
     "lattice.cells_x",
@@ -122,6 +129,8 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             notes=(
                 *((BEYOND,) if rows["beyond_model"].any() else ()),
                 *((CROSSED,) if rows["crossed"].any() else ()),
+                *((PRINTED,) if "print g" in columns else ()),
+                *((UNPRINTABLE,) if (_unprintable(rows) != "").any() else ()),
                 *((UNSURE,) if "~" in "".join(columns.get("pack %", ())) else ()),
                 *((EARLY,) if _stops_early(rows, ranking).any() else ()),
                 *_cut_off(rows),
@@ -171,7 +180,13 @@ def _places(rows: DataFrame) -> Series:
         places += rows["tied"].map({True: "="}).fillna("")
     pareto = rows["pareto"].map({True: "*", False: " "})
     beyond = rows["beyond_model"].map({True: "!", False: ""})
-    return places + pareto + beyond + rows["crossed"].map({True: "x", False: ""})
+    crossed = rows["crossed"].map({True: "x", False: ""})
+    return places + pareto + beyond + crossed + _unprintable(rows).map(lambda why: "p" * bool(why))
+
+
+def _unprintable(rows: DataFrame) -> Series:
+    """What of each design does not print, in words; empty for results of older versions."""
+    return rows.get("does_not_print", Series("", rows.index))
 
 
 def _cut_off(rows: DataFrame) -> Iterator[str]:
@@ -229,8 +244,12 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
     columns = {}
     if _varies(among, "lattice_kind"):
         columns["pattern"] = frame["lattice_kind"].astype(str)
-    if _varies(among, "cells_x", "cells_y"):
+    laid = "infill_share" in frame and frame["infill_share"].notna().all()  # cells have no number
+    if _varies(among, "cells_x", "cells_y") and not laid:
         columns["cells"] = frame["cells_x"].astype(str) + " x " + frame["cells_y"].astype(str)
+    if "infill_share" in frame and _varies(among, "infill_share"):
+        share = (100.0 * frame["infill_share"]).map("{:.3g}".format)
+        columns["infill %"] = share.where(frame["infill_share"].notna(), "")
     for name, head in MILLIMETRES.items():
         if _varies(among, name):
             columns[head] = (frame[name] * 1e3).map("{:.3g}".format)
@@ -238,8 +257,9 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
         columns["material"] = frame["material"].astype(str)
     if _varies(among, "material_memory"):
         columns["memory"] = frame["material_memory"].astype(str)
+    shown = SHOWN_BY_NAME | ({"lattice.infill"} if "infill %" in columns else set())
     for key in frame:
-        if "." in key and key not in SHOWN_BY_NAME and not key.startswith(ASSUMPTIONS):
+        if "." in key and key not in shown and not key.startswith(ASSUMPTIONS):
             columns[key.split(".")[-1].replace("_", " ")] = frame[key].map(short)
     return columns
 
@@ -263,15 +283,20 @@ def _with_noun(head: str, text: str) -> str:
     """A value with the head of its column: "wall mm", "0.8" -> "wall 0.8 mm"."""
     if head in MILLIMETRES.values():
         return f"{head.removesuffix('mm')}{text} mm"
+    if head == "infill %":
+        return f"{text} % infill"
     return text if head in ("material", "pattern") else f"{head} {text}"
 
 
 def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     """Columns of measured values; the sorted column is always among them."""
     columns = {"mass g": numerals(rows["mass_g"])}
+    if "counted_mass_g" in rows:
+        columns["print g"] = numerals(rows["printed_mass_g"])
     if "panel_mass_g" in rows:
         columns["panel g"] = numerals(rows["panel_mass_g"])
-    mode, shown = rows["loading_mode"].iloc[0], {"mass_g", "panel_mass_g"}
+    shown = {"mass_g", "printed_mass_g", "counted_mass_g", "panel_mass_g"}
+    mode = rows["loading_mode"].iloc[0]
     if mode in LEAST:
         columns |= _under_load(rows) if mode == "force" else _struck(rows)
         shown |= {LEAST[mode]}

@@ -24,6 +24,8 @@ def headline(row: Mapping[str, Any]) -> str:
     pattern, cells = row["lattice_kind"], f", {row['cells_x']} x {row['cells_y']} cells"
     if row["loading_mode"] == "custom":
         cells = ""
+    if row["infill_share"] > 0.0:  # NaN without a slicer
+        cells = f", {100.0 * row['infill_share']:.3g} % infill"
     wall = f"wall {1e3 * row['wall_thickness_m']:.3g} mm"
     return f"{pattern}{cells}, {wall}, {row['material']}\n{scene_label(DataFrame([row]))}"
 

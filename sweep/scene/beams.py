@@ -11,6 +11,10 @@ section, which is turned from the axis by g = p (a_1 + a_2),
 
     e = l / h - 1 + (2 b_1^2 - b_1 b_2 + 2 b_2^2) / 30 - g^2 / 2.
 
+A wall whose layers have unequal thicknesses (`Network.gyration`, i) has the mean area, of a
+thickness t, the mean second moment I = i^2 t^3 / 12, and fibres i times as far from its centre
+line; its joints are stiffer in bending by i^2.
+
 A solid joint is an element of a stiffness of its own (`joints`), which yields along its chord as a
 wall of another area.
 """
@@ -65,6 +69,8 @@ def build_beams(mesh: Mesh, arms: Arms, case: Case) -> Beams:
     material, depth, t, h = case.material, case.lattice.depth, mesh.thickness, mesh.rest_length
     modulus = plane_factors(material)[1] * material.modulus
     area, rigidity = depth * t, modulus * depth * t**3 / 12.0
+    if mesh.gyration is not None:
+        rigidity = rigidity * mesh.gyration**2
     rigid_in_shear = SHEAR_COEFFICIENT * material.modulus / (2.0 * (1.0 + material.poisson)) * area
     shear = np.where(arms.sheared[mesh.wall], 12.0 * rigidity / (rigid_in_shear * h**2), 0.0)
     if case.solver.element == "classical":
@@ -86,6 +92,8 @@ def build_beams(mesh: Mesh, arms: Arms, case: Case) -> Beams:
         )
         area[joint] = depth * h[joint] * along
         stiffness[:, joint] = modulus * depth * t[joint] ** 2 * across
+        if mesh.gyration is not None:
+            stiffness[:, joint] *= mesh.gyration[joint] ** 2
         arc[:, joint] = 0.0
     if not bends(case):
         arc, stiffness = np.zeros_like(arc), np.zeros_like(stiffness)

@@ -35,7 +35,7 @@ def _sections(mesh: Mesh, beams: Beams, case: Case) -> tuple[Floats, Floats, Flo
     k_s = 3 P / (1 + P)^2 Y' I / h.
     """
     h, by = mesh.rest_length, 1.0 / (1.0 + beams.shear)
-    across = FIBRE * mesh.thickness / h
+    across = FIBRE * mesh.thickness / h * (1.0 if mesh.gyration is None else mesh.gyration)
     along = ALONG[case.solver.element] * across * by
     volume = np.where(beams.joint, 0.0, 0.5 * OUTER * case.lattice.depth * mesh.thickness * h)
     shear = 3.0 * beams.shear * by**2 * beams.rigidity / h

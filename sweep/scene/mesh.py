@@ -23,7 +23,7 @@ class Mesh:
     The first nodes are the joints of the network. points (n, 2): nodes at rest, m. edges (m, 2):
     nodes of an element, in the direction of its wall. wall (m,): wall of an element. joint (m,):
     2 w or 2 w + 1 for the solid joint at either end of a wall w, else -1. thickness (m,) of an
-    element, m. n_joints: number of joints.
+    element, m. n_joints: number of joints. gyration (m,): as of `Network`.
     """
 
     points: Floats
@@ -32,6 +32,7 @@ class Mesh:
     joint: Ints
     thickness: Floats
     n_joints: int
+    gyration: Floats | None = None
 
     @cached_property
     def rest_length(self) -> Floats:
@@ -109,12 +110,15 @@ def build_mesh(lattice: Lattice, solid: bool, platen: str | None) -> tuple[Mesh,
 def elements_of(network: Network, most: int, arms: Arms) -> Ints:
     """Number of equal elements of each wall, (w,): ``most``, or fewer between solid joints.
 
-    There none is shorter than `SHORTEST` thicknesses, below which a wall is no beam.
+    There none is shorter than `SHORTEST` thicknesses, below which a wall is no beam; in what a
+    slicer prints, than a thickness, as the infill cuts the perimeters into pieces of any length.
     """
     start, end = network.points[network.walls].swapaxes(0, 1)
     free = np.linalg.norm(end - start, axis=1) - arms.length.sum(axis=1)
-    fit = np.floor(free / (SHORTEST * network.wall_thickness)).astype(np.int64)
-    solid = (arms.length > 0.0).any(axis=1)
+    sliced = network.gyration is not None
+    least = (1.0 if sliced else SHORTEST) * network.wall_thickness
+    fit = np.floor(free / least).astype(np.int64)
+    solid = (arms.length > 0.0).any(axis=1) | sliced
     return np.where(solid, np.clip(fit, 1, most), most)
 
 
@@ -160,6 +164,7 @@ def split_walls(
         joint=joint,
         thickness=np.repeat(network.wall_thickness, count),
         n_joints=len(network.points),
+        gyration=None if network.gyration is None else np.repeat(network.gyration, count),
     )
 
 

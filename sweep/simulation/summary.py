@@ -5,6 +5,7 @@ import numpy as np
 from sweep.config.case import Case, given
 from sweep.config.solver_defaults import given_or
 from sweep.design.network import mass, relative_density
+from sweep.design.sliced import extruded_area
 from sweep.result import absorbed_energy_column, design_columns
 from sweep.scene.mesh import Floats
 from sweep.scene.terms import Scene
@@ -121,12 +122,15 @@ def summarise(
     """
     curves = history | {"work_in_J": work_on_lattice(case, history)}
     loading = {name: column[:loading_rows] for name, column in curves.items()}
-    grams = 1e3 * mass(scene.network, case.lattice.depth, case.material.density)
+    drawn = 1e3 * mass(scene.network, case.lattice.depth, case.material.density)
+    printed = printed_mass(case)
+    grams = drawn if np.isnan(printed) else printed
     absorbed = float(loading["work_in_J"][-1])
     gaps = history["min_gap_m"][np.isfinite(history["min_gap_m"])]
     return {
         **design_columns(case),
-        "mass_g": grams,
+        "mass_g": drawn,
+        "printed_mass_g": printed,
         "relative_density": relative_density(scene.network, case.lattice.outer_size),
         "absorbed_energy_J": absorbed,
         **lost_columns(case, absorbed, returned(case, history, loading_rows), grams),
@@ -145,6 +149,13 @@ def summarise(
         **crush_columns(case, loading),
         **shape_columns(case, scene, frames, strains, loading),
     }
+
+
+def printed_mass(case: Case) -> float:
+    """Mass as a slicer extrudes it, g; NaN without a slicer."""
+    if case.lattice.slicer is None:
+        return np.nan
+    return 1e3 * case.material.density * case.lattice.depth * extruded_area(case.lattice.geometry)
 
 
 def returned(case: Case, history: dict[str, Floats], loading_rows: int) -> float:

@@ -21,7 +21,7 @@ def test_no_config_is_forgotten():
     """`thousand` is held by the bench, `others` by tests of their own."""
     names = {path.stem for path in CONFIGS.glob("*.toml")}
     others = {"custom", "extreme", "impact", "khatri_egan_square"}
-    assert names == others | {"armor", "infills", "reuse", "seed", "smoke", "thousand"}
+    assert names == others | {"armor", "infills", "reuse", "seed", "slicer", "smoke", "thousand"}
 
 
 def test_smoke_runs_from_end_to_end(tmp_path):
@@ -116,6 +116,20 @@ def test_reuse_softens_as_it_says():
     assert shares == pytest.approx([1.0, 0.79, 0.70], abs=0.01)
     lost = [1.0 + back / there for there, back, *_ in works]
     assert lost == pytest.approx([0.0, 0.38, 0.48], abs=0.01)
+
+
+def test_slicer_holds_its_numbers():
+    """Five infills of the same mass as extruded, of which honeycomb needs the least share."""
+    cases = expand(load_config(CONFIGS / "slicer.toml"))
+    glued = {case.lattice.pattern: case for case in cases if case.loading.platen == "glued"}
+    assert len(cases) == 2 * len(glued) == 10
+    shares = {name: case.lattice.infill for name, case in glued.items()}
+    assert shares["honeycomb"] == min(shares.values()) == pytest.approx(0.1655, rel=1e-3)
+    summary = simulate(glued["honeycomb"]).summary
+    assert summary["status"] == "converged"
+    assert summary["printed_mass_g"] == pytest.approx(3.0, rel=1e-9)
+    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
+    assert 1e3 * summary["absorbed_energy_until_packed_J"] == pytest.approx(743.0, rel=2e-3)
 
 
 def seed(model, hinges):

@@ -28,6 +28,9 @@ def a_case(**loading):
     """A stand-in with the attributes that a row of the design needs."""
     lattice = {"kind": "square", "cells_x": 3, "cells_y": 2, "wall_thickness": 8e-4}
     lattice |= {"width": 0.0125, "height": 0.0125, "depth": 0.012, "outer_size": (0.0133, 0.0133)}
+    lattice |= {"grading": 1.0, "nozzle": 4e-4, "opening": 4e-3, "boundary": "periodic"}
+    unused = ("orientation", "structure", "slicer", "pattern", "infill", "line_width")
+    lattice |= dict.fromkeys(unused)
     loads = {"mode": "force", "platen": "none", "force": 10.0, "stroke": None}
     loads |= dict.fromkeys(("striker_mass", "striker_speed", "energy", "cycles"))
     return SimpleNamespace(

@@ -231,6 +231,29 @@ def test_show_draws_the_case_whose_id_begins_so(capsys, tmp_path):
     assert "nothing to draw" in crumple(capsys, "show", file, "cd")[1]
 
 
+def test_show_tells_the_settings_of_the_slicer_and_what_does_not_print(capsys, tmp_path):
+    table = summary(
+        {"slicer_settings": "PrusaSlicer: stars, 20 %"},
+        {"does_not_print": "walls of 1.5 lines of 0.4 mm"},
+    )
+    file = write(tmp_path / "trial.h5", table)
+    _, out, _ = crumple(capsys, "show", file, "0000000000000000")
+    assert out.splitlines()[1] == "printed by PrusaSlicer: stars, 20 %"
+    _, out, _ = crumple(capsys, "show", file, "0000000000000001")
+    assert out.splitlines()[1] == "does not print: walls of 1.5 lines of 0.4 mm"
+
+
+def test_run_says_how_many_designs_do_not_print(capsys, tmp_path):
+    path = tmp_path / "trial.toml"
+    path.write_text(
+        "[lattice]\nprintable = true\n[loading]\nstrain = 0.1\n"
+        '[grid]\nlattice.wall_thickness = ["0.4 mm", "0.5 mm", "0.6 mm"]'
+    )
+    status, out, _ = crumple(capsys, "run", str(path), "--dry-run")
+    assert status == 0
+    assert out.startswith("left out 2 combinations, which do not print (lattice.printable)\n")
+
+
 def test_show_without_a_case_lists_what_makes_them_differ(capsys, tmp_path):
     file = write(tmp_path / "trial.h5", summary({"cells_x": 2}, {"platen": "contact"}))
     _, out, _ = crumple(capsys, "show", file)

@@ -14,6 +14,8 @@ from sweep.report.sheets import (
     LOSSY,
     MIXED,
     UNSURE,
+    design_labels,
+    design_text,
     legend,
     ranking_sheets,
 )
@@ -154,3 +156,30 @@ def test_budgets_with_the_same_places_share_a_section():
     ranking = ranked(table, budget=["1 g", "3 g", "5 g", "9 g"], top=1)
     sheet = next(ranking_sheets(ranking, table))
     assert [row[:2] for row in sheet.rows] == [["1-5", "1*"], ["9", "1*"]]
+
+
+def test_what_does_not_print_is_marked():
+    table = summary(*designs([1.0, 2.0], [0.3, 0.1]))
+    table["does_not_print"] = ["", "walls of 1.5 lines of 0.4 mm"]
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert [row[0] for row in sheet.rows] == ["1*", "2 p"]
+    assert any("p: does not print as drawn" in note for note in sheet.notes)
+    table["does_not_print"] = ""
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert [row[0] for row in sheet.rows] == ["1*", "2 "]
+    assert not any("does not print" in note for note in sheet.notes)
+
+
+def test_designs_of_a_slicer_are_told_by_their_share_instead_of_cells():
+    table = summary({"infill_share": 0.2, "cells_x": 5}, {"infill_share": 0.3}, {"cells_x": 4})
+    assert list(design_text(table, table)["infill %"]) == ["20", "30", ""]
+    assert [label.split(", ")[1] for label in design_labels(table, table)][:2] == [
+        "20 % infill",
+        "30 % infill",
+    ]
+    laid = table.head(2)
+    assert "cells" not in design_text(laid, laid)
+    table["lattice.infill"] = [0.2, 0.3, 0.25]
+    assert "infill" not in design_text(table, table)
+    table["infill_share"] = NAN
+    assert list(design_text(table, table)["infill"]) == ["0.2", "0.3", "0.25"]

@@ -59,6 +59,11 @@ def test_later_cycles_do_not_move_the_turn():
     assert last_loaded(again, {"loading_mode": "displacement"}) == 20
 
 
+def test_headline_of_a_slicers_design_has_its_share():
+    (_, row) = next(summary({"lattice_kind": "stars", "infill_share": 0.204}).iterrows())
+    assert headline(row).startswith("stars, 20.4 % infill, wall 0.8 mm, ninjaflex")
+
+
 def test_headline_names_cells_wall_material_and_scene():
     (row,) = summary({"cells_y": 2}).to_dict("records")
     assert (

@@ -1,13 +1,16 @@
 """Constants of the elements: shear, arcs, and the factors of plane strain."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from sweep.config.case import Case, Lattice, Material, Solver
 from sweep.design.lattice import build_network
 from sweep.scene.beams import build_beams, contraction
+from sweep.scene.bending import build_bend
 from sweep.scene.joints import point_joints, solid_joints
-from sweep.scene.mesh import split_walls
+from sweep.scene.mesh import build_mesh, split_walls
 
 DEPTH, T, NU, Y = 12e-3, 0.8e-3, 0.4, 12e6
 MATERIAL = {"modulus": Y, "density": 1e3, "poisson": NU}
@@ -73,3 +76,29 @@ def test_contraction_across_a_fibre():
     material = {plane: Material(plane=plane, **MATERIAL) for plane in ("stress", "strain")}
     assert contraction(material["stress"]) == NU
     assert contraction(material["strain"]) == pytest.approx(NU / (1.0 - NU))
+
+
+def test_a_printed_honeycomb_bends_as_its_layers_do():
+    """Layers of 2 s, s and s: area 4 s, second moment (8 + 1 + 1) s^3 / 12, of three layers."""
+    lattice = Lattice(slicer="prusa", pattern="honeycomb", infill=0.2, width=20e-3, height=20e-3)
+    case = Case(lattice=lattice, material=Material(plane="stress", **MATERIAL))
+    mesh, arms = build_mesh(lattice, True, "glued")
+    found, line = build_beams(mesh, arms, case), lattice.line
+    infill = mesh.thickness < 1.5 * line
+    between = infill & ~found.joint
+    assert between.sum() > 100
+    np.testing.assert_allclose(found.area[between], 4.0 / 3.0 * line * DEPTH, rtol=1e-12)
+    layers = np.array([2.0, 1.0, 1.0]) * line
+    expected = Y * DEPTH * np.mean(layers**3) / 12.0
+    np.testing.assert_allclose(found.rigidity[between], expected, rtol=1e-12)
+    bend = build_bend(mesh, found, case.model_copy(update={"material": Material()}))
+    across = bend.spread[0, between] * mesh.rest_length[between]
+    fibres = 4.0 * bend.volume[between] / mesh.rest_length[between] * across**2  # two pairs
+    np.testing.assert_allclose(Y * fibres, expected, rtol=1e-12)
+    even = build_beams(replace(mesh, gyration=np.ones_like(mesh.thickness)), arms, case)
+    joints = infill & found.joint & (even.stiffness[0] > 0.0)
+    assert joints.any()
+    ratio = found.stiffness[:, joints] / even.stiffness[:, joints]
+    np.testing.assert_allclose(ratio, 1.40625, rtol=1e-12)
+    walls = ~infill
+    np.testing.assert_array_equal(found.stiffness[:, walls], even.stiffness[:, walls])

@@ -83,3 +83,15 @@ def test_an_outer_row_has_the_nodes_of_its_walls(kind):
         row = row_nodes(network, mesh, joints)
         np.testing.assert_array_equal(row, np.flatnonzero(np.isclose(mesh.points[:, 1], y)))
         assert len(row) == {"square": 3 * 4 + 1, "hex": len(joints)}[kind]
+
+
+def test_pieces_of_a_perimeter_are_not_split_into_slivers():
+    """Its walls are as long as the infill leaves them; elements are as long as thick."""
+    lattice = Lattice(slicer="prusa", pattern="stars", infill=0.3, width=20e-3, height=20e-3)
+    for solid in (True, False):
+        mesh, _ = build_mesh(lattice, solid, "glued")
+        beams = np.flatnonzero(mesh.joint < 0)
+        pieces = np.bincount(mesh.wall[beams])[mesh.wall[beams]]
+        split = beams[pieces > 1]
+        assert len(split) > 100
+        assert (mesh.rest_length[split] >= (1.0 - 1e-9) * mesh.thickness[split]).all()

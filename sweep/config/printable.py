@@ -1,0 +1,56 @@
+"""What of a design does not print as drawn, by lines as wide as the nozzle lays them."""
+
+from collections.abc import Sequence
+
+from sweep.config.lattice_table import Lattice
+from sweep.config.tables import refusal
+
+TOLERANCE = 0.05  # of a line: how far a wall may be from a whole number of them
+ROUND_OFF = 1e-9
+
+
+def be_printable(lattice: Lattice) -> None:
+    """Refuse what does not print if the lattice is to be `printable`."""
+    wrong = what_does_not_print(lattice) if lattice.printable else ""
+    if wrong:
+        raise refusal("lattice.printable", True, f"false, as it has {wrong}")
+
+
+def what_does_not_print(lattice: Lattice) -> str:
+    """Walls that are no whole number of lines, and gaps narrower than one, in words; else empty.
+
+    The walls of a slicer are lines. Of a custom structure gaps are not known.
+    """
+    width = lattice.line_width or lattice.nozzle
+    walls = [thickness / width for thickness in _thicknesses(lattice)]
+    found = [lines for lines in walls if abs(lines - max(1, round(lines))) > TOLERANCE]
+    wrong = [f"walls of {_span(found)} lines"] if found else []
+    if lattice.structure is None and (gap := _gap(lattice)) < width * (1.0 - ROUND_OFF):
+        wrong.append(f"gaps of {gap / width:.2g} lines")
+    return " and ".join(wrong) + (f" of {1e3 * width:g} mm" if wrong else "")
+
+
+def _span(lines: Sequence[float]) -> str:
+    least, most = (f"{end:.3g}" for end in (min(lines), max(lines)))
+    return least if least == most else f"{least} to {most}"
+
+
+def _thicknesses(lattice: Lattice) -> list[float]:
+    """Thicknesses of the walls of the infill that have to be whole numbers of lines, m."""
+    if lattice.slicer is not None:
+        return []
+    if lattice.structure is not None:
+        return [1e-3 * thickness for thickness in lattice.structure.thickness_mm]
+    if lattice.grading == 1.0:
+        return [lattice.wall_thickness]
+    from sweep.design.box import gradient
+
+    return [lattice.wall_thickness * float(part) for part in gradient(lattice.geometry)]
+
+
+def _gap(lattice: Lattice) -> float:
+    """Clear width of the narrowest cell, m; beside the double walls of a printed honeycomb."""
+    if lattice.slicer is not None:
+        double = lattice.printed_as.wall > 1.0
+        return lattice.opening - (2.0 if double else 1.0) * lattice.line
+    return lattice.opening - max(_thicknesses(lattice))

@@ -1,0 +1,143 @@
+"""Infills as slicers print them: widths of lines, distances of lines, names of patterns.
+
+A line of width w and height h has rounded sides. PrusaSlicer and its children lay lines at a
+distance s = w - h (1 - pi/4), so that a line fills h s; Cura lays them w apart and extrudes w h.
+With a share r of infill, the parallel lines of a pattern are at a distance of n s / r, where n is
+the number of its directions; from flat to flat a hexagon of the honeycomb measures 2 s / r.
+
+In a layer of honeycomb the walls of one direction are printed twice, side by side, and each layer
+is turned by 60 degrees: a wall is 2 s, s, s thick in turn, its mean thickness is 4 s / 3, its mean
+second moment 10/3 s^3 / 12. Paths cut corners, so that (4 - r) s / 3 is extruded per length.
+(libslic3r, as read in its source.) No numpy here, so that a wrong config is refused at once.
+"""
+
+from math import pi, radians, sqrt
+from typing import NamedTuple
+
+WIDTH_PER_NOZZLE = 1.125
+OVERLAP = 0.25  # of a line: how far infill reaches into the perimeters
+ROUNDED = 1.0 - pi / 4.0
+
+
+class Pattern(NamedTuple):
+    """A pattern that is the same in all layers.
+
+    family: of `design.infill`, or "" for parallel lines. directions: of its lines, n. side: the
+    unit of the family over the distance of lines. opening: clear width of the narrowest cell over
+    the distance of lines. turn: of the family's drawing at a fill angle of 0, rad. middle: of the
+    drawing, in the unit of the family. wall: mean thickness over s; gyration: radius of gyration of
+    the section over that of a rectangle of the mean thickness.
+    """
+
+    family: str
+    directions: int
+    side: float
+    opening: float
+    turn: float = 0.0
+    middle: tuple[float, float] = (0.0, 0.0)
+    wall: float = 1.0
+    gyration: float = 1.0
+
+
+PATTERNS = {
+    "grid": Pattern("square", 2, 1.0, 1.0),
+    "triangles": Pattern("triangle", 3, 2.0 / sqrt(3.0), 2.0 / 3.0),
+    "stars": Pattern("kagome", 3, 1.0 / sqrt(3.0), 1.0 / 3.0),
+    "honeycomb": Pattern(
+        "hex",
+        2,
+        1.0 / sqrt(3.0),
+        1.0,
+        turn=radians(-30.0),
+        middle=(sqrt(0.75), 1.0),
+        wall=4.0 / 3.0,
+        gyration=sqrt((10.0 / 3.0) / (4.0 / 3.0) ** 3),
+    ),
+    "alignedrectilinear": Pattern("", 1, 1.0, 1.0),
+}
+"""Patterns by their names in PrusaSlicer."""
+
+SLICERS = {
+    "prusa": {name: name for name in PATTERNS},
+    "orca": {
+        "grid": "grid",
+        "triangles": "triangles",
+        "tri-hexagon": "stars",
+        "honeycomb": "honeycomb",
+        "alignedrectilinear": "alignedrectilinear",
+    },
+    "cura": {"grid": "grid", "triangles": "triangles", "trihexagon": "stars"},
+}
+"""The patterns that a slicer prints as prisms: its own name -> that in `PATTERNS`."""
+
+TURNS = "it turns from layer to layer", "alignedrectilinear"
+WANDERS = "its walls wander from layer to layer", "honeycomb"
+CUBES = "its walls are inclined to the layers", "triangles"
+TREES = "it changes from layer to layer", "grid"
+LOOPS = "its loops do not meet, and only the top and the bottom hold them", "grid"
+PATHS = "it is one winding path without joints", "grid"
+NO_PRISMS = {
+    "rectilinear": TURNS,
+    "line": TURNS,
+    "lines": TURNS,
+    "zigzag": TURNS,
+    "zig-zag": TURNS,
+    "zig_zag": TURNS,
+    "monotonic": TURNS,
+    "gyroid": WANDERS,
+    "tpmsd": WANDERS,
+    "tpmsfk": WANDERS,
+    "3dhoneycomb": WANDERS,
+    "crosshatch": WANDERS,
+    "cubic": CUBES,
+    "cubicsubdiv": CUBES,
+    "adaptivecubic": CUBES,
+    "supportcubic": CUBES,
+    "quartercubic": CUBES,
+    "quarter_cubic": CUBES,
+    "tetrahedral": CUBES,
+    "lateral-lattice": CUBES,
+    "2dlattice": CUBES,
+    "lightning": TREES,
+    "cross_3d": TREES,
+    "concentric": LOOPS,
+    "cross": PATHS,
+    "hilbertcurve": PATHS,
+    "archimedeanchords": PATHS,
+    "octagramspiral": PATHS,
+}
+"""Patterns that the planar model cannot have: why, and the nearest that it can."""
+
+
+class Sliced(NamedTuple):
+    """How an infill is laid; lengths in m.
+
+    pattern: as in `PATTERNS`. distance: of its parallel lines. angle: of the first ones from the
+    width, rad. line: s, what one line fills. inset: where lines end within the box.
+    """
+
+    pattern: str
+    distance: float
+    angle: float
+    line: float
+    inset: float
+
+    @property
+    def share(self) -> float:
+        """Share of infill r, as the slicer counts."""
+        return PATTERNS[self.pattern].directions * self.line / self.distance
+
+    @property
+    def extruded(self) -> float:
+        """What is extruded per length of wall / layer height, m."""
+        return self.line * ((4.0 - self.share) / 3.0 if self.pattern == "honeycomb" else 1.0)
+
+
+def line_of(slicer: str, width: float, height: float) -> float:
+    """What a line of this width and height fills in the mean (m): s, or w for Cura."""
+    return width if slicer == "cura" else width - height * ROUNDED
+
+
+def distance_of(pattern: str, share: float, line: float) -> float:
+    """Distance (m) of the parallel lines of a pattern with a share of infill."""
+    return PATTERNS[pattern].directions * line / share

@@ -1,0 +1,115 @@
+"""The network that a slicer prints, and what is extruded."""
+
+from math import radians
+
+import numpy as np
+import pytest
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from sweep.design.geometry import Geometry
+from sweep.design.lattice import build_network
+from sweep.design.sliced import extruded_area, infill, share_for
+from sweep.design.slicer import PATTERNS, Sliced, distance_of, line_of
+
+LINE = line_of("prusa", 0.45e-3, 0.2e-3)
+
+
+def geometry(pattern, share=0.2, angle=45.0, size=20e-3, perimeters=2, line=LINE):
+    distance, inset = distance_of(pattern, share, line), (0.5 * perimeters - 0.25) * line
+    sliced = Sliced(pattern, distance, radians(angle), line, inset)
+    outline = (perimeters * line,) * 2
+    wall = PATTERNS[pattern].wall * line
+    return Geometry("square", None, (1, 1), (size, size), wall, outline=outline, sliced=sliced)
+
+
+def infill_density(pattern, share, line=LINE):
+    """Share of a large part that is extruded, without its perimeters."""
+    drawn = geometry(pattern, share, size=0.25, perimeters=0, line=line)
+    drawn = drawn._replace(sliced=drawn.sliced._replace(inset=0.0))
+    return extruded_area(drawn) / 0.25**2
+
+
+@pytest.mark.parametrize(("share", "printed"), [(0.1, 13.0), (0.2, 25.3), (0.35, 42.6)])
+def test_honeycomb_extrudes_more_than_it_says(share, printed):
+    assert 100.0 * infill_density("honeycomb", share) == pytest.approx(printed, abs=0.05)
+
+
+@pytest.mark.parametrize("pattern", [name for name in PATTERNS if name != "honeycomb"])
+@pytest.mark.parametrize("share", [0.1, 0.35])
+def test_other_patterns_extrude_what_they_say(pattern, share):
+    assert infill_density(pattern, share) == pytest.approx(share, rel=2e-3)
+
+
+def test_lines_of_cura_are_as_far_apart_as_they_are_wide():
+    """With w instead of s: fewer lines, of which each extrudes more."""
+    width = line_of("cura", 0.4e-3, 0.2e-3)
+    assert infill_density("grid", 0.2, width) == pytest.approx(0.2, rel=2e-3)
+    assert distance_of("grid", 0.2, width) == pytest.approx(2 * 0.4e-3 / 0.2)
+
+
+@pytest.mark.parametrize("pattern", PATTERNS)
+def test_lines_turn_with_the_fill_angle(pattern):
+    """Those of honeycomb have the directions of triangles."""
+    for angle in (0.0, 20.0):
+        lines = infill(geometry(pattern, angle=angle).sliced, (0.02, 0.02))
+        along = np.diff(lines, axis=1)[:, 0]
+        bearing = np.degrees(np.arctan2(along[:, 1], along[:, 0])) % 180.0
+        found = np.unique(bearing.round(6) % 180.0)
+        count = 3 if pattern == "honeycomb" else PATTERNS[pattern].directions
+        assert found == pytest.approx(angle + 180.0 / count * np.arange(count), abs=1e-5)
+
+
+@pytest.mark.parametrize("pattern", PATTERNS)
+@pytest.mark.parametrize("angle", [0.0, 30.0, 45.0])
+@pytest.mark.parametrize("share", [0.1, 0.25])
+def test_networks_are_in_one_piece_and_have_no_slivers(pattern, angle, share):
+    drawn = geometry(pattern, share, angle)
+    network = build_network(drawn)
+    points, walls = network.points, network.walls
+    graph = coo_array((np.ones(len(walls)), walls.T), shape=(len(points),) * 2)
+    assert connected_components(graph, directed=False)[0] == 1
+    ends = points[walls]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    beside = np.any((ends == 0.0) | (ends == 20e-3), axis=(1, 2))
+    assert length.min() >= LINE
+    assert length[beside].min() > (2.0 - 1e-6) * LINE  # a line beside half of two perimeters
+    assert (points.min(), points.max()) == (0.0, 20e-3)
+    for x, y in ((0.0, 0.0), (20e-3, 0.0), (0.0, 20e-3), (20e-3, 20e-3)):
+        assert ((points == (x, y)).all(axis=1)).sum() == 1
+    assert set(network.wall_thickness) == {drawn.wall_thickness, 2 * LINE}
+
+
+@pytest.mark.parametrize("pattern", PATTERNS)
+def test_patterns_look_the_same_upside_down(pattern):
+    points = build_network(geometry(pattern)).points
+    turned = 20e-3 - points
+    gaps = np.linalg.norm(points[:, None] - turned, axis=2).min(axis=1)
+    assert gaps.max() < 1e-9
+
+
+def test_only_walls_of_honeycomb_bend_otherwise():
+    network = build_network(geometry("honeycomb"))
+    within = network.wall_thickness < 1.5 * LINE
+    assert set(network.gyration[within]) == {PATTERNS["honeycomb"].gyration}
+    assert set(network.gyration[~within]) == {1.0}
+    assert set(build_network(geometry("grid")).gyration) == {1.0}
+
+
+def test_crossings_are_extruded_twice():
+    """The union has less than is extruded: at crossings, and where lines reach the outline."""
+    drawn = geometry("grid", angle=0.0, perimeters=1)
+    network = build_network(drawn)
+    lines = 2 * 10.0  # 20 mm at 4.07 mm: 5 lines each way, one in the middle
+    crossings = 5 * 5
+    more = extruded_area(drawn) - network.printed_area
+    overlapping = lines * 0.25 * LINE**2
+    assert more == pytest.approx(crossings * LINE**2 + overlapping, rel=1e-6)
+
+
+def test_share_for_a_mass_gives_it():
+    drawn = geometry("stars")
+    share, light, heavy = share_for(drawn, 150e-6, 0.49)
+    assert light < 150e-6 < heavy
+    assert extruded_area(geometry("stars", share)) == pytest.approx(150e-6, rel=1e-9)
+    assert np.isnan(share_for(drawn, 0.5 * light, 0.49)[0])

@@ -1,0 +1,60 @@
+"""Lines and patterns of slicers: spacings, walls, names."""
+
+from math import sqrt
+
+import pytest
+
+from sweep.design.infill import families
+from sweep.design.slicer import NO_PRISMS, PATTERNS, SLICERS, Sliced, distance_of, line_of
+
+LINE = line_of("prusa", 0.45e-3, 0.2e-3)
+
+
+def laid(pattern, share, line=LINE):
+    return Sliced(pattern, distance_of(pattern, share, line), 0.0, line, 0.0)
+
+
+def test_a_line_with_round_sides_fills_less_than_its_width():
+    assert pytest.approx(0.407e-3, abs=0.0005e-3) == LINE
+    assert line_of("orca", 0.45e-3, 0.2e-3) == LINE
+    assert line_of("cura", 0.45e-3, 0.2e-3) == 0.45e-3
+
+
+@pytest.mark.parametrize(
+    ("pattern", "side"),
+    [
+        ("grid", 2.0),
+        ("triangles", 2.0 * sqrt(3.0)),
+        ("stars", sqrt(3.0)),
+        ("honeycomb", 2.0 / sqrt(3.0)),
+        ("alignedrectilinear", 1.0),
+    ],
+)
+def test_sides_are_those_of_the_slicer(pattern, side):
+    """In s / r."""
+    assert PATTERNS[pattern].side * distance_of(pattern, 0.2, 1.0) == pytest.approx(side / 0.2)
+
+
+def test_share_is_that_of_the_lines():
+    assert [laid(name, 0.2).share for name in PATTERNS] == pytest.approx([0.2] * len(PATTERNS))
+
+
+def test_walls_of_honeycomb_are_double_in_every_third_layer():
+    """2 s, s and s in turn: 4 s / 3 in the mean; they bend as a wall of (10/3)^(1/3) s."""
+    comb = PATTERNS["honeycomb"]
+    assert comb.wall == pytest.approx((2.0 + 1.0 + 1.0) / 3.0)
+    moment = comb.wall**3 * comb.gyration**2
+    assert moment == pytest.approx((2.0**3 + 1.0 + 1.0) / 3.0)
+    assert {(p.wall, p.gyration) for p in PATTERNS.values() if p != comb} == {(1.0, 1.0)}
+
+
+def test_paths_of_honeycomb_cut_corners():
+    assert laid("honeycomb", 0.1).extruded == pytest.approx(1.3 * LINE)
+    assert laid("grid", 0.1).extruded == LINE
+
+
+def test_names_lead_to_patterns_and_families():
+    assert {name for own in SLICERS.values() for name in own.values()} == {*PATTERNS}
+    assert {pattern.family for pattern in PATTERNS.values()} - {""} <= {*families()}
+    assert not {*NO_PRISMS} & {name for own in SLICERS.values() for name in own}
+    assert {nearest for _, nearest in NO_PRISMS.values()} <= {*PATTERNS}
