@@ -122,6 +122,12 @@ def _check_numbers(numbers: Mapping[str, Stated]) -> None:
     """Refuse a header without the numbers that every material needs."""
     if "density" not in numbers or "poisson" not in numbers:
         raise RecordError("needs the lines # density_kg_m3: ... and # poisson: ...")
+    broken = numbers.get("fracture_strain")
+    if broken and broken.value is not None and broken.value > 1.0:
+        raise RecordError(
+            f"# fracture_strain: {broken.value:g} may be meant in percent; allowed: up to 1, as "
+            "0.025 for 2.5 %"
+        )
     alone = [key for key, number in numbers.items() if number.value is None]
     if any(key not in RANGE_ALONE for key in alone):
         raise RecordError(f"{alone[0]} needs a number beside its range")

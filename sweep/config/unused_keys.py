@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from sweep.config.case import Case
+from sweep.config.material_file import locate, read_record
 from sweep.config.solver_defaults import ARCS
 from sweep.config.structure import Structure
 
@@ -52,6 +53,8 @@ def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
         return STEADY
     if key == "material.fibres" and case.material.fibres is None:
         return f'material.bend is "{case.material.bend}"'
+    if key == "material.memory" and given[key] == "measured" and not _acts(given):
+        return "the config itself gives what the file of the material states"
     if key in PLASTICITY and not case.material.yields:
         return "material.yield_stress is not given"
     if key in SOFTENING and case.material.softening_r is None:
@@ -62,6 +65,13 @@ def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
     if used or table == "material":
         return ""
     return _reason_in_lattice(key, case) if table == "lattice" else _reason(key, case)
+
+
+def _acts(given: Mapping[str, Any]) -> bool:
+    """Whether a measured memory has a number that the config does not give."""
+    stated = read_record(locate(given.get("material.name", "ninjaflex"))).memory
+    others = {key for key in stated if given.get(f"material.{key}") is None}
+    return bool(others - ({"loss"} if given.get("material.relaxation_times") else set()))
 
 
 def _reason_in_lattice(key: str, case: Case) -> str:

@@ -83,6 +83,7 @@ def test_a_material_with_a_yield_stress_yields_unless_told_otherwise(own_record)
     [
         (PLASTIC + "strain,stress_Pa\n0.1,1e6\n", "yields has no curve"),
         (PLASTIC.replace("# modulus_Pa: 2e9\n", ""), "yields needs the line # modulus_Pa"),
+        (PLASTIC + "# fracture_strain: 2.5\n", "fracture_strain: 2.5 may be meant in percent"),
         ("# fracture_strain: 0.1\n" + HEADER + "0.1,1e6\n", "fracture_strain needs the line # y"),
     ],
 )

@@ -176,6 +176,48 @@ def test_what_may_only_follow_from_a_fault_is_not_told(lines):
     assert "lattice.cels" in line
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        '[material]\nloss = 40\n[loading]\nstrain_rate = "0.1 1/s"',
+        '[grid]\nmaterial.loss = [30]\nloading.strain_rate = ["1 1/s", "2 1/s"]',
+        '[material]\ndensity = 1200\nname = "pla"\n[lattice]\nmass = "99 g"',
+        '[material]\nbend = "linaer"\n[solver]\nbend_measure = "tangent"',
+    ],
+)
+def test_what_may_only_follow_from_a_fault_of_the_material_is_not_told(lines, text):
+    (line,) = lines(text)
+    assert "material." in line
+
+
+def test_a_fault_that_does_not_follow_from_the_material_is_told_beside_it(lines):
+    assert len(lines('[material]\nloss = 40\n[lattice]\nwall_thickness = "3 mm"')) == 2
+
+
+def test_branches_are_stated_once(lines):
+    branches = '[material]\nrelaxation = [{time = "1 s", share = 0.1}]'
+    (line,) = lines(f'{branches}\nrelaxation_times = ["5 s"]\nrelaxation_shares = [0.3]')
+    assert line == (
+        'material.relaxation = [{"time": "1 s", "share": 0.1}]: material.relaxation_times states '
+        "the same; allowed: one of them"
+    )
+    (line,) = lines(f"{branches}\nloss = 0.3")
+    assert line == "material.loss = 0.3: does not fit; allowed: one of loss and relaxation"
+
+
+def test_a_strain_above_one_needs_its_unit(load, lines):
+    plastic = '[material]\nname = "pla"\nfracture_strain = '
+    (line,) = lines(f"{plastic}2.5")
+    assert line == (
+        "material.fracture_strain = 2.5: a bare number above 1, which may be meant in percent; "
+        'allowed: a number up to 1 or a share in percent, such as "20 %", above 0'
+    )
+    strains = {"0.025": 0.025, '"2.5 %"': 0.025, "1": 1.0, '"250 %"': 2.5}
+    for text, strain in strains.items():
+        (case,) = expand(load(f"{plastic}{text}"))
+        assert case.material.fracture_strain == strain
+
+
 def test_a_text_with_line_breaks_stays_in_one_line(lines):
     assert len(lines('[material]\nname = "a\\nb"\n"c\\nd" = 1')) == 2
 
