@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
-from sweep.numbers import NOTHING, energy_text, short
+from sweep.numbers import NOTHING, energy_text, short, with_unit
 from sweep.ranking.merit import LEAST, Compared, Quantity, RankError, greatest_mass, in_si, merits
 from sweep.ranking.ranking import Ranking
 from sweep.result import (
@@ -205,7 +205,11 @@ def scene_label(rows: DataFrame) -> str:
     platen = first["platen"]
     if first["loading_mode"] != "custom":
         words.append("no platens" if platen in ("none", "") else f"{platen} platens")
-    others = {key: short(first[key]) for key in scene_keys(rows) if key not in shown}
+    others = {
+        key: with_unit(first[key], describe_column(key).units)
+        for key in scene_keys(rows)
+        if key not in shown
+    }
     used = {key: value for key, value in others.items() if value not in ("", NOTHING)}
     words += [f"{key.replace('.', ' ').replace('_', ' ')} {value}" for key, value in used.items()]
     return ", ".join(words)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from pandas import Series
+from pandas.api.types import is_numeric_dtype
 
-from sweep.numbers import numerals, percent, short, tenths
+from sweep.numbers import NOTHING, SHOWN, numerals, percent, scaled, short, tenths
 from sweep.ranking.merit import LEAST, greatest_mass
 from sweep.ranking.rank import ASSUMPTIONS, by_scene, scene_label
+from sweep.result import describe_column
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -23,12 +25,13 @@ pack: strain at which the lattice has packed down: mean over those of nearly the
 back: returned energy / work of the whole crush."""
 AGAIN = "again: energy absorbed in the second cycle / in the first; other columns are of the first."
 ELASTIC = "Walls are elastic: what is missing from 100 % is friction, damping, snaps or time steps."
+PLASTIC = "What is missing from 100 % is lost in the material, in friction and snaps."
 LOSSY = """\
 What is missing from 100 % is lost in the material (dissipated_material_J), in friction and snaps,
 or still stored in walls that relax."""
 MIXED = """\
-Where memory is "none", walls are elastic: what is missing from 100 % is friction, damping, snaps
-or time steps. Elsewhere it is also lost in the material, or still stored in walls that relax."""
+behaviour: of the walls. Where they are elastic, what is missing from 100 % is friction, damping,
+snaps or time steps; elsewhere also lost in the material, or still stored in walls that relax."""
 LOADED = "sink: greatest strain under the load, including its swing."
 STRUCK = """\
 force: greatest force on the support. left: stroke that closes all voids - greatest stroke.
@@ -71,14 +74,38 @@ SHOWN_BY_NAME = {
 """Grid keys whose values are in a fixed column of the summary."""
 
 
+SPARE = {
+    "again %": "second_cycle_share",
+    "back %": "returned_share",
+    "rebound %": "rebound_share",
+    "panel g": "panel_mass_g",
+    "left mm": "stroke_left_m",
+    "pack %": "packing_strain",
+    "sink %": "peak_strain",
+    "peak N": "passed_on_N",
+    "mass g": "mass_g",
+}
+"""Heads of measured columns, and the columns of which they show the values; see `Sheet.spare`."""
+
+
 class Sheet(NamedTuple):
-    """A table of text. opens: rows that begin a section. notes: lines below the table."""
+    """A table of text. opens: rows that begin a section. notes: lines below the table. spare: heads
+    of columns that a narrow terminal may leave out, the first one first; elsewhere: what has them.
+    """
 
     title: str
     heads: list[str]
     rows: list[list[str]]
     opens: frozenset[int] = frozenset()
     notes: tuple[str, ...] = ()
+    spare: tuple[str, ...] = ()
+    elsewhere: str = ""
+
+    def without(self, head: str) -> Sheet:
+        """The table without a column."""
+        k = self.heads.index(head)
+        heads, *rows = [[*texts[:k], *texts[k + 1 :]] for texts in [self.heads, *self.rows]]
+        return self._replace(heads=heads, rows=rows)
 
     @property
     def columns(self) -> list[list[str]]:
@@ -128,7 +155,16 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
                 *_not_shown(placed),
                 *missed,
             ),
+            spare=_spare(columns, rows, ranking),
+            elsewhere="crumple rank with --csv",
         )
+
+
+def _spare(columns: Iterable[str], rows: DataFrame, ranking: Ranking) -> tuple[str, ...]:
+    """The heads of measured columns by which these rows are not sorted."""
+    sorted_by, energies = set(rows["ranked_by"]), {"J/g": ranking.per_gram}
+    known = SPARE | energies
+    return tuple(head for head in known if head in columns and known[head] not in sorted_by)
 
 
 def _missed(budgets: tuple[float, ...], lightest: float) -> tuple[str, ...]:
@@ -161,7 +197,9 @@ def _what_is_missing(rows: DataFrame) -> str:
     elastic = rows["material_memory"] == "none"
     if elastic.all():
         return ELASTIC
-    return MIXED if elastic.any() else LOSSY
+    if elastic.any():
+        return MIXED
+    return LOSSY if rows["material_memory"].str.contains("relaxes").any() else PLASTIC
 
 
 def _places(rows: DataFrame) -> Series:
@@ -237,11 +275,22 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
     if _varies(among, "material"):
         columns["material"] = frame["material"].astype(str)
     if _varies(among, "material_memory"):
-        columns["memory"] = frame["material_memory"].astype(str)
+        columns["behaviour"] = frame["material_memory"].replace("none", "elastic").astype(str)
     for key in frame:
-        if "." in key and key not in SHOWN_BY_NAME and not key.startswith(ASSUMPTIONS):
-            columns[key.split(".")[-1].replace("_", " ")] = frame[key].map(short)
+        hidden = key in SHOWN_BY_NAME or key.startswith(ASSUMPTIONS)
+        if "." in key and not hidden and _varies(among, key):
+            columns |= _grid_text(frame[key], among[key])
     return columns
+
+
+def _grid_text(values: Series, among: Series) -> dict[str, Series]:
+    """The column of a grid key, with its unit; ``among``: its values in all cases."""
+    unit = describe_column(str(values.name)).units
+    noun = str(values.name).split(".")[-1].replace("_", " ")
+    if not unit or not is_numeric_dtype(values):
+        return {noun: values.map(short)}
+    factor, name = scaled(unit, float(among.abs().max()))
+    return {f"{noun} {name}": (factor * values.astype(float)).map(short)}
 
 
 def describe_case(row: Series, among: DataFrame) -> str:
@@ -261,8 +310,9 @@ def design_labels(frame: DataFrame, among: DataFrame) -> list[str]:
 
 def _with_noun(head: str, text: str) -> str:
     """A value with the head of its column: "wall mm", "0.8" -> "wall 0.8 mm"."""
-    if head in MILLIMETRES.values():
-        return f"{head.removesuffix('mm')}{text} mm"
+    noun, _, unit = head.rpartition(" ")
+    if noun and unit in SHOWN:
+        return f"{noun} {text}" if text == NOTHING else f"{noun} {text} {unit}"
     return text if head in ("material", "pattern") else f"{head} {text}"
 
 
@@ -271,16 +321,15 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     columns = {"mass g": numerals(rows["mass_g"])}
     if "panel_mass_g" in rows:
         columns["panel g"] = numerals(rows["panel_mass_g"])
-    mode, shown = rows["loading_mode"].iloc[0], {"mass_g", "panel_mass_g"}
+    mode, shown = rows["loading_mode"].iloc[0], set[str]()
     if mode in LEAST:
         columns |= _under_load(rows) if mode == "force" else _struck(rows)
         shown |= {LEAST[mode]}
     else:
         columns |= _crushed(rows, ranking)
         shown |= {ranking.energy, ranking.per_gram}
-        if not ranking.limited:
-            columns |= _whole(rows)
-            shown |= {"packing_strain", "returned_share", "second_cycle_share"}
+        columns |= {} if ranking.limited else _whole(rows)
+    shown |= {SPARE[head] for head in columns if head in SPARE}
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
         if "ranked_error" in rows:
