@@ -69,6 +69,7 @@ LEADING = [
     "returned_share",
     "beyond_model",
     "crossed",
+    "beyond_curve",
 ]
 
 
@@ -117,6 +118,7 @@ def rank(
     beyond_model : True if an element is too short or a wall breaks while the counted energy is
         absorbed, or if the lattice is compressed to less than its solid height.
     crossed : True if walls crossed one another.
+    beyond_curve : True if a wall was stretched beyond the measured curve in the run.
 
     `attrs` holds the other fields of `Ranking`, for one more release; use `ranked` for them.
     """

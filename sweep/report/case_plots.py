@@ -19,7 +19,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from sweep.design.silhouette import silhouette
 from sweep.numbers import energy_text, three_digits
-from sweep.report.storyboard import headline, last_loaded, shots
+from sweep.report.storyboard import headline, last_loaded, shots, turns
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -125,16 +125,14 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     Over the path of a driven platen, down and back; otherwise over time.
     """
     work = 1e3 * history["work_in_J"]
-    turn = last_loaded(history, row)
     if row["loading_mode"] == "displacement":
         place = 1e3 * history["top_displacement_m"].diff().abs().cumsum().fillna(0.0)
-        words = "path of the platen, down and back up, mm", "turns"
+        ax.set_xlabel("path of the platen, down and back up, mm")
     else:
         place = 1e3 * history["time_s"]
-        words = "time, ms", "load off" if row["loading_mode"] == "force" else "stops"
-    ax.set_xlabel(words[0])
-    if turn + 1 < len(history):
-        mark(ax, place[turn], words[1])
+        ax.set_xlabel("time, ms")
+    for at, words in turns(history, row).items():
+        mark(ax, place[at], words)
     parts = {
         label: (1e3 * history[name], color)
         for name, (label, color) in ENERGIES.items()

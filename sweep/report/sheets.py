@@ -51,6 +51,9 @@ UNSURE = """\
 ~: packs at two strains, or slowly: the efficiency is within 2 % of the greatest over more than 10 %
 of strain, and pack is a mean over it."""
 EARLY = ">: at least: the crush ended before that force was reached; a longer one absorbs more."
+STRETCHED = """\
+^: a wall is stretched beyond the measured curve, which goes on as a straight line there (column
+stretch_over_curve: how far)."""
 CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
 
 MILLIMETRES = {
@@ -149,6 +152,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             notes=(
                 *((BEYOND,) if rows["beyond_model"].any() else ()),
                 *((CROSSED,) if rows["crossed"].any() else ()),
+                *((STRETCHED,) if rows["beyond_curve"].any() else ()),
                 *((UNSURE,) if "~" in "".join(columns.get("pack %", ())) else ()),
                 *((EARLY,) if _stops_early(rows, ranking).any() else ()),
                 *_cut_off(rows),
@@ -209,7 +213,8 @@ def _places(rows: DataFrame) -> Series:
         places += rows["tied"].map({True: "="}).fillna("")
     pareto = rows["pareto"].map({True: "*", False: " "})
     beyond = rows["beyond_model"].map({True: "!", False: ""})
-    return places + pareto + beyond + rows["crossed"].map({True: "x", False: ""})
+    crossed = rows["crossed"].map({True: "x", False: ""})
+    return places + pareto + beyond + crossed + rows["beyond_curve"].map({True: "^", False: ""})
 
 
 def _cut_off(rows: DataFrame) -> Iterator[str]:

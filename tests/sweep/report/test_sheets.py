@@ -14,6 +14,7 @@ from sweep.report.sheets import (
     LOSSY,
     MIXED,
     PLASTIC,
+    STRETCHED,
     UNSURE,
     design_labels,
     legend,
@@ -55,6 +56,16 @@ def test_walls_that_pass_through_one_another_are_marked():
     (sheet,) = ranking_sheets(ranking, table)
     assert [row[0] for row in sheet.rows] == ["1*!", "2 x"]
     assert sheet.notes == (BEYOND, CROSSED)
+
+
+def test_walls_that_are_stretched_beyond_the_measured_curve_are_marked():
+    table = summary({"stretch_over_curve": 1.2}, {"stretch_over_curve": 0.9, "mass_g": 2.0})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert [row[0] for row in sheet.rows] == ["1*^", "2 "]
+    assert sheet.notes == (STRETCHED,)
+    table = summary({"stretch_over_curve": NAN}, {"stretch_over_curve": 1.0})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert sheet.notes == ()
 
 
 def test_a_budget_below_all_designs_is_one_sentence_and_no_table():
