@@ -132,7 +132,7 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
         place = 1e3 * history["time_s"]
         ax.set_xlabel("time, ms")
     for at, words in turns(history, row).items():
-        mark(ax, place[at], words)
+        mark(ax, place[at], words, after=words.startswith("cycle"))
     parts = {
         label: (1e3 * history[name], color)
         for name, (label, color) in ENERGIES.items()
@@ -241,10 +241,11 @@ def legend(fig: Figure, entries: list[dict[str, Any]]) -> None:
         fig.legend(handles=handles, loc="outside right upper", frameon=False, ncols=columns)
 
 
-def mark(ax: Axes, x: float, words: str) -> None:
-    """A vertical dotted line at `x`, with `words` at its upper end."""
+def mark(ax: Axes, x: float, words: str, after: bool = False) -> None:
+    """A vertical dotted line at `x`, with `words` at its upper end, before it or after it."""
     ax.axvline(x, color=GREY, lw=1.0, ls=":")
-    ax.annotate(words, (x, 1.0), (-3, -2), xycoords=ax.get_xaxis_transform(), ha="right", va="top",
+    side, shift = ("left", 3) if after else ("right", -3)
+    ax.annotate(words, (x, 1.0), (shift, -2), xycoords=ax.get_xaxis_transform(), ha=side, va="top",
                 textcoords="offset points", fontsize="small", color="#555555")  # fmt: skip
 
 
