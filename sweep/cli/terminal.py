@@ -112,7 +112,7 @@ def print_sheets(sheets: Iterable[Sheet]) -> None:
             with console.capture() as text:
                 console.print(_terminal_table(shown))
             console.width = limit or WIDE
-            say_all(line.rstrip() for line in text.get().splitlines())
+            say(text.get(), end="")
         say_all([*sheet.notes, *_left_out(sheet, shown.sheet, limit or WIDE)])
     say("")
 
