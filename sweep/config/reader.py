@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from sweep.config.case import TABLES
 from sweep.config.grid import Axes, Config, Fault, Values, Written
 from sweep.config.keys import ALIASES, Key, case_keys, nearest, table_keys
-from sweep.config.material_file import UnknownMaterialError, locate, read_record
+from sweep.config.material_file import RecordError, UnknownMaterialError, locate, read_record
 from sweep.config.renamed import present
 from sweep.config.structure_file import StructureError, read_structure
 from sweep.config.tables import Rank, rounded
@@ -201,6 +201,9 @@ class Reader:
             return Written(None, '""')
         try:
             return Written(self._checked(known[name], raw), in_words(raw), name)
+        except RecordError as error:
+            self._refuse(name, raw, str(error).removeprefix(f"{Path(raw).name}: "), where)
+            return None
         except StructureError as error:
             for line in error.lines:
                 self._refuse(name, raw, line, where)
@@ -224,6 +227,8 @@ class Reader:
         if key.targets == ("lattice.file",) and isinstance(raw, str):
             return _structure(self.folder / raw)
         many = isinstance(raw, list)
+        if many and not key.is_list:
+            raise ValueError("a list, which belongs in [grid]")
         value: Any = [self._in_si(key, v) for v in raw] if many else self._in_si(key, raw)
         try:
             return key.adapter.validate_python(tuple(value) if many else value)

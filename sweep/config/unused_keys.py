@@ -64,7 +64,7 @@ def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
     used = resolved == given[key] or _used_otherwise(key, resolved, given, case)
     if used or table == "material":
         return ""
-    return _reason_in_lattice(key, case) if table == "lattice" else _reason(key, case)
+    return _reason_in_lattice(key, case) if table == "lattice" else _reason(key, given, case)
 
 
 def _acts(given: Mapping[str, Any]) -> bool:
@@ -97,7 +97,7 @@ def _used_otherwise(key: str, resolved: object, given: Mapping[str, Any], case: 
     return key == "loading.speed" and case.loading.mode == "displacement"
 
 
-def _reason(key: str, case: Case) -> str:
+def _reason(key: str, given: Mapping[str, Any], case: Case) -> str:
     if ARCS in (key.split(".")[1], case.solver.integrator):
         return f'solver.integrator is "{case.solver.integrator}"'
     if case.lattice.structure is not None and key.startswith("loading."):
@@ -111,6 +111,8 @@ def _reason(key: str, case: Case) -> str:
         return f'contact.model is "{case.contact.model}"'
     if case.loading.quasi_static:
         return "the crush is quasi-static"
+    if key.startswith("damping.") and case.damping.model == "none" and "damping.model" not in given:
+        return 'damping.model is "none" by default if the material relaxes; give a damping.model'
     if key.startswith("damping."):
         return f'damping.model is "{case.damping.model}"'
     return "contact.friction is 0" if key == "contact.slip_speed" else "solver.load_steps sets it"

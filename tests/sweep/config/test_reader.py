@@ -48,6 +48,22 @@ def test_own_material_is_found_beside_the_config(load, tmp_path):
     assert len(expand(dropped)) == 1
 
 
+def test_what_is_wrong_with_an_own_material_is_told(lines, tmp_path):
+    (tmp_path / "mine.csv").write_text("strain;stress_Pa\n0,01;1e5\n")
+    (line,) = lines('[material]\nname = "mine.csv"')
+    assert line == (
+        'material.name = "mine.csv": needs the lines # density_kg_m3: ... and # poisson: ...'
+    )
+
+
+def test_numbers_of_a_material_are_not_called_defaults(lines):
+    (line,) = lines('[material]\nname = "pla"\nloss = 0.3')
+    assert line == (
+        'material.yield_stress = 4.5e+07 Pa in the file of "pla": does not fit; allowed: none if '
+        "loss is given"
+    )
+
+
 def test_rank_is_in_si(load):
     rank = load('[rank]\nbudgets = ["20 g", "1 oz"]\npanel = ["100 mm", "2 in"]').rank
     assert rank.budgets == pytest.approx((0.02, 0.028349523125))
@@ -99,6 +115,10 @@ VALUES = {
     '[material]\nname = "ninjaflx"': (
         f'material.name = "ninjaflx": unknown material; allowed: {MATERIALS}, or the path of a'
         " .csv file"
+    ),
+    "[material]\nloss = [0.2, 0.4]": (
+        "material.loss = [0.2, 0.4]: a list, which belongs in [grid]; allowed: a number or a share "
+        'in percent, such as "20 %", above 0, at most 0.8'
     ),
     '[rank]\npanel = ["1 mm"]': (
         f'rank.panel = ["1 mm"]: too few values; allowed: a list of 2 values, each {LENGTH}'

@@ -51,7 +51,11 @@ def test_modulus_is_the_slope_between_one_and_four_percent():
 @pytest.mark.parametrize(
     ("heads", "scales", "wrong"),
     [
-        ("time_s,strain,stress_Pa", (1, 1, 1e-6), "is stress_Pa in MPa or kPa .*, a force .*strain"),
+        (
+            "time_s,strain,stress_Pa",
+            (1, 1, 1e-6),
+            "is stress_Pa in MPa or kPa .*, a force .*strain",
+        ),
         ("time_s,strain,stress_Pa", (1, 1, 8e-6), "a modulus of .* Pa between 1 and 4 % strain"),
         ("time_s,strain,stress_Pa", (1, 1, 1e6), "in another unit"),
         ("time_s,strain,stress_Pa", (1, 100, 1), "a strain of 30: is it in percent"),
