@@ -11,6 +11,21 @@ if TYPE_CHECKING:
     from pandas import Series
 
 NOTHING = "–"
+SCALES = {
+    "m": ((1e3, "mm"), (1e6, "um")),
+    "s": ((1.0, "s"), (1e3, "ms"), (1e6, "us")),
+    "m/s": ((1.0, "m/s"), (1e3, "mm/s")),
+    "kg": ((1e3, "g"),),
+    "kg/m^3": ((1.0, "kg/m3"),),
+    "J": ((1.0, "J"), (1e3, "mJ")),
+    "Pa": ((1e-9, "GPa"), (1e-6, "MPa"), (1e-3, "kPa"), (1.0, "Pa")),
+    "1": ((1e2, "%"),),
+}
+"""Units in which quantities are shown, with the factor from SI; a unit not named is shown as it is.
+
+A table or a sentence takes the first one in which its greatest value is at least 1.
+"""
+SHOWN = frozenset(name for scales in SCALES.values() for _, name in scales) | {"N", "1/s"}
 
 
 def short(value: float | str | None) -> str:
@@ -18,6 +33,21 @@ def short(value: float | str | None) -> str:
     if pd.isna(value):
         return NOTHING
     return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def scaled(unit: str, greatest: float) -> tuple[float, str]:
+    """The factor from an SI unit to the unit in which values up to ``greatest`` are shown."""
+    scales = SCALES.get(unit, ((1.0, unit),))
+    large = (scale for scale in scales if not abs(greatest) * scale[0] < 1.0)
+    return next(large, scales[-1] if greatest else scales[0])
+
+
+def with_unit(value: float | str | None, unit: str) -> str:
+    """A value in SI as text in a unit of its size: 0.0001, "s" -> "100 us"; text unchanged."""
+    if not unit or value is None or isinstance(value, str) or pd.isna(value):
+        return short(value)
+    factor, name = scaled(unit, value)
+    return f"{short(factor * value)} {name}"
 
 
 def numerals(values: Series) -> Series:

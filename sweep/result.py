@@ -35,6 +35,7 @@ OLDER: dict[str, float | int | str] = {
     "plateau_stress_iso_Pa": nan,
     "greatest_fibre_strain": nan,
     "broke_at_strain": nan,
+    "stretch_over_curve": nan,
     "material_memory": "none",
     "lost_energy_J": nan,
     "lost_share": nan,
@@ -261,6 +262,12 @@ COLUMNS: dict[str, Column] = {
     ),
     "broke_at_strain": Column(
         "1", "strain at which a fibre exceeds material.fracture_strain; NaN if none does", "more"
+    ),
+    "stretch_over_curve": Column(
+        "1",
+        "greatest stretch of a wall in any stored shape / that at the end of the measured curve, "
+        "beyond which a straight line goes on; NaN without a curve",
+        "less",
     ),
     "kept_area": Column(
         "1",

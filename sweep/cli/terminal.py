@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from textwrap import wrap
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -13,7 +15,8 @@ if TYPE_CHECKING:
     from sweep.ranking.ranking import Ranking
     from sweep.report.sheets import Sheet
 
-WIDTH = 120  # least width of a table; a narrower terminal wraps its lines, so no text is lost
+USUAL = 80  # columns of text; in wider tables, columns are closer
+WIDE = 10_000  # where no terminal limits the width
 
 
 def print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -> None:
@@ -91,51 +94,129 @@ def _written(value: float | str, scale: float, unit: str) -> str:
 
 
 def print_sheets(sheets: Iterable[Sheet]) -> None:
-    """Print tables, each after a blank line."""
+    """Print tables that fit the terminal, each after a blank line."""
     from rich.console import Console
 
     console = Console()
-    width, console.width = console.width, max(console.width, WIDTH)
+    limit = console.width if console.is_terminal or "COLUMNS" in os.environ else None
+    console.width = limit or WIDE
     for sheet in sheets:
         say("")
-        with console.capture() as shown:
+        shown = fitted(sheet, limit or WIDE, limit or USUAL)
+        with console.capture() as text:
             if sheet.title or sheet.heads:
                 console.print(sheet.title, style="bold", markup=False, highlight=False)
-            if sheet.heads:
-                console.print(_terminal_table(sheet, width))
-        say(shown.get(), end="")
-        say_all(sheet.notes)
+        say(text.get(), end="")
+        if sheet.heads:
+            console.width = max(limit or 0, WIDE)  # rich would cut numbers off
+            with console.capture() as text:
+                console.print(_terminal_table(shown))
+            console.width = limit or WIDE
+            say(text.get(), end="")
+        say_all([*sheet.notes, *_left_out(sheet, shown.sheet, limit or WIDE)])
     say("")
 
 
-def _terminal_table(sheet: Sheet, width: int) -> Table:
-    """A table of rich without title and notes, which fits into `width` columns if possible.
-
-    The unit of a head is on a second line; in a table that is too wide, columns are closer.
+class Fitted(NamedTuple):
+    """A table as it fits a terminal: its heads on several lines, the widths of its columns, and the
+    blanks between them.
     """
+
+    sheet: Sheet
+    heads: list[str]
+    widths: list[int]
+    gap: int
+
+    @property
+    def width(self) -> int:
+        """Of the whole table."""
+        return sum(self.widths) + self.gap * (len(self.widths) - 1)
+
+
+def fitted(sheet: Sheet, limit: int, usual: int) -> Fitted:
+    """A table in at most ``limit`` columns of text; numbers are never cut off.
+
+    In a table wider than ``usual``, columns are closer. In one that is wider than the limit, heads
+    have one word in a line, then texts go on in a second line, then columns that are `spare` are
+    left out. If that is not enough, the terminal wraps its lines.
+    """
+    found = _laid_out(sheet, by_words=False, gap=2)
+    if found.width > usual:
+        found = found._replace(gap=1)
+    if found.width > limit:
+        found = _folded(_laid_out(sheet, by_words=True, gap=1), limit)
+    spare = iter(sheet.spare)
+    while found.width > limit and (head := next(spare, None)):
+        found = _folded(_laid_out(found.sheet.without(head), by_words=True, gap=1), limit)
+    return found
+
+
+def _laid_out(sheet: Sheet, by_words: bool, gap: int) -> Fitted:
+    """A table with all of its texts in one line; heads have their unit in the second line."""
+    heads = [_in_lines(head, by_words) for head in sheet.heads]
+    columns = zip(heads, sheet.columns, strict=True)
+    widths = [max(map(len, [*head.split("\n"), *texts])) for head, texts in columns]
+    return Fitted(sheet, heads, widths, gap)
+
+
+def _in_lines(head: str, by_words: bool) -> str:
+    """A head with its unit, or every word, in a line of its own."""
+    if by_words:
+        return head.replace(" ", "\n").replace("_", "_\n")
+    return "\n".join(head.rsplit(" ", 1))
+
+
+def _folded(table: Fitted, limit: int) -> Fitted:
+    """A table whose longest texts go on in further lines, so that it fits the limit if it can."""
+    widths, columns = list(table.widths), table.sheet.columns
+    least = [
+        max(len(word) for text in [head.replace("\n", " "), *texts] for word in text.split(" "))
+        if _is_text(texts)
+        else width
+        for head, texts, width in zip(table.heads, columns, widths, strict=True)
+    ]
+    excess = table.width - limit
+    while excess > 0 and widths != least:
+        k = max(range(len(widths)), key=lambda k: (widths[k] > least[k], widths[k]))
+        widths[k] -= 1
+        excess -= 1
+    return table._replace(widths=widths)
+
+
+def _is_number(texts: list[str]) -> bool:
+    from sweep.numbers import NOTHING
+
+    return all(text[:1] in f"0123456789->?{NOTHING}" and " x " not in text for text in texts)
+
+
+def _is_text(texts: list[str]) -> bool:
+    """Whether a column may go on in a second line."""
+    return not _is_number(texts) and not any(" x " in text for text in texts)
+
+
+def _left_out(sheet: Sheet, shown: Sheet, limit: int) -> Iterator[str]:
+    """Lines about the columns that are not shown."""
+    missing = [head for head in sheet.heads if head not in shown.heads]
+    if missing:
+        told = f"Not in this narrow terminal: {', '.join(missing)}."
+        yield from wrap(f"{told} A wider one shows them, and so does {sheet.elsewhere}.", limit)
+
+
+def _terminal_table(table: Fitted) -> Table:
+    """A table of rich without title and notes."""
     from rich import box
     from rich.table import Table
 
-    from sweep.numbers import NOTHING
-
-    heads = ["\n".join(head.rsplit(" ", 1)) for head in sheet.heads]
-    columns = [
-        [*head.split("\n"), *texts] for head, texts in zip(heads, sheet.columns, strict=True)
-    ]
-    natural = sum(max(map(len, texts)) + 2 for texts in columns) - 2
-    table = Table(
-        box=box.SIMPLE_HEAD,
-        show_edge=False,
-        padding=(0, 1 if natural <= width else 0, 0, 0),
-    )
-    for head, texts in zip(heads, sheet.columns, strict=True):
-        right = all(text[:1] in f"0123456789->?{NOTHING}" and " x " not in text for text in texts)
-        table.add_column(head, justify="right" if right else "left", no_wrap=True)
+    sheet, padding = table.sheet, (0, table.gap - 1, 0, 0)
+    made = Table(box=box.SIMPLE_HEAD, show_edge=False, padding=padding)
+    for head, texts, width in zip(table.heads, sheet.columns, table.widths, strict=True):
+        side: Literal["left", "right"] = "right" if _is_number(texts) else "left"
+        made.add_column(head, justify=side, width=width, overflow="fold")
     for i, row in enumerate(sheet.rows):
         if i in sheet.opens and i:
-            table.add_section()
-        table.add_row(*row)
-    return table
+            made.add_section()
+        made.add_row(*row)
+    return made
 
 
 def say(text: object, end: str = "\n") -> None:

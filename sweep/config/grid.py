@@ -16,6 +16,7 @@ from pydantic_core import ErrorDetails
 
 from sweep.config.case import TABLES, Case
 from sweep.config.keys import ALIASES, case_keys
+from sweep.config.material_header import KEYS
 from sweep.config.resolve import resolve
 from sweep.config.tables import Rank, Table, rounded
 from sweep.config.unused_keys import still_unused
@@ -24,6 +25,7 @@ MAX_CASES = 1_000_000
 SHOWN = 10  # faults that the text of a ConfigError lists
 _QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
 PRINTABLE = "lattice.printable"
+OF_A_FILE = frozenset(f"material.{name}" for name in KEYS.values())
 MAY_BE_UNUSED = ("material.poisson",)  # a property of the material, stated even in plane stress
 
 
@@ -283,7 +285,9 @@ def _fault(reason: Reason, given: Values) -> Fault:
     text = f"{value:g}" if isinstance(value, float) else json.dumps(value)
     unit = case_keys()[key].unit
     text = text if unit in (None, "1") else f"{text} {unit}"
-    why = f", as {reason['since']} is given" if reason.get("since") else " by default"
+    of_a_file = "material.name" in given and key in OF_A_FILE
+    why = f" in the file of {given['material.name'].text}" if of_a_file else " by default"
+    why = f", as {reason['since']} is given" if reason.get("since") else why
     return Fault(key, f"{key} = {text}{why}: does not fit; allowed: {allowed}")
 
 

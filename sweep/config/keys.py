@@ -7,6 +7,7 @@ import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cache
+from math import inf
 from typing import Any
 
 from pydantic import ConfigDict, TypeAdapter
@@ -53,13 +54,15 @@ _BOUNDS = {
 class Key:
     """One key of a config.
 
-    targets: the keys of a case that it sets. unit: its SI unit. bare: the unit may be left out.
-    allowed: the accepted values in words. adapter: checks a value in SI.
+    targets: the keys of a case that it sets. unit: its SI unit. bare: the unit may be left out, of
+    numbers up to ``bare_most``. allowed: the accepted values in words. adapter: checks a value in
+    SI.
     """
 
     targets: tuple[str, ...]
     unit: str | None
     bare: bool
+    bare_most: float
     is_list: bool
     allowed: str
     adapter: TypeAdapter[Any]
@@ -103,8 +106,8 @@ def _key(name: str, model: type[Table], field: str, schema: dict[str, Any]) -> K
     info = model.model_fields[field]
     config = ConfigDict(strict=True, allow_inf_nan=False)
     adapter = TypeAdapter(info.rebuild_annotation(), config=config)
-    unit, bare = item.get("unit"), item.get("bare", False)
-    return Key((name,), unit, bare, is_list, allowed, adapter)
+    unit, bare, most = item.get("unit"), item.get("bare", False), item.get("bare_most", inf)
+    return Key((name,), unit, bare, most, is_list, allowed, adapter)
 
 
 def _plain(schema: dict[str, Any]) -> dict[str, Any]:
@@ -138,6 +141,7 @@ def _words(schema: dict[str, Any]) -> str:
         if name in schema
     ]
     noun = "a whole number" if schema["type"] == "integer" else "a number"
+    noun += f" up to {schema['bare_most']:g}" if "bare_most" in schema else ""
     nouns = [noun] if schema.get("bare") or "unit" not in schema else []
     nouns += [QUANTITIES[schema["unit"]]] if "unit" in schema else []
     return ", ".join([" or ".join(nouns), *bounds])

@@ -16,7 +16,7 @@ import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from math import isfinite
+from math import inf, isfinite
 from pathlib import Path
 
 from sweep.config.material_header import Stated, comments, stated
@@ -26,10 +26,18 @@ Numbers = tuple[float, ...]
 FOLDER = Path(__file__).parents[2] / "configs" / "materials"
 COLUMNS = ["strain", "stress_Pa"]
 TOE = 0.01  # below this strain a record is replaced by a straight line from the origin
+MOST_STRAIN = 20.0  # no rubber is stretched farther
 REFERENCE_TIME = 1.0  # s; of a record that states none
 SECANT = (0.01, 0.04)  # strains of the secant that is the modulus of a curve
 MEMORY = ("loss", "softening_r", "softening_m", "softening_beta")
 PLASTICITY = ("yield_stress", "hardening", "fracture_strain")
+LIMITS = {
+    "loss": (0.0, 0.8, "above 0, at most 0.8; 38 % is 0.38"),
+    "fracture_strain": (0.0, 1.0, "above 0, at most 1; 2.5 % is 0.025"),
+    "poisson": (-1e-12, 0.5 - 1e-12, "at least 0, below 0.5"),
+    "softening_r": (1.0, inf, "above 1"),
+}
+"""Numbers of a header and both ends of their ranges: above, at most, in words."""
 RANGE_ALONE = ("modulus", "friction")  # of which a range may be stated without a number
 
 
@@ -122,6 +130,8 @@ def _check_numbers(numbers: Mapping[str, Stated]) -> None:
     """Refuse a header without the numbers that every material needs."""
     if "density" not in numbers or "poisson" not in numbers:
         raise RecordError("needs the lines # density_kg_m3: ... and # poisson: ...")
+    for key, number in numbers.items():
+        _check_limits(key, number)
     alone = [key for key, number in numbers.items() if number.value is None]
     if any(key not in RANGE_ALONE for key in alone):
         raise RecordError(f"{alone[0]} needs a number beside its range")
@@ -132,6 +142,14 @@ def _check_numbers(numbers: Mapping[str, Stated]) -> None:
         raise RecordError(f"{other[0]} needs the line # yield_stress_Pa: ...")
     if yields and ("modulus" not in numbers or "modulus" in alone):
         raise RecordError("a material that yields needs the line # modulus_Pa: ...")
+
+
+def _check_limits(key: str, number: Stated) -> None:
+    """Refuse a number, or an end of its range, that no case may have."""
+    above, at_most, words = LIMITS.get(key, (-inf, inf, ""))
+    for value in number:
+        if value is not None and not above < value <= at_most:
+            raise RecordError(f"# {key}: {value:g}; allowed: {words}")
 
 
 def _curve(lines: list[str], yields: bool) -> tuple[Numbers, Numbers]:
@@ -149,10 +167,21 @@ def _columns(lines: list[str]) -> tuple[Numbers, Numbers]:
     """Strain and stress below the header."""
     rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))
     if not rows or [word.strip() for word in rows[0]] != COLUMNS:
-        raise RecordError(f"the first row must read {','.join(COLUMNS)}")
-    if any(len(row) != 2 for row in rows):
-        raise RecordError("every row must hold two numbers")
-    return tuple(float(row[0]) for row in rows[1:]), tuple(float(row[1]) for row in rows[1:])
+        told = f"the first row must read {','.join(COLUMNS)}"
+        raise RecordError(f"{told}, with a comma between the heads")
+    strain, stress = zip(*(_pair(row) for row in rows[1:]), strict=True) if rows[1:] else ((), ())
+    return strain, stress
+
+
+def _pair(row: list[str]) -> tuple[float, float]:
+    """Strain and stress of a row."""
+    try:
+        strain, stress = map(float, row)
+    except ValueError:
+        needed = "needed: two numbers with a comma between them"
+        wrong = f'one is "{",".join(row)}"; {needed}'
+        raise RecordError(f"every row must hold two numbers, but {wrong}") from None
+    return strain, stress
 
 
 def check_curve(strain: Numbers, stress: Numbers) -> None:
@@ -161,6 +190,9 @@ def check_curve(strain: Numbers, stress: Numbers) -> None:
         raise RecordError("a curve needs a stress for every strain, all of them finite")
     if any(b <= a for a, b in pairwise(strain)) or min(strain, default=0.0) <= -1.0:
         raise RecordError("the strains of a curve must increase, from above -1")
+    if max(strain, default=0.0) > MOST_STRAIN:
+        told = f"a curve to a strain of {max(strain):g}: is it in percent?"
+        raise RecordError(f"{told} allowed: up to {MOST_STRAIN:g}; 10 % is 0.1")
     if max(strain, default=0.0) < SECANT[1]:
         raise RecordError(f"a curve must reach a strain of {SECANT[1]:g}")
     if stress_at(TOE, strain, stress) <= 0.0:

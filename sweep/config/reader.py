@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from sweep.config.case import TABLES
 from sweep.config.grid import Axes, Config, Fault, Values, Written
 from sweep.config.keys import ALIASES, Key, case_keys, nearest, table_keys
-from sweep.config.material_file import UnknownMaterialError, locate, read_record
+from sweep.config.material_file import RecordError, UnknownMaterialError, locate, read_record
 from sweep.config.renamed import present
 from sweep.config.structure_file import StructureError, read_structure
 from sweep.config.tables import Rank, rounded
@@ -26,6 +26,13 @@ _REASONS = {
     "too_long": "too many values",
 }
 BRANCH = ("time", "share")  # keys of a branch of relaxation
+BY_MATERIAL = {
+    "loading.strain_rate",
+    "lattice.mass",
+    "solver.bend_measure",
+    "solver.joints",
+}
+"""Keys of other tables that may be refused because of the material."""
 _NAME = re.compile(r"\w[\w.-]*")
 
 
@@ -69,6 +76,7 @@ class Reader:
             "grid": set(),
             "exclude": {*TABLES, "exclude", "grid", "zip"},
         }.get(_table(fault.key), TABLES.keys() - {"material"})
+        depends_on = depends_on | ({"material"} if fault.key in BY_MATERIAL else set())
         return not depends_on & {_table(known.key) for known in self.faults}
 
     def _name(self, name: object) -> str:
@@ -121,6 +129,9 @@ class Reader:
             self._refuse("material.relaxation", branches, f"no branches; allowed: {allowed}")
             return left
         lists = {f"relaxation_{name}s": [b[name] for b in branches] for name in BRANCH}
+        if twice := [name for name in lists if name in left]:
+            wrong = f"material.{twice[0]} states the same; allowed: one of them"
+            self._refuse("material.relaxation", branches, wrong)
         return left | lists
 
     def _rank(self, section: dict[str, Any]) -> Rank:
@@ -190,6 +201,9 @@ class Reader:
             return Written(None, '""')
         try:
             return Written(self._checked(known[name], raw), in_words(raw), name)
+        except RecordError as error:
+            self._refuse(name, raw, str(error).removeprefix(f"{Path(raw).name}: "), where)
+            return None
         except StructureError as error:
             for line in error.lines:
                 self._refuse(name, raw, line, where)
@@ -213,6 +227,8 @@ class Reader:
         if key.targets == ("lattice.file",) and isinstance(raw, str):
             return _structure(self.folder / raw)
         many = isinstance(raw, list)
+        if many and not key.is_list:
+            raise ValueError("a list, which belongs in [grid]")
         value: Any = [self._in_si(key, v) for v in raw] if many else self._in_si(key, raw)
         try:
             return key.adapter.validate_python(tuple(value) if many else value)
@@ -224,6 +240,10 @@ class Reader:
     def _in_si(self, key: Key, raw: Any) -> Any:
         """One value without its unit, if its key has one."""
         bare = key.bare and isinstance(raw, int | float)
+        if bare and raw > key.bare_most:
+            raise ValueError(
+                f"a bare number above {key.bare_most:g}, which may be meant in percent"
+            )
         return self.to_si(raw, key.unit) if key.unit and not bare else raw
 
 

@@ -48,7 +48,10 @@ Shares = Annotated[tuple[Strain, ...], Field(strict=False)]
 Loss = Annotated[float, Field(gt=0, le=0.8, json_schema_extra={"unit": "1", "bare": True})]
 # A million rows of history take 120 MB, and a million steps of one square cell half a minute.
 MAX_STEPS = 1_000_000
-Positive = Annotated[float, Field(gt=0, json_schema_extra={"unit": "1", "bare": True})]
+# Without a unit at most 1: a greater number is likely a percentage.
+Stretched = Annotated[
+    float, Field(gt=0, json_schema_extra={"unit": "1", "bare": True, "bare_most": 1})
+]
 NonNegative = Annotated[float, Field(ge=0)]
 
 
@@ -134,7 +137,7 @@ class Material(Table):
     softening_beta: NonNegative | None = None
     yield_stress: Stress | None = None
     hardening: Annotated[float, Field(ge=0, json_schema_extra={"unit": "Pa"})] | None = None
-    fracture_strain: Positive | None = None
+    fracture_strain: Stretched | None = None
     curve_strain: Curve = ()
     curve_stress: Curve = ()
     uncertain: Annotated[tuple[Range, ...], Field(strict=False)] = ()

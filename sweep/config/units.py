@@ -100,6 +100,8 @@ def _converted(text: object, unit: str) -> float:
     number, written = match.groups()
     if not written:
         raise ValueError("a bare number")
+    if written.count("%") > 1:
+        raise ValueError(f"unknown unit {in_words(written)}")
     registry = _registry()
     try:
         found = registry.parse_units(f"1{written}" if written.startswith("/") else written)

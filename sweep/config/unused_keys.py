@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from sweep.config.case import Case
+from sweep.config.material_file import locate, read_record
 from sweep.config.solver_defaults import ARCS
 from sweep.config.structure import Structure
 
@@ -53,6 +54,8 @@ def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
         return STEADY
     if key == "material.fibres" and case.material.fibres is None:
         return f'material.bend is "{case.material.bend}"'
+    if key == "material.memory" and given[key] == "measured" and not _acts(given):
+        return "the config itself gives what the file of the material states"
     if key in PLASTICITY and not case.material.yields:
         return "material.yield_stress is not given"
     if key in SOFTENING and case.material.softening_r is None:
@@ -62,7 +65,14 @@ def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
     used = resolved == given[key] or _used_otherwise(key, resolved, given, case)
     if used or table == "material":
         return ""
-    return _reason_in_lattice(key, case) if table == "lattice" else _reason(key, case)
+    return _reason_in_lattice(key, case) if table == "lattice" else _reason(key, given, case)
+
+
+def _acts(given: Mapping[str, Any]) -> bool:
+    """Whether a measured memory has a number that the config does not give."""
+    stated = read_record(locate(given.get("material.name", "ninjaflex"))).memory
+    others = {key for key in stated if given.get(f"material.{key}") is None}
+    return bool(others - ({"loss"} if given.get("material.relaxation_times") else set()))
 
 
 def _reason_in_lattice(key: str, case: Case) -> str:
@@ -90,7 +100,7 @@ def _used_otherwise(key: str, resolved: object, given: Mapping[str, Any], case: 
     return key == "loading.speed" and case.loading.mode == "displacement"
 
 
-def _reason(key: str, case: Case) -> str:
+def _reason(key: str, given: Mapping[str, Any], case: Case) -> str:
     if ARCS in (key.split(".")[1], case.solver.integrator):
         return f'solver.integrator is "{case.solver.integrator}"'
     if case.lattice.structure is not None and key.startswith("loading."):
@@ -104,6 +114,8 @@ def _reason(key: str, case: Case) -> str:
         return f'contact.model is "{case.contact.model}"'
     if case.loading.quasi_static:
         return "the crush is quasi-static"
+    if key.startswith("damping.") and case.damping.model == "none" and "damping.model" not in given:
+        return 'damping.model is "none" by default if the material relaxes; give a damping.model'
     if key.startswith("damping."):
         return f'damping.model is "{case.damping.model}"'
     return "contact.friction is 0" if key == "contact.slip_speed" else "solver.load_steps sets it"

@@ -10,11 +10,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import ValidationError
 
 from kernels.laws.one_point import stresses
 from sweep.config.case import Material
 from sweep.coupon import branches
-from sweep.coupon.record import Coupon, Floats
+from sweep.coupon.record import Coupon, CouponError, Floats
 from sweep.scene.material import LOWER_WEIGHT, UPPER_WEIGHT, law_in_stretch
 
 STRAINS = np.array(
@@ -33,7 +34,7 @@ class Loading:
     """The first loading of a coupon, and the path of the whole test, for laws to follow."""
 
     def __init__(self, coupon: Coupon, rows: list[int]) -> None:
-        self.sign = coupon.sign
+        self.name, self.sign = coupon.name, coupon.sign
         self.time, self.strain = branches.path(coupon, rows)
         self.all_times = coupon.time
         self.rows = _first_time(self.sign * coupon.strain, rows)
@@ -67,6 +68,18 @@ class Loading:
         numbers: dict[str, Any] = dict(memory)
         if "loss" in memory:
             numbers["reference_time"] = self.reference_time
+        try:
+            return self._law(numbers, strain, stress, at_points)
+        except ValidationError:
+            raise CouponError(
+                f"{self.name}: the stress hardly rises towards a strain of {self.points[-1]:.3g}, "
+                "and no law with a loss has such a curve; leave out the rows of larger strains, or "
+                "of a strip that slips"
+            ) from None
+
+    def _law(
+        self, numbers: dict[str, Any], strain: Floats, stress: Floats, at_points: Floats
+    ) -> Material:
         return Material(
             name="coupon",
             modulus=float(at_points[0] / self.points[0]),

@@ -18,6 +18,7 @@ from sweep.coupon.record import Coupon, CouponError, Floats
 BETA = 0.1  # assumed where the record does not tell
 LARGER = 1.2  # of the first peak: a second one that tells beta
 SLACK = 0.02  # of the greatest stress: below it a strip may be slack
+ABOVE = 0.02  # of the work: by so much unloading may lie above loading, by noise
 UNLOADED = 0.05  # of the greatest stress
 AS_GOOD = 1.05, 5e-4  # of the least misfit, and of the greatest stress
 STEP = 1e-3  # relative, of the numbers, for differences
@@ -57,6 +58,7 @@ class Fit:
 def fit(coupon: Coupon) -> Fit:
     """The material of a coupon."""
     rows = branches.turns(coupon)
+    _check_unloading(coupon, rows)
     loading = Loading(coupon, rows)
     if loading.record[0] <= 0.0:
         raise CouponError(f"{coupon.name}: the stress does not rise with the strain")
@@ -82,6 +84,26 @@ def fit(coupon: Coupon) -> Fit:
         worst=(float(abs(apart[worst])), worst),
         shares=(_lost(coupon, rows, 0), _lost(coupon, rows, 2)),
     )
+
+
+def _check_unloading(coupon: Coupon, rows: list[int]) -> None:
+    """Refuse a record whose first unloading gives back more than the loading has taken."""
+    if len(rows) < 3:
+        return
+    strain, stress = coupon.sign * coupon.strain, coupon.sign * coupon.stress
+    loading, unloading = slice(rows[1] + 1), slice(rows[1], rows[2] + 1)
+    upwards = np.maximum.accumulate(strain[loading])
+    taken = np.interp(strain[unloading], upwards, stress[loading])
+    path = np.diff(strain[unloading])
+    more, all_taken = (
+        -float(0.5 * (s[1:] + s[:-1]) @ path) for s in (stress[unloading] - taken, taken)
+    )
+    if more > ABOVE * all_taken:
+        raise CouponError(
+            f"{coupon.name}: the unloading lies above the loading, by {100 * more / all_taken:.2g} "
+            "% of its work, but no material gives back more than it takes; are the rows in the "
+            "order in which they were measured, and of one test?"
+        )
 
 
 def _peak(coupon: Coupon, row: int) -> float:

@@ -21,6 +21,8 @@ MOST_STRAIN = 5.0
 SOFTEST, STIFFEST = 1e5, 1e11  # Pa
 OFFSET = 0.005, 0.05  # greatest first strain, and first stress over the greatest one
 MM = 1e-3
+KNOWN = ("time_s", "strain", "displacement_mm", "stress_Pa", "force_N")
+SEPARATORS = {";": "semicolons", "\t": "tabs"}
 
 
 class CouponError(ValueError):
@@ -61,27 +63,61 @@ def read_coupon(path: Path, gauge: float | None = None, area: float | None = Non
 
 def _columns(path: Path) -> dict[str, Floats]:
     """The columns of numbers of a csv file by their names."""
-    lines = path.read_text(encoding="utf-8-sig").splitlines()
-    rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))
-    if not rows:
-        raise ValueError("no rows; needed: columns time_s, strain, stress_Pa")
-    heads, rows = [head.strip() for head in rows[0]], rows[1:]
+    heads, *rows = _rows(path)
+    if twice := [head for head in KNOWN if heads.count(head) > 1]:
+        raise ValueError(f"two columns {twice[0]}; needed: one")
+    if not set(heads) & set(KNOWN):
+        needed = "needed: names of columns, such as time_s, strain, stress_Pa"
+        raise ValueError(f"its first row is {', '.join(heads)}; {needed}")
     if len(rows) < FEWEST:
         raise ValueError(f"{len(rows)} rows are too few for a curve; needed: at least {FEWEST}")
-    if any(len(row) != len(heads) for row in rows):
-        raise ValueError(f"every row must have {len(heads)} values, as its first row has")
-    known = ("time_s", "strain", "displacement_mm", "stress_Pa", "force_N")
-    return {
-        head: np.array([float(row[k]) for row in rows])
-        for k, head in enumerate(heads)
-        if head in known
-    }
+    for number, row in enumerate(rows, 1):
+        if len(row) != len(heads):
+            raise ValueError(
+                f"row {number} has {len(row)} values, but there are {len(heads)} heads; needed: "
+                "commas between values alone, and points in numbers (0.1, not 0,1)"
+            )
+    return {head: _numbers(head, [row[k] for row in rows]) for k, head in enumerate(heads)}
+
+
+def _rows(path: Path) -> list[list[str]]:
+    """The rows of a csv file, without comments and blanks; the first one has the heads."""
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except UnicodeDecodeError:
+        raise ValueError("no UTF-8 text; needed: saved as csv in UTF-8") from None
+    lines = [line for line in lines if line.strip() and not line.startswith("#")]
+    if not lines:
+        raise ValueError("no rows; needed: columns time_s, strain, stress_Pa")
+    for sign, word in SEPARATORS.items():
+        if sign in lines[0]:
+            raise ValueError(
+                f"its columns are separated by {word}; needed: commas between columns, and points "
+                "in numbers"
+            )
+    return [[text.strip() for text in row] for row in csv.reader(lines)]
+
+
+def _numbers(head: str, texts: list[str]) -> Floats:
+    """The numbers of a column that is read; of another one, none."""
+    found: list[float] = []
+    for number, text in enumerate(texts if head in KNOWN else (), 1):
+        try:
+            found.append(float(text))
+        except ValueError:
+            wrong = f'{head} in row {number} is "{text}", no number'
+            raise ValueError(f"{wrong}; needed: numbers alone below the heads") from None
+    return np.array(found)
 
 
 def _column(columns: dict[str, Floats], name: str) -> Floats:
     if name not in columns:
-        raise ValueError(f"no column {name}; its columns: {', '.join(columns) or 'none known'}")
+        raise ValueError(f"no column {name}; its columns: {_names(columns)}")
     return columns[name]
+
+
+def _names(columns: dict[str, Floats]) -> str:
+    return ", ".join(filter(None, columns))
 
 
 def _measured(
@@ -93,7 +129,8 @@ def _measured(
             raise ValueError(f"--{word} has no effect, as there is a column {name}")
         return columns[name]
     if raw not in columns:
-        raise ValueError(f"no column {name}, and no {raw} in its place")
+        wrong = f"no column {name}, and no {raw} in its place"
+        raise ValueError(f"{wrong}; its columns: {_names(columns)}; units are those of the names")
     if size is None:
         raise ValueError(f"{raw} in place of {name}: needed: --{word}")
     return unit * columns[raw] / size
@@ -107,12 +144,15 @@ def _check(coupon: Coupon) -> None:
     steps = np.diff(time)
     if (steps <= 0.0).any():
         row = int(np.argmax(steps <= 0.0)) + 2
-        raise ValueError(f"time_s does not increase from row {row - 1} to row {row}")
+        raise ValueError(
+            f"time_s does not increase from row {row - 1} to row {row}: is it rounded?"
+        )
     most = np.abs(strain).max()
     if most > MOST_STRAIN:
         raise ValueError(f"a strain of {most:g}: is it in percent? allowed: up to {MOST_STRAIN:g}")
     if most < SECANT[1]:
-        raise ValueError(f"strains up to {most:.3g}; needed: at least {SECANT[1]:g}")
+        told = f"strains up to {most:.3g}; needed: at least {SECANT[1]:g}"
+        raise ValueError(f"{told}; is the displacement in mm, and the gauge length right?")
     if strain.min() <= -1.0:
         raise ValueError("a strain of -1 or less; allowed: above -1")
     if abs(strain[0]) > OFFSET[0] or abs(stress[0]) > OFFSET[1] * np.abs(stress).max():
@@ -126,14 +166,19 @@ def _check(coupon: Coupon) -> None:
 def _check_modulus(coupon: Coupon) -> None:
     """Refuse a modulus that no plastic has, and say which unit it may be."""
     found = coarse_modulus(coupon)
-    if found <= 0.0:
+    if found == 0.0:
+        raise ValueError("the stress does not rise between 1 and 4 % strain; needed: that it does")
+    if found < 0.0:
         raise ValueError(
             "stress and strain have opposite signs between 1 and 4 %; allowed: both positive in "
             "tension, both negative in compression"
         )
     told = f"a modulus of {found:.3g} Pa between 1 and 4 % strain"
     if found < SOFTEST:
-        raise ValueError(f"{told}: is stress_Pa in MPa, a force, or the strain in percent?")
+        raise ValueError(
+            f"{told}: is stress_Pa in MPa or kPa (needed: Pa), a force (needed: a column force_N "
+            "and --area), or the strain in percent (needed: 0.1 for 10 %)?"
+        )
     if found > STIFFEST:
         raise ValueError(f"{told}: are stress_Pa or the size of the specimen in another unit?")
 

@@ -8,6 +8,9 @@ from sweep.coupon.branches import branch_name
 from sweep.coupon.fit import Fit
 
 DENSITY = 1200.0, "1190 .. 1220", "of printed TPU"  # kg/m^3
+USUAL_RATES = 2e-4, 1.0  # 1/s, of tests of coupons
+SOFT = 5e6  # Pa
+POOR = 0.03  # root mean square of record - law over the greatest stress
 POISSON = "0.48 (0.45 .. 0.48)"
 
 
@@ -78,6 +81,30 @@ def told(fit: Fit, record: Record) -> Iterator[str]:
         yield f"lost work       {cycles} of the {of} of the record"
     yield from _told_memory(fit)
     yield fit_sentence(fit)
+    yield from doubts(fit, record)
+
+
+def doubts(fit: Fit, record: Record) -> Iterator[str]:
+    """Warnings about what is unusual and may be a mistake; record: as in `told`."""
+    coupon, turn = fit.coupon, fit.rows[1]
+    rate = abs(float(coupon.strain[turn])) / float(coupon.time[turn])
+    low, high = USUAL_RATES
+    if not low <= rate <= high:
+        unit = "milliseconds" if rate < low else "minutes"
+        yield (
+            f"Warning: the first loading is at {rate:.2g} 1/s, usual are {low:g} to {high:g} "
+            f"1/s: is time_s in {unit}? needed: seconds."
+        )
+    if record.modulus < SOFT:
+        yield (
+            f"Warning: printed TPU usually has a modulus above {SOFT / 1e6:g} MPa: is the strain "
+            "in percent (needed: 0.1 for 10 %), or the gauge length or the area wrong?"
+        )
+    if fit.misfit > POOR:
+        yield (
+            f"Warning: that is more than {100 * POOR:g} %. Look at the picture: did the strip slip "
+            "or go slack, or did the test pause at a turn?"
+        )
 
 
 def _told_memory(fit: Fit) -> Iterator[str]:

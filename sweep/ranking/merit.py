@@ -67,8 +67,8 @@ def merits(
 
     A budget counts the mass as extruded where there is a slicer (`counted_mass_g`).
     Other added columns: `passed_on_N`, the greatest force while that energy is absorbed;
-    `returned_share`, returned energy / work of the whole crush; `beyond_model`; `crossed`; and
-    errors and corrections of added columns, if the energy has them.
+    `returned_share`, returned energy / work of the whole crush; `beyond_model`; `crossed`;
+    `beyond_curve`; and errors and corrections of added columns, if the energy has them.
     """
     if missing := [name for name in COLUMNS if name not in finished and name not in OLDER]:
         raise RankError(
@@ -85,6 +85,7 @@ def merits(
         "returned_share": finished["returned_energy_J"] / finished["absorbed_energy_J"],
         "beyond_model": (finished[energy] > within) | _through_solid(finished),
         "crossed": finished["max_crossings"] > 0,
+        "beyond_curve": finished["stretch_over_curve"] > 1.0,
     }
     names = Compared(mass, energy, per_gram, until)
     factor = None if panel is None else panel_factor(finished, panel)

@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
-from sweep.numbers import NOTHING, energy_text, short
+from sweep.numbers import NOTHING, energy_text, short, with_unit
 from sweep.ranking.merit import LEAST, Compared, Quantity, RankError, greatest_mass, in_si, merits
 from sweep.ranking.ranking import Ranking
 from sweep.result import (
@@ -70,6 +70,7 @@ LEADING = [
     "returned_share",
     "beyond_model",
     "crossed",
+    "beyond_curve",
 ]
 
 
@@ -119,6 +120,7 @@ def rank(
     beyond_model : True if an element is too short or a wall breaks while the counted energy is
         absorbed, or if the lattice is compressed to less than its solid height.
     crossed : True if walls crossed one another.
+    beyond_curve : True if a wall was stretched beyond the measured curve in the run.
 
     `attrs` holds the other fields of `Ranking`, for one more release; use `ranked` for them.
     """
@@ -207,7 +209,11 @@ def scene_label(rows: DataFrame) -> str:
     platen = first["platen"]
     if first["loading_mode"] != "custom":
         words.append("no platens" if platen in ("none", "") else f"{platen} platens")
-    others = {key: short(first[key]) for key in scene_keys(rows) if key not in shown}
+    others = {
+        key: with_unit(first[key], describe_column(key).units)
+        for key in scene_keys(rows)
+        if key not in shown
+    }
     used = {key: value for key, value in others.items() if value not in ("", NOTHING)}
     words += [f"{key.replace('.', ' ').replace('_', ' ')} {value}" for key, value in used.items()]
     return ", ".join(words)

@@ -19,7 +19,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from sweep.design.silhouette import silhouette
 from sweep.numbers import energy_text, three_digits
-from sweep.report.storyboard import headline, last_loaded, shots
+from sweep.report.storyboard import headline, last_loaded, shots, turns
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -126,16 +126,14 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     Over the path of a driven platen, down and back; otherwise over time.
     """
     work = 1e3 * history["work_in_J"]
-    turn = last_loaded(history, row)
     if row["loading_mode"] == "displacement":
         place = 1e3 * history["top_displacement_m"].diff().abs().cumsum().fillna(0.0)
-        words = "path of the platen, down and back up, mm", "turns"
+        ax.set_xlabel("path of the platen, down and back up, mm")
     else:
         place = 1e3 * history["time_s"]
-        words = "time, ms", "load off" if row["loading_mode"] == "force" else "stops"
-    ax.set_xlabel(words[0])
-    if turn + 1 < len(history):
-        mark(ax, place[turn], words[1])
+        ax.set_xlabel("time, ms")
+    for at, words in turns(history, row).items():
+        mark(ax, place[at], words, after=words.startswith("cycle"))
     parts = {
         label: (1e3 * history[name], color)
         for name, (label, color) in ENERGIES.items()
@@ -249,10 +247,11 @@ def legend(fig: Figure, entries: list[dict[str, Any]]) -> None:
         fig.legend(handles=handles, loc="outside right upper", frameon=False, ncols=columns)
 
 
-def mark(ax: Axes, x: float, words: str) -> None:
-    """A vertical dotted line at `x`, with `words` at its upper end."""
+def mark(ax: Axes, x: float, words: str, after: bool = False) -> None:
+    """A vertical dotted line at `x`, with `words` at its upper end, before it or after it."""
     ax.axvline(x, color=GREY, lw=1.0, ls=":")
-    ax.annotate(words, (x, 1.0), (-3, -2), xycoords=ax.get_xaxis_transform(), ha="right", va="top",
+    side, shift = ("left", 3) if after else ("right", -3)
+    ax.annotate(words, (x, 1.0), (shift, -2), xycoords=ax.get_xaxis_transform(), ha=side, va="top",
                 textcoords="offset points", fontsize="small", color="#555555")  # fmt: skip
 
 

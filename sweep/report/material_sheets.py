@@ -56,7 +56,8 @@ def material_sheet(records: Iterable[Record]) -> Sheet:
         ]
         for record in known
     ]
-    return Sheet("", ["material", *keys, "source", "assumed"], rows, notes=(NOTE,))
+    heads, others = ["material", *keys, "source", "assumed"], "crumple materials NAME"
+    return Sheet("", heads, rows, notes=(NOTE,), spare=("poisson", "after s"), elsewhere=others)
 
 
 def _first_word(text: str) -> str:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from pandas import Series
+from pandas.api.types import is_numeric_dtype
 
-from sweep.numbers import numerals, percent, short, tenths
+from sweep.numbers import NOTHING, SHOWN, numerals, percent, scaled, short, tenths
 from sweep.ranking.merit import LEAST, greatest_mass
 from sweep.ranking.rank import ASSUMPTIONS, by_scene, scene_label
+from sweep.result import describe_column
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -23,12 +25,13 @@ pack: strain at which the lattice has packed down: mean over those of nearly the
 back: returned energy / work of the whole crush."""
 AGAIN = "again: energy absorbed in the second cycle / in the first; other columns are of the first."
 ELASTIC = "Walls are elastic: what is missing from 100 % is friction, damping, snaps or time steps."
+PLASTIC = "What is missing from 100 % is lost in the material, in friction and snaps."
 LOSSY = """\
 What is missing from 100 % is lost in the material (dissipated_material_J), in friction and snaps,
 or still stored in walls that relax."""
 MIXED = """\
-Where memory is "none", walls are elastic: what is missing from 100 % is friction, damping, snaps
-or time steps. Elsewhere it is also lost in the material, or still stored in walls that relax."""
+behaviour: of the walls. Where they are elastic, what is missing from 100 % is friction, damping,
+snaps or time steps; elsewhere also lost in the material, or still stored in walls that relax."""
 LOADED = "sink: greatest strain under the load, including its swing."
 STRUCK = """\
 force: greatest force on the support. left: stroke that closes all voids - greatest stroke.
@@ -54,6 +57,9 @@ UNSURE = """\
 ~: packs at two strains, or slowly: the efficiency is within 2 % of the greatest over more than 10 %
 of strain, and pack is a mean over it."""
 EARLY = ">: at least: the crush ended before that force was reached; a longer one absorbs more."
+STRETCHED = """\
+^: a wall is stretched beyond the measured curve, which goes on as a straight line there (column
+stretch_over_curve: how far)."""
 CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
 
 MILLIMETRES = {
@@ -78,14 +84,38 @@ SHOWN_BY_NAME = {
 """Grid keys whose values are in a fixed column of the summary."""
 
 
+SPARE = {
+    "again %": "second_cycle_share",
+    "back %": "returned_share",
+    "rebound %": "rebound_share",
+    "panel g": "panel_mass_g",
+    "left mm": "stroke_left_m",
+    "pack %": "packing_strain",
+    "sink %": "peak_strain",
+    "peak N": "passed_on_N",
+    "mass g": "mass_g",
+}
+"""Heads of measured columns, and the columns of which they show the values; see `Sheet.spare`."""
+
+
 class Sheet(NamedTuple):
-    """A table of text. opens: rows that begin a section. notes: lines below the table."""
+    """A table of text. opens: rows that begin a section. notes: lines below the table. spare: heads
+    of columns that a narrow terminal may leave out, the first one first; elsewhere: what has them.
+    """
 
     title: str
     heads: list[str]
     rows: list[list[str]]
     opens: frozenset[int] = frozenset()
     notes: tuple[str, ...] = ()
+    spare: tuple[str, ...] = ()
+    elsewhere: str = ""
+
+    def without(self, head: str) -> Sheet:
+        """The table without a column."""
+        k = self.heads.index(head)
+        heads, *rows = [[*texts[:k], *texts[k + 1 :]] for texts in [self.heads, *self.rows]]
+        return self._replace(heads=heads, rows=rows)
 
     @property
     def columns(self) -> list[list[str]]:
@@ -131,13 +161,23 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
                 *((CROSSED,) if rows["crossed"].any() else ()),
                 *((PRINTED,) if "print g" in columns else ()),
                 *((UNPRINTABLE,) if (_unprintable(rows) != "").any() else ()),
+                *((STRETCHED,) if rows["beyond_curve"].any() else ()),
                 *((UNSURE,) if "~" in "".join(columns.get("pack %", ())) else ()),
                 *((EARLY,) if _stops_early(rows, ranking).any() else ()),
                 *_cut_off(rows),
                 *_not_shown(placed),
                 *missed,
             ),
+            spare=_spare(columns, rows, ranking),
+            elsewhere="crumple rank with --csv",
         )
+
+
+def _spare(columns: Iterable[str], rows: DataFrame, ranking: Ranking) -> tuple[str, ...]:
+    """The heads of measured columns by which these rows are not sorted."""
+    sorted_by, energies = set(rows["ranked_by"]), {"J/g": ranking.per_gram}
+    known = SPARE | energies
+    return tuple(head for head in known if head in columns and known[head] not in sorted_by)
 
 
 def _missed(budgets: tuple[float, ...], lightest: float) -> tuple[str, ...]:
@@ -170,7 +210,9 @@ def _what_is_missing(rows: DataFrame) -> str:
     elastic = rows["material_memory"] == "none"
     if elastic.all():
         return ELASTIC
-    return MIXED if elastic.any() else LOSSY
+    if elastic.any():
+        return MIXED
+    return LOSSY if rows["material_memory"].str.contains("relaxes").any() else PLASTIC
 
 
 def _places(rows: DataFrame) -> Series:
@@ -181,7 +223,9 @@ def _places(rows: DataFrame) -> Series:
     pareto = rows["pareto"].map({True: "*", False: " "})
     beyond = rows["beyond_model"].map({True: "!", False: ""})
     crossed = rows["crossed"].map({True: "x", False: ""})
-    return places + pareto + beyond + crossed + _unprintable(rows).map(lambda why: "p" * bool(why))
+    beyond_curve = rows["beyond_curve"].map({True: "^", False: ""})
+    unprintable = _unprintable(rows).map(lambda why: "p" * bool(why))
+    return places + pareto + beyond + crossed + beyond_curve + unprintable
 
 
 def _unprintable(rows: DataFrame) -> Series:
@@ -256,12 +300,23 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
     if _varies(among, "material"):
         columns["material"] = frame["material"].astype(str)
     if _varies(among, "material_memory"):
-        columns["memory"] = frame["material_memory"].astype(str)
-    shown = SHOWN_BY_NAME | ({"lattice.infill"} if "infill %" in columns else set())
+        columns["behaviour"] = frame["material_memory"].replace("none", "elastic").astype(str)
+    by_name = SHOWN_BY_NAME | ({"lattice.infill"} if "infill %" in columns else set())
     for key in frame:
-        if "." in key and key not in shown and not key.startswith(ASSUMPTIONS):
-            columns[key.split(".")[-1].replace("_", " ")] = frame[key].map(short)
+        hidden = key in by_name or key.startswith(ASSUMPTIONS)
+        if "." in key and not hidden and _varies(among, key):
+            columns |= _grid_text(frame[key], among[key])
     return columns
+
+
+def _grid_text(values: Series, among: Series) -> dict[str, Series]:
+    """The column of a grid key, with its unit; ``among``: its values in all cases."""
+    unit = describe_column(str(values.name)).units
+    noun = str(values.name).split(".")[-1].replace("_", " ")
+    if not unit or not is_numeric_dtype(values):
+        return {noun: values.map(short)}
+    factor, name = scaled(unit, float(among.abs().max()))
+    return {f"{noun} {name}": (factor * values.astype(float)).map(short)}
 
 
 def describe_case(row: Series, among: DataFrame) -> str:
@@ -281,10 +336,11 @@ def design_labels(frame: DataFrame, among: DataFrame) -> list[str]:
 
 def _with_noun(head: str, text: str) -> str:
     """A value with the head of its column: "wall mm", "0.8" -> "wall 0.8 mm"."""
-    if head in MILLIMETRES.values():
-        return f"{head.removesuffix('mm')}{text} mm"
     if head == "infill %":
         return f"{text} % infill"
+    noun, _, unit = head.rpartition(" ")
+    if noun and unit in SHOWN:
+        return f"{noun} {text}" if text == NOTHING else f"{noun} {text} {unit}"
     return text if head in ("material", "pattern") else f"{head} {text}"
 
 
@@ -295,7 +351,7 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
         columns["print g"] = numerals(rows["printed_mass_g"])
     if "panel_mass_g" in rows:
         columns["panel g"] = numerals(rows["panel_mass_g"])
-    shown = {"mass_g", "printed_mass_g", "counted_mass_g", "panel_mass_g"}
+    shown = {"printed_mass_g", "counted_mass_g"}
     mode = rows["loading_mode"].iloc[0]
     if mode in LEAST:
         columns |= _under_load(rows) if mode == "force" else _struck(rows)
@@ -303,9 +359,8 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     else:
         columns |= _crushed(rows, ranking)
         shown |= {ranking.energy, ranking.per_gram}
-        if not ranking.limited:
-            columns |= _whole(rows)
-            shown |= {"packing_strain", "returned_share", "second_cycle_share"}
+        columns |= {} if ranking.limited else _whole(rows)
+    shown |= {SPARE[head] for head in columns if head in SPARE}
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
         if "ranked_error" in rows:

@@ -39,6 +39,18 @@ def last_loaded(history: DataFrame, row: Mapping[str, Any]) -> int:
     return _turn(history["strain"].to_numpy())
 
 
+def turns(history: DataFrame, row: Mapping[str, Any]) -> dict[int, str]:
+    """Rows of a history at which the loading turns, in words: in each of its cycles the platen
+    turns, and the next cycle begins; a dead load is removed; a striker stops.
+    """
+    turn, last = last_loaded(history, row), len(history) - 1
+    if row["loading_mode"] != "displacement":
+        word = "load off" if row["loading_mode"] == "force" else "stops"
+        return {turn: word} if turn < last else {}
+    stages = enumerate(range(turn, last, max(turn, 1)), 1)
+    return {at: "turns" if k % 2 else f"cycle {k // 2 + 1}" for k, at in stages}
+
+
 def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple[int, str]]:
     """Frames to draw, with captions: at even strains of the first loading, then the last one of the
     last unloading.

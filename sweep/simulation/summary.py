@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sweep.config.case import Case, given
+from sweep.config.case import Case, Material, given
 from sweep.config.solver_defaults import given_or
 from sweep.design.network import mass, relative_density
 from sweep.design.sliced import extruded_area
@@ -258,8 +258,21 @@ def shape_columns(
         "kept_area": kept_area(frames),
         "greatest_fibre_strain": float(surface.max()),
         "broke_at_strain": float("nan") if np.isnan(broken) else float(broke_at),
+        "stretch_over_curve": stretch_over_curve(case.material, strains),
         "absorbed_energy_within_model_J": work_within_model(
             along, broken, frames["time_s"], loading["time_s"], loading["work_in_J"]
         ),
         "max_crossings": crossings({**frames, "edges": walls}),
     }
+
+
+def stretch_over_curve(material: Material, strains: tuple[Floats, Floats]) -> float:
+    """Greatest stretch that the curve of a material answers with a stress / its last strain.
+
+    NaN without a curve. strains (f, m): of the elements, and of their most stretched surfaces,
+    which count if bending goes by the curve.
+    """
+    if not material.curve_strain:
+        return float("nan")
+    counted = strains[1] if material.through_fibres else strains[0]
+    return float(counted.max()) / max(material.curve_strain)

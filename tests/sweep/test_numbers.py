@@ -1,6 +1,6 @@
 """Numbers as text."""
 
-from sweep.numbers import NOTHING, percent, short, tenths, three_digits
+from sweep.numbers import NOTHING, percent, short, tenths, three_digits, with_unit
 
 NAN = float("nan")
 
@@ -18,3 +18,11 @@ def test_shares_are_percent():
 
 def test_values_of_keys_are_short():
     assert [short(value) for value in (0.123456, 3, "hex", None)] == ["0.1235", "3", "hex", "–"]
+
+
+def test_quantities_are_in_a_unit_of_their_size():
+    pairs = [(1e-4, "s"), (0.5, "s"), (90.0, "s"), (0.06, "J"), (5e5, "Pa"), (0.4, "1")]
+    shown = [with_unit(value, unit) for value, unit in pairs]
+    assert shown == ["100 us", "500 ms", "90 s", "60 mJ", "500 kPa", "40 %"]
+    assert [with_unit(v, "s") for v in ("bdf2", NAN, None)] == ["bdf2", NOTHING, NOTHING]
+    assert [with_unit(v, u) for v, u in ((0.0, "s"), (3, ""), (5.0, "N"))] == ["0 s", "3", "5 N"]

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from sweep.cli.terminal import fitted
+from sweep.report.sheets import Sheet
 from tests.support.specimens import summary, write
 
 ROOT = Path(__file__).parents[3]
@@ -62,3 +64,47 @@ def test_terminal_that_knows_only_ascii(tmp_path):
     done = started("show", file, stdout=subprocess.PIPE, env=ascii_only)
     assert (done.returncode, done.stderr) == (0, "")
     assert "gomme ?lastique" in done.stdout
+
+
+HEADS = ["#", "cells", "material", "reference time s", "mass g", "peak N", "lost_energy_J"]
+ROW = ["1*", "3 x 3", "soft and tough TPU", "0.001", "1.234", "123456", "0.123"]
+SHEET = Sheet("", HEADS, [ROW, ROW], spare=("peak N", "mass g"))
+
+
+@pytest.mark.parametrize(
+    ("limit", "gap", "heads"),
+    [
+        (90, 2, HEADS),
+        (72, 1, HEADS),
+        (55, 1, HEADS),
+        (42, 1, [head for head in HEADS if head != "peak N"]),
+        (36, 1, [head for head in HEADS if head not in SHEET.spare]),
+        (5, 1, [head for head in HEADS if head not in SHEET.spare]),
+    ],
+)
+def test_a_table_is_made_to_fit_without_cutting_numbers(limit, gap, heads):
+    shown = fitted(SHEET, limit, limit)
+    assert shown.sheet.heads == heads
+    assert shown.gap == gap
+    assert shown.width <= limit or limit == 5
+    for head, width in zip(heads, shown.widths, strict=True):
+        text = ROW[HEADS.index(head)]
+        assert width >= (5 if head == "material" else len(text))
+
+
+def test_a_narrow_terminal_shows_whole_numbers_and_says_what_it_leaves_out(tmp_path):
+    names = ("wall_thickness_m", "width_m", "depth_m", "mass_g")
+    varied = [dict.fromkeys(names, size) for size in (1.23e-3, 2.34e-3)]
+    long = {"material": "a_material_with_a_long_name", "peak_force_N": 12345.0}
+    file = write(tmp_path / "trial.h5", summary(*(row | long for row in varied), {}))
+    shown = {
+        columns: started("rank", file, stdout=subprocess.PIPE, env=env).stdout
+        for columns, env in ((200, {"COLUMNS": "200"}), (None, {}), (76, {"COLUMNS": "76"}))
+    }
+    tables = {columns: text.split("\n\n")[1] for columns, text in shown.items()}
+    assert "Not in" not in tables[200] + tables[None]
+    assert "Not in this narrow terminal: pack %, back %. A wider" in tables[76]
+    assert max(map(len, tables[76].splitlines())) <= 76
+    for table in tables.values():
+        assert "…" not in table
+        assert table.count("12345") == 2

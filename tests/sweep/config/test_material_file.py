@@ -20,6 +20,9 @@ def test_a_stated_modulus_wins(own_record):
     assert Material(name=str(path)).name == "own"
 
 
+CURVE = "0.01,1e5\n0.1,9e5\n"
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -27,13 +30,20 @@ def test_a_stated_modulus_wins(own_record):
         ("# density_kg_m3: 1.2 g/cm^3\n# poisson: 0.4\nstrain,stress_Pa\n0,0\n1,1\n", "density_kg"),
         (HEADER.replace("_Pa", "_MPa") + "0.01,1\n", "first row must read strain,stress_Pa"),
         (HEADER + "0.01,1,3\n", "two numbers"),
-        (HEADER + "0.01,soft\n0.1,2\n", "could not convert"),
+        (HEADER + "0.01,soft\n0.1,2\n", "two numbers, but one is .0.01,soft."),
         (HEADER + "0.01,nan\n0.1,2\n", "finite"),
         (HEADER + "0.02,1\n0.01,2\n", "must increase"),
         (HEADER + "-1.0,-1\n0.1,2\n", "from above -1"),
         (HEADER + "0.01,1\n0.02,2\n", "reach a strain of 0.04"),
         (HEADER + "0.01,-1\n0.5,2\n", "positive at 1 % strain"),
         (HEADER, "reach a strain"),
+        (HEADER + "1,6e5\n35,8e6\n", "a curve to a strain of 35: is it in percent"),
+        (
+            "# loss: 38\n" + HEADER + CURVE,
+            "# loss: 38; allowed: above 0, at most 0.8; 38 % is 0.38",
+        ),
+        ("# loss: 0.3 (0.2 .. 0.9)\n" + HEADER + CURVE, "# loss: 0.9; allowed: above 0, at most"),
+        ("# softening_r: 1\n# softening_m_Pa: 1e5\n" + HEADER + CURVE, "# softening_r: 1; allo"),
     ],
 )
 def test_unusable_records_are_refused_by_name(own_record, text, message):
@@ -83,6 +93,10 @@ def test_a_material_with_a_yield_stress_yields_unless_told_otherwise(own_record)
     [
         (PLASTIC + "strain,stress_Pa\n0.1,1e6\n", "yields has no curve"),
         (PLASTIC.replace("# modulus_Pa: 2e9\n", ""), "yields needs the line # modulus_Pa"),
+        (
+            PLASTIC + "# fracture_strain: 2.5\n",
+            "# fracture_strain: 2.5; allowed: above 0, at most 1; 2.5 % is 0.025",
+        ),
         ("# fracture_strain: 0.1\n" + HEADER + "0.1,1e6\n", "fracture_strain needs the line # y"),
     ],
 )

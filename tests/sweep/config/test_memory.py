@@ -55,6 +55,24 @@ def test_what_contradicts_or_has_no_effect_is_refused(lines, text, line):
     assert line in told
 
 
+def test_a_measured_memory_that_the_config_replaces_is_refused(load, lines, tmp_path):
+    curve = "strain,stress_Pa\n0.01,1e5\n0.05,4e5\n0.5,1.2e6\n1,2e6\n"
+    (tmp_path / "mine.csv").write_text(
+        f"# density_kg_m3: 1100\n# poisson: 0.4\n# loss: 0.3\n{curve}"
+    )
+    asked = '[material]\nname = "mine.csv"\nmemory = "measured"\n'
+    for given in ("loss = 0.2", 'relaxation = [{time = "1 s", share = 0.1}]'):
+        (line,) = lines(asked + given)
+        assert line == (
+            'material.memory = "measured": has no effect, as the config itself gives what the file '
+            "of the material states"
+        )
+    softer = f'{asked}loss = 0.2\n[grid]\nmaterial.name = ["mine.csv", "softer.csv"]'
+    text = "# density_kg_m3: 1100\n# poisson: 0.4\n# softening_r: 2\n# softening_m_Pa: 1e6\n"
+    (tmp_path / "softer.csv").write_text(text + curve)
+    assert len(load(softer).cases) == 2
+
+
 def test_a_material_that_yields_bends_through_fibres():
     material = Material(**PLASTIC)
     assert (material.stretch, material.bend, material.fibres) == ("linear", "fibres", 7)

@@ -48,6 +48,22 @@ def test_own_material_is_found_beside_the_config(load, tmp_path):
     assert len(expand(dropped)) == 1
 
 
+def test_what_is_wrong_with_an_own_material_is_told(lines, tmp_path):
+    (tmp_path / "mine.csv").write_text("strain;stress_Pa\n0,01;1e5\n")
+    (line,) = lines('[material]\nname = "mine.csv"')
+    assert line == (
+        'material.name = "mine.csv": needs the lines # density_kg_m3: ... and # poisson: ...'
+    )
+
+
+def test_numbers_of_a_material_are_not_called_defaults(lines):
+    (line,) = lines('[material]\nname = "pla"\nloss = 0.3')
+    assert line == (
+        'material.yield_stress = 4.5e+07 Pa in the file of "pla": does not fit; allowed: none if '
+        "loss is given"
+    )
+
+
 def test_rank_is_in_si(load):
     rank = load('[rank]\nbudgets = ["20 g", "1 oz"]\npanel = ["100 mm", "2 in"]').rank
     assert rank.budgets == pytest.approx((0.02, 0.028349523125))
@@ -99,6 +115,10 @@ VALUES = {
     '[material]\nname = "ninjaflx"': (
         f'material.name = "ninjaflx": unknown material; allowed: {MATERIALS}, or the path of a'
         " .csv file"
+    ),
+    "[material]\nloss = [0.2, 0.4]": (
+        "material.loss = [0.2, 0.4]: a list, which belongs in [grid]; allowed: a number or a share "
+        'in percent, such as "20 %", above 0, at most 0.8'
     ),
     '[rank]\npanel = ["1 mm"]': (
         f'rank.panel = ["1 mm"]: too few values; allowed: a list of 2 values, each {LENGTH}'
@@ -174,6 +194,48 @@ def test_all_faults_are_told_at_once(lines):
 def test_what_may_only_follow_from_a_fault_is_not_told(lines):
     (line,) = lines('[lattice]\ncels = 1\nwall_thickness = "3 mm"')
     assert "lattice.cels" in line
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '[material]\nloss = 40\n[loading]\nstrain_rate = "0.1 1/s"',
+        '[grid]\nmaterial.loss = [30]\nloading.strain_rate = ["1 1/s", "2 1/s"]',
+        '[material]\ndensity = 1200\nname = "pla"\n[lattice]\nmass = "99 g"',
+        '[material]\nbend = "linaer"\n[solver]\nbend_measure = "tangent"',
+    ],
+)
+def test_what_may_only_follow_from_a_fault_of_the_material_is_not_told(lines, text):
+    (line,) = lines(text)
+    assert "material." in line
+
+
+def test_a_fault_that_does_not_follow_from_the_material_is_told_beside_it(lines):
+    assert len(lines('[material]\nloss = 40\n[lattice]\nwall_thickness = "3 mm"')) == 2
+
+
+def test_branches_are_stated_once(lines):
+    branches = '[material]\nrelaxation = [{time = "1 s", share = 0.1}]'
+    (line,) = lines(f'{branches}\nrelaxation_times = ["5 s"]\nrelaxation_shares = [0.3]')
+    assert line == (
+        'material.relaxation = [{"time": "1 s", "share": 0.1}]: material.relaxation_times states '
+        "the same; allowed: one of them"
+    )
+    (line,) = lines(f"{branches}\nloss = 0.3")
+    assert line == "material.loss = 0.3: does not fit; allowed: one of loss and relaxation"
+
+
+def test_a_strain_above_one_needs_its_unit(load, lines):
+    plastic = '[material]\nname = "pla"\nfracture_strain = '
+    (line,) = lines(f"{plastic}2.5")
+    assert line == (
+        "material.fracture_strain = 2.5: a bare number above 1, which may be meant in percent; "
+        'allowed: a number up to 1 or a share in percent, such as "20 %", above 0'
+    )
+    strains = {"0.025": 0.025, '"2.5 %"': 0.025, "1": 1.0, '"250 %"': 2.5}
+    for text, strain in strains.items():
+        (case,) = expand(load(f"{plastic}{text}"))
+        assert case.material.fracture_strain == strain
 
 
 def test_a_text_with_line_breaks_stays_in_one_line(lines):

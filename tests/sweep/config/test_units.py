@@ -50,6 +50,13 @@ def test_units_are_those_of_pint(unit, si):
     assert quantity(f"1 {unit}", si) == pytest.approx(standard, rel=1e-12)
 
 
+@pytest.mark.parametrize("text", ["4 %%", "4 % %"])
+def test_percent_is_written_once(text):
+    with pytest.raises(ConfigError, match="unknown unit"):
+        quantity(text, "1")
+    assert quantity("5 %/s", "1/s") == 0.05
+
+
 @pytest.mark.parametrize(
     "text", ["25", "g", "", "25 N", "25 gg", "nan g", "1e999 g", "3 ((", "1 1/0"]
 )

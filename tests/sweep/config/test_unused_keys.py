@@ -165,3 +165,15 @@ def test_contact_by_itself_counts_alone(tmp_path, loading):
     path.write_text(loading + '[contact]\nmodel = "auto"\n', "utf-8")
     (case,) = expand(load_config(path))
     assert case.contact.model == "barrier"
+
+
+def test_damping_that_a_material_that_relaxes_has_not_by_default(load, lines):
+    asked = '[material]\nloss = 0.3\n[loading]\nmode = "impact"\n[damping]\nmass = "5 1/s"\n'
+    (line,) = lines(asked)
+    assert line.endswith(
+        'has no effect, as damping.model is "none" by default if the material relaxes; give a '
+        "damping.model"
+    )
+    assert load(f'{asked}model = "rayleigh"').cases[0].damping.mass == 5.0
+    (line,) = lines(f'{asked}model = "none"')
+    assert line.endswith('has no effect, as damping.model is "none"')

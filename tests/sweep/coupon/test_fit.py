@@ -1,8 +1,10 @@
 """Fits of coupons that the law made: its numbers are found again, with noise of 1 % too."""
 
+import numpy as np
 import pytest
 
 from sweep.coupon.fit import BETA, fit
+from sweep.coupon.record import Coupon, CouponError
 from tests.support.coupons import coupon
 
 BOTH = {"loss": 0.35, "softening_r": 2.5, "softening_m": 3e5}
@@ -54,3 +56,26 @@ def test_the_worst_row_is_told():
     apart, row = fit(test).worst
     assert row == 500
     assert apart == pytest.approx(0.2 * test.stress[500] / 1.2 / test.stress.max(), rel=0.05)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_unloading_above_loading_is_refused(sign):
+    test = coupon(0.5, 0.05, 0.5, loss=0.2)
+    again = np.interp(test.strain, test.strain[:201], test.stress[:201])
+    way_back = (np.arange(test.time.size) > 200) & (np.arange(test.time.size) < 400)
+    for factor, refused in ((1.1, True), (1.0, False)):
+        stress = np.where(way_back, factor * again, test.stress)
+        above = Coupon("above", test.time, sign * test.strain, sign * stress)
+        if refused:
+            with pytest.raises(CouponError, match=r"above the loading, by 9\.9 % of its work"):
+                fit(above)
+        else:
+            assert fit(above).misfit > 0.0
+
+
+def test_a_curve_that_no_law_with_a_loss_has_is_refused():
+    test = coupon(0.5, 0.05, 0.5, loss=0.35)
+    late = np.arange(test.time.size) > 200
+    slipped = Coupon("slipped", test.time, test.strain + 0.2 * late, test.stress)
+    with pytest.raises(CouponError, match="slipped: the stress hardly rises towards a strain of"):
+        fit(slipped)

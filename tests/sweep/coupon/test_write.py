@@ -1,14 +1,18 @@
 """The file of a fitted material is one that a config can name, and says what was found."""
 
+import re
+
 import pytest
 
 from sweep.config.case import Material
 from sweep.config.material_file import read_record
 from sweep.config.material_header import assumed, source
 from sweep.coupon.fit import fit
+from sweep.coupon.record import Coupon
 from sweep.coupon.write import fit_sentence, material_text, told
 from tests.support.coupons import coupon
 
+NAMES = ("time", "strain", "stress")
 BOTH = {"loss": 0.35, "softening_r": 2.5, "softening_m": 3e5}
 
 
@@ -53,6 +57,25 @@ def test_what_was_found_is_told(own_record, both):
     assert "r 2.5, m 0.3 MPa, beta 0.1, which is assumed: the cycles are of one size" in words
     assert lines[-1] == fit_sentence(both)
     assert "The law follows the record within 0.0" in lines[-1]
+
+
+@pytest.mark.parametrize(
+    ("scales", "noise", "wrong"),
+    [
+        ((1e3, 1.0, 1.0), 0.0, "at 5e-05 1/s, usual are .*: is time_s in milliseconds"),
+        ((1 / 60, 1.0, 1.0), 0.0, "at 3 1/s, usual are .*: is time_s in minutes"),
+        ((1.0, 9.0, 1.0), 0.0, "modulus above 5 MPa: is the strain in percent"),
+        ((1.0, 1.0, 1.0), 0.05, "that is more than 3 %. Look at the picture"),
+        ((1.0, 1.0, 1.0), 0.0, None),
+    ],
+)
+def test_what_is_unusual_is_a_warning(own_record, scales, noise, wrong):
+    test = coupon(0.5, noise=noise)
+    columns = (scale * getattr(test, name) for scale, name in zip(scales, NAMES, strict=True))
+    found = fit(Coupon("odd", *columns))
+    warnings = [line for line in told(found, read(own_record, found)) if "Warning" in line]
+    assert len(warnings) == (wrong is not None)
+    assert wrong is None or re.search(wrong, warnings[0])
 
 
 @pytest.mark.parametrize(

@@ -243,7 +243,7 @@ def test_label_leaves_out_keys_that_a_scene_does_without():
     assert list(rank(summary(*rows))["scene"]) == [
         "crushed to 50 %, glued platens",
         "dead load of 5 N, glued platens, solver integrator bdf2",
-        "dead load of 5 N, glued platens, solver integrator bdf2, solver time step 0.001",
+        "dead load of 5 N, glued platens, solver integrator bdf2, solver time step 1 ms",
     ]
 
 

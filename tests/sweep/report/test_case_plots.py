@@ -126,6 +126,18 @@ def test_energies_add_up_to_the_work_along_the_path_of_the_platen(row):
     assert work.get_xdata()[-1] == pytest.approx(8.0)
 
 
+def test_every_turn_of_the_platen_is_marked(row):
+    once = there_and_back()
+    twice = pandas.concat([once, once[1:]], ignore_index=True)
+    ax = axes_of(case_plots.energies, twice, row)
+    *marks, work = ax.get_lines()
+    assert [line.get_xdata()[0] for line in marks] == pytest.approx([4.0, 8.0, 12.0])
+    assert work.get_xdata()[-1] == pytest.approx(16.0)
+    assert [text.get_text() for text in ax.texts] == ["turns", "cycle 2", "turns"]
+    halted = axes_of(case_plots.energies, twice[:31], row)
+    assert [text.get_text() for text in halted.texts] == ["turns"]
+
+
 def test_energies_under_a_dead_load_are_drawn_over_time(dead):
     ax = axes_of(case_plots.energies, under_dead_load(), dead)
     release, work = ax.get_lines()

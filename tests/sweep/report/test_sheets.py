@@ -13,6 +13,8 @@ from sweep.report.sheets import (
     LOADED,
     LOSSY,
     MIXED,
+    PLASTIC,
+    STRETCHED,
     UNSURE,
     design_labels,
     design_text,
@@ -55,6 +57,16 @@ def test_walls_that_pass_through_one_another_are_marked():
     (sheet,) = ranking_sheets(ranking, table)
     assert [row[0] for row in sheet.rows] == ["1*!", "2 x"]
     assert sheet.notes == (BEYOND, CROSSED)
+
+
+def test_walls_that_are_stretched_beyond_the_measured_curve_are_marked():
+    table = summary({"stretch_over_curve": 1.2}, {"stretch_over_curve": 0.9, "mass_g": 2.0})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert [row[0] for row in sheet.rows] == ["1*^", "2 "]
+    assert sheet.notes == (STRETCHED,)
+    table = summary({"stretch_over_curve": NAN}, {"stretch_over_curve": 1.0})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert sheet.notes == ()
 
 
 def test_a_budget_below_all_designs_is_one_sentence_and_no_table():
@@ -114,20 +126,60 @@ def test_legend_says_what_takes_the_energy_that_does_not_come_back():
     for common in ({}, struck):
         said = legend(ranked(summary(common, common)))
         assert said.endswith(ELASTIC)
-        assert max(map(len, f"{said}\n{MIXED}\n{AGAIN}".splitlines())) <= 100
+        assert max(map(len, f"{said}\n{MIXED}\n{PLASTIC}\n{AGAIN}".splitlines())) <= 100
         assert legend(ranked(summary(common | relaxing))).endswith(LOSSY)
         assert legend(ranked(summary(common, common | relaxing))).endswith(MIXED)
+        yielding = common | {"material_memory": "yields"}
+        assert legend(ranked(summary(yielding))).endswith(PLASTIC)
+        assert legend(ranked(summary(yielding, common | relaxing))).endswith(LOSSY)
     pulled = summary({"absorbed_energy_at_50N_J": 0.1})
     assert ELASTIC not in legend(ranked(pulled, allowed_force=50.0))
 
 
-def test_memory_is_shown_where_it_differs():
+def test_behaviour_of_walls_is_shown_where_it_differs():
     table = summary({}, {"material_memory": "softens"})
     (sheet,) = ranking_sheets(ranked(table), table)
-    assert sorted(row[sheet.heads.index("memory")] for row in sheet.rows) == ["none", "softens"]
+    behaviour = sorted(row[sheet.heads.index("behaviour")] for row in sheet.rows)
+    assert behaviour == ["elastic", "softens"]
     table = summary({}, {})
     (sheet,) = ranking_sheets(ranked(table), table)
-    assert "memory" not in sheet.heads
+    assert "behaviour" not in sheet.heads
+
+
+@pytest.mark.parametrize(
+    ("key", "values", "head", "texts"),
+    [
+        ("material.loss", (0.2, 0.45), "loss %", ["20", "45"]),
+        ("material.reference_time", (1e-3, 0.5), "reference time ms", ["1", "500"]),
+        ("material.softening_m", (5e5, 2e6), "softening m MPa", ["0.5", "2"]),
+        ("material.softening_r", (2.0, 3.0), "softening r", ["2", "3"]),
+        ("lattice.layer_height", (2e-4, NAN), "layer height um", ["200", "–"]),
+        ("material.memory", ("none", "measured"), "memory", ["none", "measured"]),
+    ],
+)
+def test_grid_keys_are_shown_with_their_units(key, values, head, texts):
+    table = summary(*({key: value} for value in values))
+    (sheet,) = ranking_sheets(ranked(table, by="mass_g"), table)
+    assert sheet.columns[sheet.heads.index(head)] == texts
+    labels = design_labels(table, table)
+    unit = head.removeprefix(key.split(".")[1].replace("_", " "))
+    assert labels[0] == f"{head.removesuffix(unit)} {texts[0]}{unit}"
+
+
+def test_a_grid_key_that_does_not_vary_has_no_column():
+    table = summary({"material.loss": 0.2}, {"material.loss": 0.2})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert "loss %" not in sheet.heads
+
+
+def test_the_sorted_column_is_never_spare():
+    table = summary({"second_cycle_share": 0.7}, {"second_cycle_share": 0.8})
+    heads = {None: "J/g", "second_cycle_share": "again %", "returned_share": "back %"}
+    for by, head in heads.items():
+        (sheet,) = ranking_sheets(ranked(table, by=by), table)
+        assert head not in sheet.spare
+        others = {"again %", "back %", "pack %", "peak N", "mass g"} - {head}
+        assert others <= set(sheet.spare) < set(sheet.heads)
 
 
 def test_second_cycle_is_told_where_there_is_one():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Lattice, Loading
+from sweep.config.case import Case, Lattice, Loading, Material
 from sweep.simulation.packing import efficiency
 from sweep.simulation.summary import (
     OF_A_CRUSH,
@@ -11,6 +11,7 @@ from sweep.simulation.summary import (
     crush_columns,
     lost_columns,
     returned,
+    stretch_over_curve,
     transmitted,
 )
 
@@ -190,3 +191,13 @@ def test_what_does_not_come_back_is_lost():
 )
 def test_nothing_comes_back_where_no_platen_moves_back(loading, rows):
     assert np.isnan(returned(Case(loading=loading), {"work_in_J": FOAM[2]}, rows))
+
+
+def test_stretch_is_compared_with_the_end_of_the_measured_curve():
+    curve = {"curve_strain": (-0.9, 0.01, 0.1, 0.4), "curve_stress": (-9e6, 1e5, 1e6, 3e6)}
+    given = curve | {"name": "mine", "modulus": 1e7, "density": 1200.0}
+    strains = np.array([[0.0, 0.1], [-0.8, 0.2]]), np.array([[0.0, 0.3], [0.5, 0.2]])
+    assert stretch_over_curve(Material(**given), strains) == pytest.approx(0.5 / 0.4)
+    taut = Material(**given, bend="linear")
+    assert stretch_over_curve(taut, strains) == pytest.approx(0.2 / 0.4)
+    assert np.isnan(stretch_over_curve(Material(modulus=1e7, density=1200.0), strains))
