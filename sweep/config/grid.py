@@ -4,7 +4,7 @@ import json
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property
 from itertools import product
 from math import prod
@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import TABLES, Case
 from sweep.config.keys import ALIASES, case_keys
 from sweep.config.resolve import resolve
@@ -23,6 +24,7 @@ from sweep.config.unused_keys import still_unused
 MAX_CASES = 1_000_000
 SHOWN = 10  # faults that the text of a ConfigError lists
 _QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
+ONLY_OPTIMIZE = "only `crumple optimize` searches; allowed here: lists of values in [grid]"
 MAY_BE_UNUSED = ("material.poisson",)  # a property of the material, stated even in plane stress
 
 
@@ -54,14 +56,6 @@ def _shown(faults: list[Fault]) -> list[str]:
     return [faults[k].line for k in sorted(chosen)] + counted
 
 
-class Written(NamedTuple):
-    """A value in SI (None: not set), its text in the file, and its key in the file."""
-
-    value: Any
-    text: str
-    name: str = ""
-
-
 Reason = dict[str, Any]  # key, value, allowed
 Values = dict[str, Written]
 Axes = dict[str, tuple[Written, ...]]
@@ -73,7 +67,8 @@ class Config:
 
     grid, zip: key -> values; every value of the grid meets every row of every zip.
     exclude: tables key -> rounded values. A case is dropped if, for every key of a table, its value
-    is among the values of that key.
+    is among the values of that key. search: key -> what a search may choose; a config with it has
+    no cases but those that the search chooses.
     """
 
     name: str
@@ -83,11 +78,48 @@ class Config:
     exclude: tuple[dict[str, tuple[object, ...]], ...] = ()
     rank: Rank = field(default_factory=Rank)
     path: Path | None = None
+    search: dict[str, Interval | Choice] = field(default_factory=dict)
 
     @cached_property
     def cases(self) -> tuple[Case, ...]:
         """The cases that `expand` returns, computed once."""
+        if self.search:
+            line = f"[search] of {', '.join(self.search)}: {ONLY_OPTIMIZE}"
+            raise ConfigError([Fault("search", line)])
         return tuple(_cases(self))
+
+
+@dataclass(frozen=True)
+class Designs(Config):
+    """The designs that a search has chosen so far."""
+
+    designs: tuple[Case, ...] = ()
+
+    @cached_property
+    def cases(self) -> tuple[Case, ...]:
+        """The designs."""
+        return self.designs
+
+
+def designs_of(config: Config, designs: Iterable[Case]) -> Designs:
+    """The config of a search, whose cases are these designs."""
+    shared = {each.name: getattr(config, each.name) for each in fields(config)}
+    return Designs(**shared, designs=tuple(designs))
+
+
+def check(config: Config) -> None:
+    """Refuse a config that cannot be run; of a search, a few designs are tried (`_combinations`)."""
+    if config.search:
+        _cases(config)
+    else:
+        expand(config)
+
+
+def chosen_case(config: Config, chosen: Values) -> Case | None:
+    """The case of a search with these values, in SI; None if they cannot be combined."""
+    alone = {key: (written,) for key, written in chosen.items()}
+    (draft,) = _drafts(replace(config, search={}, grid=alone))
+    return None if draft.faults else draft.labelled()
 
 
 def case_count(config: Config) -> int:
@@ -124,7 +156,8 @@ def _cases(config: Config) -> Iterable[Case]:
         if not draft.faults:
             cases.setdefault(draft.case.case_id, draft.labelled())
             unused = still_unused(unused, draft.given, draft.case) if unused else unused
-    if refused:
+    if refused and not (config.search and cases):
+        count = max(count, *map(len, refused.values()))
         raise ConfigError([_merged(faults, count) for faults in refused.values()])
     if not cases:
         line = f"[[exclude]] drops all {count:,} cases; allowed: tables that leave at least one"
@@ -207,10 +240,19 @@ def _axes(config: Config) -> Iterator[tuple[str, str, tuple[Written, ...]]]:
     """Every axis: the table that has it, its key, its values."""
     for where, axes in [("[grid]", config.grid), *(("[[zip]]", tied) for tied in config.zip)]:
         yield from ((where, name, values) for name, values in axes.items())
+    yield from (("[search]", name, axis.probes) for name, axis in config.search.items())
 
 
 def _combinations(config: Config) -> Iterator[Values]:
-    """Values along the axes: every value of the grid with every row of each zip."""
+    """Values along the axes: every value of the grid with every row of each zip.
+
+    Of a search, one axis at a time takes its values, while the others keep their middle.
+    """
+    if config.search:
+        middle = {key: axis.probes[0] for key, axis in config.search.items()}
+        for key, axis in config.search.items():
+            yield from (middle | {key: written} for written in axis.probes)
+        return
     parts = [[{key: value} for value in values] for key, values in config.grid.items()]
     for tied in config.zip:
         rows = zip(*tied.values(), strict=True)
