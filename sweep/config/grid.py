@@ -91,9 +91,10 @@ class Config:
 
 @dataclass(frozen=True)
 class Designs(Config):
-    """The designs that a search has chosen so far."""
+    """The designs that a search has chosen so far, and its seed."""
 
     designs: tuple[Case, ...] = ()
+    seed: int = 0
 
     @cached_property
     def cases(self) -> tuple[Case, ...]:
@@ -101,10 +102,10 @@ class Designs(Config):
         return self.designs
 
 
-def designs_of(config: Config, designs: Iterable[Case]) -> Designs:
+def designs_of(config: Config, designs: Iterable[Case], seed: int) -> Designs:
     """The config of a search, whose cases are these designs."""
     shared = {each.name: getattr(config, each.name) for each in fields(config)}
-    return Designs(**shared, designs=tuple(designs))
+    return Designs(**shared, designs=tuple(designs), seed=seed)
 
 
 def check(config: Config) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 from kernels.compile.choice import compiler
 from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import Case
-from sweep.config.grid import Config
+from sweep.config.grid import Config, Designs
 from sweep.version import installed_version
 
 PACKAGES = ("crumple", "numpy", "numba", "h5py", "dask")
@@ -42,7 +42,8 @@ def config_text(sweep: Config | Sequence[Case], first: Case) -> str:
             "exclude": sweep.exclude,
             "rank": sweep.rank.model_dump(),
         }
-        text |= {"search": _searched(sweep.search)} if sweep.search else {}
+    if isinstance(sweep, Designs):
+        text |= {"search": _searched(sweep.search), "search_seed": sweep.seed}
     return json.dumps(text)
 
 
