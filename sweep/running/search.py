@@ -8,7 +8,6 @@ search starts again from other points.
 """
 
 import os
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import count
 from math import inf, log2
@@ -53,7 +52,7 @@ class Search:
     """
 
     space: DesignSpace
-    question: Mapping[str, Any]
+    question: dict[str, Any]
     out: str | os.PathLike[str]
     settings: Settings
     simulate: Simulate | None = None
