@@ -34,7 +34,7 @@ def worths(summary: DataFrame, question: dict[str, Any]) -> Worths:
     ranking = ranked(summary, **question | {"top": None})
     table = ranking.table
     if question.get("allowed_force") and ranking.unranked:
-        what = f"{ranking.unranked} rows are of a run without loading.allowed_forces = "
+        what = f"{ranking.unranked} rows come from a run without loading.allowed_forces = "
         raise RankError(f"{what}{question['allowed_force']}; allowed: another --out")
     column = ranking.by if table.empty else str(table["ranked_by"].iloc[0])
     sound = _sound(table)

@@ -83,13 +83,13 @@ class DesignSpace:
 
         low = least.lattice.wall_thickness
         high = min(inf if by_mass else size.high, OPEN * _widest(least.lattice))
-        if not low <= high or excess(low) > 0.0:
+        weighs = by_mass or self.budget < inf
+        if not low <= high or (weighs and excess(low) > 0.0):
             return None
-        if excess(high) > 0.0:
+        if weighs and excess(high) > 0.0:
             high = brentq(excess, low, high, xtol=EXACT)
         most = _mass(least, _with_walls(least.lattice, high)) if by_mass else high
-        most = min(size.high, most)
-        top = most if most == size.high else max(size.low, rounded_down(most))
+        top = size.high if most >= size.high else max(size.low, rounded_down(most))
         return Interval(size.name, size.low, top, size.unit)
 
     def _weight(self, case: Case, lattice: Lattice) -> float:

@@ -10,7 +10,7 @@ search starts again from other points.
 import os
 from dataclasses import dataclass, field
 from itertools import count
-from math import inf, log2
+from math import inf
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,9 +27,9 @@ from sweep.running.progress import tell
 from sweep.running.sweep import run_sweep
 from sweep.store.read import Rerun, finished_ids, read_summary
 
-SHARE = 4  # the Sobol start takes one of so many evaluations
-POPULATION = 16  # of the best of them evolve
-LEAST = 3  # binary logarithm of the smallest start
+START = 4  # binary logarithm of the number of designs of a Sobol start
+POPULATION = 8  # of the best of them evolve
+MUTATION = 0.3, 0.8  # lower than scipy's, which suits longer searches
 IDLE = 20  # generations without a new design that end a population
 CLOSE = 1e-3  # relative scatter of the values at which a population has converged
 RENEW = Rerun(older=True)  # a search does not compare versions of the model
@@ -78,7 +78,7 @@ class Search:
 
     def _evolve(self, seed: int) -> None:
         """One population, from its Sobol start until it has converged or is stopped."""
-        start = _start(self.space.dimension, self.left, seed)
+        start = _start(self.space.dimension, seed)
         costs = np.array(self.evaluate(None, start))
         best = np.argsort(costs, kind="stable")[:POPULATION]
         self._idle = 0
@@ -89,6 +89,7 @@ class Search:
                 init=start[best],
                 maxiter=10_000,
                 tol=CLOSE,
+                mutation=MUTATION,
                 seed=seed,
                 polish=False,
                 updating="deferred",
@@ -133,7 +134,6 @@ class Search:
         tell(f"{counted}: {self.found.column}, {told}")
 
 
-def _start(dimension: int, left: int, seed: int) -> np.ndarray:
-    """The first points of a scrambled Sobol sequence (2^k, dimension)."""
-    power = max(LEAST, int(log2(max(left / SHARE, 1))))
-    return qmc.Sobol(dimension, scramble=True, seed=seed).random_base2(power)
+def _start(dimension: int, seed: int) -> np.ndarray:
+    """The first points of a scrambled Sobol sequence (2^START, dimension)."""
+    return qmc.Sobol(dimension, scramble=True, seed=seed).random_base2(START)
