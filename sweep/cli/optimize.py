@@ -95,6 +95,9 @@ def _tell_best(search: Search, question: dict[str, Any]) -> int:
     from sweep.store.read import read_summary
 
     found = search.found
+    if not search.cases:
+        wrong = "no design of [search] exists within the budget"
+        raise OptimizeError(f"{question['budget'] or 'no budget'}: {wrong}; allowed: a greater one")
     if found is None or not found.values:
         say(f"None of {len(search.cases)} designs can be ranked.")
         return max(1, len(search.cases))

@@ -28,8 +28,8 @@ from sweep.running.sweep import run_sweep
 from sweep.store.read import Rerun, finished_ids, read_summary
 
 START = 4  # binary logarithm of the number of designs of a Sobol start
-POPULATION = 8  # of the best of them evolve
-MUTATION = 0.3, 0.8  # lower than scipy's, which suits longer searches
+POPULATION = 6  # of the best of them evolve
+MUTATION = 0.2, 0.6  # below scipy's, which suits searches of thousands; `make search`
 IDLE = 20  # generations without a new design that end a population
 CLOSE = 1e-3  # relative scatter of the values at which a population has converged
 RENEW = Rerun(older=True)  # a search does not compare versions of the model
