@@ -34,9 +34,7 @@ def optimize(config: Config, arguments: Namespace) -> int:
     question = _question(config, arguments)
     config, budget, panel = _with_force(config, question), *_limits(question)
     out = arguments.out or f"results/{config.name}.h5"
-    how = Settings(
-        arguments.evaluations, arguments.seed, arguments.workers, arguments.scheduler
-    )
+    how = Settings(arguments.evaluations, arguments.seed, arguments.workers, arguments.scheduler)
     search = Search(DesignSpace(config, budget, panel), question, out, how)
     search.run()
     failed = _tell_best(search, question)

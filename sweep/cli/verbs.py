@@ -228,7 +228,9 @@ def materials(arguments: Namespace) -> int:
     return DONE
 
 
-VERBS = {verb.__name__: verb for verb in (run, optimize, accuracy, warm, status, rank, show, materials)}
+VERBS = {
+    verb.__name__: verb for verb in (run, optimize, accuracy, warm, status, rank, show, materials)
+}
 
 
 def _config(name: str) -> Config:

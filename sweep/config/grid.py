@@ -109,7 +109,7 @@ def designs_of(config: Config, designs: Iterable[Case], seed: int) -> Designs:
 
 
 def check(config: Config) -> None:
-    """Refuse a config that cannot be run; of a search, a few designs are tried (`_combinations`)."""
+    """Refuse a config that cannot be run; a search is tried at a few points (`_combinations`)."""
     if config.search:
         _cases(config)
     else:
@@ -118,7 +118,7 @@ def check(config: Config) -> None:
 
 def chosen_case(config: Config, chosen: Values) -> Case | None:
     """The case of a search with these values, in SI; None if they cannot be combined."""
-    alone = {key: (written,) for key, written in chosen.items()}
+    alone: Axes = {key: (written,) for key, written in chosen.items()}
     (draft,) = _drafts(replace(config, search={}, grid=alone))
     return None if draft.faults else draft.labelled()
 

@@ -16,7 +16,9 @@ AGAIN = """\
 fine mesh: with twice the elements. lowest, highest: that, and with walls 5 % thinner and thicker,
 and a quarter and four times the imperfection, one at a time."""
 NARROW = 0.8  # of its value: a design that keeps less stands on a narrow peak
-ONLY_EVALUATED = "The front of the designs that were evaluated; the search sought the column {} alone."
+ONLY_EVALUATED = (
+    "The front of the designs that were evaluated; the search sought the column {} alone."
+)
 
 
 def finalist_sheet(spread: Spread, summary: DataFrame) -> Sheet:

@@ -69,7 +69,7 @@ class DesignSpace:
             self._limits[least.case_id] = self._limited(self._size, least)
         axis = self._limits[least.case_id]
         used = min(1.0, USED_UP * share) if self.budget < inf else share
-        return axis and axis.at(used)
+        return axis.at(used) if axis else None
 
     def _limited(self, size: Interval, least: Case) -> Interval | None:
         """The axis up to its greatest value within the budget; None if its least exceeds that."""

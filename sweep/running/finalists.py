@@ -55,7 +55,7 @@ def perturbed(design: Case) -> list[Corner]:
 
 
 def _finer(lattice: Lattice) -> Lattice:
-    """Twice the elements in every wall, whose thickness no longer follows from a mass or a share."""
+    """Twice the elements in every wall; its thickness no longer follows from a mass or a share."""
     if lattice.structure is not None:
         pieces = tuple(2 * n for n in lattice.structure.pieces)
         finer = lattice.structure.model_copy(update={"subdivide": pieces})

@@ -5,7 +5,7 @@ sought is the most energy up to 50 N. Where walls just do not buckle at 50 N, a 
 thickness loses four fifths of it. What is finished is kept in the folder given.
 
 peak: a hexagon of 4 x 2 cells, walls of 0.3 to 1.2 mm, beside a scan of 60 walls.
-cushion: three patterns, 2 to 6 by 1 to 4 cells, walls of 0.4 to 1.6 mm, beside a grid of 36 designs.
+cushion: all of `configs/search.toml`, beside two grids of 36 designs, of which one is lucky.
 """
 
 import sys
@@ -40,12 +40,11 @@ KINDS = ("square", "hex", "diamond")
 
 
 class Question(NamedTuple):
-    """A search, the designs beside it, and how many evaluations the search has."""
+    """A search, the designs beside it by what they are, and the evaluations of the search."""
 
     name: str
     search: Config
-    beside: list[Case]
-    what: str
+    beside: dict[str, list[Case]]
     evaluations: int
 
 
@@ -63,15 +62,21 @@ def peak():
     ]
     search = {WALLS: Interval(WALLS, THIN, THICK, "m")}
     hexagon = replace(config, base=config.base | written("hex", 4, 2), search=search)
-    return Question("peak", hexagon, scan, "a scan of 60 walls", 30)
+    return Question("peak", hexagon, {"a scan of 60 walls": scan}, 30)
 
 
 def cushion():
     """Four freedoms, of which three are choices."""
     config = load_config(CONFIG)
-    points = product(KINDS, (4, 6), (2, 3), (0.4e-3, 0.8e-3, 1.2e-3))
-    grid = [chosen_case(config, written(*point)) for point in points]
-    return Question("cushion", config, grid, "a grid of 36", 35)
+    grids = {
+        "a grid": product(KINDS, (4, 6), (2, 3), (0.4e-3, 0.8e-3, 1.2e-3)),
+        "another grid": product(KINDS, (2, 4, 6), (2, 4), (0.6e-3, 1.0e-3)),
+    }
+    beside = {
+        name: [chosen_case(config, written(*point)) for point in points]
+        for name, points in grids.items()
+    }
+    return Question("cushion", config, beside, 35)
 
 
 def found(question, seed, folder, simulate=None, evaluations=None):
@@ -84,20 +89,30 @@ def found(question, seed, folder, simulate=None, evaluations=None):
 
 
 def best_beside(question, folder, simulate=None):
-    """The best value (J) of the designs beside a search, and the design."""
+    """The best value (J) of each group of designs beside a search, and the design."""
+    every = [case for cases in question.beside.values() for case in cases]
     out = folder / f"{question.name}_beside.h5"
-    run_sweep(question.beside, out, simulate=simulate)
-    value = worths(read_summary(out), QUESTION).values
-    best = next(iter(value))
-    return value[best], {case.case_id: case for case in question.beside}[best]
+    run_sweep(every, out, simulate=simulate)
+    values = worths(read_summary(out), QUESTION).values
+    return {
+        name: max(
+            ((values[case.case_id], case) for case in cases if case.case_id in values),
+            key=lambda pair: pair[0],
+        )
+        for name, cases in question.beside.items()
+    }
 
 
 def sheet(question, beside, searches):
-    """A row for the designs beside the search, and one for each seed."""
-    heads = ["", "designs", "energy mJ", "of the former %", "design"]
-    rows = [[question.what, str(len(question.beside)), *told(*beside, beside[0])]]
+    """A row for each group of designs beside the search, and one for each seed."""
+    heads = ["", "designs", "energy mJ", "of the first %", "design"]
+    reference = next(iter(beside.values()))[0]
+    rows = [
+        [name, str(len(question.beside[name])), *told(*one, reference)]
+        for name, one in beside.items()
+    ]
     for seed, one in zip(SEEDS, searches, strict=False):
-        rows.append([f"search, seed {seed}", str(question.evaluations), *told(*one, beside[0])])
+        rows.append([f"search, seed {seed}", str(question.evaluations), *told(*one, reference)])
     return Sheet(f"Energy to 50 N: {question.name}", heads, rows)
 
 

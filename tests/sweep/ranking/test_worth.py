@@ -54,7 +54,7 @@ def test_rows_without_the_allowed_force_are_refused():
     rows = designs([1.0, 2.0], [0.1, 0.4])
     rows = summary(rows[0] | {"absorbed_energy_at_50N_J": 0.1}, rows[1])
     rows.loc[1, "absorbed_energy_at_50N_J"] = float("nan")
-    with pytest.raises(RankError, match="1 rows .* = 50 N; allowed: another --out"):
+    with pytest.raises(RankError, match=r"1 rows .* = 50 N; allowed: another --out"):
         worths(rows, asked(allowed_force="50 N"))
 
 

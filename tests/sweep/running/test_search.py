@@ -91,7 +91,7 @@ def test_all_failed_is_no_exception(searched):
 
 def test_least_is_sought_where_less_is_better(searched):
     search, _ = searched(evaluations=60, by="mass_g")
-    (best, value), *_ = search.found.values.items()
+    value = next(iter(search.found.values.values()))
     assert value == pytest.approx(1e3 * THIN, abs=0.01)
     assert value == min(search.found.values.values())
 
