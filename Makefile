@@ -13,7 +13,7 @@ STAMP = .venv/.ready
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
 .PHONY: help setup sweep rank test stock mutants verify validate elements continuum accuracy mesh \
-        bars spread memory stability bench experiment figures lint clean
+        bars spread search memory stability bench experiment figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -74,6 +74,9 @@ bars: setup  ## measure whether error bars cover the error; kept in results/bars
 
 spread: setup  ## measure how much columns move with mesh, imperfection, steps; kept in results/spread/
 	@$(PYTHON) -m tests.studies.spread results/spread
+
+search: setup  ## compare what optimize finds with a scan and with a grid; kept in results/search/ (2 min)
+	@$(PYTHON) -m tests.studies.search results/search
 
 memory: setup  ## measure what loss and softening change; goes to results/memory/ (10 min)
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.memory results/memory

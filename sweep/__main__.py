@@ -22,6 +22,7 @@ EXAMPLES = """examples:
   crumple run armor                             simulate; after a stop, the same command continues
   crumple run armor --error-bars                also estimate the error of each number, and ties
   crumple run armor --spread                    also show what uncertain numbers change
+  crumple optimize bumper.toml --budget "25 g"  search for the best design within a budget
   crumple warm                                  compile the kernels before the first run
   crumple status results/armor.h5               what is done, what failed and why
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
@@ -42,6 +43,18 @@ computes them again. With --error-bars every design runs again with half the ele
 half the steps: about twice the work. With --spread the five best designs of each ranking run again
 with every uncertain number at both ends of its range (crumple materials lists them; friction from
 0.2 to 0.9), and a table shows how far their values move and whether their order changes."""
+OPTIMIZE = """Search for the best design among those that the table [search] of CONFIG allows:
+
+  [search]
+  "lattice.kind" = ["square", "hex"]                               one of a list
+  "lattice.cells_x" = {from = 2, to = 8}                           whole numbers
+  "lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"}      or lattice.mass
+
+The best is what rank lists first: most energy until the lattice has packed, or up to --max-force,
+or the best of --by. With a budget, walls are as thick as it allows at most. Every design is a row
+of the results file; after a stop, the same command with the same seed continues. The three best are
+simulated again with twice the elements, and with walls 5 % thinner and thicker and other
+imperfections, in a results file of their own, and told with the spread of their values."""
 ACCURACY = """Simulate a sweep over numerical settings, then print error against run time: a table,
 the observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 the limit to which the finest settings of the method of highest order converge. Cases that differ in
@@ -142,6 +155,7 @@ def parser() -> Parser:
     run.add_argument("--retry-failed", action="store_true", help="compute failed cases again")
     run.add_argument("--renew", action="store_true", help="compute rows of an older model again")
 
+    _add_optimize(verbs)
     accuracy = verbs.add_parser(
         "accuracy", help="error against run time", description=ACCURACY, formatter_class=raw
     )
@@ -180,6 +194,36 @@ def parser() -> Parser:
     )
     _add_materials(verbs)
     return main
+
+
+def _add_optimize(verbs: Any) -> None:
+    """Add the verb that searches."""
+    optimize = verbs.add_parser(
+        "optimize",
+        help="search for the best design",
+        description=OPTIMIZE,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    optimize.add_argument("config", type=_path, metavar="CONFIG", help="TOML file with a [search]")
+    optimize.add_argument("--budget", metavar="MASS", help='greatest mass: "25 g"')
+    optimize.add_argument(
+        "--panel", nargs=2, metavar="LENGTH", help='area to fill with specimens: "100 mm" "50 mm"'
+    )
+    optimize.add_argument(
+        "--max-force", metavar="FORCE", help='count energy up to this force: "60 N"'
+    )
+    optimize.add_argument("--by", metavar="COLUMN", help="seek the best of this column")
+    optimize.add_argument("--pareto", metavar="COLUMN", help="list the front of a second aim, too")
+    optimize.add_argument(
+        "--evaluations", type=_count, default=150, metavar="N", help="designs, 150 by default"
+    )
+    optimize.add_argument("--seed", type=_count, default=1, metavar="N", help="1 by default")
+    optimize.add_argument(
+        "--out", type=_results, metavar="F.h5", help="results file (default: results/NAME.h5)"
+    )
+    where = optimize.add_mutually_exclusive_group()
+    where.add_argument("--workers", type=_count, default=2, metavar="N", help="default: 2")
+    where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster: tcp://host:8786")
 
 
 def _add_materials(verbs: Any) -> None:

@@ -33,6 +33,7 @@ REFUSALS = {
     f"{HOME}.config.material_file": "RecordError",
     f"{HOME}.coupon.record": "CouponError",
     f"{HOME}.cli.materials": "MaterialsError",
+    f"{HOME}.cli.optimize": "OptimizeError",
     f"{HOME}.store.read": "StoreError",
     f"{HOME}.running.dask_graph": "GraphError",
     f"{HOME}.ranking.rank": "RankError",
@@ -105,6 +106,13 @@ def _spread(config: Config, out: str, how: tuple[Any, ...], question: dict[str, 
     found = spreads(ranking, read_summary(spread_file(out)), ids, question)
     print_sheets(spread_sheets(found, summary))
     return sum(spread.failed for spread in found)
+
+
+def optimize(arguments: Namespace) -> int:
+    """Search for the best design, then simulate the best ones again."""
+    from sweep.cli.optimize import optimize as search
+
+    return SOME_FAILED if search(_config(arguments.config), arguments) else DONE
 
 
 def accuracy(arguments: Namespace) -> int:
@@ -222,7 +230,9 @@ def materials(arguments: Namespace) -> int:
     return DONE
 
 
-VERBS = {verb.__name__: verb for verb in (run, accuracy, warm, status, rank, show, materials)}
+VERBS = {
+    verb.__name__: verb for verb in (run, optimize, accuracy, warm, status, rank, show, materials)
+}
 
 
 def _config(name: str) -> Config:

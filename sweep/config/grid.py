@@ -4,7 +4,7 @@ import json
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property
 from itertools import product
 from math import prod
@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import TABLES, Case
 from sweep.config.keys import ALIASES, case_keys
 from sweep.config.material_header import KEYS
@@ -26,6 +27,7 @@ SHOWN = 10  # faults that the text of a ConfigError lists
 _QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
 PRINTABLE = "lattice.printable"
 OF_A_FILE = frozenset(f"material.{name}" for name in KEYS.values())
+ONLY_OPTIMIZE = "only `crumple optimize` searches; allowed here: lists of values in [grid]"
 MAY_BE_UNUSED = ("material.poisson",)  # a property of the material, stated even in plane stress
 
 
@@ -57,14 +59,6 @@ def _shown(faults: list[Fault]) -> list[str]:
     return [faults[k].line for k in sorted(chosen)] + counted
 
 
-class Written(NamedTuple):
-    """A value in SI (None: not set), its text in the file, and its key in the file."""
-
-    value: Any
-    text: str
-    name: str = ""
-
-
 Reason = dict[str, Any]  # key, value, allowed
 Values = dict[str, Written]
 Axes = dict[str, tuple[Written, ...]]
@@ -76,7 +70,8 @@ class Config:
 
     grid, zip: key -> values; every value of the grid meets every row of every zip.
     exclude: tables key -> rounded values. A case is dropped if, for every key of a table, its value
-    is among the values of that key.
+    is among the values of that key. search: key -> what a search may choose; a config with it has
+    no cases but those that the search chooses.
     """
 
     name: str
@@ -86,6 +81,7 @@ class Config:
     exclude: tuple[dict[str, tuple[object, ...]], ...] = ()
     rank: Rank = field(default_factory=Rank)
     path: Path | None = None
+    search: dict[str, Interval | Choice] = field(default_factory=dict)
 
     @cached_property
     def _expanded(self) -> tuple[tuple[Case, ...], int]:
@@ -95,12 +91,49 @@ class Config:
     @property
     def cases(self) -> tuple[Case, ...]:
         """The cases that `expand` returns, computed once."""
+        if self.search:
+            line = f"[search] of {', '.join(self.search)}: {ONLY_OPTIMIZE}"
+            raise ConfigError([Fault("search", line)])
         return self._expanded[0]
 
     @property
     def unprintable(self) -> int:
         """Number of combinations that are left out, as they do not print (`lattice.printable`)."""
         return self._expanded[1]
+
+
+@dataclass(frozen=True)
+class Designs(Config):
+    """The designs that a search has chosen so far, and its seed."""
+
+    designs: tuple[Case, ...] = ()
+    seed: int = 0
+
+    @cached_property
+    def cases(self) -> tuple[Case, ...]:
+        """The designs."""
+        return self.designs
+
+
+def designs_of(config: Config, designs: Iterable[Case], seed: int) -> Designs:
+    """The config of a search, whose cases are these designs."""
+    shared = {each.name: getattr(config, each.name) for each in fields(config)}
+    return Designs(**shared, designs=tuple(designs), seed=seed)
+
+
+def check(config: Config) -> None:
+    """Refuse a config that cannot be run; a search is tried at a few points (`_combinations`)."""
+    if config.search:
+        _cases(config)
+    else:
+        expand(config)
+
+
+def chosen_case(config: Config, chosen: Values) -> Case | None:
+    """The case of a search with these values, in SI; None if they cannot be combined."""
+    alone: Axes = {key: (written,) for key, written in chosen.items()}
+    (draft,) = _drafts(replace(config, search={}, grid=alone))
+    return None if draft.faults else draft.labelled()
 
 
 def case_count(config: Config) -> int:
@@ -143,7 +176,8 @@ def _cases(config: Config) -> tuple[Iterable[Case], int]:
         if not draft.faults:
             cases.setdefault(draft.case.case_id, draft.labelled())
             unused = still_unused(unused, draft.given, draft.case) if unused else unused
-    if refused:
+    if refused and not (config.search and cases):
+        count = max(count, *map(len, refused.values()))
         raise ConfigError([_merged(faults, count) for faults in refused.values()])
     if unprintable and not cases:
         raise ConfigError([_merged(unprintable, count)])
@@ -228,10 +262,19 @@ def _axes(config: Config) -> Iterator[tuple[str, str, tuple[Written, ...]]]:
     """Every axis: the table that has it, its key, its values."""
     for where, axes in [("[grid]", config.grid), *(("[[zip]]", tied) for tied in config.zip)]:
         yield from ((where, name, values) for name, values in axes.items())
+    yield from (("[search]", name, axis.probes) for name, axis in config.search.items())
 
 
 def _combinations(config: Config) -> Iterator[Values]:
-    """Values along the axes: every value of the grid with every row of each zip."""
+    """Values along the axes: every value of the grid with every row of each zip.
+
+    Of a search, one axis at a time takes its values, while the others keep their middle.
+    """
+    if config.search:
+        middle = {key: axis.probes[0] for key, axis in config.search.items()}
+        for key, axis in config.search.items():
+            yield from (middle | {key: written} for written in axis.probes)
+        return
     parts = [[{key: value} for value in values] for key, values in config.grid.items()]
     for tied in config.zip:
         rows = zip(*tied.values(), strict=True)

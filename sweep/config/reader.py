@@ -11,8 +11,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import TABLES
-from sweep.config.grid import Axes, Config, Fault, Values, Written
+from sweep.config.grid import Axes, Config, Fault, Values
 from sweep.config.keys import ALIASES, Key, case_keys, nearest, table_keys
 from sweep.config.material_file import RecordError, UnknownMaterialError, locate, read_record
 from sweep.config.renamed import present
@@ -33,6 +34,8 @@ BY_MATERIAL = {
     "solver.joints",
 }
 """Keys of other tables that may be refused because of the material."""
+RANGE = ("from", "to")  # keys of a range of a search
+IN_SEARCH = "a range, which belongs into [search]"
 _NAME = re.compile(r"\w[\w.-]*")
 
 
@@ -52,7 +55,7 @@ class Reader:
     def config(self, document: dict[str, Any], path: Path) -> Config:
         """The config of a whole document."""
         document = present(document)
-        sections = ["name", *TABLES, "grid", "zip", "exclude", "rank"]
+        sections = ["name", *TABLES, "grid", "zip", "exclude", "search", "rank"]
         for section in document:
             if section not in sections:
                 self._unknown(section, document[section], sections)
@@ -66,6 +69,7 @@ class Reader:
             exclude=tuple(filter(None, map(self._exclude, self._tables(document, "exclude")))),
             rank=self._rank(self._section(document, "rank")),
             path=path,
+            search=self._search(document),
         )
 
     def trusts(self, fault: Fault) -> bool:
@@ -152,6 +156,7 @@ class Reader:
             self._refuse(name, raw, "a list itself, no axis; allowed: keys with one value", where)
         elif not isinstance(raw, list) or not raw:
             wrong = "no values" if raw == [] else "not a list"
+            wrong = IN_SEARCH if is_range(raw) else wrong
             self._refuse(name, raw, f"{wrong}; allowed: a list, each {key.allowed}", where)
         elif other := next((self.varied[t] for t in key.targets if t in self.varied), None):
             self._refuse(name, raw, f"varied in {other} too; allowed: one of them", where)
@@ -171,6 +176,32 @@ class Reader:
             wrong = f"lengths differ ({counts}); allowed: lists of equal length"
             self._refuse(name, table[name], wrong, "[[zip]]")
         return tied if len({len(values) for values in tied.values()}) == 1 else {}
+
+    def _search(self, document: dict[str, Any]) -> dict[str, Interval | Choice]:
+        """What a search may choose: keys with an interval, or with a list of values."""
+        section = _flat(self._section(document, "search"))
+        for other in ("grid", "zip", "exclude") if section else ():
+            if document.get(other):
+                wrong = f"beside [search]; allowed: one of [search] and [{other}]"
+                self._refuse(other, document[other], wrong)
+        read = {name: self._searched(name, raw) for name, raw in section.items()}
+        return {name: axis for name, axis in read.items() if axis}
+
+    def _searched(self, name: str, raw: Any) -> Interval | Choice | None:
+        """The values of a key that a search may choose."""
+        ranged = is_range(raw)
+        values = self._axis(name, [raw[end] for end in RANGE] if ranged else raw, "[search]")
+        if not ranged:
+            return Choice(values) if values else None
+        if len(values) < len(RANGE):
+            return None
+        low, high = (written.value for written in values)
+        if isinstance(low, bool | str) or not low < high:
+            wrong = "no range; allowed: numbers, from the smaller to the greater, or a list"
+            self._refuse(name, raw, wrong, "[search]")
+            return None
+        unit = case_keys()[name].unit
+        return Interval(name, low, high, "" if unit in (None, "1") else str(unit))
 
     def _exclude(self, table: dict[str, Any]) -> dict[str, tuple[object, ...]]:
         """The values of an [[exclude]] table, in the form of a case; empty if one is wrong."""
@@ -239,12 +270,19 @@ class Reader:
 
     def _in_si(self, key: Key, raw: Any) -> Any:
         """One value without its unit, if its key has one."""
+        if is_range(raw):
+            raise ValueError(IN_SEARCH)
         bare = key.bare and isinstance(raw, int | float)
         if bare and raw > key.bare_most:
             raise ValueError(
                 f"a bare number above {key.bare_most:g}, which may be meant in percent"
             )
         return self.to_si(raw, key.unit) if key.unit and not bare else raw
+
+
+def is_range(value: object) -> bool:
+    """Whether a value is a range of a search: a table with its ends."""
+    return isinstance(value, dict) and sorted(value) == sorted(RANGE)
 
 
 def _is_branch(value: object) -> bool:
@@ -272,7 +310,8 @@ def _flat(table: dict[str, Any], prefix: str = "") -> dict[str, Any]:
     """Dotted keys of nested tables: "lattice.cells" = 3 and lattice.cells = 3 are the same."""
     flat: dict[str, Any] = {}
     for name, value in table.items():
-        inner = _flat(value, f"{prefix}{name}.") if isinstance(value, dict) else None
+        is_table = isinstance(value, dict) and not is_range(value)
+        inner = _flat(value, f"{prefix}{name}.") if is_table else None
         flat |= inner or {f"{prefix}{name}": value}
     return flat
 

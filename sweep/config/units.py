@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from sweep.config.examples import examples, find_config
-from sweep.config.grid import MAX_CASES, Config, ConfigError, Fault, case_count, expand
+from sweep.config.grid import MAX_CASES, Config, ConfigError, Fault, case_count, check, expand
 from sweep.config.keys import QUANTITIES
 from sweep.config.reader import Reader, in_words
 
@@ -61,7 +61,7 @@ def load_config(path: str | PathLike[str]) -> Config:
     reader = Reader(path.parent, _converted)
     config = reader.config(_document(path), path)
     try:
-        expand(config)
+        check(config)
     except ConfigError as error:
         reader.faults += [fault for fault in error.faults if reader.trusts(fault)]
     if reader.faults:

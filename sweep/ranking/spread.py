@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 ROUND_OFF = 1e-9
 AS_GIVEN = "as given"  # the corner at which no number is at an end of its range
+FINE = "fine mesh"  # the corner with more elements
 Corners = Mapping[str, Sequence[tuple[str, str]]]
 """Name and case id of the corners of each design, by the id of the design."""
 
@@ -42,15 +43,26 @@ class Spread(NamedTuple):
     failed: int
 
     @property
+    def sign(self) -> float:
+        """1 if more of the column is better, -1 if less is."""
+        return -1.0 if less_is_better(self.column) else 1.0
+
+    @property
     def swaps(self) -> list[str]:
         """Corners that change the order of the designs."""
         usual = self.rows[self.column].to_numpy()
-        signed = -1.0 if less_is_better(self.column) else 1.0
         return [
             str(name)
             for name, values in self.at_corners.items()
-            if _overtakes(signed * usual, signed * values.to_numpy())
+            if _overtakes(self.sign * usual, self.sign * values.to_numpy())
         ]
+
+    @property
+    def worst(self) -> Series:
+        """The worst value of each design at its corners, `AS_GIVEN` left out; NaN if one failed."""
+        others = self.at_corners.drop(columns=AS_GIVEN)
+        worst = others.min(axis=1) if self.sign > 0.0 else others.max(axis=1)
+        return worst.where(others.notna().all(axis=1))
 
     def first(self, corner: str) -> int:
         """The row that is the best at a corner."""

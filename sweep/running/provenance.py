@@ -9,8 +9,9 @@ from platform import platform, python_version
 from typing import Any
 
 from kernels.compile.choice import compiler
+from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import Case
-from sweep.config.grid import Config, Written
+from sweep.config.grid import Config, Designs
 from sweep.version import installed_version
 
 PACKAGES = ("crumple", "numpy", "numba", "h5py", "dask")
@@ -41,7 +42,19 @@ def config_text(sweep: Config | Sequence[Case], first: Case) -> str:
             "exclude": sweep.exclude,
             "rank": sweep.rank.model_dump(),
         }
+    if isinstance(sweep, Designs):
+        text |= {"search": _searched(sweep.search), "search_seed": sweep.seed}
     return json.dumps(text)
+
+
+def _searched(axes: Mapping[str, Interval | Choice]) -> dict[str, Any]:
+    """What a search may choose: both ends, or a list."""
+    return {
+        key: {"from": axis.low, "to": axis.high}
+        if isinstance(axis, Interval)
+        else [written.value for written in axis.values]
+        for key, axis in axes.items()
+    }
 
 
 def git_revision() -> str:

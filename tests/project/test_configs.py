@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Material
-from sweep.config.grid import expand
+from sweep.config.grid import chosen_case, expand
 from sweep.config.units import load_config
 from sweep.ranking.rank import rank
 from sweep.running.sweep import run_sweep
@@ -21,7 +21,9 @@ def test_no_config_is_forgotten():
     """`thousand` is held by the bench, `others` by tests of their own."""
     names = {path.stem for path in CONFIGS.glob("*.toml")}
     others = {"custom", "extreme", "impact", "khatri_egan_square"}
-    assert names == others | {"armor", "infills", "reuse", "seed", "slicer", "smoke", "thousand"}
+    assert names == others | {
+        "armor", "infills", "reuse", "seed", "search", "slicer", "smoke", "thousand",
+    }  # fmt: skip
 
 
 def test_smoke_runs_from_end_to_end(tmp_path):
@@ -130,6 +132,20 @@ def test_slicer_holds_its_numbers():
     assert summary["printed_mass_g"] == pytest.approx(3.0, rel=1e-9)
     assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
     assert 1e3 * summary["absorbed_energy_until_packed_J"] == pytest.approx(743.0, rel=2e-3)
+
+
+def test_search_holds_its_number():
+    """The middle of everything that may be chosen."""
+    config = load_config(CONFIGS / "search.toml")
+    middle = {key: axis.at(0.5) for key, axis in config.search.items()}
+    case = chosen_case(config, middle)
+    lattice = case.lattice
+    assert (lattice.kind, lattice.cells_x, lattice.cells_y) == ("hex", 4, 3)
+    assert lattice.wall_thickness == 1e-3
+    summary = simulate(case).summary
+    assert summary["status"] == "converged"
+    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
+    assert 1e3 * summary["absorbed_energy_at_50N_J"] == pytest.approx(14.320, rel=1e-3)
 
 
 def seed(model, hinges):

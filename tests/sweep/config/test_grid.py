@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.config import material_file
-from sweep.config.grid import case_count, expand
+from sweep.config.grid import case_count, chosen_case, designs_of, expand
 from sweep.config.units import ConfigError
 
 THOUSAND = [round(0.01 + 1e-4 * i, 6) for i in range(1000)]
@@ -147,3 +147,39 @@ def test_one_bad_value_is_one_line_in_many_cases(lines):
         "[grid]\nlattice.cells = [2, 3, 4, 5]\ncontact.friction = [0.1, 0.2]"
     )
     assert line.endswith("(4 of 8 combinations)")
+
+
+SEARCH = """
+[search]
+"lattice.kind" = ["square", "hex"]
+lattice.cells_x = {from = 2, to = 6}
+"lattice.wall_thickness" = {from = "0.4 mm", to = "3 mm"}
+"""
+
+
+def test_a_search_has_no_cases_of_its_own(load):
+    """Walls of 3 mm fit into no cell of 2 mm: not all combinations need to exist."""
+    config = load(SEARCH)
+    with pytest.raises(ConfigError, match="only `crumple optimize` searches"):
+        expand(config)
+    chosen = {key: axis.at(0.0) for key, axis in config.search.items()}
+    case = chosen_case(config, chosen)
+    assert case.axes == {
+        "lattice.kind": "square",
+        "lattice.cells_x": 2,
+        "lattice.wall_thickness": 0.4e-3,
+    }
+    assert expand(designs_of(config, [case], seed=3)) == [case]
+    assert chosen_case(config, {key: axis.at(1.0) for key, axis in config.search.items()}) is None
+
+
+def test_search_without_any_possible_design(lines):
+    text = '[search]\nlattice.wall_thickness = {from = "20 mm", to = "30 mm"}'
+    (line,) = lines(text)
+    assert line.startswith("lattice.wall_thickness = 0.025 m: does not fit; allowed: below half")
+
+
+def test_searched_key_without_effect(lines):
+    (line,) = lines('[search]\nlattice.orientation = ["flat", "pointy"]')
+    told = '[search] lattice.orientation = ["pointy", "flat"]: has no effect, as lattice.kind is '
+    assert line == f'{told}"square"'

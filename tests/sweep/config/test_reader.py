@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from sweep.config.axis import Interval
 from sweep.config.case import Case
 from sweep.config.grid import expand
 from sweep.config.material_file import available
@@ -257,3 +258,43 @@ def test_files_are_an_axis(tmp_path):
     assert [case.lattice.wall_thickness for case in cases] == [1e-3, 2e-3]
     (tmp_path / "one.toml").write_text(f'{text}[[exclude]]\nlattice.file = "thin.json"')
     assert len(expand(load_config(tmp_path / "one.toml"))) == 1
+
+
+def test_ranges_and_lists_of_a_search(load):
+    text = '[search]\n"lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"}\n'
+    text += 'lattice.cells = {from = 2, to = 5}\n"lattice.kind" = ["square", "hex"]'
+    search = load(text).search
+    assert search["lattice.wall_thickness"] == Interval(
+        "lattice.wall_thickness", 0.4e-3, 1.6e-3, "m"
+    )
+    assert (search["lattice.cells"].low, search["lattice.cells"].whole) == (2, True)
+    assert [written.value for written in search["lattice.kind"].values] == ["square", "hex"]
+
+
+def test_number_without_a_unit_is_no_whole_number(load):
+    search = load("[search]\nlattice.grading = {from = 1, to = 3}").search
+    assert not search["lattice.grading"].whole
+
+
+TWICE = "varied in [search] too; allowed: one of them"
+NO_RANGE = "no range; allowed: numbers, from the smaller to the greater, or a list"
+IN_SEARCH = "a range, which belongs into [search]; allowed: "
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ('[search]\nlattice.wal = {from = "1 mm", to = "2 mm"}', "unknown key; the nearest is"),
+        ('[search]\nlattice.depth = {from = "2 mm", to = "1 mm"}', NO_RANGE),
+        ('[search]\nlattice.kind = {from = "hex", to = "square"}', NO_RANGE),
+        ('[search]\nlattice.depth = {from = "2 mm", to = 3}', "a bare number"),
+        ("[search]\nlattice.cells = {from = 2, to = 3}\nlattice.cells_x = [2]", TWICE),
+        ("[search]\nlattice.cells = [2]\n[grid]\nlattice.depth = ['1 mm']", "beside [search]"),
+        ("[grid]\nlattice.cells = {from = 2, to = 3}", f"{IN_SEARCH}a list, each a whole"),
+        ("[lattice]\ncells = {from = 2, to = 3}", f"{IN_SEARCH}a whole number"),
+        ("search = 3", "not a table; allowed: a table [search]"),
+    ],
+)
+def test_a_search_that_cannot_be_read(lines, text, told):
+    (line,) = lines(text)
+    assert told in line

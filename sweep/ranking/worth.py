@@ -1,0 +1,67 @@
+"""What a search compares: the value of each design in the sorted column of a ranking."""
+
+from typing import Any, NamedTuple
+
+from pandas import DataFrame
+
+from sweep.ranking.merit import RankError
+from sweep.ranking.rank import pareto, ranked
+from sweep.result import describe_column, less_is_better
+
+
+class Worths(NamedTuple):
+    """Designs by their value in a column.
+
+    values: id -> value, the best first. doubtful: number of further designs whose result is marked
+    as beyond the model or as crossed, which are worth nothing.
+    """
+
+    column: str
+    values: dict[str, float]
+    doubtful: int
+
+    @property
+    def sign(self) -> float:
+        """1 if less is better, -1 if more is."""
+        return 1.0 if less_is_better(self.column) else -1.0
+
+
+def worths(summary: DataFrame, question: dict[str, Any]) -> Worths:
+    """The worths of the designs of one scene; question: arguments of `rank`.
+
+    Designs without a place in the ranking have no value: failed ones, those above the budget.
+    """
+    ranking = ranked(summary, **question | {"top": None})
+    table = ranking.table
+    if question.get("allowed_force") and ranking.unranked:
+        what = f"{ranking.unranked} rows come from a run without loading.allowed_forces = "
+        raise RankError(f"{what}{question['allowed_force']}; allowed: another --out")
+    column = ranking.by if table.empty else str(table["ranked_by"].iloc[0])
+    sound = _sound(table)
+    values = dict(zip(sound["case_id"], sound[column].astype(float), strict=True))
+    return Worths(column, values, len(table) - len(sound))
+
+
+def front(summary: DataFrame, question: dict[str, Any], other: str) -> DataFrame:
+    """The rows of a ranking that no row exceeds both in its column and in another one, best first
+    in that other one. Rows that are marked as doubtful are left out.
+    """
+    table = _sound(ranked(summary, **question | {"top": None}).table).dropna(subset=other)
+    if table.empty:
+        return table
+    column = str(table["ranked_by"].iloc[0])
+    aims = [table[name] if less_is_better(name) else -table[name] for name in (other, column)]
+    chosen = table[pareto(aims[0], -aims[1])]
+    return chosen.sort_values(other, ascending=less_is_better(other), kind="stable")
+
+
+def check_column(name: str) -> None:
+    """Refuse a column of which neither more nor less makes a design better."""
+    if describe_column(name).better is None:
+        wrong = f'"{name}" is no column of which more or less makes a design better'
+        raise RankError(f"{wrong}; allowed: mass_g, peak_force_until_packed_N and the like")
+
+
+def _sound(table: DataFrame) -> DataFrame:
+    """The rows that are marked neither as beyond the model nor as crossed."""
+    return table[~(table["beyond_model"].astype(bool) | table["crossed"].astype(bool))]

@@ -1,0 +1,80 @@
+"""The finalists of a search: each simulated again on a finer mesh, and with other geometry.
+
+The best designs of a search often stand on a narrow peak, such as walls that just do not exceed an
+allowed force; and of many designs, the best is one whose error helps it. So the value of a finalist
+is told with that of twice the elements, and with its spread over prints that miss the drawing:
+walls 5 % thinner and thicker, and a quarter and four times the imperfection.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from sweep.config.case import Case
+from sweep.config.lattice_table import Lattice
+from sweep.ranking.spread import FINE
+from sweep.running.spread import Corner
+
+WALLS = {"walls -5 %": 0.95, "walls +5 %": 1.05}
+BOWS = {"imperfection / 4": 0.25, "imperfection x 4": 4.0}
+COUNT = 3
+ALIKE = 0.05  # relative difference in all numbers up to which two designs are one peak
+
+
+def finalists(best: Iterable[Case], count: int = COUNT) -> list[Case]:
+    """The first designs that differ from one another by a choice, or by more than `ALIKE`."""
+    found: list[Case] = []
+    for case in best:
+        if len(found) == count:
+            break
+        if not any(_alike(case.axes, other.axes) for other in found):
+            found.append(case)
+    return found
+
+
+def _alike(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+    return all(_near(one[key], other[key]) for key in one)
+
+
+def _near(one: object, other: object) -> bool:
+    if isinstance(one, float) and isinstance(other, float):
+        return abs(one - other) <= ALIKE * max(abs(one), abs(other))
+    return one == other
+
+
+def perturbed(design: Case) -> list[Corner]:
+    """The design with twice the elements, and so with other walls and imperfections."""
+    fine = _finer(design.lattice)
+    found = [Corner(FINE, _with(design, fine))]
+    if fine.structure is None:
+        walls, bow = fine.wall_thickness, fine.imperfection
+        changes = {name: {"wall_thickness": scale * walls} for name, scale in WALLS.items()}
+        changes |= {name: {"imperfection": scale * bow} for name, scale in BOWS.items() if bow}
+        for name, change in changes.items():
+            found.append(Corner(name, _with(design, fine.model_copy(update=change))))
+    return found
+
+
+def _finer(lattice: Lattice) -> Lattice:
+    """Twice the elements in every wall; its thickness no longer follows from a mass or a share."""
+    if lattice.structure is not None:
+        pieces = tuple(2 * n for n in lattice.structure.pieces)
+        finer = lattice.structure.model_copy(update={"subdivide": pieces})
+        return lattice.model_copy(update={"structure": finer})
+    nodes = 2 * lattice.nodes_per_wall + 1
+    return lattice.model_copy(update={"nodes_per_wall": nodes, "mass": None, "infill": None})
+
+
+def _with(design: Case, lattice: Lattice) -> Case:
+    """The design with another lattice, labelled by what differs."""
+    tables: dict[str, Any] = {table: getattr(design, table) for table in Case.model_fields}
+    labels = {
+        "lattice.nodes_per_wall": lattice.nodes_per_wall,
+        "lattice.wall_thickness": lattice.wall_thickness,
+        "lattice.imperfection": lattice.imperfection,
+    }
+    return Case(**tables | {"lattice": lattice, "axes": design.axes | labels})
+
+
+def perturbed_of(best: Sequence[Case]) -> dict[str, list[Corner]]:
+    """The perturbed designs of each finalist by its id."""
+    return {case.case_id: perturbed(case) for case in best}

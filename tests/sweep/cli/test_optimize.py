@@ -1,0 +1,94 @@
+"""The verb `optimize`: what it tells, what it leaves, what it refuses."""
+
+import shlex
+from importlib import import_module
+
+import pytest
+
+from sweep.running.spread import spread_file
+from sweep.store.read import read_summary
+from tests.support.command import crumple
+from tests.support.searches import TOML, simulate
+
+ENERGY = "absorbed_energy_J"
+
+
+@pytest.fixture
+def config(tmp_path, monkeypatch):
+    """A search on invented results."""
+    monkeypatch.setattr(import_module("sweep.simulation.simulate"), "simulate", simulate)
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "sought.toml"
+    path.write_text(TOML)
+    return path
+
+
+def test_it_tells_the_best_with_their_spread_and_the_next_command(capsys, config):
+    words = [str(config), "--by", ENERGY, "--evaluations", "60", "--pareto", "mass_g"]
+    status, out, err = crumple(capsys, "optimize", *words)
+    assert (status, err) == (0, "")
+    assert f"60 of at most 60 designs: {ENERGY}, the best " in out
+    assert f"Best designs, simulated again: {ENERGY}" in out
+    assert f"Pareto front of {ENERGY} and mass_g" in out
+    assert "Left out: " in out
+    assert len(read_summary("results/sought.h5")) == 60
+    assert len(read_summary(spread_file("results/sought.h5"))) == 15
+    *_, last = out.splitlines()
+    told, _, command = last.partition("; to rank them: crumple ")
+    assert told == "results: results/sought.h5"
+    status, out, _ = crumple(capsys, *shlex.split(command))
+    assert status == 0
+    assert "Best first: most energy." in out
+
+
+def test_budget_and_force_are_those_of_the_next_command(capsys, config):
+    config.write_text(f'{TOML}[rank]\nbudgets = ["5 g", "25 g"]\npanel = ["10 cm", "5 cm"]\n')
+    words = [str(config), "--evaluations", "8", "--budget", "20 g", "--max-force", "0.06 kN"]
+    status, out, _ = crumple(capsys, "optimize", *words)
+    assert status == 0
+    assert out.endswith("results/sought.h5 --budget '20 g' --allowed-force '0.06 kN'\n")
+    rows = read_summary("results/sought.h5")
+    assert "absorbed_energy_at_60N_J" in rows
+    status, out, _ = crumple(capsys, "optimize", *words)
+    assert "8/8 cases" not in out  # nothing is computed twice
+
+
+def test_a_search_whose_designs_all_fail(capsys, config):
+    config.write_text(TOML.replace('["square", "hex", "diamond"]', '["brick"]'))
+    status, out, _ = crumple(capsys, "optimize", str(config), "--evaluations", "8")
+    assert status == 1
+    assert "None of 8 designs can be ranked." in out
+
+
+REFUSED = [
+    ([], "[rank] has 2 budgets; needed: one, as --budget"),
+    (["--budget", "25"], "a bare number"),
+    (["--budget", "25 mm"], "another kind"),
+    (["--budget", "-1 g"], "must be above zero"),
+    (["--budget", "1 g", "--max-force", "60"], "a bare number"),
+    (["--budget", "1 g", "--by", "cells_x"], '"cells_x" is no column of which more or less makes'),
+    (["--budget", "1 g", "--pareto", "weight"], '"weight" is no column'),
+    (["--evaluations", "0"], "1 or more"),
+    (["--seed", "-1"], "1 or more"),
+]
+
+
+@pytest.mark.parametrize(("words", "told"), REFUSED)
+def test_refusals_write_nothing(capsys, config, tmp_path, words, told):
+    config.write_text(f'{TOML}[rank]\nbudgets = ["5 g", "25 g"]\n')
+    status, out, err = crumple(capsys, "optimize", str(config), *words)
+    assert (status, out) == (2, "")
+    assert told in err
+    assert err.count("\n") <= 2
+    assert [path.name for path in tmp_path.iterdir()] == ["sought.toml"]
+
+
+def test_configs_are_for_one_verb(capsys, config, tmp_path):
+    status, _, err = crumple(capsys, "run", str(config))
+    assert status == 2
+    assert "only `crumple optimize` searches" in err
+    config.write_text("[grid]\nlattice.cells = [2, 3]")
+    status, _, err = crumple(capsys, "optimize", str(config))
+    assert (status, err.count("\n")) == (2, 1)
+    assert "has no [search] with the keys that may be chosen; needed: " in err
+    assert [path.name for path in tmp_path.iterdir()] == ["sought.toml"]

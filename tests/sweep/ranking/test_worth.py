@@ -1,0 +1,75 @@
+"""What designs are worth to a search, and the front of two aims."""
+
+import pytest
+
+from sweep.ranking.merit import RankError
+from sweep.ranking.worth import check_column, front, worths
+from tests.support.specimens import designs, summary
+
+QUESTION = {"budget": None, "panel": None, "by": None, "allowed_force": None}
+
+
+def table(**changes):
+    """Designs of 1, 2, 3 and 4 g; `changes`: column -> value of the last one."""
+    rows = designs([1.0, 2.0, 3.0, 4.0], [0.1, 0.4, 0.3, 0.9])
+    rows[-1] |= changes
+    return summary(*rows)
+
+
+def asked(**question):
+    return QUESTION | question
+
+
+def test_best_first_as_in_the_ranking():
+    found = worths(table(), asked(budget=[3e-3]))
+    assert found.column == "absorbed_energy_until_packed_J"
+    assert list(found.values.values()) == [0.4, 0.3, 0.1]
+    assert found.sign == -1.0
+    found = worths(table(), asked())
+    assert found.column == "specific_absorption_until_packed_J_per_g"
+    assert next(iter(found.values.values())) == pytest.approx(0.225)
+
+
+def test_less_is_better_where_the_column_says_so():
+    found = worths(table(), asked(by="mass_g"))
+    assert list(found.values.values()) == [1.0, 2.0, 3.0, 4.0]
+    assert found.sign == 1.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "doubtful"),
+    [
+        ({"status": "stopped"}, 0),
+        ({"max_crossings": 2}, 1),
+        ({"absorbed_energy_within_model_J": 0.2}, 1),
+    ],
+)
+def test_failed_and_marked_designs_have_no_worth(changes, doubtful):
+    found = worths(table(**changes), asked(by="absorbed_energy_J"))
+    assert list(found.values.values()) == [0.4, 0.3, 0.1]
+    assert found.doubtful == doubtful
+
+
+def test_rows_without_the_allowed_force_are_refused():
+    rows = designs([1.0, 2.0], [0.1, 0.4])
+    rows = summary(rows[0] | {"absorbed_energy_at_50N_J": 0.1}, rows[1])
+    rows.loc[1, "absorbed_energy_at_50N_J"] = float("nan")
+    with pytest.raises(RankError, match=r"1 rows .* = 50 N; allowed: another --out"):
+        worths(rows, asked(allowed_force="50 N"))
+
+
+def test_front_of_two_aims():
+    """The design of 3 g absorbs less than that of 2 g."""
+    found = front(table(), asked(by="absorbed_energy_J"), "mass_g")
+    assert list(found["mass_g"]) == [1.0, 2.0, 4.0]
+    found = front(table(max_crossings=1), asked(by="absorbed_energy_J"), "mass_g")
+    assert list(found["mass_g"]) == [1.0, 2.0]
+    found = front(table(), asked(by="mass_g"), "absorbed_energy_J")
+    assert list(found["absorbed_energy_J"]) == [0.9, 0.4, 0.1]
+
+
+def test_columns_without_a_better_value_are_refused():
+    check_column("absorbed_energy_at_50N_J")
+    for name in ("cells_x", "nonsense"):
+        with pytest.raises(RankError, match=name):
+            check_column(name)

@@ -1,0 +1,46 @@
+"""Which designs are finalists, and as what they are simulated again."""
+
+import pytest
+
+from sweep.config.case import Case, Lattice, Loading
+from sweep.ranking.spread import FINE
+from sweep.running.finalists import finalists, perturbed
+
+PRESSED = Loading(mode="displacement", strain=0.3)
+
+
+def design(kind, cells, walls):
+    axes = {"lattice.kind": kind, "lattice.cells_x": cells, "lattice.wall_thickness": walls}
+    lattice = Lattice(kind=kind, cells_x=cells, wall_thickness=walls)
+    return Case(lattice=lattice, loading=PRESSED, axes=axes)
+
+
+def test_finalists_stand_on_different_peaks():
+    first, near = design("hex", 3, 0.60e-3), design("hex", 3, 0.62e-3)
+    others = [design("hex", 3, 0.66e-3), design("hex", 4, 0.60e-3), design("square", 3, 0.6e-3)]
+    assert finalists([first, near, *others]) == [first, *others[:2]]
+    assert finalists([first, near]) == [first]
+
+
+def test_each_has_twice_the_elements_and_one_change():
+    case = design("hex", 3, 0.6e-3)
+    found = {corner.name: corner.case.lattice for corner in perturbed(case)}
+    assert {lattice.nodes_per_wall for lattice in found.values()} == {5}
+    walls = [lattice.wall_thickness for lattice in found.values()]
+    assert walls == pytest.approx([0.6e-3, 0.57e-3, 0.63e-3, 0.6e-3, 0.6e-3])
+    bows = [lattice.imperfection for lattice in found.values()]
+    assert bows == pytest.approx([0.01, 0.01, 0.01, 0.0025, 0.04])
+    assert next(iter(found)) == FINE
+    assert len({corner.case_id for corner in perturbed(case)} | {case.case_id}) == 6
+
+
+def test_walls_of_a_given_mass_stay_as_they_were():
+    case = Case(lattice=Lattice(mass=1e-3), loading=PRESSED, axes={"lattice.mass": 1e-3})
+    walls = [corner.case.lattice.wall_thickness for corner in perturbed(case)[:3]]
+    same = case.lattice.wall_thickness
+    assert walls == pytest.approx([same, 0.95 * same, 1.05 * same])
+
+
+def test_straight_walls_have_no_imperfection_to_change():
+    case = Case(lattice=Lattice(imperfection=0.0), loading=PRESSED)
+    assert [corner.name for corner in perturbed(case)] == [FINE, "walls -5 %", "walls +5 %"]
