@@ -16,6 +16,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path as Outline
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
+from matplotlib.transforms import ScaledTranslation
 
 from sweep.design.silhouette import silhouette
 from sweep.numbers import energy_text, three_digits
@@ -219,6 +220,14 @@ def walls(ax: Axes, position: np.ndarray, frames: Mapping[str, Any]) -> None:
     ax.add_patch(PathPatch(outline, facecolor=WALL, edgecolor="none", snap=False))
     ax.set_aspect("equal")
     ax.set_axis_off()
+
+
+def beside(ax: Axes, inches: float, bottom: float, height: float) -> Axes:
+    """New axes that begin ``inches`` left of ``ax``, from ``bottom`` on, in its unit of y."""
+    left = ScaledTranslation(-inches, 0.0, ax.figure.dpi_scale_trans)
+    found = ax.inset_axes((0.0, bottom, 1.0, height), transform=ax.get_yaxis_transform() + left)
+    found.set_anchor("W")
+    return found
 
 
 def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:

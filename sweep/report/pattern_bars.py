@@ -5,9 +5,7 @@ from __future__ import annotations
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
-from matplotlib.transforms import ScaledTranslation
-
-from sweep.report.case_plots import walls
+from sweep.report.case_plots import beside, walls
 from sweep.report.design_style import doubtful, errors_of, until
 from sweep.report.sheets import design_labels
 
@@ -59,10 +57,7 @@ def pattern_bars(
 def _draw(ax: Axes, place: int, frames: Mapping[str, Any]) -> None:
     """Draw the shape at rest left of the bar at ``place``, and move the names out of its way."""
     ax.tick_params(axis="y", length=0.0, pad=72.0 * DRAWN + PAD)
-    beside = ScaledTranslation(-DRAWN, 0.0, ax.figure.dpi_scale_trans)
-    box = 0.0, place - 0.46, 1.0, 0.92
-    left = ax.inset_axes(box, transform=ax.get_yaxis_transform() + beside)
-    left.set_anchor("W")
+    left = beside(ax, DRAWN, place - 0.46, 0.92)
     walls(left, 1e3 * frames["position_m"][0], frames)
     left.autoscale_view()
 

@@ -38,6 +38,7 @@ CONFIGS = Path(__file__).parents[3] / "configs"
         ("smoke", 6),
         ("armor", 140),
         ("infills", 13),
+        ("slicer", 10),
         ("thousand", 1000),
         ("custom", 1),
         ("seed", 14),
