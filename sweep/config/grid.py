@@ -159,28 +159,28 @@ def _cases(config: Config) -> tuple[Iterable[Case], int]:
         line = f"[grid] makes {count:,} cases; allowed: at most {MAX_CASES:,} in one sweep"
         raise ConfigError([Fault("grid", line)])
     cases: dict[str, Case] = {}
-    refused: dict[str, list[Fault]] = {}
+    refused: dict[str, list[tuple[Fault, Values]]] = {}
     unused = dict.fromkeys(_keys_to_use(config), "")
     dropped: set[int] = set()
-    unprintable: list[Fault] = []
+    unprintable: list[tuple[Fault, Values]] = []
     for draft in _drafts(config):
         matching = {k for k, table in enumerate(config.exclude) if draft.matches(table)}
         dropped |= matching
         if matching:
             continue
         if count > 1 and [fault.key for fault in draft.faults] == [PRINTABLE]:
-            unprintable += draft.faults
+            unprintable += [(fault, draft.chosen) for fault in draft.faults]
             continue
         for fault in draft.faults:
-            refused.setdefault(fault.key, []).append(fault)
+            refused.setdefault(fault.key, []).append((fault, draft.chosen))
         if not draft.faults:
             cases.setdefault(draft.case.case_id, draft.labelled())
             unused = still_unused(unused, draft.given, draft.case) if unused else unused
     if refused and not (config.search and cases):
         count = max(count, *map(len, refused.values()))
-        raise ConfigError([_merged(faults, count) for faults in refused.values()])
+        raise ConfigError([_merged(found, count, config) for found in refused.values()])
     if unprintable and not cases:
-        raise ConfigError([_merged(unprintable, count)])
+        raise ConfigError([_merged(unprintable, count, config)])
     if not cases:
         line = f"[[exclude]] drops all {count:,} cases; allowed: tables that leave at least one"
         raise ConfigError([Fault("exclude", line)])
@@ -344,9 +344,25 @@ def _in_unit_of(written: Written, key: str, sentence: str) -> str:
     return in_si.sub(lambda found: f"{float(found[1]) * scale:.4g} {match[2]}", sentence)
 
 
-def _merged(faults: list[Fault], count: int) -> Fault:
-    """One fault for all cases that share it, with the line of the first."""
-    key, line = faults[0]
+def _merged(found: list[tuple[Fault, Values]], count: int, config: Config) -> Fault:
+    """One fault for all cases that share it, with the line of the first and what only they have."""
+    (key, line), _ = found[0]
     if count > 1:
-        line += f" ({len(faults):,} of {count:,} combinations)"
+        shared = _shared(key, [chosen for _, chosen in found], config)
+        line += f" ({len(found):,} of {count:,} combinations{shared})"
     return Fault(key, line)
+
+
+def _shared(key: str, chosen: list[Values], config: Config) -> str:
+    """The values along the axes, but for those of a key, that all of these combinations have, and
+    not all others.
+    """
+    words = [
+        f"{name} = {values[0].text}"
+        for _, name, axis in _axes(config)
+        if name != key and len({written.text for written in axis}) > 1
+        for values in [[combination[name] for combination in chosen]]
+        if len({written.text for written in values}) == 1
+    ]
+    all_with = "all with" if len(chosen) > 1 else "with"
+    return f", {all_with} {', '.join(words)}" if words else ""

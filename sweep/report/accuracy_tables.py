@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from sweep.numbers import NOTHING, energy_text, short, three_digits
+from sweep.numbers import NOTHING, energy_text, short, three_digits, with_unit
 from sweep.ranking.accuracy import REFINED, TARGETS, Study, varies
 from sweep.ranking.rank import HELD_BY_SCENE, scene_keys, scene_label
 from sweep.report.sheets import Sheet
-from sweep.result import Status
+from sweep.result import Status, describe_column
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -54,7 +54,9 @@ def scene_title(study: Study, name: str) -> str:
     shown = {*scene_keys(rows), *HELD_BY_SCENE, "loading.strain", "loading.stroke"}
     kept = [key for key in rows if "." in key and key not in shown]
     words = [
-        f"{key.replace('.', ' ').replace('_', ' ')} {short(rows[key].iloc[0])}" for key in kept
+        f"{key.replace('.', ' ').replace('_', ' ')} "
+        f"{with_unit(rows[key].iloc[0], describe_column(key).units)}"
+        for key in kept
     ]
     return ", ".join([f"{name}: {scene_label(rows)}", *words])
 

@@ -141,6 +141,13 @@ def test_faults_of_one_key_do_not_hide_those_of_others(lines):
     assert told[10] == "and 1 more mistake"
 
 
+def test_a_fault_of_some_cases_says_what_they_share(lines):
+    text = '[grid]\nlattice.mass = ["0.8 g", "1.4 g"]\nlattice.kind = ["hex", "circle"]\n'
+    (line,) = lines(f"{text}contact.friction = [0.1, 0.2]")
+    assert line.startswith('lattice.mass = "1.4 g": does not fit; allowed: between ')
+    assert line.endswith('(2 of 8 combinations, all with lattice.kind = "circle")')
+
+
 def test_one_bad_value_is_one_line_in_many_cases(lines):
     (line,) = lines(
         '[lattice]\nwall_thickness = "2 mm"\n'

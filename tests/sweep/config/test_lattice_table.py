@@ -55,7 +55,7 @@ def test_a_wall_beside_a_mass_is_refused_though_an_equal_lattice_by_default_is_n
         f"[[zip]]\nlattice.wall_thickness = [{walls}]\nloading.strain = [0.5, 0.6]"
     )
     assert line.startswith('lattice.wall_thickness = "0.8 mm": does not fit; allowed: 0.7')
-    assert line.endswith("mm at the mass given; give one of them (1 of 2 combinations)")
+    assert "mm at the mass given; give one of them (1 of 2 combinations, with loading." in line
 
 
 @pytest.mark.parametrize(
