@@ -225,10 +225,8 @@ def test_what_does_not_print_is_marked():
 def test_designs_of_a_slicer_are_told_by_their_share_instead_of_cells():
     table = summary({"infill_share": 0.2, "cells_x": 5}, {"infill_share": 0.3}, {"cells_x": 4})
     assert list(design_text(table, table)["infill %"]) == ["20", "30", ""]
-    assert [label.split(", ")[1] for label in design_labels(table, table)][:2] == [
-        "20 % infill",
-        "30 % infill",
-    ]
+    labels = ["cells 5 x 3, 20 % infill", "cells 3 x 3, 30 % infill", "cells 4 x 3"]
+    assert design_labels(table, table) == labels
     laid = table.head(2)
     assert "cells" not in design_text(laid, laid)
     table["lattice.infill"] = [0.2, 0.3, 0.25]
