@@ -22,7 +22,7 @@ EXAMPLES = """examples:
   crumple run armor                             simulate; after a stop, the same command continues
   crumple run armor --error-bars                also estimate the error of each number, and ties
   crumple run armor --spread                    also show what uncertain numbers change
-  crumple optimize bumper.toml --budget "25 g"  search for the best design within a budget
+  crumple optimize search --budget "1.2 g"      seek the best design within a budget
   crumple warm                                  compile the kernels before the first run
   crumple status results/armor.h5               what is done, what failed and why
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
@@ -31,7 +31,7 @@ EXAMPLES = """examples:
   crumple accuracy accuracy/impact              error against run time, method by method
   crumple materials                             the materials, their numbers and sources
 
-armor and accuracy/impact are examples that come with Crumple; your own config is a file: mine.toml
+armor, search and accuracy/impact are examples that come with Crumple; your own is a file: mine.toml
 
 exit status: 0 done, 1 some cases failed or interrupted, 2 wrong config, file or arguments
 """
@@ -52,9 +52,10 @@ OPTIMIZE = """Search for the best design among those that the table [search] of 
 
 The best is what rank lists first: most energy until the lattice has packed, or up to --max-force,
 or the best of --by. With a budget, walls are as thick as it allows at most. Every design is a row
-of the results file; after a stop, the same command with the same seed continues. The three best are
-simulated again with twice the elements, and with walls 5 % thinner and thicker and other
-imperfections, in a results file of their own, and told with the spread of their values."""
+of the results file; after a stop, the same command with the same seed continues, also with more
+--evaluations. Six designs run at a time after the first sixteen: more workers do not help. The
+three best are simulated again with twice the elements, and with walls 5 % thinner and thicker and
+other imperfections, in a results file of their own, and told with the spread of their values."""
 ACCURACY = """Simulate a sweep over numerical settings, then print error against run time: a table,
 the observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 the limit to which the finest settings of the method of highest order converge. Cases that differ in

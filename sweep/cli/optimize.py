@@ -12,6 +12,8 @@ from sweep.cli.terminal import print_sheets, say
 if TYPE_CHECKING:
     from argparse import Namespace
 
+    from pandas import DataFrame
+
     from sweep.config.grid import Config
     from sweep.running.search import Search
 
@@ -24,6 +26,7 @@ class OptimizeError(ValueError):
 
 def optimize(config: Config, arguments: Namespace) -> int:
     """Search for the best design of a config; return how many of the finalists' cases failed."""
+    from sweep.ranking.worth import check_searched
     from sweep.running.design_space import DesignSpace
     from sweep.running.search import Search, Settings
 
@@ -31,6 +34,7 @@ def optimize(config: Config, arguments: Namespace) -> int:
         wrong = "has no [search] with the keys that may be chosen"
         needed = '"lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"} or the like'
         raise OptimizeError(f"{config.path} {wrong}; needed: {needed}")
+    check_searched(config.search)
     question = _question(config, arguments)
     config, budget, panel = _with_force(config, question), *_limits(question)
     out = arguments.out or f"results/{config.name}.h5"
@@ -94,17 +98,17 @@ def _tell_best(search: Search, question: dict[str, Any]) -> int:
 
     found = search.found
     if not search.cases:
-        wrong = "no design of [search] exists within the budget"
-        raise OptimizeError(f"{question['budget'] or 'no budget'}: {wrong}; allowed: a greater one")
-    if found is None or not found.values:
+        budget = f" within {question['budget'][0]}" if question["budget"] else ""
+        raise OptimizeError(f"no design of [search] exists{budget}; allowed: a wider search")
+    if found is None or not found.by_id:
         say(f"None of {len(search.cases)} designs can be ranked.")
         return max(1, len(search.cases))
     if found.doubtful:
         say(f"Left out: {found.doubtful} designs whose results rank marks with ! or x.")
-    best = finalists(search.cases[case_id] for case_id in found.values)
+    best = finalists(search.cases[case_id] for case_id in found.by_id)
     again = {case.case_id: perturbed(case) for case in best}
     run_corners(again, search.out, search.settings.workers, search.settings.scheduler)
-    summary = read_summary(search.out)
+    summary = _rows(search)
     ids = {design: [(c.name, c.case_id) for c in corners] for design, corners in again.items()}
     ranking = ranked(summary, **question | {"top": None})
     (spread,) = spreads(ranking, read_summary(spread_file(search.out)), ids, question)
@@ -115,10 +119,17 @@ def _tell_best(search: Search, question: dict[str, Any]) -> int:
 def _tell_front(search: Search, question: dict[str, Any], other: str) -> None:
     from sweep.ranking.worth import front
     from sweep.report.search_sheets import front_sheet
+
+    summary = _rows(search)
+    print_sheets([front_sheet(front(summary, question, other), summary, other)])
+
+
+def _rows(search: Search) -> DataFrame:
+    """The rows of a search, without others that the results file may hold."""
     from sweep.store.read import read_summary
 
     summary = read_summary(search.out)
-    print_sheets([front_sheet(front(summary, question, other), summary, other)])
+    return summary[summary["case_id"].isin(search.cases)].reset_index(drop=True)
 
 
 def _next_command(out: str, question: dict[str, Any]) -> str:

@@ -1,23 +1,24 @@
 """What a search compares: the value of each design in the sorted column of a ranking."""
 
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 from pandas import DataFrame
 
 from sweep.ranking.merit import RankError
-from sweep.ranking.rank import pareto, ranked
+from sweep.ranking.rank import ASSUMPTIONS, pareto, ranked
 from sweep.result import describe_column, less_is_better
 
 
 class Worths(NamedTuple):
     """Designs by their value in a column.
 
-    values: id -> value, the best first. doubtful: number of further designs whose result is marked
+    by_id: values by id, the best first. doubtful: number of further designs whose result is marked
     as beyond the model or as crossed, which are worth nothing.
     """
 
     column: str
-    values: dict[str, float]
+    by_id: dict[str, float]
     doubtful: int
 
     @property
@@ -53,6 +54,13 @@ def front(summary: DataFrame, question: dict[str, Any], other: str) -> DataFrame
     aims = [table[name] if less_is_better(name) else -table[name] for name in (other, column)]
     chosen = table[pareto(aims[0], -aims[1])]
     return chosen.sort_values(other, ascending=less_is_better(other), kind="stable")
+
+
+def check_searched(keys: Iterable[str]) -> None:
+    """Refuse keys of the test: designs in different scenes cannot be compared."""
+    if wrong := [key for key in keys if key.startswith(ASSUMPTIONS)]:
+        why = "belongs to the test, not to the design: each value is a scene of its own"
+        raise RankError(f"[search] {wrong[0]}: {why}; allowed: lattice.cells_x and the like")
 
 
 def check_column(name: str) -> None:

@@ -114,7 +114,7 @@ class Search:
             if chosen.keys() - finished_ids(self.out, RENEW):
                 self._simulate()
             self._assess()
-        values = self.found.values if self.found else {}
+        values = self.found.by_id if self.found else {}
         sign = self.found.sign if self.found else 1.0
         return [sign * values.get(d.case_id, sign * inf) if d else inf for d in designs]
 
@@ -128,7 +128,7 @@ class Search:
         """Value the designs so far, and tell the best."""
         summary = read_summary(self.out)
         self.found = worths(summary[summary["case_id"].isin(self.cases)], self.question)
-        best = next(iter(self.found.values.values()), None)
+        best = next(iter(self.found.by_id.values()), None)
         told = "none can be ranked" if best is None else f"the best {three_digits(best)}"
         counted = f"{len(self.cases)} of at most {self.settings.evaluations} designs"
         tell(f"{counted}: {self.found.column}, {told}")

@@ -84,7 +84,7 @@ def found(question, seed, folder, simulate=None, evaluations=None):
     settings = Settings(evaluations or question.evaluations, seed)
     out = folder / f"{question.name}_{seed}.h5"
     search = Search(DesignSpace(question.search), QUESTION, out, settings, simulate)
-    best, value = next(iter(search.run().values.items()))
+    best, value = next(iter(search.run().by_id.items()))
     return value, search.cases[best]
 
 
@@ -93,7 +93,7 @@ def best_beside(question, folder, simulate=None):
     every = [case for cases in question.beside.values() for case in cases]
     out = folder / f"{question.name}_beside.h5"
     run_sweep(every, out, simulate=simulate)
-    values = worths(read_summary(out), QUESTION).values
+    values = worths(read_summary(out), QUESTION).by_id
     return {
         name: max(
             ((values[case.case_id], case) for case in cases if case.case_id in values),

@@ -60,6 +60,23 @@ def test_a_search_whose_designs_all_fail(capsys, config):
     assert "None of 8 designs can be ranked." in out
 
 
+def test_budget_that_no_design_keeps(capsys, config, tmp_path):
+    status, _, err = crumple(capsys, "optimize", str(config), "--budget", "0.01 g")
+    assert (status, err.count("\n")) == (2, 1)
+    assert "no design of [search] exists within 0.01 g; allowed: a wider search" in err
+    assert [path.name for path in tmp_path.iterdir()] == ["sought.toml"]
+
+
+def test_rows_of_another_loading_are_left_alone(capsys, config):
+    for strain in ("0.5", "0.6"):
+        config.write_text(TOML.replace("0.6", strain))
+        words = [str(config), "--by", ENERGY, "--evaluations", "16", "--pareto", "mass_g"]
+        status, out, _ = crumple(capsys, "optimize", *words)
+        assert status == 0
+    assert len(read_summary("results/sought.h5")) == 32
+    assert out.count("Best designs, simulated again") == 1
+
+
 REFUSED = [
     ([], "[rank] has 2 budgets; needed: one, as --budget"),
     (["--budget", "25"], "a bare number"),

@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.ranking.merit import RankError
-from sweep.ranking.worth import check_column, front, worths
+from sweep.ranking.worth import check_column, check_searched, front, worths
 from tests.support.specimens import designs, summary
 
 QUESTION = {"budget": None, "panel": None, "by": None, "allowed_force": None}
@@ -23,16 +23,16 @@ def asked(**question):
 def test_best_first_as_in_the_ranking():
     found = worths(table(), asked(budget=[3e-3]))
     assert found.column == "absorbed_energy_until_packed_J"
-    assert list(found.values.values()) == [0.4, 0.3, 0.1]
+    assert list(found.by_id.values()) == [0.4, 0.3, 0.1]
     assert found.sign == -1.0
     found = worths(table(), asked())
     assert found.column == "specific_absorption_until_packed_J_per_g"
-    assert next(iter(found.values.values())) == pytest.approx(0.225)
+    assert next(iter(found.by_id.values())) == pytest.approx(0.225)
 
 
 def test_less_is_better_where_the_column_says_so():
     found = worths(table(), asked(by="mass_g"))
-    assert list(found.values.values()) == [1.0, 2.0, 3.0, 4.0]
+    assert list(found.by_id.values()) == [1.0, 2.0, 3.0, 4.0]
     assert found.sign == 1.0
 
 
@@ -46,7 +46,7 @@ def test_less_is_better_where_the_column_says_so():
 )
 def test_failed_and_marked_designs_have_no_worth(changes, doubtful):
     found = worths(table(**changes), asked(by="absorbed_energy_J"))
-    assert list(found.values.values()) == [0.4, 0.3, 0.1]
+    assert list(found.by_id.values()) == [0.4, 0.3, 0.1]
     assert found.doubtful == doubtful
 
 
@@ -66,6 +66,12 @@ def test_front_of_two_aims():
     assert list(found["mass_g"]) == [1.0, 2.0]
     found = front(table(), asked(by="mass_g"), "absorbed_energy_J")
     assert list(found["absorbed_energy_J"]) == [0.9, 0.4, 0.1]
+
+
+def test_keys_of_the_test_are_not_searched():
+    check_searched(["lattice.cells_x", "material.name"])
+    with pytest.raises(RankError, match=r"contact\.friction: belongs to the test"):
+        check_searched(["lattice.cells_x", "contact.friction"])
 
 
 def test_columns_without_a_better_value_are_refused():
