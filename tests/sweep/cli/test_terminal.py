@@ -21,7 +21,7 @@ def file(tmp_path):
 
 def started(*arguments, **options):
     """A call in a process of its own, in a usual environment, and killed if it hangs."""
-    usual = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
+    usual = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "COLUMNS"))}
     options["env"] = usual | {"PYTHONPATH": str(ROOT)} | options.pop("env", {})
     command = [sys.executable, "-m", "sweep", *arguments]
     return subprocess.run(

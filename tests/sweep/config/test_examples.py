@@ -54,5 +54,5 @@ def test_shipped_configs_expand(name, cases):
 
 def test_every_shipped_config_is_pinned():
     studies = {"custom", "seed", "impact", "khatri_egan_square", "extreme", "reuse", "search"}
-    names = {"smoke", "armor", "infills", "thousand"}
+    names = {"smoke", "armor", "infills", "slicer", "thousand"}
     assert {path.stem for path in CONFIGS.glob("*.toml")} == names | studies

@@ -232,4 +232,4 @@ def test_designs_of_a_slicer_are_told_by_their_share_instead_of_cells():
     table["lattice.infill"] = [0.2, 0.3, 0.25]
     assert "infill" not in design_text(table, table)
     table["infill_share"] = NAN
-    assert list(design_text(table, table)["infill"]) == ["0.2", "0.3", "0.25"]
+    assert list(design_text(table, table)["infill %"]) == ["20", "30", "25"]
