@@ -26,6 +26,15 @@ class Network:
     top: Indices
     gyration: Floats | None = field(default=None, kw_only=True)
 
+    @property
+    def perimeter(self) -> Indices:
+        """Joints on the perimeters of a slicer, (k,); none without one."""
+        if self.gyration is None:
+            return self.bottom[:0]
+        points = self.points
+        outer = (points == points.min(axis=0)) | (points == points.max(axis=0))
+        return np.flatnonzero(outer.any(axis=1))
+
     @cached_property
     def printed_area(self) -> float:
         """Area of the union of the walls (m^2): flat caps, mitred corners, joints counted once.

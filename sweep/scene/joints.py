@@ -55,12 +55,12 @@ def point_joints(walls: int) -> Arms:
 
 def solid_joints(network: Network, platen: str | None) -> Arms:
     """The ends of the walls of a lattice. Loose platens hold no row, and others both; without a
-    platen the lower row is held.
+    platen the lower row is held. Walls reach the perimeters of a slicer as beams.
     """
     rows = [] if platen == "contact" else [network.bottom]
     if platen in BONDED:
         rows.append(network.top)
-    return find_arms(network, network.walls, rows, network.walls[:0])
+    return find_arms(network, network.walls, rows, network.perimeter)
 
 
 def find_arms(network: Network, joints: Ints, rows: Iterable[Ints], plain: Ints) -> Arms:

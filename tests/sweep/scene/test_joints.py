@@ -171,3 +171,17 @@ def test_points_are_beams_without_shear():
     assert len(points.stretch.l0) == 24 * 3
     assert len(solid.stretch.l0) > len(points.stretch.l0)
     np.testing.assert_allclose(points.stretch.arc, np.outer([1 / 15, -1 / 30], np.ones(72)))
+
+
+def test_walls_reach_the_perimeters_of_a_slicer_as_beams():
+    """Within the perimeters joints are solid; all walls are sheared."""
+    lattice = Lattice(slicer="prusa", pattern="grid", infill=0.2, width=20e-3, height=20e-3)
+    network = build_network(lattice.geometry)
+    arms = solid_joints(network, "glued")
+    on = np.isin(network.walls, network.perimeter)
+    points = network.points[network.perimeter]
+    assert (((points == 0.0) | (points == 20e-3)).any(axis=1)).all()
+    assert 10 < on.all(axis=1).sum() < len(on)
+    np.testing.assert_array_equal(arms.length > 0.0, ~on)
+    assert arms.sheared.all()
+    assert len(build_network(Lattice(perimeters=1).geometry).perimeter) == 0
