@@ -38,11 +38,11 @@ CONFIGS = Path(__file__).parents[3] / "configs"
         ("smoke", 6),
         ("armor", 140),
         ("infills", 13),
-        ("slicer", 10),
         ("thousand", 1000),
         ("custom", 1),
         ("seed", 14),
         ("impact", 24),
+        ("slicer", 10),
         ("khatri_egan_square", 72),
     ],
 )
