@@ -17,7 +17,7 @@ QUESTION = {"budget": None, "panel": None, "by": "absorbed_energy_J", "allowed_f
 def searched(tmp_path):
     """A finished search, and the cases that it ran."""
 
-    def run(evaluations=150, seed=1, text=TOML, by="absorbed_energy_J"):
+    def run(evaluations=100, seed=1, text=TOML, by="absorbed_energy_J"):
         path, log = tmp_path / "sought.toml", []
         path.write_text(text)
 
@@ -43,7 +43,7 @@ def test_a_narrow_peak_of_one_pattern_is_found(searched, seed):
     assert (lattice.kind, lattice.cells_x) == (kind, cells)
     assert 1e3 * lattice.wall_thickness == pytest.approx(walls, abs=0.02)
     assert value > 0.9
-    assert len(log) == len(set(log)) == len(search.cases) == 150
+    assert len(log) == len(set(log)) == len(search.cases) == 100
 
 
 def test_same_seed_runs_nothing_again_and_continues(searched):
