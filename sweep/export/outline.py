@@ -1,0 +1,91 @@
+"""The outline of the print: the union of the walls that also gives the mass, in mm."""
+
+from __future__ import annotations
+
+from math import floor
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from sweep.export.errors import ExportError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from sweep.design.network import Network
+    from sweep.export.design import Design
+
+MM = 1e3  # per m
+GRID = 1e-5  # mm: vertices lie on a grid, so that single precision keeps them apart
+SLIT = 1e-3  # mm: half the width of gaps that are no gaps
+BESIDE = 0.4  # mm: least gap between two specimens of a panel; closer ones would be printed as one
+ROUND_OFF = 1e-9
+
+
+class Part(NamedTuple):
+    """What is printed: polygons in mm, depth in mm, and the number of specimens in it.
+
+    specimens : also counts a depth that differs from that of the specimen.
+    """
+
+    name: str
+    shape: Any
+    depth: float
+    specimens: float
+    grams: float
+
+
+def outline(network: Network) -> Any:
+    """The union of the walls with mitred corners, a polygon or several, in mm from a corner.
+
+    Gaps of less than twice `SLIT` are closed: round-off opens some where walls meet.
+    """
+    import shapely
+
+    union = shapely.union_all(shapely.polygons(MM * network.loops))
+    wide = shapely.buffer(union, SLIT, join_style="mitre")
+    closed = shapely.buffer(wide, -SLIT, join_style="mitre")
+    left, low, *_ = closed.bounds
+    placed = shapely.transform(closed, lambda xy: xy - (left, low))
+    return shapely.orient_polygons(shapely.set_precision(placed, GRID))
+
+
+def specimen(design: Design) -> Part:
+    """One specimen."""
+    return Part(design.name, outline(design.network), MM * design.depth, 1.0, design.grams)
+
+
+def panel(design: Design, sides: Sequence[float]) -> Part:
+    """A row of whole specimens along the first side, as deep as the second; sides in m.
+
+    As in a ranking, specimens do not touch: they are spread evenly. A panel that is deeper than the
+    specimen has walls as deep as it is, since the model has nothing that changes along the depth.
+    """
+    import shapely
+
+    length, depth = (MM * side for side in sides)
+    one = outline(design.network)
+    width = one.bounds[2]
+    count = floor((length + BESIDE) / (width + BESIDE) + ROUND_OFF)
+    if count < 1:
+        raise ExportError(
+            f"a panel of {length:g} mm holds no specimen, which is {width:.4g} mm wide; allowed: a "
+            f"first length of {width:.4g} mm or more"
+        )
+    pitch = (length - width) / (count - 1) if count > 1 else 0.0
+    row = [shapely.transform(one, lambda xy, k=k: xy + (k * pitch, 0.0)) for k in range(count)]
+    specimens = count * depth / (MM * design.depth)
+    whole = shapely.set_precision(shapely.multipolygons([*_parts(row)]), GRID)
+    return Part(design.name, whole, depth, specimens, specimens * design.grams)
+
+
+def rings(part: Part) -> list[Any]:
+    """Every closed ring (n + 1, 2) of a part, mm: outer ones anticlockwise, openings clockwise."""
+    import shapely
+
+    polygons = shapely.get_parts(part.shape)
+    return [shapely.get_coordinates(ring) for ring in shapely.get_rings(polygons)]
+
+
+def _parts(shapes: list[Any]) -> Any:
+    import shapely
+
+    return shapely.get_parts(shapes)
