@@ -36,9 +36,9 @@ class Design:
         return self.lattice.depth
 
     @property
-    def width(self) -> float:
-        """Width over all, m."""
-        return self.lattice.outer_size[0]
+    def volume(self) -> float:
+        """Mass / density, m^3: the printed area x the depth."""
+        return self.network.printed_area * self.depth
 
 
 def design_of(case: Case) -> Design:

@@ -10,6 +10,7 @@ from sweep.export.errors import ExportError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from sweep.config.lattice_table import Lattice
     from sweep.design.network import Network
     from sweep.export.design import Design
 
@@ -45,25 +46,32 @@ def outline(network: Network) -> Any:
     closed = shapely.buffer(wide, -SLIT, join_style="mitre")
     left, low, *_ = closed.bounds
     placed = shapely.transform(closed, lambda xy: xy - (left, low))
-    return shapely.orient_polygons(shapely.set_precision(placed, GRID))
+    return shapely.set_precision(placed, GRID)
 
 
-def specimen(design: Design) -> Part:
-    """One specimen."""
-    return Part(design.name, outline(design.network), MM * design.depth, 1.0, design.grams)
+def block(lattice: Lattice) -> Any:
+    """The box round a specimen, mm, which a slicer fills."""
+    import shapely
+
+    width, height = (MM * side for side in lattice.outer_size)
+    return shapely.box(0.0, 0.0, width, height)
 
 
-def panel(design: Design, sides: Sequence[float]) -> Part:
+def specimen(design: Design, shape: Any) -> Part:
+    """One specimen of this shape (mm)."""
+    return Part(design.name, shape, MM * design.depth, 1.0, design.grams)
+
+
+def panel(design: Design, shape: Any, sides: Sequence[float]) -> Part:
     """A row of whole specimens along the first side, as deep as the second; sides in m.
 
     As in a ranking, specimens do not touch: they are spread evenly. A panel that is deeper than the
-    specimen has walls as deep as it is, since the model has nothing that changes along the depth.
+    specimen has walls as deep as it is, since nothing in the model changes along the depth.
     """
     import shapely
 
     length, depth = (MM * side for side in sides)
-    one = outline(design.network)
-    width = one.bounds[2]
+    width = shape.bounds[2]
     count = floor((length + BESIDE) / (width + BESIDE) + ROUND_OFF)
     if count < 1:
         raise ExportError(
@@ -71,9 +79,9 @@ def panel(design: Design, sides: Sequence[float]) -> Part:
             f"first length of {width:.4g} mm or more"
         )
     pitch = (length - width) / (count - 1) if count > 1 else 0.0
-    row = [shapely.transform(one, lambda xy, k=k: xy + (k * pitch, 0.0)) for k in range(count)]
+    row = [shapely.transform(shape, lambda xy, k=k: xy + (k * pitch, 0.0)) for k in range(count)]
+    whole = shapely.set_precision(shapely.multipolygons(shapely.get_parts(row)), GRID)
     specimens = count * depth / (MM * design.depth)
-    whole = shapely.set_precision(shapely.multipolygons([*_parts(row)]), GRID)
     return Part(design.name, whole, depth, specimens, specimens * design.grams)
 
 
@@ -81,11 +89,5 @@ def rings(part: Part) -> list[Any]:
     """Every closed ring (n + 1, 2) of a part, mm: outer ones anticlockwise, openings clockwise."""
     import shapely
 
-    polygons = shapely.get_parts(part.shape)
+    polygons = shapely.get_parts(shapely.orient_polygons(part.shape))
     return [shapely.get_coordinates(ring) for ring in shapely.get_rings(polygons)]
-
-
-def _parts(shapes: list[Any]) -> Any:
-    import shapely
-
-    return shapely.get_parts(shapes)

@@ -60,16 +60,8 @@ def solid(part: Part, volume: float) -> Body:
 
 def extruded(part: Part) -> Body:
     """The outline of a part, extruded along z."""
-    from manifold3d import FillRule, CrossSection
+    from manifold3d import CrossSection, FillRule
 
     loops = [ring[:-1] for ring in rings(part)]
     mesh = CrossSection(loops, FillRule.NonZero).extrude(part.depth).to_mesh64()
-    return Body(np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, np.int64))
-
-
-def box(width: float, height: float, depth: float) -> Body:
-    """A block (mm) with a corner at the origin."""
-    from manifold3d import Manifold
-
-    mesh = Manifold.cube((width, height, depth)).to_mesh64()
     return Body(np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, np.int64))

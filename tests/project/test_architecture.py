@@ -25,7 +25,7 @@ FLOORS = [
     "kernels.laws", "kernels.terms", "kernels.planar",
     "sweep.version", "sweep.numbers", "sweep.design", "sweep.config", "sweep.result", "sweep.scene",
     "sweep.coupon", "sweep.simulation", "sweep.store", "sweep.ranking", "sweep.report",
-    "sweep.running", "sweep.studies", "sweep.cli", "sweep.__main__",
+    "sweep.export", "sweep.running", "sweep.studies", "sweep.cli", "sweep.__main__",
 ]  # fmt: skip
 HOMES = {
     "numba": "kernels.compile",
