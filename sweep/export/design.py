@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -12,6 +13,7 @@ from sweep.export.errors import ExportError
 if TYPE_CHECKING:
     from sweep.config.case import Case
     from sweep.config.lattice_table import Lattice
+    from sweep.config.structure import Structure
     from sweep.design.network import Network
 
 HEAD = "lattice."
@@ -78,9 +80,16 @@ def _lattice(row: Mapping[str, Any], config: Mapping[str, Any]) -> Lattice:
     values = {**first, **given, **own, **dict.fromkeys(FOLLOWING), "kind": row["lattice_kind"]}
     known = {key: value for key, value in values.items() if key in Lattice.model_fields}
     try:
-        return Lattice.model_validate(known)
+        return Lattice.model_validate(known | {"structure": _structure(known["structure"])})
     except ValidationError as error:
         raise _unknown(row) from error
+
+
+def _structure(content: Mapping[str, Any] | None) -> Structure | None:
+    """A custom structure; its lists become tuples only if it is read as JSON."""
+    from sweep.config.structure import Structure
+
+    return content and Structure.model_validate_json(json.dumps(content))
 
 
 def _keys(table: Mapping[str, Any]) -> dict[str, Any]:

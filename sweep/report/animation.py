@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 SIZE = (8.0, 4.2)  # inches
 PLACES = {"left": 0.02, "right": 0.97, "bottom": 0.14, "top": 0.84, "wspace": 0.25}
-DPI, COLOURS = 80, 32
+DPI, COLOURS = 80, 128
 STEP, REST = 120, 1200  # ms that a shape and the last one are shown
 
 
