@@ -1,6 +1,7 @@
 """Configs, units, objects and files; and the public names of `crumple`.
 
-These functions raise `ConfigError`, `StoreError`, `RankError` and `ExportError`, which are public too.
+These functions raise `ConfigError`, `StoreError`, `RankError` and `ExportError`, which are public
+too.
 
 Each name is loaded when it is first used, so that `import sweep` takes almost no time.
 """

@@ -69,7 +69,7 @@ RANK_EXAMPLES = """examples:
 """
 SHOW = """Draw one case: force against strain, the parts of its energy, and six deformed shapes.
 Without CASE: list the ids and the designs of all cases."""
-EXPORT = """Write one case as a file for another program; the ending of its name asks for the format:
+EXPORT = """Write one case as a file for another program, in the format that its ending names:
   .stl .3mf     the print as a closed body, as heavy as the ranking says
   .svg .dxf     its outline, in mm
   .csv          the curves: travel, force, strain, stress, energies

@@ -239,7 +239,9 @@ def materials(arguments: Namespace) -> int:
     return DONE
 
 
-VERBS = {verb.__name__: verb for verb in (run, accuracy, warm, status, rank, show, export, materials)}
+VERBS = {
+    verb.__name__: verb for verb in (run, accuracy, warm, status, rank, show, export, materials)
+}
 
 
 def _config(name: str) -> Config:

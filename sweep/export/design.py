@@ -89,7 +89,7 @@ def _structure(content: Mapping[str, Any] | None) -> Structure | None:
     """A custom structure; its lists become tuples only if it is read as JSON."""
     from sweep.config.structure import Structure
 
-    return content and Structure.model_validate_json(json.dumps(content))
+    return Structure.model_validate_json(json.dumps(content)) if content else None
 
 
 def _keys(table: Mapping[str, Any]) -> dict[str, Any]:

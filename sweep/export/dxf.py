@@ -20,13 +20,14 @@ def write_dxf(path: Path, part: Part) -> None:
     import shapely
 
     try:
-        import ezdxf
+        import ezdxf.filemanagement
+        import ezdxf.units
     except ModuleNotFoundError as missing:
         raise ExportError(
             'a .dxf file needs the package ezdxf: pip install ezdxf, or "crumple[export]"; .svg '
             "needs nothing"
         ) from missing
-    document = ezdxf.new("R2000", units=ezdxf.units.MM)
+    document = ezdxf.filemanagement.new("R2000", units=ezdxf.units.MM)
     for layer in (OUTER, OPENING):
         document.layers.add(layer)
     for ring in rings(part):

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 MM = 1e3  # per m
 GRID = 1e-5  # mm: vertices lie on a grid, so that single precision keeps them apart
+FINE = 1e-7  # mm: the grid of the union
 SLIT = 1e-3  # mm: half the width of gaps that are no gaps
 BESIDE = 0.4  # mm: least gap between two specimens of a panel; closer ones would be printed as one
 ROUND_OFF = 1e-9
@@ -35,15 +36,18 @@ class Part(NamedTuple):
 
 
 def outline(network: Network) -> Any:
-    """The union of the walls with mitred corners, a polygon or several, in mm from a corner.
+    """The union of the walls with mitred corners, a polygon in mm from the corner of its box.
 
-    Gaps of less than twice `SLIT` are closed: round-off opens some where walls meet.
+    Gaps of less than twice `SLIT` are closed: round-off opens some where walls meet. Without
+    `FINE`, the union of some honeycombs lacks a wall.
     """
     import shapely
 
-    union = shapely.union_all(shapely.polygons(MM * network.loops))
+    union = shapely.union_all(shapely.polygons(MM * network.loops), grid_size=FINE)
     wide = shapely.buffer(union, SLIT, join_style="mitre")
     closed = shapely.buffer(wide, -SLIT, join_style="mitre")
+    if pieces := shapely.get_num_geometries(closed) - 1:
+        raise ExportError(f"the walls do not hang together: {pieces + 1} pieces; allowed: one")
     left, low, *_ = closed.bounds
     placed = shapely.transform(closed, lambda xy: xy - (left, low))
     return shapely.set_precision(placed, GRID)
@@ -69,6 +73,7 @@ def panel(design: Design, shape: Any, sides: Sequence[float]) -> Part:
     specimen has walls as deep as it is, since nothing in the model changes along the depth.
     """
     import shapely
+    import shapely.affinity
 
     length, depth = (MM * side for side in sides)
     width = shape.bounds[2]
@@ -79,7 +84,7 @@ def panel(design: Design, shape: Any, sides: Sequence[float]) -> Part:
             f"first length of {width:.4g} mm or more"
         )
     pitch = (length - width) / (count - 1) if count > 1 else 0.0
-    row = [shapely.transform(shape, lambda xy, k=k: xy + (k * pitch, 0.0)) for k in range(count)]
+    row = [shapely.affinity.translate(shape, k * pitch) for k in range(count)]
     whole = shapely.set_precision(shapely.multipolygons(shapely.get_parts(row)), GRID)
     specimens = count * depth / (MM * design.depth)
     return Part(design.name, whole, depth, specimens, specimens * design.grams)

@@ -52,8 +52,8 @@ def solid(part: Part, volume: float) -> Body:
         )
     if not body.is_closed:
         raise ExportError(
-            f"the mesh of case {part.name} is not closed, as walls touch in a single line; allowed: "
-            "another wall thickness, or .svg and .dxf"
+            f"the mesh of case {part.name} is not closed, as walls touch in a single line; "
+            "allowed: another wall thickness, or .svg and .dxf"
         )
     return body
 

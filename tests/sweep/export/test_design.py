@@ -69,7 +69,12 @@ def test_custom_structure_is_drawn_as_in_its_file():
     case = load_config("custom").cases[0]
     design = design_of(case)
     again = config_of(case)
-    row = {"relative_density": 0.0, "case_id": "a", "lattice_kind": "custom", "mass_g": design.grams}
+    row = {
+        "relative_density": 0.0,
+        "case_id": "a",
+        "lattice_kind": "custom",
+        "mass_g": design.grams,
+    }
     row |= {f"{name}_m": getattr(case.lattice, name) for name in ("width", "height", "depth")}
     row |= {"wall_thickness_m": case.lattice.wall_thickness, "cells_x": 1, "cells_y": 1}
     width, height = case.lattice.outer_size

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import shapely
 
+from sweep.design.network import Network
 from sweep.export.design import design_of
 from sweep.export.errors import ExportError
 from sweep.export.outline import block, outline, panel, rings, specimen
@@ -71,3 +72,23 @@ def test_panel_that_holds_nothing_is_refused():
 def test_block_is_the_box_round_the_walls():
     design, shape = part(perimeters=2)
     assert block(design.lattice).bounds == pytest.approx(shape.bounds, abs=1e-4)
+
+
+def test_walls_that_do_not_hang_together_are_refused():
+    points = 1e-3 * np.array([[0.0, 0], [5, 0], [0, 5], [5, 5]])
+    apart = Network(points, np.array([[0, 1], [2, 3]]), np.full(2, 8e-4), *2 * [np.empty(0, int)])
+    with pytest.raises(ExportError, match="do not hang together: 2 pieces"):
+        outline(apart)
+
+
+def test_gaps_of_round_off_are_closed():
+    """Two walls side by side, 1 um apart, are one; 10 um apart they are two."""
+    for gap, pieces in {1e-6: 1, 10e-6: 2}.items():
+        points = 1e-3 * np.array([[0.0, 0], [5, 0], [0, 0.8 + 1e3 * gap], [5, 0.8 + 1e3 * gap]])
+        none = np.empty(0, int)
+        walls = Network(points, np.array([[0, 1], [2, 3]]), np.full(2, 8e-4), none, none)
+        if pieces == 1:
+            assert outline(walls).area == pytest.approx(5 * 1.601, rel=1e-4)
+        else:
+            with pytest.raises(ExportError):
+                outline(walls)

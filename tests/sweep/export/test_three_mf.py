@@ -41,7 +41,9 @@ def test_mesh_is_the_body_in_mm(archive):
     model = Xml.fromstring(archive.read("3D/3dmodel.model"))
     assert model.get("unit") == "millimeter"
     points = [[float(v.get(k)) for k in "xyz"] for v in model.iterfind(".//m:vertex", NAMES)]
-    sides = [[int(t.get(k)) for k in ("v1", "v2", "v3")] for t in model.iterfind(".//m:triangle", NAMES)]
+    sides = [
+        [int(t.get(k)) for k in ("v1", "v2", "v3")] for t in model.iterfind(".//m:triangle", NAMES)
+    ]
     mesh = trimesh.Trimesh(points, sides, process=False)
     assert mesh.is_watertight
     assert mesh.volume == pytest.approx(6000.0)
