@@ -10,13 +10,13 @@ from sweep.export.outline import rings
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from sweep.export.outline import Part
+    from sweep.export.outline import Layout
 
 OUTER, OPENING = "OUTLINE", "OPENINGS"
 
 
-def write_dxf(path: Path, part: Part) -> None:
-    """Write the outline of a part."""
+def write_dxf(path: Path, layout: Layout) -> None:
+    """Write the outline of a layout."""
     import shapely
 
     try:
@@ -30,7 +30,7 @@ def write_dxf(path: Path, part: Part) -> None:
     document = ezdxf.filemanagement.new("R2000", units=ezdxf.units.MM)
     for layer in (OUTER, OPENING):
         document.layers.add(layer)
-    for ring in rings(part):
+    for ring in rings(layout):
         layer = OUTER if shapely.is_ccw(shapely.linearrings(ring)) else OPENING
         document.modelspace().add_lwpolyline(ring[:-1], close=True, dxfattribs={"layer": layer})
     document.saveas(path)

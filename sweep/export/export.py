@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 
     from sweep.config.case import Case
     from sweep.export.design import Design
-    from sweep.export.outline import Part
+    from sweep.export.outline import Layout
 
 Kind = Literal["lattice", "settings"]
-CUBIC = 1e9  # mm^3 per m^3
+MM, CUBIC = 1e3, 1e9  # per m; mm^3 per m^3
 
 
 class Exported(NamedTuple):
@@ -116,7 +116,7 @@ class Planned:
 
 
 class Wish(NamedTuple):
-    """How a part is wanted: a panel of these sides (m) or one specimen, and the kind of 3MF."""
+    """How a print is wanted: a panel of these sides (m) or one specimen, and the kind of 3MF."""
 
     panel: Sequence[float] | None
     kind: Kind
@@ -143,7 +143,7 @@ def export_case(
     """
     path = Path(to)
     writer = _writer(path)
-    if (panel or kind) and writer not in PARTS.values():
+    if (panel or kind) and writer not in PRINTS.values():
         raise ExportError(f"{path.name} shows no print; allowed with a panel or a kind: {PRINTED}")
     if kind and path.suffix.lower() != ".3mf":
         raise ExportError(f"{path.name} has one kind only; allowed with a kind: .3mf")
@@ -205,8 +205,8 @@ def _drop_older(path: Path, written: set[str]) -> None:
                 file.unlink()
 
 
-def _part(source: Source | Planned, wish: Wish) -> Part:
-    """The part: a specimen or a panel, of walls or of blocks."""
+def _layout(source: Source | Planned, wish: Wish) -> Layout:
+    """The layout: a specimen or a panel, of walls or of blocks."""
     from sweep.export.outline import block, outline, panel, specimen
 
     design = source.design
@@ -218,9 +218,9 @@ def _stl(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     from sweep.export.solid import solid
     from sweep.export.stl import write_stl
 
-    part = _part(source, wish)
-    write_stl(path, solid(part, CUBIC * part.specimens * source.design.volume))
-    return [_told(part)]
+    layout = _layout(source, wish)
+    write_stl(path, solid(layout, CUBIC * layout.specimens * source.design.volume))
+    return _told(layout, source, wish)
 
 
 def _three_mf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
@@ -229,10 +229,10 @@ def _three_mf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     from sweep.export.solid import solid
     from sweep.export.three_mf import write_3mf
 
-    part = _part(source, wish)
-    body = solid(part, CUBIC * part.specimens * source.design.volume)
-    write_3mf(path, body, part.name, {})
-    return [_told(part), "print it with 100 % infill"]
+    layout = _layout(source, wish)
+    body = solid(layout, CUBIC * layout.specimens * source.design.volume)
+    write_3mf(path, body, layout.name, {})
+    return [*_told(layout, source, wish), "print it with 100 % infill"]
 
 
 def _block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
@@ -242,11 +242,11 @@ def _block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     from sweep.export.three_mf import write_3mf
 
     settings = settings_of(source.design.lattice)
-    part = _part(source, wish)
-    body = extruded(part)
-    write_3mf(path, body, part.name, slicer_files(settings, part.name, len(body.triangles)))
+    layout = _layout(source, wish)
+    body = extruded(layout)
+    write_3mf(path, body, layout.name, slicer_files(settings, layout.name, len(body.triangles)))
     return [
-        _told(part),
+        *_told(layout, source, wish),
         "PrusaSlicer reads the settings of the object from the file. OrcaSlicer and Bambu Studio "
         f"read only the block if they say so; then set by hand: {settings.by_hand}",
         "the slicer chooses where its lines begin, so that walls may be shifted",
@@ -256,17 +256,17 @@ def _block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
 def _svg(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     from sweep.export.svg import write_svg
 
-    part = _part(source, wish)
-    write_svg(path, part)
-    return [_told(part)]
+    layout = _layout(source, wish)
+    write_svg(path, layout)
+    return _told(layout, source, wish)
 
 
 def _dxf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     from sweep.export.dxf import write_dxf
 
-    part = _part(source, wish)
-    write_dxf(path, part)
-    return [_told(part)]
+    layout = _layout(source, wish)
+    write_dxf(path, layout)
+    return _told(layout, source, wish)
 
 
 def _csv(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
@@ -290,17 +290,24 @@ def _gif(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     return []
 
 
-def _told(part: Part) -> str:
-    """What a part is, in a sentence."""
-    _, _, width, height = part.shape.bounds
-    size = f"{width:.4g} x {height:.4g} mm, {part.depth:.4g} mm deep"
-    pieces = len(getattr(part.shape, "geoms", [part.shape]))
-    of = f"{pieces} specimens side by side, " if part.specimens != 1.0 else ""
-    return f"{of}{size}: {part.grams:.4g} g"
+def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
+    """What a layout is, in a sentence; of a panel, also how much of it a ranking counts."""
+    _, _, width, height = layout.shape.bounds
+    size = f"{width:.4g} x {height:.4g} mm, {layout.depth:.4g} mm deep: {layout.grams:.4g} g"
+    if wish.panel is None:
+        return [size]
+    lattice = source.design.lattice
+    by_area = wish.panel[0] * wish.panel[1] / (lattice.outer_size[0] * lattice.depth)
+    count = len(getattr(layout.shape, "geoms", [layout.shape]))
+    return [
+        f"{count} side by side, {size}",
+        f"of {lattice.depth * MM:.4g} mm depth these are {layout.specimens:.4g} specimens; a "
+        f"ranking fills the area of the panel with {by_area:.4g}",
+    ]
 
 
 Writer = Callable[[Path, Source | Planned, Wish], list[str]]
-PARTS: dict[str, Writer] = {".stl": _stl, ".3mf": _three_mf, ".svg": _svg, ".dxf": _dxf}
+PRINTS: dict[str, Writer] = {".stl": _stl, ".3mf": _three_mf, ".svg": _svg, ".dxf": _dxf}
 SERIES: dict[str, Writer] = {".pvd": _series, ".vtu": _series}
-WRITERS: dict[str, Writer] = {**PARTS, ".csv": _csv, **SERIES, ".gif": _gif}
-PRINTED = ", ".join(PARTS)
+WRITERS: dict[str, Writer] = {**PRINTS, ".csv": _csv, **SERIES, ".gif": _gif}
+PRINTED = ", ".join(PRINTS)

@@ -22,7 +22,7 @@ BESIDE = 0.4  # mm: least gap between two specimens of a panel; closer ones woul
 ROUND_OFF = 1e-9
 
 
-class Part(NamedTuple):
+class Layout(NamedTuple):
     """What is printed: polygons in mm, depth in mm, and the number of specimens in it.
 
     specimens : also counts a depth that differs from that of the specimen.
@@ -61,12 +61,12 @@ def block(lattice: Lattice) -> Any:
     return shapely.box(0.0, 0.0, width, height)
 
 
-def specimen(design: Design, shape: Any) -> Part:
+def specimen(design: Design, shape: Any) -> Layout:
     """One specimen of this shape (mm)."""
-    return Part(design.name, shape, MM * design.depth, 1.0, design.grams)
+    return Layout(design.name, shape, MM * design.depth, 1.0, design.grams)
 
 
-def panel(design: Design, shape: Any, sides: Sequence[float]) -> Part:
+def panel(design: Design, shape: Any, sides: Sequence[float]) -> Layout:
     """A row of whole specimens along the first side, as deep as the second; sides in m.
 
     As in a ranking, specimens do not touch: they are spread evenly. A panel that is deeper than the
@@ -87,12 +87,12 @@ def panel(design: Design, shape: Any, sides: Sequence[float]) -> Part:
     row = [shapely.affinity.translate(shape, k * pitch) for k in range(count)]
     whole = shapely.set_precision(shapely.multipolygons(shapely.get_parts(row)), GRID)
     specimens = count * depth / (MM * design.depth)
-    return Part(design.name, whole, depth, specimens, specimens * design.grams)
+    return Layout(design.name, whole, depth, specimens, specimens * design.grams)
 
 
-def rings(part: Part) -> list[Any]:
-    """Every closed ring (n + 1, 2) of a part, mm: outer ones anticlockwise, openings clockwise."""
+def rings(layout: Layout) -> list[Any]:
+    """Every closed ring (n + 1, 2) of a layout, mm: outer ones anticlockwise, others clockwise."""
     import shapely
 
-    polygons = shapely.get_parts(shapely.orient_polygons(part.shape))
+    polygons = shapely.get_parts(shapely.orient_polygons(layout.shape))
     return [shapely.get_coordinates(ring) for ring in shapely.get_rings(polygons)]

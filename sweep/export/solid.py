@@ -1,4 +1,4 @@
-"""The body of a part: its outline extruded along the depth, closed, and as heavy as computed."""
+"""The body of a layout: its outline extruded along the depth, closed, and as heavy as computed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from sweep.export.errors import ExportError
 from sweep.export.outline import rings
 
 if TYPE_CHECKING:
-    from sweep.export.outline import Part
+    from sweep.export.outline import Layout
 
 CLOSE = 0.005  # greatest relative difference of the volume from the mass / density
 
@@ -42,26 +42,26 @@ class Body(NamedTuple):
         return len(forth) == len(edges) and np.array_equal(forth, back)
 
 
-def solid(part: Part, volume: float) -> Body:
-    """The body of a part, whose volume must be near that of its mass (mm^3)."""
-    body = extruded(part)
+def solid(layout: Layout, volume: float) -> Body:
+    """The body of a layout, whose volume must be near that of its mass (mm^3)."""
+    body = extruded(layout)
     if not abs(body.volume - volume) <= CLOSE * volume:
         raise ExportError(
-            f"the mesh of case {part.name} has {body.volume:.5g} mm^3, but its mass / density is "
+            f"the mesh of case {layout.name} has {body.volume:.5g} mm^3, but its mass / density is "
             f"{volume:.5g} mm^3; allowed: a difference of {100 * CLOSE:g} %"
         )
     if not body.is_closed:
         raise ExportError(
-            f"the mesh of case {part.name} is not closed, as walls touch in a single line; "
+            f"the mesh of case {layout.name} is not closed, as walls touch in a single line; "
             "allowed: another wall thickness, or .svg and .dxf"
         )
     return body
 
 
-def extruded(part: Part) -> Body:
-    """The outline of a part, extruded along z."""
+def extruded(layout: Layout) -> Body:
+    """The outline of a layout, extruded along z."""
     from manifold3d import CrossSection, FillRule
 
-    loops = [ring[:-1] for ring in rings(part)]
-    mesh = CrossSection(loops, FillRule.NonZero).extrude(part.depth).to_mesh64()
+    loops = [ring[:-1] for ring in rings(layout)]
+    mesh = CrossSection(loops, FillRule.NonZero).extrude(layout.depth).to_mesh64()
     return Body(np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, np.int64))

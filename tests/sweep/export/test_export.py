@@ -64,7 +64,9 @@ def test_panel_is_a_row_of_specimens(file, tmp_path):
     mesh = trimesh.load_mesh(tmp_path / "panel.stl")
     assert mesh.body_count == 7
     assert mesh.extents == pytest.approx([100.0, 13.3, 50.0], abs=1e-3)
-    assert found.notes[0].startswith("7 specimens side by side, 100 x 13.3 mm, 50 mm deep: ")
+    assert found.notes[0].startswith("7 side by side, 100 x 13.3 mm, 50 mm deep: ")
+    counted = f"{7 * 50 / 12:.4g} specimens; a ranking fills the area of the panel with "
+    assert found.notes[1] == f"of 12 mm depth these are {counted}{100 * 50 / (13.3 * 12):.4g}"
 
 
 def test_lattice_in_3mf_asks_for_full_infill_in_words_only(file, tmp_path):
@@ -87,8 +89,8 @@ def test_block_in_3mf_has_settings(file, tmp_path):
     assert trimesh.bounds.to_extents(trimesh.PointCloud(points).bounds)[0] == pytest.approx(
         [30.0, 13.3, 12.0]
     )
-    assert "sparse infill grid, 38.4%, direction 0 degrees" in found.notes[1]
-    assert found.notes[0].startswith("2 specimens side by side")
+    assert "sparse infill grid, 38.4%, direction 0 degrees" in found.notes[2]
+    assert found.notes[0].startswith("2 side by side")
 
 
 def test_outlines_have_the_printed_area(file, tmp_path):
@@ -191,7 +193,7 @@ def test_failure_leaves_the_older_file(file, tmp_path, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setitem(module.WRITERS, ".svg", fail)
-    monkeypatch.setitem(module.PARTS, ".svg", fail)
+    monkeypatch.setitem(module.PRINTS, ".svg", fail)
     with pytest.raises(OSError, match="No space"):
         exported(file, path)
     assert [found.read_text() for found in tmp_path.iterdir()] == ["older"]
