@@ -8,6 +8,9 @@ height h. At a share r of infill its patterns have (`libslic3r`, PrusaSlicer and
     stars           the same, the third family shifted by half: kagome ("tri-hexagon" in Orca)
     honeycomb       flat to flat 2 s / r; of three layers one prints a wall twice, so that a wall is
                     4 s / 3 on average
+
+Crossings are laid twice: blocks of these patterns with walls of a tenth of the pitch, sliced by
+PrusaSlicer 2.5 at the pitches and directions of the lattice, were 0.1 to 6 % heavier than it.
 """
 
 from __future__ import annotations
@@ -85,6 +88,8 @@ class Settings(NamedTuple):
             "top_solid_layers": "0",
             "bottom_solid_layers": "0",
             "solid_infill_below_area": "0",
+            "infill_anchor": "0",
+            "infill_anchor_max": "0",
         }
 
     @property
@@ -103,7 +108,7 @@ class Settings(NamedTuple):
             f"direction {keys['infill_direction']} degrees, line width "
             f"{keys['sparse_infill_line_width']} mm; wall loops {keys['wall_loops']}, width "
             f"{keys['outer_wall_line_width']} mm; layer height {keys['layer_height']} mm; no top "
-            "and bottom shell layers"
+            "and bottom shell layers, no infill anchors"
         )
 
 
@@ -119,6 +124,8 @@ ORCA_KEYS = {
     "top_solid_layers": "top_shell_layers",
     "bottom_solid_layers": "bottom_shell_layers",
     "solid_infill_below_area": "minimum_sparse_infill_area",
+    "infill_anchor": "infill_anchor",
+    "infill_anchor_max": "infill_anchor_max",
 }
 
 

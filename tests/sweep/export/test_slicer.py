@@ -140,6 +140,8 @@ def test_prusa_reads_an_object_and_its_volume():
         "top_solid_layers": "0",
         "bottom_solid_layers": "0",
         "solid_infill_below_area": "0",
+        "infill_anchor": "0",
+        "infill_anchor_max": "0",
     }
     (volume,) = thing.findall("volume")
     assert volume.attrib == {"firstid": "0", "lastid": "11"}
@@ -168,6 +170,8 @@ def test_orca_and_bambu_read_an_object_and_its_part():
         "top_shell_layers": "0",
         "bottom_shell_layers": "0",
         "minimum_sparse_infill_area": "0",
+        "infill_anchor": "0",
+        "infill_anchor_max": "0",
     }
     (part,) = thing.findall("part")
     assert part.attrib == {"id": "1", "subtype": "normal_part"}
