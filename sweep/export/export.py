@@ -249,8 +249,8 @@ def _block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
         *_told(layout, source, wish),
         "PrusaSlicer reads the settings of the object from the file. OrcaSlicer and Bambu Studio "
         f"read only the block if they say so; then set by hand: {settings.by_hand}",
-        "the slicer chooses where its lines begin, so that walls may be shifted, and lays crossings "
-        "twice, so that the block is heavier than the lattice",
+        "the slicer chooses where its lines begin, so that walls may be shifted, and lays "
+        "crossings twice, so that the block is heavier than the lattice",
     ]
 
 

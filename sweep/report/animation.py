@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sweep.report import case_plots
-from sweep.report.storyboard import headline
+from sweep.report.probe_plots import probe_reactions
+from sweep.report.storyboard import FLOWN, headline
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -30,6 +31,7 @@ def write_gif(
     """Write the animation of a case, which repeats for ever."""
     from PIL import Image
 
+    frames = standing(frames)
     count, figure = len(frames["strain"]), case_plots.blank(*SIZE)
     figure.set_layout_engine("none")  # pictures of one series have one layout
     pictures = []
@@ -41,6 +43,15 @@ def write_gif(
     pictures[0].save(path, save_all=True, append_images=pictures[1:], duration=shown, loop=0)
 
 
+def standing(frames: Mapping[str, Any]) -> dict[str, Any]:
+    """The shapes up to the first that is lifted off: later ones would make all others small."""
+    height = frames["position_m"][..., 1]
+    lifted = height.min(axis=1) - height[0].min() > FLOWN * np.ptp(height[0])
+    count = int(np.append(lifted, True).argmax())
+    each = ("strain", "time_s", "position_m", "plate_y_m")
+    return {name: array[:count] if name in each else array for name, array in frames.items()}
+
+
 def moment(
     figure: Figure,
     row: Mapping[str, Any],
@@ -48,11 +59,15 @@ def moment(
     history: DataFrame,
     k: int,
 ) -> None:
-    """Draw shape number ``k`` on the left, and on the right the force up to its time."""
+    """Draw shape number ``k`` on the left, and on the right the force, or the reactions, then."""
     left, right = figure.subplots(1, 2, gridspec_kw=PLACES)
     figure.suptitle(headline(row), x=0.01, ha="left", fontsize="medium")
     case_plots.one_shape(left, frames, k)
-    _force(right, row, frames, history, k)
+    last = _last_row(history, frames, k)
+    if row["loading_mode"] == "custom":
+        _reactions(right, row, history, last)
+    else:
+        _force(right, history, last)
 
 
 def _rendered(figure: Figure) -> BytesIO:
@@ -63,18 +78,24 @@ def _rendered(figure: Figure) -> BytesIO:
     return picture
 
 
-def _force(
-    ax: Axes, row: Mapping[str, Any], frames: Mapping[str, Any], history: DataFrame, k: int
-) -> None:
+def _force(ax: Axes, history: DataFrame, last: int) -> None:
     """The whole curve in grey, what has happened in blue, and a dot at the shape that is shown."""
-    custom = row["loading_mode"] == "custom"
-    place = 1e3 * history["time_s"] if custom else 100.0 * history["strain"]
-    force = history["reaction_top_N"]
-    last = _last_row(history, frames, k)
-    ax.plot(place, force, color=case_plots.GRID, lw=2.0)
-    ax.plot(place[: last + 1], force[: last + 1], color=case_plots.BLUE, lw=2.0)
-    ax.plot(place[last], force[last], "o", color=case_plots.VERMILION)
-    ax.set(xlabel="time, ms" if custom else "strain, %", ylabel="force, N")
+    strain, force = 100.0 * history["strain"], history["reaction_top_N"]
+    ax.plot(strain, force, color=case_plots.GRID, lw=2.0)
+    ax.plot(strain[: last + 1], force[: last + 1], color=case_plots.BLUE, lw=2.0)
+    ax.plot(strain[last], force[last], "o", color=case_plots.VERMILION)
+    ax.set(xlabel="strain, %", ylabel="force, N")
+    case_plots.plain(ax)
+
+
+def _reactions(ax: Axes, row: Mapping[str, Any], history: DataFrame, last: int) -> None:
+    """The reactions of a custom structure, and a line at the shape that is shown."""
+    probe_reactions(ax, history, row)
+    ax.set_title("", loc="left")
+    place = history["load_factor"] if "load_factor" in history else 1e3 * history["time_s"]
+    ax.axvline(place[last], color=case_plots.GREY)
+    if ax.get_legend():
+        ax.legend(frameon=False, fontsize="small")
     case_plots.plain(ax)
 
 

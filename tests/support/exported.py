@@ -3,7 +3,7 @@
 import json
 
 from sweep.config.case import Case, Lattice
-from sweep.config.grid import Config, Written
+from sweep.config.grid import Config
 from sweep.design.lattice import build_network
 from sweep.design.network import mass, relative_density
 from sweep.result import design_columns
@@ -20,10 +20,9 @@ def row_of(case, **changes):
     return design_columns(case) | known | case.axes | changes
 
 
-def results(path, *cases, base=None):
-    """A results file of these cases, as a sweep of the last of them writes it."""
-    given = {key: Written(value, str(value)) for key, value in (base or {}).items()}
-    attributes = {"config": config_text(Config("trial", base=given), cases[0])}
+def results(path, *cases):
+    """A results file of these cases, as a sweep whose first case is the first of them writes it."""
+    attributes = {"config": config_text(Config("trial"), cases[0])}
     return write(path, summary(*(row_of(case) for case in cases)), attributes)
 
 

@@ -1,14 +1,18 @@
 """The design of a stored case is that which ran, or none."""
 
+import json
+
 import numpy as np
 import pytest
 
 from sweep.config.case import Case, Lattice
 from sweep.config.examples import examples
+from sweep.config.grid import Config, Written
 from sweep.config.units import load_config
 from sweep.design.lattice import build_network
 from sweep.export.design import design_of, stored_design
 from sweep.export.errors import ExportError
+from sweep.running.provenance import config_text
 from tests.support.exported import config_of, grid, row_of
 from tests.support.infills import EDGES, KINDS, lattice_of
 
@@ -38,6 +42,13 @@ def test_axes_and_given_values_go_before_the_first_case():
     assert stored_design(row, config).lattice.orientation == "flat"
     with pytest.raises(ExportError, match="does not follow from the config"):
         stored_design(row, config_of(first))
+
+
+def test_given_values_are_in_the_config_of_a_file():
+    given = {"lattice.orientation": Written("flat", '"flat"'), "solver.load_steps": Written(9, "9")}
+    config = json.loads(config_text(Config("trial", base=given), grid()))
+    case = Case(lattice=lattice_of("hex", "flat", cells=(2, 3)))
+    assert stored_design(row_of(case), config).lattice == case.lattice
 
 
 def test_blank_axes_are_not_given():

@@ -5,7 +5,7 @@ import pytest
 from PIL import Image
 
 from sweep.report import case_plots
-from sweep.report.animation import REST, STEP, moment, write_gif
+from sweep.report.animation import REST, STEP, moment, standing, write_gif
 from tests.support.specimens import squeezed_cell, summary, there_and_back
 
 ROW = summary({}).iloc[0]
@@ -37,11 +37,17 @@ def test_all_shapes_have_one_view():
     assert below < -0.5 < 10.5 < top
 
 
-def test_structure_without_strain_is_over_time():
-    frames = squeezed_cell(platens=False)
-    _, ax = at(3, frames, summary({"loading_mode": "custom"}).iloc[0])
-    assert ax.get_xlabel() == "time, ms"
-    assert ax.lines[2].get_xdata() == pytest.approx([30.0])
+def test_custom_structure_shows_its_reactions():
+    row = summary({"loading_mode": "custom"}).iloc[0]
+    history = there_and_back().assign(probe_3_reaction_x_N=2.0)
+    for told, place in {"time, ms": 30.0, "load factor": 0.75}.items():
+        figure = case_plots.blank(8.0, 4.2)
+        moment(figure, row, squeezed_cell(platens=False), history, 3)
+        ax = figure.axes[1]
+        assert ax.get_xlabel() == told
+        assert [text.get_text() for text in ax.get_legend().get_texts()] == ["x at node 3", "floor"]
+        assert ax.lines[-1].get_xdata() == pytest.approx([place, place])
+        history["load_factor"] = history["time_s"] / 0.04
 
 
 def test_gif_shows_the_shapes_and_rests_on_the_last(tmp_path):
@@ -60,3 +66,12 @@ def test_gif_shows_the_shapes_and_rests_on_the_last(tmp_path):
     tops = [np.flatnonzero(rows[80:]).min() for rows in walls]  # below the title
     assert tops == sorted(tops)
     assert tops[2] > tops[0] + 40
+
+
+def test_what_flies_off_is_not_shown():
+    frames = squeezed_cell(heights=(10.0, 5.0, 10.0, 10.0, 10.0))
+    frames["position_m"][3:, :, 1] += [[4e-3], [6e-3]]
+    shown = standing(frames)
+    assert [len(shown[name]) for name in ("strain", "time_s", "plate_y_m", "edges")] == [4, 4, 4, 4]
+    assert shown["position_m"][-1, :, 1].min() == pytest.approx(4e-3)
+    assert len(standing(squeezed_cell())["strain"]) == 8
