@@ -1,6 +1,7 @@
 """Configs, units, objects and files; and the public names of `crumple`.
 
-These functions raise `ConfigError`, `StoreError` and `RankError`, which are public too.
+These functions raise `ConfigError`, `StoreError`, `RankError` and `ExportError`, which are public
+too.
 
 Each name is loaded when it is first used, so that `import sweep` takes almost no time.
 """
@@ -12,6 +13,8 @@ if TYPE_CHECKING:
     from sweep.config.case import Case
     from sweep.config.grid import Config, ConfigError, expand
     from sweep.config.units import load_config
+    from sweep.export.errors import ExportError
+    from sweep.export.export import Exported, export_case
     from sweep.ranking.merit import RankError
     from sweep.ranking.rank import rank, ranked
     from sweep.ranking.ranking import Ranking
@@ -25,6 +28,8 @@ __all__ = [
     "Case",
     "Config",
     "ConfigError",
+    "ExportError",
+    "Exported",
     "Interrupted",
     "RankError",
     "Ranking",
@@ -34,6 +39,7 @@ __all__ = [
     "StoreError",
     "__version__",
     "expand",
+    "export_case",
     "load_config",
     "rank",
     "ranked",
@@ -48,6 +54,8 @@ _HOME = {
     "Case": "config.case",
     "Config": "config.grid",
     "ConfigError": "config.grid",
+    "ExportError": "export.errors",
+    "Exported": "export.export",
     "Interrupted": "running.sweep",
     "RankError": "ranking.merit",
     "Ranking": "ranking.ranking",
@@ -57,6 +65,7 @@ _HOME = {
     "StoreError": "store.read",
     "__version__": "version",
     "expand": "config.grid",
+    "export_case": "export.export",
     "load_config": "config.units",
     "rank": "ranking.rank",
     "ranked": "ranking.rank",

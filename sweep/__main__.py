@@ -28,6 +28,7 @@ EXAMPLES = """examples:
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
   crumple show results/armor.h5                 the ids of all cases
   crumple show results/armor.h5 7a85            pictures of the case whose id begins with 7a85
+  crumple export results/armor.h5 7a85 --to part.stl      to print; also .3mf .svg .dxf .csv .gif
   crumple accuracy accuracy/impact              error against run time, method by method
   crumple materials                             the materials, their numbers and sources
 
@@ -82,6 +83,22 @@ RANK_EXAMPLES = """examples:
 """
 SHOW = """Draw one case: force against strain, the parts of its energy, and six deformed shapes.
 Without CASE: list the ids and the designs of all cases."""
+EXPORT = """Write one case as a file for another program, in the format that its ending names:
+  .stl .3mf     the print as a closed body, as heavy as the ranking says
+  .svg .dxf     its outline, in mm
+  .csv          the curves: travel, force, strain, stress, energies
+  .pvd .vtu     the stored shapes as a series for ParaView, NAME_0000.vtu and so on
+  .gif          the crush as a moving picture
+A file of that name is replaced. With --panel, whole specimens side by side along the first length,
+as deep as the second. A .3mf has two kinds: "lattice", the walls themselves, to be printed with
+100 % infill; "settings", a solid block with the pattern, the per cent and the line width with which
+a slicer draws the lattice: square, diamond, triangle, kagome or hex, of regular cells."""
+EXPORT_EXAMPLES = """examples:
+  crumple export F.h5 a44d --to part.stl
+  crumple export F.h5 a44d --to bumper.3mf --panel "100 mm" "50 mm"
+  crumple export F.h5 a44d --to block.3mf --kind settings
+  crumple export F.h5 a44d --to crush.gif
+"""
 
 MATERIALS = """Without WORD: a table of the materials that come with Crumple. With names, also of
 your own .csv files: all that their files state, with sources. With the word plot: their curves of
@@ -193,6 +210,7 @@ def parser() -> Parser:
     show.add_argument(
         "--out", type=_folder, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
     )
+    _add_export(verbs)
     _add_materials(verbs)
     return main
 
@@ -225,6 +243,32 @@ def _add_optimize(verbs: Any) -> None:
     where = optimize.add_mutually_exclusive_group()
     where.add_argument("--workers", type=_count, default=2, metavar="N", help="default: 2")
     where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster: tcp://host:8786")
+
+
+def _add_export(verbs: Any) -> None:
+    """Add the verb that writes files for other programs."""
+    export = verbs.add_parser(
+        "export",
+        help="a part to print, curves, shapes",
+        description=EXPORT,
+        epilog=EXPORT_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    export.add_argument("file", type=_path, metavar="F.h5")
+    export.add_argument("case", metavar="CASE", help="id, or the beginning of one")
+    export.add_argument(
+        "--to",
+        type=_path,
+        metavar="FILE",
+        required=True,
+        help="FILE.stl, .3mf, .svg, .dxf, .csv, .pvd, .vtu or .gif",
+    )
+    export.add_argument(
+        "--panel", nargs=2, metavar="LENGTH", help='fill with specimens: "100 mm" "50 mm"'
+    )
+    export.add_argument(
+        "--kind", choices=["lattice", "settings"], help="of a .3mf (default: lattice)"
+    )
 
 
 def _add_materials(verbs: Any) -> None:

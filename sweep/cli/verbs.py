@@ -35,6 +35,7 @@ REFUSALS = {
     f"{HOME}.cli.materials": "MaterialsError",
     f"{HOME}.cli.optimize": "OptimizeError",
     f"{HOME}.store.read": "StoreError",
+    f"{HOME}.export.errors": "ExportError",
     f"{HOME}.running.dask_graph": "GraphError",
     f"{HOME}.ranking.rank": "RankError",
     f"{HOME}.ranking.accuracy": "AccuracyError",
@@ -222,6 +223,24 @@ def show(arguments: Namespace) -> int:
     return DONE
 
 
+def export(arguments: Namespace) -> int:
+    """Write one case as a file for another program."""
+    from sweep.export.export import export_case
+    from sweep.store.read import read_summary
+
+    row = _find_case(read_summary(arguments.file), arguments.case)
+    target = Path(arguments.to)
+    replaced = target.exists()
+    with _writing(target.parent):
+        files, notes = export_case(
+            arguments.file, target, row["case_id"], arguments.panel, arguments.kind
+        )
+    say(f"{files[-1]}{f' and {len(files) - 1} files beside' if files[1:] else ''}"
+        f"{', replaced' if replaced else ''}")  # fmt: skip
+    say_all(notes)
+    return DONE
+
+
 def materials(arguments: Namespace) -> int:
     """List, show, plot or fit materials."""
     from sweep.cli.materials import materials as answer
@@ -231,7 +250,8 @@ def materials(arguments: Namespace) -> int:
 
 
 VERBS = {
-    verb.__name__: verb for verb in (run, optimize, accuracy, warm, status, rank, show, materials)
+    verb.__name__: verb
+    for verb in (run, optimize, accuracy, warm, status, rank, show, export, materials)
 }
 
 

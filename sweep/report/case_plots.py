@@ -203,14 +203,28 @@ def deformed_shapes(
     view = _view(frames, list(chosen))
     points, plates = (1e3 * frames[name][list(chosen)] for name in ("position_m", "plate_y_m"))
     for ax, caption, position, plate in zip(axes, chosen.values(), points, plates, strict=True):
-        walls(ax, position, frames)
-        if np.isfinite([plate[0], frames["strain"][0]]).any() and not np.isinf(plate[0]):
-            _platen(ax, view, (view.ground if np.isnan(plate[0]) else plate[0]) - view.margin)
-        if np.isfinite(plate[1]):
-            _platen(ax, view, plate[1])
+        _shape(ax, view, frames, position, plate)
         ax.set_title(caption, fontsize="medium")
     axes[0].set(xlim=(view.left, view.right), ylim=(view.below, view.top))
     _scale_bar(axes[0], view.left, view.below)
+
+
+def one_shape(ax: Axes, frames: Mapping[str, Any], number: int) -> None:
+    """The shape of this number, in a view that contains all shapes."""
+    view = _view(frames, list(range(len(frames["strain"]))))
+    position, plate = (1e3 * frames[name][number] for name in ("position_m", "plate_y_m"))
+    _shape(ax, view, frames, position, plate)
+    ax.set(xlim=(view.left, view.right), ylim=(view.below, view.top))
+    _scale_bar(ax, view.left, view.below)
+
+
+def _shape(ax: Axes, view: View, frames: Mapping[str, Any], position: Any, plate: Any) -> None:
+    """Walls of their true thickness, and the platens; position (n, 2) and plate (2,) in mm."""
+    walls(ax, position, frames)
+    if np.isfinite([plate[0], frames["strain"][0]]).any() and not np.isinf(plate[0]):
+        _platen(ax, view, (view.ground if np.isnan(plate[0]) else plate[0]) - view.margin)
+    if np.isfinite(plate[1]):
+        _platen(ax, view, plate[1])
 
 
 def walls(ax: Axes, position: np.ndarray, frames: Mapping[str, Any]) -> None:

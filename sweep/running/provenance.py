@@ -32,11 +32,12 @@ def describe_run(config: str) -> dict[str, str]:
 
 
 def config_text(sweep: Config | Sequence[Case], first: Case) -> str:
-    """A sweep as JSON, in SI: the axes, [rank], and every parameter of its first case."""
+    """A sweep as JSON, in SI: given values, axes, [rank], every parameter of its first case."""
     text: dict[str, Any] = {"first_case": first.model_dump(exclude={"axes"})}
     if isinstance(sweep, Config):
         text |= {
             "name": sweep.name,
+            "base": {key: written.value for key, written in sweep.base.items()},
             "grid": _axes(sweep.grid),
             "zip": [_axes(tied) for tied in sweep.zip],
             "exclude": sweep.exclude,

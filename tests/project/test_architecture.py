@@ -25,7 +25,7 @@ FLOORS = [
     "kernels.laws", "kernels.terms", "kernels.planar",
     "sweep.version", "sweep.numbers", "sweep.design", "sweep.config", "sweep.result", "sweep.scene",
     "sweep.coupon", "sweep.simulation", "sweep.store", "sweep.ranking", "sweep.report",
-    "sweep.running", "sweep.studies", "sweep.cli", "sweep.__main__",
+    "sweep.export", "sweep.running", "sweep.studies", "sweep.cli", "sweep.__main__",
 ]  # fmt: skip
 HOMES = {
     "numba": "kernels.compile",
@@ -35,6 +35,9 @@ HOMES = {
     "h5py": "sweep.store.read sweep.store.hdf5",
     "matplotlib": "sweep.report.case_plots",
     "pint": "sweep.config.units",
+    "manifold3d": "sweep.export.solid",
+    "ezdxf": "sweep.export.dxf",
+    "PIL": "sweep.report.animation",
 }
 # What reads results, and so must run where nothing is installed that simulates.
 READERS = [m for m in PROGRAM if m.startswith(("sweep.store", "sweep.ranking", "sweep.report"))]

@@ -65,6 +65,14 @@ REFUSED = [
     (["rank", "FILE", "--top", "0"], "1 or more"),
     (["rank", "FILE", "--csv", "--json"], "not allowed with"),
     (["show", "FILE", "zz"], 'no case "zz"'),
+    (["export", "FILE", "zz", "--to", "a.stl"], 'no case "zz"'),
+    (["export", "FILE", "0", "--to", "a.stl"], "begins 5 ids: 0000000000000000"),
+    (["export", "FILE", "0000000000000000"], "required: --to"),
+    (["export", "FILE", "0000000000000000", "--to", "a.step"], "a.step: .step is unknown; allow"),
+    (["export", "FILE", "0000000000000000", "--to", "a.stl"], "does not follow from the config"),
+    (["export", "FILE", "0000000000000000", "--to", "a.3mf", "--kind", "x"], "invalid choice: 'x'"),
+    (["export", "FILE", "0000000000000000", "--to", "/proc/a.csv"], "/proc cannot be written: "),
+    (["export", "FILE", "0000000000000000", "--to", "FILE/a.csv"], "is or lies in a file; allow"),
     (["show", "FILE", "0"], "begins 5 ids: 0000000000000000"),
     (["run", "nowhere.toml"], "nowhere.toml"),
     (["run", "smok"], "needed: a TOML file, or an example: accuracy/crush, "),
@@ -88,7 +96,7 @@ REFUSED = [
 def test_refusals_take_two_lines_and_exit_with_2(capsys, file, tmp_path, arguments, expected):
     link = tmp_path / "a.h5"
     link.symlink_to("/dev/null")
-    words = [{"FILE": file, "LINK": str(link)}.get(word, word) for word in arguments]
+    words = [word.replace("FILE", file).replace("LINK", str(link)) for word in arguments]
     status, out, err = crumple(capsys, *words)
     assert (status, out) == (2, "")
     assert expected in err
@@ -252,6 +260,15 @@ def test_run_says_how_many_designs_do_not_print(capsys, tmp_path):
     status, out, _ = crumple(capsys, "run", str(path), "--dry-run")
     assert status == 0
     assert out.startswith("left out 2 combinations, which do not print (lattice.printable)\n")
+
+
+def test_export_tells_what_it_wrote(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({"case_id": "ab01"}))
+    for told in ("", ", replaced"):
+        status, out, _ = crumple(capsys, "export", file, "ab", "--to", str(tmp_path / "c.csv"))
+        assert (status, out) == (0, f"{tmp_path}/c.csv{told}\n")
+    _, out, _ = crumple(capsys, "export", file, "ab", "--to", str(tmp_path / "crush.pvd"))
+    assert out == f"{tmp_path}/crush.pvd and 8 files beside\n"
 
 
 def test_show_without_a_case_lists_what_makes_them_differ(capsys, tmp_path):

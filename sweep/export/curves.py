@@ -1,0 +1,27 @@
+"""CSV: the curves of a case, a row per stored step, with units in the headings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from pandas import DataFrame
+
+AFTER = "reaction_bottom_N"
+DIGITS = "%.8g"  # single precision is stored
+
+
+def write_curves(path: Path, history: DataFrame, row: Mapping[str, Any]) -> None:
+    """Write the history of a case, with its nominal stress. row : of the case in the summary."""
+    with_stress(history, row).to_csv(path, index=False, float_format=DIGITS)
+
+
+def with_stress(history: DataFrame, row: Mapping[str, Any]) -> DataFrame:
+    """The history with the column `stress_Pa`: force on the top / (width over all x depth)."""
+    stress = history["reaction_top_N"] / (row["outer_width_m"] * row["depth_m"])
+    found = history.copy()
+    found.insert(found.columns.get_loc(AFTER) + 1, "stress_Pa", stress)
+    return found

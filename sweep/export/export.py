@@ -1,0 +1,314 @@
+"""Writes a case as a file for another program; the ending of its name asks for the format.
+
+Nothing is half-written: files are made in a folder beside, then get their names.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+from sweep.export.errors import ExportError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from pandas import DataFrame
+
+    from sweep.config.case import Case
+    from sweep.export.design import Design
+    from sweep.export.outline import Layout
+
+Kind = Literal["lattice", "settings"]
+MM, CUBIC = 1e3, 1e9  # per m; mm^3 per m^3
+
+
+class Exported(NamedTuple):
+    """The files that were written, and sentences about what is in them."""
+
+    files: list[Path]
+    notes: list[str]
+
+
+@dataclass(frozen=True)
+class Source:
+    """A case of a results file, of which each part is read when it is needed."""
+
+    file: str | os.PathLike[str]
+    row: Mapping[str, Any]
+
+    @cached_property
+    def design(self) -> Design:
+        """What is printed."""
+        from sweep.export.design import stored_design
+        from sweep.store.read import read_attributes
+
+        try:
+            config = json.loads(read_attributes(self.file).get("config") or "{}")
+        except ValueError as error:
+            raise ExportError(f"{self.file} is damaged: the config in it is no JSON") from error
+        return stored_design(self.row, config)
+
+    @property
+    def history(self) -> DataFrame:
+        """The curves."""
+        from sweep.store.read import read_history
+
+        history = read_history(self.file, self.row["case_id"])
+        if history.empty:
+            raise ExportError(f"case {self.row['case_id']} has no curves: {self._why}")
+        return history
+
+    @property
+    def frames(self) -> dict[str, NDArray[Any]]:
+        """The shapes."""
+        from sweep.store.read import read_frames
+
+        frames = read_frames(self.file, self.row["case_id"])
+        if not frames:
+            raise ExportError(f"case {self.row['case_id']} has no shapes: {self._why}")
+        return frames
+
+    @property
+    def _why(self) -> str:
+        return self.row["message"] or f"it is {self.row['status']}"
+
+
+@dataclass(frozen=True)
+class Planned:
+    """A case that need not have run: it has a design, but no curves and no shapes."""
+
+    case: Case
+
+    @cached_property
+    def design(self) -> Design:
+        """What is printed."""
+        from sweep.export.design import design_of
+
+        return design_of(self.case)
+
+    @property
+    def history(self) -> DataFrame:
+        """No curves."""
+        raise self._refusal("curves")
+
+    @property
+    def frames(self) -> dict[str, NDArray[Any]]:
+        """No shapes."""
+        raise self._refusal("shapes")
+
+    @property
+    def row(self) -> Mapping[str, Any]:
+        """No row of results."""
+        raise self._refusal("results")
+
+    def _refusal(self, what: str) -> ExportError:
+        return ExportError(
+            f"a case alone has no {what}; allowed: a results file and the id of a case in it, or "
+            ".stl, .3mf, .svg, .dxf"
+        )
+
+
+class Wish(NamedTuple):
+    """How a print is wanted: a panel of these sides (m) or one specimen, and the kind of 3MF."""
+
+    panel: Sequence[float] | None
+    kind: Kind
+
+
+def export_case(
+    source: Case | str | os.PathLike[str],
+    to: str | os.PathLike[str],
+    case_id: str = "",
+    panel: Sequence[float | str] | None = None,
+    kind: Kind | None = None,
+) -> Exported:
+    """Write a case as .stl, .3mf, .svg, .dxf, .csv, .pvd (or .vtu) or .gif.
+
+    Parameters
+    ----------
+    source : a case, or a results file.
+    to : the file to write; a file of that name is replaced.
+    case_id : of the case in the results file.
+    panel : two lengths (m, or text with a unit): a row of whole specimens along the first, as deep
+        as the second. Without it, one specimen.
+    kind : of a .3mf: "lattice" (default), the walls themselves, printed with 100 % infill;
+        "settings", a solid block whose infill the slicer draws.
+    """
+    path = Path(to)
+    writer = _writer(path)
+    if (panel or kind) and writer not in PRINTS.values():
+        raise ExportError(f"{path.name} shows no print; allowed with a panel or a kind: {PRINTED}")
+    if kind and path.suffix.lower() != ".3mf":
+        raise ExportError(f"{path.name} has one kind only; allowed with a kind: .3mf")
+    if kind not in (None, "lattice", "settings"):
+        raise ExportError(f'kind "{kind}"; allowed: lattice, settings')
+    wish = Wish(_sides(panel), kind or "lattice")
+    return _written(path, lambda beside: writer(beside, _source(source, case_id), wish))
+
+
+def _writer(path: Path) -> Writer:
+    """The writer of the format that the name of a file asks for."""
+    if found := WRITERS.get(path.suffix.lower()):
+        return found
+    asked = f"{path.suffix or 'no ending'} is unknown"
+    raise ExportError(f"{path.name or path}: {asked}; allowed: {', '.join(WRITERS)}")
+
+
+def _sides(panel: Sequence[float | str] | None) -> list[float] | None:
+    """The two lengths of a panel, m."""
+    if panel is None:
+        return None
+    from sweep.config.units import quantity
+
+    sides = [quantity(side, "m") if isinstance(side, str) else side for side in panel]
+    if len(sides) == 2 and min(sides) > 0.0:
+        return sides
+    raise ExportError(f"panel {', '.join(map(str, panel))}; allowed: two lengths above zero")
+
+
+def _source(source: Case | str | os.PathLike[str], case_id: str) -> Source | Planned:
+    if not isinstance(source, str | os.PathLike):
+        return Planned(source)
+    from sweep.store.read import read_summary
+
+    summary = read_summary(source)
+    found = summary[summary["case_id"] == case_id]
+    if found.empty:
+        raise ExportError(f'{source} holds no case "{case_id}"')
+    return Source(source, found.iloc[0].to_dict())
+
+
+def _written(path: Path, write: Callable[[Path], list[str]]) -> Exported:
+    """What ``write`` makes of a path beside; the files get their places when all are complete."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with TemporaryDirectory(prefix=".export-", dir=path.parent) as folder:
+        notes = write(Path(folder) / path.name)
+        made = sorted(Path(folder).iterdir(), key=lambda file: (file.stem == path.stem, file.name))
+        files = [file.replace(path.parent / file.name) for file in made]
+    _drop_older(path, {file.name for file in files})
+    return Exported(files, notes)
+
+
+def _drop_older(path: Path, written: set[str]) -> None:
+    """Delete the shapes of an older and longer series of the same name."""
+    series = re.compile(re.escape(path.stem) + r"_\d{4}\.vtu")
+    if path.suffix.lower() in SERIES:
+        for file in path.parent.iterdir():
+            if series.fullmatch(file.name) and file.name not in written:
+                file.unlink()
+
+
+def _layout(source: Source | Planned, wish: Wish) -> Layout:
+    """The layout: a specimen or a panel, of walls or of blocks."""
+    from sweep.export.outline import block, outline, panel, specimen
+
+    design = source.design
+    shape = block(design.lattice) if wish.kind == "settings" else outline(design.network)
+    return panel(design, shape, wish.panel) if wish.panel else specimen(design, shape)
+
+
+def _stl(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
+    from sweep.export.solid import solid
+    from sweep.export.stl import write_stl
+
+    layout = _layout(source, wish)
+    write_stl(path, solid(layout, CUBIC * layout.specimens * source.design.volume))
+    return _told(layout, source, wish)
+
+
+def _three_mf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
+    if wish.kind == "settings":
+        return _block(path, source, wish)
+    from sweep.export.solid import solid
+    from sweep.export.three_mf import write_3mf
+
+    layout = _layout(source, wish)
+    body = solid(layout, CUBIC * layout.specimens * source.design.volume)
+    write_3mf(path, body, layout.name, {})
+    return [*_told(layout, source, wish), "print it with 100 % infill"]
+
+
+def _block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
+    """A block, and what the slicer shall fill it with."""
+    from sweep.export.slicer import settings_of, slicer_files
+    from sweep.export.solid import extruded
+    from sweep.export.three_mf import write_3mf
+
+    settings = settings_of(source.design.lattice)
+    layout = _layout(source, wish)
+    body = extruded(layout)
+    write_3mf(path, body, layout.name, slicer_files(settings, layout.name, len(body.triangles)))
+    return [
+        *_told(layout, source, wish),
+        "PrusaSlicer reads the settings of the object from the file. OrcaSlicer and Bambu Studio "
+        f"read only the block if they say so; then set by hand: {settings.by_hand}",
+        "the slicer chooses where its lines begin, so that walls may be shifted, and lays "
+        "crossings twice, so that the block is heavier than the lattice",
+    ]
+
+
+def _svg(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
+    from sweep.export.svg import write_svg
+
+    layout = _layout(source, wish)
+    write_svg(path, layout)
+    return _told(layout, source, wish)
+
+
+def _dxf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
+    from sweep.export.dxf import write_dxf
+
+    layout = _layout(source, wish)
+    write_dxf(path, layout)
+    return _told(layout, source, wish)
+
+
+def _csv(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
+    from sweep.export.curves import write_curves
+
+    write_curves(path, source.history, source.row)
+    return []
+
+
+def _series(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
+    from sweep.export.shapes import write_shapes
+
+    write_shapes(path.parent, path.stem, source.frames)
+    return []
+
+
+def _gif(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
+    from sweep.report.animation import write_gif
+
+    write_gif(path, source.row, source.frames, source.history)
+    return []
+
+
+def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
+    """What a layout is, in a sentence; of a panel, also how much of it a ranking counts."""
+    _, _, width, height = layout.shape.bounds
+    size = f"{width:.4g} x {height:.4g} mm, {layout.depth:.4g} mm deep: {layout.grams:.4g} g"
+    if wish.panel is None:
+        return [size]
+    lattice = source.design.lattice
+    by_area = wish.panel[0] * wish.panel[1] / (lattice.outer_size[0] * lattice.depth)
+    count = len(getattr(layout.shape, "geoms", [layout.shape]))
+    return [
+        f"{count} side by side, {size}",
+        f"of {lattice.depth * MM:.4g} mm depth these are {layout.specimens:.4g} specimens; a "
+        f"ranking fills the area of the panel with {by_area:.4g}",
+    ]
+
+
+Writer = Callable[[Path, Source | Planned, Wish], list[str]]
+PRINTS: dict[str, Writer] = {".stl": _stl, ".3mf": _three_mf, ".svg": _svg, ".dxf": _dxf}
+SERIES: dict[str, Writer] = {".pvd": _series, ".vtu": _series}
+WRITERS: dict[str, Writer] = {**PRINTS, ".csv": _csv, **SERIES, ".gif": _gif}
+PRINTED = ", ".join(PRINTS)

@@ -1,0 +1,67 @@
+"""The body of a layout: its outline extruded along the depth, closed, and as heavy as computed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sweep.export.errors import ExportError
+from sweep.export.outline import rings
+
+if TYPE_CHECKING:
+    from sweep.export.outline import Layout
+
+CLOSE = 0.005  # greatest relative difference of the volume from the mass / density
+
+
+class Body(NamedTuple):
+    """A triangle mesh: points (n, 3) in mm, triangles (m, 3), anticlockwise seen from outside."""
+
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+
+    @property
+    def volume(self) -> float:
+        """Volume (mm^3): the sum of a . (b x c) / 6 over the triangles a, b, c."""
+        a, b, c = (self.points[corner] for corner in self.triangles.T)
+        return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
+
+    @property
+    def is_closed(self) -> bool:
+        """True if every edge belongs to two triangles, which pass it in opposite directions.
+
+        Points that a file in single precision cannot tell apart count as one.
+        """
+        _, place = np.unique(self.points.astype(np.float32), axis=0, return_inverse=True)
+        corner = place.ravel()[self.triangles]
+        edges = np.concatenate([corner[:, [0, 1]], corner[:, [1, 2]], corner[:, [2, 0]]])
+        forth = np.unique(edges, axis=0)
+        back = np.unique(edges[:, ::-1], axis=0)
+        return len(forth) == len(edges) and np.array_equal(forth, back)
+
+
+def solid(layout: Layout, volume: float) -> Body:
+    """The body of a layout, whose volume must be near that of its mass (mm^3)."""
+    body = extruded(layout)
+    if not abs(body.volume - volume) <= CLOSE * volume:
+        raise ExportError(
+            f"the mesh of case {layout.name} has {body.volume:.5g} mm^3, but its mass / density is "
+            f"{volume:.5g} mm^3; allowed: a difference of {100 * CLOSE:g} %"
+        )
+    if not body.is_closed:
+        raise ExportError(
+            f"the mesh of case {layout.name} is not closed, as walls touch in a single line; "
+            "allowed: another wall thickness, or .svg and .dxf"
+        )
+    return body
+
+
+def extruded(layout: Layout) -> Body:
+    """The outline of a layout, extruded along z."""
+    from manifold3d import CrossSection, FillRule
+
+    loops = [ring[:-1] for ring in rings(layout)]
+    mesh = CrossSection(loops, FillRule.NonZero).extrude(layout.depth).to_mesh64()
+    return Body(np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, np.int64))

@@ -1,0 +1,36 @@
+"""Results files of designs that never ran, for tests of what is exported from them."""
+
+import json
+
+from sweep.config.case import Case, Lattice
+from sweep.config.grid import Config
+from sweep.design.lattice import build_network
+from sweep.design.network import mass, relative_density
+from sweep.result import design_columns
+from sweep.running.provenance import config_text
+from tests.support.specimens import summary, write
+
+
+def row_of(case, **changes):
+    """The row of a case, with its axes."""
+    network = build_network(case.lattice.geometry)
+    grams = 1e3 * mass(network, case.lattice.depth, case.material.density)
+    density = relative_density(network, case.lattice.outer_size)
+    known = {"case_id": case.case_id, "mass_g": grams, "relative_density": density}
+    return design_columns(case) | known | case.axes | changes
+
+
+def results(path, *cases):
+    """A results file of these cases, as a sweep whose first case is the first of them writes it."""
+    attributes = {"config": config_text(Config("trial"), cases[0])}
+    return write(path, summary(*(row_of(case) for case in cases)), attributes)
+
+
+def config_of(case):
+    """The config of a sweep of one case, as in a results file."""
+    return json.loads(config_text(Config("trial"), case))
+
+
+def grid(cells=3, **lattice):
+    """A case with a square grid of 12.5 mm."""
+    return Case(lattice=Lattice(cells_x=cells, cells_y=cells, **lattice))

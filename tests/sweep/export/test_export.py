@@ -1,0 +1,219 @@
+"""Every format through one door: the right file or a sentence, never half of one."""
+
+from pathlib import Path
+from xml.etree import ElementTree as Xml
+from zipfile import ZipFile
+
+import ezdxf
+import meshio
+import pandas as pd
+import pytest
+import shapely
+import trimesh
+from PIL import Image
+
+import crumple
+from sweep.config.case import Case, Lattice
+from sweep.export import export as module
+from sweep.export.errors import ExportError
+from sweep.export.export import WRITERS, export_case
+from tests.support.exported import grid, results
+from tests.support.specimens import summary, write
+
+CASE = grid()
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    other = Case(lattice=Lattice(kind="reentrant", depth=20e-3))
+    return results(tmp_path_factory.mktemp("stored") / "trial.h5", CASE, other)
+
+
+def exported(file, path, **wish):
+    found = export_case(file, path, CASE.case_id, **wish)
+    assert found.files[-1] == Path(path)
+    return found
+
+
+def test_stl_weighs_what_the_ranking_says(file, tmp_path):
+    found = exported(file, tmp_path / "part.stl")
+    mesh = trimesh.load_mesh(tmp_path / "part.stl")
+    assert mesh.is_watertight
+    grams = 1e-3 * mesh.volume * 1e-3 * CASE.material.density
+    (row,) = crumple.read_summary(file).query(f"case_id == '{CASE.case_id}'")["mass_g"]
+    assert grams == pytest.approx(row, rel=1e-5)
+    assert found.notes == [f"13.3 x 13.3 mm, 12 mm deep: {row:.4g} g"]
+
+
+def test_case_is_exported_before_it_runs(file, tmp_path):
+    crumple.export_case(CASE, tmp_path / "a.stl")
+    exported(file, tmp_path / "b.stl")
+    assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b.stl").read_bytes()
+    with pytest.raises(
+        crumple.ExportError, match=r"a case alone has no curves; allowed: a results"
+    ):
+        crumple.export_case(CASE, tmp_path / "a.csv")
+    for ending in (".pvd", ".gif"):
+        with pytest.raises(ExportError, match="a case alone has no"):
+            export_case(CASE, tmp_path / f"a{ending}")
+    assert {path.name for path in tmp_path.iterdir()} == {"a.stl", "b.stl"}
+
+
+def test_panel_is_a_row_of_specimens(file, tmp_path):
+    found = exported(file, tmp_path / "panel.stl", panel=("100 mm", 0.05))
+    mesh = trimesh.load_mesh(tmp_path / "panel.stl")
+    assert mesh.body_count == 7
+    assert mesh.extents == pytest.approx([100.0, 13.3, 50.0], abs=1e-3)
+    assert found.notes[0].startswith("7 side by side, 100 x 13.3 mm, 50 mm deep: ")
+    counted = f"{7 * 50 / 12:.4g} specimens; a ranking fills the area of the panel with "
+    assert found.notes[1] == f"of 12 mm depth these are {counted}{100 * 50 / (13.3 * 12):.4g}"
+
+
+def test_lattice_in_3mf_asks_for_full_infill_in_words_only(file, tmp_path):
+    found = exported(file, tmp_path / "part.3mf")
+    with ZipFile(tmp_path / "part.3mf") as archive:
+        assert not [name for name in archive.namelist() if name.startswith("Metadata")]
+    assert found.notes[1] == "print it with 100 % infill"
+
+
+def test_block_in_3mf_has_settings(file, tmp_path):
+    found = exported(file, tmp_path / "block.3mf", kind="settings", panel=("30 mm", "12 mm"))
+    with ZipFile(tmp_path / "block.3mf") as archive:
+        config = Xml.fromstring(archive.read("Metadata/Slic3r_PE_model.config"))
+        model = Xml.fromstring(archive.read("3D/3dmodel.model"))
+    share = 2 * 0.8 / (12.5 / 3)
+    keys = {node.get("key"): node.get("value") for node in config.iter("metadata")}
+    assert keys["fill_density"] == f"{100 * share:.4g}%"
+    assert int(config.find("object/volume").get("lastid")) == 2 * 12 - 1
+    points = [[float(v.get(k)) for k in "xyz"] for v in model.iter() if v.tag.endswith("vertex")]
+    assert trimesh.bounds.to_extents(trimesh.PointCloud(points).bounds)[0] == pytest.approx(
+        [30.0, 13.3, 12.0]
+    )
+    assert "sparse infill grid, 38.4%, direction 0 degrees" in found.notes[2]
+    assert found.notes[0].startswith("2 side by side")
+
+
+def test_outlines_have_the_printed_area(file, tmp_path):
+    for name in ("part.svg", "part.DXF"):
+        assert exported(file, tmp_path / name).files == [tmp_path / name]
+    area = 13.3**2 - 9 * (12.5 / 3 - 0.8) ** 2
+    lines = ezdxf.readfile(tmp_path / "part.DXF").modelspace()
+    outer, *openings = (shapely.polygons(line.get_points("xy")).area for line in lines)
+    assert outer - sum(openings) == pytest.approx(area, rel=1e-5)
+    assert Xml.parse(tmp_path / "part.svg").getroot().get("width") == "13.3mm"
+
+
+def test_curves_and_shapes(file, tmp_path):
+    exported(file, tmp_path / "c.csv")
+    assert len(pd.read_csv(tmp_path / "c.csv")) == 41
+    found = exported(file, tmp_path / "crush.vtu".replace("vtu", "pvd"))
+    assert len(found.files) == 9
+    assert len(meshio.read(tmp_path / "crush_0007.vtu").points) == 4
+
+
+def test_vtu_asks_for_the_series_too(file, tmp_path):
+    found = export_case(file, tmp_path / "crush.vtu", CASE.case_id)
+    assert {path.name for path in found.files} == {path.name for path in tmp_path.iterdir()}
+    assert found.files[-1].name == "crush.pvd"
+
+
+def test_shapes_of_a_longer_series_do_not_stay(file, tmp_path):
+    stale, others = (
+        tmp_path / "crush_0008.vtu",
+        [tmp_path / "crush_01.vtu", tmp_path / "a_0008.vtu"],
+    )
+    for path in (stale, *others):
+        path.touch()
+    exported(file, tmp_path / "crush.pvd")
+    assert not stale.exists()
+    assert all(path.exists() for path in others)
+
+
+def test_gif_has_a_picture_of_each_shape(file, tmp_path):
+    exported(file, tmp_path / "crush.gif")
+    with Image.open(tmp_path / "crush.gif") as moving:
+        assert moving.n_frames == 8
+
+
+def test_folder_is_made_and_a_file_replaced(file, tmp_path):
+    path = tmp_path / "new" / "part.svg"
+    for _ in range(2):
+        exported(file, path)
+        assert [found.name for found in path.parent.iterdir()] == ["part.svg"]
+
+
+REFUSED = [
+    (
+        "part.xyz",
+        {},
+        r"part.xyz: .xyz is unknown; allowed: .stl, .3mf, .svg, .dxf, .csv, .pvd, .vtu",
+    ),
+    ("part", {}, "part: no ending is unknown; allowed: .stl"),
+    ("c.csv", {"panel": (0.1, 0.05)}, "c.csv shows no print; allowed with a panel or a kind: .stl"),
+    ("part.stl", {"kind": "settings"}, "part.stl has one kind only; allowed with a kind: .3mf"),
+    ("part.3mf", {"kind": "solid"}, 'kind "solid"; allowed: lattice, settings'),
+    ("part.stl", {"panel": (0.1,)}, "panel 0.1; allowed: two lengths above zero"),
+    ("part.stl", {"panel": (0.1, 0.0)}, "panel 0.1, 0.0; allowed: two lengths above zero"),
+    ("part.stl", {"panel": ("5 mm", "5 mm")}, "a panel of 5 mm holds no specimen"),
+]
+
+
+@pytest.mark.parametrize(("name", "wish", "why"), REFUSED)
+def test_refusals_leave_nothing(file, tmp_path, name, wish, why):
+    with pytest.raises(ExportError, match=why):
+        exported(file, tmp_path / name, **wish)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_unknown_case_is_named(file, tmp_path):
+    with pytest.raises(ExportError, match=r'trial.h5 holds no case "zz"'):
+        export_case(file, tmp_path / "part.stl", "zz")
+
+
+def test_case_that_failed_has_no_curves_and_says_why(tmp_path):
+    row = {"case_id": "ab", "status": "stopped", "message": "no equilibrium"}
+    file = write(tmp_path / "trial.h5", summary(row))
+    for ending, what in {".csv": "curves", ".pvd": "shapes", ".gif": "shapes"}.items():
+        with pytest.raises(ExportError, match=f"case ab has no {what}: no equilibrium"):
+            export_case(file, tmp_path / f"a{ending}", "ab")
+
+
+def test_damaged_config_is_told(tmp_path):
+    file = write(tmp_path / "trial.h5", summary({"case_id": "ab"}), {"config": "{"})
+    with pytest.raises(ExportError, match="is damaged: the config in it is no JSON"):
+        export_case(file, tmp_path / "a.stl", "ab")
+
+
+def test_failure_leaves_the_older_file(file, tmp_path, monkeypatch):
+    path = tmp_path / "part.svg"
+    path.write_text("older")
+
+    def fail(beside, *_):
+        beside.write_text("half")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setitem(module.WRITERS, ".svg", fail)
+    monkeypatch.setitem(module.PRINTS, ".svg", fail)
+    with pytest.raises(OSError, match="No space"):
+        exported(file, path)
+    assert [found.read_text() for found in tmp_path.iterdir()] == ["older"]
+
+
+def test_body_of_another_volume_is_refused(file, tmp_path, monkeypatch):
+    def swollen(network):
+        return shapely.buffer(original(network), 0.01)
+
+    from sweep.export import outline
+
+    original = outline.outline
+    monkeypatch.setattr(outline, "outline", swollen)
+    with pytest.raises(ExportError, match=r"mm\^3, but its mass / density is"):
+        exported(file, tmp_path / "part.stl")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_every_format_is_in_the_help(capsys):
+    from tests.support.command import crumple as call
+
+    _, told, _ = call(capsys, "export", "--help")
+    assert all(ending in told for ending in WRITERS)
