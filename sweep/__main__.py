@@ -26,6 +26,7 @@ EXAMPLES = """examples:
   crumple status results/armor.h5               what is done, what failed and why
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
   crumple show results/armor.h5                 the ids of all cases
+  crumple show results/armor.h5 1               pictures of the best design
   crumple show results/armor.h5 7a85            pictures of the case whose id begins with 7a85
   crumple accuracy accuracy/impact              error against run time, method by method
   crumple materials                             the materials, their numbers and sources
@@ -67,7 +68,8 @@ RANK_EXAMPLES = """examples:
   crumple rank F.h5 --out results/armor                     tables and figures in a folder
 """
 SHOW = """Draw one case: force against strain, the parts of its energy, and six deformed shapes.
-Without CASE: list the ids and the designs of all cases."""
+A CASE of at most three digits is a number in the ranking: of the first scene, or of --scene, within
+the first budget, or --budget. Without CASE: list the ids and the designs of all cases."""
 
 MATERIALS = """Without WORD: a table of the materials that come with Crumple. With names, also of
 your own .csv files: all that their files state, with sources. With the word plot: their curves of
@@ -159,6 +161,7 @@ def parser() -> Parser:
 
     status = verbs.add_parser("status", help="what is done, and what failed and why")
     status.add_argument("file", type=_path, metavar="F.h5")
+    status.add_argument("--json", action="store_true", help="as json on stdout")
 
     rank = verbs.add_parser(
         "rank", help="the best designs", description=RANK, epilog=RANK_EXAMPLES, formatter_class=raw
@@ -174,7 +177,14 @@ def parser() -> Parser:
 
     show = verbs.add_parser("show", help="draw a case", description=SHOW, formatter_class=raw)
     show.add_argument("file", type=_path, metavar="F.h5")
-    show.add_argument("case", metavar="CASE", nargs="?", help="id, or the beginning of one")
+    show.add_argument(
+        "case", metavar="CASE", nargs="?", help="number in the ranking, or beginning of an id"
+    )
+    show.add_argument(
+        "--scene", metavar="N", help="of a number: which table, or words of its title"
+    )
+    show.add_argument("--budget", nargs=1, metavar="MASS", help="of a number: its greatest mass")
+    show.set_defaults(panel=None, by=None, allowed_force=None, top=None)
     show.add_argument(
         "--out", type=_folder, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
     )

@@ -1,4 +1,4 @@
-"""Progress of a sweep: a bar on a terminal, elsewhere a line every few seconds."""
+"""Progress of a sweep on stderr: a bar on a terminal, elsewhere a line every few seconds."""
 
 import time
 from collections import deque
@@ -19,8 +19,8 @@ SENTENCES = 5  # different failures that are reported while the sweep runs
 
 
 def tell(line: str) -> None:
-    """Print one line before the progress starts."""
-    Console().print(line, markup=False, highlight=False, soft_wrap=True)
+    """Print one line on stderr before the progress starts."""
+    Console(stderr=True).print(line, markup=False, highlight=False, soft_wrap=True)
 
 
 class Progress:
@@ -33,7 +33,7 @@ class Progress:
     def __init__(
         self, costs: Mapping[str, float], done: int = 0, console: Console | None = None
     ) -> None:
-        self.console = console or Console()
+        self.console = console or Console(stderr=True)
         self.costs = costs
         self.total = done + len(costs)
         self.done, self.failed = done, 0
