@@ -9,6 +9,7 @@ import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from shlex import quote
 from typing import TYPE_CHECKING, Any
 
 from sweep.cli.terminal import (
@@ -42,6 +43,7 @@ REFUSALS = {
     f"{HOME}.coupon.record": "CouponError",
     f"{HOME}.cli.materials": "MaterialsError",
     f"{HOME}.cli.find_case": "CaseError",
+    f"{HOME}.cli.new": "NewError",
     f"{HOME}.store.read": "StoreError",
     f"{HOME}.running.dask_graph": "GraphError",
     f"{HOME}.ranking.rank": "RankError",
@@ -240,7 +242,25 @@ def materials(arguments: Namespace) -> int:
     return DONE
 
 
-VERBS = {verb.__name__: verb for verb in (run, accuracy, warm, status, rank, show, materials)}
+def new(arguments: Namespace) -> int:
+    """Write a first config."""
+    from sweep.cli.new import new as write
+
+    path = quote(str(write(arguments.name, arguments.kind, arguments.out)))
+    say(f"{path}: change it, then: crumple run {path} --dry-run")
+    return DONE
+
+
+def completion(arguments: Namespace) -> int:
+    """Print what a shell needs to complete words."""
+    from sweep.cli.completion import script
+
+    say(script(arguments.shell))
+    return DONE
+
+
+ALL = (run, accuracy, warm, status, rank, show, materials, new, completion)
+VERBS = {verb.__name__: verb for verb in ALL}
 
 
 def _config(name: str) -> Config:
