@@ -15,7 +15,9 @@ if TYPE_CHECKING:
     from sweep.ranking.merit import RankError
     from sweep.ranking.rank import rank, ranked
     from sweep.ranking.ranking import Ranking
+    from sweep.report.results import Picture, Results
     from sweep.result import Result, Status
+    from sweep.running.run import run
     from sweep.running.sweep import Interrupted, run_sweep
     from sweep.simulation.simulate import simulate
     from sweep.store.read import Rerun, StoreError, read_frames, read_history, read_summary
@@ -26,10 +28,12 @@ __all__ = [
     "Config",
     "ConfigError",
     "Interrupted",
+    "Picture",
     "RankError",
     "Ranking",
     "Rerun",
     "Result",
+    "Results",
     "Status",
     "StoreError",
     "__version__",
@@ -40,6 +44,7 @@ __all__ = [
     "read_frames",
     "read_history",
     "read_summary",
+    "run",
     "run_sweep",
     "simulate",
 ]
@@ -49,10 +54,12 @@ _HOME = {
     "Config": "config.grid",
     "ConfigError": "config.grid",
     "Interrupted": "running.sweep",
+    "Picture": "report.results",
     "RankError": "ranking.merit",
     "Ranking": "ranking.ranking",
     "Rerun": "store.read",
     "Result": "result",
+    "Results": "report.results",
     "Status": "result",
     "StoreError": "store.read",
     "__version__": "version",
@@ -63,6 +70,7 @@ _HOME = {
     "read_frames": "store.read",
     "read_history": "store.read",
     "read_summary": "store.read",
+    "run": "running.run",
     "run_sweep": "running.sweep",
     "simulate": "simulation.simulate",
 }
