@@ -1,7 +1,7 @@
 """Crumple: which printed infill absorbs the most energy per gram?
 
 A config defines a sweep; every combination of its grid is a case. `simulate` crushes one case and
-returns a `Result`; `run_sweep` crushes all cases and stores the results in a file:
+returns a `Result`; `run` crushes all cases, stores the results in a file and returns them:
 
     import crumple
 
@@ -10,11 +10,14 @@ returns a `Result`; `run_sweep` crushes all cases and stores the results in a fi
     result = crumple.simulate(case)
     print(result.status, result.summary["absorbed_energy_J"], result.history["reaction_top_N"])
 
-    crumple.run_sweep(config, "results/smoke.h5")
-    summary = crumple.read_summary("results/smoke.h5")  # a DataFrame: a row per case
-    print(crumple.rank(summary, budget="2 g"))
+    results = crumple.run(config)  # in results/smoke.h5; run_sweep does no more than write
+    print(results.table, results.curve(0))  # DataFrames: a row per case, a row per step
+    print(crumple.rank(results.table, budget="2 g"))
+    results.plot(0).save("force.png")  # a notebook shows results.plot(0), results.plot()
+    results = crumple.Results("results/smoke.h5")  # the same again, later
 
-Quantities are numbers in SI, or text with a unit. `crumple --help` explains the command line. Each
+In tables, units are in the names of columns; in `Case` and its parts numbers are in SI. A ranking
+takes text with units. `crumple --help` explains the command line. Each
 name is loaded when it is first used.
 """
 

@@ -18,7 +18,9 @@ if TYPE_CHECKING:
     from sweep.ranking.merit import RankError
     from sweep.ranking.rank import rank, ranked
     from sweep.ranking.ranking import Ranking
+    from sweep.report.results import Picture, Results
     from sweep.result import Result, Status
+    from sweep.running.run import run
     from sweep.running.sweep import Interrupted, run_sweep
     from sweep.simulation.simulate import simulate
     from sweep.store.read import Rerun, StoreError, read_frames, read_history, read_summary
@@ -31,10 +33,12 @@ __all__ = [
     "ExportError",
     "Exported",
     "Interrupted",
+    "Picture",
     "RankError",
     "Ranking",
     "Rerun",
     "Result",
+    "Results",
     "Status",
     "StoreError",
     "__version__",
@@ -46,6 +50,7 @@ __all__ = [
     "read_frames",
     "read_history",
     "read_summary",
+    "run",
     "run_sweep",
     "simulate",
 ]
@@ -57,10 +62,12 @@ _HOME = {
     "ExportError": "export.errors",
     "Exported": "export.export",
     "Interrupted": "running.sweep",
+    "Picture": "report.results",
     "RankError": "ranking.merit",
     "Ranking": "ranking.ranking",
     "Rerun": "store.read",
     "Result": "result",
+    "Results": "report.results",
     "Status": "result",
     "StoreError": "store.read",
     "__version__": "version",
@@ -72,6 +79,7 @@ _HOME = {
     "read_frames": "store.read",
     "read_history": "store.read",
     "read_summary": "store.read",
+    "run": "running.run",
     "run_sweep": "running.sweep",
     "simulate": "simulation.simulate",
 }

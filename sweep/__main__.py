@@ -14,10 +14,14 @@ from pathlib import Path
 from textwrap import fill
 from typing import Any, NoReturn
 
+from sweep.cli.completion import SHELLS, cases, columns, complete, configs, offer, results
+from sweep.cli.completion import materials as material_words
+from sweep.cli.new import KINDS
 from sweep.config.examples import examples
 
 ABOUT = "Which printed infill absorbs the most energy per gram?"
 EXAMPLES = """examples:
+  crumple new bumper                            write bumper.toml, a config to be changed
   crumple run armor --dry-run                   how many cases, how long, how much disk
   crumple run armor                             simulate; after a stop, the same command continues
   crumple run armor --error-bars                also estimate the error of each number, and ties
@@ -27,10 +31,12 @@ EXAMPLES = """examples:
   crumple status results/armor.h5               what is done, what failed and why
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
   crumple show results/armor.h5                 the ids of all cases
+  crumple show results/armor.h5 1               pictures of the best design
   crumple show results/armor.h5 7a85            pictures of the case whose id begins with 7a85
   crumple export results/armor.h5 7a85 --to part.stl      to print; also .3mf .svg .dxf .csv .gif
   crumple accuracy accuracy/impact              error against run time, method by method
   crumple materials                             the materials, their numbers and sources
+  crumple completion bash                       let the shell complete words: see its --help
 
 armor, search and accuracy/impact are examples that come with Crumple; your own is a file: mine.toml
 
@@ -81,8 +87,16 @@ RANK_EXAMPLES = """examples:
   crumple rank F.h5 --csv > ranking.csv
   crumple rank F.h5 --out results/armor                     tables and figures in a folder
 """
+NEW = """Write a config with comments that runs as it is: a crush, a drop of a rigid striker, or a
+dead load. A file that is there already is left as it is."""
+COMPLETION = """Print what a shell needs to complete the words of crumple: verbs, options, examples,
+results files, columns and ids. To use it:
+  bash   eval "$(crumple completion bash)"             in ~/.bashrc
+  zsh    eval "$(crumple completion zsh)"              in ~/.zshrc, after compinit
+  fish   crumple completion fish > ~/.config/fish/completions/crumple.fish"""
 SHOW = """Draw one case: force against strain, the parts of its energy, and six deformed shapes.
-Without CASE: list the ids and the designs of all cases."""
+A CASE of at most three digits is a number in the ranking: of the first scene, or of --scene, within
+the first budget, or --budget. Without CASE: list the ids and the designs of all cases."""
 EXPORT = """Write one case as a file for another program, in the format that its ending names:
   .stl .3mf     the print as a closed body, as heavy as the ranking says
   .svg .dxf     its outline, in mm
@@ -150,7 +164,7 @@ def parser() -> Parser:
     run = verbs.add_parser(
         "run", help="simulate a sweep", description=RUN, epilog=known, formatter_class=raw
     )
-    run.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG)
+    offer(run.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG), configs)
     run.add_argument(
         "--out", type=_results, metavar="F.h5", help="results file (default: results/NAME.h5)"
     )
@@ -177,7 +191,7 @@ def parser() -> Parser:
     accuracy = verbs.add_parser(
         "accuracy", help="error against run time", description=ACCURACY, formatter_class=raw
     )
-    accuracy.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG)
+    offer(accuracy.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG), configs)
     accuracy.add_argument(
         "--out",
         type=_folder,
@@ -190,12 +204,13 @@ def parser() -> Parser:
     verbs.add_parser("warm", help="compile the kernels", description=WARM, formatter_class=raw)
 
     status = verbs.add_parser("status", help="what is done, and what failed and why")
-    status.add_argument("file", type=_path, metavar="F.h5")
+    offer(status.add_argument("file", type=_path, metavar="F.h5"), results)
+    status.add_argument("--json", action="store_true", help="as json on stdout")
 
     rank = verbs.add_parser(
         "rank", help="the best designs", description=RANK, epilog=RANK_EXAMPLES, formatter_class=raw
     )
-    rank.add_argument("file", type=_path, metavar="F.h5")
+    offer(rank.add_argument("file", type=_path, metavar="F.h5"), results)
     _add_question(rank)
     shape = rank.add_mutually_exclusive_group()
     for name, what in {"csv": "all columns", "json": "all columns", "markdown": "tables"}.items():
@@ -205,13 +220,22 @@ def parser() -> Parser:
     )
 
     show = verbs.add_parser("show", help="draw a case", description=SHOW, formatter_class=raw)
-    show.add_argument("file", type=_path, metavar="F.h5")
-    show.add_argument("case", metavar="CASE", nargs="?", help="id, or the beginning of one")
+    offer(show.add_argument("file", type=_path, metavar="F.h5"), results)
+    case = show.add_argument(
+        "case", metavar="CASE", nargs="?", help="number in the ranking, or beginning of an id"
+    )
+    offer(case, cases)
+    show.add_argument(
+        "--scene", metavar="N", help="of a number: which table, or words of its title"
+    )
+    show.add_argument("--budget", nargs=1, metavar="MASS", help="of a number: its greatest mass")
+    show.set_defaults(panel=None, by=None, allowed_force=None, top=None)
     show.add_argument(
         "--out", type=_folder, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
     )
     _add_export(verbs)
     _add_materials(verbs)
+    _add_helpers(verbs)
     return main
 
 
@@ -280,13 +304,29 @@ def _add_materials(verbs: Any) -> None:
         epilog=MATERIALS_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    materials.add_argument(
+    words = materials.add_argument(
         "words", type=_path, metavar="WORD", nargs="*", help="NAME ..., plot [NAME ...], fit F.csv"
     )
+    offer(words, material_words)
     materials.add_argument("--out", type=_path, metavar="FILE", help="of plot: .png; of fit: .csv")
     materials.add_argument("--gauge", metavar="LENGTH", help="of displacement_mm: strain's length")
     materials.add_argument("--area", metavar="AREA", help='of force_N: section, such as "8 mm^2"')
     materials.add_argument("--density", metavar="DENSITY", help="of a fit; assumed if not given")
+
+
+def _add_helpers(verbs: Any) -> None:
+    """Add the verbs that write a first config, and what a shell needs to complete words."""
+    new = verbs.add_parser("new", help="write a first config", description=NEW)
+    new.add_argument("name", metavar="NAME", help="of the sweep, such as bumper")
+    new.add_argument("--kind", choices=KINDS, default="crush", help="of loading (default: crush)")
+    new.add_argument("--out", type=_path, metavar="FILE", help="file to write (default: NAME.toml)")
+    completion = verbs.add_parser(
+        "completion",
+        help="complete words in a shell",
+        description=COMPLETION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    completion.add_argument("shell", choices=SHELLS)
 
 
 def _add_question(rank: argparse.ArgumentParser) -> None:
@@ -297,7 +337,8 @@ def _add_question(rank: argparse.ArgumentParser) -> None:
     rank.add_argument(
         "--panel", nargs=2, metavar="LENGTH", help='area to fill with specimens: "100 mm" "50 mm"'
     )
-    rank.add_argument("--by", metavar="COLUMN", help="sort by this column of the summary")
+    by = rank.add_argument("--by", metavar="COLUMN", help="sort by this column of the summary")
+    offer(by, columns)
     rank.add_argument("--top", type=_count, metavar="N", help="places shown: 10, or 3 per budget")
     rank.add_argument(
         "--allowed-force", metavar="FORCE", help='count energy up to this force: "50 N"'
@@ -335,7 +376,9 @@ def _results(text: str) -> str:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one verb and return the exit status."""
-    arguments = parser().parse_args(argv)
+    known = parser()
+    complete(known)
+    arguments = known.parse_args(argv)
     from sweep.cli import verbs
 
     warnings.formatwarning = lambda message, *_: f"crumple: {message}\n"  # without a place in ours

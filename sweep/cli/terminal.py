@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping
+from shlex import quote
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
@@ -61,6 +62,20 @@ def warnings(file: str, ranking: Ranking) -> Iterator[str]:
         yield f"{some}, not in solid joints: see solid_joint_share."
     if ranking.failed:
         yield f"{ranking.failed} of {ranking.cases} cases failed: crumple status {file} says why"
+
+
+def next_commands(file: str, summary: DataFrame) -> Iterator[str]:
+    """Where the results are, and the commands that a user may want next."""
+    from sweep.result import Status
+
+    yield f"results: {file}"
+    name = quote(file)
+    if (summary["status"] == Status.CONVERGED).any():
+        yield f"next: crumple show {name} 1: pictures of the best design"
+        folder = quote(file.removesuffix(".h5"))
+        yield f"      crumple rank {name} --out {folder}: tables and pictures"
+    else:
+        yield f"next: crumple status {name}: what failed, and why"
 
 
 def _counted(count: int, noun: str) -> str:

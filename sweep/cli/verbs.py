@@ -9,9 +9,18 @@ import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from shlex import quote
 from typing import TYPE_CHECKING, Any
 
-from sweep.cli.terminal import print_ranking, print_sheets, say, say_all, version_counts, warnings
+from sweep.cli.terminal import (
+    next_commands,
+    print_ranking,
+    print_sheets,
+    say,
+    say_all,
+    version_counts,
+    warnings,
+)
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -34,6 +43,8 @@ REFUSALS = {
     f"{HOME}.coupon.record": "CouponError",
     f"{HOME}.cli.materials": "MaterialsError",
     f"{HOME}.cli.optimize": "OptimizeError",
+    f"{HOME}.cli.find_case": "CaseError",
+    f"{HOME}.cli.new": "NewError",
     f"{HOME}.store.read": "StoreError",
     f"{HOME}.export.errors": "ExportError",
     f"{HOME}.running.dask_graph": "GraphError",
@@ -83,6 +94,7 @@ def run(arguments: Namespace) -> int:
     question = _question(config.rank.budgets, config.rank.panel)
     print_ranking(out, read_summary(out), question)
     failed += _spread(config, out, how, question) if arguments.spread else 0
+    _hint(next_commands(out, read_summary(out)))
     return SOME_FAILED if failed else DONE
 
 
@@ -153,6 +165,11 @@ def status(arguments: Namespace) -> int:
     from sweep.store.read import read_attributes, read_summary
 
     summary, about = read_summary(arguments.file), read_attributes(arguments.file)
+    if arguments.json:
+        from sweep.cli.status_json import status_record
+
+        say(json.dumps(status_record(arguments.file, summary, about), indent=2))
+        return _exit_status(summary)
     counts = summary["status"].value_counts()
     say(f"{arguments.file}: {len(summary)} cases")
     say_all(f"{count:7d} {name}" for name, count in counts.items())
@@ -202,16 +219,21 @@ def rank(arguments: Namespace) -> int:
 
 def show(arguments: Namespace) -> int:
     """Draw one case, or list all cases."""
+    from sweep.cli.find_case import is_number
     from sweep.report.sheets import case_sheet, describe_case
     from sweep.store.read import read_summary
 
     summary = read_summary(arguments.file)
+    of_a_number = arguments.scene or arguments.budget
+    if of_a_number and not (arguments.case and is_number(arguments.case)):
+        raise ArgumentError("--scene and --budget belong to a number in the ranking")
     if arguments.case is None:
         print_sheets([case_sheet(summary)])
         return DONE
     from sweep.report.publish import publish_case
 
-    row = _find_case(summary, arguments.case)
+    row, taken = _named(arguments, summary)
+    say_all([taken] if taken else [])
     folder = Path(arguments.out or Path(arguments.file).with_suffix("") / row["case_id"])
     say(f"case {row['case_id']}, {describe_case(row, summary)}: {row['status']}")
     say_all([row["message"]] if row["message"] else [])
@@ -249,10 +271,28 @@ def materials(arguments: Namespace) -> int:
     return DONE
 
 
-VERBS = {
-    verb.__name__: verb
-    for verb in (run, optimize, accuracy, warm, status, rank, show, export, materials)
-}
+def new(arguments: Namespace) -> int:
+    """Write a first config."""
+    from sweep.cli.new import new as write
+
+    path = quote(str(write(arguments.name, arguments.kind, arguments.out)))
+    say(f"{path}: change it, then: crumple run {path} --dry-run")
+    return DONE
+
+
+def completion(arguments: Namespace) -> int:
+    """Print what a shell needs to complete words."""
+    from sweep.cli.completion import script
+
+    say(script(arguments.shell))
+    return DONE
+
+
+ALL = (
+    *(run, optimize, accuracy, warm, status, rank, show, export),
+    *(materials, new, completion),
+)
+VERBS = {verb.__name__: verb for verb in ALL}
 
 
 def _config(name: str) -> Config:
@@ -261,9 +301,10 @@ def _config(name: str) -> Config:
 
     config = load_config(name)
     if config.path != Path(name):
-        say(f"example {name}: {config.path} (copy it to change it)")
+        _hint([f"example {name}: {config.path} (copy it to change it)"])
     if config.unprintable:
-        say(f"left out {config.unprintable:,} combinations, which do not print (lattice.printable)")
+        left_out = f"{config.unprintable:,} combinations, which do not print"
+        _hint([f"left out {left_out} (lattice.printable)"])
     return config
 
 
@@ -279,7 +320,22 @@ def _writing(folder: Path) -> Iterator[None]:
 
 def _warn(file: str, ranking: Ranking) -> None:
     """Print the warnings of a ranking on stderr, so that stdout has only the ranking."""
-    sys.stderr.writelines(f"{line}\n" for line in warnings(file, ranking))
+    _hint(warnings(file, ranking))
+
+
+def _hint(lines: Iterable[str]) -> None:
+    """Print lines on stderr, after what is on stdout."""
+    sys.stdout.flush()
+    sys.stderr.writelines(f"{line}\n" for line in lines)
+
+
+def _named(arguments: Namespace, summary: DataFrame) -> tuple[Series, str]:
+    """The row that CASE names, and a sentence about its place if CASE is a number."""
+    from sweep.cli.find_case import by_id, by_number, is_number
+
+    if not is_number(arguments.case):
+        return by_id(summary, arguments.case), ""
+    return by_number(summary, int(arguments.case), arguments.scene, _asked(arguments))
 
 
 def _asked(arguments: Namespace) -> dict[str, Any]:
@@ -356,17 +412,6 @@ def _versions(summary: DataFrame) -> Iterator[str]:
     revisions = summary["git_revision"].replace("", "a revision not recorded").value_counts()
     if len(revisions) > 1:
         yield "computed with " + ", ".join(f"{name} ({n})" for name, n in revisions.items())
-
-
-def _find_case(summary: DataFrame, prefix: str) -> Series:
-    """The only row whose id begins with ``prefix``."""
-    found = summary[summary["case_id"].str.startswith(prefix)]
-    if len(found) == 1:
-        return found.iloc[0]
-    if found.empty:
-        raise ArgumentError(f'no case "{prefix}"; without CASE, show lists all {len(summary)} ids')
-    ids = ", ".join(found["case_id"].head(4)) + (" ..." if len(found) > 4 else "")
-    raise ArgumentError(f'"{prefix}" begins {len(found)} ids: {ids}')
 
 
 def _exit_status(summary: DataFrame) -> int:

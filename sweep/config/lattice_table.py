@@ -8,7 +8,7 @@ from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from sweep.config.structure import Structure
-from sweep.config.structure_file import read_structure
+from sweep.config.structure_file import faults, read_structure
 from sweep.config.tables import Few, Length, Mass, Size, Table, refusal
 from sweep.design.geometry import Geometry
 from sweep.design.infill import families, trait
@@ -52,7 +52,8 @@ class Lattice(Table):
     None: not used, or filled in. `infill` replaces the cells and `wall_thickness`: the share of the
     box that lines of `line_width` fill, as slicers count. `mass` replaces `wall_thickness`, which
     `sized` computes. A lattice of kind "custom" is the `structure` in `file`, which is connected;
-    box and thickness are measured from it.
+    box and thickness are measured from it; a given `wall_thickness` scales all of its walls, so
+    that it is their mean.
     slicer: the infill is laid as this slicer lays it, in a `pattern` of the slicer's own name,
     within `perimeters`; the layers are stacked along `depth`. `infill`, or the `mass` as extruded,
     then sets `fill_distance`, that of parallel lines. printable: what does not print is refused, by
@@ -94,7 +95,9 @@ class Lattice(Table):
     solid_layers: Lines = 0
     layer_height: Length | None = None
     nodes_per_wall: Annotated[int, Field(ge=0, le=1000)] = 2
-    imperfection: Annotated[float, Field(ge=0, le=100)] = 0.01
+    imperfection: Annotated[
+        float, Field(ge=0, le=100, json_schema_extra={"unit": "1", "bare": True})
+    ] = 0.01
 
     @model_validator(mode="before")
     @classmethod
@@ -103,7 +106,10 @@ class Lattice(Table):
             return given
         if given.get("file") is None:
             raise refusal("lattice.file", None, "the path of a .json file, as the kind is custom")
-        return {**given, "structure": read_structure(Path(given["file"]))}
+        structure = read_structure(Path(given["file"]))
+        if (thickness := given.get("wall_thickness")) is not None:
+            structure = _scaled(structure, thickness)
+        return {**given, "structure": structure}
 
     @model_validator(mode="after")
     def _complete(self) -> Self:
@@ -307,6 +313,16 @@ class Lattice(Table):
             return self.width, self.height
         sides, caps = (outline or self.wall_thickness for outline in self.outline)
         return self.width + sides, self.height + caps
+
+
+def _scaled(structure: Structure, thickness: float) -> Structure:
+    """A structure whose walls are as thick on average as `thickness` (m)."""
+    if not thickness > 0.0:
+        return structure  # refused as a value of its key
+    made = structure.with_thickness(float(f"{1e3 * thickness:.15g}"))
+    if wrong := next(faults(made), None):
+        raise refusal("lattice.wall_thickness", thickness, f"one that fits the structure ({wrong})")
+    return made
 
 
 def be_in_proportion(lattice: Lattice) -> None:

@@ -14,8 +14,9 @@ from pydantic import ValidationError
 from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import TABLES
 from sweep.config.grid import Axes, Config, Fault, Values
-from sweep.config.keys import ALIASES, Key, case_keys, nearest, table_keys
+from sweep.config.keys import ALIASES, Key, case_keys, table_keys
 from sweep.config.material_file import RecordError, UnknownMaterialError, locate, read_record
+from sweep.config.other_names import meant, present_choice
 from sweep.config.renamed import present
 from sweep.config.structure_file import StructureError, read_structure
 from sweep.config.tables import Rank, rounded
@@ -244,8 +245,8 @@ class Reader:
             return None
 
     def _unknown(self, name: str, raw: Any, known: Iterable[str], where: str = "") -> None:
-        near = nearest(name, known)
-        self._refuse(name, raw, f"unknown key; the nearest is {near}", where, about=near)
+        near, clause = meant(name, known)
+        self._refuse(name, raw, f"unknown key; {clause}", where, about=near)
 
     def _refuse(self, name: str, raw: Any, wrong: str, where: str = "", about: str = "") -> None:
         line = f"{where} {_one_line(name)} = {in_words(raw)}: {wrong}".lstrip()
@@ -257,6 +258,7 @@ class Reader:
             return _material(raw, self.folder)
         if key.targets == ("lattice.file",) and isinstance(raw, str):
             return _structure(self.folder / raw)
+        raw = present_choice(key.targets[0], raw)
         many = isinstance(raw, list)
         if many and not key.is_list:
             raise ValueError("a list, which belongs in [grid]")

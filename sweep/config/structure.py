@@ -84,6 +84,14 @@ class Structure(Part):
         given = self.wall_thickness_mm
         return given if isinstance(given, tuple) else (given,) * len(self.walls)
 
+    def with_thickness(self, mean_mm: float) -> "Structure":
+        """The structure with all walls thicker by one factor, so that their mean is `mean_mm`."""
+        each = self.thickness_mm
+        factor = mean_mm * len(each) / sum(each)
+        alike = min(each) == max(each)
+        made = mean_mm if alike else tuple(factor * thickness for thickness in each)
+        return self.model_copy(update={"wall_thickness_mm": made})
+
     @property
     def pieces(self) -> tuple[int, ...]:
         """Number of elements of every wall."""

@@ -42,7 +42,7 @@ def read_structure(path: Path) -> Structure:
         raise StructureError([f"not JSON ({error})"]) from None
     except RecursionError:
         raise StructureError(["not JSON (nested too deeply)"]) from None
-    lines = list(_faults(found))
+    lines = list(faults(found))
     if lines:
         raise StructureError(lines)
     return found
@@ -88,7 +88,7 @@ def _fault(loc: Sequence[str | int], value: object, wrong: str) -> str:
     return f"{_where(loc)} = {text if len(text) <= 60 else f'{text[:57]}...'}: {wrong}"
 
 
-def _faults(structure: Structure) -> Iterator[str]:
+def faults(structure: Structure) -> Iterator[str]:
     """The faults of a structure of valid form."""
     unknown = list(_unknown_nodes(structure))
     if unknown:

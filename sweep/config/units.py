@@ -7,7 +7,7 @@ import re
 import sys
 import tomllib
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import lru_cache
 from math import isfinite
 from os import PathLike
@@ -18,6 +18,7 @@ from sweep.config.examples import examples, find_config
 from sweep.config.grid import MAX_CASES, Config, ConfigError, Fault, case_count, check, expand
 from sweep.config.keys import QUANTITIES
 from sweep.config.reader import Reader, in_words
+from sweep.config.unclosed import unclosed
 
 __all__ = ["MAX_CASES", "Config", "ConfigError", "case_count", "expand", "load_config", "quantity"]
 
@@ -86,8 +87,15 @@ def _document(path: Path) -> dict[str, Any]:
         needed = f"a TOML file, or an example: {', '.join(examples())}"
         wrong = f"cannot be read ({error.strerror}); needed: {needed}"
     except (ValueError, RecursionError) as error:
-        wrong = f"not TOML ({error})"
+        wrong = f"not TOML ({_open_place(path) or error})"
     raise ConfigError([Fault("path", f"{path}: {wrong}")])
+
+
+def _open_place(path: Path) -> str | None:
+    """What a file that is no TOML does not close, with its line; None if it has another fault."""
+    with suppress(ValueError):  # no text
+        return unclosed(path.read_text(encoding="utf-8"))
+    return None
 
 
 def _converted(text: object, unit: str) -> float:

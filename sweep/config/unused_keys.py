@@ -10,7 +10,10 @@ from sweep.config.structure import Structure
 
 PLASTICITY = ("material.hardening", "material.fracture_strain")
 SOFTENING = ("material.softening_m", "material.softening_beta")
-OF_STRUCTURE = ("lattice.kind", "lattice.file", "lattice.nozzle", "lattice.printable")
+OF_STRUCTURES = (
+    *("lattice.kind", "lattice.file", "lattice.wall_thickness"),
+    *("lattice.nozzle", "lattice.printable"),
+)
 STEADY = "the stress of the material does not depend on time: it has neither loss nor relaxation"
 
 
@@ -47,7 +50,7 @@ def _unused_part(structure: Structure, case: Case) -> str:
 def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
     """Why the given value of a key has no effect in a case; empty if it has an effect."""
     if case.lattice.structure is not None and key.split(".")[0] == "lattice":
-        return "" if key in OF_STRUCTURE else 'lattice.kind is "custom"'
+        return "" if key in OF_STRUCTURES else 'lattice.kind is "custom"'
     table, name = key.split(".")
     resolved = getattr(getattr(case, table), name)
     if key == "material.reference_time" and not case.material.relaxes:

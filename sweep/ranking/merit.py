@@ -10,7 +10,7 @@ factor = panel area / (w b),  panel mass = factor mass,  panel energy = factor e
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sweep.result import (
@@ -140,6 +140,16 @@ def in_si(value: Any, unit: str) -> float:
         written = value if isinstance(value, str) else f"{value:g} {unit}"
         raise RankError(f"{written}: budgets, panels and forces must be above zero")
     return float(number)
+
+
+def be_written(given: Mapping[str, Any]) -> None:
+    """Refuse arguments with a number that has no unit."""
+    examples = {"budget": "25 g", "panel": "100 mm", "allowed_force": "50 N"}
+    for name, value in given.items():
+        for item in [value] if isinstance(value, str) or not isinstance(value, Iterable) else value:
+            if not isinstance(item, str | None):
+                allowed = f'text with a unit, such as "{examples[name]}"'
+                raise RankError(f"{name} = {item!r}: a bare number; allowed: {allowed}")
 
 
 def _counted(

@@ -17,7 +17,16 @@ import pandas as pd
 from pandas import DataFrame, Series
 
 from sweep.numbers import NOTHING, energy_text, short, with_unit
-from sweep.ranking.merit import LEAST, Compared, Quantity, RankError, greatest_mass, in_si, merits
+from sweep.ranking.merit import (
+    LEAST,
+    Compared,
+    Quantity,
+    RankError,
+    be_written,
+    greatest_mass,
+    in_si,
+    merits,
+)
 from sweep.ranking.ranking import Ranking
 from sweep.result import (
     OLDER,
@@ -87,9 +96,9 @@ def rank(
     Parameters
     ----------
     source : results file, or a summary from `read_summary`.
-    budget : greatest mass (kg, or text with a unit) of the panel, or of the specimen without panel.
-        Several budgets give one ranking each, distinguished by the column `budget_g`.
-    panel : the two lengths (m, or text with a unit) of the area that the specimens fill.
+    budget : greatest mass of the panel, or of the specimen without panel: text with a unit, such as
+        "25 g". Several budgets give one ranking each, distinguished by the column `budget_g`.
+    panel : the two lengths of the area that the specimens fill, such as ("100 mm", "50 mm").
     by : column to sort by, the better values first (`Column.better`); a column without better
         values is refused. Default: under a dead load the least strain, under a striker the least
         force on the support (`merit.LEAST`). Otherwise the greatest energy absorbed until the
@@ -97,8 +106,10 @@ def rank(
         `absorbed_energy_J` or `specific_absorption_J_per_g`, energy is counted to full stroke, with
         `absorbed_energy_at_densification_J` or the same per gram to the greatest efficiency.
     top : number of designs listed for each scene and budget; None lists all.
-    allowed_force : count energy only up to this force (N, or text) of one specimen; this needs the
-        column `absorbed_energy_at_..N_J`.
+    allowed_force : count energy only up to this force of one specimen, such as "50 N"; this needs
+        the column `absorbed_energy_at_..N_J`.
+
+    A bare number is refused; `ranked` takes numbers too, in kg, m and N.
 
     Returns
     -------
@@ -124,6 +135,7 @@ def rank(
 
     `attrs` holds the other fields of `Ranking`, for one more release; use `ranked` for them.
     """
+    be_written({"budget": budget, "panel": panel, "allowed_force": allowed_force})
     ranking = ranked(source, budget, panel, by, top, allowed_force)
     others = {field.name: getattr(ranking, field.name) for field in fields(ranking)[1:]}
     ranking.table.attrs = others | {"budgets_g": list(ranking.budgets_g)}
@@ -138,7 +150,7 @@ def ranked(
     top: int | None = 10,
     allowed_force: Quantity | None = None,
 ) -> Ranking:
-    """The `Ranking` whose table `rank` returns for the same arguments."""
+    """The `Ranking` whose table `rank` returns for the same arguments; numbers are in SI."""
     summary = source if isinstance(source, DataFrame) else _read(source)
     finished = summary[summary["status"] == Status.CONVERGED]
     compared, names = merits(finished, by, panel, allowed_force)

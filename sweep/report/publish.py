@@ -41,10 +41,7 @@ def publish_ranking(
 
     question : keyword arguments of `rank`.
     """
-    shown = ranked(summary, **question)
-    unlimited = question["budget"] and [inf]  # a budget, so that designs are sorted by J, not J/g
-    every = ranked(summary, **{**question, "budget": unlimited, "top": None})
-    ranking = replace(every, budgets_g=shown.budgets_g)
+    shown, ranking = _shown_and_all(summary, question)
     folder.mkdir(parents=True, exist_ok=True)
     text, table = folder / "ranking.md", folder / "ranking.csv"
     tables = markdown(ranking_sheets(shown, summary))
@@ -53,6 +50,19 @@ def publish_ranking(
     ranking.table.to_csv(table, index=False)
     figures = _sweep_figures(file, shown, ranking)
     return [text, table, *(case_plots.save(fig, folder / f"{name}.png") for name, fig in figures)]
+
+
+def ranking_figures(file: str, summary: DataFrame, question: Mapping[str, Any]) -> Named:
+    """The figures of a ranking, each with its name."""
+    yield from _sweep_figures(file, *_shown_and_all(summary, question))
+
+
+def _shown_and_all(summary: DataFrame, question: Mapping[str, Any]) -> tuple[Ranking, Ranking]:
+    """The ranking that is asked for, and the same of all designs of any mass."""
+    shown = ranked(summary, **question)
+    unlimited = question["budget"] and [inf]  # a budget, so that designs are sorted by J, not J/g
+    every = ranked(summary, **{**question, "budget": unlimited, "top": None})
+    return shown, replace(every, budgets_g=shown.budgets_g)
 
 
 def publish_accuracy(file: Path, case_ids: Iterable[str]) -> tuple[list[Sheet], list[Path]]:
@@ -79,7 +89,7 @@ def publish_accuracy(file: Path, case_ids: Iterable[str]) -> tuple[list[Sheet], 
 
 def publish_case(file: str, row: Series, folder: Path) -> list[Path]:
     """Draw one case: its force, its energies and six of its shapes, up to its last step."""
-    figures = _case_figures(file, row)
+    figures = case_figures(file, row)
     return [case_plots.save(figure, folder / f"{name}.png") for name, figure in figures]
 
 
@@ -142,7 +152,7 @@ def _winners(file: str, shown: DataFrame, designs: DataFrame) -> dict[str, dict[
     return winners
 
 
-def _case_figures(file: str, row: Series) -> Named:
+def case_figures(file: str, row: Series) -> Named:
     """Figures of the curves and shapes of a case, if it has any."""
     history, frames = read_history(file, row["case_id"]), read_frames(file, row["case_id"])
     if len(history) > 1:

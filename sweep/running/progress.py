@@ -1,10 +1,13 @@
-"""Progress of a sweep: a bar on a terminal, elsewhere a line every few seconds."""
+"""Progress of a sweep on stderr: a bar on a terminal, elsewhere a line every few seconds,
+and in a notebook one line that is replaced.
+"""
 
 import time
 from collections import deque
 from collections.abc import Mapping, Sequence
 from datetime import timedelta
-from typing import Self
+from importlib import import_module
+from typing import Any, Self
 
 from rich.console import Console
 from rich.progress import BarColumn, SpinnerColumn, TextColumn, TimeElapsedColumn
@@ -13,14 +16,30 @@ from rich.progress import Progress as Bar
 from sweep.result import Result, Status
 
 PERIOD = 5.0  # seconds between plain lines
+NOTEBOOK_PERIOD = 0.5
 RECENT = 60.0  # last seconds, from which the pace is measured
 FIRM = 4.0  # seconds of measurement needed for the time left, since the first cases are short
 SENTENCES = 5  # different failures that are reported while the sweep runs
 
 
 def tell(line: str) -> None:
-    """Print one line before the progress starts."""
-    Console().print(line, markup=False, highlight=False, soft_wrap=True)
+    """Print one line on stderr before the progress starts."""
+    Console(stderr=True).print(line, markup=False, highlight=False, soft_wrap=True)
+
+
+class NotebookLine:
+    """A line in the output of a cell, which is replaced when it changes."""
+
+    def __init__(self) -> None:
+        self._shown: Any = None
+
+    def show(self, text: str) -> None:
+        """Show a text, the first time below what the cell has printed."""
+        data = {"text/plain": text}
+        if self._shown is None:
+            self._shown = import_module("IPython.display").display(data, raw=True, display_id=True)
+        else:
+            self._shown.update(data, raw=True)
 
 
 class Progress:
@@ -33,7 +52,7 @@ class Progress:
     def __init__(
         self, costs: Mapping[str, float], done: int = 0, console: Console | None = None
     ) -> None:
-        self.console = console or Console()
+        self.console = console or Console(stderr=True)
         self.costs = costs
         self.total = done + len(costs)
         self.done, self.failed = done, 0
@@ -41,6 +60,8 @@ class Progress:
         self._recent: deque[tuple[float, int, float]] = deque()  # time, cases done, cost left
         self._printed, self._last = 0.0, ""  # time and text of the last plain line
         self._sentences: set[str] = set()
+        self._notebook = NotebookLine() if self.console.is_jupyter else None
+        self._period = NOTEBOOK_PERIOD if self._notebook else PERIOD
         self._bar = Bar(
             SpinnerColumn(),
             BarColumn(),
@@ -58,7 +79,7 @@ class Progress:
     def __exit__(self, *_: object) -> None:
         self._bar.stop()
         if not self.console.is_terminal and self._last != self._line():
-            self._say(self._line())
+            self._update(self._line())
 
     def advance(self, results: Sequence[Result]) -> None:
         """Count finished cases, and report the first failures."""
@@ -81,9 +102,9 @@ class Progress:
         self._recent.append((now, self.done, self._left))
         while len(self._recent) > 2 and now - self._recent[0][0] > RECENT:
             self._recent.popleft()
-        if not self.console.is_terminal and now - self._printed > PERIOD:
+        if not self.console.is_terminal and now - self._printed > self._period:
             self._printed, self._last = now, self._line()
-            self._say(self._last)
+            self._update(self._last)
 
     def _line(self) -> str:
         parts = [f"{self.done}/{self.total} cases", *self._pace()]
@@ -101,6 +122,13 @@ class Progress:
             return [pace]
         seconds = round(left * (now - begin) / (left_then - left))
         return [pace, f"{timedelta(seconds=seconds)} left"]
+
+    def _update(self, line: str) -> None:
+        """Show the state of the sweep: in a notebook in place of the last one."""
+        if self._notebook:
+            self._notebook.show(line)
+        else:
+            self._say(line)
 
     def _say(self, line: str) -> None:
         self.console.print(line, markup=False, highlight=False, soft_wrap=True)

@@ -90,7 +90,9 @@ def test_example_has_as_many_cases_as_it_says(tmp_path):
     path = tmp_path / "bumper.toml"
     path.write_text(blocks("toml")[0])
     config = load_config(path)
-    (shown,) = re.findall(r"^crumple show \S+ (\w+)", "\n".join(blocks("sh")), re.MULTILINE)
+    (shown,) = re.findall(
+        r"^crumple show \S+ ([0-9a-f]{4})\b", "\n".join(blocks("sh")), re.MULTILINE
+    )
     cases = expand(config)
     assert (config.name, len(cases)) == ("bumper", 8)
     assert sum(case.case_id.startswith(shown) for case in cases) == 1

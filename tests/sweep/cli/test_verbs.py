@@ -271,6 +271,31 @@ def test_export_tells_what_it_wrote(capsys, tmp_path):
     assert out == f"{tmp_path}/crush.pvd and 8 files beside\n"
 
 
+def test_show_takes_a_number_of_the_ranking_and_says_which_case_that_is(capsys, tmp_path):
+    rows = designs([1.0, 2.0, 3.0], [0.1, 0.3, 0.2])
+    file = write(tmp_path / "trial.h5", summary(*rows))
+    status, out, _ = crumple(capsys, "show", file, "1")
+    first, second, *_ = out.splitlines()
+    assert (status, first) == (0, "number 1 of 3: crushed to 50 %, glued platens")
+    assert second.startswith(f"case {1:016x}, ")
+    first, second, *_ = crumple(capsys, "show", file, "1", "--budget", "1 g")[1].splitlines()
+    assert first == "number 1 of 1: crushed to 50 %, glued platens, up to 1 g"
+    assert second.startswith(f"case {0:016x}, ")
+    status, _, err = crumple(capsys, "show", file, f"{1:016x}", "--scene", "1")
+    assert (status, err) == (
+        2,
+        "crumple show: --scene and --budget belong to a number in the ranking\n",
+    )
+
+
+def test_status_as_json_is_all_that_is_on_stdout(capsys, file):
+    status, out, err = crumple(capsys, "status", file, "--json")
+    said = json.loads(out)
+    assert (status, err) == (1, "")
+    assert (said["cases"], said["converged"], said["failed"]) == (5, 3, 2)
+    assert said["versions"] == {"numpy": "9.9"}
+
+
 def test_show_without_a_case_lists_what_makes_them_differ(capsys, tmp_path):
     file = write(tmp_path / "trial.h5", summary({"cells_x": 2}, {"platen": "contact"}))
     _, out, _ = crumple(capsys, "show", file)
@@ -280,8 +305,15 @@ def test_show_without_a_case_lists_what_makes_them_differ(capsys, tmp_path):
 
 
 def test_run_simulates_ranks_and_tells_of_failures(capsys, config):
-    status, out, _ = crumple(capsys, "run", config)
+    status, out, err = crumple(capsys, "run", config)
     assert status == 1
+    assert "3/3 cases" not in out
+    assert "3/3 cases" in err
+    assert err.splitlines()[-3:] == [
+        "results: results/trial.h5",
+        "next: crumple show results/trial.h5 1: pictures of the best design",
+        "      crumple rank results/trial.h5 --out results/trial: tables and pictures",
+    ]
     assert "1 of 3 cases failed: crumple status results/trial.h5 says why" in out
     assert "Nothing weighs 5 g or less: the lightest weighs 6 g." in out
     assert list(read_summary("results/trial.h5")["status"]) == ["converged", "stopped", "converged"]
@@ -302,8 +334,8 @@ def test_dry_run_counts_and_writes_nothing(capsys, config, tmp_path):
 
 def test_example_runs_by_its_name_where_no_file_has_it(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    _, out, _ = crumple(capsys, "run", "smoke", "--dry-run")
-    place, count, *_ = out.splitlines()
+    _, out, err = crumple(capsys, "run", "smoke", "--dry-run")
+    (place, *_), (count, *_) = err.splitlines(), out.splitlines()
     assert re.fullmatch(r"example smoke: /.*/configs/smoke\.toml \(copy it to change it\)", place)
     assert count.startswith("smoke: 6 combinations")
     (tmp_path / "smoke").write_text('name = "mine"\n')
@@ -314,9 +346,9 @@ def test_error_bars_run_companions_in_a_file_of_their_own(capsys, config):
     _, out, _ = crumple(capsys, "run", config, "--error-bars", "--dry-run")
     assert "error bars: 6 companions, 0 of them finished" in out
     assert "estimate for 9 cases" in out
-    status, out, _ = crumple(capsys, "run", config, "--error-bars")
+    status, out, err = crumple(capsys, "run", config, "--error-bars")
     assert status == 1
-    assert "error bars of 2 designs: 4 companions, in results/trial.companions.h5" in out
+    assert "error bars of 2 designs: 4 companions, in results/trial.companions.h5" in err
     assert "1 of 3 cases failed: crumple status results/trial.h5 says why" in out
     assert "±: estimated error" in out
     _, out, _ = crumple(capsys, "status", "results/trial.h5")
@@ -327,15 +359,15 @@ def test_error_bars_run_companions_in_a_file_of_their_own(capsys, config):
 
 def test_spread_runs_the_best_designs_in_a_file_of_their_own(capsys, config):
     assert "known only after" in crumple(capsys, "run", config, "--spread", "--dry-run")[1]
-    status, out, _ = crumple(capsys, "run", config, "--spread")
+    status, out, err = crumple(capsys, "run", config, "--spread")
     assert status == 1
     corners = read_summary("results/trial.spread.h5")
-    assert f"spread of 2 designs: {len(corners)} cases, in results/trial.spread.h5" in out
+    assert f"spread of 2 designs: {len(corners)} cases, in results/trial.spread.h5" in err
     assert {"contact.friction", "material.modulus", "material.poisson"} < set(corners)
     assert "Spread of " in out
     assert "The order of these designs does not change." in out
     assert len(read_summary("results/trial.h5")) == 3
-    assert "cases, in" not in crumple(capsys, "run", config, "--spread")[1]
+    assert "cases, in" not in crumple(capsys, "run", config, "--spread")[2]
 
 
 @pytest.mark.parametrize(

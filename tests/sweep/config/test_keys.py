@@ -24,7 +24,7 @@ CHOICES = {
     '[loading]\nmode = "shake"': (
         'loading.mode = "shake"; "force", "displacement", "impact" or "custom"'
     ),
-    '[lattice]\nkind = "hexagon"': f'lattice.kind = "hexagon"; {KINDS} or "custom"',
+    '[lattice]\nkind = "heptagon"': f'lattice.kind = "heptagon"; {KINDS} or "custom"',
     '[material]\nbend = "curve"': (
         'material.bend = "curve"; "linear", "section", "fibres" or "none"'
     ),

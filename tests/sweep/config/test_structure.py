@@ -31,6 +31,13 @@ def test_one_value_stands_for_each(key, read, one, each, count):
     assert getattr(structure(**{key: each}), read) == each
 
 
+def test_all_walls_become_thicker_by_one_factor():
+    assert structure(wall_thickness_mm=0.5).with_thickness(0.8).thickness_mm == (0.8, 0.8)
+    uneven = structure(wall_thickness_mm=(0.5, 1.5)).with_thickness(2.0)
+    assert uneven.thickness_mm == (1.0, 3.0)
+    assert uneven.nodes_mm == NODES
+
+
 def test_extent_is_that_of_the_nodes():
     assert structure().size_mm == (7.0, 3.0)
 

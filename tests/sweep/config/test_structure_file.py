@@ -170,6 +170,31 @@ def test_file_and_kind_go_together(lines, tmp_path):
         load_config(tmp_path / "bare.toml")
 
 
+def test_grid_scales_the_thickness_of_all_walls(tmp_path):
+    for given, found in {
+        0.5: [(0.4, 0.4), (1.2, 1.2)],
+        (0.4, 1.2): [(0.2, 0.6), (0.6, 1.8)],
+    }.items():
+        (tmp_path / "own.json").write_text(json.dumps(GOOD | {"wall_thickness_mm": given}))
+        path = tmp_path / "own.toml"
+        sizes = '[grid]\nlattice.wall_thickness = ["0.4 mm", "1.2 mm"]'
+        path.write_text(f'[lattice]\nkind = "custom"\nfile = "own.json"\n{sizes}')
+        cases = expand(load_config(path))
+        thick = [case.lattice.structure.thickness_mm for case in cases]
+        assert thick == [pytest.approx(walls) for walls in found]
+        assert [case.axes["lattice.wall_thickness"] for case in cases] == pytest.approx(
+            [0.4e-3, 1.2e-3]
+        )
+
+
+def test_thickness_that_does_not_fit_a_structure_is_refused(lines):
+    low = GOOD | {"floor_y_mm": -5.0}
+    assert lines(low, 'wall_thickness = "1 mm"') == []
+    (line,) = lines(low, 'wall_thickness = "20 mm"')
+    assert line.startswith('lattice.wall_thickness = "20 mm": does not fit; allowed: one that fits')
+    assert "(floor_y_mm = -5.0: node " in line
+
+
 @pytest.mark.parametrize(
     "more", ['width = "9 mm"', '[loading]\nforce = "3 N"', '[loading]\nplaten = "glued"']
 )

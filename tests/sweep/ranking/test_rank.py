@@ -218,11 +218,26 @@ def test_refusals_name_what_is_allowed():
     with pytest.raises(RankError, match="cannot sort by"):
         rank(table, by="material")
     with pytest.raises(RankError, match=r"up to 60 N in these results; allowed: 50 N or 200 N"):
-        rank(table, allowed_force=60.0)
+        rank(table, allowed_force="60 N")
     with pytest.raises(RankError, match="two lengths, got 1"):
-        rank(table, panel=(0.1,))
+        rank(table, panel=("0.1 m",))
     with pytest.raises(RankError, match="must be above zero"):
-        rank(table, budget=0.0)
+        rank(table, budget="0 g")
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ({"budget": 25}, 'budget = 25: a bare number; allowed: text with a unit, such as "25 g"'),
+        ({"budget": ["2 g", 0.01]}, "budget = 0.01: a bare number"),
+        ({"budget": np.float64(2.0)}, "a bare number"),
+        ({"panel": ("1 m", 0.1)}, 'panel = 0.1: a bare number; .* "100 mm"'),
+        ({"allowed_force": 50.0}, 'allowed_force = 50.0: a bare number; .* "50 N"'),
+    ],
+)
+def test_number_without_a_unit_is_refused(asked, told):
+    with pytest.raises(RankError, match=told):
+        rank(summary({}), **asked)
 
 
 def test_scenes_never_share_a_label():

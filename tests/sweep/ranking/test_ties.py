@@ -118,7 +118,7 @@ def test_error_bars_follow_into_what_is_derived():
     per_gram = rank(table)
     assert list(per_gram["place"]) == [1, 2]  # 0.080 ± 0.002 and 0.050 ± 0.0025 J/g
     assert list(per_gram["ranked_error"]) == pytest.approx([2e-3, 2.5e-3])
-    panel = rank(table, panel=(0.130, 0.050))
+    panel = rank(table, panel=("130 mm", "50 mm"))
     factor = 0.130 * 0.050 / (13e-3 * 10e-3)
     assert panel.loc[0, "ranked_error"] == pytest.approx(factor * 5e-3)
     assert list(panel["error_passed_on_N"]) == [0.5, 0.5]

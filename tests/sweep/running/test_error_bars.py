@@ -213,7 +213,7 @@ def test_error_bars_are_added_to_what_is_there_and_nothing_runs_twice(out, log, 
     assert log == ids or log == ids[::-1]
 
     assert add_error_bars(config(), out, simulate=logged) == 0
-    assert "error bars of 2 designs: 4 companions, in" in capsys.readouterr().out
+    assert "error bars of 2 designs: 4 companions, in" in capsys.readouterr().err
     assert len(log) == len(set(log)) == 6
     summary = read_summary(out)
     assert list(summary["case_id"]) == ids
@@ -257,7 +257,7 @@ def test_companion_that_an_earlier_sweep_left_does_not_run(out, log, logged):
 def test_failed_companion_leaves_the_design_without_a_bar_and_is_told(out, capsys):
     run_sweep(config(), out, simulate=without_coarse_meshes)
     assert add_error_bars(config(), out, simulate=without_coarse_meshes) == 1
-    told = capsys.readouterr().out
+    told = capsys.readouterr().err
     assert f"1 of 2 designs have no error bar: crumple status {companions_file(out)}" in told
     summary = read_summary(out)
     assert list(summary["status"]) == ["converged"] * 2

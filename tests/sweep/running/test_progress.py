@@ -1,6 +1,8 @@
 """What a user is told while a sweep runs."""
 
 import io
+import sys
+from types import SimpleNamespace
 
 import pytest
 from rich.console import Console
@@ -52,6 +54,32 @@ def test_plain_lines_are_few(clock):
     lines = out.getvalue().splitlines()
     assert len(lines) <= 5
     assert sum("No step was short enough" in line for line in lines) == 1
+
+
+def test_notebook_has_one_line_that_is_replaced(clock, monkeypatch):
+    """With a stand-in of IPython, which every notebook has."""
+    shown = []
+
+    class Handle:
+        def update(self, data, raw):
+            shown[-1] = data["text/plain"]
+
+    def display(data, raw, display_id):
+        shown.append(data["text/plain"])
+        return Handle()
+
+    stand_in = SimpleNamespace(display=display)
+    monkeypatch.setitem(sys.modules, "IPython", SimpleNamespace(display=stand_in))
+    monkeypatch.setitem(sys.modules, "IPython.display", stand_in)
+    batch = cases(6)
+    console = Console(file=io.StringIO(), force_jupyter=True)
+    with Progress(dict.fromkeys([case.case_id for case in batch], 1.0), 0, console) as told:
+        for case in batch:
+            clock.now += 1.0
+            told.advance([simulate(case)])
+            assert shown[0].startswith(f"{told.done}/6 cases")
+    assert len(shown) == 1
+    assert shown[0].startswith("6/6 cases")
 
 
 def test_terminal_has_a_bar_with_failures():

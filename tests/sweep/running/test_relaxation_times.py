@@ -45,7 +45,7 @@ def test_a_sweep_tells_before_it_runs(tmp_path, capsys):
     struck = Case(material=SLOW, loading=Loading(mode="impact", striker_speed=2.5))
     for line in ("1 of 1 cases last less than", ""):
         run_sweep([struck], tmp_path / "trial.h5", simulate=standin.simulate)
-        told = capsys.readouterr().out
+        told = capsys.readouterr().err
         assert told.count("relaxation time") == len(line[:1])
         assert line in told
 

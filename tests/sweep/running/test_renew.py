@@ -67,11 +67,11 @@ def test_rows_of_an_older_model_stay_and_are_told_of(out, log, logged, capsys):
     write_older(out, cases(3))
     run_sweep(cases(5), out, simulate=logged)
     told = "3 of 3 finished cases are of an older model; crumple run CONFIG --renew computes older"
-    assert told in capsys.readouterr().out
+    assert told in capsys.readouterr().err
     assert sorted(log) == [3, 4]
     assert versions(out, cases(5)) == [1, 1, 1, MODEL_VERSION, MODEL_VERSION]
     run_sweep(cases(5, first=3), out, simulate=logged)
-    assert "older model" not in capsys.readouterr().out  # these rows are of another sweep
+    assert "older model" not in capsys.readouterr().err  # these rows are of another sweep
 
 
 def test_renewing_computes_the_older_rows_and_only_those(out, log, logged, capsys):
@@ -80,7 +80,7 @@ def test_renewing_computes_the_older_rows_and_only_those(out, log, logged, capsy
     run_sweep(cases(6), out, rerun=OLDER, simulate=logged)
     assert sorted(log) == [0, 1, 2, 5]
     assert versions(out, cases(6)) == [MODEL_VERSION] * 6
-    assert "older model" not in capsys.readouterr().out
+    assert "older model" not in capsys.readouterr().err
     run_sweep(cases(6), out, rerun=OLDER, simulate=logged)
     assert len(log) == 4
 
@@ -151,7 +151,7 @@ def test_the_command_line_tells_of_older_rows_and_renews_them(capsys, config):
     assert "Ranked together" not in crumple(capsys, "rank", "results/trial.h5")[1]
 
     Path(config).write_text(CONFIG.format(values=[0.006, 0.007, 0.008, 0.009]))
-    _, said, _ = crumple(capsys, "run", config)
+    _, _, said = crumple(capsys, "run", config)
     assert said.count(f"3 of 3 finished cases are of an older model; {renew}\n") == 1
     _, said, _ = crumple(capsys, "status", "results/trial.h5")
     assert f"rows of model version 1 (3), {MODEL_VERSION} (1); {renew}\n" in said
@@ -163,7 +163,7 @@ def test_the_command_line_tells_of_older_rows_and_renews_them(capsys, config):
         assert mixed in crumple(capsys, *rank, *form)[2]
 
     assert "1 of them finished" in crumple(capsys, "run", config, "--renew", "--dry-run")[1]
-    assert "older" not in crumple(capsys, "run", config, "--renew")[1]
+    assert "older" not in crumple(capsys, "run", config, "--renew")[2]
     _, said, _ = crumple(capsys, "status", "results/trial.h5")
     assert "model version" not in said
     assert "computed with" not in said

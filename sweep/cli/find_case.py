@@ -1,0 +1,70 @@
+"""Finds the case that a user names: by its number in the ranking, or by the beginning of its id."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from pandas import DataFrame, Series
+
+DIGITS = 3  # of a number in the ranking; a longer one begins an id
+
+
+class CaseError(ValueError):
+    """A case that cannot be found; the text is one line."""
+
+
+def is_number(text: str) -> bool:
+    """Whether a text is a number in a ranking, and not the beginning of an id."""
+    return text.isdecimal() and len(text) <= DIGITS and not text.startswith("0")
+
+
+def by_id(summary: DataFrame, prefix: str) -> Series:
+    """The only row whose id begins with ``prefix``."""
+    found = summary[summary["case_id"].str.startswith(prefix)]
+    if len(found) == 1:
+        return found.iloc[0]
+    if found.empty:
+        raise CaseError(f'no case "{prefix}"; without CASE, show lists all {len(summary)} ids')
+    ids = ", ".join(found["case_id"].head(4)) + (" ..." if len(found) > 4 else "")
+    raise CaseError(f'"{prefix}" begins {len(found)} ids: {ids}')
+
+
+def by_number(
+    summary: DataFrame, number: int, scene: str | None, question: Mapping[str, Any]
+) -> tuple[Series, str]:
+    """The row with a number in the ranking of one scene, within the first budget; and a sentence.
+
+    question : keyword arguments of `rank`. scene : see `_scene`.
+    """
+    from sweep.ranking.rank import ranked
+
+    table = ranked(summary, **{**question, "top": None}).table
+    if table.empty:
+        raise CaseError("no case has a place in the ranking; without CASE, show lists all ids")
+    label = _scene(list(dict.fromkeys(table["scene"])), scene)
+    rows = table[table["scene"] == label]
+    budget = rows["budget_g"].iloc[0]
+    rows = rows[rows["budget_g"].isna() if budget != budget else rows["budget_g"] == budget]
+    within = f", up to {budget:g} g" if budget > 0.0 else ""
+    if number > len(rows):
+        allowed = f"allowed: 1 to {len(rows)}, or the beginning of an id"
+        raise CaseError(f"no number {number} in the ranking of {label}{within}; {allowed}")
+    case_id = rows["case_id"].iloc[number - 1]
+    return by_id(summary, case_id), f"number {number} of {len(rows)}: {label}{within}"
+
+
+def _scene(labels: list[str], wanted: str | None) -> str:
+    """The label of a scene: the first one, or the one with this number or with these words."""
+    if wanted is None:
+        return labels[0]
+    if wanted.isdecimal() and 0 < int(wanted) <= len(labels):
+        return labels[int(wanted) - 1]
+    found = [label for label in labels if wanted.lower() in label.lower()]
+    if len(found) == 1 or wanted in found:
+        return wanted if wanted in found else found[0]
+    known = "; ".join(f"{k}: {label}" for k, label in enumerate(labels, 1))
+    why = f"in {len(found)} scenes" if found else "in no scene"
+    raise CaseError(f'--scene "{wanted}": {why}; allowed: a number or words of {known}')

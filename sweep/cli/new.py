@@ -1,0 +1,100 @@
+"""The verb `new`: writes a config with comments, to be changed by its user."""
+
+import re
+from pathlib import Path
+from typing import Any
+
+NAME = re.compile(r"\w[\w.-]*")
+KINDS = ("crush", "drop", "load")
+
+HEAD = """\
+# {title}
+#
+#   crumple run {file} --dry-run          how many cases, how long
+#   crumple run {file}                    simulate, then rank
+#   crumple show {results} 1    pictures of the best design
+#
+# Every quantity has a unit. Keys that are left out have defaults; all of them are explained in
+# configs/README.md. A line that begins with # is a comment: remove the # to use its key.
+name = "{name}"
+
+[lattice]
+kind = "square"                      # or hex, brick, reentrant, diamond, circle, triangle, kagome
+width = "25 mm"                      # of one specimen, over centre lines
+height = "12.5 mm"                   # the thickness of the pad
+depth = "12 mm"                      # along the walls, out of the drawing
+
+[material]
+name = "ninjaflex"                   # crumple materials lists them; or your own .csv
+# loss = 0.4                         # share of the work of a cycle that the material takes
+
+[loading]
+"""
+LOADINGS = {
+    "crush": """\
+mode = "crush"                       # a platen comes down and goes back up
+strain = "60 %"                      # of the height
+platen = "contact"                   # loose between plates; "glued": bonded to them
+allowed_forces = ["50 N", "200 N"]   # each adds a column: the energy up to this force
+# cycles = 2                         # pressed twice
+""",
+    "drop": """\
+mode = "drop"                        # a rigid striker hits the lattice and rebounds
+striker_mass = "50 g"                # its share of a mass on several specimens
+striker_speed = "2 m/s"              # a drop of 0.2 m; of a height h it is (2 g h)^0.5
+platen = "contact"                   # loose between striker and support; "glued": bonded to them
+# energy = "0.1 J"                   # instead of the speed
+""",
+    "load": """\
+mode = "force"                       # a dead load, put on at once and taken off again
+force = "10 N"                       # on one specimen
+platen = "contact"                   # loose between plates; "glued": bonded to them
+release_time = "0.138 s"             # when the load is taken off
+duration = "0.2 s"                   # when the run ends
+""",
+}
+TAIL = """\
+
+[grid]                               # all combinations: 2 x 2 = 4 cases
+"lattice.cells_x" = [4, 6]
+"lattice.wall_thickness" = ["0.6 mm", "0.8 mm"]
+# "lattice.kind" = ["square", "hex"]
+
+[rank]
+budgets = ["{budget}"]                   # greatest mass of the panel
+panel = ["100 mm", "50 mm"]          # the area that specimens fill, side by side
+"""
+TITLES = {
+    "crush": "Which design absorbs the most energy in a crush?",
+    "drop": "Which design passes on the least force when something hits it?",
+    "load": "Which design gives way least under a load?",
+}
+
+
+class NewError(ValueError):
+    """A file that cannot be written; the text is one line."""
+
+
+def new(name: str, kind: str, out: str | None) -> Path:
+    """Write the config of a kind of loading; return its path. An existing file is refused."""
+    name = name.removesuffix(".toml")
+    if not NAME.fullmatch(name):
+        raise NewError(f'"{name}" is no name; allowed: letters, digits, dots, dashes, underscores')
+    path = Path(out or f"{name}.toml")
+    if path.suffix != ".toml":
+        raise NewError(f"--out {path}; allowed: a file whose name ends in .toml")
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(template(name, kind, path))
+    except FileExistsError:
+        raise NewError(f"{path} is there already; allowed: another name, or --out") from None
+    except OSError as error:
+        raise NewError(f"{path} cannot be written: {error.strerror or error}") from error
+    return path
+
+
+def template(name: str, kind: str, path: Path) -> str:
+    """The text of a config."""
+    words: dict[str, Any] = {"name": name, "file": path, "results": f"results/{name}.h5"}
+    head = HEAD.format(title=TITLES[kind], **words)
+    return head + LOADINGS[kind] + TAIL.format(budget="50 g")

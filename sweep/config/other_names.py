@@ -1,0 +1,81 @@
+"""Names that slicers and users give to what a config calls otherwise: choices, and keys."""
+
+from collections.abc import Iterable
+from typing import Any
+
+from sweep.config.keys import nearest
+
+CHOICES: dict[str, dict[str, str]] = {
+    "lattice.kind": {
+        "honeycomb": "hex",
+        "hexagon": "hex",
+        "hexagons": "hex",
+        "hexagonal": "hex",
+        "grid": "square",
+        "squares": "square",
+        "bricks": "brick",
+        "auxetic": "reentrant",
+        "re-entrant": "reentrant",
+        "bowtie": "reentrant",
+        "rhombus": "diamond",
+        "diamonds": "diamond",
+        "circles": "circle",
+        "triangles": "triangle",
+        "triangular": "triangle",
+        "isogrid": "triangle",
+        "stars": "kagome",
+        "trihexagon": "kagome",
+        "tri-hexagon": "kagome",
+    },
+    "loading.mode": {
+        "crush": "displacement",
+        "compression": "displacement",
+        "drop": "impact",
+        "dead load": "force",
+        "load": "force",
+    },
+    "loading.platen": {"loose": "contact", "bonded": "glued"},
+}
+"""Understood words -> the choice, by key."""
+
+DROP = "a drop of 1 m arrives with 4.43 m/s, of h with (2 g h)^0.5"
+KEYS = {
+    "drop_height": ("loading.striker_speed", DROP),
+    "fall_height": ("loading.striker_speed", DROP),
+    "drop_mass": ("loading.striker_mass", ""),
+    "impact_speed": ("loading.striker_speed", ""),
+    "impact_energy": ("loading.energy", ""),
+    "compression": ("loading.strain", "the share of the height by which the lattice is crushed"),
+    "displacement": ("loading.stroke", "the way of the platen"),
+    "load": ("loading.force", ""),
+    "max_force": ("loading.allowed_forces", "a list"),
+    "thickness": ("lattice.wall_thickness", ""),
+    "nozzle": ("lattice.line_width", ""),
+    "pattern": ("lattice.kind", ""),
+    "infill_pattern": ("lattice.kind", ""),
+    "infill_density": ("lattice.infill", ""),
+    "fill_density": ("lattice.infill", ""),
+    "wall_loops": ("lattice.perimeters", ""),
+    "top_layers": ("lattice.solid_layers", "layers at the top and at the bottom"),
+    "bottom_layers": ("lattice.solid_layers", "layers at the top and at the bottom"),
+    "weight": ("lattice.mass", ""),
+    "youngs_modulus": ("material.modulus", ""),
+    "filament": ("material.name", ""),
+    "dt": ("solver.time_step", ""),
+    "mu": ("contact.friction", ""),
+    "budget": ("rank.budgets", "a list"),
+}
+"""Key that a user may think of -> the key of a config, and what to know about it."""
+
+
+def present_choice(key: str, raw: Any) -> Any:
+    """The choice that a word means for a key; any other value is left as it is."""
+    return CHOICES.get(key, {}).get(raw.lower(), raw) if isinstance(raw, str) else raw
+
+
+def meant(name: str, known: Iterable[str]) -> tuple[str, str]:
+    """The known key that an unknown one means, and a clause that says so."""
+    names = list(known)
+    key, note = KEYS.get(name.rpartition(".")[2].lower(), ("", ""))
+    near = key if key in names else nearest(name, names)
+    return near, f"the nearest is {near}" + (f": {note}" if note and near == key else "")

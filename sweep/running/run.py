@@ -1,0 +1,29 @@
+"""Runs a config from Python and returns its results."""
+
+import os
+from pathlib import Path
+
+from sweep.config.grid import Config, expand
+from sweep.config.units import load_config
+from sweep.report.results import Results
+from sweep.running.sweep import run_sweep
+from sweep.store.read import ONLY_MISSING, Rerun
+
+
+def run(
+    config: Config | str | os.PathLike[str],
+    out: str | os.PathLike[str] | None = None,
+    workers: int = 2,
+    rerun: Rerun = ONLY_MISSING,
+) -> Results:
+    """Run the cases of a config that its results file does not hold; return the results of all.
+
+    config : from `load_config`, or the path of a TOML file, or the name of an example. out : the
+    results file, by default results/NAME.h5. Progress is shown, in a notebook as one line.
+    """
+    known = config if isinstance(config, Config) else load_config(config)
+    path = Path(out or f"results/{known.name}.h5")
+    run_sweep(known, path, workers, rerun=rerun)
+    ids = [case.case_id for case in expand(known)]
+    question = {"budget": list(known.rank.budgets) or None, "panel": known.rank.panel}
+    return Results(path, ids, question)

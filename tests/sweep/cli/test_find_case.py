@@ -1,0 +1,63 @@
+"""Which case a number in the ranking, or the beginning of an id, names."""
+
+import pytest
+
+from sweep.cli.find_case import CaseError, by_id, by_number, is_number
+from tests.support.specimens import designs, summary
+
+QUESTION = {"budget": ["1.5 g", "10 g"]}
+
+
+@pytest.fixture
+def two_scenes():
+    """Five designs crushed between glued platens, the first two again between loose ones."""
+    glued = designs([1.0, 2.0, 3.0, 4.0, 5.0], [0.1, 0.5, 0.4, 0.3, 0.2])
+    loose = designs([1.0, 2.0], [0.1, 0.2], platen="contact")
+    return summary(*glued, *loose)
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [("1", True), ("999", True), ("0", False), ("012", False), ("1234", False), ("7a", False)],
+)
+def test_a_number_has_at_most_three_digits(text, number):
+    assert is_number(text) == number
+
+
+def test_number_counts_within_the_first_budget_and_scene(two_scenes):
+    row, told = by_number(two_scenes, 1, None, QUESTION)
+    assert row["case_id"] == two_scenes["case_id"][0]
+    assert told == "number 1 of 1: crushed to 50 %, glued platens, up to 1.5 g"
+    ids = [by_number(two_scenes, n, None, {"budget": "10 g"})[0]["case_id"] for n in range(1, 6)]
+    assert ids == list(two_scenes["case_id"].iloc[[1, 2, 3, 4, 0]])
+
+
+@pytest.mark.parametrize("scene", ["2", "contact", "Crushed to 50 %, contact platens"])
+def test_scene_is_a_number_or_words(two_scenes, scene):
+    row, told = by_number(two_scenes, 1, scene, {"budget": "10 g"})
+    assert row["case_id"] == two_scenes["case_id"][6]
+    assert told == "number 1 of 2: crushed to 50 %, contact platens, up to 10 g"
+
+
+@pytest.mark.parametrize(
+    ("number", "scene", "why"),
+    [
+        (6, None, "no number 6 in the ranking of crushed to 50 %, glued platens; allowed: 1 to 5"),
+        (1, "crushed", '--scene "crushed": in 2 scenes; allowed: a number or words of 1: crushed'),
+        (1, "3", '--scene "3": in no scene; .*; 2: crushed to 50 %, contact platens'),
+    ],
+)
+def test_what_is_not_there_is_refused(two_scenes, number, scene, why):
+    with pytest.raises(CaseError, match=why):
+        by_number(two_scenes, number, scene, {})
+
+
+def test_ranking_without_places_has_no_numbers():
+    with pytest.raises(CaseError, match="no case has a place"):
+        by_number(summary({"status": "stopped"}), 1, None, {})
+
+
+def test_id_begins_so(two_scenes):
+    assert by_id(two_scenes, f"{3:016x}")["case_id"] == f"{3:016x}"
+    with pytest.raises(CaseError, match=r'"0" begins 7 ids: 0+, '):
+        by_id(two_scenes, "0")

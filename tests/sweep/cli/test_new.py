@@ -1,0 +1,69 @@
+"""First configs: each runs as it is, is explained, and takes nobody's file."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from sweep.cli.new import KINDS, template
+from sweep.config.grid import expand
+from sweep.config.units import load_config
+from sweep.result import Status
+from sweep.simulation.simulate import simulate
+from tests.support.command import crumple
+
+MODES = {"crush": "displacement", "drop": "impact", "load": "force"}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_config_of_every_kind_runs_as_it_is(capsys, tmp_path, monkeypatch, kind):
+    monkeypatch.chdir(tmp_path)
+    status, out, _ = crumple(capsys, "new", "bumper", "--kind", kind)
+    assert (status, out) == (0, "bumper.toml: change it, then: crumple run bumper.toml --dry-run\n")
+    config = load_config("bumper.toml")
+    assert config.name == "bumper"
+    cases = expand(config)
+    assert [case.loading.mode for case in cases] == [MODES[kind]] * 4
+    assert simulate(cases[0]).status == Status.CONVERGED
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_is_commented_out_may_be_used(tmp_path, kind):
+    text = template("a", kind, tmp_path / "a.toml")
+    for line in re.findall(r"^# [\w\"].* = .*$", text, re.MULTILINE):
+        path = tmp_path / "a.toml"
+        path.write_text(text.replace(line, line.removeprefix("# ")))
+        if "energy" in line:
+            path.write_text(re.sub("striker_speed.*", "", path.read_text()))
+        assert len(expand(load_config(path))) in (4, 8)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_keys_of_the_case_are_explained(kind):
+    text = template("a", kind, Path("a.toml"))
+    case = text.partition("[lattice]")[2].partition("[grid]")[0]
+    keys = [line for line in case.splitlines() if " = " in line]
+    assert len(keys) > 8
+    assert all("  # " in line for line in keys)
+    assert max(map(len, text.splitlines())) <= 100
+
+
+def test_file_that_is_there_is_left_as_it_is(capsys, tmp_path):
+    path = tmp_path / "bumper.toml"
+    path.write_text("mine")
+    status, _, err = crumple(capsys, "new", "bumper", "--out", str(path))
+    assert (status, path.read_text()) == (2, "mine")
+    assert err == f"crumple new: {path} is there already; allowed: another name, or --out\n"
+
+
+def test_name_may_have_its_ending_and_is_checked(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert crumple(capsys, "new", "pad.toml")[0] == 0
+    assert load_config("pad.toml").name == "pad"
+    refused = {("a b",): "is no name; allowed", ("a", "--out", "a.txt"): "ends in .toml"}
+    refused[("a", "--out", "/dev/full/a.toml")] = "cannot be written"
+    for words, why in refused.items():
+        status, out, err = crumple(capsys, "new", *words)
+        assert (status, out) == (2, "")
+        assert why in err
+    assert [path.name for path in tmp_path.iterdir()] == ["pad.toml"]

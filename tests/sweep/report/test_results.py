@@ -1,0 +1,65 @@
+"""Results for a Python session: table, curves and pictures of the cases that are meant."""
+
+import numpy as np
+import pytest
+
+from sweep.report.results import Picture, Results
+from sweep.store.read import read_history
+from tests.support.specimens import designs, summary, write
+
+PNG = b"\x89PNG"
+
+
+@pytest.fixture
+def file(tmp_path):
+    """Three designs with curves and shapes, of which the last one has failed."""
+    rows = designs([1.0, 2.0, 3.0], [0.1, 0.3, 0.2])
+    rows[2]["status"] = "stopped"
+    return write(tmp_path / "trial.h5", summary(*rows))
+
+
+def test_table_has_the_cases_of_the_sweep_in_its_order(file):
+    ids = [f"{2:016x}", f"{0:016x}", "not run"]
+    results = Results(file, ids)
+    assert list(results.table["case_id"]) == ids[:2]
+    assert list(results.table.index) == [0, 1]
+    assert len(results) == 2
+    assert len(Results(file)) == 3
+    assert list(results.failed["case_id"]) == ids[:1]
+    assert repr(results) == f"Results of 2 cases, 1 failed, in {file}"
+    assert repr(results) in results._repr_html_()
+
+
+def test_curve_is_that_of_the_row_or_id(file):
+    results = Results(file, [f"{1:016x}", f"{0:016x}"])
+    expected = read_history(file, f"{0:016x}")
+    for case in (1, f"{0:016x}"):
+        np.testing.assert_array_equal(results.curve(case), expected)
+    assert results.shapes(1)["position_m"].shape[2] == 2
+    with pytest.raises(IndexError, match="no case 2; allowed: 0 to 1, or an id"):
+        results.curve(2)
+    with pytest.raises(IndexError, match="no case -1"):
+        results.curve(-1)
+    with pytest.raises(KeyError, match='"0" begins 2 ids of 2'):
+        results.curve("0")
+
+
+def test_picture_of_a_case_and_of_all(file, tmp_path):
+    results = Results(file)
+    for picture in (results.plot(0), results.plot(0, "shapes"), results.plot()):
+        assert isinstance(picture, Picture)
+        assert picture._repr_png_().startswith(PNG)
+    path = results.plot(0, "energies").save(tmp_path / "energies.png")
+    assert path.read_bytes().startswith(PNG)
+    force, energies = (
+        results.plot(0, what).figure.axes[0].get_ylabel() for what in ("force", "energies")
+    )
+    assert force != energies
+    with pytest.raises(ValueError, match='no picture "heat"; there are force, energies, shapes'):
+        results.plot(0, "heat")
+
+
+def test_nothing_to_draw_is_said(tmp_path):
+    file = write(tmp_path / "trial.h5", summary({"status": "stopped"}))
+    with pytest.raises(ValueError, match="there is nothing to draw"):
+        Results(file).plot()

@@ -1,0 +1,29 @@
+"""A sweep from Python: what runs, and what comes back."""
+
+from pathlib import Path
+
+from sweep.config.units import load_config
+from sweep.running.run import run
+
+
+def test_results_are_those_of_the_config(config):
+    first = run(config)
+    assert (len(first), len(first.failed)) == (3, 1)
+    assert first.path == Path("results/trial.h5")
+    assert len(first.curve(0)) > 0
+    text = Path(config).read_text().replace("0.007, ", "")
+    Path(config).write_text(text)
+    fewer = run(load_config(config))
+    assert list(fewer.table["case_id"]) == list(first.table["case_id"].iloc[[0, 2]])
+    assert fewer.path == first.path
+
+
+def test_file_may_be_named(config, tmp_path):
+    assert len(run(config, tmp_path / "own.h5", workers=1)) == 3
+    assert (tmp_path / "own.h5").exists()
+    assert not Path("results").exists()
+
+
+def test_pictures_compare_within_the_budgets_of_the_config(config):
+    results = run(config)
+    assert results._question == {"budget": [0.005, 0.02], "panel": None}
