@@ -207,6 +207,7 @@ def test_a_slicer_fills_in_its_own_defaults():
     assert found.wall_thickness == found.line == pytest.approx(0.407e-3, abs=0.5e-6)
     assert found.fill_distance == pytest.approx(2.0 * found.line / 0.2)
     assert found.outline == (2 * found.line,) * 2
+    assert found.geometry.sliced.inset == pytest.approx((1.0 - 0.25) * found.line)
     assert sliced(nozzle=0.6e-3).line_width == pytest.approx(0.675e-3)
     cura = sliced(slicer="cura")
     assert cura.wall_thickness == cura.line == cura.line_width == 0.4e-3
