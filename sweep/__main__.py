@@ -221,15 +221,8 @@ def parser() -> Parser:
 
     show = verbs.add_parser("show", help="draw a case", description=SHOW, formatter_class=raw)
     offer(show.add_argument("file", type=_path, metavar="F.h5"), results)
-    case = show.add_argument(
-        "case", metavar="CASE", nargs="?", help="number in the ranking, or beginning of an id"
-    )
-    offer(case, cases)
-    show.add_argument(
-        "--scene", metavar="N", help="of a number: which table, or words of its title"
-    )
-    show.add_argument("--budget", nargs=1, metavar="MASS", help="of a number: its greatest mass")
-    show.set_defaults(panel=None, by=None, allowed_force=None, top=None)
+    _add_case(show, nargs="?")
+    show.set_defaults(panel=None)
     show.add_argument(
         "--out", type=_folder, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
     )
@@ -237,6 +230,17 @@ def parser() -> Parser:
     _add_materials(verbs)
     _add_helpers(verbs)
     return main
+
+
+def _add_case(verb: Any, **options: Any) -> None:
+    """Add the arguments that name a case."""
+    words = "number in the ranking, or beginning of an id"
+    offer(verb.add_argument("case", metavar="CASE", help=words, **options), cases)
+    verb.add_argument(
+        "--scene", metavar="N", help="of a number: which table, or words of its title"
+    )
+    verb.add_argument("--budget", nargs=1, metavar="MASS", help="of a number: its greatest mass")
+    verb.set_defaults(by=None, allowed_force=None, top=None)
 
 
 def _add_optimize(verbs: Any) -> None:
@@ -278,8 +282,8 @@ def _add_export(verbs: Any) -> None:
         epilog=EXPORT_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    export.add_argument("file", type=_path, metavar="F.h5")
-    export.add_argument("case", metavar="CASE", help="id, or the beginning of one")
+    offer(export.add_argument("file", type=_path, metavar="F.h5"), results)
+    _add_case(export)
     export.add_argument(
         "--to",
         type=_path,

@@ -219,15 +219,11 @@ def rank(arguments: Namespace) -> int:
 
 def show(arguments: Namespace) -> int:
     """Draw one case, or list all cases."""
-    from sweep.cli.find_case import is_number
     from sweep.report.sheets import case_sheet, describe_case
     from sweep.store.read import read_summary
 
     summary = read_summary(arguments.file)
-    of_a_number = arguments.scene or arguments.budget
-    if of_a_number and not (arguments.case and is_number(arguments.case)):
-        raise ArgumentError("--scene and --budget belong to a number in the ranking")
-    if arguments.case is None:
+    if arguments.case is None and not (arguments.scene or arguments.budget):
         print_sheets([case_sheet(summary)])
         return DONE
     from sweep.report.publish import publish_case
@@ -250,7 +246,8 @@ def export(arguments: Namespace) -> int:
     from sweep.export.export import export_case
     from sweep.store.read import read_summary
 
-    row = _find_case(read_summary(arguments.file), arguments.case)
+    row, taken = _named(arguments, read_summary(arguments.file))
+    say_all([taken] if taken else [])
     target = Path(arguments.to)
     replaced = target.exists()
     with _writing(target.parent):
@@ -333,7 +330,9 @@ def _named(arguments: Namespace, summary: DataFrame) -> tuple[Series, str]:
     """The row that CASE names, and a sentence about its place if CASE is a number."""
     from sweep.cli.find_case import by_id, by_number, is_number
 
-    if not is_number(arguments.case):
+    if not (arguments.case and is_number(arguments.case)):
+        if arguments.scene or arguments.budget:
+            raise ArgumentError("--scene and --budget belong to a number in the ranking")
         return by_id(summary, arguments.case), ""
     return by_number(summary, int(arguments.case), arguments.scene, _asked(arguments))
 
