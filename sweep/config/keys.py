@@ -11,6 +11,7 @@ from typing import Any
 
 from pydantic import ConfigDict, TypeAdapter
 
+from sweep.config import drop_tests
 from sweep.config.case import TABLES
 from sweep.config.material_file import available
 from sweep.config.tables import Rank, Table
@@ -97,6 +98,8 @@ def _key(name: str, model: type[Table], field: str, schema: dict[str, Any]) -> K
     allowed = _words(schema)
     if name == "material.name":
         allowed = f"{', '.join(available())}, or the path of a .csv file"
+    if name == "loading.preset":
+        allowed = drop_tests.in_words()
     info = model.model_fields[field]
     config = ConfigDict(strict=True, allow_inf_nan=False)
     adapter = TypeAdapter(info.rebuild_annotation(), config=config)

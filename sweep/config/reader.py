@@ -11,6 +11,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from sweep.config import drop_tests
 from sweep.config.case import TABLES
 from sweep.config.grid import Axes, Config, Fault, Values, Written
 from sweep.config.keys import ALIASES, Key, case_keys, nearest, table_keys
@@ -212,6 +213,8 @@ class Reader:
             return _material(raw, self.folder)
         if key.targets == ("lattice.file",) and isinstance(raw, str):
             return _structure(self.folder / raw)
+        if key.targets == ("loading.preset",) and isinstance(raw, str):
+            return drop_tests.in_si(raw, self.to_si)
         many = isinstance(raw, list)
         value: Any = [self._in_si(key, v) for v in raw] if many else self._in_si(key, raw)
         try:

@@ -301,7 +301,7 @@ MODES = {
         *("stroke", "strain", "speed", "strain_rate"),
         *("quasi_static", "unload", "cycles"),
     ),
-    "impact": ("striker_mass", "striker_speed", "energy"),
+    "impact": ("striker_mass", "striker_speed", "energy", "drop_height", "preset", "specimens"),
 }
 
 
@@ -311,8 +311,12 @@ class Loading(Table):
     If the mode is not given, keys that only one mode has imply it. The mode of a custom structure
     is "custom": the file of the structure has its loading. `cycles`: how often a platen moves down
     and back up.
+
+    `drop_height` and `preset` (`drop_tests`) are other words for the speed and the mass of a
+    striker, and `specimens` for the share of the mass of the preset that one of them bears.
     """
 
+    labels: ClassVar[tuple[str, ...]] = ("drop_height", "preset", "specimens")
     neutral: ClassVar[dict[str, Any]] = {"cycles": 1}
 
     mode: Literal["force", "displacement", "impact", "custom"] = "force"
@@ -329,6 +333,9 @@ class Loading(Table):
     striker_mass: Mass | None = None
     striker_speed: Speed | None = None
     energy: Energy | None = None
+    drop_height: Length | None = None
+    preset: str | None = None
+    specimens: Count | None = None
     platen: Literal["none", "contact", "glued", "sliding"] | None = None
     allowed_forces: Forces = ()
 

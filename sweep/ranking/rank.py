@@ -35,7 +35,7 @@ HELD_BY_SCENE = tuple(
     f"loading.{key}"
     for key in (
         *("mode", "platen", "force", "allowed_forces"),
-        *("striker_mass", "striker_speed", "energy"),
+        *("striker_mass", "striker_speed", "energy", "drop_height", "preset", "specimens"),
     )
 )
 ASSUMPTIONS = (

@@ -143,7 +143,7 @@ AXES = {
         "[[exclude]] lattice.cells = []: is empty; allowed: at least one value"
     ),
     '[[exclude]]\nrank.budgets = ["2 g"]': (
-        '[[exclude]] rank.budgets = "2 g": unknown key; the nearest is loading.cycles'
+        '[[exclude]] rank.budgets = "2 g": unknown key; the nearest is loading.preset'
     ),
 }
 
