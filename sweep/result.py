@@ -43,6 +43,7 @@ OLDER: dict[str, float | int | str] = {
     "dissipated_material_J": nan,
     "dissipated_friction_J": nan,
     "solid_joint_share": nan,
+    "peak_deceleration_filtered_m_per_s2": nan,
 }
 """Values of columns that rows of older versions do not have.
 
@@ -218,6 +219,12 @@ COLUMNS: dict[str, Column] = {
     "peak_strain": Column("1", "greatest top displacement / height", "less"),
     "peak_deceleration_m_per_s2": Column(
         "m/s^2", "greatest deceleration of the striker; NaN without one", "less"
+    ),
+    "peak_deceleration_filtered_m_per_s2": Column(
+        "m/s^2",
+        "the same behind a filter of loading.filter_class (SAE J211-1); NaN if rows are farther "
+        "apart than a tenth of 1 / class in Hz",
+        "less",
     ),
     "stroke_left_m": Column(
         "m",

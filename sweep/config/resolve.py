@@ -7,7 +7,7 @@ contradict one another are refused. Resolving a resolved case changes nothing.
 from collections.abc import Mapping
 from functools import lru_cache
 from math import isclose, sqrt
-from typing import Any
+from typing import Any, Literal
 
 from pydantic_core import PydanticCustomError
 
@@ -27,6 +27,7 @@ from sweep.config.structure import Structure
 from sweep.config.tables import Contact, Damping, Loading, Solver, refusal
 
 STRAIN_RATE = 0.01  # 1/s, of a quasi-static crush of a material that relaxes
+FILTER_CLASS: Literal[1000] = 1000  # of SAE J211-1, as of a head form in drop tests (ASTM F1292)
 GRAVITY = 9.80665  # m/s^2, standard
 PASSAGES = 10  # default duration of an impact / time the striker takes for the lattice's height
 PLATENS = '"contact", "glued" or "sliding"'
@@ -161,6 +162,7 @@ def _impact(loading: Loading, height: float, integrator: str | None) -> Loading:
         drop_height=drop_height,
         preset=loading.preset,
         specimens=loading.specimens,
+        filter_class=given_or(loading.filter_class, FILTER_CLASS),
         duration=given_or(loading.duration, PASSAGES * height / speed),
         platen=loading.platen or "glued",
         allowed_forces=loading.allowed_forces,

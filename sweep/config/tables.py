@@ -301,7 +301,10 @@ MODES = {
         *("stroke", "strain", "speed", "strain_rate"),
         *("quasi_static", "unload", "cycles"),
     ),
-    "impact": ("striker_mass", "striker_speed", "energy", "drop_height", "preset", "specimens"),
+    "impact": (
+        *("striker_mass", "striker_speed", "energy"),
+        *("drop_height", "preset", "specimens", "filter_class"),
+    ),
 }
 
 
@@ -314,10 +317,11 @@ class Loading(Table):
 
     `drop_height` and `preset` (`drop_tests`) are other words for the speed and the mass of a
     striker, and `specimens` for the share of the mass of the preset that one of them bears.
+    `filter_class`: of the filter behind which the deceleration of a striker is measured.
     """
 
     labels: ClassVar[tuple[str, ...]] = ("drop_height", "preset", "specimens")
-    neutral: ClassVar[dict[str, Any]] = {"cycles": 1}
+    neutral: ClassVar[dict[str, Any]] = {"cycles": 1, "filter_class": 1000}
 
     mode: Literal["force", "displacement", "impact", "custom"] = "force"
     force: Force | None = None
@@ -336,6 +340,7 @@ class Loading(Table):
     drop_height: Length | None = None
     preset: str | None = None
     specimens: Count | None = None
+    filter_class: Literal[60, 180, 600, 1000] | None = None
     platen: Literal["none", "contact", "glued", "sliding"] | None = None
     allowed_forces: Forces = ()
 
