@@ -320,7 +320,19 @@ LOAD_COLUMNS: dict[str, Column] = {
 RANKING_COLUMNS: dict[str, Column] = {
     "panel_mass_g": Column("g", "mass of the specimens that fill the panel", "less"),
     "panel_energy_J": Column("J", "energy that the specimens of the panel absorb", "more"),
+    "panel_specimens": Column("1", "number of specimens that fill the panel"),
+    "panel_force_N": Column(
+        "N",
+        "greatest force of all specimens of the panel together while the counted energy is "
+        "absorbed; in an impact, on the support",
+        "less",
+    ),
     "passed_on_N": Column("N", "greatest force while the counted energy is absorbed", "less"),
+    "counted_stroke_m": Column("m", "stroke in which the counted energy is absorbed", "less"),
+    "absorbed_energy_at_allowed_J": Column(
+        "J", "work done until the allowed force of the panel is exceeded", "more"
+    ),
+    "stroke_at_allowed_m": Column("m", "stroke at which the allowed force is exceeded", "less"),
     "returned_share": Column("1", "returned energy / work of the whole crush", "less"),
 }
 """Columns that a ranking adds to those of the summary, and by which it may sort."""

@@ -17,7 +17,7 @@ from pydantic_core import ErrorDetails
 from sweep.config.case import TABLES, Case
 from sweep.config.keys import ALIASES, case_keys
 from sweep.config.resolve import resolve
-from sweep.config.tables import Rank, Table, rounded
+from sweep.config.tables import Rank, Require, Table, rounded
 from sweep.config.unused_keys import still_unused
 
 MAX_CASES = 1_000_000
@@ -82,6 +82,7 @@ class Config:
     zip: tuple[Axes, ...] = ()
     exclude: tuple[dict[str, tuple[object, ...]], ...] = ()
     rank: Rank = field(default_factory=Rank)
+    require: Require = field(default_factory=Require)
     path: Path | None = None
 
     @cached_property

@@ -14,7 +14,7 @@ from pydantic import ConfigDict, TypeAdapter
 from sweep.config import drop_tests
 from sweep.config.case import TABLES
 from sweep.config.material_file import available
-from sweep.config.tables import Rank, Table
+from sweep.config.tables import QUESTION, Table
 
 ALIASES = {
     "lattice.cells": ("lattice.cells_x", "lattice.cells_y"),
@@ -32,6 +32,7 @@ QUANTITIES = {
     "s": 'a time with a unit, such as "0.2 s"',
     "1/s": 'a rate with a unit, such as "5 1/s"',
     "m/s": 'a speed with a unit, such as "100 mm/min"',
+    "m/s^2": 'an acceleration with a unit, such as "80 g0", of standard gravity (g is a gram)',
     "N": 'a force with a unit, such as "10 N"',
     "J": 'an energy with a unit, such as "0.1 J"',
     "Pa": 'a stress with a unit, such as "12 MPa"',
@@ -75,7 +76,7 @@ def case_keys() -> dict[str, Key]:
 @cache
 def table_keys(table: str) -> dict[str, Key]:
     """The keys of one table by their dotted names."""
-    model = Rank if table == "rank" else TABLES[table]
+    model = (TABLES | QUESTION)[table]
     schema = model.model_json_schema()["properties"]
     names = {field: f"{table}.{field}" for field in schema}
     return {

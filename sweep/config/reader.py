@@ -18,7 +18,7 @@ from sweep.config.keys import ALIASES, Key, case_keys, nearest, table_keys
 from sweep.config.material_file import UnknownMaterialError, locate, read_record
 from sweep.config.renamed import present
 from sweep.config.structure_file import StructureError, read_structure
-from sweep.config.tables import Rank, rounded
+from sweep.config.tables import QUESTION, Rank, Require, rounded
 
 _REASONS = {
     "literal_error": "unknown choice",
@@ -46,7 +46,7 @@ class Reader:
     def config(self, document: dict[str, Any], path: Path) -> Config:
         """The config of a whole document."""
         document = present(document)
-        sections = ["name", *TABLES, "grid", "zip", "exclude", "rank"]
+        sections = ["name", *TABLES, "grid", "zip", "exclude", *QUESTION]
         for section in document:
             if section not in sections:
                 self._unknown(section, document[section], sections)
@@ -58,7 +58,8 @@ class Reader:
                 tied for table in self._tables(document, "zip") if (tied := self._zip(table))
             ),
             exclude=tuple(filter(None, map(self._exclude, self._tables(document, "exclude")))),
-            rank=self._rank(self._section(document, "rank")),
+            rank=self._rank(self._question(document, "rank")),
+            require=Require(**self._question(document, "require")),
             path=path,
         )
 
@@ -124,9 +125,16 @@ class Reader:
         lists = {f"relaxation_{name}s": [b[name] for b in branches] for name in BRANCH}
         return left | lists
 
-    def _rank(self, section: dict[str, Any]) -> Rank:
-        read = {field: self._value(f"rank.{field}", raw) for field, raw in section.items()}
-        return Rank(**{field: written.value for field, written in read.items() if written})
+    def _question(self, document: dict[str, Any], table: str) -> dict[str, Any]:
+        """The values of a table that asks something of the results."""
+        section = self._section(document, table)
+        read = {field: self._value(f"{table}.{field}", raw) for field, raw in section.items()}
+        return {field: written.value for field, written in read.items() if written}
+
+    def _rank(self, values: dict[str, Any]) -> Rank:
+        if values.get("per") == "panel" and "panel" not in values:
+            self._refuse("rank.per", "panel", 'no rank.panel; allowed: "specimen", or a panel')
+        return Rank(**values)
 
     def _axes(self, axes: dict[str, Any], where: str) -> Axes:
         """Keys that vary, each with its values."""
@@ -183,7 +191,8 @@ class Reader:
 
     def _value(self, name: str, raw: Any, where: str = "") -> Written | None:
         """A value in SI; if it is wrong, None, and one fault is added."""
-        known = case_keys() if where else case_keys() | table_keys("rank")
+        questions = {} if where else table_keys("rank") | table_keys("require")
+        known = case_keys() | questions
         if name not in known:
             self._unknown(name, raw, known, where)
             return None

@@ -34,6 +34,7 @@ Speed = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m/s"})]
 Force = Annotated[float, Field(gt=0, json_schema_extra={"unit": "N"})]
 Energy = Annotated[float, Field(gt=0, json_schema_extra={"unit": "J"})]
 Stress = Annotated[float, Field(gt=0, json_schema_extra={"unit": "Pa"})]
+Acceleration = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m/s^2"})]
 Mass = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
 Density = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg/m^3"})]
 Count = Annotated[int, Field(ge=1)]
@@ -419,7 +420,25 @@ class Solver(Table):
 
 
 class Rank(Table):
-    """Defaults of a ranking: budgets of mass (kg), and the panel that specimens fill (m)."""
+    """Defaults of a ranking: budgets of mass (kg), and the panel that specimens fill (m).
+
+    per: what allowed forces and requirements are of.
+    """
 
     budgets: tuple[Mass, ...] = ()
     panel: tuple[Length, Length] | None = None
+    per: Literal["specimen", "panel"] = "specimen"
+
+
+class Require(Table):
+    """What a design must fulfil to have a place in a ranking; it enters no id."""
+
+    max_force: Force | None = None
+    max_deceleration: Acceleration | None = None
+    max_mass: Mass | None = None
+    min_absorbed: Energy | None = None
+    max_stroke: Length | None = None
+
+
+QUESTION: dict[str, type[Table]] = {"rank": Rank, "require": Require}
+"""Tables of a config that ask something of the results."""

@@ -20,6 +20,7 @@ from sweep.report.design_style import (
     merits,
     until,
 )
+from sweep.report.requirement_notes import required
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,7 +66,10 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
         _error_bars(ax, rows[mass], merit, error)
         for budget in ranking.budgets_g:
             mark(ax, budget, f"{budget:g} g")
-        words = [_in_lines(ax.get_title("left"))]
+        words = [
+            _in_lines(ax.get_title("left")),
+            *map(_in_lines, filter(None, [required(ranking)])),
+        ]
         for sentence, x, y in budget_winners(rows, ranking):
             ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")
             words.append(_in_lines(sentence))

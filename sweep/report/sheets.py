@@ -10,6 +10,12 @@ from pandas import Series
 from sweep.numbers import numerals, percent, short, tenths
 from sweep.ranking.merit import LEAST, greatest_mass
 from sweep.ranking.rank import ASSUMPTIONS, by_scene, scene_label
+from sweep.report.requirement_notes import (
+    panel_column,
+    panel_note,
+    requirement_columns,
+    requirement_notes,
+)
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -100,8 +106,9 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
     for scene, lightest in ranking.lightest_g.items():
         placed = rows = table[table["scene"] == scene]
         missed = _missed(budgets, lightest)
+        asked = tuple(requirement_notes(scene, placed, ranking))
         if rows.empty:
-            yield Sheet(scene, [], [], notes=missed or (NO_PLACE,))
+            yield Sheet(scene, [], [], notes=(*(missed or (NO_PLACE,)), *asked))
             continue
         first = {}
         if len(budgets) > 1:
@@ -127,6 +134,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
                 *_cut_off(rows),
                 *_not_shown(placed),
                 *missed,
+                *asked,
             ),
         )
 
@@ -152,6 +160,7 @@ def legend(ranking: Ranking) -> str:
         again = [AGAIN] if ranking.table["second_cycle_share"].notna().any() else []
         heads["displacement"] += [WHOLE, *again, _what_is_missing(ranking.table)]
     lines = [line for mode, words in heads.items() if mode in modes for line in words]
+    lines += panel_note(ranking.table)
     bars = [TIED] if "ranked_error" in ranking.table else []
     return "\n".join(dict.fromkeys([MARKS, *lines, *bars]))
 
@@ -273,14 +282,15 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
         columns["panel g"] = numerals(rows["panel_mass_g"])
     mode, shown = rows["loading_mode"].iloc[0], {"mass_g", "panel_mass_g"}
     if mode in LEAST:
-        columns |= _under_load(rows) if mode == "force" else _struck(rows)
+        columns |= _under_load(rows) if mode == "force" else _struck(rows) | panel_column(rows)
         shown |= {LEAST[mode]}
     else:
-        columns |= _crushed(rows, ranking)
+        columns |= _crushed(rows, ranking) | panel_column(rows)
         shown |= {ranking.energy, ranking.per_gram}
         if not ranking.limited:
             columns |= _whole(rows)
             shown |= {"packing_strain", "returned_share", "second_cycle_share"}
+    columns |= requirement_columns(rows, ranking)
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
         if "ranked_error" in rows:
