@@ -91,7 +91,7 @@ def _counts(outcome: Outcome) -> str:
     """How many designs fulfil all requirements, and how many fail each."""
     failing = outcome.designs - outcome.fulfil
     if not failing:
-        return f"All {outcome.designs} designs fulfil this."
+        return f"All designs ({outcome.designs}) fulfil this."
     parts = [f"{name} ({count})" for name, count in outcome.failed.items() if count]
     several = "; some fail several" if sum(outcome.failed.values()) > failing else ""
     fulfil = f"{outcome.fulfil} of {outcome.designs} designs fulfil this"

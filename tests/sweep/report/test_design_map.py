@@ -43,6 +43,13 @@ def test_map_names_and_rings_the_winner_of_each_budget(ranking):
     assert rings == [(1.0, 0.1), (2.0, 0.3)]
 
 
+def test_map_says_what_is_required(ranking):
+    figure = blank(8, 4)
+    design_map(figure, replace(ranking, required={"max_force": 60.0}))
+    said = figure.axes[0].get_title("left").splitlines()
+    assert said[1] == "Required of a specimen: force at most 60 N."
+
+
 def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
     loaded = changed(ranking, loading_mode="force", peak_strain=[0.3, 0.2, 0.1] * 2)
     figure = blank(8, 4)
