@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from sweep.report.design_style import doubtful, errors_of, until
+from sweep.report.requirement_notes import titled
 from sweep.report.sheets import design_labels
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ def pattern_bars(fig: Figure, ranking: Ranking) -> None:
         errors = errors_of(ordered, per_gram)
         ax.errorbar(ordered[per_gram], range(len(ordered)), xerr=errors, fmt="none", ecolor="black")
         ax.set_yticks(range(len(ordered)), design_labels(ordered, designs), fontsize="small")
-        ax.set_title(scene, loc="left", fontsize="medium")
+        ax.set_title(titled(str(scene), ranking), loc="left", fontsize="medium")
         ax.set_xlabel(f"absorbed energy per gram{until(ranking)}, J/g")
         ax.spines[["top", "right"]].set_visible(False)
 

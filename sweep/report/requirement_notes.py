@@ -65,6 +65,11 @@ def required(ranking: Ranking) -> str:
     return f"Required of a {ranking.per}: {', '.join(limits)}." if limits else ""
 
 
+def titled(title: str, ranking: Ranking) -> str:
+    """The title of a picture with the requirements on a line of their own."""
+    return "\n".join(filter(None, [title, required(ranking)]))
+
+
 def requirement_notes(scene: str, placed: DataFrame, ranking: Ranking) -> Iterator[str]:
     """Sentences about the requirements in one scene: what they are, who fails, what is missing.
 
