@@ -97,14 +97,17 @@ def merits(
         "crossed": finished["max_crossings"] > 0,
     }
     names = Compared("mass_g", energy, per_gram, until)
+    crushed = finished["loading_mode"] == "displacement"
     for column in (error_column, correction_column):
         if (known := column(energy)) in finished:
             added[column(per_gram)] = finished[known] / finished["mass_g"]
             added[column("passed_on_N")] = finished[column(str(force.name))]
             if factor is not None:
                 added[column("panel_energy_J")] = factor * finished[known]
+                borne = finished[column(str(force.name))]
+                whole = finished.get(column("peak_force_N"), borne * float("nan"))
+                added[column("panel_force_N")] = factor * borne.where(crushed, whole)
     if factor is not None:
-        crushed = finished["loading_mode"] == "displacement"
         added["panel_specimens"] = factor
         added["panel_force_N"] = factor * force.where(crushed, finished["peak_force_N"])
         added["panel_mass_g"] = factor * finished["mass_g"]

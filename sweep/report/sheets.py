@@ -282,7 +282,7 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
         columns["panel g"] = numerals(rows["panel_mass_g"])
     mode, shown = rows["loading_mode"].iloc[0], {"mass_g", "panel_mass_g"}
     if mode in LEAST:
-        columns |= _under_load(rows) if mode == "force" else _struck(rows) | panel_column(rows)
+        columns |= _under_load(rows) if mode == "force" else _struck(rows)
         shown |= {LEAST[mode]}
     else:
         columns |= _crushed(rows, ranking) | panel_column(rows)
@@ -306,6 +306,7 @@ def _under_load(rows: DataFrame) -> dict[str, Series]:
 def _struck(rows: DataFrame) -> dict[str, Series]:
     return {
         "force N": numerals(rows["peak_force_N"]),
+        **panel_column(rows),
         "sink %": numerals(100.0 * rows["peak_strain"]),
         "left mm": numerals(1e3 * rows["stroke_left_m"]),
         "rebound %": rows["rebound_share"].map(percent),
