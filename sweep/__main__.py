@@ -75,13 +75,16 @@ and again after an update of Crumple or of its packages. The code is kept in CRU
 in ~/.cache/crumple: one call serves all machines of a cluster that share this folder and have the
 same processor."""
 RANK = """List the designs that absorb the most energy, one table for each loading scene.
-Budgets and panel are those of [rank] in the config, unless they are given here; --by alone ranks
-single specimens of any mass."""
+Budgets, panel and requirements are those of [rank] and [require] in the config, unless they are
+given here ("none" drops a requirement); --by alone ranks single specimens of any mass. Designs that
+fail a requirement have no place; notes say how many fail which."""
 RANK_EXAMPLES = """examples:
   crumple rank F.h5                                         as [rank] in the config says; else J/g
   crumple rank F.h5 --budget "25 g" "2 oz"                  two budgets
   crumple rank F.h5 --budget "1 oz" --panel "4 in" "2 in"   a panel of at most an ounce
   crumple rank F.h5 --allowed-force "50 N"                  energy until the force exceeds 50 N
+  crumple rank F.h5 --max-force "60 N" --max-mass "2 g"      designs that fulfil both
+  crumple rank F.h5 --allowed-force "2 kN" --per panel      force of the whole panel
   crumple rank F.h5 --by specific_absorption_J_per_g        most J/g, whatever the mass
   crumple rank F.h5 --by peak_force_N --top 3               least force first
   crumple rank F.h5 --csv > ranking.csv
@@ -128,6 +131,15 @@ MATERIALS_EXAMPLES = """examples:
   crumple materials fit coupon.csv --out mine.csv           curve, loss and softening
   crumple materials fit pull.csv --gauge "33 mm" --area "8 mm^2" --density "1210 kg/m^3"
 """
+
+
+REQUIREMENTS = {
+    "max_force": ("FORCE", 'required, while the counted energy is absorbed: "60 N"'),
+    "max_deceleration": ("G", 'required, of the striker, filtered: "80 g0"'),
+    "max_mass": ("MASS", 'required: "2 g"'),
+    "min_absorbed": ("ENERGY", 'required: "1.5 J"'),
+    "max_stroke": ("LENGTH", 'required: "8 mm"'),
+}
 
 
 class Parser(argparse.ArgumentParser):
@@ -347,6 +359,11 @@ def _add_question(rank: argparse.ArgumentParser) -> None:
     rank.add_argument(
         "--allowed-force", metavar="FORCE", help='count energy up to this force: "50 N"'
     )
+    rank.add_argument(
+        "--per", choices=("specimen", "panel"), help="what that force and requirements are of"
+    )
+    for name, (kind, what) in REQUIREMENTS.items():
+        rank.add_argument(f"--{name.replace('_', '-')}", metavar=kind, help=what)
 
 
 def _count(text: str) -> int:

@@ -48,6 +48,7 @@ OLDER: dict[str, float | int | str] = {
     "infill_share": nan,
     "slicer_settings": "",
     "does_not_print": "",
+    "peak_deceleration_filtered_m_per_s2": nan,
 }
 """Values of columns that rows of older versions do not have.
 
@@ -239,6 +240,12 @@ COLUMNS: dict[str, Column] = {
     "peak_deceleration_m_per_s2": Column(
         "m/s^2", "greatest deceleration of the striker; NaN without one", "less"
     ),
+    "peak_deceleration_filtered_m_per_s2": Column(
+        "m/s^2",
+        "the same behind a filter of loading.filter_class (SAE J211-1); NaN if rows are farther "
+        "apart than a tenth of 1 / class in Hz",
+        "less",
+    ),
     "stroke_left_m": Column(
         "m",
         "stroke that closes all voids - greatest stroke of the striker; NaN without one",
@@ -340,7 +347,19 @@ RANKING_COLUMNS: dict[str, Column] = {
     "counted_mass_g": Column("g", "mass as extruded, or of the drawn walls without slicer", "less"),
     "panel_mass_g": Column("g", "mass of the specimens that fill the panel", "less"),
     "panel_energy_J": Column("J", "energy that the specimens of the panel absorb", "more"),
+    "panel_specimens": Column("1", "number of specimens that fill the panel"),
+    "panel_force_N": Column(
+        "N",
+        "greatest force of all specimens of the panel together while the counted energy is "
+        "absorbed; in an impact, on the support",
+        "less",
+    ),
     "passed_on_N": Column("N", "greatest force while the counted energy is absorbed", "less"),
+    "counted_stroke_m": Column("m", "stroke in which the counted energy is absorbed", "less"),
+    "absorbed_energy_at_allowed_J": Column(
+        "J", "work done until the allowed force of the panel is exceeded", "more"
+    ),
+    "stroke_at_allowed_m": Column("m", "stroke at which the allowed force is exceeded", "less"),
     "returned_share": Column("1", "returned energy / work of the whole crush", "less"),
 }
 """Columns that a ranking adds to those of the summary, and by which it may sort."""

@@ -92,7 +92,7 @@ def _heading(question: Mapping[str, Any], ranking: Ranking) -> str:
     lines = [f"Best first: {order}."]
     crushed = (ranking.table["loading_mode"] == "displacement").any()
     if (force := question.get("allowed_force")) and crushed:
-        lines.append(f"Energy is counted until the force of a specimen exceeds {force}.")
+        lines.append(f"Energy is counted until the force of a {ranking.per} exceeds {force}.")
     elif force:
         lines.append(f"The force of {force} has no effect: without a crush no energy is ranked.")
     if (budgets := question["budget"]) and len(budgets) == 1:

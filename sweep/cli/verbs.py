@@ -92,6 +92,7 @@ def run(arguments: Namespace) -> int:
     failed = run_sweep(config, out, *how)
     failed += add_error_bars(config, out, *how) if arguments.error_bars else 0
     question = _question(config.rank.budgets, config.rank.panel)
+    question |= {"require": config.require.model_dump(), "per": config.rank.per}
     print_ranking(out, read_summary(out), question)
     failed += _spread(config, out, how, question) if arguments.spread else 0
     _hint(next_commands(out, read_summary(out)))
@@ -189,12 +190,14 @@ def status(arguments: Namespace) -> int:
 
 def rank(arguments: Namespace) -> int:
     """Print the ranking as tables or as text for other programs, or write it into a folder."""
+    from sweep.ranking.curves import with_allowed
     from sweep.ranking.rank import ranked
     from sweep.report.markdown import markdown
     from sweep.report.sheets import ranking_sheets
     from sweep.store.read import read_summary
 
-    summary, question = read_summary(arguments.file), _asked(arguments)
+    question = _asked(arguments)
+    summary = with_allowed(arguments.file, read_summary(arguments.file), question)
     if arguments.out:
         from sweep.report.publish import publish_ranking
 
@@ -341,14 +344,16 @@ def _asked(arguments: Namespace) -> dict[str, Any]:
     """Keyword arguments of `rank` from the command line, completed from the config.
 
     The budgets of the config are used unless --budget or --by is given; its panel is used unless
-    --panel is given, or --by without --budget.
+    --panel is given, or --by without --budget where nothing is asked of a panel.
     """
-    stored = _stored_rank(arguments.file)
+    stored = _stored(arguments.file, "rank")
     budgets, panel = stored.get("budgets"), stored.get("panel")
+    per = arguments.per or stored.get("per") or "specimen"
     if arguments.by and not arguments.budget:
-        budgets = panel = None
+        budgets, panel = None, panel if per == "panel" else None
     question = _question(arguments.budget or budgets, arguments.panel or panel)
     question |= {"by": arguments.by, "allowed_force": arguments.allowed_force}
+    question |= {"require": _required(arguments), "per": per}
     return question | ({"top": arguments.top} if arguments.top else {})
 
 
@@ -359,15 +364,24 @@ def _question(budgets: Iterable[Any] | None, panel: Iterable[Any] | None) -> dic
     return {"budget": masses or None, "panel": sides or None, "top": top}
 
 
-def _stored_rank(file: str) -> dict[str, Any]:
-    """The table [rank] of the config stored in a results file."""
+def _required(arguments: Namespace) -> dict[str, Any]:
+    """The requirements of the config, each replaced or dropped by its option."""
+    from sweep.ranking.requirements import MEASURES
+
+    given = {name: getattr(arguments, name) for name in MEASURES}
+    wished = _stored(arguments.file, "require") | {k: v for k, v in given.items() if v}
+    return {name: value for name, value in wished.items() if value not in (None, "none")}
+
+
+def _stored(file: str, table: str) -> dict[str, Any]:
+    """The table [rank] or [require] of the config stored in a results file."""
     from sweep.store.read import read_attributes
 
     try:
         config: dict[str, Any] = json.loads(read_attributes(file).get("config") or "{}")
     except ValueError:
         raise ArgumentError(f"{file} is damaged: the config in it is no JSON") from None
-    return config.get("rank") or {}
+    return config.get(table) or {}
 
 
 def _failures(file: str, summary: DataFrame) -> Iterator[str]:

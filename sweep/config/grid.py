@@ -19,7 +19,7 @@ from sweep.config.case import TABLES, Case
 from sweep.config.keys import ALIASES, case_keys
 from sweep.config.material_header import KEYS
 from sweep.config.resolve import resolve
-from sweep.config.tables import Rank, Table, rounded
+from sweep.config.tables import Rank, Require, Table, rounded
 from sweep.config.unused_keys import still_unused
 
 MAX_CASES = 1_000_000
@@ -80,6 +80,7 @@ class Config:
     zip: tuple[Axes, ...] = ()
     exclude: tuple[dict[str, tuple[object, ...]], ...] = ()
     rank: Rank = field(default_factory=Rank)
+    require: Require = field(default_factory=Require)
     path: Path | None = None
     search: dict[str, Interval | Choice] = field(default_factory=dict)
 

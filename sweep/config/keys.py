@@ -12,9 +12,10 @@ from typing import Any
 
 from pydantic import ConfigDict, TypeAdapter
 
+from sweep.config import drop_tests
 from sweep.config.case import TABLES
 from sweep.config.material_file import available
-from sweep.config.tables import Rank, Table
+from sweep.config.tables import QUESTION, Table
 
 ALIASES = {
     "lattice.cells": ("lattice.cells_x", "lattice.cells_y"),
@@ -34,6 +35,7 @@ QUANTITIES = {
     "s": 'a time with a unit, such as "0.2 s"',
     "1/s": 'a rate with a unit, such as "5 1/s"',
     "m/s": 'a speed with a unit, such as "100 mm/min"',
+    "m/s^2": 'an acceleration with a unit, such as "80 g0", of standard gravity (g is a gram)',
     "N": 'a force with a unit, such as "10 N"',
     "J": 'an energy with a unit, such as "0.1 J"',
     "Pa": 'a stress with a unit, such as "12 MPa"',
@@ -80,7 +82,7 @@ def case_keys() -> dict[str, Key]:
 @cache
 def table_keys(table: str) -> dict[str, Key]:
     """The keys of one table by their dotted names."""
-    model = Rank if table == "rank" else TABLES[table]
+    model = (TABLES | QUESTION)[table]
     schema = model.model_json_schema()["properties"]
     names = {field: f"{table}.{field}" for field in schema}
     return {
@@ -103,6 +105,8 @@ def _key(name: str, model: type[Table], field: str, schema: dict[str, Any]) -> K
     allowed = _words(schema)
     if name == "material.name":
         allowed = f"{', '.join(available())}, or the path of a .csv file"
+    if name == "loading.preset":
+        allowed = drop_tests.in_words()
     info = model.model_fields[field]
     config = ConfigDict(strict=True, allow_inf_nan=False)
     adapter = TypeAdapter(info.rebuild_annotation(), config=config)

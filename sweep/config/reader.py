@@ -11,6 +11,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from sweep.config import drop_tests
 from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import TABLES
 from sweep.config.grid import Axes, Config, Fault, Values
@@ -19,7 +20,7 @@ from sweep.config.material_file import RecordError, UnknownMaterialError, locate
 from sweep.config.other_names import meant, present_choice
 from sweep.config.renamed import present
 from sweep.config.structure_file import StructureError, read_structure
-from sweep.config.tables import Rank, rounded
+from sweep.config.tables import QUESTION, Rank, Require, rounded
 
 _REASONS = {
     "literal_error": "unknown choice",
@@ -56,7 +57,7 @@ class Reader:
     def config(self, document: dict[str, Any], path: Path) -> Config:
         """The config of a whole document."""
         document = present(document)
-        sections = ["name", *TABLES, "grid", "zip", "exclude", "search", "rank"]
+        sections = ["name", *TABLES, "grid", "zip", "exclude", "search", *QUESTION]
         for section in document:
             if section not in sections:
                 self._unknown(section, document[section], sections)
@@ -68,7 +69,8 @@ class Reader:
                 tied for table in self._tables(document, "zip") if (tied := self._zip(table))
             ),
             exclude=tuple(filter(None, map(self._exclude, self._tables(document, "exclude")))),
-            rank=self._rank(self._section(document, "rank")),
+            rank=self._rank(self._question(document, "rank")),
+            require=Require(**self._question(document, "require")),
             path=path,
             search=self._search(document),
         )
@@ -139,9 +141,16 @@ class Reader:
             self._refuse("material.relaxation", branches, wrong)
         return left | lists
 
-    def _rank(self, section: dict[str, Any]) -> Rank:
-        read = {field: self._value(f"rank.{field}", raw) for field, raw in section.items()}
-        return Rank(**{field: written.value for field, written in read.items() if written})
+    def _question(self, document: dict[str, Any], table: str) -> dict[str, Any]:
+        """The values of a table that asks something of the results."""
+        section = self._section(document, table)
+        read = {field: self._value(f"{table}.{field}", raw) for field, raw in section.items()}
+        return {field: written.value for field, written in read.items() if written}
+
+    def _rank(self, values: dict[str, Any]) -> Rank:
+        if values.get("per") == "panel" and "panel" not in values:
+            self._refuse("rank.per", "panel", 'no rank.panel; allowed: "specimen", or a panel')
+        return Rank(**values)
 
     def _axes(self, axes: dict[str, Any], where: str) -> Axes:
         """Keys that vary, each with its values."""
@@ -225,7 +234,8 @@ class Reader:
 
     def _value(self, name: str, raw: Any, where: str = "") -> Written | None:
         """A value in SI; if it is wrong, None, and one fault is added."""
-        known = case_keys() if where else case_keys() | table_keys("rank")
+        questions = {} if where else table_keys("rank") | table_keys("require")
+        known = case_keys() | questions
         if name not in known:
             self._unknown(name, raw, known, where)
             return None
@@ -259,6 +269,8 @@ class Reader:
         if key.targets == ("lattice.file",) and isinstance(raw, str):
             return _structure(self.folder / raw)
         raw = present_choice(key.targets[0], raw)
+        if key.targets == ("loading.preset",) and isinstance(raw, str):
+            return drop_tests.in_si(raw, self.to_si)
         many = isinstance(raw, list)
         if many and not key.is_list:
             raise ValueError("a list, which belongs in [grid]")

@@ -7,10 +7,11 @@ contradict one another are refused. Resolving a resolved case changes nothing.
 from collections.abc import Mapping
 from functools import lru_cache
 from math import isclose, sqrt
-from typing import Any
+from typing import Any, Literal
 
 from pydantic_core import PydanticCustomError
 
+from sweep.config.drop_tests import Drop, drop_of
 from sweep.config.lattice_table import Lattice, sized
 from sweep.config.printable import be_printable
 from sweep.config.solver_defaults import (
@@ -27,6 +28,8 @@ from sweep.config.structure import Structure
 from sweep.config.tables import Contact, Damping, Loading, Solver, refusal
 
 STRAIN_RATE = 0.01  # 1/s, of a quasi-static crush of a material that relaxes
+FILTER_CLASS: Literal[1000] = 1000  # of SAE J211-1, as of a head form in drop tests (ASTM F1292)
+GRAVITY = 9.80665  # m/s^2, standard
 PASSAGES = 10  # default duration of an impact / time the striker takes for the lattice's height
 PLATENS = '"contact", "glued" or "sliding"'
 DEPENDENT = ("loading", "contact", "damping", "solver")
@@ -151,29 +154,63 @@ def _impact(loading: Loading, height: float, integrator: str | None) -> Loading:
         raise refusal("solver.integrator", "static", f'{IN_TIME} if loading.mode is "impact"')
     if loading.platen == "none":
         raise refusal("loading.platen", "none", f'{PLATENS} if loading.mode is "impact"')
-    striker_mass = given_or(loading.striker_mass, 0.05)
-    speed, energy = _speed_and_energy(loading, striker_mass)
+    striker_mass, drop_height = _dropped(loading)
+    speed, energy, drop_height = _at_touch(loading, striker_mass, drop_height)
     return Loading(
         mode="impact",
         striker_mass=striker_mass,
         striker_speed=speed,
         energy=energy,
+        drop_height=drop_height,
+        preset=loading.preset,
+        specimens=loading.specimens,
+        filter_class=given_or(loading.filter_class, FILTER_CLASS),
         duration=given_or(loading.duration, PASSAGES * height / speed),
         platen=loading.platen or "glued",
         allowed_forces=loading.allowed_forces,
     )
 
 
-def _speed_and_energy(loading: Loading, striker_mass: float) -> tuple[float, float]:
-    """Speed and energy, one from the other; 2 m/s if neither is given."""
-    if loading.striker_speed is None and loading.energy is not None:
-        return sqrt(2.0 * loading.energy / striker_mass), loading.energy
+def _dropped(loading: Loading) -> tuple[float, float | None]:
+    """Mass of the striker and height of its fall, of the preset where it says them."""
+    mass, height, count = loading.striker_mass, loading.drop_height, loading.specimens
+    drop = drop_of(loading.preset) if loading.preset else Drop(None, height or 0.0)
+    if count and drop.mass is None:
+        raise refusal("loading.specimens", count, "none unless loading.preset has a mass")
+    if loading.preset and drop.mass is None and mass is None:
+        raise refusal("loading.striker_mass", None, "the mass that falls, as the preset has none")
+    usual = given_or(mass, 0.05) if drop.mass is None else drop.mass / (count or 1)
+    if not isclose(given_or(mass, usual), usual, rel_tol=1e-9):
+        raise refusal("loading.striker_mass", mass, f"{usual:g} kg, as loading.preset is given")
+    if not isclose(given_or(height, drop.height), drop.height, rel_tol=1e-9):
+        allowed = f"{drop.height:g} m, as loading.preset is given"
+        raise refusal("loading.drop_height", height, allowed)
+    return usual, drop.height or None
+
+
+def _at_touch(
+    loading: Loading, mass: float, drop_height: float | None
+) -> tuple[float, float, float]:
+    """Speed and energy of a striker and the height of its fall, from one of them: v^2 = 2 g h.
+
+    2 m/s if none is given.
+    """
     speed = given_or(loading.striker_speed, 2.0)
-    energy = 0.5 * striker_mass * speed**2
-    if not isclose(given_or(loading.energy, energy), energy, rel_tol=1e-9):
-        allowed = f"{energy:g} J at the speed given; give one of them"
-        raise refusal("loading.energy", loading.energy, allowed)
-    return speed, energy
+    if loading.striker_speed is None and drop_height is not None:
+        speed = sqrt(2.0 * GRAVITY * drop_height)
+    elif loading.striker_speed is None and loading.energy is not None:
+        speed = sqrt(2.0 * loading.energy / mass)
+    energy, fall = 0.5 * mass * speed**2, speed**2 / (2.0 * GRAVITY)
+    source = "drop height" if loading.striker_speed is None else "speed"
+    for key, value, found, unit in (
+        ("drop_height", drop_height, fall, "m"),
+        ("energy", loading.energy, energy, "J"),
+    ):
+        if not isclose(given_or(value, found), found, rel_tol=1e-9):
+            of = "preset" if key == "drop_height" and loading.drop_height is None else key
+            allowed = f"{found:g} {unit} at the {source} given; give one of them"
+            raise refusal(f"loading.{of}", getattr(loading, of), allowed)
+    return speed, given_or(loading.energy, energy), given_or(drop_height, fall)
 
 
 def _displacement(loading: Loading, height: float, integrator: str | None) -> Loading:

@@ -34,6 +34,7 @@ Speed = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m/s"})]
 Force = Annotated[float, Field(gt=0, json_schema_extra={"unit": "N"})]
 Energy = Annotated[float, Field(gt=0, json_schema_extra={"unit": "J"})]
 Stress = Annotated[float, Field(gt=0, json_schema_extra={"unit": "Pa"})]
+Acceleration = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m/s^2"})]
 Mass = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
 Density = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg/m^3"})]
 Count = Annotated[int, Field(ge=1)]
@@ -304,7 +305,10 @@ MODES = {
         *("stroke", "strain", "speed", "strain_rate"),
         *("quasi_static", "unload", "cycles"),
     ),
-    "impact": ("striker_mass", "striker_speed", "energy"),
+    "impact": (
+        *("striker_mass", "striker_speed", "energy"),
+        *("drop_height", "preset", "specimens", "filter_class"),
+    ),
 }
 
 
@@ -314,9 +318,14 @@ class Loading(Table):
     If the mode is not given, keys that only one mode has imply it. The mode of a custom structure
     is "custom": the file of the structure has its loading. `cycles`: how often a platen moves down
     and back up.
+
+    `drop_height` and `preset` (`drop_tests`) are other words for the speed and the mass of a
+    striker, and `specimens` for the share of the mass of the preset that one of them bears.
+    `filter_class`: of the filter behind which the deceleration of a striker is measured.
     """
 
-    neutral: ClassVar[dict[str, Any]] = {"cycles": 1}
+    labels: ClassVar[tuple[str, ...]] = ("drop_height", "preset", "specimens")
+    neutral: ClassVar[dict[str, Any]] = {"cycles": 1, "filter_class": 1000}
 
     mode: Literal["force", "displacement", "impact", "custom"] = "force"
     force: Force | None = None
@@ -332,6 +341,10 @@ class Loading(Table):
     striker_mass: Mass | None = None
     striker_speed: Speed | None = None
     energy: Energy | None = None
+    drop_height: Length | None = None
+    preset: str | None = None
+    specimens: Count | None = None
+    filter_class: Literal[60, 180, 600, 1000] | None = None
     platen: Literal["none", "contact", "glued", "sliding"] | None = None
     allowed_forces: Forces = ()
 
@@ -410,7 +423,25 @@ class Solver(Table):
 
 
 class Rank(Table):
-    """Defaults of a ranking: budgets of mass (kg), and the panel that specimens fill (m)."""
+    """Defaults of a ranking: budgets of mass (kg), and the panel that specimens fill (m).
+
+    per: what allowed forces and requirements are of.
+    """
 
     budgets: tuple[Mass, ...] = ()
     panel: tuple[Length, Length] | None = None
+    per: Literal["specimen", "panel"] = "specimen"
+
+
+class Require(Table):
+    """What a design must fulfil to have a place in a ranking; it enters no id."""
+
+    max_force: Force | None = None
+    max_deceleration: Acceleration | None = None
+    max_mass: Mass | None = None
+    min_absorbed: Energy | None = None
+    max_stroke: Length | None = None
+
+
+QUESTION: dict[str, type[Table]] = {"rank": Rank, "require": Require}
+"""Tables of a config that ask something of the results."""

@@ -39,6 +39,7 @@ thou = 1e-3 * inch
 foot = 12 * inch = ft = feet
 ounce = 28.349523125 * gram = oz
 pound = 16 * ounce = lb
+standard_gravity = 9.80665 * meter / second ** 2 = g0 = gn
 newton = kilogram * meter / second ** 2 = N
 kilogram_force = 9.80665 * newton = kgf
 pound_force = 4.4482216152605 * newton = lbf

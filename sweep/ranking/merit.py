@@ -5,7 +5,8 @@ packed lattice absorbs energy as a solid block does, at a multiple of the force,
 infill. Where the loading sets the energy, the columns of `LEAST` are compared instead.
 
 A panel consists of specimens side by side, of outer width w and depth b:
-factor = panel area / (w b),  panel mass = factor mass,  panel energy = factor energy.
+n = panel area / (w b), to the nearest whole number, is how many they are; its mass, energy and
+force are n times those of a specimen.
 """
 
 from __future__ import annotations
@@ -41,6 +42,7 @@ AT_DENSIFICATION = (
     "absorbed_energy_at_densification_J",
     "specific_absorption_at_densification_J_per_g",
 )
+AT_ALLOWED = "absorbed_energy_at_allowed_J"
 ROUND_OFF = 1e-9
 
 
@@ -62,19 +64,29 @@ def merits(
     by: str | None,
     panel: Sequence[Quantity] | None,
     allowed_force: Quantity | None,
+    per: str = "specimen",
 ) -> tuple[DataFrame, Compared]:
     """Rows with the compared columns added, and the names of these columns.
 
-    A budget counts the mass as extruded where there is a slicer (`counted_mass_g`).
-    Other added columns: `passed_on_N`, the greatest force while that energy is absorbed;
-    `returned_share`, returned energy / work of the whole crush; `beyond_model`; `crossed`;
-    `beyond_curve`; and errors and corrections of added columns, if the energy has them.
+    per: whether the allowed force is that of a specimen or of the panel. A budget counts the mass
+    as extruded where there is a slicer (`counted_mass_g`).
+
+    Other added columns: `passed_on_N`, the greatest force while that energy is absorbed, and
+    `panel_force_N`; `counted_stroke_m`; `returned_share`, returned energy / work of the whole
+    crush; `beyond_model`; `crossed`; `beyond_curve`; and errors and corrections of added columns,
+    if the energy has them.
     """
     if missing := [name for name in COLUMNS if name not in finished and name not in OLDER]:
         raise RankError(
             f"no {missing[0]}: an older version wrote these results; run them again into a new file"
         )
-    energy, force, until = _counted(finished, by, allowed_force)
+    factor = None if panel is None else panel_specimens(finished, panel)
+    if per == "panel" and factor is None:
+        raise RankError('per "panel" needs a panel: --panel, or rank.panel in the config')
+    if per == "panel" and allowed_force is not None:
+        energy, force, until = _counted_of_panel(finished, factor, allowed_force)
+    else:
+        energy, force, until = _counted(finished, by, allowed_force)
     per_gram = f"{energy}_per_g".replace("absorbed_energy", "specific_absorption")
     mass, grams = counted_mass(finished)
     within = finished["absorbed_energy_within_model_J"] * (1.0 + ROUND_OFF)
@@ -82,20 +94,26 @@ def merits(
         mass: grams,
         per_gram: finished[energy] / grams,
         "passed_on_N": force,
+        "counted_stroke_m": _stroke(finished, energy, allowed_force),
         "returned_share": finished["returned_energy_J"] / finished["absorbed_energy_J"],
         "beyond_model": (finished[energy] > within) | _through_solid(finished),
         "crossed": finished["max_crossings"] > 0,
         "beyond_curve": finished["stretch_over_curve"] > 1.0,
     }
     names = Compared(mass, energy, per_gram, until)
-    factor = None if panel is None else panel_factor(finished, panel)
+    crushed = finished["loading_mode"] == "displacement"
     for column in (error_column, correction_column):
         if (known := column(energy)) in finished:
             added[column(per_gram)] = finished[known] / grams
             added[column("passed_on_N")] = finished[column(str(force.name))]
             if factor is not None:
                 added[column("panel_energy_J")] = factor * finished[known]
+                borne = finished[column(str(force.name))]
+                whole = finished.get(column("peak_force_N"), borne * float("nan"))
+                added[column("panel_force_N")] = factor * borne.where(crushed, whole)
     if factor is not None:
+        added["panel_specimens"] = factor
+        added["panel_force_N"] = factor * force.where(crushed, finished["peak_force_N"])
         added["panel_mass_g"] = factor * grams
         added["panel_energy_J"] = factor * finished[energy]
         names = names._replace(mass="panel_mass_g", energy="panel_energy_J")
@@ -116,12 +134,15 @@ def _through_solid(finished: DataFrame) -> Series:
     return sunk | (finished["stroke_left_m"] < -ROUND_OFF)
 
 
-def panel_factor(frame: DataFrame, panel: Sequence[Quantity]) -> Series:
-    """Number of specimens, side by side, that fill the area of the panel."""
+def panel_specimens(frame: DataFrame, panel: Sequence[Quantity]) -> Series:
+    """Number of specimens, side by side, that fill the area of the panel most nearly."""
     if len(panel) != 2:
         raise RankError(f"a panel has two lengths, got {len(panel)}")
     area = in_si(panel[0], "m") * in_si(panel[1], "m")
-    return area / (frame["outer_width_m"] * frame["depth_m"])
+    count = (area / (frame["outer_width_m"] * frame["depth_m"])).round()
+    if (count < 1).any():
+        raise RankError("the panel is smaller than half of a specimen; allowed: a larger panel")
+    return count.astype(int)
 
 
 def greatest_mass(budget_g: float) -> float:
@@ -145,10 +166,12 @@ def in_si(value: Any, unit: str) -> float:
 def be_written(given: Mapping[str, Any]) -> None:
     """Refuse arguments with a number that has no unit."""
     examples = {"budget": "25 g", "panel": "100 mm", "allowed_force": "50 N"}
+    examples |= {"max_force": "50 N", "max_deceleration": "80 g0", "max_mass": "25 g"}
+    examples |= {"min_absorbed": "1 J", "max_stroke": "8 mm"}
     for name, value in given.items():
         for item in [value] if isinstance(value, str) or not isinstance(value, Iterable) else value:
             if not isinstance(item, str | None):
-                allowed = f'text with a unit, such as "{examples[name]}"'
+                allowed = f'text with a unit, such as "{examples.get(name, "50 N")}"'
                 raise RankError(f"{name} = {item!r}: a bare number; allowed: {allowed}")
 
 
@@ -167,6 +190,35 @@ def _counted(
         return AT_DENSIFICATION[0], force, "until densification"
     force = finished["peak_force_until_packed_N"]
     return "absorbed_energy_until_packed_J", force, "until the lattice has packed"
+
+
+def _counted_of_panel(
+    finished: DataFrame, count: Series, allowed_force: Quantity
+) -> tuple[str, Series, str]:
+    """As `_counted` returns, up to a force of the panel, from columns of `curves`."""
+    limit = in_si(allowed_force, "N")
+    if AT_ALLOWED not in finished:
+        raise RankError(
+            "a force of the panel needs the curves of the results: rank the file itself"
+        )
+    force = finished["peak_force_N"].clip(upper=limit / count)
+    return AT_ALLOWED, force, f"until the force of the panel exceeds {limit:g} N"
+
+
+def _stroke(finished: DataFrame, energy: str, allowed_force: Quantity | None) -> Series:
+    """Stroke (m) in which the counted energy of a crush is absorbed; elsewhere, the greatest.
+
+    NaN in a crush up to an allowed force, unless `curves` has added it.
+    """
+    whole = finished["peak_strain"] * finished["height_m"]
+    crushed = finished["loading_mode"] == "displacement"
+    if allowed_force is not None:
+        return finished.get("stroke_at_allowed_m", whole * float("nan")).where(crushed, whole)
+    if energy == AT_DENSIFICATION[0]:
+        strain = finished["densification_strain"].fillna(finished["peak_strain"])
+    else:
+        strain = finished["peak_strain" if energy == WHOLE_CRUSH[0] else "packing_strain"]
+    return (strain * finished["height_m"]).where(crushed, whole)
 
 
 def _energy_column(frame: DataFrame, force: float) -> str:

@@ -8,7 +8,7 @@ least strain is the best, under a striker the one with the least force on the su
 from __future__ import annotations
 
 import difflib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from os import PathLike
 
@@ -17,6 +17,7 @@ import pandas as pd
 from pandas import DataFrame, Series
 
 from sweep.numbers import NOTHING, energy_text, short, with_unit
+from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import (
     LEAST,
     Compared,
@@ -28,6 +29,7 @@ from sweep.ranking.merit import (
     merits,
 )
 from sweep.ranking.ranking import Ranking
+from sweep.ranking.requirements import check, judge, limits
 from sweep.result import (
     OLDER,
     Status,
@@ -44,7 +46,7 @@ HELD_BY_SCENE = tuple(
     f"loading.{key}"
     for key in (
         *("mode", "platen", "force", "allowed_forces"),
-        *("striker_mass", "striker_speed", "energy"),
+        *("striker_mass", "striker_speed", "energy", "drop_height", "preset", "specimens"),
     )
 )
 ASSUMPTIONS = (
@@ -61,6 +63,8 @@ ASSUMPTIONS = (
 )
 """Grid keys of the test and not of the design: every value of them makes a scene of its own."""
 
+PER = ("specimen", "panel")
+NO_ATTRS = ("per", "required", "outcomes")  # fields of `Ranking` that are newer than attributes
 LEADING = [
     "budget_g",
     "scene",
@@ -73,8 +77,10 @@ LEADING = [
     "sharing",
     "contenders",
     "counted_mass_g",
+    "panel_specimens",
     "panel_mass_g",
     "panel_energy_J",
+    "panel_force_N",
     "passed_on_N",
     "returned_share",
     "beyond_model",
@@ -83,13 +89,15 @@ LEADING = [
 ]
 
 
-def rank(
+def rank(  # noqa: PLR0913  every argument is a part of one question
     source: str | PathLike[str] | DataFrame,
     budget: Quantity | Sequence[Quantity] | None = None,
     panel: Sequence[Quantity] | None = None,
     by: str | None = None,
     top: int | None = 10,
     allowed_force: Quantity | None = None,
+    require: Mapping[str, Quantity | None] | None = None,
+    per: str = "specimen",
 ) -> DataFrame:
     """Best designs of each loading scene, best first.
 
@@ -106,10 +114,13 @@ def rank(
         `absorbed_energy_J` or `specific_absorption_J_per_g`, energy is counted to full stroke, with
         `absorbed_energy_at_densification_J` or the same per gram to the greatest efficiency.
     top : number of designs listed for each scene and budget; None lists all.
-    allowed_force : count energy only up to this force of one specimen, such as "50 N"; this needs
-        the column `absorbed_energy_at_..N_J`.
+    allowed_force : count energy only up to this force, such as "50 N"; of one specimen, this needs
+        the column `absorbed_energy_at_..N_J`; of the panel, a results file as the source.
+    require : limits that a design must meet to have a place: `max_force`, `max_deceleration`
+        (filtered), `max_mass`, `min_absorbed`, `max_stroke`.
+    per : "specimen" or "panel": what `allowed_force` and `require` are of.
 
-    A bare number is refused; `ranked` takes numbers too, in kg, m and N.
+    A bare number is refused; `ranked` takes numbers too, in SI.
 
     Returns
     -------
@@ -122,44 +133,60 @@ def rank(
     sharing, contenders : number of designs with this place, and with any place, including those
         that `top` cuts off.
     pareto : True if no design of the scene is lighter and absorbs as much, and none absorbs more
-        and is as light; where `LEAST` is compared, the same with that column.
+        and is as light, of those that meet all requirements; where `LEAST` is compared, the same
+        with that column.
     ranked_by : the sorting column.
     counted_mass_g : where designs have a slicer: mass as extruded, for others that of the walls.
-    panel_mass_g, panel_energy_J : with a panel.
-    passed_on_N : greatest force while the counted energy is absorbed.
+    panel_specimens, panel_mass_g, panel_energy_J, panel_force_N : with a panel.
+    passed_on_N, counted_stroke_m : greatest force while the counted energy is absorbed, and the
+        stroke that this takes.
     returned_share : returned energy / work of the whole crush.
     beyond_model : True if an element is too short or a wall breaks while the counted energy is
         absorbed, or if the lattice is compressed to less than its solid height.
     crossed : True if walls crossed one another.
     beyond_curve : True if a wall was stretched beyond the measured curve in the run.
 
-    `attrs` holds the other fields of `Ranking`, for one more release; use `ranked` for them.
+    `attrs` holds older fields of `Ranking`, for one more release; use `ranked` for them.
     """
-    be_written({"budget": budget, "panel": panel, "allowed_force": allowed_force})
-    ranking = ranked(source, budget, panel, by, top, allowed_force)
-    others = {field.name: getattr(ranking, field.name) for field in fields(ranking)[1:]}
+    asked = {"budget": budget, "panel": panel, "allowed_force": allowed_force}
+    be_written(asked | dict(require or {}))
+    ranking = ranked(source, budget, panel, by, top, allowed_force, require, per)
+    names = [field.name for field in fields(ranking)[1:] if field.name not in NO_ATTRS]
+    others = {name: getattr(ranking, name) for name in names}
     ranking.table.attrs = others | {"budgets_g": list(ranking.budgets_g)}
     return ranking.table
 
 
-def ranked(
+def ranked(  # noqa: PLR0913  every argument is a part of one question
     source: str | PathLike[str] | DataFrame,
     budget: Quantity | Sequence[Quantity] | None = None,
     panel: Sequence[Quantity] | None = None,
     by: str | None = None,
     top: int | None = 10,
     allowed_force: Quantity | None = None,
+    require: Mapping[str, Quantity | None] | None = None,
+    per: str = "specimen",
 ) -> Ranking:
     """The `Ranking` whose table `rank` returns for the same arguments; numbers are in SI."""
-    summary = source if isinstance(source, DataFrame) else _read(source)
+    if per not in PER:
+        raise RankError(f'per = "{per}"; allowed: {" or ".join(PER)}')
+    required, summary = limits(require), source
+    if not isinstance(summary, DataFrame):
+        question = {"panel": panel, "allowed_force": allowed_force, "require": required, "per": per}
+        summary = with_allowed(summary, _read(summary), question)
     finished = summary[summary["status"] == Status.CONVERGED]
-    compared, names = merits(finished, by, panel, allowed_force)
+    compared, names = merits(finished, by, panel, allowed_force, per)
+    check(compared, required)
     usual = names.energy if budget is not None or panel is not None else names.per_gram
     by = by and _column(compared, by)
-    limits = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in _several(budget))] or [np.inf]
-    scenes = [(_with_scene(rows, names), _order(rows, by, usual)) for rows in by_scene(compared)]
-    parts = [_places(rows, names.mass, order, g, top) for rows, order in scenes for g in limits]
-    labelled = pd.concat([rows for rows, _ in scenes])
+    masses = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in _several(budget))] or [np.inf]
+    found = {scene_label(rows): rows for rows in by_scene(compared)}
+    judged = {label: judge(rows, names, required, per) for label, rows in found.items()}
+    scenes = [
+        (_with_scene(rows[judged[label][0]], label, _least(rows), names), _order(rows, by, usual))
+        for label, rows in found.items()
+    ]
+    parts = [_places(rows, names.mass, order, g, top) for rows, order in scenes for g in masses]
     return Ranking(
         table=pd.concat(parts, ignore_index=True),
         **names._asdict(),
@@ -173,8 +200,11 @@ def ranked(
             (finished.get("solid_joint_share", Series(np.nan, finished.index)) < 1.0).sum()
         ),
         versions=model_versions(finished),
-        budgets_g=tuple(limit for limit in limits if np.isfinite(limit)),
-        lightest_g=labelled.groupby("scene", sort=False)[names.mass].min().to_dict(),
+        budgets_g=tuple(limit for limit in masses if np.isfinite(limit)),
+        lightest_g={label: rows[names.mass].min() for label, rows in found.items() if len(rows)},
+        per=per,
+        required=required,
+        outcomes={label: outcome for label, (_, outcome) in judged.items() if required},
     )
 
 
@@ -279,11 +309,10 @@ def _least(rows: DataFrame) -> str | None:
     return None if rows.empty else LEAST.get(rows["loading_mode"].iloc[0])
 
 
-def _with_scene(rows: DataFrame, names: Compared) -> DataFrame:
+def _with_scene(rows: DataFrame, label: str, least: str | None, names: Compared) -> DataFrame:
     """Rows of one scene with its label and their Pareto flag."""
-    least = _least(rows)
     merit = rows[names.energy] if least is None else -rows[least]
-    return rows.assign(scene=scene_label(rows), pareto=pareto(rows[names.mass], merit))
+    return rows.assign(scene=label, pareto=pareto(rows[names.mass], merit))
 
 
 def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | None) -> DataFrame:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from pandas import DataFrame
+
+    from sweep.ranking.requirements import Outcome
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +30,9 @@ class Ranking:
     versions : number of converged cases of each version of the model, the oldest first.
     budgets_g : the budgets (g), each once.
     lightest_g : the least mass (g) of each scene.
+    per : what the allowed force and the requirements are of, "specimen" or "panel".
+    required : the limit (SI) of each requirement.
+    outcomes : how the designs of each scene meet them; empty without requirements.
     """
 
     table: DataFrame
@@ -45,3 +50,6 @@ class Ranking:
     versions: Mapping[int, int]
     budgets_g: tuple[float, ...]
     lightest_g: Mapping[str, float]
+    per: str = "specimen"
+    required: Mapping[str, float] = field(default_factory=dict)
+    outcomes: Mapping[str, Outcome] = field(default_factory=dict)

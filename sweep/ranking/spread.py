@@ -84,8 +84,8 @@ def spreads(
     summary: rows of the corners. question: panel, allowed force and column of the ranking.
     """
     finished = summary[summary["status"] == Status.CONVERGED]
-    asked = (question.get(key) for key in ("by", "panel", "allowed_force"))
-    compared = merits(finished, *asked)[0].set_index("case_id")
+    by, panel, force = (question.get(key) for key in ("by", "panel", "allowed_force"))
+    compared = merits(finished, by, panel, force)[0].set_index("case_id")
     known = ranking.table[ranking.table["case_id"].isin(corners)]
     groups = known.groupby(["budget_g", "scene"], dropna=False, sort=False)
     return [_spread(rows, corners, compared) for _, rows in groups]

@@ -20,6 +20,7 @@ from sweep.report.design_style import (
     merits,
     until,
 )
+from sweep.report.requirement_notes import titled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,12 +66,13 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
         _error_bars(ax, rows[mass], merit, error)
         for budget in ranking.budgets_g:
             mark(ax, budget, f"{budget:g} g")
-        words = [_in_lines(ax.get_title("left"))]
+        words = [_in_lines(line) for line in titled(ax.get_title("left"), ranking).split("\n")]
         for sentence, x, y in budget_winners(rows, ranking):
             ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")
             words.append(_in_lines(sentence))
         ax.set_title("\n".join(words), loc="left", fontsize="small")
         ax.set_xlabel(f"mass of the {noun}, g")
+        least = least and f"{least}{', of a specimen' if noun == 'panel' else ''}"
         ax.set_ylabel(least or f"energy absorbed by the {noun}{until(ranking)}, J")
         round_ticks(ax.xaxis)
         round_ticks(ax.yaxis)
@@ -91,6 +93,7 @@ def thickness_trends(fig: Figure, ranking: Ranking) -> None:
             _error_bars(ax, wall, best[per_gram], errors_of(best, per_gram), style["c"][0])
         what = f"absorbed energy per gram{until(ranking)}, J/g"
         ax.set(xlabel="wall thickness, mm", ylabel=what, yscale="log")
+        ax.set_title(titled(ax.get_title("left"), ranking), loc="left", fontsize="medium")
         round_ticks(ax.yaxis)
     barred = bool(errors_of(designs, per_gram).notna().any())
     legend(fig, look.legend(walls=False, barred=barred))

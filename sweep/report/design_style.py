@@ -196,7 +196,7 @@ def _words(won: DataFrame, among: DataFrame, ranking: Ranking, name: str) -> str
     merit, value = merits(won, energy).item(), three_digits(won[name].item())
     words_by_mode = {
         "force": f"sinks {three_digits(merit)} %",
-        "impact": f"{three_digits(merit)} N on the support",
+        "impact": f"{three_digits(merit)} N on the support{_of_panel(won)}",
     }
     words = words_by_mode.get(won["loading_mode"].item(), energy_text(merit))
     if name == ranking.per_gram:
@@ -206,6 +206,13 @@ def _words(won: DataFrame, among: DataFrame, ranking: Ranking, name: str) -> str
     beyond = ", beyond the model" if won["beyond_model"].item() else ""
     crossed = ", walls cross" if won["crossed"].item() else ""
     return f"{design}, {words}{_ties(among, won, name)}{beyond}{crossed}"
+
+
+def _of_panel(won: DataFrame) -> str:
+    """The force of a panel beside that of a specimen; "" without a panel."""
+    if "panel_force_N" not in won:
+        return ""
+    return f", {three_digits(won['panel_force_N'].item())} N of the panel"
 
 
 def _ties(rows: DataFrame, won: DataFrame, name: str) -> str:

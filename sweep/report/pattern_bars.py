@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from sweep.report.case_plots import beside, walls
 from sweep.report.design_style import doubtful, errors_of, until
+from sweep.report.requirement_notes import titled
 from sweep.report.sheets import design_labels
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def pattern_bars(
             if shapes:
                 _draw(ax, place, shapes[case_id])
         ax.margins(y=0.5 / len(ordered))
-        ax.set_title(scene, loc="left", fontsize="medium")
+        ax.set_title(titled(str(scene), ranking), loc="left", fontsize="medium")
         ax.set_xlabel(f"absorbed energy per gram{until(ranking)}, J/g")
         ax.spines[["top", "right"]].set_visible(False)
 

@@ -11,6 +11,12 @@ from pandas.api.types import is_numeric_dtype
 from sweep.numbers import NOTHING, SHOWN, numerals, percent, scaled, short, tenths
 from sweep.ranking.merit import LEAST, greatest_mass
 from sweep.ranking.rank import ASSUMPTIONS, by_scene, scene_label
+from sweep.report.requirement_notes import (
+    panel_column,
+    panel_note,
+    requirement_columns,
+    requirement_notes,
+)
 from sweep.result import describe_column
 
 if TYPE_CHECKING:
@@ -137,8 +143,9 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
     for scene, lightest in ranking.lightest_g.items():
         placed = rows = table[table["scene"] == scene]
         missed = _missed(budgets, lightest)
+        asked = tuple(requirement_notes(scene, placed, ranking))
         if rows.empty:
-            yield Sheet(scene, [], [], notes=missed or (NO_PLACE,))
+            yield Sheet(scene, [], [], notes=(*(missed or (NO_PLACE,)), *asked))
             continue
         first = {}
         if len(budgets) > 1:
@@ -167,6 +174,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
                 *_cut_off(rows),
                 *_not_shown(placed),
                 *missed,
+                *asked,
             ),
             spare=_spare(columns, rows, ranking),
             elsewhere="crumple rank with --csv",
@@ -201,6 +209,7 @@ def legend(ranking: Ranking) -> str:
         again = [AGAIN] if ranking.table["second_cycle_share"].notna().any() else []
         heads["displacement"] += [WHOLE, *again, _what_is_missing(ranking.table)]
     lines = [line for mode, words in heads.items() if mode in modes for line in words]
+    lines += panel_note(ranking.table)
     bars = [TIED] if "ranked_error" in ranking.table else []
     return "\n".join(dict.fromkeys([MARKS, *lines, *bars]))
 
@@ -357,9 +366,10 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
         columns |= _under_load(rows) if mode == "force" else _struck(rows)
         shown |= {LEAST[mode]}
     else:
-        columns |= _crushed(rows, ranking)
+        columns |= _crushed(rows, ranking) | panel_column(rows)
         shown |= {ranking.energy, ranking.per_gram}
         columns |= {} if ranking.limited else _whole(rows)
+    columns |= requirement_columns(rows, ranking)
     shown |= {SPARE[head] for head in columns if head in SPARE}
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
@@ -376,6 +386,7 @@ def _under_load(rows: DataFrame) -> dict[str, Series]:
 def _struck(rows: DataFrame) -> dict[str, Series]:
     return {
         "force N": numerals(rows["peak_force_N"]),
+        **panel_column(rows),
         "sink %": numerals(100.0 * rows["peak_strain"]),
         "left mm": numerals(1e3 * rows["stroke_left_m"]),
         "rebound %": rows["rebound_share"].map(percent),

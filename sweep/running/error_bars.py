@@ -56,7 +56,10 @@ HEADLINE = (
 )
 """Columns with an error bar, besides the energies up to allowed forces and those of cycles."""
 
-FOLLOWING = ("lost_energy_J", "lost_share", "lost_energy_J_per_g", "second_cycle_share")
+FOLLOWING = (
+    *("lost_energy_J", "lost_share", "lost_energy_J_per_g", "second_cycle_share"),
+    "peak_deceleration_filtered_m_per_s2",
+)
 """Columns that follow from others: they have an error bar, but no part in the usual change."""
 
 Rows = Mapping[str, Mapping[str, Any]]

@@ -32,7 +32,7 @@ def describe_run(config: str) -> dict[str, str]:
 
 
 def config_text(sweep: Config | Sequence[Case], first: Case) -> str:
-    """A sweep as JSON, in SI: given values, axes, [rank], every parameter of its first case."""
+    """A sweep as JSON, in SI: given values, axes, [rank], [require], all of its first case."""
     text: dict[str, Any] = {"first_case": first.model_dump(exclude={"axes"})}
     if isinstance(sweep, Config):
         text |= {
@@ -42,6 +42,7 @@ def config_text(sweep: Config | Sequence[Case], first: Case) -> str:
             "zip": [_axes(tied) for tied in sweep.zip],
             "exclude": sweep.exclude,
             "rank": sweep.rank.model_dump(),
+            "require": sweep.require.model_dump(),
         }
     if isinstance(sweep, Designs):
         text |= {"search": _searched(sweep.search), "search_seed": sweep.seed}

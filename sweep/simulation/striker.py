@@ -13,10 +13,12 @@ from sweep.config.case import Case, given
 from sweep.design.network import relative_density
 from sweep.scene.mesh import Floats
 from sweep.scene.terms import Scene
+from sweep.simulation.deceleration import filtered_peak
 
 Curves = dict[str, Floats]
 MEASURES = (
     "peak_deceleration_m_per_s2",
+    "peak_deceleration_filtered_m_per_s2",
     "stroke_left_m",
     "rebound_speed_m_per_s",
     "rebound_share",
@@ -60,7 +62,9 @@ def impact_columns(case: Case, scene: Scene, history: Curves) -> dict[str, float
     left = voids - history["top_displacement_m"].max()
     share = kinetic(case, rebound) / given(case.loading.energy)
     peak = history["deceleration_m_per_s2"].max()
-    return dict(zip(MEASURES, map(float, (peak, left, rebound, share)), strict=True))
+    velocity, passed = -history["striker_speed_m_per_s"], given(case.loading.filter_class)
+    filtered = filtered_peak(history["time_s"], velocity, passed)
+    return dict(zip(MEASURES, map(float, (peak, filtered, left, rebound, share)), strict=True))
 
 
 def rebound_speed(history: Curves) -> float:

@@ -26,6 +26,7 @@ from sweep.simulation.striker import (
     striker_curves,
     work_on_lattice,
 )
+from sweep.simulation.until import absorbed_until
 
 BOOK = {
     "work_in_J": "work",
@@ -70,21 +71,6 @@ def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
         "newton_iterations": np.diff(rows["iterations"], prepend=0.0),
         "min_gap_m": np.where(np.isfinite(rows["gap"]), rows["gap"], np.nan),
     } | (striker_curves(time, rows["speed"], case) if struck else {})
-
-
-def absorbed_until(force: float, transmitted: Floats, work: Floats) -> float:
-    """Work (J) done until ``transmitted`` (rows,) first exceeds ``force`` (both N), interpolated.
-
-    All of it if the force is never exceeded.
-    """
-    over = np.flatnonzero(transmitted > force)
-    if len(over) == 0:
-        return float(work[-1])
-    k = over[0]
-    if k == 0:
-        return float(work[0])
-    share = (force - transmitted[k - 1]) / (transmitted[k] - transmitted[k - 1])
-    return float(work[k - 1] + share * (work[k] - work[k - 1]))
 
 
 def plateau_stress(strain: Floats, density: Floats, row: int) -> float:

@@ -15,6 +15,7 @@ from sweep.config.grid import expand
 from sweep.config.keys import case_keys, table_keys
 from sweep.config.material_file import COLUMNS as RECORD
 from sweep.config.structure import Structure
+from sweep.config.tables import QUESTION
 from sweep.config.units import load_config, quantity
 from sweep.design.infill import families
 from sweep.result import COLUMNS
@@ -104,9 +105,9 @@ def keys_of(table):
     return " ".join(text.split())
 
 
-@pytest.mark.parametrize("table", [*TABLES, "rank"])
+@pytest.mark.parametrize("table", [*TABLES, *QUESTION])
 def test_every_key_is_explained(table):
-    known = table_keys(table) if table == "rank" else case_keys()
+    known = table_keys(table) if table in QUESTION else case_keys()
     fields = {name.split(".")[1] for name in known if name.startswith(f"{table}.")}
     assert fields - {"load_steps"} - set(re.findall(r"`(\w+)`", keys_of(table))) == set()
 

@@ -11,8 +11,10 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from sweep.__main__ import main
+from sweep.__main__ import REQUIREMENTS, main
 from sweep.cli.verbs import VERBS
+from sweep.config.tables import Require
+from sweep.ranking.requirements import MEASURES
 from sweep.result import absorbed_energy_column
 from sweep.running.sweep import Interrupted
 from sweep.store.read import read_summary
@@ -63,6 +65,10 @@ REFUSED = [
     (["rank", "FILE", "--by", "peak_forse_N"], "did you mean peak_force_N?"),
     (["rank", "FILE", "--allowed-force", "50 N"], "set loading.allowed_forces"),
     (["rank", "FILE", "--top", "0"], "1 or more"),
+    (["rank", "FILE", "--max-force", "60"], "a bare number"),
+    (["rank", "FILE", "--max-deceleration", "60 g"], '"g" is a unit of another kind'),
+    (["rank", "FILE", "--per", "piece"], "invalid choice"),
+    (["rank", "FILE", "--per", "panel"], 'per "panel" needs a panel'),
     (["rank", "FILE", "--csv", "--json"], "not allowed with"),
     (["show", "FILE", "zz"], 'no case "zz"'),
     (["export", "FILE", "zz", "--to", "a.stl"], 'no case "zz"'),
@@ -154,6 +160,38 @@ def test_config_speaks_where_the_arguments_are_silent(capsys, tmp_path):
     assert other in crumple(capsys, "rank", file, "--panel", "4 in", "2in")[1]
     assert "At most 2 oz. Best" in crumple(capsys, "rank", file, "--budget", "2 oz")[1]
     assert crumple(capsys, "rank", file, "--by", "mass_g")[1].startswith("Best first: least mass_g")
+
+
+def test_requirements_of_the_config_hold_unless_an_option_replaces_or_drops_them(capsys, tmp_path):
+    config = {
+        "rank": {"budgets": [], "panel": [0.13, 0.05], "per": "panel"},
+        "require": {"max_force": 800.0, "max_mass": None},
+    }
+    file = write(tmp_path / "trial.h5", summary({}), {"config": json.dumps(config)})
+    _, out, _ = crumple(capsys, "rank", file)
+    assert "Required of a panel: force at most 800 N." in out
+    assert "None passes less than 800 N; the best is 1000 N." in out
+    assert "None passes" in crumple(capsys, "rank", file, "--by", "mass_g")[1]
+    _, out, _ = crumple(capsys, "rank", file, "--max-force", "1 kN", "--max-mass", "60 g")
+    assert "force at most 1000 N, mass at most 60 g" in out
+    assert "All designs (1) fulfil this." in out
+    assert "Required" not in crumple(capsys, "rank", file, "--max-force", "none")[1]
+    _, out, _ = crumple(capsys, "rank", file, "--per", "specimen", "--max-force", "20 N")
+    assert "Required of a specimen: force at most 20 N." in out
+
+
+def test_every_requirement_has_an_option_and_a_key():
+    assert list(REQUIREMENTS) == list(MEASURES) == list(Require.model_fields)
+
+
+def test_force_of_a_panel_is_allowed_by_curves(capsys, tmp_path):
+    """1200 N of 50 specimens: 24 N each, after 2 of 4 mm and 44 mJ."""
+    file = write(tmp_path / "trial.h5", summary({"peak_force_N": 28.0}))
+    panel = ["--panel", "130 mm", "50 mm", "--allowed-force", "1.2 kN", "--per", "panel"]
+    _, out, _ = crumple(capsys, "rank", file, *panel, "--max-stroke", "3 mm")
+    assert "Energy is counted until the force of a panel exceeds 1.2 kN." in out
+    row = next(line for line in out.splitlines() if line.startswith("1*"))
+    assert row.split() == ["1*", "1.00", "50.0", "2.20", "0.0440", "24.0", "1200", "2.00"]
 
 
 def test_tables_fit_a_terminal_of_80_columns(capsys, file, monkeypatch):

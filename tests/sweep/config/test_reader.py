@@ -71,6 +71,15 @@ def test_rank_is_in_si(load):
     assert rank.panel == pytest.approx((0.1, 0.0508))
 
 
+def test_requirements_are_in_si_and_in_no_id(load):
+    text = 'max_force = "60 N"\nmax_deceleration = "10 g0"\nmin_absorbed = "20 mJ"'
+    config = load(f'[require]\n{text}\n[rank]\nper = "panel"\npanel = ["1 in", "2 in"]')
+    found = config.require.model_dump(exclude_none=True)
+    assert found == {"max_force": 60.0, "max_deceleration": 98.0665, "min_absorbed": 0.02}
+    assert config.rank.per == "panel"
+    assert [case.case_id for case in expand(config)] == [case.case_id for case in expand(load(""))]
+
+
 LENGTH = 'a length with a unit, such as "0.8 mm", above 0'
 
 
@@ -121,6 +130,14 @@ VALUES = {
         "material.loss = [0.2, 0.4]: a list, which belongs in [grid]; allowed: a number or a share "
         'in percent, such as "20 %", above 0, at most 0.8'
     ),
+    '[rank]\nper = "panel"': ('rank.per = "panel": no rank.panel; allowed: "specimen", or a panel'),
+    '[require]\nmax_forces = "3 N"': (
+        'require.max_forces = "3 N": unknown key; the nearest is require.max_force'
+    ),
+    '[require]\nmax_deceleration = "80 g"': (
+        'require.max_deceleration = "80 g": "g" is a unit of another kind; allowed: an acceleration'
+        ' with a unit, such as "80 g0", of standard gravity (g is a gram), above 0'
+    ),
     '[rank]\npanel = ["1 mm"]': (
         f'rank.panel = ["1 mm"]: too few values; allowed: a list of 2 values, each {LENGTH}'
     ),
@@ -164,7 +181,7 @@ AXES = {
         "[[exclude]] lattice.cells = []: is empty; allowed: at least one value"
     ),
     '[[exclude]]\nrank.budgets = ["2 g"]': (
-        '[[exclude]] rank.budgets = "2 g": unknown key; the nearest is loading.cycles'
+        '[[exclude]] rank.budgets = "2 g": unknown key; the nearest is loading.preset'
     ),
 }
 

@@ -130,6 +130,31 @@ def test_refused(make, message):
         make()
 
 
+def test_a_fall_sets_the_speed():
+    """v^2 = 2 g h: 1 m gives 4.43 m/s; the height is another word for the speed in an id."""
+    fallen = Case(loading=Loading(striker_mass=0.1, drop_height=1.0))
+    assert fallen.loading.striker_speed == pytest.approx(4.4287, abs=1e-4)
+    assert fallen.loading.energy == pytest.approx(0.1 * 9.80665)
+    struck = Case(loading=Loading(striker_mass=0.1, striker_speed=fallen.loading.striker_speed))
+    assert struck.loading.drop_height == pytest.approx(1.0)
+    assert fallen.case_id == struck.case_id
+
+
+def test_a_fall_beside_another_speed_is_refused(lines):
+    text = '[loading]\ndrop_height = "1 ft"\n'
+    assert lines(f'{text}striker_speed = "1 m/s"') == [
+        'loading.drop_height = "1 ft": does not fit; allowed: 0.1673 ft at the speed given; give'
+        " one of them"
+    ]
+    assert lines(f'{text}energy = "1 J"') == [
+        'loading.energy = "1 J": does not fit; allowed: 0.1495 J at the drop height given; give'
+        " one of them"
+    ]
+    assert lines('[loading]\ndrop_hight = "1 ft"') == [
+        'loading.drop_hight = "1 ft": unknown key; the nearest is loading.drop_height'
+    ]
+
+
 def test_speed_and_energy_follow_from_one_another():
     by_speed = Loading(striker_mass=0.1, striker_speed=2.0)
     by_energy = Loading(striker_mass=0.1, energy=0.2)

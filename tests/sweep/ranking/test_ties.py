@@ -122,6 +122,7 @@ def test_error_bars_follow_into_what_is_derived():
     factor = 0.130 * 0.050 / (13e-3 * 10e-3)
     assert panel.loc[0, "ranked_error"] == pytest.approx(factor * 5e-3)
     assert list(panel["error_passed_on_N"]) == [0.5, 0.5]
+    assert list(panel["error_panel_force_N"]) == [25.0, 25.0]
     assert list(rank(table, by="passed_on_N")["ranked_error"]) == [0.5, 0.5]
 
 

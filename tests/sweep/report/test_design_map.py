@@ -43,6 +43,25 @@ def test_map_names_and_rings_the_winner_of_each_budget(ranking):
     assert rings == [(1.0, 0.1), (2.0, 0.3)]
 
 
+def test_map_says_what_is_required(ranking):
+    figure = blank(8, 4)
+    design_map(figure, replace(ranking, required={"max_force": 60.0}))
+    said = figure.axes[0].get_title("left").splitlines()
+    assert said[1] == "Required of a specimen: force at most 60 N."
+    figure = blank(8, 4)
+    thickness_trends(figure, replace(ranking, required={"max_force": 60.0}))
+    assert figure.axes[0].get_title("left").splitlines()[1:] == said[1:2]
+
+
+def test_force_of_a_panel_stands_beside_that_of_a_specimen():
+    hit = {"loading_mode": "impact", "stroke_m": np.nan, "peak_force_N": 30.0}
+    figure = blank(8, 4)
+    design_map(figure, ranked(summary(hit, hit), panel=("130 mm", "50 mm"), top=None))
+    (ax,) = figure.axes
+    assert "30.0 N on the support, 1500 N of the panel" in ax.get_title("left")
+    assert ax.get_ylabel() == "greatest force on the support, N, of a specimen"
+
+
 def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
     loaded = changed(ranking, loading_mode="force", peak_strain=[0.3, 0.2, 0.1] * 2)
     figure = blank(8, 4)

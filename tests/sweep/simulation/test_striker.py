@@ -11,6 +11,7 @@ from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.config.grid import expand
 from sweep.config.units import load_config
 from sweep.scene.lattice import build_scene
+from sweep.simulation.deceleration import filtered_peak
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
 from tests.support.scenes import (
@@ -194,6 +195,10 @@ def test_columns_of_an_impact(platen):
     np.testing.assert_allclose(history["top_displacement_m"][1:], -travel, rtol=1e-6, atol=1e-12)
     np.testing.assert_allclose(history["deceleration_m_per_s2"] * 0.05, force, rtol=1e-12)
     assert summary["peak_deceleration_m_per_s2"] == history["deceleration_m_per_s2"].max()
+    filtered = filtered_peak(history["time_s"], -speed, 1000)
+    assert summary["peak_deceleration_filtered_m_per_s2"] == filtered
+    assert 0.3 * summary["peak_deceleration_m_per_s2"] < filtered
+    assert filtered < 1.01 * summary["peak_deceleration_m_per_s2"]
     assert summary["peak_force_N"] == history["reaction_bottom_N"].max()
     assert summary["rebound_speed_m_per_s"] == -speed.min() > 0.5
     assert summary["returned_energy_J"] == pytest.approx(0.025 * speed.min() ** 2)

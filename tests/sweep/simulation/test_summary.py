@@ -7,7 +7,6 @@ from sweep.config.case import Case, Lattice, Loading, Material
 from sweep.simulation.packing import efficiency
 from sweep.simulation.summary import (
     OF_A_CRUSH,
-    absorbed_until,
     crush_columns,
     lost_columns,
     returned,
@@ -131,25 +130,6 @@ def test_a_dead_load_has_no_plateau():
     for point in ("at_densification", "until_packed"):
         assert found[f"absorbed_energy_{point}_J"] == pytest.approx(FOAM[2][-1])
         assert found[f"peak_force_{point}_N"] == pytest.approx(50.0)
-
-
-def test_absorbed_until_a_force():
-    _, force, work = FOAM
-    assert absorbed_until(5.0, force, work) == pytest.approx(1.25e-3)
-    assert absorbed_until(10.0, force, work) == pytest.approx(45e-3)
-    assert absorbed_until(50.0, force, work) == absorbed_until(1e9, force, work) == work[-1]
-    assert work[-1] == pytest.approx(75e-3)
-
-
-def test_absorbed_until_a_force_is_interpolated_and_stops_at_the_first_time():
-    force, work = np.array([0.0, 4.0, 2.0, 8.0]), np.array([0.0, 1.0, 2.0, 3.0])
-    assert absorbed_until(3.0, force, work) == pytest.approx(0.75)
-    assert absorbed_until(5.0, force, work) == pytest.approx(2.5)
-
-
-def test_a_force_that_is_passed_on_from_the_start_or_by_one_row():
-    assert absorbed_until(1.0, np.array([2.0, 3.0]), np.array([0.1, 0.2])) == 0.1
-    assert absorbed_until(1.0, np.array([0.0]), np.array([0.0])) == 0.0
 
 
 def test_the_greater_of_both_platens_is_passed_on():

@@ -1,0 +1,61 @@
+"""Energy and stroke of a crush up to an allowed force that no column of the summary has.
+
+The number of specimens of a panel depends on the design, and so does the force of a specimen at
+which the panel bears the allowed one. The stored curves have the answer for each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sweep.ranking.merit import AT_ALLOWED, in_si, panel_specimens
+from sweep.result import Status
+from sweep.simulation.until import absorbed_until
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+ROUND_OFF = 1e-9
+
+
+def with_allowed(
+    file: str | PathLike[str], summary: DataFrame, question: Mapping[str, Any]
+) -> DataFrame:
+    """The summary with energy and stroke up to the allowed force, where the question needs them.
+
+    question : keyword arguments of `rank`. The columns are needed up to a force of the panel, and
+    to limit the stroke; NaN in rows that are no finished crush.
+    """
+    force, panel = question.get("allowed_force"), question.get("panel")
+    of_panel = question.get("per") == "panel"
+    limits_stroke = (question.get("require") or {}).get("max_stroke") is not None
+    if force is None or not (of_panel or limits_stroke) or (of_panel and panel is None):
+        return summary
+    limit = in_si(force, "N")
+    wanted = (summary["loading_mode"] == "displacement") & (summary["status"] == Status.CONVERGED)
+    rows = summary[wanted]
+    count = np.ones(len(rows)) if panel is None or not of_panel else panel_specimens(rows, panel)
+    at = zip(rows["case_id"], limit / count, strict=True)
+    found = [reached(file, str(case_id), float(force)) for case_id, force in at]
+    added = summary.assign(**{AT_ALLOWED: np.nan, "stroke_at_allowed_m": np.nan})
+    added.loc[wanted, [AT_ALLOWED, "stroke_at_allowed_m"]] = np.array(found).reshape(-1, 2)
+    return added
+
+
+def reached(file: str | PathLike[str], case_id: str, force: float) -> tuple[float, float]:
+    """Energy (J) and stroke (m) of a crush until a platen bears ``force`` (N).
+
+    Of several cycles, the first one counts.
+    """
+    from sweep.store.read import read_history
+
+    curve = read_history(file, case_id)
+    travel = curve["top_displacement_m"].to_numpy()
+    end = int(np.argmax(travel >= travel.max() * (1.0 - ROUND_OFF))) + 1
+    borne = np.fmax(curve["reaction_top_N"], curve["reaction_bottom_N"]).to_numpy()[:end]
+    work = curve["work_in_J"].to_numpy()[:end]
+    return absorbed_until(force, borne, work), absorbed_until(force, borne, travel[:end])

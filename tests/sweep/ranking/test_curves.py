@@ -1,0 +1,61 @@
+"""Energy and stroke up to a force of a panel, from stored curves."""
+
+import numpy as np
+import pytest
+
+from sweep.ranking.curves import reached, with_allowed
+from sweep.ranking.merit import AT_ALLOWED
+from sweep.ranking.rank import rank
+from sweep.store.read import read_summary
+from tests.support.specimens import designs, ids, summary, write
+
+PANEL = ("130 mm", "50 mm")
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    """Three crushes, one of a specimen twice as wide, and one that failed; all curves are those of
+    `there_and_back`: 20 N + 2 N/mm over 4 mm.
+    """
+    rows = designs([1.0, 2.0, 3.0, 4.0], [0.1, 0.1, 0.1, 0.1])
+    rows[1]["outer_width_m"] = 26e-3
+    rows[3]["status"] = "stopped"
+    return write(tmp_path_factory.mktemp("curves") / "trial.h5", summary(*rows))
+
+
+def test_a_curve_answers_for_any_force(file):
+    first = read_summary(file)["case_id"][0]
+    energy, stroke = reached(file, first, 24.0)
+    assert stroke == pytest.approx(2e-3)
+    assert energy == pytest.approx(44e-3)
+    energy, stroke = reached(file, first, 1e3)
+    assert (energy, stroke) == pytest.approx((96e-3, 4e-3))
+
+
+def test_each_design_bears_its_share_of_the_force_of_the_panel(file):
+    """1200 N: 24 N of each of 50 specimens, 48 N of each of 25."""
+    table = rank(file, panel=PANEL, allowed_force="1.2 kN", per="panel", by="mass_g")
+    assert list(table["panel_specimens"]) == [50, 25, 50]
+    np.testing.assert_allclose(table[AT_ALLOWED], [44e-3, 96e-3, 44e-3])
+    np.testing.assert_allclose(table["panel_energy_J"], [2.2, 2.4, 2.2])
+    np.testing.assert_allclose(table["counted_stroke_m"], [2e-3, 4e-3, 2e-3])
+    assert list(table["passed_on_N"]) == [20.0] * 3  # the peak of the summary, which is invented
+
+
+def test_stroke_up_to_a_force_of_a_specimen_needs_no_column(file):
+    question = {"allowed_force": 24.0, "require": {"max_stroke": 3e-3}}
+    table = with_allowed(file, read_summary(file), question)
+    assert list(table["stroke_at_allowed_m"][:3]) == pytest.approx([2e-3] * 3)
+    assert np.isnan(table["stroke_at_allowed_m"][3])
+
+
+def test_stroke_and_force_of_a_panel_are_required_together(file):
+    asked = {"panel": PANEL, "allowed_force": "1.2 kN", "per": "panel"}
+    assert ids(rank(file, **asked, require={"max_stroke": "3 mm"}, by="mass_g")) == [0, 2]
+    assert ids(rank(file, **asked, require={"min_absorbed": "2.3 J"})) == [1]
+
+
+def test_curves_are_left_alone_where_the_summary_has_the_answer(file):
+    table = read_summary(file)
+    assert with_allowed("nowhere.h5", table, {"allowed_force": 50.0}) is table
+    assert with_allowed("nowhere.h5", table, {"per": "panel", "panel": PANEL}) is table

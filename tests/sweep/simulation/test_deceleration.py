@@ -1,0 +1,75 @@
+"""The filter of a channel class: its response, the recursion of SAE J211-1, its refusals."""
+
+from math import cos, pi, sin, sqrt
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case, Loading
+from sweep.simulation.deceleration import filtered, filtered_peak
+
+CLASS = 1000
+
+
+def half_sine(duration, step, height=100.0):
+    """Time and velocity of a striker that a half sine of ``height`` (m/s^2) stops and lifts."""
+    time = np.arange(0.0, 1.5 * duration, step)
+    pulse = np.where(time < duration, height * np.sin(pi * time / duration), 0.0)
+    moved = np.append(0.0, np.cumsum(0.5 * (pulse[1:] + pulse[:-1]) * np.diff(time)))
+    return time, moved - 1.0
+
+
+def recursion(signal, step):
+    """The recursion in appendix C of SAE J211-1, forwards and backwards."""
+    corner = 2.0 * pi * CLASS * 2.0775
+    wa = sin(0.5 * corner * step) / cos(0.5 * corner * step)
+    scale = 1.0 + sqrt(2.0) * wa + wa**2
+    a, b = wa**2 / scale, (-2.0 * (wa**2 - 1.0) / scale, (-1.0 + sqrt(2.0) * wa - wa**2) / scale)
+    for _ in range(2):
+        passed = np.zeros_like(signal)
+        for k in range(2, len(signal)):
+            fed = signal[k] + 2.0 * signal[k - 1] + signal[k - 2]
+            passed[k] = a * fed + b[0] * passed[k - 1] + b[1] * passed[k - 2]
+        signal = passed[::-1]
+    return signal
+
+
+def test_recursion_of_the_standard():
+    step = 2e-5
+    signal = np.where(np.arange(600) % 90 < 40, 1.0, 0.2)
+    signal[:100] = signal[-200:] = 0.0
+    np.testing.assert_allclose(filtered(signal, step, CLASS), recursion(signal, step), atol=1e-9)
+
+
+@pytest.mark.parametrize(("share", "passed"), [(0.1, 1.0), (5 / 3, 0.5**0.5), (20.0, 1e-4)])
+def test_what_is_passed(share, passed):
+    """All of a slow vibration, 3 dB less at 5/3 of the class, nothing of a fast one."""
+    step = 2e-6
+    time = np.arange(0.0, 0.05, step)
+    wave = filtered(np.sin(2.0 * pi * share * CLASS * time), step, CLASS)
+    assert np.abs(wave[8000:-8000]).max() == pytest.approx(passed, rel=0.01, abs=1e-4)
+
+
+def test_long_pulses_pass_and_short_ones_do_not():
+    peaks = [filtered_peak(*half_sine(duration, 5e-6), CLASS) for duration in (20e-3, 1e-4)]
+    assert peaks[0] == pytest.approx(100.0, rel=1e-3)
+    assert peaks[1] < 40.0
+
+
+def test_rows_that_are_not_even_give_the_same():
+    time, velocity = half_sine(3e-3, 5e-6)
+    kept = np.delete(np.arange(len(time)), np.arange(3, len(time) - 3, 7))
+    even, uneven = (filtered_peak(time[k], velocity[k], CLASS) for k in (slice(None), kept))
+    assert uneven == pytest.approx(even, rel=1e-3)
+
+
+def test_rows_too_far_apart_have_no_filtered_peak():
+    assert np.isfinite(filtered_peak(*half_sine(20e-3, 1e-4), CLASS))
+    assert np.isnan(filtered_peak(*half_sine(20e-3, 1.1e-4), CLASS))
+    assert np.isfinite(filtered_peak(*half_sine(20e-3, 1.1e-4), 600))
+    assert np.isnan(filtered_peak(np.zeros(1), np.zeros(1), CLASS))
+
+
+def test_class_enters_an_id_only_if_it_is_not_the_usual_one():
+    usual, other = (Case(loading=Loading(energy=0.1, filter_class=k)) for k in (1000, 180))
+    assert Case(loading=Loading(energy=0.1)).case_id == usual.case_id != other.case_id
