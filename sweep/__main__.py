@@ -27,6 +27,7 @@ EXAMPLES = """examples:
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
   crumple show results/armor.h5                 the ids of all cases
   crumple show results/armor.h5 7a85            pictures of the case whose id begins with 7a85
+  crumple report results/armor.h5               one page with sliders: results/armor.html
   crumple accuracy accuracy/impact              error against run time, method by method
   crumple materials                             the materials, their numbers and sources
 
@@ -68,6 +69,10 @@ RANK_EXAMPLES = """examples:
 """
 SHOW = """Draw one case: force against strain, the parts of its energy, and six deformed shapes.
 Without CASE: list the ids and the designs of all cases."""
+REPORT = """Write one HTML page that needs no network: the best design; sliders for budget, panel
+and allowed force, which rank again; energy over mass, with drawings; curves, moving shapes and
+energies of chosen designs; failures and origin. It starts with the budgets and the panel of [rank]
+in the config. Without scripts it shows the tables of that ranking."""
 
 MATERIALS = """Without WORD: a table of the materials that come with Crumple. With names, also of
 your own .csv files: all that their files state, with sources. With the word plot: their curves of
@@ -178,6 +183,13 @@ def parser() -> Parser:
     show.add_argument(
         "--out", type=_folder, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
     )
+    report = verbs.add_parser(
+        "report", help="one HTML page", description=REPORT, formatter_class=raw
+    )
+    report.add_argument("file", type=_path, metavar="F.h5")
+    report.add_argument(
+        "--out", type=_page, metavar="F.html", help="the page (default: beside F.h5)"
+    )
     _add_materials(verbs)
     return main
 
@@ -238,10 +250,19 @@ def _folder(text: str) -> str:
 
 def _results(text: str) -> str:
     """A path that may become a results file."""
+    return _named(text, ".h5")
+
+
+def _page(text: str) -> str:
+    """A path that may become a page."""
+    return _named(text, ".html")
+
+
+def _named(text: str, end: str) -> str:
     is_no_file = os.path.exists(text) and not os.path.isfile(text)  # these functions never raise
-    if Path(_path(text)).suffix == ".h5" and not is_no_file:
+    if Path(_path(text)).suffix == end and not is_no_file:
         return text
-    raise argparse.ArgumentTypeError(f"{text!r}; allowed: a file whose name ends in .h5")
+    raise argparse.ArgumentTypeError(f"{text!r}; allowed: a file whose name ends in {end}")
 
 
 def main(argv: Sequence[str] | None = None) -> int:

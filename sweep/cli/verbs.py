@@ -212,6 +212,20 @@ def show(arguments: Namespace) -> int:
     return DONE
 
 
+def report(arguments: Namespace) -> int:
+    """Write a results file as one HTML page."""
+    from sweep.report.page.write import write_page
+    from sweep.store.read import read_summary
+
+    summary, stored = read_summary(arguments.file), _stored_rank(arguments.file)
+    question = {"budget": stored.get("budgets"), "panel": stored.get("panel")}
+    out = Path(arguments.out or Path(arguments.file).with_suffix(".html"))
+    with _writing(out.parent):
+        page = write_page(arguments.file, summary, question, out)
+    say(f"{page} ({page.stat().st_size / 1e6:.2g} MB)")
+    return _exit_status(summary)
+
+
 def materials(arguments: Namespace) -> int:
     """List, show, plot or fit materials."""
     from sweep.cli.materials import materials as answer
@@ -220,7 +234,9 @@ def materials(arguments: Namespace) -> int:
     return DONE
 
 
-VERBS = {verb.__name__: verb for verb in (run, accuracy, warm, status, rank, show, materials)}
+VERBS = {
+    verb.__name__: verb for verb in (run, accuracy, warm, status, rank, show, report, materials)
+}
 
 
 def _config(name: str) -> Config:

@@ -80,7 +80,7 @@ def merits(
         per_gram: finished[energy] / finished["mass_g"],
         "passed_on_N": force,
         "returned_share": finished["returned_energy_J"] / finished["absorbed_energy_J"],
-        "beyond_model": (finished[energy] > within) | _through_solid(finished),
+        "beyond_model": (finished[energy] > within) | through_solid(finished),
         "crossed": finished["max_crossings"] > 0,
     }
     names = Compared("mass_g", energy, per_gram, until)
@@ -98,7 +98,7 @@ def merits(
     return finished.assign(**added), names
 
 
-def _through_solid(finished: DataFrame) -> Series:
+def through_solid(finished: DataFrame) -> Series:
     """True for lattices compressed to less than their solid height, or to less than none."""
     sunk = (finished["loading_mode"] == "force") & (finished["peak_strain"] >= 1.0)
     return sunk | (finished["stroke_left_m"] < -ROUND_OFF)

@@ -273,13 +273,13 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
         columns["panel g"] = numerals(rows["panel_mass_g"])
     mode, shown = rows["loading_mode"].iloc[0], {"mass_g", "panel_mass_g"}
     if mode in LEAST:
-        columns |= _under_load(rows) if mode == "force" else _struck(rows)
+        columns |= _under_load(rows) if mode == "force" else impact_text(rows)
         shown |= {LEAST[mode]}
     else:
         columns |= _crushed(rows, ranking)
         shown |= {ranking.energy, ranking.per_gram}
         if not ranking.limited:
-            columns |= _whole(rows)
+            columns |= crush_text(rows)
             shown |= {"packing_strain", "returned_share", "second_cycle_share"}
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
@@ -293,7 +293,8 @@ def _under_load(rows: DataFrame) -> dict[str, Series]:
     return {"sink %": numerals(100.0 * rows["peak_strain"])}
 
 
-def _struck(rows: DataFrame) -> dict[str, Series]:
+def impact_text(rows: DataFrame) -> dict[str, Series]:
+    """Columns about an impact."""
     return {
         "force N": numerals(rows["peak_force_N"]),
         "sink %": numerals(100.0 * rows["peak_strain"]),
@@ -319,7 +320,7 @@ def _stops_early(rows: DataFrame, ranking: Ranking) -> Series:
     return crushed & ranking.limited & (rows["peak_force_N"] <= rows["passed_on_N"])
 
 
-def _whole(rows: DataFrame) -> dict[str, Series]:
+def crush_text(rows: DataFrame) -> dict[str, Series]:
     """Columns about the whole crush."""
     packed = rows["densification_strain"].notna() | rows["peak_strain"].isna()
     unsure = _unsure(rows).map({True: "~", False: ""})
