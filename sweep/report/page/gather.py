@@ -13,7 +13,7 @@ from sweep.numbers import short
 from sweep.ranking.merit import LEAST, Compared, merits, through_solid
 from sweep.ranking.rank import by_scene, pareto, ranked, scene_label
 from sweep.report.page.thinning import force_stairs, numbers, thin_curves, work_until
-from sweep.report.page.trails import drawing, moving_shape
+from sweep.report.page.trails import UNIT, drawing, moving_shape
 from sweep.report.sheets import crush_text, design_labels, design_text, impact_text
 from sweep.report.storyboard import last_loaded, parts_of, path_of
 from sweep.result import ABSORBED_AT, Status, correction_column, error_column
@@ -49,14 +49,12 @@ def page_data(file: str, summary: DataFrame, question: Mapping[str, Any]) -> dic
     """
     finished = summary[summary["status"] == Status.CONVERGED]
     counted = _counted(finished)
-    scenes = [rows for rows in by_scene(counted[0].rows) if len(rows)]
+    scenes = by_scene(counted[0].rows) if len(finished) else []
     cases = _cases(counted, scenes, summary)
     about = read_attributes(file)
-    stored = _Stored(len(cases), _first_shown(finished, counted, question))
-    for case in read_cases(file, list(cases)):
-        stored.add(case, finished[finished["case_id"] == case.case_id].iloc[0])
-    for case_id, more in stored.curves.items():
-        cases[case_id] |= more
+    stored, by_id = _Stored(len(cases)), finished.set_index("case_id", drop=False)
+    for case in read_cases(file, _first_shown(finished, counted, question)):
+        cases[case.case_id] |= stored.take(case, by_id.loc[case.case_id])
     return {
         "file": Path(file).name,
         "name": _config(about).get("name") or Path(file).stem,
@@ -168,7 +166,7 @@ def _bar(rows: DataFrame, name: str) -> str | None:
 def _first_shown(
     finished: DataFrame, counted: Sequence[Counted], question: Mapping[str, Any]
 ) -> list[str]:
-    """Ids of the cases whose shapes are stored first: winners, then those that may win."""
+    """Ids of all cases; those whose shapes are kept first: winners, then those that may win."""
     asked = {"budget": question.get("budget"), "panel": question.get("panel")}
     winners = ranked(finished, **asked, top=3).table.sort_values("place", kind="stable")
     fronts = [front for each in counted for front in _fronts(finished, each)]
@@ -179,7 +177,7 @@ def _fronts(finished: DataFrame, counted: Counted) -> Iterator[str]:
     """Ids of the designs that are the best for some budget, and of the best per gram."""
     for panel in (None, (1.0, 1.0)):
         rows, names = merits(finished, None, panel, counted.force)
-        for scene in by_scene(rows):
+        for scene in by_scene(rows) if len(rows) else []:
             least = LEAST.get(scene["loading_mode"].iloc[0])
             merit = scene[names.energy] if least is None else -scene[least]
             yield from scene["case_id"][pareto(scene[names.mass], merit)]
@@ -187,31 +185,18 @@ def _fronts(finished: DataFrame, counted: Counted) -> Iterator[str]:
 
 
 class _Stored:
-    """Curves and shapes of all cases, as long as there is room for the shapes."""
+    """Makes curves and shapes small; shapes only as long as there is room for them."""
 
-    def __init__(self, count: int, first: Sequence[str]) -> None:
+    def __init__(self, count: int) -> None:
         self.points = int(np.clip(POINTS * FULL // max(count, 1), LEAST_POINTS, POINTS))
-        self.curves: dict[str, dict[str, Any]] = {}
         self.drawings: list[dict[str, Any]] = []
+        self.shapes: dict[str, dict[str, Any]] = {}
         self.doubt = 0.0
-        self._rank = {case_id: k for k, case_id in enumerate(first)}
-        self._known: dict[str, int] = {}
-        self._room = DRAWINGS
-        self._moving: dict[str, dict[str, Any]] = {}
+        self._known: dict[bytes, int] = {}
+        self._room = {"drawings": DRAWINGS, "shapes": SHAPES}
 
-    @property
-    def shapes(self) -> dict[str, dict[str, Any]]:
-        """Moving shapes by case id, the first ones for which there is room."""
-        found, room = {}, SHAPES
-        for case_id in sorted(self._moving, key=lambda name: self._rank[name]):
-            room -= len(self._moving[case_id]["position"])
-            if room < 0:
-                break
-            found[case_id] = self._moving[case_id]
-        return found
-
-    def add(self, case: StoredCase, row: Series) -> None:
-        """Take what the page shows of a case; `row`: of the summary."""
+    def take(self, case: StoredCase, row: Series) -> dict[str, Any]:
+        """What the page shows of a case; `row`: of the summary."""
         history, frames = case.history, case.frames
         more: dict[str, Any] = {}
         if len(history) > 1:
@@ -220,8 +205,8 @@ class _Stored:
                 more["stairs"] = self._stairs(history, row)
         if frames:
             more["drawing"] = self._drawing(frames)
-            self._moving[case.case_id] = moving_shape(frames, _forces(frames, history, row))
-        self.curves[case.case_id] = more
+            self._move(case, row)
+        return more
 
     def _curve(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
         """Abscissa and ordinate of the curve of a case, as `curve_of` says."""
@@ -248,14 +233,28 @@ class _Stored:
 
     def _drawing(self, frames: Mapping[str, Any]) -> int | None:
         """Number of the drawing of a shape at rest, which may be that of an earlier case."""
-        at_rest = frames["position_m"][0].astype(float)
-        drawn = drawing(at_rest, frames["edges"], frames["edge_thickness_m"].astype(float))
-        text = json.dumps(drawn)
-        if text not in self._known and len(text) <= self._room:
-            self._room -= len(text)
-            self._known[text] = len(self.drawings)
-            self.drawings.append(drawn)
-        return self._known.get(text)
+        at_rest, edges = frames["position_m"][0].astype(float), frames["edges"]
+        thickness = frames["edge_thickness_m"].astype(float)
+        key = b"".join(a.tobytes() for a in (np.rint(at_rest / UNIT), edges, thickness))
+        if key not in self._known and self._room["drawings"] > 0:
+            drawn = drawing(at_rest, edges, thickness)
+            if self._fits("drawings", len(json.dumps(drawn))):
+                self._known[key] = len(self.drawings)
+                self.drawings.append(drawn)
+        return self._known.get(key)
+
+    def _move(self, case: StoredCase, row: Series) -> None:
+        """Keep the moving shape of a case if there is room."""
+        if self._room["shapes"] <= 0:
+            return
+        moving = moving_shape(case.frames, _forces(case.frames, case.history, row))
+        if self._fits("shapes", len(json.dumps(moving))):
+            self.shapes[case.case_id] = moving
+
+    def _fits(self, what: str, length: int) -> bool:
+        """True if there is still room; no later and shorter one is taken after one that fails."""
+        self._room[what] -= length
+        return self._room[what] >= 0
 
 
 def curve_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Any, Any]:

@@ -120,8 +120,8 @@ function showAsked() {
 
 // ---- the answer ----
 
-function inUnit(grams) {
-  return `${Number((grams / gramsPerUnit()).toPrecision(4))} ${gramsPerUnit() === 1 ? "g" : "oz"}`;
+function inUnit(grams, figures = 4) {
+  return `${Number((grams / gramsPerUnit()).toPrecision(figures))} ${gramsPerUnit() === 1 ? "g" : "oz"}`;
 }
 
 function percentOf(row) {
@@ -154,6 +154,7 @@ function showAnswer() {
   const best = now.placed[0];
   const limit = asked.budget === null ? "" : ` up to ${inUnit(asked.budget)}`;
   $("picture").replaceChildren();
+  $("command").replaceChildren();
   if (!best) {
     const none = Number.isFinite(now.lightest) && asked.budget < now.lightest;
     $("sentence").textContent = none
@@ -197,12 +198,11 @@ function showCommand() {
   const known = storedEnergy(data, asked) >= 0;
   const budgeted = asked.budget !== null || !data.question.budgets_g.length;
   const paneled = asked.panel !== null || !data.question.panel;
-  $("command").replaceChildren();
   if (!(known && budgeted && paneled)) return;
   const file = /^[\w./-]+$/.test(data.file) ? data.file : `'${data.file.replaceAll("'", "'\\''")}'`;
-  const budget = asked.budget === null ? "" : ` --budget "${inUnit(asked.budget)}"`;
+  const budget = asked.budget === null ? "" : ` --budget "${inUnit(asked.budget, 9)}"`;
   const panel = asked.panel ? ` --panel ${asked.panel.map((side) => `"${Number((1000 * side).toPrecision(6))} mm"`).join(" ")}` : "";
-  const force = asked.force === null || scene().mode !== "displacement" ? "" : ` --allowed-force "${asked.force} N"`;
+  const force = asked.force === null ? "" : ` --allowed-force "${asked.force} N"`;
   $("command").append("In a terminal: ", element("code", {}, `crumple rank ${file}${budget}${panel}${force}`));
 }
 
@@ -229,7 +229,7 @@ function columns() {
     found.push(number("peak N", (row) => digits(row.passed), (row) => row.passed));
   }
   if (now.bar) found.push(number("± %", (row) => (percentOf(row) ? share(row) : "?")));
-  if (asked.force === null || mode !== "displacement")
+  if (asked.force === null)
     scene().heads.forEach((head, i) => found.push(number(head, (row) => row.design.more[i])));
   return found;
 }
@@ -260,7 +260,7 @@ function showTable() {
       showTable();
     };
     return element("th", { scope: "col", class: column.right ? "number" : null, "aria-sort": order },
-      element("button", { type: "button", onclick: turn }, column.head));
+      element("button", { type: "button", onclick: turn }, column.head.replace(/ (?=[^ ]+$)/, "\n")));
   });
   $("table").tHead.replaceChildren(element("tr", {}, element("th", { "aria-label": "curve shown" }), ...heads));
   const rows = sorted(shown);
@@ -298,10 +298,10 @@ function notes() {
   const rows = now.placed;
   const crushed = scene().mode === "displacement";
   if (crushed) lines.push(`Energy and peak are counted ${until()}.`);
-  if (crushed && asked.force !== null && storedEnergy(data, asked) < 0)
+  if (storedEnergy(data, asked) < 0)
     lines.push(
       `These energies are read from curves of at most ${data.points} points: they differ by at most ` +
-        `${(100 * data.doubt).toFixed(2)} % of the energy of the whole crush. At the forces below the slider they are exact.`,
+        `${(100 * data.doubt).toFixed(2)} % of the energy of the whole crush.` + (data.energies.length > 1 ? " At the forces below the slider they are exact." : ""),
     );
   if (now.bar)
     lines.push("±: estimated error from mesh and steps, not a bound. =: the place is shared, as errors may reverse the order.");
@@ -324,7 +324,7 @@ function showMap() {
   const mode = scene().mode;
   const noun = asked.panel ? "panel" : "specimen";
   const names = { impact: ["Force over mass", "force on the support, N"], force: ["Sink over mass", "greatest strain, %"] };
-  const rows = now.rows.filter((row) => merit(row) !== null);
+  const rows = now.rows.filter((row) => merit(row) > 0);
   const small = Math.max(...rows.map(merit)) < 1;
   const [title, label] = names[mode] ?? ["Energy over mass", `energy of a ${noun}, ${small ? "mJ" : "J"}`];
   const scale = names[mode] ? 1 : small ? 1e3 : 1;
@@ -333,9 +333,9 @@ function showMap() {
   const masses = rows.map((row) => row.mass);
   const values = rows.map((row) => scale * merit(row));
   const plot = chart($("map"), {
-    x: { range: extent([masses]), label: `mass of a ${noun}, g` },
-    y: { range: extent([values]), label },
-    height: 380,
+    x: { range: logExtent(masses), label: `mass of a ${noun}, g`, log: true },
+    y: { range: logExtent(values), label, log: true },
+    height: 400,
     label: title,
   });
   showLimit(plot);
@@ -347,7 +347,7 @@ function showMap() {
 
 function showLimit(plot) {
   const x = asked.budget === null ? Infinity : plot.toX(asked.budget);
-  if (x > plot.right) return;
+  if (!(x > MARGIN.left && x < plot.right)) return;
   const early = x > plot.right - 80;
   plot.svg.append(
     shape("line", { class: "limit", x1: x, x2: x, y1: MARGIN.top, y2: plot.bottom }),
@@ -360,8 +360,9 @@ function dot(plot, row, scale) {
   const placed = row.place !== undefined;
   const kind = [placed ? "" : "out", row.beyond || row.design.crossed ? "doubt" : "", row.place === 1 ? "best" : ""];
   if (row.error && row.value) {
-    const half = Math.abs(y - plot.toY(scale * merit(row) * (1 + row.error / Math.abs(row.value))));
-    plot.svg.append(shape("line", { class: "bar", x1: x, x2: x, y1: y - half, y2: y + half }));
+    const share = row.error / Math.abs(row.value);
+    const ends = [1 - share, 1 + share].map((k) => scale * merit(row) * Math.max(k, 0.1));
+    plot.svg.append(shape("line", { class: "bar", x1: x, x2: x, y1: plot.toY(ends[0]), y2: plot.toY(ends[1]) }));
   }
   plot.svg.append(
     shape("circle", {
@@ -444,7 +445,7 @@ function showCurves() {
   designs.forEach((design, i) =>
     line(plot, ...design.curve, { style: `stroke: var(--c${i})`, "stroke-width": design.id === current() ? 2.8 : 1.6 }),
   );
-  if (asked.force !== null && scene().mode === "displacement" && plot.toY(asked.force) > MARGIN.top)
+  if (asked.force !== null && plot.toY(asked.force) > MARGIN.top)
     plot.svg.append(shape("line", { class: "limit", x1: MARGIN.left, x2: plot.right, y1: plot.toY(asked.force), y2: plot.toY(asked.force) }));
   const marker = shape("circle", { r: 5, fill: "var(--ink)", visibility: "hidden" });
   plot.svg.append(marker);
@@ -529,7 +530,7 @@ function showBook(design) {
     x: { range: [place[0], place[place.length - 1]], label: book.label },
     y: { range: extent([work, ...sums]), label: "energy, mJ" },
     height: 340,
-    label: "energy book",
+    label: "energies over the path",
   });
   sums.slice(1).forEach((sum, i) => {
     const back = [...sums[i]].reverse();
@@ -550,7 +551,7 @@ function partColor(name) {
 // ---- everything ----
 
 function refresh() {
-  now = ranked(data, scene().mode === "displacement" ? asked : { ...asked, force: null });
+  now = ranked(data, asked);
   showAsked();
   showAnswer();
   showTable();
@@ -567,7 +568,8 @@ function start() {
   data.scenes.forEach(({ label }, i) => $("scene").append(element("option", { value: i }, label)));
   $("scenes").hidden = data.scenes.length < 2;
   $("scene").addEventListener("change", () => {
-    Object.assign(asked, { scene: Number($("scene").value) });
+    asked.scene = Number($("scene").value);
+    if (scene().mode !== "displacement") asked.force = null;
     Object.assign(view, { chosen: null, current: null, sort: null });
     refresh();
   });

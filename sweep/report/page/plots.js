@@ -45,20 +45,36 @@ function ticks(low, high, count) {
   return found;
 }
 
+// Round numbers on a log axis: powers of ten times 1, 2, 5, or 1 alone if these are many.
+function logTicks(low, high) {
+  const powers = [];
+  for (let k = Math.floor(Math.log10(low)); k <= Math.log10(high); k += 1) powers.push(k);
+  const times = (factors) =>
+    powers.flatMap((k) => factors.map((f) => Number((f * 10 ** k).toPrecision(3)))).filter((v) => v >= low && v <= high);
+  const fine = times([1, 2, 5]);
+  if (fine.length < 3) return ticks(low, high, 4);
+  return fine.length > 9 ? times([1]) : fine;
+}
+
+// A function from values of an axis {range, log} to pixels.
+function scaled({ range, log }, from, to) {
+  const turn = log ? Math.log : (v) => v;
+  const [low, high] = range.map(turn);
+  return (v) => from + ((turn(v) - low) / (high > low ? high - low : 1)) * (to - from);
+}
+
 // An empty chart that fills `box`: axes with ticks and labels, and functions x and y to pixels.
 function chart(box, { x, y, height = 300, label }) {
   const width = Math.max(box.clientWidth, 260);
   const svg = shape("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": label });
   const right = width - MARGIN.right;
   const bottom = height - MARGIN.bottom;
-  const span = ([low, high]) => (high > low ? high - low : 1);
-  const toX = (v) => MARGIN.left + ((v - x.range[0]) / span(x.range)) * (right - MARGIN.left);
-  const toY = (v) => bottom - ((v - y.range[0]) / span(y.range)) * (bottom - MARGIN.top);
-  for (const v of ticks(...x.range, width / 90)) {
+  const [toX, toY] = [scaled(x, MARGIN.left, right), scaled(y, bottom, MARGIN.top)];
+  for (const v of x.log ? logTicks(...x.range) : ticks(...x.range, width / 90)) {
     svg.append(shape("line", { class: "grid", x1: toX(v), x2: toX(v), y1: MARGIN.top, y2: bottom }));
     svg.append(shape("text", { class: "tick", x: toX(v), y: bottom + 16, "text-anchor": "middle" }, String(v)));
   }
-  for (const v of ticks(...y.range, height / 50)) {
+  for (const v of y.log ? logTicks(...y.range) : ticks(...y.range, height / 50)) {
     svg.append(shape("line", { class: "grid", x1: MARGIN.left, x2: right, y1: toY(v), y2: toY(v) }));
     svg.append(shape("text", { class: "tick", x: MARGIN.left - 6, y: toY(v) + 4, "text-anchor": "end" }, String(v)));
   }
@@ -84,6 +100,12 @@ function extent(lists, zero = true) {
   const low = Math.min(...(zero ? [0] : []), ...values);
   const high = Math.max(...(zero ? [0] : []), ...values);
   return [low, high > low ? high + 0.04 * (high - low) : low + 1];
+}
+
+// The same for a log axis, with some room at both ends.
+function logExtent(values) {
+  const room = Math.max((Math.max(...values) / Math.min(...values)) ** 0.06, 1.05);
+  return [Math.min(...values) / room, Math.max(...values) * room];
 }
 
 // The walls of a design at rest, y upwards, with their true thickness.

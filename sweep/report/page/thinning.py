@@ -13,37 +13,50 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
+    Indices = NDArray[np.int64]
+
+TINY = np.finfo(float).tiny
+ALIKE = 0.5  # of the greatest distance: points so far away are added in the same round
 
 
 def thinned(points: Floats, most: int, tolerance: float = 0.0) -> list[int]:
     """Indices of points (n, k) whose polyline stays close to all of them.
 
-    The point farthest from the polyline is added until there are ``most`` points or none is farther
-    away than ``tolerance`` (Ramer 1972, by greatest distance first).
+    The points farthest from their chords are added until there are ``most`` points or none is
+    farther away than ``tolerance`` (Ramer 1972, the greatest distances first).
     """
-    kept = [0, len(points) - 1] if len(points) > 1 else list(range(len(points)))
-    gaps = [_farthest(points, 0, len(points) - 1)] if len(points) > 2 else []
-    while gaps and len(kept) < most:
-        gap = max(gaps)
-        if gap[0] <= tolerance:
+    if len(points) < 3:
+        return list(range(len(points)))
+    kept = np.array([0, len(points) - 1])
+    while len(kept) < most:
+        distance, chord = _distances(points, kept)
+        farthest = _first_of_each(np.flatnonzero(distance >= _peaks(distance, kept)[chord]), chord)
+        far = farthest[distance[farthest] > max(tolerance, ALIKE * distance.max())]
+        if not len(far):
             break
-        gaps.remove(gap)
-        _, middle, begin, end = gap
-        kept.append(middle)
-        halves = ((begin, middle), (middle, end))
-        gaps += [_farthest(points, *half) for half in halves if half[1] - half[0] > 1]
-    return sorted(kept)
+        far = far[np.argsort(-distance[far], kind="stable")][: most - len(kept)]
+        kept = np.union1d(kept, far)
+    return [int(index) for index in kept]
 
 
-def _farthest(points: Floats, begin: int, end: int) -> tuple[float, int, int, int]:
-    """Distance and index of the point between two others that is farthest from their chord."""
-    inner, start = points[begin + 1 : end], points[begin]
-    chord = points[end] - start
-    along = (inner - start) @ chord / max(float(chord @ chord), np.finfo(float).tiny)
-    off = inner - start - np.clip(along, 0.0, 1.0)[:, None] * chord
-    distance = np.linalg.norm(off, axis=1)
-    found = int(distance.argmax())
-    return float(distance[found]), begin + 1 + found, begin, end
+def _distances(points: Floats, kept: Indices) -> tuple[Floats, Indices]:
+    """Distance of every point from its chord between two kept points, and the chord's number."""
+    chord = np.repeat(np.arange(len(kept) - 1), np.diff(kept))
+    chord = np.append(chord, len(kept) - 2)
+    start, way = points[kept[:-1]], points[kept[1:]] - points[kept[:-1]]
+    off = points - start[chord]
+    squared = np.maximum((way * way).sum(1), TINY)
+    along = np.clip((off * way[chord]).sum(1) / squared[chord], 0.0, 1.0)
+    return np.linalg.norm(off - along[:, None] * way[chord], axis=1), chord
+
+
+def _peaks(distance: Floats, kept: Indices) -> Floats:
+    return np.maximum.reduceat(distance, kept[:-1])
+
+
+def _first_of_each(found: Indices, chord: Indices) -> Indices:
+    """The first of the found points on each chord."""
+    return found[np.unique(chord[found], return_index=True)[1]]
 
 
 def thin_curves(columns: Iterable[Any], most: int) -> list[Floats]:

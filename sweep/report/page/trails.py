@@ -58,14 +58,18 @@ def _pairs(
             at_node.setdefault((nodes[side], float(thickness[e])), []).append((e, side))
     pairs = {}
     for arms in at_node.values():
-        ways = np.array([away[e] if side == 0 else -away[e] for e, side in arms])
-        for i, k in _straightest(ways @ ways.T):
+        for i, k in [(0, 1)] if len(arms) == 2 else _straightest(arms, away):
             pairs[arms[i]], pairs[arms[k]] = arms[k], arms[i]
     return pairs
 
 
-def _straightest(cosines: Floats) -> Iterator[tuple[int, int]]:
-    """Disjoint pairs of arms, those that differ least from a straight line first."""
+def _straightest(arms: Sequence[tuple[int, int]], away: Floats) -> Iterator[tuple[int, int]]:
+    """Disjoint pairs of the arms of a node, those that differ least from a straight line first.
+
+    arms: (element, side); away (m, 2): directions of the elements.
+    """
+    ways = np.array([away[e] if side == 0 else -away[e] for e, side in arms])
+    cosines = ways @ ways.T
     rows, columns = np.triu_indices(len(cosines), 1)
     left = set(range(len(cosines)))
     for k in np.argsort(cosines[rows, columns], kind="stable"):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from sweep.ranking.rank import ranked
 from sweep.report.page.gather import page_data
-from sweep.report.sheets import legend, ranking_sheets
+from sweep.report.sheets import design_labels, legend, ranking_sheets
 from sweep.report.storyboard import PARTS
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).parent
 PROGRAM = ("rank.js", "plots.js", "page.js")
-TOP = 10
+TOP, TOP_OF_A_BUDGET = 10, 3
 
 
 def write_page(file: str, summary: DataFrame, question: Mapping[str, Any], out: Path) -> Path:
@@ -55,12 +55,26 @@ def page(data: Mapping[str, Any], static: str) -> str:
 
 
 def tables(summary: DataFrame, question: Mapping[str, Any]) -> str:
-    """The ranking of a question as HTML tables, with their legend."""
-    ranking = ranked(summary, question.get("budget"), question.get("panel"), top=TOP)
-    if ranking.table.empty and ranking.failed == ranking.cases:
+    """The ranking of a question: the best designs in words, then tables with their legend."""
+    budget, panel = question.get("budget"), question.get("panel")
+    top = TOP_OF_A_BUDGET if len(budget or ()) > 1 else TOP
+    ranking = ranked(summary, budget, panel, top=top)
+    if ranking.failed == ranking.cases:
         return "<p>No case has converged, so there is no ranking.</p>"
     sheets = "".join(_table(sheet) for sheet in ranking_sheets(ranking, summary))
-    return sheets + (_paragraphs(legend(ranking).splitlines()) if len(ranking.table) else "")
+    known = _paragraphs(legend(ranking).splitlines()) if len(ranking.table) else ""
+    return f"{_winners(ranking.table, summary)}{sheets}{known}"
+
+
+def _winners(table: DataFrame, summary: DataFrame) -> str:
+    """A sentence for each budget and scene."""
+    first = table.drop_duplicates(["budget_g", "scene"])
+    lines = [
+        f"The best design{f' up to {row.budget_g:g} g' if row.budget_g > 0.0 else ''}, "
+        f"{row.scene}: {label}."
+        for row, label in zip(first.itertuples(), design_labels(first, summary), strict=True)
+    ]
+    return "".join(f"<p>{escape(line)}</p>" for line in lines)
 
 
 def _read(name: str) -> str:
