@@ -3,6 +3,7 @@
 import base64
 import json
 import os
+import select
 import shutil
 import subprocess
 import tempfile
@@ -22,6 +23,9 @@ OPTIONS = [
 ]
 
 
+PATIENCE = 60  # s
+
+
 class Tab:
     """A page: `run` evaluates a script in it.
 
@@ -30,7 +34,8 @@ class Tab:
 
     def __init__(self, to, back):
         self._to, self._back, self._ids, self._session = to, back, count(1), None
-        self.complaints, self.asked_for = [], []
+        self._text = b""
+        self.complaints, self.asked_for, self._loaded = [], [], False
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         attached = self.call("Target.attachToTarget", targetId=target, flatten=True)
         self._session = attached["sessionId"]
@@ -52,15 +57,19 @@ class Tab:
                 return answer["result"]
 
     def _read(self):
-        text = bytearray()
-        while (letter := self._back.read(1)) != b"\0":
-            assert letter, "the browser ended"
-            text += letter
+        """The next message of the browser, which it has `PATIENCE` seconds to send."""
+        while b"\0" not in self._text:
+            ready, _, _ = select.select([self._back], [], [], PATIENCE)
+            more = os.read(self._back.fileno(), 1 << 16) if ready else b""
+            assert more, "the browser ended, or does not answer"
+            self._text += more
+        text, _, self._text = self._text.partition(b"\0")
         message = json.loads(text)
         self._take(message.get("method"), message.get("params", {}))
         return message
 
     def _take(self, event, told):
+        self._loaded = self._loaded or event == "Page.loadEventFired"
         if event == "Runtime.exceptionThrown":
             self.complaints.append(told["exceptionDetails"])
         if event == "Log.entryAdded":
@@ -81,14 +90,16 @@ class Tab:
         )
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self.call("Emulation.setEmulatedMedia", features=[scheme])
+        self.complaints, self.asked_for, self._loaded = [], [], False
         self.call("Page.navigate", url=Path(path).resolve().as_uri())
-        done = "document.readyState === 'complete' ? done() : addEventListener('load', done)"
-        self.run(f"new Promise(done => {done}).then(() => 1)")
+        while not self._loaded:
+            self._read()
 
     def run(self, script):
-        """The value of an expression in the page."""
+        """The value of an expression in the page; of a promise, what it becomes."""
+        later = script.startswith("new Promise")  # waiting takes forever if scripts are disabled
         told = self.call(
-            "Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True
+            "Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=later
         )
         assert "exceptionDetails" not in told, told
         return told["result"].get("value")
@@ -111,7 +122,7 @@ def browser():
         environment = {**os.environ, "TO": words[0], "BACK": words[1]}
         process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL)
         try:
-            with open(words[0], "wb") as to, open(words[1], "rb") as back:
+            with open(words[0], "wb") as to, open(words[1], "rb", buffering=0) as back:
                 yield Tab(to, back)
         finally:
             process.terminate()
