@@ -46,7 +46,7 @@ def test_commands_are_accepted():
     text = "\n".join([*blocks("sh"), *blocks("text")])
     commands = re.findall(r"^(?:\$ )?crumple (\w+ .*)", text, re.MULTILINE)
     verbs = [parser().parse_args(shlex.split(words, comments=True)).verb for words in commands]
-    assert {*verbs} == {"run", "rank", "status", "show", "materials"}
+    assert {*verbs} == {"run", "rank", "status", "show", "report", "materials"}
 
 
 def test_files_exist():

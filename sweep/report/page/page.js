@@ -361,8 +361,9 @@ function dot(plot, row, scale) {
   const kind = [placed ? "" : "out", row.beyond || row.design.crossed ? "doubt" : "", row.place === 1 ? "best" : ""];
   if (row.error && row.value) {
     const share = row.error / Math.abs(row.value);
-    const ends = [1 - share, 1 + share].map((k) => scale * merit(row) * Math.max(k, 0.1));
-    plot.svg.append(shape("line", { class: "bar", x1: x, x2: x, y1: plot.toY(ends[0]), y2: plot.toY(ends[1]) }));
+    const inside = (v) => Math.min(Math.max(v, MARGIN.top), plot.bottom);
+    const [y1, y2] = [1 - share, 1 + share].map((k) => inside(plot.toY(scale * merit(row) * Math.max(k, 0.1))));
+    plot.svg.append(shape("line", { class: "bar", x1: x, x2: x, y1, y2 }));
   }
   plot.svg.append(
     shape("circle", {
@@ -499,7 +500,7 @@ function showFrame(k) {
   view.frame = k;
   player.show(k);
   $("frame").value = k;
-  const strain = moving.strain[k] === null ? `${moving.time[k]} ms` : `strain ${moving.strain[k].toFixed(0)} %`;
+  const strain = moving.strain[k] === null ? `${moving.time[k]} ms` : `strain ${moving.strain[k].toFixed(moving.strain[k] < 10 ? 1 : 0)} %`;
   const force = moving.force[k] === null || scene().mode === "force" ? "" : `, ${digits(moving.force[k])} N`;
   $("caption").textContent = strain + force;
   view.mark?.(moving.strain[k], moving.time[k], moving.force[k]);
