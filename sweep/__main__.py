@@ -34,6 +34,7 @@ EXAMPLES = """examples:
   crumple show results/armor.h5 1               pictures of the best design
   crumple show results/armor.h5 7a85            pictures of the case whose id begins with 7a85
   crumple export results/armor.h5 7a85 --to part.stl      to print; also .3mf .svg .dxf .csv .gif
+  crumple report results/armor.h5               one page with sliders: results/armor.html
   crumple accuracy accuracy/impact              error against run time, method by method
   crumple materials                             the materials, their numbers and sources
   crumple completion bash                       let the shell complete words: see its --help
@@ -116,6 +117,10 @@ EXPORT_EXAMPLES = """examples:
   crumple export F.h5 a44d --to block.3mf --kind settings
   crumple export F.h5 a44d --to crush.gif
 """
+REPORT = """Write one HTML page that needs no network: the best design; sliders for budget, panel
+and allowed force, which rank again; energy over mass, with drawings; curves, moving shapes and
+energies of chosen designs; failures and origin. It starts with the budgets and the panel of [rank]
+in the config. Without scripts it shows the tables of that ranking."""
 
 MATERIALS = """Without WORD: a table of the materials that come with Crumple. With names, also of
 your own .csv files: all that their files state, with sources. With the word plot: their curves of
@@ -239,6 +244,13 @@ def parser() -> Parser:
         "--out", type=_folder, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
     )
     _add_export(verbs)
+    report = verbs.add_parser(
+        "report", help="one HTML page", description=REPORT, formatter_class=raw
+    )
+    report.add_argument("file", type=_path, metavar="F.h5")
+    report.add_argument(
+        "--out", type=_page, metavar="F.html", help="the page (default: beside F.h5)"
+    )
     _add_materials(verbs)
     _add_helpers(verbs)
     return main
@@ -389,10 +401,19 @@ def _folder(text: str) -> str:
 
 def _results(text: str) -> str:
     """A path that may become a results file."""
+    return _named(text, ".h5")
+
+
+def _page(text: str) -> str:
+    """A path that may become a page."""
+    return _named(text, ".html")
+
+
+def _named(text: str, end: str) -> str:
     is_no_file = os.path.exists(text) and not os.path.isfile(text)  # these functions never raise
-    if Path(_path(text)).suffix == ".h5" and not is_no_file:
+    if Path(_path(text)).suffix == end and not is_no_file:
         return text
-    raise argparse.ArgumentTypeError(f"{text!r}; allowed: a file whose name ends in .h5")
+    raise argparse.ArgumentTypeError(f"{text!r}; allowed: a file whose name ends in {end}")
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -263,6 +263,20 @@ def export(arguments: Namespace) -> int:
     return DONE
 
 
+def report(arguments: Namespace) -> int:
+    """Write a results file as one HTML page."""
+    from sweep.report.page.write import write_page
+    from sweep.store.read import read_summary
+
+    summary, stored = read_summary(arguments.file), _stored(arguments.file, "rank")
+    question = {"budget": stored.get("budgets"), "panel": stored.get("panel")}
+    out = Path(arguments.out or Path(arguments.file).with_suffix(".html"))
+    with _writing(out.parent):
+        page = write_page(arguments.file, summary, question, out)
+    say(f"{page} ({page.stat().st_size / 1e6:.2g} MB)")
+    return _exit_status(summary)
+
+
 def materials(arguments: Namespace) -> int:
     """List, show, plot or fit materials."""
     from sweep.cli.materials import materials as answer
@@ -289,7 +303,7 @@ def completion(arguments: Namespace) -> int:
 
 
 ALL = (
-    *(run, optimize, accuracy, warm, status, rank, show, export),
+    *(run, optimize, accuracy, warm, status, rank, show, report, export),
     *(materials, new, completion),
 )
 VERBS = {verb.__name__: verb for verb in ALL}

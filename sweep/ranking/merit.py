@@ -96,7 +96,7 @@ def merits(
         "passed_on_N": force,
         "counted_stroke_m": _stroke(finished, energy, allowed_force),
         "returned_share": finished["returned_energy_J"] / finished["absorbed_energy_J"],
-        "beyond_model": (finished[energy] > within) | _through_solid(finished),
+        "beyond_model": (finished[energy] > within) | through_solid(finished),
         "crossed": finished["max_crossings"] > 0,
         "beyond_curve": finished["stretch_over_curve"] > 1.0,
     }
@@ -128,7 +128,7 @@ def counted_mass(finished: DataFrame) -> tuple[str, Series]:
     return "counted_mass_g", printed.fillna(finished["mass_g"])
 
 
-def _through_solid(finished: DataFrame) -> Series:
+def through_solid(finished: DataFrame) -> Series:
     """True for lattices compressed to less than their solid height, or to less than none."""
     sunk = (finished["loading_mode"] == "force") & (finished["peak_strain"] >= 1.0)
     return sunk | (finished["stroke_left_m"] < -ROUND_OFF)

@@ -20,7 +20,15 @@ from matplotlib.transforms import ScaledTranslation
 
 from sweep.design.silhouette import silhouette
 from sweep.numbers import energy_text, three_digits
-from sweep.report.storyboard import headline, last_loaded, shots, turns
+from sweep.report.storyboard import (
+    PARTS,
+    headline,
+    last_loaded,
+    parts_of,
+    path_of,
+    shots,
+    turns,
+)  # fmt: skip
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,21 +39,12 @@ BLUE, SKY, ORANGE = "#0072b2", "#56b4e9", "#e69f00"
 VERMILION, PURPLE, YELLOW, GREY = "#d55e00", "#cc79a7", "#f0e442", "#8a8a8a"
 WALL, PLATEN, GRID = "#2b4c6f", "#c9c9c9", "#e6e6e6"
 
-ENERGIES = {
-    "stretch_J": ("stretching", BLUE),
-    "bend_J": ("bending", SKY),
-    "contact_J": ("contact", ORANGE),
-    "kinetic_J": ("motion", YELLOW),
-    "dissipated_material_J": ("lost in the material", VERMILION),
-    "dissipated_friction_J": ("lost to friction", PURPLE),
-    "dissipated_integrator_J": ("lost by the time steps", GREY),
-}
+COLORS = dict(zip(PARTS, (BLUE, SKY, ORANGE, YELLOW, VERMILION, PURPLE, GREY), strict=True))
 PANEL, GAP = 1.9, 0.1  # inches: longer side of the picture of a shape; gap between two pictures
 ENTRY, SIGN = 0.22, 0.6  # inches: height of an entry of a legend; width of its sign
 LETTER, LINE = 0.075, 0.2  # inches: width of a letter of a title; height of a line
 TICKS = 3  # least number of labels of a log axis
 ROUND = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))  # x powers of ten
-NEGLIGIBLE = 0.005  # of the work: smaller energies are not drawn
 
 
 def blank(width: float, height: float) -> Figure:
@@ -127,21 +126,14 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     Over the path of a driven platen, down and back; otherwise over time.
     """
     work = 1e3 * history["work_in_J"]
-    if row["loading_mode"] == "displacement":
-        place = 1e3 * history["top_displacement_m"].diff().abs().cumsum().fillna(0.0)
-        ax.set_xlabel("path of the platen, down and back up, mm")
-    else:
-        place = 1e3 * history["time_s"]
-        ax.set_xlabel("time, ms")
+    place, words = path_of(history, row)
+    ax.set_xlabel(words)
     for at, words in turns(history, row).items():
         mark(ax, place[at], words, after=words.startswith("cycle"))
-    parts = {
-        label: (1e3 * history[name], color)
-        for name, (label, color) in ENERGIES.items()
-        if history[name].abs().max() > NEGLIGIBLE * history["work_in_J"].abs().max()
-    }
-    values, colors = zip(*parts.values(), strict=True) if parts else ((), ())
-    ax.stackplot(place, *values, colors=colors, labels=list(parts), linewidth=0)
+    parts = parts_of(history)
+    colors = [COLORS[name] for name in parts]
+    values = [1e3 * history[name] for name in parts]
+    ax.stackplot(place, *values, colors=colors, labels=list(parts.values()), linewidth=0)
     total = "brought by the striker" if row["loading_mode"] == "impact" else "work done"
     ax.plot(place, work, color="black", lw=1.4, label=total)
     ax.set_ylabel("energy, mJ")

@@ -363,12 +363,12 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     shown = {"printed_mass_g", "counted_mass_g"}
     mode = rows["loading_mode"].iloc[0]
     if mode in LEAST:
-        columns |= _under_load(rows) if mode == "force" else _struck(rows)
+        columns |= _under_load(rows) if mode == "force" else impact_text(rows)
         shown |= {LEAST[mode]}
     else:
         columns |= _crushed(rows, ranking) | panel_column(rows)
         shown |= {ranking.energy, ranking.per_gram}
-        columns |= {} if ranking.limited else _whole(rows)
+        columns |= {} if ranking.limited else crush_text(rows)
     columns |= requirement_columns(rows, ranking)
     shown |= {SPARE[head] for head in columns if head in SPARE}
     for by in rows["ranked_by"].unique():
@@ -383,7 +383,8 @@ def _under_load(rows: DataFrame) -> dict[str, Series]:
     return {"sink %": numerals(100.0 * rows["peak_strain"])}
 
 
-def _struck(rows: DataFrame) -> dict[str, Series]:
+def impact_text(rows: DataFrame) -> dict[str, Series]:
+    """Columns about an impact."""
     return {
         "force N": numerals(rows["peak_force_N"]),
         **panel_column(rows),
@@ -410,7 +411,7 @@ def _stops_early(rows: DataFrame, ranking: Ranking) -> Series:
     return crushed & ranking.limited & (rows["peak_force_N"] <= rows["passed_on_N"])
 
 
-def _whole(rows: DataFrame) -> dict[str, Series]:
+def crush_text(rows: DataFrame) -> dict[str, Series]:
     """Columns about the whole crush."""
     packed = rows["densification_strain"].notna() | rows["peak_strain"].isna()
     unsure = _unsure(rows).map({True: "~", False: ""})

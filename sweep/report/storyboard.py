@@ -1,4 +1,4 @@
-"""The choice of the shapes of a case that are drawn, and their captions."""
+"""What is drawn of a case: which shapes, with captions, and which energies."""
 
 from __future__ import annotations
 
@@ -12,7 +12,20 @@ from sweep.ranking.rank import scene_label
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+    from pandas import Series
 
+PARTS = {
+    "stretch_J": "stretching",
+    "bend_J": "bending",
+    "contact_J": "contact",
+    "kinetic_J": "motion",
+    "dissipated_material_J": "lost in the material",
+    "dissipated_friction_J": "lost to friction",
+    "dissipated_integrator_J": "lost by the time steps",
+}
+"""Columns of a history that add up to the work done, in words."""
+
+NEGLIGIBLE = 0.005  # of the work: smaller energies are not drawn
 SHAPES = 6
 RELEASED = 0.01  # below this strain a specimen counts as released
 ROUND_OFF = 1e-12
@@ -49,6 +62,20 @@ def turns(history: DataFrame, row: Mapping[str, Any]) -> dict[int, str]:
         return {turn: word} if turn < last else {}
     stages = enumerate(range(turn, last, max(turn, 1)), 1)
     return {at: "turns" if k % 2 else f"cycle {k // 2 + 1}" for k, at in stages}
+
+
+def parts_of(history: DataFrame) -> dict[str, str]:
+    """The `PARTS` that are not negligible in a case."""
+    least = NEGLIGIBLE * history["work_in_J"].abs().max()
+    return {name: words for name, words in PARTS.items() if history[name].abs().max() > least}
+
+
+def path_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str]:
+    """Abscissa of the energies of a case, and its label: path of a driven platen, or time."""
+    if row["loading_mode"] == "displacement":
+        travel = history["top_displacement_m"].diff().abs().cumsum().fillna(0.0)
+        return 1e3 * travel, "path of the platen, down and back up, mm"
+    return 1e3 * history["time_s"], "time, ms"
 
 
 def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple[int, str]]:

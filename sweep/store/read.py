@@ -15,6 +15,7 @@ with the same case id it takes the newer one.
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -41,6 +42,14 @@ class Rerun(NamedTuple):
 
 
 ONLY_MISSING = Rerun()
+
+
+class StoredCase(NamedTuple):
+    """Curves of a case, a row per stored step, and its shapes; both empty if it has none."""
+
+    case_id: str
+    history: "DataFrame"
+    frames: dict[str, np.ndarray]
 
 
 class StoreError(Exception):
@@ -95,18 +104,40 @@ def read_attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
 
 def read_history(path: str | os.PathLike[str], case_id: str) -> "DataFrame":
     """Curves of one case, a row per stored step; no rows if the case has no curves."""
-    from pandas import DataFrame
-
-    curves = _read_case(Path(path), case_id, ["histories"])
-    return DataFrame(curves, columns=list(HISTORY_COLUMNS | curves), dtype=np.float64)
+    return _history(_read_case(Path(path), case_id, ["histories"]))
 
 
 def read_frames(path: str | os.PathLike[str], case_id: str) -> dict[str, np.ndarray]:
     """Stored shapes of one case, the arrays of `Result.frames`; empty if the case has none."""
-    frames = _read_case(Path(path), case_id, FRAME_GROUPS)
-    if "position_m" in frames:
-        frames["position_m"] = frames["position_m"].reshape(len(frames["strain"]), -1, 2)
-    return frames
+    return _frames(_read_case(Path(path), case_id, FRAME_GROUPS))
+
+
+def read_cases(path: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterator[StoredCase]:
+    """Curves and shapes of many cases, one after another; the files are opened only once."""
+    with _union(Path(path)) as blocks:
+        where = {
+            case_id: (block, row)
+            for block in blocks
+            for row, case_id in enumerate(block.summary["case_id"])
+        }
+        for case_id in case_ids:
+            if case_id not in where:
+                raise StoreError(f"{path} holds no case {case_id}.")
+            found = partial(_arrays, *where[case_id])
+            yield StoredCase(case_id, _history(found(["histories"])), _frames(found(FRAME_GROUPS)))
+
+
+def _history(curves: dict[str, np.ndarray]) -> "DataFrame":
+    from pandas import DataFrame
+
+    return DataFrame(curves, columns=list(HISTORY_COLUMNS | curves), dtype=np.float64)
+
+
+def _frames(arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The arrays of `Result.frames` as they were before positions became rows of a table."""
+    if "position_m" in arrays:
+        arrays["position_m"] = arrays["position_m"].reshape(len(arrays["strain"]), -1, 2)
+    return arrays
 
 
 def folded_batches(path: Path) -> int:
@@ -221,6 +252,11 @@ def _read_case(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, np.
         for block in reversed(blocks):
             found = np.flatnonzero(block.summary["case_id"] == case_id)
             if found.size:
-                arrays = [block.ragged[group].case(found[-1]) for group in groups]
-                return {k: v for named in arrays for k, v in named.items() if len(v)}
+                return _arrays(block, found[-1], groups)
     raise StoreError(f"{path} holds no case {case_id}.")
+
+
+def _arrays(block: Block, row: int, groups: Iterable[str]) -> dict[str, np.ndarray]:
+    """Arrays of the case in one row of a block; those without any row are left out."""
+    arrays = [block.ragged[group].case(row) for group in groups]
+    return {k: v for named in arrays for k, v in named.items() if len(v)}

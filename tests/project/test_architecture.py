@@ -239,10 +239,12 @@ def test_results_are_read_where_nothing_that_simulates_is_installed(tmp_path):
     file, folder = write(tmp_path / "trial.h5", summary({"case_id": "ab"})), str(tmp_path / "out")
     calls = [["status", file], ["rank", file], ["rank", file, "--csv"], ["show", file]]
     calls += [["rank", file, "--markdown"], ["rank", file, "--out", folder], ["show", file, "ab"]]
+    calls += [["report", file]]
     done = python(READING.format(absent=ABSENT, readers=READERS, calls=calls))
     assert done.stderr == ""
     assert done.stdout.splitlines()[-1] == str([0] * len(calls))
     assert {path.name for path in tmp_path.rglob("*.png")} > {"force.png", "absorption.png"}
+    assert (tmp_path / "trial.html").exists()
 
 
 def test_quantity_with_a_unit_says_which_package_it_needs(tmp_path):

@@ -3,7 +3,7 @@
 import pandas
 import pytest
 
-from sweep.report.storyboard import headline, last_loaded, shots
+from sweep.report.storyboard import headline, last_loaded, parts_of, path_of, shots
 from tests.support.specimens import squeezed_cell, summary, there_and_back, under_dead_load
 
 
@@ -70,3 +70,17 @@ def test_headline_names_cells_wall_material_and_scene():
         headline(row)
         == "square, 3 x 2 cells, wall 0.8 mm, ninjaflex\ncrushed to 50 %, glued platens"
     )
+
+
+def test_negligible_energies_are_no_parts():
+    assert list(parts_of(there_and_back())) == ["bend_J", "dissipated_friction_J"]
+
+
+def test_path_of_a_platen_goes_on_as_it_turns_and_others_have_time():
+    history = there_and_back()
+    place, label = path_of(history, {"loading_mode": "displacement"})
+    assert place.iloc[-1] == pytest.approx(8.0)
+    assert place.is_monotonic_increasing
+    assert label.endswith("mm")
+    time, label = path_of(history, {"loading_mode": "impact"})
+    assert (time.iloc[-1], label) == (pytest.approx(40.0), "time, ms")

@@ -17,6 +17,7 @@ from sweep.store.read import (
     StoreError,
     finished_ids,
     read_attributes,
+    read_cases,
     read_frames,
     read_history,
     read_summary,
@@ -59,6 +60,32 @@ def test_curves_and_shapes_are_found_by_id(path, fold, number):
     assert shapes.keys() == expected.keys()
     for name, array in shapes.items():
         np.testing.assert_allclose(array, expected[name], rtol=1e-6)
+
+
+@pytest.mark.parametrize("fold", [False, True])
+def test_many_cases_are_read_in_the_order_in_which_they_are_asked_for(path, fold):
+    ids = [case.case_id for case in cases(9)]
+    write(path, cases(9), fold)
+    asked = [ids[8], ids[0], ids[5]]
+    found = list(read_cases(path, asked))
+    assert [case.case_id for case in found] == asked
+    for case in found:
+        pd.testing.assert_frame_equal(case.history, read_history(path, case.case_id))
+        alone = read_frames(path, case.case_id)
+        assert case.frames.keys() == alone.keys()
+        for name, array in case.frames.items():
+            np.testing.assert_array_equal(array, alone[name])
+    with pytest.raises(StoreError, match="holds no case zz"):
+        list(read_cases(path, ["zz"]))
+
+
+def test_newest_curves_of_a_case_are_read(path):
+    batch = cases(2)
+    write(path, batch, True)
+    with Writer(path) as writer:
+        writer.append([failed_result(batch[0], Status.STOPPED, "late")])
+        (case,) = read_cases(path, [batch[0].case_id])
+    assert (len(case.history), case.frames) == (0, {})
 
 
 def test_parts_become_one_file(path):

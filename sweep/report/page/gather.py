@@ -1,0 +1,303 @@
+"""The data of a page: designs with what ranks them, curves, shapes, failures, origin."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from sweep.numbers import short
+from sweep.ranking.merit import LEAST, Compared, merits, through_solid
+from sweep.ranking.rank import by_scene, pareto, ranked, scene_label
+from sweep.report.page.thinning import force_stairs, numbers, thin_curves, work_until
+from sweep.report.page.trails import UNIT, drawing, moving_shape
+from sweep.report.sheets import crush_text, design_labels, design_text, impact_text
+from sweep.report.storyboard import last_loaded, parts_of, path_of
+from sweep.result import ABSORBED_AT, Status, correction_column, error_column
+from sweep.store.read import StoredCase, read_attributes, read_cases
+
+if TYPE_CHECKING:
+    from pandas import DataFrame, Series
+
+POINTS = 60  # of a curve
+LEAST_POINTS = 12  # of a curve in a page of many cases
+FULL = 500  # cases whose curves may have all `POINTS`
+DRAWINGS, SHAPES = 500_000, 1_500_000  # characters
+OF_THE_RUN = {
+    "created": "last run",
+    "git_revision": "revision of the source",
+    "compiler": "compiler of the kernels",
+    "platform": "machine",
+}
+
+
+class Counted(NamedTuple):
+    """Energy up to an allowed force (N; None: until packed), and the rows with what is compared."""
+
+    force: float | None
+    rows: DataFrame
+    names: Compared
+
+
+def page_data(file: str, summary: DataFrame, question: Mapping[str, Any]) -> dict[str, Any]:
+    """All that a page shows, for JSON; numbers that rank designs keep all their digits.
+
+    question : budget (kg) and panel (m) that the page starts with, lists or None.
+    """
+    finished = summary[summary["status"] == Status.CONVERGED]
+    counted = _counted(finished)
+    scenes = by_scene(counted[0].rows) if len(finished) else []
+    cases = _cases(counted, scenes, summary)
+    about = read_attributes(file)
+    stored, by_id = _Stored(len(cases)), finished.set_index("case_id", drop=False)
+    for case in read_cases(file, _first_shown(finished, counted, question)):
+        cases[case.case_id] |= stored.take(case, by_id.loc[case.case_id])
+    return {
+        "file": Path(file).name,
+        "name": _config(about).get("name") or Path(file).stem,
+        "scenes": [_scene(rows) for rows in scenes],
+        "energies": [_energy(each) for each in counted],
+        "heads": list(design_text(finished, summary)),
+        "question": {
+            "budgets_g": [1e3 * mass for mass in question.get("budget") or ()],
+            "panel": list(question.get("panel") or ()) or None,
+        },
+        "cases": list(cases.values()),
+        "total": len(summary),
+        "failures": list(_failures(summary)),
+        "drawings": stored.drawings,
+        "shapes": stored.shapes,
+        "points": stored.points,
+        "doubt": stored.doubt,
+        "about": _about(about, summary),
+        "config": _config(about),
+    }
+
+
+def _counted(finished: DataFrame) -> list[Counted]:
+    """Energies that are known for all cases: until packed, and up to the forces of the columns."""
+    held = [match[1] for name in finished if (match := ABSORBED_AT.fullmatch(str(name)))]
+    forces = [None, *sorted(float(text) for text in held)]
+    return [Counted(force, *merits(finished, None, None, force)) for force in forces]
+
+
+def _cases(
+    counted: Sequence[Counted], scenes: Sequence[DataFrame], summary: DataFrame
+) -> dict[str, dict[str, Any]]:
+    """What ranks every finished case, and what its row of the table says, by its id."""
+    found = {}
+    for number, part in enumerate(scenes):
+        least = LEAST.get(part["loading_mode"].iloc[0])
+        energies = [_with_bars(each.rows.loc[part.index], each.names.energy) for each in counted]
+        columns = {
+            "id": part["case_id"],
+            "scene": [number] * len(part),
+            "label": design_labels(part, summary),
+            "text": list(zip(*design_text(part, summary).values(), strict=True))
+            or [()] * len(part),
+            "more": list(zip(*_measures(part).values(), strict=True)) or [()] * len(part),
+            "mass": _exact(part[counted[0].names.mass]),
+            "area": _exact(part["outer_width_m"] * part["depth_m"]),
+            "energies": list(zip(*energies, strict=True)),
+            "least": _with_bars(part, least) if least else [None] * len(part),
+            "passed": _exact(part["passed_on_N"]),
+            "peak": _exact(part["peak_force_N"]),
+            "within": _exact(part["absorbed_energy_within_model_J"]),
+            "solid": through_solid(part).tolist(),
+            "crossed": part["crossed"].tolist(),
+            "message": part["message"],
+            "slicer": part["slicer_settings"] if "slicer_settings" in part else [""] * len(part),
+        }
+        for values in zip(*columns.values(), strict=True):
+            case = dict(zip(columns, values, strict=True))
+            found[case["id"]] = case
+    return found
+
+
+def _exact(values: Iterable[float]) -> list[float | None]:
+    """Numbers with all their digits; None in place of NaN."""
+    return [float(value) if np.isfinite(value) else None for value in values]
+
+
+def _with_bars(rows: DataFrame, name: str) -> list[tuple[float | None, ...]]:
+    """Value, error and correction of a column, row by row; None if unknown."""
+    known = [rows.get(column) for column in (name, error_column(name), correction_column(name))]
+    unknown = [None] * len(rows)
+    return list(zip(*(unknown if c is None else _exact(c) for c in known), strict=True))
+
+
+def _measures(rows: DataFrame) -> dict[str, Series]:
+    """Columns of text that do not depend on the question."""
+    mode = rows["loading_mode"].iloc[0]
+    if mode == "impact":
+        struck = impact_text(rows)
+        del struck["force N"]
+        return struck
+    return crush_text(rows) if mode == "displacement" else {}
+
+
+def _scene(rows: DataFrame) -> dict[str, Any]:
+    mode = rows["loading_mode"].iloc[0]
+    least = LEAST.get(mode)
+    return {
+        "label": scene_label(rows),
+        "mode": mode,
+        "least": least,
+        "bar": _bar(rows, least) if least else None,
+        "heads": list(_measures(rows)),
+    }
+
+
+def _energy(counted: Counted) -> dict[str, Any]:
+    bar = _bar(counted.rows, counted.names.energy)
+    return {"force": counted.force, "until": counted.names.until, "bar": bar}
+
+
+def _bar(rows: DataFrame, name: str) -> str | None:
+    """What ties are found by: corrections, in older files errors, or nothing."""
+    if correction_column(name) in rows:
+        return "correction"
+    return "error" if error_column(name) in rows else None
+
+
+def _first_shown(
+    finished: DataFrame, counted: Sequence[Counted], question: Mapping[str, Any]
+) -> list[str]:
+    """Ids of all cases; those whose shapes are kept first: winners, then those that may win."""
+    budget, panel = question.get("budget"), question.get("panel")
+    winners = ranked(finished, budget, panel, top=3).table.sort_values("place", kind="stable")
+    fronts = [front for each in counted for front in _fronts(finished, each)]
+    return list(dict.fromkeys([*winners["case_id"], *fronts, *finished["case_id"]]))
+
+
+def _fronts(finished: DataFrame, counted: Counted) -> Iterator[str]:
+    """Ids of the designs that are the best for some budget, and of the best per gram."""
+    for panel in (None, (1.0, 1.0)):
+        rows, names = merits(finished, None, panel, counted.force)
+        for scene in by_scene(rows) if len(rows) else []:
+            least = LEAST.get(scene["loading_mode"].iloc[0])
+            merit = scene[names.energy] if least is None else -scene[least]
+            yield from scene["case_id"][pareto(scene[names.mass], merit)]
+            yield from scene.nlargest(1, names.per_gram)["case_id"]
+
+
+class _Stored:
+    """Makes curves and shapes small; shapes only as long as there is room for them."""
+
+    def __init__(self, count: int) -> None:
+        self.points = int(np.clip(POINTS * FULL // max(count, 1), LEAST_POINTS, POINTS))
+        self.drawings: list[dict[str, Any]] = []
+        self.shapes: dict[str, dict[str, Any]] = {}
+        self.doubt = 0.0
+        self._known: dict[bytes, int] = {}
+        self._room = {"drawings": DRAWINGS, "shapes": SHAPES}
+
+    def take(self, case: StoredCase, row: Series) -> dict[str, Any]:
+        """What the page shows of a case; `row`: of the summary."""
+        history, frames = case.history, case.frames
+        more: dict[str, Any] = {}
+        if len(history) > 1:
+            more |= {"curve": self._curve(history, row), "book": self._book(history, row)}
+            if row["loading_mode"] == "displacement":
+                more["stairs"] = self._stairs(history, row)
+        if frames:
+            more["drawing"] = self._drawing(frames)
+            self._move(case, row)
+        return more
+
+    def _curve(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
+        """Abscissa and ordinate of the curve of a case, as `curve_of` says."""
+        return [numbers(column) for column in thin_curves(curve_of(history, row), self.points)]
+
+    def _book(self, history: DataFrame, row: Series) -> dict[str, Any]:
+        """Work done and its parts (mJ) over the path."""
+        parts = parts_of(history)
+        place, label = path_of(history, row)
+        columns = [place, *(1e3 * history[name] for name in ("work_in_J", *parts))]
+        values = [numbers(column) for column in thin_curves(columns, self.points * 2 // 3)]
+        return {"label": label, "parts": list(parts.values()), "values": values}
+
+    def _stairs(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
+        """Force (N) and work (J) of `force_stairs` while the platen comes down."""
+        loading = history.iloc[: last_loaded(history, row) + 1]
+        force = np.fmax(loading["reaction_top_N"], loading["reaction_bottom_N"]).to_numpy()
+        full = force_stairs(force, loading["work_in_J"].to_numpy())
+        thin = thin_curves(full, self.points)
+        limits = np.linspace(full[0][0], full[0][-1], 40)
+        off = [work_until(limit, *full) - work_until(limit, *thin) for limit in limits]
+        self.doubt = max(self.doubt, float(np.abs(off).max() / max(full[1][-1], 1e-300)))
+        return [numbers(column, 5) for column in thin]
+
+    def _drawing(self, frames: Mapping[str, Any]) -> int | None:
+        """Number of the drawing of a shape at rest, which may be that of an earlier case."""
+        at_rest, edges = frames["position_m"][0].astype(float), frames["edges"]
+        thickness = frames["edge_thickness_m"].astype(float)
+        key = b"".join(a.tobytes() for a in (np.rint(at_rest / UNIT), edges, thickness))
+        if key not in self._known and self._room["drawings"] > 0:
+            drawn = drawing(at_rest, edges, thickness)
+            if self._fits("drawings", len(json.dumps(drawn))):
+                self._known[key] = len(self.drawings)
+                self.drawings.append(drawn)
+        return self._known.get(key)
+
+    def _move(self, case: StoredCase, row: Series) -> None:
+        """Keep the moving shape of a case if there is room."""
+        if self._room["shapes"] <= 0:
+            return
+        moving = moving_shape(case.frames, _forces(case.frames, case.history, row))
+        if self._fits("shapes", len(json.dumps(moving))):
+            self.shapes[case.case_id] = moving
+
+    def _fits(self, what: str, length: int) -> bool:
+        """True if there is still room; no later and shorter one is taken after one that fails."""
+        self._room[what] -= length
+        return self._room[what] >= 0
+
+
+def curve_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Any, Any]:
+    """Force (N) over strain (%); strain over time (ms) of a dead load, whose force is constant."""
+    mode, strain = row["loading_mode"], 100.0 * history["strain"]
+    if mode == "force":
+        return 1e3 * history["time_s"], strain
+    if mode == "custom":
+        return 1e3 * history["time_s"], history["reaction_bottom_N"]
+    return strain, history["reaction_bottom_N" if mode == "impact" else "reaction_top_N"]
+
+
+def _forces(
+    frames: Mapping[str, Any], history: DataFrame, row: Mapping[str, Any]
+) -> list[float | int | None]:
+    """Ordinate of `curve_of` at every frame."""
+    if not len(history):
+        return [None] * len(frames["strain"])
+    return numbers(np.interp(frames["time_s"], history["time_s"], curve_of(history, row)[1]))
+
+
+def _failures(summary: DataFrame) -> Iterator[dict[str, str]]:
+    """Every case that did not converge: design, scene, how it ended and why."""
+    failed = summary[summary["status"] != Status.CONVERGED]
+    for rows in by_scene(failed) if len(failed) else []:
+        label = scene_label(rows)
+        for (_, row), design in zip(rows.iterrows(), design_labels(rows, summary), strict=True):
+            kept = {name: str(row[name]) for name in ("case_id", "status", "message")}
+            yield kept | {"scene": label, "label": design}
+
+
+def _config(about: Mapping[str, Any]) -> dict[str, Any]:
+    """The config stored in a file; empty if there is none."""
+    found = json.loads(about.get("config") or "{}")
+    return found if isinstance(found, dict) else {}
+
+
+def _about(about: Mapping[str, Any], summary: DataFrame) -> list[tuple[str, str]]:
+    """Where the numbers come from, as pairs of words."""
+    versions = summary["model_version"].value_counts().sort_index().items()
+    known = {name.removeprefix("version_"): v for name, v in about.items() if "version_" in name}
+    model = ", ".join(f"{version} ({n} cases)" for version, n in versions)
+    pairs = [(words, str(about[name])) for name, words in OF_THE_RUN.items() if name in about]
+    pairs += [("version of the model", model)]
+    pairs += [(name, short(version)) for name, version in known.items()]
+    return pairs

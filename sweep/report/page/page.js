@@ -1,0 +1,602 @@
+// The page: what is asked, the ranking, and the designs that are chosen in it.
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const $ = (id) => document.getElementById(id);
+const SHOWN = 15; // rows of the table before all are asked for
+const COLORS = 6;
+const FIRST = 3; // best designs whose curves are shown until others are chosen
+const PER_SECOND = 12; // frames
+const LENGTH = { low: 10, high: 1000 }; // mm, of a panel
+
+const asked = { scene: 0, budget: null, panel: null, force: null };
+const view = { sort: null, up: true, all: false, chosen: null, current: null, frame: 0, timer: null };
+let now = null; // the ranking that is shown
+let player = null;
+
+function scene() {
+  return data.scenes[asked.scene];
+}
+
+// ---- what is asked ----
+
+// Positions 0 to 1000 of a slider stand for values from low to high, by equal ratios.
+const slide = {
+  value: (place, { low, high }) => low * (high / low) ** (place / 1000),
+  place: (value, { low, high }) => (1000 * Math.log(value / low)) / Math.log(high / low),
+};
+
+function massRange() {
+  const masses = ranked(data, { ...asked, budget: null }).rows.map((row) => row.mass);
+  return { low: 0.95 * Math.min(...masses), high: 1.05 * Math.max(...masses) };
+}
+
+function forceRange() {
+  const peaks = data.cases.filter((design) => design.scene === asked.scene).map((design) => design.peak);
+  return { low: 0.5 * Math.min(...peaks), high: 1.05 * Math.max(...peaks) };
+}
+
+function three(value) {
+  return Number(value.toPrecision(3));
+}
+
+// A slider, its number and its check box. `on` tells the wish, null if the box is off.
+function wish(name, range, unit, on) {
+  const [slider, number, box] = [$(`${name}-slide`), $(name), $(`${name}-on`)];
+  const tell = (value) => {
+    if (!(value > 0)) return;
+    on(value);
+    refresh();
+  };
+  slider.addEventListener("input", () => {
+    number.value = three(slide.value(Number(slider.value), range()) / unit());
+    if (box) box.checked = true;
+    tell(Number(number.value) * unit());
+  });
+  number.addEventListener("input", () => {
+    if (box) box.checked = true;
+    tell(Number(number.value) * unit());
+  });
+  if (box)
+    box.addEventListener("change", () => {
+      on(box.checked ? Number(number.value) * unit() : null);
+      refresh();
+    });
+  return (value) => {
+    const { low, high } = range();
+    slider.value = slide.place(Math.min(Math.max(value, low), high), { low, high });
+    if (document.activeElement !== number) number.value = Number((value / unit()).toPrecision(6));
+  };
+}
+
+const gramsPerUnit = () => Number($("unit").value);
+const showBudget = wish("budget", massRange, gramsPerUnit, (grams) => (asked.budget = grams));
+const showForce = wish("force", forceRange, () => 1, (newtons) => (asked.force = newtons));
+const setSide = (side) => (mm) => {
+  const sides = ["width", "height"].map((name) => Number($(name).value) / 1000);
+  sides[side] = mm / 1000;
+  asked.panel = sides;
+  $("panel-on").checked = true;
+};
+const showWidth = wish("width", () => LENGTH, () => 1, setSide(0));
+const showHeight = wish("height", () => LENGTH, () => 1, setSide(1));
+
+function picks(box, values, unit, key, chosen) {
+  box.replaceChildren(
+    ...values.map((value) =>
+      element(
+        "button",
+        {
+          type: "button",
+          "aria-pressed": String(Math.abs(chosen - value) < 1e-9 * value),
+          onclick: () => {
+            asked[key] = value;
+            refresh();
+          },
+        },
+        `${Number(value.toPrecision(6))} ${unit}`,
+      ),
+    ),
+  );
+}
+
+function showAsked() {
+  const { low, high } = massRange();
+  const crushed = scene().mode === "displacement";
+  $("budget-on").checked = asked.budget !== null;
+  $("panel-on").checked = asked.panel !== null;
+  $("force-on").checked = asked.force !== null;
+  for (const name of ["budget", "panel", "force"])
+    $(`${name}-box`).classList.toggle("off", asked[name] === null);
+  $("force-box").hidden = !crushed;
+  showBudget(asked.budget ?? (Number($("budget").value) * gramsPerUnit() || Math.sqrt(low * high)));
+  if (crushed) showForce(asked.force ?? (Number($("force").value) || three(Math.sqrt(forceRange().low * forceRange().high))));
+  const [width, height] = asked.panel ?? [Number($("width").value) / 1000 || 0.1, Number($("height").value) / 1000 || 0.1];
+  showWidth(1000 * width);
+  showHeight(1000 * height);
+  picks($("budgets"), data.question.budgets_g, "g", "budget", asked.budget);
+  const forces = data.energies.map((energy) => energy.force).filter((force) => force !== null);
+  picks($("forces"), forces, "N", "force", asked.force);
+}
+
+// ---- the answer ----
+
+function inUnit(grams, figures = 4) {
+  return `${Number((grams / gramsPerUnit()).toPrecision(figures))} ${gramsPerUnit() === 1 ? "g" : "oz"}`;
+}
+
+function percentOf(row) {
+  return row.error === null || row.error === undefined || !row.value ? "" : ` ± ${share(row)} %`;
+}
+
+function share(row) {
+  const percent = 100 * (row.error / Math.abs(row.value));
+  return percent < 9.95 ? percent.toFixed(1) : percent.toFixed(0);
+}
+
+function valueText(row) {
+  const mode = scene().mode;
+  if (mode === "impact") return `${digits(row.value)} N on the support`;
+  if (mode === "force") return `a sink of ${digits(100 * row.value)} %`;
+  const least = row.early ? "at least " : "";
+  return least + (row.value === row.energy ? energyText(row.energy) : `${digits(row.perGram)} J/g`);
+}
+
+function panelText() {
+  return asked.panel ? asked.panel.map((side) => Number((1000 * side).toPrecision(4))).join(" x ") + " mm" : "";
+}
+
+function until() {
+  if (asked.force === null) return data.energies[0].until;
+  return `until the force of a specimen exceeds ${Number(asked.force.toPrecision(6))} N`;
+}
+
+function showAnswer() {
+  const best = now.placed[0];
+  const limit = asked.budget === null ? "" : ` up to ${inUnit(asked.budget)}`;
+  $("picture").replaceChildren();
+  $("command").replaceChildren();
+  if (!best) {
+    const none = Number.isFinite(now.lightest) && asked.budget < now.lightest;
+    $("sentence").textContent = none
+      ? `Nothing weighs ${inUnit(asked.budget)} or less: the lightest weighs ${inUnit(now.lightest)}.`
+      : "No design has a value to rank by.";
+    $("detail").textContent = "";
+    return;
+  }
+  $("sentence").replaceChildren(
+    `The best design${limit} is `,
+    element("strong", {}, best.design.label),
+    `: ${valueText(best)}${percentOf(best)}.`,
+  );
+  if (best.design.drawing !== undefined && best.design.drawing !== null)
+    $("picture").append(drawingOf(data.drawings[best.design.drawing]));
+  $("detail").textContent = detail(best).join(" ");
+  showCommand();
+}
+
+function* words(best) {
+  const panel = asked.panel ? `A panel of ${panelText()} weighs ${inUnit(best.mass)}` : `It weighs ${inUnit(best.mass)}`;
+  if (scene().least) yield `${panel}.`;
+  else
+    yield `${panel} and absorbs ${best.early ? "at least " : ""}${energyText(best.energy)} ${until()}, ` +
+      `${digits(best.perGram)} J/g; a specimen then passes on ${digits(best.passed)} N.`;
+  if (best.early) yield "The crush ended before that force was reached; a longer one absorbs more.";
+  if (best.beyond) yield "Its result is beyond the model: do not trust it.";
+  if (best.design.crossed) yield "Its walls cross one another: do not trust this result.";
+  const tied = now.placed.filter((row) => row !== best && row.place === best.place);
+  const others = tied.slice(0, 3).map((row) => row.design.label).join("; ");
+  if (tied.length)
+    yield `As good within the estimated errors: ${others}${tied.length > 3 ? ` and ${tied.length - 3} more` : ""}.`;
+}
+
+function detail(best) {
+  return [...words(best)];
+}
+
+// The command that prints the same ranking, if there is one.
+function showCommand() {
+  const known = storedEnergy(data, asked) >= 0;
+  const budgeted = asked.budget !== null || !data.question.budgets_g.length;
+  const paneled = asked.panel !== null || !data.question.panel;
+  if (!(known && budgeted && paneled)) return;
+  const file = /^[\w./-]+$/.test(data.file) ? data.file : `'${data.file.replaceAll("'", "'\\''")}'`;
+  const budget = asked.budget === null ? "" : ` --budget "${inUnit(asked.budget, 9)}"`;
+  const panel = asked.panel ? ` --panel ${asked.panel.map((side) => `"${Number((1000 * side).toPrecision(6))} mm"`).join(" ")}` : "";
+  const force = asked.force === null ? "" : ` --allowed-force "${asked.force} N"`;
+  $("command").append("In a terminal: ", element("code", {}, `crumple rank ${file}${budget}${panel}${force}`));
+}
+
+// ---- the table ----
+
+function columns() {
+  const mode = scene().mode;
+  const number = (head, text, key = null) => ({ head, text, key: key ?? ((row) => parseFloat(text(row).replace(/^[>~ ]+/, ""))), right: true });
+  const found = [number("#", (row) => placeText(row), (row) => row.rank)];
+  data.heads.forEach((head, i) => {
+    const text = (row) => row.design.text[i];
+    found.push({ head, text, key: (row) => (text(row) === "" ? "" : Number.isNaN(Number(text(row))) ? text(row) : Number(text(row))) });
+  });
+  found.push(number("mass g", (row) => digits(row.design.mass)));
+  if (asked.panel) found.push(number("panel g", (row) => digits(row.mass)));
+  if (mode === "impact") found.push(number("force N", (row) => digits(row.value), (row) => row.value));
+  else if (mode === "force") found.push(number("sink %", (row) => digits(100 * row.value), (row) => row.value));
+  else {
+    const most = Math.max(...now.placed.map((row) => row.energy ?? 0));
+    const [unit, scale] = most < 1 ? ["mJ", 1e3] : ["J", 1];
+    const more = (row) => (row.early ? "> " : "");
+    found.push(number(`${asked.panel ? "panel" : "absorbs"} ${unit}`, (row) => more(row) + digits(scale * row.energy), (row) => row.energy));
+    found.push(number("J/g", (row) => more(row) + digits(row.perGram), (row) => row.perGram));
+    found.push(number("peak N", (row) => digits(row.passed), (row) => row.passed));
+  }
+  if (now.bar) found.push(number("± %", (row) => (percentOf(row) ? share(row) : "?")));
+  if (asked.force === null)
+    scene().heads.forEach((head, i) => found.push(number(head, (row) => row.design.more[i])));
+  return found;
+}
+
+function placeText(row) {
+  const tied = now.bar && row.sharing > 1 ? "=" : "";
+  return `${row.place}${tied}${row.pareto ? "*" : ""}${row.beyond ? "!" : ""}${row.design.crossed ? "x" : ""}`;
+}
+
+function sorted(shown) {
+  now.placed.forEach((row, i) => (row.rank = i));
+  const by = shown.find((column) => column.head === view.sort);
+  if (!by) return now.placed;
+  const last = (v) => v === null || v === "" || Number.isNaN(v);
+  return [...now.placed].sort((a, b) => {
+    const [u, v] = [by.key(a), by.key(b)];
+    if (last(u) || last(v)) return last(u) - last(v) || a.rank - b.rank;
+    return (view.up ? 1 : -1) * (u < v ? -1 : u > v ? 1 : 0) || a.rank - b.rank;
+  });
+}
+
+function showTable() {
+  const shown = columns();
+  const heads = shown.map((column) => {
+    const order = column.head === (view.sort ?? "#") ? (view.sort === null || view.up ? "ascending" : "descending") : null;
+    const turn = () => {
+      [view.sort, view.up] = [column.head, view.sort === column.head ? !view.up : true];
+      showTable();
+    };
+    return element("th", { scope: "col", class: column.right ? "number" : null, "aria-sort": order },
+      element("button", { type: "button", onclick: turn }, column.head.replace(/ (?=[^ ]+$)/, "\n")));
+  });
+  $("table").tHead.replaceChildren(element("tr", {}, element("th", { "aria-label": "curve shown" }), ...heads));
+  const rows = sorted(shown);
+  const most = view.all ? rows.length : SHOWN;
+  $("table").tBodies[0].replaceChildren(...rows.slice(0, most).map((row) => tableRow(row, shown)));
+  $("all").hidden = rows.length <= SHOWN;
+  $("all").textContent = view.all ? `Show ${SHOWN}` : `Show all ${rows.length}`;
+}
+
+function tableRow(row, shown) {
+  const { id, label } = row.design;
+  const box = element("input", { type: "checkbox", "aria-label": `curve of ${label}`, onchange: () => choose(id, box.checked) });
+  box.checked = chosen().includes(id);
+  const cells = shown.map((column) => element("td", { class: column.right ? "number" : null }, column.text(row)));
+  return element(
+    "tr",
+    {
+      "data-id": id,
+      class: id === current() ? "current" : null,
+      onclick: (event) => event.target !== box && lookAt(id),
+      onmouseenter: () => near(id, true),
+      onmouseleave: () => near(id, false),
+    },
+    element("td", {}, box),
+    ...cells,
+  );
+}
+
+function near(id, on) {
+  for (const dot of document.querySelectorAll(`[data-dot="${id}"]`)) dot.classList.toggle("near", on);
+}
+
+function notes() {
+  const lines = ["*: on the Pareto front: no lighter design of the scene is as good. mass: of one specimen."];
+  const rows = now.placed;
+  const crushed = scene().mode === "displacement";
+  if (crushed) lines.push(`Energy and peak are counted ${until()}.`);
+  if (storedEnergy(data, asked) < 0)
+    lines.push(
+      `These energies are read from curves of at most ${data.points} points: they differ by at most ` +
+        `${(100 * data.doubt).toFixed(2)} % of the energy of the whole crush.` + (data.energies.length > 1 ? " At the forces below the slider they are exact." : ""),
+    );
+  if (now.bar)
+    lines.push("±: estimated error from mesh and steps, not a bound. =: the place is shared, as errors may reverse the order.");
+  if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
+  if (rows.some((row) => row.beyond)) lines.push("!: beyond the model: do not trust this result.");
+  if (rows.some((row) => row.design.crossed)) lines.push("x: walls cross one another: do not trust this result.");
+  const over = now.rows.length - rows.length;
+  if (over && asked.budget !== null) lines.push(`${over} of ${now.rows.length} designs are above the budget or have no value.`);
+  $("notes").textContent = lines.join(" ");
+}
+
+// ---- merit over mass ----
+
+function merit(row) {
+  if (scene().least) return row.value === null ? null : (scene().mode === "force" ? 100 : 1) * row.value;
+  return row.energy;
+}
+
+function showMap() {
+  const mode = scene().mode;
+  const noun = asked.panel ? "panel" : "specimen";
+  const names = { impact: ["Force over mass", "force on the support, N"], force: ["Sink over mass", "greatest strain, %"] };
+  const rows = now.rows.filter((row) => merit(row) > 0);
+  const small = Math.max(...rows.map(merit)) < 1;
+  const [title, label] = names[mode] ?? ["Energy over mass", `energy of a ${noun}, ${small ? "mJ" : "J"}`];
+  const scale = names[mode] ? 1 : small ? 1e3 : 1;
+  $("map-title").textContent = title;
+  if (!rows.length) return $("map").replaceChildren("Nothing to draw.");
+  const masses = rows.map((row) => row.mass);
+  const values = rows.map((row) => scale * merit(row));
+  const plot = chart($("map"), {
+    x: { range: logExtent(masses), label: `mass of a ${noun}, g`, log: true },
+    y: { range: logExtent(values), label, log: true },
+    height: 400,
+    label: title,
+  });
+  showLimit(plot);
+  const front = rows.filter((row) => row.pareto).sort((a, b) => a.mass - b.mass);
+  const steps = front.flatMap((row, i) => (i ? [[row.mass, merit(front[i - 1])], [row.mass, merit(row)]] : [[row.mass, merit(row)]]));
+  line(plot, steps.map(([mass]) => mass), steps.map(([, value]) => scale * value), { class: "front" });
+  for (const row of rows) dot(plot, row, scale);
+}
+
+function showLimit(plot) {
+  const x = asked.budget === null ? Infinity : plot.toX(asked.budget);
+  if (!(x > MARGIN.left && x < plot.right)) return;
+  const early = x > plot.right - 80;
+  plot.svg.append(
+    shape("line", { class: "limit", x1: x, x2: x, y1: MARGIN.top, y2: plot.bottom }),
+    shape("text", { class: "limit-words", x: x + (early ? -4 : 4), y: MARGIN.top + 10, "text-anchor": early ? "end" : "start" }, inUnit(asked.budget)),
+  );
+}
+
+function dot(plot, row, scale) {
+  const [x, y] = [plot.toX(row.mass), plot.toY(scale * merit(row))];
+  const placed = row.place !== undefined;
+  const kind = [placed ? "" : "out", row.beyond || row.design.crossed ? "doubt" : "", row.place === 1 ? "best" : ""];
+  if (row.error && row.value) {
+    const share = row.error / Math.abs(row.value);
+    const inside = (v) => Math.min(Math.max(v, MARGIN.top), plot.bottom);
+    const [y1, y2] = [1 - share, 1 + share].map((k) => inside(plot.toY(scale * merit(row) * Math.max(k, 0.1))));
+    plot.svg.append(shape("line", { class: "bar", x1: x, x2: x, y1, y2 }));
+  }
+  plot.svg.append(
+    shape("circle", {
+      class: `dot ${kind.join(" ")}`,
+      "data-dot": row.design.id,
+      cx: x,
+      cy: y,
+      r: row.place === 1 ? 7 : 5,
+      onpointerenter: () => showCard(plot, row, x, y),
+      onpointerleave: () => (($("card").hidden = true), near(row.design.id, false)),
+      onclick: () => lookAt(row.design.id),
+    }),
+  );
+}
+
+function showCard(plot, row, x, y) {
+  const { design } = row;
+  const card = $("card");
+  const drawn = design.drawing === undefined || design.drawing === null ? [] : [drawingOf(data.drawings[design.drawing])];
+  const place = row.place === undefined ? "above the budget" : `place ${placeText(row)}`;
+  const values = `${digits(row.mass)} g, ${row.value === null ? "no value" : valueText(row) + percentOf(row)}`;
+  card.replaceChildren(...drawn, element("p", {}, design.label), element("p", {}, `${values}; ${place}`));
+  card.hidden = false;
+  const left = x + 206 > plot.width ? x - 202 : x + 12;
+  card.style.left = `${Math.max(left, 0)}px`;
+  card.style.top = `${Math.max(Math.min(y - 40, plot.height - card.offsetHeight), 0)}px`;
+  near(design.id, true);
+}
+
+// ---- chosen designs ----
+
+function chosen() {
+  return view.chosen ?? now.placed.slice(0, FIRST).map((row) => row.design.id);
+}
+
+function current() {
+  return view.current ?? now.placed[0]?.design.id;
+}
+
+function designOf(id) {
+  return data.cases.find((design) => design.id === id);
+}
+
+function choose(id, on) {
+  const others = chosen().filter((other) => other !== id);
+  view.chosen = on ? [...others, id].slice(-COLORS) : others;
+  showTable();
+  showCurves();
+}
+
+function lookAt(id) {
+  view.current = id;
+  if (!chosen().includes(id)) choose(id, true);
+  showTable();
+  showCurves();
+  showOne();
+}
+
+function curveLabels() {
+  const mode = scene().mode;
+  if (mode === "force") return ["time, ms", "strain, %"];
+  if (mode === "custom") return ["time, ms", "force, N"];
+  return ["strain, %", mode === "impact" ? "force on the support, N" : "force, N"];
+}
+
+function showCurves() {
+  const designs = chosen().map(designOf).filter((design) => design?.curve);
+  $("legend").replaceChildren(
+    ...designs.map((design, i) =>
+      element("button", { type: "button", class: design.id === current() ? "current" : null, onclick: () => lookAt(design.id) }, swatch(`--c${i}`), design.label),
+    ),
+  );
+  if (!designs.length) return $("curves").replaceChildren("Choose designs in the table.");
+  const [x, y] = curveLabels();
+  const plot = chart($("curves"), {
+    x: { range: extent(designs.map((design) => design.curve[0])), label: x },
+    y: { range: extent(designs.map((design) => design.curve[1])), label: y },
+    label: `${y} over ${x}`,
+  });
+  designs.forEach((design, i) =>
+    line(plot, ...design.curve, { style: `stroke: var(--c${i})`, "stroke-width": design.id === current() ? 2.8 : 1.6 }),
+  );
+  if (asked.force !== null && plot.toY(asked.force) > MARGIN.top)
+    plot.svg.append(shape("line", { class: "limit", x1: MARGIN.left, x2: plot.right, y1: plot.toY(asked.force), y2: plot.toY(asked.force) }));
+  const marker = shape("circle", { r: 5, fill: "var(--ink)", visibility: "hidden" });
+  plot.svg.append(marker);
+  view.mark = (strain, time, value) => {
+    marker.setAttribute("visibility", value === null || strain === null ? "hidden" : "visible");
+    marker.setAttribute("cx", plot.toX(x === "strain, %" ? (strain ?? 0) : time));
+    marker.setAttribute("cy", plot.toY(value ?? 0));
+  };
+}
+
+function swatch(color) {
+  return element("span", { class: "swatch", style: `background: var(${color})` });
+}
+
+function showOne() {
+  const design = designOf(current());
+  stop();
+  $("one").hidden = !design;
+  if (!design) return;
+  $("one-title").textContent = design.label;
+  const said = [`Case ${design.id}.`, design.message, design.slicer && `Printed by ${design.slicer}.`];
+  $("one-words").textContent = said.filter(Boolean).join(" ");
+  showStage(design);
+  showBook(design);
+  const drawn = data.drawings[design.drawing];
+  $("download").hidden = !drawn;
+  if (drawn) {
+    URL.revokeObjectURL($("download").href);
+    $("download").href = URL.createObjectURL(new Blob([drawingFile(drawn)], { type: "image/svg+xml" }));
+    $("download").download = `${data.name}_${design.id}.svg`.replace(/[^\w.-]/g, "_");
+  }
+}
+
+function showStage(design) {
+  const moving = data.shapes[design.id];
+  $("player").hidden = !moving;
+  player = null;
+  if (!moving) {
+    const drawn = data.drawings[design.drawing];
+    const words = element("p", { class: "quiet" }, "The page has no room for the motion of this design; crumple show draws it.");
+    $("stage").replaceChildren(...(drawn ? [drawingOf(drawn, { style: "color: var(--wall)" })] : []), words);
+    return;
+  }
+  player = { ...stage($("stage"), moving), moving };
+  $("frame").max = player.frames - 1;
+  showFrame(view.frame < player.frames && view.frame ? view.frame : Math.floor(player.frames / 3));
+}
+
+function showFrame(k) {
+  const { moving } = player;
+  view.frame = k;
+  player.show(k);
+  $("frame").value = k;
+  const strain = moving.strain[k] === null ? `${moving.time[k]} ms` : `strain ${moving.strain[k].toFixed(moving.strain[k] < 10 ? 1 : 0)} %`;
+  const force = moving.force[k] === null || scene().mode === "force" ? "" : `, ${digits(moving.force[k])} N`;
+  $("caption").textContent = strain + force;
+  view.mark?.(moving.strain[k], moving.time[k], moving.force[k]);
+}
+
+function play() {
+  if (view.timer !== null) return stop();
+  if (view.frame >= player.frames - 1) showFrame(0);
+  $("play").textContent = "Pause";
+  view.timer = setInterval(() => (view.frame < player.frames - 1 ? showFrame(view.frame + 1) : stop()), 1000 / PER_SECOND);
+}
+
+function stop() {
+  clearInterval(view.timer);
+  view.timer = null;
+  $("play").textContent = "Play";
+}
+
+// The parts of the work, stacked from below, and the work itself as a line.
+function showBook(design) {
+  const { book } = design;
+  $("book").replaceChildren();
+  $("parts").replaceChildren();
+  if (!book) return;
+  const [place, work, ...parts] = book.values;
+  const sums = parts.reduce((rows, part) => [...rows, part.map((v, i) => v + rows[rows.length - 1][i])], [place.map(() => 0)]);
+  const plot = chart($("book"), {
+    x: { range: [place[0], place[place.length - 1]], label: book.label },
+    y: { range: extent([work, ...sums]), label: "energy, mJ" },
+    height: 340,
+    label: "energies over the path",
+  });
+  sums.slice(1).forEach((sum, i) => {
+    const back = [...sums[i]].reverse();
+    line(plot, [...place, ...[...place].reverse()], [...sum, ...back], { style: `fill: var(--p${partColor(book.parts[i])})` });
+  });
+  line(plot, place, work, { style: "stroke: var(--ink)", "stroke-width": 1.6 });
+  const total = scene().mode === "impact" ? "brought by the striker" : "work done";
+  $("parts").replaceChildren(
+    ...book.parts.map((name) => element("span", {}, swatch(`--p${partColor(name)}`), name)),
+    element("span", {}, element("span", { class: "swatch", style: "background: var(--ink); height: 3px" }), total),
+  );
+}
+
+function partColor(name) {
+  return data.parts.indexOf(name);
+}
+
+// ---- everything ----
+
+function refresh() {
+  now = ranked(data, asked);
+  showAsked();
+  showAnswer();
+  showTable();
+  notes();
+  showMap();
+  showCurves();
+  showOne();
+}
+
+function start() {
+  const { budgets_g: budgets, panel } = data.question;
+  asked.budget = budgets.length ? budgets[Math.floor(budgets.length / 2)] : null;
+  asked.panel = panel;
+  data.scenes.forEach(({ label }, i) => $("scene").append(element("option", { value: i }, label)));
+  $("scenes").hidden = data.scenes.length < 2;
+  $("scene").addEventListener("change", () => {
+    asked.scene = Number($("scene").value);
+    if (scene().mode !== "displacement") asked.force = null;
+    Object.assign(view, { chosen: null, current: null, sort: null });
+    refresh();
+  });
+  $("unit").addEventListener("change", refresh);
+  $("panel-on").addEventListener("change", () => {
+    const sides = [Number($("width").value), Number($("height").value)];
+    asked.panel = $("panel-on").checked ? sides.map((mm) => mm / 1000) : null;
+    refresh();
+  });
+  $("all").addEventListener("click", () => {
+    view.all = !view.all;
+    showTable();
+  });
+  $("play").addEventListener("click", play);
+  $("frame").addEventListener("input", () => {
+    stop();
+    showFrame(Number($("frame").value));
+  });
+  $("app").hidden = false;
+  refresh();
+  $("static").remove();
+  let width = window.innerWidth;
+  window.addEventListener("resize", () => {
+    if (window.innerWidth !== width) refresh();
+    width = window.innerWidth;
+  });
+}
+
+if (data.cases.length) start();

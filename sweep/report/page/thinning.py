@@ -1,0 +1,110 @@
+"""Curves with few points: those that matter most for their shape."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+    Indices = NDArray[np.int64]
+
+TINY = np.finfo(float).tiny
+ALIKE = 0.5  # of the greatest distance: points so far away are added in the same round
+
+
+def thinned(points: Floats, most: int, tolerance: float = 0.0) -> list[int]:
+    """Indices of points (n, k) whose polyline stays close to all of them.
+
+    The points farthest from their chords are added until there are ``most`` points or none is
+    farther away than ``tolerance`` (Ramer 1972, the greatest distances first).
+    """
+    if len(points) < 3:
+        return list(range(len(points)))
+    kept = np.array([0, len(points) - 1])
+    while len(kept) < most:
+        distance, chord = _distances(points, kept)
+        farthest = _first_of_each(np.flatnonzero(distance >= _peaks(distance, kept)[chord]), chord)
+        far = farthest[distance[farthest] > max(tolerance, ALIKE * distance.max())]
+        if not len(far):
+            break
+        far = far[np.argsort(-distance[far], kind="stable")][: most - len(kept)]
+        kept = np.union1d(kept, far)
+    return [int(index) for index in kept]
+
+
+def _distances(points: Floats, kept: Indices) -> tuple[Floats, Indices]:
+    """Distance of every point from its chord between two kept points, and the chord's number."""
+    chord = np.repeat(np.arange(len(kept) - 1), np.diff(kept))
+    chord = np.append(chord, len(kept) - 2)
+    start, way = points[kept[:-1]], points[kept[1:]] - points[kept[:-1]]
+    off = points - start[chord]
+    squared = np.maximum((way * way).sum(1), TINY)
+    along = np.clip((off * way[chord]).sum(1) / squared[chord], 0.0, 1.0)
+    return np.linalg.norm(off - along[:, None] * way[chord], axis=1), chord
+
+
+def _peaks(distance: Floats, kept: Indices) -> Floats:
+    return np.maximum.reduceat(distance, kept[:-1])
+
+
+def _first_of_each(found: Indices, chord: Indices) -> Indices:
+    """The first of the found points on each chord."""
+    return found[np.unique(chord[found], return_index=True)[1]]
+
+
+def thin_curves(columns: Iterable[Any], most: int) -> list[Floats]:
+    """Columns (n,) at the same ``most`` rows or fewer; each counts by its range."""
+    values = np.column_stack([np.asarray(column, dtype=float) for column in columns])
+    values = values[np.isfinite(values).all(axis=1)]
+    if not len(values):
+        return list(values.T)
+    spans = np.ptp(values, axis=0)
+    kept = thinned(values / np.where(spans > 0.0, spans, 1.0), most)
+    return list(values[kept].T)
+
+
+def force_stairs(force: Floats, work: Floats) -> tuple[Floats, Floats]:
+    """Greatest force so far (N) over the work done (J), (rows + dips,) each.
+
+    The work that is done until a force is exceeded is the last one at which these stairs are not
+    above it. Where the force rises again after a dip, a point is added at its former height.
+    """
+    highest = np.maximum.accumulate(force)
+    again = np.flatnonzero((force[1:] > highest[:-1]) & (force[:-1] < highest[:-1]))
+    share = (highest[again] - force[again]) / (force[again + 1] - force[again])
+    added = work[again] + share * (work[again + 1] - work[again])
+    return (
+        np.insert(highest, again + 1, highest[again]),
+        np.insert(work, again + 1, added),
+    )
+
+
+def work_until(limit: float, highest: Floats, work: Floats) -> float:
+    """Work (J) at which stairs of `force_stairs` first exceed a force (N); all if they never do."""
+    over = np.flatnonzero(highest > limit)
+    if not len(over):
+        return float(work[-1])
+    k = int(over[0])
+    if k == 0:
+        return float(work[0])
+    share = (limit - highest[k - 1]) / (highest[k] - highest[k - 1])
+    return float(work[k - 1] + share * (work[k] - work[k - 1]))
+
+
+def numbers(values: Iterable[float], digits: int = 4) -> list[float | int | None]:
+    """Values with few digits for JSON, which has no NaN."""
+    return [_number(float(value), digits) for value in values]
+
+
+def _number(value: float, digits: int) -> float | int | None:
+    if not math.isfinite(value):
+        return None
+    short = float(f"{value:.{digits}g}")
+    return int(short) if short.is_integer() and abs(short) < 1e9 else short

@@ -1,0 +1,157 @@
+"""Walls of a shape as few long polylines, and shapes as short text."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from sweep.report.page.thinning import thinned
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+STRAIGHT = 0.03  # of the wall thickness: nodes nearer to a straight wall are not drawn
+UNIT = 1e-5  # m: coordinates of drawings are multiples of it
+GRID = 65535  # steps of a coordinate of a frame
+FRAMES = 24
+
+
+class Trail(NamedTuple):
+    """Elements of equal thickness (m) in a row: their nodes, the first again if it is closed."""
+
+    thickness: float
+    nodes: list[int]
+
+
+def trails(position: Floats, edges: NDArray[np.int64], thickness: Floats) -> list[Trail]:
+    """All elements, each in one trail; a trail goes straight on at a joint where it can.
+
+    position (n, 2) m; edges (m, 2); thickness (m,).
+    """
+    follows = _pairs(position, edges, thickness)
+    free = dict.fromkeys(range(len(edges)))
+    ends = [(e, side) for e in free for side in (0, 1) if (e, side) not in follows]
+    closed = [(e, 0) for e in range(len(edges))]
+    found = []
+    for e, side in [*ends, *closed]:
+        if e in free:
+            found.append(Trail(float(thickness[e]), _walk(e, side, edges, follows, free)))
+    return found
+
+
+def _pairs(
+    position: Floats, edges: NDArray[np.int64], thickness: Floats
+) -> dict[tuple[int, int], tuple[int, int]]:
+    """The end of an element (element, side) that continues another one, the straightest first."""
+    chord = position[edges[:, 1]] - position[edges[:, 0]]
+    away = chord / np.linalg.norm(chord, axis=1, keepdims=True)
+    at_node: dict[tuple[int, float], list[tuple[int, int]]] = {}
+    for e, nodes in enumerate(edges.tolist()):
+        for side in (0, 1):
+            at_node.setdefault((nodes[side], float(thickness[e])), []).append((e, side))
+    pairs = {}
+    for arms in at_node.values():
+        for i, k in [(0, 1)] if len(arms) == 2 else _straightest(arms, away):
+            pairs[arms[i]], pairs[arms[k]] = arms[k], arms[i]
+    return pairs
+
+
+def _straightest(arms: Sequence[tuple[int, int]], away: Floats) -> Iterator[tuple[int, int]]:
+    """Disjoint pairs of the arms of a node, those that differ least from a straight line first.
+
+    arms: (element, side); away (m, 2): directions of the elements.
+    """
+    ways = np.array([away[e] if side == 0 else -away[e] for e, side in arms])
+    cosines = ways @ ways.T
+    rows, columns = np.triu_indices(len(cosines), 1)
+    left = set(range(len(cosines)))
+    for k in np.argsort(cosines[rows, columns], kind="stable"):
+        pair = int(rows[k]), int(columns[k])
+        if left.issuperset(pair):
+            left -= set(pair)
+            yield pair
+
+
+def _walk(
+    e: int,
+    side: int,
+    edges: NDArray[np.int64],
+    follows: Mapping[tuple[int, int], tuple[int, int]],
+    free: dict[int, None],
+) -> list[int]:
+    """Nodes from one end of an element on, along elements that are still free."""
+    nodes = [int(edges[e, side])]
+    while e in free:
+        del free[e]
+        nodes.append(int(edges[e, 1 - side]))
+        e, side = follows.get((e, 1 - side), (-1, 0))
+    return nodes
+
+
+def drawing(position: Floats, edges: NDArray[np.int64], thickness: Floats) -> dict[str, Any]:
+    """A shape at rest: its box (x, y, width, height; mm) and the paths of its walls, by thickness.
+
+    The paths are in units of 0.01 mm, y upwards. Nodes in straight walls are left out.
+    """
+    paths: dict[float, str] = {}
+    for trail in trails(position, edges, thickness):
+        points = position[trail.nodes]
+        kept = thinned(points, len(points), STRAIGHT * trail.thickness)
+        wide = round(1e3 * trail.thickness, 4)
+        paths[wide] = paths.get(wide, "") + _path(np.rint(points[kept] / UNIT).astype(int).tolist())
+    half = 0.5 * thickness.max()
+    used = position[np.unique(edges)]
+    low, size = used.min(0) - half, np.ptp(used, axis=0) + 2.0 * half
+    box = [round(1e3 * float(v), 3) for v in (*low, *size)]
+    return {"box": box, "walls": [[wide, path] for wide, path in paths.items()]}
+
+
+def _path(points: Sequence[Sequence[int]]) -> str:
+    """An SVG path with steps relative to the point before."""
+    x, y = points[0]
+    steps = (f"{c - a} {d - b}" for (a, b), (c, d) in pairwise(points))
+    return f"M{x} {y}l{' '.join(steps)}"
+
+
+def moving_shape(frames: Mapping[str, Any], forces: Sequence[Any]) -> dict[str, Any]:
+    """Some frames of a case: trails of nodes, and positions as 16-bit numbers in base 64.
+
+    frames : from `read_frames`. forces : of every frame (N), None if unknown. x = low x + step x
+    number, in mm; frame after frame, the x and y of every node that is drawn.
+    """
+    chosen = _even(len(frames["strain"]))
+    used, edges = np.unique(frames["edges"], return_inverse=True)
+    edges = edges.reshape(-1, 2)
+    position = 1e3 * frames["position_m"][chosen][:, used].astype(float)
+    low = position.min((0, 1))
+    step = float((position.max((0, 1)) - low).max()) / GRID or 1.0
+    counts = np.rint((position - low) / step).astype("<u2")
+    plates = 1e3 * frames["plate_y_m"][chosen]
+    lines = trails(position[0], edges, frames["edge_thickness_m"].astype(float))
+    return {
+        "strain": _few(100.0 * frames["strain"][chosen]),
+        "time": _few(1e3 * frames["time_s"][chosen]),
+        "force": [forces[i] for i in chosen],
+        "plates": [_few(ends) for ends in plates],
+        "low": [float(f"{v:.7g}") for v in low],
+        "step": float(f"{step:.9g}"),
+        "nodes": len(used),
+        "trails": [[float(f"{1e3 * t.thickness:.4g}"), t.nodes] for t in lines],
+        "position": b64encode(counts.tobytes()).decode(),
+    }
+
+
+def _even(count: int) -> list[int]:
+    """At most `FRAMES` numbers of frames, evenly spaced from the first to the last."""
+    return sorted({*np.linspace(0, count - 1, min(count, FRAMES)).round().astype(int).tolist()})
+
+
+def _few(values: Any) -> list[float | None]:
+    return [float(f"{v:.4g}") if np.isfinite(v) else None for v in values]

@@ -1,0 +1,134 @@
+"""Writes the page of a sweep: template, style and program filled with the data."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Iterable, Mapping
+from hashlib import sha256
+from html import escape
+from pathlib import Path
+from string import Template
+from typing import TYPE_CHECKING, Any
+
+from sweep.ranking.rank import ranked
+from sweep.report.page.gather import page_data
+from sweep.report.sheets import design_labels, legend, ranking_sheets
+from sweep.report.storyboard import PARTS
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+    from sweep.report.sheets import Sheet
+
+HERE = Path(__file__).parent
+PROGRAM = ("rank.js", "plots.js", "page.js")
+TOP, TOP_OF_A_BUDGET = 10, 3
+
+
+def write_page(file: str, summary: DataFrame, question: Mapping[str, Any], out: Path) -> Path:
+    """Write the page of a results file; `question`: of `page_data`."""
+    text = page(page_data(file, summary, question), tables(summary, question))
+    out.parent.mkdir(parents=True, exist_ok=True)
+    begun = out.with_name(f"{out.name}.tmp")
+    begun.write_text(text, encoding="utf-8")
+    return begun.replace(out)
+
+
+def page(data: Mapping[str, Any], static: str) -> str:
+    """The whole page; `static`: what is shown where scripts do not run, as HTML."""
+    script = "\n".join(['"use strict";', *map(_read, PROGRAM)])
+    digest = b64encode(sha256(script.encode()).digest()).decode()
+    failed = len(data["failures"])
+    done = f"{data['total']} cases" + (f", {failed} of them failed" if failed else "")
+    return Template(_read("page.html")).substitute(
+        title=escape(f"{data['name']}: which lattice is the best?"),
+        subtitle=escape(f"{data['file']}, {done}"),
+        style=_read("page.css"),
+        script=script,
+        script_hash=f"sha256-{digest}",
+        data=_as_script({**data, "parts": list(PARTS.values())}),
+        tables=static,
+        failures=_failures(data["failures"], data["file"]),
+        origin=_origin(data),
+    )
+
+
+def tables(summary: DataFrame, question: Mapping[str, Any]) -> str:
+    """The ranking of a question: the best designs in words, then tables with their legend."""
+    budget, panel = question.get("budget"), question.get("panel")
+    top = TOP_OF_A_BUDGET if len(budget or ()) > 1 else TOP
+    ranking = ranked(summary, budget, panel, top=top)
+    if ranking.failed == ranking.cases:
+        return "<p>No case has converged, so there is no ranking.</p>"
+    sheets = "".join(_table(sheet) for sheet in ranking_sheets(ranking, summary))
+    known = _paragraphs(legend(ranking).splitlines()) if len(ranking.table) else ""
+    return f"{_winners(ranking.table, summary)}{sheets}{known}"
+
+
+def _winners(table: DataFrame, summary: DataFrame) -> str:
+    """A sentence for each budget and scene."""
+    first = table.drop_duplicates(["budget_g", "scene"])
+    lines = [
+        f"The best design{f' up to {row.budget_g:g} g' if row.budget_g > 0.0 else ''}, "
+        f"{row.scene}: {label}."
+        for row, label in zip(first.itertuples(), design_labels(first, summary), strict=True)
+    ]
+    return "".join(f"<p>{escape(line)}</p>" for line in lines)
+
+
+def _read(name: str) -> str:
+    return (HERE / name).read_text("utf-8")
+
+
+def _as_script(data: Mapping[str, Any]) -> str:
+    """JSON that cannot end the script in which it stands."""
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False, ensure_ascii=True)
+    for letter in "<>&":
+        text = text.replace(letter, f"\\u{ord(letter):04x}")
+    return text
+
+
+def _table(sheet: Sheet) -> str:
+    title = f"<h3>{escape(sheet.title)}</h3>" if sheet.title else ""
+    rows = "".join(f"<tr>{_cells(row)}</tr>" for row in sheet.rows)
+    heads = "".join(f'<th scope="col">{escape(head)}</th>' for head in sheet.heads)
+    grid = f"<table><thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table>"
+    scrolled = f'<div class="scroll">{grid}</div>' if sheet.heads else ""
+    return f"{title}{scrolled}{_paragraphs(sheet.notes)}"
+
+
+def _cells(texts: Iterable[str]) -> str:
+    return "".join(f"<td>{escape(text)}</td>" for text in texts)
+
+
+def _paragraphs(lines: Iterable[str]) -> str:
+    return "".join(f'<p class="quiet">{escape(line)}</p>' for line in lines)
+
+
+def _failures(failures: Iterable[Mapping[str, str]], file: str) -> str:
+    """The cases that did not converge, with their sentences; "" if there is none."""
+    rows = [
+        f"<tr>{_cells([each['case_id'], each['label'], each['scene'], each['status']])}"
+        f'<td class="sentence">{escape(each["message"])}</td></tr>'
+        for each in failures
+    ]
+    if not rows:
+        return ""
+    heads = "".join(f"<th>{head}</th>" for head in ("case", "design", "scene", "status", "why"))
+    count = "1 case failed" if len(rows) == 1 else f"{len(rows)} cases failed"
+    return (
+        f'<details class="block"><summary>{count}</summary><div class="scroll"><table><thead>'
+        f"<tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table></div></details>"
+    )
+
+
+def _origin(data: Mapping[str, Any]) -> str:
+    """File, versions and config."""
+    pairs = [("file", data["file"]), *data["about"]]
+    listed = "".join(f"<dt>{escape(name)}</dt><dd>{escape(text)}</dd>" for name, text in pairs)
+    config = escape(json.dumps(data["config"], indent=1))
+    folded = f"<details><summary>Config, in SI</summary><pre>{config}</pre></details>"
+    thin = f"Curves have at most {data['points']} points, energies over the path two thirds of them"
+    kept = f"{len(data['shapes'])} of {len(data['cases'])} designs have their motion in this page"
+    return f'<dl>{listed}</dl>{folded}<p class="quiet">{thin}; {kept}.</p>'

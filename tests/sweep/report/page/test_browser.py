@@ -1,0 +1,228 @@
+"""The page in a browser: what its sliders rank, and that nothing in it fails."""
+
+import io
+import json
+import shlex
+from time import sleep
+from xml.etree import ElementTree
+
+import pandas as pd
+import pytest
+
+from sweep.report.page.write import write_page
+from tests.support.browser import CHROMIUM, browser
+from tests.support.command import crumple
+from tests.support.page_data import expected, sweep
+from tests.support.specimens import summary, write
+
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="needs chromium (a package of Debian)")
+
+CONFIG = {"name": "<b>trial</b>", "rank": {"budgets": [0.03, 0.06], "panel": [0.1, 0.05]}}
+QUESTION = CONFIG["rank"] | {"budget": CONFIG["rank"]["budgets"]}
+ROWS = """
+document.getElementById("all").hidden || view.all || document.getElementById("all").click(),
+[...document.querySelectorAll("#table tbody tr")].map((row) =>
+  [row.dataset.id, row.children[1].textContent])
+"""
+SET = """
+(() => {{
+  const input = document.getElementById("{name}");
+  input.{what} = {value};
+  input.dispatchEvent(new Event("{event}"));
+}})()
+"""
+
+
+@pytest.fixture(scope="module")
+def table():
+    return sweep(40, more={"material": "<img src=x onerror=alert(1)>"})
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory, table):
+    folder = tmp_path_factory.mktemp("page")
+    file = write(folder / "trial.h5", table, {"config": json.dumps(CONFIG)})
+    write_page(file, table, QUESTION, folder / "trial.html")
+    return file
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    with browser() as tab:
+        yield tab
+
+
+@pytest.fixture
+def tab(chromium, file):
+    """The page as it opens; afterwards nothing may have failed or come from elsewhere."""
+    chromium.open(file.replace(".h5", ".html"))
+    yield chromium
+    assert chromium.complaints == []
+    assert {url.partition(":")[0] for url in chromium.asked_for} <= {"file", "about", "blob"}
+    files = [url for url in chromium.asked_for if url.startswith("file:")]
+    assert {url.rpartition("/")[2] for url in files} == {"trial.html"}
+
+
+def put(tab, name, value, what="value", event="input"):
+    tab.run(SET.format(name=name, value=json.dumps(value), what=what, event=event))
+
+
+def places(texts):
+    """Numbers of places without their marks."""
+    return [int(text.rstrip("=*!x")) for text in texts]
+
+
+def ranked_by_the_command(tab, capsys, file, scene=0):
+    """Ids and places that the command shown in the page prints, for the scene of this number."""
+    words = shlex.split(tab.run('document.querySelector("#command code").textContent'))
+    assert words[:3] == ["crumple", "rank", "trial.h5"]
+    status, out, _ = crumple(capsys, "rank", file, *words[3:], "--csv", "--top", "999")
+    assert status == 0
+    printed = pd.read_csv(io.StringIO(out), dtype={"case_id": str})
+    rows = printed[printed["scene"] == printed["scene"].unique()[scene]]
+    return list(rows["case_id"]), list(rows["place"])
+
+
+MOVES = [
+    [],
+    [("budget-slide", "400")],
+    [("budget-slide", "900"), ("force-slide", "1"), ("force", "20")],
+    [("force", "50"), ("budget", "45.5")],
+    [("width-slide", "350"), ("height", "75"), ("budget", "61")],
+    [("unit", "28.349523125"), ("budget", "2")],
+]
+
+
+@pytest.mark.parametrize("moves", MOVES)
+def test_sliders_rank_as_the_command_that_is_shown(tab, capsys, file, moves):
+    before = tab.run(ROWS)
+    for name, value in moves:
+        put(tab, name, value, event="change" if name == "unit" else "input")
+    shown = tab.run(ROWS)
+    ids, order = ranked_by_the_command(tab, capsys, file)
+    assert [row[0] for row in shown] == ids
+    assert places(row[1] for row in shown) == order
+    assert len(ids) > 5
+    assert (shown != before) == bool(moves)
+
+
+@pytest.mark.parametrize("scene", [1, 2])
+def test_other_scenes_are_ranked_by_their_own_column(tab, capsys, file, scene):
+    put(tab, "scene", str(scene), event="change")
+    shown = tab.run(ROWS)
+    ids, order = ranked_by_the_command(tab, capsys, file, scene)
+    assert ([row[0] for row in shown], places(row[1] for row in shown)) == (ids, order)
+    assert tab.run('document.getElementById("force-box").hidden') is True
+
+
+@pytest.mark.parametrize("panel", [True, False])
+def test_without_a_budget_every_design_has_its_place(tab, table, panel):
+    put(tab, "budget-on", False, what="checked", event="change")
+    put(tab, "panel-on", panel, what="checked", event="change")
+    wanted = expected(table, panel=(0.1, 0.05) if panel else None)
+    rows = next(iter(wanted.values()))
+    assert [row[0] for row in tab.run(ROWS)] == [row["case_id"] for row in rows]
+    shown = tab.run('document.getElementById("sentence").textContent')
+    assert ("J/g" in shown) != panel
+
+
+def test_answer_comes_first_and_names_the_winner(tab):
+    first = tab.run(ROWS)[0][0]
+    label = tab.run(f'data.cases.find((design) => design.id === "{first}").label')
+    said = tab.run('document.getElementById("sentence").textContent')
+    assert said.startswith(f"The best design up to 60 g is {label}: ")
+    assert tab.run("document.querySelectorAll('img, #static').length") == 0
+
+
+def test_a_budget_below_the_lightest_design_is_answered(tab):
+    put(tab, "budget", "0.5")
+    assert tab.run(ROWS) == []
+    said = tab.run('document.getElementById("sentence").textContent')
+    assert said.startswith("Nothing weighs 0.5 g or less: the lightest weighs ")
+
+
+def test_heads_sort_the_rows_without_changing_places(tab):
+    before = dict(tab.run(ROWS))
+    heads = '[...document.querySelectorAll("#table th button")]'
+    click = f"{heads}.find((head) => head.textContent.startsWith('mass')).click()"
+    tab.run(click)
+    rows = "[...document.querySelectorAll('#table tbody tr')]"
+    column = f"({heads}.findIndex((head) => head.textContent.startsWith('mass')) + 1)"
+    masses = f"{rows}.map((row) => Number(row.children[{column}].textContent))"
+    upwards = tab.run(masses)
+    tab.run(click)
+    assert upwards == sorted(upwards) != tab.run(masses)
+    assert dict(tab.run(ROWS)) == before
+
+
+def test_a_click_chooses_a_design(tab):
+    last = tab.run(ROWS)[-1][0]
+    curves = tab.run("document.querySelectorAll('#curves polyline').length")
+    tab.run("document.querySelector('#table tbody tr:last-child td:last-child').click()")
+    assert last in tab.run('document.getElementById("one-words").textContent')
+    assert tab.run("document.querySelectorAll('#curves polyline').length") == curves + 1
+    assert tab.run("document.querySelectorAll('#book polyline').length") == 3  # two parts, the work
+
+
+def test_pointer_shows_the_drawing_of_a_design(tab):
+    enter = "document.querySelector('.dot').dispatchEvent(new Event('pointerenter'))"
+    assert tab.run('document.getElementById("card").hidden') is True
+    tab.run(enter)
+    assert tab.run('document.querySelectorAll("#card svg path").length') == 1
+
+
+def test_shapes_move_and_stop(tab):
+    points = "document.querySelector('#stage .wall').getAttribute('points')"
+    put(tab, "frame", "0")
+    at_rest = tab.run(points)
+    tab.run("document.getElementById('play').click()")
+    wait = "new Promise((done) => setTimeout(() => done(view.frame), 400))"
+    assert tab.run(wait) > 0
+    assert tab.run(points) != at_rest
+    tab.run("document.getElementById('play').click()")
+    stopped = tab.run("view.frame")
+    assert tab.run(wait) == stopped
+    put(tab, "frame", "0")
+    assert tab.run(points) == at_rest
+
+
+def test_drawing_that_is_saved_is_svg_in_millimetres(tab, tmp_path):
+    tab.call("Page.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path))
+    tab.run("document.getElementById('download').click()")
+    saved = tmp_path / tab.run("document.getElementById('download').download")
+    for _ in range(100):
+        if saved.exists():
+            break
+        sleep(0.1)
+    root = ElementTree.parse(saved).getroot()
+    assert (root.get("width"), root.get("height")) == ("11mm", "11mm")
+    assert root.tag == "{http://www.w3.org/2000/svg}svg"
+    assert saved.name.startswith("_b_trial__b__")
+
+
+@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize("width", [390, 1280])
+def test_page_fits_its_window(chromium, file, width, dark):
+    chromium.open(file.replace(".h5", ".html"), width, 800, dark)
+    assert chromium.run("document.documentElement.scrollWidth") <= width
+    light = chromium.run("getComputedStyle(document.body).backgroundColor").startswith("rgb(251")
+    assert light != dark
+    assert chromium.complaints == []
+
+
+def test_tables_stay_where_scripts_do_not_run(chromium, file):
+    chromium.call("Emulation.setScriptExecutionDisabled", value=True)
+    try:
+        chromium.open(file.replace(".h5", ".html"))
+        assert chromium.run("document.getElementById('static').offsetHeight") > 100
+        assert chromium.run("document.getElementById('app').offsetHeight") == 0
+    finally:
+        chromium.call("Emulation.setScriptExecutionDisabled", value=False)
+
+
+def test_page_of_failures_alone_opens(chromium, tmp_path):
+    table = summary({"status": "stopped", "message": "no"})
+    file = write(tmp_path / "trial.h5", table)
+    chromium.open(write_page(file, table, {}, tmp_path / "trial.html"))
+    assert "No case has converged" in chromium.run("document.body.innerText")
+    assert chromium.complaints == []

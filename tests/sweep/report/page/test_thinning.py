@@ -1,0 +1,65 @@
+"""Curves with few points, and the work that is done until a force is exceeded."""
+
+import numpy as np
+import pytest
+
+from sweep.report.page.thinning import force_stairs, numbers, thin_curves, thinned, work_until
+from sweep.simulation.summary import absorbed_until
+
+
+def test_corners_of_a_polyline_are_enough():
+    x = np.linspace(0.0, 3.0, 31)
+    y = np.interp(x, [0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 0.0, 2.0])
+    assert thinned(np.column_stack([x, y]), 31, 1e-12) == [0, 10, 20, 30]
+
+
+def test_farthest_point_comes_first():
+    points = np.array([[0.0, 0.0], [1.0, 1.0], [2.0, 3.0], [3.0, 0.0]])
+    assert thinned(points, 3) == [0, 2, 3]
+    assert thinned(points, 4, 2.0) == [0, 2, 3]  # the other one is nearer than that
+
+
+@pytest.mark.parametrize("count", [0, 1, 2])
+def test_curves_that_cannot_be_thinner(count):
+    assert thinned(np.zeros((count, 2)), 60) == list(range(count))
+
+
+def test_error_falls_with_the_number_of_points():
+    x = np.linspace(0.0, 1.0, 400)
+    y = np.sin(20.0 * x)
+
+    def error(most):
+        thin = thin_curves((x, y), most)
+        assert len(thin[0]) <= most
+        return np.abs(np.interp(x, *thin) - y).max()
+
+    assert error(60) < 0.5 * error(30) < 0.1
+    assert error(60) < 0.04
+
+
+def test_rows_without_a_number_are_left_out():
+    x, y = thin_curves(([0.0, 1.0, 2.0], [1.0, np.nan, 3.0]), 60)
+    assert (x.tolist(), y.tolist()) == ([0.0, 2.0], [1.0, 3.0])
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_stairs_tell_the_same_work_as_the_curve(seed):
+    rng = np.random.default_rng(seed)
+    force = np.abs(np.cumsum(rng.normal(size=200)))
+    work = np.cumsum(rng.random(200))
+    highest, done = force_stairs(force, work)
+    assert (np.diff(highest) >= 0.0).all()
+    for limit in [*np.linspace(0.01, 1.1, 60) * force.max(), force[0], force.max()]:
+        expected = absorbed_until(limit, force, work)
+        assert work_until(limit, highest, done) == pytest.approx(expected, rel=1e-12)
+
+
+def test_a_dip_costs_no_force():
+    force, work = np.array([0.0, 4.0, 2.0, 4.0, 6.0]), np.array([0.0, 1.0, 2.0, 3.0, 4.0])
+    highest, done = force_stairs(force, work)
+    assert work_until(3.99, highest, done) == pytest.approx(0.9975)
+    assert work_until(4.0, highest, done) == pytest.approx(3.0)
+
+
+def test_numbers_have_few_digits_and_no_nan():
+    assert numbers([1.23456789, 5.0, np.nan, -0.00012345678]) == [1.235, 5, None, -0.0001235]

@@ -1,0 +1,167 @@
+"""The page as a file: whole, safe from names, small, and without a network or scripts."""
+
+import json
+import re
+from html.parser import HTMLParser
+
+import pytest
+
+from sweep.report.page.gather import page_data
+from sweep.report.page.write import page, tables, write_page
+from tests.support.command import crumple
+from tests.support.page_data import sweep
+from tests.support.specimens import designs, summary, write
+
+EVIL = '<script>alert("&")</script>'
+VOID = {"meta", "input", "br", "link", "img"}
+
+
+class Reader(HTMLParser):
+    """Collects elements, and complains of those that are not closed in their order."""
+
+    def __init__(self, text):
+        super().__init__(convert_charrefs=True)
+        self.open, self.elements, self.text, self.wrong = [], [], {}, []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        """An element begins."""
+        self.elements.append((tag, dict(attrs)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        """An element ends."""
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append((tag, self.getpos()))
+
+    def handle_data(self, data):
+        """Text of the innermost element."""
+        where = self.open[-1] if self.open else ""
+        self.text[where] = self.text.get(where, "") + data
+
+
+def written(path, table, question=None):
+    file = write(path / "trial.h5", table, {"config": json.dumps({"name": EVIL, "rank": {}})})
+    return write_page(file, table, question or {}, path / "out" / "trial.html").read_text("utf-8")
+
+
+@pytest.fixture
+def evil(tmp_path):
+    """A page in which every name, and the sentence of a failure, is a script."""
+    failed = {"status": "stopped", "message": f"stopped: {EVIL}"}
+    rows = designs([1.0, 2.0], [0.1, 0.3], material=EVIL)
+    return written(tmp_path, summary(*rows, {"lattice_kind": EVIL} | failed))
+
+
+def test_elements_are_closed_in_their_order(evil):
+    read = Reader(evil)
+    assert (read.wrong, read.open) == ([], [])
+    ids = [attributes["id"] for _, attributes in read.elements if "id" in attributes]
+    assert len(ids) == len({*ids}) > 30
+
+
+def test_names_from_files_are_text(evil):
+    read = Reader(evil)
+    assert [tag for tag, _ in read.elements].count("script") == 2
+    assert EVIL not in evil
+    assert f"stopped: {EVIL}" in read.text["td"]
+    assert f"{EVIL}: which lattice is the best?" in read.text["h1"]
+    data = json.loads(re.search(r'id="data">(.*?)</script>', evil)[1])
+    assert data["name"] == EVIL
+    assert {case["text"][-1] for case in data["cases"]} == {EVIL}
+
+
+def test_nothing_is_loaded_from_elsewhere(evil):
+    read = Reader(evil)
+    addresses = [a for _, known in read.elements for a in ("src", "href", "action") if a in known]
+    assert addresses == []
+    assert "default-src 'none'" in evil
+    assert not re.search(r"url\(|@import|fetch\(|https?://(?!www\.w3\.org)", evil)
+
+
+def test_only_the_program_may_run(evil):
+    """The page names the digest of its program."""
+    from base64 import b64encode
+    from hashlib import sha256
+
+    program = re.findall(r"<script>(.*?)</script>", evil, re.DOTALL)
+    digest = b64encode(sha256(program[0].encode()).digest()).decode()
+    assert len(program) == 1
+    assert f"script-src 'sha256-{digest}'" in evil
+
+
+def test_tables_are_readable_without_scripts(tmp_path):
+    table = summary(*designs([1.0, 2.0, 4.0], [0.1, 0.3, 0.4]))
+    text = tables(table, {"budget": [0.002, 0.004]})
+    read = Reader(text)
+    assert "The best design up to 2 g, crushed to 50 %, glued platens" in read.text["p"]
+    assert [tag for tag, _ in read.elements].count("tr") == 6
+    assert "Pareto front" in read.text["p"]
+    assert text in written(tmp_path, table, {"budget": [0.002, 0.004]})
+
+
+def test_page_of_failures_alone_says_so(tmp_path):
+    text = written(tmp_path, summary({"status": "stopped", "message": "more steps"}))
+    assert "No case has converged" in text
+    assert "1 case failed" in text
+    assert Reader(text).wrong == []
+
+
+def test_failures_are_counted_with_their_sentences(tmp_path):
+    why = {"status": "stopped", "message": "stopped at strain 0.5: more solver.load_steps"}
+    text = written(tmp_path, summary({}, why, why))
+    assert "3 cases, 2 of them failed" in text
+    assert text.count(why["message"]) == 4  # as text and in the data
+
+
+def test_page_tells_where_its_numbers_come_from(tmp_path):
+    about = {"config": '{"name": "mine", "depth": 0.0123}', "git_revision": "abc", "created": "now"}
+    about |= {"version_numpy": "9.9"}
+    table = summary({})
+    file = write(tmp_path / "trial.h5", table, about)
+    read = Reader(page(page_data(file, table, {}), ""))
+    said = read.text["dd"]
+    assert all(word in said for word in ("trial.h5", "abc", "now", "9.9"))
+    assert '"depth": 0.0123' in read.text["pre"]
+
+
+def test_page_without_data_is_small():
+    data = page({"name": "a", "file": "b", "total": 0, "failures": [], "about": [], "config": {},
+                 "points": 60, "shapes": {}, "cases": []}, "")  # fmt: skip
+    assert len(data) < 60_000
+
+
+def test_slicer_settings_are_shown_if_a_file_has_them(tmp_path):
+    table = sweep(2, more={"slicer_settings": "PrusaSlicer: Grid, 15 %"})
+    assert "PrusaSlicer: Grid, 15 %" in written(tmp_path, table)
+
+
+def test_verb_writes_the_page_beside_the_file(capsys, tmp_path):
+    config = {"rank": {"budgets": [0.002], "panel": [0.1, 0.05]}, "name": "mine"}
+    file = write(tmp_path / "trial.h5", summary({}), {"config": json.dumps(config)})
+    status, out, _ = crumple(capsys, "report", file)
+    made = tmp_path / "trial.html"
+    assert (status, out.split()[0]) == (0, str(made))
+    data = json.loads(re.search(r'id="data">(.*?)</script>', made.read_text("utf-8"))[1])
+    assert data["question"] == {"budgets_g": [2.0], "panel": [0.1, 0.05]}
+    assert [path.name for path in tmp_path.iterdir()].count("trial.html.tmp") == 0
+    status, out, _ = crumple(capsys, "report", file, "--out", str(tmp_path / "new" / "a.html"))
+    assert (status, (tmp_path / "new" / "a.html").exists()) == (0, True)
+
+
+def test_failures_give_status_one(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({}, {"status": "stopped", "message": "no"}))
+    assert crumple(capsys, "report", file)[0] == 1
+
+
+@pytest.mark.parametrize("name", ["a.txt", "", "DIR", "FILE/a.html"])
+def test_page_needs_a_place(capsys, tmp_path, name):
+    file = write(tmp_path / "trial.h5", summary({}))
+    (tmp_path / "folder.html").mkdir()
+    out = name.replace("FILE", file).replace("DIR", str(tmp_path / "folder.html"))
+    status, _, err = crumple(capsys, "report", file, "--out", out)
+    assert status == 2
+    assert err.startswith("crumple report: ")
+    assert err.count("\n") <= 2
