@@ -12,7 +12,7 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test stock mutants verify validate elements continuum accuracy mesh \
+.PHONY: help setup sweep rank test stock mutants verify validate elements continuum accuracy mesh pictures \
         bars spread search memory stability bench experiment figures lint clean
 .DELETE_ON_ERROR:
 
@@ -86,6 +86,12 @@ stability: setup  ## crush 500 stiff and extreme scenes and look for violations;
 
 bench: setup  ## measure how fast it is; table and figure go to results/bench/
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.bench results/bench
+
+pictures: setup  ## draw the pictures of README.md again, from results/infills.h5
+	@$(PYTHON) -m sweep run configs/infills.toml > results/infills.txt
+	@$(PYTHON) -m sweep rank results/infills.h5 --out results/infills
+	@cp results/infills/winners.png docs/pictures/collapse.png
+	@cp results/infills/patterns.png docs/pictures/patterns.png
 
 experiment: setup  ## predict a measured crush and its sensitivities; goes to results/experiment/
 	@$(PYTHON) -m sweep.studies.khatri_egan results/experiment

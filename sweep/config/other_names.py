@@ -38,10 +38,9 @@ CHOICES: dict[str, dict[str, str]] = {
 }
 """Understood words -> the choice, by key."""
 
-DROP = "a drop of 1 m arrives with 4.43 m/s, of h with (2 g h)^0.5"
 KEYS = {
-    "drop_height": ("loading.striker_speed", DROP),
-    "fall_height": ("loading.striker_speed", DROP),
+    "fall_height": ("loading.drop_height", ""),
+    "height_of_fall": ("loading.drop_height", ""),
     "drop_mass": ("loading.striker_mass", ""),
     "impact_speed": ("loading.striker_speed", ""),
     "impact_energy": ("loading.energy", ""),
@@ -50,9 +49,7 @@ KEYS = {
     "load": ("loading.force", ""),
     "max_force": ("loading.allowed_forces", "a list"),
     "thickness": ("lattice.wall_thickness", ""),
-    "nozzle": ("lattice.line_width", ""),
-    "pattern": ("lattice.kind", ""),
-    "infill_pattern": ("lattice.kind", ""),
+    "infill_pattern": ("lattice.pattern", "with lattice.slicer; without a slicer, lattice.kind"),
     "infill_density": ("lattice.infill", ""),
     "fill_density": ("lattice.infill", ""),
     "wall_loops": ("lattice.perimeters", ""),

@@ -120,7 +120,7 @@ def run(environment, tmp_path_factory):
         done = subprocess.run(
             command, cwd=elsewhere, env=usual | more, capture_output=True, text=True, check=False
         )
-        assert (done.returncode, done.stderr) == (0, "")
+        assert done.returncode == 0, done.stderr
         return done.stdout
 
     printed.folder = elsewhere

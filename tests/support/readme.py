@@ -5,7 +5,11 @@ from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).parents[2]
-NAMES = ("README.md", "configs/README.md", "kernels/README.md", "GLOSSARY.md")
+DOCS = ("questions", "results", "accuracy", "speed")
+NAMES = (
+    *("README.md", *(f"docs/{name}.md" for name in DOCS)),
+    *("configs/README.md", "kernels/README.md", "GLOSSARY.md"),
+)
 PAGES = {name: (ROOT / name).read_text("utf-8") for name in NAMES}
 TEXT = "\n".join(PAGES.values())
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)

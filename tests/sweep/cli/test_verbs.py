@@ -295,9 +295,9 @@ def test_run_says_how_many_designs_do_not_print(capsys, tmp_path):
         "[lattice]\nprintable = true\n[loading]\nstrain = 0.1\n"
         '[grid]\nlattice.wall_thickness = ["0.4 mm", "0.5 mm", "0.6 mm"]'
     )
-    status, out, _ = crumple(capsys, "run", str(path), "--dry-run")
+    status, _, err = crumple(capsys, "run", str(path), "--dry-run")
     assert status == 0
-    assert out.startswith("left out 2 combinations, which do not print (lattice.printable)\n")
+    assert err.startswith("left out 2 combinations, which do not print (lattice.printable)\n")
 
 
 def test_export_tells_what_it_wrote(capsys, tmp_path):

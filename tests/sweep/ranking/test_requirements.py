@@ -121,7 +121,7 @@ def test_crushes_are_not_asked_for_a_deceleration():
     assert left_out == [(), ("max_deceleration",), ("max_deceleration",)]
     assert sorted(ids(ranking.table)) == [0, 1, 2]
     with pytest.raises(RankError, match="max_deceleration needs a striker"):
-        rank(CRUSHED, require={"max_deceleration": 500.0})
+        rank(CRUSHED, require={"max_deceleration": "500 m/s^2"})
 
 
 def test_stroke_is_that_of_the_counted_energy():
@@ -138,7 +138,7 @@ def test_stroke_is_that_of_the_counted_energy():
     ("asked", "words"),
     [
         ({"require": {"max_forse": "3 N"}}, "unknown requirement max_forse; .* max_force"),
-        ({"require": {"max_mass": -1.0}}, "above zero"),
+        ({"require": {"max_mass": "-1 g"}}, "above zero"),
         ({"per": "piece"}, 'per = "piece"; allowed: specimen or panel'),
         ({"per": "panel"}, "needs a panel"),
         ({"per": "panel", "panel": PANEL, "allowed_force": "1 N"}, "rank the file itself"),
