@@ -303,7 +303,7 @@ def completion(arguments: Namespace) -> int:
 
 
 ALL = (
-    *(run, optimize, accuracy, warm, status, rank, show, report, export),
+    *(run, optimize, accuracy, warm, status, rank, show, export, report),
     *(materials, new, completion),
 )
 VERBS = {verb.__name__: verb for verb in ALL}

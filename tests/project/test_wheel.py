@@ -121,7 +121,7 @@ def run(environment, tmp_path_factory):
             command, cwd=elsewhere, env=usual | more, capture_output=True, text=True, check=False
         )
         assert done.returncode == 0, done.stderr
-        return done.stdout
+        return done.stdout + done.stderr
 
     printed.folder = elsewhere
     return printed
@@ -174,7 +174,7 @@ def test_sweeps_run_with_the_materials_and_examples_of_the_wheel(run):
     assert "1 converged" in told
     assert "revision unknown" in told
     told = run("python", "-m", "crumple", "run", "custom", NUMBA_DISABLE_JIT="1")
-    assert re.match(r"example custom: .*/site-packages/crumple/configs/custom\.toml ", told)
+    assert re.search(r"example custom: .*/site-packages/crumple/configs/custom\.toml ", told)
     assert "1/1 cases" in told
     assert "loaded as its file says" in told
 

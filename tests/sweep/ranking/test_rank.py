@@ -265,3 +265,8 @@ def test_label_leaves_out_keys_that_a_scene_does_without():
 def test_label_leaves_out_a_depth_that_differs():
     table = summary({"stroke_m": 3.05e-3}, {})
     assert scene_label(table) == "crushed, glued platens"
+
+
+def test_a_design_without_the_energy_hides_no_heavier_one_from_the_front():
+    mass, energy = pd.Series([1.0, 2.0, 3.0]), pd.Series([0.1, np.nan, 0.3])
+    assert list(pareto(mass, energy)) == [True, False, True]

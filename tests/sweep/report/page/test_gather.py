@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sweep.ranking.rank import rank
+from sweep.ranking.rank import ranked
 from sweep.report.page import gather
 from sweep.report.page.gather import curve_of, page_data
 from sweep.report.page.thinning import work_until
@@ -114,7 +114,7 @@ def test_shapes_of_the_best_come_first(tmp_path, monkeypatch):
         {"mass_g": 1.0, "absorbed_energy_J": 0.4},
         {"mass_g": 3.0, "absorbed_energy_J": 0.2},
     )
-    best = rank(table, budget=0.01)["case_id"][0]
+    best = ranked(table, budget=0.01).table["case_id"][0]
     whole = gathered(tmp_path, table, budget=[0.01])
     assert len(whole["shapes"]) == 3
     one = len(json.dumps(whole["shapes"][best]))
