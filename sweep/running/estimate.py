@@ -24,7 +24,7 @@ from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 
 BYTES = 4  # of a stored number, in single precision
 PACKED = 0.9  # compressed / original size, of curves and shapes together
-SPENT = 4.0  # s of processor time for the groups of all kinds
+SPENT = 8.0  # s of processor time for the groups of all kinds
 GROUPS = 9  # of one kind
 SHARE = 3  # least number of cases in a group
 ROW = 1000  # bytes of the summary of a case
