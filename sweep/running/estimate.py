@@ -1,15 +1,16 @@
 """Estimates the cost of a sweep before it starts, from a few of its cases.
 
-The time of a case is assumed to be proportional to `batches.cost`, with one measurement for each
-kind of loading and mesh. The estimate may be wrong by a factor of two, since the number of contacts
-is not known in advance.
+The time of a case is assumed to be proportional to `batches.cost`, with a factor that is measured
+for each kind of loading and mesh. It depends on what a design does, such as how often walls touch:
+where cases are many or short, each kind is divided by family, wall thickness and load into groups
+with a factor of their own. The estimate may still be wrong by a factor of two.
 """
 
 import time
 from bisect import bisect
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from math import isnan
 
 from sweep.config.case import Case
@@ -23,6 +24,9 @@ from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 
 BYTES = 4  # of a stored number, in single precision
 PACKED = 0.9  # compressed / original size, of curves and shapes together
+SPENT = 8.0  # s of processor time for the groups of all kinds
+GROUPS = 9  # of one kind
+SHARE = 3  # least number of cases in a group
 ROW = 1000  # bytes of the summary of a case
 
 
@@ -81,20 +85,30 @@ def dry_run(
 
 
 def estimate(cases: Sequence[Case], simulate: Simulate) -> Estimate:
-    """Run one case of each kind of loading and mesh, and scale its cost to all of its kind."""
+    """Run one case of each kind of loading and mesh, then one of each of its groups if they are
+    short; scale their costs to all of their group.
+    """
     kinds: dict[tuple[str | int, ...], list[Case]] = {}
     for case in cases:
         kinds.setdefault(_kind(case), []).append(case)
-    pilots = [(_middle(alike), alike) for alike in kinds.values()]
+    first = [(_middle(sorted(alike, key=cost)), alike) for alike in kinds.values()]
     started = time.perf_counter()
-    results = _run_all([pilot for pilot, _ in pilots], simulate)
+    results = _run_all([pilot for pilot, _ in first], simulate)
+    spent = SPENT / len(first)
+    pilots = [
+        group
+        for pilot, alike in first
+        for group in _groups(pilot, alike, spent, float(results[pilot.case_id].summary["cpu_s"]))
+    ]
+    others = [pilot for pilot, _ in pilots if pilot.case_id not in results]
+    results |= _run_all(others, simulate) if others else {}
     cpu = disk = 0.0
     for pilot, alike in pilots:
         result = results[pilot.case_id]
         cpu += float(result.summary["cpu_s"]) * sum(map(cost, alike)) / cost(pilot)
         disk += len(alike) * _stored(result)
     failures = [r.message for r in results.values() if r.status is not Status.CONVERGED]
-    return Estimate(cpu, disk, len(pilots), failures, time.perf_counter() - started)
+    return Estimate(cpu, disk, len(results), failures, time.perf_counter() - started)
 
 
 def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
@@ -123,11 +137,34 @@ def _kind(case: Case) -> tuple[str | int, ...]:
     return *loading, case.lattice.nodes_per_wall
 
 
-def _middle(cases: Sequence[Case]) -> Case:
-    """The median case, weighted by cost."""
-    ordered = sorted(cases, key=cost)
+def _middle(ordered: Sequence[Case]) -> Case:
+    """The median of sorted cases, weighted by cost."""
     done = list(accumulate(map(cost, ordered)))
     return ordered[bisect(done, 0.5 * done[-1])]
+
+
+def _groups(
+    pilot: Case, alike: list[Case], spent: float, seconds: float
+) -> list[tuple[Case, list[Case]]]:
+    """Groups of cases of one kind, each with the case that stands for it.
+
+    One group, for which `pilot` stands, unless others may run in the time `spent` (s).
+    """
+    affordable = 1.0 if isnan(seconds) else spent / max(seconds, 1e-3)
+    count = int(min(GROUPS, affordable, len(alike) / SHARE))
+    if count < 2:
+        return [(pilot, alike)]
+    ordered = sorted(alike, key=_design)
+    ends = [round(k * len(ordered) / count) for k in range(count + 1)]
+    parts = [ordered[begin:end] for begin, end in pairwise(ends)]
+    return [(_middle(part), part) for part in parts]
+
+
+def _design(case: Case) -> tuple[str, float, float, float]:
+    """What decides how a case of its kind behaves: family, wall thickness, load, cost."""
+    loading = case.loading
+    load = loading.force or loading.energy or loading.stroke or 0.0
+    return case.lattice.kind, case.lattice.wall_thickness, load, cost(case)
 
 
 def _stored(result: Result) -> float:

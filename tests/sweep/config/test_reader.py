@@ -34,6 +34,24 @@ def test_a_strain_may_be_a_number_or_a_share_in_percent(load):
     assert [case.axes["loading.strain"] for case in expand(config)] == [0.4, 0.6]
 
 
+@pytest.mark.parametrize(
+    ("table", "number", "percent"),
+    [
+        ("[material]\nloss = {}", "0.4", '"40 %"'),
+        ("[material]\nrelaxation_times = ['1 s']\nrelaxation_shares = {}", "[0.1]", '["10 %"]'),
+        ("[material]\nrelaxation = [{{time = '1 s', share = {}}}]", "0.1", '"10%"'),
+        ("[material]\nname = 'pla'\nfracture_strain = {}", "0.025", '"2.5 %"'),
+        ("[lattice]\nimperfection = {}", "0.02", '"2 %"'),
+        ("[grid]\nlattice.imperfection = {}", "[0.0, 0.02]", '["0 %", 0.02]'),
+        ("[loading]\nmode = 'displacement'\nstrain = {}", "0.3", '"30 %"'),
+    ],
+)
+def test_every_share_is_a_number_or_in_percent(load, table, number, percent):
+    ids = [[case.case_id for case in expand(load(table.format(v)))] for v in (number, percent)]
+    assert ids[0] == ids[1]
+    assert ids[0] != [case.case_id for case in expand(load(""))]
+
+
 def test_own_material_is_found_beside_the_config(load, tmp_path):
     header = "# density_kg_m3: 1100\n# poisson: 0.4\nstrain,stress_Pa\n"
     (tmp_path / "mine.csv").write_text(header + "0.01,1e5\n0.05,4e5\n1,2e6\n")

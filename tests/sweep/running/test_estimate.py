@@ -49,6 +49,39 @@ def test_pilot_stands_in_the_middle_of_the_work():
     assert pilot.lattice.cells_x == 5
 
 
+def by_thickness(seconds):
+    """Cases of five wall thicknesses, and a simulation that thin walls make slow, with its log."""
+    sizes = [(n, t * 1e-4) for n in (3, 4, 5) for t in (3, 4, 6, 8, 10)]
+    many = [
+        Case(lattice=Lattice(cells_x=n, cells_y=n, wall_thickness=t), loading=GLUED)
+        for n, t in sizes
+    ]
+    asked = []
+
+    def simulate(case, control):
+        asked.append(case)
+        taken = seconds * 1e-6 * cost(case) * (3e-4 / case.lattice.wall_thickness) ** 3
+        return Result(case.case_id, Status.CONVERGED, "", {"cpu_s": taken}, {})
+
+    return many, simulate, asked
+
+
+def test_groups_of_short_cases_have_a_pace_of_their_own():
+    many, simulate, asked = by_thickness(0.1)
+    true = sum(simulate(case, None).summary["cpu_s"] for case in many)
+    asked.clear()
+    found = estimate(many, simulate)
+    assert found.cpu == pytest.approx(true, rel=0.35)
+    assert found.pilots == len(asked) == 5
+    alone = simulate(asked[0], None).summary["cpu_s"] * sum(map(cost, many)) / cost(asked[0])
+    assert abs(np.log(alone / true)) > np.log(1.5)
+
+
+def test_long_cases_are_not_run_for_the_estimate():
+    many, simulate, asked = by_thickness(1e4)
+    assert estimate(many, simulate).pilots == len(asked) == 1
+
+
 def test_failed_pilots_are_counted():
     assert estimate(cases(GLUED), stand_in(Status.STOPPED)[0]).failures == ["why"]
 
