@@ -27,7 +27,7 @@ function countedEnergy(data, design, question) {
 function measured(data, design, question) {
   const scene = data.scenes[question.scene];
   const [energy, error, correction] = countedEnergy(data, design, question);
-  const factor = question.panel ? (question.panel[0] * question.panel[1]) / design.area : 1;
+  const factor = question.panel ? (question.panel[0] * question.panel[1]) / (design.area ?? NaN) : 1;
   const times = (value, by) => (value === null ? null : by * value);
   const row = {
     design,

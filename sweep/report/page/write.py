@@ -40,7 +40,8 @@ def page(data: Mapping[str, Any], static: str) -> str:
     script = "\n".join(['"use strict";', *map(_read, PROGRAM)])
     digest = b64encode(sha256(script.encode()).digest()).decode()
     failed = len(data["failures"])
-    done = f"{data['total']} cases" + (f", {failed} of them failed" if failed else "")
+    total = "1 case" if data["total"] == 1 else f"{data['total']} cases"
+    done = total + (f", {failed} of them failed" if failed else "")
     return Template(_read("page.html")).substitute(
         title=escape(f"{data['name']}: which lattice is the best?"),
         subtitle=escape(f"{data['file']}, {done}"),
