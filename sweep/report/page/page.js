@@ -313,8 +313,9 @@ function notes() {
   if (crushed()) lines.push(`Energy and peak are counted ${until()}.`);
   if (storedEnergy(data, asked) < 0)
     lines.push(
-      `These energies are read from curves of at most ${data.points} points: they differ by at most ` +
-        `${(100 * data.doubt).toFixed(2)} % of the energy of the whole crush.` + (data.energies.length > 1 ? " At the forces below the slider they are exact." : ""),
+      `These energies are read from curves of at most ${data.points} points: they are off by ` +
+        `${(100 * data.doubt).toFixed(1)} % at most, if above 1 % of the energy of the whole crush. ` +
+        (data.energies.length > 1 ? "At the forces below the slider they are exact." : ""),
     );
   if (now.bar)
     lines.push("±: estimated error from mesh and steps, not a bound. =: the place is shared, as errors may reverse the order.");
