@@ -3,6 +3,7 @@
 const data = JSON.parse(document.getElementById("data").textContent);
 const $ = (id) => document.getElementById(id);
 const SHOWN = 15; // rows of the table before all are asked for
+const MANY = 150; // designs of a scene: their dots are smaller
 const COLORS = 6;
 const FIRST = 3; // best designs whose curves are shown until others are chosen
 const PER_SECOND = 12; // frames
@@ -385,7 +386,7 @@ function dot(plot, row, scale) {
       "data-dot": row.design.id,
       cx: x,
       cy: y,
-      r: row.place === 1 ? 7 : 5,
+      r: row.place === 1 ? 7 : now.rows.length > MANY ? 3 : 5,
       onpointerenter: () => showCard(plot, row, x, y),
       onpointerleave: () => (($("card").hidden = true), near(row.design.id, false)),
       onclick: () => lookAt(row.design.id),
