@@ -1,4 +1,5 @@
-"""Tables, Markdown and pictures of results; the only home of matplotlib.
+"""Tables, Markdown, pictures and pages of results; the only home of matplotlib.
 
-`publish` writes the files of a sweep or a case; every other module makes one kind of them.
+`publish` writes the files of a sweep or a case, `page` a sweep as one HTML page; every other module
+makes one kind of file.
 """

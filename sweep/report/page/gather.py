@@ -12,7 +12,13 @@ import numpy as np
 from sweep.numbers import short
 from sweep.ranking.merit import LEAST, Compared, merits, through_solid
 from sweep.ranking.rank import by_scene, pareto, ranked, scene_label
-from sweep.report.page.thinning import force_stairs, numbers, thin_curves, work_until
+from sweep.report.page.thinning import (
+    force_stairs,
+    numbers,
+    thin_curves,
+    thin_stairs,
+    work_until,
+)
 from sweep.report.page.trails import UNIT, drawing, moving_shape
 from sweep.report.sheets import crush_text, design_labels, design_text, impact_text
 from sweep.report.storyboard import last_loaded, parts_of, path_of
@@ -20,9 +26,13 @@ from sweep.result import ABSORBED_AT, Status, correction_column, error_column
 from sweep.store.read import StoredCase, read_attributes, read_cases
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
     from pandas import DataFrame, Series
 
+    Floats = NDArray[np.float64]
+
 POINTS = 60  # of a curve
+LIMITS, SMALL = 60, 0.01  # forces at which the work of thin curves is checked; share of all work
 LEAST_POINTS = 12  # of a curve in a page of many cases
 FULL = 500  # cases whose curves may have all `POINTS`
 DRAWINGS, SHAPES = 500_000, 1_500_000  # characters
@@ -224,12 +234,10 @@ class _Stored:
         """Force (N) and work (J) of `force_stairs` while the platen comes down."""
         loading = history.iloc[: last_loaded(history, row) + 1]
         force = np.fmax(loading["reaction_top_N"], loading["reaction_bottom_N"]).to_numpy()
-        full = force_stairs(force, loading["work_in_J"].to_numpy())
-        thin = thin_curves(full, self.points)
-        limits = np.linspace(full[0][0], full[0][-1], 40)
-        off = [work_until(limit, *full) - work_until(limit, *thin) for limit in limits]
-        self.doubt = max(self.doubt, float(np.abs(off).max() / max(full[1][-1], 1e-300)))
-        return [numbers(column, 5) for column in thin]
+        work = loading["work_in_J"].to_numpy()
+        full, thin = force_stairs(force, work), thin_stairs(force, work, self.points)
+        self.doubt = max(self.doubt, _work_error(full, thin))
+        return [numbers(column, 7) for column in thin]
 
     def _drawing(self, frames: Mapping[str, Any]) -> int | None:
         """Number of the drawing of a shape at rest, which may be that of an earlier case."""
@@ -255,6 +263,16 @@ class _Stored:
         """True if there is still room; no later and shorter one is taken after one that fails."""
         self._room[what] -= length
         return self._room[what] >= 0
+
+
+def _work_error(full: tuple[Floats, Floats], thin: tuple[Floats, Floats]) -> float:
+    """Greatest relative error of the work up to a force, where it is no small part of all work."""
+    works = [
+        (work_until(limit, *full), work_until(limit, *thin))
+        for limit in np.linspace(full[0][0], full[0][-1], LIMITS)
+    ]
+    counted = [(true, found) for true, found in works if true > SMALL * full[1][-1]]
+    return max((abs(found / true - 1.0) for true, found in counted), default=0.0)
 
 
 def curve_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Any, Any]:

@@ -3,6 +3,7 @@
 const data = JSON.parse(document.getElementById("data").textContent);
 const $ = (id) => document.getElementById(id);
 const SHOWN = 15; // rows of the table before all are asked for
+const MANY = 150; // designs of a scene: their dots are smaller
 const COLORS = 6;
 const FIRST = 3; // best designs whose curves are shown until others are chosen
 const PER_SECOND = 12; // frames
@@ -15,6 +16,10 @@ let player = null;
 
 function scene() {
   return data.scenes[asked.scene];
+}
+
+function crushed() {
+  return scene().mode === "displacement";
 }
 
 // ---- what is asked ----
@@ -99,17 +104,25 @@ function picks(box, values, unit, key, chosen) {
   );
 }
 
+// Wishes that make no sense in the scene are dropped.
+function settle() {
+  const designs = data.cases.filter((design) => design.scene === asked.scene);
+  const sized = designs.every((design) => design.area > 0);
+  $("panel-box").hidden = !sized;
+  $("force-box").hidden = !crushed();
+  if (!sized) asked.panel = null;
+  if (!crushed()) asked.force = null;
+}
+
 function showAsked() {
   const { low, high } = massRange();
-  const crushed = scene().mode === "displacement";
   $("budget-on").checked = asked.budget !== null;
   $("panel-on").checked = asked.panel !== null;
   $("force-on").checked = asked.force !== null;
   for (const name of ["budget", "panel", "force"])
     $(`${name}-box`).classList.toggle("off", asked[name] === null);
-  $("force-box").hidden = !crushed;
   showBudget(asked.budget ?? (Number($("budget").value) * gramsPerUnit() || Math.sqrt(low * high)));
-  if (crushed) showForce(asked.force ?? (Number($("force").value) || three(Math.sqrt(forceRange().low * forceRange().high))));
+  if (crushed()) showForce(asked.force ?? (Number($("force").value) || three(Math.sqrt(forceRange().low * forceRange().high))));
   const [width, height] = asked.panel ?? [Number($("width").value) / 1000 || 0.1, Number($("height").value) / 1000 || 0.1];
   showWidth(1000 * width);
   showHeight(1000 * height);
@@ -176,10 +189,12 @@ function showAnswer() {
 
 function* words(best) {
   const panel = asked.panel ? `A panel of ${panelText()} weighs ${inUnit(best.mass)}` : `It weighs ${inUnit(best.mass)}`;
+  const absorbs = () => `absorbs ${best.early ? "at least " : ""}${energyText(best.energy)}`;
   if (scene().least) yield `${panel}.`;
+  else if (!crushed()) yield `${panel} and ${absorbs()}, ${digits(best.perGram)} J/g.`;
   else
-    yield `${panel} and absorbs ${best.early ? "at least " : ""}${energyText(best.energy)} ${until()}, ` +
-      `${digits(best.perGram)} J/g; a specimen then passes on ${digits(best.passed)} N.`;
+    yield `${panel} and ${absorbs()} ${until()}, ${digits(best.perGram)} J/g; ` +
+      `a specimen then passes on ${digits(best.passed)} N.`;
   if (best.early) yield "The crush ended before that force was reached; a longer one absorbs more.";
   if (best.beyond) yield "Its result is beyond the model: do not trust it.";
   if (best.design.crossed) yield "Its walls cross one another: do not trust this result.";
@@ -226,7 +241,7 @@ function columns() {
     const more = (row) => (row.early ? "> " : "");
     found.push(number(`${asked.panel ? "panel" : "absorbs"} ${unit}`, (row) => more(row) + digits(scale * row.energy), (row) => row.energy));
     found.push(number("J/g", (row) => more(row) + digits(row.perGram), (row) => row.perGram));
-    found.push(number("peak N", (row) => digits(row.passed), (row) => row.passed));
+    if (crushed()) found.push(number("peak N", (row) => digits(row.passed), (row) => row.passed));
   }
   if (now.bar) found.push(number("± %", (row) => (percentOf(row) ? share(row) : "?")));
   if (asked.force === null)
@@ -296,12 +311,12 @@ function near(id, on) {
 function notes() {
   const lines = ["*: on the Pareto front: no lighter design of the scene is as good. mass: of one specimen."];
   const rows = now.placed;
-  const crushed = scene().mode === "displacement";
-  if (crushed) lines.push(`Energy and peak are counted ${until()}.`);
+  if (crushed()) lines.push(`Energy and peak are counted ${until()}.`);
   if (storedEnergy(data, asked) < 0)
     lines.push(
-      `These energies are read from curves of at most ${data.points} points: they differ by at most ` +
-        `${(100 * data.doubt).toFixed(2)} % of the energy of the whole crush.` + (data.energies.length > 1 ? " At the forces below the slider they are exact." : ""),
+      `These energies are read from curves of at most ${data.points} points: they are off by ` +
+        `${(100 * data.doubt).toFixed(1)} % at most, if above 1 % of the energy of the whole crush. ` +
+        (data.energies.length > 1 ? "At the forces below the slider they are exact." : ""),
     );
   if (now.bar)
     lines.push("±: estimated error from mesh and steps, not a bound. =: the place is shared, as errors may reverse the order.");
@@ -371,7 +386,7 @@ function dot(plot, row, scale) {
       "data-dot": row.design.id,
       cx: x,
       cy: y,
-      r: row.place === 1 ? 7 : 5,
+      r: row.place === 1 ? 7 : now.rows.length > MANY ? 3 : 5,
       onpointerenter: () => showCard(plot, row, x, y),
       onpointerleave: () => (($("card").hidden = true), near(row.design.id, false)),
       onclick: () => lookAt(row.design.id),
@@ -430,13 +445,14 @@ function curveLabels() {
 }
 
 function showCurves() {
-  const designs = chosen().map(designOf).filter((design) => design?.curve);
+  const designs = chosen().map(designOf).filter((design) => design?.curve?.[0].length);
   $("legend").replaceChildren(
     ...designs.map((design, i) =>
       element("button", { type: "button", class: design.id === current() ? "current" : null, onclick: () => lookAt(design.id) }, swatch(`--c${i}`), design.label),
     ),
   );
-  if (!designs.length) return $("curves").replaceChildren("Choose designs in the table.");
+  view.mark = null;
+  if (!designs.length) return $("curves").replaceChildren("No chosen design has a curve.");
   const [x, y] = curveLabels();
   const plot = chart($("curves"), {
     x: { range: extent(designs.map((design) => design.curve[0])), label: x },
@@ -525,11 +541,12 @@ function showBook(design) {
   $("book").replaceChildren();
   $("parts").replaceChildren();
   if (!book) return;
-  const [place, work, ...parts] = book.values;
+  const joules = Math.max(...book.values.slice(1).flat()) >= 1000;
+  const [place, work, ...parts] = book.values.map((list, i) => (i && joules ? list.map((v) => v / 1000) : list));
   const sums = parts.reduce((rows, part) => [...rows, part.map((v, i) => v + rows[rows.length - 1][i])], [place.map(() => 0)]);
   const plot = chart($("book"), {
     x: { range: [place[0], place[place.length - 1]], label: book.label },
-    y: { range: extent([work, ...sums]), label: "energy, mJ" },
+    y: { range: extent([work, ...sums]), label: `energy, ${joules ? "J" : "mJ"}` },
     height: 340,
     label: "energies over the path",
   });
@@ -552,6 +569,7 @@ function partColor(name) {
 // ---- everything ----
 
 function refresh() {
+  settle();
   now = ranked(data, asked);
   showAsked();
   showAnswer();
@@ -570,7 +588,6 @@ function start() {
   $("scenes").hidden = data.scenes.length < 2;
   $("scene").addEventListener("change", () => {
     asked.scene = Number($("scene").value);
-    if (scene().mode !== "displacement") asked.force = null;
     Object.assign(view, { chosen: null, current: null, sort: null });
     refresh();
   });

@@ -32,7 +32,7 @@ function specimens([width, height], area) {
 function measured(data, design, question) {
   const scene = data.scenes[question.scene];
   const [energy, error, correction] = countedEnergy(data, design, question);
-  const factor = question.panel ? specimens(question.panel, design.area) : 1;
+  const factor = question.panel ? specimens(question.panel, design.area ?? NaN) : 1;
   const times = (value, by) => (value === null ? null : by * value);
   const row = {
     design,

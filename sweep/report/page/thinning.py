@@ -8,28 +8,32 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
     Indices = NDArray[np.int64]
+    Gap = Callable[[Floats, Floats, Floats], Floats]
 
 TINY = np.finfo(float).tiny
+LEAST_WORK = 1e-3  # of all work: below, an error counts relative to this work
 ALIKE = 0.5  # of the greatest distance: points so far away are added in the same round
 
 
-def thinned(points: Floats, most: int, tolerance: float = 0.0) -> list[int]:
+def thinned(points: Floats, most: int, tolerance: float = 0.0, gap: Gap | None = None) -> list[int]:
     """Indices of points (n, k) whose polyline stays close to all of them.
 
     The points farthest from their chords are added until there are ``most`` points or none is
-    farther away than ``tolerance`` (Ramer 1972, the greatest distances first).
+    farther away than ``tolerance`` (Ramer 1972, the greatest distances first). `gap`: what counts
+    as the distance, of points from start and end of their chords; Euclid's if it is not given.
     """
     if len(points) < 3:
         return list(range(len(points)))
     kept = np.array([0, len(points) - 1])
     while len(kept) < most:
-        distance, chord = _distances(points, kept)
+        chord = _chords(kept)
+        distance = (gap or _distances)(points, points[kept[chord]], points[kept[chord + 1]])
         farthest = _first_of_each(np.flatnonzero(distance >= _peaks(distance, kept)[chord]), chord)
         far = farthest[distance[farthest] > max(tolerance, ALIKE * distance.max())]
         if not len(far):
@@ -39,15 +43,25 @@ def thinned(points: Floats, most: int, tolerance: float = 0.0) -> list[int]:
     return [int(index) for index in kept]
 
 
-def _distances(points: Floats, kept: Indices) -> tuple[Floats, Indices]:
-    """Distance of every point from its chord between two kept points, and the chord's number."""
-    chord = np.repeat(np.arange(len(kept) - 1), np.diff(kept))
-    chord = np.append(chord, len(kept) - 2)
-    start, way = points[kept[:-1]], points[kept[1:]] - points[kept[:-1]]
-    off = points - start[chord]
-    squared = np.maximum((way * way).sum(1), TINY)
-    along = np.clip((off * way[chord]).sum(1) / squared[chord], 0.0, 1.0)
-    return np.linalg.norm(off - along[:, None] * way[chord], axis=1), chord
+def _chords(kept: Indices) -> Indices:
+    """Number of the chord between kept points to which every point belongs."""
+    return np.append(np.repeat(np.arange(len(kept) - 1), np.diff(kept)), len(kept) - 2)
+
+
+def _distances(points: Floats, start: Floats, end: Floats) -> Floats:
+    """Distances (n,) of points from their chords."""
+    off, way = points - start, end - start
+    along = np.clip((off * way).sum(1) / np.maximum((way * way).sum(1), TINY), 0.0, 1.0)
+    return np.linalg.norm(off - along[:, None] * way, axis=1)
+
+
+def _work_gaps(points: Floats, start: Floats, end: Floats) -> Floats:
+    """Relative errors of the work at the force of every point, as points are (force, work)."""
+    rise = end[:, 0] - start[:, 0]
+    share = (points[:, 0] - start[:, 0]) / np.where(rise > 0.0, rise, 1.0)
+    work = start[:, 1] + share * (end[:, 1] - start[:, 1])
+    least = LEAST_WORK * points[:, 1].max()
+    return np.where(rise > 0.0, np.abs(work - points[:, 1]), 0.0) / (points[:, 1] + least + TINY)
 
 
 def _peaks(distance: Floats, kept: Indices) -> Floats:
@@ -96,6 +110,13 @@ def work_until(limit: float, highest: Floats, work: Floats) -> float:
         return float(work[0])
     share = (limit - highest[k - 1]) / (highest[k] - highest[k - 1])
     return float(work[k - 1] + share * (work[k] - work[k - 1]))
+
+
+def thin_stairs(force: Floats, work: Floats, most: int) -> tuple[Floats, Floats]:
+    """At most ``most`` points of `force_stairs`, those that tell the work best, relatively."""
+    highest, done = force_stairs(force, work)
+    kept = thinned(np.column_stack([highest, done]), most, gap=_work_gaps)
+    return highest[kept], done[kept]
 
 
 def numbers(values: Iterable[float], digits: int = 4) -> list[float | int | None]:

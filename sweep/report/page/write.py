@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).parent
 PROGRAM = ("rank.js", "plots.js", "page.js")
+IN_HTML = ("failures", "about", "config", "total")
 TOP, TOP_OF_A_BUDGET = 10, 3
 
 
@@ -40,14 +41,15 @@ def page(data: Mapping[str, Any], static: str) -> str:
     script = "\n".join(['"use strict";', *map(_read, PROGRAM)])
     digest = b64encode(sha256(script.encode()).digest()).decode()
     failed = len(data["failures"])
-    done = f"{data['total']} cases" + (f", {failed} of them failed" if failed else "")
+    total = "1 case" if data["total"] == 1 else f"{data['total']} cases"
+    done = total + (f", {failed} of them failed" if failed else "")
     return Template(_read("page.html")).substitute(
         title=escape(f"{data['name']}: which lattice is the best?"),
         subtitle=escape(f"{data['file']}, {done}"),
         style=_read("page.css"),
         script=script,
         script_hash=f"sha256-{digest}",
-        data=_as_script({**data, "parts": list(PARTS.values())}),
+        data=_as_script(_of_the_program(data)),
         tables=static,
         failures=_failures(data["failures"], data["file"]),
         origin=_origin(data),
@@ -79,6 +81,12 @@ def _winners(table: DataFrame, summary: DataFrame) -> str:
 
 def _read(name: str) -> str:
     return (HERE / name).read_text("utf-8")
+
+
+def _of_the_program(data: Mapping[str, Any]) -> dict[str, Any]:
+    """What the program needs: all but what the page says in HTML."""
+    needed = {name: value for name, value in data.items() if name not in IN_HTML}
+    return needed | {"parts": list(PARTS.values())}
 
 
 def _as_script(data: Mapping[str, Any]) -> str:

@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
-from sweep.report.page.thinning import force_stairs, numbers, thin_curves, thinned, work_until
+from sweep.report.page.thinning import (
+    force_stairs,
+    numbers,
+    thin_curves,
+    thin_stairs,
+    thinned,
+    work_until,
+)
 from sweep.simulation.summary import absorbed_until
 
 
@@ -59,6 +66,21 @@ def test_a_dip_costs_no_force():
     highest, done = force_stairs(force, work)
     assert work_until(3.99, highest, done) == pytest.approx(0.9975)
     assert work_until(4.0, highest, done) == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_thin_stairs_tell_small_works_too(seed):
+    """A steep rise, a long plateau with dips, and packing."""
+    rng = np.random.default_rng(seed)
+    travel = np.linspace(0.0, 1.0, 400)
+    plateau = 10.0 + np.cumsum(rng.normal(size=400)) * 0.05
+    force = np.minimum(1e3 * travel, plateau) + 100.0 * np.clip(travel - 0.7, 0.0, None) ** 2
+    work = np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(travel)))
+    thin = thin_stairs(force, work, 60)
+    assert len(thin[0]) <= 60
+    for limit in np.linspace(1.0, force.max(), 200):
+        true = absorbed_until(limit, force, work)
+        assert work_until(limit, *thin) == pytest.approx(true, rel=0.02), limit
 
 
 def test_numbers_have_few_digits_and_no_nan():
