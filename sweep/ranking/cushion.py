@@ -28,12 +28,12 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 GRAVITY = 9.80665  # m/s^2
-ROUND_OFF = 1e-9
+SLACK = 1e-6  # histories are stored with single precision
 SAME_HEIGHT = 0.02  # drops from heights that differ by less are drawn as one
 
 
 class Crush(NamedTuple):
-    """The first loading of a crush, a row per stored step in which it has absorbed energy.
+    """The first loading of a crush as far as the model holds, rows in which it absorbs energy.
 
     strain (rows,); greatest: greatest nominal stress so far (rows,) Pa; work: energy per volume
     (rows,) J/m^3; thickness: height at rest, m.
@@ -46,18 +46,21 @@ class Crush(NamedTuple):
 
 
 def crush_of(history: DataFrame, row: Mapping[Any, Any]) -> Crush:
-    """The crush with this history and this row of the summary."""
+    """The crush with this history and this row of the summary, until a wall breaks or an element
+    is too short for the model.
+    """
     area, height = row["outer_width_m"] * row["depth_m"], row["height_m"]
     strain = history["strain"].to_numpy()
-    end = int(np.argmax(strain >= strain.max() * (1.0 - ROUND_OFF))) + 1 if len(strain) else 0
+    end = int(np.argmax(strain >= strain.max() * (1.0 - SLACK))) + 1 if len(strain) else 0
     greatest = np.maximum.accumulate(history["reaction_top_N"].to_numpy()[:end]) / area
     work = history["work_in_J"].to_numpy()[:end] / (area * height)
-    kept = (work > 0.0) & (greatest > 0.0)
+    within = row.get("absorbed_energy_within_model_J", np.inf) / (area * height)
+    kept = (work > 0.0) & (greatest > 0.0) & (work <= within * (1.0 + SLACK))
     return Crush(strain[:end][kept], greatest[kept], work[kept], float(height))
 
 
 def shoulder(crush: Crush) -> int | None:
-    """The row of greatest energy / stress; None if it is the last one, where both may still rise."""
+    """The row of greatest energy / stress; None if it is the last one, as both may rise."""
     if not len(crush.work):
         return None
     best = int(np.argmax(crush.work / crush.greatest))

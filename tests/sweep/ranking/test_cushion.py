@@ -66,6 +66,14 @@ def test_only_the_first_loading_counts():
     assert crush.strain[-1] == pytest.approx(0.4)
 
 
+def test_a_crush_counts_as_far_as_the_model_holds():
+    history = there_and_back()
+    half = float(history["work_in_J"].max() / 2.0)
+    crush = crush_of(history, ROW | {"absorbed_energy_within_model_J": half})
+    assert 10 < len(crush.strain) < 15
+    assert crush.work[-1] * AREA * THICKNESS <= half
+
+
 def test_a_shoulder_is_within_the_curve():
     """5 kJ/m^3 at 10 %, 100 kPa to 50 %: there 45 kJ/m^3 / 100 kPa; then packed."""
     stress = np.interp(STRAIN, [0.0, 0.1, 0.5, 0.8], [0.0, 100e3, 100e3, 1000e3])
