@@ -94,12 +94,14 @@ def cushion_curve(crush: Crush, drop_height: float) -> tuple[Floats, Floats]:
 
 
 def drops(impacts: DataFrame) -> DataFrame:
-    """Drop height (m), static stress (Pa) and deceleration (in units of gravity) of impacts."""
+    """Drop height (m), static stress (Pa) and filtered deceleration (in units of gravity) of
+    impacts; NaN where the filter has too few rows.
+    """
     area = impacts["outer_width_m"] * impacts["depth_m"]
     return impacts.assign(
         drop_height_m=impacts["striker_speed_m_per_s"] ** 2 / (2.0 * GRAVITY),
         static_stress_Pa=1e-3 * impacts["striker_mass_g"] * GRAVITY / area,
-        peak_G=impacts["peak_deceleration_m_per_s2"] / GRAVITY,
+        peak_G=impacts["peak_deceleration_filtered_m_per_s2"] / GRAVITY,
     )
 
 

@@ -11,9 +11,8 @@ from pandas import isna
 from sweep.ranking.cushion import absorbed_below, cushion_curve, dropped_from, shoulder
 from sweep.ranking.rank import ASSUMPTIONS
 from sweep.report.case_plots import legend, round_ticks
-from sweep.report.design_map import scene_axes
+from sweep.report.design_map import SHAPED, scene_axes
 from sweep.report.design_style import PLAIN, Looks, doubtful, looks
-from sweep.result import is_grid_key
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,11 +25,12 @@ DESIGN = [
     *("lattice_kind", "infill_share", "cells_x", "cells_y", "wall_thickness_m", "width_m"),
     *("height_m", "depth_m", "material", "platen"),
 ]
-LEVELS = 200  # stresses at which an envelope is drawn
+LEVELS = 2000  # stresses at which an envelope is drawn
 THIN = 0.2  # points of a line / diameter of the sign of a design
+MARGIN = 0.8  # of the first value in view: start of an axis
 SHOWN = 30.0  # greatest / least value of an axis, seen from its interesting end
 BEST: dict[str, Any] = {"s": 34.0, "edgecolor": "white", "lw": 0.6, "zorder": 3}
-RING: dict[str, Any] = {"s": 60.0, "facecolor": "none", "lw": 1.4, "zorder": 4}
+RING: dict[str, Any] = {"facecolor": "none", "zorder": 4}
 ENVELOPE: dict[str, Any] = {"color": "black", "lw": 1.0, "ls": ":"}
 MOST = {"marker": "", "label": "most below a stress"}
 
@@ -50,7 +50,10 @@ def absorption_diagram(fig: Figure, designs: DataFrame, crushes: Mapping[str, Cr
         stresses, most = envelope([crush for _, crush in found])
         ax.plot(stresses, most, **ENVELOPE)
         ax.set(xscale="log", yscale="log")
-        ax.set_ylim(bottom=min((crush.work[-1] for _, crush in found), default=1.0) / SHOWN)
+        if found:
+            bottom = min(crush.work[-1] for _, crush in found) / SHOWN
+            ax.set_ylim(bottom=bottom)
+            ax.set_xlim(MARGIN * min(c.greatest[c.work >= bottom].min() for _, c in found))
         ax.set_xlabel("greatest stress / modulus" if related else "greatest stress, kPa")
         ax.set_ylabel("energy per volume / modulus" if related else "energy per volume, kJ/m³")
     legend(fig, [*look.legend(), _entry("shoulder"), PLAIN | ENVELOPE | MOST])
@@ -71,20 +74,25 @@ def cushion_diagram(
     look, rings = looks(designs), 0
     near = falls[dropped_from(falls, drop_height)]
     for ax, rows in scene_axes(fig, designs):
-        found = list(_crushed(rows, crushes))
-        least = [
-            _cushion(ax, *cushion_curve(crush, drop_height), look, rows.loc[[row.name]])
-            for row, crush in found
-        ]
-        for row, _ in found:
-            struck, color = same_design(near, row), look.of(rows.loc[[row.name]])["c"][0]
-            ax.scatter(1e-3 * struck["static_stress_Pa"], struck["peak_G"], **RING, edgecolor=color)
+        curves = []
+        for row, crush in _crushed(rows, crushes):
+            one, (static, peak) = rows.loc[[row.name]], cushion_curve(crush, drop_height)
+            curves.append((1e-3 * static, peak))
+            best = int(np.argmin(peak))
+            _curve(ax, *curves[-1], look, one, best if best < len(peak) - 1 else None)
+            struck = same_design(near, row).dropna(subset="peak_G")
+            _rings(ax, 1e-3 * struck["static_stress_Pa"], struck["peak_G"], look.of(one))
             rings += len(struck)
         title = f"{ax.get_title('left')},\ndropped from {drop_height:g} m"
         ax.set_title(title, loc="left", fontsize="medium")
-        ax.set(xscale="log", yscale="log", ylabel="greatest deceleration, in units of gravity")
+        ax.set(xscale="log", yscale="log", ylabel="greatest deceleration, G")
         ax.set_xlabel("static stress, kPa")
-        ax.set_ylim(top=SHOWN * min(least, default=1.0))
+        if curves:
+            top = SHOWN * min(peak.min() for _, peak in curves)
+            ax.set_ylim(top=top)
+            ax.set_xlim(
+                MARGIN * min(static[peak <= top].min(initial=np.inf) for static, peak in curves)
+            )
         round_ticks(ax.xaxis)
         round_ticks(ax.yaxis)
     struck_too = [PLAIN | {"mfc": "none", "label": "simulated impact"}] if rings else []
@@ -102,7 +110,7 @@ def envelope(crushes: Sequence[Crush]) -> tuple[Any, Any]:
 
 def same_design(rows: DataFrame, design: Series) -> DataFrame:
     """The rows of other loadings with the design, material and platens of one row."""
-    keys = [key for key in rows if is_grid_key(key) and not key.startswith(ASSUMPTIONS)]
+    keys = [key for key in rows if key.startswith(SHAPED) and not key.startswith(ASSUMPTIONS)]
     keys = [key for key in (*DESIGN, *keys) if key in design.index]
     alike = [(rows[key] == design[key]) | (rows[key].isna() & isna(design[key])) for key in keys]
     return rows[np.logical_and.reduce(alike)]
@@ -122,15 +130,6 @@ def _scaled(crush: Crush, row: Series, related: bool) -> Crush:
     return crush._replace(greatest=scale * crush.greatest, work=scale * crush.work)
 
 
-def _cushion(ax: Axes, static: Any, peak: Any, look: Looks, row: DataFrame) -> float:
-    """The cushion curve of a design, marked where a heavier weight would be slowed more; returns
-    its least deceleration.
-    """
-    best = int(np.argmin(peak))
-    _curve(ax, 1e-3 * static, peak, look, row, best if best < len(peak) - 1 else None)
-    return float(peak[best])
-
-
 def _curve(ax: Axes, x: Any, y: Any, look: Looks, row: DataFrame, marked: int | None) -> None:
     """The curve of a design, as thick as its walls, dashed if doubtful, with its sign at a row."""
     style = look.of(row)
@@ -139,6 +138,13 @@ def _curve(ax: Axes, x: Any, y: Any, look: Looks, row: DataFrame, marked: int | 
     ax.plot(x, y, color=style["c"][0], lw=width, ls=dashes)
     if marked is not None:
         ax.scatter(x[marked], y[marked], c=style["c"], marker=style["marker"], **BEST)
+
+
+def _rings(ax: Axes, x: Any, y: Any, style: dict[str, Any]) -> None:
+    """Impacts of a design as open signs, twice as large as those of its walls in the legend."""
+    area = float(style["s"][0])
+    look = {"s": 2.0 * area, "lw": 2.0 * THIN * area**0.5, "marker": style["marker"]}
+    ax.scatter(x, y, edgecolor=style["c"][0], **RING, **look)
 
 
 def _entry(words: str) -> dict[str, Any]:

@@ -70,7 +70,7 @@ def test_a_crush_counts_as_far_as_the_model_holds():
     history = there_and_back()
     half = float(history["work_in_J"].max() / 2.0)
     crush = crush_of(history, ROW | {"absorbed_energy_within_model_J": half})
-    assert 10 < len(crush.strain) < 15
+    assert len(crush.strain) == 10  # of 20
     assert crush.work[-1] * AREA * THICKNESS <= half
 
 
@@ -97,7 +97,7 @@ def test_energy_below_a_stress():
 def test_static_stress_and_deceleration_of_a_striker():
     """50 g at 2 m/s: from 204 mm; 0.49 N on 2 cm^2."""
     hit = {"striker_mass_g": 50.0, "striker_speed_m_per_s": 2.0}
-    hit |= {"peak_deceleration_m_per_s2": 40.0 * GRAVITY} | ROW
+    hit |= {"peak_deceleration_filtered_m_per_s2": 40.0 * GRAVITY} | ROW
     falls = drops(summary(hit, hit | {"striker_speed_m_per_s": 3.0}))
     told = falls.loc[0, ["drop_height_m", "static_stress_Pa", "peak_G"]]
     assert list(told) == pytest.approx([4.0 / (2.0 * GRAVITY), 50e-3 * GRAVITY / AREA, 40.0])
