@@ -37,6 +37,15 @@ def test_a_foam():
     )
 
 
+def test_the_plateau_may_end_between_two_rows():
+    """The stress rises by 9 Pa per percent from 60 % on: 130 Pa at 63.3 %, after 55 + 115 / 30."""
+    found = measured([0.0, 0.1, 0.6, 0.7], [0.0, 100.0, 100.0, 190.0])
+    end = 0.6 + 0.1 / 3.0
+    assert found["plateau_end_strain"] == pytest.approx(end)
+    share = (55.0 + 115.0 / 30.0) / (130.0 * end)
+    assert found["efficiency_to_plateau_end"] == pytest.approx(share, rel=1e-5)
+
+
 @pytest.mark.parametrize(
     ("end", "known"),
     [
