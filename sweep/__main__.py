@@ -90,6 +90,7 @@ RANK_EXAMPLES = """examples:
   crumple rank F.h5 --by peak_force_N --top 3               least force first
   crumple rank F.h5 --csv > ranking.csv
   crumple rank F.h5 --out results/armor                     tables and figures in a folder
+  crumple rank F.h5 --out results/armor --drop-height "1 m" cushion curves too
 """
 NEW = """Write a config with comments that runs as it is: a crush, a drop of a rigid striker, or a
 dead load. A file that is there already is left as it is."""
@@ -234,6 +235,13 @@ def parser() -> Parser:
         shape.add_argument(f"--{name}", action="store_true", help=f"{what}, as {name} on stdout")
     shape.add_argument(
         "--out", type=_folder, metavar="DIR", help="write tables and figures into a folder"
+    )
+    rank.add_argument(
+        "--drop-height",
+        nargs="+",
+        action="extend",
+        metavar="LENGTH",
+        help='with --out: cushion curves of drops from "0.5 m"',
     )
 
     show = verbs.add_parser("show", help="draw a case", description=SHOW, formatter_class=raw)

@@ -49,6 +49,17 @@ OLDER: dict[str, float | int | str] = {
     "slicer_settings": "",
     "does_not_print": "",
     "peak_deceleration_filtered_m_per_s2": nan,
+    "material_modulus_Pa": nan,
+    "plateau_stress_20_30_Pa": nan,
+    "plateau_end_strain": nan,
+    "quasi_elastic_gradient_Pa": nan,
+    "energy_to_50_J_per_m3": nan,
+    "efficiency_to_50": nan,
+    "energy_to_plateau_end_J_per_m3": nan,
+    "efficiency_to_plateau_end": nan,
+    "ideality": nan,
+    "cushion_factor": nan,
+    "crush_force_efficiency": nan,
 }
 """Values of columns that rows of older versions do not have.
 
@@ -118,6 +129,9 @@ COLUMNS: dict[str, Column] = {
     "depth_m": Column("m", "depth of the walls, out of the plane"),
     "outer_width_m": Column("m", "width over all, walls included"),
     "material": Column("", 'name of the material; "by numbers" if it has none'),
+    "material_modulus_Pa": Column(
+        "Pa", "modulus of the material, to which figures of foams and lattices are related"
+    ),
     "material_memory": Column(
         "", "what walls do that springs do not: relaxes, softens, yields; none if they are elastic"
     ),
@@ -205,6 +219,37 @@ COLUMNS: dict[str, Column] = {
         "crushes",
         "more",
     ),
+    "plateau_stress_20_30_Pa": Column(
+        "Pa", "the same from 20 to 30 % strain, the other mean of ISO 13314", "more"
+    ),
+    "plateau_end_strain": Column(
+        "1",
+        "first strain beyond 20 % where the stress rises to 1.3 x plateau_stress_iso_Pa "
+        "(ISO 13314); NaN for dead loads and shorter crushes",
+        "more",
+    ),
+    "quasi_elastic_gradient_Pa": Column(
+        "Pa",
+        "slope of the first rise of the stress, from 20 to 70 % of plateau_stress_iso_Pa "
+        "(ISO 13314); NaN for dead loads and shorter crushes",
+    ),
+    "energy_to_50_J_per_m3": Column(
+        "J/m^3",
+        "work per volume up to 50 % strain (ISO 13314); NaN for dead loads and shorter crushes",
+        "more",
+    ),
+    "efficiency_to_50": Column(
+        "1", "that work / (greatest stress up to there x strain), of ISO 13314", "more"
+    ),
+    "energy_to_plateau_end_J_per_m3": Column(
+        "J/m^3",
+        "work per volume up to plateau_end_strain (ISO 13314); NaN for dead loads and shorter "
+        "crushes",
+        "more",
+    ),
+    "efficiency_to_plateau_end": Column(
+        "1", "that work / (greatest stress up to there x strain), of ISO 13314", "more"
+    ),
     "densification_strain": Column(
         "1",
         "strain of greatest efficiency; NaN if the efficiency still rises, and for dead loads",
@@ -220,6 +265,21 @@ COLUMNS: dict[str, Column] = {
     ),
     "efficiency": Column(
         "1", "greatest ratio of work per volume to peak stress so far; NaN for dead loads", "more"
+    ),
+    "ideality": Column(
+        "1",
+        "energy / (greatest force x stroke), all three until packed (Miltz & Gruenbaum 1981); NaN "
+        "for dead loads and impacts",
+        "more",
+    ),
+    "cushion_factor": Column(
+        "1",
+        "greatest stress / energy per volume, both until packed (Miltz & Gruenbaum 1981); NaN for "
+        "dead loads and impacts",
+        "less",
+    ),
+    "crush_force_efficiency": Column(
+        "1", "mean force / greatest force of the whole loading; NaN for dead loads", "more"
     ),
     "peak_force_N": Column(
         "N",
@@ -491,6 +551,7 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
         "depth_m": lattice.depth,
         "outer_width_m": lattice.outer_size[0],
         "material": case.material.name,
+        "material_modulus_Pa": case.material.modulus,
         "material_memory": case.material.inelasticity,
         "loading_mode": loading.mode,
         "platen": loading.platen or "",

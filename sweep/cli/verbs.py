@@ -196,14 +196,14 @@ def rank(arguments: Namespace) -> int:
     from sweep.report.sheets import ranking_sheets
     from sweep.store.read import read_summary
 
-    question = _asked(arguments)
+    question, heights = _asked(arguments), _drop_heights(arguments)
     summary = with_allowed(arguments.file, read_summary(arguments.file), question)
     if arguments.out:
         from sweep.report.publish import publish_ranking
 
         folder = Path(arguments.out)
         with _writing(folder):
-            files = publish_ranking(arguments.file, summary, question, folder)
+            files = publish_ranking(arguments.file, summary, question, folder, heights)
         say_all(files)
         _warn(arguments.file, ranked(summary, **question))
     elif arguments.csv or arguments.json or arguments.markdown:
@@ -369,6 +369,15 @@ def _asked(arguments: Namespace) -> dict[str, Any]:
     question |= {"by": arguments.by, "allowed_force": arguments.allowed_force}
     question |= {"require": _required(arguments), "per": per}
     return question | ({"top": arguments.top} if arguments.top else {})
+
+
+def _drop_heights(arguments: Namespace) -> list[float]:
+    """The heights (m) of the cushion curves that a folder gets."""
+    from sweep.ranking.merit import in_si
+
+    if arguments.drop_height and not arguments.out:
+        raise ArgumentError("--drop-height draws cushion curves into a folder: it needs --out DIR")
+    return [*dict.fromkeys(in_si(text, "m") for text in arguments.drop_height or ())]
 
 
 def _question(budgets: Iterable[Any] | None, panel: Iterable[Any] | None) -> dict[str, Any]:

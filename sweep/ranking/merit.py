@@ -159,7 +159,7 @@ def in_si(value: Any, unit: str) -> float:
         number = quantity(value, unit)
     if not number > 0.0:
         written = value if isinstance(value, str) else f"{value:g} {unit}"
-        raise RankError(f"{written}: budgets, panels and forces must be above zero")
+        raise RankError(f"{written}: budgets, panels, forces and heights must be above zero")
     return float(number)
 
 

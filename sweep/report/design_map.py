@@ -51,7 +51,7 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
     designs, mass, energy = ranking.table, ranking.mass, ranking.energy
     noun = "panel" if mass == "panel_mass_g" else "specimen"
     look = looks(designs)
-    for ax, rows in _scene_axes(fig, designs.round({mass: 9})):  # without round-off
+    for ax, rows in scene_axes(fig, designs.round({mass: 9})):  # without round-off
         merit, error = merits(rows, energy), merit_errors(rows, energy)
         least = LEAST_SHOWN.get(rows["loading_mode"].iloc[0])
         by_style = rows[::-1].groupby(["pareto", "lattice_kind", "material"])
@@ -83,7 +83,7 @@ def thickness_trends(fig: Figure, ranking: Ranking) -> None:
     """Energy per gram over wall thickness, one panel per scene."""
     designs, per_gram = ranking.table, ranking.per_gram
     look = looks(designs)
-    for ax, rows in _scene_axes(fig, designs):
+    for ax, rows in scene_axes(fig, designs):
         for _, points in rows.groupby(VARIANT):
             best = points.loc[points.groupby("wall_thickness_m")[per_gram].idxmax()]
             style = look.of(best) | {"s": 28.0}
@@ -147,7 +147,7 @@ def _error_bars(ax: Axes, x: Series, y: Series, error: Series, color: str = GREY
         ax.vlines(x[known], low[known], high[known], color=color, lw=0.8, zorder=0)
 
 
-def _scene_axes(fig: Figure, designs: DataFrame) -> Iterator[tuple[Axes, DataFrame]]:
+def scene_axes(fig: Figure, designs: DataFrame) -> Iterator[tuple[Axes, DataFrame]]:
     """Axes and designs of each scene, at most two scenes in a row of the figure."""
     scenes = designs.groupby("scene", sort=False)
     columns = min(2, len(scenes))

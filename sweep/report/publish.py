@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from math import inf
 from pathlib import Path
@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING, Any
 from pandas import concat
 
 from sweep.ranking.accuracy import studies
+from sweep.ranking.cushion import crush_of, drops
+from sweep.ranking.merit import RankError
 from sweep.ranking.rank import ranked
-from sweep.report import case_plots, design_map
+from sweep.report import case_plots, cushion_plots, design_map
 from sweep.report.accuracy_tables import MARKS, accuracy_sheets, scene_title
 from sweep.report.markdown import markdown
 from sweep.report.pattern_bars import panel_size, pattern_bars
@@ -35,20 +37,27 @@ Named = Iterator[tuple[str, "Figure"]]
 
 
 def publish_ranking(
-    file: str, summary: DataFrame, question: Mapping[str, Any], folder: Path
+    file: str,
+    summary: DataFrame,
+    question: Mapping[str, Any],
+    folder: Path,
+    drop_heights: Sequence[float] = (),
 ) -> list[Path]:
     """Write a ranking as `ranking.md`, all designs as `ranking.csv`, and the figures.
 
-    question : keyword arguments of `rank`.
+    question : keyword arguments of `rank`. drop_heights : m, of the cushion curves.
     """
     shown, ranking = _shown_and_all(summary, question)
+    if drop_heights and not (ranking.table["loading_mode"] == "displacement").any():
+        raise RankError(f"{file} has no crush with a place: cushion curves need one; allowed: no "
+                        "drop height")  # fmt: skip
     folder.mkdir(parents=True, exist_ok=True)
     text, table = folder / "ranking.md", folder / "ranking.csv"
     tables = markdown(ranking_sheets(shown, summary))
     explained = "" if shown.table.empty else f"\n{legend(shown)}\n"
     text.write_text(f"{tables}{explained}", encoding="utf-8")
     ranking.table.to_csv(table, index=False)
-    figures = _sweep_figures(file, shown, ranking)
+    figures = _sweep_figures(file, shown, ranking, drop_heights)
     return [text, table, *(case_plots.save(fig, folder / f"{name}.png") for name, fig in figures)]
 
 
@@ -93,8 +102,12 @@ def publish_case(file: str, row: Series, folder: Path) -> list[Path]:
     return [case_plots.save(figure, folder / f"{name}.png") for name, figure in figures]
 
 
-def _sweep_figures(file: str, shown: Ranking, ranking: Ranking) -> Named:
-    """Figures: merit over mass, patterns, trends with wall thickness, shapes of the winners."""
+def _sweep_figures(
+    file: str, shown: Ranking, ranking: Ranking, drop_heights: Sequence[float] = ()
+) -> Named:
+    """Figures: merit over mass, patterns, trends with wall thickness, energy-absorption diagrams,
+    cushion curves, shapes of the winners.
+    """
     pictures = {"absorption": "displacement", "sink": "force", "passed_on": "impact"}
     drawn = {name: _some_scenes(ranking, mode) for name, mode in pictures.items()}
     for name, part in drawn.items():
@@ -113,10 +126,33 @@ def _sweep_figures(file: str, shown: Ranking, ranking: Ranking) -> Named:
         figure = case_plots.blank(*_size(designs))
         design_map.thickness_trends(figure, crushed)
         yield "wall_thickness", figure
+    yield from _cushion_figures(file, designs, ranking.table, drop_heights)
     if winners := _winners(file, shown.table, ranking.table):
         figure = case_plots.blank(12.0, 2.6 * len(winners))
         case_plots.winners(figure, winners)
         yield "winners", figure
+
+
+def _cushion_figures(
+    file: str, crushed: DataFrame, every: DataFrame, drop_heights: Sequence[float]
+) -> Named:
+    """The energy-absorption diagram of the best crushed designs, and cushion curves (heights: m).
+
+    every : the designs of all loadings, impacts too.
+    """
+    best = crushed.groupby("scene", sort=False).head(MAX_DRAWN)
+    rows = {row["case_id"]: row for _, row in best.iterrows()}
+    crushes = {key: crush_of(read_history(file, key), row) for key, row in rows.items()}
+    if not any(len(crush.work) for crush in crushes.values()):
+        return
+    figure = case_plots.blank(*_size(best))
+    cushion_plots.absorption_diagram(figure, best, crushes)
+    yield "energy_absorption", figure
+    falls = drops(every[every["loading_mode"] == "impact"])
+    for height in drop_heights:
+        figure = case_plots.blank(*_size(best))
+        cushion_plots.cushion_diagram(figure, best, crushes, height, falls)
+        yield f"cushion_{1e3 * height:g}mm", figure
 
 
 def _shapes(file: str, designs: DataFrame) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from sweep.result import absorbed_energy_column, design_columns
 from sweep.scene.mesh import Floats
 from sweep.scene.terms import Scene
 from sweep.simulation.cycles import columns_of_cycles
+from sweep.simulation.iso_13314 import figures
 from sweep.simulation.packing import efficiency, packed_row, span, weights
 from sweep.simulation.shape_checks import (
     Frames,
@@ -44,15 +45,21 @@ DISSIPATED = ("dissipated_material_J", "dissipated_friction_J", "dissipated_inte
 TOUCHING = ("contact_J", "injected_by_projection_J")
 OF_A_CRUSH = (
     "plateau_stress_Pa",
-    "plateau_stress_iso_Pa",
     "densification_strain",
     "packing_strain",
     "packing_span",
     "efficiency",
+    "plateau_stress_iso_Pa",
+    "plateau_stress_20_30_Pa",
+    "plateau_end_strain",
+    "quasi_elastic_gradient_Pa",
+    "energy_to_50_J_per_m3",
+    "efficiency_to_50",
+    "energy_to_plateau_end_J_per_m3",
+    "efficiency_to_plateau_end",
 )
 ROUND_OFF = 1e-9
 PLATEAU_START = 0.05  # strain where the mean up to densification starts
-ISO_13314 = (0.2, 0.4)  # strains between which the standard takes the mean
 
 
 def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
@@ -82,15 +89,6 @@ def plateau_stress(strain: Floats, density: Floats, row: int) -> float:
     if strain[row] <= strain[begun]:
         return np.nan
     return float((density[row] - density[begun]) / (strain[row] - strain[begun]))
-
-
-def iso_plateau_stress(strain: Floats, density: Floats) -> float:
-    """Mean stress (Pa) from 20 to 40 % strain (ISO 13314); NaN if the crush is shorter."""
-    start, end = ISO_13314
-    if strain[-1] < end - ROUND_OFF:
-        return np.nan
-    work = np.interp(ISO_13314, strain, density)
-    return float((work[1] - work[0]) / (end - start))
 
 
 def summarise(
@@ -194,9 +192,29 @@ def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
         "peak_force_at_densification_N": float(peak[row]),
         "peak_force_until_packed_N": float(share @ peak),
     }
+    found |= ratios(case, loading, found)
     return found | {
         absorbed_energy_column(allowed): absorbed_until(allowed, force, work)
         for allowed in case.loading.allowed_forces
+    }
+
+
+def ratios(case: Case, loading: dict[str, Floats], found: dict[str, float]) -> dict[str, float]:
+    """Ideality and cushion factor of a crush until packed (Miltz & Gruenbaum 1981), and mean force
+    / greatest force of the whole loading; NaN under a dead load, or without any force.
+
+    found: columns until packed; `packing_strain` is NaN unless the mode is displacement.
+    """
+    height, strain = case.lattice.height or np.nan, loading["strain"].max()
+    work, peak = found["absorbed_energy_until_packed_J"], found["peak_force_until_packed_N"]
+    greatest = transmitted(case, loading).max()
+    driven = case.loading.mode in ("displacement", "impact")
+    brought = greatest * strain * height if driven else np.nan
+    packed = peak * found["packing_strain"] * height
+    return {
+        "ideality": work / packed if packed > 0.0 else np.nan,
+        "cushion_factor": peak * height / work if packed > 0.0 and work > 0.0 else np.nan,
+        "crush_force_efficiency": loading["work_in_J"][-1] / brought if brought > 0.0 else np.nan,
     }
 
 
@@ -207,16 +225,17 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
     """
     area = case.lattice.outer_size[0] * case.lattice.depth
     strain, density = loading["strain"], loading["work_in_J"] / (area * case.lattice.height)
-    gained = efficiency(loading["reaction_top_N"] / area, density)
+    stress = loading["reaction_top_N"] / area
+    gained = efficiency(stress, density)
     packed, share = packed_row(gained), weights(strain, gained)
     row = len(strain) - 1 if packed is None else packed
     values = (
         plateau_stress(strain, density, row),
-        iso_plateau_stress(strain, density),
         np.nan if packed is None else strain[row],
         share @ strain,
         span(strain, gained),
         gained[row],
+        *figures(strain, stress, density).values(),
     )
     return row, share, dict(zip(OF_A_CRUSH, map(float, values), strict=True))
 

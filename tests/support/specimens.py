@@ -22,6 +22,7 @@ _DEFAULTS = {
     "depth_m": 10e-3,
     "outer_width_m": 13e-3,
     "material": "ninjaflex",
+    "material_modulus_Pa": 12e6,
     "material_memory": "none",
     "loading_mode": "displacement",
     "platen": "glued",

@@ -36,7 +36,7 @@ def a_case(**loading):
     return SimpleNamespace(
         case_id="0123456789abcdef",
         lattice=SimpleNamespace(**lattice),
-        material=SimpleNamespace(name="ninjaflex", inelasticity="none"),
+        material=SimpleNamespace(name="ninjaflex", modulus=12e6, inelasticity="none"),
         loading=SimpleNamespace(**(loads | {"allowed_forces": (50.0,)} | loading)),
         contact=SimpleNamespace(model="barrier"),
     )
@@ -44,7 +44,7 @@ def a_case(**loading):
 
 @pytest.mark.parametrize("columns", [COLUMNS, HISTORY_COLUMNS, STRIKER_COLUMNS, RANKING_COLUMNS])
 def test_every_column_has_units_that_its_name_ends_in(columns):
-    endings = {"m_per_s2": "m/s^2", "m_per_s": "m/s", "J_per_g": "J/g"}
+    endings = {"m_per_s2": "m/s^2", "m_per_s": "m/s", "J_per_g": "J/g", "J_per_m3": "J/m^3"}
     endings |= {"J": "J", "g": "g", "N": "N", "m": "m", "s": "s", "Pa": "Pa"}
     for name, column in columns.items():
         ending = next((units for end, units in endings.items() if name.endswith(f"_{end}")), None)

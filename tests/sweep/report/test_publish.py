@@ -3,6 +3,7 @@
 import pandas as pd
 import pytest
 
+from sweep.ranking.merit import RankError
 from sweep.report.publish import publish_ranking
 from sweep.report.sheets import LOADED, MARKS
 from tests.support.specimens import designs, summary, write
@@ -16,9 +17,10 @@ def published(tmp_path):
     load = {"loading_mode": "force", "force_N": 5.0, "peak_strain": 0.1}
     usual = summary(*designs([1.0, 4.0], [0.2, 0.4]), load)
 
-    def publish(table=usual, **question):
+    def publish(table=usual, drop_heights=(), **question):
         question = {"budget": None, "panel": None} | question
-        paths = publish_ranking(write(tmp_path / "f.h5", table), table, question, tmp_path / "out")
+        file, out = write(tmp_path / "f.h5", table), tmp_path / "out"
+        paths = publish_ranking(file, table, question, out, drop_heights)
         return {path.name: path for path in paths}
 
     return publish
@@ -58,4 +60,17 @@ def test_tables_come_with_their_legend(published):
 
 def test_each_kind_of_scene_has_its_picture(published):
     pictures = [name for name in published() if name.endswith(".png")]
-    assert pictures == ["absorption.png", "sink.png", "winners.png"]
+    known = ["absorption.png", "sink.png", "energy_absorption.png", "winners.png"]
+    assert pictures == known
+
+
+def test_each_drop_height_has_its_picture(published):
+    cushions = [name for name in published(drop_heights=(0.5, 1.22)) if name.startswith("cush")]
+    assert cushions == ["cushion_500mm.png", "cushion_1220mm.png"]
+
+
+def test_cushion_curves_need_a_crush(published, tmp_path):
+    load = {"loading_mode": "force", "force_N": 5.0, "peak_strain": 0.1}
+    with pytest.raises(RankError, match="no crush with a place"):
+        published(summary(load), drop_heights=(0.5,))
+    assert not (tmp_path / "out").exists()

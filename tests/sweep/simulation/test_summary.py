@@ -113,6 +113,26 @@ def test_the_plateau_of_the_standard_is_between_fixed_strains():
     assert np.isnan(measured(*short)["plateau_stress_iso_Pa"])
 
 
+def test_mean_over_greatest_force_until_packed_and_in_the_whole_loading():
+    """10 N up to 50 %, packed at 47 % after 42.3 mJ (test_packing); in all 45 + 30 mJ, 50 N, 6 mm.
+
+    Ideality and cushion factor are those of Miltz & Gruenbaum: their product is 1 / strain.
+    """
+    found = measured(*FOAM)
+    assert found["ideality"] == pytest.approx(42.3 / (10.06 * 4.72), rel=5e-3)
+    assert found["cushion_factor"] == pytest.approx(10.06 * 10.0 / 42.3, rel=5e-3)
+    assert found["ideality"] * found["cushion_factor"] * found["packing_strain"] == pytest.approx(1)
+    assert found["crush_force_efficiency"] == pytest.approx(75.0 / (50.0 * 6.0))
+
+
+def test_a_striker_has_a_mean_force_but_a_dead_load_has_none():
+    struck = Loading(mode="impact", striker_mass=0.1, striker_speed=1.0)
+    for loading, share in ((struck, 0.25), (Loading(force=50.0), np.nan)):
+        found = crush_columns(Case(lattice=LATTICE, loading=loading), curve(*FOAM))
+        assert found["crush_force_efficiency"] == pytest.approx(share, nan_ok=True)
+        assert np.isnan([found["ideality"], found["cushion_factor"]]).all()
+
+
 def test_nothing_is_measured_on_one_row_or_without_force():
     still = np.zeros(1)
     found = measured(still, still, still)
