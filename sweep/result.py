@@ -220,7 +220,10 @@ COLUMNS: dict[str, Column] = {
         "more",
     ),
     "plateau_stress_20_30_Pa": Column(
-        "Pa", "the same from 20 to 30 % strain, the other mean of ISO 13314", "more"
+        "Pa",
+        "mean nominal stress from 20 to 30 % strain, the other mean of ISO 13314; NaN for dead "
+        "loads and shorter crushes",
+        "more",
     ),
     "plateau_end_strain": Column(
         "1",
@@ -239,7 +242,7 @@ COLUMNS: dict[str, Column] = {
         "more",
     ),
     "efficiency_to_50": Column(
-        "1", "that work / (greatest stress up to there x strain), of ISO 13314", "more"
+        "1", "energy_to_50_J_per_m3 / (greatest stress up to there x 50 %), of ISO 13314", "more"
     ),
     "energy_to_plateau_end_J_per_m3": Column(
         "J/m^3",
@@ -248,7 +251,10 @@ COLUMNS: dict[str, Column] = {
         "more",
     ),
     "efficiency_to_plateau_end": Column(
-        "1", "that work / (greatest stress up to there x strain), of ISO 13314", "more"
+        "1",
+        "energy_to_plateau_end_J_per_m3 / (greatest stress up to there x plateau_end_strain), of "
+        "ISO 13314",
+        "more",
     ),
     "densification_strain": Column(
         "1",

@@ -71,10 +71,10 @@ def cushion_diagram(
     The sign is at the least deceleration. falls : impacts in the results, of `drops`; rings are
     those of a design of the panel from this height.
     """
-    look, rings = looks(designs), 0
+    look, rings = looks(designs), False
     near = falls[dropped_from(falls, drop_height)]
     for ax, rows in scene_axes(fig, designs):
-        curves = []
+        curves, peaks = [], []
         for row, crush in _crushed(rows, crushes):
             one, (static, peak) = rows.loc[[row.name]], cushion_curve(crush, drop_height)
             curves.append((1e-3 * static, peak))
@@ -82,13 +82,16 @@ def cushion_diagram(
             _curve(ax, *curves[-1], look, one, best if best < len(peak) - 1 else None)
             struck = same_design(near, row).dropna(subset="peak_G")
             _rings(ax, 1e-3 * struck["static_stress_Pa"], struck["peak_G"], look.of(one))
-            rings += len(struck)
+            peaks += list(struck["peak_G"])
+        rings = rings or bool(peaks)
         title = f"{ax.get_title('left')},\ndropped from {drop_height:g} m"
         ax.set_title(title, loc="left", fontsize="medium")
         ax.set(xscale="log", yscale="log", ylabel="greatest deceleration, G")
         ax.set_xlabel("static stress, kPa")
         if curves:
-            top = SHOWN * min(peak.min() for _, peak in curves)
+            top = max(
+                SHOWN * min(peak.min() for _, peak in curves), max(peaks, default=0.0) / MARGIN
+            )
             ax.set_ylim(top=top)
             ax.set_xlim(
                 MARGIN * min(static[peak <= top].min(initial=np.inf) for static, peak in curves)
@@ -143,7 +146,7 @@ def _curve(ax: Axes, x: Any, y: Any, look: Looks, row: DataFrame, marked: int | 
 def _rings(ax: Axes, x: Any, y: Any, style: dict[str, Any]) -> None:
     """Impacts of a design as open signs, twice as large as those of its walls in the legend."""
     area = float(style["s"][0])
-    look = {"s": 2.0 * area, "lw": 2.0 * THIN * area**0.5, "marker": style["marker"]}
+    look = {"s": 2.0 * area, "lw": THIN * area**0.5, "marker": style["marker"]}
     ax.scatter(x, y, edgecolor=style["c"][0], **RING, **look)
 
 

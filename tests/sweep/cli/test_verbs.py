@@ -240,8 +240,10 @@ def test_csv_json_and_markdown_are_clean(capsys, file):
 
 def test_folder_holds_tables_and_figures(capsys, file, tmp_path):
     folder = tmp_path / "trial"
-    _, out, _ = crumple(capsys, "rank", file, "--out", str(folder))
-    names = ["ranking.md", "ranking.csv", "absorption.png", "winners.png"]
+    drops = ["--drop-height", "0.5 m", "--drop-height", "50 cm"]
+    _, out, _ = crumple(capsys, "rank", file, "--out", str(folder), *drops)
+    pictures = ["absorption", "energy_absorption", "cushion_500mm", "winners"]
+    names = ["ranking.md", "ranking.csv", *(f"{name}.png" for name in pictures)]
     assert out.split() == [str(folder / name) for name in names]
     assert all((folder / name).stat().st_size > 200 for name in names)
     assert len(pd.read_csv(folder / "ranking.csv")) == 3

@@ -94,6 +94,14 @@ def test_cushion_curves_have_the_impacts_of_their_design_beside(designs):
     assert labels[-1] == "simulated impact"
 
 
+def test_an_impact_far_above_the_curves_is_in_view(designs):
+    rows, crushes = crushed(designs)
+    figure = blank(8, 4)
+    hard = designs[2:].assign(peak_deceleration_filtered_m_per_s2=1e5 * GRAVITY)
+    cushion_diagram(figure, rows, crushes, 0.5, drops(hard))
+    assert figure.axes[0].get_ylim()[1] > 1e5
+
+
 def test_impacts_from_another_height_are_not_drawn(designs):
     rows, crushes = crushed(designs)
     figure = blank(8, 4)
