@@ -81,7 +81,7 @@ search: setup  ## compare what optimize finds with a scan and with a grid; kept 
 memory: setup  ## measure what loss and softening change; goes to results/memory/ (10 min)
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.memory results/memory
 
-stability: setup  ## crush 500 stiff and extreme scenes and look for violations; goes to results/stability/
+stability: setup  ## crush 1,000 stiff and extreme scenes; goes to results/stability/ (30 min)
 	@$(PYTHON) -m tests.studies.stability results/stability
 
 bench: setup  ## measure how fast it is; table and figure go to results/bench/

@@ -6,6 +6,7 @@ printed and written there, with a line a scene.
 """
 
 import csv
+import re
 import sys
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
@@ -27,8 +28,8 @@ MEMORIES = 150  # lattices whose material has a memory
 SECOND_ORDER = 100  # numbers of lattices that are drawn for integrators of second order
 ALL, VIOLATED, BALANCED = "all", "violated something", "steps balanced anew"
 KINDS = (
-    *("static crush", "crush in time", "dead load", "impact"),
-    *("second order", "memory", "custom", ALL),
+    *("static", "in time", "dead load", "impact"),
+    *("2nd order", "memory", "custom", ALL),
 )
 SECOND = "bdf2", "newmark"
 
@@ -40,9 +41,9 @@ def kind_of(case):
     if case.material.remembers:
         return "memory"
     if case.solver.integrator in SECOND:
-        return "second order"
+        return "2nd order"
     if case.loading.mode == "displacement":
-        return "static crush" if case.loading.quasi_static else "crush in time"
+        return "static" if case.loading.quasi_static else "in time"
     return {"force": "dead load", "impact": "impact"}[case.loading.mode]
 
 
@@ -50,7 +51,7 @@ def outcome(found):
     """Status of a scene, with what it says where it stopped, but for the place."""
     if found.status != "stopped":
         return found.status.replace("_", " ")
-    why = found.message.split(":")[-1].split(";")[0].split(" at strain ")[0]
+    why = re.split(r";|,| at strain ", found.message.split(":")[-1])[0]
     return f"stopped: {why.strip()}"
 
 
