@@ -272,7 +272,10 @@ def _add_case(verb: Any, **options: Any) -> None:
         "--scene", metavar="N", help="of a number: which table, or words of its title"
     )
     verb.add_argument("--budget", nargs=1, metavar="MASS", help="of a number: its greatest mass")
-    verb.set_defaults(by=None, allowed_force=None, top=None, per=None)
+    verb.add_argument(
+        "--allowed-force", metavar="FORCE", help="of a number: force up to which energy counts"
+    )
+    verb.set_defaults(by=None, top=None, per=None)
     verb.set_defaults(**dict.fromkeys(REQUIREMENTS))
 
 

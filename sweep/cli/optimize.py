@@ -36,6 +36,11 @@ def optimize(config: Config, arguments: Namespace) -> int:
         raise OptimizeError(f"{config.path} {wrong}; needed: {needed}")
     check_searched(config.search)
     question = _question(config, arguments)
+    if arguments.max_force and config.rank.per == "panel":
+        counted = "a search counts the force of a specimen"
+        raise OptimizeError(
+            f'rank.per = "panel": {counted}; allowed: "specimen", with such a force'
+        )
     config, budget, panel = _with_force(config, question), *_limits(question)
     out = arguments.out or f"results/{config.name}.h5"
     how = Settings(arguments.evaluations, arguments.seed, arguments.workers, arguments.scheduler)
@@ -44,6 +49,8 @@ def optimize(config: Config, arguments: Namespace) -> int:
     failed = _tell_best(search, question)
     if arguments.pareto:
         _tell_front(search, question, arguments.pareto)
+    if required := [name for name, value in config.require if value is not None]:
+        say(f"A search does not look at [require] ({', '.join(required)}); crumple rank does.")
     say(f"results: {out}; to rank them: {_next_command(out, question)}")
     return failed
 

@@ -90,7 +90,7 @@ def _heading(question: Mapping[str, Any], ranking: Ranking) -> str:
     usual = {ranking.energy: "most energy", ranking.per_gram: "most energy per gram"}
     order = usual.get(by, f"least {by}" if less_is_better(by) else f"most {by}")
     lines = [f"Best first: {order}."]
-    crushed = (ranking.table["loading_mode"] == "displacement").any()
+    crushed = ranking.table.empty or (ranking.table["loading_mode"] == "displacement").any()
     if (force := question.get("allowed_force")) and crushed:
         lines.append(f"Energy is counted until the force of a {ranking.per} exceeds {force}.")
     elif force:

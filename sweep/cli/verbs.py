@@ -35,6 +35,7 @@ WORKERS = 2
 TOP, TOP_OF_A_BUDGET = 10, 3
 UNKNOWN_BEST = "--spread runs more cases, of designs that are known only after the sweep"
 IDS = 3  # shown for each kind of failure
+NUMBERED = "--scene, --budget and --allowed-force"
 NUMBER = re.compile(r"(?:(?<!\w)-)?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 HOME = __name__.removesuffix(".cli.verbs")
 REFUSALS = {
@@ -226,7 +227,7 @@ def show(arguments: Namespace) -> int:
     from sweep.store.read import read_summary
 
     summary = read_summary(arguments.file)
-    if arguments.case is None and not (arguments.scene or arguments.budget):
+    if arguments.case is None and not _of_a_number(arguments):
         print_sheets([case_sheet(summary)])
         return DONE
     from sweep.report.publish import publish_case
@@ -343,13 +344,18 @@ def _hint(lines: Iterable[str]) -> None:
     sys.stderr.writelines(f"{line}\n" for line in lines)
 
 
+def _of_a_number(arguments: Namespace) -> bool:
+    """Whether options say in which ranking a number is a place."""
+    return bool(arguments.scene or arguments.budget or arguments.allowed_force)
+
+
 def _named(arguments: Namespace, summary: DataFrame) -> tuple[Series, str]:
     """The row that CASE names, and a sentence about its place if CASE is a number."""
     from sweep.cli.find_case import by_id, by_number, is_number
 
     if not (arguments.case and is_number(arguments.case)):
-        if arguments.scene or arguments.budget:
-            raise ArgumentError("--scene and --budget belong to a number in the ranking")
+        if _of_a_number(arguments):
+            raise ArgumentError(f"{NUMBERED} belong to a number in the ranking")
         return by_id(summary, arguments.case), ""
     return by_number(summary, int(arguments.case), arguments.scene, _asked(arguments))
 

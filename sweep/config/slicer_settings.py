@@ -32,9 +32,9 @@ class SlicerSettings:
     exact: bool
 
     def __str__(self) -> str:
-        near = "" if self.exact else "nearly "
+        near = "" if self.exact else ", nearly"
         return (
-            f"{near}{NAMES[self.slicer]}: {self.pattern}, {100.0 * self.infill:.3g} %, "
+            f"{NAMES[self.slicer]}{near}: {self.pattern}, {100.0 * self.infill:.3g} %, "
             f"line {1e3 * self.line_width:.3g} mm, layer {1e3 * self.layer_height:.3g} mm, "
             f"angle {degrees(self.fill_angle):.3g} degrees, "
             f"{self.perimeters} perimeter{'' if self.perimeters == 1 else 's'}"

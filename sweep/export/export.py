@@ -157,7 +157,7 @@ def _writer(path: Path) -> Writer:
     """The writer of the format that the name of a file asks for."""
     if found := WRITERS.get(path.suffix.lower()):
         return found
-    asked = f"{path.suffix or 'no ending'} is unknown"
+    asked = f"{path.suffix} is unknown" if path.suffix else "has no ending"
     raise ExportError(f"{path.name or path}: {asked}; allowed: {', '.join(WRITERS)}")
 
 

@@ -27,6 +27,7 @@ def run(cache, out):
         env=os.environ | {"CRUMPLE_CACHE_DIR": str(cache)},
         cwd=ROOT,
         stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,  # progress
         text=True,
     ) as process:
         for line in process.stdout:

@@ -109,3 +109,14 @@ def test_configs_are_for_one_verb(capsys, config, tmp_path):
     assert (status, err.count("\n")) == (2, 1)
     assert "has no [search] with the keys that may be chosen; needed: " in err
     assert [path.name for path in tmp_path.iterdir()] == ["sought.toml"]
+
+
+def test_it_counts_the_force_of_a_specimen_and_leaves_requirements_to_rank(capsys, config):
+    text = config.read_text()
+    config.write_text(f'{text}\n[require]\nmin_absorbed = "9 J"\n')
+    _, out, _ = crumple(capsys, "optimize", str(config), "--by", ENERGY, "--evaluations", "16")
+    assert "A search does not look at [require] (min_absorbed); crumple rank does." in out
+    config.write_text(f'{text}\n[rank]\nper = "panel"\npanel = ["100 mm", "50 mm"]\n')
+    status, out, err = crumple(capsys, "optimize", str(config), "--max-force", "50 N")
+    assert (status, out) == (2, "")
+    assert 'rank.per = "panel": a search counts the force of a specimen' in err

@@ -330,7 +330,7 @@ def test_show_takes_a_number_of_the_ranking_and_says_which_case_that_is(capsys, 
     status, _, err = crumple(capsys, "show", file, f"{1:016x}", "--scene", "1")
     assert (status, err) == (
         2,
-        "crumple show: --scene and --budget belong to a number in the ranking\n",
+        "crumple show: --scene, --budget and --allowed-force belong to a number in the ranking\n",
     )
 
 

@@ -41,7 +41,7 @@ def test_regular_grids_correspond_to_the_slicers(lattice, pattern, infill, angle
     assert (found.pattern, found.infill) == (pattern, pytest.approx(infill))
     assert found.line_width == pytest.approx(0.45e-3)
     assert degrees(found.fill_angle) == pytest.approx(angle)
-    assert str(found).startswith("nearly PrusaSlicer: grid, ")
+    assert str(found).startswith("PrusaSlicer, nearly: grid, ")
 
 
 @pytest.mark.parametrize(

@@ -148,7 +148,7 @@ REFUSED = [
         {},
         r"part.xyz: .xyz is unknown; allowed: .stl, .3mf, .svg, .dxf, .csv, .pvd, .vtu",
     ),
-    ("part", {}, "part: no ending is unknown; allowed: .stl"),
+    ("part", {}, "part: has no ending; allowed: .stl"),
     ("c.csv", {"panel": (0.1, 0.05)}, "c.csv shows no print; allowed with a panel or a kind: .stl"),
     ("part.stl", {"kind": "settings"}, "part.stl has one kind only; allowed with a kind: .3mf"),
     ("part.3mf", {"kind": "solid"}, 'kind "solid"; allowed: lattice, settings'),
