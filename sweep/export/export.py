@@ -298,12 +298,13 @@ def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
     if wish.panel is None:
         return [size]
     lattice = source.design.lattice
-    by_area = wish.panel[0] * wish.panel[1] / (lattice.outer_size[0] * lattice.depth)
+    ranked = round(wish.panel[0] * wish.panel[1] / (lattice.outer_size[0] * lattice.depth))
     count = len(getattr(layout.shape, "geoms", [layout.shape]))
     return [
         f"{count} side by side, {size}",
         f"of {lattice.depth * MM:.4g} mm depth these are {layout.specimens:.4g} specimens; a "
-        f"ranking fills the area of the panel with {by_area:.4g}",
+        f"ranking counts {ranked} in the area of the panel: its mass, energy and force are "
+        f"{ranked / layout.specimens:.3g} times those of this part",
     ]
 
 

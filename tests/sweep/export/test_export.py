@@ -65,8 +65,10 @@ def test_panel_is_a_row_of_specimens(file, tmp_path):
     assert mesh.body_count == 7
     assert mesh.extents == pytest.approx([100.0, 13.3, 50.0], abs=1e-3)
     assert found.notes[0].startswith("7 side by side, 100 x 13.3 mm, 50 mm deep: ")
-    counted = f"{7 * 50 / 12:.4g} specimens; a ranking fills the area of the panel with "
-    assert found.notes[1] == f"of 12 mm depth these are {counted}{100 * 50 / (13.3 * 12):.4g}"
+    printed, ranked = 7 * 50 / 12, round(100 * 50 / (13.3 * 12))
+    told = f"of 12 mm depth these are {printed:.4g} specimens; a ranking counts {ranked} in"
+    assert found.notes[1].startswith(told)
+    assert found.notes[1].endswith(f"are {ranked / printed:.3g} times those of this part")
 
 
 def test_lattice_in_3mf_asks_for_full_infill_in_words_only(file, tmp_path):
