@@ -15,6 +15,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
+from sweep.design.panel import specimens
 from sweep.export.errors import ExportError
 
 if TYPE_CHECKING:
@@ -298,7 +299,7 @@ def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
     if wish.panel is None:
         return [size]
     lattice = source.design.lattice
-    ranked = round(wish.panel[0] * wish.panel[1] / (lattice.outer_size[0] * lattice.depth))
+    ranked = int(specimens(wish.panel[0] * wish.panel[1], lattice.outer_size[0], lattice.depth))
     count = len(getattr(layout.shape, "geoms", [layout.shape]))
     return [
         f"{count} side by side, {size}",

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from sweep.design.panel import specimens
 from sweep.result import (
     ABSORBED_AT,
     COLUMNS,
@@ -139,7 +140,7 @@ def panel_specimens(frame: DataFrame, panel: Sequence[Quantity]) -> Series:
     if len(panel) != 2:
         raise RankError(f"a panel has two lengths, got {len(panel)}")
     area = in_si(panel[0], "m") * in_si(panel[1], "m")
-    count = (area / (frame["outer_width_m"] * frame["depth_m"])).round()
+    count = specimens(area, frame["outer_width_m"], frame["depth_m"])
     if (count < 1).any():
         raise RankError("the panel is smaller than half of a specimen; allowed: a larger panel")
     return count.astype(int)

@@ -17,6 +17,7 @@ from sweep.config.case import Case, Lattice
 from sweep.config.grid import Config, Values, chosen_case
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
+from sweep.design.panel import specimens
 
 SIZES = ("lattice.wall_thickness", "lattice.mass")
 USED_UP = 1.05  # shares above 1 / USED_UP stand for the greatest value: the whole budget
@@ -76,18 +77,21 @@ class DesignSpace:
         by_mass = size.name == "lattice.mass"
         grams = size.high if by_mass else inf
 
-        def excess(thickness: float) -> float:
-            lattice = _with_walls(least.lattice, thickness)
-            specimen = _mass(least, lattice)
-            return max(self._panels(lattice) * specimen - self.budget, specimen - grams)
+        def excess(thickness: float, count: float) -> float:
+            specimen = _mass(least, _with_walls(least.lattice, thickness))
+            return max(count * specimen - self.budget, specimen - grams)
+
+        def count(thickness: float) -> float:
+            return self._panels(_with_walls(least.lattice, thickness))
 
         low = least.lattice.wall_thickness
         high = min(inf if by_mass else size.high, OPEN * _widest(least.lattice))
         weighs = by_mass or self.budget < inf
-        if not low <= high or (weighs and excess(low) > 0.0):
+        if not low <= high or (weighs and excess(low, count(low)) > 0.0):
             return None
-        if weighs and excess(high) > 0.0:
-            high = brentq(excess, low, high, xtol=EXACT)
+        while weighs and high > low and excess(high, count(high)) > 0.0:
+            # thinner walls make narrower specimens, of which a panel may have one more
+            high = max(low, brentq(excess, low, high, (count(high),), EXACT) - 2.0 * EXACT)
         most = _mass(least, _with_walls(least.lattice, high)) if by_mass else high
         top = size.high if most >= size.high else max(size.low, rounded_down(most))
         return Interval(size.name, size.low, top, size.unit)
@@ -97,10 +101,11 @@ class DesignSpace:
         return self._panels(lattice) * _mass(case, lattice) if self.budget < inf else 0.0
 
     def _panels(self, lattice: Lattice) -> float:
-        """Number of specimens in a panel; 1 without a panel."""
+        """Number of specimens in a panel, as a ranking counts them; 1 without a panel."""
         if self.panel is None:
             return 1.0
-        return self.panel[0] * self.panel[1] / (lattice.outer_size[0] * lattice.depth)
+        area = self.panel[0] * self.panel[1]
+        return float(specimens(area, lattice.outer_size[0], lattice.depth))
 
 
 def _widest(lattice: Lattice) -> float:

@@ -35,7 +35,7 @@ def grams(case):
 
 def panel_grams(case, panel):
     lattice = case.lattice
-    return grams(case) * panel[0] * panel[1] / (lattice.outer_size[0] * lattice.depth)
+    return grams(case) * round(panel[0] * panel[1] / (lattice.outer_size[0] * lattice.depth))
 
 
 @pytest.mark.parametrize("size", [WALLS, MASS])
@@ -54,6 +54,13 @@ def test_budget_of_a_panel_counts_its_specimens(space, size):
     case = space(CELLS, size, budget=20e-3, panel=panel).case((0.5, 1.0))
     assert panel_grams(case, panel) == pytest.approx(20.0, rel=2e-3)
     assert panel_grams(case, panel) <= 20.0
+
+
+@pytest.mark.parametrize("depth", np.linspace(0.03, 0.06, 13))
+def test_one_specimen_more_does_not_exceed_the_budget(space, depth):
+    panel = (0.1, float(depth))
+    case = space(CELLS, WALLS, budget=20e-3, panel=panel).case((0.5, 1.0))
+    assert 0.9 * 20.0 < panel_grams(case, panel) <= 20.0
 
 
 def test_share_of_the_cube_that_uses_the_budget_up(space):
