@@ -293,7 +293,10 @@ def _add_optimize(verbs: Any) -> None:
         "--panel", nargs=2, metavar="LENGTH", help='area to fill with specimens: "100 mm" "50 mm"'
     )
     optimize.add_argument(
-        "--max-force", metavar="FORCE", help='count energy up to this force: "60 N"'
+        *("--allowed-force", "--max-force"),
+        dest="max_force",
+        metavar="FORCE",
+        help='count energy up to this force of a specimen, as rank --allowed-force: "60 N"',
     )
     optimize.add_argument("--by", metavar="COLUMN", help="seek the best of this column")
     optimize.add_argument("--pareto", metavar="COLUMN", help="list the front of a second aim, too")

@@ -117,6 +117,7 @@ def test_it_counts_the_force_of_a_specimen_and_leaves_requirements_to_rank(capsy
     _, out, _ = crumple(capsys, "optimize", str(config), "--by", ENERGY, "--evaluations", "16")
     assert "A search does not look at [require] (min_absorbed); crumple rank does." in out
     config.write_text(f'{text}\n[rank]\nper = "panel"\npanel = ["100 mm", "50 mm"]\n')
-    status, out, err = crumple(capsys, "optimize", str(config), "--max-force", "50 N")
-    assert (status, out) == (2, "")
+    for option in ("--max-force", "--allowed-force"):
+        status, out, err = crumple(capsys, "optimize", str(config), option, "50 N")
+        assert (status, out) == (2, "")
     assert 'rank.per = "panel": a search counts the force of a specimen' in err
