@@ -58,6 +58,9 @@ class Lattice(Table):
     within `perimeters`; the layers are stacked along `depth`. `infill`, or the `mass` as extruded,
     then sets `fill_distance`, that of parallel lines. printable: what does not print is refused, by
     lines of `line_width`, or as wide as the `nozzle` where lines are not used otherwise.
+    layers: quads up the height of a lattice that is pressed along its depth; None: as high as they
+    are long. symmetry "quarter": such a lattice is cut at its two mirror planes. imperfection_seed:
+    of the shape of its imperfection; None: the shape in which equal walls buckle.
     boundary "periodic": one period of an endless lattice, of size `width` x `height`. Opposite
     sides are tied to each other; the mean shear strain and the mean lateral stress are zero.
     """
@@ -67,6 +70,7 @@ class Lattice(Table):
         "grading": 1.0,
         "perimeters": 0,
         "solid_layers": 0,
+        "symmetry": "none",
     }
     labels: ClassVar[tuple[str, ...]] = ("infill", "mass", "file", "nozzle", "printable")
 
@@ -98,6 +102,9 @@ class Lattice(Table):
     imperfection: Annotated[
         float, Field(ge=0, le=100, json_schema_extra={"unit": "1", "bare": True})
     ] = 0.01
+    imperfection_seed: Annotated[int, Field(ge=0)] | None = None
+    layers: Few | None = None
+    symmetry: Literal["none", "quarter"] = "none"
 
     @model_validator(mode="before")
     @classmethod
@@ -151,7 +158,6 @@ class Lattice(Table):
             "depth": 1e-3 * structure.depth_mm,
             "wall_thickness": 1e-3 * sum(thickness) / len(thickness),
             "nodes_per_wall": 0,
-            "imperfection": 0.0,
         }
         self._set(measures)
         return self
@@ -416,7 +422,7 @@ def repeat(lattice: Lattice) -> None:
     if lattice.slicer is not None:
         raise refusal("lattice.boundary", "periodic", '"free" if lattice.slicer is given')
     for key, value in {**lattice.neutral, "infill": None}.items():
-        if key != "boundary" and getattr(lattice, key) != value:
+        if key not in ("boundary", "symmetry") and getattr(lattice, key) != value:
             wanted = "none" if value is None else f"{value:g}"
             raise refusal(f"lattice.{key}", getattr(lattice, key), f"{wanted} {endless}")
     key = "cells_x" if lattice.orientation == "flat" else "cells_y"

@@ -11,6 +11,7 @@ from typing import Any, Literal
 
 from pydantic_core import PydanticCustomError
 
+from sweep.config.direction import check_platen, height_pressed, is_along, turned
 from sweep.config.drop_tests import Drop, drop_of
 from sweep.config.lattice_table import Lattice, sized
 from sweep.config.printable import be_printable
@@ -48,12 +49,15 @@ def resolve(
         if sound:
             found["lattice"] = sized(found["lattice"], found["material"].density)
             be_printable(found["lattice"])
+        found |= turned(found, sound)
         material = found["material"]
         settled = _settled(
             (material.relaxes, material.remembers),
             *(found[name] for name in ("lattice", *DEPENDENT)),
         )
         found |= zip(DEPENDENT, settled, strict=True)
+        if is_along(found["loading"]):
+            return found, None
         check_bending(found["material"], found["solver"])
         check_section(found["material"], found["solver"])
         custom = found["lattice"].structure is not None
@@ -80,7 +84,8 @@ def _settled(
     if remembers and solver.integrator == ARCS:
         allowed = f'"static" or {IN_TIME} if the material has a memory'
         raise refusal("solver.integrator", ARCS, allowed)
-    loading = _paced(loading, relaxes, lattice.height)
+    height = height_pressed(lattice, loading)
+    loading = _paced(loading, relaxes, height)
     solver = settle(solver, loading, lattice, contact.model == "position_based")
     check_steps(solver, loading, wish)
     contact = _contact(contact, loading, lattice.structure, solver)
@@ -91,21 +96,25 @@ def _settled(
 
 
 def _loading(loading: Loading, lattice: Lattice, integrator: str | None) -> Loading:
-    if lattice.structure is not None:
+    along = is_along(loading)
+    if lattice.structure is not None and not along:
         return _of_structure(loading, lattice.structure, integrator)
     if loading.mode == "custom":
         allowed = '"force", "displacement" or "impact" unless lattice.kind is "custom"'
         raise refusal("loading.mode", "custom", allowed)
     if integrator == ARCS:
-        allowed = f'"static" where quasi-static, else {IN_TIME}, unless lattice.kind is "custom"'
+        unless = "" if along else ', unless lattice.kind is "custom"'
+        allowed = f'"static" where quasi-static, else {IN_TIME}{unless}'
         raise refusal("solver.integrator", ARCS, allowed)
     if lattice.boundary == "periodic":
         return _mean(loading, lattice.height, integrator)
+    check_platen(loading)
+    height = height_pressed(lattice, loading)
     if loading.mode == "force":
         return _force(loading, integrator)
     if loading.mode == "impact":
-        return _impact(loading, lattice.height, integrator)
-    return _displacement(loading, lattice.height, integrator)
+        return _impact(loading, height, integrator)
+    return _displacement(loading, height, integrator)
 
 
 def _of_structure(loading: Loading, structure: Structure, integrator: str | None) -> Loading:
@@ -157,6 +166,7 @@ def _impact(loading: Loading, height: float, integrator: str | None) -> Loading:
     striker_mass, drop_height = _dropped(loading)
     speed, energy, drop_height = _at_touch(loading, striker_mass, drop_height)
     return Loading(
+        direction=loading.direction,
         mode="impact",
         striker_mass=striker_mass,
         striker_speed=speed,
@@ -232,6 +242,7 @@ def _displacement(loading: Loading, height: float, integrator: str | None) -> Lo
     if cycles > 1 and not unload:
         raise refusal("loading.cycles", cycles, "1 if loading.unload is false")
     return Loading(
+        direction=loading.direction,
         mode="displacement",
         stroke=stroke,
         strain=strain,

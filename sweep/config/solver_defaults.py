@@ -3,6 +3,7 @@
 from math import ceil, hypot
 from typing import TypeVar
 
+from sweep.config.direction import height_pressed
 from sweep.config.lattice_table import Lattice
 from sweep.config.tables import MAX_STEPS, Loading, Material, Solver, refusal
 
@@ -80,7 +81,7 @@ def settle(solver: Solver, loading: Loading, lattice: Lattice, by_position: bool
     if loading.mode == "force" or (loading.mode == "custom" and not loading.quasi_static):
         step = {"time_step": given_or(solver.time_step, 1e-4), "load_steps": None}
     elif loading.striker_speed is not None:
-        usual = lattice.height / loading.striker_speed / STEPS_OF_PASSAGE
+        usual = height_pressed(lattice, loading) / loading.striker_speed / STEPS_OF_PASSAGE
         step = {"time_step": given_or(solver.time_step, usual), "load_steps": None}
     elif loading.quasi_static:
         step = {"time_step": None, "load_steps": given_or(solver.load_steps, 200)}

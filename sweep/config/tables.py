@@ -319,14 +319,22 @@ class Loading(Table):
     is "custom": the file of the structure has its loading. `cycles`: how often a platen moves down
     and back up.
 
+    direction: "in_plane" presses the height of the drawing, "out_of_plane" the `lattice.depth`,
+    along the cells. platen "clamped", only with the latter, holds the ends of walls upright too.
+
     `drop_height` and `preset` (`drop_tests`) are other words for the speed and the mass of a
     striker, and `specimens` for the share of the mass of the preset that one of them bears.
     `filter_class`: of the filter behind which the deceleration of a striker is measured.
     """
 
     labels: ClassVar[tuple[str, ...]] = ("drop_height", "preset", "specimens")
-    neutral: ClassVar[dict[str, Any]] = {"cycles": 1, "filter_class": 1000}
+    neutral: ClassVar[dict[str, Any]] = {
+        "cycles": 1,
+        "filter_class": 1000,
+        "direction": "in_plane",
+    }
 
+    direction: Literal["in_plane", "out_of_plane"] = "in_plane"
     mode: Literal["force", "displacement", "impact", "custom"] = "force"
     force: Force | None = None
     release_time: Duration | None = None
@@ -345,7 +353,7 @@ class Loading(Table):
     preset: str | None = None
     specimens: Count | None = None
     filter_class: Literal[60, 180, 600, 1000] | None = None
-    platen: Literal["none", "contact", "glued", "sliding"] | None = None
+    platen: Literal["none", "contact", "glued", "sliding", "clamped"] | None = None
     allowed_forces: Forces = ()
 
     @model_validator(mode="before")
@@ -364,7 +372,8 @@ class Loading(Table):
             (one, key), (other, also) = list(implied.items())[:2]
             keys = f"as loading.{key} needs the one and loading.{also} the other"
             raise refusal("loading.mode", None, f'"{one}" or "{other}", {keys}')
-        return {"mode": next(iter(implied), "force"), **given}
+        usual = "displacement" if given.get("direction") == "out_of_plane" else "force"
+        return {"mode": next(iter(implied), usual), **given}
 
     @property
     def says_mode(self) -> str | None:

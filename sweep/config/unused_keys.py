@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from sweep.config.case import Case
+from sweep.config.direction import NOT_ACROSS, UNUSED, is_along
 from sweep.config.material_file import locate, read_record
 from sweep.config.solver_defaults import ARCS
 from sweep.config.structure import Structure
@@ -14,6 +15,8 @@ OF_STRUCTURES = (
     *("lattice.kind", "lattice.file", "lattice.wall_thickness"),
     *("lattice.nozzle", "lattice.printable"),
 )
+PRESSED_ALONG = ("lattice.imperfection", *(f"lattice.{key}" for key in NOT_ACROSS))
+IDLE_ALONG = {f"{table}.{key}" for table, keys in UNUSED.items() for key in keys}
 STEADY = "the stress of the material does not depend on time: it has neither loss nor relaxation"
 
 
@@ -49,8 +52,12 @@ def _unused_part(structure: Structure, case: Case) -> str:
 
 def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
     """Why the given value of a key has no effect in a case; empty if it has an effect."""
+    along = is_along(case.loading)
     if case.lattice.structure is not None and key.split(".")[0] == "lattice":
-        return "" if key in OF_STRUCTURES else 'lattice.kind is "custom"'
+        effective = (*OF_STRUCTURES, *PRESSED_ALONG) if along else OF_STRUCTURES
+        return "" if key in effective else 'lattice.kind is "custom"'
+    if along and key in IDLE_ALONG:
+        return f'loading.direction is "{case.loading.direction}"'
     table, name = key.split(".")
     resolved = getattr(getattr(case, table), name)
     if key == "material.reference_time" and not case.material.relaxes:
@@ -87,6 +94,8 @@ def _reason_in_lattice(key: str, case: Case) -> str:
         "lattice.line_width": "there are neither lattice.perimeters nor a lattice.infill",
         "lattice.layer_height": "lattice.solid_layers is 0",
     }
+    if key.removeprefix("lattice.") in NOT_ACROSS and not is_along(case.loading):
+        return f'loading.direction is "{case.loading.direction}"'
     return reasons.get(key, "")
 
 

@@ -121,5 +121,5 @@ def test_duration_is_a_key_of_loads_and_of_strikers():
 
 def test_every_key_of_a_loading_belongs_to_a_mode_or_to_all():
     """A key that no mode names would be taken without a sentence where it has no effect."""
-    of_all = {"mode", "platen", "duration", "allowed_forces"}
+    of_all = {"mode", "platen", "duration", "allowed_forces", "direction"}
     assert {key for keys in MODES.values() for key in keys} == set(Loading.model_fields) - of_all

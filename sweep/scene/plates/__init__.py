@@ -1,0 +1,5 @@
+"""A case that is pressed along its cells, as arrays: upright walls on a grid of quads.
+
+`mesh` divides the walls, `imperfection` bows them, `coordinates` says what moves. The plan of the
+walls is that of the lattice in the plane (`design.extrusion`).
+"""

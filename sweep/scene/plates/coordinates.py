@@ -1,0 +1,113 @@
+"""Which coordinates of a lattice of plates move, which are held, and which follow a platen.
+
+Node i has the coordinates 6 i .. 6 i + 2, its position in m, and 6 i + 3 .. 6 i + 5, its rotation
+about the three axes of its own frame, w = tan(angle / 2) axis. The last two are the heights of the
+surfaces of the lower and the upper platen.
+
+The third rotation of a node inside a wall, about the normal of the wall, is held, as nothing
+resists it. Bonded platens hold the lower ends of walls in place; the upper ends follow the upper
+platen. Neither lets an end turn about the vertical axis. "glued" leaves the slope of the wall free,
+as a thin bead of glue would; "clamped" holds it. "contact" holds nothing. On a mirror plane of
+normal e a node cannot move along e, and turns about e alone.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sweep.design.drawing import Indices
+from sweep.scene.mesh import Floats
+from sweep.scene.plates.mesh import PlateMesh
+
+BONDED = ("glued", "clamped")
+PER_NODE = 6
+ALONG, UP, NORMAL = range(3)  # axes of a node inside a wall
+VERTICAL = 2  # of the axes x, y, z of a node of a joint
+
+
+@dataclass(frozen=True)
+class Numbering:
+    """Indices of the coordinates of ``n_nodes`` nodes."""
+
+    n_nodes: int
+
+    def position(self, nodes: Indices, axis: int) -> Indices:
+        """Coordinates of nodes along an axis x, y, z."""
+        return np.asarray(PER_NODE * nodes + axis)
+
+    def rotation(self, nodes: Indices, axis: int | Indices) -> Indices:
+        """Coordinates of turns of nodes about axes of their frames."""
+        return np.asarray(PER_NODE * nodes + 3 + axis)
+
+    @property
+    def low(self) -> int:
+        """Coordinate of the lower platen's surface."""
+        return PER_NODE * self.n_nodes
+
+    @property
+    def high(self) -> int:
+        """Coordinate of the upper platen's surface."""
+        return self.low + 1
+
+    @property
+    def size(self) -> int:
+        """Number of coordinates."""
+        return self.high + 1
+
+
+def leaders(mesh: PlateMesh, platen: str) -> Indices:
+    """The coordinate that each one follows, (6 n + 2,): itself, that of the upper platen, or -1."""
+    numbering = Numbering(mesh.n_nodes)
+    leader = np.arange(numbering.size)
+    ends = np.concatenate([mesh.bottom, mesh.top])
+    held = [
+        np.array([numbering.low]),
+        numbering.rotation(np.flatnonzero(mesh.flat), NORMAL),
+        *_mirrored(mesh, numbering),
+    ]
+    if platen in BONDED:
+        vertical = np.where(mesh.flat[ends], UP, VERTICAL)
+        held += [numbering.position(ends, axis) for axis in (0, 1)]
+        held += [numbering.position(mesh.bottom, 2), numbering.rotation(ends, vertical)]
+        leader[numbering.position(mesh.top, 2)] = numbering.high
+    if platen == "clamped":
+        held += [numbering.rotation(ends, axis) for axis in range(3)]
+    leader[np.concatenate(held)] = -1
+    return leader
+
+
+def _mirrored(mesh: PlateMesh, numbering: Numbering) -> list[Indices]:
+    """Coordinates that mirror planes hold; walls cross these planes at right angles."""
+    held = []
+    for axis in (0, 1):
+        nodes = np.flatnonzero(mesh.on[:, axis])
+        held += [numbering.position(nodes, axis)]
+        held += [numbering.rotation(nodes, UP), numbering.rotation(nodes, NORMAL)]
+    return held
+
+
+def heights(mesh: PlateMesh, platen: str) -> tuple[float, float]:
+    """Heights of the platens at rest, m.
+
+    Bonded ones are at the ends of the walls. Loose ones touch these from half a thickness on, as
+    everywhere, so that they are so far outside.
+    """
+    gap = 0.0 if platen in BONDED else 0.5 * float(mesh.node_thickness.max())
+    return -gap, mesh.height + gap
+
+
+def at_rest(mesh: PlateMesh, platen: str) -> Floats:
+    """All coordinates at rest, (6 n + 2,)."""
+    nodes = np.hstack([mesh.rest, np.zeros_like(mesh.rest)])
+    return np.concatenate([nodes.ravel(), heights(mesh, platen)])
+
+
+def masses(mesh: PlateMesh, total: float, striker: float) -> Floats:
+    """Lumped mass of each coordinate, (6 n + 2,) kg, which sums to ``total`` along each axis.
+
+    Rotations have none, as the solver re-bases them; the upper platen has that of the ``striker``.
+    """
+    share = total * mesh.volume / mesh.volume.sum()
+    found = np.zeros((mesh.n_nodes, PER_NODE))
+    found[:, :3] = share[:, None]
+    return np.concatenate([found.ravel(), [0.0, striker]])

@@ -1,0 +1,198 @@
+"""From a plan of walls to a grid of quads: nodes, directors, areas, triangles for contact."""
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from sweep.config.case import Lattice, given
+from sweep.config.direction import network_of, quads_wanted
+from sweep.design.extrusion import Plan, plan_of, quads_along
+from sweep.scene.mesh import Floats, Ints
+from sweep.scene.plates.imperfection import amplitudes, bow
+
+STRAIGHT = 1e-9  # sine of the angle below which two walls are in one plane
+UP = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True)
+class PlateMesh:
+    """Upright walls, divided into quads: n nodes, m quads, c columns of nodes one above another.
+
+    Columns are the points of the plan, then those inside walls; the nodes of a column are numbered
+    upwards, so that node = column x (layers + 1) + level. The axes of a wall are e_s along it, e_z
+    up, and its normal n = e_s x e_z to the right.
+
+    rest (n, 3): nodes at rest, bowed by the imperfection, m. frames (n, 9): axes of each node at
+    rest as columns of a matrix, row by row: (e_s, e_z, n) where all of its quads are in one plane,
+    else x, y and z. quads (m, 4): nodes (s0 z0), (s1 z0), (s1 z1), (s0 z1). size (m, 2): lengths
+    along s and z of the flat quad, m. thickness (m,), m. wall (m,): of the plan. dloc (m, 4, 3):
+    normal of the quad in the axes of each of its nodes. flat (n,): whether all quads of a node are
+    in one plane; its turn about n, the third axis, has then no stiffness. level (n,): of a node.
+    on (n, 2): whether a node is on the mirror plane of x and of y.
+    """
+
+    plan: Plan
+    height: float
+    rest: Floats
+    frames: Floats
+    quads: Ints
+    size: Floats
+    thickness: Floats
+    wall: Ints
+    dloc: Floats
+    flat: np.ndarray
+    level: Ints
+    on: np.ndarray
+
+    @property
+    def n_nodes(self) -> int:
+        """Number of nodes."""
+        return len(self.rest)
+
+    @property
+    def layers(self) -> int:
+        """Number of quads up the height."""
+        return int(self.level.max())
+
+    @property
+    def bottom(self) -> Ints:
+        """Nodes of the lower ends of the walls."""
+        return np.flatnonzero(self.level == 0)
+
+    @property
+    def top(self) -> Ints:
+        """Nodes of the upper ends of the walls."""
+        return np.flatnonzero(self.level == self.layers)
+
+    @cached_property
+    def area(self) -> Floats:
+        """A quarter of the area of each quad at a node, (n,) m^2."""
+        return self._quarters(self.size.prod(axis=1))
+
+    @cached_property
+    def volume(self) -> Floats:
+        """A quarter of the volume of each quad at a node, (n,) m^3; joints count for each wall."""
+        return self._quarters(self.size.prod(axis=1) * self.thickness)
+
+    @property
+    def node_thickness(self) -> Floats:
+        """Mean thickness of the walls at a node, (n,) m."""
+        return np.asarray(self.volume / self.area)
+
+    def _quarters(self, values: Floats) -> Floats:
+        shared = np.bincount(self.quads.ravel(), np.repeat(0.25 * values, 4), self.n_nodes)
+        return shared.astype(np.float64)
+
+    @cached_property
+    def triangles(self) -> Ints:
+        """Two triangles of each quad, (2 m, 3), with alternate diagonals; normals as the quads."""
+        a, b, c, d = self.quads.T
+        column = self._place
+        even = (column + self.level[a]) % 2 == 0
+        one = np.where(even[:, None], np.column_stack([a, b, c]), np.column_stack([a, b, d]))
+        two = np.where(even[:, None], np.column_stack([a, c, d]), np.column_stack([b, c, d]))
+        return np.stack([one, two], axis=1).reshape(-1, 3)
+
+    @property
+    def _place(self) -> Ints:
+        """Number of each quad along its wall, (m,)."""
+        first = np.searchsorted(self.wall, self.wall)
+        return (np.arange(len(self.wall)) - first) // self.layers
+
+    @cached_property
+    def edges(self) -> Ints:
+        """Edges of the triangles, each once, (l, 2)."""
+        corners = self.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+        return np.unique(np.sort(corners, axis=1), axis=0)
+
+
+@lru_cache(maxsize=16)
+def build_mesh(lattice: Lattice) -> PlateMesh:
+    """The mesh of a lattice that is pressed along its cells; as it is resolved, with its layers."""
+    plan = plan_of(network_of(lattice), lattice.symmetry == "quarter")
+    along = quads_along(plan, quads_wanted(lattice))
+    return extruded(plan, along, given(lattice.layers), lattice.depth, amplitudes(plan, lattice))
+
+
+def extruded(
+    plan: Plan, along: Ints, layers: int, height: float, amplitude: Floats | None = None
+) -> PlateMesh:
+    """A plan, extruded to a height (m) in ``layers`` and ``along`` (w,) equal quads of each wall.
+
+    amplitude (w, j): of the bow of each wall, m (`imperfection.amplitudes`); None: flat walls.
+    """
+    walls, points = len(plan.walls), len(plan.points)
+    of_wall = np.repeat(np.arange(walls), along)  # of each strip between two columns
+    number = np.arange(len(of_wall)) - np.repeat(np.cumsum(along) - along, along)
+    columns = _columns(plan, along, of_wall, number)
+    length = plan.length
+    axis = np.diff(plan.points[plan.walls], axis=1)[:, 0] / length[:, None]
+    inner = columns[number > 0, 0]
+    wall_of = np.concatenate([np.full(points, -1), of_wall[number > 0]])
+    share = np.concatenate([np.zeros(points), (number / along[of_wall])[number > 0]])
+    plane = np.concatenate([plan.points, np.empty((len(inner), 2))])
+    start = plan.points[plan.walls[wall_of[inner], 0]]
+    plane[inner] = start + (share * length[wall_of])[inner, None] * axis[wall_of[inner]]
+    level = np.arange(layers + 1)
+    rest = np.empty((len(plane), layers + 1, 3))
+    rest[..., :2], rest[..., 2] = plane[:, None], height * level / layers
+    if amplitude is not None:
+        across = (share * length[wall_of] / plan.span[wall_of])[inner]
+        shift = bow(
+            np.repeat(amplitude[wall_of[inner]], layers + 1, axis=0),
+            np.repeat(across, layers + 1), np.tile(level / layers, len(inner)),
+        )  # fmt: skip
+        right = np.column_stack([axis[:, 1], -axis[:, 0]])[wall_of[inner]]
+        rest[inner, :, :2] += shift.reshape(len(inner), -1, 1) * right[:, None]
+    frames, flat = _frames(plan, axis, wall_of)
+    strip = columns[:, [0, 1, 1, 0]][:, None] * (layers + 1)
+    quads = strip + np.array([0, 0, 1, 1]) + np.arange(layers)[:, None]
+    normal = np.column_stack([axis[:, 1], -axis[:, 0], np.zeros(walls)])
+    dloc = np.einsum("scji,sj->sci", frames[columns[:, [0, 1, 1, 0]]], normal[of_wall])
+    size = np.column_stack([length / along, np.full(walls, height / layers)])
+    on = np.concatenate([plan.on, np.zeros((len(inner), 2), np.bool_)])
+    wall = np.repeat(of_wall, layers)
+    return PlateMesh(
+        plan=plan,
+        height=height,
+        rest=rest.reshape(-1, 3),
+        frames=np.repeat(frames.reshape(-1, 9), layers + 1, axis=0),
+        quads=quads.reshape(-1, 4),
+        size=size[wall],
+        thickness=plan.thickness[wall],
+        wall=wall,
+        dloc=np.repeat(dloc, layers, axis=0),
+        flat=np.repeat(flat, layers + 1),
+        level=np.tile(level, len(plane)),
+        on=np.repeat(on, layers + 1, axis=0),
+    )
+
+
+def _columns(plan: Plan, along: Ints, of_wall: Ints, number: Ints) -> Ints:
+    """The columns of nodes at the start and the end of each strip of quads, (strips, 2)."""
+    inner = len(plan.points) + np.cumsum(number > 0) - 1
+    columns = np.column_stack([inner, inner + 1])
+    first, last = number == 0, number == along[of_wall] - 1
+    columns[first, 0] = plan.walls[of_wall[first], 0]
+    columns[last, 1] = plan.walls[of_wall[last], 1]
+    return columns
+
+
+def _frames(plan: Plan, axis: Floats, wall_of: Ints) -> tuple[Floats, np.ndarray]:
+    """Axes of the nodes of each column as columns of a matrix (c, 3, 3), and whether it is flat.
+
+    axis (w, 2): direction of each wall. wall_of (c,): the wall of a column inside it, else -1.
+    """
+    inside = wall_of >= 0
+    first = wall_of.copy()
+    flat = inside.copy()
+    for column in np.flatnonzero(~inside):
+        found = axis[(plan.walls == column).any(axis=1)]
+        first[column] = np.flatnonzero((plan.walls == column).any(axis=1))[0]
+        sine = found[:, 0] * found[0, 1] - found[:, 1] * found[0, 0]
+        flat[column] = np.abs(sine).max() <= STRAIGHT
+    along = np.column_stack([axis[first], np.zeros(len(first))])
+    up = np.broadcast_to(UP, along.shape)
+    own = np.stack([along, up, np.cross(along, up)], axis=2)
+    return np.where(flat[:, None, None], own, np.eye(3)), flat
