@@ -1,8 +1,8 @@
 """The direction in which a lattice is pressed: across its cells, in the plane, or along them.
 
-Along the cells the lattice is extruded to `lattice.depth`, which is then the height pressed, and its
-walls are plates (`scene.plates`). Keys that a direction does not use get their defaults, so that
-equal physics has an equal id; what cannot work along the cells is refused.
+Along the cells the lattice is extruded to `lattice.depth`, which is then the height pressed, and
+its walls are plates (`scene.plates`). Keys that a direction does not use get their defaults, so
+that equal physics has an equal id; what cannot work along the cells is refused.
 """
 
 from __future__ import annotations

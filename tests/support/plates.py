@@ -1,0 +1,24 @@
+"""Lattices that are pressed along their cells."""
+
+import numpy as np
+
+from sweep.config.case import Case, Lattice, Loading
+from sweep.design.infill import families
+from sweep.design.network import Network
+
+FAMILIES = families()
+BOX, T = 12e-3, 0.3e-3
+
+
+def along(platen="glued", **lattice):
+    """A case of 3 x 3 cells in a cube of 12 mm with walls of 0.3 mm, or of another ``lattice``."""
+    box = {"width": BOX, "height": BOX, "depth": BOX, "wall_thickness": T}
+    loading = Loading(direction="out_of_plane", platen=platen)
+    return Case(lattice=Lattice(**box | lattice), loading=loading)
+
+
+def network(points, walls, thickness=0.3e-3):
+    """A network of these points (mm) and walls, of one thickness in m or one for each wall."""
+    none = np.empty(0, np.int64)
+    each = np.broadcast_to(np.asarray(thickness, float), len(walls))
+    return Network(1e-3 * np.array(points, float), np.array(walls), each, none, none)

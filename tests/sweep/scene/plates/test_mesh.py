@@ -1,0 +1,166 @@
+"""The grid of quads of every infill: counts, areas, directors, joints, triangles."""
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case
+from sweep.design.extrusion import plan_of, quads_along
+from sweep.scene.plates.mesh import build_mesh, extruded
+from tests.support.plates import BOX, FAMILIES, T, along, network
+
+MESHES = [(kind, "none") for kind in FAMILIES] + [("square", "quarter")]
+
+
+@pytest.fixture(params=MESHES, ids="-".join)
+def mesh(request):
+    kind, symmetry = request.param
+    return build_mesh(along(kind=kind, symmetry=symmetry, imperfection=0.2).lattice)
+
+
+def test_counts_of_nodes_and_quads_have_closed_forms(mesh):
+    quads = quads_along(mesh.plan, 6)
+    columns = len(mesh.plan.points) + (quads - 1).sum()
+    assert mesh.n_nodes == columns * (mesh.layers + 1)
+    assert len(mesh.quads) == quads.sum() * mesh.layers
+    assert len(mesh.bottom) == len(mesh.top) == columns
+    assert np.array_equal(np.unique(mesh.quads), np.arange(mesh.n_nodes))
+
+
+def test_quads_are_the_walls_times_the_height(mesh):
+    area = mesh.plan.length.sum() * BOX
+    assert mesh.size.prod(axis=1).sum() == pytest.approx(area, rel=1e-12)
+    assert mesh.area.sum() == pytest.approx(area, rel=1e-12)
+    assert mesh.volume.sum() == pytest.approx(area * T, rel=1e-12)
+    assert mesh.node_thickness == pytest.approx(T, rel=1e-12)
+    assert mesh.size.min() >= T * (1.0 - 1e-9)
+
+
+def test_flat_corners_are_where_the_size_of_the_quad_says(mesh):
+    flat = build_mesh(along(kind=mesh_kind(mesh), imperfection=0.0).lattice)
+    corner = flat.rest[flat.quads]
+    across, up = corner[:, 1] - corner[:, 0], corner[:, 3] - corner[:, 0]
+    assert np.linalg.norm(across, axis=1) == pytest.approx(flat.size[:, 0], rel=1e-9)
+    assert np.abs(up - flat.size[:, 1:] * [0.0, 0.0, 1.0]).max() < 1e-15
+    assert np.abs(corner[:, 2] - corner[:, 1] - up).max() < 1e-15
+
+
+def mesh_kind(mesh):
+    """The family whose plan this is; a quarter is compared with the whole of its family."""
+    walls = {len(build_mesh(along(kind=k).lattice).plan.walls): k for k in FAMILIES}
+    return walls.get(len(mesh.plan.walls), "square")
+
+
+def test_directors_are_the_normals_of_the_walls(mesh):
+    start, end = mesh.plan.points[mesh.plan.walls].swapaxes(0, 1)
+    along_wall = (end - start) / mesh.plan.length[:, None]
+    normal = np.column_stack([along_wall[:, 1], -along_wall[:, 0], np.zeros(len(start))])
+    frames = mesh.frames.reshape(-1, 3, 3)
+    director = np.einsum("ecij,ecj->eci", frames[mesh.quads], mesh.dloc)
+    assert np.abs(director - normal[mesh.wall][:, None]).max() < 1e-14
+    turned = np.einsum("nij,nkj->nik", frames, frames)
+    assert np.abs(turned - np.eye(3)).max() < 1e-14
+    assert np.linalg.det(frames) == pytest.approx(1.0)
+
+
+def test_third_axis_is_the_normal_just_where_all_quads_are_in_one_plane(mesh):
+    """There a turn about it moves no director; elsewhere it moves one."""
+    third = np.abs(mesh.dloc[..., 2])
+    least = np.full(mesh.n_nodes, np.inf)
+    np.minimum.at(least, mesh.quads.ravel(), third.ravel())
+    assert np.array_equal(least > 1.0 - 1e-12, mesh.flat)
+    assert np.abs(mesh.dloc[mesh.flat[mesh.quads]][:, :2]).max() < 1e-12
+
+
+def test_nodes_of_a_wall_have_its_axes(mesh):
+    """Rows of frames: a quad's own axes are those of its inner corners."""
+    inner = mesh.flat[mesh.quads] & (np.abs(mesh.dloc[..., 2] - 1.0) < 1e-12)
+    quad, corner = np.nonzero(inner)
+    frames = mesh.frames.reshape(-1, 3, 3)[mesh.quads[quad, corner]]
+    start, end = mesh.plan.points[mesh.plan.walls[mesh.wall[quad]]].swapaxes(0, 1)
+    along_wall = (end - start) / mesh.plan.length[mesh.wall[quad], None]
+    own = frames[:, :2, 0] * np.sign((frames[:, :2, 0] * along_wall).sum(axis=1))[:, None]
+    assert np.abs(own - along_wall).max() < 1e-9
+    assert np.array_equal(frames[:, :, 1], np.tile([0.0, 0.0, 1.0], (len(frames), 1)))
+
+
+def test_walls_share_the_nodes_of_their_joints(mesh):
+    """No two nodes are in one place, and each wall begins and ends at the columns of its joints."""
+    places = np.round(mesh.rest / (1e-6 * T)).astype(np.int64)
+    assert len(np.unique(places, axis=0)) == mesh.n_nodes
+    for wall, ends in enumerate(mesh.plan.walls):
+        columns = np.unique(mesh.quads[mesh.wall == wall] // (mesh.layers + 1))
+        assert set(ends) <= set(columns)
+        assert len(columns) == (mesh.wall == wall).sum() // mesh.layers + 1
+
+
+def test_triangles_cover_the_quads_and_share_their_edges(mesh):
+    """An edge inside a wall is of two triangles, that of a joint of two for each wall, else one."""
+    flat = mesh.rest[mesh.triangles]
+    sides = np.cross(flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0])
+    area = 0.5 * np.linalg.norm(sides, axis=1)
+    assert area.sum() == pytest.approx(mesh.size.prod(axis=1).sum(), rel=1e-2)
+    assert len(mesh.triangles) == 2 * len(mesh.quads)
+    pairs = np.sort(mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    edges, uses = np.unique(pairs, axis=0, return_counts=True)
+    assert np.array_equal(edges, mesh.edges)
+    on_end = (mesh.level[edges] == 0).all(1) | (mesh.level[edges] == mesh.layers).all(1)
+    column = edges // (mesh.layers + 1)
+    upright = column[:, 0] == column[:, 1]
+    arms = np.bincount(mesh.plan.walls.ravel())
+    at_joint = upright & (column[:, 0] < len(arms))
+    wanted = np.where(on_end, 1, 2)
+    wanted[at_joint] = arms[column[at_joint, 0]]
+    assert np.array_equal(uses, wanted)
+    faces = len(mesh.triangles)
+    assert 3 * faces == uses.sum()
+
+
+def test_normals_of_triangles_are_those_of_their_quads():
+    flat = build_mesh(along(kind="hex", imperfection=0.0).lattice)
+    corner = flat.rest[flat.triangles]
+    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    frames = flat.frames.reshape(-1, 3, 3)[flat.quads[:, 0]]
+    director = np.einsum("eij,ej->ei", frames, flat.dloc[:, 0]).repeat(2, axis=0)
+    assert np.all((normal * director).sum(axis=1) > 0.0)
+
+
+def test_diagonals_alternate():
+    mesh = extruded(plan_of(network([[0, 0], [2, 0]], [[0, 1]])), np.array([2]), 2, 2e-3)
+    quads = [set(np.intersect1d(*mesh.triangles[k : k + 2]).tolist()) for k in range(0, 8, 2)]
+    corners = [set(q.tolist()) for q in mesh.quads]
+    main = [d == {q[0], q[2]} for d, q in zip(quads, mesh.quads.tolist(), strict=True)]
+    assert all(d <= c for d, c in zip(quads, corners, strict=True))
+    column = mesh.quads[:, 0] // 3
+    place = np.argsort(np.argsort(mesh.rest[3 * column, 0]))
+    assert sorted(zip(place // 2, mesh.level[mesh.quads[:, 0]], main, strict=True)) == [
+        (0, 0, True), (0, 1, False), (1, 0, False), (1, 1, True),
+    ]  # fmt: skip
+
+
+def test_a_wall_through_a_straight_joint_is_one_plane():
+    """Walls that are drawn towards each other have opposite normals in one frame."""
+    plan = plan_of(network([[0, 0], [2, 0], [4, 0]], [[0, 1], [2, 1]]))
+    mesh = extruded(plan, np.array([2, 2]), 3, 3e-3)
+    assert mesh.flat.all()
+    assert set(np.round(mesh.dloc[..., 2].ravel(), 12)) == {1.0, -1.0}
+
+
+def test_graded_walls_have_their_own_thickness():
+    mesh = build_mesh(along(grading=2.0).lattice)
+    assert len(np.unique(mesh.thickness.round(9))) > 2
+    assert mesh.volume.sum() == pytest.approx((mesh.size.prod(axis=1) * mesh.thickness).sum())
+
+
+def test_custom_structure_has_its_own_subdivision(tmp_path):
+    file = tmp_path / "angle.json"
+    file.write_text(
+        '{"nodes_mm": [[0, 0], [5, 0], [5, 4]], "walls": [[0, 1], [1, 2]], "subdivide": [5, 2],'
+        ' "wall_thickness_mm": [0.5, 0.4], "depth_mm": 7}'
+    )
+    case = along(kind="custom", file=str(file), wall_thickness=0.45e-3)
+    mesh = build_mesh(case.lattice)
+    assert isinstance(case, Case)
+    assert (mesh.wall == 0).sum() == 5 * mesh.layers
+    assert (mesh.wall == 1).sum() == 2 * mesh.layers
+    assert mesh.height == 7e-3
+    assert mesh.thickness.min() == pytest.approx(0.4e-3)
