@@ -28,6 +28,8 @@ HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones again"
 OLDER: dict[str, float | int | str] = {
     "model_version": 1,
     "git_revision": "",
+    "direction": "in_plane",
+    "solid_strain": nan,
     "absorbed_energy_until_packed_J": nan,
     "peak_force_until_packed_N": nan,
     "packing_strain": nan,
@@ -96,7 +98,8 @@ class Result:
     history: column -> float64 (rows,); names and units in `HISTORY_COLUMNS`.
     frames: `strain (f,)`, `time_s (f,)`, `position_m (f, n, 2)`, `plate_y_m (f, 2)` (surface of the
     lower and the upper platen; NaN: no platen; -inf: an endless lattice), `edges (m, 2)`,
-    `edge_thickness_m (m,)`.
+    `edge_thickness_m (m,)`. Of a crush along the cells, `position_m (f, n, 3)`, with z upwards, and
+    `quads (m, 4)`, `quad_thickness_m (m,)` in place of edges.
     """
 
     case_id: str
@@ -124,9 +127,14 @@ COLUMNS: dict[str, Column] = {
     "does_not_print": Column(
         "", "walls that are no whole number of lines, gaps below a line; empty if all prints"
     ),
+    "direction": Column("", "in_plane: pressed across the cells; out_of_plane: along them"),
     "width_m": Column("m", "width over centre lines"),
-    "height_m": Column("m", "height over centre lines"),
-    "depth_m": Column("m", "depth of the walls, out of the plane"),
+    "height_m": Column(
+        "m", "height that is pressed: over centre lines; along the cells, lattice.depth"
+    ),
+    "depth_m": Column(
+        "m", "depth of the pressed area: of the walls; along the cells, height of the plan over all"
+    ),
     "outer_width_m": Column("m", "width over all, walls included"),
     "material": Column("", 'name of the material; "by numbers" if it has none'),
     "material_modulus_Pa": Column(
@@ -136,7 +144,7 @@ COLUMNS: dict[str, Column] = {
         "", "what walls do that springs do not: relaxes, softens, yields; none if they are elastic"
     ),
     "loading_mode": Column("", "force, displacement, impact or custom"),
-    "platen": Column("", "none, contact, glued or sliding"),
+    "platen": Column("", "none, contact, glued, sliding or clamped"),
     "force_N": Column("N", "dead load on the top; NaN unless the mode is force"),
     "stroke_m": Column("m", "prescribed travel of the top; NaN unless the mode is displacement"),
     "striker_mass_g": Column("g", "mass of the striker; NaN unless the mode is impact"),
@@ -155,6 +163,12 @@ COLUMNS: dict[str, Column] = {
         "less",
     ),
     "relative_density": Column("1", "printed area / area of the bounding box", "less"),
+    "solid_strain": Column(
+        "1",
+        "strain at which walls of constant volume fill the pressed area, 1 - relative density, "
+        "beyond which plates are no model; NaN across the cells",
+        "more",
+    ),
     "absorbed_energy_J": Column(
         "J", "work done on the lattice until release, full stroke or stop", "more"
     ),
@@ -169,8 +183,8 @@ COLUMNS: dict[str, Column] = {
     ),
     "absorbed_energy_within_model_J": Column(
         "J",
-        "work done until an element is shorter than 0.7 of its rest length or a wall breaks; all "
-        "of it if neither happens",
+        "work done until an element is shorter than 0.7 of its rest length or a wall breaks, along "
+        "the cells until the strain is solid_strain; all of it if none of this happens",
         "more",
     ),
     "returned_energy_J": Column(
@@ -436,7 +450,9 @@ FRAME_COLUMNS: dict[str, Column] = {
     "plate_y_m": Column(
         "m", "height of the lower and the upper platen; NaN: no platen; -inf: an endless lattice"
     ),
-    "position_m": Column("m", "x and y of every node, frame after frame"),
+    "position_m": Column("m", "x and y, of plates also z, of every node, frame after frame"),
+    "quads": Column("", "the four nodes of every quad of a plate"),
+    "quad_thickness_m": Column("m", "wall thickness of every quad"),
     "edges": Column("", "the two nodes of every element"),
     "edge_thickness_m": Column("m", "wall thickness of every element"),
 }
@@ -540,6 +556,7 @@ def _unit_of_key(name: str) -> str:
 
 def design_columns(case: Case) -> dict[str, float | int | str]:
     """The summary columns that are known before the case runs."""
+    from sweep.config.direction import footprint, height_pressed
     from sweep.config.printable import what_does_not_print
     from sweep.config.slicer_settings import slicer_settings
 
@@ -552,9 +569,10 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
         "infill_share": nan if lattice.slicer is None else lattice.infill or nan,
         "slicer_settings": str(slicer_settings(case) or ""),
         "does_not_print": what_does_not_print(lattice),
+        "direction": loading.direction,
         "width_m": lattice.width,
-        "height_m": lattice.height,
-        "depth_m": lattice.depth,
+        "height_m": height_pressed(lattice, loading),
+        "depth_m": footprint(lattice, loading)[1],
         "outer_width_m": lattice.outer_size[0],
         "material": case.material.name,
         "material_modulus_Pa": case.material.modulus,

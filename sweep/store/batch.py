@@ -17,8 +17,18 @@ FRAME_GROUPS = {
     "frames": ("strain", "time_s", "plate_y_m"),
     "points": ("position_m",),
     "edges": ("edges", "edge_thickness_m"),
+    "plate_points": ("position_m",),
+    "quads": ("quads", "quad_thickness_m"),
 }
-"""Arrays of `Result.frames`, grouped by the meaning of a row: frame, node of a frame, element."""
+"""Arrays of `Result.frames`, grouped by the meaning of a row: frame, node of a frame, element.
+
+Nodes and elements of plates have groups of their own, as their rows are longer.
+"""
+
+OF_PLATES = ("plate_points", "quads")  # groups that older files do not have
+
+DIMENSIONS = {"points": 2, "plate_points": 3}
+"""Length of a row of positions."""
 
 GROUPS = ("histories", *FRAME_GROUPS)
 
@@ -86,7 +96,7 @@ def block_of(results: Sequence[Result], revision: str = "") -> Block:
     table = tabulate([row | dict(r.summary) for row, r in zip(who, results, strict=True)])
     ragged = {"histories": _ragged([result.history for result in results])}
     for group, names in FRAME_GROUPS.items():
-        ragged[group] = _ragged([_flat_frames(result, names) for result in results])
+        ragged[group] = _ragged([_flat_frames(result, group, names) for result in results])
     return Block(table, ragged, {})
 
 
@@ -116,10 +126,12 @@ def newest(blocks: Sequence[Block], names: Iterable[str] = ()) -> Columns:
     return joined(blocks, newest_rows(blocks), names)
 
 
-def _flat_frames(result: Result, names: Iterable[str]) -> dict[str, np.ndarray]:
+def _flat_frames(result: Result, group: str, names: Iterable[str]) -> dict[str, np.ndarray]:
     arrays = {name: np.asarray(result.frames[name]) for name in names if name in result.frames}
-    if "position_m" in arrays:
-        arrays["position_m"] = arrays["position_m"].reshape(-1, 2)
+    if group in DIMENSIONS and "position_m" in arrays:
+        position = arrays.pop("position_m")
+        if position.shape[-1] == DIMENSIONS[group]:
+            arrays["position_m"] = position.reshape(-1, DIMENSIONS[group])
     return arrays
 
 

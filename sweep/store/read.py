@@ -10,6 +10,7 @@ with the same case id it takes the newer one.
     /histories/values/COLUMN   (sum of rows,) float32, the curves of all cases one after another
     /histories/start, rows     (n,) first row of the curves of a case, and their number of rows
     /frames, /points, /edges   the same; a row is a frame, a node of a frame, an element
+    /plate_points, /quads      the same of plates; files of older versions lack them
 """
 
 import os
@@ -23,7 +24,7 @@ import h5py
 import numpy as np
 
 from sweep.result import HISTORY_COLUMNS, MODEL_VERSION, OLDER, Status
-from sweep.store.batch import FRAME_GROUPS, GROUPS, Block, Ragged, newest
+from sweep.store.batch import FRAME_GROUPS, GROUPS, OF_PLATES, Block, Ragged, newest
 from sweep.store.columns import Axes, arrange, beyond, relabel, rows_in_order, take
 from sweep.store.parts import list_parts
 
@@ -136,7 +137,8 @@ def _history(curves: dict[str, np.ndarray]) -> "DataFrame":
 def _frames(arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     """The arrays of `Result.frames` as they were before positions became rows of a table."""
     if "position_m" in arrays:
-        arrays["position_m"] = arrays["position_m"].reshape(len(arrays["strain"]), -1, 2)
+        rows = arrays["position_m"]
+        arrays["position_m"] = rows.reshape(len(arrays["strain"]), -1, rows.shape[1])
     return arrays
 
 
@@ -185,7 +187,13 @@ def open_sealed(path: Path, held: ExitStack) -> Block:
     with _undamaged(path):
         # A sealed file never changes, so it needs no lock, which would block other readers.
         file = held.enter_context(h5py.File(path, "r", locking=False))
-        ragged = {name: _open_ragged(path, file[name]) for name in GROUPS}
+        empty = np.zeros(file["summary/case_id"].shape, np.int64)
+        ragged = {
+            name: Ragged(empty, empty, {})
+            if name in OF_PLATES and name not in file
+            else _open_ragged(path, file[name])
+            for name in GROUPS
+        }
         attributes = {**file.attrs, "folded": int(file.attrs["folded"])}
         return Block(_Columns(path, file["summary"]), ragged, attributes)
 

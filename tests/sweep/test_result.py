@@ -32,6 +32,7 @@ def a_case(**loading):
     unused = ("orientation", "structure", "slicer", "pattern", "infill", "line_width")
     lattice |= dict.fromkeys(unused)
     loads = {"mode": "force", "platen": "none", "force": 10.0, "stroke": None}
+    loads |= {"direction": "in_plane"}
     loads |= dict.fromkeys(("striker_mass", "striker_speed", "energy", "cycles"))
     return SimpleNamespace(
         case_id="0123456789abcdef",

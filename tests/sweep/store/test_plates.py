@@ -1,0 +1,84 @@
+"""Shapes of plates, whose nodes have three coordinates, beside those of walls in the plane."""
+
+import h5py
+import numpy as np
+import pytest
+
+from sweep.result import Result, Status
+from sweep.store.batch import OF_PLATES
+from sweep.store.read import StoreError, read_cases, read_frames
+from sweep.store.write import Writer
+from tests.support.specimens import squeezed_cell, summary
+
+
+def tube(frames=3):
+    """An upright square tube of four quads."""
+    ring = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
+    position = np.array(
+        [[[*point, z * (1.0 - 0.1 * f)] for z in (0, 2) for point in ring] for f in range(frames)]
+    )
+    quads = np.array([[k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k] for k in range(4)])
+    return {
+        "strain": 0.1 * np.arange(frames),
+        "time_s": 1.0 * np.arange(frames),
+        "plate_y_m": np.column_stack([np.zeros(frames), 2.0 - 0.2 * np.arange(frames)]),
+        "position_m": 1e-3 * position,
+        "quads": quads,
+        "quad_thickness_m": np.full(4, 1e-4),
+    }
+
+
+def results():
+    rows = summary({}, {"direction": "out_of_plane"}, {}, {"status": "stopped"}).to_dict("records")
+    shapes = [squeezed_cell(), tube(), squeezed_cell(), {}]
+    return [
+        Result(row["case_id"], Status(row["status"]), "", {**row}, {}, frames)
+        for row, frames in zip(rows, shapes, strict=True)
+    ]
+
+
+@pytest.fixture(params=[False, True], ids=["parts", "folded"])
+def stored(request, tmp_path):
+    path = tmp_path / "both.h5"
+    with Writer(path) as writer:
+        writer.append(results()[:2])
+        writer.append(results()[2:])
+        if request.param:
+            writer.fold()
+    return path
+
+
+def test_shapes_of_both_kinds_are_read_as_they_were_written(stored):
+    for result, case in zip(
+        results(), read_cases(stored, [r.case_id for r in results()]), strict=True
+    ):
+        found = read_frames(stored, result.case_id)
+        assert found.keys() == result.frames.keys() == case.frames.keys()
+        for name, array in result.frames.items():
+            assert found[name].shape == array.shape
+            np.testing.assert_allclose(found[name], array, rtol=1e-6)
+
+
+def test_file_without_groups_of_plates_is_read(tmp_path):
+    path = tmp_path / "older.h5"
+    with Writer(path) as writer:
+        writer.append(results()[:1])
+        writer.fold()
+    with h5py.File(path, "r+") as file:
+        for group in OF_PLATES:
+            del file[group]
+    first = results()[0]
+    assert read_frames(path, first.case_id)["position_m"].shape == first.frames["position_m"].shape
+    with Writer(path) as writer:
+        writer.append(results()[1:2])
+        writer.fold()
+    assert read_frames(path, results()[1].case_id)["position_m"].shape == (3, 8, 3)
+
+
+def test_file_without_another_group_is_damaged(stored):
+    if not stored.exists():
+        pytest.skip("only parts")
+    with h5py.File(stored, "r+") as file:
+        del file["edges"]
+    with pytest.raises(StoreError, match="damaged"):
+        read_frames(stored, results()[0].case_id)
