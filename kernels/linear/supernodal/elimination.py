@@ -1,0 +1,186 @@
+"""Symbolic factorisation: columns of the factor, and the supernodes that they are gathered in.
+
+A *supernode* is a set of blocks whose columns have the same rows below them, or nearly: its panel
+is dense. Columns are found by the row subtrees of the elimination tree (Davis 2006, Direct Methods
+for Sparse Linear Systems, ch. 4); a supernode is merged into its parent where that stores few
+zeros (Ashcraft & Grimes 1989, ACM Trans. Math. Softw. 15).
+"""
+
+import numpy as np
+
+from kernels.arrays import grouped
+from kernels.compile.jit import jit_exact, jit_owning
+
+NARROW, MIDDLING, WIDE = 24, 96, 240  # unknowns of a merged supernode
+SHARES = (0.6, 0.2, 0.08)  # of zeros that are stored at most in a supernode of at most that width
+WIDEST_SHARE = 0.03
+
+
+@jit_exact
+def _positions(order, position):
+    """Fill ``position`` (n,) with the place of each block in ``order``."""
+    for p in range(order.size):
+        position[order[p]] = p
+
+
+@jit_owning
+def columns(start, near, order):
+    """Return (parent (n,), first (n + 1,), row): rows below each column of the factor, ascending,
+    with columns and rows numbered by their place in ``order``; parent: the first row, -1 if none.
+    """
+    n = order.size
+    position, parent, mark = np.empty(n, np.int64), np.full(n, -1), np.full(n, -1)
+    first = np.zeros(n + 1, np.int64)
+    _positions(order, position)
+    row, free = np.empty(0, np.int64), np.empty(0, np.int64)
+    for is_filling in range(2):
+        for i in range(n):
+            mark[i] = i
+            for q in range(start[order[i]], start[order[i] + 1]):
+                j = position[near[q]]
+                while j < i and mark[j] != i:
+                    mark[j] = i
+                    if is_filling:
+                        row[free[j]] = i
+                        free[j] += 1
+                    else:
+                        parent[j] = i if parent[j] < 0 else parent[j]
+                        first[j + 1] += 1
+                    j = parent[j]
+        if not is_filling:
+            for j in range(n):
+                first[j + 1] += first[j]
+            row, free = np.empty(first[n], np.int64), first.copy()
+            mark[:] = -1
+    return parent, first, row
+
+
+@jit_exact
+def _entries(width, below):
+    """Return the number of entries of a panel."""
+    return width * (width + 1) // 2 + width * below
+
+
+@jit_exact
+def _may_merge(width, share):
+    """Return whether a supernode of ``width`` may have this ``share`` of zeros."""
+    if width <= NARROW:
+        return share <= SHARES[0]
+    if width <= MIDDLING:
+        return share <= SHARES[1]
+    return share <= (SHARES[2] if width <= WIDE else WIDEST_SHARE)
+
+
+@jit_owning
+def _fundamental(parent, first):
+    """Return (group (n,), count): the supernode of each column, of neighbouring columns only."""
+    group, count = np.empty(parent.size, np.int64), 0
+    for j in range(parent.size):
+        below = first[j + 1] - first[j]
+        if j > 0 and not (parent[j - 1] == j and first[j] - first[j - 1] == below + 1):
+            count += 1
+        group[j] = count
+    return group, min(count + 1, parent.size)
+
+
+@jit_exact
+def _top(into, s):
+    """Return the supernode that ``s`` was merged into, itself if into none."""
+    while into[s] != s:
+        s = into[s]
+    return s
+
+
+@jit_owning
+def _merged(group, count, parent, first, row, weight):
+    """Return (into (count,), above (count,)): the supernode that each is merged into, and the
+    parent of each that is left, -1 if none.
+    """
+    width, below = np.zeros(count, np.int64), np.zeros(count, np.int64)
+    above, into, zeros = np.full(count, -1), np.arange(count), np.zeros(count, np.int64)
+    for j in range(group.size):
+        s = group[j]
+        width[s] += weight[j]
+        if j + 1 == group.size or group[j + 1] != s:
+            for q in range(first[j], first[j + 1]):
+                below[s] += weight[row[q]]
+            above[s] = group[parent[j]] if parent[j] >= 0 else -1
+    start, child = grouped(above + 1, count + 1)
+    for s in range(count):
+        for q in range(start[s + 2] - 1, start[s + 1] - 1, -1) if s + 2 < start.size else range(0):
+            c = child[q]
+            whole = _entries(width[s] + width[c], below[s])
+            parts = _entries(width[s], below[s]) + _entries(width[c], below[c])
+            stored = zeros[s] + zeros[c] + whole - parts
+            if _may_merge(width[s] + width[c], stored / whole):
+                into[c], zeros[s] = s, stored
+                width[s] += width[c]
+    for s in range(count):
+        above[s] = _top(into, above[s]) if above[s] >= 0 else -1
+    return into, above
+
+
+@jit_owning
+def _postorder(into, above):
+    """Return (rank (count,), left): place of each supernode that is left, children directly before
+    their parents; -1 of merged ones.
+    """
+    count = into.size
+    rank, kept, left = np.full(count, -1), np.empty(count, np.int64), 0
+    size = np.zeros(count, np.int64)  # supernodes of a subtree
+    for s in range(count):
+        kept[s] = above[s] + 1 if into[s] == s else -1
+        if into[s] == s:
+            left += 1
+            size[s] += 1
+            if above[s] >= 0:
+                size[above[s]] += size[s]
+    end = np.full(count, -1)  # of the places of a subtree that are still free
+    last = left
+    for s in range(count - 1, -1, -1):
+        if into[s] == s:
+            if above[s] < 0:
+                rank[s] = last - 1
+                last -= size[s]
+            else:
+                rank[s] = end[above[s]] - 1
+                end[above[s]] -= size[s]
+            end[s] = rank[s]
+    return rank, left
+
+
+@jit_owning
+def supernodes(parent, first, row, weight):
+    """Return (start (ns + 1,), block, below (ns + 1,), rows, above (ns,)).
+
+    The columns of supernode s are block[start[s]:start[s + 1]], given by their places in the order
+    before; rows[below[s]:below[s + 1]] are the places in ``block`` of the rows below them,
+    ascending. above: parent of each supernode, -1 if none. weight (n,): unknowns of each column.
+    """
+    n = parent.size
+    group, count = _fundamental(parent, first)
+    into, above = _merged(group, count, parent, first, row, weight)
+    rank, left = _postorder(into, above)
+    place = np.empty(n, np.int64)
+    for j in range(n):
+        place[j] = rank[_top(into, group[j])]
+    start, block = grouped(place, left)
+    position = np.empty(n, np.int64)
+    _positions(block, position)
+    up, below = np.full(left, -1), np.zeros(left + 1, np.int64)
+    for s in range(count):
+        if into[s] == s and above[s] >= 0:
+            up[rank[s]] = rank[above[s]]
+    for s in range(left):
+        j = block[start[s + 1] - 1]
+        below[s + 1] = below[s] + first[j + 1] - first[j]
+    rows = np.empty(below[left], np.int64)
+    for s in range(left):
+        j = block[start[s + 1] - 1]
+        for q in range(first[j + 1] - first[j]):
+            at, later = below[s] + q, position[row[first[j] + q]]
+            while at > below[s] and rows[at - 1] > later:
+                rows[at] = rows[at - 1]
+                at -= 1
+            rows[at] = later
+    return start, block, below, rows, up

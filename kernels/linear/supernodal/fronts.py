@@ -1,0 +1,80 @@
+"""Fronts: a supernode with the updates that its children leave for it (Duff & Reid 1983, ACM Trans.
+Math. Softw. 9: The multifrontal solution of indefinite sparse symmetric linear equations).
+
+The front of w columns and r rows below them has ceil(w / 12) strips of pivot rows, and then
+ceil(r / 12) strips of the rows below, so that a row below is row 12 ceil(w / 12) + i of the front.
+Columns are filled up with zeros to a multiple of four. The *update* is the lower half of the r x r
+block below the columns, column by column.
+"""
+
+from kernels.compile.jit import jit, jit_exact
+from kernels.linear.supernodal.matrix import COLUMNS, ROWS, rounded_up, size
+
+
+@jit_exact
+def strip(matrix, s, row):
+    """Return where the strip of a ``row`` of the front of supernode ``s`` starts in ``tiles``."""
+    w, _ = size(matrix, s)
+    return matrix.tile[s] + row // ROWS * ROWS * rounded_up(w, COLUMNS)
+
+
+@jit
+def _fill_strip(values, panel, step, width, count, tiles, at):
+    """Copy ``count`` rows of a panel, whose columns are ``step`` apart, to the strip at ``at``."""
+    for k in range(width):
+        of, to = panel + step * k, at + ROWS * k
+        for i in range(count):
+            tiles[to + i] = values[of + i]
+        for i in range(count, ROWS):
+            tiles[to + i] = 0.0
+    for i in range(at + ROWS * width, at + ROWS * rounded_up(width, COLUMNS)):
+        tiles[i] = 0.0
+
+
+@jit
+def _fill(matrix, s):
+    """Copy the panel of supernode ``s`` to its tiles, with ``own`` on the diagonal."""
+    w, r = size(matrix, s)
+    panel, step, below = matrix.panel[s], w + r, rounded_up(w, ROWS)
+    for i in range(0, w, ROWS):
+        at, count = strip(matrix, s, i), min(ROWS, w - i)
+        _fill_strip(matrix.values, panel + i, step, w, count, matrix.tiles, at)
+        for k in range(count):
+            matrix.tiles[at + ROWS * (i + k) + k] = matrix.own[matrix.column[s] + i + k]
+    for i in range(0, r, ROWS):
+        at = strip(matrix, s, below + i)
+        _fill_strip(
+            matrix.values, panel + w + i, step, w, min(ROWS, r - i), matrix.tiles, at
+        )  # fmt: skip
+
+
+@jit
+def _pass_on(matrix, child, s):
+    """Add the update of ``child`` to the front of its parent ``s``."""
+    (w, r), (_, count) = size(matrix, s), size(matrix, child)
+    pivots, step = rounded_up(w, ROWS), rounded_up(count, ROWS)
+    first, up, updates, tiles = matrix.lower[child], matrix.up, matrix.updates, matrix.tiles
+    wide, height = ROWS * rounded_up(w, COLUMNS), rounded_up(r, ROWS)
+    for c in range(count):
+        of, k = matrix.update[child] + step * c, up[first + c]
+        if k < w:
+            to = matrix.tile[s] + ROWS * k
+            for i in range(c, count):
+                row = up[first + i]
+                tiles[to + row // ROWS * wide + row % ROWS] += updates[of + i]
+        else:
+            to = matrix.update[s] + (k - pivots) * height - pivots
+            for i in range(c, count):
+                updates[to + up[first + i]] += updates[of + i]
+
+
+@jit
+def assemble(matrix, s):
+    """Fill the front of supernode ``s``: tiles and update."""
+    _fill(matrix, s)
+    _, r = size(matrix, s)
+    at = matrix.update[s]
+    for i in range(at, at + rounded_up(r, ROWS) * rounded_up(r, COLUMNS)):
+        matrix.updates[i] = 0.0
+    for q in range(matrix.child_start[s + 1], matrix.child_start[s + 2]):
+        _pass_on(matrix, matrix.child[q], s)

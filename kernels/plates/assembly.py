@@ -1,0 +1,77 @@
+"""Entries of the Hessian of a lattice of plates: from stencils of nodes to the matrix."""
+
+from kernels.compile.jit import jit, jit_exact
+from kernels.linear.supernodal import matrix as blocks
+from kernels.plates.layout import PER_NODE
+
+
+@jit_exact
+def add_entry(matrix, layout, pull, c, d, value):
+    """Add the second derivative ``value`` in coordinates ``c`` and ``d``, once for each pair.
+
+    pull (n,): takes the derivatives in a driven coordinate, by the other one.
+    """
+    one, other = layout.leader[c], layout.leader[d]
+    if one < 0 or other < 0:
+        return
+    value *= layout.ratio[c] * layout.ratio[d]
+    i, j = layout.unknown[c], layout.unknown[d]
+    if i >= 0 and j >= 0:
+        blocks.add_entry(matrix, i, j, 2.0 * value if i == j and c != d else value)
+        return
+    if other == layout.driven:
+        pull[c] += value / layout.ratio[c]
+    if one == layout.driven and c != d:
+        pull[d] += value / layout.ratio[d]
+
+
+@jit
+def _add_free(matrix, layout, i, j, part, top, left, width):
+    """Add a block of ``part`` in the free coordinates of nodes ``i`` and ``j``."""
+    one, other = layout.block[i], layout.block[j]
+    if one < 0 or other < 0:
+        return
+    at, down, across = blocks.place(matrix, one, other)
+    if at < 0:
+        matrix.missing[0] = 1
+        return
+    for s in range(width):
+        column = layout.slot[PER_NODE * j + s]
+        if column < 0:
+            continue
+        first = at + across * column
+        for r in range(width):
+            row = layout.slot[PER_NODE * i + r]
+            if row >= 0:
+                matrix.values[first + down * row] += part[top + r, left + s]
+
+
+@jit
+def _add_following(matrix, layout, pull, i, j, part, top, left, width):
+    """Add the entries of ``part`` in pairs of which a coordinate follows another one."""
+    for r in range(width):
+        c = PER_NODE * i + r
+        for s in range(r + 1 if i == j else width):
+            d = PER_NODE * j + s
+            if layout.leader[c] != c or layout.leader[d] != d:
+                add_entry(matrix, layout, pull, c, d, part[top + r, left + s])
+
+
+@jit
+def add_stencil(matrix, layout, pull, nodes, count, width, part):
+    """Add the second derivatives ``part`` in the first ``width`` coordinates of ``count`` nodes.
+
+    part (count x width, count x width): symmetric, node by node.
+    """
+    for a in range(count):
+        i = nodes[a]
+        for b in range(a + 1):
+            j, top, left = nodes[b], width * a, width * b
+            _add_free(matrix, layout, i, j, part, top, left, width)
+            if layout.follows[i] or layout.follows[j]:
+                _add_following(matrix, layout, pull, i, j, part, top, left, width)
+
+
+@jit_exact
+def add_contacts(problem, x, step, found):
+    """Add the second derivatives of contact and friction."""

@@ -1,0 +1,107 @@
+"""The Hessian of a lattice of plates at the point of the last `potential.evaluate`, factored.
+
+Where the exact Hessian H is not positive, H + sigma W is the projected one, with W the weights of
+`Layout`. The shift sigma is raised from below its last value until all pivots are positive.
+"""
+
+from kernels.arrays import zero
+from kernels.compile.jit import jit_exact
+from kernels.linear.block_ldlt import ROUNDED, THROUGH
+from kernels.linear.supernodal import factor as ldlt
+from kernels.linear.supernodal import matrix as blocks
+from kernels.linear.supernodal import solution
+from kernels.plates import assembly, shell
+from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
+
+RAISED = 4.0  # ratio of a shift to the one before, which was too small
+LOWERED = 1.0 / 3.0  # ratio of the first shift that is tried to the last that was large enough
+LEAST_SHIFT = 1e-6  # of the stiffest length
+MOST_SHIFT = 1e3
+
+
+@jit_exact
+def _assemble(problem, x, step, found):
+    """Fill the matrix with the exact Hessian, and the pull of the driven coordinate."""
+    scene, buffers = problem.scene, problem.buffers
+    matrix, layout, pull = problem.neighbours.matrix, scene.layout, buffers.pull
+    blocks.clear(matrix)
+    zero(pull)
+    for e in range(scene.shell.quads.shape[0]):
+        shell.hessian(x, buffers.frames, scene.shell, scene.law, e, buffers.shell, buffers.second)
+        assembly.add_stencil(
+            matrix, layout, pull, scene.shell.quads[e], 4, assembly.PER_NODE, buffers.second
+        )
+    assembly.add_contacts(problem, x, step, found)
+    if step.dynamic:
+        inert, mass = 1.0 / (step.h * step.h), scene.coordinates.mass
+        for i in range(mass.size):
+            if mass[i] > 0.0:
+                assembly.add_entry(matrix, layout, pull, i, i, inert * mass[i])
+
+
+@jit_exact
+def _shifted(problem):
+    """Factor H + sigma W with the least sigma that is found; return whether that succeeds."""
+    layout, matrix, shift = problem.scene.layout, problem.neighbours.matrix, problem.buffers.shift
+    stiffest = ldlt.stiffest(matrix, layout.is_length)
+    sigma = max(LOWERED * shift[0], LEAST_SHIFT * stiffest)
+    while sigma <= MOST_SHIFT * stiffest:
+        failed, _ = ldlt.factor(matrix, layout.scale, layout.weight, sigma, ROUNDED)
+        if failed < 0:
+            shift[0] = sigma
+            return True
+        sigma *= RAISED
+    return False
+
+
+@jit_exact
+def factor(problem, x, step, found, projected, through):
+    """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""
+    layout, matrix = problem.scene.layout, problem.neighbours.matrix
+    if projected:  # the exact one, which the matrix has, is not positive
+        return (POSITIVE if _shifted(problem) else NEGATIVE), 0.0
+    _assemble(problem, x, step, found)
+    if matrix.missing[0] != 0:
+        return NO_ROOM, 0.0
+    rounded = THROUGH if through else ROUNDED
+    failed, pivot = ldlt.factor(matrix, layout.scale, layout.weight, 0.0, rounded)
+    return (NEGATIVE if failed >= 0 else POSITIVE), pivot
+
+
+@jit_exact
+def solve(problem, b):
+    """Solve in place for the right side ``b`` (n,); held coordinates are zero."""
+    layout, vector = problem.scene.layout, problem.buffers.unknowns
+    zero(vector)
+    for i in range(b.size):
+        if layout.unknown[i] >= 0:
+            vector[layout.unknown[i]] += layout.ratio[i] * b[i]
+    solution.solve(problem.neighbours.matrix, vector)
+    _spread(layout, vector, b)
+
+
+@jit_exact
+def _spread(layout, vector, move):
+    """Write the moves ``vector`` (u,) of the unknowns to all coordinates of ``move`` (n,)."""
+    for i in range(move.size):
+        u = layout.unknown[i]
+        move[i] = layout.ratio[i] * vector[u] if u >= 0 else 0.0
+
+
+@jit_exact
+def descend(problem, direction):
+    """Fill ``direction`` (n,) with d such that d . H d is the negative pivot of `factor`."""
+    solution.descend(problem.neighbours.matrix, problem.buffers.unknowns)
+    _spread(problem.scene.layout, problem.buffers.unknowns, direction)
+
+
+@jit_exact
+def unstable(problem):
+    """Return the number of negative pivots of the factor."""
+    return ldlt.negatives(problem.neighbours.matrix)
+
+
+@jit_exact
+def stiffest(problem):
+    """Return the largest diagonal entry of a length in the last factor, N/m."""
+    return ldlt.stiffest(problem.neighbours.matrix, problem.scene.layout.is_length)

@@ -1,0 +1,202 @@
+"""Energy of a layered wall per area of its rest shape, over the strain measures of a point.
+
+The measures are A11, A22, A12, B11, B22, B12, D11, D22, D12 less those at rest: of the mid-surface
+x and the director field d, A = x,a . x,b, B = (x,a . d,b + x,b . d,a) / 2 and D = d,a . d,b. The
+layer at zeta is stretched by
+
+    c(zeta) = 1 + A + 2 z B + z^2 D,   z = zeta j,   j = det(1 + A)^(-1/2)
+
+as an incompressible wall becomes thicker by the factor j where its mid-surface shrinks. With the
+energy W(c) of a sheet and its stress S = dW/dc and tangent T = dS/dc, three Gauss points give
+
+    U = sum of v W(c),   v: part of the thickness
+
+and with N_k = sum v z^k S, M_k = sum v z^k T, e = 2 (B + z D) = dc/dz and U_j = sum v zeta S . e
+
+    dU/dA = N_0 + U_j dj/dA             dU/dB = 2 N_1           dU/dD = N_2
+    d2U/dB2 = 4 M_2                     d2U/dB dD = 2 M_3       d2U/dD2 = M_4
+    d2U/dA dB = 2 M_1 + dj/dA U_jB      d2U/dA dD = M_2 + dj/dA U_jD
+    d2U/dA2 = M_0 + U_jA dj/dA + dj/dA U_jA + U_jj dj/dA dj/dA + U_j d2j/dA2
+    U_jA = sum v zeta T e               U_jB = sum v zeta (2 S + 2 z T e)
+    U_jD = sum v zeta (2 z S + z^2 T e) U_jj = sum v zeta^2 (e . T e + 2 S . D)
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels.compile.jit import jit, jit_owning
+
+OUTER = math.sqrt(0.15)  # of a thickness: place of the outer of three Gauss points
+SHARES = (5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0)
+MEASURES = 9
+
+
+class Moments(NamedTuple):
+    """Sums over the layers: stress (3, 3) N_0 .. N_2, tangent (5, 6) M_0 .. M_4 by upper triangle.
+
+    by_j (9,): U_jA, U_jB, U_jD.
+    """
+
+    stress: np.ndarray
+    tangent: np.ndarray
+    by_j: np.ndarray
+
+
+@jit_owning
+def make_moments():
+    """Return zero moments."""
+    return Moments(np.zeros((3, 3)), np.zeros((5, 6)), np.zeros(MEASURES))
+
+
+@jit
+def _thickening(m):
+    """Return j and det(1 + A); j is infinite where the determinant is not positive."""
+    det = 1.0 + (m[0] + m[1] + m[0] * m[1] - m[2] * m[2])
+    if not (det > 0.0 and m[0] > -1.0):
+        return math.inf, det
+    return 1.0 / math.sqrt(det), det
+
+
+@jit
+def _slopes_of_thickening(m, j):
+    """Return dj/dA for A11, A22, A12."""
+    cube = -0.5 * j * j * j
+    return cube * (1.0 + m[1]), cube * (1.0 + m[0]), -2.0 * cube * m[2]
+
+
+@jit
+def _layer(m, z):
+    """Return c - 1 at z, and dc/dz."""
+    return (
+        (
+            m[0] + z * (2.0 * m[3] + z * m[6]),
+            m[1] + z * (2.0 * m[4] + z * m[7]),
+            m[2] + z * (2.0 * m[5] + z * m[8]),
+        ),
+        (2.0 * (m[3] + z * m[6]), 2.0 * (m[4] + z * m[7]), 2.0 * (m[5] + z * m[8])),
+    )
+
+
+@jit
+def _times(t, e):
+    """Return T e for the upper triangle of T."""
+    return (
+        t[0] * e[0] + t[1] * e[1] + t[2] * e[2],
+        t[1] * e[0] + t[3] * e[1] + t[4] * e[2],
+        t[2] * e[0] + t[4] * e[1] + t[5] * e[2],
+    )
+
+
+@jit
+def resultants(law, m, thickness, slope):
+    """Return U and that part of it which the strain of the mid-surface alone would take, J/m^2.
+
+    m (9,): measures. slope (9,) receives dU/dm. U is infinite where a layer has no area left.
+    """
+    j, _ = _thickening(m)
+    if math.isinf(j):
+        return math.inf, math.inf
+    middle, s, _ = law.respond(m[0], m[1], m[2])
+    middle *= thickness
+    total = SHARES[1] * middle
+    v = SHARES[1] * thickness
+    for i in range(3):
+        slope[i], slope[3 + i], slope[6 + i] = v * s[i], 0.0, 0.0
+    by_j, v = 0.0, SHARES[0] * thickness
+    for side in (-1.0, 1.0):
+        zeta = side * OUTER * thickness
+        z = zeta * j
+        c, e = _layer(m, z)
+        value, s, _ = law.respond(c[0], c[1], c[2])
+        total += v * value
+        by_j += v * zeta * (s[0] * e[0] + s[1] * e[1] + s[2] * e[2])
+        for i in range(3):
+            slope[i] += v * s[i]
+            slope[3 + i] += 2.0 * v * z * s[i]
+            slope[6 + i] += v * z * z * s[i]
+    dj = _slopes_of_thickening(m, j)
+    for i in range(3):
+        slope[i] += by_j * dj[i]
+    return total, middle
+
+
+@jit
+def _sum_layers(law, m, thickness, j, moments):
+    """Fill the moments; return U_j and U_jj."""
+    stress, tangent, mixed = moments.stress, moments.tangent, moments.by_j
+    stress[:] = 0.0
+    tangent[:] = 0.0
+    mixed[:] = 0.0
+    first, second = 0.0, 0.0
+    for layer in range(3):
+        v, zeta = SHARES[layer] * thickness, (layer - 1.0) * OUTER * thickness
+        z = zeta * j
+        c, e = _layer(m, z)
+        _, s, t = law.respond(c[0], c[1], c[2])
+        f = _times(t, e)
+        lever = v * zeta
+        power = v
+        for k in range(5):
+            for i in range(6):
+                tangent[k, i] += power * t[i]
+            power *= z
+        for i in range(3):
+            stress[0, i] += v * s[i]
+            stress[1, i] += v * z * s[i]
+            stress[2, i] += v * z * z * s[i]
+            mixed[i] += lever * f[i]
+            mixed[3 + i] += 2.0 * lever * (s[i] + z * f[i])
+            mixed[6 + i] += lever * z * (2.0 * s[i] + z * f[i])
+            first += lever * s[i] * e[i]
+            second += lever * zeta * (e[i] * f[i] + 2.0 * s[i] * m[6 + i])
+    return first, second
+
+
+@jit
+def _place(block, row, column, factor, t):
+    """Set a 3 x 3 block to ``factor`` times the symmetric matrix of upper triangle ``t`` (6,)."""
+    block[row, column] = factor * t[0]
+    block[row, column + 1] = factor * t[1]
+    block[row, column + 2] = factor * t[2]
+    block[row + 1, column] = factor * t[1]
+    block[row + 1, column + 1] = factor * t[3]
+    block[row + 1, column + 2] = factor * t[4]
+    block[row + 2, column] = factor * t[2]
+    block[row + 2, column + 1] = factor * t[4]
+    block[row + 2, column + 2] = factor * t[5]
+
+
+@jit
+def rigidity(law, m, thickness, moments, slope, second):
+    """Fill ``slope`` (9,) with dU/dm and ``second`` (9, 9), symmetric, with d2U/dm2.
+
+    To be called where U is finite.
+    """
+    j, _ = _thickening(m)
+    u_j, u_jj = _sum_layers(law, m, thickness, j, moments)
+    dj = _slopes_of_thickening(m, j)
+    n, t, mixed = moments.stress, moments.tangent, moments.by_j
+    for i in range(3):
+        slope[i] = n[0, i] + u_j * dj[i]
+        slope[3 + i], slope[6 + i] = 2.0 * n[1, i], n[2, i]
+    _place(second, 0, 0, 1.0, t[0])
+    _place(second, 0, 3, 2.0, t[1])
+    _place(second, 0, 6, 1.0, t[2])
+    _place(second, 3, 3, 4.0, t[2])
+    _place(second, 3, 6, 2.0, t[3])
+    _place(second, 6, 6, 1.0, t[4])
+    for i in range(3):
+        for k in range(3):
+            second[i, k] += mixed[i] * dj[k] + dj[i] * mixed[k]
+            second[i, k] += (u_jj + 3.0 * u_j / j) * dj[i] * dj[k]
+            second[i, 3 + k] += dj[i] * mixed[3 + k]
+            second[i, 6 + k] += dj[i] * mixed[6 + k]
+    curl = 0.5 * u_j * j * j * j  # of det in A11 A22 and A12 A12, d2j = 3 dj dj / j - j^3 / 2 d2det
+    second[0, 1] -= curl
+    second[1, 0] -= curl
+    second[2, 2] += 2.0 * curl
+    for i in range(3, 9):
+        for k in range(3 if i < 6 else 6):
+            second[i, k] = second[k, i]

@@ -1,0 +1,57 @@
+"""The potential of one step of a lattice of plates: the sum of all terms, with its gradient.
+
+    E(x) = E_m + E_b + E_c - f . u + |x - x~|_M^2 / (2 h^2) + D_f(u),   u = x - y
+
+E_m: energy of the mid-surfaces; E_b: of bending and transverse shear; E_c: of contact. u / h is the
+velocity at the end of the step (`solve.integrators`). In a static step y = x0, and inertia
+vanishes. The Hessian is in `factoring`.
+"""
+
+from kernels.plates.reach import drift
+
+from kernels.arrays import dot, zero
+from kernels.compile.jit import jit_exact
+from kernels.plates import contact, lagging, shell
+from kernels.terms import inertia
+from kernels.terms.rows import BEND, CONTACT, STRETCH
+
+
+@jit_exact
+def evaluate(problem, x, step, found, projected):
+    """Return E in J; fill ``found``."""
+    scene, coordinates = problem.scene, problem.scene.coordinates
+    for i in range(x.size):
+        found.u[i] = x[i] - step.y[i]
+    for part in (found.elastic, found.material, found.friction):
+        zero(part)
+    store_walls(problem, x, found)
+    found.stored[CONTACT] = contact.evaluate(
+        x, scene.contact, problem.neighbours.pairs, drift(problem, x),
+        problem.neighbours.touching, found.elastic,
+    )  # fmt: skip
+    total = found.stored[STRETCH] + found.stored[BEND] + found.stored[CONTACT]
+    total -= step.factor * dot(coordinates.load, found.u)
+    for i in range(x.size):
+        found.g[i] = found.elastic[i] - step.factor * coordinates.load[i]
+    if step.dynamic:
+        total += inertia.evaluate(x, step.x_pred, coordinates.mass, step.h, found.g)
+    sums = found.sums[0]
+    sums.potential, sums.friction, sums.dissipated = total, 0.0, 0.0
+    return lagging.exchange(problem, step, found)
+
+
+@jit_exact
+def store(problem, x, step, found):
+    """Fill the stored energies of the walls at ``x``; add their gradient to ``found.elastic``."""
+    store_walls(problem, x, found)
+
+
+@jit_exact
+def store_walls(problem, x, found):
+    """Fill the stored energies of the walls; add their gradient to ``found.elastic``."""
+    scene, buffers = problem.scene, problem.buffers
+    zero(buffers.parts)
+    total = shell.evaluate(
+        x, buffers.frames, scene.shell, scene.law, buffers.shell, found.elastic, buffers.parts
+    )
+    found.stored[STRETCH], found.stored[BEND] = buffers.parts[0], total - buffers.parts[0]

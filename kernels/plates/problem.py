@@ -1,0 +1,112 @@
+"""The lattice of plates: data of a scene, and the problem assembled from it.
+
+Coordinates are the positions and rotations of the nodes, and the heights of the platens (`layout`).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels.compile.jit import jit_exact, jit_owning
+from kernels.plates import constraints, factoring, lagging, potential, reach, rows, shell, steps
+from kernels.plates.reach import Neighbours
+from kernels.solve import history
+from kernels.solve.problem import Coordinates
+from kernels.terms.rows import STORED
+
+
+class Buffers(NamedTuple):
+    """Arrays that are allocated once a march.
+
+    frames (n_nodes, 9): committed frames of the nodes, `history.State.memory`. shell: scratch of
+    one quad; second (24, 24): its Hessian. part (12, 12): Hessian of one contact. parts (3,):
+    energies of the walls, J. pull (n,): derivatives of the gradient in the driven coordinate.
+    unknowns (u,): scratch. shift (1,): last shift of a projected Hessian, N/m.
+    """
+
+    frames: np.ndarray
+    shell: object
+    second: np.ndarray
+    part: np.ndarray
+    parts: np.ndarray
+    pull: np.ndarray
+    unknowns: np.ndarray
+    shift: np.ndarray
+
+
+class Plates(NamedTuple):
+    """The problem. scene: `PlateScene`. neighbours: pair lists, matrix and lagged friction."""
+
+    scene: object
+    neighbours: Neighbours
+    buffers: Buffers
+
+    begin = steps.begin
+    evaluate = potential.evaluate
+    store = potential.store
+    commit = steps.commit
+    roll_back = steps.roll_back
+
+    factor = factoring.factor
+    solve = factoring.solve
+    descend = factoring.descend
+    unstable = factoring.unstable
+    stiffest = factoring.stiffest
+
+    reduce = constraints.reduce
+    lead = constraints.lead
+    pull = constraints.pull
+    tie = constraints.tie
+
+    travel = reach.travel
+    step_limit = reach.step_limit
+    covers = reach.covers
+
+    lags = lagging.lags
+    lag = lagging.lag
+    exchange = lagging.exchange
+    follow = lagging.follow
+    forget = lagging.forget
+
+    project = steps.project
+    covers_projection = reach.covers_projection
+    write = rows.write
+
+
+@jit_owning
+def make_buffers(scene, committed):
+    """Return the `Buffers`. committed: `solve.history.State.memory`."""
+    layout = scene.layout
+    return Buffers(
+        committed, shell.make_scratch(), np.zeros((24, 24)), np.zeros((12, 12)), np.zeros(3),
+        np.zeros(layout.leader.size), np.zeros(layout.scale.size), np.zeros(1),
+    )  # fmt: skip
+
+
+@jit_exact
+def assemble(scene, neighbours, buffers):
+    """Return the problem."""
+    return Plates(scene, neighbours, buffers)
+
+
+def at_rest(frames, x):
+    """Return the `history.State` at rest at ``x`` (n,), with ``frames`` (n_nodes, 9) of nodes."""
+    state = history.at_rest(x, STORED, frames.shape)
+    state.memory[:] = frames
+    return state
+
+
+class PlateScene(NamedTuple):
+    """One scene: the data of every term. A term that is absent has empty arrays."""
+
+    coordinates: Coordinates
+    law: object
+    shell: object
+    contact: object
+    friction: object
+    layout: object
+
+    find_neighbours = reach.find_neighbours
+    renew_neighbours = reach.renew_neighbours
+    make_buffers = make_buffers
+    assemble = assemble

@@ -1,0 +1,127 @@
+"""Step limits and neighbour lists of plates; a list is kept while nodes move little."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels.compile.jit import jit_exact, jit_owning, separate
+from kernels.geometry.space import near
+from kernels.linear.supernodal.analysis import analyse
+from kernels.linear.supernodal.matrix import Matrix
+from kernels.plates import contact, couplings, friction, pairs
+from kernels.plates.contact import Touching
+from kernels.plates.friction import LaggedContacts
+from kernels.plates.pairs import Pairs
+
+MARGIN = 0.5  # least margin of the pair list, as a share of the reach of contact
+MOVE_MARGIN = 2.2  # least margin as a multiple of a move; with 2 the list holds for no other move
+
+
+class Neighbours(NamedTuple):
+    """Pairs listed at ``anchor`` (n,) with ``margin`` (m), and the matrix with room for them.
+
+    touching: contacts at the last `evaluate`. lagged_contacts: contacts with lagged friction.
+    """
+
+    pairs: Pairs
+    anchor: np.ndarray
+    margin: float
+    matrix: Matrix
+    touching: Touching
+    lagged_contacts: LaggedContacts
+
+
+@jit_exact
+def n_nodes(scene):
+    """Return the number of nodes."""
+    return scene.layout.block.size
+
+
+@separate
+@jit_owning
+def list_pairs(scene, x, move):
+    """Return pairs that hold for a ``move`` (m) from ``x``, and their margin, m."""
+    margin = max(MOVE_MARGIN * move, MARGIN * scene.contact.reach)
+    return pairs.find(x, scene.contact, scene.contact.reach + margin), margin
+
+
+@separate
+@jit_owning
+def make_matrix(scene, x, listed):
+    """Return the matrix with room for all couplings of nodes that may soon share a term."""
+    layout = scene.layout
+    return analyse(layout.size, couplings.couplings(scene, listed), layout.point)
+
+
+@jit_owning
+def find_neighbours(scene, x):
+    """Return `Neighbours` at ``x``, without lagged friction."""
+    listed, margin = list_pairs(scene, x, 0.0)
+    lagged_contacts = friction.no_contacts(listed, scene.contact, scene.friction)
+    matrix, touching = make_matrix(scene, x, listed), contact.no_contacts(scene.contact, listed)
+    return Neighbours(listed, x.copy(), margin, matrix, touching, lagged_contacts)
+
+
+@jit_owning
+def renew_neighbours(scene, neighbours, x, move):
+    """Return `Neighbours` at ``x`` that hold for a ``move`` (m), with missing entries of the
+    matrix.
+
+    If no entry is missing, the matrix is the same, and its factor remains valid.
+    """
+    listed, margin = list_pairs(scene, x, move)
+    matrix, lagged_contacts = neighbours.matrix, neighbours.lagged_contacts
+    if matrix.missing[0] != 0:
+        matrix = make_matrix(scene, x, listed)
+    wider = friction.no_contacts(listed, scene.contact, scene.friction)
+    if wider.load.size > lagged_contacts.load.size:
+        lagged_contacts = friction.enlarged(lagged_contacts, wider)
+    touching = contact.no_contacts(scene.contact, listed)
+    return Neighbours(listed, x.copy(), margin, matrix, touching, lagged_contacts)
+
+
+@jit_exact
+def drift(problem, x):
+    """Return the longest move of a node since the pairs were listed, m."""
+    return near.farthest(x, problem.neighbours.anchor, n_nodes(problem.scene))
+
+
+@jit_exact
+def travel(problem, dx):
+    """Return the longest move of a node in ``dx``, m, at most the longest that lists may cover."""
+    longest = near.longest(dx, n_nodes(problem.scene))
+    return min(longest, problem.scene.contact.most_move)
+
+
+@jit_exact
+def covers(problem, x, far):
+    """Return whether the pair list holds for moves of all nodes by at most ``far`` m from ``x``."""
+    return 2.0 * (drift(problem, x) + far) <= problem.neighbours.margin
+
+
+@jit_exact
+def covers_projection(problem, x):
+    """Return True: nothing is moved after a step."""
+    return True
+
+
+@jit_exact
+def step_limit(problem, x, dx, far):
+    """Return the admissible share of ``dx`` (at most 1): no wall crosses another or a platen.
+
+    far: `travel` of ``dx``, m.
+    """
+    scene, shortest = problem.scene, 1.0
+    if far >= scene.contact.most_move:
+        far = near.longest(dx, n_nodes(scene))
+        shortest = min(1.0, scene.contact.most_move / far)
+    first = contact.step_limit(
+        x, dx, shortest, scene.contact, problem.neighbours.pairs, drift(problem, x)
+    )
+    return min(first, shortest)
+
+
+@jit_exact
+def least_gap(problem, x):
+    """Return the smallest distance in m between mid-surfaces that may touch."""
+    return contact.least_gap(x, problem.scene.contact, problem.neighbours.pairs, drift(problem, x))

@@ -1,0 +1,187 @@
+"""LDL^T factor by supernodes: against dense algebra, with inertia and negative curvature."""
+
+import numpy as np
+import pytest
+
+from kernels.linear.block_ldlt import CONVEX, ROUNDED, SOFT, THROUGH
+from kernels.linear.supernodal import factor as ldlt
+from kernels.linear.supernodal.matrix import clear
+from kernels.linear.supernodal.solution import descend, solve
+from tests.support.supernodes import (
+    assembled,
+    dominant,
+    factored,
+    lower,
+    random_blocks,
+    random_dense,
+)
+from tests.support.wall_graph import lattice_of_plates
+
+SHAPES = [(1, 0.0), (2, 0.0), (5, 0.5), (25, 0.02), (40, 0.1)]
+
+
+def random_case(seed, nb, share, make):
+    rng = np.random.default_rng([seed, nb])
+    sizes, pairs, points = random_blocks(rng, nb, share)
+    full, spans = random_dense(rng, sizes, pairs)
+    full = make(full)
+    return rng, full, assembled(sizes, pairs, points, full, spans)
+
+
+@pytest.mark.parametrize(("nb", "share"), SHAPES)
+@pytest.mark.parametrize("scale", [1.0, 1e9, 1e-9])
+@pytest.mark.parametrize("seed", range(3))
+def test_factor_and_solve(seed, scale, nb, share):
+    rng, full, matrix = random_case(seed, nb, share, lambda a: scale * dominant(a))
+    assert factored(matrix, scale=scale) == (-1, 0.0)
+    b = rng.uniform(-1, 1, len(full))
+    x = b.copy()
+    solve(matrix, x)
+    np.testing.assert_allclose(full @ x, b, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize(("nb", "share"), SHAPES)
+@pytest.mark.parametrize("rounded", [ROUNDED, THROUGH])
+def test_the_factor_times_its_diagonal_times_its_transpose_is_the_matrix(rounded, nb, share):
+    def make(a):
+        signs = np.where(np.random.default_rng(0).uniform(size=len(a)) < 0.5, -1.0, 1.0)
+        quasi = a * (np.sign(np.add.outer(signs, signs)) == 0)
+        return dominant(a) if rounded == ROUNDED else np.diag(2.0 * signs * len(a)) + quasi
+
+    _, full, matrix = random_case(7, nb, share, make)
+    assert factored(matrix, rounded)[0] == -1
+    left, of = lower(matrix), matrix.unknown
+    found = left @ np.diag(matrix.pivots) @ left.T
+    np.testing.assert_allclose(found, full[np.ix_(of, of)], rtol=0, atol=1e-12 * len(full))
+    np.testing.assert_allclose(matrix.pivots * matrix.inverse, 1.0, rtol=1e-15)
+
+
+@pytest.mark.parametrize(("nb", "share"), SHAPES)
+@pytest.mark.parametrize("seed", range(4))
+def test_negative_pivots_are_negative_eigenvalues(seed, nb, share):
+    rng, full, matrix = random_case(seed, nb, share, lambda a: a + 0.3 * np.eye(len(a)))
+    assert factored(matrix, THROUGH) == (-1, 0.0)
+    assert ldlt.negatives(matrix) == (np.linalg.eigvalsh(full) < 0).sum()
+    x = b = rng.uniform(-1, 1, len(full))
+    x = b.copy()
+    solve(matrix, x)
+    assert np.abs(full @ x - b).max() < 1e-6
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e6, 1e-6])
+@pytest.mark.parametrize("seed", range(12))
+def test_descent_along_the_first_negative_pivot(seed, scale):
+    rng = np.random.default_rng(seed)
+    sizes, pairs, points = random_blocks(rng, 30, 0.05)
+    full, spans = random_dense(rng, sizes, pairs)
+    full = dominant(full)
+    bad = rng.integers(0, len(full))
+    full[bad, bad] -= np.abs(full[bad]).sum() + rng.uniform(0.01, 3)
+    full *= scale
+    matrix = assembled(sizes, pairs, points, full, spans)
+    failed, pivot = factored(matrix, scale=scale)
+    of = matrix.unknown
+    minors = [np.linalg.eigvalsh(full[np.ix_(of[:k], of[:k])])[0] for k in range(1, len(of) + 1)]
+    assert failed == of[next(k for k, least in enumerate(minors) if least < 0)] == bad
+    d = np.full(len(full), 7.0)
+    descend(matrix, d)
+    assert pivot < 0
+    assert d @ full @ d == pytest.approx(pivot, rel=1e-9)
+    assert d[failed] == 1.0
+    assert not d[of[matrix.home[failed] + 1 :]].any()
+
+
+@pytest.mark.parametrize("size", range(1, 7))
+def test_nan_fails_in_every_slot(size):
+    for slot in range(size):
+        full = np.eye(size)
+        full[slot, slot] = np.nan
+        at = slice(0, size)
+        matrix = assembled(np.array([size]), np.empty((0, 2), int), np.zeros((1, 3)), full, [at])
+        failed, pivot = factored(matrix)
+        assert failed == slot
+        assert np.isnan(pivot)
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e6, 1e-6])
+@pytest.mark.parametrize("loose", [1, 3])
+def test_motions_without_stiffness_are_not_moved_along(loose, scale):
+    """Semi-definite: no failure, and the exact solution wherever the load has one."""
+    rng = np.random.default_rng(loose)
+    half = rng.uniform(-1, 1, (12, 12 - loose))
+    full = scale * half @ half.T
+    sizes, spans = np.full(4, 3), [slice(3 * i, 3 * i + 3) for i in range(4)]
+    pairs = np.argwhere(np.tri(4, k=-1))
+    matrix = assembled(sizes, pairs, np.zeros((4, 3)), full, spans)
+    assert factored(matrix, scale=scale) == (-1, 0.0)
+    b = full @ rng.uniform(-1, 1, 12)
+    x = b.copy()
+    solve(matrix, x)
+    assert np.abs(x).max() < 1e3
+    np.testing.assert_allclose(full @ x, b, rtol=0, atol=1e-7 * scale)
+
+
+def test_convex_takes_a_negative_pivot_for_round_off():
+    def make(a):
+        a = dominant(a)
+        a[17, 17] = -1.0
+        return a
+
+    _, _, matrix = random_case(3, 25, 0.1, make)
+    assert factored(matrix, ROUNDED)[0] == 17
+    assert factored(matrix, CONVEX) == (-1, 0.0)
+    assert ldlt.negatives(matrix) == 0
+    assert matrix.pivots[matrix.home[17]] == SOFT
+
+
+def test_a_shift_is_added_to_the_diagonal_and_leaves_the_matrix():
+    rng, full, matrix = random_case(5, 25, 0.1, lambda a: a)
+    weights = rng.uniform(0.5, 2.0, len(full))
+    kept, shift = matrix.values.copy(), 2.0 * np.abs(full).sum(axis=1).max()
+    assert factored(matrix)[0] >= 0
+    assert factored(matrix, shift=shift, weights=weights) == (-1, 0.0)
+    np.testing.assert_array_equal(matrix.values, kept)
+    b = rng.uniform(-1, 1, len(full))
+    x = b.copy()
+    solve(matrix, x)
+    np.testing.assert_allclose(full @ x + shift * weights * x, b, rtol=0, atol=1e-12)
+
+
+def test_the_stiffest_unknown_of_a_mask():
+    rng, full, matrix = random_case(5, 25, 0.1, dominant)
+    mask = rng.uniform(size=len(full)) < 0.5
+    factored(matrix, shift=2.0)
+    assert ldlt.stiffest(matrix, mask) == np.diag(full)[mask].max() + 2.0
+    assert ldlt.stiffest(matrix, np.zeros(len(full), bool)) == 0.0
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_platen_couples_with_a_row_of_nodes(seed):
+    """An arrow: one block of one unknown with a full row."""
+    rng = np.random.default_rng(seed)
+    sizes, pairs, points = lattice_of_plates(1, 3, 4)
+    platen = len(sizes)
+    sizes = np.append(sizes, 1)
+    pairs = np.vstack([pairs, [(platen, i) for i in range(platen)]])
+    points = np.vstack([points, points.mean(axis=0)])
+    full, spans = random_dense(rng, sizes, pairs)
+    full = dominant(full)
+    matrix = assembled(sizes, pairs, points, full, spans)
+    assert factored(matrix) == (-1, 0.0)
+    b = rng.uniform(-1, 1, len(full))
+    x = b.copy()
+    solve(matrix, x)
+    np.testing.assert_allclose(full @ x, b, rtol=0, atol=1e-12)
+
+
+def test_the_factor_forgets_what_was_there_before():
+    rng, full, matrix = random_case(1, 40, 0.1, dominant)
+    factored(matrix)
+    first = matrix.tiles.copy()
+    matrix.values *= 3.0
+    factored(matrix)
+    matrix.values /= 3.0
+    factored(matrix)
+    np.testing.assert_allclose(matrix.tiles, first, rtol=1e-12, atol=1e-300)
+    clear(matrix)
+    assert not matrix.values.any()

@@ -1,0 +1,162 @@
+"""Shells for tests of plates: flat grids, walls that meet along a line, and their derivatives."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kernels.laws.sheet import Sheet, neo_hookean
+from kernels.plates import shell
+from kernels.plates.shell import Shell
+from tests.support.terms import Term
+
+Floats = NDArray[np.float64]
+
+MODULUS = 12.0
+LINEAR = neo_hookean(MODULUS)
+UP = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Shells at rest. points (n, 3). frames (n, 9). unit (6 n + 2,): size of every coordinate."""
+
+    points: Floats
+    frames: Floats
+    walls: Shell
+
+    @property
+    def rest(self) -> Floats:
+        """Coordinates (6 n + 2,) at rest; the last two are the heights of the platens."""
+        x = np.zeros((len(self.points), 6))
+        x[:, :3] = self.points
+        return np.append(x.ravel(), [0.0, self.points[:, 2].max()])
+
+    @property
+    def unit(self) -> Floats:
+        """Side of a quad for positions, 1 for rotations."""
+        unit = np.ones((len(self.points), 6))
+        unit[:, :3] = self.walls.size.mean()
+        return np.append(unit.ravel(), [1.0, 1.0])
+
+
+def structure(
+    plan: list[tuple[float, float]],
+    walls: list[tuple[int, int]],
+    pieces: int,
+    height: float,
+    layers: int,
+    thickness: float = 0.1,
+    modulus: float = MODULUS,
+) -> Structure:
+    """Walls (pairs of joints of a ``plan``) of ``height`` with ``pieces`` x ``layers`` quads each.
+
+    Joints of one wall too have the frame I and the normal of their wall as director.
+    """
+    joints = np.array(plan, float)
+    columns = [*joints]
+    along: list[tuple[int, int, Floats, float]] = []
+    frames = [np.eye(3)] * len(joints)
+    for i, k in walls:
+        step = (joints[k] - joints[i]) / pieces
+        length = float(np.hypot(*step))
+        s = np.append(step / length, 0.0)
+        inner = range(len(columns), len(columns) + pieces - 1)
+        columns += [joints[i] + step * (m + 1) for m in range(pieces - 1)]
+        frames += [np.column_stack([s, UP, np.cross(s, UP)])] * (pieces - 1)
+        path = [i, *inner, k]
+        along += [(a, b, s, length) for a, b in zip(path[:-1], path[1:], strict=True)]
+    n, levels = len(columns), np.linspace(0.0, height, layers + 1)
+    points = np.array([[*c, z] for z in levels for c in columns])
+    quads, size, dloc = [], [], []
+    for level in range(layers):
+        for a, b, s, length in along:
+            quads.append([level * n + a, level * n + b, (level + 1) * n + b, (level + 1) * n + a])
+            size.append([length, height / layers])
+            normal = np.cross(s, UP)
+            dloc.append([frames[c].T @ normal for c in (a, b, b, a)])
+    m = len(quads)
+    shells = Shell(
+        np.array(quads), np.array(size), np.full(m, thickness), np.array(dloc),
+        np.zeros((m, 4, 9)), np.zeros((m, 4)), 5.0 / 6.0 * modulus / 3.0,
+    )  # fmt: skip
+    return Structure(points, np.tile([f.ravel() for f in frames], (layers + 1, 1)), shells)
+
+
+def plate(
+    nx: int = 2, nz: int = 2, width: float = 1.0, height: float = 1.0, thickness: float = 0.1
+) -> Structure:
+    """A wall along x, whose frames are all (e_s, e_z, n)."""
+    of = structure([(0.0, 0.0), (width, 0.0)], [(0, 1)], nx, height, nz, thickness)
+    frame = np.column_stack([[1.0, 0.0, 0.0], UP, [0.0, -1.0, 0.0]])
+    dloc = np.broadcast_to(UP, of.walls.dloc.shape).copy()
+    frames = np.tile(frame.ravel(), (len(of.points), 1))
+    return Structure(of.points, frames, of.walls._replace(dloc=dloc))
+
+
+def cross(thickness: float = 0.1) -> Structure:
+    """Three walls at a joint line, of one column of quads each."""
+    plan = [(0.0, 0.0), (1.0, 0.1), (-0.4, 0.8), (-0.5, -0.7)]
+    return structure(plan, [(0, 1), (0, 2), (0, 3)], 1, 0.8, 1, thickness)
+
+
+def shaken(of: Structure, seed: int, size: float, turn: float) -> Floats:
+    """Rest coordinates with random changes, of positions in units of the quads."""
+    r = np.random.default_rng(seed)
+    x = of.rest
+    move = np.zeros((len(of.points), 6))
+    move[:, :3] = size * of.walls.size.mean() * r.uniform(-1, 1, of.points.shape)
+    move[:, 3:] = turn * r.uniform(-1, 1, of.points.shape)
+    x[:-2] += move.ravel()
+    return x
+
+
+def stored(of: Structure, x: Floats, law: Sheet = LINEAR) -> Floats:
+    """Membrane, bending and shear energy in J."""
+    parts, room = np.zeros(3), shell.make_scratch()
+    energy = shell.evaluate(x, of.frames, of.walls, law, room, np.zeros_like(x), parts)
+    np.testing.assert_allclose(parts.sum(), energy, rtol=1e-12, atol=1e-300)
+    return parts
+
+
+def element_hessians(of: Structure, x: Floats, law: Sheet = LINEAR) -> Floats:
+    """Hessians (m, 24, 24) of all elements."""
+    room, found = shell.make_scratch(), np.empty((len(of.walls.quads), 24, 24))
+    for e in range(len(found)):
+        shell.hessian(x, of.frames, of.walls, law, e, room, found[e])
+    return found
+
+
+def term_of(of: Structure, law: Sheet = LINEAR) -> Term:
+    """Energy of the shells with dense derivatives."""
+    room = shell.make_scratch()
+
+    def slope(x: Floats, g: Floats) -> float:
+        return float(shell.evaluate(x, of.frames, of.walls, law, room, g, np.zeros(3)))
+
+    def second(x: Floats, projected: bool) -> Floats:
+        assert not projected
+        full = np.zeros((x.size, x.size))
+        for nodes, own in zip(of.walls.quads, element_hessians(of, x, law), strict=True):
+            at = (6 * nodes[:, None] + np.arange(6)).ravel()
+            full[np.ix_(at, at)] += own
+        return full
+
+    return Term(slope, second)
+
+
+def at_rest(of: Structure, x: Floats) -> Structure:
+    """The structure whose shape without stress is ``x``."""
+    walls = of.walls._replace(
+        rest=np.zeros_like(of.walls.rest), shear_rest=np.zeros_like(of.walls.shear_rest)
+    )
+    shell.measure_rest(x, of.frames, walls, shell.make_scratch())
+    return Structure(of.points, of.frames, walls)
+
+
+def mapped(of: Structure, motion: Callable[[Floats], Floats]) -> Floats:
+    """Rest coordinates with positions moved by ``motion`` of points (n, 3)."""
+    x = of.rest
+    x[:-2].reshape(-1, 6)[:, :3] = motion(of.points)
+    return x

@@ -1,0 +1,31 @@
+"""Graphs of lattices of plates: the blocks, pairs and positions that a matrix of them has."""
+
+import numpy as np
+
+QUAD = [(a, b) for a in range(4) for b in range(a)]
+
+
+def lattice_of_plates(cells, across, high, sizes=(5, 6)):
+    """Return (sizes (nb,), pairs (k, 2), points (nb, 3)) of ``cells`` x ``cells`` square cells.
+
+    across, high: quads along the width and the height of each wall. sizes: unknowns of a node
+    inside a wall and of one of a joint line.
+    """
+    number, points, block, quads = {}, [], [], []
+
+    def node(x, y, z):
+        place = (x, y, z)
+        if place not in number:
+            number[place] = len(points)
+            points.append((x / across, y / across, z / across))
+            block.append(sizes[x % across == 0 and y % across == 0])
+        return number[place]
+
+    for row in range(cells + 1):
+        for s in range(cells * across):
+            for z in range(high):
+                corners = [(s, z), (s + 1, z), (s + 1, z + 1), (s, z + 1)]
+                quads.append([node(i, row * across, k) for i, k in corners])
+                quads.append([node(row * across, i, k) for i, k in corners])
+    pairs = np.array([(quad[a], quad[b]) for quad in quads for a, b in QUAD])
+    return np.array(block), pairs, np.array(points)
