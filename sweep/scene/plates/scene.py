@@ -1,0 +1,167 @@
+"""The arrays of a lattice that is pressed along its cells: constraints, shells, contact, platens."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from kernels.plates import shell
+from kernels.plates.layout import Layout
+from kernels.plates.problem import PlateScene
+from kernels.solve.problem import FREE, HELD, LED, TIED, Coordinates
+from sweep.config.case import Case, given
+from sweep.config.direction import network_of
+from sweep.design.drawing import Indices
+from sweep.design.network import Network, mass
+from sweep.scene.mesh import Floats
+from sweep.scene.plates import coordinates
+from sweep.scene.plates.contact import contact_of
+from sweep.scene.plates.coordinates import PER_NODE, Numbering
+from sweep.scene.plates.law import law_of_sheet, shear_modulus
+from sweep.scene.plates.mesh import PlateMesh, build_mesh
+from sweep.scene.terms import friction_of
+
+NONE = np.empty(0, np.int64)
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A case as arrays; as `scene.terms.Scene`, with plates.
+
+    Forces and energies are those of the walls in ``mesh``, one of `Plan.copies` equal parts.
+    """
+
+    mesh: PlateMesh
+    network: Network
+    terms: PlateScene
+    x_rest: Floats
+    bottom: Indices
+    top: Indices
+    base: Indices
+    force_scale: float
+    velocity: Floats
+    probes: Indices = field(default_factory=lambda: NONE)
+    travel: float = 0.0
+
+
+def build_scene(case: Case) -> Scene:
+    """Build the arrays of ``case``."""
+    lattice, loading = case.lattice, case.loading
+    mesh, network = build_mesh(lattice), network_of(lattice)
+    numbering, platen = Numbering(mesh.n_nodes), given(loading.platen)
+    leader = coordinates.leaders(mesh, platen)
+    copies = mesh.plan.copies
+    printed = mass(network, lattice.depth, case.material.density) / copies
+    masses = coordinates.masses(mesh, printed, (loading.striker_mass or 0.0) / copies)
+    x_rest = coordinates.at_rest(mesh, platen)
+    terms = PlateScene(
+        coordinates=_coordinates(mesh, numbering, leader, masses, case),
+        law=law_of_sheet(case.material),
+        shell=_shell(mesh, x_rest, case),
+        contact=contact_of(mesh, numbering, case),
+        friction=friction_of(case),
+        layout=_layout(mesh, numbering, leader, case),
+    )
+    loose = platen == "contact"
+    low, high = np.array([numbering.low]), np.array([numbering.high])
+    bottom = low if loose else np.append(numbering.position(mesh.bottom, 2), low)
+    return Scene(
+        mesh, network, terms, x_rest, bottom, high, low,
+        force_scale=_force_scale(mesh, case),
+        velocity=np.where(leader == numbering.high, -(loading.striker_speed or 0.0), 0.0),
+    )  # fmt: skip
+
+
+def _driven(numbering: Numbering, case: Case) -> int:
+    return numbering.high if case.loading.mode == "displacement" else -1
+
+
+def _coordinates(
+    mesh: PlateMesh, numbering: Numbering, leader: Indices, masses: Floats, case: Case
+) -> Coordinates:
+    """The data of the coordinates that the solver needs; a rotation w turns by 2 w."""
+    scale = np.where(_is_rotation(numbering), 2.0 * mesh.size.mean(), 1.0)
+    driven = _driven(numbering, case)
+    role = np.where(leader == np.arange(leader.size), FREE, TIED)
+    if driven >= 0:
+        role[leader == driven] = LED
+    role[leader < 0] = HELD
+    moved = np.bincount(leader[leader >= 0], masses[leader >= 0], leader.size)
+    heavy = np.zeros(leader.size)
+    heavy[leader >= 0] = (moved[leader[leader >= 0]] > 0.0) & (leader[leader >= 0] != driven)
+    thickness = float(mesh.thickness.min())
+    return Coordinates(
+        role=role,
+        scale=scale,
+        lever=1.0 / scale,
+        mass=masses,
+        heavy=heavy,
+        load=np.zeros(leader.size),
+        driven=driven,
+        cap=0.25 * float(mesh.plan.span.mean()),
+        leap=0.1 * thickness,
+        close=1e-3 * thickness,
+    )
+
+
+def _is_rotation(numbering: Numbering) -> np.ndarray:
+    """Which coordinates are rotations, (6 n + 2,)."""
+    place = np.arange(numbering.size) % PER_NODE
+    return np.asarray((place >= 3) & (np.arange(numbering.size) < numbering.low))
+
+
+def _shell(mesh: PlateMesh, x_rest: Floats, case: Case) -> shell.Shell:
+    """The shells, without stress in the bowed shape at rest."""
+    m = len(mesh.quads)
+    made = shell.Shell(
+        mesh.quads, mesh.size, mesh.thickness, mesh.dloc, np.zeros((m, 4, 9)), np.zeros((m, 4)),
+        shear_modulus(case.material),
+    )  # fmt: skip
+    shell.measure_rest(x_rest, mesh.frames, made, shell.make_scratch())
+    return made
+
+
+def _layout(mesh: PlateMesh, numbering: Numbering, leader: Indices, case: Case) -> Layout:
+    """Constraints, and the places of the unknowns: node by node, then the upper platen."""
+    n, driven, own = mesh.n_nodes, _driven(numbering, case), np.arange(leader.size)
+    free = (leader == own) & (own != driven)
+    count = free[: numbering.low].reshape(n, PER_NODE).sum(axis=1)
+    slot = np.where(free, np.cumsum(free) - 1, -1)
+    slot[: numbering.low] -= np.where(
+        free[: numbering.low], np.repeat(np.cumsum(count) - count, PER_NODE), 0
+    )
+    slot[numbering.low :] = np.where(free[numbering.low :], 0, -1)
+    number = np.where(free, np.cumsum(free) - 1, -1)
+    unknown = np.where(leader >= 0, number[leader], -1)
+    block = np.where(count > 0, np.cumsum(count > 0) - 1, -1)
+    platen = int(free[numbering.high])
+    top = np.array([[*mesh.rest[:, :2].mean(axis=0), mesh.height]])
+    stretching, bending = _stiffness(mesh, case)
+    turns = _is_rotation(numbering)[free]
+    lengths = mesh.size.mean()
+    return Layout(
+        leader=leader,
+        ratio=np.ones(leader.size),
+        driven=driven,
+        unknown=unknown,
+        slot=slot,
+        follows=np.any((leader != own)[: numbering.low].reshape(n, PER_NODE)
+                       & (leader[: numbering.low].reshape(n, PER_NODE) >= 0), axis=1),
+        block=block,
+        size=np.append(count[count > 0], np.ones(platen, np.int64)),
+        point=np.concatenate([mesh.rest[count > 0], top[:platen]]),
+        scale=np.where(turns, bending, stretching),
+        weight=np.where(turns, (2.0 * lengths) ** 2, 1.0),
+        is_length=~turns,
+    )  # fmt: skip
+
+
+def _stiffness(mesh: PlateMesh, case: Case) -> tuple[float, float]:
+    """Stiffness of a node in stretching (N/m) and in bending by w (N m), of the thickest wall."""
+    thickness = float(mesh.thickness.max())
+    return case.material.modulus * thickness, case.material.modulus * thickness**3 / 3.0
+
+
+def _force_scale(mesh: PlateMesh, case: Case) -> float:
+    """Typical force, N: the least Y t^3 / (12 l) of a wall of width l."""
+    plan = mesh.plan
+    return float(np.min(case.material.modulus * plan.thickness**3 / (12.0 * plan.span)))
