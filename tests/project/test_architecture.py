@@ -22,7 +22,7 @@ KERNELS = [module for module in PROGRAM if module.startswith("kernels")]
 # From the ground up: a package imports those before it and itself, inside of functions too.
 FLOORS = [
     "kernels.compile", "kernels.arrays", "kernels.solve", "kernels.linear", "kernels.geometry",
-    "kernels.laws", "kernels.terms", "kernels.planar",
+    "kernels.laws", "kernels.terms", "kernels.plates", "kernels.planar",
     "sweep.version", "sweep.numbers", "sweep.design", "sweep.config", "sweep.result", "sweep.scene",
     "sweep.coupon", "sweep.simulation", "sweep.store", "sweep.ranking", "sweep.report",
     "sweep.export", "sweep.running", "sweep.studies", "sweep.cli", "sweep.__main__",

@@ -8,7 +8,8 @@ from kernels.compile.jit import jit_exact
 from kernels.geometry.space.vectors import inner, minus, plus
 
 FACE = 6  # feature of a triangle a, b, c: 0 .. 2: corners, 3 .. 5: sides ab, bc, ca, 6: inside
-PARALLEL = 1e-14  # squared sine below which two edges count as parallel
+NEARLY_PARALLEL = 1e-8  # squared sine of two edges below which ends of them are tried too
+PARALLEL = 1e-18  # squared sine below which only ends are
 
 
 @jit_exact
@@ -57,12 +58,49 @@ def _clamped(value):
 
 
 @jit_exact
+def _squared_between(a, b, c, d, s, t):
+    """Return the squared distance of the points s and t of two edges, m^2."""
+    gap = minus(plus(a, s, minus(b, a)), plus(c, t, minus(d, c)))
+    return inner(gap, gap)
+
+
+@jit_exact
+def _at_ends(a, b, c, d, s, t):
+    """Return the closest of the points ``s``, ``t`` and the ends of two edges."""
+    best = _squared_between(a, b, c, d, s, t)
+    for i in range(4):
+        if i < 2:
+            one, two = float(i), on_edge(b if i == 1 else a, c, d)
+        else:
+            one, two = on_edge(d if i == 3 else c, a, b), float(i - 2)
+        d2 = _squared_between(a, b, c, d, one, two)
+        if d2 < best:
+            best, s, t = d2, one, two
+    return s, t
+
+
+@jit_exact
 def on_edges(a, b, c, d):
-    """Return (s, t) in [0, 1]: the closest points a + s (b - a) and c + t (d - c) of two edges."""
+    """Return (s, t) in [0, 1]: the closest points a + s (b - a) and c + t (d - c) of two edges.
+
+    Of nearly parallel edges the closest points are uncertain, their distance is not.
+    """
     u, v, w = minus(b, a), minus(d, c), minus(a, c)
     uu, vv, uv = inner(u, u), inner(v, v), inner(u, v)
     uw, vw = inner(u, w), inner(v, w)
     turn = uu * vv - uv * uv
+    s, t = _of_lines(uu, vv, uv, uw, vw, turn)
+    if turn < NEARLY_PARALLEL * uu * vv:
+        return _at_ends(a, b, c, d, s, t)
+    return s, t
+
+
+@jit_exact
+def _of_lines(uu, vv, uv, uw, vw, turn):
+    """Return (s, t) of `on_edges` from the products of the edges u, v and w = a - c.
+
+    turn: squared size of u x v, m^4.
+    """
     s = _clamped((uv * vw - uw * vv) / turn) if turn > PARALLEL * uu * vv else 0.0
     t = (uv * s + vw) / vv
     if t < 0.0:
@@ -91,5 +129,4 @@ def squared_to_edge(p, a, b):
 def squared_between_edges(a, b, c, d):
     """Return the squared distance of two edges, m^2."""
     s, t = on_edges(a, b, c, d)
-    gap = minus(plus(a, s, minus(b, a)), plus(c, t, minus(d, c)))
-    return inner(gap, gap)
+    return _squared_between(a, b, c, d, s, t)

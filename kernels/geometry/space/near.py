@@ -124,13 +124,15 @@ def node_triangle(x, n_nodes, triangles, radius):
     """Return (node, triangle, distance) of pairs closer than ``radius`` (m) that share no node,
     triangle by triangle. x (n,): `vectors.SIZE` coordinates a node.
     """
+    node, triangle, distance = np.empty(64, np.int64), np.empty(64, np.int64), np.empty(64)
+    if triangles.shape[0] == 0:
+        return node[:0], triangle[:0], distance[:0]
     places = np.empty((n_nodes, 3))
     for p in range(n_nodes):
         places[p, 0], places[p, 1], places[p, 2] = point(x, p)
     grid = _grid(places, radius)
     bins, scratch = _bins(places, grid), (np.empty((2, 3)), np.empty((2, 3), np.int64))
     found, count = _room(n_nodes), 0
-    node, triangle, distance = np.empty(64, np.int64), np.empty(64, np.int64), np.empty(64)
     for k in range(triangles.shape[0]):
         n = _near_triangle(x, triangles, k, radius, grid, bins, scratch, found)
         if count + n > node.size:
@@ -190,6 +192,9 @@ def edge_edge(x, edges, radius):
     one < two, by ascending ``one``.
     """
     m, half = edges.shape[0], 0.0
+    one, two, distance = np.empty(64, np.int64), np.empty(64, np.int64), np.empty(64)
+    if m == 0:
+        return one[:0], two[:0], distance[:0]
     places = np.empty((m, 3))
     for e in range(m):
         a, b = point(x, edges[e, 0]), point(x, edges[e, 1])
@@ -199,7 +204,6 @@ def edge_edge(x, edges, radius):
     grid = _grid(places, radius + half)
     bins, scratch = _bins(places, grid), (np.empty((2, 3)), np.empty((2, 3), np.int64))
     found, count = _room(m), 0
-    one, two, distance = np.empty(64, np.int64), np.empty(64, np.int64), np.empty(64)
     for e in range(m):
         n = _near_edge(x, edges, e, radius, half, grid, bins, scratch, found)
         if count + n > one.size:

@@ -8,7 +8,7 @@ SINE2 times the product of their squared lengths at rest,
 """
 
 from kernels.compile.jit import jit
-from kernels.geometry.space.vectors import inner, minus
+from kernels.geometry.space.vectors import cross, inner, minus, times
 
 SINE2 = 1e-3  # squared sine below which the factor is less than one
 
@@ -16,9 +16,8 @@ SINE2 = 1e-3  # squared sine below which the factor is less than one
 @jit
 def factor(points, scale):
     """Return m and its first two derivatives in c. scale: e, m^4."""
-    u, v = minus(points[1], points[0]), minus(points[3], points[2])
-    uv = inner(u, v)
-    share = (inner(u, u) * inner(v, v) - uv * uv) / scale
+    normal = cross(minus(points[1], points[0]), minus(points[3], points[2]))
+    share = inner(normal, normal) / scale
     if share >= 1.0:
         return 1.0, 0.0, 0.0
     return (2.0 - share) * share, (2.0 - 2.0 * share) / scale, -2.0 / (scale * scale)
@@ -28,14 +27,8 @@ def factor(points, scale):
 def slopes(points):
     """Return dc/du and dc/dv of the edges u = b - a and v = d - c, m^3."""
     u, v = minus(points[1], points[0]), minus(points[3], points[2])
-    uu, vv, uv = inner(u, u), inner(v, v), inner(u, v)
-    by_u = (
-        2.0 * (vv * u[0] - uv * v[0]), 2.0 * (vv * u[1] - uv * v[1]), 2.0 * (vv * u[2] - uv * v[2]),
-    )  # fmt: skip
-    by_v = (
-        2.0 * (uu * v[0] - uv * u[0]), 2.0 * (uu * v[1] - uv * u[1]), 2.0 * (uu * v[2] - uv * u[2]),
-    )  # fmt: skip
-    return by_u, by_v
+    normal = times(2.0, cross(u, v))  # as products with it nothing cancels where it is small
+    return cross(v, normal), cross(normal, u)
 
 
 @jit
