@@ -81,7 +81,7 @@ def _add_curvature(edge, factor, second):
 
 @jit
 def _add_pair(first, other, rows, stiffness, second):
-    """Add the products of the slopes (4, 24) ``rows`` of two edges: 2 1; 1 2 times stiffness / 6."""
+    """Add the products of the slopes ``rows`` (4, 24) of two edges by (2 1; 1 2) stiffness / 6."""
     k = stiffness / 6.0
     for i in range(24):
         a = k * (2.0 * rows[first, i] + rows[other, i])

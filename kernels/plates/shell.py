@@ -220,9 +220,7 @@ def evaluate(x, frames, shell, law, scratch, gradient, stored):
         _differentiate(size, scratch.grid)
         scratch.slope[:] = 0.0
         stiffness = 4.0 * area * thickness * shell.shear_modulus
-        sheared = shear.evaluate(
-            scratch.q, size, shell.shear_rest[e], stiffness, scratch.slope
-        )
+        sheared = shear.evaluate(scratch.q, size, shell.shear_rest[e], stiffness, scratch.slope)
         total += sheared
         stored[2] += sheared
         for g in range(4):

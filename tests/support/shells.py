@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,7 +67,7 @@ def structure(
         columns += [joints[i] + step * (m + 1) for m in range(pieces - 1)]
         frames += [np.column_stack([s, UP, np.cross(s, UP)])] * (pieces - 1)
         path = [i, *inner, k]
-        along += [(a, b, s, length) for a, b in zip(path[:-1], path[1:], strict=True)]
+        along += [(a, b, s, length) for a, b in pairwise(path)]
     n, levels = len(columns), np.linspace(0.0, height, layers + 1)
     points = np.array([[*c, z] for z in levels for c in columns])
     quads, size, dloc = [], [], []

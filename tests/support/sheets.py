@@ -1,0 +1,51 @@
+"""Sheets for tests: neo-Hookean ones, given by a curve too, and those of shipped materials."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kernels.laws import sheet
+from kernels.laws.sheet import Sheet
+from sweep.config.case import Material
+from sweep.scene.material import StressLaw, stress_law
+
+Floats = NDArray[np.float64]
+
+MODULUS = 12.0
+LEAST = -0.7
+
+
+def rubber(strain: Floats) -> tuple[Floats, Floats]:
+    """Nominal stress mu (l - 1 / l^2) of neo-Hookean rubber and its slope."""
+    stretch = 1.0 + strain
+    return MODULUS / 3 * (stretch - stretch**-2), MODULUS / 3 * (1.0 + 2.0 * stretch**-3)
+
+
+class Nominal:
+    """A law of `sweep.scene.material` as a function that returns stress and slope."""
+
+    def __init__(self, law: StressLaw):
+        self.law = law
+
+    def __call__(self, strain: Floats) -> tuple[Floats, Floats]:
+        """Stress and slope (n,) in Pa at strains (n,)."""
+        law, last = self.law, len(self.law.coefficients) - 1
+        piece = np.clip(np.searchsorted(law.knots, strain, side="right") - 1, 0, last)
+        c = law.coefficients[piece].T
+        s = np.clip(strain, law.knots[0], law.knots[-1]) - law.knots[piece]
+        return law.at(strain), c[1] + s * (2.0 * c[2] + s * 3.0 * c[3])
+
+
+def nominal(name: str) -> Nominal:
+    """The nominal stress of a shipped material."""
+    return Nominal(stress_law(Material(name=name)))
+
+
+def measured(name: str) -> Sheet:
+    """The sheet of a shipped material, Pa."""
+    of = nominal(name)
+    return sheet.measured(of, of.law.knots[0], of(np.zeros(1))[1][0])
+
+
+def sheet_of_rubber() -> Sheet:
+    """Neo-Hookean rubber by way of its nominal stress."""
+    return sheet.measured(rubber, LEAST, MODULUS)
