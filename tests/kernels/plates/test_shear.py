@@ -6,7 +6,7 @@ import pytest
 from kernels.plates import shear
 from tests.support.terms import Term, derivative_error
 
-SIZE, STIFFNESS = np.array([0.5, 0.8]), 3.0
+SIZE, STIFFNESS = np.array([0.5, 0.8]), (3.0, 2.0)
 FLAT = np.array([[0, 0, 0], [0.5, 0, 0], [0.5, 0.8, 0], [0, 0.8, 0.0]])
 
 
@@ -40,7 +40,7 @@ def test_uniform_shear(g):
     """Kappa G t area / 2 |g|^2, with g = x,a . d; stiffness: kappa G t area."""
     q = state([*g, 1.0])
     energy = shear.evaluate(q, SIZE, np.zeros(4), STIFFNESS, np.zeros(24))
-    assert energy == pytest.approx(0.5 * STIFFNESS * np.dot(g, g), rel=1e-14)
+    assert energy == pytest.approx(0.5 * np.dot(STIFFNESS, np.square(g)), rel=1e-14)
     at_rest = shear.evaluate(q, SIZE, np.repeat(g, 2), STIFFNESS, np.zeros(24))
     assert at_rest == pytest.approx(0.0, abs=1e-30)
 
@@ -49,7 +49,7 @@ def test_shear_that_is_linear_across_is_integrated_exactly():
     """g_s = 1 - z / h_z by the directors: mean square 1/3."""
     directors = np.array([[1.0, 0, 1], [1, 0, 1], [0, 0, 1], [0, 0, 1]])
     energy = shear.evaluate(state(directors), SIZE, np.zeros(4), STIFFNESS, np.zeros(24))
-    assert energy == pytest.approx(0.5 * STIFFNESS / 3.0)
+    assert energy == pytest.approx(0.5 * STIFFNESS[0] / 3.0)
 
 
 def test_pure_bending_has_no_shear():
@@ -58,3 +58,13 @@ def test_pure_bending_has_no_shear():
     directors = np.array([[-turn, 0, 1], [turn, 0, 1], [turn, 0, 1], [-turn, 0, 1]])
     energy = shear.evaluate(state(directors), SIZE, np.zeros(4), STIFFNESS, np.zeros(24))
     assert energy == pytest.approx(0.0, abs=1e-30)
+
+
+def test_stiffness_is_that_of_shear_in_small_elements_and_of_bending_in_long_ones():
+    modulus, thickness = 3.0, 0.1
+    small = shear.stiffnesses(modulus, thickness, (1e-4, 1e-3))
+    assert small == pytest.approx((modulus * thickness * 1e-7,) * 2, rel=1e-4)
+    d = modulus / shear.KAPPA * thickness**3 / 3
+    long = shear.stiffnesses(modulus, thickness, (1e3, 1e-3))
+    assert long[0] == pytest.approx(d / shear.BETA / 1e6, rel=1e-4)
+    assert long[1] == pytest.approx(modulus * thickness, rel=1e-4)

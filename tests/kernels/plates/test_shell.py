@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.plates import rotation, shell
+from kernels.plates import rotation, shear, shell
 from tests.support import sheets
 from tests.support.shells import (
     LINEAR,
@@ -115,7 +115,9 @@ def test_uniform_shear_through_the_thickness_is_exact():
     x = of.rest
     x[:-2].reshape(-1, 6)[:, 3:] = w
     d = rotation.turned(w, (0.0, 0.0, 1.0))
-    expected = 0.5 * 5 / 6 * MU * 0.1 * (d[0] ** 2 + d[1] ** 2)
+    size = of.walls.size[0]
+    k = np.divide(shear.stiffnesses(5 / 6 * MU, 0.1, size), np.prod(size))
+    expected = 0.5 * (k[0] * d[0] ** 2 + k[1] * d[1] ** 2)
     membrane, bending, sheared = energy_per_area(of, x)
     assert sheared == pytest.approx(expected, rel=1e-12)
     assert (membrane, bending) == pytest.approx((0.0, 0.0), abs=1e-25)

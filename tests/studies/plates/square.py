@@ -6,7 +6,7 @@ in the centre (S. Timoshenko and S. Woinowsky-Krieger, 1959; S. Timoshenko and J
 
 import numpy as np
 
-from tests.studies.plates.model import Places, buckling_strain, coordinates, deflection
+from tests.studies.plates.model import Floats, Places, buckling_strain, coordinates, deflection
 from tests.support.shells import MODULUS, Structure, plate
 
 SUPPORTED, CLAMPED = "simply supported", "clamped"
@@ -33,33 +33,41 @@ def rigidity(thickness: float) -> float:
     return MODULUS * thickness**3 / 12 / 0.75
 
 
-def factor(n: int, sides: str, ends: str, thickness: float = 0.01, thick: float = 0.0) -> float:
-    """k of a plate of width 1 with n quads a side.
-
-    thick: ratio of thickness to width of a plate whose share of shear it has, 0: its own.
-    """
+def factor(n: int, sides: str, ends: str, thickness: float = 0.001) -> float:
+    """k of a plate of width 1 with n quads a side."""
     height = LONGEST_WAVE if (sides, ends) == (CLAMPED, SUPPORTED) else 1.0
     of = plate(n, n, 1.0, height, thickness)
-    if thick > 0.0:
-        softer = of.walls.shear_modulus * (thickness / thick) ** 2
-        of = Structure(of.points, of.frames, of.walls._replace(shear_modulus=softer))
     stress = MODULUS * buckling_strain(of, held(of, sides, ends))[0]
     return stress * thickness / (np.pi**2 * rigidity(thickness))
 
 
-def mindlin(k: float, thick: float) -> float:
-    """k of a simply supported plate with shear: k / (1 + sigma / (2 kappa G))."""
-    stress = k * np.pi**2 * rigidity(thick) / thick
-    return k / (1.0 + stress / (2.0 * KAPPA * MODULUS / 3.0))
+def knock_down(n: int, thickness: float) -> float:
+    """Stiffness of a simply supported plate against the pressure of one half wave each way, over
+    that of Kirchhoff's plate: by it the buckling load of Mindlin's plate is lower, too.
+    """
+    of = plate(n, n, 1.0, 1.0, thickness)
+    wave = np.sin(np.pi * of.points[:, 0]) * np.sin(np.pi * of.points[:, 2])
+    u = deflection(of, held(of, SUPPORTED, SUPPORTED), pressure(of, n, wave))
+    return 1.0 / (4.0 * np.pi**4 * rigidity(thickness) * u[coordinates(of)[:, Y]].max())
 
 
-def pressed(n: int, edges: str, thickness: float) -> float:
+def mindlin(thickness: float) -> float:
+    """The same of Mindlin's plate: 1 / (1 + sigma / (2 kappa G)), sigma: its buckling stress."""
+    stress = 4.0 * np.pi**2 * rigidity(thickness) / thickness
+    return 1.0 / (1.0 + stress / (2.0 * KAPPA * MODULUS / 3.0))
+
+
+def pressure(of: Structure, n: int, size: Floats) -> Floats:
+    """Forces (6 n,) of a pressure of ``size`` (n,) at the nodes of a square plate."""
+    force, area = np.zeros(6 * len(of.points)), np.zeros(len(of.points))
+    np.add.at(area, of.walls.quads, 0.25 / n**2)
+    force[coordinates(of)[:, Y]] = area * size
+    return force
+
+
+def pressed(n: int, edges: str, thickness: float = 0.001) -> float:
     """w D / (q b^4) in the centre of a square plate under uniform pressure."""
     of = plate(n, n, 1.0, 1.0, thickness)
-    force = np.zeros(6 * len(of.points))
-    area = np.zeros(len(of.points))
-    np.add.at(area, of.walls.quads, 0.25 / n**2)
-    force[coordinates(of)[:, Y]] = area
+    force = pressure(of, n, np.ones(len(of.points)))
     u = deflection(of, held(of, edges, edges), force)
-    middle = np.argmin(np.abs(of.points - [0.5, 0.0, 0.5]).sum(axis=1))
-    return u[6 * middle + Y] * rigidity(thickness)
+    return u[coordinates(of)[:, Y]].max() * rigidity(thickness)
