@@ -146,7 +146,9 @@ def _measure(p, m):
 
 @jit
 def _strain(scratch, shell, e, g):
-    """Set the measures of Gauss point ``g`` less those at rest; return the `bow` in them."""
+    """Set the measures of Gauss point ``g`` less those at rest, of arcs; return those of chords
+    that the derivatives of `bow` need.
+    """
     _derive(scratch.q, scratch.grid[g], scratch.p)
     _measure(scratch.p, scratch.measure)
     for k in range(9):
@@ -225,14 +227,14 @@ def evaluate(x, frames, shell, law, scratch, gradient, stored):
         total += sheared
         stored[2] += sheared
         for g in range(4):
-            lean = _strain(scratch, shell, e, g)
+            chords = _strain(scratch, shell, e, g)
             value, middle = layers.resultants(law, scratch.measure, thickness, scratch.resultant)
             if math.isinf(value):
                 return math.inf
             total += area * value
             stored[0] += area * middle
             stored[1] += area * (value - middle)
-            bow.pull_back(lean, scratch.resultant)
+            bow.pull_back(size, chords, scratch.resultant)
             _add_slopes(scratch, g, area)
         _scatter(x, frames, shell, e, scratch.slope, gradient)
     return total
@@ -365,12 +367,12 @@ def hessian(x, frames, shell, law, e, scratch, second):
     shear.evaluate(scratch.q, size, shell.shear_rest[e], stiffness, scratch.slope)
     shear.hessian(scratch.q, size, shell.shear_rest[e], stiffness, scratch.edges, second)
     for g in range(4):
-        lean = _strain(scratch, shell, e, g)
+        chords = _strain(scratch, shell, e, g)
         layers.rigidity(
             law, scratch.measure, thickness, scratch.moments, scratch.resultant, scratch.rigidity
         )
-        bow.pull_back_second(size, lean, scratch.resultant, scratch.rigidity)
-        bow.pull_back(lean, scratch.resultant)
+        bow.pull_back_second(size, chords, scratch.resultant, scratch.rigidity)
+        bow.pull_back(size, chords, scratch.resultant)
         _add_slopes(scratch, g, area)
         _by_p(scratch, area)
         _half(scratch, g)

@@ -17,11 +17,11 @@ MATRIX = MATRIX + MATRIX.T
 def energy(m):
     """A quadratic function of lengthened measures, and its derivatives in the measures."""
     longer, second = m.copy(), MATRIX.copy()
-    lean = bow.lengthen(SIZE, REST, longer)
+    chords = bow.lengthen(SIZE, REST, longer)
     slope = FORCE + MATRIX @ longer
     value = FORCE @ longer + 0.5 * longer @ MATRIX @ longer
-    bow.pull_back_second(SIZE, lean, slope, second)
-    bow.pull_back(lean, slope)
+    bow.pull_back_second(SIZE, chords, slope, second)
+    bow.pull_back(SIZE, chords, slope)
     return value, slope, second
 
 

@@ -11,36 +11,39 @@ from tests.studies.plates.square import rigidity
 from tests.support.shells import MODULUS, Structure, structure
 
 TUBE, X_JOINT, Y_JOINT = "tube", "X", "Y"
+ARMS = {X_JOINT: 4, Y_JOINT: 3}
 WAVES = 3
-X, Y, Z = range(3)
+X, Y, Z, ABOUT_S, ABOUT_Z, ABOUT_N = range(6)
 
 
-def build(kind: str, n: int, thickness: float) -> tuple[Structure, int]:
-    """Walls of width 1 with n quads, and the number of their joints."""
+def build(kind: str, n: int, thickness: float) -> Structure:
+    """Walls of width 1 with n quads."""
     if kind == TUBE:
         plan = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
-        return structure(plan, [(0, 1), (1, 2), (2, 3), (3, 0)], n, 3.0, 3 * n, thickness), 4
-    arms = {X_JOINT: 4, Y_JOINT: 3}[kind]
-    turn = 2 * np.pi * np.arange(arms) / arms
-    plan = [(0.0, 0.0), *zip(0.5 * np.cos(turn), 0.5 * np.sin(turn), strict=True)]
-    walls = [(0, k + 1) for k in range(arms)]
-    return structure(plan, walls, n // 2, WAVES, WAVES * n, thickness), 1
+        walls, pieces = [(0, 1), (1, 2), (2, 3), (3, 0)], n
+    else:
+        turn = 2 * np.pi * np.arange(ARMS[kind]) / ARMS[kind]
+        plan = [(0.0, 0.0), *zip(0.5 * np.cos(turn), 0.5 * np.sin(turn), strict=True)]
+        walls, pieces = [(0, k + 1) for k in range(ARMS[kind])], n // 2
+    return structure(plan, walls, pieces, WAVES, WAVES * n, thickness)
 
 
-def held(of: Structure, joints: int) -> Places:
+def held(kind: str, of: Structure) -> Places:
     """Hinged lower and upper edges, middles of arms, and rotations about directors."""
-    at, (_, _, z) = coordinates(of), of.points.T
-    rows = np.arange(len(of.points)).reshape(-1, int(np.sum(z == 0.0)))
-    corners = 4 if joints == 4 else rows.shape[1]
-    ends = (z == 0.0) | (z == z.max())
-    inside = np.abs(of.frames.reshape(-1, 3, 3) - np.eye(3)).max(axis=(1, 2)) > 1e-9
-    found = [at[inside, 5], at[ends][:, [X, Y]].ravel(), at[z == 0.0, Z]]
-    found += [at[ends & inside, 4], at[ends & ~inside, 5]]
-    if joints == 1:
-        found.append(middles(of, rows))
-    assert corners >= 4
-    return np.unique(np.concatenate(found))
+    at, z = coordinates(of), of.points[:, 2]
+    lower = z == 0.0
+    columns = np.tile(np.arange(lower.sum()), len(z) // lower.sum())
+    ends = lower | (z == z.max())
+    joint = columns < (4 if kind == TUBE else 1)
+    middle = (columns > 0) & (columns <= ARMS.get(kind, 0))
+    return np.concatenate(
+        [at[ends][:, [X, Y]].ravel(), at[lower, Z], at[~joint, ABOUT_N],
+         at[(ends & ~joint) | middle, ABOUT_Z], at[ends & joint, ABOUT_N]]
+    )  # fmt: skip
 
 
-def middles(of: Structure, rows: Places) -> Places:
-    raise NotImplementedError
+def factor(kind: str, n: int, thickness: float = 0.025) -> float:
+    """k of the walls."""
+    of = build(kind, n, thickness)
+    stress = MODULUS * buckling_strain(of, np.unique(held(kind, of)))[0]
+    return stress * thickness / (np.pi**2 * rigidity(thickness))

@@ -41,7 +41,7 @@ def rolled(n: int, thickness: float = 1e-3) -> tuple[float, float]:
         curve = np.pi / steps * (2 * step + 2) * of.points[:, 0]
         x = bent(of, x, curve, 2 * np.pi / steps)
         of, x = relaxed(of, x, held, none)
-    moment = -0.5 * slopes(of, x)[turned].sum()
+    moment = 0.5 * slopes(of, x)[turned].sum()
     ends = x[:-2].reshape(-1, 6)[:, :3]
     gap = np.linalg.norm(ends[end].mean(axis=0) - ends[of.points[:, 0] == 0.0].mean(axis=0))
     return moment / bending(of, thickness) / (2 * np.pi), float(gap)
@@ -90,7 +90,7 @@ def critical_stretch(n: int, thickness: float) -> float:
         values = np.linalg.eigvalsh(stiffness(of, x)[kept][:, kept].toarray())
         return float(values[0])
 
-    return float(brentq(least, 0.6, 0.9999, xtol=1e-10))
+    return float(brentq(least, 0.6, 1.0 - 1e-7, xtol=1e-10))
 
 
 def exact_stretch(thickness: float) -> float:
