@@ -61,8 +61,8 @@ def _sums(numbers):
 
 @jit_owning
 def _rows_up(column, lower, row, parent):
-    """Return the row (m,) in the front of the parent for each row below a supernode."""
-    up = np.zeros(row.size, np.int64)
+    """Return (up, beside), (m,) each: see `Matrix`."""
+    up, beside = np.zeros(row.size, np.int64), np.zeros(row.size, np.int64)
     for s in range(parent.size):
         t = parent[s]
         if t >= 0:
@@ -74,7 +74,9 @@ def _rows_up(column, lower, row, parent):
                     while row[at] != row[q]:
                         at += 1
                     up[q] = pivots + at - lower[t]
-    return up
+                wide = rounded_up(column[t + 1] - column[t], COLUMNS)
+                beside[q] = up[q] // ROWS * ROWS * wide + up[q] % ROWS
+    return up, beside
 
 
 @jit_owning
@@ -181,10 +183,11 @@ def analyse(sizes, pairs, points):
     child_start, child = grouped(above + 1, ns + 1)
     panel, tile, widest, tallest = _panels(column, lower)
     update, room = _update_starts(lower, child_start, child)
+    up, beside = _rows_up(column, lower, row, above)
     n = begin[nb]
     return Matrix(
         first, place, home, begin, supernode, unknown, block, column, below, rows, offset, lower,
-        row, _rows_up(column, lower, row, above), child_start, child, panel, tile, update,
+        row, up, beside, child_start, child, panel, tile, update,
         np.zeros(panel[ns]), np.zeros(tile[ns]), np.zeros(room), np.zeros(n), np.zeros(n),
         np.zeros(n), np.zeros(n), np.zeros(tallest), np.zeros(COLUMNS * widest),
         np.zeros(COLUMNS * max(widest, 1)), np.zeros(1, np.int64), np.full(1, -1),

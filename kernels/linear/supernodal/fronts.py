@@ -51,17 +51,15 @@ def _fill(matrix, s):
 @jit
 def _pass_on(matrix, child, s):
     """Add the update of ``child`` to the front of its parent ``s``."""
-    (w, r), (_, count) = size(matrix, s), size(matrix, child)
-    pivots, step = rounded_up(w, ROWS), rounded_up(count, ROWS)
-    first, up, updates, tiles = matrix.lower[child], matrix.up, matrix.updates, matrix.tiles
-    wide, height = ROWS * rounded_up(w, COLUMNS), rounded_up(r, ROWS)
+    (w, r), (_, count), first = size(matrix, s), size(matrix, child), matrix.lower[child]
+    updates, tiles, up, beside = matrix.updates, matrix.tiles, matrix.up, matrix.beside
+    height, step, pivots = rounded_up(r, ROWS), rounded_up(count, ROWS), rounded_up(w, ROWS)
     for c in range(count):
         of, k = matrix.update[child] + step * c, up[first + c]
         if k < w:
             to = matrix.tile[s] + ROWS * k
             for i in range(c, count):
-                row = up[first + i]
-                tiles[to + row // ROWS * wide + row % ROWS] += updates[of + i]
+                tiles[to + beside[first + i]] += updates[of + i]
         else:
             to = matrix.update[s] + (k - pivots) * height - pivots
             for i in range(c, count):
@@ -69,12 +67,20 @@ def _pass_on(matrix, child, s):
 
 
 @jit
+def _clear_update(matrix, s):
+    """Set the strips of the lower half of the update of supernode ``s`` to zero."""
+    _, r = size(matrix, s)
+    height = rounded_up(r, ROWS)
+    for c in range(rounded_up(r, COLUMNS)):
+        at = matrix.update[s] + c * height
+        for i in range(at + c // ROWS * ROWS, at + height):
+            matrix.updates[i] = 0.0
+
+
+@jit
 def assemble(matrix, s):
     """Fill the front of supernode ``s``: tiles and update."""
     _fill(matrix, s)
-    _, r = size(matrix, s)
-    at = matrix.update[s]
-    for i in range(at, at + rounded_up(r, ROWS) * rounded_up(r, COLUMNS)):
-        matrix.updates[i] = 0.0
+    _clear_update(matrix, s)
     for q in range(matrix.child_start[s + 1], matrix.child_start[s + 2]):
         _pass_on(matrix, matrix.child[q], s)

@@ -28,7 +28,8 @@ class Matrix(NamedTuple):
     By supernode: block, column (ns + 1,): place of its first block and unknown. below (ns + 1,):
     its rows of blocks are below[s]:below[s + 1] of `rows`, their places, and of `offset`, the row
     of their first unknown below the columns. lower (ns + 1,): its rows are lower[s]:lower[s + 1] of
-    `row`, their places, and of `up`, their rows in the front of the parent (see `fronts`).
+    `row`, their places, and of `up`, their rows in the front of the parent, and `beside`, where those
+    start in its tiles (see `fronts`).
     child_start (ns + 2,), child: the children of supernode s are
     child[child_start[s + 1]:child_start[s + 2]]. panel, tile, update: where its panel in
     `values`, its tiles in `tiles` and its update in `updates` start.
@@ -53,6 +54,7 @@ class Matrix(NamedTuple):
     lower: np.ndarray
     row: np.ndarray
     up: np.ndarray
+    beside: np.ndarray
     child_start: np.ndarray
     child: np.ndarray
     panel: np.ndarray

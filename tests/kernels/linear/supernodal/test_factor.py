@@ -175,13 +175,13 @@ def test_a_platen_couples_with_a_row_of_nodes(seed):
 
 
 def test_the_factor_forgets_what_was_there_before():
-    rng, full, matrix = random_case(1, 40, 0.1, dominant)
+    _, full, matrix = random_case(1, 40, 0.1, dominant)
     factored(matrix)
-    first = matrix.tiles.copy()
-    matrix.values *= 3.0
+    first, kept = matrix.tiles.copy(), matrix.values.copy()
+    matrix.values[:] = 3.0 * kept
     factored(matrix)
-    matrix.values /= 3.0
+    matrix.values[:] = kept
     factored(matrix)
-    np.testing.assert_allclose(matrix.tiles, first, rtol=1e-12, atol=1e-300)
+    np.testing.assert_array_equal(matrix.tiles, first)
     clear(matrix)
     assert not matrix.values.any()
