@@ -8,6 +8,7 @@ block below the columns, column by column.
 """
 
 from kernels.compile.jit import jit, jit_exact
+from kernels.compile.simd import load, store
 from kernels.linear.supernodal.matrix import COLUMNS, ROWS, rounded_up, size
 
 
@@ -21,12 +22,19 @@ def strip(matrix, s, row):
 @jit
 def _fill_strip(values, panel, step, width, count, tiles, at):
     """Copy ``count`` rows of a panel, whose columns are ``step`` apart, to the strip at ``at``."""
-    for k in range(width):
-        of, to = panel + step * k, at + ROWS * k
-        for i in range(count):
-            tiles[to + i] = values[of + i]
-        for i in range(count, ROWS):
-            tiles[to + i] = 0.0
+    if count == ROWS:
+        for k in range(width):
+            of, to = panel + step * k, at + ROWS * k
+            store(tiles, to, load(values, of))
+            store(tiles, to + 4, load(values, of + 4))
+            store(tiles, to + 8, load(values, of + 8))
+    else:
+        for k in range(width):
+            of, to = panel + step * k, at + ROWS * k
+            for i in range(count):
+                tiles[to + i] = values[of + i]
+            for i in range(count, ROWS):
+                tiles[to + i] = 0.0
     for i in range(at + ROWS * width, at + ROWS * rounded_up(width, COLUMNS)):
         tiles[i] = 0.0
 
