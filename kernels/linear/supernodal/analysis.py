@@ -80,6 +80,20 @@ def _rows_up(column, lower, row, parent):
 
 
 @jit_owning
+def _runs(lower, up):
+    """Return (run_start (ns + 1,), run): see `Matrix`."""
+    run_start, run, count = np.empty(lower.size, np.int64), np.empty(up.size + 1, np.int64), 0
+    for s in range(lower.size - 1):
+        run_start[s] = count
+        for q in range(lower[s], lower[s + 1]):
+            if q == lower[s] or up[q] != up[q - 1] + 1 or up[q] % ROWS == 0:
+                run[count] = q
+                count += 1
+    run_start[-1], run[count] = count, up.size
+    return run_start, run[: count + 1].copy()
+
+
+@jit_owning
 def _update_starts(lower, child_start, child):
     """Return (start (ns,), size): the first free room for each update beside those that still
     wait for their parents, and the size of the whole.
@@ -184,10 +198,11 @@ def analyse(sizes, pairs, points):
     panel, tile, widest, tallest = _panels(column, lower)
     update, room = _update_starts(lower, child_start, child)
     up, beside = _rows_up(column, lower, row, above)
+    run_start, run = _runs(lower, up)
     n = begin[nb]
     return Matrix(
         first, place, home, begin, supernode, unknown, block, column, below, rows, offset, lower,
-        row, up, beside, child_start, child, panel, tile, update,
+        row, up, beside, run_start, run, child_start, child, panel, tile, update,
         np.zeros(panel[ns]), np.zeros(tile[ns]), np.zeros(room), np.zeros(n), np.zeros(n),
         np.zeros(n), np.zeros(n), np.zeros(tallest), np.zeros(COLUMNS * widest),
         np.zeros(COLUMNS * max(widest, 1)), np.zeros(1, np.int64), np.full(1, -1),

@@ -8,7 +8,7 @@ block below the columns, column by column.
 """
 
 from kernels.compile.jit import jit, jit_exact
-from kernels.compile.simd import load, store
+from kernels.compile.simd import LANES, load, store
 from kernels.linear.supernodal.matrix import COLUMNS, ROWS, rounded_up, size
 
 
@@ -57,21 +57,36 @@ def _fill(matrix, s):
 
 
 @jit
+def _add_run(source, of, target, to, count):
+    """Add ``count`` entries of ``source`` from ``of`` on to those of ``target`` from ``to`` on."""
+    whole = count // LANES * LANES
+    for i in range(0, whole, LANES):
+        store(target, to + i, load(target, to + i) + load(source, of + i))
+    for i in range(whole, count):
+        target[to + i] += source[of + i]
+
+
+@jit
 def _pass_on(matrix, child, s):
     """Add the update of ``child`` to the front of its parent ``s``."""
-    (w, r), (_, count), first = size(matrix, s), size(matrix, child), matrix.lower[child]
-    updates, tiles, up, beside = matrix.updates, matrix.tiles, matrix.up, matrix.beside
+    (w, r), (_, count) = size(matrix, s), size(matrix, child)
+    first, up, run = matrix.lower[child], matrix.up, matrix.run
     height, step, pivots = rounded_up(r, ROWS), rounded_up(count, ROWS), rounded_up(w, ROWS)
-    for c in range(count):
-        of, k = matrix.update[child] + step * c, up[first + c]
+    p, last = matrix.run_start[child], matrix.run_start[child + 1]
+    for c in range(first, first + count):
+        p += run[p + 1] == c
+        of, k = matrix.update[child] + step * (c - first) - first, up[c]
         if k < w:
             to = matrix.tile[s] + ROWS * k
-            for i in range(c, count):
-                tiles[to + beside[first + i]] += updates[of + i]
+            for i in range(p, last):
+                row = max(run[i], c)
+                at = to + matrix.beside[row]
+                _add_run(matrix.updates, of + row, matrix.tiles, at, run[i + 1] - row)
         else:
             to = matrix.update[s] + (k - pivots) * height - pivots
-            for i in range(c, count):
-                updates[to + up[first + i]] += updates[of + i]
+            for i in range(p, last):
+                row = max(run[i], c)
+                _add_run(matrix.updates, of + row, matrix.updates, to + up[row], run[i + 1] - row)
 
 
 @jit

@@ -55,6 +55,8 @@ class Matrix(NamedTuple):
     row: np.ndarray
     up: np.ndarray
     beside: np.ndarray
+    run_start: np.ndarray
+    run: np.ndarray
     child_start: np.ndarray
     child: np.ndarray
     panel: np.ndarray
