@@ -12,10 +12,10 @@ from kernels.arrays import grouped
 from kernels.compile.jit import jit_exact, jit_owning
 
 # Nanoseconds, measured on one core of 2.6 GHz with AVX2; only their ratios matter.
-OPERATION = 0.025
-ENTRY = 4.0  # of a panel: copied, and read in the solves
-PASSED_ON = 3.0  # an entry of an update
-SUPERNODE = 500.0
+OPERATION = 0.027
+ENTRY = 2.5  # of a panel: copied, and read in the solves
+PASSED_ON = 2.0  # an entry of an update
+SUPERNODE = 2000.0
 
 
 @jit_exact
@@ -61,9 +61,7 @@ def columns(start, near, order):
 def _cost(w, r):
     """Return the time in ns that a supernode of ``w`` columns and ``r`` rows below takes."""
     operations = w * (w * (w / 3.0 + r) + r * r)
-    return (
-        OPERATION * operations + ENTRY * w * (0.5 * w + r) + PASSED_ON * 0.5 * r * r + SUPERNODE
-    )
+    return OPERATION * operations + ENTRY * w * (0.5 * w + r) + PASSED_ON * 0.5 * r * r + SUPERNODE
 
 
 @jit_owning

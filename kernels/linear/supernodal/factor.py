@@ -24,7 +24,7 @@ def _is_rounded(matrix, s, place, pivot):
 
 @jit_exact
 def _pivot(matrix, s, place, found, scale, rounded):
-    """Return the pivot ``found`` at ``place``, or its replacement if it is zero within round-off."""
+    """Return ``found``, or its replacement if that pivot is zero within round-off."""
     own = matrix.own[place]
     pivot = regularised(found, own, scale, rounded)
     if pivot < 0.0 and rounded != THROUGH and _is_rounded(matrix, s, place, pivot):
@@ -57,7 +57,7 @@ def _factor_corner(matrix, s, k, scale, rounded):
 
 @jit_exact
 def _inverses(matrix, s, k):
-    """Return the inverses of the four pivots from column ``k`` on; 0 of those that are not there."""
+    """Return the inverses of the four pivots from column ``k`` on; 0 beyond the last."""
     at, last = matrix.column[s] + k, matrix.column[s + 1]
     inverse = matrix.inverse
     return (

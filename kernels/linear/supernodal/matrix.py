@@ -27,12 +27,13 @@ class Matrix(NamedTuple):
 
     By supernode: block, column (ns + 1,): place of its first block and unknown. below (ns + 1,):
     its rows of blocks are below[s]:below[s + 1] of `rows`, their places, and of `offset`, the row
-    of their first unknown below the columns. lower (ns + 1,): its rows are lower[s]:lower[s + 1] of
-    `row`, their places, and of `up`, their rows in the front of the parent, and `beside`, where those
-    start in its tiles (see `fronts`).
+    of their first unknown below the columns. lower (ns + 1,): its rows are lower[s]:lower[s + 1]
+    of `row`, their places, of `up`, their rows in the front of the parent, and of `beside`, where
+    those start in its tiles (see `fronts`). run_start (ns + 1,), run: neighbours in a strip of the
+    parent are the rows from run[run_start[s]] on, from run[run_start[s] + 1] on, and so on.
     child_start (ns + 2,), child: the children of supernode s are
-    child[child_start[s + 1]:child_start[s + 2]]. panel, tile, update: where its panel in
-    `values`, its tiles in `tiles` and its update in `updates` start.
+    child[child_start[s + 1]:child_start[s + 2]]. panel, tile, update: where its panel in `values`,
+    its tiles in `tiles` and its update in `updates` start.
 
     values: entries. tiles: factor. updates: what is passed on to parents. own, pivots, inverse
     (n,): diagonal before the factor, pivots and their inverses. vector (n,), front, sums, pack:

@@ -6,7 +6,7 @@ import pytest
 from kernels.linear.block_ldlt import CONVEX, ROUNDED, SOFT, THROUGH
 from kernels.linear.supernodal import factor as ldlt
 from kernels.linear.supernodal.matrix import clear
-from kernels.linear.supernodal.solution import descend, solve
+from kernels.linear.supernodal.solution import solve
 from tests.support.supernodes import (
     assembled,
     dominant,
@@ -66,29 +66,6 @@ def test_negative_pivots_are_negative_eigenvalues(seed, nb, share):
     x = b.copy()
     solve(matrix, x)
     assert np.abs(full @ x - b).max() < 1e-6
-
-
-@pytest.mark.parametrize("scale", [1.0, 1e6, 1e-6])
-@pytest.mark.parametrize("seed", range(12))
-def test_descent_along_the_first_negative_pivot(seed, scale):
-    rng = np.random.default_rng(seed)
-    sizes, pairs, points = random_blocks(rng, 30, 0.05)
-    full, spans = random_dense(rng, sizes, pairs)
-    full = dominant(full)
-    bad = rng.integers(0, len(full))
-    full[bad, bad] -= np.abs(full[bad]).sum() + rng.uniform(0.01, 3)
-    full *= scale
-    matrix = assembled(sizes, pairs, points, full, spans)
-    failed, pivot = factored(matrix, scale=scale)
-    of = matrix.unknown
-    minors = [np.linalg.eigvalsh(full[np.ix_(of[:k], of[:k])])[0] for k in range(1, len(of) + 1)]
-    assert failed == of[next(k for k, least in enumerate(minors) if least < 0)] == bad
-    d = np.full(len(full), 7.0)
-    descend(matrix, d)
-    assert pivot < 0
-    assert d @ full @ d == pytest.approx(pivot, rel=1e-9)
-    assert d[failed] == 1.0
-    assert not d[of[matrix.home[failed] + 1 :]].any()
 
 
 @pytest.mark.parametrize("size", range(1, 7))
@@ -175,7 +152,7 @@ def test_a_platen_couples_with_a_row_of_nodes(seed):
 
 
 def test_the_factor_forgets_what_was_there_before():
-    _, full, matrix = random_case(1, 40, 0.1, dominant)
+    _, _, matrix = random_case(1, 40, 0.1, dominant)
     factored(matrix)
     first, kept = matrix.tiles.copy(), matrix.values.copy()
     matrix.values[:] = 3.0 * kept
