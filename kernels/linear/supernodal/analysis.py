@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from kernels.arrays import grouped
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.linear import minimum_degree
 from kernels.linear.supernodal.dissection import dissect, neighbours
-from kernels.linear.supernodal.elimination import columns, supernodes
+from kernels.linear.supernodal.elimination import children, columns, supernodes
 from kernels.linear.supernodal.matrix import COLUMNS, ROWS, Matrix, rounded_up
 
 
@@ -112,7 +111,7 @@ def _update_starts(lower, child_start, child):
         for k in range(count, before, -1):
             live[k] = live[k - 1]
         live[before] = s
-        for q in range(child_start[s + 1], child_start[s + 2]):
+        for q in range(child_start[s], child_start[s + 1]):
             size[child[q]] = 0
         for k in range(count + 1):
             if size[live[k]] > 0:
@@ -191,10 +190,11 @@ def analyse(sizes, pairs, points):
     for s in range(ns + 1):
         column[s] = begin[block[s]]
     for s in range(ns):
-        supernode[block[s] : block[s + 1]] = s
+        for p in range(block[s], block[s + 1]):
+            supernode[p] = s
     home, unknown = _expanded(sequence, begin, first)
     offset, lower, row = _unknown_rows(below, rows, begin)
-    child_start, child = grouped(above + 1, ns + 1)
+    child_start, child = children(above)
     panel, tile, widest, tallest = _panels(column, lower)
     update, room = _update_starts(lower, child_start, child)
     up, beside = _rows_up(column, lower, row, above)

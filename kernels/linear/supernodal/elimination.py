@@ -53,7 +53,8 @@ def columns(start, near, order):
             for j in range(n):
                 first[j + 1] += first[j]
             row, free = np.empty(first[n], np.int64), first.copy()
-            mark[:] = -1
+            for j in range(n):
+                mark[j] = -1
     return parent, first, row
 
 
@@ -85,6 +86,17 @@ def _top(into, s):
 
 
 @jit_owning
+def children(above):
+    """Return (start (ns + 2,), child (ns,)): child[start[s]:start[s + 1]] are those of supernode s,
+    ascending, and those from start[ns] on have no parent. above (ns,): parents, -1 if none.
+    """
+    group = np.empty(above.size, np.int64)
+    for s in range(above.size):
+        group[s] = above[s] if above[s] >= 0 else above.size
+    return grouped(group, above.size + 1)
+
+
+@jit_owning
 def _merged(group, count, parent, first, row, weight):
     """Return (into (count,), above (count,)): the supernode that each is merged into, and the
     parent of each that is left, -1 if none.
@@ -98,9 +110,9 @@ def _merged(group, count, parent, first, row, weight):
             for q in range(first[j], first[j + 1]):
                 below[s] += weight[row[q]]
             above[s] = group[parent[j]] if parent[j] >= 0 else -1
-    start, child = grouped(above + 1, count + 1)
+    start, child = children(above)
     for s in range(count):
-        for q in range(start[s + 2] - 1, start[s + 1] - 1, -1):
+        for q in range(start[s + 1] - 1, start[s] - 1, -1):
             c = child[q]
             parts = _cost(width[s], below[s]) + _cost(width[c], below[c])
             if _cost(width[s] + width[c], below[s]) <= parts:
@@ -117,17 +129,15 @@ def _postorder(into, above):
     their parents; -1 of merged ones.
     """
     count = into.size
-    rank, kept, left = np.full(count, -1), np.empty(count, np.int64), 0
+    rank, left = np.full(count, -1), 0
     size = np.zeros(count, np.int64)  # supernodes of a subtree
     for s in range(count):
-        kept[s] = above[s] + 1 if into[s] == s else -1
         if into[s] == s:
             left += 1
             size[s] += 1
             if above[s] >= 0:
                 size[above[s]] += size[s]
-    end = np.full(count, -1)  # of the places of a subtree that are still free
-    last = left
+    end, last = np.full(count, -1), left  # of the places in a subtree that are still free
     for s in range(count - 1, -1, -1):
         if into[s] == s:
             if above[s] < 0:

@@ -105,5 +105,5 @@ def assemble(matrix, s):
     """Fill the front of supernode ``s``: tiles and update."""
     _fill(matrix, s)
     _clear_update(matrix, s)
-    for q in range(matrix.child_start[s + 1], matrix.child_start[s + 2]):
+    for q in range(matrix.child_start[s], matrix.child_start[s + 1]):
         _pass_on(matrix, matrix.child[q], s)

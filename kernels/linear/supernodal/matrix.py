@@ -31,9 +31,8 @@ class Matrix(NamedTuple):
     of `row`, their places, of `up`, their rows in the front of the parent, and of `beside`, where
     those start in its tiles (see `fronts`). run_start (ns + 1,), run: neighbours in a strip of the
     parent are the rows from run[run_start[s]] on, from run[run_start[s] + 1] on, and so on.
-    child_start (ns + 2,), child: the children of supernode s are
-    child[child_start[s + 1]:child_start[s + 2]]. panel, tile, update: where its panel in `values`,
-    its tiles in `tiles` and its update in `updates` start.
+    child_start (ns + 2,), child: see `elimination.children`. panel, tile (ns + 1,), update (ns,):
+    where its panel in `values`, its tiles in `tiles` and its update in `updates` start.
 
     values: entries. tiles: factor. updates: what is passed on to parents. own, pivots, inverse
     (n,): diagonal before the factor, pivots and their inverses. vector (n,), front, sums, pack:

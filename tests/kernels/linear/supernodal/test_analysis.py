@@ -41,7 +41,7 @@ def test_updates_that_wait_do_not_overlap():
     ns = len(matrix.column) - 1
     parent = np.full(ns, ns)
     for s in range(ns):
-        parent[matrix.child[matrix.child_start[s + 1] : matrix.child_start[s + 2]]] = s
+        parent[matrix.child[matrix.child_start[s] : matrix.child_start[s + 1]]] = s
     r = np.diff(matrix.lower)
     room = (r + 11) // 12 * 12 * ((r + 3) // 4 * 4)
     for s in range(ns):
