@@ -4,7 +4,7 @@ Pivots that are zero within round-off are treated as in `block_ldlt`, whose `ROU
 `THROUGH` are understood here.
 """
 
-from kernels.compile.jit import jit, jit_exact
+from kernels.compile.jit import jit, jit_exact, separate
 from kernels.linear.block_ldlt import ROUNDED, SOFT, THROUGH, regularised
 from kernels.linear.supernodal.dense import divide, pack, subtract
 from kernels.linear.supernodal.fronts import assemble, strip
@@ -124,6 +124,7 @@ def _read_diagonal(matrix, weights, shift):
             matrix.own[place] = entry + shift * weights[matrix.unknown[place]]
 
 
+@separate
 @jit_exact
 def factor(matrix, scale, weights, shift, rounded):
     """Factor A + shift diag(weights) = L D L^T; ``values`` keeps A.
