@@ -131,7 +131,7 @@ def factor(matrix, scale, weights, shift, rounded):
 
     Return (failed, pivot): unknown and value of the first negative pivot, -1 if none. scale (n,):
     stiffness of each unknown, of its unit, beside which a pivot is zero within round-off. weights
-    (n,): not used if shift is zero. rounded: `ROUNDED`, `CONVEX` or `THROUGH`.
+    (n,): by unknown. rounded: `ROUNDED`, `CONVEX` or `THROUGH`.
     """
     _read_diagonal(matrix, weights, shift)
     matrix.failed[0] = -1
