@@ -59,3 +59,17 @@ def test_a_right_side_beside_the_first_unknown_of_a_lattice():
         x = b.copy()
         solve(matrix, x)
         np.testing.assert_allclose(x, np.linalg.solve(full, b), rtol=0, atol=1e-13)
+
+
+def test_parts_that_do_not_couple():
+    rng = np.random.default_rng(4)
+    sizes = rng.integers(1, 7, 30)
+    pairs = np.array([(i, i + 2) for i in range(28)] + [(5, 5)])
+    full, spans = random_dense(rng, sizes, pairs[:-1])
+    full = dominant(full)
+    matrix = assembled(sizes, pairs, rng.uniform(size=(30, 3)), full, spans)
+    assert factored(matrix) == (-1, 0.0)
+    b = rng.uniform(-1, 1, len(full))
+    x = b.copy()
+    solve(matrix, x)
+    np.testing.assert_allclose(x, np.linalg.solve(full, b), rtol=0, atol=1e-13)
