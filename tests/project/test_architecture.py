@@ -69,6 +69,7 @@ TESTED_ELSEWHERE = {
     "kernels.planar.problem": "kernels/planar/test_potential.py",
     "kernels.planar.rows": "sweep/simulation/test_custom_history.py",
     "kernels.planar.steps": "physics/test_memories.py",
+    "kernels.linear.supernodal.fronts": "kernels/linear/supernodal/test_factor.py",
     "kernels.solve.history": "kernels/solve/test_chain.py",
     "kernels.solve.residual": "kernels/solve/test_newton.py",
     "kernels.solve.workspace": "kernels/solve/test_first_guess.py",
