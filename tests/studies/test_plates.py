@@ -42,12 +42,12 @@ def test_shear_makes_thick_plates_softer(thickness):
     assert slope(found, square.mindlin(thickness), (8, 16)) == pytest.approx(2.0, abs=0.2)
 
 
-@pytest.mark.parametrize("thickness", [0.01, 0.1, 0.2])
-def test_compressed_plates_buckle_at_the_strain_of_mindlins_plate(thickness):
-    """Finite strain changes that by 2 % at t / b = 0.1."""
+@pytest.mark.parametrize(("thickness", "stiffer"), [(0.01, 1.0005), (0.1, 1.028), (0.2, 1.10)])
+def test_compressed_plates_buckle_near_the_strain_of_mindlins_plate(thickness, stiffer):
+    """Finite strain makes thick ones stiffer, mostly in shear."""
     kirchhoff = 4.0 * np.pi**2 / 9.0 * thickness**2
-    found = square.critical_strain(6, thickness) / kirchhoff
-    assert found == pytest.approx(square.mindlin(thickness), rel=0.025)
+    ratio = square.critical_strain(6, thickness) / kirchhoff / square.mindlin(thickness)
+    assert ratio == pytest.approx(stiffer, rel=2e-3)
 
 
 def test_a_strip_is_rolled_to_a_circle():
@@ -71,7 +71,7 @@ def test_the_elastica():
     np.testing.assert_allclose(found, expected, atol=1.1e-3)
 
 
-@pytest.mark.parametrize(("thickness", "limit"), [(0.05, 0.01), (0.1, 0.01), (0.2, 0.04)])
+@pytest.mark.parametrize(("thickness", "limit"), [(0.05, 0.01), (0.1, 0.01), (0.2, 0.01)])
 def test_thick_strips_lose_their_stiffness_where_the_solid_does(thickness, limit):
     strain = 1.0 - strip.critical_stretch(8, thickness)
     assert strain == pytest.approx(1.0 - strip.exact_stretch(thickness), rel=limit)
