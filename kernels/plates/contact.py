@@ -45,8 +45,9 @@ class Contact(NamedTuple):
     ab, bc, ca of each triangle (`geometry.space.surface`); widths (l,): of the strips that belong
     to edges. area (n,): a_p of each node. thickness (n,): at each node, which a problem may change
     between steps, up to ``reach`` (`pairs.renew_distances`); rest_thickness (n,): at rest. rest (n,
-    3): positions at rest. low_nodes (i,), high_nodes (j,): nodes that may touch the lower and the upper platen;
-    low_rest, high_rest: their distances from it at rest. low, high: coordinates of the platens.
+    3): positions at rest. low_nodes (i,), high_nodes (j,): nodes that may touch the lower and the
+    upper platen; low_rest, high_rest: their distances from it at rest. low, high: coordinates of
+    the platens.
     """
 
     stiffness: float

@@ -27,6 +27,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit, jit_exact, jit_owning
+from kernels.geometry.space.derivatives import gap
 from kernels.geometry.space.vectors import SIZE, cross, inner, length, minus, plus, point, times
 from kernels.plates.contact import (
     NO_PAIR,
@@ -144,11 +145,8 @@ def _lag_triangle(x, contact, touching, m, load, lagged_contacts, n):
     for i in range(3):
         lagged_contacts.nodes[n, i + 1] = triangle[i]
     points, share = corners(x, touching, m), shares(touching, m)
-    r = (0.0, 0.0, 0.0)
-    for i in range(4):
-        r = plus(r, share[i], points[i])
-    d = length(r)
-    u, v = _tangents(times(1.0 / d, r))
+    normal, d = gap(share, points)
+    u, v = _tangents(normal)
     _add(slopes, 0, 0, 1.0, u)
     _add(slopes, 0, 1, 1.0, v)
     for i in range(1, touching.size[m]):
