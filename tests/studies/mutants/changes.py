@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 LAWS, TERMS = "kernels/laws", "kernels/terms"
 SOLVE, LINEAR = "kernels/solve", "kernels/linear"
+PLATES, SPACE = "kernels/plates", "kernels/geometry/space"
 
 
 class Mutant(NamedTuple):
@@ -260,5 +261,64 @@ MUTANTS = [
             "(tangent, last_move, arc.weight) > 0.0 else 1.0",
         ),
         tests=f"{SOLVE}/test_chain.py::test_an_arc_follows_the_slope_of_the_well",
+    ),
+    *_of(
+        f"{SPACE}/derivatives.py",
+        ("space: across the closest points", "factor * part * q[i]", "-factor * part * q[i]"),
+        (
+            "space: turning normal",
+            "(0.0, -force, -force * d))\n        _add(K, q, sigma",
+            "(0.0, force, -force * d))\n        _add(K, q, sigma",
+        ),
+        ("space: projection", "scale = -force * eigenvalue", "scale = force * eigenvalue"),
+    ),
+    *_of(
+        f"{SPACE}/parallel.py",
+        ("parallel edges: second derivative", "- inner(u, v) * same", "+ inner(u, v) * same"),
+    ),
+    *_of(
+        f"{SPACE}/advancement.py",
+        (
+            "advancement: whole distance",
+            "share = (1.0 - KEPT) * distance / speed\n    return s",
+            "share = 3.0 * distance / speed\n    return s",
+        ),
+    ),
+    *_of(
+        f"{PLATES}/pairs.py",
+        (
+            "surfaces: corners",
+            "weight[contact.edges[listed[j] - n_nodes, i]] -= weight",
+            "weight[contact.edges[listed[j] - n_nodes, i]] += weight",
+        ),
+        tests=f"{PLATES}/test_contact.py",
+    ),
+    *_of(
+        f"{PLATES}/contact.py",
+        (
+            "surfaces: force of edges that turn",
+            "0] + k] -= value * first",
+            "0] + k] += value * first",
+        ),
+        ("surfaces: platen", "g[platen] -= side * slope", "g[platen] += side * slope"),
+        (
+            "surfaces: which half of a side",
+            "touching.nodes[n, i], touching.share[n, i] = nodes[i], share[i]",
+            "touching.nodes[n, i], touching.share[n, i] = nodes[i], share[3 - i]",
+        ),
+    ),
+    *_of(
+        f"{PLATES}/friction.py",
+        (
+            "friction in space: rotation",
+            "_turn(slopes, 1, d, u, a, b, c)",
+            "_turn(slopes, 1, -d, u, a, b, c)",
+        ),
+        ("friction in space: mixed curvature", "-0.5 * slope * (one * f", "0.5 * slope * (one * f"),
+        (
+            "friction in space: dual",
+            "c11 * move[0] + c12 * move[1]",
+            "c11 * move[0] - c12 * move[1]",
+        ),
     ),
 ]
