@@ -291,34 +291,27 @@ MUTANTS = [
             "weight[contact.edges[listed[j] - n_nodes, i]] -= weight",
             "weight[contact.edges[listed[j] - n_nodes, i]] += weight",
         ),
-        tests=f"{PLATES}/test_contact.py",
+        tests=f"{PLATES}/test_contact.py::test_parallel_sheets_count_once_at_any_mesh",
     ),
     *_of(
         f"{PLATES}/contact.py",
-        (
-            "surfaces: force of edges that turn",
-            "0] + k] -= value * first",
-            "0] + k] += value * first",
-        ),
+        ("surfaces: edges that turn", "0] + k] -= value * first", "0] + k] += value * first"),
+        tests=f"{PLATES}/test_contact.py::test_derivatives_of_parallel_edges",
+    ),
+    *_of(
+        f"{PLATES}/contact.py",
         ("surfaces: platen", "g[platen] -= side * slope", "g[platen] += side * slope"),
-        (
-            "surfaces: which half of a side",
-            "touching.nodes[n, i], touching.share[n, i] = nodes[i], share[i]",
-            "touching.nodes[n, i], touching.share[n, i] = nodes[i], share[3 - i]",
-        ),
+        tests=f"{PLATES}/test_contact.py::test_derivatives_against_platens",
+    ),
+    *_of(
+        f"{PLATES}/contact.py",
+        ("surfaces: half of a side", "touching, p, e, s, k)", "touching, p, e, 1.0 - s, k)"),
+        tests=f"{PLATES}/test_contact.py::test_derivatives_above_corners_sides_and_the_rim",
     ),
     *_of(
         f"{PLATES}/friction.py",
-        (
-            "friction in space: rotation",
-            "_turn(slopes, 1, d, u, a, b, c)",
-            "_turn(slopes, 1, -d, u, a, b, c)",
-        ),
-        ("friction in space: mixed curvature", "-0.5 * slope * (one * f", "0.5 * slope * (one * f"),
-        (
-            "friction in space: dual",
-            "c11 * move[0] + c12 * move[1]",
-            "c11 * move[0] - c12 * move[1]",
-        ),
+        ("friction in space: rotation", "_turn(slopes, 1, d, u", "_turn(slopes, 1, -d, u"),
+        ("friction in space: mixed", "-0.5 * slope * (one * f", "0.5 * slope * (one * f"),
+        ("friction in space: dual", "+ c12 * move[1]", "- c12 * move[1]"),
     ),
 ]
