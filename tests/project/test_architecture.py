@@ -65,6 +65,7 @@ TESTED_ELSEWHERE = {
     "kernels.compile.undisturbed": "kernels/compile/fast/test_linking.py",
     "kernels.compile.reference": "kernels/solve/test_first_guess.py",
     "kernels.compile.verbs": "kernels/solve/test_chain.py",
+    "kernels.geometry.space.vectors": "kernels/geometry/space/test_surface.py",
     "kernels.planar.lagging": "kernels/planar/test_potential.py",
     "kernels.planar.problem": "kernels/planar/test_potential.py",
     "kernels.planar.rows": "sweep/simulation/test_custom_history.py",
