@@ -91,15 +91,9 @@ def _flight(flight: march.Stage) -> list[Phase]:
 
 def tolerances(case: Case, scene: Scene, stage: march.Stage) -> Tolerance:
     """Tolerances of forces and energies: ``solver.tolerance`` x scales, not below round-off."""
-    terms, coordinates = scene.terms, scene.terms.coordinates
+    coordinates, size = scene.terms.coordinates, scene.size
     force = max(scene.force_scale, np.abs(coordinates.load * coordinates.lever).max(initial=0.0))
-    size = np.ptp(scene.mesh.points)
-    rounded = terms.law.modulus * terms.stretch.area.max() * size / terms.stretch.l0.min()
-    if stage.dynamic:
-        dt = stage.duration
-        rounded *= 1.0 + (terms.damp.beta_k + terms.damp.relaxation) / dt
-        rounded += coordinates.mass.max() * size / dt * (1.0 / dt + terms.damp.alpha_m)
-    allowed = max(case.solver.tolerance * force, ROUND_OFF * rounded)
+    allowed = max(case.solver.tolerance * force, ROUND_OFF * scene.largest_force(stage))
     return Tolerance(
         force=allowed,
         decrement=1e-3 * allowed * case.lattice.wall_thickness,

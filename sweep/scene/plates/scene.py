@@ -6,7 +6,9 @@ import numpy as np
 
 from kernels.plates import shell
 from kernels.plates.layout import Layout
-from kernels.plates.problem import PlateScene
+from kernels.plates.problem import PlateScene, at_rest
+from kernels.solve import march
+from kernels.solve.history import State
 from kernels.solve.problem import FREE, HELD, LED, TIED, Coordinates
 from sweep.config.case import Case, given
 from sweep.config.direction import network_of
@@ -41,6 +43,29 @@ class Scene:
     velocity: Floats
     probes: Indices = field(default_factory=lambda: NONE)
     travel: float = 0.0
+    solid_joint_share: float = np.nan
+
+    @property
+    def size(self) -> float:
+        """Extent of the nodes, m."""
+        return float(np.ptp(self.mesh.rest, axis=0).max())
+
+    def largest_force(self, stage: march.Stage) -> float:
+        """Force (N) with whose round-off the residual of a step is computed."""
+        quads, modulus = self.mesh.size, 3.0 * self.terms.law.shear_modulus
+        slender = (quads / quads[:, ::-1]).max()
+        force = modulus * float(self.mesh.thickness.max()) * self.size * slender
+        if stage.dynamic:
+            force += self.terms.coordinates.mass.max() * self.size / stage.duration**2
+        return float(force)
+
+    def at_rest(self) -> State:
+        """The state at the start, without velocities."""
+        return at_rest(self.mesh.frames, self.x_rest)
+
+    def strained(self) -> float:
+        """Energy at the start, J: none."""
+        return 0.0
 
 
 def build_scene(case: Case) -> Scene:
