@@ -1,6 +1,6 @@
-"""Walls as plates in space: shells with a position and a director at every node.
+"""Walls as plates in space as a problem of the solver: upright walls pressed along the print axis.
 
-`rotation` has the directors, `layers` the energy of a layered wall over its strain measures,
-`shear` that of transverse shear, `shell` the element that these form. The material is a sheet
-(`kernels.laws.sheet`).
+The terms: `shell` is the element, of `layers` and `shear`, with directors of `rotation` and a sheet
+(`kernels.laws.sheet`) as its material; `contact` and `friction` act between `pairs`. `problem` has
+the data and lists the verbs, as `kernels.planar.problem` does for walls in the plane.
 """

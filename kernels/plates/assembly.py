@@ -2,7 +2,9 @@
 
 from kernels.compile.jit import jit, jit_exact
 from kernels.linear.supernodal import matrix as blocks
-from kernels.plates.layout import PER_NODE
+from kernels.plates import contact, friction
+from kernels.plates.lagging import slip_of
+from kernels.plates.layout import PER_NODE, POSITION
 
 
 @jit_exact
@@ -72,6 +74,32 @@ def add_stencil(matrix, layout, pull, nodes, count, width, part):
                 _add_following(matrix, layout, pull, i, j, part, top, left, width)
 
 
-@jit_exact
+@jit
 def add_contacts(problem, x, step, found):
-    """Add the second derivatives of contact and friction."""
+    """Add the second derivatives of contact at ``x``, of friction and of contact with platens."""
+    scene, neighbours, buffers = problem.scene, problem.neighbours, problem.buffers
+    matrix, layout, pull, part = neighbours.matrix, scene.layout, buffers.pull, buffers.part
+    touching, lagged = neighbours.touching, neighbours.lagged_contacts
+    for n in range(touching.count[0]):
+        count = contact.block(x, scene.contact, neighbours.pairs, touching, n, False, part)
+        add_stencil(matrix, layout, pull, touching.nodes[n], count, POSITION, part)
+    slip = slip_of(problem, step)
+    for k in range(lagged.count[0]):
+        count = friction.block(found.u, lagged, slip, k, False, part)
+        add_stencil(matrix, layout, pull, lagged.nodes[k], count, POSITION, part)
+    for i in range(scene.contact.low_nodes.size):
+        _add_platen(problem, x, False, i)
+    for i in range(scene.contact.high_nodes.size):
+        _add_platen(problem, x, True, i)
+
+
+@jit
+def _add_platen(problem, x, upper, i):
+    """Add the second derivatives of the contact of platen node ``i``."""
+    scene, matrix, pull = problem.scene, problem.neighbours.matrix, problem.buffers.pull
+    p, _, stiffness = contact.platen_block(x, scene.contact, upper, i)
+    if stiffness != 0.0:
+        z, platen = PER_NODE * p + 2, scene.contact.high if upper else scene.contact.low
+        add_entry(matrix, scene.layout, pull, z, z, stiffness)
+        add_entry(matrix, scene.layout, pull, platen, platen, stiffness)
+        add_entry(matrix, scene.layout, pull, platen, z, -stiffness)

@@ -116,7 +116,7 @@ def step_limit(problem, x, dx, far):
         far = near.longest(dx, n_nodes(scene))
         shortest = min(1.0, scene.contact.most_move / far)
     first = contact.step_limit(
-        x, dx, shortest, scene.contact, problem.neighbours.pairs, drift(problem, x)
+        x, dx, far, scene.contact, problem.neighbours.pairs, drift(problem, x)
     )
     return min(first, shortest)
 

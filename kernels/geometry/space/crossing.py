@@ -1,0 +1,137 @@
+"""Edges that pass through triangles in stored shapes: an independent check of contact.
+
+The sides on which points lie are signs of determinants. A sign is undecided if the determinant is
+less than `SIGN_TOLERANCE` of the sum of the sizes of its terms, some 1e4 times its round-off. An
+edge in the plane of a triangle, as in a flat wall, is apart from it if the distance is more than
+`DISTANCE_TOLERANCE` of the length of the edge.
+"""
+
+import numpy as np
+
+from kernels.arrays import grouped, triple
+from kernels.compile.jit import jit_exact, jit_owning
+from kernels.geometry.space.closest import squared_between_edges, squared_to_triangle
+from kernels.geometry.space.vectors import cross, inner, minus, row
+
+APART, UNSURE, ACROSS = -1, 0, 1
+SIGN_TOLERANCE = 1e-12
+DISTANCE_TOLERANCE = 1e-9
+STRIPS = 1 << 12  # number of classes of position by which edges are sorted
+
+
+@jit_exact
+def side(a, b, c, p):
+    """Return the sign of the side of the plane a, b, c that ``p`` is on; 0 if undecided."""
+    u, v, w = minus(b, a), minus(c, a), minus(p, a)
+    value = inner(cross(u, v), w)
+    one = abs(w[0]) * (abs(u[1] * v[2]) + abs(u[2] * v[1]))
+    two = abs(w[1]) * (abs(u[2] * v[0]) + abs(u[0] * v[2]))
+    three = abs(w[2]) * (abs(u[0] * v[1]) + abs(u[1] * v[0]))
+    if not abs(value) > SIGN_TOLERANCE * (one + two + three):  # NaN too
+        return 0
+    return 1 if value > 0.0 else -1
+
+
+@jit_exact
+def _squared_distance(a, b, c, p, q):
+    """Return the squared distance of the edge p-q from the triangle a, b, c if they do not cross,
+    m^2.
+    """
+    ends = min(squared_to_triangle(p, a, b, c), squared_to_triangle(q, a, b, c))
+    sides = min(squared_between_edges(p, q, a, b), squared_between_edges(p, q, b, c))
+    return min(ends, sides, squared_between_edges(p, q, c, a))
+
+
+@jit_exact
+def relation(a, b, c, p, q):
+    """Return whether the edge p-q passes through the triangle a, b, c (ACROSS), does not (APART),
+    or is undecided (UNSURE).
+    """
+    ends = side(a, b, c, p) * side(a, b, c, q)
+    if ends > 0:
+        return APART
+    one, two, three = side(p, q, a, b), side(p, q, b, c), side(p, q, c, a)
+    if max(one, two, three) > 0 and min(one, two, three) < 0:
+        return APART
+    if ends < 0 and one * two * three != 0:
+        return ACROSS
+    u = minus(q, p)
+    least = DISTANCE_TOLERANCE * DISTANCE_TOLERANCE * inner(u, u)
+    return APART if _squared_distance(a, b, c, p, q) > least else UNSURE
+
+
+@jit_exact
+def _extent(points, nodes, axis):
+    """Return the least and the largest coordinate of ``nodes`` along an axis."""
+    low, high = np.inf, -np.inf
+    for p in nodes:
+        low, high = min(low, points[p, axis]), max(high, points[p, axis])
+    return low, high
+
+
+@jit_exact
+def _overlap(points, triangle, edge):
+    """Return whether the bounding boxes of a triangle and an edge overlap."""
+    for axis in range(3):
+        low, high = _extent(points, triangle, axis)
+        begin, end = _extent(points, edge, axis)
+        if begin > high or end < low:
+            return False
+    return True
+
+
+@jit_exact
+def _share_a_node(triangle, edge):
+    """Return whether a triangle and an edge have a common node."""
+    for p in triangle:
+        if p == edge[0] or p == edge[1]:
+            return True
+    return False
+
+
+@jit_owning
+def _by_position(points, edges):
+    """Return (start, order, low, width, longest): edges by strips of their left ends along x."""
+    low, high, longest = np.inf, -np.inf, 0.0
+    for e in range(edges.shape[0]):
+        left, right = _extent(points, edges[e], 0)
+        low, high, longest = min(low, left), max(high, left), max(longest, right - left)
+    width = max((high - low) / (STRIPS - 1), 1e-300)
+    strip = np.empty(edges.shape[0], np.int64)
+    for e in range(edges.shape[0]):
+        strip[e] = int((_extent(points, edges[e], 0)[0] - low) / width)
+    start, order = grouped(strip, STRIPS)
+    return start, order, low, width, longest
+
+
+@jit_owning
+def count(points, triangles, edges, unsure):
+    """Return the number of edges that pass through triangles without a common node, and of the
+    undecided pairs, which are written to ``unsure`` (k, 2), triangle and edge, as far as they fit.
+
+    points (n, 3): one shape, finite; triangles (m, 3), edges (l, 2): nodes.
+    """
+    start, order, low, width, longest = _by_position(points, edges)
+    crossed, undecided = 0, 0
+    for k in range(triangles.shape[0]):
+        a, b, c = triple(triangles, k)
+        left, right = _extent(points, triangles[k], 0)
+        first = min(max(int((left - longest - low) / width) - 1, 0), STRIPS)
+        last = min(max(int((right - low) / width) + 1, 0), STRIPS)
+        for i in range(start[first], start[last]):
+            e = order[i]
+            if _share_a_node(triangles[k], edges[e]) or not _overlap(
+                points, triangles[k], edges[e]
+            ):
+                continue
+            p, q = edges[e, 0], edges[e, 1]
+            found = relation(
+                row(points, a), row(points, b), row(points, c), row(points, p), row(points, q)
+            )
+            if found == ACROSS:
+                crossed += 1
+            elif found == UNSURE:
+                if undecided < unsure.shape[0]:
+                    unsure[undecided, 0], unsure[undecided, 1] = k, e
+                undecided += 1
+    return crossed, undecided
