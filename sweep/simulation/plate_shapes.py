@@ -5,17 +5,15 @@ with the normals of the wall at the corners, the means of those of its quads the
 the turns by transverse shear.
 """
 
-from collections.abc import Mapping
-
 import numpy as np
 
+from kernels.geometry.space import crossing, surface
 from sweep.scene.mesh import Floats, Ints
 from sweep.scene.plates.coordinates import PER_NODE
 from sweep.scene.plates.mesh import PlateMesh
 from sweep.scene.plates.scene import Scene
 from sweep.scene.plates.unfolded import unfolded
 
-Frames = Mapping[str, np.ndarray]
 CORNERS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])  # of a quad, in s and z
 
 
@@ -102,5 +100,14 @@ def corner_of_wall(mesh: PlateMesh) -> Ints:
     return np.asarray(place.reshape(mesh.quads.shape))
 
 
-def surface_crossings(frames: Frames) -> int:
-    return 0
+def surface_crossings(position: Floats, mesh: PlateMesh) -> int:
+    """Greatest number of edges that pass through triangles in a shape, position (f, N, 3) in m of
+    the whole of a mesh; images beyond mirror planes are part of it.
+
+    Independent of the solver, but for the triangles. What touches within round-off counts too.
+    """
+    triangles = unfolded(mesh).triangles
+    edges, _ = surface.edges_of(triangles, position.shape[1])
+    unsure = np.empty((0, 2), np.int64)
+    found = [sum(crossing.count(shape, triangles, edges, unsure)) for shape in position]
+    return int(max(found))

@@ -291,7 +291,7 @@ def plate_columns(
         "broke_at_strain": np.nan,
         "stretch_over_curve": stretch_over_curve(case.material, (greatest, surface)),
         "absorbed_energy_within_model_J": float(within),
-        "max_crossings": surface_crossings(frames),
+        "max_crossings": surface_crossings(frames["position_m"], scene.mesh),
     }
 
 

@@ -13,7 +13,8 @@ class Unfolded:
     """N nodes and M quads of the whole, from those of a part.
 
     node (N,): node of the part; at (N, 2): whether it is mirrored in x and in y; quads (M, 4) with
-    normals to the same side as in the part, mirrored. quad (M,): quad of the part.
+    normals to the same side as in the part, mirrored. quad (M,): quad of the part. triangles (2 M,
+    3): as of `PlateMesh`.
     """
 
     planes: Floats
@@ -21,6 +22,7 @@ class Unfolded:
     at: np.ndarray
     quads: Ints
     quad: Ints
+    triangles: Ints
 
     def positions(self, part: Floats) -> Floats:
         """Positions (f, N, 3) in m from those of the part, (f, n, 3)."""
@@ -35,7 +37,7 @@ def unfolded(mesh: PlateMesh) -> Unfolded:
     n, m = mesh.n_nodes, len(mesh.quads)
     if mesh.plan.copies == 1:
         none = np.zeros((n, 2), np.bool_)
-        return Unfolded(mesh.plan.planes, np.arange(n), none, mesh.quads, np.arange(m))
+        return Unfolded(mesh.plan.planes, np.arange(n), none, mesh.quads, np.arange(m), mesh.triangles)
     images = np.array([[False, False], [True, False], [False, True], [True, True]])
     own = np.empty((4, n), np.int64)  # the node of the whole for each image of a node
     node, at = [], []
@@ -48,9 +50,12 @@ def unfolded(mesh: PlateMesh) -> Unfolded:
             own[k, on] = own[before[0], on]
         node.append(np.flatnonzero(new))
         at.append(np.broadcast_to(image, (int(new.sum()), 2)))
-    turned = mesh.quads[:, ::-1]
-    quads = [own[k][turned if image.sum() == 1 else mesh.quads] for k, image in enumerate(images)]
+    turned_over = [image.sum() == 1 for image in images]  # two mirrors are a turn
+    quads, triangles = (
+        [own[k][nodes[:, ::-1] if turned else nodes] for k, turned in enumerate(turned_over)]
+        for nodes in (mesh.quads, mesh.triangles)
+    )
     return Unfolded(
         mesh.plan.planes, np.concatenate(node), np.concatenate(at), np.concatenate(quads),
-        np.tile(np.arange(m), 4),
+        np.tile(np.arange(m), 4), np.concatenate(triangles),
     )  # fmt: skip
