@@ -86,11 +86,11 @@ def _normals(position: Floats, mesh: PlateMesh) -> Floats:
     corner = position[:, mesh.quads]
     diagonal = np.cross(corner[:, :, 2] - corner[:, :, 0], corner[:, :, 3] - corner[:, :, 1])
     place = corner_of_wall(mesh)
-    total = np.zeros((len(position), place.max() + 1, 3))
+    total = np.zeros((place.max() + 1, len(position), 3))
     for c in range(4):
-        np.add.at(total, (slice(None), place[:, c]), diagonal)
-    length = np.linalg.norm(total, axis=2, keepdims=True)
-    return np.asarray((total / np.maximum(length, np.finfo(float).tiny))[:, place])
+        np.add.at(total, place[:, c], diagonal.swapaxes(0, 1))
+    total /= np.maximum(np.linalg.norm(total, axis=2, keepdims=True), np.finfo(float).tiny)
+    return np.asarray(np.moveaxis(total[place], 2, 0))
 
 
 def corner_of_wall(mesh: PlateMesh) -> Ints:

@@ -71,15 +71,16 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
     run = _Run(scene, case, stop)
     status, message = run.complete()
     curves = history_columns(run.whole_rows(), case)
-    if run.blind:
+    if run.blind and isinstance(scene, Scene):
         curves = structure_columns(curves, run.probed[: run.done], scene, case)
         curves |= path_columns(run.arc, run.done)
     frames = run.frames()
     shapes = run.positions[: len(frames["time_s"])]
-    if isinstance(scene, PlateScene):
-        strains = plate_strains(shapes, scene)
-    else:
-        strains = strains_of(shapes, scene.terms)
+    strains: tuple[Floats, ...] = (
+        plate_strains(shapes, scene)
+        if isinstance(scene, PlateScene)
+        else strains_of(shapes, scene.terms)
+    )
     summary = summarise(case, scene, curves, frames, strains, run.loading_rows)
     if status == Status.CONVERGED and _broke(summary, case):
         message = _break_message(summary)
@@ -157,7 +158,7 @@ class _Run:
         count = EARLY_FRAMES if early else FRAMES * given_or(case.loading.cycles, 1)
         self.frame_of, kept = _frames(total + 1, count)
         self.positions = np.tile(scene.x_rest, (kept, 1))
-        self.arc = arc_of(scene, case)
+        self.arc = None if isinstance(scene, PlateScene) else arc_of(scene, case)
         self.done, self.noise, self.expired = 1, 0.0, False
 
     def _begin(self) -> None:

@@ -105,7 +105,8 @@ def summarise(
     """Summary columns of a run.
 
     strains (f, m): of the elements in the stored shapes, and of their most stretched surfaces; of
-    plates, as of `plate_shapes.plate_strains`. loading_rows: number of rows of the history that are loading.
+    plates, as of `plate_shapes.plate_strains`. loading_rows: number of rows of the history that are
+    loading.
     """
     curves = history | {"work_in_J": work_on_lattice(case, history)}
     loading = {name: column[:loading_rows] for name, column in curves.items()}

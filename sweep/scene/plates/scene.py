@@ -1,4 +1,4 @@
-"""The arrays of a lattice that is pressed along its cells: constraints, shells, contact, platens."""
+"""The arrays of a lattice that is pressed along its cells: constraints, shells, platens."""
 
 from dataclasses import dataclass, field
 

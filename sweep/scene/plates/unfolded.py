@@ -37,13 +37,16 @@ def unfolded(mesh: PlateMesh) -> Unfolded:
     n, m = mesh.n_nodes, len(mesh.quads)
     if mesh.plan.copies == 1:
         none = np.zeros((n, 2), np.bool_)
-        return Unfolded(mesh.plan.planes, np.arange(n), none, mesh.quads, np.arange(m), mesh.triangles)
+        return Unfolded(
+            mesh.plan.planes, np.arange(n), none, mesh.quads, np.arange(m), mesh.triangles
+        )
     images = np.array([[False, False], [True, False], [False, True], [True, True]])
     own = np.empty((4, n), np.int64)  # the node of the whole for each image of a node
-    node, at = [], []
+    node: list[Ints] = []
+    at: list[np.ndarray] = []
     for k, image in enumerate(images):
         new = ~(mesh.on & image).any(axis=1)
-        own[k, new] = sum(map(len, node)) + np.arange(new.sum())
+        own[k, new] = sum(len(each) for each in node) + np.arange(new.sum())
         for axis in (0, 1):
             on = ~new & mesh.on[:, axis] & image[axis]
             before = np.flatnonzero((images == np.where(np.arange(2) == axis, False, image)).all(1))
