@@ -6,31 +6,34 @@ stress S(x) = l P(l), that is
 
     S(x) = h(x) - h(-x / 2)
 
-Putting the equation into itself again and again gives the sum
+Putting the equation into itself again and again gives
 
     h(x) = S(x) + S(-x / 2) + S(x / 4) + S(-x / 8) + ..
 
-which converges, as S(x) is of the order of x at rest, and is the only solution that is smooth there
-(but for a constant h(0), which adds nothing to W, as the sum of all x is 0): P in tension and in
-compression determines w (E. Kearsley and L. Zapas, J. Rheology 24, 1980, p. 483). Its slope follows
-from S' in the same way, so that cubics through values and slopes are C1 like the curve itself.
+which converges, as S(x) is of the order of x at rest. This is the only solution that is smooth
+there (but for a constant, which adds nothing to W, as the sum of all x is 0): tension and
+compression determine w (E. Kearsley and L. Zapas, J. Rheology 24, 1980, p. 483).
 
-S must be known for all x; where the curve ends, it is continued so that the walls of a fold close
-only at infinite stress: in compression by S + S' (1 - exp(x_end - x)), as that of a neo-Hookean
-material rises; in tension by the tangent of the nominal stress.
+A material is stable only if h rises (then greater stretches have greater stresses: M. Baker and J.
+Ericksen, 1954). The measured tension is reproduced exactly. Compression, mostly a rule
+(`sweep.scene.material`), is followed as far as h rises on both sides: outwards from the rest state,
+
+    h'(-y) = S'(-y) - h'(y / 2) / 2, but at least r and at most 2 (S'(2 y) - r)
+    h'(y) = S'(y) - h'(-y / 2) / 2
+
+with r = `LEAST` of the slope at rest. Knots have equal ratios, so that y / 2 and 2 y are knots.
+
+S must be known for all x. Where the curve ends, it is continued in compression by
+S + S' (1 - exp(x_end - x)), as that of a neo-Hookean material, so that a fibre vanishes only at
+infinite stress; in tension by the tangent of the nominal stress.
 """
 
 import numpy as np
 
 TERMS = 60
-WIDEST = 6.0  # of x: a stretch of 400
-FINEST, COUNT = 1e-3, 96  # first knot beside the rest state, and knots on either side of it
-
-
-def knots():
-    """Return the knots (2 COUNT + 1,) in x, closer to each other near the rest state."""
-    side = np.geomspace(FINEST, WIDEST, COUNT)
-    return np.concatenate([-side[::-1], [0.0], side])
+OCTAVE = 16  # knots between y and 2 y
+FIRST, OCTAVES = 2.0**-10, 12  # knots from 0.001 to 4 in |x|, a stretch of 55
+LEAST = 0.02
 
 
 def continued(nominal, least, x):
@@ -49,22 +52,59 @@ def continued(nominal, least, x):
 
 
 def principal(nominal, least, x):
-    """Return h and dh/dx (n,) in Pa at ``x`` (n,); nominal, least: see `continued`.
-
-    Raises ValueError where the stress at ``least`` falls with the stretch.
-    """
-    _, rise = continued(nominal, least, np.array([np.log1p(least)]))
-    if not rise[0] > 0.0:
-        raise ValueError(
-            f"the Cauchy stress falls with the stretch at a strain of {least:g}: allowed are curves"
-            " whose Cauchy stress rises there"
-        )
+    """Return the sum for h, and its slope, (n,) in Pa at ``x`` (n,), whether or not h rises."""
     value, slope, factor = np.zeros_like(x), np.zeros_like(x), 1.0
     for _ in range(TERMS):
         stress, rise = continued(nominal, least, factor * x)
         value += stress
         slope += factor * rise
         factor *= -0.5
+    return value, slope
+
+
+def _check(nominal, least, tension, size):
+    """Refuse a Cauchy stress that falls with the stretch. tension (n,): slopes; size: S' at 0."""
+    rise = continued(nominal, least, np.array([np.log1p(least)]))[1][0]
+    if not (size > 0.0 and rise > 0.0 and tension.min() > 2.0 * LEAST * size):
+        raise ValueError(
+            "the Cauchy stress of a sheet must rise with the stretch: in all of tension and at its"
+            f" last compressive strain ({least:g})"
+        )
+
+
+def rising(nominal, least):
+    """Return knots x (n,), h and dh/dx (n,) in Pa, h rising; nominal, least: see `continued`.
+
+    Raises ValueError where the Cauchy stress falls with the stretch.
+    """
+    y = FIRST * 2.0 ** (np.arange(OCTAVE * OCTAVES + 1) / OCTAVE)
+    tension = continued(nominal, least, np.append(y, 2.0 * y[-OCTAVE:]))
+    at_rest = 2.0 / 3.0 * continued(nominal, least, np.zeros(1))[1][0]
+    _check(nominal, least, tension[1], at_rest)
+    down, down_rise = _of_compression(nominal, least, y, tension, LEAST * at_rest)
+    up, up_rise = principal(nominal, least, y[:OCTAVE])
+    up = np.append(up, tension[0][OCTAVE : y.size] + down[:-OCTAVE])
+    up_rise = np.append(up_rise, tension[1][OCTAVE : y.size] - 0.5 * down_rise[:-OCTAVE])
+    value = np.concatenate([down[::-1], [0.0], up])
+    slope = np.concatenate([down_rise[::-1], [at_rest], up_rise])
+    return np.concatenate([-y[::-1], [0.0], y]), value, slope
+
+
+def _of_compression(nominal, least, y, tension, floor):
+    """Return h(-y) and h'(-y) at the knots y (n,). tension: S(y), S'(y), an octave further too."""
+    pressed, pressed_rise = continued(nominal, least, -y)
+    value, slope = np.empty_like(y), np.empty_like(y)
+    one, two = OCTAVE, 2 * OCTAVE
+    value[:two], slope[:two] = principal(nominal, least, -y[:two])
+    slope[:two] = np.maximum(slope[:two], floor)
+    apart, before = 0.0, 0.0  # what the limits add to the slope, and its integral
+    for k in range(two, y.size):
+        wanted = pressed_rise[k] - 0.5 * (tension[1][k - one] - 0.5 * slope[k - two])
+        slope[k] = min(max(wanted, floor), 2.0 * (tension[1][k + one] - floor))
+        added = slope[k] - wanted
+        apart += 0.5 * (before + added) * (y[k] - y[k - 1])
+        before = added
+        value[k] = pressed[k] + tension[0][k - one] + value[k - two] - apart
     return value, slope
 
 
@@ -79,5 +119,6 @@ def cubics(x, value, slope):
     rows = np.column_stack([value[:-1], first, second, third])
     powers = np.arange(1, 5)
     gained = np.sum(rows / powers * step[:, None] ** powers, axis=1)
-    energy = np.concatenate([[0.0], np.cumsum(gained)])
-    return rows, energy - energy[np.searchsorted(x, 0.0)]
+    at = np.searchsorted(x, 0.0)  # sums from here on lose no digits of small energies
+    below, above = -np.cumsum(gained[:at][::-1])[::-1], np.cumsum(gained[at:])
+    return rows, np.concatenate([below, [0.0], above])

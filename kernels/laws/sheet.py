@@ -138,6 +138,6 @@ def measured(nominal, least, modulus):
     nominal, least: see `separable.continued`. modulus: Y at rest, the slope of ``nominal`` at 0, in
     Pa.
     """
-    x = separable.knots()
-    rows, energy = separable.cubics(x, *separable.principal(nominal, least, x))
+    x, value, slope = separable.rising(nominal, least)
+    rows, energy = separable.cubics(x, value, slope)
     return Sheet(FibreCurve(x, rows, energy, modulus), modulus / 3.0, False)

@@ -98,8 +98,7 @@ def slope(frame, w, v, k):
 
 @jit
 def moment(frame, w, v, g):
-    """Return g . dd/dw_k for k = 0, 1, 2: the gradient in w of an energy with the gradient g in d.
-    """
+    """Return g . dd/dw_k for k = 0, 1, 2: an energy with the slope g in d has this slope in w."""
     s, u = _bend(w, v)
     h = _taken_back(frame, g)
     whole = -s * s * _dot(h, u)
@@ -146,8 +145,10 @@ def _orthonormalise(frame):
         (frame[0], frame[3], frame[6]), (frame[1], frame[4], frame[7]),
         (frame[2], frame[5], frame[8]),
     )  # fmt: skip
-    aa, bb, cc = 1.5 - 0.5 * _dot(q[0], q[0]), 1.5 - 0.5 * _dot(q[1], q[1]), 1.5 - 0.5 * _dot(
-        q[2], q[2]
+    aa, bb, cc = (
+        1.5 - 0.5 * _dot(q[0], q[0]),
+        1.5 - 0.5 * _dot(q[1], q[1]),
+        1.5 - 0.5 * _dot(q[2], q[2]),
     )
     ab, ac, bc = -0.5 * _dot(q[0], q[1]), -0.5 * _dot(q[0], q[2]), -0.5 * _dot(q[1], q[2])
     a, b, c = q

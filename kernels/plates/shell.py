@@ -27,7 +27,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit, jit_exact, jit_owning
-from kernels.plates import layers, rotation, shear
+from kernels.plates import bow, layers, rotation, shear
 
 GAUSS = math.sqrt(1.0 / 3.0)
 POINTS = ((-GAUSS, -GAUSS), (GAUSS, -GAUSS), (GAUSS, GAUSS), (-GAUSS, GAUSS))
@@ -146,11 +146,14 @@ def _measure(p, m):
 
 @jit
 def _strain(scratch, shell, e, g):
-    """Set the measures of Gauss point ``g`` less those at rest."""
+    """Set the measures of Gauss point ``g`` less those at rest, of arcs; return those of chords
+    that the derivatives of `bow` need.
+    """
     _derive(scratch.q, scratch.grid[g], scratch.p)
     _measure(scratch.p, scratch.measure)
     for k in range(9):
         scratch.measure[k] -= shell.rest[e, g, k]
+    return bow.lengthen(shell.size[e], shell.rest[e, g], scratch.measure)
 
 
 @jit_exact
@@ -219,20 +222,19 @@ def evaluate(x, frames, shell, law, scratch, gradient, stored):
         _gather(x, frames, shell, e, scratch.q)
         _differentiate(size, scratch.grid)
         scratch.slope[:] = 0.0
-        stiffness = 4.0 * area * thickness * shell.shear_modulus
-        sheared = shear.evaluate(
-            scratch.q, size, shell.shear_rest[e], stiffness, scratch.slope
-        )
+        stiffness = shear.stiffnesses(shell.shear_modulus, thickness, size)
+        sheared = shear.evaluate(scratch.q, size, shell.shear_rest[e], stiffness, scratch.slope)
         total += sheared
         stored[2] += sheared
         for g in range(4):
-            _strain(scratch, shell, e, g)
+            chords = _strain(scratch, shell, e, g)
             value, middle = layers.resultants(law, scratch.measure, thickness, scratch.resultant)
             if math.isinf(value):
                 return math.inf
             total += area * value
             stored[0] += area * middle
             stored[1] += area * (value - middle)
+            bow.pull_back(size, chords, scratch.resultant)
             _add_slopes(scratch, g, area)
         _scatter(x, frames, shell, e, scratch.slope, gradient)
     return total
@@ -361,14 +363,16 @@ def hessian(x, frames, shell, law, e, scratch, second):
     _differentiate(size, scratch.grid)
     scratch.slope[:] = 0.0
     second[:] = 0.0
-    stiffness = 4.0 * area * thickness * shell.shear_modulus
+    stiffness = shear.stiffnesses(shell.shear_modulus, thickness, size)
     shear.evaluate(scratch.q, size, shell.shear_rest[e], stiffness, scratch.slope)
     shear.hessian(scratch.q, size, shell.shear_rest[e], stiffness, scratch.edges, second)
     for g in range(4):
-        _strain(scratch, shell, e, g)
+        chords = _strain(scratch, shell, e, g)
         layers.rigidity(
             law, scratch.measure, thickness, scratch.moments, scratch.resultant, scratch.rigidity
         )
+        bow.pull_back_second(size, chords, scratch.resultant, scratch.rigidity)
+        bow.pull_back(size, chords, scratch.resultant)
         _add_slopes(scratch, g, area)
         _by_p(scratch, area)
         _half(scratch, g)

@@ -1,107 +1,51 @@
-"""Triangulated sheets in space and their contact, for tests of kernels."""
-
-import itertools
+"""Sheets for tests: neo-Hookean ones, given by a curve too, and those of shipped materials."""
 
 import numpy as np
+from numpy.typing import NDArray
 
-from kernels.geometry.space.vectors import SIZE
-from kernels.plates import contact, pairs
-from tests.support.terms import Term
+from kernels.laws import sheet
+from kernels.laws.sheet import Sheet
+from sweep.config.case import Material
+from sweep.scene.material import StressLaw, stress_law
 
-NOBODY = np.empty(0, np.int64), np.empty(0)
-FAR_APART = 100.0
+Floats = NDArray[np.float64]
 
-
-class Sheet:
-    """A rectangular grid of quads, each cut into two triangles along alternate diagonals.
-
-    points (n, 3), triangles (k, 3), area (n,): a quarter of its quads for each node.
-    """
-
-    def __init__(self, across: int, along: int, width=1.0, height=1.0, origin=(0.0, 0.0, 0.0)):
-        s, z = np.linspace(0, width, across + 1), np.linspace(0, height, along + 1)
-        n = (across + 1) * (along + 1)
-        self.points = np.array([(a, b, 0.0) for b in z for a in s]) + np.array(origin)
-        self.area, found = np.zeros(n), []
-        for i, j in itertools.product(range(across), range(along)):
-            a = j * (across + 1) + i
-            b, c, d = a + 1, a + across + 2, a + across + 1
-            self.area[[a, b, c, d]] += 0.25 * width * height / (across * along)
-            found += [(a, b, c), (a, c, d)] if (i + j) % 2 else [(a, b, d), (b, c, d)]
-        self.triangles = np.array(found)
+MODULUS = 12.0
+LEAST = -0.7
 
 
-def united(*sheets: Sheet):
-    """Points, triangles and areas of several sheets."""
-    first = np.cumsum([0] + [len(s.points) for s in sheets])
-    triangles = [s.triangles + k for s, k in zip(sheets, first, strict=False)]
-    return (
-        np.concatenate([s.points for s in sheets]),
-        np.concatenate(triangles),
-        np.concatenate([s.area for s in sheets]),
-    )
+def rubber(strain: Floats) -> tuple[Floats, Floats]:
+    """Nominal stress mu (l - 1 / l^2) of neo-Hookean rubber and its slope."""
+    stretch = 1.0 + strain
+    return MODULUS / 3 * (stretch - stretch**-2), MODULUS / 3 * (1.0 + 2.0 * stretch**-3)
 
 
-def placed(points, low=-1e3, high=1e3):
-    """Coordinates of nodes at ``points`` with zero rotations, and of two platens."""
-    x = np.zeros((len(points), SIZE))
-    x[:, :3] = points
-    return np.concatenate([x.ravel(), [low, high]])
+class Nominal:
+    """A law of `sweep.scene.material` as a function that returns stress and slope."""
+
+    def __init__(self, law: StressLaw):
+        self.law = law
+
+    def __call__(self, strain: Floats) -> tuple[Floats, Floats]:
+        """Stress and slope (n,) in Pa at strains (n,)."""
+        law, last = self.law, len(self.law.coefficients) - 1
+        piece = np.clip(np.searchsorted(law.knots, strain, side="right") - 1, 0, last)
+        c = law.coefficients[piece].T
+        s = np.clip(strain, law.knots[0], law.knots[-1]) - law.knots[piece]
+        return law.at(strain), c[1] + s * (2.0 * c[2] + s * 3.0 * c[3])
 
 
-def positions(x):
-    """Positions (n, 3) in coordinates ``x``."""
-    return x[:-2].reshape(-1, SIZE)[:, :3]
+def nominal(name: str) -> Nominal:
+    """The nominal stress of a shipped material."""
+    return Nominal(stress_law(Material(name=name)))
 
 
-def contact_of(points, triangles, area, t, rest=None, stiffness=1.0, low=NOBODY, high=NOBODY):
-    """Contact of a surface of thickness ``t`` (a number or one a node)."""
-    n = SIZE * len(points)
-    thickness = np.full(len(points), float(t)) if np.ndim(t) == 0 else np.asarray(t)
-    rest = points if rest is None else rest
-    return contact.build(
-        stiffness, np.inf, triangles, area, thickness, np.ascontiguousarray(rest),
-        (*low, n), (*high, n + 1),
-    )  # fmt: skip
+def measured(name: str) -> Sheet:
+    """The sheet of a shipped material, Pa."""
+    of = nominal(name)
+    return sheet.measured(of, of.law.knots[0], of(np.zeros(1))[1][0])
 
 
-def two_sheets(gap, one: Sheet, two: Sheet, t=1.0):
-    """Coordinates and contact of two sheets ``gap`` apart, which are far apart at rest."""
-    points, triangles, area = united(one, two)
-    upper = np.arange(len(points)) >= len(one.points)
-    rest, x = points.copy(), points.copy()
-    rest[upper, 2] += FAR_APART * t
-    x[upper, 2] += gap
-    return placed(x), contact_of(points, triangles, area, t, rest)
-
-
-def pairs_of(x, touch, margin=1.0):
-    """Pairs listed at ``x`` with a ``margin`` as a share of the reach."""
-    return pairs.find(x, touch, (1.0 + margin) * touch.reach)
-
-
-def term_of(x, touch, listed=None) -> Term:
-    """Contact with its pairs at ``x``, with a dense Hessian."""
-    listed = pairs_of(x, touch) if listed is None else listed
-    touching = contact.no_contacts(touch, listed)
-
-    def slope(y, g):
-        return contact.evaluate(y, touch, listed, np.inf, touching, g)
-
-    def second(y, projected):
-        contact.evaluate(y, touch, listed, np.inf, touching, np.zeros_like(y))
-        matrix, K = np.zeros((y.size, y.size)), np.zeros((12, 12))
-        for n in range(touching.count[0]):
-            size = contact.block(y, touch, listed, touching, n, projected, K)
-            nodes = touching.nodes[n, :size]
-            at = (SIZE * nodes[:, None] + np.arange(3)).ravel()
-            matrix[np.ix_(at, at)] += K[: 3 * size, : 3 * size]
-        for upper, nodes in ((False, touch.low_nodes), (True, touch.high_nodes)):
-            platen = touch.high if upper else touch.low
-            for i in range(len(nodes)):
-                p, _, k = contact.platen_block(y, touch, upper, i)
-                at = [SIZE * p + 2, platen]
-                matrix[np.ix_(at, at)] += [[k, -k], [-k, k]]
-        return matrix
-
-    return Term(slope, second)
+def sheet_of_rubber() -> Sheet:
+    """Neo-Hookean rubber by way of its nominal stress."""
+    return sheet.measured(rubber, LEAST, MODULUS)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,7 +53,7 @@ def structure(
 ) -> Structure:
     """Walls (pairs of joints of a ``plan``) of ``height`` with ``pieces`` x ``layers`` quads each.
 
-    Joints of one wall too have the frame I and the normal of their wall as director.
+    Joints of several walls have the frame I, other nodes that of their wall, (e_s, e_z, n).
     """
     joints = np.array(plan, float)
     columns = [*joints]
@@ -63,10 +64,14 @@ def structure(
         length = float(np.hypot(*step))
         s = np.append(step / length, 0.0)
         inner = range(len(columns), len(columns) + pieces - 1)
+        own = np.column_stack([s, UP, np.cross(s, UP)])
+        for end in (i, k):
+            if sum(end in wall for wall in walls) == 1:
+                frames[end] = own
         columns += [joints[i] + step * (m + 1) for m in range(pieces - 1)]
-        frames += [np.column_stack([s, UP, np.cross(s, UP)])] * (pieces - 1)
+        frames += [own] * (pieces - 1)
         path = [i, *inner, k]
-        along += [(a, b, s, length) for a, b in zip(path[:-1], path[1:], strict=True)]
+        along += [(a, b, s, length) for a, b in pairwise(path)]
     n, levels = len(columns), np.linspace(0.0, height, layers + 1)
     points = np.array([[*c, z] for z in levels for c in columns])
     quads, size, dloc = [], [], []
@@ -88,11 +93,7 @@ def plate(
     nx: int = 2, nz: int = 2, width: float = 1.0, height: float = 1.0, thickness: float = 0.1
 ) -> Structure:
     """A wall along x, whose frames are all (e_s, e_z, n)."""
-    of = structure([(0.0, 0.0), (width, 0.0)], [(0, 1)], nx, height, nz, thickness)
-    frame = np.column_stack([[1.0, 0.0, 0.0], UP, [0.0, -1.0, 0.0]])
-    dloc = np.broadcast_to(UP, of.walls.dloc.shape).copy()
-    frames = np.tile(frame.ravel(), (len(of.points), 1))
-    return Structure(of.points, frames, of.walls._replace(dloc=dloc))
+    return structure([(0.0, 0.0), (width, 0.0)], [(0, 1)], nx, height, nz, thickness)
 
 
 def cross(thickness: float = 0.1) -> Structure:

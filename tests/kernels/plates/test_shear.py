@@ -1,0 +1,70 @@
+"""Transverse shear by MITC4: derivatives, energy of uniform shear, rest."""
+
+import numpy as np
+import pytest
+
+from kernels.plates import shear
+from tests.support.terms import Term, derivative_error
+
+SIZE, STIFFNESS = np.array([0.5, 0.8]), (3.0, 2.0)
+FLAT = np.array([[0, 0, 0], [0.5, 0, 0], [0.5, 0.8, 0], [0, 0.8, 0.0]])
+
+
+def state(directors, points=FLAT):
+    return np.hstack([points, np.broadcast_to(directors, (4, 3))]).ravel()
+
+
+def term(rest):
+    def slope(q, g):
+        return shear.evaluate(q, SIZE, rest, STIFFNESS, g)
+
+    def second(q, projected):
+        full = np.zeros((24, 24))
+        shear.hessian(q, SIZE, rest, STIFFNESS, np.empty((4, 24)), full)
+        return full
+
+    return Term(slope, second)
+
+
+@pytest.mark.parametrize("rest", [np.zeros(4), np.array([0.1, -0.2, 0.3, 0.05])])
+@pytest.mark.parametrize("seed", [None, 0, 1])
+def test_derivatives(rest, seed):
+    q = state([0.0, 0.0, 1.0])
+    if seed is not None:
+        q += np.random.default_rng(seed).uniform(-0.5, 0.5, 24)
+    assert derivative_error(term(rest), q, 1.0, 1e-3) < 1e-9
+
+
+@pytest.mark.parametrize("g", [(0.1, 0.0), (0.0, -0.2), (0.3, 0.4)])
+def test_uniform_shear(g):
+    """Kappa G t area / 2 |g|^2, with g = x,a . d; stiffness: kappa G t area."""
+    q = state([*g, 1.0])
+    energy = shear.evaluate(q, SIZE, np.zeros(4), STIFFNESS, np.zeros(24))
+    assert energy == pytest.approx(0.5 * np.dot(STIFFNESS, np.square(g)), rel=1e-14)
+    at_rest = shear.evaluate(q, SIZE, np.repeat(g, 2), STIFFNESS, np.zeros(24))
+    assert at_rest == pytest.approx(0.0, abs=1e-30)
+
+
+def test_shear_that_is_linear_across_is_integrated_exactly():
+    """g_s = 1 - z / h_z by the directors: mean square 1/3."""
+    directors = np.array([[1.0, 0, 1], [1, 0, 1], [0, 0, 1], [0, 0, 1]])
+    energy = shear.evaluate(state(directors), SIZE, np.zeros(4), STIFFNESS, np.zeros(24))
+    assert energy == pytest.approx(0.5 * STIFFNESS[0] / 3.0)
+
+
+def test_pure_bending_has_no_shear():
+    """The field that locks a plain bilinear quad: directors turn while the edges stay straight."""
+    turn = 0.2
+    directors = np.array([[-turn, 0, 1], [turn, 0, 1], [turn, 0, 1], [-turn, 0, 1]])
+    energy = shear.evaluate(state(directors), SIZE, np.zeros(4), STIFFNESS, np.zeros(24))
+    assert energy == pytest.approx(0.0, abs=1e-30)
+
+
+def test_stiffness_is_that_of_shear_in_small_elements_and_of_bending_in_long_ones():
+    modulus, thickness = 3.0, 0.1
+    small = shear.stiffnesses(modulus, thickness, (1e-4, 1e-3))
+    assert small == pytest.approx((modulus * thickness * 1e-7,) * 2, rel=1e-4)
+    d = modulus / shear.KAPPA * thickness**3 / 3
+    long = shear.stiffnesses(modulus, thickness, (1e3, 1e-3))
+    assert long[0] == pytest.approx(d / shear.BETA / 1e6, rel=1e-4)
+    assert long[1] == pytest.approx(modulus * thickness, rel=1e-4)

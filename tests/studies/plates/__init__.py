@@ -1,0 +1,1 @@
+"""Shells against the theory of plates: buckling, pressure, rolled strips, joints of walls."""
