@@ -333,6 +333,20 @@ def _grid_text(values: Series, among: Series) -> dict[str, Series]:
     return {f"{noun} {name}": (factor * values.astype(float)).map(short)}
 
 
+def about_direction(row: Series) -> list[str]:
+    """Sentences about what the model of plates leaves out; none for a case across its cells."""
+    if row["direction"] != "out_of_plane":
+        return []
+    lines = ["pressed along its cells; that printed layers part is not modelled"]
+    solid, strain = row["solid_strain"], row["peak_strain"]
+    if strain > solid:
+        share = f"{100.0 * solid:.3g} %"
+        lines.append(
+            f"beyond a strain of {share} its walls fill the pressed area: plates are no model"
+        )
+    return lines
+
+
 def describe_case(row: Series, among: DataFrame) -> str:
     """The scene and the design of one case of a summary, in words."""
     rows = among.loc[[row.name]]

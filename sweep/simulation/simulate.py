@@ -119,10 +119,11 @@ def _scene(case: Case) -> Scene | PlateScene:
     return build_periodic(case) if case.lattice.boundary == "periodic" else build_scene(case)
 
 
-def warm_up(arcs: bool = False) -> None:
+def warm_up(arcs: bool = False, plates: bool = False) -> None:
     """Load or compile the kernels, so that no case spends time on it.
 
-    arcs: also the kernels of the arc-length method, which few sweeps need.
+    arcs, plates: also the kernels of the arc-length method, and of crushes along the cells, which
+    few sweeps need.
     """
     lattice = Lattice(cells_x=1, cells_y=1)
     simulate(Case(lattice=lattice, loading=Loading(release_time=1e-4, duration=2e-4)))
@@ -134,6 +135,10 @@ def warm_up(arcs: bool = False) -> None:
         )
         path = Solver(integrator="arc_length", load_steps=1)
         simulate(Case(lattice=Lattice(kind="custom", structure=wall), solver=path))
+    if plates:
+        tube = Lattice(cells_x=1, cells_y=1, nodes_per_wall=1, layers=2)
+        pressed = Loading(direction="out_of_plane", strain=1e-3, unload=False)
+        simulate(Case(lattice=tube, loading=pressed, solver=Solver(load_steps=1)))
 
 
 class _Run:
