@@ -16,7 +16,7 @@ from sweep.design.drawing import Indices
 from sweep.design.network import Network, mass
 from sweep.scene.mesh import Floats
 from sweep.scene.plates import coordinates
-from sweep.scene.plates.contact import contact_of
+from sweep.scene.plates.contact import contact_of, mirror_of
 from sweep.scene.plates.coordinates import PER_NODE, Numbering
 from sweep.scene.plates.law import law_of_sheet, shear_modulus
 from sweep.scene.plates.mesh import PlateMesh, build_mesh
@@ -83,6 +83,7 @@ def build_scene(case: Case) -> Scene:
         law=law_of_sheet(case.material),
         shell=_shell(mesh, x_rest, case),
         contact=contact_of(mesh, numbering, case),
+        mirror=mirror_of(mesh, case),
         friction=friction_of(case),
         layout=_layout(mesh, numbering, leader, case),
     )
