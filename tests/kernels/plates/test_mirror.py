@@ -38,7 +38,7 @@ def energy(quarter, x):
 
 
 def test_nodes_on_a_plane_and_walls_at_rest_do_not_touch(quarter):
-    mesh, contact, planes, x = quarter
+    mesh, _, planes, x = quarter
     assert planes.node.size == 2 * mesh.n_nodes - mesh.on.sum()
     assert planes.rest.min() > 0.5 * T
     assert energy(quarter, x) == 0.0
@@ -74,7 +74,7 @@ def test_slope_and_curvature_are_those_of_the_energy(quarter, distance):
 
 def test_no_step_reaches_the_plane(quarter):
     _, _, planes, x = quarter
-    node, there = near(quarter, 0.0)
+    _, there = near(quarter, 0.0)
     half = 0.5 * (there - x)
     assert mirror.step_limit(x, half, planes, 1.0) == pytest.approx(1.0)
     assert mirror.step_limit(x, 4.0 * half, planes, 1.0) == pytest.approx(0.5 * ADVANCE)
