@@ -59,7 +59,7 @@ def test_strain_of_a_stretched_and_turned_wall():
 
 
 def test_surface_strain_of_a_rolled_wall():
-    """Of a wall rolled to a radius r along its length, t / (2 r); the chords are a little shorter."""
+    """It is t / (2 r) of a wall rolled to a radius r; the chords are a little shorter."""
     mesh, radius = wall(quads=(40, 4)), 3e-3
     s = mesh.rest[:, 0] / radius
     rolled = np.column_stack([radius * np.sin(s), radius * np.cos(s), mesh.rest[:, 2]])

@@ -61,8 +61,8 @@ def test_energies_balance_and_are_the_area_below_the_curve(pressed):
 
 
 def test_walls_buckle_at_the_load_of_plates(pressed):
-    """k = 4 of a long plate with hinged sides: 4 pi^2 D / l^2 of 16 mm of walls, 13 N; the force
-    goes on, but at half the stiffness or less.
+    """Long plates with hinged sides have k = 4: 4 pi^2 D / l^2 of 16 mm of walls, 13 N; the
+    force goes on, but at half the stiffness or less.
     """
     force = pressed.history["reaction_top_N"]
     critical = 4.0 * np.pi**2 * LINEAR.modulus * 0.4e-3**3 / (12.0 * 0.75) / SIDE**2 * 4.0 * SIDE
