@@ -1,10 +1,9 @@
 """Lagged friction of plates: normal forces and tangent planes are fixed during a minimisation."""
 
-from kernels.plates.reach import drift
-
 from kernels.arrays import add
 from kernels.compile.jit import jit_exact
 from kernels.plates import friction
+from kernels.plates.reach import drift
 
 
 @jit_exact

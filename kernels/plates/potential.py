@@ -7,11 +7,10 @@ velocity at the end of the step (`solve.integrators`). In a static step y = x0, 
 vanishes. The Hessian is in `factoring`.
 """
 
-from kernels.plates.reach import drift
-
 from kernels.arrays import dot, zero
 from kernels.compile.jit import jit_exact
 from kernels.plates import contact, lagging, mirror, shell
+from kernels.plates.reach import drift
 from kernels.terms import inertia
 from kernels.terms.rows import BEND, CONTACT, STRETCH
 

@@ -11,9 +11,11 @@ from kernels.linear.supernodal.matrix import Matrix
 from kernels.plates import contact, couplings, friction, mirror, pairs
 from kernels.plates.contact import Touching
 from kernels.plates.friction import LaggedContacts
+from kernels.plates.layout import PER_NODE, POSITION
 from kernels.plates.pairs import Pairs
 
 MARGIN = 0.5  # least margin of the pair list, as a share of the reach of contact
+MOST_TURN = 0.25  # of a node in one move: w, the tangent of half the angle
 MOVE_MARGIN = 2.2  # least margin as a multiple of a move; with 2 the list holds for no other move
 
 
@@ -107,7 +109,8 @@ def covers_projection(problem, x):
 
 @jit_exact
 def step_limit(problem, x, dx, far):
-    """Return the admissible share of ``dx`` (at most 1): no wall crosses another or a platen.
+    """Return the admissible share of ``dx`` (at most 1): no wall crosses another or a platen, and
+    no node turns far.
 
     far: `travel` of ``dx``, m.
     """
@@ -118,7 +121,20 @@ def step_limit(problem, x, dx, far):
     first = contact.step_limit(
         x, dx, far, scene.contact, problem.neighbours.pairs, drift(problem, x)
     )
+    turn = _longest_turn(dx, n_nodes(scene))
+    if turn > MOST_TURN:
+        shortest = min(shortest, MOST_TURN / turn)
     return mirror.step_limit(x, dx, scene.mirror, min(first, shortest))
+
+
+@jit_exact
+def _longest_turn(dx, n):
+    """Return the largest change of w of one of ``n`` nodes in ``dx``."""
+    most = 0.0
+    for i in range(n):
+        at = PER_NODE * i + POSITION
+        most = max(most, dx[at] ** 2 + dx[at + 1] ** 2 + dx[at + 2] ** 2)
+    return most**0.5
 
 
 @jit_exact

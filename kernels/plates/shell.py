@@ -27,7 +27,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit, jit_exact, jit_owning
-from kernels.plates import bow, layers, rotation, shear
+from kernels.plates import bow, fold, layers, rotation, shear
 
 GAUSS = math.sqrt(1.0 / 3.0)
 POINTS = ((-GAUSS, -GAUSS), (GAUSS, -GAUSS), (GAUSS, GAUSS), (-GAUSS, GAUSS))
@@ -72,6 +72,7 @@ class Scratch(NamedTuple):
     half: np.ndarray
     grid: np.ndarray
     edges: np.ndarray
+    row: np.ndarray
     turn: np.ndarray
     column: np.ndarray
 
@@ -82,7 +83,7 @@ def make_scratch():
     return Scratch(
         np.zeros(24), np.zeros(24), np.zeros(12), np.zeros(9), np.zeros(9), np.zeros((9, 9)),
         layers.make_moments(), np.zeros((9, 12)), np.zeros((9, 12)), np.zeros((12, 12)),
-        np.zeros((48, 24)), np.zeros((4, 4, 2)), np.zeros((4, 24)), np.zeros((4, 3, 3)),
+        np.zeros((48, 24)), np.zeros((4, 4, 2)), np.zeros((4, 24)), np.zeros(24), np.zeros((4, 3, 3)),
         np.zeros((24, 3)),
     )  # fmt: skip
 
@@ -209,8 +210,8 @@ def _scatter(x, frames, shell, e, slope, gradient):
 
 @jit
 def evaluate(x, frames, shell, law, scratch, gradient, stored):
-    """Return the energy in J, infinite where a layer has no area left; add its slopes to
-    ``gradient`` (n,) and its parts to ``stored`` (3,): membrane, bending, shear.
+    """Return the energy in J, infinite where a layer has no area left or a director is turned over;
+    add its slopes to ``gradient`` (n,) and its parts to ``stored`` (3,): membrane, bending, shear.
 
     law: `kernels.laws.sheet.Sheet`. Membrane is what the strain of the mid-surface alone would
     take; bending is what the layers take more. Where the energy is infinite all is incomplete.
@@ -220,10 +221,15 @@ def evaluate(x, frames, shell, law, scratch, gradient, stored):
         size, thickness = shell.size[e], shell.thickness[e]
         area = 0.25 * size[0] * size[1]
         _gather(x, frames, shell, e, scratch.q)
+        if fold.is_folded(scratch.q):
+            return math.inf
         _differentiate(size, scratch.grid)
         scratch.slope[:] = 0.0
         stiffness = shear.stiffnesses(shell.shear_modulus, thickness, size)
         sheared = shear.evaluate(scratch.q, size, shell.shear_rest[e], stiffness, scratch.slope)
+        sheared += fold.evaluate(
+            scratch.q, size, shell.shear_modulus * thickness * area, scratch.slope
+        )
         total += sheared
         stored[2] += sheared
         for g in range(4):
@@ -366,6 +372,9 @@ def hessian(x, frames, shell, law, e, scratch, second):
     stiffness = shear.stiffnesses(shell.shear_modulus, thickness, size)
     shear.evaluate(scratch.q, size, shell.shear_rest[e], stiffness, scratch.slope)
     shear.hessian(scratch.q, size, shell.shear_rest[e], stiffness, scratch.edges, second)
+    folding = shell.shear_modulus * thickness * area
+    fold.evaluate(scratch.q, size, folding, scratch.slope)
+    fold.hessian(scratch.q, size, folding, scratch.row, second)
     for g in range(4):
         chords = _strain(scratch, shell, e, g)
         layers.rigidity(

@@ -34,7 +34,7 @@ def rigidity(thickness: float) -> float:
 
 
 def factor(n: int, sides: str, ends: str, thickness: float = 0.001) -> float:
-    """k of a plate of width 1 with n quads a side."""
+    """K of a plate of width 1 with n quads a side."""
     height = LONGEST_WAVE if (sides, ends) == (CLAMPED, SUPPORTED) else 1.0
     of = plate(n, n, 1.0, height, thickness)
     stress = MODULUS * buckling_strain(of, held(of, sides, ends))[0]
@@ -67,7 +67,7 @@ def pressure(of: Structure, n: int, size: Floats) -> Floats:
 
 
 def pressed(n: int, edges: str, thickness: float = 0.001) -> float:
-    """w D / (q b^4) in the centre of a square plate under uniform pressure."""
+    """W D / (q b^4) in the centre of a square plate under uniform pressure."""
     of = plate(n, n, 1.0, 1.0, thickness)
     force = pressure(of, n, np.ones(len(of.points)))
     u = deflection(of, held(of, edges, edges), force)
