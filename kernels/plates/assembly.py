@@ -2,7 +2,7 @@
 
 from kernels.compile.jit import jit, jit_exact
 from kernels.linear.supernodal import matrix as blocks
-from kernels.plates import contact, friction
+from kernels.plates import contact, friction, mirror
 from kernels.plates.lagging import slip_of
 from kernels.plates.layout import PER_NODE, POSITION
 
@@ -91,6 +91,11 @@ def add_contacts(problem, x, step, found):
         _add_platen(problem, x, False, i)
     for i in range(scene.contact.high_nodes.size):
         _add_platen(problem, x, True, i)
+    for i in range(scene.mirror.node.size):
+        _, _, stiffness = mirror.against(x, scene.contact, scene.mirror, i)
+        if stiffness != 0.0:
+            c = scene.mirror.coordinate[i]
+            add_entry(matrix, layout, pull, c, c, stiffness)
 
 
 @jit

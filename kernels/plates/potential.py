@@ -9,7 +9,7 @@ vanishes. The Hessian is in `factoring`.
 
 from kernels.arrays import dot, zero
 from kernels.compile.jit import jit_exact
-from kernels.plates import contact, lagging, shell
+from kernels.plates import contact, lagging, mirror, shell
 from kernels.plates.reach import drift
 from kernels.terms import inertia
 from kernels.terms.rows import BEND, CONTACT, STRETCH
@@ -28,6 +28,7 @@ def evaluate(problem, x, step, found, projected):
         x, scene.contact, problem.neighbours.pairs, drift(problem, x),
         problem.neighbours.touching, found.elastic,
     )  # fmt: skip
+    found.stored[CONTACT] += mirror.evaluate(x, scene.contact, scene.mirror, found.elastic)
     total = found.stored[STRETCH] + found.stored[BEND] + found.stored[CONTACT]
     total -= step.factor * dot(coordinates.load, found.u)
     for i in range(x.size):

@@ -103,6 +103,7 @@ class PlateScene(NamedTuple):
     law: object
     shell: object
     contact: object
+    mirror: object
     friction: object
     layout: object
 

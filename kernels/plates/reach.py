@@ -8,7 +8,7 @@ from kernels.compile.jit import jit_exact, jit_owning, separate
 from kernels.geometry.space import near
 from kernels.linear.supernodal.analysis import analyse
 from kernels.linear.supernodal.matrix import Matrix
-from kernels.plates import contact, couplings, friction, pairs
+from kernels.plates import contact, couplings, friction, mirror, pairs
 from kernels.plates.contact import Touching
 from kernels.plates.friction import LaggedContacts
 from kernels.plates.layout import PER_NODE, POSITION
@@ -124,7 +124,7 @@ def step_limit(problem, x, dx, far):
     turn = _longest_turn(dx, n_nodes(scene))
     if turn > MOST_TURN:
         shortest = min(shortest, MOST_TURN / turn)
-    return min(first, shortest)
+    return mirror.step_limit(x, dx, scene.mirror, min(first, shortest))
 
 
 @jit_exact
@@ -140,4 +140,6 @@ def _longest_turn(dx, n):
 @jit_exact
 def least_gap(problem, x):
     """Return the smallest distance in m between mid-surfaces that may touch."""
-    return contact.least_gap(x, problem.scene.contact, problem.neighbours.pairs, drift(problem, x))
+    scene, moved = problem.scene, drift(problem, x)
+    least = contact.least_gap(x, scene.contact, problem.neighbours.pairs, moved)
+    return mirror.least_gap(x, scene.mirror, least)

@@ -155,9 +155,10 @@ def warm(_: Namespace) -> int:
 
     if not is_lasting():
         raise ArgumentError(UNWRITABLE)
-    done = "compiled the kernels" if is_cold("arcs") else "found compiled kernels and loaded them"
+    cold = is_cold("arcs") or is_cold("plates")
+    done = "compiled the kernels" if cold else "found compiled kernels and loaded them"
     started = time.perf_counter()
-    real_simulate(arcs=True)
+    real_simulate(arcs=True, plates=True)
     say(f"{done} in {time.perf_counter() - started:.1f} s; later runs need not compile")
     return DONE
 
@@ -223,7 +224,7 @@ def rank(arguments: Namespace) -> int:
 
 def show(arguments: Namespace) -> int:
     """Draw one case, or list all cases."""
-    from sweep.report.sheets import case_sheet, describe_case
+    from sweep.report.sheets import about_direction, case_sheet, describe_case
     from sweep.store.read import read_summary
 
     summary = read_summary(arguments.file)
@@ -239,6 +240,7 @@ def show(arguments: Namespace) -> int:
     say_all([row["message"]] if row["message"] else [])
     say_all([f"printed by {row['slicer_settings']}"] if row["slicer_settings"] else [])
     say_all([f"does not print: {row['does_not_print']}"] if row["does_not_print"] else [])
+    say_all(about_direction(row))
     with _writing(folder):
         pictures = publish_case(arguments.file, row, folder)
     say_all(pictures or ["nothing to draw: the case has no curves and no shapes"])

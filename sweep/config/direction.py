@@ -29,11 +29,11 @@ NOT_ACROSS: dict[str, Any] = {"layers": None, "symmetry": "none", "imperfection_
 """Keys of the lattice that only a crush along the cells uses, with their values across them."""
 
 UNUSED: dict[str, tuple[str, ...]] = {
-    "material": ("plane",),
+    "material": ("plane", "poisson"),
     "solver": ("element", "joints", "bend_measure", "hessian"),
     "damping": ("mass", "stiffness", "relaxation_time"),
 }
-"""Keys without effect along the cells."""
+"""Keys without effect along the cells, whose walls are incompressible sheets in plane stress."""
 
 PARTS = (
     *("supports", "loads", "prescribed", "pins", "springs", "masses"),

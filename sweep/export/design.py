@@ -20,17 +20,21 @@ HEAD = "lattice."
 SIZES = ("width", "height", "depth", "wall_thickness")
 COUNTS = ("cells_x", "cells_y")
 FOLLOWING = ("mass", "infill", "file")  # the row has what follows from these keys
+ALONG = "out_of_plane"
 SAME = 1e-6  # relative difference of two printed areas that are the same
 
 
 @dataclass(frozen=True)
 class Design:
-    """What is printed. network : the drawing; depth : m; grams : mass of one specimen."""
+    """What is printed. network : the drawing; grams : mass of one specimen; along : whether it is
+    pressed along its cells.
+    """
 
     name: str
     lattice: Lattice
     network: Network
     grams: float
+    along: bool = False
 
     @property
     def depth(self) -> float:
@@ -49,7 +53,8 @@ def design_of(case: Case) -> Design:
 
     network = _drawn(case.lattice)
     kilograms = mass(network, case.lattice.depth, case.material.density)
-    return _printable(Design(case.case_id, case.lattice, network, 1e3 * kilograms))
+    along = case.loading.direction == ALONG
+    return _printable(Design(case.case_id, case.lattice, network, 1e3 * kilograms, along))
 
 
 def stored_design(row: Mapping[str, Any], config: Mapping[str, Any]) -> Design:
@@ -62,7 +67,8 @@ def stored_design(row: Mapping[str, Any], config: Mapping[str, Any]) -> Design:
     found, stored = relative_density(network, lattice.outer_size), row["relative_density"]
     if not abs(found - stored) <= SAME * stored:
         raise _unknown(row)
-    return _printable(Design(row["case_id"], lattice, network, row["mass_g"]))
+    along = row.get("direction") == ALONG
+    return _printable(Design(row["case_id"], lattice, network, row["mass_g"], along))
 
 
 def _lattice(row: Mapping[str, Any], config: Mapping[str, Any]) -> Lattice:
@@ -71,6 +77,8 @@ def _lattice(row: Mapping[str, Any], config: Mapping[str, Any]) -> Lattice:
 
     from sweep.config.lattice_table import Lattice
 
+    if row.get("direction") == ALONG:
+        row = _across(row, config)
     first = config.get("first_case", {}).get("lattice")
     if first is None:
         raise _unknown(row)
@@ -83,6 +91,18 @@ def _lattice(row: Mapping[str, Any], config: Mapping[str, Any]) -> Lattice:
         return Lattice.model_validate(known | {"structure": _structure(known["structure"])})
     except ValidationError as error:
         raise _unknown(row) from error
+
+
+def _across(row: Mapping[str, Any], config: Mapping[str, Any]) -> dict[str, Any]:
+    """The row with the sizes that its lattice has across the cells.
+
+    Along them `height_m` is the depth, and `depth_m` the height of the plan over all; over centre
+    lines it is less by walls, or caps, whose thickness does not depend on it.
+    """
+    turned = {**row, "direction": "", "height_m": row["depth_m"], "depth_m": row["height_m"]}
+    lattice = _lattice(turned, config)
+    walls = lattice.outer_size[1] - lattice.height
+    return {**turned, "height_m": row["depth_m"] - walls}
 
 
 def _structure(content: Mapping[str, Any] | None) -> Structure | None:

@@ -211,6 +211,11 @@ def _layout(source: Source | Planned, wish: Wish) -> Layout:
     from sweep.export.outline import block, outline, panel, specimen
 
     design = source.design
+    if wish.panel and design.along:
+        raise ExportError(
+            f"case {design.name} is pressed along its cells, and a panel is a row of specimens "
+            "across them; allowed: one specimen"
+        )
     shape = block(design.lattice) if wish.kind == "settings" else outline(design.network)
     return panel(design, shape, wish.panel) if wish.panel else specimen(design, shape)
 

@@ -1,8 +1,8 @@
 """VTK: the shapes of a crush as a series for ParaView, one .vtu file per stored shape.
 
-The elements of the walls are lines. Points have their displacement, in mm as all lengths; lines
-have their wall thickness and the strain of their chord. `NAME.pvd` lists the files with their
-times.
+The elements of the walls are lines, those of plates quads. Points have their displacement, in mm
+as all lengths; lines have their wall thickness and the strain of their chord, quads that of their
+area. `NAME.pvd` lists the files with their times.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 MM = 1e3  # per m
-LINE = 3  # VTK_LINE
+LINE, QUAD = 3, 9  # VTK_LINE, VTK_QUAD
 TYPES = {"f": "Float64", "i": "Int32"}
 
 
@@ -44,31 +44,35 @@ def _collection(times: NDArray[np.float64], names: list[str]) -> bytes:
 
 
 def _grid(frames: Mapping[str, Any], k: int) -> bytes:
-    """Shape number ``k`` as an unstructured grid of lines."""
+    """Shape number ``k`` as an unstructured grid of lines or quads."""
     rest, position = (MM * _deep(frames["position_m"][i]) for i in (0, k))
-    edges = np.asarray(frames["edges"], np.int32)
-    length, now = (_lengths(points, edges) for points in (rest, position))
+    of_plates = "quads" in frames
+    cells_of = np.asarray(frames["quads" if of_plates else "edges"], np.int32)
+    thickness = frames["quad_thickness_m" if of_plates else "edge_thickness_m"]
+    measure, name = (_areas, "area_strain") if of_plates else (_lengths, "element_strain")
+    before, now = (measure(points, cells_of) for points in (rest, position))
     root = Xml.Element("VTKFile", type="UnstructuredGrid", version="0.1", byte_order="LittleEndian")
     grid = Xml.SubElement(root, "UnstructuredGrid")
     _data(Xml.SubElement(grid, "FieldData"), "strain", frames["strain"][k : k + 1], of_field=True)
-    sizes = {"NumberOfPoints": str(len(position)), "NumberOfCells": str(len(edges))}
+    sizes = {"NumberOfPoints": str(len(position)), "NumberOfCells": str(len(cells_of))}
     piece = Xml.SubElement(grid, "Piece", sizes)
     _data(Xml.SubElement(piece, "PointData", Vectors="displacement_mm"),
           "displacement_mm", position - rest)  # fmt: skip
     of_cells = Xml.SubElement(piece, "CellData", Scalars="wall_thickness_mm")
-    _data(of_cells, "wall_thickness_mm", MM * frames["edge_thickness_m"])
-    _data(of_cells, "element_strain", now / length - 1.0)
+    _data(of_cells, "wall_thickness_mm", MM * thickness)
+    _data(of_cells, name, now / before - 1.0)
     _data(Xml.SubElement(piece, "Points"), "points", position)
     cells = Xml.SubElement(piece, "Cells")
-    _data(cells, "connectivity", edges.ravel())
-    _data(cells, "offsets", 2 * np.arange(1, len(edges) + 1, dtype=np.int32))
-    _data(cells, "types", np.full(len(edges), LINE, np.int32))
+    count, corners = cells_of.shape
+    _data(cells, "connectivity", cells_of.ravel())
+    _data(cells, "offsets", corners * np.arange(1, count + 1, dtype=np.int32))
+    _data(cells, "types", np.full(count, QUAD if of_plates else LINE, np.int32))
     return xml_bytes(root)
 
 
 def _deep(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points (n, 2) with z = 0, (n, 3)."""
-    return np.pad(np.asarray(points, np.float64), ((0, 0), (0, 1)))
+    """Points (n, 2) with z = 0, or (n, 3) as they are: (n, 3)."""
+    return np.pad(np.asarray(points, np.float64), ((0, 0), (0, 3 - points.shape[1])))
 
 
 def _lengths(points: NDArray[np.float64], edges: NDArray[np.int32]) -> NDArray[np.float64]:
@@ -76,6 +80,13 @@ def _lengths(points: NDArray[np.float64], edges: NDArray[np.int32]) -> NDArray[n
     ends = points[edges]
     length: NDArray[np.float64] = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     return length
+
+
+def _areas(points: NDArray[np.float64], quads: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Area of every quad: half the product of its diagonals."""
+    a, b, c, d = np.moveaxis(points[quads], 1, 0)
+    area: NDArray[np.float64] = 0.5 * np.linalg.norm(np.cross(c - a, d - b), axis=1)
+    return area
 
 
 def _data(parent: Xml.Element, name: str, values: Any, of_field: bool = False) -> None:

@@ -45,7 +45,7 @@ SCENE = ["loading_mode", "platen", "force_N", "striker_mass_g", "striker_speed_m
 HELD_BY_SCENE = tuple(
     f"loading.{key}"
     for key in (
-        *("mode", "platen", "force", "allowed_forces"),
+        *("mode", "direction", "platen", "force", "allowed_forces"),
         *("striker_mass", "striker_speed", "energy", "drop_height", "preset", "specimens"),
     )
 )

@@ -45,7 +45,7 @@ def write_gif(
 
 def standing(frames: Mapping[str, Any]) -> dict[str, Any]:
     """The shapes up to the first that is lifted off: later ones would make all others small."""
-    height = frames["position_m"][..., 1]
+    height = frames["position_m"][..., -1]  # the last coordinate is upwards
     lifted = height.min(axis=1) - height[0].min() > FLOWN * np.ptp(height[0])
     count = int(np.append(lifted, True).argmax())
     each = ("strain", "time_s", "position_m", "plate_y_m")

@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch, Rectangle
@@ -20,6 +22,7 @@ from matplotlib.transforms import ScaledTranslation
 
 from sweep.design.silhouette import silhouette
 from sweep.numbers import energy_text, three_digits
+from sweep.report import shaded
 from sweep.report.storyboard import (
     PARTS,
     headline,
@@ -39,6 +42,7 @@ BLUE, SKY, ORANGE = "#0072b2", "#56b4e9", "#e69f00"
 VERMILION, PURPLE, YELLOW, GREY = "#d55e00", "#cc79a7", "#f0e442", "#8a8a8a"
 WALL, PLATEN, GRID = "#2b4c6f", "#c9c9c9", "#e6e6e6"
 
+SHADES = LinearSegmentedColormap.from_list("walls", ["#16283c", WALL, "#7fa3c7", "#dfe9f3"])
 COLORS = dict(zip(PARTS, (BLUE, SKY, ORANGE, YELLOW, VERMILION, PURPLE, GREY), strict=True))
 PANEL, GAP = 1.9, 0.1  # inches: longer side of the picture of a shape; gap between two pictures
 ENTRY, SIGN = 0.22, 0.6  # inches: height of an entry of a legend; width of its sign
@@ -161,6 +165,8 @@ class View(NamedTuple):
 
 def _view(frames: Mapping[str, Any], chosen: list[int]) -> View:
     """The view that contains the chosen frames and their platens."""
+    if "quads" in frames:
+        return _view_of_plates(frames, chosen)
     points, drawn = 1e3 * frames["position_m"][chosen], np.unique(frames["edges"])
     plates, thickness = 1e3 * frames["plate_y_m"][chosen], 1e3 * frames["edge_thickness_m"].max()
     ground = points[0, drawn, 1].min() - 0.5 * thickness
@@ -170,6 +176,26 @@ def _view(frames: Mapping[str, Any], chosen: list[int]) -> View:
     top = max(high[1], np.nanmax(plates, initial=high[1]) + margin)
     below = min(low[1], ground - margin) - margin
     return View(low[0] - margin, high[0] + margin, below, top, ground, margin)
+
+
+def _view_of_plates(frames: Mapping[str, Any], chosen: list[int]) -> View:
+    """The same of plates, as the camera sees them; ground: height of the lower platen."""
+    points = 1e3 * np.asarray(frames["position_m"][chosen], float)
+    margin = 0.03 * float(np.ptp(points[0], axis=0).max())
+    plates = [
+        shaded.platen(_extent(frames), 1e3 * float(height), margin)
+        for height in frames["plate_y_m"][chosen].ravel()
+    ]
+    screen = np.concatenate([shaded.seen(points)[0].reshape(-1, 2), *plates])
+    (left, below), (right, top) = screen.min(axis=0) - margin, screen.max(axis=0) + margin
+    ground = 1e3 * float(frames["plate_y_m"][chosen[0], 0])
+    return View(left, right, below - margin, top, ground, margin)
+
+
+def _extent(frames: Mapping[str, Any]) -> np.ndarray:
+    """Least and greatest x and y of plates at rest, (2, 2) mm."""
+    plan = 1e3 * np.asarray(frames["position_m"][0], float)[:, :2]
+    return np.stack([plan.min(axis=0), plan.max(axis=0)])
 
 
 def shapes_size(
@@ -212,6 +238,9 @@ def one_shape(ax: Axes, frames: Mapping[str, Any], number: int) -> None:
 
 def _shape(ax: Axes, view: View, frames: Mapping[str, Any], position: Any, plate: Any) -> None:
     """Walls of their true thickness, and the platens; position (n, 2) and plate (2,) in mm."""
+    if "quads" in frames:
+        _plates(ax, view, frames, position, plate)
+        return
     walls(ax, position, frames)
     if np.isfinite([plate[0], frames["strain"][0]]).any() and not np.isinf(plate[0]):
         _platen(ax, view, (view.ground if np.isnan(plate[0]) else plate[0]) - view.margin)
@@ -220,12 +249,37 @@ def _shape(ax: Axes, view: View, frames: Mapping[str, Any], position: Any, plate
 
 
 def walls(ax: Axes, position: np.ndarray, frames: Mapping[str, Any]) -> None:
-    """Draw the walls of a case, of true thickness, with nodes at ``position`` (n, 2) in mm."""
+    """Draw the walls of a case, of true thickness, with nodes at ``position`` (n, 2) in mm; plates
+    (n, 3) as shaded surfaces.
+    """
+    if "quads" in frames:
+        surfaces(ax, position, frames["quads"])
+        return
     loops = silhouette(position, frames["edges"], 1e3 * frames["edge_thickness_m"])
     outline = Outline.make_compound_path(*(Outline(loop, closed=True) for loop in loops))
     ax.add_patch(PathPatch(outline, facecolor=WALL, edgecolor="none", snap=False))
     ax.set_aspect("equal")
     ax.set_axis_off()
+
+
+def surfaces(ax: Axes, position: np.ndarray, quads: np.ndarray) -> None:
+    """Draw plates as shaded surfaces without thickness; position (n, 3) in mm."""
+    found = shaded.faces(position, quads)
+    colours = SHADES(found.shades)
+    edges = np.append(0.8 * colours[:, :3], colours[:, 3:], axis=1)
+    drawn = PolyCollection(list(found.corners), facecolors=colours, edgecolors=edges, lw=0.15)
+    ax.add_collection(drawn)
+    ax.set_aspect("equal")
+    ax.set_axis_off()
+
+
+def _plates(ax: Axes, view: View, frames: Mapping[str, Any], position: Any, plate: Any) -> None:
+    """Plates on the lower platen, and the outline of the upper one."""
+    box = _extent(frames)
+    low, high = (shaded.platen(box, float(height), view.margin) for height in plate)
+    ax.add_collection(PolyCollection([low], facecolors=PLATEN, edgecolors="none"))
+    surfaces(ax, position, frames["quads"])
+    ax.add_collection(PolyCollection([high], facecolors="none", edgecolors=GREY, lw=0.8))
 
 
 def beside(ax: Axes, inches: float, bottom: float, height: float) -> Axes:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from sweep.report.case_plots import beside, walls
 from sweep.report.design_style import doubtful, errors_of, until
 from sweep.report.requirement_notes import titled
@@ -59,7 +61,7 @@ def _draw(ax: Axes, place: int, frames: Mapping[str, Any]) -> None:
     """Draw the shape at rest left of the bar at ``place``, and move the names out of its way."""
     ax.tick_params(axis="y", length=0.0, pad=72.0 * DRAWN + PAD)
     left = beside(ax, DRAWN, place - 0.46, 0.92)
-    walls(left, 1e3 * frames["position_m"][0], frames)
+    walls(left, 1e3 * np.asarray(frames["position_m"][0], float), frames)
     left.autoscale_view()
 
 

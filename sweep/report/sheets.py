@@ -49,8 +49,8 @@ TIED = """\
 ?: the error is unknown; the place is that of the value alone."""
 BEYOND = """\
 !: beyond the model: an element is shorter than 0.7 of its rest length, or the lattice is compressed
-to less than its solid height, or a wall is broken (the column message says at which strain). Do not
-trust this result."""
+to less than its solid height, or a wall is broken (the column message says at which strain), or the
+walls, pressed along the cells, fill all of their area (solid_strain). Do not trust this result."""
 PRINTED = """\
 print g: mass as the slicer extrudes it, crossings twice. Budgets, panels and J/g count it; for
 designs without a slicer they count mass."""
@@ -67,6 +67,9 @@ STRETCHED = """\
 ^: a wall is stretched beyond the measured curve, which goes on as a straight line there (column
 stretch_over_curve: how far)."""
 CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
+
+WAYS = {"in_plane": "across", "out_of_plane": "along"}
+"""How a lattice is pressed, by the column `direction`: across its cells or along them."""
 
 MILLIMETRES = {
     "wall_thickness_m": "wall mm",
@@ -297,6 +300,8 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
     columns = {}
     if _varies(among, "lattice_kind"):
         columns["pattern"] = frame["lattice_kind"].astype(str)
+    if "direction" in frame and _varies(among, "direction"):
+        columns["pressed"] = frame["direction"].map(WAYS)
     laid = "infill_share" in frame and frame["infill_share"].notna().all()  # cells have no number
     if _varies(among, "cells_x", "cells_y") and not laid:
         columns["cells"] = frame["cells_x"].astype(str) + " x " + frame["cells_y"].astype(str)
@@ -326,6 +331,20 @@ def _grid_text(values: Series, among: Series) -> dict[str, Series]:
         return {noun: values.map(short)}
     factor, name = scaled(unit, float(among.abs().max()))
     return {f"{noun} {name}": (factor * values.astype(float)).map(short)}
+
+
+def about_direction(row: Series) -> list[str]:
+    """Sentences about what the model of plates leaves out; none for a case across its cells."""
+    if row["direction"] != "out_of_plane":
+        return []
+    lines = ["pressed along its cells; that printed layers part is not modelled"]
+    solid, strain = row["solid_strain"], row["peak_strain"]
+    if strain > solid:
+        share = f"{100.0 * solid:.3g} %"
+        lines.append(
+            f"beyond a strain of {share} its walls fill the pressed area: plates are no model"
+        )
+    return lines
 
 
 def describe_case(row: Series, among: DataFrame) -> str:

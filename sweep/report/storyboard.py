@@ -10,6 +10,8 @@ from pandas import DataFrame
 
 from sweep.ranking.rank import scene_label
 
+ALONG = "out_of_plane"
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
     from pandas import Series
@@ -35,11 +37,13 @@ FLOWN = 0.5  # of its height: a specimen that is lifted farther is not drawn
 def headline(row: Mapping[str, Any]) -> str:
     """Design and scene of a case, on two lines; row : its row of the summary."""
     pattern, cells = row["lattice_kind"], f", {row['cells_x']} x {row['cells_y']} cells"
-    if row["loading_mode"] == "custom":
+    if pattern == "custom":
         cells = ""
     if row["infill_share"] > 0.0:  # NaN without a slicer
         cells = f", {100.0 * row['infill_share']:.3g} % infill"
     wall = f"wall {1e3 * row['wall_thickness_m']:.3g} mm"
+    if row["direction"] == ALONG:
+        wall += ", along its cells"
     return f"{pattern}{cells}, {wall}, {row['material']}\n{scene_label(DataFrame([row]))}"
 
 
@@ -112,8 +116,10 @@ def _even(strain: NDArray[np.float64], count: int) -> list[int]:
 
 
 def _last_standing(position: NDArray[np.float64], turn: int) -> list[int]:
-    """The last frame after `turn` with the specimen, position (f, n, 2), not lifted off, if any."""
-    height = np.ptp(position[0, :, 1])
-    lift = position[turn + 1 :, :, 1].min(1) - position[0, :, 1].min()
+    """The last frame after `turn` with the specimen not lifted off, if any; position (f, n, 2), or
+    (f, n, 3) of plates: the last coordinate is upwards.
+    """
+    height = np.ptp(position[0, :, -1])
+    lift = position[turn + 1 :, :, -1].min(1) - position[0, :, -1].min()
     standing = int(np.append(lift > FLOWN * height, True).argmax())
     return [turn + standing] if standing else []

@@ -4,19 +4,28 @@ import threading
 from collections import deque
 from collections.abc import Iterable, Sequence
 
-from sweep.config.case import Case
+from sweep.config.case import Case, given
+from sweep.config.direction import is_along
 from sweep.config.solver_defaults import steps
 from sweep.config.tables import canonical
 
 SECONDS = 1.0  # of work in a batch: long against the cost of a task, short for progress
 LEAST = 0.05  # of SECONDS: the smallest batches, at the end of a sweep
 MOST = 500  # cases in a batch
+QUAD = 10.0  # elements
 MEMORY = 0.5  # weight of earlier batches in the pace; so the time of compilation is soon forgotten
 
 
 def cost(case: Case) -> float:
-    """Relative work of a case, steps x elements^1.5: good enough to sort and to weigh cases."""
-    elements = case.lattice.walls * (case.lattice.nodes_per_wall + 1)
+    """Relative work of a case, steps x elements^1.5: good enough to sort and to weigh cases.
+
+    A quad of a plate counts as `QUAD` elements.
+    """
+    lattice = case.lattice
+    elements = float(lattice.walls * (lattice.nodes_per_wall + 1))
+    if is_along(case.loading):
+        quarter = 0.25 if lattice.symmetry == "quarter" else 1.0
+        elements *= QUAD * quarter * given(lattice.layers)
     return steps(case.loading, case.solver) * elements**1.5
 
 

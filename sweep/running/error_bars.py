@@ -111,9 +111,15 @@ def _remeshed(lattice: Lattice) -> tuple[Lattice, float]:
     others = tuple(n // 2 if min(pieces) > 1 else 2 * n for n in pieces)
     ratio = min(n / other for n, other in zip(pieces, others, strict=True))
     if structure is None:
-        return lattice.model_copy(update={"nodes_per_wall": others[0] - 1}), ratio
+        changes = {"nodes_per_wall": others[0] - 1, **_layers(lattice, ratio)}
+        return lattice.model_copy(update=changes), ratio
     remeshed = structure.model_copy(update={"subdivide": others})
-    return lattice.model_copy(update={"structure": remeshed}), ratio
+    return lattice.model_copy(update={"structure": remeshed, **_layers(lattice, ratio)}), ratio
+
+
+def _layers(lattice: Lattice, ratio: float) -> dict[str, int]:
+    """The layers of quads that are higher by a ratio, of plates."""
+    return {} if lattice.layers is None else {"layers": max(round(lattice.layers / ratio), 1)}
 
 
 def _longer_steps(solver: Solver) -> tuple[Solver, float]:

@@ -14,6 +14,7 @@ from itertools import accumulate, pairwise
 from math import isnan
 
 from sweep.config.case import Case
+from sweep.config.direction import is_along
 from sweep.config.grid import Config, case_count, expand
 from sweep.result import Result, Status
 from sweep.running.batches import Plan, cost
@@ -67,7 +68,8 @@ def dry_run(
         counts += f"\nerror bars: {len(others):,} companions, {len(ready):,} of them finished"
     if not waiting:
         return f"{counts}\nnothing is left to run"
-    found = estimate(waiting, real_simulate())
+    plates = any(is_along(case.loading) for case in waiting)
+    found = estimate(waiting, real_simulate(plates=plates))
     wall = found.cpu / min(workers, len(waiting))
     lines = [
         counts,
@@ -133,8 +135,8 @@ def duration(seconds: float) -> str:
 
 def _kind(case: Case) -> tuple[str | int, ...]:
     """The parameters that affect the pace most, besides the numbers of elements and steps."""
-    loading = case.loading.mode, str(case.loading.platen), case.contact.model
-    return *loading, case.lattice.nodes_per_wall
+    loading = case.loading.direction, case.loading.mode, str(case.loading.platen)
+    return *loading, case.contact.model, case.lattice.nodes_per_wall
 
 
 def _middle(ordered: Sequence[Case]) -> Case:

@@ -59,9 +59,10 @@ def _finer(lattice: Lattice) -> Lattice:
     if lattice.structure is not None:
         pieces = tuple(2 * n for n in lattice.structure.pieces)
         finer = lattice.structure.model_copy(update={"subdivide": pieces})
-        return lattice.model_copy(update={"structure": finer})
+        return lattice.model_copy(update={"structure": finer, "layers": None})
     nodes = 2 * lattice.nodes_per_wall + 1
-    return lattice.model_copy(update={"nodes_per_wall": nodes, "mass": None, "infill": None})
+    others = {"mass": None, "infill": None, "layers": None}  # layers follow from the elements
+    return lattice.model_copy(update={"nodes_per_wall": nodes, **others})
 
 
 def _with(design: Case, lattice: Lattice) -> Case:

@@ -2,7 +2,8 @@
 
 Uncertain are the numbers of a material whose file states a range (`config.material_header`), as far
 as the config does not give them itself, and the friction. One number at a time is at an end of its
-range; the shape of the specimen stays. A modulus scales the whole curve.
+range; the shape of the specimen stays. A modulus scales the whole curve. Along the cells, a lattice
+also has other imperfections, as there are many ways to fold.
 
 These corners are ordinary cases, in a results file of their own beside that of the sweep, so that
 they are no designs of its ranking: `armor.spread.h5` beside `armor.h5`.
@@ -14,6 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from sweep.config.case import Case, Material
+from sweep.config.direction import is_along
 from sweep.config.grid import Config, expand
 from sweep.running.dask_graph import Simulate
 from sweep.running.progress import tell
@@ -22,6 +24,7 @@ from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 
 FRICTION = 0.2, 0.9  # of TPU on TPU or steel, which no source tells: configs/materials/README.md
 BEST = 5  # designs of a ranking
+SEEDS = 1, 2, 3  # of other imperfections of a lattice that is pressed along its cells
 
 
 class Corner(NamedTuple):
@@ -49,7 +52,17 @@ def corners(design: Case) -> list[Corner]:
         for name, ends in ranges.items()
         for end, value in _named(name, ends)
     ]
+    if is_along(design.loading) and design.lattice.imperfection > 0.0:
+        found += [Corner(f"imperfection {seed}", _bowed(design, seed)) for seed in SEEDS]
     return [corner for corner in found if corner.case_id != design.case_id]
+
+
+def _bowed(design: Case, seed: int) -> Case:
+    """The design with an imperfection that a seed draws."""
+    lattice = design.lattice.model_copy(update={"imperfection_seed": seed, "mass": None})
+    tables: dict[str, Any] = {table: getattr(design, table) for table in Case.model_fields}
+    axes = design.axes | {"lattice.imperfection_seed": seed}
+    return Case(**tables | {"lattice": lattice, "axes": axes})
 
 
 def _named(name: str, ends: tuple[float, float]) -> Iterable[tuple[str, float]]:

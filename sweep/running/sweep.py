@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from threading import current_thread, main_thread
 
 from sweep.config.case import Case
+from sweep.config.direction import is_along
 from sweep.config.grid import Config, expand
 from sweep.result import HOW_TO_RENEW, Status
 from sweep.running.batches import Plan, cost
@@ -52,7 +53,8 @@ def run_sweep(
         waiting = {case_id: case for case_id, case in cases.items() if case_id not in done}
         for line in lossless(list(waiting.values())):
             tell(line)
-        chosen = simulate or real_simulate() if waiting else None
+        plates = any(is_along(case.loading) for case in waiting.values())
+        chosen = simulate or real_simulate(plates=plates) if waiting else None
         with interruptible(stop):
             if not chosen:
                 with writer_thread() as thread:
@@ -74,19 +76,22 @@ def run_sweep(
     return len(cases) - converged
 
 
-def real_simulate(arcs: bool = False) -> Simulate:
-    """The function `simulate`, imported only here since it loads or compiles the kernels."""
+def real_simulate(arcs: bool = False, plates: bool = False) -> Simulate:
+    """The function `simulate`, imported only here since it loads or compiles the kernels.
+
+    arcs, plates: as of `simulation.simulate.warm_up`.
+    """
     from kernels.compile.cache import is_cold, is_lasting, warmed_up
     from kernels.compile.choice import FAST, compiler
 
     def load() -> Simulate:
         from sweep.simulation.simulate import simulate, warm_up
 
-        warm_up(arcs)
+        warm_up(arcs, plates)
         return simulate
 
     what = "arcs" if arcs else "marches"
-    if not is_cold("arcs", what):
+    if not is_cold("arcs", what) and not (plates and is_cold("plates")):
         return load()
     from kernels.compile.precompile import compile_ahead
 
@@ -96,7 +101,8 @@ def real_simulate(arcs: bool = False) -> Simulate:
         tell(f"for this run alone: {UNWRITABLE}")
     compile_ahead(load)
     loaded = load()
-    warmed_up(what)
+    for name in [what, *(["plates"] if plates else [])]:
+        warmed_up(name)
     return loaded
 
 

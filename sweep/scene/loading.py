@@ -8,6 +8,7 @@ import numpy as np
 from kernels.solve import integrators, march
 from kernels.solve.residual import Tolerance
 from sweep.config.case import Case, given
+from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene, time_step
 
 IMPACT_STEPS = 64  # steps of a stage of an impact; after each stage the run may end
@@ -30,7 +31,7 @@ class Phase(NamedTuple):
     stage: march.Stage
 
 
-def stages(case: Case, scene: Scene) -> list[Phase]:
+def stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
     """The stages of a case: linear ramps of loading and unloading, with the chosen integrator."""
     chosen = SCHEMES[given(case.solver.integrator)]
     error = np.inf if case.solver.step_error is None else case.solver.step_error
@@ -40,7 +41,7 @@ def stages(case: Case, scene: Scene) -> list[Phase]:
     ]
 
 
-def _stages(case: Case, scene: Scene) -> list[Phase]:
+def _stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
     loading, solver = case.loading, case.solver
     pace, dynamic = time_step(case), not loading.quasi_static
     if loading.mode == "custom":
@@ -89,17 +90,11 @@ def _flight(flight: march.Stage) -> list[Phase]:
     return [Phase("struck", flight._replace(steps=n)) for n in parts]
 
 
-def tolerances(case: Case, scene: Scene, stage: march.Stage) -> Tolerance:
+def tolerances(case: Case, scene: Scene | PlateScene, stage: march.Stage) -> Tolerance:
     """Tolerances of forces and energies: ``solver.tolerance`` x scales, not below round-off."""
-    terms, coordinates = scene.terms, scene.terms.coordinates
+    coordinates, size = scene.terms.coordinates, scene.size
     force = max(scene.force_scale, np.abs(coordinates.load * coordinates.lever).max(initial=0.0))
-    size = np.ptp(scene.mesh.points)
-    rounded = terms.law.modulus * terms.stretch.area.max() * size / terms.stretch.l0.min()
-    if stage.dynamic:
-        dt = stage.duration
-        rounded *= 1.0 + (terms.damp.beta_k + terms.damp.relaxation) / dt
-        rounded += coordinates.mass.max() * size / dt * (1.0 / dt + terms.damp.alpha_m)
-    allowed = max(case.solver.tolerance * force, ROUND_OFF * rounded)
+    allowed = max(case.solver.tolerance * force, ROUND_OFF * scene.largest_force(stage))
     return Tolerance(
         force=allowed,
         decrement=1e-3 * allowed * case.lattice.wall_thickness,

@@ -9,15 +9,18 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.linear import analysis, periodic_images
-from kernels.planar.problem import PlanarScene
+from kernels.planar.problem import PlanarScene, at_rest
+from kernels.solve import march
+from kernels.solve.history import State
 from kernels.solve.problem import FREE, HELD, LED, TIED, Coordinates
-from kernels.terms import damping, elements, friction, stretch
+from kernels.terms import damping, elements, friction, spring, stretch
 from kernels.terms.bend import Bend
 from kernels.terms.contact import Contact
 from kernels.terms.fold import Fold
 from kernels.terms.position_based import Projection
 from kernels.terms.spring import Spring
 from sweep.config.case import Case, Loading, given
+from sweep.config.direction import height_pressed
 from sweep.design.network import Network
 from sweep.scene.beams import Beams, plane_factors
 from sweep.scene.coordinates import Numbering
@@ -51,6 +54,29 @@ class Scene:
     travel: float = 0.0
     around: Ints = field(default_factory=lambda: np.empty((0, 2), np.int64))
     solid_joint_share: float = 0.0
+
+    @property
+    def size(self) -> float:
+        """Extent of the nodes, m."""
+        return float(np.ptp(self.mesh.points))
+
+    def largest_force(self, stage: march.Stage) -> float:
+        """Force (N) with whose round-off the residual of a step is computed."""
+        terms, coordinates, size = self.terms, self.terms.coordinates, np.ptp(self.mesh.points)
+        force = terms.law.modulus * terms.stretch.area.max() * size / terms.stretch.l0.min()
+        if stage.dynamic:
+            dt = stage.duration
+            force *= 1.0 + (terms.damp.beta_k + terms.damp.relaxation) / dt
+            force += coordinates.mass.max() * size / dt * (1.0 / dt + terms.damp.alpha_m)
+        return float(force)
+
+    def at_rest(self) -> State:
+        """The state at the start, without velocities."""
+        return at_rest(self.terms, self.x_rest)
+
+    def strained(self) -> float:
+        """Energy of springs that are not drawn at their rest length, J."""
+        return float(spring.evaluate(self.x_rest, self.terms.spring, np.zeros_like(self.x_rest)))
 
 
 class Parts(NamedTuple):
@@ -196,7 +222,7 @@ def friction_of(case: Case) -> friction.Friction:
 def time_step(case: Case) -> float:
     """Duration of one step in s; in statics a nominal one."""
     if case.loading.mode == "displacement":
-        speed = case.loading.speed or case.lattice.height
+        speed = case.loading.speed or height_pressed(case.lattice, case.loading)
         return given(case.loading.stroke) / speed / given(case.solver.load_steps)
     if case.solver.load_steps is not None:
         return given(case.loading.duration) / case.solver.load_steps

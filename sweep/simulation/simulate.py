@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 
 from kernels.geometry.specimen_height import height
-from kernels.planar.problem import at_rest
 from kernels.solve import arc_length, energy_book, friction_loop, march, newton
-from kernels.terms import spring
 from kernels.terms.rows import ROW, STRETCH, Output
 from sweep.config.case import Case, Lattice, Loading, Solver
+from sweep.config.direction import height_pressed, is_along
 from sweep.config.solver_defaults import given_or
 from sweep.config.structure import Load, Structure, Support
 from sweep.result import Result, Status
@@ -22,8 +21,11 @@ from sweep.scene.lattice import build_scene
 from sweep.scene.loading import stages, tolerances
 from sweep.scene.mesh import Floats
 from sweep.scene.periodic import build_periodic
+from sweep.scene.plates.scene import Scene as PlateScene
+from sweep.scene.plates.scene import build_scene as build_plates
 from sweep.scene.terms import Scene
 from sweep.simulation.custom_history import structure_columns
+from sweep.simulation.plate_shapes import plate_frames, plate_strains
 from sweep.simulation.shape_checks import strains_of
 from sweep.simulation.summary import BOOK, history_columns, summarise
 from sweep.simulation.time_limit import WATCH
@@ -68,13 +70,17 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
     scene = _scene(case)
     run = _Run(scene, case, stop)
     status, message = run.complete()
-    curves = history_columns(run.rows[: run.done], case)
-    if case.lattice.structure is not None:
+    curves = history_columns(run.whole_rows(), case)
+    if run.blind and isinstance(scene, Scene):
         curves = structure_columns(curves, run.probed[: run.done], scene, case)
         curves |= path_columns(run.arc, run.done)
     frames = run.frames()
     shapes = run.positions[: len(frames["time_s"])]
-    strains = strains_of(shapes, scene.terms)
+    strains: tuple[Floats, ...] = (
+        plate_strains(shapes, scene)
+        if isinstance(scene, PlateScene)
+        else strains_of(shapes, scene.terms)
+    )
     summary = summarise(case, scene, curves, frames, strains, run.loading_rows)
     if status == Status.CONVERGED and _broke(summary, case):
         message = _break_message(summary)
@@ -105,16 +111,19 @@ def _break_message(summary: Mapping[str, Any]) -> str:
     return f"{where} later rows are those of unbroken walls"
 
 
-def _scene(case: Case) -> Scene:
+def _scene(case: Case) -> Scene | PlateScene:
+    if is_along(case.loading):
+        return build_plates(case)
     if case.lattice.structure is not None:
         return build_structure(case)
     return build_periodic(case) if case.lattice.boundary == "periodic" else build_scene(case)
 
 
-def warm_up(arcs: bool = False) -> None:
+def warm_up(arcs: bool = False, plates: bool = False) -> None:
     """Load or compile the kernels, so that no case spends time on it.
 
-    arcs: also the kernels of the arc-length method, which few sweeps need.
+    arcs, plates: also the kernels of the arc-length method, and of crushes along the cells, which
+    few sweeps need.
     """
     lattice = Lattice(cells_x=1, cells_y=1)
     simulate(Case(lattice=lattice, loading=Loading(release_time=1e-4, duration=2e-4)))
@@ -126,16 +135,24 @@ def warm_up(arcs: bool = False) -> None:
         )
         path = Solver(integrator="arc_length", load_steps=1)
         simulate(Case(lattice=Lattice(kind="custom", structure=wall), solver=path))
+    if plates:
+        tube = Lattice(cells_x=1, cells_y=1, nodes_per_wall=1, layers=2)
+        pressed = Loading(direction="out_of_plane", strain=1e-3, unload=False)
+        simulate(Case(lattice=tube, loading=pressed, solver=Solver(load_steps=1)))
 
 
 class _Run:
-    """The run of one scene: its state, the rows and frames written so far, its time limit."""
+    """The run of one scene: its state, the rows and frames written so far, its time limit.
 
-    def __init__(self, scene: Scene, case: Case, control: np.ndarray):
+    blind: True for a custom structure in the plane, which has no strain of its own.
+    """
+
+    def __init__(self, scene: Scene | PlateScene, case: Case, control: np.ndarray):
         self.scene, self.case, self.control = scene, case, control
+        self.blind = case.lattice.structure is not None and not is_along(case.loading)
         self.stages = stages(case, scene)
         total = sum(s.stage.steps for s in self.stages)
-        self.state = at_rest(scene.terms, scene.x_rest)
+        self.state = scene.at_rest()
         self.state.v[:] = scene.velocity
         self.rows = np.zeros(total + 1, ROW)
         self.probed = np.zeros((total + 1, 2, scene.probes.size))
@@ -146,7 +163,7 @@ class _Run:
         count = EARLY_FRAMES if early else FRAMES * given_or(case.loading.cycles, 1)
         self.frame_of, kept = _frames(total + 1, count)
         self.positions = np.tile(scene.x_rest, (kept, 1))
-        self.arc = arc_of(scene, case)
+        self.arc = None if isinstance(scene, PlateScene) else arc_of(scene, case)
         self.done, self.noise, self.expired = 1, 0.0, False
 
     def _begin(self) -> None:
@@ -155,7 +172,7 @@ class _Run:
         If the initial state is not in equilibrium, the first step releases energy like a snap.
         """
         state, scene, row, book = self.state, self.scene, self.rows[0], self.state.book[0]
-        strained = spring.evaluate(state.x, scene.terms.spring, np.zeros_like(state.x))
+        strained = scene.strained()
         state.stored[STRETCH] = strained
         book.kinetic = energy_book.kinetic(state.v, scene.terms.coordinates.mass)
         book.work = strained + book.kinetic
@@ -187,7 +204,7 @@ class _Run:
 
         A static structure is not checked: a result of few steps is of use whatever they created.
         """
-        if self.case.loading.quasi_static and self.case.lattice.structure is not None:
+        if self.case.loading.quasi_static and self.blind:
             return False
         rows = self.rows[: self.done]
         return bool(rows["integrator"].min() < -CREATED * rows["work"].max() - self.noise)
@@ -197,7 +214,7 @@ class _Run:
         rows = self.rows[: self.done]
         left = np.abs(rows["residual"]).max()
         size = max(np.abs(rows[name]).max() for name in BOOK.values() if name != "residual")
-        moved = self.done * self.scene.force_scale * float(np.ptp(self.scene.mesh.points))
+        moved = self.done * self.scene.force_scale * self.scene.size
         return bool(left <= GAP * size + self.case.solver.tolerance * moved)
 
     def _is_back(self) -> bool:
@@ -266,21 +283,32 @@ class _Run:
     def _where(self) -> str:
         """Strain and number of steps so far, in words."""
         steps = f"after {self.done - 1} steps"
-        if self.case.lattice.structure is not None:
+        if self.blind:
             return steps
         strain = self._strain(self.rows["height"][self.done - 1])
         return f"at strain {strain:.3g} {steps}"
 
     def _strain(self, height: Floats) -> Floats:
         """Strain if the top is ``height`` (m) above the base; NaN for a custom structure."""
-        if self.case.lattice.structure is not None:
+        if self.blind:
             return np.full_like(height, np.nan)
-        return (self.rows["height"][0] - height) / self.case.lattice.height
+        pressed = height_pressed(self.case.lattice, self.case.loading)
+        return (self.rows["height"][0] - height) / pressed
+
+    def whole_rows(self) -> np.ndarray:
+        """The rows so far, of the whole lattice where one of several equal parts is computed."""
+        rows = self.rows[: self.done].copy()
+        if isinstance(self.scene, PlateScene):
+            for name in (*BOOK.values(), "reaction_top", "reaction_bottom"):
+                rows[name] *= self.scene.mesh.plan.copies
+        return rows
 
     def frames(self) -> dict[str, np.ndarray]:
         """Stored shapes up to the last row, as in `Result.frames`."""
         steps = np.flatnonzero(self.frame_of[: self.done] >= 0)
         rows, x = self.rows[steps], self.positions[: len(steps)]
+        if isinstance(self.scene, PlateScene):
+            return plate_frames(x, self._strain(rows["height"]), rows["time"], self.scene)
         n = len(self.scene.mesh.points)
         structure = self.case.lattice.structure
         plates = x[:, -2:].copy()

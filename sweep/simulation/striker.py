@@ -10,8 +10,10 @@ from math import nan
 import numpy as np
 
 from sweep.config.case import Case, given
+from sweep.config.direction import is_along
 from sweep.design.network import relative_density
 from sweep.scene.mesh import Floats
+from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene
 from sweep.simulation.deceleration import filtered_peak
 
@@ -50,7 +52,7 @@ def work_on_lattice(case: Case, history: Curves) -> Floats:
     return history["work_in_J"]
 
 
-def impact_columns(case: Case, scene: Scene, history: Curves) -> dict[str, float]:
+def impact_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> dict[str, float]:
     """The columns `MEASURES`; NaN without a striker.
 
     stroke_left_m: the stroke that closes all voids, minus the greatest stroke.
@@ -58,7 +60,9 @@ def impact_columns(case: Case, scene: Scene, history: Curves) -> dict[str, float
     if case.loading.mode != "impact":
         return dict.fromkeys(MEASURES, nan)
     lattice, rebound = case.lattice, rebound_speed(history)
-    voids = (1.0 - relative_density(scene.network, lattice.outer_size)) * lattice.outer_size[1]
+    outer = lattice.outer_size
+    height = lattice.depth if is_along(case.loading) else outer[1]
+    voids = (1.0 - relative_density(scene.network, outer)) * height
     left = voids - history["top_displacement_m"].max()
     share = kinetic(case, rebound) / given(case.loading.energy)
     peak = history["deceleration_m_per_s2"].max()

@@ -3,15 +3,18 @@
 import numpy as np
 
 from sweep.config.case import Case, Material, given
+from sweep.config.direction import footprint, height_pressed, is_along
 from sweep.config.solver_defaults import given_or
 from sweep.design.network import mass, relative_density
 from sweep.design.sliced import extruded_area
 from sweep.result import absorbed_energy_column, design_columns
 from sweep.scene.mesh import Floats
+from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene
 from sweep.simulation.cycles import columns_of_cycles
 from sweep.simulation.iso_13314 import figures
 from sweep.simulation.packing import efficiency, packed_row, span, weights
+from sweep.simulation.plate_shapes import surface_crossings
 from sweep.simulation.shape_checks import (
     Frames,
     crossings,
@@ -70,7 +73,7 @@ def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
     time, struck = rows["time"].copy(), case.loading.mode == "impact"
     return {
         "time_s": time,
-        "strain": travel / (case.lattice.height or np.nan),
+        "strain": travel / (height_pressed(case.lattice, case.loading) or np.nan),
         "top_displacement_m": travel,
         "reaction_top_N": rows["reaction_top"].copy(),
         "reaction_bottom_N": rows[below].copy(),
@@ -93,16 +96,17 @@ def plateau_stress(strain: Floats, density: Floats, row: int) -> float:
 
 def summarise(
     case: Case,
-    scene: Scene,
+    scene: Scene | PlateScene,
     history: dict[str, Floats],
     frames: Frames,
-    strains: tuple[Floats, Floats],
+    strains: tuple[Floats, ...],
     loading_rows: int,
 ) -> dict[str, float | int | str]:
     """Summary columns of a run.
 
-    strains (f, m): of the elements in the stored shapes, and of their most stretched surfaces.
-    loading_rows: number of rows of the history that are loading.
+    strains (f, m): of the elements in the stored shapes, and of their most stretched surfaces; of
+    plates, as of `plate_shapes.plate_strains`. loading_rows: number of rows of the history that are
+    loading.
     """
     curves = history | {"work_in_J": work_on_lattice(case, history)}
     loading = {name: column[:loading_rows] for name, column in curves.items()}
@@ -111,11 +115,13 @@ def summarise(
     grams = drawn if np.isnan(printed) else printed
     absorbed = float(loading["work_in_J"][-1])
     gaps = history["min_gap_m"][np.isfinite(history["min_gap_m"])]
+    filled = relative_density(scene.network, case.lattice.outer_size)
     return {
         **design_columns(case),
         "mass_g": drawn,
         "printed_mass_g": printed,
-        "relative_density": relative_density(scene.network, case.lattice.outer_size),
+        "relative_density": filled,
+        "solid_strain": 1.0 - filled if is_along(case.loading) else np.nan,
         "absorbed_energy_J": absorbed,
         **lost_columns(case, absorbed, returned(case, history, loading_rows), grams),
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),
@@ -131,8 +137,21 @@ def summarise(
         **columns_of_cycles(case, history["work_in_J"], transmitted(case, history)),
         **impact_columns(case, scene, history),
         **crush_columns(case, loading),
-        **shape_columns(case, scene, frames, strains, loading),
+        **_shape_columns(case, scene, frames, strains, loading),
     }
+
+
+def _shape_columns(
+    case: Case,
+    scene: Scene | PlateScene,
+    frames: Frames,
+    strains: tuple[Floats, ...],
+    loading: dict[str, Floats],
+) -> dict[str, float | int]:
+    if isinstance(scene, PlateScene):
+        return plate_columns(case, scene, frames, strains, loading)
+    along, surface = strains
+    return shape_columns(case, scene, frames, (along, surface), loading)
 
 
 def printed_mass(case: Case) -> float:
@@ -205,7 +224,8 @@ def ratios(case: Case, loading: dict[str, Floats], found: dict[str, float]) -> d
 
     found: columns until packed; `packing_strain` is NaN unless the mode is displacement.
     """
-    height, strain = case.lattice.height or np.nan, loading["strain"].max()
+    height = height_pressed(case.lattice, case.loading) or np.nan
+    strain = loading["strain"].max()
     work, peak = found["absorbed_energy_until_packed_J"], found["peak_force_until_packed_N"]
     greatest = transmitted(case, loading).max()
     driven = case.loading.mode in ("displacement", "impact")
@@ -223,8 +243,8 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
 
     Without densification the row is the last one.
     """
-    area = case.lattice.outer_size[0] * case.lattice.depth
-    strain, density = loading["strain"], loading["work_in_J"] / (area * case.lattice.height)
+    area, height = _area(case), height_pressed(case.lattice, case.loading)
+    strain, density = loading["strain"], loading["work_in_J"] / (area * height)
     stress = loading["reaction_top_N"] / area
     gained = efficiency(stress, density)
     packed, share = packed_row(gained), weights(strain, gained)
@@ -238,6 +258,42 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
         *figures(strain, stress, density).values(),
     )
     return row, share, dict(zip(OF_A_CRUSH, map(float, values), strict=True))
+
+
+def _area(case: Case) -> float:
+    """The area that is pressed, m^2."""
+    width, depth = footprint(case.lattice, case.loading)
+    return width * depth
+
+
+def plate_columns(
+    case: Case,
+    scene: PlateScene,
+    frames: Frames,
+    strains: tuple[Floats, ...],
+    loading: dict[str, Floats],
+) -> dict[str, float | int]:
+    """Columns from the stored shapes of plates, as those of `shape_columns`.
+
+    The work within the model is that until the walls, whose volume is constant, fill the area that
+    is pressed. strains: as of `plate_shapes.plate_strains`.
+    """
+    least, greatest, surface = strains
+    solid = 1.0 - relative_density(scene.network, case.lattice.outer_size)
+    strain, work = loading["strain"], loading["work_in_J"]
+    within = work[-1] if strain[-1] <= solid else np.interp(solid, strain, work)
+    height = frames["position_m"][..., 2].max(axis=1)
+    return {
+        "residual_strain": float(1.0 - height[-1] / height[0]),
+        "least_element_strain": float(least.min()),
+        "greatest_element_strain": float(greatest.max()),
+        "kept_area": np.nan,
+        "greatest_fibre_strain": float(surface.max()),
+        "broke_at_strain": np.nan,
+        "stretch_over_curve": stretch_over_curve(case.material, (greatest, surface)),
+        "absorbed_energy_within_model_J": float(within),
+        "max_crossings": surface_crossings(frames["position_m"], scene.mesh),
+    }
 
 
 def shape_columns(

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sweep.config.case import Material
+from sweep.config.case import Case, Loading, Material
 from sweep.config.grid import chosen_case, expand
 from sweep.config.units import load_config
 from sweep.ranking.rank import rank
@@ -22,7 +22,8 @@ def test_no_config_is_forgotten():
     names = {path.stem for path in CONFIGS.glob("*.toml")}
     others = {"custom", "extreme", "impact", "khatri_egan_square"}
     assert names == others | {
-        "armor", "infills", "reuse", "seed", "search", "slicer", "smoke", "thousand",
+        "armor", "infills", "khatri_egan_square_out_of_plane", "reuse", "seed", "search", "slicer",
+        "smoke", "thousand", "which_way",
     }  # fmt: skip
 
 
@@ -146,6 +147,49 @@ def test_search_holds_its_number():
     assert summary["status"] == "converged"
     assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
     assert 1e3 * summary["absorbed_energy_at_50N_J"] == pytest.approx(14.320, rel=1e-3)
+
+
+def pressed_a_little(case, **lattice):
+    """The summary of a case that is pressed by 1 %, with coarse walls; along its cells."""
+    coarse = case.lattice.model_copy(update={"layers": None} | lattice)
+    loading = Loading(direction="out_of_plane", platen=case.loading.platen, strain=0.01)
+    steps = case.solver.model_copy(update={"load_steps": 2})
+    tables = {"lattice": coarse, "material": case.material, "loading": loading, "solver": steps}
+    return simulate(Case(**tables)).summary
+
+
+def test_khatri_egan_along_the_cells_begins_as_a_block():
+    """Before walls buckle, F = mu A (1 / l^2 - l) if they are free to widen; the glue holds their
+    ends, which makes them stiffer, by 4 / 3 if it held all of them.
+    """
+    cases = expand(load_config(CONFIGS / "khatri_egan_square_out_of_plane.toml"))
+    assert {case.loading.platen for case in cases} == {"glued", "clamped", "contact"}
+    assert len(cases) == 9
+    case = cases[0]
+    summary = pressed_a_little(case, nodes_per_wall=3, imperfection=0.0)
+    assert summary["status"] == "converged"
+    assert summary["solid_strain"] == pytest.approx(1.0 - 37.12 / 12.4**2)
+    length, area = 0.99, 24 * 4e-3 * 0.4e-3
+    force = case.material.modulus * area * (1.0 / length**2 - length) / 3.0
+    assert force < summary["peak_force_N"] < 4.0 / 3.0 * force
+    assert summary["peak_force_N"] == pytest.approx(28.03, rel=1e-2)
+    assert summary["mass_g"] == pytest.approx(1.22 * 37.12 * 12.0e-3, rel=1e-9)
+
+
+def test_which_way_presses_one_print_in_both_directions():
+    cases = expand(load_config(CONFIGS / "which_way.toml"))
+    across, along = (
+        {case.lattice.kind: case for case in cases if case.loading.direction == direction}
+        for direction in ("in_plane", "out_of_plane")
+    )
+    assert len(across) == len(along) == 8
+    for kind, case in along.items():
+        assert case.lattice.wall_thickness == across[kind].lattice.wall_thickness
+        assert case.loading.stroke == across[kind].loading.stroke
+    summary = pressed_a_little(along["square"], nodes_per_wall=2)
+    assert summary["status"] == "converged"
+    assert summary["mass_g"] == pytest.approx(0.5, rel=1e-9)
+    assert summary["direction"] == "out_of_plane"
 
 
 def seed(model, hinges):

@@ -126,6 +126,23 @@ def squeezed_cell(platens=True, heights=(10.0, 9.0, 8.0, 7.0, 6.0, 5.0, 7.0, 10.
     }
 
 
+def tube(frames=3):
+    """An upright square tube of four quads, 1 x 1 x 2 mm, pressed along its cells by 10 % each."""
+    ring = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
+    position = np.array(
+        [[[*point, z * (1.0 - 0.1 * f)] for z in (0, 2) for point in ring] for f in range(frames)]
+    )
+    quads = np.array([[k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k] for k in range(4)])
+    return {
+        "strain": 0.1 * np.arange(frames),
+        "time_s": 1.0 * np.arange(frames),
+        "plate_y_m": np.column_stack([np.zeros(frames), 2.0 - 0.2 * np.arange(frames)]),
+        "position_m": 1e-3 * position,
+        "quads": quads,
+        "quad_thickness_m": np.full(4, 1e-4),
+    }
+
+
 def write(path, table, attributes=None):
     """A results file with these rows; finished cases have curves and shapes."""
     history = {name: column.to_numpy() for name, column in there_and_back().items()}

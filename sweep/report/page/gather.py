@@ -12,6 +12,7 @@ import numpy as np
 from sweep.numbers import short
 from sweep.ranking.merit import LEAST, Compared, merits, through_solid
 from sweep.ranking.rank import by_scene, pareto, ranked, scene_label
+from sweep.report.flattened import lines, plan
 from sweep.report.page.thinning import (
     force_stairs,
     numbers,
@@ -241,6 +242,7 @@ class _Stored:
 
     def _drawing(self, frames: Mapping[str, Any]) -> int | None:
         """Number of the drawing of a shape at rest, which may be that of an earlier case."""
+        frames = plan(frames) if "quads" in frames else frames
         at_rest, edges = frames["position_m"][0].astype(float), frames["edges"]
         thickness = frames["edge_thickness_m"].astype(float)
         key = b"".join(a.tobytes() for a in (np.rint(at_rest / UNIT), edges, thickness))
@@ -255,7 +257,8 @@ class _Stored:
         """Keep the moving shape of a case if there is room."""
         if self._room["shapes"] <= 0:
             return
-        moving = moving_shape(case.frames, _forces(case.frames, case.history, row))
+        shapes = lines(case.frames) if "quads" in case.frames else case.frames
+        moving = moving_shape(shapes, _forces(case.frames, case.history, row))
         if self._fits("shapes", len(json.dumps(moving))):
             self.shapes[case.case_id] = moving
 

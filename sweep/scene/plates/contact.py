@@ -4,30 +4,48 @@ import numpy as np
 
 from kernels.geometry.space import surface
 from kernels.plates.contact import Contact
+from kernels.plates.mirror import NO_MIRROR, Mirror
 from sweep.config.case import Case, given
-from sweep.scene.plates.coordinates import BONDED, Numbering, heights
+from sweep.scene.plates.coordinates import BONDED, PER_NODE, Numbering, heights
 from sweep.scene.plates.mesh import PlateMesh
 
 MOST_MOVE = 1.0  # longest move that neighbour lists cover, in mean widths of walls
 
 
+def mirror_of(mesh: PlateMesh, case: Case) -> Mirror:
+    """Contact of walls with their images beyond mirror planes, unless the model is "none"."""
+    if mesh.plan.copies == 1 or case.contact.model == "none":
+        return NO_MIRROR
+    nodes = [np.flatnonzero(~mesh.on[:, axis]) for axis in (0, 1)]
+    places = [mesh.plan.planes[axis] - mesh.rest[nodes[axis], axis] for axis in (0, 1)]
+    return Mirror(
+        coordinate=np.concatenate([PER_NODE * nodes[axis] + axis for axis in (0, 1)]),
+        node=np.concatenate(nodes),
+        place=np.repeat(mesh.plan.planes, [len(each) for each in nodes]),
+        rest=np.concatenate(places),
+    )
+
+
 def contact_of(mesh: PlateMesh, numbering: Numbering, case: Case) -> Contact:
-    """Contact of all walls over their thickness, and of nodes that no platen holds with platens."""
-    platen = given(case.loading.platen)
+    """Contact of all walls over their thickness, and of nodes that no platen holds with platens.
+
+    With the contact model "none", only loose platens touch nodes.
+    """
+    platen, walls = given(case.loading.platen), case.contact.model != "none"
     low, high = heights(mesh, platen)
-    thickness = mesh.node_thickness
-    edges, sides = surface.edges_of(mesh.triangles, mesh.n_nodes)
-    height, every = mesh.rest[:, 2], np.arange(mesh.n_nodes)
+    thickness, triangles = mesh.node_thickness, mesh.triangles[: None if walls else 0]
+    edges, sides = surface.edges_of(triangles, mesh.n_nodes)
+    height, every = mesh.rest[:, 2], np.arange(mesh.n_nodes if walls or platen == "contact" else 0)
     loose_low = np.setdiff1d(every, mesh.bottom) if platen in BONDED else every
     loose_high = np.setdiff1d(every, mesh.top) if platen in BONDED else every
     return Contact(
         stiffness=case.material.modulus * 4.0 / 3.0 * (case.contact.stiffness or 0.0),
         reach=float(thickness.max()),
         most_move=MOST_MOVE * float(mesh.plan.span.mean()),
-        triangles=mesh.triangles,
+        triangles=triangles,
         sides=sides,
         edges=edges,
-        widths=surface.widths(mesh.rest, mesh.triangles, edges, sides),
+        widths=surface.widths(mesh.rest, triangles, edges, sides),
         area=mesh.area,
         thickness=thickness.copy(),
         rest_thickness=thickness,

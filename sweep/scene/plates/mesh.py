@@ -138,13 +138,15 @@ def extruded(
     rest = np.empty((len(plane), layers + 1, 3))
     rest[..., :2], rest[..., 2] = plane[:, None], height * level / layers
     if amplitude is not None:
-        across = (share * length[wall_of] / plan.span[wall_of])[inner]
+        cut = np.flatnonzero(plan.on[plan.walls[:, 1]].any(axis=1))
+        bowed, of = np.append(inner, plan.walls[cut, 1]), np.append(wall_of[inner], cut)
+        across = np.append(share[inner], np.ones(len(cut))) * (length / plan.span)[of]
         shift = bow(
-            np.repeat(amplitude[wall_of[inner]], layers + 1, axis=0),
-            np.repeat(across, layers + 1), np.tile(level / layers, len(inner)),
+            np.repeat(amplitude[of], layers + 1, axis=0),
+            np.repeat(across, layers + 1), np.tile(level / layers, len(of)),
         )  # fmt: skip
-        right = np.column_stack([axis[:, 1], -axis[:, 0]])[wall_of[inner]]
-        rest[inner, :, :2] += shift.reshape(len(inner), -1, 1) * right[:, None]
+        right = np.column_stack([axis[:, 1], -axis[:, 0]])[of]
+        rest[bowed, :, :2] += shift.reshape(len(of), -1, 1) * right[:, None]
     frames, flat = _frames(plan, axis, wall_of)
     strip = columns[:, [0, 1, 1, 0]][:, None] * (layers + 1)
     quads = strip + np.array([0, 0, 1, 1]) + np.arange(layers)[:, None]

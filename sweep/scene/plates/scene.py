@@ -1,4 +1,4 @@
-"""The arrays of a lattice that is pressed along its cells: constraints, shells, contact, platens."""
+"""The arrays of a lattice that is pressed along its cells: constraints, shells, platens."""
 
 from dataclasses import dataclass, field
 
@@ -6,7 +6,9 @@ import numpy as np
 
 from kernels.plates import shell
 from kernels.plates.layout import Layout
-from kernels.plates.problem import PlateScene
+from kernels.plates.problem import PlateScene, at_rest
+from kernels.solve import march
+from kernels.solve.history import State
 from kernels.solve.problem import FREE, HELD, LED, TIED, Coordinates
 from sweep.config.case import Case, given
 from sweep.config.direction import network_of
@@ -14,7 +16,7 @@ from sweep.design.drawing import Indices
 from sweep.design.network import Network, mass
 from sweep.scene.mesh import Floats
 from sweep.scene.plates import coordinates
-from sweep.scene.plates.contact import contact_of
+from sweep.scene.plates.contact import contact_of, mirror_of
 from sweep.scene.plates.coordinates import PER_NODE, Numbering
 from sweep.scene.plates.law import law_of_sheet, shear_modulus
 from sweep.scene.plates.mesh import PlateMesh, build_mesh
@@ -41,6 +43,29 @@ class Scene:
     velocity: Floats
     probes: Indices = field(default_factory=lambda: NONE)
     travel: float = 0.0
+    solid_joint_share: float = np.nan
+
+    @property
+    def size(self) -> float:
+        """Extent of the nodes, m."""
+        return float(np.ptp(self.mesh.rest, axis=0).max())
+
+    def largest_force(self, stage: march.Stage) -> float:
+        """Force (N) with whose round-off the residual of a step is computed."""
+        quads, modulus = self.mesh.size, 3.0 * self.terms.law.shear_modulus
+        slender = (quads / quads[:, ::-1]).max()
+        force = modulus * float(self.mesh.thickness.max()) * self.size * slender
+        if stage.dynamic:
+            force += self.terms.coordinates.mass.max() * self.size / stage.duration**2
+        return float(force)
+
+    def at_rest(self) -> State:
+        """The state at the start, without velocities."""
+        return at_rest(self.mesh.frames, self.x_rest)
+
+    def strained(self) -> float:
+        """Energy at the start, J: none."""
+        return 0.0
 
 
 def build_scene(case: Case) -> Scene:
@@ -58,6 +83,7 @@ def build_scene(case: Case) -> Scene:
         law=law_of_sheet(case.material),
         shell=_shell(mesh, x_rest, case),
         contact=contact_of(mesh, numbering, case),
+        mirror=mirror_of(mesh, case),
         friction=friction_of(case),
         layout=_layout(mesh, numbering, leader, case),
     )

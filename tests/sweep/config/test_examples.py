@@ -44,6 +44,8 @@ CONFIGS = Path(__file__).parents[3] / "configs"
         ("impact", 24),
         ("slicer", 10),
         ("khatri_egan_square", 72),
+        ("khatri_egan_square_out_of_plane", 9),
+        ("which_way", 16),
     ],
 )
 def test_shipped_configs_expand(name, cases):
@@ -55,4 +57,5 @@ def test_shipped_configs_expand(name, cases):
 def test_every_shipped_config_is_pinned():
     studies = {"custom", "seed", "impact", "khatri_egan_square", "extreme", "reuse", "search"}
     names = {"smoke", "armor", "infills", "slicer", "thousand"}
+    names |= {"khatri_egan_square_out_of_plane", "which_way"}
     assert {path.stem for path in CONFIGS.glob("*.toml")} == names | studies

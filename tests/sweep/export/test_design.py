@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Lattice
+from sweep.config.case import Case, Lattice, Loading
 from sweep.config.examples import examples
 from sweep.config.grid import Config, Written
 from sweep.config.units import load_config
@@ -96,3 +96,16 @@ def test_custom_structure_is_drawn_as_in_its_file():
 def test_period_of_an_endless_lattice_is_no_part():
     with pytest.raises(ExportError, match=r"lattice\.boundary.*no part; allowed: \.csv"):
         design_of(Case(lattice=Lattice(boundary="periodic"), loading={"mode": "displacement"}))
+
+
+@pytest.mark.parametrize("perimeters", [0, 1])
+def test_design_that_is_pressed_along_its_cells_is_rebuilt(perimeters):
+    lattice = Lattice(height=9e-3, depth=14e-3, perimeters=perimeters, cells_x=2, cells_y=2)
+    case = Case(lattice=lattice, loading=Loading(direction="out_of_plane"))
+    row = row_of(case)
+    assert row["height_m"] == 14e-3
+    found = stored_design(row, config_of(case))
+    assert found.along
+    assert found.depth == 14e-3
+    assert found.lattice.height == pytest.approx(9e-3, rel=1e-12)
+    assert found.volume == pytest.approx(1e-3 * found.grams / case.material.density, rel=1e-9)

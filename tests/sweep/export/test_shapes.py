@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from sweep.export.shapes import write_shapes
-from tests.support.specimens import squeezed_cell
+from tests.support.specimens import squeezed_cell, tube
 
 HEIGHTS = (10.0, 7.0, 4.0)
 
@@ -39,3 +39,17 @@ def test_lines_are_the_elements_in_mm(folder, k):
     np.testing.assert_allclose(thickness, 1.0)
     np.testing.assert_allclose(strain, [0, height / 10 - 1, 0, height / 10 - 1], atol=1e-7)
     np.testing.assert_allclose(mesh.field_data["strain"], [1 - height / 10], atol=1e-7)
+
+
+@pytest.mark.parametrize("k", range(3))
+def test_quads_are_those_of_plates_in_mm(tmp_path, k):
+    frames = tube()
+    write_shapes(tmp_path, "tube", frames)
+    mesh = meshio.read(tmp_path / f"tube_000{k}.vtu")
+    np.testing.assert_allclose(mesh.points, 1e3 * frames["position_m"][k], atol=1e-9)
+    assert mesh.cells_dict["quad"].tolist() == frames["quads"].tolist()
+    moved = 1e3 * (frames["position_m"][k] - frames["position_m"][0])
+    np.testing.assert_allclose(mesh.point_data["displacement_mm"], moved, atol=1e-9)
+    (thickness,), (strain,) = (mesh.cell_data[n] for n in ("wall_thickness_mm", "area_strain"))
+    np.testing.assert_allclose(thickness, 0.1)
+    np.testing.assert_allclose(strain, -0.1 * k, atol=1e-9)

@@ -8,24 +8,7 @@ from sweep.result import Result, Status
 from sweep.store.batch import OF_PLATES
 from sweep.store.read import StoreError, read_cases, read_frames
 from sweep.store.write import Writer
-from tests.support.specimens import squeezed_cell, summary
-
-
-def tube(frames=3):
-    """An upright square tube of four quads."""
-    ring = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
-    position = np.array(
-        [[[*point, z * (1.0 - 0.1 * f)] for z in (0, 2) for point in ring] for f in range(frames)]
-    )
-    quads = np.array([[k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k] for k in range(4)])
-    return {
-        "strain": 0.1 * np.arange(frames),
-        "time_s": 1.0 * np.arange(frames),
-        "plate_y_m": np.column_stack([np.zeros(frames), 2.0 - 0.2 * np.arange(frames)]),
-        "position_m": 1e-3 * position,
-        "quads": quads,
-        "quad_thickness_m": np.full(4, 1e-4),
-    }
+from tests.support.specimens import squeezed_cell, summary, tube
 
 
 def results():

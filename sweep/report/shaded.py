@@ -1,0 +1,66 @@
+"""Plates as a camera sees them: corners of quads on the screen, from back to front, and shades.
+
+The view is orthographic, from above and aside, so that lengths along the screen's horizontal are
+true and one looks into the cells.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+AZIMUTH, ELEVATION = np.radians(-62.0), np.radians(32.0)  # of the camera, from the x axis and up
+LIGHT = np.array([-0.25, -0.65, 0.75])  # towards the light, left above the camera
+AMBIENT = 0.25  # shade of a face that turns its side to the light
+
+
+class Faces(NamedTuple):
+    """Quads from back to front: corners (m, 4, 2) on the screen and shades (m,) from 0 to 1."""
+
+    corners: Floats
+    shades: Floats
+
+
+def seen(points: Floats) -> tuple[Floats, Floats]:
+    """Points (..., 3) on the screen, (..., 2), and how near they are to the camera, (...)."""
+    low, high = (np.sin(ELEVATION), np.cos(ELEVATION))
+    across = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0.0])
+    toward = np.array([high * np.cos(AZIMUTH), high * np.sin(AZIMUTH), low])
+    upwards = np.cross(toward, across)
+    return points @ np.column_stack([across, upwards]), points @ toward
+
+
+def faces(position: Floats, quads: NDArray[np.int64]) -> Faces:
+    """The faces of quads (m, 4) with nodes at ``position`` (n, 3); both sides are alike."""
+    corner = np.asarray(position, float)[quads]
+    screen, near = seen(corner)
+    normal = np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1])
+    length = np.linalg.norm(normal, axis=1)
+    toward = LIGHT / np.linalg.norm(LIGHT)
+    lit = np.abs(normal @ toward) / np.where(length > 0.0, length, 1.0)
+    order = np.argsort(near.mean(axis=1), kind="stable")
+    return Faces(screen[order], (AMBIENT + (1.0 - AMBIENT) * lit)[order])
+
+
+def platen(box: Floats, height: float, margin: float) -> Floats:
+    """Corners (4, 2) on the screen of a rectangle at a height; box: least and greatest x and y,
+    (2, 2), widened by a margin. All in one unit of length.
+    """
+    (left, front), (right, back) = box[0] - margin, box[1] + margin
+    ring = [[left, front], [right, front], [right, back], [left, back]]
+    return seen(np.column_stack([ring, np.full(4, height)]))[0]
+
+
+def cut_open(frames: Mapping[str, Any]) -> NDArray[np.bool_]:
+    """Which quads are behind the middle of the lattice at rest, (m,), as the camera sees it."""
+    middle = np.asarray(frames["position_m"][0], float)[frames["quads"]].mean(axis=1)
+    _, near = seen(middle * [1.0, 1.0, 0.0])
+    behind: NDArray[np.bool_] = near <= 0.5 * (near.min() + near.max())
+    return behind

@@ -1,0 +1,64 @@
+"""The whole lattice from the quarter between two mirror planes, for shapes that are stored."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sweep.scene.mesh import Floats, Ints
+from sweep.scene.plates.mesh import PlateMesh
+
+
+@dataclass(frozen=True)
+class Unfolded:
+    """N nodes and M quads of the whole, from those of a part.
+
+    node (N,): node of the part; at (N, 2): whether it is mirrored in x and in y; quads (M, 4) with
+    normals to the same side as in the part, mirrored. quad (M,): quad of the part. triangles (2 M,
+    3): as of `PlateMesh`.
+    """
+
+    planes: Floats
+    node: Ints
+    at: np.ndarray
+    quads: Ints
+    quad: Ints
+    triangles: Ints
+
+    def positions(self, part: Floats) -> Floats:
+        """Positions (f, N, 3) in m from those of the part, (f, n, 3)."""
+        found = part[:, self.node]
+        if np.isfinite(self.planes).all():
+            found[..., :2] = np.where(self.at, 2.0 * self.planes - found[..., :2], found[..., :2])
+        return found
+
+
+def unfolded(mesh: PlateMesh) -> Unfolded:
+    """The whole of a mesh. Images of a node on a mirror plane are one node."""
+    n, m = mesh.n_nodes, len(mesh.quads)
+    if mesh.plan.copies == 1:
+        none = np.zeros((n, 2), np.bool_)
+        return Unfolded(
+            mesh.plan.planes, np.arange(n), none, mesh.quads, np.arange(m), mesh.triangles
+        )
+    images = np.array([[False, False], [True, False], [False, True], [True, True]])
+    own = np.empty((4, n), np.int64)  # the node of the whole for each image of a node
+    node: list[Ints] = []
+    at: list[np.ndarray] = []
+    for k, image in enumerate(images):
+        new = ~(mesh.on & image).any(axis=1)
+        own[k, new] = sum(len(each) for each in node) + np.arange(new.sum())
+        for axis in (0, 1):
+            on = ~new & mesh.on[:, axis] & image[axis]
+            before = np.flatnonzero((images == np.where(np.arange(2) == axis, False, image)).all(1))
+            own[k, on] = own[before[0], on]
+        node.append(np.flatnonzero(new))
+        at.append(np.broadcast_to(image, (int(new.sum()), 2)))
+    turned_over = [image.sum() == 1 for image in images]  # two mirrors are a turn
+    quads, triangles = (
+        [own[k][nodes[:, ::-1] if turned else nodes] for k, turned in enumerate(turned_over)]
+        for nodes in (mesh.quads, mesh.triangles)
+    )
+    return Unfolded(
+        mesh.plan.planes, np.concatenate(node), np.concatenate(at), np.concatenate(quads),
+        np.tile(np.arange(m), 4), np.concatenate(triangles),
+    )  # fmt: skip

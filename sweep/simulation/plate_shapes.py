@@ -1,0 +1,113 @@
+"""Stored shapes of plates: positions of the whole lattice, strains of its quads, crossings.
+
+The strains are those at the middles of the quads. The directors are not stored: bending is measured
+with the normals of the wall at the corners, the means of those of its quads there, which leaves out
+the turns by transverse shear.
+"""
+
+import numpy as np
+
+from kernels.geometry.space import crossing, surface
+from sweep.scene.mesh import Floats, Ints
+from sweep.scene.plates.coordinates import PER_NODE
+from sweep.scene.plates.mesh import PlateMesh
+from sweep.scene.plates.scene import Scene
+from sweep.scene.plates.unfolded import unfolded
+
+CORNERS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])  # of a quad, in s and z
+
+
+def positions(x: Floats, nodes: int) -> Floats:
+    """Positions (f, n, 3) in m of the first coordinates of shapes x (f, 6 n + 2)."""
+    return x[:, : PER_NODE * nodes].reshape(len(x), nodes, PER_NODE)[..., :3]
+
+
+def plate_frames(x: Floats, strain: Floats, time: Floats, scene: Scene) -> dict[str, np.ndarray]:
+    """Shapes x (f, 6 n + 2) as in `Result.frames`, of the whole lattice; strain, time (f,)."""
+    whole = unfolded(scene.mesh)
+    return {
+        "strain": strain,
+        "time_s": time,
+        "position_m": whole.positions(positions(x, scene.mesh.n_nodes)),
+        "plate_y_m": x[:, -2:].copy(),
+        "quads": whole.quads,
+        "quad_thickness_m": scene.mesh.thickness[whole.quad],
+    }
+
+
+def plate_strains(x: Floats, scene: Scene) -> tuple[Floats, Floats, Floats]:
+    """Least and greatest strain of the mid-surface of each quad, and the greatest of its surfaces,
+    (f, m) each, in shapes x (f, 6 n + 2).
+    """
+    mesh = scene.mesh
+    position = positions(x, mesh.n_nodes)
+    rest_stretch, rest_bend = _measures(mesh.rest[None], mesh)
+    stretch, bend = _measures(position, mesh)
+    stretch, bend = stretch - rest_stretch + [1.0, 1.0, 0.0], bend - rest_bend
+    least, greatest = principal(stretch)
+    half = 0.5 * mesh.thickness[:, None]
+    surfaces = [principal(stretch + side * half * 2.0 * bend)[1] for side in (-1.0, 1.0)]
+    return least, greatest, np.maximum(*surfaces)
+
+
+def principal(c: Floats) -> tuple[Floats, Floats]:
+    """Least and greatest nominal strain (f, m) of squares of stretches c (f, m, 3): 11, 22, 12."""
+    mean, across = 0.5 * (c[..., 0] + c[..., 1]), 0.5 * (c[..., 0] - c[..., 1])
+    radius = np.hypot(across, c[..., 2])
+    low, high = (np.sqrt(np.maximum(mean + sign * radius, 0.0)) - 1.0 for sign in (-1.0, 1.0))
+    return low, high
+
+
+def _measures(position: Floats, mesh: PlateMesh) -> tuple[Floats, Floats]:
+    """First and second form (f, m, 3) of the quads: 11, 22, 12, at their middles; position (f, n,
+    3) in m, the second form in 1/m.
+    """
+    along, up = _slopes(position[:, mesh.quads], mesh.size)
+    normal = _normals(position, mesh)
+    turned_along, turned_up = _slopes(normal, mesh.size)
+    first = np.stack([_dot(along, along), _dot(up, up), _dot(along, up)], axis=-1)
+    mixed = 0.5 * (_dot(along, turned_up) + _dot(up, turned_along))
+    second = np.stack([_dot(along, turned_along), _dot(up, turned_up), mixed], axis=-1)
+    return first, second
+
+
+def _dot(a: Floats, b: Floats) -> Floats:
+    return np.asarray((a * b).sum(axis=-1))
+
+
+def _slopes(corner: Floats, size: Floats) -> tuple[Floats, Floats]:
+    """Derivatives (f, m, 3) along s and z at the middle of each quad; corner (f, m, 4, 3)."""
+    along, up = (np.einsum("fmci,c->fmi", corner, 0.5 * sign) for sign in CORNERS.T)
+    return along / size[:, :1], up / size[:, 1:]
+
+
+def _normals(position: Floats, mesh: PlateMesh) -> Floats:
+    """Normals (f, m, 4, 3) of the wall of each quad at its corners."""
+    corner = position[:, mesh.quads]
+    diagonal = np.cross(corner[:, :, 2] - corner[:, :, 0], corner[:, :, 3] - corner[:, :, 1])
+    place = corner_of_wall(mesh)
+    total = np.zeros((place.max() + 1, len(position), 3))
+    for c in range(4):
+        np.add.at(total, place[:, c], diagonal.swapaxes(0, 1))
+    total /= np.maximum(np.linalg.norm(total, axis=2, keepdims=True), np.finfo(float).tiny)
+    return np.asarray(np.moveaxis(total[place], 2, 0))
+
+
+def corner_of_wall(mesh: PlateMesh) -> Ints:
+    """A number for each pair of a node and a wall, by corner of the quads, (m, 4)."""
+    pairs = mesh.quads * len(mesh.plan.walls) + mesh.wall[:, None]
+    _, place = np.unique(pairs, return_inverse=True)
+    return np.asarray(place.reshape(mesh.quads.shape))
+
+
+def surface_crossings(position: Floats, mesh: PlateMesh) -> int:
+    """Greatest number of edges that pass through triangles in a shape, position (f, N, 3) in m of
+    the whole of a mesh; images beyond mirror planes are part of it.
+
+    Independent of the solver, but for the triangles. What touches within round-off counts too.
+    """
+    triangles = unfolded(mesh).triangles
+    edges, _ = surface.edges_of(triangles, position.shape[1])
+    unsure = np.empty((0, 2), np.int64)
+    found = [sum(crossing.count(shape, triangles, edges, unsure)) for shape in position]
+    return int(max(found))

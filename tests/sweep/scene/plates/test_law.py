@@ -1,0 +1,41 @@
+"""The law of a sheet: under uniaxial stress the curve of the material, where that is stable."""
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Material
+from sweep.scene.material import stress_law
+from sweep.scene.plates.law import law_of_sheet, shear_modulus
+
+
+def uniaxial(law, stretch):
+    """Nominal stress of a sheet under uniaxial stress, from its energy per volume."""
+
+    def energy(length):
+        return law.respond(length**2 - 1.0, 1.0 / length - 1.0, 0.0)[0]
+
+    step = 1e-6
+    return (energy(stretch + step) - energy(stretch - step)) / (2.0 * step)
+
+
+@pytest.mark.parametrize("name", ["ninjaflex", "ultimaker_tpu95a", "cheetah"])
+@pytest.mark.parametrize("strain", [-0.1, -0.01, 0.01, 0.1, 0.5])
+def test_stress_of_a_strip_is_that_of_the_curve(name, strain):
+    material = Material(name=name)
+    found = uniaxial(law_of_sheet(material), 1.0 + strain)
+    assert found == pytest.approx(float(stress_law(material).at(np.array([strain]))[0]), rel=0.02)
+
+
+def test_linear_material_is_neo_hookean():
+    material = Material(modulus=12e6, density=1200.0)
+    mu, stretch = 4e6, 0.8
+    assert uniaxial(law_of_sheet(material), stretch) == pytest.approx(
+        mu * (stretch - 1.0 / stretch**2), rel=1e-6
+    )
+    assert shear_modulus(material) == pytest.approx(5.0 / 6.0 * mu)
+
+
+def test_shear_modulus_is_that_of_the_curve_at_rest():
+    material = Material(name="ninjaflex")
+    slope = float(stress_law(material).at(np.array([1e-6]))[0]) / 1e-6
+    assert shear_modulus(material) == pytest.approx(5.0 / 6.0 * slope / 3.0, rel=1e-6)
