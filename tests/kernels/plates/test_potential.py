@@ -1,0 +1,89 @@
+"""What a step of plates minimises: the sum of all its terms, and its derivatives."""
+
+import numpy as np
+import pytest
+
+from kernels.plates import contact, mirror, shell
+from kernels.terms.rows import BEND, CONTACT, STRETCH
+from tests.support.pressed_plates import CASES, STATES, pinched, reduction, scene, unit, whole
+
+STEP = 1e-5  # of differences, in units of the coordinates
+
+
+def direction(of, seed):
+    return unit(of) * np.random.default_rng(seed).uniform(-1, 1, of.x_rest.size)
+
+
+def slope(function, x, move):
+    """Fourth-order difference of ``function`` along ``move``."""
+    near = function(x + STEP * move) - function(x - STEP * move)
+    far = function(x + 2 * STEP * move) - function(x - 2 * STEP * move)
+    return (8 * near - far) / (12 * STEP)
+
+
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("name", CASES)
+def test_the_gradient_is_that_of_the_energy(name, state):
+    """Along random moves of all coordinates, held ones and platens too."""
+    of = scene(name)
+    x = STATES[state](of)
+    args = whole(of, x)
+    g = args.gradient(x)
+    for seed in range(3):
+        move = direction(of, seed)
+        assert slope(args.energy, x, move) == pytest.approx(
+            g @ move, abs=1e-8 * np.linalg.norm(g * unit(of))
+        )
+
+
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("name", CASES)
+def test_the_matrix_is_the_hessian(name, state):
+    """Along random moves of the unknowns, and what follows them."""
+    of = scene(name)
+    x, R = STATES[state](of), reduction(of)
+    args = whole(of, x)
+    args.factored(x, through=True)
+    H, size = args.entries(), R.T @ unit(of)
+    for seed in range(3):
+        move = size * np.random.default_rng(seed).uniform(-1, 1, size.size)
+        found = size * (R.T @ slope(args.gradient, x, R @ move))
+        expected = size * (H @ move)
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-7 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_sum_has_all_terms_and_each_of_them_counts(name):
+    of = scene(name)
+    x, terms = pinched(of), of.terms
+    args = whole(of, x)
+    energy, at = args.found(x)
+    pairs, touching = args.neighbours.pairs, args.neighbours.touching
+    none = np.zeros_like(x)
+    parts = np.zeros(3)
+    walls = shell.evaluate(
+        x, of.mesh.frames, terms.shell, terms.law, shell.make_scratch(), none, parts
+    )
+    stored = contact.evaluate(x, terms.contact, pairs, 0.0, touching, none)
+    imaged = mirror.evaluate(x, terms.contact, terms.mirror, none)
+    assert (imaged > 0.0) == (name == "loose quarter")
+    assert at.stored[STRETCH] == pytest.approx(parts[0], rel=1e-12)
+    assert at.stored[STRETCH] + at.stored[BEND] == pytest.approx(walls, rel=1e-12)
+    assert at.stored[CONTACT] == pytest.approx(stored + imaged, rel=1e-12)
+    moved = x - args.step.x_pred
+    inertia = 0.5 * terms.coordinates.mass @ moved**2 / args.step.h**2 * args.step.dynamic
+    assert (inertia > 0.0) == (name == "struck")
+    rubbed = at.sums[0]["friction"]
+    assert rubbed > 0.0
+    assert min(at.stored) > 0.0
+    assert energy == pytest.approx(walls + stored + imaged + inertia + rubbed, rel=1e-12)
+    np.testing.assert_allclose(at.u, x - args.step.x0, rtol=0, atol=0)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_at_rest_there_is_nothing(name):
+    of = scene(name)
+    args = whole(of, of.x_rest)
+    _, at = args.found(of.x_rest)
+    assert max(at.stored) < 1e-18
+    assert np.abs(at.elastic / of.terms.coordinates.lever).max() < 1e-9
