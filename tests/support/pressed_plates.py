@@ -118,9 +118,9 @@ class WholeOfPlates(Whole):
                 at, down, across = place(matrix, i, j)
                 if at >= 0:
                     to = at + down * np.arange(height)[:, None] + across * np.arange(width)
-                    full[first[i] : first[i] + height, first[j] : first[j] + width] = (
-                        matrix.values[to]
-                    )
+                    full[first[i] : first[i] + height, first[j] : first[j] + width] = matrix.values[
+                        to
+                    ]
         return np.tril(full) + np.tril(full, -1).T
 
 

@@ -5,7 +5,16 @@ import pytest
 
 from kernels.plates import contact, mirror, shell
 from kernels.terms.rows import BEND, CONTACT, STRETCH
-from tests.support.pressed_plates import CASES, STATES, pinched, reduction, scene, unit, whole
+from tests.support.pressed_plates import (
+    CASES,
+    STATES,
+    pinched,
+    reduction,
+    scene,
+    shaken,
+    unit,
+    whole,
+)
 
 STEP = 1e-5  # of differences, in units of the coordinates
 
@@ -87,3 +96,43 @@ def test_at_rest_there_is_nothing(name):
     _, at = args.found(of.x_rest)
     assert max(at.stored) < 1e-18
     assert np.abs(at.elastic / of.terms.coordinates.lever).max() < 1e-9
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_commit_changes_coordinates_but_no_energy(name):
+    """Rotations begin again at zero; forces on them are those of the new coordinates."""
+    of = scene(name)
+    x = pinched(of)
+    args = whole(of, x)
+    _, before = args.found(x)
+    moved, at = x.copy(), before.stored.copy()
+    args.problem.commit(moved, args.step, before)
+    points = slice(0, x.size - 2)
+    assert not moved[points].reshape(-1, 6)[:, 3:].any()
+    assert np.abs(x - moved).max() > 1e-3
+    np.testing.assert_array_equal(
+        moved[points].reshape(-1, 6)[:, :3], x[points].reshape(-1, 6)[:, :3]
+    )
+    _, after = args.found(moved)
+    np.testing.assert_allclose(after.stored, at, rtol=1e-12)
+    forces = [found.elastic[points].reshape(-1, 6)[:, :3] for found in (before, after)]
+    np.testing.assert_allclose(*forces, rtol=0, atol=1e-10 * np.abs(forces[0]).max())
+    move = direction(of, 5)
+    expected = args.gradient(moved) @ move
+    assert slope(args.energy, moved, move) == pytest.approx(
+        expected, abs=1e-8 * np.linalg.norm(args.gradient(moved) * unit(of))
+    )
+
+
+def test_lagged_forces_are_exchanged_for_those_of_another_place():
+    of = scene("glued")
+    x = pinched(of)
+    args = whole(of, x)
+    energy, at = args.found(x)
+    assert args.problem.lags()
+    assert args.problem.lag(shaken(of, x, 7, 0.01))
+    exchanged = args.problem.exchange(args.step, at)
+    expected, fresh = args.found(x)
+    assert exchanged != pytest.approx(energy, rel=1e-9)
+    assert exchanged == pytest.approx(expected, rel=1e-12)
+    np.testing.assert_allclose(at.g, fresh.g, rtol=0, atol=1e-12 * np.abs(fresh.g).max())

@@ -1,0 +1,107 @@
+"""The factor of a step of plates: of the exact Hessian, and of the shifted one."""
+
+import numpy as np
+import pytest
+
+from kernels.plates.factoring import LOWERED, RAISED
+from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
+from tests.support.pressed_plates import (
+    CASES,
+    SIDE,
+    STATES,
+    bent,
+    neighbours_of,
+    pinched,
+    reduction,
+    scene,
+    shaken,
+    whole,
+)
+
+
+def near_rest(of):
+    return shaken(of, of.x_rest, 1, 1e-3)
+
+
+def forces(size):
+    return np.random.default_rng(3).uniform(-1, 1, size)
+
+
+@pytest.mark.parametrize("name", ["glued", "struck"])
+def test_solutions_are_those_of_the_dense_matrix(name):
+    of = scene(name)
+    x, R = near_rest(of), reduction(of)
+    args = whole(of, x)
+    assert args.factored(x)[0] == POSITIVE
+    g = forces(x.size)
+    expected = R @ np.linalg.solve(args.entries(), R.T @ g)
+    np.testing.assert_allclose(args.solve(g), expected, rtol=0, atol=1e-9 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("name", CASES)
+def test_directions_of_descent_have_the_negative_pivot(name, state):
+    """A factor that goes through has one negative pivot for each negative eigenvalue."""
+    of = scene(name)
+    x, R = STATES[state](of), reduction(of)
+    args = whole(of, x)
+    met, pivot = args.factored(x)
+    H = args.entries()
+    assert (met == NEGATIVE) == (np.linalg.eigvalsh(H)[0] < 0.0)
+    if met == NEGATIVE:
+        d = args.escape()
+        short = np.linalg.lstsq(R, d)[0]
+        np.testing.assert_allclose(R @ short, d, rtol=0, atol=1e-12 * np.abs(d).max())
+        assert pivot < 0.0
+        assert short @ H @ short == pytest.approx(pivot, rel=1e-6)
+        args.factored(x, through=True)
+        assert args.problem.unstable() == np.count_nonzero(np.linalg.eigvalsh(H) < 0.0)
+
+
+def test_some_of_these_states_are_unstable():
+    """Else nothing is tested above; and others are not."""
+    found = [whole(scene(n), s(scene(n))).factored(s(scene(n)))[0] for n in CASES
+             for s in (bent, pinched, near_rest)]  # fmt: skip
+    assert {NEGATIVE, POSITIVE} == set(found)
+
+
+def test_the_shift_is_about_the_least_that_makes_all_pivots_positive():
+    of = scene("glued")
+    x, layout, R = pinched(of), of.terms.layout, reduction(of)
+    args = whole(of, x)
+    assert args.factored(x)[0] == NEGATIVE
+    assert args.factored(x, projected=True)[0] == POSITIVE
+    sigma, H, W = args.problem.buffers.shift[0], args.entries(), np.diag(layout.weight)
+    assert np.linalg.eigvalsh(H + sigma * W)[0] > 0.0
+    assert np.linalg.eigvalsh(H + sigma / RAISED * W)[0] < 0.0
+    g = forces(x.size)
+    expected = R @ np.linalg.solve(H + sigma * W, R.T @ g)
+    np.testing.assert_allclose(args.solve(g), expected, rtol=0, atol=1e-8 * np.abs(expected).max())
+    args.factored(x, projected=True)
+    assert args.problem.buffers.shift[0] == pytest.approx(sigma * RAISED * LOWERED)
+
+
+def test_the_stiffest_length_is_the_largest_on_the_diagonal():
+    of = scene("struck")
+    args = whole(of, near_rest(of))
+    args.factored(near_rest(of))
+    diagonal = np.diag(args.entries())[of.terms.layout.is_length]
+    assert args.problem.stiffest() == pytest.approx(diagonal.max(), rel=1e-12)
+
+
+def test_what_has_come_near_needs_room_and_gets_it():
+    """A matrix made at rest has none for contacts that came later; one that is renewed has."""
+    of = scene("glued")
+    x = pinched(of)
+    args = whole(of, x)
+    at_rest = neighbours_of(of.x_rest, of.terms, 2.0 * SIDE)
+    lacking = args.beside(at_rest)
+    assert lacking.energy(x) == pytest.approx(
+        args.lagging(at_rest.lagged_contacts).energy(x), rel=1e-12
+    )
+    assert lacking.problem.factor(x, args.step, lacking.found(x)[1], False, False)[0] == NO_ROOM
+    renewed = of.terms.renew_neighbours(at_rest, x, 0.0)
+    there = args.beside(renewed)
+    assert there.problem.factor(x, args.step, there.found(x)[1], False, False)[0] != NO_ROOM
+    again = of.terms.renew_neighbours(renewed, x, 0.0)
+    assert np.shares_memory(again.matrix.values, renewed.matrix.values)
