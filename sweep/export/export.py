@@ -15,7 +15,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
-from sweep.design.panel import specimens
 from sweep.export.errors import ExportError
 
 if TYPE_CHECKING:
@@ -137,8 +136,9 @@ def export_case(
     source : a case, or a results file.
     to : the file to write; a file of that name is replaced.
     case_id : of the case in the results file.
-    panel : two lengths (m, or text with a unit): a row of whole specimens along the first, as deep
-        as the second. Without it, one specimen.
+    panel : two lengths (m, or text with a unit) that whole specimens fill as nearly as they can,
+        side by side along the first, one behind the other along the second; `rank` counts the same
+        ones. Without it, one specimen.
     kind : of a .3mf: "lattice" (default), the walls themselves, printed with 100 % infill;
         "settings", a solid block whose infill the slicer draws.
     """
@@ -293,19 +293,16 @@ def _gif(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
 
 
 def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
-    """What a layout is, in a sentence; of a panel, also how much of it a ranking counts."""
+    """What a layout is, in a sentence; of a panel, in two."""
     _, _, width, height = layout.shape.bounds
     size = f"{width:.4g} x {height:.4g} mm, {layout.depth:.4g} mm deep: {layout.grams:.4g} g"
     if wish.panel is None:
         return [size]
-    lattice = source.design.lattice
-    ranked = int(specimens(wish.panel[0] * wish.panel[1], lattice.outer_size[0], lattice.depth))
-    count = len(getattr(layout.shape, "geoms", [layout.shape]))
+    asked = " x ".join(f"{MM * side:g}" for side in wish.panel)
+    deep = f"each {layout.behind} specimens of {MM * source.design.depth:.4g} mm deep"
     return [
-        f"{count} side by side, {size}",
-        f"of {lattice.depth * MM:.4g} mm depth these are {layout.specimens:.4g} specimens; a "
-        f"ranking counts {ranked} in the area of the panel: its mass, energy and force are "
-        f"{ranked / layout.specimens:.3g} times those of this part",
+        f"{layout.across} side by side, {deep}: {size}",
+        f"these {layout.specimens} specimens are what rank counts for a panel of {asked} mm",
     ]
 
 

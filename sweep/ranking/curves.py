@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sweep.ranking.merit import AT_ALLOWED, in_si, panel_specimens
+from sweep.ranking.merit import AT_ALLOWED, in_si, panel_in
 from sweep.result import Status
 from sweep.simulation.until import absorbed_until
 
@@ -38,7 +38,8 @@ def with_allowed(
     limit = in_si(force, "N")
     wanted = (summary["loading_mode"] == "displacement") & (summary["status"] == Status.CONVERGED)
     rows = summary[wanted]
-    count = np.ones(len(rows)) if panel is None or not of_panel else panel_specimens(rows, panel)
+    alone = panel is None or not of_panel
+    count = np.ones(len(rows)) if alone else panel_in(rows, panel).specimens
     at = zip(rows["case_id"], limit / count, strict=True)
     found = [reached(file, str(case_id), float(force)) for case_id, force in at]
     added = summary.assign(**{AT_ALLOWED: np.nan, "stroke_at_allowed_m": np.nan})

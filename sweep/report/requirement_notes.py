@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from sweep.ranking.ranking import Ranking
     from sweep.ranking.requirements import Outcome
 
-PANEL = "panel N: force of the {} specimens of a panel together{}."
+PANEL = (
+    "panel N: force of the {} specimens of a panel together. panel mm: its true width and depth."
+)
 UNKNOWN = {
     "max_deceleration": "rows are too far apart for loading.filter_class, or older than the filter",
     "max_force": "it has not been measured",
@@ -135,11 +137,17 @@ def panel_column(rows: DataFrame) -> dict[str, Series]:
     return {"panel N": numerals(rows["panel_force_N"])} if known else {}
 
 
+def panel_size(rows: DataFrame) -> dict[str, Series]:
+    """The true lengths of the panel, where there is one."""
+    if "panel_specimens" not in rows:
+        return {}
+    sides = [(1e3 * rows[f"panel_{side}_m"]).map("{:.3g}".format) for side in ("width", "depth")]
+    return {"panel mm": sides[0] + " x " + sides[1]}
+
+
 def panel_note(rows: DataFrame) -> list[str]:
     """How many specimens a panel has; none without a panel."""
     if "panel_specimens" not in rows:
         return []
     least, most = rows["panel_specimens"].min(), rows["panel_specimens"].max()
-    if least == most:
-        return [PANEL.format(least, "")]
-    return [PANEL.format(f"{least} to {most}", ", as many as fill it most nearly")]
+    return [PANEL.format(least if least == most else f"{least} to {most}")]

@@ -14,6 +14,7 @@ from sweep.ranking.rank import ASSUMPTIONS, by_scene, scene_label
 from sweep.report.requirement_notes import (
     panel_column,
     panel_note,
+    panel_size,
     requirement_columns,
     requirement_notes,
 )
@@ -91,6 +92,7 @@ SHOWN_BY_NAME = {
 
 
 SPARE = {
+    "panel mm": "panel_specimens",
     "again %": "second_cycle_share",
     "back %": "returned_share",
     "rebound %": "rebound_share",
@@ -358,6 +360,7 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     columns = {"mass g": numerals(rows["mass_g"])}
     if "counted_mass_g" in rows:
         columns["print g"] = numerals(rows["printed_mass_g"])
+    columns |= panel_size(rows)
     if "panel_mass_g" in rows:
         columns["panel g"] = numerals(rows["panel_mass_g"])
     shown = {"printed_mass_g", "counted_mass_g"}

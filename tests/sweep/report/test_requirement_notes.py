@@ -110,7 +110,7 @@ def test_force_of_the_panel_stands_beside_that_of_the_specimen(table, head):
 
 def test_number_of_specimens_is_a_range_if_designs_differ_in_width():
     table = CRUSHED.assign(outer_width_m=[13e-3, 13e-3, 14e-3])
-    assert "of the 46 to 50 specimens of a panel" in legend(ranked(table, panel=PANEL))
+    assert "of the 45 to 50 specimens of a panel" in legend(ranked(table, panel=PANEL))
 
 
 def test_quantities_are_those_of_a_maker():
