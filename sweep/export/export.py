@@ -246,10 +246,11 @@ def _block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     layout = _layout(source, wish)
     body = extruded(layout)
     write_3mf(path, body, layout.name, slicer_files(settings, layout.name, len(body.triangles)))
+    prusa = "PrusaSlicer reads the settings of the object from the file. "
     return [
         *_told(layout, source, wish),
-        "PrusaSlicer reads the settings of the object from the file. OrcaSlicer and Bambu Studio "
-        f"read only the block if they say so; then set by hand: {settings.by_hand}",
+        f"{prusa if settings.lines == 1 else ''}OrcaSlicer and Bambu Studio read only the block if "
+        f"they say so; then set by hand: {settings.by_hand}",
         "the slicer chooses where its lines begin, so that walls may be shifted, and lays "
         "crossings twice, so that the block is heavier than the lattice",
     ]
@@ -296,6 +297,10 @@ def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
     """What a layout is, in a sentence; of a panel, in two."""
     _, _, width, height = layout.shape.bounds
     size = f"{width:.4g} x {height:.4g} mm, {layout.depth:.4g} mm deep: {layout.grams:.4g} g"
+    if extruded := source.design.extruded_grams:
+        size += (
+            f", and {layout.specimens * extruded:.4g} g as the slicer extrudes it and rank counts"
+        )
     if wish.panel is None:
         return [size]
     asked = " x ".join(f"{MM * side:g}" for side in wish.panel)

@@ -155,12 +155,11 @@ def _greatest_share(least: Case, size: Interval, budget: float) -> float:
     """The greatest share of a slicer's infill with which a specimen weighs at most the budget (kg);
     0 if that of the least one exceeds it.
     """
-
     geometry, pattern = least.lattice.geometry, least.lattice.printed_as
     per_area = least.material.density * least.lattice.depth
 
     def excess(share: float) -> float:
-        distance = pattern.directions * least.lattice.line / share
+        distance = pattern.directions * least.lattice.lines / share
         sliced = geometry.sliced and geometry.sliced._replace(distance=distance)
         return per_area * counted_area(geometry._replace(sliced=sliced)) - budget
 

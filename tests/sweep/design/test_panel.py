@@ -10,7 +10,7 @@ ONE = 12.6e-3, 10e-3  # outer width and depth; side by side, 13 mm each
 
 @pytest.mark.parametrize(("length", "count"), [(25.6, 2), (32.0, 2), (32.2, 3), (6.0, 0), (6.2, 1)])
 def test_row_is_the_one_nearest_in_length(length, count):
-    """n specimens are n 13 mm - 0.4 mm long."""
+    """A row of n specimens is n 13 mm - 0.4 mm long."""
     found = panel_of((1e-3 * length, 10e-3), *ONE)
     assert (found.across, found.behind, found.specimens) == (count, 1, count)
     if count:

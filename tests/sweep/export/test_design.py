@@ -96,3 +96,35 @@ def test_custom_structure_is_drawn_as_in_its_file():
 def test_period_of_an_endless_lattice_is_no_part():
     with pytest.raises(ExportError, match=r"lattice\.boundary.*no part; allowed: \.csv"):
         design_of(Case(lattice=Lattice(boundary="periodic"), loading={"mode": "displacement"}))
+
+
+SLICED = {"slicer": "orca", "width": 25e-3, "height": 25e-3}
+
+
+@pytest.mark.parametrize(
+    "wish",
+    [
+        {"pattern": "grid", "mass": 3e-3},
+        {"pattern": "honeycomb", "infill": 0.3, "fill_angle": 0.2},
+        {"pattern": "tri-hexagon", "infill": 0.2, "fill_multiline": 2, "perimeters": 3},
+    ],
+)
+def test_infill_of_a_slicer_is_rebuilt(wish):
+    """Also where the first case of the sweep has another pattern and share."""
+    case = Case(lattice=Lattice(**SLICED, **wish))
+    other = Case(
+        lattice=Lattice(**SLICED | wish | {"pattern": "triangles", "infill": 0.1, "mass": None})
+    )
+    row = row_of(case) | {"lattice.pattern": wish["pattern"]}
+    for first in (case, other):
+        found = stored_design(row, config_of(first))
+        assert found.lattice.geometry == case.lattice.geometry
+        if "mass" in wish:
+            assert found.extruded_grams == pytest.approx(3.0, rel=5e-3)
+        assert found.extruded_grams > found.grams
+
+
+def test_family_beside_a_slicer_has_no_pattern():
+    first, case = Case(lattice=Lattice(**SLICED, pattern="grid", infill=0.2, perimeters=1)), grid()
+    row = row_of(case) | {"lattice.perimeters": 0}
+    assert stored_design(row, config_of(first)).lattice.slicer is None

@@ -14,9 +14,9 @@ from PIL import Image
 
 import crumple
 from sweep.config.case import Case, Lattice
+from sweep.config.units import quantity
 from sweep.export import export as module
 from sweep.export.errors import ExportError
-from sweep.config.units import quantity
 from sweep.export.export import WRITERS, export_case
 from tests.support.exported import grid, results
 from tests.support.specimens import summary, write
