@@ -9,6 +9,7 @@ import json
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -143,6 +144,14 @@ def export_case(
         "settings", a solid block whose infill the slicer draws.
     """
     path = Path(to)
+    wish = check_export(path, panel, kind)
+    return _written(path, lambda beside: _writer(path)(beside, _source(source, case_id), wish))
+
+
+def check_export(
+    path: Path, panel: Sequence[float | str] | None = None, kind: Kind | None = None
+) -> Wish:
+    """Refuse arguments of `export_case` that do not go together; nothing is read or written."""
     writer = _writer(path)
     if (panel or kind) and writer not in PRINTS.values():
         raise ExportError(f"{path.name} shows no print; allowed with a panel or a kind: {PRINTED}")
@@ -150,8 +159,7 @@ def export_case(
         raise ExportError(f"{path.name} has one kind only; allowed with a kind: .3mf")
     if kind not in (None, "lattice", "settings"):
         raise ExportError(f'kind "{kind}"; allowed: lattice, settings')
-    wish = Wish(_sides(panel), kind or "lattice")
-    return _written(path, lambda beside: writer(beside, _source(source, case_id), wish))
+    return Wish(_sides(panel), kind or "lattice")
 
 
 def _writer(path: Path) -> Writer:
@@ -187,12 +195,21 @@ def _source(source: Case | str | os.PathLike[str], case_id: str) -> Source | Pla
 
 
 def _written(path: Path, write: Callable[[Path], list[str]]) -> Exported:
-    """What ``write`` makes of a path beside; the files get their places when all are complete."""
+    """What ``write`` makes of a path beside; the files get their places when all are complete.
+
+    A folder that is missing is made, and removed again if nothing is written.
+    """
+    new = [folder for folder in (path.parent, *path.parent.parents) if not folder.exists()]
     path.parent.mkdir(parents=True, exist_ok=True)
-    with TemporaryDirectory(prefix=".export-", dir=path.parent) as folder:
-        notes = write(Path(folder) / path.name)
-        made = sorted(Path(folder).iterdir(), key=lambda file: (file.stem == path.stem, file.name))
-        files = [file.replace(path.parent / file.name) for file in made]
+    try:
+        with TemporaryDirectory(prefix=".export-", dir=path.parent) as beside:
+            notes = write(Path(beside) / path.name)
+            order = sorted(Path(beside).iterdir(), key=lambda f: (f.stem == path.stem, f.name))
+            files = [file.replace(path.parent / file.name) for file in order]
+    finally:
+        for folder in new:
+            with suppress(OSError):  # it holds the files
+                folder.rmdir()
     _drop_older(path, {file.name for file in files})
     return Exported(files, notes)
 

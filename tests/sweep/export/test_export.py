@@ -181,6 +181,12 @@ REFUSED = [
 ]
 
 
+def test_folder_of_a_refused_export_does_not_stay(file, tmp_path):
+    with pytest.raises(ExportError, match="smaller than half"):
+        exported(file, tmp_path / "new/deep/part.stl", panel=("5 mm", "5 mm"))
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize(("name", "wish", "why"), REFUSED)
 def test_refusals_leave_nothing(file, tmp_path, name, wish, why):
     with pytest.raises(ExportError, match=why):
