@@ -186,7 +186,8 @@ def ranked(  # noqa: PLR0913  every argument is a part of one question
     by = by and _column(compared, by)
     masses = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in _several(budget))] or [np.inf]
     found = {scene_label(rows): rows for rows in by_scene(compared)}
-    judged = {label: judge(rows, names, required, per) for label, rows in found.items()}
+    allowed = np.nan if allowed_force is None else in_si(allowed_force, "N")
+    judged = {label: judge(rows, names, required, per, allowed) for label, rows in found.items()}
     scenes = [
         (_with_scene(rows[judged[label][0]], label, _least(rows), names), _order(rows, by, usual))
         for label, rows in found.items()

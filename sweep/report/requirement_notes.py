@@ -92,6 +92,8 @@ def requirement_notes(scene: str, placed: DataFrame, ranking: Ranking) -> Iterat
         if greatest_mass(budget) >= lightest and not (placed["budget_g"] == budget).any():
             yield f"None of these weighs {budget:g} g or less."
     yield from _out_of_reach(outcome, ranking.required)
+    if not outcome.fulfil:
+        yield from _nearest(outcome)
 
 
 def _counts(outcome: Outcome) -> str:
@@ -112,12 +114,21 @@ def _out_of_reach(outcome: Outcome, limits: Mapping[str, float]) -> Iterator[str
             found = quantity(name, outcome.best[name], digits=3)
             yield WORDS[name].none.format(quantity(name, limits[name]), found)
     if not outcome.fulfil and math.isfinite(outcome.stroke):
-        energy, force = energy_text(outcome.energy), quantity("max_force", limits["max_force"])
+        energy, force = energy_text(outcome.energy), quantity("max_force", outcome.force)
         stroke, height = (f"{three_digits(1e3 * x)} mm" for x in (outcome.stroke, outcome.height))
         yield (
             f"{energy} at {force} needs at least {stroke} of stroke, if the force is constant:\n"
             f"energy / force, a rectangle, which no real curve is. The lattice is {height} high."
         )
+
+
+def _nearest(outcome: Outcome) -> Iterator[str]:
+    """The design that comes nearest to all requirements together, if there are several."""
+    case_id, values = outcome.nearest
+    if len(values) > 1:
+        nouns = {name: WORDS[name].limit.rsplit(" at ", 1)[0] for name in values}
+        parts = [f"{nouns[k]} {quantity(k, v, digits=3)}" for k, v in values.items()]
+        yield f"The nearest to all of this is case {case_id}: {', '.join(parts)}."
 
 
 def requirement_columns(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:

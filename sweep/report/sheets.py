@@ -231,12 +231,27 @@ def _places(rows: DataFrame) -> Series:
     places = rows["place"].astype(str)
     if "tied" in rows:
         places += rows["tied"].map({True: "="}).fillna("")
-    pareto = rows["pareto"].map({True: "*", False: " "})
+    return places + rows["pareto"].map({True: "*", False: " "}) + marks(rows)
+
+
+def marks(rows: DataFrame) -> Series:
+    """The marks of doubtful results, and of designs that do not print as drawn."""
     beyond = rows["beyond_model"].map({True: "!", False: ""})
     crossed = rows["crossed"].map({True: "x", False: ""})
     beyond_curve = rows["beyond_curve"].map({True: "^", False: ""})
     unprintable = _unprintable(rows).map(lambda why: "p" * bool(why))
-    return places + pareto + beyond + crossed + beyond_curve + unprintable
+    return beyond + crossed + beyond_curve + unprintable
+
+
+def mark_notes(rows: DataFrame) -> tuple[str, ...]:
+    """The meaning of the marks that these rows have."""
+    found = {
+        BEYOND: rows["beyond_model"],
+        CROSSED: rows["crossed"],
+        UNPRINTABLE: _unprintable(rows) != "",
+        STRETCHED: rows["beyond_curve"],
+    }
+    return tuple(note for note, has in found.items() if has.any())
 
 
 def _unprintable(rows: DataFrame) -> Series:

@@ -60,8 +60,10 @@ def _finer(lattice: Lattice) -> Lattice:
         pieces = tuple(2 * n for n in lattice.structure.pieces)
         finer = lattice.structure.model_copy(update={"subdivide": pieces})
         return lattice.model_copy(update={"structure": finer})
-    nodes = 2 * lattice.nodes_per_wall + 1
-    return lattice.model_copy(update={"nodes_per_wall": nodes, "mass": None, "infill": None})
+    change = {"nodes_per_wall": 2 * lattice.nodes_per_wall + 1, "mass": None}
+    if lattice.slicer is None:
+        change["infill"] = None
+    return lattice.model_copy(update=change)
 
 
 def _with(design: Case, lattice: Lattice) -> Case:
