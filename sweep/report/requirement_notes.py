@@ -16,9 +16,7 @@ if TYPE_CHECKING:
     from sweep.ranking.ranking import Ranking
     from sweep.ranking.requirements import Outcome
 
-PANEL = (
-    "panel N: force of the {} specimens of a panel together. panel mm: its true width and depth."
-)
+PANEL = "panel N: force of the {} specimens of a panel together. Its true size is {} mm."
 UNKNOWN = {
     "max_deceleration": "rows are too far apart for loading.filter_class, or older than the filter",
     "max_force": "it has not been measured",
@@ -161,4 +159,6 @@ def panel_note(rows: DataFrame) -> list[str]:
     if "panel_specimens" not in rows:
         return []
     least, most = rows["panel_specimens"].min(), rows["panel_specimens"].max()
-    return [PANEL.format(least if least == most else f"{least} to {most}")]
+    sizes = list(dict.fromkeys(panel_size(rows.sort_values("panel_width_m"))["panel mm"]))
+    size = sizes[0] if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
+    return [PANEL.format(least if least == most else f"{least} to {most}", size)]

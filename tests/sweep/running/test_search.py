@@ -106,9 +106,7 @@ def test_few_designs_end_the_search(searched):
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_best_of_those_that_fulfil_a_requirement_is_found(searched, seed):
-    """Without the limit of 0.65 g, walls of 0.71 mm are the best; a design weighs 1 g a mm. Then the
-    best of another pattern has 0.6 of the value.
-    """
+    """Walls of 0.71 mm are the best, and weigh 0.71 g. Other patterns are 0.6 as good."""
     search, _ = searched(seed=seed, require={"max_mass": "0.65 g"})
     (best, value), *_ = search.found.by_id.items()
     walls = 1e3 * search.cases[best].lattice.wall_thickness
