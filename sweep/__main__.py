@@ -109,10 +109,12 @@ EXPORT = """Write one case as a file for another program, in the format that its
   .csv          the curves: travel, force, strain, stress, energies
   .pvd .vtu     the stored shapes as a series for ParaView, NAME_0000.vtu and so on
   .gif          the crush as a moving picture
-A file of that name is replaced. With --panel, whole specimens side by side along the first length,
-as deep as the second. A .3mf has two kinds: "lattice", the walls themselves, to be printed with
+A file of that name is replaced, and a folder that is missing is made. With --panel: the whole
+specimens that rank counts for these two lengths, side by side along the first and one behind the
+other along the second. A .3mf has two kinds: "lattice", the walls themselves, to be printed with
 100 % infill; "settings", a solid block with the pattern, the per cent and the line width with which
-a slicer draws the lattice: square, diamond, triangle, kagome or hex, of regular cells."""
+a slicer draws the lattice: one of lattice.slicer, or of regular square, diamond, triangle, kagome
+or hex cells."""
 EXPORT_EXAMPLES = """examples:
   crumple export F.h5 a44d --to part.stl
   crumple export F.h5 a44d --to bumper.3mf --panel "100 mm" "50 mm"

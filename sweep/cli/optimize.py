@@ -65,6 +65,8 @@ def _question(config: Config, arguments: Namespace) -> dict[str, Any]:
     options = {name: getattr(arguments, name) for name in MEASURES if name != "max_force"}
     require = config.require.model_dump() | {k: v for k, v in options.items() if v}
     kept = {name: value for name, value in require.items() if value not in (None, "none")}
+    if arguments.max_force == "none":
+        kept.pop("max_force", None)
     panel, per = arguments.panel or config.rank.panel, arguments.per or config.rank.per
     if per == "panel" and not panel:
         raise OptimizeError('per = "panel"; needed: a panel, as --panel or in [rank]')
@@ -87,7 +89,7 @@ def _of_mode(question: dict[str, Any], arguments: Namespace, mode: str) -> dict[
 
     if "max_deceleration" in question["require"] and mode not in ("impact", ""):
         raise OptimizeError(f"max_deceleration needs a striker; loading.mode is {mode} here")
-    if arguments.max_force is None:
+    if arguments.max_force in (None, "none"):
         return question
     if arguments.allowed_force is not None:
         raise OptimizeError("--max-force with --allowed-force; allowed: one of them")
