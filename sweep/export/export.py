@@ -16,6 +16,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
+from sweep.design.panel import panel_of
 from sweep.export.errors import ExportError
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 
 Kind = Literal["lattice", "settings"]
 MM, CUBIC = 1e3, 1e9  # per m; mm^3 per m^3
+SHOWN = 0.05  # mm: a difference of lengths that is told
 
 
 class Exported(NamedTuple):
@@ -321,10 +323,18 @@ def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
     if wish.panel is None:
         return [size]
     asked = " x ".join(f"{MM * side:g}" for side in wish.panel)
+    nominal = (
+        MM
+        * panel_of(
+            (wish.panel[0], wish.panel[1]), source.design.lattice.outer_size[0], source.design.depth
+        ).width
+    )
+    wider = f"; corners that stick out make them {width - nominal:.2g} mm wider"
     deep = f"each {layout.behind} specimens of {MM * source.design.depth:.4g} mm deep"
     return [
         f"{layout.across} side by side, {deep}: {size}",
-        f"these {layout.specimens} specimens are what rank counts for a panel of {asked} mm",
+        f"these {layout.specimens} specimens are what rank counts for a panel of {asked} mm"
+        f"{wider if width - nominal > SHOWN else ''}",
     ]
 
 

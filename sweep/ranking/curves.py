@@ -44,8 +44,9 @@ def with_allowed(
     limit = in_si(force, "N")
     wanted = (summary["loading_mode"] == "displacement") & (summary["status"] == Status.CONVERGED)
     rows = summary[wanted]
-    alone = panel is None or not of_panel
-    count = np.ones(len(rows)) if alone else panel_in(rows, panel).specimens
+    count = np.ones(len(rows))
+    if of_panel and panel is not None:
+        count = panel_in(rows, panel).specimens
     at = zip(rows["case_id"], limit / count, strict=True)
     known = {} if known is None else known
     keys = [(str(case_id), float(force)) for case_id, force in at]

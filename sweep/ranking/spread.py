@@ -90,9 +90,9 @@ def spreads(
     summary: rows of the corners. question: arguments of `rank`, as those of the ranking.
     """
     finished = summary[summary["status"] == Status.CONVERGED]
-    asked = {key: question.get(key) for key in ("by", "panel", "allowed_force")}
+    by, panel, force = (question.get(key) for key in ("by", "panel", "allowed_force"))
     per = str(question.get("per") or "specimen")
-    compared, names = merits(finished, *asked.values(), per)  # type: ignore[arg-type]
+    compared, names = merits(finished, by, panel, force, per)
     required = {
         name: limit
         for name, limit in ranking.required.items()

@@ -13,7 +13,7 @@ from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, limits, violation
 from sweep.result import describe_column, less_is_better
 
-ALIKE = 0.02  # relative difference in both columns up to which a front lists one of two designs
+ALIKE = 0.05  # relative difference in both columns up to which a front lists one of two designs
 
 
 class Worths(NamedTuple):

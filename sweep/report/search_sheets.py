@@ -20,8 +20,7 @@ if TYPE_CHECKING:
 
 AGAIN = """\
 fine mesh: with twice the elements. lowest, highest: that, and with walls 5 % thinner and thicker,
-and a quarter and four times the imperfection, one at a time. {}: from the lightest to the heaviest
-of these, as budgets count it."""
+and a quarter and four times the imperfection, one at a time. {}: least and greatest of these."""
 NARROW = 0.8  # of its value: a design that keeps less stands on a narrow peak
 FRONT = """\
 The front of the designs that were evaluated; the search sought the column {} alone.

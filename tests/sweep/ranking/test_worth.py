@@ -97,8 +97,8 @@ def test_doubtful_designs_do_not_come_near():
 
 
 def test_a_front_is_thinned_from_its_best_design_on():
-    """Steps of 1 % in both: every third one is kept, and the last."""
-    rows = designs([1.01**k for k in range(7)], [0.1 * 1.01**k for k in range(7)])
+    """Steps of 2 % in both: every third one is kept, and the last."""
+    rows = designs([1.02**k for k in range(7)], [0.1 * 1.02**k for k in range(7)])
     found = front(summary(*rows), asked(by="absorbed_energy_J"), "mass_g")
     assert len(found) == 7
     kept = thinned(found, ("mass_g", "absorbed_energy_J"))
