@@ -88,6 +88,13 @@ def test_a_panel_is_what_is_ranked_and_searched(file, tmp_path, sides):
     assert 1e3 * space.weight(CASE) == pytest.approx(row["panel_mass_g"], rel=1e-9)
 
 
+def test_corners_that_stick_out_are_told(tmp_path):
+    """The tips of a diamond are farther out than half a wall: 4 specimens, (2^0.5 - 1) t each."""
+    shape = {"kind": "diamond", "cells_x": 2, "cells_y": 2, "wall_thickness": 1.6e-3}
+    found = export_case(Case(lattice=Lattice(**shape)), tmp_path / "a.stl", panel=(0.058, 0.012))
+    assert found.notes[1].endswith("; corners that stick out make them 2.7 mm wider")
+
+
 def test_lattice_in_3mf_asks_for_full_infill_in_words_only(file, tmp_path):
     found = exported(file, tmp_path / "part.3mf")
     with ZipFile(tmp_path / "part.3mf") as archive:
