@@ -44,3 +44,11 @@ def test_walls_of_a_given_mass_stay_as_they_were():
 def test_straight_walls_have_no_imperfection_to_change():
     case = Case(lattice=Lattice(imperfection=0.0), loading=PRESSED)
     assert [corner.name for corner in perturbed(case)] == [FINE, "walls -5 %", "walls +5 %"]
+
+
+def test_plates_have_twice_the_layers_too():
+    loading = Loading(direction="out_of_plane", strain=0.3)
+    case = Case(lattice=Lattice(wall_thickness=0.2e-3), loading=loading)
+    fine = perturbed(case)[0].case.lattice
+    assert (case.lattice.nodes_per_wall, fine.nodes_per_wall) == (5, 11)
+    assert fine.layers == pytest.approx(2 * case.lattice.layers, abs=1)
