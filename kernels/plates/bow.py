@@ -1,9 +1,9 @@
 """The arc of an element is longer than its chord.
 
-An element whose mid-surface and directors are those of a circle, turning by phi from one side to the
-other, has for differences of its nodes the chords of both: each is short by sin(phi / 2) / (phi / 2).
-The three measures along s are products of two such differences, short by f = 1 - phi^2 / 12 + ..,
-with phi = h_s B11 where the element is hardly stretched. To that order the arc has
+Where an element is bent to a circle and turns by phi from one side to the other, the differences of
+its positions and of its directors are chords, short by the factor sin(phi / 2) / (phi / 2). The
+three measures along s are products of two such differences, short by 1 - phi^2 / 12 + .., and phi
+is h_s B11 where the element is hardly stretched. To that order the arc has
 
     A11 + q,  B11 (1 + q),  D11 (1 + q),   q = h_s^2 B11^2 / 12
 

@@ -34,7 +34,7 @@ from kernels.plates.pairs import EDGE_SHARE, edges_within
 NEGLIGIBLE = 1e-12  # of what adds up at a side or a corner: below it nothing is left of the sum
 ADVANCE = 0.9  # admissible share of the move up to the first contact with a platen
 NO_PAIR = -1
-MOST_SWELLING = 2.0  # greatest thickness that neighbour lists hold for, as a share of that at rest
+MOST_SWELLING = 1.5  # greatest thickness that contact covers, as a multiple of that at rest
 
 
 class Contact(NamedTuple):
@@ -44,9 +44,10 @@ class Contact(NamedTuple):
     a node that neighbour lists cover. triangles (k, 3), edges (l, 2): nodes; sides (k, 3): edges
     ab, bc, ca of each triangle (`geometry.space.surface`); widths (l,): of the strips that belong
     to edges. area (n,): a_p of each node. thickness (n,): at each node, which a problem may change
-    between steps (`pairs.renew_distances`); rest_thickness (n,): at rest. rest (n, 3): positions at
-    rest. low_nodes (i,), high_nodes (j,): nodes that may touch the lower and the upper platen;
-    low_rest, high_rest: their distances from it at rest. low, high: coordinates of the platens.
+    between steps, up to ``reach`` (`pairs.renew_distances`); rest_thickness (n,): at rest. rest (n,
+    3): positions at rest. low_nodes (i,), high_nodes (j,): nodes that may touch the lower and the
+    upper platen; low_rest, high_rest: their distances from it at rest. low, high: coordinates of
+    the platens.
     """
 
     stiffness: float
@@ -70,7 +71,7 @@ class Contact(NamedTuple):
 
 @jit_owning
 def build(stiffness, most_move, triangles, area, thickness, rest, low, high):
-    """Return the `Contact` of a surface, with room for walls that become twice as thick.
+    """Return the `Contact` of a surface, for a thickness up to `MOST_SWELLING` times that at rest.
 
     low, high: (nodes, distances at rest, coordinate) of the two platens. Others: as in `Contact`.
     """
@@ -213,14 +214,14 @@ def _meet_lower(contact, touching, p, f, s, triangle):
 
 
 @jit
-def _triangles(x, contact, pairs, p, reach, touching):
+def _triangles(x, contact, pairs, p, drift, touching):
     """Add the contacts of node ``p`` with triangles; return their energy, J."""
     total, at, weight = 0.0, point(x, p), 0.5 * contact.area[p]
     for q in range(pairs.start[p], pairs.start[p + 1]):
-        if pairs.bound[q] >= reach:
+        if pairs.bound[q] >= contact.reach + 2.0 * drift:
             break
         dc, k = pairs.d_contact[q], pairs.triangle[q]
-        if dc == 0.0:
+        if dc == 0.0 or pairs.bound[q] >= dc + 2.0 * drift:
             continue
         a = point(x, contact.triangles[k, 0])
         b, c = point(x, contact.triangles[k, 1]), point(x, contact.triangles[k, 2])
@@ -240,12 +241,12 @@ def _triangles(x, contact, pairs, p, reach, touching):
 
 
 @jit
-def _lower(x, contact, pairs, p, reach, touching):
+def _lower(x, contact, pairs, p, drift, touching):
     """Add the contacts of node ``p`` with sides and corners; return their energy, J."""
     total, at, n_nodes = 0.0, point(x, p), contact.area.size
     for j in range(pairs.lower_start[p], pairs.lower_start[p + 1]):
         dc, f, s = pairs.lower_contact[j], pairs.lower[j], 0.0
-        if pairs.lower_bound[j] >= reach:
+        if pairs.lower_bound[j] >= dc + 2.0 * drift:
             continue
         if f < n_nodes:
             r = minus(at, point(x, f))
@@ -314,7 +315,7 @@ def _edges(x, contact, pairs, drift, touching):
     total = 0.0
     for i in range(edges_within(pairs, EDGE_SHARE * contact.reach + 2.0 * drift)):
         dc, one, two = pairs.edge_contact[i], pairs.one[i], pairs.two[i]
-        if dc == 0.0:
+        if dc == 0.0 or pairs.edge_bound[i] >= dc + 2.0 * drift:
             continue
         a, b, c, d = (
             contact.edges[one, 0], contact.edges[one, 1],
@@ -349,10 +350,10 @@ def detect(x, contact, pairs, drift, touching):
     """
     touching.count[0], total = 0, 0.0
     for p in range(contact.area.size):
-        first, reach = touching.count[0], contact.reach + 2.0 * drift
-        energy = _triangles(x, contact, pairs, p, reach, touching)
+        first = touching.count[0]
+        energy = _triangles(x, contact, pairs, p, drift, touching)
         if touching.count[0] > first and energy < np.inf:
-            energy += _lower(x, contact, pairs, p, reach, touching)
+            energy += _lower(x, contact, pairs, p, drift, touching)
         _keep(touching, first)
         if not energy < np.inf:
             touching.count[0] = 0

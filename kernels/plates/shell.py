@@ -55,8 +55,9 @@ class Scratch(NamedTuple):
     """Arrays of one element: q (24,), its gradient ``slope`` (24,); p (12,), measure and
     ``resultant`` (9,) of a point, with ``rigidity`` (9, 9), ``moments``, ``rows`` (9, 12): M_k p,
     ``pushed`` (9, 12): rigidity x rows, ``by_p`` (12, 12), ``half`` (48, 24): by_p x dp/dq of all
-    points, ``grid`` (4, 4, 2): N_a,s and N_a,z of points and corners, ``edges`` (4, 24); ``turn``
-    (4, 3, 3): dd/dw of the corners, ``column`` (24, 3).
+    points, ``grid`` (4, 4, 2): N_a,s and N_a,z of points and corners; for shear, ``edges`` and
+    ``strained`` (7, 24), ``inner`` (7, 7); ``turn`` (4, 3, 3): dd/dw of the corners, ``column``
+    (24, 3).
     """
 
     q: np.ndarray
@@ -73,6 +74,8 @@ class Scratch(NamedTuple):
     grid: np.ndarray
     edges: np.ndarray
     row: np.ndarray
+    strained: np.ndarray
+    inner: np.ndarray
     turn: np.ndarray
     column: np.ndarray
 
@@ -83,8 +86,9 @@ def make_scratch():
     return Scratch(
         np.zeros(24), np.zeros(24), np.zeros(12), np.zeros(9), np.zeros(9), np.zeros((9, 9)),
         layers.make_moments(), np.zeros((9, 12)), np.zeros((9, 12)), np.zeros((12, 12)),
-        np.zeros((48, 24)), np.zeros((4, 4, 2)), np.zeros((4, 24)), np.zeros(24), np.zeros((4, 3, 3)),
-        np.zeros((24, 3)),
+        np.zeros((48, 24)), np.zeros((4, 4, 2)), np.zeros((shear.NUMBERS, 24)), np.zeros(24),
+        np.zeros((shear.NUMBERS, 24)), np.zeros((shear.NUMBERS, shear.NUMBERS)),
+        np.zeros((4, 3, 3)), np.zeros((24, 3)),
     )  # fmt: skip
 
 
@@ -227,6 +231,8 @@ def evaluate(x, frames, shell, law, scratch, gradient, stored):
         scratch.slope[:] = 0.0
         stiffness = shear.stiffnesses(shell.shear_modulus, thickness, size)
         sheared = shear.evaluate(scratch.q, size, shell.shear_rest[e], stiffness, scratch.slope)
+        if math.isinf(sheared):
+            return math.inf
         sheared += fold.evaluate(
             scratch.q, size, shell.shear_modulus * thickness * area, scratch.slope
         )
@@ -371,7 +377,10 @@ def hessian(x, frames, shell, law, e, scratch, second):
     second[:] = 0.0
     stiffness = shear.stiffnesses(shell.shear_modulus, thickness, size)
     shear.evaluate(scratch.q, size, shell.shear_rest[e], stiffness, scratch.slope)
-    shear.hessian(scratch.q, size, shell.shear_rest[e], stiffness, scratch.edges, second)
+    shear.hessian(
+        scratch.q, size, shell.shear_rest[e], stiffness, scratch.edges, scratch.strained,
+        scratch.inner, second,
+    )  # fmt: skip
     folding = shell.shear_modulus * thickness * area
     fold.evaluate(scratch.q, size, folding, scratch.slope)
     fold.hessian(scratch.q, size, folding, scratch.row, second)

@@ -48,3 +48,26 @@ def by_entry(joined):
 def reduction_to(home, nb):
     """Matrix (n, 3 nb) of ones where a coordinate has its home."""
     return (np.asarray(home)[:, None] == np.arange(3 * nb)).astype(float)
+
+
+def column(slender, compression, angle):
+    """Hessian of a clamped column of discrete hinges, and the pattern of its blocks.
+
+    Axial stiffness 1; compression as a share of the buckling load.
+    """
+    n = 12
+    first = np.eye(n) - np.eye(n, k=-1)
+    second = np.diff(np.vstack([np.zeros(n), first]), axis=0)
+    bending = (n / slender) ** 2 / 12.0 * second.T @ second
+    buckling = np.linalg.eigvals(np.linalg.solve(first.T @ first, bending)).real.min()
+    across = bending - compression * buckling * first.T @ first
+    along, normal = (
+        np.array([np.cos(angle), np.sin(angle)]),
+        np.array([-np.sin(angle), np.cos(angle)]),
+    )
+    full = np.zeros((n, 3, n, 3))
+    full[:, :2, :, :2] += np.einsum("ij,r,s->irjs", first.T @ first, along, along)
+    full[:, :2, :, :2] += np.einsum("ij,r,s->irjs", across, normal, normal)
+    full[:, 2, :, 2] = np.eye(n)
+    near = np.abs(np.subtract.outer(np.arange(n), np.arange(n))) < 3
+    return full.reshape(3 * n, 3 * n), filled(near)

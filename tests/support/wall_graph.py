@@ -29,3 +29,20 @@ def lattice_of_plates(cells, across, high, sizes=(5, 6)):
                 quads.append([node(row * across, i, k) for i, k in corners])
     pairs = np.array([(quad[a], quad[b]) for quad in quads for a, b in QUAD])
     return np.array(block), pairs, np.array(points)
+
+
+def folded(points, height):
+    """The positions (nb, 3) when walls wave to alternate sides, a period of two cells, and the
+    lattice is ``height`` times as high.
+    """
+    x, y, z = points.T
+    wave = 0.45 * np.sin(np.pi * z)
+    along_x, along_y = y % 1.0 == 0.0, x % 1.0 == 0.0
+    dx, dy = wave * np.sin(np.pi * y) * along_y, wave * np.sin(np.pi * x) * along_x
+    return np.column_stack([x + dx, y + dy, height * z])
+
+
+def near_pairs(points, distance):
+    """Pairs (k, 2) of points that are less than ``distance`` apart."""
+    apart = np.linalg.norm(points[:, None] - points[None], axis=2)
+    return np.argwhere(np.triu(apart < distance, 1))

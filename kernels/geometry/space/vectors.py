@@ -57,9 +57,13 @@ def length(a):
 
 @jit_exact
 def combined(q, a, b, c, d):
-    """Return the sum of four vectors with the weights ``q``."""
+    """Return the sum of four vectors with weights ``q`` that add up to zero.
+
+    Only differences of the vectors enter: far from the origin nothing is lost.
+    """
+    u, v, w = minus(b, a), minus(c, a), minus(d, a)
     return (
-        q[0] * a[0] + q[1] * b[0] + q[2] * c[0] + q[3] * d[0],
-        q[0] * a[1] + q[1] * b[1] + q[2] * c[1] + q[3] * d[1],
-        q[0] * a[2] + q[1] * b[2] + q[2] * c[2] + q[3] * d[2],
+        q[1] * u[0] + q[2] * v[0] + q[3] * w[0],
+        q[1] * u[1] + q[2] * v[1] + q[3] * w[1],
+        q[1] * u[2] + q[2] * v[2] + q[3] * w[2],
     )

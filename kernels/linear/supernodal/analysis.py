@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from kernels.arrays import grouped
-from kernels.compile.jit import jit_exact, jit_owning
+from kernels.compile.jit import jit_exact, jit_owning, separate
 from kernels.linear import minimum_degree
 from kernels.linear.supernodal.dissection import dissect, neighbours
-from kernels.linear.supernodal.elimination import columns, supernodes
+from kernels.linear.supernodal.elimination import children, columns, supernodes
 from kernels.linear.supernodal.matrix import COLUMNS, ROWS, Matrix, rounded_up
 
 
@@ -61,8 +60,8 @@ def _sums(numbers):
 
 @jit_owning
 def _rows_up(column, lower, row, parent):
-    """Return the row (m,) in the front of the parent for each row below a supernode."""
-    up = np.zeros(row.size, np.int64)
+    """Return (up, beside), (m,) each: see `Matrix`."""
+    up, beside = np.zeros(row.size, np.int64), np.zeros(row.size, np.int64)
     for s in range(parent.size):
         t = parent[s]
         if t >= 0:
@@ -74,7 +73,23 @@ def _rows_up(column, lower, row, parent):
                     while row[at] != row[q]:
                         at += 1
                     up[q] = pivots + at - lower[t]
-    return up
+                wide = rounded_up(column[t + 1] - column[t], COLUMNS)
+                beside[q] = up[q] // ROWS * ROWS * wide + up[q] % ROWS
+    return up, beside
+
+
+@jit_owning
+def _runs(lower, up):
+    """Return (run_start (ns + 1,), run): see `Matrix`."""
+    run_start, run, count = np.empty(lower.size, np.int64), np.empty(up.size + 1, np.int64), 0
+    for s in range(lower.size - 1):
+        run_start[s] = count
+        for q in range(lower[s], lower[s + 1]):
+            if q == lower[s] or up[q] != up[q - 1] + 1 or up[q] % ROWS == 0:
+                run[count] = q
+                count += 1
+    run_start[-1], run[count] = count, up.size
+    return run_start, run[: count + 1].copy()
 
 
 @jit_owning
@@ -96,7 +111,7 @@ def _update_starts(lower, child_start, child):
         for k in range(count, before, -1):
             live[k] = live[k - 1]
         live[before] = s
-        for q in range(child_start[s + 1], child_start[s + 2]):
+        for q in range(child_start[s], child_start[s + 1]):
             size[child[q]] = 0
         for k in range(count + 1):
             if size[live[k]] > 0:
@@ -151,6 +166,7 @@ def _unknown_rows(below, rows, begin):
     return offset, lower, row
 
 
+@separate
 @jit_owning
 def analyse(sizes, pairs, points):
     """Return a zero `Matrix`.
@@ -175,16 +191,19 @@ def analyse(sizes, pairs, points):
     for s in range(ns + 1):
         column[s] = begin[block[s]]
     for s in range(ns):
-        supernode[block[s] : block[s + 1]] = s
+        for p in range(block[s], block[s + 1]):
+            supernode[p] = s
     home, unknown = _expanded(sequence, begin, first)
     offset, lower, row = _unknown_rows(below, rows, begin)
-    child_start, child = grouped(above + 1, ns + 1)
+    child_start, child = children(above)
     panel, tile, widest, tallest = _panels(column, lower)
     update, room = _update_starts(lower, child_start, child)
+    up, beside = _rows_up(column, lower, row, above)
+    run_start, run = _runs(lower, up)
     n = begin[nb]
     return Matrix(
         first, place, home, begin, supernode, unknown, block, column, below, rows, offset, lower,
-        row, _rows_up(column, lower, row, above), child_start, child, panel, tile, update,
+        row, up, beside, run_start, run, child_start, child, panel, tile, update,
         np.zeros(panel[ns]), np.zeros(tile[ns]), np.zeros(room), np.zeros(n), np.zeros(n),
         np.zeros(n), np.zeros(n), np.zeros(tallest), np.zeros(COLUMNS * widest),
         np.zeros(COLUMNS * max(widest, 1)), np.zeros(1, np.int64), np.full(1, -1),

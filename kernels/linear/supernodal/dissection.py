@@ -3,18 +3,16 @@
 A part of the graph is cut in two where a plane leaves the fewest unknowns on the cut: the blocks on
 one side of the plane that have neighbours on the other are eliminated after both halves, which are
 cut in the same way (George 1973, SIAM J. Numer. Anal. 10: Nested dissection of a regular finite
-element mesh). All planes across each of `DIRECTIONS` are compared.
+element mesh). All planes across the three axes are compared.
 """
 
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
 
-DIRECTIONS = np.array(
-    [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 1.0, 0.0), (1.0, -1.0, 0.0)]
-)
 SMALLEST = 8  # blocks; a part that is not larger is not cut
 LIGHTEST = 0.25  # least share of a part on each side of a cut
+UNEQUAL = 4.0  # cost of a cut into unequal halves: times 1 + this times the difference squared
 CROWDED = 10.0  # a block with more neighbours than this times sqrt(blocks) is eliminated last
 
 
@@ -111,10 +109,17 @@ def _best_cut(weight, sorted_nodes, before, after):
         if LIGHTEST * whole <= left <= (1.0 - LIGHTEST) * whole:
             tilt = (2.0 * left - whole) / whole
             for one in range(2):
-                cut = (1.0 + tilt * tilt) * (before[m] if one == 0 else after[m])
+                cut = (1.0 + UNEQUAL * tilt * tilt) * (before[m] if one == 0 else after[m])
                 if cut < cost:
                     cost, best, side = cut, m, one
     return cost, best, side
+
+
+@jit_exact
+def _number(part, rank):
+    """Fill ``rank`` with the place of each block in ``part``."""
+    for r in range(part.size):
+        rank[part[r]] = r
 
 
 @jit_exact
@@ -185,23 +190,21 @@ def dissect(start, near, weight, points):
         if high - low <= SMALLEST:
             continue
         part, cost, m, side = order[low:high], np.inf, 0, 0
-        for d in range(DIRECTIONS.shape[0]):
+        for axis in range(3):
             for v in part:
-                key[v] = 0.0
-                for axis in range(3):
-                    key[v] += DIRECTIONS[d, axis] * points[v, axis]
+                key[v] = points[v, axis]
             _sort(key, part, other)
-            for r in range(part.size):
-                rank[part[r]] = r
+            _number(part, rank)
             _cut_weights(start, near, weight, rank, part, before, after)
             found, at, one = _best_cut(weight, part, before, after)
             if found < cost:
                 cost, m, side = found, at, one
-                best[: part.size] = part
+                for r in range(part.size):
+                    best[r] = part[r]
         if cost < np.inf:
-            part[:] = best[: part.size]
             for r in range(part.size):
-                rank[part[r]] = r
+                part[r] = best[r]
+            _number(part, rank)
             left, right = _divide(start, near, rank, part, other, m, side)
             parts[waiting] = low, low + left
             parts[waiting + 1] = low + left, low + left + right

@@ -4,7 +4,7 @@ Pivots that are zero within round-off are treated as in `block_ldlt`, whose `ROU
 `THROUGH` are understood here.
 """
 
-from kernels.compile.jit import jit, jit_exact
+from kernels.compile.jit import jit, jit_exact, separate
 from kernels.linear.block_ldlt import ROUNDED, SOFT, THROUGH, regularised
 from kernels.linear.supernodal.dense import divide, pack, subtract
 from kernels.linear.supernodal.fronts import assemble, strip
@@ -24,7 +24,7 @@ def _is_rounded(matrix, s, place, pivot):
 
 @jit_exact
 def _pivot(matrix, s, place, found, scale, rounded):
-    """Return the pivot ``found`` at ``place``, or its replacement if it is zero within round-off."""
+    """Return ``found``, or its replacement if that pivot is zero within round-off."""
     own = matrix.own[place]
     pivot = regularised(found, own, scale, rounded)
     if pivot < 0.0 and rounded != THROUGH and _is_rounded(matrix, s, place, pivot):
@@ -57,7 +57,7 @@ def _factor_corner(matrix, s, k, scale, rounded):
 
 @jit_exact
 def _inverses(matrix, s, k):
-    """Return the inverses of the four pivots from column ``k`` on; 0 of those that are not there."""
+    """Return the inverses of the four pivots from column ``k`` on; 0 beyond the last."""
     at, last = matrix.column[s] + k, matrix.column[s + 1]
     inverse = matrix.inverse
     return (
@@ -124,13 +124,14 @@ def _read_diagonal(matrix, weights, shift):
             matrix.own[place] = entry + shift * weights[matrix.unknown[place]]
 
 
+@separate
 @jit_exact
 def factor(matrix, scale, weights, shift, rounded):
     """Factor A + shift diag(weights) = L D L^T; ``values`` keeps A.
 
     Return (failed, pivot): unknown and value of the first negative pivot, -1 if none. scale (n,):
     stiffness of each unknown, of its unit, beside which a pivot is zero within round-off. weights
-    (n,): not used if shift is zero. rounded: `ROUNDED`, `CONVEX` or `THROUGH`.
+    (n,): by unknown. rounded: `ROUNDED`, `CONVEX` or `THROUGH`.
     """
     _read_diagonal(matrix, weights, shift)
     matrix.failed[0] = -1

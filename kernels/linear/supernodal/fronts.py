@@ -8,6 +8,7 @@ block below the columns, column by column.
 """
 
 from kernels.compile.jit import jit, jit_exact
+from kernels.compile.simd import LANES, load, store
 from kernels.linear.supernodal.matrix import COLUMNS, ROWS, rounded_up, size
 
 
@@ -21,12 +22,19 @@ def strip(matrix, s, row):
 @jit
 def _fill_strip(values, panel, step, width, count, tiles, at):
     """Copy ``count`` rows of a panel, whose columns are ``step`` apart, to the strip at ``at``."""
-    for k in range(width):
-        of, to = panel + step * k, at + ROWS * k
-        for i in range(count):
-            tiles[to + i] = values[of + i]
-        for i in range(count, ROWS):
-            tiles[to + i] = 0.0
+    if count == ROWS:
+        for k in range(width):
+            of, to = panel + step * k, at + ROWS * k
+            store(tiles, to, load(values, of))
+            store(tiles, to + 4, load(values, of + 4))
+            store(tiles, to + 8, load(values, of + 8))
+    else:
+        for k in range(width):
+            of, to = panel + step * k, at + ROWS * k
+            for i in range(count):
+                tiles[to + i] = values[of + i]
+            for i in range(count, ROWS):
+                tiles[to + i] = 0.0
     for i in range(at + ROWS * width, at + ROWS * rounded_up(width, COLUMNS)):
         tiles[i] = 0.0
 
@@ -49,32 +57,53 @@ def _fill(matrix, s):
 
 
 @jit
+def _add_run(source, of, target, to, count):
+    """Add ``count`` entries of ``source`` from ``of`` on to those of ``target`` from ``to`` on."""
+    whole = count // LANES * LANES
+    for i in range(0, whole, LANES):
+        store(target, to + i, load(target, to + i) + load(source, of + i))
+    for i in range(whole, count):
+        target[to + i] += source[of + i]
+
+
+@jit
 def _pass_on(matrix, child, s):
     """Add the update of ``child`` to the front of its parent ``s``."""
     (w, r), (_, count) = size(matrix, s), size(matrix, child)
-    pivots, step = rounded_up(w, ROWS), rounded_up(count, ROWS)
-    first, up, updates, tiles = matrix.lower[child], matrix.up, matrix.updates, matrix.tiles
-    wide, height = ROWS * rounded_up(w, COLUMNS), rounded_up(r, ROWS)
-    for c in range(count):
-        of, k = matrix.update[child] + step * c, up[first + c]
+    first, up, run = matrix.lower[child], matrix.up, matrix.run
+    height, step, pivots = rounded_up(r, ROWS), rounded_up(count, ROWS), rounded_up(w, ROWS)
+    p, last = matrix.run_start[child], matrix.run_start[child + 1]
+    for c in range(first, first + count):
+        p += run[p + 1] == c
+        of, k = matrix.update[child] + step * (c - first) - first, up[c]
         if k < w:
             to = matrix.tile[s] + ROWS * k
-            for i in range(c, count):
-                row = up[first + i]
-                tiles[to + row // ROWS * wide + row % ROWS] += updates[of + i]
+            for i in range(p, last):
+                row = max(run[i], c)
+                at = to + matrix.beside[row]
+                _add_run(matrix.updates, of + row, matrix.tiles, at, run[i + 1] - row)
         else:
             to = matrix.update[s] + (k - pivots) * height - pivots
-            for i in range(c, count):
-                updates[to + up[first + i]] += updates[of + i]
+            for i in range(p, last):
+                row = max(run[i], c)
+                _add_run(matrix.updates, of + row, matrix.updates, to + up[row], run[i + 1] - row)
+
+
+@jit
+def _clear_update(matrix, s):
+    """Set the strips of the lower half of the update of supernode ``s`` to zero."""
+    _, r = size(matrix, s)
+    height = rounded_up(r, ROWS)
+    for c in range(rounded_up(r, COLUMNS)):
+        at = matrix.update[s] + c * height
+        for i in range(at + c // ROWS * ROWS, at + height):
+            matrix.updates[i] = 0.0
 
 
 @jit
 def assemble(matrix, s):
     """Fill the front of supernode ``s``: tiles and update."""
     _fill(matrix, s)
-    _, r = size(matrix, s)
-    at = matrix.update[s]
-    for i in range(at, at + rounded_up(r, ROWS) * rounded_up(r, COLUMNS)):
-        matrix.updates[i] = 0.0
-    for q in range(matrix.child_start[s + 1], matrix.child_start[s + 2]):
+    _clear_update(matrix, s)
+    for q in range(matrix.child_start[s], matrix.child_start[s + 1]):
         _pass_on(matrix, matrix.child[q], s)

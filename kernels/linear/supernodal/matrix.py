@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.arrays import zero
-from kernels.compile.jit import jit, jit_exact
+from kernels.compile.jit import jit, jit_exact, jit_owning
 
 ROWS = 12  # of a tile: see `dense`
 COLUMNS = 4
@@ -27,11 +27,12 @@ class Matrix(NamedTuple):
 
     By supernode: block, column (ns + 1,): place of its first block and unknown. below (ns + 1,):
     its rows of blocks are below[s]:below[s + 1] of `rows`, their places, and of `offset`, the row
-    of their first unknown below the columns. lower (ns + 1,): its rows are lower[s]:lower[s + 1] of
-    `row`, their places, and of `up`, their rows in the front of the parent (see `fronts`).
-    child_start (ns + 2,), child: the children of supernode s are
-    child[child_start[s + 1]:child_start[s + 2]]. panel, tile, update: where its panel in
-    `values`, its tiles in `tiles` and its update in `updates` start.
+    of their first unknown below the columns. lower (ns + 1,): its rows are lower[s]:lower[s + 1]
+    of `row`, their places, of `up`, their rows in the front of the parent, and of `beside`, where
+    those start in its tiles (see `fronts`). run_start (ns + 1,), run: neighbours in a strip of the
+    parent are the rows from run[run_start[s]] on, from run[run_start[s] + 1] on, and so on.
+    child_start (ns + 2,), child: see `elimination.children`. panel, tile (ns + 1,), update (ns,):
+    where its panel in `values`, its tiles in `tiles` and its update in `updates` start.
 
     values: entries. tiles: factor. updates: what is passed on to parents. own, pivots, inverse
     (n,): diagonal before the factor, pivots and their inverses. vector (n,), front, sums, pack:
@@ -53,6 +54,9 @@ class Matrix(NamedTuple):
     lower: np.ndarray
     row: np.ndarray
     up: np.ndarray
+    beside: np.ndarray
+    run_start: np.ndarray
+    run: np.ndarray
     child_start: np.ndarray
     child: np.ndarray
     panel: np.ndarray
@@ -136,6 +140,42 @@ def scatter(matrix, found, part, top, left, height, width):
     for c in range(width):
         for r in range(height):
             matrix.values[at + r * down + c * across] += part[top + r, left + c]
+
+
+@jit_owning
+def places(matrix, blocks):
+    """Return the `place` (m, k (k + 1) / 2, 3) of all pairs of the ``blocks`` (m, k) of elements:
+    that of (blocks[e, a], blocks[e, b]), b <= a, is found[e, a (a + 1) / 2 + b].
+    """
+    m, k = blocks.shape
+    found = np.empty((m, k * (k + 1) // 2, 3), np.int64)
+    for e in range(m):
+        for a in range(k):
+            for b in range(a + 1):
+                pair = a * (a + 1) // 2 + b
+                at, down, across = place(matrix, blocks[e, a], blocks[e, b])
+                found[e, pair, 0], found[e, pair, 1], found[e, pair, 2] = at, down, across
+    return found
+
+
+@jit
+def add_element(matrix, found, part, first, count):
+    """Add the symmetric array ``part`` of an element whose `places` are ``found``.
+
+    first, count (k,): rows of ``part`` that belong to the unknowns of each block: the first
+    ``count[a]`` unknowns of block a are rows first[a], first[a] + 1, ...; 0: none of them. Where a
+    pair with unknowns has no room, ``missing`` is set.
+    """
+    pair = 0
+    for a in range(first.size):
+        for b in range(a + 1):
+            if count[a] > 0 and count[b] > 0:
+                if found[pair, 0] < 0:
+                    matrix.missing[0] = 1
+                else:
+                    block = found[pair, 0], found[pair, 1], found[pair, 2]
+                    scatter(matrix, block, part, first[a], first[b], count[a], count[b])
+            pair += 1
 
 
 @jit

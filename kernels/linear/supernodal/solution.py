@@ -128,7 +128,9 @@ def descend_to(matrix, supernode, failed):
 
 @jit_exact
 def descend(matrix, direction):
-    """Fill ``direction`` (n,), by unknown, with d such that d^T A d is the negative pivot."""
+    """Fill ``direction`` (n,), by unknown, with d such that d^T A d is the negative pivot
+    that `factor` returned.
+    """
     low, high, failed = 0, matrix.column.size - 1, matrix.failed[0]
     while high - low > 1:
         middle = (low + high) // 2

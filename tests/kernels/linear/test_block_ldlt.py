@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.linear import block_ldlt, block_matrix
-from tests.support.blocks import NB, by_entry, filled, put, random_pattern, shaped
+from tests.support.blocks import NB, by_entry, column, put, random_pattern, shaped
 from tests.support.terms import by_home
 
 
@@ -123,29 +123,6 @@ def test_motions_without_stiffness_are_not_moved_along(loose, scale):
     y = solved(matrix, b)
     assert np.abs(y).max() < 1e3
     np.testing.assert_allclose(full @ y, b, rtol=0, atol=1e-7 * scale)
-
-
-def column(slender, compression, angle):
-    """Hessian of a clamped column of discrete hinges, and the pattern of its blocks.
-
-    Axial stiffness 1; compression as a share of the buckling load.
-    """
-    n = 12
-    first = np.eye(n) - np.eye(n, k=-1)
-    second = np.diff(np.vstack([np.zeros(n), first]), axis=0)
-    bending = (n / slender) ** 2 / 12.0 * second.T @ second
-    buckling = np.linalg.eigvals(np.linalg.solve(first.T @ first, bending)).real.min()
-    across = bending - compression * buckling * first.T @ first
-    along, normal = (
-        np.array([np.cos(angle), np.sin(angle)]),
-        np.array([-np.sin(angle), np.cos(angle)]),
-    )
-    full = np.zeros((n, 3, n, 3))
-    full[:, :2, :, :2] += np.einsum("ij,r,s->irjs", first.T @ first, along, along)
-    full[:, :2, :, :2] += np.einsum("ij,r,s->irjs", across, normal, normal)
-    full[:, 2, :, 2] = np.eye(n)
-    near = np.abs(np.subtract.outer(np.arange(n), np.arange(n))) < 3
-    return full.reshape(3 * n, 3 * n), filled(near)
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.5])

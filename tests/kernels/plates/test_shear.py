@@ -20,7 +20,8 @@ def term(rest):
 
     def second(q, projected):
         full = np.zeros((24, 24))
-        shear.hessian(q, SIZE, rest, STIFFNESS, np.empty((4, 24)), full)
+        rows, pushed, inner = np.empty((7, 24)), np.empty((7, 24)), np.empty((7, 7))
+        shear.hessian(q, SIZE, rest, STIFFNESS, rows, pushed, inner, full)
         return full
 
     return Term(slope, second)
@@ -68,3 +69,22 @@ def test_stiffness_is_that_of_shear_in_small_elements_and_of_bending_in_long_one
     long = shear.stiffnesses(modulus, thickness, (1e3, 1e-3))
     assert long[0] == pytest.approx(d / shear.BETA / 1e6, rel=1e-4)
     assert long[1] == pytest.approx(modulus * thickness, rel=1e-4)
+
+
+def test_a_strained_wall_is_as_stiff_as_one_of_rubber():
+    """C33 = (1 + C_a3 adj(A)_ab C_b3) / det A, with C_a3 = g_a (det A)^(-1/2)."""
+    f, g = np.array([[0.8, 0.0], [0.1, 1.1], [0.0, 0.3]]), np.array([0.02, -0.03])
+    a = f.T @ f
+    normal = np.cross(*f.T) / np.sqrt(np.linalg.det(a))
+    directors = f @ np.linalg.solve(a, g) + normal  # of which x,a . d = g
+    q = state(directors, (f @ FLAT[:, :2].T).T)
+    across = g / np.sqrt(np.linalg.det(a))
+    adjugate = np.linalg.det(a) * np.linalg.inv(a)
+    expected = 0.5 * across @ adjugate @ across / np.linalg.det(a)
+    found = shear.evaluate(q, SIZE, np.zeros(4), (1.0, 1.0), np.zeros(24))
+    assert found == pytest.approx(expected, rel=1e-12)
+
+
+def test_an_element_without_area_takes_infinite_energy():
+    q = state([0.1, 0.0, 1.0], FLAT * [1.0, 0.0, 1.0])
+    assert shear.evaluate(q, SIZE, np.zeros(4), STIFFNESS, np.zeros(24)) == np.inf

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 LAWS, TERMS = "kernels/laws", "kernels/terms"
 SOLVE, LINEAR = "kernels/solve", "kernels/linear"
+PLATES, SPACE = "kernels/plates", "kernels/geometry/space"
 
 
 class Mutant(NamedTuple):
@@ -260,5 +261,57 @@ MUTANTS = [
             "(tangent, last_move, arc.weight) > 0.0 else 1.0",
         ),
         tests=f"{SOLVE}/test_chain.py::test_an_arc_follows_the_slope_of_the_well",
+    ),
+    *_of(
+        f"{SPACE}/derivatives.py",
+        ("space: across the closest points", "factor * part * q[i]", "-factor * part * q[i]"),
+        (
+            "space: turning normal",
+            "(0.0, -force, -force * d))\n        _add(K, q, sigma",
+            "(0.0, force, -force * d))\n        _add(K, q, sigma",
+        ),
+        ("space: projection", "scale = -force * eigenvalue", "scale = force * eigenvalue"),
+    ),
+    *_of(
+        f"{SPACE}/parallel.py",
+        ("parallel edges: second derivative", "- inner(u, v) * same", "+ inner(u, v) * same"),
+    ),
+    *_of(
+        f"{SPACE}/advancement.py",
+        (
+            "advancement: whole distance",
+            "share = (1.0 - KEPT) * distance / speed\n    return s",
+            "share = 3.0 * distance / speed\n    return s",
+        ),
+    ),
+    *_of(
+        f"{PLATES}/pairs.py",
+        (
+            "surfaces: corners",
+            "weight[contact.edges[listed[j] - n_nodes, i]] -= weight",
+            "weight[contact.edges[listed[j] - n_nodes, i]] += weight",
+        ),
+        tests=f"{PLATES}/test_contact.py::test_parallel_sheets_count_once_at_any_mesh",
+    ),
+    *_of(
+        f"{PLATES}/contact.py",
+        ("surfaces: edges that turn", "0] + k] -= value * first", "0] + k] += value * first"),
+        tests=f"{PLATES}/test_contact.py::test_derivatives_of_parallel_edges",
+    ),
+    *_of(
+        f"{PLATES}/contact.py",
+        ("surfaces: platen", "g[platen] -= side * slope", "g[platen] += side * slope"),
+        tests=f"{PLATES}/test_contact.py::test_derivatives_against_platens",
+    ),
+    *_of(
+        f"{PLATES}/contact.py",
+        ("surfaces: half of a side", "touching, p, e, s, k)", "touching, p, e, 1.0 - s, k)"),
+        tests=f"{PLATES}/test_contact.py::test_derivatives_above_corners_sides_and_the_rim",
+    ),
+    *_of(
+        f"{PLATES}/friction.py",
+        ("friction in space: rotation", "_turn(slopes, 1, d, u", "_turn(slopes, 1, -d, u"),
+        ("friction in space: mixed", "-0.5 * slope * (one * f", "0.5 * slope * (one * f"),
+        ("friction in space: dual", "+ c12 * move[1]", "- c12 * move[1]"),
     ),
 ]

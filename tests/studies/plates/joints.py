@@ -43,7 +43,7 @@ def held(kind: str, of: Structure) -> Places:
 
 
 def factor(kind: str, n: int, thickness: float = 0.025) -> float:
-    """K of the walls."""
+    """Factor k of the walls."""
     of = build(kind, n, thickness)
     stress = MODULUS * buckling_strain(of, np.unique(held(kind, of)))[0]
     return stress * thickness / (np.pi**2 * rigidity(thickness))

@@ -12,6 +12,7 @@ Floats = NDArray[np.float64]
 Places = NDArray[np.int64]
 
 STRAIN = 1e-5  # of the states between which stiffness is differentiated
+ROUNDED = 1e-4  # steps below this change the energy by round-off
 
 
 def coordinates(of: Structure) -> Places:
@@ -31,6 +32,12 @@ def stiffness(of: Structure, x: Floats) -> csc_matrix:
     rows, columns = np.repeat(at, 24, axis=1).ravel(), np.tile(at, (1, 24)).ravel()
     n = 6 * len(of.points)
     return coo_matrix((own.ravel(), (rows, columns)), shape=(n, n)).tocsc()
+
+
+def energy(of: Structure, x: Floats) -> float:
+    """Energy in J at ``x``."""
+    room, g = shell.make_scratch(), np.zeros_like(x)
+    return float(shell.evaluate(x, of.frames, of.walls, LINEAR, room, g, np.zeros(3)))
 
 
 def slopes(of: Structure, x: Floats) -> Floats:
@@ -70,19 +77,31 @@ def deflection(of: Structure, held: Places, force: Floats) -> Floats:
 def relaxed(of: Structure, x: Floats, held: Places, force: Floats) -> tuple[Structure, Floats]:
     """Equilibrium under dead forces (6 n,) on positions by Newton's method, from ``x``.
 
-    The rotations are passed on to the frames after every step.
+    The rotations are passed on to the frames after every step. Directions of negative stiffness are
+    followed downhill, so that the state found is stable.
     """
     at, frames = free(of, held), of.frames.copy()
     moved = Structure(of.points, frames, of.walls)
     size = None
-    for _ in range(60):
+    for _ in range(200):
         rotation.rebase(frames, x)
         residual = slopes(moved, x) - force
-        dx = -spsolve(stiffness(moved, x)[at][:, at], residual[at])
-        largest = np.abs(dx / of.unit[at]).max()
-        x[at] += dx * min(1.0, 0.3 / largest)
-        if largest < 1e-9:
+        unit = of.unit[at]
+        matrix = stiffness(moved, x)[at][:, at].toarray() * np.outer(unit, unit)
+        values, modes = np.linalg.eigh(matrix)
+        dx = -modes @ ((modes.T @ (residual[at] * unit)) / np.abs(values))
+        largest = np.abs(dx).max()
+        dx *= unit * min(1.0, 0.3 / largest)
+        before = energy(moved, x) - force @ x[:-2]
+        for _ in range(30):
+            tried = x.copy()
+            tried[at] += dx
+            if largest < ROUNDED or energy(moved, tried) - force @ tried[:-2] <= before:
+                break
+            dx *= 0.5
+        x = tried
+        if largest < 1e-8 and values[0] > 0.0:
             rotation.rebase(frames, x)
             return moved, x
         size = largest
-    raise RuntimeError(f"no equilibrium after 60 steps; the last one was {size:g}")
+    raise RuntimeError(f"no equilibrium after 200 steps; the last one was {size:g}")

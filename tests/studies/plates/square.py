@@ -5,14 +5,29 @@ in the centre (S. Timoshenko and S. Woinowsky-Krieger, 1959; S. Timoshenko and J
 """
 
 import numpy as np
+from scipy.optimize import brentq
 
-from tests.studies.plates.model import Floats, Places, buckling_strain, coordinates, deflection
+from tests.studies.plates.model import (
+    Floats,
+    Places,
+    buckling_strain,
+    coordinates,
+    deflection,
+    free,
+    stiffness,
+)
 from tests.support.shells import MODULUS, Structure, plate
 
 SUPPORTED, CLAMPED = "simply supported", "clamped"
 X, Y, Z, ABOUT_S, ABOUT_Z, ABOUT_N = range(6)
 LONGEST_WAVE = 0.661  # length over width of the half wave of a long plate with clamped sides
 KAPPA = 5.0 / 6.0
+BUCKLING = [
+    (SUPPORTED, SUPPORTED, 4.0),
+    (CLAMPED, SUPPORTED, 6.97),
+    (CLAMPED, CLAMPED, 10.07),
+]
+PRESSURE = [(SUPPORTED, 0.00406235), (CLAMPED, 0.00126532)]
 
 
 def held(of: Structure, sides: str, ends: str) -> Places:
@@ -34,11 +49,28 @@ def rigidity(thickness: float) -> float:
 
 
 def factor(n: int, sides: str, ends: str, thickness: float = 0.001) -> float:
-    """K of a plate of width 1 with n quads a side."""
+    """Factor k of a plate of width 1 with n quads a side."""
     height = LONGEST_WAVE if (sides, ends) == (CLAMPED, SUPPORTED) else 1.0
     of = plate(n, n, 1.0, height, thickness)
     stress = MODULUS * buckling_strain(of, held(of, sides, ends))[0]
     return stress * thickness / (np.pi**2 * rigidity(thickness))
+
+
+def critical_strain(n: int, thickness: float) -> float:
+    """Strain at which a simply supported neo-Hookean plate that is compressed along z and free to
+    widen loses its stiffness.
+    """
+    of = plate(n, n, 1.0, 1.0, thickness)
+    kept = free(of, held(of, SUPPORTED, SUPPORTED))
+
+    def least(strain: float) -> float:
+        x = of.rest
+        wider = (1.0 - strain) ** -0.5
+        x[:-2].reshape(-1, 6)[:, :3] *= [wider, 1.0, 1.0 - strain]
+        values = np.linalg.eigvalsh(stiffness(of, x)[kept][:, kept].toarray())
+        return float(values[0])
+
+    return float(brentq(least, 1e-7, 0.4, xtol=1e-9))
 
 
 def knock_down(n: int, thickness: float) -> float:
@@ -67,7 +99,7 @@ def pressure(of: Structure, n: int, size: Floats) -> Floats:
 
 
 def pressed(n: int, edges: str, thickness: float = 0.001) -> float:
-    """W D / (q b^4) in the centre of a square plate under uniform pressure."""
+    """Deflection w D / (q b^4) in the centre of a square plate under uniform pressure."""
     of = plate(n, n, 1.0, 1.0, thickness)
     force = pressure(of, n, np.ones(len(of.points)))
     u = deflection(of, held(of, edges, edges), force)

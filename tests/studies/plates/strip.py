@@ -1,4 +1,4 @@
-"""Strips that are held across: rolled by a moment, pushed over, and thick ones under compression."""
+"""Strips that are held across: rolled by a moment, pushed over, compressed when thick."""
 
 import numpy as np
 from scipy.optimize import brentq
@@ -30,7 +30,7 @@ def bending(of: Structure, thickness: float) -> float:
     return MODULUS * thickness**3 / 12 / 0.75 * of.points[:, 2].max()
 
 
-def rolled(n: int, thickness: float = 1e-3) -> tuple[float, float]:
+def rolled(n: int, thickness: float = 2e-3) -> tuple[float, float]:
     """M L / (D b) of a strip whose end is turned by 2 pi, over 2 pi; and how far it is open."""
     of, x = strip(n, thickness), strip(n, thickness).rest
     end = of.points[:, 0] == 1.0
@@ -64,7 +64,7 @@ def column(tip: float) -> tuple[float, float]:
     return (2.0 / np.pi * ellipk(p)) ** 2, 2.0 * ellipe(p) / ellipk(p) - 1.0
 
 
-def pushed(n: int, tip: float, thickness: float = 1e-3) -> float:
+def pushed(n: int, tip: float, thickness: float = 0.01) -> float:
     """Height over length of a column under the load at which its end leans by ``tip``."""
     of = strip(n, thickness)
     end = of.points[:, 0] == 1.0
@@ -103,4 +103,4 @@ def exact_stretch(thickness: float) -> float:
         q = stretch * stretch
         return float(np.tanh(k) / np.tanh(k / q) - (1 + q * q) ** 2 / (4 * q))
 
-    return float(brentq(apart, 0.55, 0.99999, xtol=1e-14))
+    return float(brentq(apart, 0.54, 0.99999, xtol=1e-14))

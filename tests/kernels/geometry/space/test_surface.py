@@ -51,6 +51,6 @@ def test_vectors():
     assert inner(a, b) == pytest.approx(a @ b)
     assert length(a) == pytest.approx(np.linalg.norm(a))
     np.testing.assert_allclose(
-        combined((1.0, -2.0, 0.5, 3.0), a, b, c, d), a - 2.0 * b + 0.5 * c + 3.0 * d
+        combined((-1.5, -2.0, 0.5, 3.0), a, b, c, d), -1.5 * a - 2.0 * b + 0.5 * c + 3.0 * d
     )
     assert row(np.stack([a, b]), 1) == tuple(b)

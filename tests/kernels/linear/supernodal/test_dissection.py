@@ -1,0 +1,67 @@
+"""Nested dissection: an order with separators that are small."""
+
+import numpy as np
+import pytest
+
+from kernels.linear.supernodal.dissection import SMALLEST, dissect, neighbours
+from kernels.linear.supernodal.elimination import columns
+from tests.support.supernodes import random_blocks
+from tests.support.wall_graph import lattice_of_plates
+
+
+@pytest.mark.parametrize("n", [1, 2, 9, 60, 200])
+@pytest.mark.parametrize("seed", range(3))
+def test_every_block_is_eliminated_once(seed, n):
+    rng = np.random.default_rng(seed)
+    sizes, pairs, points = random_blocks(rng, n, 1.5 / n)
+    order = dissect(*neighbours(n, pairs), sizes, points)
+    np.testing.assert_array_equal(np.sort(order), np.arange(n))
+
+
+def test_neighbours():
+    pairs = np.array([(0, 2), (2, 0), (1, 2), (2, 2), (2, 4)])
+    start, near = neighbours(5, pairs)
+    found = [set(near[start[i] : start[i + 1]]) for i in range(5)]
+    assert found == [{2}, {2}, {0, 1, 4}, set(), {2}]
+    assert len(near) == 6
+
+
+@pytest.mark.parametrize("axis", range(3))
+def test_a_long_grid_is_cut_across(axis):
+    """The last blocks are a plane of 3 x 4 blocks that separates both halves."""
+    shape = np.insert([3, 4], axis, 30)
+    points = np.argwhere(np.ones(shape)).astype(float)
+    near = np.abs(points[:, None] - points[None]).max(axis=2) == 1.0
+    order = dissect(*neighbours(len(points), np.argwhere(near)), np.full(360, 3), points)
+    along = points[order][:, axis]
+    assert np.ptp(along[-12:]) == 0.0
+    assert abs(along[-1] - 14.5) < 30 / 4
+    first = along < along[-1]
+    assert abs(np.diff(first[:-12].astype(int))).sum() == 1
+
+
+def test_blocks_of_the_same_position_are_not_cut():
+    n = 4 * SMALLEST
+    pairs = np.argwhere(np.tri(n, k=-1))
+    order = dissect(*neighbours(n, pairs), np.ones(n, int), np.zeros((n, 3)))
+    np.testing.assert_array_equal(np.sort(order), np.arange(n))
+
+
+def test_a_crowded_block_is_the_last():
+    sizes, pairs, points = lattice_of_plates(1, 6, 12)
+    n = len(sizes)
+    pairs = np.vstack([pairs, [(i, n) for i in range(n)]])
+    points = np.vstack([points, points[:1]])
+    order = dissect(*neighbours(n + 1, pairs), np.append(sizes, 1), points)
+    assert order[-1] == n
+
+
+def test_the_fill_of_a_lattice_grows_as_that_of_a_plate():
+    """Entries of the factor per block grow with the logarithm of the number of blocks."""
+    per_block = []
+    for quads in (4, 8, 16):
+        sizes, pairs, points = lattice_of_plates(1, quads, 2 * quads)
+        start, near = neighbours(len(sizes), pairs)
+        _, first, _ = columns(start, near, dissect(start, near, sizes, points))
+        per_block.append(first[-1] / len(sizes))
+    assert np.all(np.diff(per_block) < 12.0)
