@@ -32,7 +32,13 @@ if TYPE_CHECKING:
 LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
 TITLE = 72  # letters in a line above a panel
 WHITE = (1.0, 1.0, 1.0, 1.0)
-VARIANT = ["lattice_kind", "cells_x", "cells_y", "material"]  # constant along a line of trends
+VARIANT = [
+    "lattice_kind",
+    "cells_x",
+    "cells_y",
+    "material",
+    "direction",
+]  # constant along a line of trends
 SHAPED = "lattice.", "material."  # keys of a design
 THICK = tuple(f"lattice.{key}" for key in ("wall_thickness", "mass", "line_width", "infill"))
 """Keys of a design that set the thickness of its walls."""

@@ -2,7 +2,7 @@
 
 The same in every panel: colour = cells; sign = pattern, or material if there is only one pattern;
 size = wall thickness; open and dashed = doubtful. If patterns and materials vary, the colour
-stands for cells and material.
+stands for cells and material; if the direction varies, also for that.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pandas import concat
 from sweep.numbers import energy_text, tenths, three_digits
 from sweep.ranking.merit import LEAST, greatest_mass
 from sweep.ranking.rank import places_by
-from sweep.report.sheets import design_labels
+from sweep.report.sheets import WAYS, design_labels
 from sweep.result import error_column, less_is_better
 
 if TYPE_CHECKING:
@@ -39,7 +39,8 @@ class Looks(NamedTuple):
 
     colors: values of the columns `tint` -> colour. signs: values of the column `sign` -> marker.
     areas: wall thickness (m) -> area of a marker (points^2). tint: `cells_x`, `cells_y` and, if the
-    sign stands for the pattern, `material`. doubtful: True if some designs are doubtful.
+    sign stands for the pattern, `material`; `direction` if that varies. doubtful: True if some
+    designs are doubtful.
     """
 
     tint: list[str]
@@ -62,7 +63,7 @@ class Looks(NamedTuple):
 
         walls: with wall thicknesses; barred: with an entry for error bars.
         """
-        heading, words = _tint_words(list(self.colors))
+        heading, words = _tint_words(self.tint, list(self.colors))
         noun = "pattern" if self.sign == "lattice_kind" else self.sign
         groups = {
             heading: {w: {"color": c} for w, c in zip(words, self.colors.values(), strict=True)},
@@ -84,7 +85,8 @@ class Looks(NamedTuple):
 def looks(designs: DataFrame) -> Looks:
     """The style of all designs of a ranking."""
     patterned = len(designs["lattice_kind"].unique()) > 1
-    tint = ["cells_x", "cells_y", *(["material"] if patterned else [])]
+    turned = len(designs["direction"].unique()) > 1
+    tint = ["cells_x", "cells_y", *(["material"] * patterned), *(["direction"] * turned)]
     sign = "lattice_kind" if patterned else "material"
     values = sorted(set(_rows(designs, tint)))
     walls = sorted(designs["wall_thickness_m"].unique())
@@ -110,15 +112,14 @@ def _signs(names: list[str]) -> dict[str, str]:
     return {name: alike.get(name) or next(spare) for name in names}
 
 
-def _tint_words(values: list[tuple[Any, ...]]) -> tuple[str, list[str]]:
+def _tint_words(tint: list[str], values: list[tuple[Any, ...]]) -> tuple[str, list[str]]:
     """Heading and entries of the legend of colours, with only the values that vary."""
+    columns = dict(zip(tint, zip(*values, strict=True), strict=True))
     cells = [f"{x} x {y}" for x, y, *_ in values]
-    parts = {"cells": cells, "material": [material for *_, material in values]}
-    if len(values[0]) == 2 or len({*parts["material"]}) == 1:
-        return "cells", cells
-    if len({*cells}) == 1:
-        return "material", parts["material"]
-    return ", ".join(parts), [", ".join(words) for words in zip(*parts.values(), strict=True)]
+    parts = {"cells": cells, "material": columns.get("material", ())}
+    parts["pressed"] = [WAYS[way] for way in columns.get("direction", ())]
+    shown = {name: words for name, words in parts.items() if len({*words}) > 1} or {"cells": cells}
+    return ", ".join(shown), [", ".join(words) for words in zip(*shown.values(), strict=True)]
 
 
 def _some(entries: dict[str, Any], count: int) -> dict[str, Any]:

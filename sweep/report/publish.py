@@ -19,6 +19,7 @@ from sweep.report.accuracy_tables import MARKS, accuracy_sheets, scene_title
 from sweep.report.markdown import markdown
 from sweep.report.pattern_bars import panel_size, pattern_bars
 from sweep.report.probe_plots import probe_reactions
+from sweep.report.shaded import cut_open
 from sweep.report.sheets import Sheet, design_labels, legend, ranking_sheets
 from sweep.report.storyboard import headline, last_loaded
 from sweep.report.work_precision import work_precision
@@ -208,3 +209,9 @@ def case_figures(file: str, row: Series) -> Named:
         figure = case_plots.blank(*case_plots.shapes_size(*drawn))
         case_plots.deformed_shapes(figure, *drawn)
         yield "shapes", figure
+        if "quads" in frames:
+            title, shapes, release = drawn
+            inside = f"{title}, cut open", cut_open(shapes), release
+            figure = case_plots.blank(*case_plots.shapes_size(*inside))
+            case_plots.deformed_shapes(figure, *inside)
+            yield "inside", figure

@@ -58,9 +58,9 @@ def platen(box: Floats, height: float, margin: float) -> Floats:
     return seen(np.column_stack([ring, np.full(4, height)]))[0]
 
 
-def cut_open(frames: Mapping[str, Any]) -> NDArray[np.bool_]:
-    """Which quads are behind the middle of the lattice at rest, (m,), as the camera sees it."""
+def cut_open(frames: Mapping[str, Any]) -> dict[str, Any]:
+    """The shapes without the quads that are before the middle at rest, as the camera sees it."""
     middle = np.asarray(frames["position_m"][0], float)[frames["quads"]].mean(axis=1)
     _, near = seen(middle * [1.0, 1.0, 0.0])
-    behind: NDArray[np.bool_] = near <= 0.5 * (near.min() + near.max())
-    return behind
+    behind = near <= 0.5 * (near.min() + near.max())
+    return {**frames, **{name: frames[name][behind] for name in ("quads", "quad_thickness_m")}}

@@ -149,7 +149,8 @@ def write(path, table, attributes=None):
     results = []
     for row in table.to_dict("records"):
         case_id, status, message = (row.pop(name) for name in ("case_id", "status", "message"))
-        ran = (history, squeezed_cell()) if status == "converged" else ({}, {})
+        shapes = tube() if row["direction"] == "out_of_plane" else squeezed_cell()
+        ran = (history, shapes) if status == "converged" else ({}, {})
         results.append(Result(case_id, Status(status), message, row, *ran))
     with Writer(path, attributes=attributes) as writer:
         writer.append(results)

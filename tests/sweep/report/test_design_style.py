@@ -91,6 +91,15 @@ def test_of_several_patterns_colours_tell_the_material_too(table):
     assert entries(both.assign(cells_x=3, cells_y=3))[:3] == ["material", "cheetah", "ninjaflex"]
 
 
+def test_colours_tell_the_direction_where_there_are_both(table):
+    ways = ["in_plane", "out_of_plane", "in_plane", "in_plane"]  # of 10, 2, 3 and 2 cells
+    both = looks(table.assign(direction=ways))
+    assert both.tint == ["cells_x", "cells_y", "direction"]
+    assert len(set(both.colors.values())) == len(both.colors) == 4
+    labels = entries(table.assign(direction=ways, cells_x=2, cells_y=2))
+    assert labels[:3] == ["pressed", "across", "along"]
+
+
 def test_of_many_walls_the_legend_has_some():
     walls = [*np.arange(4, 17) * 1e-4]
     many = ranked(summary(*({"wall_thickness_m": wall} for wall in walls)), top=None).table

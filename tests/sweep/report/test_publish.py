@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 
 from sweep.ranking.merit import RankError
-from sweep.report.publish import publish_ranking
+from sweep.report.publish import publish_case, publish_ranking
 from sweep.report.sheets import LOADED, MARKS
 from tests.support.specimens import designs, summary, write
 
@@ -74,3 +74,20 @@ def test_cushion_curves_need_a_crush(published, tmp_path):
     with pytest.raises(RankError, match="no crush with a place"):
         published(summary(load), drop_heights=(0.5,))
     assert not (tmp_path / "out").exists()
+
+
+def test_plates_are_drawn_whole_and_cut_open(tmp_path):
+    table = summary({"direction": "out_of_plane", "solid_strain": 0.7}, {})
+    file = write(tmp_path / "f.h5", table)
+    drawn = [
+        {path.name for path in publish_case(file, row, tmp_path / row["case_id"])}
+        for _, row in table.iterrows()
+    ]
+    assert drawn[0] == {"force.png", "energies.png", "shapes.png", "inside.png"}
+    assert drawn[1] == drawn[0] - {"inside.png"}
+
+
+def test_patterns_of_both_directions_have_their_drawings(published):
+    both = designs([1.0, 1.0], [0.2, 0.4])
+    both[0] |= {"direction": "out_of_plane", "lattice_kind": "hex", "solid_strain": 0.7}
+    assert {"patterns.png", "winners.png"} <= set(published(summary(*both)))

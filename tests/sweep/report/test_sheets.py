@@ -16,6 +16,7 @@ from sweep.report.sheets import (
     PLASTIC,
     STRETCHED,
     UNSURE,
+    about_direction,
     design_labels,
     design_text,
     legend,
@@ -233,3 +234,28 @@ def test_designs_of_a_slicer_are_told_by_their_share_instead_of_cells():
     assert "infill" not in design_text(table, table)
     table["infill_share"] = NAN
     assert list(design_text(table, table)["infill %"]) == ["20", "30", "25"]
+
+
+UPRIGHT = {"direction": "out_of_plane", "solid_strain": 0.7, "peak_strain": 0.6}
+
+
+def test_both_directions_stand_side_by_side_in_one_ranking():
+    """The direction belongs to the design, also as a key of the grid."""
+    across = {"absorbed_energy_J": 0.1, "loading.direction": "in_plane"}
+    along = {"absorbed_energy_J": 1.8, "loading.direction": "out_of_plane"} | UPRIGHT
+    table = summary(across, along)
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert sheet.heads[:2] == ["#", "pressed"]
+    assert [row[1] for row in sheet.rows] == ["along", "across"]
+    assert design_labels(table, table) == ["pressed across", "pressed along"]
+    assert "pressed" not in design_text(table.iloc[:1], table.iloc[:1])
+
+
+def test_what_plates_leave_out_is_told():
+    rows = summary({}, UPRIGHT, UPRIGHT | {"peak_strain": 0.8})
+    none, usual, beyond = (about_direction(row) for _, row in rows.iterrows())
+    assert none == []
+    assert len(usual) == 1
+    assert "layers part is not modelled" in usual[0]
+    assert beyond[0] == usual[0]
+    assert "beyond a strain of 70 %" in beyond[1]

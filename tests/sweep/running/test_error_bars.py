@@ -322,3 +322,11 @@ def test_error_bar_covers_the_error_of_a_crush():
         error = abs(rows[design.case_id][name] - reference[name])
         bar = error_bars(design, rows)[f"error_{name}"]
         assert 0.0 < error <= bar < 0.25 * rows[design.case_id][name], name
+
+
+def test_other_mesh_of_plates_has_other_layers_too():
+    case = Case(loading=Loading(direction="out_of_plane", strain=0.3))
+    coarse, longer = (companion.case.lattice for companion in companions(case))
+    assert (case.lattice.nodes_per_wall, case.lattice.layers) == (5, 14)
+    assert (coarse.nodes_per_wall, coarse.layers) == (2, 7)
+    assert longer == case.lattice

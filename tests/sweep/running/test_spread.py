@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.config.case import Case, Contact, Lattice, Loading, Material
-from sweep.running.spread import FRICTION, corners, corners_of, run_corners, spread_file
+from sweep.running.spread import FRICTION, SEEDS, corners, corners_of, run_corners, spread_file
 from sweep.store.read import read_summary
 from tests.support.records import HEADER
 from tests.support.standin import cases, simulate
@@ -87,3 +87,14 @@ def test_only_missing_corners_of_the_best_run(tmp_path):
     assert spread_file(out).name == "trial.spread.h5"
     assert set(summary["case_id"]) == ids
     assert set(summary["contact.friction"].dropna()) == set(FRICTION)
+
+
+def test_lattices_fold_along_their_cells_in_other_ways():
+    loading = Loading(direction="out_of_plane", strain=0.3)
+    found = {c.name: c.case for c in corners(Case(loading=loading))}
+    seeds = {f"imperfection {seed}": seed for seed in SEEDS}
+    assert list(found) == ["modulus high", "density high", *FRICTIONS, *seeds]
+    assert {n: found[n].lattice.imperfection_seed for n in seeds} == seeds
+    assert found["imperfection 1"].axes == {"lattice.imperfection_seed": 1}
+    straight = Case(loading=loading, lattice=Lattice(imperfection=0.0))
+    assert not {c.name for c in corners(straight)} & set(seeds)

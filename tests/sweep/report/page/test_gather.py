@@ -188,3 +188,12 @@ def test_five_hundred_cases_fit_into_five_megabytes(tmp_path):
     assert 2_000_000 < size < 4_900_000
     assert data["points"] == 60
     assert 0 < len(data["shapes"]) < 500
+
+
+def test_plates_are_drawn_as_their_plan_and_move_as_lines(tmp_path):
+    data = gathered(tmp_path, summary({"direction": "out_of_plane", "solid_strain": 0.7}))
+    (drawn,) = data["drawings"]
+    assert drawn["box"] == pytest.approx([-0.05, -0.05, 1.1, 1.1])
+    (shape,) = data["shapes"].values()
+    assert shape["nodes"] == 8
+    assert shape["plates"] == [[None, None]] * 3
