@@ -3,9 +3,9 @@
 from kernels.compile.jit import jit_exact
 from kernels.linear import block_ldlt, system
 from kernels.linear.block_matrix import clear
-from kernels.planar.lagging import slip_of
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
 from kernels.terms import contact, fold, friction, spring
+from kernels.terms.lagging import slip_of
 
 LENGTHS = 2  # x and y, the first slots of a block
 

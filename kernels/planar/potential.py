@@ -11,7 +11,6 @@ import numpy as np
 
 from kernels.arrays import add, dot, zero, zero_rows
 from kernels.compile.jit import jit_exact
-from kernels.planar import lagging
 from kernels.planar.reach import drift
 from kernels.terms import (
     bend,
@@ -20,6 +19,7 @@ from kernels.terms import (
     elements,
     fold,
     inertia,
+    lagging,
     spring,
     stretch,
 )

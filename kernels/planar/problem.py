@@ -9,10 +9,11 @@ import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.laws.law import Memory
-from kernels.planar import constraints, factoring, lagging, potential, reach, rows, steps
+from kernels.planar import constraints, factoring, potential, reach, rows, steps
 from kernels.planar.reach import Neighbours
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
+from kernels.terms import lagging
 from kernels.terms.damping import Before
 from kernels.terms.elements import Resultants, Shape, Stiffness
 from kernels.terms.rows import STORED
@@ -61,6 +62,7 @@ class Planar(NamedTuple):
     travel = reach.travel
     step_limit = reach.step_limit
     covers = reach.covers
+    drift = reach.drift
 
     lags = lagging.lags
     lag = lagging.lag

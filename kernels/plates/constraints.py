@@ -1,19 +1,29 @@
 """Constraints of a lattice of plates: supports, platens, mirror planes and prescribed moves."""
 
+from kernels.arrays import zero
 from kernels.compile.jit import jit_exact
-from kernels.plates import layout
 
 
 @jit_exact
 def reduce(problem, g, residual):
-    """Fill ``residual`` (n,) with the gradient ``g`` (n,) of the free and driven coordinates."""
-    layout.reduce(problem.scene.layout, g, residual)
+    """Fill ``residual`` (n,) with the gradient ``g`` (n,) of the free and driven coordinates.
+
+    Entries of tied coordinates are added to their leaders; those of held ones are zero.
+    """
+    layout = problem.scene.layout
+    zero(residual)
+    for i in range(g.size):
+        if layout.leader[i] >= 0:
+            residual[layout.leader[i]] += layout.ratio[i] * g[i]
 
 
 @jit_exact
 def lead(problem, move, direction):
     """Write the moves of all LED coordinates when the driven coordinate moves by ``move`` m."""
-    layout.lead(problem.scene.layout, move, direction)
+    layout = problem.scene.layout
+    for i in range(direction.size):
+        if layout.leader[i] == layout.driven:
+            direction[i] = layout.ratio[i] * move
 
 
 @jit_exact
@@ -27,5 +37,9 @@ def pull(problem, move, direction):
 
 @jit_exact
 def tie(problem, vector):
-    """Set entries of tied coordinates to those of their leaders times the ratio of moves."""
-    layout.tie(problem.scene.layout, vector)
+    """Set entries of tied coordinates to those of their leaders times the ratio of their moves."""
+    layout = problem.scene.layout
+    for i in range(vector.size):
+        leader = layout.leader[i]
+        if leader >= 0 and leader != i:
+            vector[i] = layout.ratio[i] * vector[leader]

@@ -41,23 +41,6 @@ from kernels.plates.contact import no_contacts as none_touching
 from kernels.terms.friction import DUAL_TOLERANCE, UNKNOWN, smooth
 
 
-class LaggedContacts(NamedTuple):
-    """Lagged contacts, the first ``count`` (1,) entries.
-
-    nodes (n, 4): p, a, b, c; size (n,): 4, or 1 for a platen, which does not move sideways. slopes
-    (n, 4, 2, 3): derivatives of the slip in the moves of the nodes. load (n,): mu lambda, N. dual
-    (n, 2): w; `UNKNOWN` stands for that of the present slip. touching: scratch.
-    """
-
-    nodes: np.ndarray
-    size: np.ndarray
-    slopes: np.ndarray
-    load: np.ndarray
-    dual: np.ndarray
-    count: np.ndarray
-    touching: Touching
-
-
 @jit_owning
 def _room(n, touching):
     """Return an empty `LaggedContacts` with room for ``n``."""
@@ -176,7 +159,7 @@ def _lag_platen(x, contact, upper, mu, lagged_contacts, n):
 
 
 @jit_exact
-def lag(x, contact, pairs, drift, friction, lagged_contacts):
+def lag(lagged_contacts, x, contact, pairs, drift, friction):
     """Fill ``lagged_contacts`` with all contacts at ``x``.
 
     drift: as in `contact.detect`; friction: `kernels.terms.friction.Friction`.
@@ -216,7 +199,7 @@ def _slip(u, lagged_contacts, k):
 
 
 @jit
-def evaluate(u, lagged_contacts, slip, g):
+def evaluate(lagged_contacts, u, slip, g):
     """Return D_f in J for a move ``u`` (n,) from y, shifted to 0 at u = 0; add dD_f/dx to ``g``."""
     total = 0.0
     for k in range(lagged_contacts.count[0]):
@@ -267,7 +250,7 @@ def _next_dual(u, move, w, slip):
 
 
 @jit
-def follow(u, dx, share, lagged_contacts, slip):
+def follow(lagged_contacts, u, dx, share, slip):
     """Update the duals in a Newton step ``dx`` (n,), a ``share`` of which has led to ``u``.
 
     Return whether they agree with the slip there, so that `block` is the second derivative.
@@ -290,6 +273,28 @@ def forget(lagged_contacts):
     """Reset all duals: `block` is then the second derivative."""
     for k in range(lagged_contacts.count[0]):
         lagged_contacts.dual[k, 0] = UNKNOWN
+
+
+class LaggedContacts(NamedTuple):
+    """Lagged contacts, the first ``count`` (1,) entries, with the verbs of `kernels.terms.lagging`.
+
+    nodes (n, 4): p, a, b, c; size (n,): 4, or 1 for a platen, which does not move sideways. slopes
+    (n, 4, 2, 3): derivatives of the slip in the moves of the nodes. load (n,): mu lambda, N. dual
+    (n, 2): w; `UNKNOWN` stands for that of the present slip. touching: scratch.
+    """
+
+    nodes: np.ndarray
+    size: np.ndarray
+    slopes: np.ndarray
+    load: np.ndarray
+    dual: np.ndarray
+    count: np.ndarray
+    touching: Touching
+
+    lag = lag
+    evaluate = evaluate
+    follow = follow
+    forget = forget
 
 
 @jit

@@ -9,9 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.arrays import zero
-from kernels.compile.jit import jit_exact
-
 PER_NODE = 6  # coordinates of a node
 POSITION = 3  # of them are those of its position
 
@@ -42,32 +39,3 @@ class Layout(NamedTuple):
     scale: np.ndarray
     weight: np.ndarray
     is_length: np.ndarray
-
-
-@jit_exact
-def reduce(layout, g, residual):
-    """Fill ``residual`` (n,) with the gradient ``g`` (n,) of the free and driven coordinates.
-
-    Entries of tied coordinates are added to their leaders; those of held ones are zero.
-    """
-    zero(residual)
-    for i in range(g.size):
-        if layout.leader[i] >= 0:
-            residual[layout.leader[i]] += layout.ratio[i] * g[i]
-
-
-@jit_exact
-def lead(layout, move, direction):
-    """Write the moves of all coordinates that follow the driven one, which moves by ``move`` m."""
-    for i in range(direction.size):
-        if layout.leader[i] == layout.driven:
-            direction[i] = layout.ratio[i] * move
-
-
-@jit_exact
-def tie(layout, vector):
-    """Set entries of tied coordinates to those of their leaders times the ratio of their moves."""
-    for i in range(vector.size):
-        leader = layout.leader[i]
-        if leader >= 0 and leader != i:
-            vector[i] = layout.ratio[i] * vector[leader]

@@ -9,9 +9,9 @@ vanishes. The Hessian is in `factoring`.
 
 from kernels.arrays import dot, zero
 from kernels.compile.jit import jit_exact
-from kernels.plates import contact, lagging, mirror, shell
+from kernels.plates import contact, mirror, shell
 from kernels.plates.reach import drift
-from kernels.terms import inertia
+from kernels.terms import inertia, lagging
 from kernels.terms.rows import BEND, CONTACT, STRETCH
 
 

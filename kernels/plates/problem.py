@@ -8,10 +8,11 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
-from kernels.plates import constraints, factoring, lagging, potential, reach, rows, shell, steps
+from kernels.plates import constraints, factoring, potential, reach, rows, shell, steps
 from kernels.plates.reach import Neighbours
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
+from kernels.terms import lagging
 from kernels.terms.rows import STORED
 
 
@@ -61,6 +62,7 @@ class Plates(NamedTuple):
     travel = reach.travel
     step_limit = reach.step_limit
     covers = reach.covers
+    drift = reach.drift
 
     lags = lagging.lags
     lag = lagging.lag

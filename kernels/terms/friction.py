@@ -44,22 +44,6 @@ class Friction(NamedTuple):
     slip: float
 
 
-class LaggedContacts(NamedTuple):
-    """Lagged contacts, the first ``count`` (1,) entries.
-
-    nodes (n, 3): p, a, b. slopes (n, 3, 2): derivatives of the slip in their moves. load (n,): mu
-    lambda, N. dual (n,): w; `UNKNOWN` stands for f'. A rigid platen does not move sideways: a = b =
-    p with slope zero. touching: scratch for the contacts.
-    """
-
-    nodes: np.ndarray
-    slopes: np.ndarray
-    load: np.ndarray
-    dual: np.ndarray
-    count: np.ndarray
-    touching: Touching
-
-
 @jit_owning
 def no_contacts(pairs, contact, friction):
     """Return an empty `LaggedContacts`, with room for all pairs if there is friction."""
@@ -122,7 +106,7 @@ def _lag_segment(x, lagged_contacts, n, nodes, tau, load):
 
 
 @jit_exact
-def lag(x, contact, pairs, drift, friction, lagged_contacts):
+def lag(lagged_contacts, x, contact, pairs, drift, friction):
     """Fill ``lagged_contacts`` with all contacts at ``x``. drift: as in `contact.detect`."""
     n, lagged_contacts.count[0], touching = 0, 0, lagged_contacts.touching
     if friction.mu == 0.0:
@@ -181,7 +165,7 @@ def _slip(u, lagged_contacts, k):
 
 
 @jit
-def evaluate(u, lagged_contacts, slip, g):
+def evaluate(lagged_contacts, u, slip, g):
     """Return D_f in J for a move ``u`` (n,) from y, shifted to 0 at u = 0; add dD_f/dx to ``g``."""
     total = 0.0
     for k in range(lagged_contacts.count[0]):
@@ -195,7 +179,7 @@ def evaluate(u, lagged_contacts, slip, g):
 
 
 @jit
-def follow(u, dx, share, lagged_contacts, slip):
+def follow(lagged_contacts, u, dx, share, slip):
     """Update the duals in a Newton step ``dx`` (n,), a ``share`` of which has led to ``u``.
 
     Return whether they agree with f' there, so that `hessian` is the second derivative.
@@ -215,6 +199,27 @@ def forget(lagged_contacts):
     """Reset all duals: `hessian` is then the second derivative."""
     for k in range(lagged_contacts.count[0]):
         lagged_contacts.dual[k] = UNKNOWN
+
+
+class LaggedContacts(NamedTuple):
+    """Lagged contacts, the first ``count`` (1,) entries, with the verbs of `kernels.terms.lagging`.
+
+    nodes (n, 3): p, a, b. slopes (n, 3, 2): derivatives of the slip in their moves. load (n,): mu
+    lambda, N. dual (n,): w; `UNKNOWN` stands for f'. A rigid platen does not move sideways: a = b =
+    p with slope zero. touching: scratch for the contacts.
+    """
+
+    nodes: np.ndarray
+    slopes: np.ndarray
+    load: np.ndarray
+    dual: np.ndarray
+    count: np.ndarray
+    touching: Touching
+
+    lag = lag
+    evaluate = evaluate
+    follow = follow
+    forget = forget
 
 
 @jit

@@ -27,7 +27,7 @@ MOVED = 0.02  # of a quad, in a step that ends in a state
 DT = 1e-4
 
 
-def tube(loading, symmetry="none", steps=20):
+def tube(loading, symmetry="none", steps=20, friction=0.3):
     """A case of a square tube of 4 x 4 x 8 mm with walls of 0.4 mm."""
     return Case(
         lattice=Lattice(
@@ -37,7 +37,7 @@ def tube(loading, symmetry="none", steps=20):
         ),
         material=LINEAR,
         loading=Loading(direction="out_of_plane", unload=False, **loading),
-        contact=Contact(friction=0.3),
+        contact=Contact(friction=friction),
         solver=Solver(load_steps=steps) if loading["mode"] == "displacement" else Solver(),
     )  # fmt: skip
 
@@ -128,7 +128,7 @@ def neighbours_of(x, terms, move=0.0):
     """`Neighbours` at ``x`` for a ``move`` (m), with friction lagged there."""
     listed, margin = reach.list_pairs(terms, x, move)
     lagged = friction.no_contacts(listed, terms.contact, terms.friction)
-    friction.lag(x, terms.contact, listed, 0.0, terms.friction, lagged)
+    friction.lag(lagged, x, terms.contact, listed, 0.0, terms.friction)
     matrix, touching = reach.make_matrix(terms, x, listed), no_contacts(terms.contact, listed)
     return reach.Neighbours(listed, x.copy(), margin, matrix, touching, lagged)
 

@@ -112,7 +112,7 @@ def neighbours_of(x, terms, move=0.0):
     """`Neighbours` at ``x`` for a ``move`` (m), with friction lagged there."""
     found, margin, projection_pairs = reach.list_neighbours(terms, x, move)
     lagged = friction.no_contacts(found, terms.contact, terms.friction)
-    friction.lag(x, terms.contact, found, np.inf, terms.friction, lagged)
+    friction.lag(lagged, x, terms.contact, found, np.inf, terms.friction)
     system = reach.make_system(terms, x, found, lagged)
     touching = contact.no_contacts(found)
     return reach.Neighbours(found, x.copy(), margin, system, projection_pairs, touching, lagged)

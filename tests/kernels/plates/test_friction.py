@@ -18,7 +18,7 @@ def lagged(x, touch, mu=MU):
     """What is gripped at ``x``, without contact of edges, which has no friction."""
     listed = pairs_of(x, touch)
     found = friction.no_contacts(listed, touch, Friction(mu, 1.0))
-    friction.lag(x, touch, listed, 0.0, Friction(mu, 1.0), found)
+    friction.lag(found, x, touch, listed, 0.0, Friction(mu, 1.0))
     return found
 
 
@@ -42,7 +42,7 @@ def term_of(x0, contacts, slip) -> Term:
             np.add.at(matrix, np.ix_(at, at), K[: 3 * size, : 3 * size])
         return matrix
 
-    return Term(lambda x, g: friction.evaluate(x - x0, contacts, slip, g), second)
+    return Term(lambda x, g: friction.evaluate(contacts, x - x0, slip, g), second)
 
 
 def moved(x, move, nodes=slice(None)):
@@ -184,7 +184,7 @@ def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
 
     def force():
         g = np.zeros(SIZE)
-        friction.evaluate(x, contacts, slip, g)
+        friction.evaluate(contacts, x, slip, g)
         return (x + g)[:2] - pull
 
     while np.linalg.norm(force()) > 1e-11 and steps <= most:
@@ -192,7 +192,7 @@ def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
         dx = np.zeros(SIZE)
         dx[:2] = np.linalg.solve(K[:2, :2] + np.eye(2), -force())
         x += dx
-        fit = friction.follow(x, dx, 1.0, contacts, slip)
+        fit = friction.follow(contacts, x, dx, 1.0, slip)
         steps += 1
     assert steps <= most
     assert fit

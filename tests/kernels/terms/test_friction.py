@@ -33,7 +33,7 @@ def lagged(x, touch, listed, mu=MU):
     """What is gripped at ``x``."""
     rubbing = friction.Friction(mu, 1.0)
     contacts = friction.no_contacts(listed, touch, rubbing)
-    friction.lag(x, touch, listed, np.inf, rubbing, contacts)
+    friction.lag(contacts, x, touch, listed, np.inf, rubbing)
     n = contacts.count[0]
     return contacts._replace(
         nodes=contacts.nodes[:n], slopes=contacts.slopes[:n], load=contacts.load[:n],
@@ -44,7 +44,7 @@ def lagged(x, touch, listed, mu=MU):
 def term_of(x0, contacts, slip) -> Term:
     """Friction of a step from x0."""
     return of_points(
-        lambda x, g: friction.evaluate(x - x0, contacts, slip, g),
+        lambda x, g: friction.evaluate(contacts, x - x0, slip, g),
         lambda x, matrix, projected: friction.hessian(x - x0, contacts, slip, matrix, projected),
     )
 
@@ -108,7 +108,7 @@ def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
     while abs(force()) > 1e-12 and steps <= most:
         move = -force() / (1.0 + friction.curvature(u[0], contacts.dual[0], slip))
         u[0] += move
-        fit = friction.follow(u, np.array([move, 0.0]), 1.0, contacts, slip)
+        fit = friction.follow(contacts, u, np.array([move, 0.0]), 1.0, slip)
         steps += 1
         off = abs(contacts.dual[0] - friction.smooth(u[0], slip)[1])
         assert fit == (off < friction.DUAL_TOLERANCE)

@@ -1,9 +1,14 @@
-"""Lagged friction of a lattice: normal forces and directions are fixed during a minimisation."""
+"""Lagged friction: normal forces and directions are fixed during a minimisation.
+
+Verbs of a problem for lagged forces (`solve.problem`), whatever the dimension of its contacts: the
+class of `Neighbours.lagged_contacts` has the verbs
+
+    lag(x, contact, pairs, drift, friction), evaluate(u, slip, g), follow(u, dx, share, slip),
+    forget()
+"""
 
 from kernels.arrays import add
 from kernels.compile.jit import jit_exact
-from kernels.planar.reach import drift
-from kernels.terms import friction
 
 
 @jit_exact
@@ -18,9 +23,9 @@ def lag(problem, y):
     if problem.scene.friction.mu == 0.0:
         return False
     scene, neighbours = problem.scene, problem.neighbours
-    lagged_contacts, moved = neighbours.lagged_contacts, drift(problem, y)
+    lagged_contacts, moved = neighbours.lagged_contacts, problem.drift(y)
     before = lagged_contacts.count[0]
-    friction.lag(y, scene.contact, neighbours.pairs, moved, scene.friction, lagged_contacts)
+    lagged_contacts.lag(y, scene.contact, neighbours.pairs, moved, scene.friction)
     return before + lagged_contacts.count[0] > 0
 
 
@@ -41,7 +46,7 @@ def exchange(problem, step, found):
         found.g[i] -= found.friction[i]
         found.friction[i] = 0.0
     slip = slip_of(problem, step)
-    potential = friction.evaluate(found.u, problem.neighbours.lagged_contacts, slip, found.friction)
+    potential = problem.neighbours.lagged_contacts.evaluate(found.u, slip, found.friction)
     add(found.friction, found.g)
     sums.potential += potential - sums.friction
     sums.friction = potential
@@ -51,12 +56,10 @@ def exchange(problem, step, found):
 @jit_exact
 def follow(problem, dx, share, step, found):
     """Update the duals of friction in a ``share`` of ``dx``; see `solve.problem.Problem.follow`."""
-    return friction.follow(
-        found.u, dx, share, problem.neighbours.lagged_contacts, slip_of(problem, step)
-    )
+    return problem.neighbours.lagged_contacts.follow(found.u, dx, share, slip_of(problem, step))
 
 
 @jit_exact
 def forget(problem):
     """Reset the duals of friction."""
-    friction.forget(problem.neighbours.lagged_contacts)
+    problem.neighbours.lagged_contacts.forget()
