@@ -1,4 +1,4 @@
-"""Directors: rotation by modified Rodrigues parameters, its derivatives, and frames that take it over."""
+"""Directors: their rotation, its derivatives, and frames that take it over."""
 
 import numpy as np
 import pytest
