@@ -77,6 +77,7 @@ def run(arguments: Namespace) -> int:
     from sweep.store.read import Rerun, read_summary
 
     config = _config(arguments.config)
+    _check_required(config)
     out = arguments.out or f"results/{config.name}.h5"
     workers = arguments.workers or WORKERS
     rerun = Rerun(failed=arguments.retry_failed, older=arguments.renew)
@@ -98,6 +99,15 @@ def run(arguments: Namespace) -> int:
     failed += _spread(config, out, how, question) if arguments.spread else 0
     _hint(next_commands(out, read_summary(out)))
     return SOME_FAILED if failed else DONE
+
+
+def _check_required(config: Config) -> None:
+    """Refuse a requirement that no case of a config can be asked for, before cases run."""
+    from sweep.config.grid import expand
+    from sweep.ranking.requirements import check_modes
+
+    if required := [name for name, limit in config.require if limit is not None]:
+        check_modes(required, {case.loading.mode for case in expand(config)})
 
 
 def _spread(config: Config, out: str, how: tuple[Any, ...], question: dict[str, Any]) -> int:
@@ -352,12 +362,15 @@ def _of_a_number(arguments: Namespace) -> bool:
 def _named(arguments: Namespace, summary: DataFrame) -> tuple[Series, str]:
     """The row that CASE names, and a sentence about its place if CASE is a number."""
     from sweep.cli.find_case import by_id, by_number, is_number
+    from sweep.ranking.curves import with_allowed
 
     if not (arguments.case and is_number(arguments.case)):
         if _of_a_number(arguments):
             raise ArgumentError(f"{NUMBERED} belong to a number in the ranking")
         return by_id(summary, arguments.case), ""
-    return by_number(summary, int(arguments.case), arguments.scene, _asked(arguments))
+    question = _asked(arguments)
+    summary = with_allowed(arguments.file, summary, question)
+    return by_number(summary, int(arguments.case), arguments.scene, question)
 
 
 def _asked(arguments: Namespace) -> dict[str, Any]:

@@ -64,7 +64,12 @@ ASSUMPTIONS = (
 """Grid keys of the test and not of the design: every value of them makes a scene of its own."""
 
 PER = ("specimen", "panel")
-NO_ATTRS = ("per", "required", "outcomes")  # fields of `Ranking` that are newer than attributes
+NO_ATTRS = (
+    "lightest",
+    "per",
+    "required",
+    "outcomes",
+)  # fields of `Ranking` that are newer than attributes
 LEADING = [
     "budget_g",
     "scene",
@@ -83,6 +88,7 @@ LEADING = [
     "panel_force_N",
     "passed_on_N",
     "returned_share",
+    "ends_early",
     "beyond_model",
     "crossed",
     "beyond_curve",
@@ -141,6 +147,8 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
     passed_on_N, counted_stroke_m : greatest force while the counted energy is absorbed, and the
         stroke that this takes.
     returned_share : returned energy / work of the whole crush.
+    ends_early : True if a crush ended before the allowed force was exceeded or before the lattice
+        had packed: in a longer one it absorbs more than the counted energy.
     beyond_model : True if an element is too short or a wall breaks while the counted energy is
         absorbed, or if the lattice is compressed to less than its solid height.
     crossed : True if walls crossed one another.
@@ -181,7 +189,7 @@ def ranked(  # noqa: PLR0913  every argument is a part of one question
     by = by and _column(compared, by)
     masses = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in _several(budget))] or [np.inf]
     found = {scene_label(rows): rows for rows in by_scene(compared)}
-    judged = {label: judge(rows, names, required, per) for label, rows in found.items()}
+    judged = {label: judge(rows, names, required, per, masses) for label, rows in found.items()}
     scenes = [
         (_with_scene(rows[judged[label][0]], label, _least(rows), names), _order(rows, by, usual))
         for label, rows in found.items()
@@ -202,9 +210,14 @@ def ranked(  # noqa: PLR0913  every argument is a part of one question
         versions=model_versions(finished),
         budgets_g=tuple(limit for limit in masses if np.isfinite(limit)),
         lightest_g={label: rows[names.mass].min() for label, rows in found.items() if len(rows)},
+        lightest={
+            label: rows.sort_values([names.mass, "case_id"]).iloc[:1]
+            for label, rows in found.items()
+            if len(rows)
+        },
         per=per,
         required=required,
-        outcomes={label: outcome for label, (_, outcome) in judged.items() if required},
+        outcomes={label: outcomes for label, (_, outcomes) in judged.items() if required},
     )
 
 

@@ -3,66 +3,110 @@
 A requirement is of a specimen or of the panel. The force of a panel is that of its specimens
 together, since all are pressed alike; stroke and deceleration are the same for both. No curve of a
 force that stays below F absorbs an energy W in a stroke shorter than W / F, that of a rectangle.
+
+A loading that sets a quantity is not asked for it: the force and the energy under a dead load, and
+the energy of a striker, are not those of the design.
+
+The nearest design to requirements that none fulfils is the one whose greatest miss is the least: a
+value v misses a greatest value L by v / L - 1, and a least value L by 1 - v / L.
 """
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from pandas import DataFrame
 
-from sweep.ranking.merit import ROUND_OFF, Compared, Quantity, RankError, in_si
+from sweep.ranking.merit import (
+    ROUND_OFF,
+    Compared,
+    Quantity,
+    RankError,
+    doubtful,
+    greatest_mass,
+    in_si,
+)
 
 if TYPE_CHECKING:
-    from pandas import DataFrame, Series
+    from pandas import Series
 
 STANDARD_GRAVITY = 9.80665  # m/s^2
+MODES = ("displacement", "impact", "force", "custom")
+NEEDED = {"displacement": "a crush", "impact": "a striker", "force": "a dead load"}
+"""Loadings that a requirement may need, in words."""
 
 
 class Measure(NamedTuple):
     """What a requirement limits. unit: in SI. shared: whether specimens of a panel add up.
 
-    least: the limit is a least value; else it is a greatest one.
+    asked_of: kinds of loading in which the design, not the loading, sets the value. least: the
+    limit is a least value; else it is a greatest one.
     """
 
     unit: str
     shared: bool
+    asked_of: tuple[str, ...]
     least: bool = False
 
 
 MEASURES = {
-    "max_force": Measure("N", shared=True),
-    "max_deceleration": Measure("m/s^2", shared=False),
-    "max_mass": Measure("kg", shared=True),
-    "min_absorbed": Measure("J", shared=True, least=True),
-    "max_stroke": Measure("m", shared=False),
+    "max_force": Measure("N", True, ("displacement", "impact")),
+    "max_deceleration": Measure("m/s^2", False, ("impact",)),
+    "max_mass": Measure("kg", True, MODES),
+    "min_absorbed": Measure("J", True, ("displacement",), least=True),
+    "max_stroke": Measure("m", False, ("displacement", "impact", "force")),
 }
 """The requirements by their keys in [require]."""
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """How the designs of one scene meet the requirements; values in SI, per specimen or panel.
+class Best(NamedTuple):
+    """The value (SI) nearest to fulfilling a requirement; doubtful: of a design marked ! or x."""
 
-    designs, fulfil: number of designs, and of those that fulfil all requirements.
+    value: float
+    doubtful: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """How the designs of one scene within one budget meet the requirements.
+
+    Values are in SI, per specimen or panel.
+
+    mode: of loading. budget_g: NaN without a budget.
+    designs, fulfil: number of designs, and of those that fulfil all requirements. doubtful: number
+        of those that fulfil them and are marked as beyond the model or as crossed.
     failed: number of designs that fail each requirement. unknown: number of those among them that
-        have no value of it.
-    best: the value nearest to fulfilling each requirement, of all designs; NaN if none has one.
-    left_out: requirements that are of a striker, in a scene without one.
+        have no value of it. open: number of those that fail only `min_absorbed` and may fulfil it
+        in a longer crush, as theirs ended before the energy was counted to its end.
+    best: the value nearest to fulfilling each requirement.
+    left_out: requirements that this kind of loading is not asked for.
+    nearest: where no design fulfils all, but for doubtful ones: the row of the nearest one, that of
+        a doubtful one only if there is no other; no row if nothing is known. missed: what it
+        misses, with its values. misses: by what share of the limit.
+    lightest: the row of the lightest design to be trusted that fulfils all, of any mass; or no row.
     energy, stroke: energy that must be absorbed, and the least stroke in which a force of at most
         `max_force` does that; NaN if one of both is not given.
     height: of the highest lattice.
     """
 
+    mode: str
+    budget_g: float
     designs: int
     fulfil: int
+    doubtful: int
     failed: Mapping[str, int]
     unknown: Mapping[str, int]
-    best: Mapping[str, float]
+    open: int
+    best: Mapping[str, Best]
     left_out: tuple[str, ...]
+    nearest: DataFrame
+    missed: Mapping[str, float]
+    misses: Mapping[str, float]
+    lightest: DataFrame
     energy: float
     stroke: float
     height: float
@@ -78,12 +122,21 @@ def limits(require: Mapping[str, Quantity | None] | None) -> dict[str, float]:
     return {name: in_si(given[name], MEASURES[name].unit) for name in MEASURES if name in given}
 
 
+def check_modes(required: Iterable[str], modes: Iterable[str]) -> None:
+    """Refuse a requirement that none of these kinds of loading is asked for."""
+    known = set(modes)
+    for name in required:
+        asked_of = MEASURES[name].asked_of
+        if known and not known.intersection(asked_of):
+            needed = " or ".join(NEEDED[mode] for mode in asked_of)
+            raise RankError(f"{name} needs {needed}, and these results have none")
+
+
 def check(rows: DataFrame, required: Mapping[str, float]) -> None:
     """Refuse requirements that no row can be asked for."""
     if rows.empty:
         return
-    if "max_deceleration" in required and not (rows["loading_mode"] == "impact").any():
-        raise RankError("max_deceleration needs a striker, and these results have none")
+    check_modes(required, rows["loading_mode"])
     if "max_stroke" in required and rows["counted_stroke_m"].isna().all():
         raise RankError(
             "max_stroke is unknown up to an allowed force without the curves: rank the file itself"
@@ -91,32 +144,55 @@ def check(rows: DataFrame, required: Mapping[str, float]) -> None:
 
 
 def judge(
-    rows: DataFrame, names: Compared, required: Mapping[str, float], per: str
-) -> tuple[Series, Outcome]:
-    """Which rows of one scene fulfil all requirements, and the outcome."""
+    rows: DataFrame,
+    names: Compared,
+    required: Mapping[str, float],
+    per: str,
+    budgets_g: Sequence[float],
+) -> tuple[Series, tuple[Outcome, ...]]:
+    """Which rows of one scene fulfil all requirements, and the outcome within each budget.
+
+    budgets_g : masses in grams; infinite without a budget.
+    """
+    mode = str(rows["loading_mode"].iloc[0]) if len(rows) else ""
+    asked = {k: limit for k, limit in required.items() if mode in MEASURES[k].asked_of}
     found = measured(rows, names, per)
-    struck = (rows["loading_mode"] == "impact").all()
-    left_out = tuple(name for name in required if name == "max_deceleration" and not struck)
-    asked = {name: limit for name, limit in required.items() if name not in left_out}
-    met = {name: _met(found[name], name, limit) for name, limit in asked.items()}
-    fulfil = rows["mass_g"].notna()
-    for one in met.values():
-        fulfil &= one
-    energy, stroke = _rectangle(rows, found, asked, per)
-    return fulfil, Outcome(
-        designs=len(rows),
-        fulfil=int(fulfil.sum()),
-        failed={name: int((~one).sum()) for name, one in met.items()},
-        unknown={name: int(found[name].isna().sum()) for name in met},
-        best={
-            name: float(found[name].max() if MEASURES[name].least else found[name].min())
-            for name in met
-        },
-        left_out=left_out,
-        energy=energy,
-        stroke=stroke,
-        height=float(rows["height_m"].max()) if len(rows) else np.nan,
-    )
+    met = DataFrame({k: _met(found[k], k, v) for k, v in asked.items()}, index=rows.index)
+    fulfil = rows["mass_g"].notna() & met.all(axis=1)
+    values = DataFrame({name: found[name] for name in asked}, index=rows.index)
+    energy, stroke = _rectangle(rows, required, per)
+    height = float(rows["height_m"].max()) if len(rows) else np.nan
+    lightest = rows[fulfil & ~doubtful(rows)].sort_values([names.mass, "case_id"])[:1]
+    left_out = tuple(name for name in required if name not in asked)
+    outcomes = []
+    for budget in budgets_g if required else ():
+        kept = rows[names.mass] <= greatest_mass(budget)
+        within, ok, own = rows[kept], met[kept], values[kept]
+        sound = ~doubtful(within)
+        none = not (fulfil[kept] & sound).any()
+        row, misses = _nearest(within, own, asked, names.mass) if none else (within[:0], {})
+        outcomes.append(
+            Outcome(
+                mode=mode,
+                budget_g=budget if np.isfinite(budget) else np.nan,
+                designs=len(within),
+                fulfil=int(fulfil[kept].sum()),
+                doubtful=int((fulfil[kept] & ~sound).sum()),
+                failed={name: int((~ok[name]).sum()) for name in asked},
+                unknown={name: int(own[name].isna().sum()) for name in asked},
+                open=_open(within, ok, own),
+                best={name: _best(own[name], sound, MEASURES[name].least) for name in asked},
+                left_out=left_out,
+                nearest=row,
+                missed={name: float(own.loc[row.index[0], name]) for name in misses},
+                misses=misses,
+                lightest=lightest,
+                energy=energy,
+                stroke=stroke,
+                height=height,
+            )
+        )
+    return fulfil, tuple(outcomes)
 
 
 def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
@@ -147,17 +223,55 @@ def _met(values: Series, name: str, limit: float) -> Series:
     return values <= limit * (1.0 + ROUND_OFF)
 
 
-def _rectangle(
-    rows: DataFrame, found: Mapping[str, Series], asked: Mapping[str, float], per: str
-) -> tuple[float, float]:
+def _best(values: Series, sound: Series, least: bool) -> Best:
+    """The best value of the designs to be trusted, else of all; NaN if none has one."""
+    trusted = values[sound].dropna()
+    known = values if trusted.empty else trusted
+    return Best(float(known.max() if least else known.min()), trusted.empty)
+
+
+def _open(rows: DataFrame, met: DataFrame, values: DataFrame) -> int:
+    """Number of designs that fail `min_absorbed` alone, with an energy that is a lower bound."""
+    if "min_absorbed" not in met:
+        return 0
+    others = met.drop(columns="min_absorbed").all(axis=1)
+    known = values["min_absorbed"].notna()
+    return int((rows["ends_early"] & known & others & ~met["min_absorbed"]).sum())
+
+
+def _nearest(
+    rows: DataFrame, values: DataFrame, asked: Mapping[str, float], mass: str
+) -> tuple[DataFrame, dict[str, float]]:
+    """The row with the least of the greatest misses, and its misses; no row if all are unknown.
+
+    Designs to be trusted come before others; of equal misses the lightest is the first.
+    """
+    shares = DataFrame({k: _miss(values[k], k, limit) for k, limit in asked.items()})
+    worst = shares.max(axis=1, skipna=False) if asked else rows[mass] * np.nan
+    known = rows.assign(worst=worst, doubtful=doubtful(rows)).dropna(subset=["worst"])
+    order = ["doubtful", "worst", *dict.fromkeys([mass, "case_id"])]
+    index = known.sort_values(order).index[:1]
+    misses = {name: float(shares.loc[i, name]) for i in index for name in asked}
+    return rows.loc[index], {name: share for name, share in misses.items() if share > 0.0}
+
+
+def _miss(values: Series, name: str, limit: float) -> Series:
+    """By what share of the limit each value misses it; 0 if it is met, NaN if it is unknown."""
+    share = 1.0 - values / limit if MEASURES[name].least else values / limit - 1.0
+    return share.where(share > ROUND_OFF, 0.0).where(values.notna())
+
+
+def _rectangle(rows: DataFrame, required: Mapping[str, float], per: str) -> tuple[float, float]:
     """The energy (J) that must be absorbed and the least stroke (m), energy / force.
 
     The energy is that of the striker; in a crush, the least that is asked for.
     """
-    if "max_force" not in asked or rows.empty:
+    if "max_force" not in required or rows.empty:
         return np.nan, np.nan
-    energy = asked.get("min_absorbed", np.nan)
-    if rows["loading_mode"].iloc[0] == "impact":
+    mode, energy = rows["loading_mode"].iloc[0], required.get("min_absorbed", np.nan)
+    if mode not in MEASURES["max_force"].asked_of:
+        return np.nan, np.nan
+    if mode == "impact":
         together = rows["panel_specimens"] if per == "panel" else 1.0
         energy = float((rows["impact_energy_J"] * together).min())
-    return energy, energy / asked["max_force"]
+    return energy, energy / required["max_force"]

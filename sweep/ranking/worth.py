@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 from pandas import DataFrame
 
-from sweep.ranking.merit import RankError
+from sweep.ranking.merit import RankError, doubtful
 from sweep.ranking.rank import ASSUMPTIONS, pareto, ranked
 from sweep.result import describe_column, less_is_better
 
@@ -72,4 +72,4 @@ def check_column(name: str) -> None:
 
 def _sound(table: DataFrame) -> DataFrame:
     """The rows that are marked neither as beyond the model nor as crossed."""
-    return table[~(table["beyond_model"].astype(bool) | table["crossed"].astype(bool))]
+    return table[~doubtful(table)]

@@ -9,10 +9,11 @@ import numpy as np
 from pandas import isna
 
 from sweep.ranking.cushion import absorbed_below, cushion_curve, dropped_from, shoulder
+from sweep.ranking.merit import doubtful
 from sweep.ranking.rank import ASSUMPTIONS
 from sweep.report.case_plots import legend, round_ticks
 from sweep.report.design_map import SHAPED, scene_axes
-from sweep.report.design_style import PLAIN, Looks, doubtful, looks
+from sweep.report.design_style import PLAIN, Looks, looks
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -15,7 +15,7 @@ import numpy as np
 from pandas import concat
 
 from sweep.numbers import energy_text, tenths, three_digits
-from sweep.ranking.merit import LEAST, greatest_mass
+from sweep.ranking.merit import LEAST, doubtful, greatest_mass
 from sweep.ranking.rank import places_by
 from sweep.report.sheets import design_labels
 from sweep.result import error_column, less_is_better
@@ -125,11 +125,6 @@ def _some(entries: dict[str, Any], count: int) -> dict[str, Any]:
     """At most ``count`` entries, evenly spaced from the first to the last."""
     kept = np.linspace(0, len(entries) - 1, min(count, len(entries))).round()
     return {name: entries[name] for k, name in enumerate(entries) if k in kept}
-
-
-def doubtful(designs: DataFrame) -> Series:
-    """True for designs whose results are beyond the model or have walls that cross."""
-    return designs["beyond_model"] | designs["crossed"]
 
 
 def merits(rows: DataFrame, energy: str) -> Series:

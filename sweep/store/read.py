@@ -112,8 +112,13 @@ def read_frames(path: str | os.PathLike[str], case_id: str) -> dict[str, np.ndar
     return _frames(_read_case(Path(path), case_id, FRAME_GROUPS))
 
 
-def read_cases(path: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterator[StoredCase]:
-    """Curves and shapes of many cases, one after another; the files are opened only once."""
+def read_cases(
+    path: str | os.PathLike[str], case_ids: Iterable[str], shapes: bool = True
+) -> Iterator[StoredCase]:
+    """Curves and shapes of many cases, one after another; the files are opened only once.
+
+    shapes: False leaves the shapes unread, and `frames` empty.
+    """
     with _union(Path(path)) as blocks:
         where = {
             case_id: (block, row)
@@ -124,7 +129,8 @@ def read_cases(path: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterato
             if case_id not in where:
                 raise StoreError(f"{path} holds no case {case_id}.")
             found = partial(_arrays, *where[case_id])
-            yield StoredCase(case_id, _history(found(["histories"])), _frames(found(FRAME_GROUPS)))
+            frames = _frames(found(FRAME_GROUPS)) if shapes else {}
+            yield StoredCase(case_id, _history(found(["histories"])), frames)
 
 
 def _history(curves: dict[str, np.ndarray]) -> "DataFrame":

@@ -165,7 +165,8 @@ def test_config_speaks_where_the_arguments_are_silent(capsys, tmp_path):
     other = heading.replace("100 mm x 50 mm", "4 in x 2in").format(500)
     assert other in crumple(capsys, "rank", file, "--panel", "4 in", "2in")[1]
     assert "At most 2 oz. Best" in crumple(capsys, "rank", file, "--budget", "2 oz")[1]
-    assert crumple(capsys, "rank", file, "--by", "mass_g")[1].startswith("Best first: least mass_g")
+    by_mass = crumple(capsys, "rank", file, "--by", "mass_g")[1]
+    assert by_mass.startswith("Best first: least mass, in g.")
 
 
 def test_requirements_of_the_config_hold_unless_an_option_replaces_or_drops_them(capsys, tmp_path):
@@ -176,8 +177,12 @@ def test_requirements_of_the_config_hold_unless_an_option_replaces_or_drops_them
     file = write(tmp_path / "trial.h5", summary({}), {"config": json.dumps(config)})
     _, out, _ = crumple(capsys, "rank", file)
     assert "Required of a panel: force at most 800 N." in out
-    assert "None passes less than 800 N; the best is 1000 N." in out
-    assert "None passes" in crumple(capsys, "rank", file, "--by", "mass_g")[1]
+    assert "ninjaflex: force 1000 N, 25 % too much." in out
+    assert out.endswith(
+        f"to see the nearest: crumple show {file} 0000\n"
+        f"to print it: crumple export {file} 0000 --to part.stl\n"
+    )
+    assert "Nearest" in crumple(capsys, "rank", file, "--by", "mass_g")[1]
     _, out, _ = crumple(capsys, "rank", file, "--max-force", "1 kN", "--max-mass", "60 g")
     assert "force at most 1000 N, mass at most 60 g" in out
     assert "All designs (1) fulfil this." in out
@@ -215,7 +220,7 @@ def test_budget_that_nothing_meets_is_told(capsys, file):
     said = [
         "At most 0.5 g. Best first: most energy.",
         "",
-        "Nothing weighs 0.5 g or less: the lightest weighs 1 g.",
+        f"Nothing weighs 0.5 g or less: the lightest weighs 1 g, case {16 * '0'}, ninjaflex.",
     ]
     assert out.splitlines()[:3] == said
 
@@ -357,11 +362,11 @@ def test_run_simulates_ranks_and_tells_of_failures(capsys, config):
     assert "3/3 cases" in err
     assert err.splitlines()[-3:] == [
         "results: results/trial.h5",
-        "next: crumple show results/trial.h5 1: pictures of the best design",
+        "next: crumple show results/trial.h5 1: pictures of the first design",
         "      crumple rank results/trial.h5 --out results/trial: tables and pictures",
     ]
     assert "1 of 3 cases failed: crumple status results/trial.h5 says why" in out
-    assert "Nothing weighs 5 g or less: the lightest weighs 6 g." in out
+    assert "Nothing weighs 5 g or less: the lightest weighs 6 g, case " in out
     assert list(read_summary("results/trial.h5")["status"]) == ["converged", "stopped", "converged"]
 
 
