@@ -212,11 +212,13 @@ def rank(arguments: Namespace) -> int:
     if arguments.out:
         from sweep.report.publish import publish_ranking
 
-        folder = Path(arguments.out)
+        folder, ranking = Path(arguments.out), ranked(summary, **question)
+        if (ranking.table["loading_mode"] == "displacement").any():
+            heights = heights or _heights_of(arguments.file)
         with _writing(folder):
             files = publish_ranking(arguments.file, summary, question, folder, heights)
         say_all(files)
-        _warn(arguments.file, ranked(summary, **question))
+        _warn(arguments.file, ranking)
     elif arguments.csv or arguments.json or arguments.markdown:
         ranking = ranked(summary, **question)
         if arguments.csv:
@@ -391,12 +393,17 @@ def _asked(arguments: Namespace) -> dict[str, Any]:
 
 
 def _drop_heights(arguments: Namespace) -> list[float]:
-    """The heights (m) of the cushion curves that a folder gets."""
+    """The heights (m) that --drop-height gives."""
     from sweep.ranking.merit import in_si
 
     if arguments.drop_height and not arguments.out:
         raise ArgumentError("--drop-height draws cushion curves into a folder: it needs --out DIR")
     return [*dict.fromkeys(in_si(text, "m") for text in arguments.drop_height or ())]
+
+
+def _heights_of(file: str) -> list[float]:
+    """The heights (m) of cushion curves in the config of a results file."""
+    return [*dict.fromkeys(_stored(file, "rank").get("drop_heights") or ())]
 
 
 def _question(budgets: Iterable[Any] | None, panel: Iterable[Any] | None) -> dict[str, Any]:

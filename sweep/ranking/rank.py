@@ -70,6 +70,14 @@ NO_ATTRS = (
     "required",
     "outcomes",
 )  # fields of `Ranking` that are newer than attributes
+USUAL = (
+    *("absorbed_energy_until_packed_J", "specific_absorption_until_packed_J_per_g"),
+    *("absorbed_energy_J", "specific_absorption_J_per_g", "absorbed_energy_within_model_J"),
+    *("lost_energy_J_per_g", "second_cycle_share", "mass_g", "peak_force_N"),
+    *("peak_force_until_packed_N", "peak_strain", "peak_deceleration_filtered_m_per_s2"),
+)
+"""The columns by which rankings are sorted most: a refusal names these instead of all."""
+NEAREST = 3  # names that a refusal proposes
 LEADING = [
     "budget_g",
     "scene",
@@ -362,12 +370,16 @@ def _column(frame: DataFrame, by: str) -> str:
     allowed = [name for name in numbers if describe_column(name).better]
     if by in allowed:
         return by
-    if by in numbers:
-        why = "neither more nor less of it makes a design better"
-        raise RankError(f'cannot sort by "{by}": {why}; allowed: {", ".join(allowed)}')
-    nearest = difflib.get_close_matches(by, allowed, n=1, cutoff=0.5)
-    hint = f"did you mean {nearest[0]}? " if nearest else ""
-    raise RankError(f'cannot sort by "{by}"; {hint}allowed: {", ".join(allowed)}')
+    known = by in numbers
+    why = "neither more nor less of it makes a design better" if known else "no such column"
+    nearest = difflib.get_close_matches(by, allowed, n=NEAREST, cutoff=0.5)
+    near = f"; the nearest are {', '.join(nearest)}" if nearest else ""
+    usual = ", ".join(name for name in USUAL if name in allowed)
+    more = len(allowed) - sum(name in allowed for name in USUAL)
+    raise RankError(
+        f'cannot sort by "{by}": {why}{near}\nallowed: {usual} and '
+        f"{more} others: the first line of rank --csv has all, docs/results.md explains most"
+    )
 
 
 def _several(budget: Quantity | Sequence[Quantity] | None) -> list[Quantity]:

@@ -68,7 +68,7 @@ REFUSED = [
     (["rank", "FILE", "--out", "F", "--drop-height", "1"], "a bare number"),
     (["rank", "FILE", "--out", "F", "--drop-height", "0 m"], "heights must be above zero"),
     (["rank", "FILE", "--panel", "100 mm"], "expected 2 arguments"),
-    (["rank", "FILE", "--by", "peak_forse_N"], "did you mean peak_force_N?"),
+    (["rank", "FILE", "--by", "peak_forse_N"], "the nearest are peak_force_N, "),
     (["rank", "FILE", "--allowed-force", "50 N"], "set loading.allowed_forces"),
     (["rank", "FILE", "--top", "0"], "1 or more"),
     (["rank", "FILE", "--max-force", "60"], "a bare number"),
@@ -252,6 +252,63 @@ def test_folder_holds_tables_and_figures(capsys, file, tmp_path):
     assert out.split() == [str(folder / name) for name in names]
     assert all((folder / name).stat().st_size > 200 for name in names)
     assert len(pd.read_csv(folder / "ranking.csv")) == 3
+
+
+def test_heights_of_cushion_curves_may_be_those_of_the_config(capsys, tmp_path):
+    about = {"config": json.dumps({"rank": {"drop_heights": [0.5]}})}
+    crushed = write(tmp_path / "crushed.h5", summary({}), about)
+    out = crumple(capsys, "rank", crushed, "--out", str(tmp_path / "a"))[1]
+    assert "cushion_500mm.png" in out
+    out = crumple(capsys, "rank", crushed, "--out", str(tmp_path / "b"), "--drop-height", "1 m")[1]
+    assert "cushion_1000mm.png" in out
+    assert "500mm" not in out
+    loaded = write(
+        tmp_path / "loaded.h5",
+        summary({"loading_mode": "force", "force_N": 5.0, "peak_strain": 0.1}),
+        about,
+    )
+    status, out, _ = crumple(capsys, "rank", loaded, "--out", str(tmp_path / "c"))
+    assert status == 0
+    assert "cushion_" not in out.replace(str(tmp_path), "")
+
+
+def test_heading_is_in_words(capsys, tmp_path):
+    hit = {"loading_mode": "impact", "striker_mass_g": 50.0, "striker_speed_m_per_s": 1.0}
+    file = write(tmp_path / "trial.h5", summary(hit))
+    assert "Best first: least force on the support.\n" in crumple(capsys, "rank", file)[1]
+    out = crumple(capsys, "rank", file, "--by", "peak_deceleration_filtered_m_per_s2")[1]
+    assert "Best first: least peak deceleration filtered, in m/s^2.\n" in out
+    assert "decel." in out
+
+
+def test_that_nothing_meets_what_is_asked_is_an_answer(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({}))
+    status, out, _ = crumple(capsys, "rank", file, "--max-force", "1 N")
+    assert status == 0
+    assert "No design has a place here." in out
+    status, _, err = crumple(capsys, "show", file, "1", "--budget", "0.1 g")
+    assert status == 2
+    assert "that of the lightest design: case 0000" in err
+
+
+def test_stroke_up_to_an_allowed_force_is_shown(capsys, tmp_path):
+    """Of the stored curve, 24 N after 2 of 4 mm."""
+    row = {"absorbed_energy_at_24N_J": 0.044, "peak_force_N": 28.0}
+    file = write(tmp_path / "trial.h5", summary(row))
+    out = crumple(capsys, "rank", file, "--allowed-force", "24 N")[1]
+    assert next(line for line in out.splitlines() if line.startswith("1*")).split()[-1] == "2.00"
+    status, out, _ = crumple(capsys, "show", file, "1", "--allowed-force", "24 N")
+    assert status == 0
+
+
+def test_requirement_that_no_case_can_be_asked_for_is_refused_before_the_run(capsys, tmp_path):
+    path = tmp_path / "trial.toml"
+    path.write_text('[loading]\nforce = "1 N"\n[require]\nmin_absorbed = "1 J"')
+    out = tmp_path / "trial.h5"
+    status, _, err = crumple(capsys, "run", str(path), "--out", str(out))
+    assert status == 2
+    assert err == ("crumple run: min_absorbed needs a crush, and these results have none\n")
+    assert not out.exists()
 
 
 def test_status_gathers_failures_of_one_kind(capsys, file):
