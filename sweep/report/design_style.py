@@ -31,6 +31,8 @@ LIKE_PATTERNS = {"circle": "o", "triangle": "^", "square": "s", "diamond": "D", 
 LIKE_PATTERNS |= {"triangles": "^", "grid": "s", "honeycomb": "h", "stars": "*"}
 SIZES = 5  # greatest number of wall thicknesses in a legend
 AREAS = (15.0, 75.0)  # points^2: sign of the thinnest and of the thickest wall
+THIN = 0.2  # points of a line / diameter of the sign of a design
+LINE = {"ls": "-", "marker": ""}
 PLAIN = {"ls": "", "marker": "o", "ms": 6.0, "color": "#8a8a8a"}
 
 
@@ -57,17 +59,27 @@ class Looks(NamedTuple):
             "marker": self.signs[points[self.sign].iloc[0]],
         }
 
-    def legend(self, walls: bool = True, barred: bool = False) -> list[dict[str, Any]]:
+    def width(self, thickness: float) -> float:
+        """Width (points) of a line for walls of a thickness (m)."""
+        return THIN * self.areas[thickness] ** 0.5
+
+    def legend(
+        self, walls: bool = True, barred: bool = False, lines: bool = False
+    ) -> list[dict[str, Any]]:
         """Keywords of an empty line for each entry of a legend; groups that vary have a heading.
 
-        walls: with wall thicknesses; barred: with an entry for error bars.
+        walls: with wall thicknesses; barred: with an entry for error bars; lines: designs are lines
+        whose width is that of the walls.
         """
         heading, words = _tint_words(list(self.colors))
         noun = "pattern" if self.sign == "lattice_kind" else self.sign
         groups = {
             heading: {w: {"color": c} for w, c in zip(words, self.colors.values(), strict=True)},
             noun: {name: {"marker": sign} for name, sign in self.signs.items()},
-            "wall": {f"{1e3 * t:.3g} mm": {"ms": area**0.5} for t, area in self.areas.items()},
+            "wall": {
+                f"{1e3 * t:.3g} mm": LINE | {"lw": self.width(t)} if lines else {"ms": area**0.5}
+                for t, area in self.areas.items()
+            },
         }
         groups["wall"] = _some(groups["wall"], SIZES)
         beyond = {**PLAIN, "mfc": "white", "ls": "--", "label": "not to be trusted"}
