@@ -13,6 +13,7 @@ from shlex import quote
 from typing import TYPE_CHECKING, Any
 
 from sweep.cli.terminal import (
+    nearest_commands,
     next_commands,
     print_ranking,
     print_sheets,
@@ -218,7 +219,7 @@ def rank(arguments: Namespace) -> int:
         with _writing(folder):
             files = publish_ranking(arguments.file, summary, question, folder, heights)
         say_all(files)
-        _warn(arguments.file, ranking)
+        _warn(arguments.file, ranking, summary)
     elif arguments.csv or arguments.json or arguments.markdown:
         ranking = ranked(summary, **question)
         if arguments.csv:
@@ -227,7 +228,7 @@ def rank(arguments: Namespace) -> int:
             say(ranking.table.to_json(orient="records", indent=2, double_precision=15))
         else:
             say(markdown(ranking_sheets(ranking, summary)), end="")
-        _warn(arguments.file, ranking)
+        _warn(arguments.file, ranking, summary)
     else:
         print_ranking(arguments.file, summary, question)
     return _exit_status(summary)
@@ -345,9 +346,10 @@ def _writing(folder: Path) -> Iterator[None]:
         raise ArgumentError(f"{folder} cannot be written: {error.strerror or error}") from error
 
 
-def _warn(file: str, ranking: Ranking) -> None:
+def _warn(file: str, ranking: Ranking, summary: DataFrame) -> None:
     """Print the warnings of a ranking on stderr, so that stdout has only the ranking."""
     _hint(warnings(file, ranking))
+    _hint(nearest_commands(file, ranking, summary))
 
 
 def _hint(lines: Iterable[str]) -> None:

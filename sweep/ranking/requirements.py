@@ -143,6 +143,28 @@ def check(rows: DataFrame, required: Mapping[str, float]) -> None:
         )
 
 
+class Judged(NamedTuple):
+    """The rows of one scene with what each of them has of the requirements, and meets.
+
+    mass: name of the column that budgets limit. asked: limits (SI) of the requirements that this
+    kind of loading is asked for; left_out: the others. found, met (rows, asked). fulfil (rows,).
+    """
+
+    rows: DataFrame
+    mass: str
+    asked: Mapping[str, float]
+    left_out: tuple[str, ...]
+    found: DataFrame
+    met: DataFrame
+    fulfil: Series
+
+    def within(self, budget_g: float) -> Judged:
+        """The same of the rows within a budget."""
+        kept = self.rows[self.mass] <= greatest_mass(budget_g)
+        parts = {name: getattr(self, name)[kept] for name in ("rows", "found", "met", "fulfil")}
+        return self._replace(**parts)
+
+
 def judge(
     rows: DataFrame,
     names: Compared,
@@ -157,42 +179,43 @@ def judge(
     mode = str(rows["loading_mode"].iloc[0]) if len(rows) else ""
     asked = {k: limit for k, limit in required.items() if mode in MEASURES[k].asked_of}
     found = measured(rows, names, per)
+    values = DataFrame({name: found[name] for name in asked}, index=rows.index)
     met = DataFrame({k: _met(found[k], k, v) for k, v in asked.items()}, index=rows.index)
     fulfil = rows["mass_g"].notna() & met.all(axis=1)
-    values = DataFrame({name: found[name] for name in asked}, index=rows.index)
-    energy, stroke = _rectangle(rows, required, per)
-    height = float(rows["height_m"].max()) if len(rows) else np.nan
-    lightest = rows[fulfil & ~doubtful(rows)].sort_values([names.mass, "case_id"])[:1]
     left_out = tuple(name for name in required if name not in asked)
-    outcomes = []
-    for budget in budgets_g if required else ():
-        kept = rows[names.mass] <= greatest_mass(budget)
-        within, ok, own = rows[kept], met[kept], values[kept]
-        sound = ~doubtful(within)
-        none = not (fulfil[kept] & sound).any()
-        row, misses = _nearest(within, own, asked, names.mass) if none else (within[:0], {})
-        outcomes.append(
-            Outcome(
-                mode=mode,
-                budget_g=budget if np.isfinite(budget) else np.nan,
-                designs=len(within),
-                fulfil=int(fulfil[kept].sum()),
-                doubtful=int((fulfil[kept] & ~sound).sum()),
-                failed={name: int((~ok[name]).sum()) for name in asked},
-                unknown={name: int(own[name].isna().sum()) for name in asked},
-                open=_open(within, ok, own),
-                best={name: _best(own[name], sound, MEASURES[name].least) for name in asked},
-                left_out=left_out,
-                nearest=row,
-                missed={name: float(own.loc[row.index[0], name]) for name in misses},
-                misses=misses,
-                lightest=lightest,
-                energy=energy,
-                stroke=stroke,
-                height=height,
-            )
-        )
-    return fulfil, tuple(outcomes)
+    judged = Judged(rows, names.mass, asked, left_out, values, met, fulfil)
+    if not required or rows.empty:
+        return fulfil, ()
+    rectangle = _rectangle(rows, required, per)
+    return fulfil, tuple(_outcome(judged, mode, g, *rectangle) for g in budgets_g)
+
+
+def _outcome(judged: Judged, mode: str, budget_g: float, energy: float, stroke: float) -> Outcome:
+    """The outcome within one budget."""
+    every, part = judged.rows[judged.fulfil], judged.within(budget_g)
+    sound = ~doubtful(part.rows)
+    soundly = int((part.fulfil & sound).sum())
+    nearest, misses = (part.rows[:0], {}) if soundly else _nearest(part)
+    order = [part.mass, "case_id"]
+    return Outcome(
+        mode=mode,
+        budget_g=budget_g if np.isfinite(budget_g) else np.nan,
+        designs=len(part.rows),
+        fulfil=int(part.fulfil.sum()),
+        doubtful=int(part.fulfil.sum()) - soundly,
+        failed={name: int((~part.met[name]).sum()) for name in part.asked},
+        unknown={name: int(part.found[name].isna().sum()) for name in part.asked},
+        open=_open(part),
+        best={k: _best(part.found[k], sound, MEASURES[k].least) for k in part.asked},
+        left_out=part.left_out,
+        nearest=nearest,
+        missed={name: float(part.found.loc[nearest.index[0], name]) for name in misses},
+        misses=misses,
+        lightest=every[~doubtful(every)].sort_values(order)[:1],
+        energy=energy,
+        stroke=stroke,
+        height=float(judged.rows["height_m"].max()),
+    )
 
 
 def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
@@ -230,29 +253,27 @@ def _best(values: Series, sound: Series, least: bool) -> Best:
     return Best(float(known.max() if least else known.min()), trusted.empty)
 
 
-def _open(rows: DataFrame, met: DataFrame, values: DataFrame) -> int:
+def _open(part: Judged) -> int:
     """Number of designs that fail `min_absorbed` alone, with an energy that is a lower bound."""
-    if "min_absorbed" not in met:
+    if "min_absorbed" not in part.asked:
         return 0
-    others = met.drop(columns="min_absorbed").all(axis=1)
-    known = values["min_absorbed"].notna()
-    return int((rows["ends_early"] & known & others & ~met["min_absorbed"]).sum())
+    others = part.met.drop(columns="min_absorbed").all(axis=1)
+    short = part.found["min_absorbed"].notna() & ~part.met["min_absorbed"]
+    return int((part.rows["ends_early"] & short & others).sum())
 
 
-def _nearest(
-    rows: DataFrame, values: DataFrame, asked: Mapping[str, float], mass: str
-) -> tuple[DataFrame, dict[str, float]]:
+def _nearest(part: Judged) -> tuple[DataFrame, dict[str, float]]:
     """The row with the least of the greatest misses, and its misses; no row if all are unknown.
 
     Designs to be trusted come before others; of equal misses the lightest is the first.
     """
-    shares = DataFrame({k: _miss(values[k], k, limit) for k, limit in asked.items()})
-    worst = shares.max(axis=1, skipna=False) if asked else rows[mass] * np.nan
-    known = rows.assign(worst=worst, doubtful=doubtful(rows)).dropna(subset=["worst"])
-    order = ["doubtful", "worst", *dict.fromkeys([mass, "case_id"])]
+    shares = DataFrame({k: _miss(part.found[k], k, limit) for k, limit in part.asked.items()})
+    worst = shares.max(axis=1, skipna=False) if part.asked else part.rows[part.mass] * np.nan
+    known = part.rows.assign(worst=worst, doubtful=doubtful(part.rows)).dropna(subset=["worst"])
+    order = ["doubtful", "worst", *dict.fromkeys([part.mass, "case_id"])]
     index = known.sort_values(order).index[:1]
-    misses = {name: float(shares.loc[i, name]) for i in index for name in asked}
-    return rows.loc[index], {name: share for name, share in misses.items() if share > 0.0}
+    misses = {name: float(shares.loc[i, name]) for i in index for name in part.asked}
+    return part.rows.loc[index], {name: share for name, share in misses.items() if share > 0.0}
 
 
 def _miss(values: Series, name: str, limit: float) -> Series:

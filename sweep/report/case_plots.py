@@ -266,9 +266,9 @@ def _to_scale(scale: float) -> Callable[[Axes, Any], Bbox]:
     """A locator that draws axes to a scale (inches / mm), in the middle of their place."""
 
     def box(ax: Axes, _: Any) -> Bbox:
-        place, figure = ax.get_position(original=True), ax.figure.bbox.size / ax.figure.dpi
+        place, pixels = ax.get_position(original=True), np.array(ax.figure.bbox.size)
         spans = [high - low for low, high in (ax.get_xlim(), ax.get_ylim())]
-        size = scale * np.array(spans) / figure
+        size = scale * np.array(spans) * ax.figure.dpi / pixels
         return Bbox.from_bounds(*(0.5 * (place.min + place.max - size)), *size)
 
     return box

@@ -73,7 +73,7 @@ class Looks(NamedTuple):
         """
         heading, words = _tint_words(list(self.colors))
         noun = "pattern" if self.sign == "lattice_kind" else self.sign
-        groups = {
+        groups: dict[str, dict[str, dict[str, Any]]] = {
             heading: {w: {"color": c} for w, c in zip(words, self.colors.values(), strict=True)},
             noun: {name: {"marker": sign} for name, sign in self.signs.items()},
             "wall": {

@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from pandas import DataFrame, Series
 
 AGAIN = """\
-fine mesh: with twice the elements. lowest, highest: that, and with walls 5 % thinner and thicker,
-and a quarter and four times the imperfection, one at a time."""
+fine mesh: with twice the elements. lowest, highest: of this, of walls 5 % thinner and thicker, and
+of a quarter and four times the imperfection, one change at a time."""
 NARROW = 0.8  # of its value: a design that keeps less stands on a narrow peak
 ONLY_EVALUATED = (
-    "The front of the designs that were evaluated; the search sought the column {} alone."
+    "This is the front of the designs that were evaluated; the search itself sought only {}."
 )
 
 
