@@ -129,7 +129,7 @@ def check_modes(required: Iterable[str], modes: Iterable[str]) -> None:
         asked_of = MEASURES[name].asked_of
         if known and not known.intersection(asked_of):
             needed = " or ".join(NEEDED[mode] for mode in asked_of)
-            raise RankError(f"{name} needs {needed}, and these results have none")
+            raise RankError(f"{name} needs {needed}, and there is none")
 
 
 def check(rows: DataFrame, required: Mapping[str, float]) -> None:

@@ -307,7 +307,7 @@ def test_requirement_that_no_case_can_be_asked_for_is_refused_before_the_run(cap
     out = tmp_path / "trial.h5"
     status, _, err = crumple(capsys, "run", str(path), "--out", str(out))
     assert status == 2
-    assert err == ("crumple run: min_absorbed needs a crush, and these results have none\n")
+    assert err == ("crumple run: min_absorbed needs a crush, and there is none\n")
     assert not out.exists()
 
 

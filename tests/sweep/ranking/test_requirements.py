@@ -143,8 +143,8 @@ def test_a_loading_is_not_asked_for_what_it_sets_itself():
 @pytest.mark.parametrize(
     ("name", "limit", "needed"),
     [
-        ("max_force", "70 N", "max_force needs a crush or a striker, and these results have none"),
-        ("min_absorbed", "1 J", "min_absorbed needs a crush, and these results have none"),
+        ("max_force", "70 N", "max_force needs a crush or a striker, and there is none"),
+        ("min_absorbed", "1 J", "min_absorbed needs a crush, and there is none"),
     ],
 )
 def test_what_no_loading_of_the_results_is_asked_for_is_refused(name, limit, needed):
