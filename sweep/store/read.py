@@ -152,10 +152,14 @@ def folded_batches(path: Path) -> int:
         return open_sealed(path, held).attributes["folded"] if path.exists() else 0
 
 
-def is_labelled(path: Path, axes: Axes) -> bool:
-    """True if the rows have the order and grid values of `axes`, and the count of other cases."""
+def is_labelled(path: Path, axes: Axes, config: Any) -> bool:
+    """True if the rows have the order and grid values of `axes`, and the count of other cases, and
+    if the file has this config: an edited [rank] or [require] changes no row.
+    """
     with _union(path) as blocks:
         table, others = newest(blocks), blocks[-1].attributes.get("other_cases", 0)
+        if blocks[-1].attributes.get("config") != config:
+            return False
     wanted = relabel(take(table, rows_in_order(table["case_id"], axes)), axes)
     same = (np.array_equal(table[n], c, equal_nan=c.dtype != object) for n, c in wanted.items())
     return wanted.keys() == table.keys() and all(same) and others == beyond(table, axes)
