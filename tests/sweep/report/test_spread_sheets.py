@@ -24,7 +24,7 @@ def sheet(first, second, failed=0):
     ("values", "sentence"),
     [
         ((1.5, 2.0), "The order of these designs does not change."),
-        ((3.0, 2.0), "The order changes. The first is another one with friction 0.9, "),
+        ((3.0, 2.0), "The order changes: with friction 0.9, the first is "),
         ((None, None), "No number is uncertain here."),
     ],
 )

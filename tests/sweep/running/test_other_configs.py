@@ -23,6 +23,21 @@ def test_cases_of_other_configs_are_counted_anew_by_every_run(tmp_path):
         assert read_attributes(out)["other_cases"] == others
 
 
+def test_an_edited_question_is_stored_although_no_case_is_missing(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(import_module("sweep.simulation.simulate"), "simulate", simulate)
+    monkeypatch.chdir(tmp_path)
+    config = tmp_path / "trial.toml"
+    for limit in ("1 g", "2 g"):
+        config.write_text(CONFIG.format(values=[0.1]) + f'[require]\nmax_mass = "{limit}"\n')
+        assert main(["run", str(config)]) == 0
+        capsys.readouterr()
+        main(["rank", "results/trial.h5"])
+        assert f"mass at most {limit}" in capsys.readouterr().out
+    stored = (tmp_path / "results/trial.h5").stat().st_mtime_ns
+    assert main(["run", str(config)]) == 0
+    assert (tmp_path / "results/trial.h5").stat().st_mtime_ns == stored
+
+
 @pytest.mark.parametrize("verb", ["run", "rank", "status"])
 def test_other_configs_are_told_of(tmp_path, monkeypatch, capsys, verb):
     monkeypatch.setattr(import_module("sweep.simulation.simulate"), "simulate", simulate)

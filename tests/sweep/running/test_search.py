@@ -127,7 +127,7 @@ def test_search_approaches_requirements_that_none_fulfils(searched):
     lattice = search.cases[nearest].lattice
     assert (lattice.kind, lattice.cells_x) == (kind, cells)
     least = min(
-        max(t / 0.65 - 1.0, 0.0) + 1.0 - exp(-(((t - 0.71) / 0.047) ** 2))
+        max(t / 0.65 - 1.0, 1.0 - exp(-(((t - 0.71) / 0.047) ** 2)))
         for t in [0.55 + 0.001 * k for k in range(200)]
     )
     assert missed == pytest.approx(least, rel=0.1)
