@@ -8,7 +8,7 @@ import sys
 from functools import cache
 from pathlib import Path
 
-from tests.support.specimens import summary, write
+from tests.support.results.specimens import summary, write
 
 ROOT = Path(__file__).parents[2]
 SOURCES = {

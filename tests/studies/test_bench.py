@@ -10,30 +10,24 @@ from kernels.planar.potential import CONTACT
 from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
 from tests.studies.bench import (
-    alone,
-    cases,
-    clock,
-    counts,
     densify,
     figure,
     growth,
     iteration,
     kernels,
-    libraries,
     lockstep,
-    loops,
-    marching,
-    opensees,
     scenes,
     sweeps,
-)  # fmt: skip
-from tests.studies.bench.crushes import COLLAPSED, Crush
-from tests.studies.bench.matrix import assembled, reduction
-from tests.studies.bench.spot import Spot
+)
+from tests.studies.bench.measuring import alone, cases, clock, counts, loops, marching
+from tests.studies.bench.measuring.crushes import COLLAPSED, Crush
+from tests.studies.bench.measuring.spot import Spot
+from tests.studies.bench.peers import libraries, opensees
+from tests.studies.bench.peers.matrix import assembled, reduction
 from tests.studies.bench.table import Table
 from tests.support import readme
-from tests.support.solving import at_rest, whole
-from tests.support.terms import by_home
+from tests.support.kernels.solving import at_rest, whole
+from tests.support.kernels.terms import by_home
 
 
 @pytest.fixture(scope="module")

@@ -9,8 +9,8 @@ from kernels.solve import arc_length, history, march, newton, workspace
 from kernels.solve.integrators import BDF2, TRAPEZOIDAL
 from kernels.solve.problem import FREE, HELD, LED, Coordinates, Step
 from kernels.solve.residual import Tolerance
-from tests.support.chain import ROW, Chain, Line, Output
-from tests.support.scenes import slopes
+from tests.support.designs.scenes import slopes
+from tests.support.kernels.chain import ROW, Chain, Line, Output
 
 HEIGHT, WIDTH, SPRING, APART = 2.0, 1.5, 0.7, 0.4
 TIGHT = Tolerance(1e-11, 1e-22, 1e-9, 1e-12, 1e-14, 4e-15, 100)

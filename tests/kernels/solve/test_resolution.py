@@ -6,7 +6,7 @@ from scipy.linalg import eigh
 
 from sweep.config.case import Case, Lattice, Loading, Material, Solver
 from sweep.simulation.simulate import simulate
-from tests.support.structures import APART, CLAMPED, UNDAMPED, probe, structure
+from tests.support.designs.structures import APART, CLAMPED, UNDAMPED, probe, structure
 
 LENGTH, THICKNESS, DEPTH, DENSITY, ELEMENTS = 30.0, 2.0, 12.0, 1190.0, 6
 AREA = THICKNESS * DEPTH * 1e-6

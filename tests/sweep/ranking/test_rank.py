@@ -9,7 +9,7 @@ import pytest
 from sweep.ranking.rank import RankError, pareto, rank, ranked, scene_label
 from sweep.report.sheets import ranking_sheets
 from sweep.result import COLUMNS, MODEL_VERSION
-from tests.support.specimens import designs, ids, summary
+from tests.support.results.specimens import designs, ids, summary
 
 NAN = float("nan")
 

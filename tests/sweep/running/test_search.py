@@ -8,7 +8,7 @@ from sweep.config.units import load_config
 from sweep.running.design_space import DesignSpace
 from sweep.running.search import Search, Settings
 from sweep.store.read import read_attributes, read_summary
-from tests.support.searches import BEST, THIN, TOML, simulate
+from tests.support.results.searches import BEST, THIN, TOML, simulate
 
 QUESTION = {"budget": None, "panel": None, "by": "absorbed_energy_J", "allowed_force": None}
 

@@ -8,14 +8,14 @@ from pathlib import Path
 import pytest
 
 from sweep.store.read import finished_ids
-from tests.support.standin import parts_of, write
+from tests.support.results.standin import parts_of, write
 
 ROOT = Path(__file__).parents[3]
 MERGE_AT = 16  # parts are merged into one, in place of 64
 PROGRAM = """
 import resource
 from sweep.store import parts
-from tests.support.standin import cases, write
+from tests.support.results.standin import cases, write
 from sweep.store.read import StoreError
 
 parts.MERGE_AT = {merge_at}

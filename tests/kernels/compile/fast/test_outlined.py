@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from kernels.compile.jit import jit_exact, separate
-from tests.support import packages
+from tests.support.kernels import packages
 
 CALLEE = """
 from typing import NamedTuple
