@@ -12,7 +12,7 @@ from sweep.ranking.rank import rank
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from sweep.store.read import read_attributes, read_frames, read_history, read_summary
-from tests.support.strips import pulled
+from tests.support.materials.strips import pulled
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 

@@ -12,9 +12,9 @@ from sweep.simulation.simulate import warm_up
 from tests.studies.stability import audit, draw, model, structures
 from tests.studies.stability.__main__ import counted, markdown, outcome
 from tests.studies.stability.structures import IN_TIME
-from tests.support.scenes import pressed, run
-from tests.support.solving import at_rest, ramp, whole
-from tests.support.states import STATES, driven, loaded
+from tests.support.designs.scenes import pressed, run
+from tests.support.kernels.solving import at_rest, ramp, whole
+from tests.support.kernels.states import STATES, driven, loaded
 
 FEW, CONVERGED = 40, 14
 

@@ -9,8 +9,8 @@ from sweep.config.case import Case, Contact, Lattice, Loading, Solver
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
 from tests.studies.verify import MATERIAL
-from tests.support.scenes import grid, slopes
-from tests.support.solving import descend, ramp, reduction, residual, shaken, whole
+from tests.support.designs.scenes import grid, slopes
+from tests.support.kernels.solving import descend, ramp, reduction, residual, shaken, whole
 
 HEIGHT = 12.5e-3
 ROUND_OFF = 1e-9  # N

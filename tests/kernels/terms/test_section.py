@@ -9,7 +9,8 @@ from kernels.terms.section import fibre, radial
 from sweep.config.case import Case, Lattice, Loading, Material, Solver
 from sweep.scene.lattice import build_scene
 from sweep.scene.material import law_of_section
-from tests.support.frames import (
+from tests.support.designs.scenes import at, is_sound, run, unbalanced
+from tests.support.kernels.frames import (
     MODULUS,
     Frame,
     bend_of,
@@ -25,8 +26,13 @@ from tests.support.frames import (
     stretch_of,
     walls_of,
 )
-from tests.support.scenes import at, is_sound, run, unbalanced
-from tests.support.terms import NO_MEMORY, bending_of, derivative_error, differences, least_share
+from tests.support.kernels.terms import (
+    NO_MEMORY,
+    bending_of,
+    derivative_error,
+    differences,
+    least_share,
+)
 
 NAMES = ["ninjaflex", "cheetah", "filaflex_60a"]
 FRAME = joint_of_four()

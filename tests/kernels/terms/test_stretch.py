@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 
 from kernels.terms import stretch
-from tests.support.frames import (
+from tests.support.kernels.frames import (
     carried,
     curve_law,
     frame,
@@ -17,7 +17,7 @@ from tests.support.frames import (
     stretch_of,
     walls_of,
 )
-from tests.support.terms import NO_MEMORY, Term, derivative_error, least_share, of_walls
+from tests.support.kernels.terms import NO_MEMORY, Term, derivative_error, least_share, of_walls
 
 BAR = frame([(0, 0), (2.0, 1.0)], [(0, 1)], 1)
 FRAME = joint_of_four()

@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.cli.find_case import CaseError, by_id, by_number, is_number
-from tests.support.specimens import designs, summary
+from tests.support.results.specimens import designs, summary
 
 QUESTION = {"budget": ["1.5 g", "10 g"]}
 

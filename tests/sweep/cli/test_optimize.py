@@ -8,7 +8,7 @@ import pytest
 from sweep.running.spread import spread_file
 from sweep.store.read import read_summary
 from tests.support.command import crumple
-from tests.support.searches import TOML, simulate
+from tests.support.results.searches import TOML, simulate
 
 ENERGY = "absorbed_energy_J"
 

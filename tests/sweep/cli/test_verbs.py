@@ -19,7 +19,7 @@ from sweep.result import absorbed_energy_column
 from sweep.running.sweep import Interrupted
 from sweep.store.read import read_summary
 from tests.support.command import crumple
-from tests.support.specimens import designs, summary, write
+from tests.support.results.specimens import designs, summary, write
 
 
 @pytest.fixture(scope="module")

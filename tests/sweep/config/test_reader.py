@@ -9,7 +9,7 @@ from sweep.config.case import Case
 from sweep.config.grid import expand
 from sweep.config.material_file import available
 from sweep.config.units import load_config
-from tests.support.structures import BEAM
+from tests.support.designs.structures import BEAM
 
 
 def test_empty_config_is_the_seed(load):

@@ -7,7 +7,7 @@ from sweep.ranking.curves import reached, with_allowed
 from sweep.ranking.merit import AT_ALLOWED
 from sweep.ranking.rank import rank
 from sweep.store.read import read_history, read_summary
-from tests.support.specimens import designs, ids, summary, write
+from tests.support.results.specimens import designs, ids, summary, write
 
 PANEL = ("130 mm", "50 mm")
 

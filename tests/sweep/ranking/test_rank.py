@@ -10,7 +10,7 @@ from sweep.ranking.rank import USUAL, RankError, pareto, rank, ranked, scene_lab
 from sweep.report.sheets import ranking_sheets
 from sweep.result import COLUMNS, MODEL_VERSION
 from tests.support.readme import QUOTED
-from tests.support.specimens import designs, ids, summary
+from tests.support.results.specimens import designs, ids, summary
 
 NAN = float("nan")
 

@@ -5,7 +5,7 @@ import pytest
 
 from sweep.ranking.rank import RankError, rank, ranked
 from sweep.ranking.requirements import MEASURES, Best, limits, measured
-from tests.support.specimens import designs, ids, summary
+from tests.support.results.specimens import designs, ids, summary
 
 NAN = float("nan")
 PANEL = ("130 mm", "50 mm")  # 50 specimens

@@ -5,7 +5,7 @@ import pandas
 import pytest
 
 from sweep.report import case_plots
-from tests.support.specimens import (
+from tests.support.results.specimens import (
     HEIGHT,
     T,
     squeezed_cell,

@@ -12,7 +12,7 @@ from sweep.report.cushion_plots import (
     envelope,
     same_design,
 )
-from tests.support.specimens import summary
+from tests.support.results.specimens import summary
 
 STRAIN = np.linspace(0.001, 0.6, 600)
 SPEED = (2.0 * GRAVITY * 0.5) ** 0.5  # of a fall from 0.5 m

@@ -3,7 +3,7 @@
 from sweep.ranking.rank import ranked
 from sweep.report.markdown import markdown
 from sweep.report.sheets import Sheet, ranking_sheets
-from tests.support.specimens import designs, summary
+from tests.support.results.specimens import designs, summary
 
 
 def test_budgets_stand_one_below_the_other_in_markdown():

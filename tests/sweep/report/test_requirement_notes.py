@@ -5,7 +5,7 @@ import pytest
 from sweep.ranking.rank import ranked
 from sweep.report.requirement_notes import quantity, required
 from sweep.report.sheets import legend, ranking_sheets
-from tests.support.specimens import designs, summary
+from tests.support.results.specimens import designs, summary
 
 NAN = float("nan")
 PANEL = ("130 mm", "50 mm")  # 50 specimens

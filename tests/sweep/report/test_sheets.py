@@ -21,7 +21,7 @@ from sweep.report.sheets import (
     legend,
     ranking_sheets,
 )
-from tests.support.specimens import CRUSHED_SOLID, SPARSE, designs, summary
+from tests.support.results.specimens import CRUSHED_SOLID, SPARSE, designs, summary
 
 NAN = float("nan")
 

@@ -5,7 +5,7 @@ from pandas import DataFrame
 
 from sweep.ranking.spread import AS_GIVEN, Spread
 from sweep.report.spread_sheets import spread_sheets
-from tests.support.specimens import designs, summary
+from tests.support.results.specimens import designs, summary
 
 COLUMN = "mass_g"
 OWN = summary(*designs([1.0, 2.0], [0.4, 0.3]))

@@ -7,7 +7,7 @@ import pytest
 from sweep.__main__ import main
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_attributes
-from tests.support.standin import cases, simulate
+from tests.support.results.standin import cases, simulate
 
 CONFIG = """
 name = "trial"
