@@ -9,7 +9,7 @@ from kernels.geometry.space import advancement, crossing, near
 from kernels.geometry.space.vectors import SIZE
 from kernels.laws.barrier import barrier
 from kernels.plates import contact, pairs
-from tests.support.kernels.sheets import (
+from tests.support.kernels.surfaces import (
     Sheet,
     contact_of,
     pairs_of,

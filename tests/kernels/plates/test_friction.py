@@ -7,7 +7,14 @@ from kernels.geometry.space.vectors import SIZE
 from kernels.laws.barrier import barrier
 from kernels.plates import contact, friction
 from kernels.terms.friction import DUAL_TOLERANCE, UNKNOWN, Friction
-from tests.support.kernels.sheets import Sheet, contact_of, pairs_of, placed, positions, two_sheets
+from tests.support.kernels.surfaces import (
+    Sheet,
+    contact_of,
+    pairs_of,
+    placed,
+    positions,
+    two_sheets,
+)
 from tests.support.kernels.terms import Term, derivative_error, differences, least_share
 
 MU = 0.3
