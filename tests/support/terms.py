@@ -47,6 +47,13 @@ class Term:
         return self.second(x, projected)
 
 
+def assert_same(one: Term, other: Term, x: np.ndarray) -> None:
+    """Two terms are the same at ``x`` but for round-off."""
+    for name in ("energy", "gradient", "hessian"):
+        found, expected = getattr(one, name)(x), getattr(other, name)(x)
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+
+
 def room(
     walls: elements.Walls,
 ) -> tuple[elements.Shape, elements.Resultants, elements.Stiffness]:

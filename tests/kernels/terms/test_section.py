@@ -26,7 +26,14 @@ from tests.support.frames import (
     walls_of,
 )
 from tests.support.scenes import at, is_sound, run, unbalanced
-from tests.support.terms import NO_MEMORY, bending_of, derivative_error, differences, least_share
+from tests.support.terms import (
+    NO_MEMORY,
+    assert_same,
+    bending_of,
+    derivative_error,
+    differences,
+    least_share,
+)
 
 NAMES = ["ninjaflex", "cheetah", "filaflex_60a"]
 FRAME = joint_of_four()
@@ -52,6 +59,12 @@ def plain(nu=0.0, radial=0.0):
 
 def term_of(of: Frame, through, cubic=True):
     return bending_of(walls_of(of), sections_of(of, through, cubic), along=stretch_of(of))
+
+
+def test_an_elastic_section_is_one_whose_memory_is_empty():
+    """They are compiled apart."""
+    general = law()._replace(curve=law().curve._replace(is_elastic=False))
+    assert_same(term_of(FRAME, law()), term_of(FRAME, general), shaken(FRAME, 0, 0.1))
 
 
 @pytest.mark.parametrize("nu", PLANES)
