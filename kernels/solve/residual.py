@@ -41,13 +41,14 @@ def largest(residual, coordinates):
 
 @jit_exact
 def allowed(stiffest, tolerance):
-    """Return the admissible residual in N and Newton decrement in J.
+    """Return the admissible residual in N.
 
-    The residual is at least the force of the ``stiffest`` coordinate (N/m) in a move of
-    ``tolerance.resolution``.
+    It is at least the force of the ``stiffest`` coordinate (N/m) in a move of
+    ``tolerance.resolution``. The admissible Newton decrement does not grow with it: such a move
+    releases hardly any energy, so that a residual of a larger decrement is one of softer
+    coordinates, and no round-off.
     """
-    force = max(tolerance.force, tolerance.resolution * stiffest)
-    return force, tolerance.decrement * (force / tolerance.force) ** 2
+    return max(tolerance.force, tolerance.resolution * stiffest)
 
 
 @jit_exact
