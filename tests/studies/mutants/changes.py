@@ -54,7 +54,7 @@ MUTANTS = [
         (
             "fibres: with the barrier",
             "return curve(law, strain)",
-            "return respond(law, strain, memory, point)",
+            "return respond(law, strain)",
         ),
         tests=f"{TERMS}/test_section.py",
     ),
@@ -233,8 +233,8 @@ MUTANTS = [
         f"{SOLVE}/friction_loop.py",
         (
             "friction loop: ends at once",
-            "converged = error <= limit and",
-            "converged = error >= 0.0 and",
+            "return largest(work.residual, problem.scene.coordinates)",
+            "return 0.0",
         ),
         tests=f"{SOLVE}/test_chain.py::test_friction_of_a_loaded_particle_is_that_of_where_it_ends",
     ),
