@@ -13,7 +13,7 @@ import numpy as np
 from kernels.arrays import copy, dot, zero
 from kernels.compile.jit import jit_exact, separate
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE, TIED
-from kernels.solve.residual import allowed, largest
+from kernels.solve.residual import allowed, allowed_decrement, largest
 
 CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
 ARMIJO = 1e-4  # share of the predicted decrease that is sufficient
@@ -248,9 +248,11 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
                         continue
         has_direction = stable or projected
         slope = _newton_direction(problem, found, work, remaining) if has_direction else 0.0
-        if balanced and stable and -0.5 * slope <= tolerance.decrement:
-            outcome, descent.decrement = CONVERGED, -0.5 * slope
-            break
+        if balanced and stable:
+            descent.decrement = -0.5 * slope
+            if descent.decrement <= allowed_decrement(problem.stiffest(), tolerance, x.size):
+                outcome = CONVERGED
+                break
         if iteration == tolerance.iterations:
             break
         accept_any, projected = remaining != 0.0, False

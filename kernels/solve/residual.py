@@ -44,11 +44,20 @@ def allowed(stiffest, tolerance):
     """Return the admissible residual in N.
 
     It is at least the force of the ``stiffest`` coordinate (N/m) in a move of
-    ``tolerance.resolution``. The admissible Newton decrement does not grow with it: such a move
-    releases hardly any energy, so that a residual of a larger decrement is one of softer
-    coordinates, and no round-off.
+    ``tolerance.resolution``.
     """
     return max(tolerance.force, tolerance.resolution * stiffest)
+
+
+@jit_exact
+def allowed_decrement(stiffest, tolerance, n):
+    """Return the admissible Newton decrement of ``n`` coordinates in J.
+
+    It is at least the energy of moves of ``tolerance.resolution`` against the ``stiffest``
+    coordinate (N/m): an admissible residual that can release more is one of softer coordinates, and
+    no round-off.
+    """
+    return max(tolerance.decrement, n * stiffest * tolerance.resolution**2)
 
 
 @jit_exact
