@@ -87,7 +87,11 @@ MUTANTS = [
         f"{TERMS}/bend.py",
         ("bend: energy", "first * one + second * two", "first * one - second * two"),
         ("bend: moment", "force[1, k] += first", "force[1, k] -= first"),
-        ("bend: rigidity between the ends", "+= k12 * d1 * d2", "-= k12 * d1 * d2"),
+        (
+            "bend: rigidity between the ends",
+            "first * s1, k12 * d1 * d2",
+            "first * s1, -k12 * d1 * d2",
+        ),
         ("bend: bent measure", "d1 * d1 + first * s1", "d1 * d1 - first * s1"),
     ),
     *_of(
@@ -223,7 +227,7 @@ MUTANTS = [
         f"{SOLVE}/newton.py",
         ("line search: slope", "share * (slope +", "share * (-slope +"),
         ("Newton: direction", "-found.g[i] - direction[i]", "found.g[i] - direction[i]"),
-        ("Newton: saddles accepted", "if balanced and stable and", "if balanced and"),
+        ("Newton: saddles accepted", "if balanced and stable:", "if balanced:"),
     ),
     *_of(
         f"{SOLVE}/anderson.py",
