@@ -23,9 +23,8 @@ from kernels.terms import (
     spring,
     stretch,
 )
+from kernels.terms.rows import BEND, CONTACT, STRETCH
 
-STRETCH, BEND, CONTACT = range(3)  # stored energies: E_s with springs, E_b with folds, E_c
-STORED = 3
 LEAST = np.dtype(
     (
         np.record,  # for attributes in plain Python too

@@ -15,6 +15,7 @@ from kernels.solve import history
 from kernels.solve.problem import Coordinates
 from kernels.terms.damping import Before
 from kernels.terms.elements import Resultants, Shape, Stiffness
+from kernels.terms.rows import STORED
 
 
 class Buffers(NamedTuple):
@@ -113,7 +114,7 @@ def at_rest(scene, x):
     numbers, elements = _told(scene.law, "state_size"), scene.stretch.l0.size
     points = elements * (2 + _told(scene.bend.section, "points"))
     memory = (points, numbers) if numbers > 0 else (0, 0)
-    return history.at_rest(x, potential.STORED, memory)
+    return history.at_rest(x, STORED, memory)
 
 
 class PlanarScene(NamedTuple):

@@ -1,67 +1,10 @@
 """Rows of the history and frames of a lattice."""
 
-from typing import NamedTuple
-
-import numpy as np
-
 from kernels.arrays import total
 from kernels.compile.jit import jit_exact
 from kernels.geometry.specimen_height import height
-from kernels.planar.potential import BEND, CONTACT, STRETCH
 from kernels.planar.reach import least_gap
-
-ROW = np.dtype(
-    (
-        np.record,  # for attributes in plain Python too
-        [
-            ("work", np.float64),  # the energy book, J: as in `history.BOOK`
-            ("kinetic", np.float64),
-            ("stretch", np.float64),
-            ("bend", np.float64),
-            ("contact", np.float64),
-            ("material", np.float64),
-            ("friction", np.float64),
-            ("integrator", np.float64),
-            ("injected", np.float64),
-            ("residual", np.float64),
-            ("time", np.float64),  # s
-            ("height", np.float64),  # of the specimen, m
-            ("reaction_top", np.float64),  # N
-            ("reaction_bottom", np.float64),  # N
-            ("iterations", np.float64),  # of Newton, accumulated
-            ("gap", np.float64),  # least distance of centre lines that may touch, m; infinite: none
-            ("speed", np.float64),  # of the upper platen upwards, m/s
-        ],
-    )
-)
-
-
-class Output(NamedTuple):
-    """rows (steps,) of `ROW`; frame_of (steps,): slot of a step in frames (f, n), -1 for none.
-
-    bottom: coordinates whose reactions sum to the lower one. top, base: coordinates, see `height`.
-    probes (k,): coordinates whose value and reaction are recorded in probed (steps, 2, k).
-    """
-
-    rows: np.ndarray
-    frame_of: np.ndarray
-    frames: np.ndarray
-    bottom: np.ndarray
-    top: np.ndarray
-    base: np.ndarray
-    probes: np.ndarray
-    probed: np.ndarray
-
-
-@jit_exact
-def enter(row, state):
-    """Write the energy book of ``state`` into a row."""
-    book = state.book[0]
-    row.work, row.kinetic = book.work, book.kinetic
-    row.stretch, row.bend = state.stored[STRETCH], state.stored[BEND]
-    row.contact = state.stored[CONTACT]
-    row.material, row.friction = book.material, book.friction
-    row.integrator, row.injected, row.residual = book.integrator, book.injected, book.residual
+from kernels.terms.rows import enter
 
 
 @jit_exact

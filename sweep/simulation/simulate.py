@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 
 from kernels.geometry.specimen_height import height
-from kernels.planar.potential import STRETCH
 from kernels.planar.problem import at_rest
-from kernels.planar.rows import ROW, Output
 from kernels.solve import arc_length, energy_book, friction_loop, march, newton
 from kernels.terms import spring
+from kernels.terms.rows import ROW, STRETCH, Output
 from sweep.config.case import Case, Lattice, Loading, Solver
 from sweep.config.solver_defaults import given_or
 from sweep.config.structure import Load, Structure, Support

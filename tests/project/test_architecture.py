@@ -74,6 +74,7 @@ TESTED_ELSEWHERE = {
     "kernels.solve.workspace": "kernels/solve/test_first_guess.py",
     "kernels.laws.barrier": "kernels/terms/test_contact.py",
     "kernels.laws.law": "physics/test_memories.py",
+    "kernels.terms.rows": "sweep/simulation/test_custom_history.py",
     "kernels.terms.kelvin_voigt": "kernels/terms/test_damping.py",
     "kernels.terms.rayleigh": "kernels/terms/test_damping.py",
     "sweep.__main__": "sweep/cli/test_verbs.py",

@@ -6,8 +6,8 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from kernels.planar.potential import CONTACT
 from kernels.solve import newton
+from kernels.terms.rows import CONTACT
 from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
 from tests.studies.bench import (

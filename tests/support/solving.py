@@ -7,13 +7,13 @@ from unittest.mock import patch
 import numpy as np
 
 from kernels.compile.reference import by_reference, referred
-from kernels.planar import potential, reach
 from kernels.planar import problem as planar
+from kernels.planar import reach
 from kernels.planar.problem import Planar
-from kernels.planar.rows import ROW, Output
 from kernels.solve import march, newton, workspace
 from kernels.solve.problem import FREE, NEGATIVE, NO_ROOM, Found, Step
 from kernels.terms import contact, fold, friction, spring
+from kernels.terms.rows import ROW, STORED, Output
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
 from tests.support.terms import assembled, dense, full_matrix, nowhere
@@ -48,7 +48,7 @@ class Whole:
 
     def found(self, x, projected=False) -> tuple[float, Found]:
         """Energy and what else `evaluate` finds at ``x``."""
-        found = workspace.make_workspace(x.size, potential.STORED).found
+        found = workspace.make_workspace(x.size, STORED).found
         return self.problem.evaluate(x, self.step, found, projected), found
 
     def energy_gradient(self, x):
@@ -181,7 +181,7 @@ def descend(
 
     ``there``: ``start`` has been evaluated before.
     """
-    x, space = start.copy(), workspace.make_workspace(start.size, potential.STORED)
+    x, space = start.copy(), workspace.make_workspace(start.size, STORED)
     descent, problem, done = np.zeros(1, newton.DESCENT)[0], args.problem, 0
     allowed = tolerances(case, scene, like(args.step))._replace(**tolerance)
     target, descent.since_factor = x[-1] if target is None else target, np.inf

@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.planar.rows import ROW, Output
 from kernels.solve import history, march, newton
+from kernels.terms.rows import ROW, Output
 from sweep.scene.loading import stages, tolerances
 from tests.studies.bench.clock import seconds
 from tests.support.solving import at_rest, ramp

@@ -1,0 +1,62 @@
+"""Rows of a history: the energy book by terms, and what is measured after each step."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from kernels.compile.jit import jit_exact
+
+STRETCH, BEND, CONTACT = range(3)  # stored energies: E_s with springs, E_b with folds, E_c
+STORED = 3
+ROW = np.dtype(
+    (
+        np.record,  # for attributes in plain Python too
+        [
+            ("work", np.float64),  # the energy book, J: as in `history.BOOK`
+            ("kinetic", np.float64),
+            ("stretch", np.float64),
+            ("bend", np.float64),
+            ("contact", np.float64),
+            ("material", np.float64),
+            ("friction", np.float64),
+            ("integrator", np.float64),
+            ("injected", np.float64),
+            ("residual", np.float64),
+            ("time", np.float64),  # s
+            ("height", np.float64),  # of the specimen, m
+            ("reaction_top", np.float64),  # N
+            ("reaction_bottom", np.float64),  # N
+            ("iterations", np.float64),  # of Newton, accumulated
+            ("gap", np.float64),  # least distance of surfaces that may touch, m; infinite: none
+            ("speed", np.float64),  # of the upper platen upwards, m/s
+        ],
+    )
+)
+
+
+class Output(NamedTuple):
+    """rows (steps,) of `ROW`; frame_of (steps,): slot of a step in frames (f, n), -1 for none.
+
+    bottom: coordinates whose reactions sum to the lower one. top, base: coordinates, see `height`.
+    probes (k,): coordinates whose value and reaction are recorded in probed (steps, 2, k).
+    """
+
+    rows: np.ndarray
+    frame_of: np.ndarray
+    frames: np.ndarray
+    bottom: np.ndarray
+    top: np.ndarray
+    base: np.ndarray
+    probes: np.ndarray
+    probed: np.ndarray
+
+
+@jit_exact
+def enter(row, state):
+    """Write the energy book of ``state`` into a row."""
+    book = state.book[0]
+    row.work, row.kinetic = book.work, book.kinetic
+    row.stretch, row.bend = state.stored[STRETCH], state.stored[BEND]
+    row.contact = state.stored[CONTACT]
+    row.material, row.friction = book.material, book.friction
+    row.integrator, row.injected, row.residual = book.integrator, book.injected, book.residual
