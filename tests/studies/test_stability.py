@@ -64,6 +64,17 @@ def test_light_scenes_violate_nothing(drawn):
     assert sum(found.balanced for found in audits) > len(light)
 
 
+@pytest.mark.parametrize(
+    "case",
+    [draw.scene(40)[1], draw.scene(51)[1], draw.remembering(105)],
+    ids=["struck", "rough", "released"],
+)
+def test_no_force_is_left_over_where_stiffnesses_differ_by_far(case):
+    """A soft coordinate was not balanced beside a stiff one, nor friction at the end of a step."""
+    warm_up()
+    assert audit.audit(case).violations == ()
+
+
 def corner(case, cells_x, cells_y):
     """The same scene of fewer cells, with their share of the striker."""
     lattice, loading = case.lattice, case.loading

@@ -30,6 +30,7 @@ from tests.support.kernels.terms import (
     NO_MEMORY,
     bending_of,
     derivative_error,
+    difference,
     differences,
     least_share,
 )
@@ -58,6 +59,12 @@ def plain(nu=0.0, radial=0.0):
 
 def term_of(of: Frame, through, cubic=True):
     return bending_of(walls_of(of), sections_of(of, through, cubic), along=stretch_of(of))
+
+
+def test_an_elastic_section_is_one_whose_memory_is_empty():
+    """They are compiled apart."""
+    general = law()._replace(curve=law().curve._replace(is_elastic=False))
+    assert difference(term_of(FRAME, law()), term_of(FRAME, general), shaken(FRAME, 0, 0.1)) < 1e-12
 
 
 @pytest.mark.parametrize("nu", PLANES)

@@ -232,7 +232,7 @@ def _balance(seen):
     left = np.zeros_like(seen.x)
     step.problem.reduce(found.g, left)
     size = residual.largest(left, coordinates)
-    allowed = residual.allowed(step.problem.stiffest(), seen.tolerance)[0]
+    allowed = residual.allowed(step.problem.stiffest(), seen.tolerance)
     if seen.terms.friction.mu > 0.0:
         rubbing = residual.largest(found.friction, coordinates)
         allowed += LAG * max(seen.tolerance.friction, seen.tolerance.friction_share * rubbing)
