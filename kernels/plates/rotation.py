@@ -123,7 +123,7 @@ def slope(frame, w, v, k):
 
 @jit
 def moment(frame, w, v, g):
-    """Return g . dd/dw_k for k = 0, 1, 2: the gradient in w of an energy with the gradient g in d."""
+    """Return g . dd/dw_k for k = 0, 1, 2; g: slopes of an energy in d."""
     a, b, a1, b1, _, _ = _factors(_dot(w, w))
     h = _taken_back(frame, g)
     whole = 2.0 * (a1 * _dot(h, _cross(w, v)) + b1 * _dot(h, _twice_crossed(w, v)))

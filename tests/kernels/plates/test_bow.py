@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from kernels.plates import bow
-from tests.support.shells import plate, stored
-from tests.support.terms import differences
+from tests.support.kernels.shells import plate, stored
+from tests.support.kernels.terms import differences
 
 SIZE = np.array([0.4, 0.7])
 R = np.random.default_rng(0)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.plates import rotation
-from tests.support.terms import differences
+from tests.support.kernels.terms import differences
 
 STATES = [(0.0, 0.0, 0.0), (1e-9, 0.0, 0.0), (0.1, -0.2, 0.05), (0.9, 0.4, -1.1), (0.0, 3.0, 0.0)]
 DIRECTORS = [(0.0, 0.0, 1.0), (0.6, 0.0, -0.8), (-0.48, 0.64, 0.6)]

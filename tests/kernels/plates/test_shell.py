@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from kernels.plates import rotation, shear, shell
-from tests.support import sheets
-from tests.support.shells import (
+from tests.support.kernels import sheets
+from tests.support.kernels.shells import (
     LINEAR,
     MODULUS,
     Structure,
@@ -18,7 +18,7 @@ from tests.support.shells import (
     stored,
     term_of,
 )
-from tests.support.terms import derivative_error
+from tests.support.kernels.terms import derivative_error
 
 RUBBER = sheets.sheet_of_rubber()
 STATES = [(0.0, 0.0), (0.05, 0.05), (0.2, 0.3)]  # size of random moves and rotations

@@ -5,7 +5,7 @@ from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
 from tests.studies.plates.model import Floats, Places, coordinates, free, relaxed, slopes, stiffness
-from tests.support.shells import MODULUS, Structure, plate
+from tests.support.kernels.shells import MODULUS, Structure, plate
 
 X, Y, Z, ABOUT_S, ABOUT_Z, ABOUT_N = range(6)
 

@@ -18,8 +18,8 @@ from sweep.config.units import quantity
 from sweep.export import export as module
 from sweep.export.errors import ExportError
 from sweep.export.export import WRITERS, export_case
-from tests.support.exported import grid, results
-from tests.support.specimens import summary, write
+from tests.support.results.exported import grid, results
+from tests.support.results.specimens import summary, write
 
 CASE = grid()
 
