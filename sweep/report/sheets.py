@@ -309,7 +309,7 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
         share = (100.0 * frame["infill_share"]).map("{:.3g}".format)
         columns["infill %"] = share.where(frame["infill_share"].notna(), "")
     for name, head in MILLIMETRES.items():
-        if _varies(among, name):
+        if any(_varies(rows, name) for rows in _by_way(among, name)):
             columns[head] = (frame[name] * 1e3).map("{:.3g}".format)
     if _varies(among, "material"):
         columns["material"] = frame["material"].astype(str)
@@ -446,6 +446,15 @@ def crush_text(rows: DataFrame) -> dict[str, Series]:
 def _unsure(rows: DataFrame) -> Series:
     """True for lattices that have nearly the greatest efficiency over a long span of strain."""
     return rows["packing_span"] > LONG_SPAN
+
+
+def _by_way(among: DataFrame, name: str) -> list[DataFrame]:
+    """The rows in which a length is compared: of each direction for itself if it is the depth of
+    the pressed area, which is the plan's along the cells.
+    """
+    if name != "depth_m" or "direction" not in among:
+        return [among]
+    return [rows for _, rows in among.groupby("direction")]
 
 
 def _varies(frame: DataFrame, *names: str) -> bool:

@@ -243,6 +243,7 @@ def test_both_directions_stand_side_by_side_in_one_ranking():
     """The direction belongs to the design, also as a key of the grid."""
     across = {"absorbed_energy_J": 0.1, "loading.direction": "in_plane"}
     along = {"absorbed_energy_J": 1.8, "loading.direction": "out_of_plane"} | UPRIGHT
+    along |= {"depth_m": 13e-3}  # of the plan
     table = summary(across, along)
     (sheet,) = ranking_sheets(ranked(table), table)
     assert sheet.heads[:2] == ["#", "pressed"]
