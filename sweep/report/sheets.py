@@ -309,7 +309,7 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
         share = (100.0 * frame["infill_share"]).map("{:.3g}".format)
         columns["infill %"] = share.where(frame["infill_share"].notna(), "")
     for name, head in MILLIMETRES.items():
-        if any(_varies(rows, name) for rows in _by_way(among, name)):
+        if _sizes_vary(among, name):
             columns[head] = (frame[name] * 1e3).map("{:.3g}".format)
     if _varies(among, "material"):
         columns["material"] = frame["material"].astype(str)
@@ -448,13 +448,17 @@ def _unsure(rows: DataFrame) -> Series:
     return rows["packing_span"] > LONG_SPAN
 
 
-def _by_way(among: DataFrame, name: str) -> list[DataFrame]:
-    """The rows in which a length is compared: of each direction for itself if it is the depth of
-    the pressed area, which is the plan's along the cells.
+def _sizes_vary(among: DataFrame, name: str) -> bool:
+    """Whether a length differs between designs by more than what follows from other columns.
+
+    Along the cells `depth_m` is the plan's over all: its centre lines and a wall, or an outline.
     """
     if name != "depth_m" or "direction" not in among:
-        return [among]
-    return [rows for _, rows in among.groupby("direction")]
+        return _varies(among, name)
+    along = among["direction"] == "out_of_plane"
+    plan = among[along].round(9)
+    inner = (plan["depth_m"] - plan["wall_thickness_m"]).round(9)
+    return _varies(among[~along], name) or (_varies(plan, name) and inner.nunique() > 1)
 
 
 def _varies(frame: DataFrame, *names: str) -> bool:

@@ -252,6 +252,14 @@ def test_both_directions_stand_side_by_side_in_one_ranking():
     assert "pressed" not in design_text(table.iloc[:1], table.iloc[:1])
 
 
+@pytest.mark.parametrize(("depths", "shown"), [((13.0, 12.6), False), ((13.0, 14.0), True)])
+def test_depth_of_a_plan_over_all_is_no_size_of_its_own(depths, shown):
+    walls = zip((0.8, 0.4), depths, strict=True)
+    rows = [{"wall_thickness_m": 1e-3 * t, "depth_m": 1e-3 * d} | UPRIGHT for t, d in walls]
+    table = summary({}, *rows)
+    assert ("depth mm" in design_text(table, table)) == shown
+
+
 def test_what_plates_leave_out_is_told():
     rows = summary({}, UPRIGHT, UPRIGHT | {"peak_strain": 0.8})
     none, usual, beyond = (about_direction(row) for _, row in rows.iterrows())
