@@ -458,7 +458,7 @@ def _sizes_vary(among: DataFrame, name: str) -> bool:
     along = among["direction"] == "out_of_plane"
     plan = among[along].round(9)
     inner = (plan["depth_m"] - plan["wall_thickness_m"]).round(9)
-    return _varies(among[~along], name) or (_varies(plan, name) and inner.nunique() > 1)
+    return _varies(among[~along], name) or (_varies(plan, name) and len(inner.unique()) > 1)
 
 
 def _varies(frame: DataFrame, *names: str) -> bool:
