@@ -58,10 +58,11 @@ OPTIMIZE = """Search for the best design among those that the table [search] of 
   "lattice.cells_x" = {from = 2, to = 8}                           whole numbers
   "lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"}      or lattice.mass
 
-The best is what rank lists first: most energy until the lattice has packed, or up to --max-force,
-or the best of --by. With a budget, walls are as thick as it allows at most. Every design is a row
-of the results file; after a stop, the same command with the same seed continues, also with more
---evaluations. Six designs run at a time after the first sixteen: more workers do not help. The
+The best is what rank lists first: most energy until the lattice has packed, or up to
+--allowed-force, or the best of --by, of those designs that fulfil [require] or its options. If none
+does, the nearest are told. With a budget, walls are as thick as it allows at most. Every design is
+a row of the results file; after a stop, the same command with the same seed continues, also with
+more --evaluations. Six designs run at a time after the first sixteen: more workers do not help. The
 three best are simulated again with twice the elements, and with walls 5 % thinner and thicker and
 other imperfections, in a results file of their own, and told with the spread of their values."""
 ACCURACY = """Simulate a sweep over numerical settings, then print error against run time: a table,
@@ -108,10 +109,12 @@ EXPORT = """Write one case as a file for another program, in the format that its
   .csv          the curves: travel, force, strain, stress, energies
   .pvd .vtu     the stored shapes as a series for ParaView, NAME_0000.vtu and so on
   .gif          the crush as a moving picture
-A file of that name is replaced. With --panel, whole specimens side by side along the first length,
-as deep as the second. A .3mf has two kinds: "lattice", the walls themselves, to be printed with
+A file of that name is replaced, and a folder that is missing is made. With --panel: the whole
+specimens that rank counts for these two lengths, side by side along the first and one behind the
+other along the second. A .3mf has two kinds: "lattice", the walls themselves, to be printed with
 100 % infill; "settings", a solid block with the pattern, the per cent and the line width with which
-a slicer draws the lattice: square, diamond, triangle, kagome or hex, of regular cells."""
+a slicer draws the lattice: one of lattice.slicer, or of regular square, diamond, triangle, kagome
+or hex cells."""
 EXPORT_EXAMPLES = """examples:
   crumple export F.h5 a44d --to part.stl
   crumple export F.h5 a44d --to bumper.3mf --panel "100 mm" "50 mm"
@@ -292,12 +295,8 @@ def _add_optimize(verbs: Any) -> None:
     optimize.add_argument(
         "--panel", nargs=2, metavar="LENGTH", help='area to fill with specimens: "100 mm" "50 mm"'
     )
-    optimize.add_argument(
-        *("--allowed-force", "--max-force"),
-        dest="max_force",
-        metavar="FORCE",
-        help='count energy up to this force of a specimen, as rank --allowed-force: "60 N"',
-    )
+    force = 'of a crush, as --allowed-force; of an impact or a load, required: "60 N"'
+    _add_limits(optimize, force)
     optimize.add_argument("--by", metavar="COLUMN", help="seek the best of this column")
     optimize.add_argument("--pareto", metavar="COLUMN", help="list the front of a second aim, too")
     optimize.add_argument(
@@ -383,14 +382,20 @@ def _add_question(rank: argparse.ArgumentParser) -> None:
     by = rank.add_argument("--by", metavar="COLUMN", help="sort by this column of the summary")
     offer(by, columns)
     rank.add_argument("--top", type=_count, metavar="N", help="places shown: 10, or 3 per budget")
-    rank.add_argument(
+    _add_limits(rank, REQUIREMENTS["max_force"][1])
+
+
+def _add_limits(verb: argparse.ArgumentParser, max_force: str) -> None:
+    """Add the options that limit a design; max_force: what the option of this name means."""
+    verb.add_argument(
         "--allowed-force", metavar="FORCE", help='count energy up to this force: "50 N"'
     )
-    rank.add_argument(
+    verb.add_argument(
         "--per", choices=("specimen", "panel"), help="what that force and requirements are of"
     )
-    for name, (kind, what) in REQUIREMENTS.items():
-        rank.add_argument(f"--{name.replace('_', '-')}", metavar=kind, help=what)
+    words = REQUIREMENTS | {"max_force": (REQUIREMENTS["max_force"][0], max_force)}
+    for name, (kind, what) in words.items():
+        verb.add_argument(f"--{name.replace('_', '-')}", metavar=kind, help=what)
 
 
 def _count(text: str) -> int:

@@ -548,7 +548,7 @@ def _gap_to_platen(x, nodes, platen, side):
 @jit_exact
 def least_gap(x, contact, pairs, drift):
     """Return the smallest distance in m of nodes from middle surfaces and platens that they may
-    touch; drift: `detect`.
+    touch, near parts of a wall left out; drift: `detect`.
     """
     least = min(
         _gap_to_platen(x, contact.low_nodes, contact.low, 1.0),
@@ -558,7 +558,7 @@ def least_gap(x, contact, pairs, drift):
         for q in range(pairs.start[p], pairs.start[p + 1]):
             if pairs.bound[q] - 2.0 * drift >= least:
                 break
-            if pairs.d_contact[q] > 0.0:
+            if pairs.path[q] > 0.0:
                 k = pairs.triangle[q]
                 a, b, c = contact.triangles[k, 0], contact.triangles[k, 1], contact.triangles[k, 2]
                 d2 = squared_to_triangle(point(x, p), point(x, a), point(x, b), point(x, c))

@@ -13,17 +13,20 @@ Euler characteristic of the union of the triangles that meet B, integrated over 
 junction of walls counts once, and walls in front of p and behind it count both.
 
 *What touches must have been apart.* As in `kernels.terms.contact_near_joints`, walls can fold upon
-themselves only at parts that are farther than pi t / 2 apart, t the mean thickness. A triangle
-whose centre is nearer to p than that at rest is not in contact with it: only crossing is
-prevented. Where walls meet at an angle, s is the straight distance at rest, not the path along the
-walls: parts of them that are nearer than pi t / 2 in space are a joint. Contact starts at
+themselves only at parts that are farther than pi t / 2 apart, t the mean thickness. Where walls
+meet at an angle, s is the straight distance at rest, not the path along the walls. Contact starts
+at
 
     t_c = t s / sqrt(s^2 + t^2)   for s < 5 t,   t beyond,
 
 s the distance of p from T at rest. t_c is less than s, so that the rest state is free of stress,
 and less than the distance t sin(s / t) of two points of a wall that is bent to its limit 2 / t, up
-to s = 2 t. t_c of a side or a corner is the least of the triangles seen that share it: where t_c
-differs between triangles, the one with the largest contribution counts.
+to s = 2 t. A triangle whose centre is nearer to p at rest than pi t / 2 is not in contact with it.
+Crossing has to be prevented there too, where a wall is creased or crushed, and a step limit alone
+would stop a search: for such near parts contact starts at `NEAR_SHARE` t_c.
+
+t_c of a side or a corner is the least of the triangles seen that share it: where t_c differs
+between triangles, the one with the largest contribution counts.
 """
 
 import math
@@ -43,6 +46,7 @@ from kernels.geometry.space.parallel import SINE2
 from kernels.geometry.space.vectors import inner, length, minus, point, row
 
 LEAST_PATH = 0.5 * math.pi  # of what may touch, at rest, in units of t
+NEAR_SHARE = 0.3  # of t_c, at which contact of near parts starts: a wall can be crushed to that
 FAR = 5.0  # s / t beyond which t_c = t: it would be less than 2 % smaller
 EDGE_SHARE = 0.5  # of t_c, at which contact of two edges starts
 SHELLS = 64  # number of distance classes by which pairs of edges are sorted
@@ -52,16 +56,16 @@ class Pairs(NamedTuple):
     """Pairs of a node and a triangle, a side or a corner, and of two edges, without common node.
 
     Those of node p are start[p] .. start[p + 1]: triangle (k,), bound (k,): distance when they were
-    listed, m, ascending for each node; path (k,): s of the module's docstring, m, 0 where only
-    crossing is prevented; d_contact (k,): t_c, m, or 0.
+    listed, m, ascending for each node; path (k,): s of the module's docstring, m, negative of near
+    parts; d_contact (k,): distance at which contact starts, m, 0 of what is not apart at rest.
 
     lower_start (n + 1,), lower (j,): corners by node, sides by n + edge; lower_weight, lower_bound
-    and lower_contact (j,): weight, distance when listed and t_c; lower_triangle (j,): a triangle
-    that has it.
+    and lower_contact (j,): weight, distance when listed and where contact starts; lower_triangle
+    (j,): a triangle that has it.
 
     one, two (i,): edges; edge_bound (i,): lower bound of their distance when listed, ascending;
-    edge_path, edge_contact (i,): s and EDGE_SHARE t_c, m, 0 as above; edge_area (i,): weight, m^2;
-    edge_scale (i,): e of `geometry.space.parallel`, m^4.
+    edge_path (i,): s, m, negative as above; edge_contact (i,): where contact starts, m; edge_area
+    (i,): weight, m^2; edge_scale (i,): e of `geometry.space.parallel`, m^4.
     """
 
     start: np.ndarray
@@ -86,10 +90,10 @@ class Pairs(NamedTuple):
 
 @jit_exact
 def starts_at(path, t):
-    """Return t_c in m of parts at the distance ``path`` at rest, 0 if they cannot touch."""
-    if path <= 0.0:
-        return 0.0
-    return t if path >= FAR * t else t * path / math.hypot(path, t)
+    """Return where contact starts, m. path: distance at rest, m, negative of near parts."""
+    share = NEAR_SHARE if path < 0.0 else 1.0
+    s = abs(path)
+    return share * (t if s >= FAR * t else t * s / math.hypot(s, t))
 
 
 @jit_exact
@@ -110,7 +114,7 @@ def _edge_thickness(contact, thickness, one, two):
 
 @jit_exact
 def _path(contact, p, k):
-    """Return s of node ``p`` and triangle ``k``, m, 0 if they cannot touch."""
+    """Return s of node ``p`` and triangle ``k``, m, negative if they are near."""
     at = row(contact.rest, p)
     a, b, c = triple(contact.triangles, k)
     one, two, three = row(contact.rest, a), row(contact.rest, b), row(contact.rest, c)
@@ -120,9 +124,8 @@ def _path(contact, p, k):
         (one[2] + two[2] + three[2]) / 3.0,
     )
     least = LEAST_PATH * _thickness(contact, contact.rest_thickness, p, k)
-    if length(minus(centre, at)) < least:
-        return 0.0
-    return math.sqrt(squared_to_triangle(at, one, two, three))
+    path = math.sqrt(squared_to_triangle(at, one, two, three))
+    return -path if length(minus(centre, at)) < least else path
 
 
 @jit_exact
@@ -137,14 +140,14 @@ def _middle(points, a, b):
 
 @jit_exact
 def _edge_path(contact, one, two):
-    """Return s of two edges, m, 0 if they cannot touch."""
+    """Return s of two edges, m, negative if they are near."""
     a, b = contact.edges[one, 0], contact.edges[one, 1]
     c, d = contact.edges[two, 0], contact.edges[two, 1]
-    apart = length(minus(_middle(contact.rest, a, b), _middle(contact.rest, c, d)))
-    if apart < LEAST_PATH * _edge_thickness(contact, contact.rest_thickness, one, two):
-        return 0.0
     rest = contact.rest
-    return math.sqrt(squared_between_edges(row(rest, a), row(rest, b), row(rest, c), row(rest, d)))
+    path = math.sqrt(squared_between_edges(row(rest, a), row(rest, b), row(rest, c), row(rest, d)))
+    apart = length(minus(_middle(rest, a, b), _middle(rest, c, d)))
+    least = LEAST_PATH * _edge_thickness(contact, contact.rest_thickness, one, two)
+    return -path if apart < least else path
 
 
 @jit_exact
@@ -176,7 +179,7 @@ def _weigh(contact, seen, p, weight, owner, listed):
     n_nodes, count = contact.area.size, 0
     start, triangle, path = seen
     for q in range(start[p], start[p + 1]):
-        if path[q] > 0.0:
+        if path[q] != 0.0:
             k = triangle[q]
             for i in range(6):
                 f = _feature(contact, k, i)
@@ -306,7 +309,7 @@ def renew_distances(contact, pairs):
             k = pairs.triangle[q]
             t = _thickness(contact, contact.thickness, p, k)
             pairs.d_contact[q] = starts_at(pairs.path[q], t)
-            if pairs.path[q] > 0.0:
+            if pairs.path[q] != 0.0:
                 for i in range(6):
                     f = _feature(contact, k, i)
                     least[f] = min(least[f], pairs.d_contact[q])

@@ -7,17 +7,17 @@ from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from sweep.cli.terminal import print_sheets, say
+from sweep.cli.terminal import print_sheets, say, say_all
 
 if TYPE_CHECKING:
     from argparse import Namespace
-
-    from pandas import DataFrame
+    from collections.abc import Iterator
 
     from sweep.config.grid import Config
     from sweep.running.search import Search
 
 FORCES = "loading.allowed_forces"
+SHORT = 8  # characters of an id in a command
 
 
 class OptimizeError(ValueError):
@@ -35,28 +35,26 @@ def optimize(config: Config, arguments: Namespace) -> int:
         needed = '"lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"} or the like'
         raise OptimizeError(f"{config.path} {wrong}; needed: {needed}")
     check_searched(config.search)
-    question = _question(config, arguments)
-    if arguments.max_force and config.rank.per == "panel":
-        counted = "a search counts the force of a specimen"
-        raise OptimizeError(
-            f'rank.per = "panel": {counted}; allowed: "specimen", with such a force'
-        )
-    config, budget, panel = _with_force(config, question), *_limits(question)
-    out = arguments.out or f"results/{config.name}.h5"
     how = Settings(arguments.evaluations, arguments.seed, arguments.workers, arguments.scheduler)
-    search = Search(DesignSpace(config, budget, panel), question, out, how)
+    question = _question(config, arguments)
+    limits, out = _limits(question), arguments.out or f"results/{config.name}.h5"
+    space = DesignSpace(config, *limits)
+    question = _of_mode(question, arguments, Search(space, question, out, how).mode)
+    space = DesignSpace(_with_force(config, question), *limits)
+    search = Search(space, question, out, how)
     search.run()
-    failed = _tell_best(search, question)
-    if arguments.pareto:
-        _tell_front(search, question, arguments.pareto)
-    if required := [name for name, value in config.require if value is not None]:
-        say(f"A search does not look at [require] ({', '.join(required)}); crumple rank does.")
+    failed = _tell_best(search)
+    if arguments.pareto and search.found and search.found.by_id:
+        _tell_front(search, arguments.pareto)
+    say_all(_to_print(search))
     say(f"results: {out}; to rank them: {_next_command(out, question)}")
     return failed
 
 
 def _question(config: Config, arguments: Namespace) -> dict[str, Any]:
     """The arguments of `rank`: those given, else those of the config."""
+    from sweep.ranking.requirements import MEASURES
+    from sweep.ranking.requirements import limits as required
     from sweep.ranking.worth import check_column
 
     for name in filter(None, (arguments.by, arguments.pareto)):
@@ -64,12 +62,41 @@ def _question(config: Config, arguments: Namespace) -> dict[str, Any]:
     budgets = [arguments.budget] if arguments.budget else list(config.rank.budgets)
     if len(budgets) > 1:
         raise OptimizeError(f"[rank] has {len(budgets)} budgets; needed: one, as --budget")
+    options = {name: getattr(arguments, name) for name in MEASURES if name != "max_force"}
+    require = config.require.model_dump() | {k: v for k, v in options.items() if v}
+    kept = {name: value for name, value in require.items() if value not in (None, "none")}
+    if arguments.max_force == "none":
+        kept.pop("max_force", None)
+    panel, per = arguments.panel or config.rank.panel, arguments.per or config.rank.per
+    if per == "panel" and not panel:
+        raise OptimizeError('per = "panel"; needed: a panel, as --panel or in [rank]')
+    required(kept)
     return {
         "budget": budgets or None,
-        "panel": arguments.panel or config.rank.panel,
+        "panel": panel,
         "by": arguments.by,
-        "allowed_force": arguments.max_force,
+        "allowed_force": arguments.allowed_force,
+        "require": kept,
+        "per": per,
     }
+
+
+def _of_mode(question: dict[str, Any], arguments: Namespace, mode: str) -> dict[str, Any]:
+    """The question with --max-force: the force up to which the energy of a crush counts, else a
+    requirement. mode : of the loading, "" if no design is known.
+    """
+    from sweep.ranking.merit import in_si
+
+    if "max_deceleration" in question["require"] and mode not in ("impact", ""):
+        raise OptimizeError(f"max_deceleration needs a striker; loading.mode is {mode} here")
+    if arguments.max_force in (None, "none"):
+        return question
+    if arguments.allowed_force is not None:
+        raise OptimizeError("--max-force with --allowed-force; allowed: one of them")
+    in_si(arguments.max_force, "N")
+    if mode in ("displacement", ""):
+        return question | {"allowed_force": arguments.max_force}
+    return question | {"require": question["require"] | {"max_force": arguments.max_force}}
 
 
 def _with_force(config: Config, question: dict[str, Any]) -> Config:
@@ -77,8 +104,8 @@ def _with_force(config: Config, question: dict[str, Any]) -> Config:
     from sweep.config.axis import Written
     from sweep.ranking.merit import in_si
 
-    if question["allowed_force"] is None:
-        return config
+    if question["allowed_force"] is None or question["per"] == "panel":
+        return config  # a force of the panel is looked up in the curves
     force = in_si(question["allowed_force"], "N")
     known = config.base[FORCES].value if FORCES in config.base else ()
     forces = tuple(dict.fromkeys([*known, force]))
@@ -86,16 +113,20 @@ def _with_force(config: Config, question: dict[str, Any]) -> Config:
 
 
 def _limits(question: dict[str, Any]) -> tuple[float, tuple[float, float] | None]:
-    """Budget (kg) and panel (m)."""
+    """Greatest mass (kg) of a specimen, or of the panel (m) if there is one; and the panel."""
     from sweep.ranking.merit import in_si
 
     budget = in_si(question["budget"][0], "kg") if question["budget"] else inf
     sides = [in_si(side, "m") for side in question["panel"] or ()]
+    most = question["require"].get("max_mass")
+    if most is not None and bool(sides) == (question["per"] == "panel"):
+        budget = min(budget, in_si(most, "kg"))
     return budget, (sides[0], sides[1]) if sides else None
 
 
-def _tell_best(search: Search, question: dict[str, Any]) -> int:
+def _tell_best(search: Search) -> int:
     """Simulate the best designs again, and print them; return how many values are missing."""
+    from sweep.ranking.curves import with_allowed
     from sweep.ranking.rank import ranked
     from sweep.ranking.spread import spreads
     from sweep.report.search_sheets import finalist_sheet
@@ -103,48 +134,77 @@ def _tell_best(search: Search, question: dict[str, Any]) -> int:
     from sweep.running.spread import run_corners, spread_file
     from sweep.store.read import read_summary
 
-    found = search.found
+    found, question = search.found, search.question
     if not search.cases:
         budget = f" within {question['budget'][0]}" if question["budget"] else ""
         raise OptimizeError(f"no design of [search] exists{budget}; allowed: a wider search")
-    if found is None or not found.by_id:
+    if found is None or not (found.by_id or found.missed):
         say(f"None of {len(search.cases)} designs can be ranked.")
         return max(1, len(search.cases))
     if found.doubtful:
         say(f"Left out: {found.doubtful} designs whose results rank marks with ! or x.")
+    if not found.by_id:
+        _tell_nearest(search)
+        return 0
     best = finalists(search.cases[case_id] for case_id in found.by_id)
     again = {case.case_id: perturbed(case) for case in best}
     run_corners(again, search.out, search.settings.workers, search.settings.scheduler)
-    summary = _rows(search)
+    summary, beside = search.rows(), spread_file(search.out)
     ids = {design: [(c.name, c.case_id) for c in corners] for design, corners in again.items()}
     ranking = ranked(summary, **question | {"top": None})
-    (spread,) = spreads(ranking, read_summary(spread_file(search.out)), ids, question)
+    corners = with_allowed(beside, read_summary(beside), question)
+    (spread,) = spreads(ranking, corners, ids, question)
     print_sheets([finalist_sheet(spread, summary)])
     return spread.failed
 
 
-def _tell_front(search: Search, question: dict[str, Any], other: str) -> None:
-    from sweep.ranking.worth import front
+def _tell_nearest(search: Search) -> None:
+    """Print that no design fulfils all requirements, why, and which comes nearest."""
+    from sweep.ranking.rank import ranked
+    from sweep.report.search_sheets import nearest_sheet
+    from sweep.report.sheets import ranking_sheets
+    from sweep.running.finalists import finalists
+
+    assert search.found is not None
+    summary, question = search.rows(), search.question | {"top": None}
+    say(f"None of {len(search.cases)} designs fulfils all requirements.")
+    print_sheets(ranking_sheets(ranked(summary, **question), summary))
+    whole, missed = ranked(summary, **question | {"require": None}), search.found.missed
+    chosen = [case.case_id for case in finalists(search.cases[case_id] for case_id in missed)]
+    print_sheets([nearest_sheet(whole, {one: missed[one] for one in chosen}, summary)])
+
+
+def _tell_front(search: Search, other: str) -> None:
+    from sweep.ranking.worth import front, thinned
     from sweep.report.search_sheets import front_sheet
 
-    summary = _rows(search)
-    print_sheets([front_sheet(front(summary, question, other), summary, other)])
+    assert search.found is not None
+    summary = search.rows()
+    rows = thinned(front(summary, search.question, other), (other, search.found.column))
+    print_sheets([front_sheet(rows, summary, other)])
 
 
-def _rows(search: Search) -> DataFrame:
-    """The rows of a search, without others that the results file may hold."""
-    from sweep.store.read import read_summary
-
-    summary = read_summary(search.out)
-    return summary[summary["case_id"].isin(search.cases)].reset_index(drop=True)
+def _to_print(search: Search) -> Iterator[str]:
+    """The command that exports the first design, or the one that comes nearest."""
+    found = search.found
+    first = next(iter({**found.by_id, **found.missed}), None) if found else None
+    if first is None or search.cases[first].lattice.boundary == "periodic":
+        return
+    words = ["crumple", "export", str(search.out), first[:SHORT], "--to", "best.3mf"]
+    panel = search.question["panel"] or ()
+    if panel:
+        words += ["--panel", *(p if isinstance(p, str) else f"{1e3 * p:g} mm" for p in panel)]
+    which = "first" if found and found.by_id else "nearest"
+    yield f"to print the {which}: {shlex.join(words)}"
 
 
 def _next_command(out: str, question: dict[str, Any]) -> str:
     """The command that ranks the results as the search did."""
     words = ["crumple", "rank", str(out)]
-    for name in ("budget", "panel", "by", "allowed_force"):
-        given = question[name]
-        values = [given] if isinstance(given, str) else list(given or ())
-        if values and all(isinstance(value, str) for value in values):
-            words += [f"--{name.replace('_', '-')}", *values]
+    asked = {name: question[name] for name in ("budget", "panel", "by", "allowed_force")}
+    asked |= {"per": question["per"] if question["per"] == "panel" else None}
+    for name, given in (asked | question["require"]).items():
+        values = [given] if isinstance(given, str) else [] if given is None else given
+        if not isinstance(values, float) and all(isinstance(value, str) for value in values):
+            words += [f"--{name.replace('_', '-')}", *values] if values else []
     return shlex.join(words)

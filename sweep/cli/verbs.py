@@ -249,19 +249,20 @@ def show(arguments: Namespace) -> int:
 
 def export(arguments: Namespace) -> int:
     """Write one case as a file for another program."""
-    from sweep.export.export import export_case
+    from sweep.export.export import check_export, export_case
     from sweep.store.read import read_summary
 
+    target = Path(arguments.to)
+    check_export(target, arguments.panel, arguments.kind)
     row, taken = _named(arguments, read_summary(arguments.file))
     say_all([taken] if taken else [])
-    target = Path(arguments.to)
-    replaced = target.exists()
+    replaced, is_new = target.exists(), not target.parent.exists()
     with _writing(target.parent):
         files, notes = export_case(
             arguments.file, target, row["case_id"], arguments.panel, arguments.kind
         )
     say(f"{files[-1]}{f' and {len(files) - 1} files beside' if files[1:] else ''}"
-        f"{', replaced' if replaced else ''}")  # fmt: skip
+        f"{', replaced' if replaced else ', in a new folder' if is_new else ''}")  # fmt: skip
     say_all(notes)
     return DONE
 

@@ -27,6 +27,7 @@ from sweep.design.slicer import (
 CUSTOM = "custom"
 NOZZLE, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m
 FILL_ANGLE, PERIMETERS = radians(45.0), 2  # of a slicer
+MOST_LINES = 10  # that OrcaSlicer lays side by side
 # The factor of a lattice of 70 000 nodes takes 8 GB, and a step several minutes.
 MAX_NODES = 50_000
 MAX_ASPECT = 1000.0  # of the box; above it the computed areas lose their accuracy
@@ -55,9 +56,10 @@ class Lattice(Table):
     box and thickness are measured from it; a given `wall_thickness` scales all of its walls, so
     that it is their mean.
     slicer: the infill is laid as this slicer lays it, in a `pattern` of the slicer's own name,
-    within `perimeters`; the layers are stacked along `depth`. `infill`, or the `mass` as extruded,
-    then sets `fill_distance`, that of parallel lines. printable: what does not print is refused, by
-    lines of `line_width`, or as wide as the `nozzle` where lines are not used otherwise.
+    within `perimeters`, with `fill_multiline` lines in each wall; layers are stacked along `depth`.
+    `infill`, or the `mass` as extruded, then sets `fill_distance`, that of parallel walls.
+    printable: what does not print is refused, by lines of `line_width`, or as wide as the `nozzle`
+    where lines are not used otherwise.
     layers: quads up the height of a lattice that is pressed along its depth; None: as high as they
     are long. symmetry "quarter": such a lattice is cut at its two mirror planes. imperfection_seed:
     of the shape of its imperfection; None: the shape in which equal walls buckle.
@@ -71,6 +73,7 @@ class Lattice(Table):
         "perimeters": 0,
         "solid_layers": 0,
         "symmetry": "none",
+        "fill_multiline": 1,
     }
     labels: ClassVar[tuple[str, ...]] = ("infill", "mass", "file", "nozzle", "printable")
 
@@ -91,6 +94,7 @@ class Lattice(Table):
     pattern: str | None = None
     fill_angle: Angle | None = None
     fill_distance: Length | None = None
+    fill_multiline: Annotated[int, Field(ge=1, le=MOST_LINES)] = 1
     nozzle: Length = NOZZLE
     printable: bool = False
     grading: Annotated[float, Field(gt=0)] = 1.0
@@ -127,6 +131,8 @@ class Lattice(Table):
         be_in_proportion(self)
         if self.slicer is not None:
             return self._cut(SLICERS[self.slicer])
+        if self.fill_multiline != 1:
+            raise refusal("lattice.fill_multiline", self.fill_multiline, "1 without lattice.slicer")
         lines = self.perimeters > 0 or self.infill is not None
         used = {
             "file": None,
@@ -176,7 +182,7 @@ class Lattice(Table):
         }
         self._set(used)
         be_lines(self)
-        thickness = self.printed_as.wall * self.line
+        thickness = self.printed_as.wall * self.lines
         self._follow("wall_thickness", thickness, f"{thickness:g} m, as lattice.slicer is given")
         if self.infill is not None:
             if self.mass is not None:
@@ -251,6 +257,11 @@ class Lattice(Table):
         return line_of(self.slicer, width, self.layer_height or LAYER_HEIGHT)
 
     @property
+    def lines(self) -> float:
+        """What the lines of one wall of the infill fill, side by side (m)."""
+        return self.fill_multiline * self.line
+
+    @property
     def _lines(self) -> Sliced | None:
         if self.slicer is None or self.fill_distance is None:
             return None
@@ -258,7 +269,7 @@ class Lattice(Table):
             SLICERS[self.slicer][self.pattern or ""],
             self.fill_distance,
             self.fill_angle or 0.0,
-            self.line,
+            self.lines,
             (0.5 * self.perimeters - OVERLAP) * self.line,
         )
 
@@ -378,6 +389,10 @@ def be_laid(lattice: Lattice, patterns: dict[str, str]) -> None:
         raise refusal(key, pattern, f"{names}{reason}")
     if lattice.mass is None and lattice.infill is None:
         raise refusal("lattice.infill", None, 'a share such as "20 %", or a lattice.mass')
+    count = lattice.fill_multiline
+    if count != 1 and (lattice.slicer != "orca" or patterns[pattern] == "honeycomb"):
+        allowed = '1; more with lattice.slicer "orca" and a pattern other than honeycomb'
+        raise refusal("lattice.fill_multiline", count, allowed)
     fixed = {"kind": "square", "orientation": None, "grading": 1.0, "solid_layers": 0}
     for name, value in fixed.items():
         if getattr(lattice, name) != value:
@@ -399,7 +414,7 @@ def be_lines(lattice: Lattice) -> None:
 def laid(lattice: Lattice, share: float) -> dict[str, Any]:
     """What follows from a share of infill: the distance of lines, and about how many cells fit."""
     pattern = SLICERS[lattice.slicer or ""][lattice.pattern or ""]
-    distance = distance_of(pattern, share, lattice.line)
+    distance = distance_of(pattern, share, lattice.lines)
     cells = {
         f"cells_{axis}": max(1, round(size / distance))
         for axis, size in (("x", lattice.width), ("y", lattice.height))

@@ -52,5 +52,5 @@ def _gap(lattice: Lattice) -> float:
     """Clear width of the narrowest cell, m; beside the double walls of a printed honeycomb."""
     if lattice.slicer is not None:
         double = lattice.printed_as.wall > 1.0
-        return lattice.opening - (2.0 if double else 1.0) * lattice.line
+        return lattice.opening - (2.0 if double else 1.0) * lattice.lines
     return lattice.opening - max(_thicknesses(lattice))

@@ -16,6 +16,7 @@ WIDEST = 2.0  # nozzles: width of a line
 @dataclass(frozen=True)
 class SlicerSettings:
     """slicer: "prusa", "orca" or "cura". pattern: in the slicer's words. infill: share, 0 to 1.
+    fill_multiline: number of lines of a wall.
 
     line_width, layer_height in m; fill_angle in rad from the width of the design, whose layers are
     stacked along its depth. exact: False for a design that only corresponds to these settings; then
@@ -30,11 +31,13 @@ class SlicerSettings:
     fill_angle: float
     perimeters: int
     exact: bool
+    fill_multiline: int = 1
 
     def __str__(self) -> str:
         near = "" if self.exact else ", nearly"
+        several = f"{self.fill_multiline} lines a wall, " if self.fill_multiline > 1 else ""
         return (
-            f"{NAMES[self.slicer]}{near}: {self.pattern}, {100.0 * self.infill:.3g} %, "
+            f"{NAMES[self.slicer]}{near}: {self.pattern}, {100.0 * self.infill:.3g} %, {several}"
             f"line {1e3 * self.line_width:.3g} mm, layer {1e3 * self.layer_height:.3g} mm, "
             f"angle {degrees(self.fill_angle):.3g} degrees, "
             f"{self.perimeters} perimeter{'' if self.perimeters == 1 else 's'}"
@@ -83,6 +86,7 @@ def slicer_settings(case: Case) -> SlicerSettings | None:
         lattice.fill_angle or 0.0,
         lattice.perimeters,
         exact=True,
+        fill_multiline=lattice.fill_multiline,
     )
 
 

@@ -6,7 +6,7 @@ from sweep.design.box import build_box
 from sweep.design.geometry import Geometry
 from sweep.design.network import Network
 from sweep.design.period import build_period
-from sweep.design.sliced import build_sliced
+from sweep.design.sliced import build_sliced, extruded_area
 
 
 @lru_cache(maxsize=1024)
@@ -15,3 +15,10 @@ def build_network(geometry: Geometry) -> Network:
     if geometry.sliced is not None:
         return build_sliced(geometry)
     return build_period(geometry) if geometry.periodic else build_box(geometry)
+
+
+def counted_area(geometry: Geometry) -> float:
+    """Area (m^2) whose mass budgets count: what a slicer extrudes, else the union of the walls."""
+    if geometry.sliced is not None:
+        return extruded_area(geometry)
+    return build_network(geometry).printed_area

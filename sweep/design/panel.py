@@ -1,13 +1,42 @@
-"""A panel: specimens side by side in a rectangle."""
+"""A panel: whole specimens in a rectangle, as it is ranked, searched and exported.
 
-from typing import Any
+Specimens stand side by side along the first length of the panel, with a gap of `BESIDE`, and one
+behind the other along the second, without a gap, so that walls go on in depth. In each direction
+their number is the one with which the rectangle comes nearest to the length that is asked for. It
+may exceed that length, by less than half a specimen.
+"""
+
+from typing import Any, NamedTuple
 
 import numpy as np
 
+BESIDE = 0.4e-3  # m: gap between two specimens; closer ones would be printed as one
 
-def specimens(area: float, width: Any, depth: Any) -> Any:
-    """Whole number of specimens, outer ``width`` x ``depth`` (m), nearest to an ``area`` (m^2).
 
-    Numbers, arrays or columns; the result is a float or floats.
+class Panel(NamedTuple):
+    """Numbers of specimens side by side and one behind the other, and the true lengths (m).
+
+    Floats, arrays or columns, as the arguments of `panel_of`.
     """
-    return np.rint(area / (width * depth))
+
+    across: Any
+    behind: Any
+    width: Any
+    depth: Any
+
+    @property
+    def specimens(self) -> Any:
+        """Number of specimens; 0 where less than half of one fits."""
+        return self.across * self.behind
+
+
+def panel_of(sides: tuple[float, float], width: Any, depth: Any) -> Panel:
+    """The panel nearest to `sides` (m), of specimens of outer `width` x `depth` (m)."""
+    across = _nearest((sides[0] + BESIDE) / (width + BESIDE))
+    behind = _nearest(sides[1] / depth)
+    return Panel(across, behind, across * (width + BESIDE) - BESIDE, behind * depth)
+
+
+def _nearest(count: Any) -> Any:
+    """The nearest whole number, a half upwards, as in the page of `crumple report`."""
+    return np.floor(count + 0.5)

@@ -3,7 +3,8 @@
 A line of width w and height h has rounded sides. PrusaSlicer and its children lay lines at a
 distance s = w - h (1 - pi/4), so that a line fills h s; Cura lays them w apart and extrudes w h.
 With a share r of infill, the parallel lines of a pattern are at a distance of n s / r, where n is
-the number of its directions; from flat to flat a hexagon of the honeycomb measures 2 s / r.
+the number of its directions; from flat to flat a hexagon of the honeycomb measures 2 s / r. Walls
+of m lines side by side (OrcaSlicer's `fill_multiline`) are m s thick and m times as far apart.
 
 In a layer of honeycomb the walls of one direction are printed twice, side by side, and each layer
 is turned by 60 degrees: a wall is 2 s, s, s thick in turn, its mean thickness is 4 s / 3, its mean
@@ -112,8 +113,8 @@ NO_PRISMS = {
 class Sliced(NamedTuple):
     """How an infill is laid; lengths in m.
 
-    pattern: as in `PATTERNS`. distance: of its parallel lines. angle: of the first ones from the
-    width, rad. line: s, what one line fills. inset: where lines end within the box.
+    pattern: as in `PATTERNS`. distance: of its parallel walls. angle: of the first ones from the
+    width, rad. line: m s, what the lines of one wall fill. inset: where they end within the box.
     """
 
     pattern: str
@@ -139,5 +140,5 @@ def line_of(slicer: str, width: float, height: float) -> float:
 
 
 def distance_of(pattern: str, share: float, line: float) -> float:
-    """Distance (m) of the parallel lines of a pattern with a share of infill."""
+    """Distance (m) of the parallel walls of a pattern; line: what the lines of a wall fill."""
     return PATTERNS[pattern].directions * line / share

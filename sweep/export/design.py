@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import isnan, nan
 from typing import TYPE_CHECKING, Any
 
 from sweep.design.network import relative_density
@@ -21,6 +22,7 @@ SIZES = ("width", "height", "depth", "wall_thickness")
 COUNTS = ("cells_x", "cells_y")
 FOLLOWING = ("mass", "infill", "file")  # the row has what follows from these keys
 ALONG = "out_of_plane"
+OF_A_SLICER = ("cells_x", "cells_y", "wall_thickness", "fill_distance")  # follow from its infill
 SAME = 1e-6  # relative difference of two printed areas that are the same
 
 
@@ -40,6 +42,15 @@ class Design:
     def depth(self) -> float:
         """Depth of the walls, m."""
         return self.lattice.depth
+
+    @property
+    def extruded_grams(self) -> float | None:
+        """Mass of one specimen as its slicer extrudes it, which budgets count; None without one."""
+        if self.lattice.slicer is None:
+            return None
+        from sweep.design.lattice import counted_area
+
+        return self.grams * counted_area(self.lattice.geometry) / self.network.printed_area
 
     @property
     def volume(self) -> float:
@@ -85,8 +96,13 @@ def _lattice(row: Mapping[str, Any], config: Mapping[str, Any]) -> Lattice:
     tables = (config.get("base", {}), row)
     given = {k: v for table in tables for k, v in _keys(table).items() if v not in ("", None)}
     own = {key: float(row[f"{key}_m"]) for key in SIZES} | {key: int(row[key]) for key in COUNTS}
-    values = {**first, **given, **own, **dict.fromkeys(FOLLOWING), "kind": row["lattice_kind"]}
-    known = {key: value for key, value in values.items() if key in Lattice.model_fields}
+    values = {**first, **given, **own, **dict.fromkeys(FOLLOWING)} | _infill(row)
+    laid = values["infill"] is not None
+    known = {
+        key: value
+        for key, value in values.items()
+        if key in Lattice.model_fields and not (laid and key in OF_A_SLICER)
+    }
     try:
         return Lattice.model_validate(known | {"structure": _structure(known["structure"])})
     except ValidationError as error:
@@ -103,6 +119,14 @@ def _across(row: Mapping[str, Any], config: Mapping[str, Any]) -> dict[str, Any]
     lattice = _lattice(turned, config)
     walls = lattice.outer_size[1] - lattice.height
     return {**turned, "height_m": row["depth_m"] - walls}
+
+
+def _infill(row: Mapping[str, Any]) -> dict[str, Any]:
+    """The keys of a pattern that a slicer lays, or of a family of infill."""
+    share, name = row.get("infill_share", nan), row["lattice_kind"]
+    if isnan(share):
+        return dict.fromkeys(("slicer", "pattern", "fill_angle", "fill_distance")) | {"kind": name}
+    return {"kind": "square", "pattern": name, "infill": float(share)}
 
 
 def _structure(content: Mapping[str, Any] | None) -> Structure | None:

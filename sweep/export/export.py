@@ -9,13 +9,14 @@ import json
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
-from sweep.design.panel import specimens
+from sweep.design.panel import panel_of
 from sweep.export.errors import ExportError
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 
 Kind = Literal["lattice", "settings"]
 MM, CUBIC = 1e3, 1e9  # per m; mm^3 per m^3
+SHOWN = 0.05  # mm: a difference of lengths that is told
 
 
 class Exported(NamedTuple):
@@ -137,12 +139,21 @@ def export_case(
     source : a case, or a results file.
     to : the file to write; a file of that name is replaced.
     case_id : of the case in the results file.
-    panel : two lengths (m, or text with a unit): a row of whole specimens along the first, as deep
-        as the second. Without it, one specimen.
+    panel : two lengths (m, or text with a unit) that whole specimens fill as nearly as they can,
+        side by side along the first, one behind the other along the second; `rank` counts the same
+        ones. Without it, one specimen.
     kind : of a .3mf: "lattice" (default), the walls themselves, printed with 100 % infill;
         "settings", a solid block whose infill the slicer draws.
     """
     path = Path(to)
+    wish = check_export(path, panel, kind)
+    return _written(path, lambda beside: _writer(path)(beside, _source(source, case_id), wish))
+
+
+def check_export(
+    path: Path, panel: Sequence[float | str] | None = None, kind: Kind | None = None
+) -> Wish:
+    """Refuse arguments of `export_case` that do not go together; nothing is read or written."""
     writer = _writer(path)
     if (panel or kind) and writer not in PRINTS.values():
         raise ExportError(f"{path.name} shows no print; allowed with a panel or a kind: {PRINTED}")
@@ -150,8 +161,7 @@ def export_case(
         raise ExportError(f"{path.name} has one kind only; allowed with a kind: .3mf")
     if kind not in (None, "lattice", "settings"):
         raise ExportError(f'kind "{kind}"; allowed: lattice, settings')
-    wish = Wish(_sides(panel), kind or "lattice")
-    return _written(path, lambda beside: writer(beside, _source(source, case_id), wish))
+    return Wish(_sides(panel), kind or "lattice")
 
 
 def _writer(path: Path) -> Writer:
@@ -187,12 +197,21 @@ def _source(source: Case | str | os.PathLike[str], case_id: str) -> Source | Pla
 
 
 def _written(path: Path, write: Callable[[Path], list[str]]) -> Exported:
-    """What ``write`` makes of a path beside; the files get their places when all are complete."""
+    """What ``write`` makes of a path beside; the files get their places when all are complete.
+
+    A folder that is missing is made, and removed again if nothing is written.
+    """
+    new = [folder for folder in (path.parent, *path.parent.parents) if not folder.exists()]
     path.parent.mkdir(parents=True, exist_ok=True)
-    with TemporaryDirectory(prefix=".export-", dir=path.parent) as folder:
-        notes = write(Path(folder) / path.name)
-        made = sorted(Path(folder).iterdir(), key=lambda file: (file.stem == path.stem, file.name))
-        files = [file.replace(path.parent / file.name) for file in made]
+    try:
+        with TemporaryDirectory(prefix=".export-", dir=path.parent) as beside:
+            notes = write(Path(beside) / path.name)
+            order = sorted(Path(beside).iterdir(), key=lambda f: (f.stem == path.stem, f.name))
+            files = [file.replace(path.parent / file.name) for file in order]
+    finally:
+        for folder in new:
+            with suppress(OSError):  # it holds the files
+                folder.rmdir()
     _drop_older(path, {file.name for file in files})
     return Exported(files, notes)
 
@@ -251,10 +270,11 @@ def _block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     layout = _layout(source, wish)
     body = extruded(layout)
     write_3mf(path, body, layout.name, slicer_files(settings, layout.name, len(body.triangles)))
+    prusa = "PrusaSlicer reads the settings of the object from the file. "
     return [
         *_told(layout, source, wish),
-        "PrusaSlicer reads the settings of the object from the file. OrcaSlicer and Bambu Studio "
-        f"read only the block if they say so; then set by hand: {settings.by_hand}",
+        f"{prusa if settings.lines == 1 else ''}OrcaSlicer and Bambu Studio read only the block if "
+        f"they say so; then set by hand: {settings.by_hand}",
         "the slicer chooses where its lines begin, so that walls may be shifted, and lays "
         "crossings twice, so that the block is heavier than the lattice",
     ]
@@ -298,19 +318,28 @@ def _gif(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
 
 
 def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
-    """What a layout is, in a sentence; of a panel, also how much of it a ranking counts."""
+    """What a layout is, in a sentence; of a panel, in two."""
     _, _, width, height = layout.shape.bounds
     size = f"{width:.4g} x {height:.4g} mm, {layout.depth:.4g} mm deep: {layout.grams:.4g} g"
+    if extruded := source.design.extruded_grams:
+        size += (
+            f", and {layout.specimens * extruded:.4g} g as the slicer extrudes it and rank counts"
+        )
     if wish.panel is None:
         return [size]
-    lattice = source.design.lattice
-    ranked = int(specimens(wish.panel[0] * wish.panel[1], lattice.outer_size[0], lattice.depth))
-    count = len(getattr(layout.shape, "geoms", [layout.shape]))
+    asked = " x ".join(f"{MM * side:g}" for side in wish.panel)
+    nominal = (
+        MM
+        * panel_of(
+            (wish.panel[0], wish.panel[1]), source.design.lattice.outer_size[0], source.design.depth
+        ).width
+    )
+    wider = f"; corners that stick out make them {width - nominal:.2g} mm wider"
+    deep = f"each {layout.behind} specimens of {MM * source.design.depth:.4g} mm deep"
     return [
-        f"{count} side by side, {size}",
-        f"of {lattice.depth * MM:.4g} mm depth these are {layout.specimens:.4g} specimens; a "
-        f"ranking counts {ranked} in the area of the panel: its mass, energy and force are "
-        f"{ranked / layout.specimens:.3g} times those of this part",
+        f"{layout.across} side by side, {deep}: {size}",
+        f"these {layout.specimens} specimens are what rank counts for a panel of {asked} mm"
+        f"{wider if width - nominal > SHOWN else ''}",
     ]
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from math import floor
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from sweep.design.panel import BESIDE, panel_of
 from sweep.export.errors import ExportError
 
 if TYPE_CHECKING:
@@ -18,21 +18,22 @@ MM = 1e3  # per m
 GRID = 1e-5  # mm: vertices lie on a grid, so that single precision keeps them apart
 FINE = 1e-7  # mm: the grid of the union
 SLIT = 1e-3  # mm: half the width of gaps that are no gaps
-BESIDE = 0.4  # mm: least gap between two specimens of a panel; closer ones would be printed as one
-ROUND_OFF = 1e-9
 
 
 class Layout(NamedTuple):
-    """What is printed: polygons in mm, depth in mm, and the number of specimens in it.
-
-    specimens : also counts a depth that differs from that of the specimen.
-    """
+    """What is printed: polygons and depth in mm, and how many specimens side by side and behind."""
 
     name: str
     shape: Any
     depth: float
-    specimens: float
+    across: int
+    behind: int
     grams: float
+
+    @property
+    def specimens(self) -> int:
+        """Number of specimens."""
+        return self.across * self.behind
 
 
 def outline(network: Network) -> Any:
@@ -63,31 +64,34 @@ def block(lattice: Lattice) -> Any:
 
 def specimen(design: Design, shape: Any) -> Layout:
     """One specimen of this shape (mm)."""
-    return Layout(design.name, shape, MM * design.depth, 1.0, design.grams)
+    return Layout(design.name, shape, MM * design.depth, 1, 1, design.grams)
 
 
 def panel(design: Design, shape: Any, sides: Sequence[float]) -> Layout:
-    """A row of whole specimens along the first side, as deep as the second; sides in m.
+    """The specimens that a ranking counts in a panel of two sides (m), with gaps of `BESIDE`.
 
-    As in a ranking, specimens do not touch: they are spread evenly. A panel that is deeper than the
-    specimen has walls as deep as it is, since nothing in the model changes along the depth.
+    Specimens one behind the other are one, with walls as deep as they are together: nothing in the
+    model changes along the depth. Corners that stick out of the outer width, by less than half a
+    wall, make the row so much wider.
     """
     import shapely
     import shapely.affinity
 
-    length, depth = (MM * side for side in sides)
-    width = shape.bounds[2]
-    count = floor((length + BESIDE) / (width + BESIDE) + ROUND_OFF)
-    if count < 1:
-        raise ExportError(
-            f"a panel of {length:g} mm holds no specimen, which is {width:.4g} mm wide; allowed: a "
-            f"first length of {width:.4g} mm or more"
-        )
-    pitch = (length - width) / (count - 1) if count > 1 else 0.0
-    row = [shapely.affinity.translate(shape, k * pitch) for k in range(count)]
+    width, depth = design.lattice.outer_size[0], design.depth
+    filled = panel_of((sides[0], sides[1]), width, depth)
+    for asked, count, one in zip(sides, filled[:2], (width, depth), strict=True):
+        if count < 1:
+            raise ExportError(
+                f"a panel of {MM * asked:g} mm is smaller than half of a specimen of "
+                f"{MM * one:.4g} mm; allowed: a larger one, first its length along the width, then "
+                "along the depth"
+            )
+    pitch = max(shape.bounds[2], MM * width) + MM * BESIDE
+    across, behind = int(filled.across), int(filled.behind)
+    row = [shapely.affinity.translate(shape, k * pitch) for k in range(across)]
     whole = shapely.set_precision(shapely.multipolygons(shapely.get_parts(row)), GRID)
-    specimens = count * depth / (MM * design.depth)
-    return Layout(design.name, whole, depth, specimens, specimens * design.grams)
+    grams = across * behind * design.grams
+    return Layout(design.name, whole, MM * filled.depth, across, behind, grams)
 
 
 def rings(layout: Layout) -> list[Any]:

@@ -15,11 +15,12 @@ PrusaSlicer 2.5 at the pitches and directions of the lattice, were 0.1 to 6 % he
 
 from __future__ import annotations
 
-from math import pi
+from math import degrees, pi
 from typing import TYPE_CHECKING, NamedTuple
 from xml.etree import ElementTree as Xml
 
 from sweep.design.drawing import extent
+from sweep.design.slicer import SLICERS
 from sweep.export.errors import ExportError
 from sweep.export.three_mf import OBJECT, xml_bytes
 
@@ -62,15 +63,20 @@ PERIODS |= {"hex": 3.0**0.5}
 
 
 class Settings(NamedTuple):
-    """What a slicer is asked for. share : of infill, 0 to 1; line : mean width, mm."""
+    """What a slicer is asked for.
+
+    angle : degrees; share : of infill, 0 to 1; line : mean width of a line, mm; lines : side by
+    side in a wall of the infill.
+    """
 
     pattern: str
-    angle: int
+    angle: float
     share: float
     line: float
     layer: float
     perimeters: int
     perimeter: float
+    lines: int = 1
 
     @property
     def prusa(self) -> dict[str, str]:
@@ -80,7 +86,7 @@ class Settings(NamedTuple):
             "layer_height": f"{self.layer:.4g}",
             "fill_density": f"{100 * self.share:.4g}%",
             "fill_pattern": self.pattern,
-            "fill_angle": str(self.angle),
+            "fill_angle": f"{self.angle:.4g}",
             "infill_extrusion_width": f"{width:.4g}",
             "perimeters": str(self.perimeters),
             "perimeter_extrusion_width": f"{outer:.4g}",
@@ -95,20 +101,21 @@ class Settings(NamedTuple):
     @property
     def orca(self) -> dict[str, str]:
         """The same in OrcaSlicer and Bambu Studio."""
-        return {ORCA_KEYS[key]: value for key, value in self.prusa.items()} | {
-            "sparse_infill_pattern": ORCA_NAMES.get(self.pattern, self.pattern)
-        }
+        keys = {ORCA_KEYS[key]: value for key, value in self.prusa.items()}
+        keys["sparse_infill_pattern"] = ORCA_NAMES.get(self.pattern, self.pattern)
+        return keys | ({"fill_multiline": str(self.lines)} if self.lines > 1 else {})
 
     @property
     def by_hand(self) -> str:
         """The main settings as a person looks for them in OrcaSlicer or Bambu Studio."""
         keys = self.orca
+        several = f", fill multiline {self.lines}" if self.lines > 1 else ""
         return (
             f"sparse infill {keys['sparse_infill_pattern']}, {keys['sparse_infill_density']}, "
             f"direction {keys['infill_direction']} degrees, line width "
-            f"{keys['sparse_infill_line_width']} mm; wall loops {keys['wall_loops']}, width "
-            f"{keys['outer_wall_line_width']} mm; layer height {keys['layer_height']} mm; no top "
-            "and bottom shell layers, no infill anchors"
+            f"{keys['sparse_infill_line_width']} mm{several}; wall loops {keys['wall_loops']}, "
+            f"width {keys['outer_wall_line_width']} mm; layer height {keys['layer_height']} mm; "
+            "no top and bottom shell layers, no infill anchors"
         )
 
 
@@ -134,6 +141,8 @@ def settings_of(lattice: Lattice) -> Settings:
 
     A square grid has walls all round, which a slicer prints as a perimeter.
     """
+    if lattice.slicer is not None:
+        return _own_settings(lattice)
     pattern = _pattern(lattice)
     thickness, layer = MM * lattice.wall_thickness, MM * (lattice.layer_height or 0.0)
     around = MM * (lattice.line_width or 0.0) if lattice.perimeters else thickness
@@ -146,17 +155,41 @@ def settings_of(lattice: Lattice) -> Settings:
     return Settings(pattern.name, pattern.angle, share, line, layer, count, around)
 
 
+def _own_settings(lattice: Lattice) -> Settings:
+    """The settings with which a lattice of a slicer is laid."""
+    if lattice.slicer == "cura":
+        raise ExportError(
+            'lattice.slicer = "cura", which reads no settings from a .3mf; allowed with --kind '
+            "settings: prusa and orca. crumple show tells what to set in Cura; --kind lattice "
+            "prints every design"
+        )
+    layer, line = MM * (lattice.layer_height or LAYER_HEIGHT / MM), MM * lattice.line
+    return Settings(
+        SLICERS[lattice.slicer or ""][lattice.pattern or ""],
+        degrees(lattice.fill_angle or 0.0),
+        lattice.infill or 0.0,
+        line,
+        layer,
+        lattice.perimeters,
+        line,
+        lattice.fill_multiline,
+    )
+
+
 def share_of(pattern: Pattern, thickness: float, period: float) -> float:
     """Share of infill for walls of this thickness at this period, both in mm."""
     return pattern.lines * thickness / (pattern.thickness * period)
 
 
 def slicer_files(settings: Settings, name: str, triangles: int) -> dict[str, bytes]:
-    """The files of a 3MF in which slicers look for the settings of an object."""
-    return {
-        PRUSA: _prusa_file(settings.prusa, name, triangles),
-        BAMBU: _bambu_file(settings.orca, name),
-    }
+    """The files of a 3MF in which slicers look for the settings of an object.
+
+    PrusaSlicer cannot lay several lines side by side, and gets none of these settings then.
+    """
+    files = {BAMBU: _bambu_file(settings.orca, name)}
+    if settings.lines == 1:
+        files[PRUSA] = _prusa_file(settings.prusa, name, triangles)
+    return files
 
 
 def _pattern(lattice: Lattice) -> Pattern:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sweep.ranking.merit import AT_ALLOWED, in_si, panel_specimens
+from sweep.ranking.merit import AT_ALLOWED, in_si, panel_in
 from sweep.result import Status
 from sweep.simulation.until import absorbed_until
 
@@ -20,15 +20,21 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 ROUND_OFF = 1e-9
+Known = dict[tuple[str, float], tuple[float, float]]
+"""Energy (J) and stroke (m) of a case by its id and a force (N)."""
 
 
 def with_allowed(
-    file: str | PathLike[str], summary: DataFrame, question: Mapping[str, Any]
+    file: str | PathLike[str],
+    summary: DataFrame,
+    question: Mapping[str, Any],
+    known: Known | None = None,
 ) -> DataFrame:
     """The summary with energy and stroke up to the allowed force, where the question needs them.
 
     question : keyword arguments of `rank`. The columns are needed up to a force of the panel, and
-    to limit the stroke; NaN in rows that are no finished crush.
+    to limit the stroke; NaN in rows that are no finished crush. known : what was found before, and
+    is not read again; new values are added.
     """
     force, panel = question.get("allowed_force"), question.get("panel")
     of_panel = question.get("per") == "panel"
@@ -38,9 +44,14 @@ def with_allowed(
     limit = in_si(force, "N")
     wanted = (summary["loading_mode"] == "displacement") & (summary["status"] == Status.CONVERGED)
     rows = summary[wanted]
-    count = np.ones(len(rows)) if panel is None or not of_panel else panel_specimens(rows, panel)
+    count = np.ones(len(rows))
+    if of_panel and panel is not None:
+        count = panel_in(rows, panel).specimens
     at = zip(rows["case_id"], limit / count, strict=True)
-    found = [reached(file, str(case_id), float(force)) for case_id, force in at]
+    known = {} if known is None else known
+    keys = [(str(case_id), float(force)) for case_id, force in at]
+    known |= {key: reached(file, *key) for key in keys if key not in known}
+    found = [known[key] for key in keys]
     added = summary.assign(**{AT_ALLOWED: np.nan, "stroke_at_allowed_m": np.nan})
     added.loc[wanted, [AT_ALLOWED, "stroke_at_allowed_m"]] = np.array(found).reshape(-1, 2)
     return added

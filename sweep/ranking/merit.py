@@ -4,8 +4,7 @@ Energy is counted until the lattice has packed, or until the force exceeds the a
 packed lattice absorbs energy as a solid block does, at a multiple of the force, whatever its
 infill. Where the loading sets the energy, the columns of `LEAST` are compared instead.
 
-A panel consists of specimens side by side, of outer width w and depth b:
-n = panel area / (w b), to the nearest whole number, is how many they are; its mass, energy and
+A panel consists of n whole specimens, as `sweep.design.panel` counts them; its mass, energy and
 force are n times those of a specimen.
 """
 
@@ -14,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from sweep.design.panel import specimens
+from sweep.design.panel import Panel, panel_of
 from sweep.result import (
     ABSORBED_AT,
     COLUMNS,
@@ -81,7 +80,8 @@ def merits(
         raise RankError(
             f"no {missing[0]}: an older version wrote these results; run them again into a new file"
         )
-    factor = None if panel is None else panel_specimens(finished, panel)
+    filled = None if panel is None else panel_in(finished, panel)
+    factor = None if filled is None else filled.specimens
     if per == "panel" and factor is None:
         raise RankError('per "panel" needs a panel: --panel, or rank.panel in the config')
     if per == "panel" and allowed_force is not None:
@@ -112,8 +112,9 @@ def merits(
                 borne = finished[column(str(force.name))]
                 whole = finished.get(column("peak_force_N"), borne * float("nan"))
                 added[column("panel_force_N")] = factor * borne.where(crushed, whole)
-    if factor is not None:
+    if filled is not None and factor is not None:
         added["panel_specimens"] = factor
+        added["panel_width_m"], added["panel_depth_m"] = filled.width, filled.depth
         added["panel_force_N"] = factor * force.where(crushed, finished["peak_force_N"])
         added["panel_mass_g"] = factor * grams
         added["panel_energy_J"] = factor * finished[energy]
@@ -135,20 +136,25 @@ def through_solid(finished: DataFrame) -> Series:
     return sunk | (finished["stroke_left_m"] < -ROUND_OFF)
 
 
-def panel_specimens(frame: DataFrame, panel: Sequence[Quantity]) -> Series:
-    """Number of specimens, side by side, that fill the area of the panel most nearly."""
+def panel_in(frame: DataFrame, panel: Sequence[Quantity]) -> Panel:
+    """The panel of each design, in whole numbers."""
     if len(panel) != 2:
         raise RankError(f"a panel has two lengths, got {len(panel)}")
-    area = in_si(panel[0], "m") * in_si(panel[1], "m")
-    count = specimens(area, frame["outer_width_m"], frame["depth_m"])
-    if (count < 1).any():
-        raise RankError("the panel is smaller than half of a specimen; allowed: a larger panel")
-    return count.astype(int)
+    sides = in_si(panel[0], "m"), in_si(panel[1], "m")
+    found = panel_of(sides, frame["outer_width_m"], frame["depth_m"])
+    for asked, count, one in zip(sides, found[:2], ("outer_width_m", "depth_m"), strict=True):
+        if (count < 1).any():
+            widest = 1e3 * frame[one].max()
+            raise RankError(
+                f"a panel of {1e3 * asked:g} mm is smaller than half of a specimen of {widest:.4g} "
+                "mm; allowed: a larger one, first its length along the width, then along the depth"
+            )
+    return found._replace(across=found.across.astype(int), behind=found.behind.astype(int))
 
 
-def greatest_mass(budget_g: float) -> float:
-    """The greatest mass (g) within a budget: the budget, with a tolerance for round-off."""
-    return budget_g * (1.0 + ROUND_OFF)
+def greatest_mass(budget: float) -> float:
+    """The greatest mass within a budget: the budget, with a tolerance for round-off."""
+    return budget * (1.0 + ROUND_OFF)
 
 
 def in_si(value: Any, unit: str) -> float:

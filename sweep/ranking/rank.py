@@ -78,6 +78,8 @@ LEADING = [
     "contenders",
     "counted_mass_g",
     "panel_specimens",
+    "panel_width_m",
+    "panel_depth_m",
     "panel_mass_g",
     "panel_energy_J",
     "panel_force_N",
@@ -106,7 +108,8 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
     source : results file, or a summary from `read_summary`.
     budget : greatest mass of the panel, or of the specimen without panel: text with a unit, such as
         "25 g". Several budgets give one ranking each, distinguished by the column `budget_g`.
-    panel : the two lengths of the area that the specimens fill, such as ("100 mm", "50 mm").
+    panel : two lengths, such as ("100 mm", "50 mm"), which specimens fill side by side and one
+        behind the other; `sweep.design.panel` has the rule.
     by : column to sort by, the better values first (`Column.better`); a column without better
         values is refused. Default: under a dead load the least strain, under a striker the least
         force on the support (`merit.LEAST`). Otherwise the greatest energy absorbed until the
@@ -137,7 +140,9 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
         with that column.
     ranked_by : the sorting column.
     counted_mass_g : where designs have a slicer: mass as extruded, for others that of the walls.
-    panel_specimens, panel_mass_g, panel_energy_J, panel_force_N : with a panel.
+    panel_specimens, panel_width_m, panel_depth_m : number of specimens of a panel, and the true
+        lengths of that panel.
+    panel_mass_g, panel_energy_J, panel_force_N : of these specimens together.
     passed_on_N, counted_stroke_m : greatest force while the counted energy is absorbed, and the
         stroke that this takes.
     returned_share : returned energy / work of the whole crush.
@@ -181,7 +186,8 @@ def ranked(  # noqa: PLR0913  every argument is a part of one question
     by = by and _column(compared, by)
     masses = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in _several(budget))] or [np.inf]
     found = {scene_label(rows): rows for rows in by_scene(compared)}
-    judged = {label: judge(rows, names, required, per) for label, rows in found.items()}
+    allowed = np.nan if allowed_force is None else in_si(allowed_force, "N")
+    judged = {label: judge(rows, names, required, per, allowed) for label, rows in found.items()}
     scenes = [
         (_with_scene(rows[judged[label][0]], label, _least(rows), names), _order(rows, by, usual))
         for label, rows in found.items()

@@ -3,6 +3,9 @@
 A requirement is of a specimen or of the panel. The force of a panel is that of its specimens
 together, since all are pressed alike; stroke and deceleration are the same for both. No curve of a
 force that stays below F absorbs an energy W in a stroke shorter than W / F, that of a rectangle.
+
+The violation of a design is the sum over the requirements of the share of its limit by which it
+misses each (K. Deb, An efficient constraint handling method for genetic algorithms, 2000).
 """
 
 from __future__ import annotations
@@ -13,11 +16,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from pandas import Series
 
 from sweep.ranking.merit import ROUND_OFF, Compared, Quantity, RankError, in_si
 
 if TYPE_CHECKING:
-    from pandas import DataFrame, Series
+    from pandas import DataFrame
 
 STANDARD_GRAVITY = 9.80665  # m/s^2
 
@@ -52,9 +56,11 @@ class Outcome:
         have no value of it.
     best: the value nearest to fulfilling each requirement, of all designs; NaN if none has one.
     left_out: requirements that are of a striker, in a scene without one.
-    energy, stroke: energy that must be absorbed, and the least stroke in which a force of at most
-        `max_force` does that; NaN if one of both is not given.
+    energy, force, stroke: energy that must be absorbed, the force that is allowed meanwhile, and
+        the least stroke in which it does that; NaN if one of both is not given.
     height: of the highest lattice.
+    nearest: id of the design of least violation, and its values; "" and none if none has all
+        values.
     """
 
     designs: int
@@ -64,8 +70,10 @@ class Outcome:
     best: Mapping[str, float]
     left_out: tuple[str, ...]
     energy: float
+    force: float
     stroke: float
     height: float
+    nearest: tuple[str, Mapping[str, float]]
 
 
 def limits(require: Mapping[str, Quantity | None] | None) -> dict[str, float]:
@@ -91,9 +99,16 @@ def check(rows: DataFrame, required: Mapping[str, float]) -> None:
 
 
 def judge(
-    rows: DataFrame, names: Compared, required: Mapping[str, float], per: str
+    rows: DataFrame,
+    names: Compared,
+    required: Mapping[str, float],
+    per: str,
+    allowed: float = np.nan,
 ) -> tuple[Series, Outcome]:
-    """Which rows of one scene fulfil all requirements, and the outcome."""
+    """Which rows of one scene fulfil all requirements, and the outcome.
+
+    allowed: force (N) up to which energy is counted; NaN without one.
+    """
     found = measured(rows, names, per)
     struck = (rows["loading_mode"] == "impact").all()
     left_out = tuple(name for name in required if name == "max_deceleration" and not struck)
@@ -102,7 +117,7 @@ def judge(
     fulfil = rows["mass_g"].notna()
     for one in met.values():
         fulfil &= one
-    energy, stroke = _rectangle(rows, found, asked, per)
+    energy, force = _rectangle(rows, asked, per, allowed)
     return fulfil, Outcome(
         designs=len(rows),
         fulfil=int(fulfil.sum()),
@@ -114,9 +129,38 @@ def judge(
         },
         left_out=left_out,
         energy=energy,
-        stroke=stroke,
+        force=force,
+        stroke=energy / force,
         height=float(rows["height_m"].max()) if len(rows) else np.nan,
+        nearest=_nearest(rows, found, asked),
     )
+
+
+def violation(rows: DataFrame, names: Compared, required: Mapping[str, float], per: str) -> Series:
+    """The violation of each row: 0 where all requirements are met, inf where a value is missing."""
+    return _violation(rows, measured(rows, names, per), required)
+
+
+def _violation(
+    rows: DataFrame, found: Mapping[str, Series], required: Mapping[str, float]
+) -> Series:
+    total = Series(0.0, rows.index)
+    for name, limit in required.items():
+        excess = found[name].astype(float) / limit - 1.0
+        missed = -excess if MEASURES[name].least else excess
+        total += missed.mask(_met(found[name], name, limit), 0.0).fillna(np.inf)
+    return total
+
+
+def _nearest(
+    rows: DataFrame, found: Mapping[str, Series], asked: Mapping[str, float]
+) -> tuple[str, dict[str, float]]:
+    """The id of the row of least violation and its values; "" if no row has all values."""
+    missed = _violation(rows, found, asked)
+    if not np.isfinite(missed.min()):
+        return "", {}
+    at = missed.idxmin()
+    return str(rows.loc[at, "case_id"]), {name: float(found[name][at]) for name in asked}
 
 
 def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
@@ -148,16 +192,17 @@ def _met(values: Series, name: str, limit: float) -> Series:
 
 
 def _rectangle(
-    rows: DataFrame, found: Mapping[str, Series], asked: Mapping[str, float], per: str
+    rows: DataFrame, asked: Mapping[str, float], per: str, allowed: float
 ) -> tuple[float, float]:
-    """The energy (J) that must be absorbed and the least stroke (m), energy / force.
+    """The energy (J) that must be absorbed and the force (N) that is allowed meanwhile.
 
     The energy is that of the striker; in a crush, the least that is asked for.
     """
-    if "max_force" not in asked or rows.empty:
+    if rows.empty:
         return np.nan, np.nan
     energy = asked.get("min_absorbed", np.nan)
+    force = float(np.fmin(asked.get("max_force", np.nan), allowed))
     if rows["loading_mode"].iloc[0] == "impact":
         together = rows["panel_specimens"] if per == "panel" else 1.0
         energy = float((rows["impact_energy_J"] * together).min())
-    return energy, energy / asked["max_force"]
+    return energy, force

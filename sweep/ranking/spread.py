@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from pandas import DataFrame
 
-from sweep.ranking.merit import merits
+from sweep.ranking.merit import greatest_mass, merits
+from sweep.ranking.requirements import violation
 from sweep.result import Status, less_is_better
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 ROUND_OFF = 1e-9
 AS_GIVEN = "as given"  # the corner at which no number is at an end of its range
 FINE = "fine mesh"  # the corner with more elements
+MISSED = "missed "  # with a requirement, the column that tells whether it is missed
 Corners = Mapping[str, Sequence[tuple[str, str]]]
 """Name and case id of the corners of each design, by the id of the design."""
 
@@ -33,7 +35,9 @@ class Spread(NamedTuple):
 
     rows (k, ...): their rows of the ranking, best first. column: what is ranked.
     at_corners (k, n): values by name of the corner, the first of which is `AS_GIVEN`; NaN where it
-    failed. places (k, n): among these designs. failed: number of missing values.
+    failed. places (k, n): among these designs. failed: number of missing values. masses (k, n): g,
+    as budgets count them. missed: place of a design, corner, and what is not kept there: "budget",
+    or a requirement.
     """
 
     rows: DataFrame
@@ -41,6 +45,8 @@ class Spread(NamedTuple):
     at_corners: DataFrame
     places: DataFrame
     failed: int
+    masses: DataFrame | None = None
+    missed: tuple[tuple[int, str, str], ...] = ()
 
     @property
     def sign(self) -> float:
@@ -81,28 +87,52 @@ def spreads(
 ) -> list[Spread]:
     """The spread of each scene and budget of a ranking.
 
-    summary: rows of the corners. question: panel, allowed force and column of the ranking.
+    summary: rows of the corners. question: arguments of `rank`, as those of the ranking.
     """
     finished = summary[summary["status"] == Status.CONVERGED]
     by, panel, force = (question.get(key) for key in ("by", "panel", "allowed_force"))
-    compared = merits(finished, by, panel, force)[0].set_index("case_id")
+    per = str(question.get("per") or "specimen")
+    compared, names = merits(finished, by, panel, force, per)
+    required = {
+        name: limit
+        for name, limit in ranking.required.items()
+        if name != "max_deceleration" or (compared["loading_mode"] == "impact").all()
+    }
+    missed = {name: violation(compared, names, {name: limit}, per) > 0.0 for name, limit in
+              required.items()}  # fmt: skip
+    compared = compared.assign(**{f"{MISSED}{name}": rows for name, rows in missed.items()})
     known = ranking.table[ranking.table["case_id"].isin(corners)]
     groups = known.groupby(["budget_g", "scene"], dropna=False, sort=False)
-    return [_spread(rows, corners, compared) for _, rows in groups]
+    by_id = compared.set_index("case_id")
+    return [_spread(rows, corners, by_id, names.mass) for _, rows in groups]
 
 
-def _spread(rows: DataFrame, corners: Corners, compared: DataFrame) -> Spread:
+def _spread(rows: DataFrame, corners: Corners, compared: DataFrame, mass: str) -> Spread:
     column = str(rows["ranked_by"].iloc[0])
     ids = [str(case_id) for case_id in rows["case_id"]]
     names = dict.fromkeys(name for design in ids for name, _ in corners[design])
-    usual = rows[column].to_numpy(dtype=float)
-    values = DataFrame(dict.fromkeys((AS_GIVEN, *names), usual), index=ids)
-    for design in ids:
+    values, masses = (
+        DataFrame(dict.fromkeys((AS_GIVEN, *names), rows[one].to_numpy(dtype=float)), index=ids)
+        for one in (column, mass)
+    )
+    missed: list[tuple[int, str, str]] = []
+    budget = rows["budget_g"].iloc[0]
+    for design, place in zip(ids, rows["place"], strict=True):
         for name, case_id in corners[design]:
-            there = case_id in compared.index
-            values.loc[design, name] = compared.loc[case_id, column] if there else np.nan
+            found = compared.loc[case_id] if case_id in compared.index else None
+            values.loc[design, name] = np.nan if found is None else found[column]
+            masses.loc[design, name] = np.nan if found is None else found[mass]
+            if found is not None:
+                missed += [(int(place), name, what) for what in _not_kept(found, mass, budget)]
     places = values.rank(ascending=less_is_better(column), method="min")
-    return Spread(rows, column, values, places, int(values.isna().to_numpy().sum()))
+    failed = int(values.isna().to_numpy().sum())
+    return Spread(rows, column, values, places, failed, masses, tuple(missed))
+
+
+def _not_kept(row: Series, mass: str, budget: float) -> list[str]:
+    """The limits that a row does not keep; budget: g, NaN without one."""
+    kept = [key.removeprefix(MISSED) for key in row.index if key.startswith(MISSED) and row[key]]
+    return (["budget"] if row[mass] > greatest_mass(budget) else []) + kept
 
 
 def ends(values: Series) -> tuple[str, str] | None:

@@ -1,24 +1,32 @@
-"""What a search compares: the value of each design in the sorted column of a ranking."""
+"""What a search compares: the value of each design in the sorted column of a ranking, and how far
+it is from fulfilling what is required.
+"""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from pandas import DataFrame
 
-from sweep.ranking.merit import RankError
+from sweep.ranking.merit import Compared, RankError
 from sweep.ranking.rank import ASSUMPTIONS, pareto, ranked
+from sweep.ranking.ranking import Ranking
+from sweep.ranking.requirements import check, limits, violation
 from sweep.result import describe_column, less_is_better
+
+ALIKE = 0.05  # relative difference in both columns up to which a front lists one of two designs
 
 
 class Worths(NamedTuple):
     """Designs by their value in a column.
 
-    by_id: values by id, the best first. doubtful: number of further designs whose result is marked
-    as beyond the model or as crossed, which are worth nothing.
+    by_id: values by id of the designs that fulfil all requirements, the best first. missed:
+    violations by id of those that do not, the least first. doubtful: number of further designs
+    whose result is marked as beyond the model or as crossed, which are worth nothing.
     """
 
     column: str
     by_id: dict[str, float]
+    missed: dict[str, float]
     doubtful: int
 
     @property
@@ -27,33 +35,60 @@ class Worths(NamedTuple):
         return 1.0 if less_is_better(self.column) else -1.0
 
 
-def worths(summary: DataFrame, question: dict[str, Any]) -> Worths:
+def worths(summary: DataFrame, question: Mapping[str, Any]) -> Worths:
     """The worths of the designs of one scene; question: arguments of `rank`.
 
     Designs without a place in the ranking have no value: failed ones, those above the budget.
     """
-    ranking = ranked(summary, **question | {"top": None})
-    table = ranking.table
-    if question.get("allowed_force") and ranking.unranked:
+    ranking = ranked(summary, **{**question, "top": None, "require": None})
+    table, required = ranking.table, limits(question.get("require"))
+    of_specimen = question.get("per") != "panel"
+    if question.get("allowed_force") and of_specimen and ranking.unranked:
         what = f"{ranking.unranked} rows come from a run without loading.allowed_forces = "
         raise RankError(f"{what}{question['allowed_force']}; allowed: another --out")
     column = ranking.by if table.empty else str(table["ranked_by"].iloc[0])
+    check(table, required)
     sound = _sound(table)
-    values = dict(zip(sound["case_id"], sound[column].astype(float), strict=True))
-    return Worths(column, values, len(table) - len(sound))
+    missed = violation(sound, _names(ranking), required, ranking.per)
+    fulfil, others = sound[missed == 0.0], missed[missed > 0.0].sort_values(kind="stable")
+    return Worths(
+        column,
+        dict(zip(fulfil["case_id"], fulfil[column].astype(float), strict=True)),
+        {str(sound.loc[at, "case_id"]): float(value) for at, value in others.items()},
+        len(table) - len(sound),
+    )
 
 
-def front(summary: DataFrame, question: dict[str, Any], other: str) -> DataFrame:
+def _names(ranking: Ranking) -> Compared:
+    return Compared(ranking.mass, ranking.energy, ranking.per_gram, ranking.until)
+
+
+def front(summary: DataFrame, question: Mapping[str, Any], other: str) -> DataFrame:
     """The rows of a ranking that no row exceeds both in its column and in another one, best first
     in that other one. Rows that are marked as doubtful are left out.
     """
-    table = _sound(ranked(summary, **question | {"top": None}).table).dropna(subset=other)
+    table = _sound(ranked(summary, **{**question, "top": None}).table).dropna(subset=other)
     if table.empty:
         return table
     column = str(table["ranked_by"].iloc[0])
     aims = [table[name] if less_is_better(name) else -table[name] for name in (other, column)]
     chosen = table[pareto(aims[0], -aims[1])]
     return chosen.sort_values(other, ascending=less_is_better(other), kind="stable")
+
+
+def thinned(rows: DataFrame, columns: Iterable[str]) -> DataFrame:
+    """A front without designs that hardly differ from a better one.
+
+    From the best design of the ranking on, the front is kept but for rows that differ from the row
+    kept last by less than `ALIKE` in each of the columns.
+    """
+    names, kept = list(columns), list[Any]()
+    for at in reversed(rows.index):
+        values = rows.loc[at, names].astype(float)
+        last = rows.loc[kept[-1], names].astype(float) if kept else None
+        if last is None or ((values - last).abs() > ALIKE * last.abs()).any():
+            kept.append(at)
+    return rows.loc[kept[::-1]]
 
 
 def check_searched(keys: Iterable[str]) -> None:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from sweep.ranking.ranking import Ranking
     from sweep.ranking.requirements import Outcome
 
-PANEL = "panel N: force of the {} specimens of a panel together{}."
+PANEL = "panel N: force of the {} specimens of a panel together. Its true size is {} mm."
 UNKNOWN = {
     "max_deceleration": "rows are too far apart for loading.filter_class, or older than the filter",
     "max_force": "it has not been measured",
@@ -90,6 +90,8 @@ def requirement_notes(scene: str, placed: DataFrame, ranking: Ranking) -> Iterat
         if greatest_mass(budget) >= lightest and not (placed["budget_g"] == budget).any():
             yield f"None of these weighs {budget:g} g or less."
     yield from _out_of_reach(outcome, ranking.required)
+    if not outcome.fulfil:
+        yield from _nearest(outcome)
 
 
 def _counts(outcome: Outcome) -> str:
@@ -110,12 +112,21 @@ def _out_of_reach(outcome: Outcome, limits: Mapping[str, float]) -> Iterator[str
             found = quantity(name, outcome.best[name], digits=3)
             yield WORDS[name].none.format(quantity(name, limits[name]), found)
     if not outcome.fulfil and math.isfinite(outcome.stroke):
-        energy, force = energy_text(outcome.energy), quantity("max_force", limits["max_force"])
+        energy, force = energy_text(outcome.energy), quantity("max_force", outcome.force)
         stroke, height = (f"{three_digits(1e3 * x)} mm" for x in (outcome.stroke, outcome.height))
         yield (
             f"{energy} at {force} needs at least {stroke} of stroke, if the force is constant:\n"
             f"energy / force, a rectangle, which no real curve is. The lattice is {height} high."
         )
+
+
+def _nearest(outcome: Outcome) -> Iterator[str]:
+    """The design that comes nearest to all requirements together, if there are several."""
+    case_id, values = outcome.nearest
+    if len(values) > 1:
+        nouns = {name: WORDS[name].limit.rsplit(" at ", 1)[0] for name in values}
+        parts = [f"{nouns[k]} {quantity(k, v, digits=3)}" for k, v in values.items()]
+        yield f"The nearest to all of this is case {case_id}: {', '.join(parts)}."
 
 
 def requirement_columns(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
@@ -135,11 +146,19 @@ def panel_column(rows: DataFrame) -> dict[str, Series]:
     return {"panel N": numerals(rows["panel_force_N"])} if known else {}
 
 
+def panel_size(rows: DataFrame) -> dict[str, Series]:
+    """The true lengths of the panel, where there is one."""
+    if "panel_specimens" not in rows:
+        return {}
+    sides = [(1e3 * rows[f"panel_{side}_m"]).map("{:.3g}".format) for side in ("width", "depth")]
+    return {"panel mm": sides[0] + " x " + sides[1]}
+
+
 def panel_note(rows: DataFrame) -> list[str]:
     """How many specimens a panel has; none without a panel."""
     if "panel_specimens" not in rows:
         return []
     least, most = rows["panel_specimens"].min(), rows["panel_specimens"].max()
-    if least == most:
-        return [PANEL.format(least, "")]
-    return [PANEL.format(f"{least} to {most}", ", as many as fill it most nearly")]
+    sizes = list(dict.fromkeys(panel_size(rows.sort_values("panel_width_m"))["panel mm"]))
+    size = sizes[0] if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
+    return [PANEL.format(least if least == most else f"{least} to {most}", size)]

@@ -14,6 +14,7 @@ from sweep.ranking.rank import ASSUMPTIONS, by_scene, scene_label
 from sweep.report.requirement_notes import (
     panel_column,
     panel_note,
+    panel_size,
     requirement_columns,
     requirement_notes,
 )
@@ -94,6 +95,7 @@ SHOWN_BY_NAME = {
 
 
 SPARE = {
+    "panel mm": "panel_specimens",
     "again %": "second_cycle_share",
     "back %": "returned_share",
     "rebound %": "rebound_share",
@@ -232,12 +234,27 @@ def _places(rows: DataFrame) -> Series:
     places = rows["place"].astype(str)
     if "tied" in rows:
         places += rows["tied"].map({True: "="}).fillna("")
-    pareto = rows["pareto"].map({True: "*", False: " "})
+    return places + rows["pareto"].map({True: "*", False: " "}) + marks(rows)
+
+
+def marks(rows: DataFrame) -> Series:
+    """The marks of doubtful results, and of designs that do not print as drawn."""
     beyond = rows["beyond_model"].map({True: "!", False: ""})
     crossed = rows["crossed"].map({True: "x", False: ""})
     beyond_curve = rows["beyond_curve"].map({True: "^", False: ""})
     unprintable = _unprintable(rows).map(lambda why: "p" * bool(why))
-    return places + pareto + beyond + crossed + beyond_curve + unprintable
+    return beyond + crossed + beyond_curve + unprintable
+
+
+def mark_notes(rows: DataFrame) -> tuple[str, ...]:
+    """The meaning of the marks that these rows have."""
+    found = {
+        BEYOND: rows["beyond_model"],
+        CROSSED: rows["crossed"],
+        UNPRINTABLE: _unprintable(rows) != "",
+        STRETCHED: rows["beyond_curve"],
+    }
+    return tuple(note for note, has in found.items() if has.any())
 
 
 def _unprintable(rows: DataFrame) -> Series:
@@ -377,6 +394,7 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     columns = {"mass g": numerals(rows["mass_g"])}
     if "counted_mass_g" in rows:
         columns["print g"] = numerals(rows["printed_mass_g"])
+    columns |= panel_size(rows)
     if "panel_mass_g" in rows:
         columns["panel g"] = numerals(rows["panel_mass_g"])
     shown = {"printed_mass_g", "counted_mass_g"}

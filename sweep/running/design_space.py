@@ -1,9 +1,10 @@
 """The designs that a search may choose, as the points of a unit cube.
 
-Every key of [search] is one coordinate, from 0 to 1. The wall thickness, or the mass, is the share
-of the way from its least value to the greatest one that the budget and the cells allow, so that the
-budget is kept by construction: near the best design it is used up, and a penalty would make half of
-the neighbours worthless.
+Every key of [search] is one coordinate, from 0 to 1. The coordinate of the wall thickness, of the
+mass, or of a slicer's infill is the share of the way from its least value to the greatest one that
+the budget and the cells allow. The budget is thus kept by construction: near the best design it is
+used up, and a penalty would make half of the neighbours worthless. A budget counts what `rank`
+counts: the mass as extruded if there is a slicer, else that of the union of the walls.
 """
 
 from collections.abc import Sequence
@@ -15,14 +16,14 @@ from scipy.optimize import brentq
 from sweep.config.axis import Interval, Written, rounded_down
 from sweep.config.case import Case, Lattice
 from sweep.config.grid import Config, Values, chosen_case
-from sweep.design.lattice import build_network
-from sweep.design.network import mass
-from sweep.design.panel import specimens
+from sweep.design.lattice import counted_area
+from sweep.design.panel import panel_of
+from sweep.ranking.merit import greatest_mass
 
-SIZES = ("lattice.wall_thickness", "lattice.mass")
+SIZES = ("lattice.wall_thickness", "lattice.mass", "lattice.infill")
 USED_UP = 1.05  # shares above 1 / USED_UP stand for the greatest value: the whole budget
 OPEN = 0.999  # of the greatest wall thickness that leaves openings
-EXACT = 1e-10  # m, of a wall thickness
+EXACT = 1e-10  # m of a wall thickness, or a share of infill
 
 
 class DesignSpace:
@@ -52,7 +53,9 @@ class DesignSpace:
                 return None
             chosen[self._size.name] = size
         case = chosen_case(self.config, chosen)
-        return case if case and self._weight(case, case.lattice) <= self.budget else None
+        if case is None or not self._panels(case.lattice, case.loading):
+            return None
+        return case if self.weight(case) <= greatest_mass(self.budget) else None
 
     @cached_property
     def _size(self) -> Interval | None:
@@ -74,6 +77,24 @@ class DesignSpace:
 
     def _limited(self, size: Interval, least: Case) -> Interval | None:
         """The axis up to its greatest value within the budget; None if its least exceeds that."""
+        if least.lattice.structure is not None:
+            return size
+        if least.lattice.slicer is not None:
+            return self._limited_of_slicer(size, least)
+        return size if size.name == "lattice.infill" else self._limited_walls(size, least)
+
+    def _limited_of_slicer(self, size: Interval, least: Case) -> Interval | None:
+        """The axis of the mass as extruded, or of the share of infill, up to the budget."""
+        most = self.budget / (self._panels(least.lattice, least.loading) or inf)
+        if size.name == "lattice.infill":
+            most = _greatest_share(least, size, most)
+        if most < size.low:
+            return None
+        top = size.high if most >= size.high else max(size.low, rounded_down(most))
+        return Interval(size.name, size.low, top, size.unit)
+
+    def _limited_walls(self, size: Interval, least: Case) -> Interval | None:
+        """The axis of the wall thickness, or of the mass that sets it."""
         by_mass = size.name == "lattice.mass"
         grams = size.high if by_mass else inf
 
@@ -82,7 +103,7 @@ class DesignSpace:
             return max(count * specimen - self.budget, specimen - grams)
 
         def count(thickness: float) -> float:
-            return self._panels(_with_walls(least.lattice, thickness))
+            return self._panels(_with_walls(least.lattice, thickness), least.loading)
 
         low = least.lattice.wall_thickness
         high = min(inf if by_mass else size.high, OPEN * _widest(least.lattice))
@@ -96,16 +117,17 @@ class DesignSpace:
         top = size.high if most >= size.high else max(size.low, rounded_down(most))
         return Interval(size.name, size.low, top, size.unit)
 
-    def _weight(self, case: Case, lattice: Lattice) -> float:
-        """Mass (kg) that the budget limits."""
-        return self._panels(lattice) * _mass(case, lattice) if self.budget < inf else 0.0
+    def weight(self, case: Case) -> float:
+        """Mass (kg) that the budget limits, of a specimen or of the panel; 0 without a budget."""
+        if self.budget == inf:
+            return 0.0
+        return self._panels(case.lattice, case.loading) * _mass(case, case.lattice)
 
-    def _panels(self, lattice: Lattice) -> float:
+    def _panels(self, lattice: Lattice, loading: Loading) -> float:
         """Number of specimens in a panel, as a ranking counts them; 1 without a panel."""
         if self.panel is None:
             return 1.0
-        area = self.panel[0] * self.panel[1]
-        return float(specimens(area, lattice.outer_size[0], lattice.depth))
+        return float(panel_of(self.panel, *footprint(lattice, loading)).specimens)
 
 
 def _widest(lattice: Lattice) -> float:
@@ -119,5 +141,31 @@ def _with_walls(lattice: Lattice, thickness: float) -> Lattice:
 
 
 def _mass(case: Case, lattice: Lattice) -> float:
-    """Mass of the print (kg)."""
-    return mass(build_network(lattice.geometry), lattice.depth, case.material.density)
+    """Mass of a specimen (kg) as budgets count it."""
+    if lattice.structure is not None:
+        from sweep.scene.custom import network_of
+
+        area = network_of(lattice.structure).printed_area
+    else:
+        area = counted_area(lattice.geometry)
+    return case.material.density * lattice.depth * area
+
+
+def _greatest_share(least: Case, size: Interval, budget: float) -> float:
+    """The greatest share of a slicer's infill with which a specimen weighs at most the budget (kg);
+    0 if that of the least one exceeds it.
+    """
+    geometry, pattern = least.lattice.geometry, least.lattice.printed_as
+    per_area = least.material.density * least.lattice.depth
+
+    def excess(share: float) -> float:
+        distance = pattern.directions * least.lattice.lines / share
+        sliced = geometry.sliced and geometry.sliced._replace(distance=distance)
+        return per_area * counted_area(geometry._replace(sliced=sliced)) - budget
+
+    high = min(size.high, 0.5 * pattern.opening * pattern.directions / pattern.wall)
+    if excess(size.low) > 0.0:
+        return 0.0
+    if excess(high) <= 0.0:
+        return size.high
+    return brentq(excess, size.low, high, xtol=EXACT) - EXACT

@@ -9,7 +9,7 @@ walls 5 % thinner and thicker, and a quarter and four times the imperfection.
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from sweep.config.case import Case
+from sweep.config.case import Case, given
 from sweep.config.lattice_table import Lattice
 from sweep.ranking.spread import FINE
 from sweep.running.spread import Corner
@@ -17,6 +17,12 @@ from sweep.running.spread import Corner
 WALLS = {"walls -5 %": 0.95, "walls +5 %": 1.05}
 BOWS = {"imperfection / 4": 0.25, "imperfection x 4": 4.0}
 COUNT = 3
+GIVEN = (
+    *("slicer", "pattern", "fill_angle", "fill_multiline", "perimeters", "layer_height", "nozzle"),
+    *("width", "height", "depth", "nodes_per_wall", "imperfection"),
+)
+"""Keys of a lattice that a slicer lays, beside those of the line width and the share."""
+
 ALIKE = 0.05  # relative difference in all numbers up to which two designs are one peak
 
 
@@ -46,12 +52,23 @@ def perturbed(design: Case) -> list[Corner]:
     fine = _finer(design.lattice)
     found = [Corner(FINE, _with(design, fine))]
     if fine.structure is None:
-        walls, bow = fine.wall_thickness, fine.imperfection
-        changes = {name: {"wall_thickness": scale * walls} for name, scale in WALLS.items()}
-        changes |= {name: {"imperfection": scale * bow} for name, scale in BOWS.items() if bow}
-        for name, change in changes.items():
-            found.append(Corner(name, _with(design, fine.model_copy(update=change))))
+        bow = fine.imperfection
+        found += [Corner(name, _with(design, _printed(fine, by))) for name, by in WALLS.items()]
+        for name, by in BOWS.items() if bow else ():
+            bent = fine.model_copy(update={"imperfection": by * bow})
+            found.append(Corner(name, _with(design, bent)))
     return found
+
+
+def _printed(lattice: Lattice, by: float) -> Lattice:
+    """The lattice with walls `by` times as thick in the same places, and perimeters if a slicer
+    lays both: it extrudes wider lines, at a share of infill that keeps their distance.
+    """
+    if lattice.slicer is None:
+        return lattice.model_copy(update={"wall_thickness": by * lattice.wall_thickness})
+    known = {key: getattr(lattice, key) for key in GIVEN}
+    wider = given(lattice.line_width) + (by - 1.0) * lattice.line
+    return Lattice(**known | {"line_width": wider, "infill": by * given(lattice.infill)})
 
 
 def _finer(lattice: Lattice) -> Lattice:
@@ -60,9 +77,11 @@ def _finer(lattice: Lattice) -> Lattice:
         pieces = tuple(2 * n for n in lattice.structure.pieces)
         finer = lattice.structure.model_copy(update={"subdivide": pieces})
         return lattice.model_copy(update={"structure": finer, "layers": None})
-    nodes = 2 * lattice.nodes_per_wall + 1
-    others = {"mass": None, "infill": None, "layers": None}  # layers follow from the elements
-    return lattice.model_copy(update={"nodes_per_wall": nodes, **others})
+    change = {"nodes_per_wall": 2 * lattice.nodes_per_wall + 1, "mass": None}
+    change["layers"] = None  # follow from the elements
+    if lattice.slicer is None:
+        change["infill"] = None
+    return lattice.model_copy(update=change)
 
 
 def _with(design: Case, lattice: Lattice) -> Case:

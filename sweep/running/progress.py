@@ -46,19 +46,26 @@ class Progress:
     """Counts cases as they finish.
 
     costs: id of every waiting case -> its weight in the time left. done: number of cases of the
-    sweep that were finished before.
+    sweep that were finished before. part: these cases are a part of a search, which tells the end
+    of each part itself: lines appear only if a part takes long.
     """
 
     def __init__(
-        self, costs: Mapping[str, float], done: int = 0, console: Console | None = None
+        self,
+        costs: Mapping[str, float],
+        done: int = 0,
+        console: Console | None = None,
+        part: bool = False,
     ) -> None:
         self.console = console or Console(stderr=True)
+        self.part = part
         self.costs = costs
         self.total = done + len(costs)
         self.done, self.failed = done, 0
         self._left = sum(costs.values())
         self._recent: deque[tuple[float, int, float]] = deque()  # time, cases done, cost left
-        self._printed, self._last = 0.0, ""  # time and text of the last plain line
+        self._printed = time.monotonic() if part else 0.0  # time of the last plain line
+        self._told: tuple[int, int] | None = None  # cases done and failed in that line
         self._sentences: set[str] = set()
         self._notebook = NotebookLine() if self.console.is_jupyter else None
         self._period = NOTEBOOK_PERIOD if self._notebook else PERIOD
@@ -68,6 +75,7 @@ class Progress:
             TextColumn("{task.description}"),
             TimeElapsedColumn(),
             console=self.console,
+            transient=part,
             disable=not self.console.is_terminal,
         )
         self._task = self._bar.add_task(self._line(), total=self._left)
@@ -78,7 +86,7 @@ class Progress:
 
     def __exit__(self, *_: object) -> None:
         self._bar.stop()
-        if not self.console.is_terminal and self._last != self._line():
+        if not (self.console.is_terminal or self.part) and self._told != (self.done, self.failed):
             self._update(self._line())
 
     def advance(self, results: Sequence[Result]) -> None:
@@ -103,8 +111,8 @@ class Progress:
         while len(self._recent) > 2 and now - self._recent[0][0] > RECENT:
             self._recent.popleft()
         if not self.console.is_terminal and now - self._printed > self._period:
-            self._printed, self._last = now, self._line()
-            self._update(self._last)
+            self._printed, self._told = now, (self.done, self.failed)
+            self._update(self._line())
 
     def _line(self) -> str:
         parts = [f"{self.done}/{self.total} cases", *self._pace()]

@@ -5,6 +5,11 @@ new ones of a generation run as a sweep does and are rows of the results file. T
 for the same designs again, so that a search that was stopped continues where it ended: what the
 file holds is looked up. When a population has converged before all evaluations are used up, the
 search starts again from other points.
+
+Requirements are compared by the rules of K. Deb (Comput. Methods Appl. Mech. Eng. 186, 311-338,
+2000), which scipy applies as J. Lampinen (2002) describes for differential evolution: a design that
+fulfils all of them is better than one that does not; of two that do, the value decides; of two that
+do not, the sum of the shares by which limits are missed (`ranking.requirements.violation`).
 """
 
 import os
@@ -14,12 +19,14 @@ from math import inf
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.optimize import differential_evolution
+from pandas import DataFrame
+from scipy.optimize import NonlinearConstraint, differential_evolution
 from scipy.stats import qmc
 
 from sweep.config.case import Case
 from sweep.config.grid import designs_of
 from sweep.numbers import three_digits
+from sweep.ranking.curves import Known, with_allowed
 from sweep.ranking.worth import Worths, worths
 from sweep.running.dask_graph import Simulate
 from sweep.running.design_space import DesignSpace
@@ -46,7 +53,8 @@ class Settings(NamedTuple):
 
 @dataclass
 class Search:
-    """A search into the results file `out`; question: the arguments of `rank`.
+    """A search into the results file `out`; question: the arguments of `rank`, with what is
+    required.
 
     cases: the designs so far by id. found: their worths.
     """
@@ -58,7 +66,16 @@ class Search:
     simulate: Simulate | None = None
     cases: dict[str, Case] = field(default_factory=dict)
     found: Worths | None = None
+    _known: Known = field(default_factory=dict)
     _idle: int = 0
+    _before: int = 0  # designs before the present generation
+
+    @property
+    def mode(self) -> str:
+        """The loading mode of the first design that exists; "" if none of the start does."""
+        points = _start(self.space.dimension, self.settings.seed * 1000)
+        found = next((case for point in points if (case := self.space.case(point))), None)
+        return found.loading.mode if found else ""
 
     @property
     def left(self) -> int:
@@ -79,12 +96,12 @@ class Search:
     def _evolve(self, seed: int) -> None:
         """One population, from its Sobol start until it has converged or is stopped."""
         start = _start(self.space.dimension, seed)
-        costs = np.array(self.evaluate(None, start))
-        best = np.argsort(costs, kind="stable")[:POPULATION]
-        self._idle = 0
+        best = np.lexsort([self.costs(start.T), self.violations(start.T)[0]])[:POPULATION]
+        self._idle, self._before = 1, len(self.cases)
+        required = any(value is not None for value in (self.question.get("require") or {}).values())
         if self.left > 0:
             differential_evolution(
-                lambda _: inf,
+                self.costs,
                 [(0.0, 1.0)] * self.space.dimension,
                 init=start[best],
                 maxiter=10_000,
@@ -93,45 +110,79 @@ class Search:
                 seed=seed,
                 polish=False,
                 updating="deferred",
-                workers=self.evaluate,
+                vectorized=True,
+                constraints=NonlinearConstraint(self.violations, -inf, 0.0) if required else (),
                 callback=self._is_over,
             )
 
     def _is_over(self, *_: object, **__: object) -> bool:
+        """Whether a population ends after this generation."""
+        self._idle = 0 if len(self.cases) > self._before else self._idle + 1
+        self._before = len(self.cases)
         return self.left <= 0 or self._idle >= IDLE
 
-    def evaluate(self, _: object, points: np.ndarray) -> list[float]:
-        """The costs of points (n, dimension): the value to be minimised, inf of what is worthless.
+    def costs(self, points: np.ndarray) -> np.ndarray:
+        """The values to be minimised of the columns of `points` (dimension, n): (n,).
+
+        A design without a value, or that misses a requirement, costs inf.
+        """
+        ids, found = self._assessed(points)
+        values = found.by_id if found else {}
+        sign = found.sign if found else 1.0
+        return np.array([sign * values.get(case_id, sign * inf) for case_id in ids])
+
+    def violations(self, points: np.ndarray) -> np.ndarray:
+        """The violations of one point (dimension,), or of the columns of `points`: (1,) or (1, n).
+
+        That of a design without a value is inf.
+        """
+        ids, found = self._assessed(points.reshape(self.space.dimension, -1))
+        fulfil, missed = (found.by_id, found.missed) if found else ({}, {})
+        values = [0.0 if case_id in fulfil else missed.get(case_id, inf) for case_id in ids]
+        return np.array(values if points.ndim == 1 else [values])
+
+    def _assessed(self, points: np.ndarray) -> tuple[list[str], Worths | None]:
+        """The ids of designs, "" where there is none, and the worths of all, the new ones included.
 
         No more designs are simulated than are left; further ones are worthless.
         """
-        designs = [self.space.case(point) for point in points]
+        designs = [self.space.case(point) for point in points.T]
         new = {d.case_id: d for d in designs if d is not None and d.case_id not in self.cases}
         chosen = dict(list(new.items())[: self.left])
-        self._idle = 0 if chosen else self._idle + 1
         self.cases |= chosen
         if chosen:
             if chosen.keys() - finished_ids(self.out, RENEW):
                 self._simulate()
             self._assess()
-        values = self.found.by_id if self.found else {}
-        sign = self.found.sign if self.found else 1.0
-        return [sign * values.get(d.case_id, sign * inf) if d else inf for d in designs]
+        return [design.case_id if design else "" for design in designs], self.found
 
     def _simulate(self) -> None:
         """Run the designs so far that the file does not hold."""
         designs = designs_of(self.space.config, self.cases.values(), self.settings.seed)
         how = self.settings.workers, self.settings.scheduler, RENEW, self.simulate
-        run_sweep(designs, self.out, *how)
+        run_sweep(designs, self.out, *how, part=True)
 
     def _assess(self) -> None:
         """Value the designs so far, and tell the best."""
-        summary = read_summary(self.out)
-        self.found = worths(summary[summary["case_id"].isin(self.cases)], self.question)
-        best = next(iter(self.found.by_id.values()), None)
-        told = "none can be ranked" if best is None else f"the best {three_digits(best)}"
+        self.found = worths(self.rows(), self.question)
         counted = f"{len(self.cases)} of at most {self.settings.evaluations} designs"
-        tell(f"{counted}: {self.found.column}, {told}")
+        tell(f"{counted}: {self.found.column}, {_best(self.found)}")
+
+    def rows(self) -> DataFrame:
+        """The rows of the designs so far, with energies up to an allowed force of the panel."""
+        summary = read_summary(self.out)
+        mine = summary[summary["case_id"].isin(self.cases)].reset_index(drop=True)
+        return with_allowed(self.out, mine, self.question, self._known)
+
+
+def _best(found: Worths) -> str:
+    """How good the best design so far is, in words."""
+    if found.by_id:
+        return f"the best {three_digits(next(iter(found.by_id.values())))}"
+    least = min(found.missed.values(), default=inf)
+    if least < inf:
+        return f"none fulfils all requirements; the nearest misses them by {100.0 * least:.3g} %"
+    return "none can be ranked"
 
 
 def _start(dimension: int, seed: int) -> np.ndarray:

@@ -26,19 +26,20 @@ class Interrupted(KeyboardInterrupt):
     """A sweep that was stopped; the text says what is kept and how to continue."""
 
 
-def run_sweep(
+def run_sweep(  # noqa: PLR0913  what, where, how
     sweep: Config | Sequence[Case],
     out: str | os.PathLike[str],
     workers: int = 2,
     scheduler: str | None = None,
     rerun: Rerun = ONLY_MISSING,
     simulate: Simulate | None = None,
+    part: bool = False,
 ) -> int:
     """Run the cases that `out` does not hold; return how many cases of the sweep are not converged.
 
     scheduler: address of a Dask scheduler; without one, `workers` threads of this process.
     rerun: cases that run again; an old row stays until the new one is sealed. Ctrl-C (or SIGTERM)
-    keeps finished cases and raises `Interrupted`.
+    keeps finished cases and raises `Interrupted`. part: as of `Progress`.
     """
     given = expand(sweep) if isinstance(sweep, Config) else sweep
     cases = {case.case_id: case for case in given}
@@ -63,7 +64,7 @@ def run_sweep(
                 plan = Plan(waiting.values(), workers)
                 costs = {case_id: cost(case) for case_id, case in waiting.items()}
                 with (
-                    Progress(costs, len(done)) as progress,
+                    Progress(costs, len(done), part=part) as progress,
                     result_sink(writer, plan, progress) as sink,
                 ):
                     run(plan, chosen, sink, stop, scheduler)

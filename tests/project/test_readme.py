@@ -221,7 +221,7 @@ def is_quick(case):
 @pytest.mark.parametrize("example", readme.examples(), ids=lambda example: example.command)
 def test_rankings_are_those_of_the_sweep(example, quick_armor, monkeypatch):
     monkeypatch.chdir(quick_armor)
-    monkeypatch.setitem(os.environ, "COLUMNS", "80")
+    monkeypatch.setitem(os.environ, "COLUMNS", "104")
     printed = [line.split() for line in figures.answer(example) if line]
     told = [line.split() for line in example.lines if "3 x 3" in line or "2 x 2" in line]
     assert len(told) >= 2

@@ -1,8 +1,17 @@
 """A search whose designs cost nothing: their energy is a formula of walls, cells and pattern."""
 
-from math import exp
+from math import exp, nan
 
-from sweep.result import COLUMNS, Result, Status, absorbed_energy_column, design_columns
+import numpy as np
+
+from sweep.result import (
+    COLUMNS,
+    HISTORY_COLUMNS,
+    Result,
+    Status,
+    absorbed_energy_column,
+    design_columns,
+)
 
 TOML = """
 name = "sought"
@@ -38,8 +47,18 @@ def simulate(case, control=None):
     measures = dict.fromkeys(list(COLUMNS)[3:], 0.0) | design_columns(case)
     measures |= {name: joules for name in COLUMNS if name.startswith("absorbed_energy_")}
     measures |= {absorbed_energy_column(force): joules for force in case.loading.allowed_forces}
-    measures |= {"mass_g": 1e3 * case.lattice.wall_thickness, "cpu_s": 0.01}
+    grams = 1e3 * case.lattice.wall_thickness
+    measures |= {"mass_g": grams, "printed_mass_g": nan, "cpu_s": 0.01}
     if case.lattice.wall_thickness < THIN:
         measures |= {"absorbed_energy_within_model_J": 0.5 * joules}
     status = Status.STOPPED if failed else Status.CONVERGED
-    return Result(case.case_id, status, "no equilibrium" if failed else "", measures)
+    why = "no equilibrium" if failed else ""
+    return Result(case.case_id, status, why, measures, {} if failed else history(joules))
+
+
+def history(joules):
+    """A force of `joules` x 100 N / J over 10 mm, in two rows."""
+    rows = {name: np.zeros(2) for name in HISTORY_COLUMNS}
+    force, work = np.full(2, 100.0 * joules), np.array([0.0, joules])
+    shown = {"top_displacement_m": np.array([0.0, 0.01]), "work_in_J": work}
+    return rows | shown | {"reaction_top_N": force, "reaction_bottom_N": force}

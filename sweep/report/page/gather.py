@@ -111,7 +111,7 @@ def _cases(
             or [()] * len(part),
             "more": list(zip(*_measures(part).values(), strict=True)) or [()] * len(part),
             "mass": _exact(part[counted[0].names.mass]),
-            "area": _exact(part["outer_width_m"] * part["depth_m"]),
+            "outer": list(zip(_exact(part["outer_width_m"]), _exact(part["depth_m"]), strict=True)),
             "energies": list(zip(*energies, strict=True)),
             "least": _with_bars(part, least) if least else [None] * len(part),
             "passed": _exact(part["passed_on_N"]),

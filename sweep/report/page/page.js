@@ -107,7 +107,7 @@ function picks(box, values, unit, key, chosen) {
 // Wishes that make no sense in the scene are dropped.
 function settle() {
   const designs = data.cases.filter((design) => design.scene === asked.scene);
-  const sized = designs.every((design) => design.area > 0);
+  const sized = designs.every((design) => design.outer.every((side) => side > 0));
   $("panel-box").hidden = !sized;
   $("force-box").hidden = !crushed();
   if (!sized) asked.panel = null;
@@ -154,8 +154,9 @@ function valueText(row) {
   return least + (row.value === row.energy ? energyText(row.energy) : `${digits(row.perGram)} J/g`);
 }
 
-function panelText() {
-  return asked.panel ? asked.panel.map((side) => Number((1000 * side).toPrecision(4))).join(" x ") + " mm" : "";
+// The true lengths of a panel, in mm.
+function panelText(row) {
+  return row.panel.lengths.map((side) => Number((1000 * side).toPrecision(3))).join(" x ");
 }
 
 function until() {
@@ -188,7 +189,9 @@ function showAnswer() {
 }
 
 function* words(best) {
-  const panel = asked.panel ? `A panel of ${panelText()} weighs ${inUnit(best.mass)}` : `It weighs ${inUnit(best.mass)}`;
+  const panel = best.panel
+    ? `A panel of ${panelText(best)} mm, ${best.panel.specimens} specimens, weighs ${inUnit(best.mass)}`
+    : `It weighs ${inUnit(best.mass)}`;
   const absorbs = () => `absorbs ${best.early ? "at least " : ""}${energyText(best.energy)}`;
   if (scene().least) yield `${panel}.`;
   else if (!crushed()) yield `${panel} and ${absorbs()}, ${digits(best.perGram)} J/g.`;
@@ -232,7 +235,10 @@ function columns() {
     found.push({ head, text, key: (row) => (text(row) === "" ? "" : Number.isNaN(Number(text(row))) ? text(row) : Number(text(row))) });
   });
   found.push(number("mass g", (row) => digits(row.design.mass)));
-  if (asked.panel) found.push(number("panel g", (row) => digits(row.mass)));
+  if (asked.panel) {
+    found.push(number("panel mm", panelText, (row) => row.panel.lengths[0]));
+    found.push(number("panel g", (row) => digits(row.mass)));
+  }
   if (mode === "impact") found.push(number("force N", (row) => digits(row.value), (row) => row.value));
   else if (mode === "force") found.push(number("sink %", (row) => digits(100 * row.value), (row) => row.value));
   else {

@@ -22,9 +22,14 @@ function countedEnergy(data, design, question) {
   return design.stairs ? [workUntil(question.force, design.stairs), null, null] : [null, null, null];
 }
 
-// Whole number of specimens that fill the area (m^2) of the panel most nearly, at least one.
-function specimens([width, height], area) {
-  return Math.max(1, Math.round((width * height) / area));
+const BESIDE = 0.4e-3; // m, between two specimens
+
+// Numbers of specimens of an outer width x depth (m) side by side and one behind the other, of the
+// panel nearest to two lengths (m), at least one each, and its true lengths: sweep/design/panel.py.
+function panelOf([first, second], [width, depth]) {
+  const across = Math.max(1, Math.floor((first + BESIDE) / (width + BESIDE) + 0.5));
+  const behind = Math.max(1, Math.floor(second / depth + 0.5));
+  return { specimens: across * behind, lengths: [across * (width + BESIDE) - BESIDE, behind * depth] };
 }
 
 // What is compared of one design. question: scene, budget (g) or null, panel [m, m] or null,
@@ -32,10 +37,12 @@ function specimens([width, height], area) {
 function measured(data, design, question) {
   const scene = data.scenes[question.scene];
   const [energy, error, correction] = countedEnergy(data, design, question);
-  const factor = question.panel ? specimens(question.panel, design.area ?? NaN) : 1;
+  const panel = question.panel ? panelOf(question.panel, design.outer) : null;
+  const factor = panel ? panel.specimens : 1;
   const times = (value, by) => (value === null ? null : by * value);
   const row = {
     design,
+    panel,
     mass: factor * design.mass,
     energy: times(energy, factor),
     perGram: energy === null ? null : energy / design.mass,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.plates import contact, pairs
-from kernels.plates.pairs import FAR, LEAST_PATH, starts_at
+from kernels.plates.pairs import FAR, LEAST_PATH, NEAR_SHARE, starts_at
 from tests.support.sheets import Sheet, contact_of, pairs_of, placed, positions, term_of, two_sheets
 
 T = 0.7
@@ -25,12 +25,30 @@ def test_contact_starts_below_the_distance_at_rest_and_at_the_thickness_far_away
         assert starts_at(path, T) < min(path, T)
     assert starts_at(FAR * T, T) == T
     assert starts_at(0.0, T) == 0.0
+    assert starts_at(-T, T) == NEAR_SHARE * starts_at(T, T)
 
 
 def test_a_wall_bent_to_its_limit_does_not_touch_itself_within_two_thicknesses():
     """Parts of an arc of curvature 2 / t that are s apart along it."""
     s = np.linspace(1e-3, 2.0, 200) * T
     assert all(starts_at(p, T) < T * np.sin(p / T) for p in s)
+
+
+@pytest.mark.parametrize("fine", [4, 6, 9, 24])
+def test_a_crease_is_kept_open(fine):
+    """A wall that is folded flat between two rows of nodes, whatever the size of the elements."""
+    points, triangles, area = folded(0.0, fine)
+    touch = contact_of(points, triangles, area, T)
+    energies = []
+    for angle in (3.0, 3.1, 3.13):
+        x = placed(folded(angle, fine)[0])
+        listed = pairs_of(x, touch)
+        listed.edge_contact[:] = 0.0
+        beside = np.abs(points[:, 0]) < 9.5 / fine
+        alone = touch._replace(area=np.where(beside, area, 0.0))
+        energies.append(term_of(x, alone, listed).energy(x))
+    assert energies[0] < energies[1] < energies[2]
+    assert energies[2] > 0.1
 
 
 @pytest.mark.parametrize("fine", [4, 6, 12, 20])
@@ -53,14 +71,15 @@ def test_near_parts_are_not_in_contact():
         for q in range(listed.start[p], listed.start[p + 1]):
             away = np.linalg.norm(centre[listed.triangle[q]] - points[p])
             assert (listed.path[q] > 0.0) == (away >= LEAST_PATH * T)
-            assert (listed.d_contact[q] > 0.0) == (listed.path[q] > 0.0)
+            share = 1.0 if listed.path[q] > 0.0 else NEAR_SHARE
+            assert listed.d_contact[q] == share * starts_at(abs(listed.path[q]), T)
             seen += away < LEAST_PATH * T
     assert seen > 400
     apart = np.linalg.norm(
         np.diff(points[touch.edges[np.stack([listed.one, listed.two])]].mean(axis=2), axis=0)[0],
         axis=1,
     )
-    np.testing.assert_array_equal(listed.edge_contact > 0.0, apart >= LEAST_PATH * T)
+    np.testing.assert_array_equal(listed.edge_path > 0.0, apart >= LEAST_PATH * T)
 
 
 def weights(x, touch, p):
@@ -136,7 +155,7 @@ def test_sides_take_the_least_distance_of_their_triangles():
         shared = [
             listed.d_contact[q]
             for q in own
-            if nodes <= set(touch.triangles[listed.triangle[q]].tolist()) and listed.path[q] > 0
+            if nodes <= set(touch.triangles[listed.triangle[q]].tolist())
         ]
         assert listed.lower_contact[j] == min(shared)
         assert nodes <= set(touch.triangles[listed.lower_triangle[j]].tolist())

@@ -85,6 +85,13 @@ REFUSED = [
     (["--budget", "1 g", "--max-force", "60"], "a bare number"),
     (["--budget", "1 g", "--by", "cells_x"], '"cells_x" is no column of which more or less makes'),
     (["--budget", "1 g", "--pareto", "weight"], '"weight" is no column'),
+    (["--budget", "1 g", "--per", "panel"], "needed: a panel, as --panel or in [rank]"),
+    (["--budget", "1 g", "--max-deceleration", "9 g0"], "needs a striker; loading.mode is disp"),
+    (["--budget", "1 g", "--min-absorbed", "9"], "a bare number"),
+    (
+        ["--budget", "1 g", "--max-force", "9 N", "--allowed-force", "9 N"],
+        "--max-force with --allowed-force; allowed: one of them",
+    ),
     (["--evaluations", "0"], "1 or more"),
     (["--seed", "-1"], "1 or more"),
 ]
@@ -111,13 +118,56 @@ def test_configs_are_for_one_verb(capsys, config, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["sought.toml"]
 
 
-def test_it_counts_the_force_of_a_specimen_and_leaves_requirements_to_rank(capsys, config):
+def test_requirements_are_those_of_the_config_or_of_options(capsys, config):
     text = config.read_text()
-    config.write_text(f'{text}\n[require]\nmin_absorbed = "9 J"\n')
-    _, out, _ = crumple(capsys, "optimize", str(config), "--by", ENERGY, "--evaluations", "16")
-    assert "A search does not look at [require] (min_absorbed); crumple rank does." in out
-    config.write_text(f'{text}\n[rank]\nper = "panel"\npanel = ["100 mm", "50 mm"]\n')
-    for option in ("--max-force", "--allowed-force"):
-        status, out, err = crumple(capsys, "optimize", str(config), option, "50 N")
-        assert (status, out) == (2, "")
-    assert 'rank.per = "panel": a search counts the force of a specimen' in err
+    config.write_text(f'{text}\n[require]\nmin_absorbed = "0.5 J"\n')
+    words = [str(config), "--by", ENERGY, "--evaluations", "40"]
+    status, out, _ = crumple(capsys, "optimize", *words, "--max-mass", "20 g")
+    assert status == 0
+    assert "Best designs, simulated again" in out
+    assert "--min-absorbed" not in out  # rank finds it in the config
+    assert "--max-mass '20 g'" in out
+    command = shlex.split(out.splitlines()[-1].partition("; to rank them: crumple ")[2])
+    _, told, _ = crumple(capsys, *command)
+    assert "Required of a specimen: mass at most 20 g, absorbed energy at least 500 mJ." in told
+
+
+def test_that_none_fulfils_is_told_with_the_nearest(capsys, config):
+    words = [str(config), "--by", ENERGY, "--evaluations", "40", "--min-absorbed", "9 J"]
+    status, out, err = crumple(capsys, "optimize", *words, "--pareto", "mass_g")
+    assert status == 0
+    assert "none fulfils all requirements; the nearest misses them by " in err
+    assert "None of 40 designs fulfils all requirements." in out
+    assert "None absorbs as much as 9.00 J; the most is " in out
+    assert "Nearest to what is required" in out
+    nearest = next(line.split() for line in out.splitlines() if line.startswith("to print"))
+    assert nearest[:7] == [
+        "to",
+        "print",
+        "the",
+        "nearest:",
+        "crumple",
+        "export",
+        "results/sought.h5",
+    ]
+    assert "Pareto" not in out
+
+
+def test_force_of_the_panel_is_looked_up_in_the_curves(capsys, config):
+    panel = ["--panel", "100 mm", "50 mm", "--per", "panel"]
+    words = [str(config), *panel, "--max-force", "5 kN", "--evaluations", "16"]
+    status, out, err = crumple(capsys, "optimize", *words)
+    assert (status, "none can be ranked" in err) == (0, False)
+    assert "--allowed-force '5 kN' --per panel" in out
+    assert "absorbed_energy_at_5000N_J" not in read_summary("results/sought.h5")
+
+
+def test_force_of_an_impact_is_required(capsys, config):
+    text = config.read_text().replace(
+        'mode = "displacement"\nstrain = 0.6', 'energy = "1 J"\nstriker_mass = "50 g"'
+    )
+    config.write_text(text)
+    words = [str(config), "--max-force", "50 N", "--evaluations", "16"]
+    _, out, _ = crumple(capsys, "optimize", *words)
+    assert "--max-force '50 N'" in out
+    assert "--allowed-force" not in out

@@ -197,7 +197,8 @@ def test_force_of_a_panel_is_allowed_by_curves(capsys, tmp_path):
     _, out, _ = crumple(capsys, "rank", file, *panel, "--max-stroke", "3 mm")
     assert "Energy is counted until the force of a panel exceeds 1.2 kN." in out
     row = next(line for line in out.splitlines() if line.startswith("1*"))
-    assert row.split() == ["1*", "1.00", "50.0", "2.20", "0.0440", "24.0", "1200", "2.00"]
+    told = ["1*", "1.00", "134", "x", "50", "50.0", "2.20", "0.0440", "24.0", "1200", "2.00"]
+    assert row.split() == told
 
 
 def test_tables_fit_a_terminal_of_80_columns(capsys, file, monkeypatch):
@@ -315,6 +316,21 @@ def test_export_tells_what_it_wrote(capsys, tmp_path):
         assert (status, out) == (0, f"{tmp_path}/c.csv{told}\n")
     _, out, _ = crumple(capsys, "export", file, "ab", "--to", str(tmp_path / "crush.pvd"))
     assert out == f"{tmp_path}/crush.pvd and 8 files beside\n"
+    _, out, _ = crumple(capsys, "export", file, "1", "--to", str(tmp_path / "made/c.csv"))
+    number, path = out.splitlines()
+    assert number.startswith("number 1 of 1: ")
+    assert path == f"{tmp_path}/made/c.csv, in a new folder"
+
+
+@pytest.mark.parametrize(
+    "words", [["--to", "new/a.step"], ["--to", "new/a.stl", "--panel", "1", "2"]]
+)
+def test_export_refuses_its_arguments_before_anything_is_told(capsys, tmp_path, monkeypatch, words):
+    monkeypatch.chdir(tmp_path)
+    file = write(tmp_path / "trial.h5", summary({"case_id": "ab01"}))
+    status, out, err = crumple(capsys, "export", file, "1", *words)
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert [path.name for path in tmp_path.iterdir()] == ["trial.h5"]
 
 
 def test_show_takes_a_number_of_the_ranking_and_says_which_case_that_is(capsys, tmp_path):

@@ -323,6 +323,27 @@ def test_what_is_asked_of_a_slicer_must_go_together(lines, text, line):
     assert lines(text)[0].startswith(line)
 
 
+def test_lines_side_by_side_are_as_many_times_farther_apart():
+    """OrcaSlicer keeps the share: m lines are m s thick, at m times the distance."""
+    one, three = (sliced(slicer="orca", fill_multiline=lines, infill=0.2) for lines in (1, 3))
+    assert three.wall_thickness == pytest.approx(3.0 * one.wall_thickness)
+    assert three.fill_distance == pytest.approx(3.0 * one.fill_distance)
+    assert three.outline == one.outline
+    areas = [lattice.geometry.sliced.share for lattice in (one, three)]
+    assert areas == pytest.approx([0.2, 0.2])
+    assert Case(lattice=one).case_id == Case(lattice=sliced(slicer="orca", infill=0.2)).case_id
+
+
+@pytest.mark.parametrize(
+    "wish", [{"slicer": "prusa"}, {"slicer": "cura"}, {"slicer": "orca", "pattern": "honeycomb"}]
+)
+def test_several_lines_are_of_orca_and_of_patterns_with_a_known_relation(wish):
+    with pytest.raises(ValidationError, match=r"fill_multiline|1; more with lattice.slicer"):
+        sliced(**{"pattern": "grid", "infill": 0.2, "fill_multiline": 2} | wish)
+    with pytest.raises(ValidationError, match=r"1 without lattice.slicer"):
+        Lattice(fill_multiline=2)
+
+
 def test_a_slicer_prints_no_endless_lattice():
     with pytest.raises(ValidationError, match=re.escape('"free" if lattice.slicer is given')):
         sliced(boundary="periodic")

@@ -109,3 +109,35 @@ def test_design_that_is_pressed_along_its_cells_is_rebuilt(perimeters):
     assert found.depth == 14e-3
     assert found.lattice.height == pytest.approx(9e-3, rel=1e-12)
     assert found.volume == pytest.approx(1e-3 * found.grams / case.material.density, rel=1e-9)
+
+
+SLICED = {"slicer": "orca", "width": 25e-3, "height": 25e-3}
+
+
+@pytest.mark.parametrize(
+    "wish",
+    [
+        {"pattern": "grid", "mass": 3e-3},
+        {"pattern": "honeycomb", "infill": 0.3, "fill_angle": 0.2},
+        {"pattern": "tri-hexagon", "infill": 0.2, "fill_multiline": 2, "perimeters": 3},
+    ],
+)
+def test_infill_of_a_slicer_is_rebuilt(wish):
+    """Also where the first case of the sweep has another pattern and share."""
+    case = Case(lattice=Lattice(**SLICED, **wish))
+    other = Case(
+        lattice=Lattice(**SLICED | wish | {"pattern": "triangles", "infill": 0.1, "mass": None})
+    )
+    row = row_of(case) | {"lattice.pattern": wish["pattern"]}
+    for first in (case, other):
+        found = stored_design(row, config_of(first))
+        assert found.lattice.geometry == case.lattice.geometry
+        if "mass" in wish:
+            assert found.extruded_grams == pytest.approx(3.0, rel=5e-3)
+        assert found.extruded_grams > found.grams
+
+
+def test_family_beside_a_slicer_has_no_pattern():
+    first, case = Case(lattice=Lattice(**SLICED, pattern="grid", infill=0.2, perimeters=1)), grid()
+    row = row_of(case) | {"lattice.perimeters": 0}
+    assert stored_design(row, config_of(first)).lattice.slicer is None

@@ -14,6 +14,7 @@ from PIL import Image
 
 import crumple
 from sweep.config.case import Case, Lattice
+from sweep.config.units import quantity
 from sweep.export import export as module
 from sweep.export.errors import ExportError
 from sweep.export.export import WRITERS, export_case
@@ -63,12 +64,35 @@ def test_panel_is_a_row_of_specimens(file, tmp_path):
     found = exported(file, tmp_path / "panel.stl", panel=("100 mm", 0.05))
     mesh = trimesh.load_mesh(tmp_path / "panel.stl")
     assert mesh.body_count == 7
-    assert mesh.extents == pytest.approx([100.0, 13.3, 50.0], abs=1e-3)
-    assert found.notes[0].startswith("7 side by side, 100 x 13.3 mm, 50 mm deep: ")
-    printed, ranked = 7 * 50 / 12, round(100 * 50 / (13.3 * 12))
-    told = f"of 12 mm depth these are {printed:.4g} specimens; a ranking counts {ranked} in"
-    assert found.notes[1].startswith(told)
-    assert found.notes[1].endswith(f"are {ranked / printed:.3g} times those of this part")
+    assert mesh.extents == pytest.approx([7 * 13.7 - 0.4, 13.3, 48.0], abs=1e-3)
+    told = "7 side by side, each 4 specimens of 12 mm deep: 95.5 x 13.3 mm, 48 mm deep: "
+    assert found.notes[0].startswith(told)
+    assert found.notes[1:] == ["these 28 specimens are what rank counts for a panel of 100 x 50 mm"]
+
+
+@pytest.mark.parametrize("sides", [("100 mm", "50 mm"), ("4 in", "2 in"), ("30 mm", "17 mm")])
+def test_a_panel_is_what_is_ranked_and_searched(file, tmp_path, sides):
+    """Number, true size and mass of the file are those of the ranking and of the search."""
+    from sweep.config.grid import Config
+    from sweep.running.design_space import DesignSpace
+
+    exported(file, tmp_path / "panel.stl", panel=sides)
+    mesh = trimesh.load_mesh(tmp_path / "panel.stl")
+    (row,) = crumple.rank(file, panel=sides).query(f"case_id == '{CASE.case_id}'").to_records()
+    true = [1e3 * row["panel_width_m"], 1e3 * row["panel_depth_m"]]
+    assert mesh.extents[[0, 2]] == pytest.approx(true, abs=1e-3)
+    grams = 1e-6 * mesh.volume * CASE.material.density
+    assert grams == pytest.approx(row["panel_mass_g"], rel=1e-5)
+    lengths = tuple(quantity(side, "m") for side in sides)
+    space = DesignSpace(Config("any"), budget=1.0, panel=lengths)
+    assert 1e3 * space.weight(CASE) == pytest.approx(row["panel_mass_g"], rel=1e-9)
+
+
+def test_corners_that_stick_out_are_told(tmp_path):
+    """The tips of a diamond are farther out than half a wall: 4 specimens, (2^0.5 - 1) t each."""
+    shape = {"kind": "diamond", "cells_x": 2, "cells_y": 2, "wall_thickness": 1.6e-3}
+    found = export_case(Case(lattice=Lattice(**shape)), tmp_path / "a.stl", panel=(0.058, 0.012))
+    assert found.notes[1].endswith("; corners that stick out make them 2.7 mm wider")
 
 
 def test_lattice_in_3mf_asks_for_full_infill_in_words_only(file, tmp_path):
@@ -89,7 +113,7 @@ def test_block_in_3mf_has_settings(file, tmp_path):
     assert int(config.find("object/volume").get("lastid")) == 2 * 12 - 1
     points = [[float(v.get(k)) for k in "xyz"] for v in model.iter() if v.tag.endswith("vertex")]
     assert trimesh.bounds.to_extents(trimesh.PointCloud(points).bounds)[0] == pytest.approx(
-        [30.0, 13.3, 12.0]
+        [2 * 13.7 - 0.4, 13.3, 12.0]
     )
     assert "sparse infill grid, 38.4%, direction 0 degrees" in found.notes[2]
     assert found.notes[0].startswith("2 side by side")
@@ -156,8 +180,18 @@ REFUSED = [
     ("part.3mf", {"kind": "solid"}, 'kind "solid"; allowed: lattice, settings'),
     ("part.stl", {"panel": (0.1,)}, "panel 0.1; allowed: two lengths above zero"),
     ("part.stl", {"panel": (0.1, 0.0)}, "panel 0.1, 0.0; allowed: two lengths above zero"),
-    ("part.stl", {"panel": ("5 mm", "5 mm")}, "a panel of 5 mm holds no specimen"),
+    (
+        "part.stl",
+        {"panel": ("5 mm", "5 mm")},
+        "a panel of 5 mm is smaller than half of a specimen of 13.3 mm",
+    ),
 ]
+
+
+def test_folder_of_a_refused_export_does_not_stay(file, tmp_path):
+    with pytest.raises(ExportError, match="smaller than half"):
+        exported(file, tmp_path / "new/deep/part.stl", panel=("5 mm", "5 mm"))
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(("name", "wish", "why"), REFUSED)

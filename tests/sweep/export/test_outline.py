@@ -39,7 +39,7 @@ def test_outer_rings_turn_left_and_openings_right():
 def test_a_specimen_is_as_deep_and_as_heavy_as_the_case():
     design, shape = part(depth=15e-3)
     found = specimen(design, shape)
-    assert (found.depth, found.specimens) == (15.0, 1.0)
+    assert (found.depth, found.specimens) == (15.0, 1)
     assert found.grams == design.grams > 1.0
 
 
@@ -48,25 +48,32 @@ def test_panel_has_whole_specimens_that_do_not_touch():
     found = panel(design, shape, (0.1, 0.05))
     boxes = np.array([piece.bounds for piece in shapely.get_parts(found.shape)])
     assert len(boxes) == 7
-    assert (boxes[0, 0], boxes[-1, 2]) == pytest.approx((0.0, 100.0), abs=1e-4)
+    assert (boxes[0, 0], boxes[-1, 2]) == pytest.approx((0.0, 7 * (SIDE + T + 0.4) - 0.4), abs=1e-4)
     gaps = boxes[1:, 0] - boxes[:-1, 2]
-    assert gaps == pytest.approx((100.0 - 7 * (SIDE + T)) / 6, abs=1e-4)
-    assert found.specimens == pytest.approx(7 * 50 / 12)
-    assert found.grams == pytest.approx(7 * 50 / 12 * design.grams)
-    assert found.depth == 50.0
+    assert gaps == pytest.approx(0.4, abs=1e-4)
+    assert (found.across, found.behind, found.specimens) == (7, 4, 28)
+    assert found.grams == pytest.approx(28 * design.grams)
+    assert found.depth == 48.0
 
 
-def test_panel_leaves_room_between_specimens():
-    design, shape = part()
-    width = (SIDE + T) * 1e-3
-    assert len(shapely.get_parts(panel(design, shape, (2 * width, 0.01)).shape)) == 1
-    assert len(shapely.get_parts(panel(design, shape, (2 * width + 4e-4, 0.01)).shape)) == 2
-    assert len(shapely.get_parts(panel(design, shape, (width, 0.01)).shape)) == 1
+def test_corners_that_stick_out_do_not_touch():
+    """The tips of a diamond of thick walls are farther out than half a wall."""
+    design, shape = part(kind="diamond", cells=2, wall_thickness=1.6e-3)
+    assert shape.bounds[2] > 12.5 + 1.6 + 0.4
+    found = panel(design, shape, (0.1, 0.05))
+    boxes = np.array([piece.bounds for piece in shapely.get_parts(found.shape)])
+    assert len(boxes) == found.across == 7
+    assert boxes[1:, 0] - boxes[:-1, 2] == pytest.approx(0.4, abs=1e-4)
 
 
-def test_panel_that_holds_nothing_is_refused():
-    with pytest.raises(ExportError, match=r"13.2 mm holds no specimen, which is 13.3 mm wide"):
-        panel(*part(), (13.2e-3, 0.05))
+@pytest.mark.parametrize(
+    ("sides", "asked", "one"), [((6e-3, 0.05), 6, 13.3), ((0.05, 5e-3), 5, 12)]
+)
+def test_panel_that_holds_nothing_is_refused(sides, asked, one):
+    with pytest.raises(
+        ExportError, match=rf"{asked} mm is smaller than half of a specimen of {one} mm; allowed"
+    ):
+        panel(*part(), sides)
 
 
 def test_block_is_the_box_round_the_walls():

@@ -214,3 +214,40 @@ def test_stretch_within_bounds_is_averaged():
 def test_share_takes_a_pattern_a_thickness_and_a_period():
     assert share_of(PATTERNS["square", None], 0.45, 4.5) == pytest.approx(0.2)
     assert share_of(PATTERNS["hex", "flat"], 0.6, 4.5) == pytest.approx(0.2)
+
+
+def laid(slicer, pattern, **changes):
+    """A lattice of a slicer in a box of 25 mm."""
+    box = {"width": 25e-3, "height": 25e-3, "infill": 0.2}
+    return Lattice(slicer=slicer, pattern=pattern, **box | changes)
+
+
+def test_lattice_of_a_slicer_asks_for_its_own_settings():
+    found = settings_of(laid("prusa", "honeycomb", fill_angle=0.5, perimeters=3))
+    assert (
+        found.prusa
+        | {
+            "fill_pattern": "honeycomb",
+            "fill_density": "20%",
+            "fill_angle": "28.65",
+            "infill_extrusion_width": "0.45",
+            "perimeters": "3",
+            "perimeter_extrusion_width": "0.45",
+        }
+        == found.prusa
+    )
+    assert settings_of(laid("orca", "tri-hexagon")).prusa["fill_pattern"] == "stars"
+    assert settings_of(laid("orca", "tri-hexagon")).orca["sparse_infill_pattern"] == "tri-hexagon"
+
+
+def test_several_lines_are_asked_of_orca_alone():
+    found = settings_of(laid("orca", "grid", fill_multiline=3))
+    assert found.orca["fill_multiline"] == "3"
+    assert "fill multiline 3" in found.by_hand
+    assert list(slicer_files(found, "a", 12)) == ["Metadata/model_settings.config"]
+    assert len(slicer_files(settings_of(laid("orca", "grid")), "a", 12)) == 2
+
+
+def test_cura_reads_no_settings():
+    with pytest.raises(ExportError, match=r"reads no settings from a \.3mf; allowed"):
+        settings_of(laid("cura", "grid"))

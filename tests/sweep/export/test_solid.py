@@ -52,7 +52,7 @@ def test_panel_has_a_body_for_each_specimen():
     mesh = read_by_another_program(made(design, (0.1, 0.05)))
     assert mesh.is_watertight
     assert mesh.body_count == 7
-    assert mesh.volume == pytest.approx(7 * 50 / 12 * 1e9 * design.volume, rel=1e-5)
+    assert mesh.volume == pytest.approx(28 * 1e9 * design.volume, rel=1e-5)
 
 
 def test_body_that_is_too_heavy_is_refused():

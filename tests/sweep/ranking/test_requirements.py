@@ -55,10 +55,12 @@ def test_a_panel_bears_the_force_of_all_its_specimens():
 
 
 def test_panel_has_whole_specimens():
-    table = rank(CRUSHED, panel=("131 mm", "50 mm"))
+    table = rank(CRUSHED, panel=("131 mm", "54.9 mm"))
     assert set(table["panel_specimens"]) == {50}
     np.testing.assert_allclose(table["panel_mass_g"], 50.0 * table["mass_g"])
-    assert set(rank(CRUSHED, panel=("132 mm", "50 mm"))["panel_specimens"]) == {51}
+    np.testing.assert_allclose(table["panel_width_m"], 10 * 0.013 + 9 * 0.4e-3)
+    np.testing.assert_allclose(table["panel_depth_m"], 0.05)
+    assert set(rank(CRUSHED, panel=("141 mm", "55 mm"))["panel_specimens"]) == {11 * 6}
     with pytest.raises(RankError, match="smaller than half of a specimen"):
         rank(CRUSHED, panel=("6 mm", "10 mm"))
 

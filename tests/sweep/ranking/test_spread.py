@@ -59,3 +59,23 @@ def test_less_is_better_where_the_column_says_so():
 def test_each_budget_has_its_own():
     several = found([(0.2, 0.8), (0.25, 0.5)], masses=(1.0, 2.0), budget=[1e-3, 5e-3])
     assert [len(spread.rows) for spread in several] == [1, 2]
+
+
+def test_limits_that_corners_miss_are_told():
+    """The corners of the second design weigh 1.2 g, and absorb 0.25 and 0.5 J."""
+    own = summary(*designs([1.0, 1.1], [0.4, 0.3]))
+    rows = designs([1.0, 1.0, 1.2, 1.2], [0.5, 0.6, 0.25, 0.5])
+    for k, row in enumerate(rows):
+        row["case_id"] = f"corner {k}"
+    ids = list(own["case_id"])
+    corners = {
+        ids[k]: [(name, f"corner {2 * k + j}") for j, name in enumerate(NAMES)] for k in (0, 1)
+    }
+    asked = QUESTION | {"budget": [1.15e-3], "require": {"min_absorbed": "0.3 J"}}
+    (spread,) = spreads(ranked(own, **asked), summary(*rows), corners, asked)
+    assert spread.masses.to_numpy().tolist() == [[1.0, 1.0, 1.0], [1.1, 1.2, 1.2]]
+    assert spread.missed == (
+        (2, "soft", "budget"),
+        (2, "soft", "min_absorbed"),
+        (2, "hard", "budget"),
+    )

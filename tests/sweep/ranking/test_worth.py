@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.ranking.merit import RankError
-from sweep.ranking.worth import check_column, check_searched, front, worths
+from sweep.ranking.worth import check_column, check_searched, front, thinned, worths
 from tests.support.specimens import designs, summary
 
 QUESTION = {"budget": None, "panel": None, "by": None, "allowed_force": None}
@@ -79,3 +79,29 @@ def test_columns_without_a_better_value_are_refused():
     for name in ("cells_x", "nonsense"):
         with pytest.raises(RankError, match=name):
             check_column(name)
+
+
+def test_designs_that_miss_a_requirement_are_sorted_by_how_much():
+    """Energies of 0.1, 0.4, 0.3 and 0.9 J, masses of 1 to 4 g."""
+    need = {"min_absorbed": "0.35 J", "max_mass": "3 g"}
+    found = worths(table(), asked(by="absorbed_energy_J", require=need))
+    assert list(found.by_id.values()) == [0.4]
+    assert list(found.missed.values()) == pytest.approx([1 / 7, 1 / 3, 5 / 7])
+    assert worths(table(), asked(by="absorbed_energy_J")).missed == {}
+
+
+def test_doubtful_designs_do_not_come_near():
+    need = {"min_absorbed": "2 J"}
+    found = worths(table(max_crossings=1), asked(by="absorbed_energy_J", require=need))
+    assert (found.by_id, found.doubtful, len(found.missed)) == ({}, 1, 3)
+
+
+def test_a_front_is_thinned_from_its_best_design_on():
+    """Steps of 2 % in both: every third one is kept, and the last."""
+    rows = designs([1.02**k for k in range(7)], [0.1 * 1.02**k for k in range(7)])
+    found = front(summary(*rows), asked(by="absorbed_energy_J"), "mass_g")
+    assert len(found) == 7
+    kept = thinned(found, ("mass_g", "absorbed_energy_J"))
+    assert list(kept.index) == [found.index[k] for k in (0, 3, 6)]
+    alone = thinned(found.assign(mass_g=[1, 2, 3, 4, 5, 6, 7]), ("mass_g", "absorbed_energy_J"))
+    assert len(alone) == 7

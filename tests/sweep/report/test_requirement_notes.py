@@ -47,6 +47,8 @@ def test_designs_are_counted_by_what_they_fail():
         "0 of 3 designs fulfil this; 3 fail: max_force (2), min_absorbed (1).",
         "6.00 J at 1000 N needs at least 6.00 mm of stroke, if the force is constant:\n"
         "energy / force, a rectangle, which no real curve is. The lattice is 12.5 mm high.",
+        "The nearest to all of this is case 0000000000000000: force 1000 N, mass 50 g, absorbed"
+        " energy 5.00 J.",
     )
     several = notes(CRUSHED, require={"max_force": "20 N", "max_mass": "1 g"})
     assert several[-1] == (
@@ -110,10 +112,20 @@ def test_force_of_the_panel_stands_beside_that_of_the_specimen(table, head):
 
 def test_number_of_specimens_is_a_range_if_designs_differ_in_width():
     table = CRUSHED.assign(outer_width_m=[13e-3, 13e-3, 14e-3])
-    assert "of the 46 to 50 specimens of a panel" in legend(ranked(table, panel=PANEL))
+    assert "of the 45 to 50 specimens of a panel" in legend(ranked(table, panel=PANEL))
 
 
 def test_quantities_are_those_of_a_maker():
     assert quantity("max_deceleration", 80 * 9.80665) == "80 g0"
     assert quantity("max_mass", 0.0567) == "56.7 g"
     assert quantity("max_force", 12345.6, digits=3) == "12300 N"
+
+
+def test_stroke_of_an_allowed_force_is_told_too():
+    """5 J at 10 N: 500 mm."""
+    table = CRUSHED.assign(absorbed_energy_at_10N_J=0.1)
+    found = notes(table, require={"min_absorbed": "5 J"}, allowed_force="10 N")
+    assert "None absorbs as much as 5.00 J; the most is 100 mJ." in found
+    assert "5.00 J at 10 N needs at least 500 mm of stroke, if the force is constant:\n" in "".join(
+        line for line in found if "rectangle" in line
+    )

@@ -5,7 +5,7 @@ from pandas import DataFrame
 
 from sweep.ranking.rank import ranked
 from sweep.ranking.spread import AS_GIVEN, FINE, Spread
-from sweep.report.search_sheets import finalist_sheet, front_sheet
+from sweep.report.search_sheets import finalist_sheet, front_sheet, nearest_sheet
 from tests.support.specimens import designs, summary
 
 ENERGY = "absorbed_energy_J"
@@ -61,3 +61,39 @@ def test_front_has_both_columns():
     assert found.heads[-2:] == ["mass_g", ENERGY]
     assert [row[-2:] for row in found.rows] == [["1.00", "0.400"], ["2.00", "0.300"]]
     assert front_sheet(rows.head(0), OWN, "mass_g").rows == []
+
+
+def test_budget_and_requirements_that_prints_miss_are_told():
+    rows = ranked(OWN, by=ENERGY).table
+    table = DataFrame({AS_GIVEN: rows[ENERGY], FINE: rows[ENERGY], "walls +5 %": rows[ENERGY]})
+    masses = DataFrame({AS_GIVEN: [1.0, 2.0], FINE: [1.0, 2.0], "walls +5 %": [1.05, 2.0]})
+    missed = ((1, "walls +5 %", "budget"), (1, FINE, "max_force"), (2, FINE, "max_force"))
+    spread = Spread(rows, ENERGY, table, table.rank(), 0, masses, missed)
+    found = finalist_sheet(spread, OWN)
+    mass = found.heads.index("mass g")
+    assert [row[mass] for row in found.rows] == ["1.00-1.05", "2.00"]
+    assert "Number 1 exceeds the budget with walls +5 %." in found.notes
+    assert "Numbers 1, 2 do not fulfil max_force with fine mesh." in found.notes
+
+
+def test_what_does_not_print_is_marked_in_every_table():
+    rough = OWN.assign(does_not_print=["", "walls of 1.5 lines"])
+    rows = ranked(rough, by=ENERGY).table
+    table = DataFrame({AS_GIVEN: rows[ENERGY], FINE: rows[ENERGY]})
+    sheets = [
+        finalist_sheet(Spread(rows, ENERGY, table, table.rank(), 0), rough),
+        front_sheet(rows, rough, "mass_g"),
+        nearest_sheet(ranked(rough, by=ENERGY), {"0" * 16: 0.1, f"{1:016x}": 0.2}, rough),
+    ]
+    for sheet in sheets:
+        first, second = (row[0] for row in sheet.rows)
+        assert (first.endswith("p"), second.endswith("p")) == (False, True)
+        assert any(note.startswith("p: does not print") for note in sheet.notes)
+
+
+def test_nearest_designs_have_what_is_required_beside_what_they_miss():
+    found = nearest_sheet(ranked(OWN, by=ENERGY), {f"{1:016x}": 0.25}, OWN)
+    assert found.heads[-1] == "misses by %"
+    assert len(found.rows) == 1
+    assert found.rows[0][-1] == "25.0"
+    assert found.rows[0][0] == f"{1:016x}"[:8]

@@ -9,6 +9,7 @@ from sweep.config.units import load_config
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
 from sweep.running.design_space import USED_UP, DesignSpace
+from sweep.simulation.summary import printed_mass
 
 WALLS = '"lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"}'
 MASS = '"lattice.mass" = {from = "0.5 g", to = "5 g"}'
@@ -34,8 +35,10 @@ def grams(case):
 
 
 def panel_grams(case, panel):
+    """Specimens side by side are 0.4 mm apart."""
     lattice = case.lattice
-    return grams(case) * round(panel[0] * panel[1] / (lattice.outer_size[0] * lattice.depth))
+    across = round((panel[0] + 4e-4) / (lattice.outer_size[0] + 4e-4))
+    return grams(case) * across * round(panel[1] / lattice.depth)
 
 
 @pytest.mark.parametrize("size", [WALLS, MASS])
@@ -56,11 +59,12 @@ def test_budget_of_a_panel_counts_its_specimens(space, size):
     assert panel_grams(case, panel) <= 20.0
 
 
-@pytest.mark.parametrize("depth", np.linspace(0.03, 0.06, 13))
-def test_one_specimen_more_does_not_exceed_the_budget(space, depth):
-    panel = (0.1, float(depth))
+@pytest.mark.parametrize("width", np.linspace(0.08, 0.11, 13))
+def test_one_specimen_more_does_not_exceed_the_budget(space, width):
+    """Thinner walls make narrower specimens, of which a panel may have one more."""
+    panel = (float(width), 0.05)
     case = space(CELLS, WALLS, budget=20e-3, panel=panel).case((0.5, 1.0))
-    assert 0.9 * 20.0 < panel_grams(case, panel) <= 20.0
+    assert 0.7 * 20.0 < panel_grams(case, panel) <= 20.0
 
 
 def test_share_of_the_cube_that_uses_the_budget_up(space):
@@ -96,3 +100,49 @@ def test_designs_of_one_thickness_are_weighed(space):
         assert (case is None) == (grams(known.case([(cells - 1.5) / 5])) > 1.7)
     assert None in weights.values()
     assert any(weights.values())
+
+
+def test_panel_that_holds_no_specimen_has_no_designs(space):
+    assert space(CELLS, WALLS, panel=(0.1, 0.005)).case((0.5, 0.5)) is None
+    assert space(CELLS, WALLS, budget=20e-3, panel=(0.012, 0.05)).case((0.5, 0.5)) is None
+
+
+SLICER = 'slicer = "prusa"\npattern = "{}"\n'
+
+
+@pytest.fixture
+def laid(tmp_path):
+    """The space of a slicer's pattern with one line below [search]."""
+
+    def made(pattern, line, **limits):
+        path = tmp_path / "sought.toml"
+        table = '[lattice]\nwidth = "25 mm"\nheight = "25 mm"\n' + SLICER.format(pattern)
+        path.write_text(f"{table}[search]\n{line}\n")
+        return DesignSpace(load_config(path), **limits)
+
+    return made
+
+
+@pytest.mark.parametrize("pattern", ["grid", "honeycomb"])
+@pytest.mark.parametrize(
+    "line",
+    [
+        '"lattice.infill" = {from = "8 %", to = "60 %"}',
+        '"lattice.mass" = {from = "2 g", to = "8 g"}',
+    ],
+)
+def test_budget_counts_what_a_slicer_extrudes(laid, pattern, line):
+    found = [laid(pattern, line, budget=3e-3).case([share]) for share in (0.0, 0.5, 1.0)]
+    masses = [printed_mass(case) for case in found]
+    assert masses == sorted(masses)
+    assert 2.9 < masses[-1] <= 3.0 * (1.0 + 1e-9)
+    assert grams(found[-1]) < 0.99 * masses[-1]
+    panel = laid(pattern, line, budget=40e-3, panel=(0.1, 0.05))
+    case = panel.case([1.0])
+    assert panel.weight(case) == pytest.approx(1e-3 * 4 * 4 * printed_mass(case))
+    assert 39.0 < 1e3 * panel.weight(case) <= 40.0 * (1.0 + 1e-9)
+
+
+def test_budget_below_the_least_infill_has_no_designs(laid):
+    of = laid("grid", '"lattice.infill" = {from = "20 %", to = "60 %"}', budget=2e-3)
+    assert of.case([0.0]) is None

@@ -3,7 +3,9 @@
 import pytest
 
 from sweep.config.case import Case, Lattice, Loading
+from sweep.design.lattice import counted_area
 from sweep.ranking.spread import FINE
+from sweep.result import design_columns
 from sweep.running.finalists import finalists, perturbed
 
 PRESSED = Loading(mode="displacement", strain=0.3)
@@ -52,3 +54,20 @@ def test_plates_have_twice_the_layers_too():
     fine = perturbed(case)[0].case.lattice
     assert (case.lattice.nodes_per_wall, fine.nodes_per_wall) == (5, 11)
     assert fine.layers == pytest.approx(2 * case.lattice.layers, abs=1)
+
+
+@pytest.mark.parametrize("slicer", ["prusa", "cura"])
+def test_lines_of_a_slicer_are_wider_at_the_same_distance(slicer):
+    """So that 5 % more is extruded. The settings are a column of the results."""
+    laid = Lattice(slicer=slicer, pattern="grid", infill=0.2, width=25e-3, height=25e-3)
+    found = {corner.name: corner.case for corner in perturbed(Case(lattice=laid, loading=PRESSED))}
+    thin, fine, thick = (found[name].lattice for name in ("walls -5 %", FINE, "walls +5 %"))
+    assert fine.infill == 0.2
+    walls = [lattice.wall_thickness / laid.wall_thickness for lattice in (thin, fine, thick)]
+    assert walls == pytest.approx([0.95, 1.0, 1.05])
+    assert thin.fill_distance == pytest.approx(thick.fill_distance)
+    assert counted_area(thick.geometry) == pytest.approx(
+        1.05 * counted_area(laid.geometry), rel=0.01
+    )
+    assert all(design_columns(case)["slicer_settings"] for case in found.values())
+    assert len({case.case_id for case in found.values()}) == 5

@@ -90,3 +90,27 @@ def test_terminal_has_a_bar_with_failures():
     assert "12/12 cases" in out.getvalue()
     assert "1 failed" in out.getvalue()
     assert "stopped: No step was short enough" in out.getvalue()
+
+
+def test_last_line_is_told_once(clock):
+    """Also if time passes after it."""
+    batch, out = cases(2), io.StringIO()
+    with Progress(
+        dict.fromkeys([c.case_id for c in batch], 1.0), console=Console(file=out)
+    ) as told:
+        clock.now += 9.0
+        told.advance([simulate(case) for case in batch])
+        clock.now += 9.0
+    assert out.getvalue().count("2/2 cases") == 1
+
+
+def test_part_of_a_search_is_told_only_if_it_takes_long(clock):
+    batch = cases(6)
+    for pause, lines in {0.1: 0, 6.0: 6}.items():
+        out = io.StringIO()
+        costs = dict.fromkeys([case.case_id for case in batch], 1.0)
+        with Progress(costs, console=Console(file=out), part=True) as told:
+            for case in batch:
+                clock.now += pause
+                told.advance([simulate(case)])
+        assert sum("/6 cases" in line for line in out.getvalue().splitlines()) == lines

@@ -1,6 +1,7 @@
 """The search: it finds a narrow peak, is resumed by replay, and survives what fails."""
 
 import json
+from math import exp
 
 import pytest
 
@@ -8,7 +9,7 @@ from sweep.config.units import load_config
 from sweep.running.design_space import DesignSpace
 from sweep.running.search import Search, Settings
 from sweep.store.read import read_attributes, read_summary
-from tests.support.searches import BEST, THIN, TOML, simulate
+from tests.support.searches import BEST, THIN, TOML, energy, simulate
 
 QUESTION = {"budget": None, "panel": None, "by": "absorbed_energy_J", "allowed_force": None}
 
@@ -17,7 +18,7 @@ QUESTION = {"budget": None, "panel": None, "by": "absorbed_energy_J", "allowed_f
 def searched(tmp_path):
     """A finished search, and the cases that it ran."""
 
-    def run(evaluations=100, seed=1, text=TOML, by="absorbed_energy_J"):
+    def run(evaluations=100, seed=1, text=TOML, by="absorbed_energy_J", **question):
         path, log = tmp_path / "sought.toml", []
         path.write_text(text)
 
@@ -26,7 +27,8 @@ def searched(tmp_path):
             return simulate(case)
 
         space, how = DesignSpace(load_config(path)), Settings(evaluations, seed, workers=1)
-        search = Search(space, QUESTION | {"by": by}, tmp_path / "sought.h5", how, logged)
+        asked = QUESTION | {"by": by} | question
+        search = Search(space, asked, tmp_path / "sought.h5", how, logged)
         search.run()
         return search, log
 
@@ -100,3 +102,44 @@ def test_few_designs_end_the_search(searched):
     text = TOML.split("[search]")[0] + '[search]\n"lattice.kind" = ["square", "hex"]'
     search, log = searched(text=text)
     assert len(log) == len(search.cases) == 2
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_best_of_those_that_fulfil_a_requirement_is_found(searched, seed):
+    """Walls of 0.71 mm are the best, and weigh 0.71 g. Other patterns are 0.6 as good."""
+    search, _ = searched(seed=seed, require={"max_mass": "0.65 g"})
+    (best, value), *_ = search.found.by_id.items()
+    walls = 1e3 * search.cases[best].lattice.wall_thickness
+    assert 0.64 < walls <= 0.65
+    assert value == energy(search.cases[best])
+    assert value > 0.55 * exp(-((0.06 / 0.047) ** 2))
+    assert all(1e3 * search.cases[i].lattice.wall_thickness <= 0.65 for i in search.found.by_id)
+
+
+def test_search_approaches_requirements_that_none_fulfils(searched):
+    """Both together: 1 J is absorbed at 0.71 mm only, which weighs 0.71 g."""
+    need = {"max_mass": "0.65 g", "min_absorbed": "1 J"}
+    search, _ = searched(require=need)
+    assert search.found.by_id == {}
+    nearest, missed = next(iter(search.found.missed.items()))
+    assert missed == min(search.found.missed.values())
+    kind, cells, _ = BEST
+    lattice = search.cases[nearest].lattice
+    assert (lattice.kind, lattice.cells_x) == (kind, cells)
+    least = min(
+        max(t / 0.65 - 1.0, 0.0) + 1.0 - exp(-(((t - 0.71) / 0.047) ** 2))
+        for t in [0.55 + 0.001 * k for k in range(200)]
+    )
+    assert missed == pytest.approx(least, rel=0.1)
+
+
+def test_requirements_that_all_fulfil_change_nothing(searched):
+    search, first = searched(evaluations=60)
+    again, second = searched(evaluations=60, require={"max_mass": "1 kg"})
+    assert second == []
+    assert again.found.by_id == search.found.by_id
+    assert len(first) == 60
+
+
+def test_mode_is_that_of_the_loading(searched):
+    assert searched(evaluations=1)[0].mode == "displacement"
