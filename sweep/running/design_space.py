@@ -14,7 +14,8 @@ from math import inf
 from scipy.optimize import brentq
 
 from sweep.config.axis import Interval, Written, rounded_down
-from sweep.config.case import Case, Lattice
+from sweep.config.case import Case, Lattice, Loading
+from sweep.config.direction import footprint
 from sweep.config.grid import Config, Values, chosen_case
 from sweep.design.lattice import counted_area
 from sweep.design.panel import panel_of
