@@ -352,7 +352,7 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
         share = (100.0 * frame["infill_share"]).map("{:.3g}".format)
         columns["infill %"] = share.where(frame["infill_share"].notna(), "")
     for name, head in MILLIMETRES.items():
-        if _varies(among, name):
+        if _sizes_vary(among, name):
             columns[head] = (frame[name] * 1e3).map("{:.3g}".format)
     if _varies(among, "material"):
         columns["material"] = frame["material"].astype(str)
@@ -486,6 +486,19 @@ def crush_text(rows: DataFrame) -> dict[str, Series]:
 def _unsure(rows: DataFrame) -> Series:
     """True for lattices that have nearly the greatest efficiency over a long span of strain."""
     return rows["packing_span"] > LONG_SPAN
+
+
+def _sizes_vary(among: DataFrame, name: str) -> bool:
+    """Whether a length differs between designs by more than what follows from other columns.
+
+    Along the cells `depth_m` is the plan's over all: its centre lines and a wall, or an outline.
+    """
+    if name != "depth_m" or "direction" not in among:
+        return _varies(among, name)
+    along = among["direction"] == "out_of_plane"
+    plan = among[along].round(9)
+    inner = (plan["depth_m"] - plan["wall_thickness_m"]).round(9)
+    return _varies(among[~along], name) or (_varies(plan, name) and len(inner.unique()) > 1)
 
 
 def _varies(frame: DataFrame, *names: str) -> bool:

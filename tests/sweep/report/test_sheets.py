@@ -245,12 +245,21 @@ def test_both_directions_stand_side_by_side_in_one_ranking():
     """The direction belongs to the design, also as a key of the grid."""
     across = {"absorbed_energy_J": 0.1, "loading.direction": "in_plane"}
     along = {"absorbed_energy_J": 1.8, "loading.direction": "out_of_plane"} | UPRIGHT
+    along |= {"depth_m": 13e-3}  # of the plan
     table = summary(across, along)
     (sheet,) = ranking_sheets(ranked(table), table)
     assert sheet.heads[:2] == ["#", "pressed"]
     assert [row[1] for row in sheet.rows] == ["along", "across"]
     assert design_labels(table, table) == ["pressed across", "pressed along"]
     assert "pressed" not in design_text(table.iloc[:1], table.iloc[:1])
+
+
+@pytest.mark.parametrize(("depths", "shown"), [((13.0, 12.6), False), ((13.0, 14.0), True)])
+def test_depth_of_a_plan_over_all_is_no_size_of_its_own(depths, shown):
+    walls = zip((0.8, 0.4), depths, strict=True)
+    rows = [{"wall_thickness_m": 1e-3 * t, "depth_m": 1e-3 * d} | UPRIGHT for t, d in walls]
+    table = summary({}, *rows)
+    assert ("depth mm" in design_text(table, table)) == shown
 
 
 def test_what_plates_leave_out_is_told():
