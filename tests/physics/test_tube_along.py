@@ -9,7 +9,7 @@ from kernels.solve.newton import CONVERGED
 from kernels.terms.rows import ROW, Output
 from sweep.scene.loading import stages, tolerances
 from sweep.scene.plates.scene import build_scene
-from tests.support.pressed_plates import DRIVEN, tube
+from tests.support.kernels.pressed_plates import DRIVEN, tube
 
 STEPS = 40
 

@@ -6,8 +6,8 @@ In scenes with a driven platen some coordinates are led, under a striker they ar
 import numpy as np
 import pytest
 
-from tests.support.pressed_plates import CASES, bent, pinched, reduction, scene, unit, whole
-from tests.support.terms import differences
+from tests.support.kernels.pressed_plates import CASES, bent, pinched, reduction, scene, unit, whole
+from tests.support.kernels.terms import differences
 
 MOVE = -1e-4  # m
 

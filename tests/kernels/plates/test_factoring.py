@@ -5,7 +5,7 @@ import pytest
 
 from kernels.plates.factoring import LOWERED, RAISED
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
-from tests.support.pressed_plates import (
+from tests.support.kernels.pressed_plates import (
     CASES,
     SIDE,
     STATES,

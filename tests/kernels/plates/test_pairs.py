@@ -5,7 +5,7 @@ import pytest
 
 from kernels.plates import contact, pairs
 from kernels.plates.pairs import FAR, LEAST_PATH, NEAR_SHARE, starts_at
-from tests.support.surfaces import (
+from tests.support.kernels.surfaces import (
     Sheet,
     contact_of,
     pairs_of,

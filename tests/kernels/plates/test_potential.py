@@ -5,7 +5,7 @@ import pytest
 
 from kernels.plates import contact, mirror, shell
 from kernels.terms.rows import BEND, CONTACT, STRETCH
-from tests.support.pressed_plates import (
+from tests.support.kernels.pressed_plates import (
     CASES,
     STATES,
     pinched,

@@ -6,7 +6,15 @@ import pytest
 from kernels.geometry.space import crossing
 from kernels.plates import reach
 from kernels.plates.reach import MOST_TURN
-from tests.support.pressed_plates import SIDE, T, neighbours_of, pinched, scene, shaken, whole
+from tests.support.kernels.pressed_plates import (
+    SIDE,
+    T,
+    neighbours_of,
+    pinched,
+    scene,
+    shaken,
+    whole,
+)
 
 
 def limit(of, x, dx):

@@ -18,8 +18,8 @@ from kernels.plates.problem import Plates
 from kernels.solve.problem import NO_ROOM, Step
 from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
 from sweep.scene.plates.scene import build_scene
-from tests.support.solving import Whole
-from tests.support.terms import nowhere
+from tests.support.kernels.solving import Whole
+from tests.support.kernels.terms import nowhere
 
 SIDE, T = 4e-3, 0.4e-3
 LINEAR = Material(name="ultimaker_tpu95a", stretch="linear")
