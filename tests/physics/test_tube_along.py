@@ -16,8 +16,8 @@ STEPS = 40
 
 @pytest.fixture(scope="module")
 def crushed():
-    """Scene, rows and frames of all steps of a glued tube, whose folds rub."""
-    case = tube(DRIVEN | {"platen": "glued"}, steps=STEPS, friction=0.1)
+    """Scene, rows and frames of all steps of a glued tube without friction."""
+    case = tube(DRIVEN | {"platen": "glued"}, steps=STEPS, friction=0.0)
     of, control = build_scene(case), np.zeros(2, np.int64)
     stage = stages(case, of)[0].stage
     state, rows = of.at_rest(), np.zeros(STEPS, ROW)
@@ -36,7 +36,7 @@ def test_the_platen_arrives_and_walls_have_folded(crushed):
     height = of.x_rest[-1] - of.x_rest[-2]
     assert rows["height"][-1] == pytest.approx(0.6 * height)
     assert rows["bend"].max() > rows["stretch"].min() > 0.0
-    assert min(rows["contact"].max(), rows["friction"].max()) > 0.0
+    assert rows["contact"].max() > 0.0
     assert np.all(np.isfinite(frames))
 
 
