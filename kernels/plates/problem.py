@@ -64,7 +64,7 @@ class Plates(NamedTuple):
     covers = reach.covers
     drift = reach.drift
 
-    lags = steps.lags
+    lags = lagging.lags
     lag = lagging.lag
     exchange = lagging.exchange
     follow = lagging.follow

@@ -1,10 +1,4 @@
-"""Start and end of a step of a lattice of plates: commit, roll back, friction of the step.
-
-Friction is semi-implicit: slip is that of the step, but normal forces and tangent planes are those
-at its start, an error of first order in the step. Every step is then one minimisation, which has a
-solution. Forces of the end of the step would have to be found by a fixed-point loop, which does not
-settle where folds snap against each other. A contact has friction from the step after it is made.
-"""
+"""Start and end of a step of a lattice of plates: commit, roll back."""
 
 from kernels.compile.jit import jit_exact
 from kernels.plates import rotation
@@ -34,8 +28,3 @@ def project(problem, x):
     """Return False: nothing is moved after a step."""
     return False
 
-
-@jit_exact
-def lags(problem):
-    """Return False: the forces that are lagged at the start of a step are not renewed at its end."""
-    return False

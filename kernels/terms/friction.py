@@ -37,11 +37,13 @@ DUAL_TOLERANCE = 0.1  # largest |w - f'| at which the factor may be reused
 
 class Friction(NamedTuple):
     """mu: coefficient, 0 without friction. slip: eps of a static step in m; eps / h in m/s of a
-    dynamic one.
+    dynamic one. is_renewed: whether normal forces are those of the end of a step, found by a fixed-
+    point loop; else they are those of its start, an error of first order in the step.
     """
 
     mu: float
     slip: float
+    is_renewed: bool = True
 
 
 @jit_owning

@@ -13,8 +13,8 @@ from kernels.compile.jit import jit_exact
 
 @jit_exact
 def lags(problem):
-    """Return whether the scene has friction."""
-    return problem.scene.friction.mu > 0.0
+    """Return whether the scene has friction whose forces are renewed at the end of a step."""
+    return problem.scene.friction.mu > 0.0 and problem.scene.friction.is_renewed
 
 
 @jit_exact
