@@ -13,7 +13,7 @@ STAMP = .venv/.ready
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
 .PHONY: help setup sweep rank test stock mutants verify validate elements continuum accuracy mesh pictures \
-        bars spread search memory stability plates bench experiment figures lint clean
+        bars spread search memory stability plates plates_solid bench experiment figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -83,6 +83,9 @@ memory: setup  ## measure what loss and softening change; goes to results/memory
 
 plates: setup  ## compare shells with the theory of plates, at five meshes
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.plates
+
+plates_solid: setup  ## compare a square tube of shells with one of bricks, through buckling
+	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.plates.gate
 
 stability: setup  ## crush 1,000 stiff and extreme scenes; goes to results/stability/ (30 min)
 	@$(PYTHON) -m tests.studies.stability results/stability

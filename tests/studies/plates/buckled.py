@@ -1,4 +1,4 @@
-"""A long, simply supported plate after buckling: the length of its waves and what stiffness is left.
+"""A long, simply supported plate after buckling: length of its waves, and stiffness that is left.
 
 One half wave of a plate of width 1 stands for all. At both ends, where the plate crosses its plane,
 all points move alike along z, and are free along x. The sides stay straight, or are free to wave.

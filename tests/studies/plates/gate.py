@@ -20,20 +20,21 @@ from tests.studies.plates.tube import CLAMPED, HINGED, SolidTube
 MM = 1e-3
 BUCKLING = 4.0 * np.pi**2 / 9.0
 BEFORE, AFTER = (0.1, 0.5), (1.5, 2.0)  # shortenings through which the tangents go
-SHORT = (0.1, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0)
-LONG = (*SHORT, 4.5, 5.0, 5.25, 5.5, 5.75, 6.0, 6.25, 6.5)
+SHORT = (0.1, 0.5, 0.75, *np.arange(4, 9) / 4.0, *np.arange(5, 9) / 2.0)
+LONG = (*SHORT, 4.5, 5.0, 5.5, 5.75, 6.0, 6.25, 6.5)
+THICK = (*SHORT[:8], 2.25, 2.5, 2.75, 3.0)
 SHOWN = (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0)
 CASES = (  # thickness in mm, end, shortenings of buckling
     (0.1, CLAMPED, LONG),
     (0.1, HINGED, LONG),
     (0.2, CLAMPED, LONG),
     (0.2, HINGED, LONG),
-    (0.4, CLAMPED, SHORT),
-    (0.4, HINGED, SHORT),
+    (0.4, CLAMPED, THICK),
+    (0.4, HINGED, THICK),
 )
-PLATES = (6, 8, 12)
+PLATES = (6, 8, 12)  # quads a wall; no more than fit, which are as long as the wall is thick
 PLATEN = {CLAMPED: "clamped", HINGED: "glued"}
-FINER = {"across": 6, "up": 15}
+FINER = {"longer": {"across": 6, "up": 15}, "through": {"through": 2}}
 
 
 def strain(thickness, pitch=4.0):
@@ -62,9 +63,14 @@ class Curve:
         return a * (d - b) / (a - c) + b
 
     def peak(self):
-        """Shortening and force of the first peak; None if there is none."""
+        """Shortening and force of the first peak, by a parabola; None if there is none."""
         falls = np.flatnonzero(np.diff(self.force) < 0.0)
-        return (self.shortening[falls[0]], self.force[falls[0]]) if len(falls) else None
+        if not len(falls) or falls[0] == 0:
+            return None
+        near = slice(falls[0] - 1, falls[0] + 2)
+        parabola = np.polyfit(self.shortening[near], self.force[near], 2)
+        top = -0.5 * parabola[1] / parabola[0]
+        return top, float(np.polyval(parabola, top))
 
 
 def solid(thickness, ends, shortenings, **mesh):
@@ -78,6 +84,7 @@ def solid(thickness, ends, shortenings, **mesh):
 @cache
 def plates(thickness, ends, last, n):
     """Curve of the plates, n quads a wall; ``last``: greatest shortening."""
+    n = min(n, int(4.0 / thickness * (1.0 + 1e-9)))
     case = Case(
         lattice=Lattice(
             kind="square",
@@ -140,9 +147,11 @@ def main(out):
         others = [plates(thickness, ends, shortenings[-1], n) for n in PLATES]
         out.write("\n".join(lines(found, others)) + "\n")
         out.flush()
-    coarse, fine = (solid(0.2, CLAMPED, SHORT, **mesh) for mesh in ({}, FINER))
-    out.write("\nl/t = 20, clamped: the coarse solid beside the finer, error in %\n")
-    out.write("\n".join(lines(fine, [coarse])) + "\n")
+    found = solid(0.2, CLAMPED, SHORT)
+    for name, mesh in FINER.items():
+        out.write(f"\nl/t = 20, clamped, solid of more bricks ({name}), error of the other in %\n")
+        out.write("\n".join(lines(solid(0.2, CLAMPED, SHORT, **mesh), [found])) + "\n")
+        out.flush()
 
 
 if __name__ == "__main__":
