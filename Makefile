@@ -84,7 +84,7 @@ memory: setup  ## measure what loss and softening change; goes to results/memory
 plates: setup  ## compare shells with the theory of plates, at five meshes
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.plates
 
-plates_solid: setup  ## compare a square tube of shells with one of bricks, through buckling
+plates_solid: setup  ## compare a square tube of shells with one of bricks, through buckling (15 min)
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.plates.gate
 
 stability: setup  ## crush 1,000 stiff and extreme scenes; goes to results/stability/ (30 min)

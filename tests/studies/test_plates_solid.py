@@ -1,5 +1,7 @@
 """Bricks of rubber, their ties, and a tube of plates beside one of bricks."""
 
+import sys
+
 import numpy as np
 import pytest
 
@@ -135,3 +137,21 @@ def test_lines_have_errors_in_percent():
     one, two = (gate.Curve(at, a * np.sqrt(at), at**2) for a in (1.0, 1.1))
     found = dict(line.rsplit(None, 2)[::2] for line in gate.lines(one, [two]) if "at 2" in line)
     assert found == {"force at 2, N": "+10.0"}
+
+
+def test_tables_have_all_cases(monkeypatch, capsys):
+    at = np.linspace(0.0, 2.0, 21)
+    asked = []
+
+    def curve(*of, **mesh):
+        asked.append((*of[:2], *mesh))
+        return gate.Curve(at, np.sqrt(at), at)
+
+    monkeypatch.setattr(gate, "solid", curve)
+    monkeypatch.setattr(gate, "plates", lambda *of: curve(*of[:2]))
+    gate.main(sys.stdout)
+    found = capsys.readouterr().out
+    assert found.count("force at 2, N") == len(gate.CASES) + 2
+    assert found.count("l/t = ") == len(gate.CASES) + 2
+    assert {(t, e) for t, e, *mesh in asked if not mesh} == {case[:2] for case in gate.CASES}
+    assert {mesh[0] for _, _, *mesh in asked if mesh} == {"across", "through"}

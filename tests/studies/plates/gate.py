@@ -34,7 +34,7 @@ CASES = (  # thickness in mm, end, shortenings of buckling
 )
 PLATES = (6, 8, 12)  # quads a wall; no more than fit, which are as long as the wall is thick
 PLATEN = {CLAMPED: "clamped", HINGED: "glued"}
-FINER = {"longer": {"across": 6, "up": 15}, "through": {"through": 2}}
+FINER = {"longer": {"across": 6, "up": 15}, "both": {"through": 2, "across": 6, "up": 14}}
 
 
 def strain(thickness, pitch=4.0):
