@@ -12,7 +12,7 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank test stock mutants verify validate elements continuum accuracy mesh pictures \
+.PHONY: help setup sweep rank warm test stock mutants verify validate elements continuum accuracy mesh pictures \
         bars spread search memory stability plates plates_solid bench experiment figures lint clean
 .DELETE_ON_ERROR:
 
@@ -38,9 +38,12 @@ lint: setup  ## check style and types
 	$(PYTHON) -m ruff check
 	$(PYTHON) -m mypy
 
-# Kernels that both processes need are compiled before, once.
-test: lint  ## check style and types, then run the tests, in two processes
+warm: setup
 	@$(PYTHON) -m sweep warm
+
+# Kernels that both processes need are compiled before, once.
+test: setup  ## check style and types, then run the tests, in two processes
+	@$(MAKE) --no-print-directory -j 2 lint warm
 	$(PYTHON) -m pytest -n 2 --dist loadfile
 
 stock: setup  ## run the tests with the stock compiler (kernels/compile/README.md)

@@ -1,7 +1,7 @@
 """The command line: `crumple VERB ...`, also `python -m crumple`. The verbs are in `cli/verbs.py`.
 
-Exit status: 0 done; 1 some cases failed, or the run was interrupted; 2 the config, a file or an
-argument cannot be used.
+Exit status: 0 done, also if no design meets what is asked, as that is an answer; 1 some cases
+failed, or the run was interrupted; 2 the config, a file or an argument cannot be used.
 """
 
 import argparse
@@ -41,7 +41,8 @@ EXAMPLES = """examples:
 
 armor, search and accuracy/impact are examples that come with Crumple; your own is a file: mine.toml
 
-exit status: 0 done, 1 some cases failed or interrupted, 2 wrong config, file or arguments
+exit status: 0 done, also if no design meets what is asked; 1 some cases failed, or interrupted;
+2 wrong config, file or arguments
 """
 CONFIG = "TOML file with the case and its [grid], or the name of an example"
 RUN = """Simulate every case of CONFIG that the results file does not hold yet, then rank.
@@ -79,7 +80,9 @@ same processor."""
 RANK = """List the designs that absorb the most energy, one table for each loading scene.
 Budgets, panel and requirements are those of [rank] and [require] in the config, unless they are
 given here ("none" drops a requirement); --by alone ranks single specimens of any mass. Designs that
-fail a requirement have no place; notes say how many fail which."""
+fail a requirement have no place; notes say how many of those within the budget fail which. If all
+of them fail, the nearest one is named: that whose greatest miss, in percent of the limit, is the
+least. The exit status is then 0, as the question is answered; it is 1 if some cases failed."""
 RANK_EXAMPLES = """examples:
   crumple rank F.h5                                         as [rank] in the config says; else J/g
   crumple rank F.h5 --budget "25 g" "2 oz"                  two budgets
@@ -244,7 +247,7 @@ def parser() -> Parser:
         nargs="+",
         action="extend",
         metavar="LENGTH",
-        help='with --out: cushion curves of drops from "0.5 m"',
+        help='with --out: cushion curves of drops from "0.5 m", else those of [rank]',
     )
 
     show = verbs.add_parser("show", help="draw a case", description=SHOW, formatter_class=raw)

@@ -470,6 +470,7 @@ CYCLED: dict[str, tuple[str, Literal["more", "less"], str]] = {
 """Units, better values and meaning of the columns of a cycle."""
 ERROR = re.compile(r"^error_(.+)")
 CORRECTION = re.compile(r"^correction_(.+)")
+UNIT = re.compile(r"_(J_per_g|J_per_m3|m_per_s2|m_per_s|Pa|[JNgms])$")
 
 
 def absorbed_energy_column(force: float) -> str:
@@ -540,6 +541,13 @@ def describe_column(name: str) -> Column:
     if match := PER_GRAM.fullmatch(name):
         return Column("J/g", f"energy absorbed {match[1].replace('_', ' ')} / mass", "more")
     return Column(_unit_of_key(name), f"grid key {name}")
+
+
+def in_words(name: str) -> str:
+    """A column as words with its unit: "peak_strain" -> "peak strain", "mass_g" -> "mass, in g"."""
+    units = describe_column(name).units
+    noun = UNIT.sub("", name).replace("_", " ")
+    return f"{noun}, in {units}" if units not in ("", "1") else noun
 
 
 def less_is_better(name: str) -> bool:

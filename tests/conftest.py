@@ -22,8 +22,8 @@ budgets = ["5 g", "20 g"]
 
 @pytest.fixture
 def config(tmp_path, monkeypatch):
-    """A sweep of three cases on the stand-in of tests/support/standin.py, of which one fails."""
-    from tests.support.standin import simulate
+    """A sweep of three cases, of which one fails, on tests/support/results/standin.py."""
+    from tests.support.results.standin import simulate
 
     monkeypatch.setattr(import_module("sweep.simulation.simulate"), "simulate", simulate)
     monkeypatch.chdir(tmp_path)

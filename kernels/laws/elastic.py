@@ -109,3 +109,24 @@ class FibreCurve(NamedTuple):
 
     respond = respond_fibre
     least = least_of_fibre
+
+
+@jit
+def respond_at_point(law, strain, memory, point):
+    """Return the same as the curve; no point has a memory."""
+    return law.curve.respond(strain)
+
+
+@jit
+def state_size(law):
+    """Return 0, as a constant: what a memory would need is not even compiled."""
+    return 0
+
+
+class Elastic(NamedTuple):
+    """A curve as a `law.Law` without memory."""
+
+    curve: object
+
+    respond = respond_at_point
+    state_size = state_size

@@ -6,6 +6,7 @@ Scenes of all materials have this one law, so that their kernels are the same ma
 from typing import NamedTuple
 
 from kernels.compile.jit import jit, jit_exact, jit_owning
+from kernels.laws.elastic import Elastic
 from kernels.laws.yielding import STATE
 
 
@@ -31,8 +32,6 @@ def begin(law, memory, point):
 @jit
 def respond(law, strain, memory, point):
     """Return potential (J/m^3), stress (Pa) and tangent (Pa) at ``strain``."""
-    if law.is_elastic:  # a branch less in the inner loop of most scenes
-        return law.relaxing.elastic.curve.respond(strain)
     if law.yielding.limit == 0.0:
         return law.relaxing.respond(strain, memory, point)
     return law.yielding.respond(strain, memory, point)
@@ -52,6 +51,12 @@ def state_size(law):
     return STATE if law.yielding.limit > 0.0 else law.relaxing.state_size()
 
 
+@jit
+def elastic(law):
+    """Return the curve of a law without memory as a law of its own."""
+    return Elastic(law.relaxing.elastic.curve)
+
+
 class Fibre(NamedTuple):
     """relaxing: `relaxation.Relaxing`. yielding: `yielding.Yielding`, which acts alone if it has a
     limit. modulus: slope at the origin at the reference time, Pa. is_elastic: without memory.
@@ -62,6 +67,7 @@ class Fibre(NamedTuple):
     modulus: float
     is_elastic: bool
 
+    elastic = elastic
     make_pace = make_pace
     set_pace = set_pace
     begin = begin

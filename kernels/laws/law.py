@@ -38,10 +38,11 @@ class Memory(NamedTuple):
 class Law(Protocol):
     """The verbs of a law; ``point``: number of the material point, row of `Memory.committed`.
 
-    modulus: slope at the origin, Pa.
+    modulus: slope at the origin, Pa. is_elastic: without memory.
     """
 
     modulus: float
+    is_elastic: bool
 
     def make_pace(self):
         """Return the data of a step that all points share, for `set_pace` to fill."""
@@ -51,6 +52,11 @@ class Law(Protocol):
 
     def begin(self, memory, point):
         """Set the data of a point for the present step."""
+
+    def elastic(self):
+        """Return the law of a material without memory as one that is compiled without any, so that
+        elastic scenes pay for none. For a law that ``is_elastic`` only.
+        """
 
     def respond(self, strain, memory, point):
         """Return potential (J/m^3), stress (Pa) and tangent (Pa) at ``strain``."""

@@ -1,6 +1,6 @@
 """The Hessian of a lattice at the point of the last `potential.evaluate`, factored and solved."""
 
-from kernels.compile.jit import jit_exact
+from kernels.compile.jit import jit_exact, separate
 from kernels.linear import block_ldlt, system
 from kernels.linear.block_matrix import clear
 from kernels.planar.lagging import slip_of
@@ -10,6 +10,7 @@ from kernels.terms import contact, fold, friction, spring
 LENGTHS = 2  # x and y, the first slots of a block
 
 
+@separate
 @jit_exact
 def factor(problem, x, step, found, projected, through):
     """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""

@@ -10,7 +10,7 @@ inertia and damping vanish. A term that is absent from a scene has empty arrays.
 import numpy as np
 
 from kernels.arrays import add, dot, zero, zero_rows
-from kernels.compile.jit import jit_exact
+from kernels.compile.jit import jit_exact, separate
 from kernels.planar import lagging
 from kernels.planar.reach import drift
 from kernels.terms import (
@@ -36,6 +36,7 @@ LEAST = np.dtype(
 )
 
 
+@separate
 @jit_exact
 def evaluate(problem, x, step, found, projected):
     """Return E in J; fill ``found`` and the walls' part of the Hessian, ``projected`` or exact."""

@@ -1,8 +1,8 @@
 """Where the unknowns of a lattice of plates are: blocks of the matrix, one for each node.
 
 Coordinates of node i: position x[6 i : 6 i + 3] in m, rotation x[6 i + 3 : 6 i + 6] since the last
-commit, as a Rodrigues vector in the frame of the node. The last two coordinates are the heights of
-the platens, each of which has a block of its own.
+commit, as modified Rodrigues parameters in the frame of the node (`rotation`). The last two
+coordinates are the heights of the platens, each of which has a block of its own.
 """
 
 from typing import NamedTuple

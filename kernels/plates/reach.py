@@ -15,7 +15,7 @@ from kernels.plates.layout import PER_NODE, POSITION
 from kernels.plates.pairs import Pairs
 
 MARGIN = 0.5  # least margin of the pair list, as a share of the reach of contact
-MOST_TURN = 0.25  # of a node in one move: w, the tangent of half the angle
+MOST_TURN = 0.125  # of a node in one move: w, the tangent of a quarter of the angle
 MOVE_MARGIN = 2.2  # least margin as a multiple of a move; with 2 the list holds for no other move
 
 

@@ -1,18 +1,20 @@
 """Directors: unit vectors that turn with their node.
 
 A node has a committed frame Q (3 x 3, orthonormal, row-major in 9 numbers) and three coordinates w,
-its rotation since then in its own frame, as a Rodrigues vector (|w| = tan of half the angle):
+its rotation since then in its own frame, as modified Rodrigues parameters (|w| = tan of a quarter
+of the angle; P. Tsiotras, J. Guid. Control Dyn. 19, 1996). With v the director in the frame of the
+node,
 
-    d(w) = Q R(w) v,   R(w) v = v + s u,   s = 2 / (1 + w.w),   u = w x v + w x (w x v)
+    d(w) = Q R(w) v,   R(w) v = v + a c + b e,   c = w x v,   e = w x (w x v)
+    a = 4 (1 - q) / (1 + q)^2,   b = 8 / (1 + q)^2,   q = w . w
 
-with v the director in the frame of the node. The derivatives in w_k follow from
+and, with the derivatives a', a'', b', b'' of a and b in q,
 
-    ds/dw_k = -s^2 w_k                       d2s/dw_k dw_l = 2 s^3 w_k w_l - s^2 delta_kl
-    du/dw_k = e_k x v + (w.v) e_k + v_k w - 2 w_k v
-    d2u/dw_k dw_l = v_l e_k + v_k e_l - 2 delta_kl v
+    dd/dw_k = Q [2 w_k (a' c + b' e) + a c_k + b e_k]
+    c_k = i_k x v,   e_k = v_k w + (w . v) i_k - 2 w_k v,   e_kl = v_l i_k + v_k i_l - 2 delta_kl v
 
-A rotation by 180 degrees is at infinity, so that steps must be shorter (J. Argyris, An excursion
-into large rotations, 1982, on such vectors).
+These are smooth up to a full turn: in a snap, joints of folding walls turn by more than half a turn
+in one step. Where w = 0 a small rotation turns by 4 w.
 """
 
 from kernels.compile.jit import jit, jit_exact
@@ -31,35 +33,50 @@ def _dot(a, b):
 
 
 @jit
-def _bend(w, v):
-    """Return s and u."""
-    along, square = _dot(w, v), _dot(w, w)
-    c = _cross(w, v)
-    return 2.0 / (1.0 + square), (
-        c[0] + along * w[0] - square * v[0],
-        c[1] + along * w[1] - square * v[1],
-        c[2] + along * w[2] - square * v[2],
-    )
+def _factors(q):
+    """Return a, b, a', b', a'', b'' at q = |w|^2."""
+    by = 1.0 / (1.0 + q)
+    by2 = by * by
+    by3, by4 = by2 * by, by2 * by2
+    return (
+        4.0 * (1.0 - q) * by2, 8.0 * by2, 4.0 * (q - 3.0) * by3, -16.0 * by3,
+        8.0 * (5.0 - q) * by4, 48.0 * by4,
+    )  # fmt: skip
+
+
+@jit
+def _twice_crossed(w, v):
+    """Return e = w x (w x v)."""
+    along, q = _dot(w, v), _dot(w, w)
+    return along * w[0] - q * v[0], along * w[1] - q * v[1], along * w[2] - q * v[2]
 
 
 @jit
 def turned(w, v):
     """Return R(w) v."""
-    s, u = _bend(w, v)
-    return v[0] + s * u[0], v[1] + s * u[1], v[2] + s * u[2]
+    a, b, _, _, _, _ = _factors(_dot(w, w))
+    c, e = _cross(w, v), _twice_crossed(w, v)
+    return v[0] + a * c[0] + b * e[0], v[1] + a * c[1] + b * e[1], v[2] + a * c[2] + b * e[2]
 
 
 @jit
-def _slope_of_bend(w, v, k):
-    """Return du/dw_k."""
-    along, a, b = _dot(w, v), v[k], -2.0 * w[k]
+def _unit_crossed(v, k):
+    """Return c_k = i_k x v."""
     if k == 0:
-        c = (along, -v[2], v[1])
-    elif k == 1:
-        c = (v[2], along, -v[0])
-    else:
-        c = (-v[1], v[0], along)
-    return c[0] + a * w[0] + b * v[0], c[1] + a * w[1] + b * v[1], c[2] + a * w[2] + b * v[2]
+        return 0.0, -v[2], v[1]
+    return (v[2], 0.0, -v[0]) if k == 1 else (-v[1], v[0], 0.0)
+
+
+@jit
+def _slope_of_twice(w, v, k):
+    """Return e_k."""
+    along, a, b = _dot(w, v), v[k], -2.0 * w[k]
+    one = along if k == 0 else 0.0
+    two = along if k == 1 else 0.0
+    three = along if k == 2 else 0.0
+    return (
+        a * w[0] + b * v[0] + one, a * w[1] + b * v[1] + two, a * w[2] + b * v[2] + three,
+    )  # fmt: skip
 
 
 @jit
@@ -91,41 +108,52 @@ def director(frame, w, v):
 @jit
 def slope(frame, w, v, k):
     """Return dd/dw_k."""
-    s, u = _bend(w, v)
-    du, ds = _slope_of_bend(w, v, k), -s * s * w[k]
-    return placed(frame, (ds * u[0] + s * du[0], ds * u[1] + s * du[1], ds * u[2] + s * du[2]))
+    a, b, a1, b1, _, _ = _factors(_dot(w, w))
+    c, e, ck, ek = _cross(w, v), _twice_crossed(w, v), _unit_crossed(v, k), _slope_of_twice(w, v, k)
+    c1, e1 = 2.0 * w[k] * a1, 2.0 * w[k] * b1
+    return placed(
+        frame,
+        (
+            c1 * c[0] + e1 * e[0] + a * ck[0] + b * ek[0],
+            c1 * c[1] + e1 * e[1] + a * ck[1] + b * ek[1],
+            c1 * c[2] + e1 * e[2] + a * ck[2] + b * ek[2],
+        ),
+    )
 
 
 @jit
 def moment(frame, w, v, g):
-    """Return g . dd/dw_k for k = 0, 1, 2: an energy with the slope g in d has this slope in w."""
-    s, u = _bend(w, v)
+    """Return g . dd/dw_k for k = 0, 1, 2; g: slopes of an energy in d."""
+    a, b, a1, b1, _, _ = _factors(_dot(w, w))
     h = _taken_back(frame, g)
-    whole = -s * s * _dot(h, u)
+    whole = 2.0 * (a1 * _dot(h, _cross(w, v)) + b1 * _dot(h, _twice_crossed(w, v)))
+    by = _cross(v, h)  # of the components h . c_k
     return (
-        whole * w[0] + s * _dot(h, _slope_of_bend(w, v, 0)),
-        whole * w[1] + s * _dot(h, _slope_of_bend(w, v, 1)),
-        whole * w[2] + s * _dot(h, _slope_of_bend(w, v, 2)),
+        whole * w[0] + a * by[0] + b * _dot(h, _slope_of_twice(w, v, 0)),
+        whole * w[1] + a * by[1] + b * _dot(h, _slope_of_twice(w, v, 1)),
+        whole * w[2] + a * by[2] + b * _dot(h, _slope_of_twice(w, v, 2)),
     )
 
 
 @jit
 def moment_slopes(frame, w, v, g):
     """Return g . d2d/dw_k dw_l for kl = 00, 01, 02, 11, 12, 22."""
-    s, u = _bend(w, v)
+    _, b, a1, b1, a2, b2 = _factors(_dot(w, w))
     h = _taken_back(frame, g)
-    a, s2 = _dot(h, u), s * s
-    b0 = _dot(h, _slope_of_bend(w, v, 0)) * s2
-    b1 = _dot(h, _slope_of_bend(w, v, 1)) * s2
-    b2 = _dot(h, _slope_of_bend(w, v, 2)) * s2
-    twice, same = 2.0 * s * s2 * a, -s2 * a - 2.0 * s * _dot(h, v)
+    along, by = _dot(h, v), _cross(v, h)
+    c, e = _dot(h, _cross(w, v)), _dot(h, _twice_crossed(w, v))
+    same = 2.0 * (a1 * c + b1 * e) - 2.0 * b * along
+    twice = 4.0 * (a2 * c + b2 * e)
+    m0 = 2.0 * (a1 * by[0] + b1 * _dot(h, _slope_of_twice(w, v, 0)))
+    m1 = 2.0 * (a1 * by[1] + b1 * _dot(h, _slope_of_twice(w, v, 1)))
+    m2 = 2.0 * (a1 * by[2] + b1 * _dot(h, _slope_of_twice(w, v, 2)))
     return (
-        twice * w[0] * w[0] + same - 2.0 * w[0] * b0 + 2.0 * s * h[0] * v[0],
-        twice * w[0] * w[1] - w[0] * b1 - w[1] * b0 + s * (h[0] * v[1] + h[1] * v[0]),
-        twice * w[0] * w[2] - w[0] * b2 - w[2] * b0 + s * (h[0] * v[2] + h[2] * v[0]),
-        twice * w[1] * w[1] + same - 2.0 * w[1] * b1 + 2.0 * s * h[1] * v[1],
-        twice * w[1] * w[2] - w[1] * b2 - w[2] * b1 + s * (h[1] * v[2] + h[2] * v[1]),
-        twice * w[2] * w[2] + same - 2.0 * w[2] * b2 + 2.0 * s * h[2] * v[2],
+        twice * w[0] * w[0] + 2.0 * w[0] * m0 + same + 2.0 * b * v[0] * h[0],
+        twice * w[0] * w[1] + w[0] * m1 + w[1] * m0 + b * (v[0] * h[1] + v[1] * h[0]),
+        twice * w[0] * w[2] + w[0] * m2 + w[2] * m0 + b * (v[0] * h[2] + v[2] * h[0]),
+        twice * w[1] * w[1] + 2.0 * w[1] * m1 + same + 2.0 * b * v[1] * h[1],
+        twice * w[1] * w[2] + w[1] * m2 + w[2] * m1 + b * (v[1] * h[2] + v[2] * h[1]),
+        twice * w[2] * w[2] + 2.0 * w[2] * m2 + same + 2.0 * b * v[2] * h[2],
     )
 
 

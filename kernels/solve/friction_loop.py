@@ -44,11 +44,15 @@ def is_converged(x, problem, step, tolerance, space, progress):
     extrapolate(x, space.lagged, coordinates, progress.loops, space.past)
     if not problem.lag(space.lagged) and progress.loosening == 1.0:
         return True
-    problem.exchange(step, found)
-    problem.reduce(found.g, work.residual)
-    error = largest(work.residual, coordinates)
+    error = _error(problem, step, found, work)
     limit = _admissible(largest(found.friction, coordinates), problem.stiffest(), tolerance)
     converged = error <= limit and progress.loosening == 1.0
+    if converged:  # also with the forces at ``x``, which may be far from the extrapolated place
+        problem.lag(x)
+        converged = _error(problem, step, found, work) <= limit
+        if not converged:
+            problem.lag(space.lagged)
+            problem.exchange(step, found)
     if converged:
         copy(work.trial, found.g)
         copy(work.escape, found.friction)
@@ -60,13 +64,21 @@ def is_converged(x, problem, step, tolerance, space, progress):
 
 
 @jit_exact
+def _error(problem, step, found, work):
+    """Return the largest residual in N with the present lagged forces, which ``found`` then has."""
+    problem.exchange(step, found)
+    problem.reduce(found.g, work.residual)
+    return largest(work.residual, problem.scene.coordinates)
+
+
+@jit_exact
 def _admissible(force, stiffest, tolerance):
     """Return the admissible error of lagged forces in N. force: the largest of them, N.
 
     The round-off of the ``stiffest`` contact (N/m) is no error, but it has no bound: what is more
     than `LARGEST_RESIDUAL` of the force is not resolved.
     """
-    rounded = min(allowed(stiffest, tolerance)[0], LARGEST_RESIDUAL * force)
+    rounded = min(allowed(stiffest, tolerance), LARGEST_RESIDUAL * force)
     return max(tolerance.friction, tolerance.friction_share * force, rounded)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from kernels.arrays import copy, dot, zero
 from kernels.compile.jit import jit_exact, separate
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE, TIED
-from kernels.solve.residual import allowed, largest
+from kernels.solve.residual import allowed, allowed_decrement, largest
 
 CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
 ARMIJO = 1e-4  # share of the predicted decrease that is sufficient
@@ -156,7 +156,7 @@ def _choose_move(slope, stable, to_target, escape, coordinates, remaining, work)
 @jit_exact
 def _residual(x, target, problem, tolerance, found, work):
     """Return the remaining move of the driven coordinate in m, the largest residual in N, and the
-    admissible residual and decrement (`residual.allowed`).
+    admissible residual (`residual.allowed`).
     """
     coordinates = problem.scene.coordinates
     problem.reduce(found.g, work.residual)
@@ -185,7 +185,7 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
     projected, balanced = False, False
     value, remaining, share, size, duals_fit = 0.0, 0.0, 0.0, 0.0, True
     model, escape = (0.0, 0.0), (0.0, 0.0)
-    limit, stable = (0.0, 0.0), True  # stable: of the last exact factor
+    limit, stable = 0.0, True  # stable: of the last exact factor
     longest, previous_size, descent.travel_bound = _longest(work.dx, coordinates), np.inf, 0.0
     while True:  # each turn evaluates a trial point, or the same point for the projected Hessian
         if new_direction:
@@ -225,7 +225,7 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
             if control[0] != 0 or not size < np.inf:
                 outcome = INTERRUPTED if control[0] != 0 else NOT_FINITE
                 break
-            balanced = remaining == 0.0 and size <= limit[0]
+            balanced = remaining == 0.0 and size <= limit
             if not balanced and size > SLOW_REDUCTION * previous_size:
                 descent.since_factor = np.inf
             previous_size = size
@@ -239,7 +239,7 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
                 break
             if not projected:
                 limit = allowed(problem.stiffest(), tolerance)
-                balanced, stable = balanced and size <= limit[0], met == POSITIVE
+                balanced, stable = balanced and size <= limit, met == POSITIVE
                 descent.since_factor = 0.0 if stable and duals_fit else np.inf
                 if not stable:
                     escape = _escape_direction(problem, found, work, pivot)
@@ -248,9 +248,11 @@ def minimise(x, target, problem, step, tolerance, space, descent, control, evalu
                         continue
         has_direction = stable or projected
         slope = _newton_direction(problem, found, work, remaining) if has_direction else 0.0
-        if balanced and stable and -0.5 * slope <= limit[1]:
-            outcome, descent.decrement = CONVERGED, -0.5 * slope
-            break
+        if balanced and stable:
+            descent.decrement = -0.5 * slope
+            if descent.decrement <= allowed_decrement(problem.stiffest(), tolerance, x.size):
+                outcome = CONVERGED
+                break
         if iteration == tolerance.iterations:
             break
         accept_any, projected = remaining != 0.0, False

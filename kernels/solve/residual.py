@@ -41,13 +41,23 @@ def largest(residual, coordinates):
 
 @jit_exact
 def allowed(stiffest, tolerance):
-    """Return the admissible residual in N and Newton decrement in J.
+    """Return the admissible residual in N.
 
-    The residual is at least the force of the ``stiffest`` coordinate (N/m) in a move of
+    It is at least the force of the ``stiffest`` coordinate (N/m) in a move of
     ``tolerance.resolution``.
     """
-    force = max(tolerance.force, tolerance.resolution * stiffest)
-    return force, tolerance.decrement * (force / tolerance.force) ** 2
+    return max(tolerance.force, tolerance.resolution * stiffest)
+
+
+@jit_exact
+def allowed_decrement(stiffest, tolerance, n):
+    """Return the admissible Newton decrement of ``n`` coordinates in J.
+
+    It is at least the energy of moves of ``tolerance.resolution`` against the ``stiffest``
+    coordinate (N/m): an admissible residual that can release more is one of softer coordinates, and
+    no round-off.
+    """
+    return max(tolerance.decrement, n * stiffest * tolerance.resolution**2)
 
 
 @jit_exact

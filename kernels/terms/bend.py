@@ -129,14 +129,20 @@ def _linear(bend, memory, point, k, shape, resultants, projected):
         return math.inf
     if projected:
         s1, s2 = 0.0, 0.0
-    force, rigidity = resultants.force, resultants.rigidity
     energy, first, second, k11, k12, k22 = _moments(bend, k, one, two, memory, point)
+    force, rigidity = resultants.force, resultants.rigidity
     force[1, k] += first * d1
     force[2, k] += second * d2
-    rigidity[3, k] += k11 * d1 * d1 + first * s1
-    rigidity[4, k] += k12 * d1 * d2
-    rigidity[5, k] += k22 * d2 * d2 + second * s2
+    _stiffen(rigidity, k, k11 * d1 * d1 + first * s1, k12 * d1 * d2, k22 * d2 * d2 + second * s2)
     return energy
+
+
+@jit
+def _stiffen(rigidity, k, one, mixed, two):
+    """Add second derivatives in a_1 and a_2 of element ``k``."""
+    rigidity[3, k] += one
+    rigidity[4, k] += mixed
+    rigidity[5, k] += two
 
 
 @jit
@@ -194,6 +200,24 @@ def evaluate(bend, stretch, memory, shape, resultants, projected):
     derivatives of kappa and of e, and with no falling moment, which makes every element
     semi-definite.
     """
+    if bend.section.curve.is_elastic:
+        return _evaluate(_elastic(bend), stretch, (), shape, resultants, projected)
+    return _evaluate(bend, stretch, memory, shape, resultants, projected)
+
+
+@jit
+def _elastic(bend):
+    """Return the same data with laws that are compiled without memory."""
+    section, hinge = bend.section.elastic(), bend.hinge.elastic()
+    return Bend(
+        bend.measure, bend.stiffness, bend.side, section, hinge, bend.spread, bend.volume,
+        bend.shear,
+    )  # fmt: skip
+
+
+@jit
+def _evaluate(bend, stretch, memory, shape, resultants, projected):
+    """Return the same. Laws without memory and those with one are compiled apart."""
     total, point, each = 0.0, shape.length.size, points(bend)
     for k in range(shape.length.size):
         if is_bent(bend, k):

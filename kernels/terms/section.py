@@ -57,10 +57,10 @@ def radial(theta):
 
 
 @jit
-def bent(law, curve, stretched, r, theta, memory, point):
+def bent(law, stretched, r, theta, memory, point):
     """Return w without its W(e), its slopes in e and theta, and ee, e theta, theta theta.
 
-    curve: law of the fibres. point: of the first fibre.
+    point: of the first fibre.
     """
     value, slope, second = radial(theta)
     energy, by_e, by_theta = -law.radial * value, 0.0, -law.radial * slope
@@ -68,7 +68,7 @@ def bent(law, curve, stretched, r, theta, memory, point):
     for k in range(law.place.size):
         place, weight = law.place[k], law.weight[k]
         a, a_e, a_t, a_ee, a_et, a_tt = fibre(law.m, stretched, r, place * theta)
-        value, slope, second = curve.respond(a - 1.0, memory, point + k)
+        value, slope, second = law.curve.respond(a - 1.0, memory, point + k)
         slope, second, a_t = weight * slope, weight * second, place * a_t
         energy += weight * value
         by_e += slope * a_e
@@ -81,14 +81,6 @@ def bent(law, curve, stretched, r, theta, memory, point):
 
 @jit
 def respond(law, strain, memory, point):
-    """Return the same as `summed`, by the shortest way if the fibres are elastic."""
-    if law.curve.is_elastic:
-        return summed(law, Plain(law.curve.relaxing.elastic.curve), strain, memory, point)
-    return summed(law, law.curve, strain, memory, point)
-
-
-@jit
-def summed(law, curve, strain, memory, point):
     """Return the sum of w over both sections of an element (J/m^3), its slopes in e, theta_1,
     theta_2 and the upper triangle of its second derivatives, row by row (Pa).
 
@@ -96,10 +88,10 @@ def summed(law, curve, strain, memory, point):
     """
     e, one, two = strain
     fibres = law.place.size
-    value, slope, second = curve.respond(e, memory, point + 2 * fibres)
+    value, slope, second = law.curve.respond(e, memory, point + 2 * fibres)
     stretched, r = 1.0 + e, (1.0 + e) ** (-law.m)
-    w1, e1, t1, ee1, et1, tt1 = bent(law, curve, stretched, r, one, memory, point)
-    w2, e2, t2, ee2, et2, tt2 = bent(law, curve, stretched, r, two, memory, point + fibres)
+    w1, e1, t1, ee1, et1, tt1 = bent(law, stretched, r, one, memory, point)
+    w2, e2, t2, ee2, et2, tt2 = bent(law, stretched, r, two, memory, point + fibres)
     return (
         w1 + w2 - law.middle * value,
         (e1 + e2 - law.middle * slope, t1, t2),
@@ -108,17 +100,9 @@ def summed(law, curve, strain, memory, point):
 
 
 @jit
-def respond_plainly(law, strain, memory, point):
-    """Return energy density, stress and tangent of an elastic curve at ``strain``."""
-    return law.curve.respond(strain)
-
-
-class Plain(NamedTuple):
-    """An elastic curve as a law without memory."""
-
-    curve: object
-
-    respond = respond_plainly
+def elastic(law):
+    """Return the same section, of fibres that are compiled without memory."""
+    return BentSection(law.curve.elastic(), law.place, law.weight, law.middle, law.m, law.radial)
 
 
 @jit
@@ -167,6 +151,7 @@ class BentSection(NamedTuple):
     m: float
     radial: float
 
+    elastic = elastic
     points = points
     begin = begin
     respond = respond

@@ -68,6 +68,14 @@ def evaluate(stretch, law, memory, shape, resultants, projected):
     Elements are the material points of the ``law``. projected: stress and tangent are clipped at
     zero in second derivatives, which makes every element positive semi-definite.
     """
+    if law.is_elastic:
+        return _evaluate(stretch, law.elastic(), (), shape, resultants, projected)
+    return _evaluate(stretch, law, memory, shape, resultants, projected)
+
+
+@jit
+def _evaluate(stretch, law, memory, shape, resultants, projected):
+    """Return the same. Laws without memory and those with one are compiled apart."""
     total = 0.0
     for k in range(stretch.l0.size):
         e, one, two = strain(stretch, shape, k)

@@ -9,6 +9,8 @@ if TYPE_CHECKING:
 
     from pandas import DataFrame, Series
 
+    from sweep.ranking.ranking import Ranking
+
 DIGITS = 3  # of a number in the ranking; a longer one begins an id
 
 
@@ -39,27 +41,43 @@ def by_number(
 
     question : keyword arguments of `rank`. scene : see `_scene`.
     """
+    from sweep.ranking.merit import doubtful
     from sweep.ranking.rank import ranked
 
-    table = ranked(summary, **{**question, "top": None}).table
-    if table.empty:
-        raise CaseError("no case has a place in the ranking; without CASE, show lists all ids")
-    label = _scene(list(dict.fromkeys(table["scene"])), scene)
+    ranking = ranked(summary, **{**question, "top": None})
+    table = ranking.table
+    placed = list(dict.fromkeys(table["scene"]))
+    label = _scene(list(ranking.lightest_g) or [""], scene, (placed or [""])[0])
     rows = table[table["scene"] == label]
+    if rows.empty:
+        raise CaseError(_no_place(ranking, label, summary))
     budget = rows["budget_g"].iloc[0]
     rows = rows[rows["budget_g"].isna() if budget != budget else rows["budget_g"] == budget]
     within = f", up to {budget:g} g" if budget > 0.0 else ""
     if number > len(rows):
         allowed = f"allowed: 1 to {len(rows)}, or the beginning of an id"
         raise CaseError(f"no number {number} in the ranking of {label}{within}; {allowed}")
-    case_id = rows["case_id"].iloc[number - 1]
-    return by_id(summary, case_id), f"number {number} of {len(rows)}: {label}{within}"
+    chosen = rows.iloc[[number - 1]]
+    doubt = ", marked as not to be trusted" if doubtful(chosen).item() else ""
+    told = f"number {number} of {len(rows)}: {label}{within}{doubt}"
+    return by_id(summary, chosen["case_id"].item()), told
 
 
-def _scene(labels: list[str], wanted: str | None) -> str:
-    """The label of a scene: the first one, or the one with this number or with these words."""
+def _no_place(ranking: Ranking, label: str, summary: DataFrame) -> str:
+    """Why there is no number in a scene, and the id that takes its place."""
+    from sweep.report.sheets import named_case
+
+    why = f"no design has a place in the ranking{f' of {label}' if label else ''}"
+    if (instead := ranking.instead(label)) is None:
+        return f"{why}; without CASE, show lists all ids"
+    word, row = instead
+    return f"{why}; allowed: an id, such as that of the {word} design: {named_case(row, summary)}"
+
+
+def _scene(labels: list[str], wanted: str | None, usual: str) -> str:
+    """The label of a scene: the usual one, or the one with this number or with these words."""
     if wanted is None:
-        return labels[0]
+        return usual or labels[0]
     if wanted.isdecimal() and 0 < int(wanted) <= len(labels):
         return labels[int(wanted) - 1]
     found = [label for label in labels if wanted.lower() in label.lower()]

@@ -86,9 +86,10 @@ def _of_mode(question: dict[str, Any], arguments: Namespace, mode: str) -> dict[
     requirement. mode : of the loading, "" if no design is known.
     """
     from sweep.ranking.merit import in_si
+    from sweep.ranking.requirements import check_modes
 
-    if "max_deceleration" in question["require"] and mode not in ("impact", ""):
-        raise OptimizeError(f"max_deceleration needs a striker; loading.mode is {mode} here")
+    if mode:
+        check_modes(question["require"], [mode])
     if arguments.max_force in (None, "none"):
         return question
     if arguments.allowed_force is not None:
@@ -96,6 +97,7 @@ def _of_mode(question: dict[str, Any], arguments: Namespace, mode: str) -> dict[
     in_si(arguments.max_force, "N")
     if mode in ("displacement", ""):
         return question | {"allowed_force": arguments.max_force}
+    check_modes(["max_force"], [mode])
     return question | {"require": question["require"] | {"max_force": arguments.max_force}}
 
 

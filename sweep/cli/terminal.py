@@ -32,6 +32,7 @@ def print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) ->
     if not ranking.table.empty:
         say(legend(ranking))
     say_all(warnings(file, ranking))
+    say_all(nearest_commands(file, ranking, summary))
 
 
 def version_counts(counts: Mapping[int, int]) -> str:
@@ -71,11 +72,25 @@ def next_commands(file: str, summary: DataFrame) -> Iterator[str]:
     yield f"results: {file}"
     name = quote(file)
     if (summary["status"] == Status.CONVERGED).any():
-        yield f"next: crumple show {name} 1: pictures of the best design"
+        yield f"next: crumple show {name} 1: pictures of the first design"
         folder = quote(file.removesuffix(".h5"))
         yield f"      crumple rank {name} --out {folder}: tables and pictures"
     else:
         yield f"next: crumple status {name}: what failed, and why"
+
+
+def nearest_commands(file: str, ranking: Ranking, summary: DataFrame) -> Iterator[str]:
+    """How to see and print the nearest design of the first scene in which none has a place."""
+    from sweep.report.sheets import short_id
+
+    placed = {*ranking.table["scene"]}
+    for label in ranking.lightest_g:
+        if label not in placed and (instead := ranking.instead(label)):
+            word, row = instead
+            name, case_id = quote(file), short_id(row["case_id"].item(), summary["case_id"])
+            yield f"to see the {word}: crumple show {name} {case_id}"
+            yield f"to print it: crumple export {name} {case_id} --to part.stl"
+            return
 
 
 def _counted(count: int, noun: str) -> str:
@@ -84,11 +99,13 @@ def _counted(count: int, noun: str) -> str:
 
 def _heading(question: Mapping[str, Any], ranking: Ranking) -> str:
     """The question that the tables answer, in one or two lines."""
-    from sweep.result import less_is_better
+    from sweep.result import in_words, less_is_better
 
     by = ranking.by
     usual = {ranking.energy: "most energy", ranking.per_gram: "most energy per gram"}
-    order = usual.get(by, f"least {by}" if less_is_better(by) else f"most {by}")
+    if {row["loading_mode"].item() for row in ranking.lightest.values()} == {"impact"}:
+        usual["peak_force_N"] = "least force on the support"
+    order = usual.get(by, f"{'least' if less_is_better(by) else 'most'} {in_words(by)}")
     lines = [f"Best first: {order}."]
     crushed = ranking.table.empty or (ranking.table["loading_mode"] == "displacement").any()
     if (force := question.get("allowed_force")) and crushed:

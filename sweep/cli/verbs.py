@@ -13,6 +13,7 @@ from shlex import quote
 from typing import TYPE_CHECKING, Any
 
 from sweep.cli.terminal import (
+    nearest_commands,
     next_commands,
     print_ranking,
     print_sheets,
@@ -77,6 +78,7 @@ def run(arguments: Namespace) -> int:
     from sweep.store.read import Rerun, read_summary
 
     config = _config(arguments.config)
+    _check_required(config)
     out = arguments.out or f"results/{config.name}.h5"
     workers = arguments.workers or WORKERS
     rerun = Rerun(failed=arguments.retry_failed, older=arguments.renew)
@@ -98,6 +100,15 @@ def run(arguments: Namespace) -> int:
     failed += _spread(config, out, how, question) if arguments.spread else 0
     _hint(next_commands(out, read_summary(out)))
     return SOME_FAILED if failed else DONE
+
+
+def _check_required(config: Config) -> None:
+    """Refuse a requirement that no case of a config can be asked for, before cases run."""
+    from sweep.config.grid import expand
+    from sweep.ranking.requirements import check_modes
+
+    if required := [name for name, limit in config.require if limit is not None]:
+        check_modes(required, {case.loading.mode for case in expand(config)})
 
 
 def _spread(config: Config, out: str, how: tuple[Any, ...], question: dict[str, Any]) -> int:
@@ -203,11 +214,13 @@ def rank(arguments: Namespace) -> int:
     if arguments.out:
         from sweep.report.publish import publish_ranking
 
-        folder = Path(arguments.out)
+        folder, ranking = Path(arguments.out), ranked(summary, **question)
+        if (ranking.table["loading_mode"] == "displacement").any():
+            heights = heights or _heights_of(arguments.file)
         with _writing(folder):
             files = publish_ranking(arguments.file, summary, question, folder, heights)
         say_all(files)
-        _warn(arguments.file, ranked(summary, **question))
+        _warn(arguments.file, ranking, summary)
     elif arguments.csv or arguments.json or arguments.markdown:
         ranking = ranked(summary, **question)
         if arguments.csv:
@@ -216,7 +229,7 @@ def rank(arguments: Namespace) -> int:
             say(ranking.table.to_json(orient="records", indent=2, double_precision=15))
         else:
             say(markdown(ranking_sheets(ranking, summary)), end="")
-        _warn(arguments.file, ranking)
+        _warn(arguments.file, ranking, summary)
     else:
         print_ranking(arguments.file, summary, question)
     return _exit_status(summary)
@@ -336,9 +349,10 @@ def _writing(folder: Path) -> Iterator[None]:
         raise ArgumentError(f"{folder} cannot be written: {error.strerror or error}") from error
 
 
-def _warn(file: str, ranking: Ranking) -> None:
+def _warn(file: str, ranking: Ranking, summary: DataFrame) -> None:
     """Print the warnings of a ranking on stderr, so that stdout has only the ranking."""
     _hint(warnings(file, ranking))
+    _hint(nearest_commands(file, ranking, summary))
 
 
 def _hint(lines: Iterable[str]) -> None:
@@ -355,12 +369,15 @@ def _of_a_number(arguments: Namespace) -> bool:
 def _named(arguments: Namespace, summary: DataFrame) -> tuple[Series, str]:
     """The row that CASE names, and a sentence about its place if CASE is a number."""
     from sweep.cli.find_case import by_id, by_number, is_number
+    from sweep.ranking.curves import with_allowed
 
     if not (arguments.case and is_number(arguments.case)):
         if _of_a_number(arguments):
             raise ArgumentError(f"{NUMBERED} belong to a number in the ranking")
         return by_id(summary, arguments.case), ""
-    return by_number(summary, int(arguments.case), arguments.scene, _asked(arguments))
+    question = _asked(arguments)
+    summary = with_allowed(arguments.file, summary, question)
+    return by_number(summary, int(arguments.case), arguments.scene, question)
 
 
 def _asked(arguments: Namespace) -> dict[str, Any]:
@@ -381,12 +398,17 @@ def _asked(arguments: Namespace) -> dict[str, Any]:
 
 
 def _drop_heights(arguments: Namespace) -> list[float]:
-    """The heights (m) of the cushion curves that a folder gets."""
+    """The heights (m) that --drop-height gives."""
     from sweep.ranking.merit import in_si
 
     if arguments.drop_height and not arguments.out:
         raise ArgumentError("--drop-height draws cushion curves into a folder: it needs --out DIR")
     return [*dict.fromkeys(in_si(text, "m") for text in arguments.drop_height or ())]
+
+
+def _heights_of(file: str) -> list[float]:
+    """The heights (m) of cushion curves in the config of a results file."""
+    return [*dict.fromkeys(_stored(file, "rank").get("drop_heights") or ())]
 
 
 def _question(budgets: Iterable[Any] | None, panel: Iterable[Any] | None) -> dict[str, Any]:

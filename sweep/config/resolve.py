@@ -303,7 +303,8 @@ def _stroke_and_strain(loading: Loading, height: float) -> tuple[float, float]:
         return strain * height, strain
     stroke, strain = loading.stroke, given_or(loading.strain, loading.stroke / height)
     if stroke >= height:
-        raise refusal("loading.stroke", stroke, f"below the height of the lattice, {height:g} m")
+        pressed = "depth" if is_along(loading) else "height"
+        raise refusal("loading.stroke", stroke, f"below the {pressed} of the lattice, {height:g} m")
     if not isclose(stroke, strain * height, rel_tol=1e-9):
         allowed = f"{strain * height:g} m at the strain given; give one of them"
         raise refusal("loading.stroke", stroke, allowed)

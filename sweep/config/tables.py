@@ -434,11 +434,12 @@ class Solver(Table):
 class Rank(Table):
     """Defaults of a ranking: budgets of mass (kg), and the panel that specimens fill (m).
 
-    per: what allowed forces and requirements are of.
+    per: what allowed forces and requirements are of. drop_heights: of cushion curves (m).
     """
 
     budgets: tuple[Mass, ...] = ()
     panel: tuple[Length, Length] | None = None
+    drop_heights: tuple[Length, ...] = ()
     per: Literal["specimen", "panel"] = "specimen"
 
 

@@ -32,14 +32,15 @@ def with_allowed(
 ) -> DataFrame:
     """The summary with energy and stroke up to the allowed force, where the question needs them.
 
-    question : keyword arguments of `rank`. The columns are needed up to a force of the panel, and
-    to limit the stroke; NaN in rows that are no finished crush. known : what was found before, and
-    is not read again; new values are added.
+    question : keyword arguments of `rank`. The columns are needed if it has an allowed force; NaN
+    in rows that are no finished crush. known : what was found before, and is not read again; new
+    values are added.
     """
+    from sweep.store.read import read_cases
+
     force, panel = question.get("allowed_force"), question.get("panel")
     of_panel = question.get("per") == "panel"
-    limits_stroke = (question.get("require") or {}).get("max_stroke") is not None
-    if force is None or not (of_panel or limits_stroke) or (of_panel and panel is None):
+    if force is None or (of_panel and panel is None):
         return summary
     limit = in_si(force, "N")
     wanted = (summary["loading_mode"] == "displacement") & (summary["status"] == Status.CONVERGED)
@@ -48,23 +49,22 @@ def with_allowed(
     if of_panel and panel is not None:
         count = panel_in(rows, panel).specimens
     at = zip(rows["case_id"], limit / count, strict=True)
-    known = {} if known is None else known
     keys = [(str(case_id), float(force)) for case_id, force in at]
-    known |= {key: reached(file, *key) for key in keys if key not in known}
+    known = {} if known is None else known
+    new = [key for key in keys if key not in known]
+    cases = read_cases(file, [case_id for case_id, _ in new], shapes=False)
+    known |= {key: reached(case.history, key[1]) for key, case in zip(new, cases, strict=True)}
     found = [known[key] for key in keys]
     added = summary.assign(**{AT_ALLOWED: np.nan, "stroke_at_allowed_m": np.nan})
     added.loc[wanted, [AT_ALLOWED, "stroke_at_allowed_m"]] = np.array(found).reshape(-1, 2)
     return added
 
 
-def reached(file: str | PathLike[str], case_id: str, force: float) -> tuple[float, float]:
+def reached(curve: DataFrame, force: float) -> tuple[float, float]:
     """Energy (J) and stroke (m) of a crush until a platen bears ``force`` (N).
 
-    Of several cycles, the first one counts.
+    curve : the history of the crush. Of several cycles, the first one counts.
     """
-    from sweep.store.read import read_history
-
-    curve = read_history(file, case_id)
     travel = curve["top_displacement_m"].to_numpy()
     end = int(np.argmax(travel >= travel.max() * (1.0 - ROUND_OFF))) + 1
     borne = np.fmax(curve["reaction_top_N"], curve["reaction_bottom_N"]).to_numpy()[:end]

@@ -73,8 +73,8 @@ def merits(
 
     Other added columns: `passed_on_N`, the greatest force while that energy is absorbed, and
     `panel_force_N`; `counted_stroke_m`; `returned_share`, returned energy / work of the whole
-    crush; `beyond_model`; `crossed`; `beyond_curve`; and errors and corrections of added columns,
-    if the energy has them.
+    crush; `ends_early`; `beyond_model`; `crossed`; `beyond_curve`; and errors and corrections of
+    added columns, if the energy has them.
     """
     if missing := [name for name in COLUMNS if name not in finished and name not in OLDER]:
         raise RankError(
@@ -97,6 +97,7 @@ def merits(
         "passed_on_N": force,
         "counted_stroke_m": _stroke(finished, energy, allowed_force),
         "returned_share": finished["returned_energy_J"] / finished["absorbed_energy_J"],
+        "ends_early": _ends_early(finished, energy, force, allowed_force is not None),
         "beyond_model": (finished[energy] > within) | through_solid(finished),
         "crossed": finished["max_crossings"] > 0,
         "beyond_curve": finished["stretch_over_curve"] > 1.0,
@@ -128,6 +129,11 @@ def counted_mass(finished: DataFrame) -> tuple[str, Series]:
     if printed is None or printed.isna().all():
         return "mass_g", finished["mass_g"]
     return "counted_mass_g", printed.fillna(finished["mass_g"])
+
+
+def doubtful(ranked: DataFrame) -> Series:
+    """True for designs whose results are beyond the model or have walls that cross."""
+    return ranked["beyond_model"].astype(bool) | ranked["crossed"].astype(bool)
 
 
 def through_solid(finished: DataFrame) -> Series:
@@ -226,6 +232,17 @@ def _stroke(finished: DataFrame, energy: str, allowed_force: Quantity | None) ->
     else:
         strain = finished["peak_strain" if energy == WHOLE_CRUSH[0] else "packing_strain"]
     return (strain * finished["height_m"]).where(crushed, whole)
+
+
+def _ends_early(finished: DataFrame, energy: str, force: Series, limited: bool) -> Series:
+    """True for crushes that absorb more than the counted energy if they are longer: they ended
+    before the allowed force was exceeded, or before the lattice had packed.
+    """
+    crushed = finished["loading_mode"] == "displacement"
+    if limited:
+        return crushed & (finished["peak_force_N"] <= force)
+    unpacked = finished["densification_strain"].isna() & finished["peak_strain"].notna()
+    return crushed & unpacked & (energy != WHOLE_CRUSH[0])
 
 
 def _energy_column(frame: DataFrame, force: float) -> str:

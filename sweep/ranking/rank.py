@@ -64,7 +64,20 @@ ASSUMPTIONS = (
 """Grid keys of the test and not of the design: every value of them makes a scene of its own."""
 
 PER = ("specimen", "panel")
-NO_ATTRS = ("per", "required", "outcomes")  # fields of `Ranking` that are newer than attributes
+NO_ATTRS = (
+    "lightest",
+    "per",
+    "required",
+    "outcomes",
+)  # fields of `Ranking` that are newer than attributes
+USUAL = (
+    *("absorbed_energy_until_packed_J", "specific_absorption_until_packed_J_per_g"),
+    *("absorbed_energy_J", "specific_absorption_J_per_g", "absorbed_energy_within_model_J"),
+    *("lost_energy_J_per_g", "second_cycle_share", "mass_g", "peak_force_N"),
+    *("peak_force_until_packed_N", "peak_strain", "peak_deceleration_filtered_m_per_s2"),
+)
+"""The columns by which rankings are sorted most: a refusal names these instead of all."""
+NEAREST = 3  # names that a refusal proposes
 LEADING = [
     "budget_g",
     "scene",
@@ -85,6 +98,7 @@ LEADING = [
     "panel_force_N",
     "passed_on_N",
     "returned_share",
+    "ends_early",
     "beyond_model",
     "crossed",
     "beyond_curve",
@@ -146,6 +160,8 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
     passed_on_N, counted_stroke_m : greatest force while the counted energy is absorbed, and the
         stroke that this takes.
     returned_share : returned energy / work of the whole crush.
+    ends_early : True if a crush ended before the allowed force was exceeded or before the lattice
+        had packed: in a longer one it absorbs more than the counted energy.
     beyond_model : True if an element is too short or a wall breaks while the counted energy is
         absorbed, or if the lattice is compressed to less than its solid height.
     crossed : True if walls crossed one another.
@@ -187,7 +203,9 @@ def ranked(  # noqa: PLR0913  every argument is a part of one question
     masses = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in _several(budget))] or [np.inf]
     found = {scene_label(rows): rows for rows in by_scene(compared)}
     allowed = np.nan if allowed_force is None else in_si(allowed_force, "N")
-    judged = {label: judge(rows, names, required, per, allowed) for label, rows in found.items()}
+    judged = {
+        label: judge(rows, names, required, per, masses, allowed) for label, rows in found.items()
+    }
     scenes = [
         (_with_scene(rows[judged[label][0]], label, _least(rows), names), _order(rows, by, usual))
         for label, rows in found.items()
@@ -208,9 +226,14 @@ def ranked(  # noqa: PLR0913  every argument is a part of one question
         versions=model_versions(finished),
         budgets_g=tuple(limit for limit in masses if np.isfinite(limit)),
         lightest_g={label: rows[names.mass].min() for label, rows in found.items() if len(rows)},
+        lightest={
+            label: rows.sort_values([names.mass, "case_id"]).iloc[:1]
+            for label, rows in found.items()
+            if len(rows)
+        },
         per=per,
         required=required,
-        outcomes={label: outcome for label, (_, outcome) in judged.items() if required},
+        outcomes={label: outcomes for label, (_, outcomes) in judged.items() if required},
     )
 
 
@@ -355,12 +378,16 @@ def _column(frame: DataFrame, by: str) -> str:
     allowed = [name for name in numbers if describe_column(name).better]
     if by in allowed:
         return by
-    if by in numbers:
-        why = "neither more nor less of it makes a design better"
-        raise RankError(f'cannot sort by "{by}": {why}; allowed: {", ".join(allowed)}')
-    nearest = difflib.get_close_matches(by, allowed, n=1, cutoff=0.5)
-    hint = f"did you mean {nearest[0]}? " if nearest else ""
-    raise RankError(f'cannot sort by "{by}"; {hint}allowed: {", ".join(allowed)}')
+    known = by in numbers
+    why = "neither more nor less of it makes a design better" if known else "no such column"
+    nearest = difflib.get_close_matches(by, allowed, n=NEAREST, cutoff=0.5)
+    near = f"; the nearest are {', '.join(nearest)}" if nearest else ""
+    usual = ", ".join(name for name in USUAL if name in allowed)
+    more = len(allowed) - sum(name in allowed for name in USUAL)
+    raise RankError(
+        f'cannot sort by "{by}": {why}{near}\nallowed: {usual} and '
+        f"{more} others: the first line of rank --csv has all, docs/results.md explains most"
+    )
 
 
 def _several(budget: Quantity | Sequence[Quantity] | None) -> list[Quantity]:

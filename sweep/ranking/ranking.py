@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from sweep.ranking.merit import greatest_mass
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -29,10 +31,10 @@ class Ranking:
     pointed : number of converged cases with solid joints in which some walls end in points.
     versions : number of converged cases of each version of the model, the oldest first.
     budgets_g : the budgets (g), each once.
-    lightest_g : the least mass (g) of each scene.
+    lightest_g : the least mass (g) of each scene. lightest : the row of that design.
     per : what the allowed force and the requirements are of, "specimen" or "panel".
     required : the limit (SI) of each requirement.
-    outcomes : how the designs of each scene meet them; empty without requirements.
+    outcomes : how the designs of each scene meet them, within each budget; empty without any.
     """
 
     table: DataFrame
@@ -50,6 +52,20 @@ class Ranking:
     versions: Mapping[int, int]
     budgets_g: tuple[float, ...]
     lightest_g: Mapping[str, float]
+    lightest: Mapping[str, DataFrame]
     per: str = "specimen"
     required: Mapping[str, float] = field(default_factory=dict)
-    outcomes: Mapping[str, Outcome] = field(default_factory=dict)
+    outcomes: Mapping[str, tuple[Outcome, ...]] = field(default_factory=dict)
+
+    def instead(self, scene: str) -> tuple[str, DataFrame] | None:
+        """What comes nearest to the question in a scene: a word for it, and its row.
+
+        The design nearest to the requirements within the first budget that has one; or the lightest
+        design, if all are heavier than the budgets; else None.
+        """
+        near = [one.nearest for one in self.outcomes.get(scene, ()) if len(one.nearest)]
+        if near:
+            return "nearest", near[0]
+        widest = max(self.budgets_g, default=float("inf"))
+        heavier = scene in self.lightest_g and self.lightest_g[scene] > greatest_mass(widest)
+        return ("lightest", self.lightest[scene]) if heavier else None

@@ -4,76 +4,113 @@ A requirement is of a specimen or of the panel. The force of a panel is that of 
 together, since all are pressed alike; stroke and deceleration are the same for both. No curve of a
 force that stays below F absorbs an energy W in a stroke shorter than W / F, that of a rectangle.
 
-The violation of a design is the sum over the requirements of the share of its limit by which it
-misses each (K. Deb, An efficient constraint handling method for genetic algorithms, 2000).
+A loading that sets a quantity is not asked for it: the force and the energy under a dead load, and
+the energy of a striker, are not those of the design.
+
+The nearest design to requirements that none fulfils is the one whose greatest miss is the least: a
+value v misses a greatest value L by v / L - 1, and a least value L by 1 - v / L.
 """
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from pandas import Series
+from pandas import DataFrame
 
-from sweep.ranking.merit import ROUND_OFF, Compared, Quantity, RankError, in_si
+from sweep.ranking.merit import (
+    ROUND_OFF,
+    Compared,
+    Quantity,
+    RankError,
+    doubtful,
+    greatest_mass,
+    in_si,
+)
 
 if TYPE_CHECKING:
-    from pandas import DataFrame
+    from pandas import Series
 
 STANDARD_GRAVITY = 9.80665  # m/s^2
+MODES = ("displacement", "impact", "force", "custom")
+NEEDED = {"displacement": "a crush", "impact": "a striker", "force": "a dead load"}
+"""Loadings that a requirement may need, in words."""
 
 
 class Measure(NamedTuple):
     """What a requirement limits. unit: in SI. shared: whether specimens of a panel add up.
 
-    least: the limit is a least value; else it is a greatest one.
+    asked_of: kinds of loading in which the design, not the loading, sets the value. least: the
+    limit is a least value; else it is a greatest one.
     """
 
     unit: str
     shared: bool
+    asked_of: tuple[str, ...]
     least: bool = False
 
 
 MEASURES = {
-    "max_force": Measure("N", shared=True),
-    "max_deceleration": Measure("m/s^2", shared=False),
-    "max_mass": Measure("kg", shared=True),
-    "min_absorbed": Measure("J", shared=True, least=True),
-    "max_stroke": Measure("m", shared=False),
+    "max_force": Measure("N", True, ("displacement", "impact")),
+    "max_deceleration": Measure("m/s^2", False, ("impact",)),
+    "max_mass": Measure("kg", True, MODES),
+    "min_absorbed": Measure("J", True, ("displacement",), least=True),
+    "max_stroke": Measure("m", False, ("displacement", "impact", "force")),
 }
 """The requirements by their keys in [require]."""
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """How the designs of one scene meet the requirements; values in SI, per specimen or panel.
+class Best(NamedTuple):
+    """The value (SI) nearest to fulfilling a requirement; doubtful: of a design marked ! or x."""
 
-    designs, fulfil: number of designs, and of those that fulfil all requirements.
+    value: float
+    doubtful: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """How the designs of one scene within one budget meet the requirements.
+
+    Values are in SI, per specimen or panel.
+
+    mode: of loading. budget_g: NaN without a budget.
+    designs, fulfil: number of designs, and of those that fulfil all requirements. doubtful: number
+        of those that fulfil them and are marked as beyond the model or as crossed.
     failed: number of designs that fail each requirement. unknown: number of those among them that
-        have no value of it.
-    best: the value nearest to fulfilling each requirement, of all designs; NaN if none has one.
-    left_out: requirements that are of a striker, in a scene without one.
+        have no value of it. open: number of those that fail only `min_absorbed` and may fulfil it
+        in a longer crush, as theirs ended before the energy was counted to its end.
+    best: the value nearest to fulfilling each requirement.
+    left_out: requirements that this kind of loading is not asked for.
+    nearest: where no design fulfils all, but for doubtful ones: the row of the nearest one, that of
+        a doubtful one only if there is no other; no row if nothing is known. missed: what it
+        misses, with its values. misses: by what share of the limit.
+    lightest: the row of the lightest design to be trusted that fulfils all, of any mass; or no row.
     energy, force, stroke: energy that must be absorbed, the force that is allowed meanwhile, and
         the least stroke in which it does that; NaN if one of both is not given.
     height: of the highest lattice.
-    nearest: id of the design of least violation, and its values; "" and none if none has all
-        values.
     """
 
+    mode: str
+    budget_g: float
     designs: int
     fulfil: int
+    doubtful: int
     failed: Mapping[str, int]
     unknown: Mapping[str, int]
-    best: Mapping[str, float]
+    open: int
+    best: Mapping[str, Best]
     left_out: tuple[str, ...]
+    nearest: DataFrame
+    missed: Mapping[str, float]
+    misses: Mapping[str, float]
+    lightest: DataFrame
     energy: float
     force: float
     stroke: float
     height: float
-    nearest: tuple[str, Mapping[str, float]]
 
 
 def limits(require: Mapping[str, Quantity | None] | None) -> dict[str, float]:
@@ -86,16 +123,48 @@ def limits(require: Mapping[str, Quantity | None] | None) -> dict[str, float]:
     return {name: in_si(given[name], MEASURES[name].unit) for name in MEASURES if name in given}
 
 
+def check_modes(required: Iterable[str], modes: Iterable[str]) -> None:
+    """Refuse a requirement that none of these kinds of loading is asked for."""
+    known = set(modes)
+    for name in required:
+        asked_of = MEASURES[name].asked_of
+        if known and not known.intersection(asked_of):
+            needed = " or ".join(NEEDED[mode] for mode in asked_of)
+            raise RankError(f"{name} needs {needed}, and there is none")
+
+
 def check(rows: DataFrame, required: Mapping[str, float]) -> None:
     """Refuse requirements that no row can be asked for."""
     if rows.empty:
         return
-    if "max_deceleration" in required and not (rows["loading_mode"] == "impact").any():
-        raise RankError("max_deceleration needs a striker, and these results have none")
+    check_modes(required, rows["loading_mode"])
     if "max_stroke" in required and rows["counted_stroke_m"].isna().all():
         raise RankError(
             "max_stroke is unknown up to an allowed force without the curves: rank the file itself"
         )
+
+
+class Judged(NamedTuple):
+    """The rows of one scene with what each of them has of the requirements, and meets.
+
+    mass: name of the column that budgets limit. asked: limits (SI) of the requirements that this
+    kind of loading is asked for; left_out: the others. found (rows, asked): values. shares (rows,
+    asked): as of `misses`. fulfil (rows,).
+    """
+
+    rows: DataFrame
+    mass: str
+    asked: Mapping[str, float]
+    left_out: tuple[str, ...]
+    found: DataFrame
+    shares: DataFrame
+    fulfil: Series
+
+    def within(self, budget_g: float) -> Judged:
+        """The same of the rows within a budget."""
+        kept = self.rows[self.mass] <= greatest_mass(budget_g)
+        parts = {name: getattr(self, name)[kept] for name in ("rows", "found", "shares", "fulfil")}
+        return self._replace(**parts)
 
 
 def judge(
@@ -103,64 +172,55 @@ def judge(
     names: Compared,
     required: Mapping[str, float],
     per: str,
+    budgets_g: Sequence[float],
     allowed: float = np.nan,
-) -> tuple[Series, Outcome]:
-    """Which rows of one scene fulfil all requirements, and the outcome.
+) -> tuple[Series, tuple[Outcome, ...]]:
+    """Which rows of one scene fulfil all requirements, and the outcome within each budget.
 
-    allowed: force (N) up to which energy is counted; NaN without one.
+    budgets_g : masses in grams; infinite without a budget. allowed : force (N) up to which the
+    energy of a crush is counted; NaN without one.
     """
+    mode = str(rows["loading_mode"].iloc[0]) if len(rows) else ""
+    asked = {k: limit for k, limit in required.items() if mode in MEASURES[k].asked_of}
     found = measured(rows, names, per)
-    struck = (rows["loading_mode"] == "impact").all()
-    left_out = tuple(name for name in required if name == "max_deceleration" and not struck)
-    asked = {name: limit for name, limit in required.items() if name not in left_out}
-    met = {name: _met(found[name], name, limit) for name, limit in asked.items()}
-    fulfil = rows["mass_g"].notna()
-    for one in met.values():
-        fulfil &= one
-    energy, force = _rectangle(rows, asked, per, allowed)
-    return fulfil, Outcome(
-        designs=len(rows),
-        fulfil=int(fulfil.sum()),
-        failed={name: int((~one).sum()) for name, one in met.items()},
-        unknown={name: int(found[name].isna().sum()) for name in met},
-        best={
-            name: float(found[name].max() if MEASURES[name].least else found[name].min())
-            for name in met
-        },
-        left_out=left_out,
+    values = DataFrame({name: found[name] for name in asked}, index=rows.index)
+    shares = misses(rows, found, asked)
+    fulfil = rows["mass_g"].notna() & (shares == 0.0).all(axis=1)
+    left_out = tuple(name for name in required if name not in asked)
+    judged = Judged(rows, names.mass, asked, left_out, values, shares, fulfil)
+    if not required or rows.empty:
+        return fulfil, ()
+    rectangle = _rectangle(rows, required, per, allowed)
+    return fulfil, tuple(_outcome(judged, mode, g, *rectangle) for g in budgets_g)
+
+
+def _outcome(judged: Judged, mode: str, budget_g: float, energy: float, force: float) -> Outcome:
+    """The outcome within one budget."""
+    every, part = judged.rows[judged.fulfil], judged.within(budget_g)
+    sound = ~doubtful(part.rows)
+    soundly = int((part.fulfil & sound).sum())
+    nearest, shares = (part.rows[:0], {}) if soundly else _nearest(part)
+    order = [part.mass, "case_id"]
+    return Outcome(
+        mode=mode,
+        budget_g=budget_g if np.isfinite(budget_g) else np.nan,
+        designs=len(part.rows),
+        fulfil=int(part.fulfil.sum()),
+        doubtful=int(part.fulfil.sum()) - soundly,
+        failed={name: int((part.shares[name] != 0.0).sum()) for name in part.asked},
+        unknown={name: int(part.found[name].isna().sum()) for name in part.asked},
+        open=_open(part),
+        best={k: _best(part.found[k], sound, MEASURES[k].least) for k in part.asked},
+        left_out=part.left_out,
+        nearest=nearest,
+        missed={name: float(part.found.loc[nearest.index[0], name]) for name in shares},
+        misses=shares,
+        lightest=every[~doubtful(every)].sort_values(order)[:1],
         energy=energy,
         force=force,
         stroke=energy / force,
-        height=float(rows["height_m"].max()) if len(rows) else np.nan,
-        nearest=_nearest(rows, found, asked),
+        height=float(judged.rows["height_m"].max()),
     )
-
-
-def violation(rows: DataFrame, names: Compared, required: Mapping[str, float], per: str) -> Series:
-    """The violation of each row: 0 where all requirements are met, inf where a value is missing."""
-    return _violation(rows, measured(rows, names, per), required)
-
-
-def _violation(
-    rows: DataFrame, found: Mapping[str, Series], required: Mapping[str, float]
-) -> Series:
-    total = Series(0.0, rows.index)
-    for name, limit in required.items():
-        excess = found[name].astype(float) / limit - 1.0
-        missed = -excess if MEASURES[name].least else excess
-        total += missed.mask(_met(found[name], name, limit), 0.0).fillna(np.inf)
-    return total
-
-
-def _nearest(
-    rows: DataFrame, found: Mapping[str, Series], asked: Mapping[str, float]
-) -> tuple[str, dict[str, float]]:
-    """The id of the row of least violation and its values; "" if no row has all values."""
-    missed = _violation(rows, found, asked)
-    if not np.isfinite(missed.min()):
-        return "", {}
-    at = missed.idxmin()
-    return str(rows.loc[at, "case_id"]), {name: float(found[name][at]) for name in asked}
 
 
 def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
@@ -184,25 +244,69 @@ def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
     }
 
 
-def _met(values: Series, name: str, limit: float) -> Series:
-    """Whether a requirement is met, but for round-off; a missing value does not meet it."""
-    if MEASURES[name].least:
-        return values >= limit * (1.0 - ROUND_OFF)
-    return values <= limit * (1.0 + ROUND_OFF)
+def misses(
+    rows: DataFrame, found: Mapping[str, Series], required: Mapping[str, float]
+) -> DataFrame:
+    """By what share of its limit each row misses each requirement, (rows, required).
+
+    0 where the requirement is met, but for round-off, or this kind of loading is not asked for it;
+    NaN where the value is unknown. found : of `measured`.
+    """
+    shares = DataFrame(index=rows.index)
+    for name, limit in required.items():
+        values = found[name].astype(float)
+        share = 1.0 - values / limit if MEASURES[name].least else values / limit - 1.0
+        asked = rows["loading_mode"].isin(MEASURES[name].asked_of)
+        shares[name] = share.mask(share <= ROUND_OFF, 0.0).where(asked, 0.0)
+    return shares
+
+
+def nearest_first(rows: DataFrame, mass: str, shares: DataFrame) -> Series:
+    """The greatest miss of each row by its index, that of the nearest design first.
+
+    Designs to be trusted come before others; of equal misses the lightest is the first. Infinite
+    where a value is unknown. mass : name of the column that budgets limit. shares : of `misses`.
+    """
+    worst = shares.assign(none=0.0).max(axis=1, skipna=False).fillna(np.inf)
+    order = rows.assign(worst=worst, doubtful=doubtful(rows))
+    return worst[order.sort_values(["doubtful", "worst", mass, "case_id"]).index]
+
+
+def _best(values: Series, sound: Series, least: bool) -> Best:
+    """The best value of the designs to be trusted, else of all; NaN if none has one."""
+    trusted = values[sound].dropna()
+    known = values if trusted.empty else trusted
+    return Best(float(known.max() if least else known.min()), trusted.empty)
+
+
+def _open(part: Judged) -> int:
+    """Number of designs that fail `min_absorbed` alone, with an energy that is a lower bound."""
+    if "min_absorbed" not in part.asked:
+        return 0
+    others = (part.shares.drop(columns="min_absorbed") == 0.0).all(axis=1)
+    short = part.shares["min_absorbed"] > 0.0
+    return int((part.rows["ends_early"] & short & others).sum())
+
+
+def _nearest(part: Judged) -> tuple[DataFrame, dict[str, float]]:
+    """The row of the nearest design, and its misses; no row if nothing is known or asked."""
+    worst = nearest_first(part.rows, part.mass, part.shares)
+    index = worst[np.isfinite(worst)].index[: 1 if part.asked else 0]
+    shares = {name: float(part.shares.loc[i, name]) for i in index for name in part.asked}
+    return part.rows.loc[index], {name: share for name, share in shares.items() if share > 0.0}
 
 
 def _rectangle(
-    rows: DataFrame, asked: Mapping[str, float], per: str, allowed: float
+    rows: DataFrame, required: Mapping[str, float], per: str, allowed: float
 ) -> tuple[float, float]:
     """The energy (J) that must be absorbed and the force (N) that is allowed meanwhile.
 
     The energy is that of the striker; in a crush, the least that is asked for.
     """
-    if rows.empty:
+    mode, force = rows["loading_mode"].iloc[0], required.get("max_force", np.nan)
+    if mode == "displacement":
+        return required.get("min_absorbed", np.nan), float(np.fmin(force, allowed))
+    if mode != "impact":
         return np.nan, np.nan
-    energy = asked.get("min_absorbed", np.nan)
-    force = float(np.fmin(asked.get("max_force", np.nan), allowed))
-    if rows["loading_mode"].iloc[0] == "impact":
-        together = rows["panel_specimens"] if per == "panel" else 1.0
-        energy = float((rows["impact_energy_J"] * together).min())
-    return energy, force
+    together = rows["panel_specimens"] if per == "panel" else 1.0
+    return float((rows["impact_energy_J"] * together).min()), force

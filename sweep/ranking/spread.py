@@ -14,7 +14,7 @@ import numpy as np
 from pandas import DataFrame
 
 from sweep.ranking.merit import greatest_mass, merits
-from sweep.ranking.requirements import violation
+from sweep.ranking.requirements import measured, misses
 from sweep.result import Status, less_is_better
 
 if TYPE_CHECKING:
@@ -93,14 +93,8 @@ def spreads(
     by, panel, force = (question.get(key) for key in ("by", "panel", "allowed_force"))
     per = str(question.get("per") or "specimen")
     compared, names = merits(finished, by, panel, force, per)
-    required = {
-        name: limit
-        for name, limit in ranking.required.items()
-        if name != "max_deceleration" or (compared["loading_mode"] == "impact").all()
-    }
-    missed = {name: violation(compared, names, {name: limit}, per) > 0.0 for name, limit in
-              required.items()}  # fmt: skip
-    compared = compared.assign(**{f"{MISSED}{name}": rows for name, rows in missed.items()})
+    missed = misses(compared, measured(compared, names, per), ranking.required) != 0.0
+    compared = compared.join(missed.add_prefix(MISSED))
     known = ranking.table[ranking.table["case_id"].isin(corners)]
     groups = known.groupby(["budget_g", "scene"], dropna=False, sort=False)
     by_id = compared.set_index("case_id")

@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 
 from pandas import DataFrame
 
-from sweep.ranking.merit import Compared, RankError
+from sweep.ranking.merit import Compared, RankError, doubtful
 from sweep.ranking.rank import ASSUMPTIONS, pareto, ranked
 from sweep.ranking.ranking import Ranking
-from sweep.ranking.requirements import check, limits, violation
+from sweep.ranking.requirements import check, limits, measured, misses, nearest_first
 from sweep.result import describe_column, less_is_better
 
 ALIKE = 0.05  # relative difference in both columns up to which a front lists one of two designs
@@ -20,8 +20,9 @@ class Worths(NamedTuple):
     """Designs by their value in a column.
 
     by_id: values by id of the designs that fulfil all requirements, the best first. missed:
-    violations by id of those that do not, the least first. doubtful: number of further designs
-    whose result is marked as beyond the model or as crossed, which are worth nothing.
+    greatest misses by id of those that do not, the nearest first (`requirements.nearest_first`).
+    doubtful: number of further designs whose result is marked as beyond the model or as crossed,
+    which are worth nothing.
     """
 
     column: str
@@ -49,8 +50,9 @@ def worths(summary: DataFrame, question: Mapping[str, Any]) -> Worths:
     column = ranking.by if table.empty else str(table["ranked_by"].iloc[0])
     check(table, required)
     sound = _sound(table)
-    missed = violation(sound, _names(ranking), required, ranking.per)
-    fulfil, others = sound[missed == 0.0], missed[missed > 0.0].sort_values(kind="stable")
+    shares = misses(sound, measured(sound, _names(ranking), ranking.per), required)
+    missed = nearest_first(sound, ranking.mass, shares)
+    fulfil, others = sound[missed[sound.index] == 0.0], missed[missed > 0.0]
     return Worths(
         column,
         dict(zip(fulfil["case_id"], fulfil[column].astype(float), strict=True)),
@@ -107,4 +109,4 @@ def check_column(name: str) -> None:
 
 def _sound(table: DataFrame) -> DataFrame:
     """The rows that are marked neither as beyond the model nor as crossed."""
-    return table[~(table["beyond_model"].astype(bool) | table["crossed"].astype(bool))]
+    return table[~doubtful(table)]

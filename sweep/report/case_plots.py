@@ -6,7 +6,7 @@ Okabe and Ito can be distinguished without telling red from green.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,7 +18,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path as Outline
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
-from matplotlib.transforms import ScaledTranslation
+from matplotlib.transforms import Bbox, ScaledTranslation
 
 from sweep.design.silhouette import silhouette
 from sweep.numbers import energy_text, three_digits
@@ -47,6 +47,7 @@ COLORS = dict(zip(PARTS, (BLUE, SKY, ORANGE, YELLOW, VERMILION, PURPLE, GREY), s
 PANEL, GAP = 1.9, 0.1  # inches: longer side of the picture of a shape; gap between two pictures
 ENTRY, SIGN = 0.22, 0.6  # inches: height of an entry of a legend; width of its sign
 LETTER, LINE = 0.075, 0.2  # inches: width of a letter of a title; height of a line
+FITS = 0.97  # of the planned scale of shapes: what the layout leaves them
 TICKS = 3  # least number of labels of a log axis
 ROUND = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))  # x powers of ten
 
@@ -198,14 +199,23 @@ def _extent(frames: Mapping[str, Any]) -> np.ndarray:
     return np.stack([plan.min(axis=0), plan.max(axis=0)])
 
 
+def shapes_scale(frames: Mapping[str, Any], release: float | None = None) -> float:
+    """Inches of a picture for a millimetre of its shapes."""
+    view = _view(frames, list(dict(shots(frames, release))))
+    return PANEL / max(view.right - view.left, view.top - view.below)
+
+
 def shapes_size(
-    title: str, frames: Mapping[str, Any], release: float | None = None
+    title: str,
+    frames: Mapping[str, Any],
+    release: float | None = None,
+    scale: float | None = None,
 ) -> tuple[float, float]:
-    """Width and height (inches) of a figure that the shapes fill."""
+    """Width and height (inches) of a figure that the shapes fill; scale: of `shapes_scale`."""
     chosen = dict(shots(frames, release))
     view = _view(frames, list(chosen))
     width, height = view.right - view.left, view.top - view.below
-    scale = PANEL / max(width, height)
+    scale = scale or shapes_scale(frames, release)
     lines = 3 + max(words.count("\n") for words in chosen.values())  # also title and scale bar
     row = len(chosen) * (scale * width + GAP)
     return max(row, LETTER * len(title)), scale * height + LINE * lines + GAP
@@ -291,15 +301,31 @@ def beside(ax: Axes, inches: float, bottom: float, height: float) -> Axes:
 
 
 def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:
-    """Six shapes of each of several cases, one case below another.
+    """Six shapes of each of several cases, one case below another, all to one scale.
 
     cases : title -> frames. The size of the figure is set.
     """
-    widths, heights = zip(*(shapes_size(*case) for case in cases.items()), strict=True)
+    scale = min(map(shapes_scale, cases.values()))
+    sizes = (shapes_size(*case, scale=scale) for case in cases.items())
+    widths, heights = zip(*sizes, strict=True)
     fig.set_size_inches(max(widths), sum(heights))
     strips = fig.subfigures(len(cases), 1, squeeze=False, height_ratios=heights)[:, 0]
     for strip, (name, frames) in zip(strips, cases.items(), strict=True):
         deformed_shapes(strip, name, frames)
+        for ax in strip.axes:
+            ax.set_axes_locator(_to_scale(FITS * scale))
+
+
+def _to_scale(scale: float) -> Callable[[Axes, Any], Bbox]:
+    """A locator that draws axes to a scale (inches / mm), in the middle of their place."""
+
+    def box(ax: Axes, _: Any) -> Bbox:
+        place, pixels = ax.get_position(original=True), np.array(ax.figure.bbox.size)
+        spans = [high - low for low, high in (ax.get_xlim(), ax.get_ylim())]
+        size = scale * np.array(spans) * ax.figure.dpi / pixels
+        return Bbox.from_bounds(*(0.5 * (place.min + place.max - size)), *size)
+
+    return box
 
 
 def legend(fig: Figure, entries: list[dict[str, Any]]) -> None:

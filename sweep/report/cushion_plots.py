@@ -9,10 +9,11 @@ import numpy as np
 from pandas import isna
 
 from sweep.ranking.cushion import absorbed_below, cushion_curve, dropped_from, shoulder
+from sweep.ranking.merit import doubtful
 from sweep.ranking.rank import ASSUMPTIONS
 from sweep.report.case_plots import legend, round_ticks
 from sweep.report.design_map import SHAPED, scene_axes
-from sweep.report.design_style import PLAIN, Looks, doubtful, looks
+from sweep.report.design_style import PLAIN, THIN, Looks, looks
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,7 +27,6 @@ DESIGN = [
     *("height_m", "depth_m", "material", "platen"),
 ]
 LEVELS = 2000  # stresses at which an envelope is drawn
-THIN = 0.2  # points of a line / diameter of the sign of a design
 MARGIN = 0.8  # of the first value in view: start of an axis
 SHOWN = 30.0  # greatest / least value of an axis, seen from its interesting end
 BEST: dict[str, Any] = {"s": 34.0, "edgecolor": "white", "lw": 0.6, "zorder": 3}
@@ -56,7 +56,7 @@ def absorption_diagram(fig: Figure, designs: DataFrame, crushes: Mapping[str, Cr
             ax.set_xlim(MARGIN * min(c.greatest[c.work >= bottom].min() for _, c in found))
         ax.set_xlabel("greatest stress / modulus" if related else "greatest stress, kPa")
         ax.set_ylabel("energy per volume / modulus" if related else "energy per volume, kJ/m³")
-    legend(fig, [*look.legend(), _entry("shoulder"), PLAIN | ENVELOPE | MOST])
+    legend(fig, [*look.legend(lines=True), _entry("shoulder"), PLAIN | ENVELOPE | MOST])
 
 
 def cushion_diagram(
@@ -99,7 +99,7 @@ def cushion_diagram(
         round_ticks(ax.xaxis)
         round_ticks(ax.yaxis)
     struck_too = [PLAIN | {"mfc": "none", "label": "simulated impact"}] if rings else []
-    legend(fig, [*look.legend(), _entry("least deceleration"), *struck_too])
+    legend(fig, [*look.legend(lines=True), _entry("least deceleration"), *struck_too])
 
 
 def envelope(crushes: Sequence[Crush]) -> tuple[Any, Any]:
@@ -137,7 +137,7 @@ def _curve(ax: Axes, x: Any, y: Any, look: Looks, row: DataFrame, marked: int | 
     """The curve of a design, as thick as its walls, dashed if doubtful, with its sign at a row."""
     style = look.of(row)
     dashes = "--" if doubtful(row).item() else "-"
-    width = THIN * float(style["s"][0]) ** 0.5
+    width = look.width(row["wall_thickness_m"].item())
     ax.plot(x, y, color=style["c"][0], lw=width, ls=dashes)
     if marked is not None:
         ax.scatter(x[marked], y[marked], c=style["c"], marker=style["marker"], **BEST)

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sweep.ranking.merit import doubtful
 from sweep.report.case_plots import GREY, GRID, legend, mark, plain, round_ticks
 from sweep.report.design_style import (
     budget_winners,
-    doubtful,
     errors_of,
     looks,
     merit_errors,

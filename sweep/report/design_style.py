@@ -15,7 +15,7 @@ import numpy as np
 from pandas import concat
 
 from sweep.numbers import energy_text, tenths, three_digits
-from sweep.ranking.merit import LEAST, greatest_mass
+from sweep.ranking.merit import LEAST, doubtful, greatest_mass
 from sweep.ranking.rank import places_by
 from sweep.report.sheets import WAYS, design_labels
 from sweep.result import error_column, less_is_better
@@ -31,6 +31,8 @@ LIKE_PATTERNS = {"circle": "o", "triangle": "^", "square": "s", "diamond": "D", 
 LIKE_PATTERNS |= {"triangles": "^", "grid": "s", "honeycomb": "h", "stars": "*"}
 SIZES = 5  # greatest number of wall thicknesses in a legend
 AREAS = (15.0, 75.0)  # points^2: sign of the thinnest and of the thickest wall
+THIN = 0.2  # points of a line / diameter of the sign of a design
+LINE = {"ls": "-", "marker": ""}
 PLAIN = {"ls": "", "marker": "o", "ms": 6.0, "color": "#8a8a8a"}
 
 
@@ -58,17 +60,27 @@ class Looks(NamedTuple):
             "marker": self.signs[points[self.sign].iloc[0]],
         }
 
-    def legend(self, walls: bool = True, barred: bool = False) -> list[dict[str, Any]]:
+    def width(self, thickness: float) -> float:
+        """Width (points) of a line for walls of a thickness (m)."""
+        return THIN * self.areas[thickness] ** 0.5
+
+    def legend(
+        self, walls: bool = True, barred: bool = False, lines: bool = False
+    ) -> list[dict[str, Any]]:
         """Keywords of an empty line for each entry of a legend; groups that vary have a heading.
 
-        walls: with wall thicknesses; barred: with an entry for error bars.
+        walls: with wall thicknesses; barred: with an entry for error bars; lines: designs are lines
+        whose width is that of the walls.
         """
         heading, words = _tint_words(self.tint, list(self.colors))
         noun = "pattern" if self.sign == "lattice_kind" else self.sign
-        groups = {
+        groups: dict[str, dict[str, dict[str, Any]]] = {
             heading: {w: {"color": c} for w, c in zip(words, self.colors.values(), strict=True)},
             noun: {name: {"marker": sign} for name, sign in self.signs.items()},
-            "wall": {f"{1e3 * t:.3g} mm": {"ms": area**0.5} for t, area in self.areas.items()},
+            "wall": {
+                f"{1e3 * t:.3g} mm": LINE | {"lw": self.width(t)} if lines else {"ms": area**0.5}
+                for t, area in self.areas.items()
+            },
         }
         groups["wall"] = _some(groups["wall"], SIZES)
         beyond = {**PLAIN, "mfc": "white", "ls": "--", "label": "not to be trusted"}
@@ -126,11 +138,6 @@ def _some(entries: dict[str, Any], count: int) -> dict[str, Any]:
     """At most ``count`` entries, evenly spaced from the first to the last."""
     kept = np.linspace(0, len(entries) - 1, min(count, len(entries))).round()
     return {name: entries[name] for k, name in enumerate(entries) if k in kept}
-
-
-def doubtful(designs: DataFrame) -> Series:
-    """True for designs whose results are beyond the model or have walls that cross."""
-    return designs["beyond_model"] | designs["crossed"]
 
 
 def merits(rows: DataFrame, energy: str) -> Series:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sweep.ranking.merit import doubtful
 from sweep.report.case_plots import beside, walls
-from sweep.report.design_style import doubtful, errors_of, until
+from sweep.report.design_style import errors_of, until
 from sweep.report.requirement_notes import titled
 from sweep.report.sheets import design_labels
 

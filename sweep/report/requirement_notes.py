@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
+from textwrap import fill
 from typing import TYPE_CHECKING, NamedTuple
 
-from sweep.numbers import energy_text, numerals, three_digits
-from sweep.ranking.merit import greatest_mass
-from sweep.ranking.requirements import STANDARD_GRAVITY
+from sweep.numbers import energy_text, numerals, tenths, three_digits
+from sweep.ranking.merit import doubtful
+from sweep.ranking.requirements import MEASURES, STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -16,6 +18,7 @@ if TYPE_CHECKING:
     from sweep.ranking.ranking import Ranking
     from sweep.ranking.requirements import Outcome
 
+DECELERATION = "peak_deceleration_filtered_m_per_s2"
 PANEL = "panel N: force of the {} specimens of a panel together. Its true size is {} mm."
 UNKNOWN = {
     "max_deceleration": "rows are too far apart for loading.filter_class, or older than the filter",
@@ -27,23 +30,54 @@ UNKNOWN = {
 
 
 class Words(NamedTuple):
-    """How a requirement is written. limit: "force at most 60 N"; none: why nothing fulfils it."""
+    """How a requirement is written. limit: "force at most 60 N"; noun: of its value; far: of a
+    value beyond the limit; none: why nothing fulfils it.
+    """
 
     limit: str
+    noun: str
+    far: str
     none: str
 
 
 WORDS = {
-    "max_force": Words("force at most {}", "None passes less than {}; the best is {}."),
+    "max_force": Words(
+        "force at most {}", "force", "too much", "None passes less than {}; the least is {}"
+    ),
     "max_deceleration": Words(
-        "deceleration at most {}", "None stops the striker with less than {}; the best needs {}."
+        "deceleration at most {}",
+        "deceleration",
+        "too much",
+        "None stops the striker with less than {}; the least is {}",
     ),
-    "max_mass": Words("mass at most {}", "None weighs less than {}; the lightest weighs {}."),
+    "max_mass": Words(
+        "mass at most {}", "mass", "too much", "None weighs less than {}; the lightest weighs {}"
+    ),
     "min_absorbed": Words(
-        "absorbed energy at least {}", "None absorbs as much as {}; the most is {}."
+        "absorbed energy at least {}",
+        "absorbed energy",
+        "too little",
+        "None absorbs as much as {}; the most is {}",
     ),
-    "max_stroke": Words("stroke at most {}", "None needs less stroke than {}; the least is {}."),
+    "max_stroke": Words(
+        "stroke at most {}",
+        "stroke",
+        "too much",
+        "None needs less stroke than {}; the least is {}",
+    ),
 }
+NOT_ASKED = {
+    "displacement": "Not asked of a crush, which has no striker: {}.",
+    "impact": "Not asked of an impact, as the striker sets its energy: {}.",
+    "force": "Not asked of a dead load, which sets force and energy itself: {}.",
+    "custom": "Not asked of a custom structure: {}.",
+}
+COLUMN_NOTES = {
+    "decel. g0": "decel.: greatest deceleration of the striker, filtered (loading.filter_class).",
+    "stroke mm": "stroke: in which the counted energy is absorbed; without a crush, the greatest.",
+}
+WIDTH = 100  # letters in a line
+DISTRUST = "marked {}: do not trust it"
 
 
 def quantity(name: str, value: float, digits: int = 4) -> str:
@@ -59,85 +93,162 @@ def quantity(name: str, value: float, digits: int = 4) -> str:
     return f"{float(f'{scale * value:.{digits}g}'):g} {unit}"
 
 
-def required(ranking: Ranking) -> str:
-    """All requirements in one sentence; empty without any."""
-    limits = [WORDS[k].limit.format(quantity(k, v)) for k, v in ranking.required.items()]
+def required(ranking: Ranking, modes: Iterable[str]) -> str:
+    """What is required of these kinds of loading in one sentence; empty if it is nothing."""
+    known = set(modes)
+    asked = {k: v for k, v in ranking.required.items() if known.intersection(MEASURES[k].asked_of)}
+    limits = [WORDS[k].limit.format(quantity(k, v)) for k, v in asked.items()]
     return f"Required of a {ranking.per}: {', '.join(limits)}." if limits else ""
 
 
 def titled(title: str, ranking: Ranking) -> str:
     """The title of a picture with the requirements on a line of their own."""
-    return "\n".join(filter(None, [title, required(ranking)]))
+    return "\n".join(filter(None, [title, required(ranking, ranking.table["loading_mode"])]))
 
 
-def requirement_notes(scene: str, placed: DataFrame, ranking: Ranking) -> Iterator[str]:
-    """Sentences about the requirements in one scene: what they are, who fails, what is missing.
+def requirement_notes(
+    scene: str, ranking: Ranking, named: Callable[[DataFrame], str]
+) -> Iterator[str]:
+    """Sentences about the requirements in one scene: what they are, who fails, what is nearest.
 
-    placed: the designs of the scene that have a place.
+    named: the id and the design of a row, in words.
     """
-    outcome = ranking.outcomes.get(scene)
-    if outcome is None:
+    outcomes = ranking.outcomes.get(scene, ())
+    if not outcomes:
         return
-    yield required(ranking)
-    yield _counts(outcome)
-    for name, count in outcome.unknown.items():
+    first = outcomes[0]
+    if asked := required(ranking, [first.mode]):
+        yield fill(asked, WIDTH)
+        yield from _of_budgets(outcomes, ranking, named)
+    alike = [label for label, found in ranking.outcomes.items() if found[0].mode == first.mode]
+    if first.left_out and scene == alike[0]:
+        yield NOT_ASKED[first.mode].format(", ".join(first.left_out))
+
+
+def _of_budgets(
+    outcomes: Sequence[Outcome], ranking: Ranking, named: Callable[[DataFrame], str]
+) -> Iterator[str]:
+    """The counts of each budget with a design, then what most of them have in common."""
+    told = [outcome for outcome in outcomes if outcome.designs]
+    for outcome in told:
+        yield _counts(outcome)
+    widest = max(told, key=lambda outcome: outcome.designs, default=outcomes[0])
+    for name, count in widest.unknown.items():
         if count:
             yield f"{count} without a value for {name}: {UNKNOWN[name]}."
-    for name in outcome.left_out:
-        yield f"{name} is not asked for here: there is no striker."
-    lightest = ranking.lightest_g[scene]
-    for budget in ranking.budgets_g if outcome.fulfil else ():
-        if greatest_mass(budget) >= lightest and not (placed["budget_g"] == budget).any():
-            yield f"None of these weighs {budget:g} g or less."
-    yield from _out_of_reach(outcome, ranking.required)
-    if not outcome.fulfil:
-        yield from _nearest(outcome)
+    if widest.open:
+        which = f"{widest.open} of them may fulfil min_absorbed in a longer crush"
+        yield f"{which}: this one ended before {_end(ranking)}."
+    for _, alike in groupby(told, lambda outcome: list(outcome.nearest["case_id"])):
+        yield from _nearest(list(alike), ranking.required, named)
+    if any(outcome.fulfil > outcome.doubtful for outcome in told):
+        return
+    if not (row := widest.lightest).empty:
+        mass = f"{row[ranking.mass].item():.3g} g"
+        yield f"The lightest design that fulfils this weighs {mass}: {named(row)}."
+    elif told:
+        yield from _rectangle(widest)
+
+
+def _end(ranking: Ranking) -> str:
+    """Where the energy of a crush is counted to its end."""
+    return "the allowed force was reached" if ranking.limited else "the lattice had packed"
+
+
+def _within(*outcomes: Outcome) -> str:
+    budgets = ", ".join(f"{outcome.budget_g:g} g" for outcome in outcomes)
+    return "" if math.isnan(outcomes[0].budget_g) else f" up to {budgets}"
 
 
 def _counts(outcome: Outcome) -> str:
-    """How many designs fulfil all requirements, and how many fail each."""
+    """How many designs within the budget fulfil all requirements, and how many fail each."""
     failing = outcome.designs - outcome.fulfil
+    marked = f", {outcome.doubtful} of them marked ! or x" if outcome.doubtful else ""
     if not failing:
-        return f"All designs ({outcome.designs}) fulfil this."
+        return f"All designs{_within(outcome)} ({outcome.designs}) fulfil this{marked}."
     parts = [f"{name} ({count})" for name, count in outcome.failed.items() if count]
     several = "; some fail several" if sum(outcome.failed.values()) > failing else ""
-    fulfil = f"{outcome.fulfil} of {outcome.designs} designs fulfil this"
+    fulfil = f"{outcome.fulfil} of {outcome.designs} designs{_within(outcome)} fulfil this{marked}"
     return f"{fulfil}; {failing} fail: {', '.join(parts)}{several}."
 
 
-def _out_of_reach(outcome: Outcome, limits: Mapping[str, float]) -> Iterator[str]:
-    """A sentence for each requirement that no design fulfils, and the least stroke for a force."""
+def _nearest(
+    alike: Sequence[Outcome], limits: Mapping[str, float], named: Callable[[DataFrame], str]
+) -> Iterator[str]:
+    """The nearest design of some budgets, what it misses, and what no design fulfils at all."""
+    outcome, row = alike[-1], alike[-1].nearest
+    if row.empty:
+        return
+    early = bool(row["ends_early"].item())
+    parts = [_miss(name, outcome, early) for name in outcome.missed]
+    doubt = f" ({DISTRUST.format(_mark(row))})" if doubtful(row).item() else ""
+    yield fill(f"Nearest{_within(*alike)}: {named(row)}{doubt}: {'; '.join(parts)}.", WIDTH)
     for name, count in outcome.failed.items():
-        if count == outcome.designs and math.isfinite(outcome.best[name]):
-            found = quantity(name, outcome.best[name], digits=3)
-            yield WORDS[name].none.format(quantity(name, limits[name]), found)
-    if not outcome.fulfil and math.isfinite(outcome.stroke):
+        best = outcome.best[name]
+        known = outcome.missed.get(name) == best.value or not math.isfinite(best.value)
+        if count == outcome.designs and not known:
+            found = quantity(name, best.value)
+            unsure = " (marked ! or x: do not trust it)" if best.doubtful else ""
+            yield f"{WORDS[name].none.format(quantity(name, limits[name]), found)}{unsure}."
+
+
+def _miss(name: str, outcome: Outcome, early: bool) -> str:
+    """What the nearest design has of a requirement, and by how much this is too much or little."""
+    words, share = WORDS[name], percentage(outcome.misses[name])
+    value = quantity(name, outcome.missed[name])
+    if early and name == "min_absorbed":
+        return f"{words.noun} at least {value}, at most {share} {words.far}"
+    return f"{words.noun} {value}, {share} {words.far}"
+
+
+def percentage(share: float) -> str:
+    """A share above zero in percent."""
+    return f"{tenths(share)} %" if share >= 5e-4 else "less than 0.1 %"
+
+
+def _mark(row: DataFrame) -> str:
+    """The marks of a doubtful design."""
+    return "!" * bool(row["beyond_model"].item()) + "x" * bool(row["crossed"].item())
+
+
+def _rectangle(outcome: Outcome) -> Iterator[str]:
+    """The least stroke for an energy at a force, if both are known."""
+    if math.isfinite(outcome.stroke):
         energy, force = energy_text(outcome.energy), quantity("max_force", outcome.force)
         stroke, height = (f"{three_digits(1e3 * x)} mm" for x in (outcome.stroke, outcome.height))
         yield (
-            f"{energy} at {force} needs at least {stroke} of stroke, if the force is constant:\n"
-            f"energy / force, a rectangle, which no real curve is. The lattice is {height} high."
+            f"To absorb {energy} at no more than {force} takes at least {stroke} of stroke "
+            f"(energy / force);\nthe lattice is {height} high."
         )
 
 
-def _nearest(outcome: Outcome) -> Iterator[str]:
-    """The design that comes nearest to all requirements together, if there are several."""
-    case_id, values = outcome.nearest
-    if len(values) > 1:
-        nouns = {name: WORDS[name].limit.rsplit(" at ", 1)[0] for name in values}
-        parts = [f"{nouns[k]} {quantity(k, v, digits=3)}" for k, v in values.items()]
-        yield f"The nearest to all of this is case {case_id}: {', '.join(parts)}."
-
-
 def requirement_columns(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
-    """Columns of what is required that a table does not have by itself."""
+    """Columns of what is required, or sorted by, that a table does not have by itself.
+
+    A limit of the force shows the stroke that stays below it.
+    """
     columns = {}
-    if "max_deceleration" in ranking.required and rows["striker_mass_g"].notna().any():
-        filtered = rows["peak_deceleration_filtered_m_per_s2"]
-        columns["decel. g0"] = numerals(filtered / STANDARD_GRAVITY)
-    if "max_stroke" in ranking.required:
+    struck = rows["striker_mass_g"].notna().any()
+    if struck and ("max_deceleration" in ranking.required or DECELERATION in {*rows["ranked_by"]}):
+        columns["decel. g0"] = numerals(rows[DECELERATION] / STANDARD_GRAVITY)
+    crushed = rows["loading_mode"].iloc[0] == "displacement"
+    limited = crushed and (ranking.limited or "max_force" in ranking.required)
+    asked = limited or required_of(ranking, rows, "max_stroke")
+    if asked and rows["counted_stroke_m"].notna().any():
         columns["stroke mm"] = numerals(1e3 * rows["counted_stroke_m"])
     return columns
+
+
+def column_notes(ranking: Ranking) -> list[str]:
+    """What the columns of `requirement_columns` are."""
+    scenes = [rows for _, rows in ranking.table.groupby("scene", sort=False)]
+    shown = {head for rows in scenes for head in requirement_columns(rows, ranking)}
+    return [line for head, line in COLUMN_NOTES.items() if head in shown]
+
+
+def required_of(ranking: Ranking, rows: DataFrame, name: str) -> bool:
+    """Whether the designs of one scene are asked for a requirement."""
+    return name in ranking.required and rows["loading_mode"].iloc[0] in MEASURES[name].asked_of
 
 
 def panel_column(rows: DataFrame) -> dict[str, Series]:
@@ -156,7 +267,7 @@ def panel_size(rows: DataFrame) -> dict[str, Series]:
 
 def panel_note(rows: DataFrame) -> list[str]:
     """How many specimens a panel has; none without a panel."""
-    if "panel_specimens" not in rows:
+    if "panel_specimens" not in rows or (rows["loading_mode"] == "force").all():
         return []
     least, most = rows["panel_specimens"].min(), rows["panel_specimens"].max()
     sizes = list(dict.fromkeys(panel_size(rows.sort_values("panel_width_m"))["panel mm"]))

@@ -19,11 +19,12 @@ if TYPE_CHECKING:
     from sweep.ranking.ranking import Ranking
 
 AGAIN = """\
-fine mesh: with twice the elements. lowest, highest: that, and with walls 5 % thinner and thicker,
-and a quarter and four times the imperfection, one at a time. {}: least and greatest of these."""
+fine mesh: with twice the elements. lowest, highest: of this, of walls 5 % thinner and thicker, and
+of a quarter and four times the imperfection, one change at a time. {}: least and greatest of
+these."""
 NARROW = 0.8  # of its value: a design that keeps less stands on a narrow peak
 FRONT = """\
-The front of the designs that were evaluated; the search sought the column {} alone.
+This is the front of the designs that were evaluated; the search itself sought only {}.
 From the best design on, a row is left out if both of its values are within {:.0f} % of those of the
 row that was kept last."""
 
@@ -108,7 +109,7 @@ def _where(spread: Spread) -> str:
 
 
 def nearest_sheet(ranking: Ranking, missed: Mapping[str, float], summary: DataFrame) -> Sheet:
-    """The designs that come nearest to all requirements; missed: their violations by id.
+    """The designs that come nearest to all requirements; missed: of `Worths`, by id.
 
     ranking: of all designs, whatever is required.
     """
@@ -128,7 +129,7 @@ def nearest_sheet(ranking: Ranking, missed: Mapping[str, float], summary: DataFr
         "Nearest to what is required",
         list(columns),
         [list(row) for row in zip(*columns.values(), strict=True)],
-        notes=("misses by: sum of the shares by which limits are missed.", *mark_notes(rows)),
+        notes=("misses by: greatest share by which a limit is missed.", *mark_notes(rows)),
     )
 
 

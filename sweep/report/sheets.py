@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from pandas import Series
@@ -12,6 +13,8 @@ from sweep.numbers import NOTHING, SHOWN, numerals, percent, scaled, short, tent
 from sweep.ranking.merit import LEAST, greatest_mass
 from sweep.ranking.rank import ASSUMPTIONS, by_scene, scene_label
 from sweep.report.requirement_notes import (
+    DECELERATION,
+    column_notes,
     panel_column,
     panel_note,
     panel_size,
@@ -28,44 +31,49 @@ if TYPE_CHECKING:
 MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of one specimen."
 CRUSHED = "peak: greatest force of one specimen. Peak and energy are counted {until}."
 WHOLE = """\
-pack: strain at which the lattice has packed down: mean over those of nearly the best efficiency.
+pack: strain at which the lattice has packed down, a mean over strains of nearly the greatest
+efficiency; "> 60": not before the end of this crush at 60 %.
 back: returned energy / work of the whole crush."""
 AGAIN = "again: energy absorbed in the second cycle / in the first; other columns are of the first."
-ELASTIC = "Walls are elastic: what is missing from 100 % is friction, damping, snaps or time steps."
-PLASTIC = "What is missing from 100 % is lost in the material, in friction and snaps."
+ELASTIC = (
+    "Walls are elastic: what does not come back went into friction, damping, snaps or time steps."
+)
+PLASTIC = "What does not come back is lost in the material, in friction and in snaps."
 LOSSY = """\
-What is missing from 100 % is lost in the material (dissipated_material_J), in friction and snaps,
-or still stored in walls that relax."""
+What does not come back is lost in the material (dissipated_material_J), in friction and in snaps,
+or is still stored in walls that relax."""
 MIXED = """\
-behaviour: of the walls. Where they are elastic, what is missing from 100 % is friction, damping,
-snaps or time steps; elsewhere also lost in the material, or still stored in walls that relax."""
-LOADED = "sink: greatest strain under the load, including its swing."
+behaviour: of the walls. What does not come back went into friction, damping, snaps or time steps;
+where walls are not elastic, also into the material, or it is still stored in walls that relax."""
+LOADED = "sink: greatest strain under the load, with the overshoot of its sudden start."
 STRUCK = """\
-force: greatest force on the support. left: stroke that closes all voids - greatest stroke.
-rebound: energy of the striker when it leaves / at first touch."""
+force: greatest force on the support. sink: greatest strain. left: stroke that is left until all
+voids are closed. rebound: energy of the striker when it leaves / at first touch."""
 FIRST = {"peak_strain": ": least sink first", "peak_force_N": ": least force first"}
 TIED = """\
 ±: estimated error of the sorted column, from mesh and steps, in % of the value; not a bound.
-=: the place is shared: errors may reverse the order. What all designs err alike does not count.
+=: a shared place: the errors may reverse the order. Errors that all have in common do not count.
 ?: the error is unknown; the place is that of the value alone."""
 BEYOND = """\
-!: beyond the model: an element is shorter than 0.7 of its rest length, or the lattice is compressed
-to less than its solid height, or a wall is broken (the column message says at which strain), or the
-walls, pressed along the cells, fill all of their area (solid_strain). Do not trust this result."""
+!: do not trust this result, which is beyond the model: an element is shorter than 0.7 of its rest
+length, the lattice is pressed below its solid height, a wall is broken (message: where), or walls
+that are pressed along the cells fill all of their area (solid_strain)."""
 PRINTED = """\
-print g: mass as the slicer extrudes it, crossings twice. Budgets, panels and J/g count it; for
-designs without a slicer they count mass."""
+print g: mass as the slicer extrudes it, crossings twice. Budgets, panels and J/g count this mass;
+for designs without a slicer they count mass g."""
 UNPRINTABLE = """\
-p: does not print as drawn (does_not_print): walls are no whole number of lines, or gaps are below
-one line of lattice.line_width, or of lattice.nozzle."""
+p: does not print as drawn (does_not_print: why): walls are no whole number of lines, or gaps are
+below a line (lattice.line_width or lattice.nozzle). lattice.printable = true leaves these out."""
 NO_PLACE = "No design has a place here."
+ID = 4  # letters of an id in a sentence, if no other id begins so
 LONG_SPAN = 0.1  # of strain
 UNSURE = """\
-~: packs at two strains, or slowly: the efficiency is within 2 % of the greatest over more than 10 %
-of strain, and pack is a mean over it."""
-EARLY = ">: at least: the crush ended before that force was reached; a longer one absorbs more."
+~: pack is not sharp, as the lattice packs at two strains or slowly: the efficiency is within 2 % of
+the greatest over more than 10 % of strain."""
+EARLY = """\
+>: at least: the crush ended before the allowed force was reached; a longer one absorbs more."""
 STRETCHED = """\
-^: a wall is stretched beyond the measured curve, which goes on as a straight line there (column
+^: a wall is stretched beyond the measured curve, which is continued as a straight line (column
 stretch_over_curve: how far)."""
 CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
 
@@ -141,14 +149,16 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
     has no table. If no design is within any budget, a single sheet says so.
     """
     budgets, table = ranking.budgets_g, ranking.table
-    missed_by_all = _missed(budgets, min(ranking.lightest_g.values(), default=0.0))
+    named = partial(named_case, among=summary)
+    lightest_of_all = min(ranking.lightest_g, key=ranking.lightest_g.__getitem__, default="")
+    missed_by_all = _missed(lightest_of_all, ranking, named)
     if missed_by_all and len(missed_by_all) == len(budgets):
         yield Sheet("", [], [], notes=missed_by_all)
         return
-    for scene, lightest in ranking.lightest_g.items():
+    for scene in ranking.lightest_g:
         placed = rows = table[table["scene"] == scene]
-        missed = _missed(budgets, lightest)
-        asked = tuple(requirement_notes(scene, placed, ranking))
+        missed = _missed(scene, ranking, named)
+        asked = tuple(requirement_notes(scene, ranking, named))
         if rows.empty:
             yield Sheet(scene, [], [], notes=(*(missed or (NO_PLACE,)), *asked))
             continue
@@ -175,7 +185,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
                 *((UNPRINTABLE,) if (_unprintable(rows) != "").any() else ()),
                 *((STRETCHED,) if rows["beyond_curve"].any() else ()),
                 *((UNSURE,) if "~" in "".join(columns.get("pack %", ())) else ()),
-                *((EARLY,) if _stops_early(rows, ranking).any() else ()),
+                *((EARLY,) if ranking.limited and rows["ends_early"].any() else ()),
                 *_cut_off(rows),
                 *_not_shown(placed),
                 *missed,
@@ -193,13 +203,29 @@ def _spare(columns: Iterable[str], rows: DataFrame, ranking: Ranking) -> tuple[s
     return tuple(head for head in known if head in columns and known[head] not in sorted_by)
 
 
-def _missed(budgets: tuple[float, ...], lightest: float) -> tuple[str, ...]:
-    """A sentence for each budget (g) below the mass of the lightest design."""
+def _missed(scene: str, ranking: Ranking, named: Callable[[DataFrame], str]) -> tuple[str, ...]:
+    """A sentence for each budget below the mass of the lightest design of a scene."""
+    lightest = ranking.lightest_g.get(scene, 0.0)
     return tuple(
-        f"Nothing weighs {budget:g} g or less: the lightest weighs {lightest:.3g} g."
-        for budget in budgets
+        f"Nothing weighs {budget:g} g or less: the lightest weighs {lightest:.3g} g, "
+        f"{named(ranking.lightest[scene])}."
+        for budget in ranking.budgets_g
         if greatest_mass(budget) < lightest
     )
+
+
+def named_case(row: DataFrame, among: DataFrame) -> str:
+    """The beginning of the id and the design of one row, in words."""
+    short_of = short_id(row["case_id"].item(), among["case_id"])
+    return f"case {short_of}, {design_labels(row, among)[0]}"
+
+
+def short_id(case_id: str, among: Iterable[str]) -> str:
+    """The shortest beginning of an id, of at least `ID` letters, that no other id has."""
+    others = [other for other in among if other != case_id]
+    lengths = range(ID, len(case_id))
+    alone = (n for n in lengths if not any(other.startswith(case_id[:n]) for other in others))
+    return case_id[: next(alone, len(case_id))]
 
 
 def legend(ranking: Ranking) -> str:
@@ -214,7 +240,7 @@ def legend(ranking: Ranking) -> str:
         again = [AGAIN] if ranking.table["second_cycle_share"].notna().any() else []
         heads["displacement"] += [WHOLE, *again, _what_is_missing(ranking.table)]
     lines = [line for mode, words in heads.items() if mode in modes for line in words]
-    lines += panel_note(ranking.table)
+    lines += panel_note(ranking.table) + column_notes(ranking)
     bars = [TIED] if "ranked_error" in ranking.table else []
     return "\n".join(dict.fromkeys([MARKS, *lines, *bars]))
 
@@ -326,7 +352,7 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
         share = (100.0 * frame["infill_share"]).map("{:.3g}".format)
         columns["infill %"] = share.where(frame["infill_share"].notna(), "")
     for name, head in MILLIMETRES.items():
-        if _varies(among, name):
+        if _sizes_vary(among, name):
             columns[head] = (frame[name] * 1e3).map("{:.3g}".format)
     if _varies(among, "material"):
         columns["material"] = frame["material"].astype(str)
@@ -408,6 +434,7 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
         columns |= {} if ranking.limited else crush_text(rows)
     columns |= requirement_columns(rows, ranking)
     shown |= {SPARE[head] for head in columns if head in SPARE}
+    shown |= {DECELERATION} if "decel. g0" in columns else set()
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
         if "ranked_error" in rows:
@@ -434,18 +461,13 @@ def impact_text(rows: DataFrame) -> dict[str, Series]:
 def _crushed(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     energy, noun = rows[ranking.energy], "panel" if "panel_mass_g" in rows else "absorbs"
     unit, scale = ("mJ", 1e3) if energy.max() < 1.0 else ("J", 1.0)
-    more = (_stops_early(rows, ranking) & energy.notna()).map({True: "> ", False: ""})
+    early = rows["ends_early"] & ranking.limited & energy.notna()
+    more = early.map({True: "> ", False: ""})
     return {
         f"{noun} {unit}": more + numerals(energy * scale),
         "J/g": more + numerals(rows[ranking.per_gram]),
         "peak N": numerals(rows["passed_on_N"]),
     }
-
-
-def _stops_early(rows: DataFrame, ranking: Ranking) -> Series:
-    """True for crushes that ended before the allowed force was reached."""
-    crushed = rows["loading_mode"] == "displacement"
-    return crushed & ranking.limited & (rows["peak_force_N"] <= rows["passed_on_N"])
 
 
 def crush_text(rows: DataFrame) -> dict[str, Series]:
@@ -464,6 +486,19 @@ def crush_text(rows: DataFrame) -> dict[str, Series]:
 def _unsure(rows: DataFrame) -> Series:
     """True for lattices that have nearly the greatest efficiency over a long span of strain."""
     return rows["packing_span"] > LONG_SPAN
+
+
+def _sizes_vary(among: DataFrame, name: str) -> bool:
+    """Whether a length differs between designs by more than what follows from other columns.
+
+    Along the cells `depth_m` is the plan's over all: its centre lines and a wall, or an outline.
+    """
+    if name != "depth_m" or "direction" not in among:
+        return _varies(among, name)
+    along = among["direction"] == "out_of_plane"
+    plan = among[along].round(9)
+    inner = (plan["depth_m"] - plan["wall_thickness_m"]).round(9)
+    return _varies(among[~along], name) or (_varies(plan, name) and len(inner.unique()) > 1)
 
 
 def _varies(frame: DataFrame, *names: str) -> bool:

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from pandas import DataFrame, Series
 
 ABOUT = (
-    "lowest, highest: at the ends of the ranges of uncertain numbers, one at a time.\n"
-    "places: among these designs; others, which did not run again, may pass them there."
+    "lowest, highest: with one uncertain number at a time at an end of its range.\n"
+    "places: among these designs only; designs that did not run again may pass them."
 )
 
 
@@ -74,7 +74,7 @@ def _order(spread: Spread, labels: list[str]) -> Iterator[str]:
     elif not others:
         yield f"The first design stays the first; others change places with {', '.join(swaps)}."
     else:
-        firsts = "; ".join(f"with {name}, {label}" for name, label in others.items())
-        yield f"The order changes. The first is another one {firsts}."
+        firsts = "; ".join(f"with {name}, the first is {label}" for name, label in others.items())
+        yield f"The order changes: {firsts}."
     if spread.failed:
         yield f"{spread.failed} values are missing, as these cases failed or have no such value."

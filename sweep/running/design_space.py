@@ -14,7 +14,8 @@ from math import inf
 from scipy.optimize import brentq
 
 from sweep.config.axis import Interval, Written, rounded_down
-from sweep.config.case import Case, Lattice
+from sweep.config.case import Case, Lattice, Loading
+from sweep.config.direction import footprint
 from sweep.config.grid import Config, Values, chosen_case
 from sweep.design.lattice import counted_area
 from sweep.design.panel import panel_of
@@ -53,7 +54,7 @@ class DesignSpace:
                 return None
             chosen[self._size.name] = size
         case = chosen_case(self.config, chosen)
-        if case is None or not self._panels(case.lattice):
+        if case is None or not self._panels(case.lattice, case.loading):
             return None
         return case if self.weight(case) <= greatest_mass(self.budget) else None
 
@@ -85,7 +86,7 @@ class DesignSpace:
 
     def _limited_of_slicer(self, size: Interval, least: Case) -> Interval | None:
         """The axis of the mass as extruded, or of the share of infill, up to the budget."""
-        most = self.budget / (self._panels(least.lattice) or inf)
+        most = self.budget / (self._panels(least.lattice, least.loading) or inf)
         if size.name == "lattice.infill":
             most = _greatest_share(least, size, most)
         if most < size.low:
@@ -103,7 +104,7 @@ class DesignSpace:
             return max(count * specimen - self.budget, specimen - grams)
 
         def count(thickness: float) -> float:
-            return self._panels(_with_walls(least.lattice, thickness))
+            return self._panels(_with_walls(least.lattice, thickness), least.loading)
 
         low = least.lattice.wall_thickness
         high = min(inf if by_mass else size.high, OPEN * _widest(least.lattice))
@@ -121,13 +122,13 @@ class DesignSpace:
         """Mass (kg) that the budget limits, of a specimen or of the panel; 0 without a budget."""
         if self.budget == inf:
             return 0.0
-        return self._panels(case.lattice) * _mass(case, case.lattice)
+        return self._panels(case.lattice, case.loading) * _mass(case, case.lattice)
 
-    def _panels(self, lattice: Lattice) -> float:
+    def _panels(self, lattice: Lattice, loading: Loading) -> float:
         """Number of specimens in a panel, as a ranking counts them; 1 without a panel."""
         if self.panel is None:
             return 1.0
-        return float(panel_of(self.panel, lattice.outer_size[0], lattice.depth).specimens)
+        return float(panel_of(self.panel, *footprint(lattice, loading)).specimens)
 
 
 def _widest(lattice: Lattice) -> float:

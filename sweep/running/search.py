@@ -9,7 +9,8 @@ search starts again from other points.
 Requirements are compared by the rules of K. Deb (Comput. Methods Appl. Mech. Eng. 186, 311-338,
 2000), which scipy applies as J. Lampinen (2002) describes for differential evolution: a design that
 fulfils all of them is better than one that does not; of two that do, the value decides; of two that
-do not, the sum of the shares by which limits are missed (`ranking.requirements.violation`).
+do not, the nearest one as `rank` defines it (`ranking.requirements`): their violation is the
+greatest share by which a limit is missed, where Deb takes the sum.
 """
 
 import os

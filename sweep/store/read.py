@@ -113,8 +113,13 @@ def read_frames(path: str | os.PathLike[str], case_id: str) -> dict[str, np.ndar
     return _frames(_read_case(Path(path), case_id, FRAME_GROUPS))
 
 
-def read_cases(path: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterator[StoredCase]:
-    """Curves and shapes of many cases, one after another; the files are opened only once."""
+def read_cases(
+    path: str | os.PathLike[str], case_ids: Iterable[str], shapes: bool = True
+) -> Iterator[StoredCase]:
+    """Curves and shapes of many cases, one after another; the files are opened only once.
+
+    shapes: False leaves the shapes unread, and `frames` empty.
+    """
     with _union(Path(path)) as blocks:
         where = {
             case_id: (block, row)
@@ -125,7 +130,8 @@ def read_cases(path: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterato
             if case_id not in where:
                 raise StoreError(f"{path} holds no case {case_id}.")
             found = partial(_arrays, *where[case_id])
-            yield StoredCase(case_id, _history(found(["histories"])), _frames(found(FRAME_GROUPS)))
+            frames = _frames(found(FRAME_GROUPS)) if shapes else {}
+            yield StoredCase(case_id, _history(found(["histories"])), frames)
 
 
 def _history(curves: dict[str, np.ndarray]) -> "DataFrame":
@@ -148,10 +154,14 @@ def folded_batches(path: Path) -> int:
         return open_sealed(path, held).attributes["folded"] if path.exists() else 0
 
 
-def is_labelled(path: Path, axes: Axes) -> bool:
-    """True if the rows have the order and grid values of `axes`, and the count of other cases."""
+def is_labelled(path: Path, axes: Axes, config: Any) -> bool:
+    """True if the rows have the order and grid values of `axes`, and the count of other cases, and
+    if the file has this config: an edited [rank] or [require] changes no row.
+    """
     with _union(path) as blocks:
         table, others = newest(blocks), blocks[-1].attributes.get("other_cases", 0)
+        if blocks[-1].attributes.get("config") != config:
+            return False
     wanted = relabel(take(table, rows_in_order(table["case_id"], axes)), axes)
     same = (np.array_equal(table[n], c, equal_nan=c.dtype != object) for n, c in wanted.items())
     return wanted.keys() == table.keys() and all(same) and others == beyond(table, axes)

@@ -104,7 +104,8 @@ class Writer:
         return block_of(results, self._about.attributes.get("git_revision", ""))
 
     def _is_labelled(self) -> bool:
-        return not exists(self.path) or is_labelled(self.path, self._about.axes)
+        config = self._about.attributes.get("config")
+        return not exists(self.path) or is_labelled(self.path, self._about.axes, config)
 
     def _count(self, last: int) -> None:
         self._about = replace(self._about, last=last)

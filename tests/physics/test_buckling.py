@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Loading, Material, Solver
-from tests.support.scenes import (
+from tests.support.designs.scenes import (
     HEAVY,
     SEED,
     UNDAMPED,

@@ -6,7 +6,7 @@ import pytest
 from sweep.config.case import Case, Loading, Solver
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import FRAME, SOLID
-from tests.support.scenes import at, is_sound, pressed, run, summed, trapezoid, unbalanced
+from tests.support.designs.scenes import at, is_sound, pressed, run, summed, trapezoid, unbalanced
 
 SCENES = [(platen, friction) for platen in ("glued", "contact") for friction in (0.0, 0.3)]
 STEPS = (50, 200, 800)

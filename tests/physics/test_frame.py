@@ -3,7 +3,7 @@
 import pytest
 
 from tests.studies.verify import FRAME
-from tests.support.scenes import at, is_sound, pressed, run, unbalanced
+from tests.support.designs.scenes import at, is_sound, pressed, run, unbalanced
 
 
 def crushed(elements):

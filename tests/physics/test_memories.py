@@ -5,8 +5,8 @@ import pytest
 
 from sweep.result import Status
 from sweep.simulation.simulate import simulate
-from tests.support.cushions import BRANCH, PLASTIC, SOFT, cushion
-from tests.support.scenes import LOST, STORED, summed
+from tests.support.designs.cushions import BRANCH, PLASTIC, SOFT, cushion
+from tests.support.designs.scenes import LOST, STORED, summed
 
 LINEAR = {"modulus": 12e6, "density": 1190.0, "poisson": 0.48}
 CASES = {

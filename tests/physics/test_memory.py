@@ -7,9 +7,9 @@ from kernels.solve import march, newton
 from sweep.config.case import Case, Lattice, Loading, Material, Solver
 from sweep.scene.lattice import build_scene
 from sweep.scene.relaxation import relaxation_of
-from tests.support.scenes import is_sound, run, unbalanced
-from tests.support.solving import at_rest, go_on
-from tests.support.structures import APART
+from tests.support.designs.scenes import is_sound, run, unbalanced
+from tests.support.designs.structures import APART
+from tests.support.kernels.solving import at_rest, go_on
 
 LOSS = 0.4
 CRUSH = {"mode": "displacement", "strain": 0.3}

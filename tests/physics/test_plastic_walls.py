@@ -8,7 +8,7 @@ import pytest
 
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
 from sweep.simulation.simulate import simulate
-from tests.support.structures import APART, CLAMPED, MM, finished, structure
+from tests.support.designs.structures import APART, CLAMPED, MM, finished, structure
 
 LENGTH, THICKNESS, DEPTH = 100.0, 1.0, 10.0  # mm
 MODULUS, LIMIT = 2e9, 2e5  # a limit so low that deflections stay small

@@ -7,8 +7,8 @@ import pytest
 
 from sweep.scene import periodic
 from sweep.simulation.simulate import simulate
-from tests.support.periods import DEPTH, PLANE, L, follow, lattice_of, pressed
-from tests.support.solving import whole
+from tests.support.designs.periods import DEPTH, PLANE, L, follow, lattice_of, pressed
+from tests.support.kernels.solving import whole
 
 THIN = 0.02
 

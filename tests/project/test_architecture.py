@@ -8,7 +8,7 @@ import sys
 from functools import cache
 from pathlib import Path
 
-from tests.support.specimens import summary, write
+from tests.support.results.specimens import summary, write
 
 ROOT = Path(__file__).parents[2]
 SOURCES = {
@@ -100,6 +100,11 @@ def tree(module):
     return ast.parse(SOURCES[module].read_text("utf-8"))
 
 
+@cache
+def nodes(module):
+    return [*ast.walk(tree(module))]
+
+
 def walk(node, lazy):
     """Nodes below this one but those for type checkers; without `lazy`, none inside functions."""
     for child in ast.iter_child_nodes(node):
@@ -130,7 +135,7 @@ def packages(module):
 
 
 def functions(module):
-    return [n for n in ast.walk(tree(module)) if isinstance(n, ast.FunctionDef)]
+    return [n for n in nodes(module) if isinstance(n, ast.FunctionDef)]
 
 
 def called(function):
@@ -205,9 +210,8 @@ def test_the_solver_and_the_physics_do_not_know_each_other():
 
 def strings(module):
     """Texts of a module that are no docstrings."""
-    nodes = [*ast.walk(tree(module))]
-    stated = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
-    constants = [n for n in nodes if isinstance(n, ast.Constant) and id(n) not in stated]
+    stated = {id(node.value) for node in nodes(module) if isinstance(node, ast.Expr)}
+    constants = [n for n in nodes(module) if isinstance(n, ast.Constant) and id(n) not in stated]
     return [node.value for node in constants if isinstance(node.value, str)]
 
 
@@ -219,7 +223,7 @@ def test_only_imports_from_our_packages_name_them():
         r"(?<![\w.])(sweep|kernels)\.\w|^(sweep|kernels)\.?$|\b(from|import) (sweep|kernels)\b"
     )
     assert {m: found for m in PROGRAM if (found := [*filter(named.search, strings(m))])} == {}
-    bare = [n for m in PROGRAM for n in ast.walk(tree(m)) if isinstance(n, ast.Import)]
+    bare = [n for m in PROGRAM for n in nodes(m) if isinstance(n, ast.Import)]
     names = {alias.name for node in bare for alias in node.names}
     assert {name for name in names if is_within(name, "sweep kernels")} == set()
 
@@ -311,7 +315,7 @@ def test_help_and_a_refused_config_need_no_heavy_imports():
 def defined(module):
     """Names that a module binds at its top, in branches of it too."""
     names = {"*"}
-    for node in ast.walk(tree(module)):
+    for node in nodes(module):
         if isinstance(node, ast.FunctionDef | ast.ClassDef):
             names.add(node.name)
         elif isinstance(node, ast.Import | ast.ImportFrom):
@@ -326,7 +330,7 @@ def test_what_is_imported_of_our_own_is_there():
     missing = [
         f"{module}: {node.module}.{alias.name}"
         for module in SOURCES
-        for node in ast.walk(tree(module))
+        for node in nodes(module)
         if isinstance(node, ast.ImportFrom) and node.module in SOURCES
         for alias in node.names
         if alias.name not in defined(node.module) and f"{node.module}.{alias.name}" not in SOURCES

@@ -12,7 +12,7 @@ from sweep.ranking.rank import rank
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from sweep.store.read import read_attributes, read_frames, read_history, read_summary
-from tests.support.strips import pulled
+from tests.support.materials.strips import pulled
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 
@@ -22,8 +22,8 @@ def test_no_config_is_forgotten():
     names = {path.stem for path in CONFIGS.glob("*.toml")}
     others = {"custom", "extreme", "impact", "khatri_egan_square"}
     assert names == others | {
-        "armor", "infills", "khatri_egan_square_out_of_plane", "reuse", "seed", "search", "slicer",
-        "smoke", "thousand", "which_way",
+        "armor", "drop", "infills", "khatri_egan_square_out_of_plane", "reuse", "seed", "search",
+        "slicer", "smoke", "thousand", "which_way",
     }  # fmt: skip
 
 
@@ -133,6 +133,24 @@ def test_slicer_holds_its_numbers():
     assert summary["printed_mass_g"] == pytest.approx(3.0, rel=1e-9)
     assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
     assert 1e3 * summary["absorbed_energy_until_packed_J"] == pytest.approx(693.0, rel=2e-3)
+
+
+def test_drop_holds_its_numbers():
+    """A stiff design needs a multiple of the deceleration of one that uses half of its height."""
+    found = {
+        (case.lattice.kind, case.lattice.cells_x, case.lattice.wall_thickness): case
+        for case in expand(load_config(CONFIGS / "drop.toml"))
+    }
+    assert len(found) == 8
+    summary = simulate(found["diamond", 2, 0.8e-3]).summary
+    assert summary["status"] == "converged"
+    assert summary["impact_energy_J"] == pytest.approx(15e-3 * 9.80665 * 0.5)
+    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["impact_energy_J"]
+    assert summary["peak_force_N"] == pytest.approx(8.832, rel=2e-3)
+    filtered = "peak_deceleration_filtered_m_per_s2"
+    assert summary[filtered] / 9.80665 == pytest.approx(76.77, rel=2e-3)
+    stiff = simulate(found["square", 3, 0.8e-3]).summary
+    assert stiff[filtered] > 5.0 * summary[filtered]
 
 
 def test_search_holds_its_number():

@@ -18,7 +18,7 @@ from sweep.config.structure import Structure
 from sweep.config.tables import QUESTION
 from sweep.config.units import load_config, quantity
 from sweep.design.infill import families
-from sweep.result import COLUMNS
+from sweep.result import COLUMNS, PER_GRAM
 from sweep.simulation.simulate import simulate
 from sweep.store.write import Writer
 from tests.studies import verify as figures
@@ -150,7 +150,8 @@ def test_columns_exist():
     quoted = {re.sub("^(error|correction)_", "", words) for words in QUOTED}
     named = {words for words in quoted if re.fullmatch(r"[a-z_]+_(J|N|g|m|Pa|s|J_per_g)", words)}
     keys = {name.split(".")[1] for name in case_keys()}
-    known = {*COLUMNS, *RECORD, *Structure.model_fields, *keys}
+    per_gram = {name for name in named if PER_GRAM.fullmatch(name)}
+    known = {*COLUMNS, *RECORD, *Structure.model_fields, *keys, *per_gram}
     assert {"mass_g", "absorbed_energy_J"} <= named <= known
 
 

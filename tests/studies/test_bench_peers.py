@@ -7,10 +7,12 @@ import pytest
 
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import stages
-from tests.studies.bench import beams, cases, descent, elements, marching, scenes, sweeps
-from tests.support.solving import at_rest
-from tests.support.states import shaken, unit
-from tests.support.terms import Term, derivative_error
+from tests.studies.bench import scenes, sweeps
+from tests.studies.bench.measuring import cases, marching
+from tests.studies.bench.peers import beams, descent, elements
+from tests.support.kernels.solving import at_rest
+from tests.support.kernels.states import shaken, unit
+from tests.support.kernels.terms import Term, derivative_error
 
 
 def seed(inner=2):

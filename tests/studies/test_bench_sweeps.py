@@ -2,7 +2,8 @@
 
 import pytest
 
-from tests.studies.bench import cases, clock, sweeps
+from tests.studies.bench import sweeps
+from tests.studies.bench.measuring import cases, clock
 
 
 def test_thousand_designs_are_a_thousand():

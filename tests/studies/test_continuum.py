@@ -19,7 +19,7 @@ from tests.studies.continuum.solid import Solid
 from tests.studies.continuum.solids import PACKED, PAIRS, Crush, crushed
 from tests.studies.continuum.strip import energy, moment, softening
 from tests.studies.continuum.study import APART, POINTS, WATCHED, Side, networks, stored
-from tests.support.terms import NO_MEMORY
+from tests.support.kernels.terms import NO_MEMORY
 
 OUTER = 0.5 * 0.6**0.5  # place of the outer fibres of a section of thickness 1
 RUBBER = Rubber(12.0, 0.48)

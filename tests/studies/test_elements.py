@@ -12,7 +12,7 @@ from tests.studies.validation.exact import Frame
 from tests.studies.validation.problem import bending
 from tests.studies.validation.scenes import SCENES, driven
 from tests.support import readme
-from tests.support.structures import LENGTH, MM
+from tests.support.designs.structures import LENGTH, MM
 
 BAND = {"cubic": (4.0, 0.2), "classical": (2.0, 0.03)}
 NAMES = {scene.name: scene for scene in SCENES}

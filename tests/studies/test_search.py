@@ -3,7 +3,7 @@
 import pytest
 
 from tests.studies.search import KEYS, best_beside, cushion, found, peak, sheet, told
-from tests.support.searches import energy, simulate
+from tests.support.results.searches import energy, simulate
 
 PEAK = 0.2817  # J, the best of the scan of 60 walls
 
@@ -27,7 +27,7 @@ def test_designs_beside_the_searches():
 
 
 def test_rows_compare_with_the_first_beside(tmp_path):
-    """The invented energy is that of `tests.support.searches`."""
+    """The invented energy is that of `tests.support.results.searches`."""
     question = cushion()
     beside = best_beside(question, tmp_path, simulate)
     one = found(question, 1, tmp_path, simulate)

@@ -12,9 +12,9 @@ from sweep.simulation.simulate import warm_up
 from tests.studies.stability import audit, draw, model, structures
 from tests.studies.stability.__main__ import counted, markdown, outcome
 from tests.studies.stability.structures import IN_TIME
-from tests.support.scenes import pressed, run
-from tests.support.solving import at_rest, ramp, whole
-from tests.support.states import STATES, driven, loaded
+from tests.support.designs.scenes import pressed, run
+from tests.support.kernels.solving import at_rest, ramp, whole
+from tests.support.kernels.states import STATES, driven, loaded
 
 FEW, CONVERGED = 40, 14
 
@@ -62,6 +62,17 @@ def test_light_scenes_violate_nothing(drawn):
     assert [found.violations for found in audits] == [()] * len(light)
     assert [found.status for found in audits].count("converged") == CONVERGED
     assert sum(found.balanced for found in audits) > len(light)
+
+
+@pytest.mark.parametrize(
+    "case",
+    [draw.scene(40)[1], draw.scene(51)[1], draw.remembering(105)],
+    ids=["struck", "rough", "released"],
+)
+def test_no_force_is_left_over_where_stiffnesses_differ_by_far(case):
+    """A soft coordinate was not balanced beside a stiff one, nor friction at the end of a step."""
+    warm_up()
+    assert audit.audit(case).violations == ()
 
 
 def corner(case, cells_x, cells_y):

@@ -3,7 +3,7 @@
 import pytest
 
 import crumple
-from tests.support.specimens import summary
+from tests.support.results.specimens import summary
 
 
 def test_errors_are_those_that_the_functions_raise(tmp_path):

@@ -20,8 +20,25 @@ from sweep.result import (
     describe_column,
     design_columns,
     failed_result,
+    in_words,
     is_grid_key,
 )
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("peak_force_N", "peak force, in N"),
+        ("mass_g", "mass, in g"),
+        ("peak_strain", "peak strain"),
+        ("lost_energy_J_per_g", "lost energy, in J/g"),
+        ("absorbed_energy_at_50N_J", "absorbed energy at 50N, in J"),
+        ("peak_deceleration_filtered_m_per_s2", "peak deceleration filtered, in m/s^2"),
+        ("energy_to_50_J_per_m3", "energy to 50, in J/m^3"),
+    ],
+)
+def test_columns_in_words_have_their_unit(name, words):
+    assert in_words(name) == words
 
 
 def a_case(**loading):

@@ -6,6 +6,7 @@ first such call, together with all that it calls, and is kept (`sealed`).
 """
 
 import functools
+import inspect
 from contextvars import ContextVar
 
 import numba
@@ -51,17 +52,20 @@ class Kernel:
 
     @functools.cached_property
     def entry(self):
-        """The dispatcher for calls from Python, whose machine code is kept."""
-        return self._dispatcher()
+        """The dispatcher for calls from Python, whose machine code is kept.
+
+        That of a separate kernel only calls the machine code which is there already.
+        """
+        return self._dispatcher(_calling(self) if self.is_separate else self.__wrapped__)
 
     @functools.cached_property
     def separated(self):
         """The dispatcher of the code that other kernels call where it is, which is kept too."""
-        return self._dispatcher("separated", no_cpython_wrapper=True)
+        return self._dispatcher(self.__wrapped__, "separated", no_cpython_wrapper=True)
 
-    def _dispatcher(self, kind="", **more):
+    def _dispatcher(self, function, kind="", **more):
         options = self.options | {"no_cfunc_wrapper": True} | more
-        dispatcher = _dispatcher(self.__wrapped__, options, pipeline_class=EntryCompiler)
+        dispatcher = _dispatcher(function, options, pipeline_class=EntryCompiler)
         dispatcher._cache = SealedCache(self.__wrapped__, kind)
         dispatcher.compile = global_compiler_lock(undisturbed(dispatcher.compile))
         return dispatcher
@@ -85,6 +89,13 @@ class Kernel:
         if name == "linked":  # unpickled, or not made yet
             raise AttributeError(name)
         return getattr(self.linked, name)
+
+
+def _calling(kernel):
+    """Return a function of the same arguments that calls a kernel and does nothing else."""
+    names, made = ", ".join(inspect.signature(kernel.__wrapped__).parameters), {}
+    exec(f"def call({names}): return kernel({names})", {"kernel": kernel}, made)
+    return made["call"]
 
 
 def _dispatcher(function, options, **how):

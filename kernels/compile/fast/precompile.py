@@ -22,7 +22,7 @@ from kernels.compile.cache import is_lasting
 from kernels.compile.fast.kernel import Kernel, rehearsal
 from kernels.compile.fast.outlined import Version, foreseen
 
-PROCESSES = 3  # more would wait for the largest kernels, a march and its minima: a third each
+PROCESSES = 3  # more would wait for the largest kernel, a march: a third of the whole
 PROGRAM = """
 import signal, sys
 signal.signal(signal.SIGINT, signal.SIG_IGN)

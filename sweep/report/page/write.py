@@ -11,6 +11,7 @@ from pathlib import Path
 from string import Template
 from typing import TYPE_CHECKING, Any
 
+from sweep.ranking.merit import doubtful
 from sweep.ranking.rank import ranked
 from sweep.report.page.gather import page_data
 from sweep.report.sheets import design_labels, legend, ranking_sheets
@@ -71,10 +72,11 @@ def tables(summary: DataFrame, question: Mapping[str, Any]) -> str:
 def _winners(table: DataFrame, summary: DataFrame) -> str:
     """A sentence for each budget and scene."""
     first = table.drop_duplicates(["budget_g", "scene"])
+    labels, doubts = design_labels(first, summary), doubtful(first)
     lines = [
         f"The best design{f' up to {row.budget_g:g} g' if row.budget_g > 0.0 else ''}, "
-        f"{row.scene}: {label}."
-        for row, label in zip(first.itertuples(), design_labels(first, summary), strict=True)
+        f"{row.scene}: {label}{', whose result is not to be trusted' if doubt else ''}."
+        for row, label, doubt in zip(first.itertuples(), labels, doubts, strict=True)
     ]
     return "".join(f"<p>{escape(line)}</p>" for line in lines)
 

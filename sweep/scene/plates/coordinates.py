@@ -1,7 +1,7 @@
 """Which coordinates of a lattice of plates move, which are held, and which follow a platen.
 
 Node i has the coordinates 6 i .. 6 i + 2, its position in m, and 6 i + 3 .. 6 i + 5, its rotation
-about the three axes of its own frame, w = tan(angle / 2) axis. The last two are the heights of the
+about the three axes of its own frame, w = tan(angle / 4) axis. The last two are the heights of the
 surfaces of the lower and the upper platen.
 
 The third rotation of a node inside a wall, about the normal of the wall, is held, as nothing

@@ -104,8 +104,8 @@ def _driven(numbering: Numbering, case: Case) -> int:
 def _coordinates(
     mesh: PlateMesh, numbering: Numbering, leader: Indices, masses: Floats, case: Case
 ) -> Coordinates:
-    """The data of the coordinates that the solver needs; a rotation w turns by 2 w."""
-    scale = np.where(_is_rotation(numbering), 2.0 * mesh.size.mean(), 1.0)
+    """The data of the coordinates that the solver needs; a rotation w turns by 4 w."""
+    scale = np.where(_is_rotation(numbering), 4.0 * mesh.size.mean(), 1.0)
     driven = _driven(numbering, case)
     role = np.where(leader == np.arange(leader.size), FREE, TIED)
     if driven >= 0:
@@ -176,7 +176,7 @@ def _layout(mesh: PlateMesh, numbering: Numbering, leader: Indices, case: Case) 
         size=np.append(count[count > 0], np.ones(platen, np.int64)),
         point=np.concatenate([mesh.rest[count > 0], top[:platen]]),
         scale=np.where(turns, bending, stretching),
-        weight=np.where(turns, (2.0 * lengths) ** 2, 1.0),
+        weight=np.where(turns, (4.0 * lengths) ** 2, 1.0),
         is_length=~turns,
     )  # fmt: skip
 
@@ -184,7 +184,7 @@ def _layout(mesh: PlateMesh, numbering: Numbering, leader: Indices, case: Case) 
 def _stiffness(mesh: PlateMesh, case: Case) -> tuple[float, float]:
     """Stiffness of a node in stretching (N/m) and in bending by w (N m), of the thickest wall."""
     thickness = float(mesh.thickness.max())
-    return case.material.modulus * thickness, case.material.modulus * thickness**3 / 3.0
+    return case.material.modulus * thickness, case.material.modulus * thickness**3 * 4.0 / 3.0
 
 
 def _force_scale(mesh: PlateMesh, case: Case) -> float:

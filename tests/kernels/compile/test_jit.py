@@ -12,7 +12,7 @@ import pytest
 from kernels.compile import cache as kept
 from kernels.compile.cache import fingerprint, open_cache, prune
 from kernels.compile.jit import jit, jit_exact
-from tests.support import packages
+from tests.support.kernels import packages
 
 
 def plus_one(x):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.geometry import distance
-from tests.support.terms import derivative_error, of_points
+from tests.support.kernels.terms import derivative_error, of_points
 
 POINT, START, END = 0, 1, 2
 SEGMENT = [0.2, -0.1, 1.4, 0.5]  # along (2, 1)

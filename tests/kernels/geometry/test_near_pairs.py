@@ -5,7 +5,7 @@ import pytest
 
 from kernels.geometry import near_pairs
 from kernels.geometry.distance import squared_distance
-from tests.support.frames import contact_of, frame, joint_of_four, shaken
+from tests.support.kernels.frames import contact_of, frame, joint_of_four, shaken
 
 
 def brute_force(x, edges, radius):

@@ -6,8 +6,8 @@ import pytest
 from kernels.laws import elastic
 from kernels.laws.barrier import barrier
 from kernels.laws.elastic import GUARD
-from tests.support.frames import curve_law, linear_law
-from tests.support.terms import differences
+from tests.support.kernels.frames import curve_law, linear_law
+from tests.support.kernels.terms import differences
 
 MODULUS = 12e6
 KNOTS = [-0.5, 0.0, 0.1, 0.4, 1.0]

@@ -7,7 +7,7 @@ from kernels.laws.relaxation import BRANCHES
 from kernels.laws.yielding import STATE
 from sweep.config.case import Material
 from sweep.scene.material import law_in_stretch
-from tests.support.memory import follow, there_and_back, virgin
+from tests.support.materials.memory import follow, there_and_back, virgin
 
 NUMBERS = {"modulus": 2e9, "density": 1240.0, "poisson": 0.35}
 LIMIT = 5e7

@@ -11,10 +11,10 @@ from kernels.laws.relaxation import NEAR, inverse
 from kernels.laws.softening import Softening
 from sweep.config.tables import Material
 from sweep.scene.material import as_law, linear_law, stress_law
-from tests.support.frames import MODULUS
-from tests.support.memory import follow, prepare, relaxing, there_and_back, virgin
-from tests.support.scenes import slopes
-from tests.support.terms import differences
+from tests.support.designs.scenes import slopes
+from tests.support.kernels.frames import MODULUS
+from tests.support.kernels.terms import differences
+from tests.support.materials.memory import follow, prepare, relaxing, there_and_back, virgin
 
 SHARES, TIMES = (0.3, 0.2, 0.25), (0.01, 0.5, 40.0)
 STRAIN = 0.12

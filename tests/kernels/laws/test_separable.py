@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.laws import separable
-from tests.support.sheets import LEAST, MODULUS, nominal, rubber
+from tests.support.kernels.sheets import LEAST, MODULUS, nominal, rubber
 
 MATERIALS = ["ninjaflex", "ultimaker_tpu95a", "filaflex_60a"]
 

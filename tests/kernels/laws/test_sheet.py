@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from kernels.laws.sheet import neo_hookean
-from tests.support.sheets import MODULUS, measured, nominal, sheet_of_rubber
-from tests.support.terms import differences
+from tests.support.kernels.sheets import MODULUS, measured, nominal, sheet_of_rubber
+from tests.support.kernels.terms import differences
 
 MU = MODULUS / 3.0
 LAWS = {

@@ -10,9 +10,9 @@ from kernels.laws.relaxation import MOST
 from kernels.laws.softening import Softening
 from sweep.config.tables import Material
 from sweep.scene.material import as_law, stress_law
-from tests.support.memory import follow, relaxing, there_and_back, virgin
-from tests.support.scenes import slopes
-from tests.support.terms import differences
+from tests.support.designs.scenes import slopes
+from tests.support.kernels.terms import differences
+from tests.support.materials.memory import follow, relaxing, there_and_back, virgin
 
 R, M, BETA = 2.0, 0.2, 0.1  # m in MPa
 SOFTENING = (1.0 / R, M, BETA)

@@ -6,7 +6,7 @@ import pytest
 from kernels.laws.elastic import GUARD
 from kernels.laws.law import Memory
 from kernels.laws.yielding import PATH, PLASTIC, STATE, Yielding
-from tests.support.terms import differences
+from tests.support.kernels.terms import differences
 
 MODULUS, LIMIT, HARDENING = 2e9, 40e6, 150e6
 YIELD = LIMIT / MODULUS

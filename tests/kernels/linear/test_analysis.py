@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from kernels.linear.bundles import CONDENSED, OPEN, RIGID
-from tests.support.frames import frame, layout_of
-from tests.support.webs import MIXED, WALLS, Problem, couplings, supported, web
+from tests.support.kernels.frames import frame, layout_of
+from tests.support.kernels.webs import MIXED, WALLS, Problem, couplings, supported, web
 
 
 @pytest.mark.parametrize(

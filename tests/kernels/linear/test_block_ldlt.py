@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from kernels.linear import block_ldlt, block_matrix
-from tests.support.blocks import NB, by_entry, column, put, random_pattern, shaped
-from tests.support.terms import by_home
+from tests.support.kernels.blocks import NB, by_entry, column, put, random_pattern, shaped
+from tests.support.kernels.terms import by_home
 
 
 def definite(rng, joined):

@@ -5,8 +5,8 @@ import pytest
 
 from kernels.linear import block_ldlt, block_matrix
 from kernels.linear.block_matrix import DRIVEN, HELD, IMAGE, INNER
-from tests.support.blocks import put, random_pattern, reduction_to, shaped
-from tests.support.terms import by_home, dense, full_matrix
+from tests.support.kernels.blocks import put, random_pattern, reduction_to, shaped
+from tests.support.kernels.terms import by_home, dense, full_matrix
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -5,8 +5,8 @@ import pytest
 
 from kernels.compile.simd import LANES
 from kernels.linear import block_ldlt, condense
-from tests.support.frames import frame, walls_of
-from tests.support.terms import assembled, room
+from tests.support.kernels.frames import frame, walls_of
+from tests.support.kernels.terms import assembled, room
 
 PIECES = [1, 2, 3, 4, 12]
 SCALE = 7.0

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from kernels.linear import system
-from tests.support.frames import frame, layout_of
-from tests.support.terms import by_home
-from tests.support.webs import (
+from tests.support.kernels.frames import frame, layout_of
+from tests.support.kernels.terms import by_home
+from tests.support.kernels.webs import (
     COUPLINGS,
     MIXED,
     SUPPORTS,

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from tests.support.solving import whole
-from tests.support.states import bent, driven
+from tests.support.kernels.solving import whole
+from tests.support.kernels.states import bent, driven
 
 PLATENS = ["glued", "sliding", "contact"]
 MOVE = -1e-4  # m

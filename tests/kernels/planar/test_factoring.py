@@ -4,8 +4,18 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Contact
-from tests.support.solving import neighbours_of, reduction, whole
-from tests.support.states import DT, RAYLEIGH, SCENES, SIZE, STATES, VISCOUS, loaded, step_to, unit
+from tests.support.kernels.solving import neighbours_of, reduction, whole
+from tests.support.kernels.states import (
+    DT,
+    RAYLEIGH,
+    SCENES,
+    SIZE,
+    STATES,
+    VISCOUS,
+    loaded,
+    step_to,
+    unit,
+)
 
 
 @pytest.mark.parametrize("dt", [DT, np.inf])

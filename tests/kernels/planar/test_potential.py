@@ -6,8 +6,8 @@ import pytest
 from kernels.terms import fold, friction, stretch
 from sweep.config.case import Material, Solver
 from tests.studies.verify import MATERIAL
-from tests.support.solving import whole
-from tests.support.states import (
+from tests.support.kernels.solving import whole
+from tests.support.kernels.states import (
     CURVE,
     DT,
     RAYLEIGH,
@@ -21,7 +21,7 @@ from tests.support.states import (
     step_to,
     unit,
 )
-from tests.support.terms import (
+from tests.support.kernels.terms import (
     NO_MEMORY,
     bending_of,
     damping_of,

@@ -9,8 +9,8 @@ from kernels.geometry import ccd, near_pairs
 from kernels.planar import reach
 from sweep.config.case import Case, Contact, Lattice, Loading, Solver
 from sweep.scene.lattice import build_scene
-from tests.support.solving import whole
-from tests.support.states import GRIP, STATES, loaded, nodes, unit
+from tests.support.kernels.solving import whole
+from tests.support.kernels.states import GRIP, STATES, loaded, nodes, unit
 
 
 def moving(scene, which, by):

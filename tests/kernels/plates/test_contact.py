@@ -9,7 +9,7 @@ from kernels.geometry.space import advancement, crossing, near
 from kernels.geometry.space.vectors import SIZE
 from kernels.laws.barrier import barrier
 from kernels.plates import contact, pairs
-from tests.support.sheets import (
+from tests.support.kernels.surfaces import (
     Sheet,
     contact_of,
     pairs_of,
@@ -18,7 +18,7 @@ from tests.support.sheets import (
     term_of,
     two_sheets,
 )
-from tests.support.terms import derivative_error, least_share
+from tests.support.kernels.terms import derivative_error, least_share
 
 T = 1.0
 MESHES = [(2, 2), (2, 3), (3, 3), (4, 4), (7, 5)]

@@ -7,8 +7,15 @@ from kernels.geometry.space.vectors import SIZE
 from kernels.laws.barrier import barrier
 from kernels.plates import contact, friction
 from kernels.terms.friction import DUAL_TOLERANCE, UNKNOWN, Friction
-from tests.support.sheets import Sheet, contact_of, pairs_of, placed, positions, two_sheets
-from tests.support.terms import Term, derivative_error, differences, least_share
+from tests.support.kernels.surfaces import (
+    Sheet,
+    contact_of,
+    pairs_of,
+    placed,
+    positions,
+    two_sheets,
+)
+from tests.support.kernels.terms import Term, derivative_error, differences, least_share
 
 MU = 0.3
 GAP = 0.4

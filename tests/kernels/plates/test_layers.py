@@ -5,8 +5,8 @@ import pytest
 
 from kernels.laws.sheet import neo_hookean
 from kernels.plates import layers
-from tests.support.sheets import MODULUS, sheet_of_rubber
-from tests.support.terms import differences
+from tests.support.kernels.sheets import MODULUS, sheet_of_rubber
+from tests.support.kernels.terms import differences
 
 LINEAR = neo_hookean(MODULUS)
 THICKNESS = 0.1

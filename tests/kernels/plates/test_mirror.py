@@ -9,7 +9,7 @@ from kernels.plates.contact import ADVANCE
 from sweep.scene.plates.contact import contact_of, mirror_of
 from sweep.scene.plates.coordinates import Numbering, at_rest
 from sweep.scene.plates.mesh import build_mesh
-from tests.support.plates import BOX, T, along
+from tests.support.designs.plates import BOX, T, along
 
 STIFFNESS = 4.0 / 3.0 * 19.3e6  # of ninjaflex
 

@@ -5,7 +5,15 @@ import pytest
 
 from kernels.plates import contact, pairs
 from kernels.plates.pairs import FAR, LEAST_PATH, NEAR_SHARE, starts_at
-from tests.support.sheets import Sheet, contact_of, pairs_of, placed, positions, term_of, two_sheets
+from tests.support.kernels.surfaces import (
+    Sheet,
+    contact_of,
+    pairs_of,
+    placed,
+    positions,
+    term_of,
+    two_sheets,
+)
 
 T = 0.7
 

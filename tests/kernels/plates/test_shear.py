@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.plates import shear
-from tests.support.terms import Term, derivative_error
+from tests.support.kernels.terms import Term, derivative_error
 
 SIZE, STIFFNESS = np.array([0.5, 0.8]), (3.0, 2.0)
 FLAT = np.array([[0, 0, 0], [0.5, 0, 0], [0.5, 0.8, 0], [0, 0.8, 0.0]])

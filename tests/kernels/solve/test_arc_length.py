@@ -14,9 +14,8 @@ from sweep.scene.arcs import arc_of
 from sweep.scene.custom import build_structure
 from sweep.simulation.simulate import simulate
 from tests.studies.validation.frames import LEE, TRUSS, followed, lee, truss_force
-from tests.support.scenes import unbalanced
-from tests.support.solving import free_of, whole
-from tests.support.structures import (
+from tests.support.designs.scenes import unbalanced
+from tests.support.designs.structures import (
     AXIAL,
     BENDING,
     CLAMPED,
@@ -26,6 +25,7 @@ from tests.support.structures import (
     probe,
     structure,
 )
+from tests.support.kernels.solving import free_of, whole
 
 
 def case_of(parts, arcs=200, contact="none", **solver):

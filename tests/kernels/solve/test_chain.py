@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize
 
-from kernels.solve import arc_length, history, march, newton
+from kernels.compile.reference import by_reference
+from kernels.solve import arc_length, history, march, newton, workspace
 from kernels.solve.integrators import BDF2, TRAPEZOIDAL
-from kernels.solve.problem import FREE, HELD, LED, Coordinates
+from kernels.solve.problem import FREE, HELD, LED, Coordinates, Step
 from kernels.solve.residual import Tolerance
-from tests.support.chain import ROW, Line, Output
-from tests.support.scenes import slopes
+from tests.support.designs.scenes import slopes
+from tests.support.kernels.chain import ROW, Chain, Line, Output
 
 HEIGHT, WIDTH, SPRING, APART = 2.0, 1.5, 0.7, 0.4
 TIGHT = Tolerance(1e-11, 1e-22, 1e-9, 1e-12, 1e-14, 4e-15, 100)
@@ -169,3 +170,22 @@ def test_an_arc_follows_the_slope_of_the_well():
     np.testing.assert_array_equal(path["unstable"], np.abs(x) < top)
     assert path["factor"].min() == pytest.approx(-1.0 / 1.5, rel=0.01)
     assert np.any(path["unstable"])
+
+
+def test_the_residual_is_not_measured_by_an_old_factor():
+    """The last point of another step may have been very stiff: any force would be admissible."""
+    chain = line(1, load=1.0)
+    x0, zero = np.full(1, -WIDTH), np.zeros(1)
+    buffers = chain.make_buffers(np.empty((0, 0)))
+    buffers.diagonal[:] = 1e20
+    neighbours = chain.find_neighbours(x0)
+    problem = Chain(*(by_reference(part) for part in (chain, neighbours, buffers)))
+    step = Step(x0, x0.copy(), x0.copy(), 1.0, 1.0, False, 1.0, 0.5)
+    space, descent = workspace.make_workspace(1, 2), np.zeros(1, newton.DESCENT)[0]
+    x, descent.since_factor, space.work.dx[:] = x0.copy(), np.inf, zero
+    outcome = newton.minimise(
+        x, 0.0, problem, step, TIGHT, by_reference(space), descent, np.zeros(2, int), False
+    )
+    assert outcome == newton.CONVERGED
+    assert abs(space.found.g[0]) < 1e-10
+    assert x[0] > -WIDTH + 0.01

@@ -7,7 +7,7 @@ from sweep.config.case import Case, Lattice, Material
 from sweep.design.network import mass
 from sweep.scene.lattice import build_scene
 from tests.studies.verify import MATERIAL
-from tests.support.scenes import (
+from tests.support.designs.scenes import (
     HEAVY,
     SEED,
     UNDAMPED,

@@ -9,9 +9,9 @@ from kernels.solve.workspace import make_workspace
 from kernels.terms.rows import STORED
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
-from tests.studies.bench import cases, counts
-from tests.studies.bench.crushes import Crush
-from tests.support.solving import at_rest, ramp, whole
+from tests.studies.bench.measuring import cases, counts
+from tests.studies.bench.measuring.crushes import Crush
+from tests.support.kernels.solving import at_rest, ramp, whole
 
 STEP = 1e-4  # m
 

@@ -17,9 +17,9 @@ from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
-from tests.support.scenes import UNDAMPED, unbalanced
-from tests.support.solving import at_rest, floating, go_on, ramp
-from tests.support.terms import touch_of
+from tests.support.designs.scenes import UNDAMPED, unbalanced
+from tests.support.kernels.solving import at_rest, floating, go_on, ramp
+from tests.support.kernels.terms import touch_of
 
 DT = 5e-5
 RAYLEIGH = Damping(model="rayleigh", mass=2000.0, stiffness=3e-5)

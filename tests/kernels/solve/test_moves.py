@@ -6,8 +6,8 @@ import pytest
 from kernels.solve import newton
 from sweep.config.case import Case, Lattice, Loading
 from sweep.scene.lattice import build_scene
-from tests.support.scenes import grid
-from tests.support.solving import descend, floating, shaken, whole
+from tests.support.designs.scenes import grid
+from tests.support.kernels.solving import descend, floating, shaken, whole
 
 
 def test_a_wall_that_lies_upon_another_is_stuck():

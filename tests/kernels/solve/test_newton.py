@@ -5,12 +5,13 @@ import pytest
 
 from kernels.solve import newton
 from kernels.solve.problem import HELD
+from kernels.solve.residual import Tolerance, allowed, allowed_decrement
 from sweep.config.case import Case, Contact, Lattice, Loading, Solver
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
 from tests.studies.verify import MATERIAL
-from tests.support.scenes import grid, slopes
-from tests.support.solving import descend, ramp, reduction, residual, shaken, whole
+from tests.support.designs.scenes import grid, slopes
+from tests.support.kernels.solving import descend, ramp, reduction, residual, shaken, whole
 
 HEIGHT = 12.5e-3
 ROUND_OFF = 1e-9  # N
@@ -258,3 +259,11 @@ def test_a_driven_platen_takes_the_others_along(platen):
         assert found.x[-1] == start.x[-1] - way
         left.append(np.abs(residual(scene, found.x, whole(scene, found.x))).max())
     np.testing.assert_allclose(slopes(left), 2.0, atol=0.2)
+
+
+def test_a_soft_coordinate_is_not_excused_by_a_stiff_one():
+    """The residual may be as large as round-off of the stiff one, but not what it can release."""
+    tolerance = Tolerance(1e-9, 1e-12, 1e-6, 1e-5, 1e-15, 1e-16, 100)
+    assert allowed(1e17, tolerance) == pytest.approx(10.0)
+    assert allowed_decrement(1e17, tolerance, 92) == 1e-12
+    assert allowed_decrement(1e20, tolerance, 92) == pytest.approx(9.2e-11)

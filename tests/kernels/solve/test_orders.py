@@ -9,8 +9,8 @@ from kernels.solve import newton
 from kernels.terms import friction
 from sweep.config.case import Case, Loading
 from sweep.scene.lattice import build_scene
-from tests.support.scenes import SEED, VISCOUS, loaded, pressed, run, slopes
-from tests.support.solving import descend, free_of, residual, whole
+from tests.support.designs.scenes import SEED, VISCOUS, loaded, pressed, run, slopes
+from tests.support.kernels.solving import descend, free_of, residual, whole
 
 ROUND_OFF = 1e-11  # N
 

@@ -4,14 +4,9 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from kernels.compile.reference import by_reference
-from kernels.solve import newton, workspace
-from kernels.solve.problem import Step
 from sweep.config.case import Case, Lattice, Loading, Material, Solver
 from sweep.simulation.simulate import simulate
-from tests.kernels.solve.test_chain import TIGHT, WIDTH, line
-from tests.support.chain import Chain
-from tests.support.structures import APART, CLAMPED, UNDAMPED, probe, structure
+from tests.support.designs.structures import APART, CLAMPED, UNDAMPED, probe, structure
 
 LENGTH, THICKNESS, DEPTH, DENSITY, ELEMENTS = 30.0, 2.0, 12.0, 1190.0, 6
 AREA = THICKNESS * DEPTH * 1e-6
@@ -135,22 +130,3 @@ def test_a_load_below_round_off_is_a_failure_in_statics(integrator):
     """1e-12 N move the end by 1e-20 m."""
     result = simulate(pulled(integrator, modulus=70e9, force=1e-12))
     assert result.status == "stopped"
-
-
-def test_the_residual_is_not_measured_by_an_old_factor():
-    """The last point of another step may have been very stiff: any force would be admissible."""
-    chain = line(1, load=1.0)
-    x0, zero = np.full(1, -WIDTH), np.zeros(1)
-    buffers = chain.make_buffers(np.empty((0, 0)))
-    buffers.diagonal[:] = 1e20
-    neighbours = chain.find_neighbours(x0)
-    problem = Chain(*(by_reference(part) for part in (chain, neighbours, buffers)))
-    step = Step(x0, x0.copy(), x0.copy(), 1.0, 1.0, False, 1.0, 0.5)
-    space, descent = workspace.make_workspace(1, 2), np.zeros(1, newton.DESCENT)[0]
-    x, descent.since_factor, space.work.dx[:] = x0.copy(), np.inf, zero
-    outcome = newton.minimise(
-        x, 0.0, problem, step, TIGHT, by_reference(space), descent, np.zeros(2, int), False
-    )
-    assert outcome == newton.CONVERGED
-    assert abs(space.found.g[0]) < 1e-10
-    assert x[0] > -WIDTH + 0.01

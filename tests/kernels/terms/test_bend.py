@@ -6,8 +6,16 @@ import numpy as np
 import pytest
 
 from kernels.terms import bend
-from tests.support.frames import Frame, bend_of, frame, joint_of_four, scaled, shaken, walls_of
-from tests.support.terms import Term, bending_of, derivative_error, least_share
+from tests.support.kernels.frames import (
+    Frame,
+    bend_of,
+    frame,
+    joint_of_four,
+    scaled,
+    shaken,
+    walls_of,
+)
+from tests.support.kernels.terms import Term, bending_of, derivative_error, least_share
 
 FRAME = joint_of_four()
 MEASURES = [bend.ANGLE, bend.TANGENT]

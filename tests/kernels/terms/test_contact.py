@@ -6,8 +6,17 @@ import pytest
 from kernels.geometry import distance, near_pairs
 from kernels.laws.barrier import barrier
 from kernels.terms import contact
-from tests.support.frames import carried, frame, grid, only, scaled, shaken, touching, two_walls
-from tests.support.terms import Term, derivative_error, least_share, of_points, touch_of
+from tests.support.kernels.frames import (
+    carried,
+    frame,
+    grid,
+    only,
+    scaled,
+    shaken,
+    touching,
+    two_walls,
+)
+from tests.support.kernels.terms import Term, derivative_error, least_share, of_points, touch_of
 
 T = 0.8
 ONE = two_walls(0.5, (1, 1))

@@ -6,8 +6,16 @@ import pytest
 from kernels.geometry import near_pairs
 from kernels.laws.barrier import barrier
 from kernels.terms import contact, contact_near_joints
-from tests.support.frames import carried, contact_of, frame, grid, joint_of_four, only, scaled
-from tests.support.terms import touch_of
+from tests.support.kernels.frames import (
+    carried,
+    contact_of,
+    frame,
+    grid,
+    joint_of_four,
+    only,
+    scaled,
+)
+from tests.support.kernels.terms import touch_of
 
 T = 0.8
 

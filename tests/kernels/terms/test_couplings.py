@@ -12,7 +12,7 @@ from kernels.terms.contact import Contact
 from kernels.terms.couplings import MARGIN, couplings
 from kernels.terms.fold import Fold
 from kernels.terms.spring import Spring
-from tests.support.frames import layout_of, touching, two_walls
+from tests.support.kernels.frames import layout_of, touching, two_walls
 
 T = 0.8
 NO_FOLDS = Fold(np.empty((0, 3), np.int64), np.empty(0), np.empty(0))

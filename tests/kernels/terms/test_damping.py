@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.terms import bend, damping, elements, kelvin_voigt, stretch
-from tests.support.frames import (
+from tests.support.kernels.frames import (
     carried,
     curve_law,
     frame,
@@ -15,7 +15,7 @@ from tests.support.frames import (
     shaken,
     terms_of,
 )
-from tests.support.terms import (
+from tests.support.kernels.terms import (
     NO_MEMORY,
     Term,
     before_of,

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from kernels.terms import elements
-from tests.support.frames import carried, frame, joint_of_four, scaled, shaken, walls_of
-from tests.support.terms import (
+from tests.support.kernels.frames import carried, frame, joint_of_four, scaled, shaken, walls_of
+from tests.support.kernels.terms import (
     Term,
     assembled,
     derivative_error,

@@ -39,7 +39,7 @@ def resultants(law, strain, curvature, memory=None):
     """Force and moment of a section of unit thickness and depth."""
     memory = new_memory(law) if memory is None else memory
     m, stretched = law.m, 1.0 + strain
-    found = bent(law, law.curve, stretched, stretched**-m, FIBRE * curvature, memory, 0)
+    found = bent(law, stretched, stretched**-m, FIBRE * curvature, memory, 0)
     middle = law.curve.respond(strain, memory, law.points() - 1)[1]
     force = middle + OUTER * (found[1] - 0.5 * law.middle * middle)
     return force, OUTER * FIBRE * found[2]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.terms import fold
-from tests.support.terms import derivative_error, least_share, of_points
+from tests.support.kernels.terms import derivative_error, least_share, of_points
 
 LIMIT = fold.LIMIT
 FOLD = fold.Fold(np.array([[0, 1, 2]]), np.array([LIMIT]), np.array([3.0]))

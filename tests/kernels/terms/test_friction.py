@@ -6,8 +6,8 @@ import pytest
 from kernels.geometry import near_pairs
 from kernels.laws.barrier import barrier
 from kernels.terms import contact, friction
-from tests.support.frames import carried, only, scaled, shaken, touching, two_walls
-from tests.support.terms import (
+from tests.support.kernels.frames import carried, only, scaled, shaken, touching, two_walls
+from tests.support.kernels.terms import (
     Term,
     derivative_error,
     differences,

@@ -5,7 +5,7 @@ import pytest
 
 from kernels.solve.energy_book import kinetic
 from kernels.terms import inertia
-from tests.support.terms import Term, derivative_error
+from tests.support.kernels.terms import Term, derivative_error
 
 MASS = np.array([2.0, 2.0, 0.5, 0.5, 0.0, 0.0])  # two nodes, then rotations
 

@@ -10,8 +10,8 @@ from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.config.units import ConfigError, load_config
 from sweep.scene.lattice import build_scene
 from tests.studies.verify import MATERIAL
-from tests.support.frames import touching, two_walls
-from tests.support.scenes import run, unbalanced
+from tests.support.designs.scenes import run, unbalanced
+from tests.support.kernels.frames import touching, two_walls
 
 APART = 1.0 - 1e-5  # of the thickness
 BY_POSITION = Contact(model="position_based")

@@ -9,7 +9,8 @@ from kernels.terms.section import fibre, radial
 from sweep.config.case import Case, Lattice, Loading, Material, Solver
 from sweep.scene.lattice import build_scene
 from sweep.scene.material import law_of_section
-from tests.support.frames import (
+from tests.support.designs.scenes import at, is_sound, run, unbalanced
+from tests.support.kernels.frames import (
     MODULUS,
     Frame,
     bend_of,
@@ -25,8 +26,14 @@ from tests.support.frames import (
     stretch_of,
     walls_of,
 )
-from tests.support.scenes import at, is_sound, run, unbalanced
-from tests.support.terms import NO_MEMORY, bending_of, derivative_error, differences, least_share
+from tests.support.kernels.terms import (
+    NO_MEMORY,
+    bending_of,
+    derivative_error,
+    difference,
+    differences,
+    least_share,
+)
 
 NAMES = ["ninjaflex", "cheetah", "filaflex_60a"]
 FRAME = joint_of_four()
@@ -52,6 +59,12 @@ def plain(nu=0.0, radial=0.0):
 
 def term_of(of: Frame, through, cubic=True):
     return bending_of(walls_of(of), sections_of(of, through, cubic), along=stretch_of(of))
+
+
+def test_an_elastic_section_is_one_whose_memory_is_empty():
+    """They are compiled apart."""
+    general = law()._replace(curve=law().curve._replace(is_elastic=False))
+    assert difference(term_of(FRAME, law()), term_of(FRAME, general), shaken(FRAME, 0, 0.1)) < 1e-12
 
 
 @pytest.mark.parametrize("nu", PLANES)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.terms import spring
-from tests.support.terms import derivative_error, least_share, of_points
+from tests.support.kernels.terms import derivative_error, least_share, of_points
 
 SPRINGS = spring.Spring(
     np.array([[0, 1], [2, 1], [0, 2]]), np.array([2.0, 0.5, 3.0]), np.array([1.0, 2.0, 0.3])

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 
 from kernels.terms import stretch
-from tests.support.frames import (
+from tests.support.kernels.frames import (
     carried,
     curve_law,
     frame,
@@ -17,14 +17,22 @@ from tests.support.frames import (
     stretch_of,
     walls_of,
 )
-from tests.support.terms import NO_MEMORY, Term, derivative_error, least_share, of_walls
+from tests.support.kernels.terms import (
+    NO_MEMORY,
+    Term,
+    derivative_error,
+    difference,
+    least_share,
+    of_walls,
+)
 
 BAR = frame([(0, 0), (2.0, 1.0)], [(0, 1)], 1)
 FRAME = joint_of_four()
 
 
-def term_of(of, law=curve_law) -> Term:
-    elements, point = stretch_of(of), point_of(law(of.modulus))
+def term_of(of, law=curve_law, is_elastic=True) -> Term:
+    point = point_of(law(of.modulus))._replace(is_elastic=is_elastic)
+    elements = stretch_of(of)
 
     def write(shape, resultants, projected):
         return stretch.evaluate(elements, point, NO_MEMORY, shape, resultants, projected)
@@ -37,6 +45,13 @@ def stretched(of, strain):
     x = of.rest.copy()
     x[: 2 * len(of.points)] *= 1.0 + strain
     return x
+
+
+def test_an_elastic_law_is_one_whose_memory_is_empty():
+    """They are compiled apart."""
+    assert (
+        difference(term_of(FRAME), term_of(FRAME, is_elastic=False), shaken(FRAME, 0, 0.3)) < 1e-12
+    )
 
 
 @pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])

@@ -14,12 +14,12 @@ from tests.studies.bench import (
     growth,
     iteration,
     kernels,
-    libraries,
     lockstep,
     scenes,
     starts,
     sweeps,
 )
+from tests.studies.bench.peers import libraries
 
 SIZES, TWO, COUNT = (3, 5, 10, 20, 40), (3, 20), 7
 

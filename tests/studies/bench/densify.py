@@ -1,8 +1,8 @@
 """A large lattice crushed until it has packed down, with contact: how long, with what memory."""
 
 from sweep.scene.lattice import build_scene
-from tests.studies.bench import cases, marching
-from tests.studies.bench.alone import MEMORY, alone
+from tests.studies.bench.measuring import cases, marching
+from tests.studies.bench.measuring.alone import MEMORY, alone
 from tests.studies.bench.sweeps import changed
 from tests.studies.bench.table import Table
 

@@ -6,9 +6,9 @@ import numpy as np
 
 from kernels.planar import reach
 from sweep.scene.lattice import build_scene
-from tests.studies.bench import cases, loops, marching
-from tests.studies.bench.alone import MEMORY, alone
-from tests.studies.bench.clock import medians, seconds
+from tests.studies.bench.measuring import cases, loops, marching
+from tests.studies.bench.measuring.alone import MEMORY, alone
+from tests.studies.bench.measuring.clock import medians, seconds
 from tests.studies.bench.table import Table
 
 STRAIN = 0.1  # buckled, and nothing touches

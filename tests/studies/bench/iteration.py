@@ -2,11 +2,11 @@
 
 from functools import partial
 
-from tests.studies.bench import cases, loops
-from tests.studies.bench.clock import medians
-from tests.studies.bench.counts import counted
-from tests.studies.bench.crushes import BUCKLED, COLLAPSED, Crush
-from tests.studies.bench.spot import Spot
+from tests.studies.bench.measuring import cases, loops
+from tests.studies.bench.measuring.clock import medians
+from tests.studies.bench.measuring.counts import counted
+from tests.studies.bench.measuring.crushes import BUCKLED, COLLAPSED, Crush
+from tests.studies.bench.measuring.spot import Spot
 from tests.studies.bench.table import Table
 
 STATES = {"buckled": (cases.APART, BUCKLED), "collapsed": (cases.SMOOTH, COLLAPSED)}

@@ -4,10 +4,10 @@ from functools import partial
 
 from sweep.scene.lattice import build_scene
 from sweep.scene.terms import time_step
-from tests.studies.bench import cases, loops
-from tests.studies.bench.clock import medians
-from tests.studies.bench.crushes import COLLAPSED, Crush
-from tests.studies.bench.spot import Spot
+from tests.studies.bench.measuring import cases, loops
+from tests.studies.bench.measuring.clock import medians
+from tests.studies.bench.measuring.crushes import COLLAPSED, Crush
+from tests.studies.bench.measuring.spot import Spot
 from tests.studies.bench.table import Table
 
 PARTS = {

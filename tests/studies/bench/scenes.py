@@ -5,9 +5,10 @@ from functools import partial
 
 from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
-from tests.studies.bench import cases, descent, elements, marching, opensees
-from tests.studies.bench.clock import medians, seconds
-from tests.studies.bench.crushes import COLLAPSED, Crush
+from tests.studies.bench.measuring import cases, marching
+from tests.studies.bench.measuring.clock import medians, seconds
+from tests.studies.bench.measuring.crushes import COLLAPSED, Crush
+from tests.studies.bench.peers import descent, elements, opensees
 from tests.studies.bench.table import Table
 
 WHOLE, SCENE, ITERATIONS, EACH = "CPU s", "building, ms", "iterations", "µs an iteration"

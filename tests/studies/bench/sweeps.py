@@ -16,7 +16,7 @@ from sweep.config.units import load_config
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from sweep.store.read import read_summary
-from tests.studies.bench.clock import seconds
+from tests.studies.bench.measuring.clock import seconds
 from tests.studies.bench.table import Table
 
 CONFIG = Path(__file__).parents[3] / "configs/thousand.toml"

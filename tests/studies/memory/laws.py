@@ -3,7 +3,7 @@
 from sweep.config.case import Case, Lattice, Loading, Material
 from sweep.report.sheets import Sheet
 from sweep.simulation.simulate import simulate
-from tests.studies.bench.clock import medians, seconds
+from tests.studies.bench.measuring.clock import medians, seconds
 
 ROUNDS = 9
 LOSS = {"loss": 0.4}

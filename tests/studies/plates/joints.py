@@ -8,7 +8,7 @@ import numpy as np
 
 from tests.studies.plates.model import Places, buckling_strain, coordinates
 from tests.studies.plates.square import rigidity
-from tests.support.shells import MODULUS, Structure, structure
+from tests.support.kernels.shells import MODULUS, Structure, structure
 
 TUBE, X_JOINT, Y_JOINT = "tube", "X", "Y"
 ARMS = {X_JOINT: 4, Y_JOINT: 3}

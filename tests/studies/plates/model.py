@@ -6,7 +6,7 @@ from scipy.sparse import coo_matrix, csc_matrix
 from scipy.sparse.linalg import eigsh, spsolve
 
 from kernels.plates import rotation, shell
-from tests.support.shells import LINEAR, Structure, element_hessians
+from tests.support.kernels.shells import LINEAR, Structure, element_hessians
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.int64]

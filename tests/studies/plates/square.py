@@ -16,7 +16,7 @@ from tests.studies.plates.model import (
     free,
     stiffness,
 )
-from tests.support.shells import MODULUS, Structure, plate
+from tests.support.kernels.shells import MODULUS, Structure, plate
 
 SUPPORTED, CLAMPED = "simply supported", "clamped"
 X, Y, Z, ABOUT_S, ABOUT_Z, ABOUT_N = range(6)

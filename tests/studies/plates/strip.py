@@ -5,7 +5,7 @@ from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
 from tests.studies.plates.model import Floats, Places, coordinates, free, relaxed, slopes, stiffness
-from tests.support.shells import MODULUS, Structure, plate
+from tests.support.kernels.shells import MODULUS, Structure, plate
 
 X, Y, Z, ABOUT_S, ABOUT_Z, ABOUT_N = range(6)
 
@@ -54,7 +54,7 @@ def bent(of: Structure, x: Floats, angle: Floats, more: float) -> Floats:
     rows = found[:-2].reshape(-1, 6)
     kappa = angle[s == 1.0][0]
     rows[:, 0], rows[:, 1] = np.sin(kappa * s) / kappa, (1.0 - np.cos(kappa * s)) / kappa
-    rows[:, 4] = np.tan(0.5 * more * s)
+    rows[:, 4] = np.tan(0.25 * more * s)
     return found
 
 

@@ -19,8 +19,8 @@ from kernels.solve.problem import Step
 from sweep.simulation.custom_history import WITHOUT_PLATENS
 from sweep.simulation.simulate import simulate
 from tests.studies.stability.model import stored
-from tests.support.scenes import LOST, STORED, summed
-from tests.support.solving import Whole, whole
+from tests.support.designs.scenes import LOST, STORED, summed
+from tests.support.kernels.solving import Whole, whole
 
 MARCH, FOLLOW = march.march, arc_length.follow
 GRACE = 10.0  # s beyond its limit that a case may take
@@ -232,7 +232,7 @@ def _balance(seen):
     left = np.zeros_like(seen.x)
     step.problem.reduce(found.g, left)
     size = residual.largest(left, coordinates)
-    allowed = residual.allowed(step.problem.stiffest(), seen.tolerance)[0]
+    allowed = residual.allowed(step.problem.stiffest(), seen.tolerance)
     if seen.terms.friction.mu > 0.0:
         rubbing = residual.largest(found.friction, coordinates)
         allowed += LAG * max(seen.tolerance.friction, seen.tolerance.friction_share * rubbing)

@@ -5,7 +5,7 @@ import numpy as np
 from tests.studies.validation.elastica import cantilever, deflection
 from tests.studies.validation.exact import Frame
 from tests.studies.validation.problem import ELASTICA, EULER, RODS, Problem, axial, bending
-from tests.support.structures import BEAM, CLAMPED, LENGTH, MM, THICKNESS, probe, pushed
+from tests.support.designs.structures import BEAM, CLAMPED, LENGTH, MM, THICKNESS, probe, pushed
 
 THIN = 0.5  # mm, so that stretching hardly matters
 L = LENGTH * MM

@@ -4,8 +4,8 @@ import numpy as np
 
 from sweep.config.case import Case, Lattice, Loading, Solver
 from sweep.simulation.simulate import simulate
-from tests.support.scenes import STORED, UNDAMPED, summed
-from tests.support.structures import APART, GRAVITY, LENGTH, MATERIAL, set_off, structure
+from tests.support.designs.scenes import STORED, UNDAMPED, summed
+from tests.support.designs.structures import APART, GRAVITY, LENGTH, MATERIAL, set_off, structure
 
 INTEGRATORS = ("backward_euler", "bdf2", "newmark")
 HEAD = ("energy gained, %", *INTEGRATORS)

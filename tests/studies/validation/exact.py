@@ -13,7 +13,7 @@ from scipy.integrate import solve_bvp
 from scipy.interpolate import CubicSpline
 
 from tests.studies.validation.problem import axial, bending
-from tests.support.structures import MM, structure
+from tests.support.designs.structures import MM, structure
 
 WAYS = ("x", "y", "rotation")
 TOLERANCE = 1e-6

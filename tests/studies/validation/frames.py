@@ -4,7 +4,7 @@ import numpy as np
 
 from tests.studies.validation.exact import Frame
 from tests.studies.validation.problem import RODS, Problem, bending
-from tests.support.structures import AXIAL, CLAMPED, MM, probe, pushed
+from tests.support.designs.structures import AXIAL, CLAMPED, MM, probe, pushed
 
 HINGED = ["x", "y"]
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from tests.studies.validation.exact import Frame
 from tests.studies.validation.problem import RODS, Problem, bending
-from tests.support.structures import AXIAL, BENDING, CLAMPED, MM, probe, pushed
+from tests.support.designs.structures import AXIAL, BENDING, CLAMPED, MM, probe, pushed
 
 LENGTHS = (100.0, 60.0, 40.0, 80.0)  # mm
 WAYS = {"L": ((-1, 0), (0, -1)), "T": ((-1, 0), (1, 0), (0, -1))}

@@ -7,8 +7,7 @@ from scipy.optimize import brentq
 from sweep.config.case import Case, Contact, Lattice, Solver
 from sweep.scene.custom import build_structure
 from tests.studies.validation.problem import Problem
-from tests.support.solving import whole
-from tests.support.structures import (
+from tests.support.designs.structures import (
     AXIAL,
     BEAM,
     BENDING,
@@ -25,6 +24,7 @@ from tests.support.structures import (
     structure,
     swing,
 )
+from tests.support.kernels.solving import whole
 
 L, G = LENGTH * MM, GRAVITY * MM
 PASSAGE = L / np.sqrt(AXIAL * L / MASS)  # of a wave along a wall, s

@@ -5,7 +5,7 @@ import numpy as np
 from sweep.config.case import Lattice
 from sweep.design.lattice import build_network
 from tests.studies.validation.joints import ARM, CROSS
-from tests.support.structures import CLAMPED, LENGTH, MM
+from tests.support.designs.structures import CLAMPED, LENGTH, MM
 
 HINGED = ["x", "y"]
 FLAT = 12.5  # mm, height and width of the grid

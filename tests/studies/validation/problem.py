@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import isnan, log, nan
 
-from tests.support.structures import DEPTH, MATERIAL, MM
+from tests.support.designs.structures import DEPTH, MATERIAL, MM
 
 NOISE = 1e-7  # differences below it are the solver's tolerance
 

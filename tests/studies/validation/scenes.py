@@ -16,7 +16,7 @@ from tests.studies.validation import frames, pressed
 from tests.studies.validation.elastica import cantilever
 from tests.studies.validation.exact import WAYS, Frame
 from tests.studies.validation.problem import bending
-from tests.support.structures import APART, BEAM, LENGTH, MM, probe, pushed
+from tests.support.designs.structures import APART, BEAM, LENGTH, MM, probe, pushed
 
 NEAR = 12  # elements a wall of the shape at which the search for exact rods begins
 FINEST = 48

@@ -5,7 +5,7 @@ from scipy.optimize import brentq
 
 from sweep.config.case import Contact, Damping
 from tests.studies.validation.problem import Problem
-from tests.support.structures import (
+from tests.support.designs.structures import (
     BENDING,
     CLAMPED,
     DEPTH,

@@ -11,7 +11,7 @@ import pytest
 from sweep.cli.completion import SHELLS, script
 from sweep.result import COLUMNS
 from tests.support.command import crumple
-from tests.support.specimens import summary, write
+from tests.support.results.specimens import summary, write
 
 ROOT = Path(__file__).parents[3]
 

@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.cli.find_case import CaseError, by_id, by_number, is_number
-from tests.support.specimens import designs, summary
+from tests.support.results.specimens import designs, summary
 
 QUESTION = {"budget": ["1.5 g", "10 g"]}
 
@@ -53,8 +53,28 @@ def test_what_is_not_there_is_refused(two_scenes, number, scene, why):
 
 
 def test_ranking_without_places_has_no_numbers():
-    with pytest.raises(CaseError, match="no case has a place"):
+    with pytest.raises(CaseError, match="no design has a place in the ranking; without CASE, show"):
         by_number(summary({"status": "stopped"}), 1, None, {})
+
+
+def test_where_nothing_has_a_place_the_nearest_design_is_named(two_scenes):
+    """A scene without places keeps its number."""
+    of_scene = {**QUESTION, "budget": "0.8 g"}
+    why = "of crushed to 50 %, contact platens; .* lightest design: case 0+5, ninjaflex"
+    with pytest.raises(CaseError, match=why):
+        by_number(two_scenes, 1, "2", of_scene)
+    question = {"require": {"min_absorbed": "0.4 J"}}
+    assert by_number(two_scenes, 1, None, question)[0]["case_id"] == two_scenes["case_id"][1]
+    with pytest.raises(CaseError, match=r"that of the nearest design: case 0+6, ninjaflex"):
+        by_number(two_scenes, 1, "contact", question)
+
+
+def test_a_number_of_a_doubtful_design_says_so(two_scenes):
+    doubtful = two_scenes.assign(max_crossings=[0, 1, 0, 0, 0, 0, 0])
+    assert by_number(doubtful, 1, None, {"budget": "10 g"})[1].endswith(
+        "up to 10 g, marked as not to be trusted"
+    )
+    assert by_number(doubtful, 2, None, {"budget": "10 g"})[1].endswith("up to 10 g")
 
 
 def test_id_begins_so(two_scenes):

@@ -5,7 +5,7 @@ import pytest
 from sweep.config.case import Material
 from sweep.config.material_file import available
 from tests.support.command import crumple
-from tests.support.coupons import coupon, written
+from tests.support.materials.coupons import coupon, written
 
 
 def test_without_words_all_materials_are_listed(capsys):

@@ -4,7 +4,7 @@ import json
 
 from sweep.cli.status_json import status_record
 from sweep.result import MODEL_VERSION
-from tests.support.specimens import summary
+from tests.support.results.specimens import summary
 
 
 def test_record_counts_cases_and_gathers_failures():

@@ -9,7 +9,7 @@ import pytest
 
 from sweep.cli.terminal import fitted
 from sweep.report.sheets import Sheet
-from tests.support.specimens import summary, write
+from tests.support.results.specimens import summary, write
 
 ROOT = Path(__file__).parents[3]
 

@@ -19,7 +19,7 @@ from sweep.result import absorbed_energy_column
 from sweep.running.sweep import Interrupted
 from sweep.store.read import read_summary
 from tests.support.command import crumple
-from tests.support.specimens import designs, summary, write
+from tests.support.results.specimens import designs, summary, write
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +68,7 @@ REFUSED = [
     (["rank", "FILE", "--out", "F", "--drop-height", "1"], "a bare number"),
     (["rank", "FILE", "--out", "F", "--drop-height", "0 m"], "heights must be above zero"),
     (["rank", "FILE", "--panel", "100 mm"], "expected 2 arguments"),
-    (["rank", "FILE", "--by", "peak_forse_N"], "did you mean peak_force_N?"),
+    (["rank", "FILE", "--by", "peak_forse_N"], "the nearest are peak_force_N, "),
     (["rank", "FILE", "--allowed-force", "50 N"], "set loading.allowed_forces"),
     (["rank", "FILE", "--top", "0"], "1 or more"),
     (["rank", "FILE", "--max-force", "60"], "a bare number"),
@@ -165,7 +165,8 @@ def test_config_speaks_where_the_arguments_are_silent(capsys, tmp_path):
     other = heading.replace("100 mm x 50 mm", "4 in x 2in").format(500)
     assert other in crumple(capsys, "rank", file, "--panel", "4 in", "2in")[1]
     assert "At most 2 oz. Best" in crumple(capsys, "rank", file, "--budget", "2 oz")[1]
-    assert crumple(capsys, "rank", file, "--by", "mass_g")[1].startswith("Best first: least mass_g")
+    by_mass = crumple(capsys, "rank", file, "--by", "mass_g")[1]
+    assert by_mass.startswith("Best first: least mass, in g.")
 
 
 def test_requirements_of_the_config_hold_unless_an_option_replaces_or_drops_them(capsys, tmp_path):
@@ -176,8 +177,12 @@ def test_requirements_of_the_config_hold_unless_an_option_replaces_or_drops_them
     file = write(tmp_path / "trial.h5", summary({}), {"config": json.dumps(config)})
     _, out, _ = crumple(capsys, "rank", file)
     assert "Required of a panel: force at most 800 N." in out
-    assert "None passes less than 800 N; the best is 1000 N." in out
-    assert "None passes" in crumple(capsys, "rank", file, "--by", "mass_g")[1]
+    assert "ninjaflex: force 1000 N, 25 % too much." in out
+    assert out.endswith(
+        f"to see the nearest: crumple show {file} 0000\n"
+        f"to print it: crumple export {file} 0000 --to part.stl\n"
+    )
+    assert "Nearest" in crumple(capsys, "rank", file, "--by", "mass_g")[1]
     _, out, _ = crumple(capsys, "rank", file, "--max-force", "1 kN", "--max-mass", "60 g")
     assert "force at most 1000 N, mass at most 60 g" in out
     assert "All designs (1) fulfil this." in out
@@ -216,7 +221,7 @@ def test_budget_that_nothing_meets_is_told(capsys, file):
     said = [
         "At most 0.5 g. Best first: most energy.",
         "",
-        "Nothing weighs 0.5 g or less: the lightest weighs 1 g.",
+        f"Nothing weighs 0.5 g or less: the lightest weighs 1 g, case {16 * '0'}, ninjaflex.",
     ]
     assert out.splitlines()[:3] == said
 
@@ -248,6 +253,63 @@ def test_folder_holds_tables_and_figures(capsys, file, tmp_path):
     assert out.split() == [str(folder / name) for name in names]
     assert all((folder / name).stat().st_size > 200 for name in names)
     assert len(pd.read_csv(folder / "ranking.csv")) == 3
+
+
+def test_heights_of_cushion_curves_may_be_those_of_the_config(capsys, tmp_path):
+    about = {"config": json.dumps({"rank": {"drop_heights": [0.5]}})}
+    crushed = write(tmp_path / "crushed.h5", summary({}), about)
+    out = crumple(capsys, "rank", crushed, "--out", str(tmp_path / "a"))[1]
+    assert "cushion_500mm.png" in out
+    out = crumple(capsys, "rank", crushed, "--out", str(tmp_path / "b"), "--drop-height", "1 m")[1]
+    assert "cushion_1000mm.png" in out
+    assert "500mm" not in out
+    loaded = write(
+        tmp_path / "loaded.h5",
+        summary({"loading_mode": "force", "force_N": 5.0, "peak_strain": 0.1}),
+        about,
+    )
+    status, out, _ = crumple(capsys, "rank", loaded, "--out", str(tmp_path / "c"))
+    assert status == 0
+    assert "cushion_" not in out.replace(str(tmp_path), "")
+
+
+def test_heading_is_in_words(capsys, tmp_path):
+    hit = {"loading_mode": "impact", "striker_mass_g": 50.0, "striker_speed_m_per_s": 1.0}
+    file = write(tmp_path / "trial.h5", summary(hit))
+    assert "Best first: least force on the support.\n" in crumple(capsys, "rank", file)[1]
+    out = crumple(capsys, "rank", file, "--by", "peak_deceleration_filtered_m_per_s2")[1]
+    assert "Best first: least peak deceleration filtered, in m/s^2.\n" in out
+    assert "decel." in out
+
+
+def test_that_nothing_meets_what_is_asked_is_an_answer(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({}))
+    status, out, _ = crumple(capsys, "rank", file, "--max-force", "1 N")
+    assert status == 0
+    assert "No design has a place here." in out
+    status, _, err = crumple(capsys, "show", file, "1", "--budget", "0.1 g")
+    assert status == 2
+    assert "that of the lightest design: case 0000" in err
+
+
+def test_stroke_up_to_an_allowed_force_is_shown(capsys, tmp_path):
+    """Of the stored curve, 24 N after 2 of 4 mm."""
+    row = {"absorbed_energy_at_24N_J": 0.044, "peak_force_N": 28.0}
+    file = write(tmp_path / "trial.h5", summary(row))
+    out = crumple(capsys, "rank", file, "--allowed-force", "24 N")[1]
+    assert next(line for line in out.splitlines() if line.startswith("1*")).split()[-1] == "2.00"
+    status, out, _ = crumple(capsys, "show", file, "1", "--allowed-force", "24 N")
+    assert status == 0
+
+
+def test_requirement_that_no_case_can_be_asked_for_is_refused_before_the_run(capsys, tmp_path):
+    path = tmp_path / "trial.toml"
+    path.write_text('[loading]\nforce = "1 N"\n[require]\nmin_absorbed = "1 J"')
+    out = tmp_path / "trial.h5"
+    status, _, err = crumple(capsys, "run", str(path), "--out", str(out))
+    assert status == 2
+    assert err == ("crumple run: min_absorbed needs a crush, and there is none\n")
+    assert not out.exists()
 
 
 def test_status_gathers_failures_of_one_kind(capsys, file):
@@ -373,11 +435,11 @@ def test_run_simulates_ranks_and_tells_of_failures(capsys, config):
     assert "3/3 cases" in err
     assert err.splitlines()[-3:] == [
         "results: results/trial.h5",
-        "next: crumple show results/trial.h5 1: pictures of the best design",
+        "next: crumple show results/trial.h5 1: pictures of the first design",
         "      crumple rank results/trial.h5 --out results/trial: tables and pictures",
     ]
     assert "1 of 3 cases failed: crumple status results/trial.h5 says why" in out
-    assert "Nothing weighs 5 g or less: the lightest weighs 6 g." in out
+    assert "Nothing weighs 5 g or less: the lightest weighs 6 g, case " in out
     assert list(read_summary("results/trial.h5")["status"]) == ["converged", "stopped", "converged"]
 
 

@@ -91,6 +91,9 @@ UNFIT = {
         'lattice.symmetry = "quarter": does not fit; allowed: "none", as the drawing is not '
         "symmetric about its middle"
     ),
+    'stroke = "20 mm"': (
+        'loading.stroke = "20 mm": does not fit; allowed: below the depth of the lattice, 12 mm'
+    ),
     "[lattice]\nlayers = 16": (
         "lattice.layers = 16: does not fit; allowed: at most 15 here, as quads are no lower than "
         "walls are thick"

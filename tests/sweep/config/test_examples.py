@@ -42,6 +42,7 @@ CONFIGS = Path(__file__).parents[3] / "configs"
         ("custom", 1),
         ("seed", 14),
         ("impact", 24),
+        ("drop", 8),
         ("slicer", 10),
         ("khatri_egan_square", 72),
         ("khatri_egan_square_out_of_plane", 9),
@@ -56,6 +57,6 @@ def test_shipped_configs_expand(name, cases):
 
 def test_every_shipped_config_is_pinned():
     studies = {"custom", "seed", "impact", "khatri_egan_square", "extreme", "reuse", "search"}
-    names = {"smoke", "armor", "infills", "slicer", "thousand"}
+    names = {"smoke", "armor", "drop", "infills", "slicer", "thousand"}
     names |= {"khatri_egan_square_out_of_plane", "which_way"}
     assert {path.stem for path in CONFIGS.glob("*.toml")} == names | studies

@@ -60,5 +60,10 @@ def test_keys_tell_their_unit_and_what_they_set():
     wall, cells = case_keys()["lattice.wall_thickness"], case_keys()["lattice.cells"]
     assert (wall.unit, wall.bare, wall.is_list) == ("m", False, False)
     assert cells.targets == ("lattice.cells_x", "lattice.cells_y")
-    assert set(table_keys("rank")) == {"rank.budgets", "rank.panel", "rank.per"}
+    assert set(table_keys("rank")) == {
+        "rank.budgets",
+        "rank.panel",
+        "rank.drop_heights",
+        "rank.per",
+    }
     assert "lattice.structure" not in case_keys()

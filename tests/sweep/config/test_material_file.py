@@ -11,7 +11,7 @@ from sweep.config.material_file import (
     read_record,
     stress_at,
 )
-from tests.support.records import HEADER
+from tests.support.materials.records import HEADER
 
 
 def test_a_stated_modulus_wins(own_record):

@@ -4,7 +4,7 @@ import pytest
 
 from sweep.config.material_file import PLASTICITY, RecordError, available, locate, read_record
 from sweep.config.material_header import Stated, assumed, comments, source, stated
-from tests.support.records import HEADER
+from tests.support.materials.records import HEADER
 
 ROWS = "0.01,2e4\n0.05,1e5\n"
 

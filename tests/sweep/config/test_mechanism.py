@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.config.mechanism import find_mechanism
-from tests.support.structures import structure
+from tests.support.designs.structures import structure
 
 FEET = [{"node": 0, "fix": ["x", "y"]}, {"node": 1, "fix": ["y"]}]
 FOUR_BARS = {

@@ -5,7 +5,7 @@ import pytest
 from sweep.config.case import Case, Lattice
 from sweep.config.grid import ConfigError, expand
 from sweep.config.printable import what_does_not_print
-from tests.support.structures import ROD, structure
+from tests.support.designs.structures import ROD, structure
 
 KEPT = (
     '[lattice]\nprintable = true\n[grid]\n"lattice.wall_thickness" = ["0.4 mm", "0.6 mm", "0.8 mm"]'

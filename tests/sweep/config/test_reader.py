@@ -9,7 +9,7 @@ from sweep.config.case import Case
 from sweep.config.grid import expand
 from sweep.config.material_file import available
 from sweep.config.units import load_config
-from tests.support.structures import BEAM
+from tests.support.designs.structures import BEAM
 
 
 def test_empty_config_is_the_seed(load):
@@ -84,9 +84,12 @@ def test_numbers_of_a_material_are_not_called_defaults(lines):
 
 
 def test_rank_is_in_si(load):
-    rank = load('[rank]\nbudgets = ["20 g", "1 oz"]\npanel = ["100 mm", "2 in"]').rank
+    rank = load(
+        '[rank]\nbudgets = ["20 g", "1 oz"]\npanel = ["100 mm", "2 in"]\ndrop_heights = ["1 ft"]'
+    ).rank
     assert rank.budgets == pytest.approx((0.02, 0.028349523125))
     assert rank.panel == pytest.approx((0.1, 0.0508))
+    assert rank.drop_heights == pytest.approx((0.3048,))
 
 
 def test_requirements_are_in_si_and_in_no_id(load):

@@ -6,8 +6,8 @@ from sweep.config.case import Case, Damping, Lattice, Loading, Material, Solver
 from sweep.config.grid import expand
 from sweep.config.material_file import locate, not_rising, read_record
 from sweep.scene.material import stress_law
-from tests.support.records import HEADER, RUBBERS
-from tests.support.structures import BEAM, structure
+from tests.support.designs.structures import BEAM, structure
+from tests.support.materials.records import HEADER, RUBBERS
 
 SAGS = "0.01,1e5\n0.05,4e5\n0.1,3e5\n1,2e6\n"
 LEVEL = "0.01,1e5\n0.05,2e5\n0.1,10e5\n0.2,10.1e5\n"

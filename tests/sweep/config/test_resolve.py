@@ -8,7 +8,7 @@ from pydantic import ValidationError
 
 from sweep.config.case import Case, Contact, Damping, Loading, Solver
 from sweep.config.units import ConfigError, load_config
-from tests.support.cases import pressed
+from tests.support.designs.cases import pressed
 
 PERIODIC = '[lattice]\nboundary = "periodic"\n'
 LED = 'allowed: "displacement" if lattice.boundary is "periodic"'

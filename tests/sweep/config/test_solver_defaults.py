@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.config.case import Case, Contact, Loading, Solver
-from tests.support.cases import pressed
+from tests.support.designs.cases import pressed
 
 UNFIT = {
     '[solver]\ntime_step = "1e-12 s"': (

@@ -8,8 +8,8 @@ from sweep.config.grid import expand
 from sweep.config.material_file import locate, read_record
 from sweep.config.tables import MODES
 from sweep.config.units import ConfigError
-from tests.support.cases import pressed
-from tests.support.records import HEADER
+from tests.support.designs.cases import pressed
+from tests.support.materials.records import HEADER
 
 UNFIT = {
     '[material]\nmodulus = "12 MPa"': (

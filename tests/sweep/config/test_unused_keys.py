@@ -6,7 +6,7 @@ import pytest
 
 from sweep.config.grid import expand
 from sweep.config.units import ConfigError, load_config
-from tests.support.structures import BEAM, ROD
+from tests.support.designs.structures import BEAM, ROD
 
 BOTH = '[grid]\nloading.mode = ["force", "displacement"]\n'
 PRESSED = '[loading]\nmode = "displacement"\n'

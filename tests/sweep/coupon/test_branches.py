@@ -7,7 +7,7 @@ import pytest
 
 from sweep.coupon.branches import POINTS, branch_name, path, turns, work
 from sweep.coupon.record import Coupon
-from tests.support.coupons import ROWS, coupon
+from tests.support.materials.coupons import ROWS, coupon
 
 
 def test_turns_are_where_the_strain_turns():

@@ -7,7 +7,7 @@ from sweep.coupon.branches import turns
 from sweep.coupon.curve import Loading, tension
 from sweep.coupon.record import Coupon
 from sweep.scene.material import stress_law
-from tests.support.coupons import RATE, coupon, ninjaflex
+from tests.support.materials.coupons import RATE, coupon, ninjaflex
 
 MEMORY = {"loss": 0.4}
 

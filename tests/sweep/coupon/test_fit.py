@@ -5,7 +5,7 @@ import pytest
 
 from sweep.coupon.fit import BETA, fit
 from sweep.coupon.record import Coupon, CouponError
-from tests.support.coupons import coupon
+from tests.support.materials.coupons import coupon
 
 BOTH = {"loss": 0.35, "softening_r": 2.5, "softening_m": 3e5}
 GROWING = BOTH | {"softening_beta": 0.3}

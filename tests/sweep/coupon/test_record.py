@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from sweep.coupon.record import Coupon, CouponError, coarse_modulus, read_coupon
-from tests.support.coupons import coupon, written
+from tests.support.materials.coupons import written
 
-TEST = coupon(0.3, 0.02)
+STRAIN = np.r_[np.linspace(0.0, 0.3, 201), np.linspace(0.3, 0.02, 201)[1:]]
+TEST = Coupon("trial", 20.0 * np.r_[0.0, np.cumsum(np.abs(np.diff(STRAIN)))], STRAIN, 1e7 * STRAIN)
 
 
 def changed(**columns):

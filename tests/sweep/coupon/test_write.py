@@ -10,7 +10,7 @@ from sweep.config.material_header import assumed, source
 from sweep.coupon.fit import fit
 from sweep.coupon.record import Coupon
 from sweep.coupon.write import fit_sentence, material_text, told
-from tests.support.coupons import coupon
+from tests.support.materials.coupons import coupon
 
 NAMES = ("time", "strain", "stress")
 BOTH = {"loss": 0.35, "softening_r": 2.5, "softening_m": 3e5}

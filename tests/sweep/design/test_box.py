@@ -9,7 +9,7 @@ from sweep.design.drawing import extent
 from sweep.design.infill import families, trait
 from sweep.design.lattice import build_network
 from sweep.design.network import relative_density
-from tests.support.infills import lattice_of
+from tests.support.designs.infills import lattice_of
 
 T, W, H = 0.8e-3, 12.5e-3, 12.5e-3
 

@@ -15,7 +15,7 @@ from sweep.design.drawing import (
     sketch,
     welded,
 )
-from tests.support.infills import EDGES, KINDS, lattice_of
+from tests.support.designs.infills import EDGES, KINDS, lattice_of
 
 
 @pytest.mark.parametrize("edge", EDGES)

@@ -14,7 +14,7 @@ from sweep.design.extrusion import (
 from sweep.design.geometry import Geometry
 from sweep.design.infill import families
 from sweep.design.lattice import build_network
-from tests.support.plates import network
+from tests.support.designs.plates import network
 
 EVEN = ("circle", "diamond", "hex", "reentrant", "square")  # bricks have five sides at the edges
 

@@ -12,8 +12,8 @@ from sweep.design.infill import families
 from sweep.design.lattice import build_network
 from sweep.design.network import relative_density
 from sweep.scene.lattice import build_scene
-from tests.support.infills import EDGES, KINDS, lattice_of
-from tests.support.solving import whole
+from tests.support.designs.infills import EDGES, KINDS, lattice_of
+from tests.support.kernels.solving import whole
 
 
 def levels(*joints):

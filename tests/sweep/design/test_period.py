@@ -10,7 +10,7 @@ from sweep.design import period
 from sweep.design.infill import families
 from sweep.design.lattice import build_network
 from sweep.design.network import relative_density
-from tests.support.periods import L, cut_elsewhere, lattice_of
+from tests.support.designs.periods import L, cut_elsewhere, lattice_of
 
 
 @pytest.mark.parametrize("kind", families())

@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 
 from sweep.export.curves import with_stress, write_curves
-from tests.support.specimens import summary, there_and_back
+from tests.support.results.specimens import summary, there_and_back
 
 ROW = summary({}).iloc[0]  # 13 mm wide, 10 mm deep
 

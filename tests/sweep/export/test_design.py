@@ -13,8 +13,8 @@ from sweep.design.lattice import build_network
 from sweep.export.design import design_of, stored_design
 from sweep.export.errors import ExportError
 from sweep.running.provenance import config_text
-from tests.support.exported import config_of, grid, row_of
-from tests.support.infills import EDGES, KINDS, lattice_of
+from tests.support.designs.infills import EDGES, KINDS, lattice_of
+from tests.support.results.exported import config_of, grid, row_of
 
 
 @pytest.mark.parametrize(("kind", "way"), KINDS)

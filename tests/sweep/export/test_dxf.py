@@ -10,7 +10,7 @@ from sweep.export.design import design_of
 from sweep.export.dxf import write_dxf
 from sweep.export.errors import ExportError
 from sweep.export.outline import outline, specimen
-from tests.support.exported import grid
+from tests.support.results.exported import grid
 
 
 @pytest.fixture

@@ -13,13 +13,13 @@ import trimesh
 from PIL import Image
 
 import crumple
-from sweep.config.case import Case, Lattice
+from sweep.config.case import Case, Lattice, Loading
 from sweep.config.units import quantity
 from sweep.export import export as module
 from sweep.export.errors import ExportError
 from sweep.export.export import WRITERS, export_case
-from tests.support.exported import grid, results
-from tests.support.specimens import summary, write
+from tests.support.results.exported import grid, results
+from tests.support.results.specimens import summary, write
 
 CASE = grid()
 
@@ -68,6 +68,14 @@ def test_panel_is_a_row_of_specimens(file, tmp_path):
     told = "7 side by side, each 4 specimens of 12 mm deep: 95.5 x 13.3 mm, 48 mm deep: "
     assert found.notes[0].startswith(told)
     assert found.notes[1:] == ["these 28 specimens are what rank counts for a panel of 100 x 50 mm"]
+
+
+def test_what_is_pressed_along_its_cells_is_no_panel(tmp_path):
+    case = Case(loading=Loading(direction="out_of_plane"))
+    with pytest.raises(ExportError, match="pressed along its cells"):
+        export_case(case, tmp_path / "panel.stl", panel=("100 mm", 0.05))
+    (path,), _ = export_case(case, tmp_path / "one.stl")
+    assert path.exists()
 
 
 @pytest.mark.parametrize("sides", [("100 mm", "50 mm"), ("4 in", "2 in"), ("30 mm", "17 mm")])

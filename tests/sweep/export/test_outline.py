@@ -8,7 +8,7 @@ from sweep.design.network import Network
 from sweep.export.design import design_of
 from sweep.export.errors import ExportError
 from sweep.export.outline import block, outline, panel, rings, specimen
-from tests.support.exported import grid
+from tests.support.results.exported import grid
 
 T, SIDE = 0.8, 12.5  # mm: wall thickness, width over centre lines
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from sweep.export.shapes import write_shapes
-from tests.support.specimens import squeezed_cell, tube
+from tests.support.results.specimens import squeezed_cell, tube
 
 HEIGHTS = (10.0, 7.0, 4.0)
 

@@ -9,8 +9,8 @@ from sweep.export.design import design_of
 from sweep.export.errors import ExportError
 from sweep.export.outline import outline, panel, specimen
 from sweep.export.solid import Body, extruded, solid
-from tests.support.exported import grid
-from tests.support.infills import EDGES, KINDS, lattice_of
+from tests.support.designs.infills import EDGES, KINDS, lattice_of
+from tests.support.results.exported import grid
 
 THICKNESSES = (0.2e-3, 0.85e-3)
 SINGLE = np.float32  # of an STL

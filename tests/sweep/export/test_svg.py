@@ -11,7 +11,7 @@ from sweep.config.case import Case
 from sweep.export.design import design_of
 from sweep.export.outline import outline, specimen
 from sweep.export.svg import write_svg
-from tests.support.infills import lattice_of
+from tests.support.designs.infills import lattice_of
 
 
 def test_rings_are_the_outline_with_y_upwards(tmp_path):

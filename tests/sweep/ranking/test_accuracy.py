@@ -15,8 +15,16 @@ from sweep.simulation.simulate import simulate
 from sweep.store.read import read_summary
 from tests.support import readme
 from tests.support.command import crumple
-from tests.support.made_up_studies import ENERGY, ORDERS, PEAK, STEPS, all_steps, made_up, study
-from tests.support.specimens import there_and_back
+from tests.support.results.made_up_studies import (
+    ENERGY,
+    ORDERS,
+    PEAK,
+    STEPS,
+    all_steps,
+    made_up,
+    study,
+)
+from tests.support.results.specimens import there_and_back
 
 CONFIGS = Path(__file__).parents[3] / "configs" / "accuracy"
 

@@ -6,8 +6,8 @@ import pytest
 from sweep.ranking.curves import reached, with_allowed
 from sweep.ranking.merit import AT_ALLOWED
 from sweep.ranking.rank import rank
-from sweep.store.read import read_summary
-from tests.support.specimens import designs, ids, summary, write
+from sweep.store.read import read_history, read_summary
+from tests.support.results.specimens import designs, ids, summary, write
 
 PANEL = ("130 mm", "50 mm")
 
@@ -24,11 +24,11 @@ def file(tmp_path_factory):
 
 
 def test_a_curve_answers_for_any_force(file):
-    first = read_summary(file)["case_id"][0]
-    energy, stroke = reached(file, first, 24.0)
+    first = read_history(file, read_summary(file)["case_id"][0])
+    energy, stroke = reached(first, 24.0)
     assert stroke == pytest.approx(2e-3)
     assert energy == pytest.approx(44e-3)
-    energy, stroke = reached(file, first, 1e3)
+    energy, stroke = reached(first, 1e3)
     assert (energy, stroke) == pytest.approx((96e-3, 4e-3))
 
 
@@ -43,8 +43,7 @@ def test_each_design_bears_its_share_of_the_force_of_the_panel(file):
 
 
 def test_stroke_up_to_a_force_of_a_specimen_needs_no_column(file):
-    question = {"allowed_force": 24.0, "require": {"max_stroke": 3e-3}}
-    table = with_allowed(file, read_summary(file), question)
+    table = with_allowed(file, read_summary(file), {"allowed_force": 24.0})
     assert list(table["stroke_at_allowed_m"][:3]) == pytest.approx([2e-3] * 3)
     assert np.isnan(table["stroke_at_allowed_m"][3])
 
@@ -57,5 +56,5 @@ def test_stroke_and_force_of_a_panel_are_required_together(file):
 
 def test_curves_are_left_alone_where_the_summary_has_the_answer(file):
     table = read_summary(file)
-    assert with_allowed("nowhere.h5", table, {"allowed_force": 50.0}) is table
+    assert with_allowed("nowhere.h5", table, {"require": {"max_stroke": 1e-3}}) is table
     assert with_allowed("nowhere.h5", table, {"per": "panel", "panel": PANEL}) is table

@@ -13,7 +13,7 @@ from sweep.ranking.cushion import (
     drops,
     shoulder,
 )
-from tests.support.specimens import summary, there_and_back
+from tests.support.results.specimens import summary, there_and_back
 
 ROW = {"outer_width_m": 10e-3, "depth_m": 20e-3, "height_m": 30e-3}
 AREA, THICKNESS = 2e-4, 30e-3

@@ -6,10 +6,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from sweep.ranking.rank import RankError, pareto, rank, ranked, scene_label
+from sweep.ranking.rank import USUAL, RankError, pareto, rank, ranked, scene_label
 from sweep.report.sheets import ranking_sheets
 from sweep.result import COLUMNS, MODEL_VERSION
-from tests.support.specimens import designs, ids, summary
+from tests.support.readme import QUOTED
+from tests.support.results.specimens import designs, ids, summary
 
 NAN = float("nan")
 
@@ -211,10 +212,31 @@ def test_versions_of_the_model_are_counted():
     assert ranked(table.drop(columns="model_version")).versions == {1: 3}
 
 
+def test_a_column_that_is_not_there_is_refused_with_its_neighbours_and_the_usual_ones():
+    with pytest.raises(RankError) as refused:
+        rank(summary({}), by="peak_forse_N")
+    first, second = str(refused.value).splitlines()
+    assert first.startswith(
+        'cannot sort by "peak_forse_N": no such column; the nearest are peak_force_N, '
+    )
+    start, _, end = second.partition(" and ")
+    assert start == f"allowed: {', '.join(USUAL)}"
+    count, _, where = end.partition(" others: ")
+    assert int(count) > 30
+    assert where == "the first line of rank --csv has all, docs/results.md explains most"
+    with pytest.raises(RankError, match="neither more nor less of it makes a design better"):
+        rank(summary({}), by="cells_x")
+    with pytest.raises(RankError, match='"nosuch": no such column\nallowed: absorbed'):
+        rank(summary({}), by="nosuch")
+
+
+def test_the_usual_columns_are_those_of_the_pages():
+    assert {*USUAL} <= QUOTED
+    assert len(USUAL) == 12
+
+
 def test_refusals_name_what_is_allowed():
     table = summary({"absorbed_energy_at_50N_J": 0.1, "absorbed_energy_at_200N_J": 0.2})
-    with pytest.raises(RankError, match=r"did you mean peak_force_N\? allowed: mass_g, "):
-        rank(table, by="peak_forse_N")
     with pytest.raises(RankError, match="cannot sort by"):
         rank(table, by="material")
     with pytest.raises(RankError, match=r"up to 60 N in these results; allowed: 50 N or 200 N"):

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from sweep.ranking.rank import RankError, rank, ranked
-from sweep.ranking.requirements import MEASURES, limits, measured
-from tests.support.specimens import designs, ids, summary
+from sweep.ranking.requirements import MEASURES, Best, limits, measured
+from tests.support.results.specimens import designs, ids, summary
 
 NAN = float("nan")
 PANEL = ("130 mm", "50 mm")  # 50 specimens
@@ -37,7 +37,7 @@ ONE_BY_ONE = {
 def test_only_what_meets_a_requirement_has_a_place(name, limit):
     ranking = ranked(CRUSHED, require={name: limit})
     assert sorted(ids(ranking.table)) == ONE_BY_ONE[name, limit]
-    outcome = ranking.outcomes[SCENE]
+    (outcome,) = ranking.outcomes[SCENE]
     assert (outcome.designs, outcome.fulfil) == (3, len(ranking.table))
     assert outcome.failed == {name: 3 - len(ranking.table)}
     assert outcome.unknown == {name: 0}
@@ -49,7 +49,7 @@ def test_a_panel_bears_the_force_of_all_its_specimens():
     assert ids(ranking.table) == [1]
     assert list(ranking.table["panel_specimens"]) == [50]
     assert list(ranking.table["panel_force_N"]) == [1500.0]
-    assert ranking.outcomes[SCENE].failed == {"max_force": 1, "max_mass": 1, "min_absorbed": 1}
+    assert ranking.outcomes[SCENE][0].failed == {"max_force": 1, "max_mass": 1, "min_absorbed": 1}
     of_specimen = {"max_force": "30 N", "max_mass": "2 g", "min_absorbed": "180 mJ"}
     assert ids(rank(CRUSHED, panel=PANEL, require=of_specimen)) == [1]
 
@@ -84,28 +84,29 @@ def test_missing_values_meet_nothing_and_are_counted():
     table = summary(struck(60.0, 400.0), struck(50.0, NAN), struck(50.0, 900.0))
     ranking = ranked(table, require={"max_deceleration": "50 g0"})
     assert ids(ranking.table) == [0]
-    (outcome,) = ranking.outcomes.values()
+    ((outcome,),) = ranking.outcomes.values()
     assert (outcome.failed, outcome.unknown) == ({"max_deceleration": 2}, {"max_deceleration": 1})
-    assert outcome.best == {"max_deceleration": 400.0}
+    assert outcome.best == {"max_deceleration": Best(400.0, doubtful=False)}
 
 
 def test_least_stroke_is_that_of_a_rectangle():
     """1.5 J at 60 N: 25 mm, for a specimen and for a panel of 50 alike."""
     table = summary(struck(76.0), struck(90.0))
-    (outcome,) = ranked(table, require={"max_force": "60 N"}).outcomes.values()
-    assert (outcome.fulfil, outcome.best, outcome.energy) == (0, {"max_force": 76.0}, 1.5)
+    ((outcome,),) = ranked(table, require={"max_force": "60 N"}).outcomes.values()
+    assert (outcome.fulfil, outcome.best["max_force"].value, outcome.energy) == (0, 76.0, 1.5)
     assert outcome.stroke == pytest.approx(25e-3)
     assert outcome.height == 12.2e-3
     asked = ranked(table, panel=PANEL, require={"max_force": "3 kN"}, per="panel")
-    (outcome,) = asked.outcomes.values()
-    assert (outcome.energy, outcome.best) == (75.0, {"max_force": 3800.0})
+    ((outcome,),) = asked.outcomes.values()
+    assert (outcome.energy, outcome.best["max_force"].value) == (75.0, 3800.0)
     assert outcome.stroke == pytest.approx(25e-3)
 
 
 def test_least_stroke_of_a_crush_is_of_the_energy_that_is_asked_for():
-    alone = ranked(CRUSHED, require={"max_force": "10 N"}).outcomes[SCENE]
+    (alone,) = ranked(CRUSHED, require={"max_force": "10 N"}).outcomes[SCENE]
     assert np.isnan(alone.stroke)
-    both = ranked(CRUSHED, require={"max_force": "10 N", "min_absorbed": "0.2 J"}).outcomes[SCENE]
+    asked = {"max_force": "10 N", "min_absorbed": "0.2 J"}
+    (both,) = ranked(CRUSHED, require=asked).outcomes[SCENE]
     assert both.stroke == pytest.approx(20e-3)
 
 
@@ -119,11 +120,114 @@ def test_an_impact_is_judged_by_the_force_on_its_support():
 def test_crushes_are_not_asked_for_a_deceleration():
     table = summary(struck(60.0, 400.0), {}, {"loading_mode": "force", "force_N": 5.0})
     ranking = ranked(table, require={"max_deceleration": "50 g0"})
-    left_out = [outcome.left_out for outcome in ranking.outcomes.values()]
+    left_out = [outcome.left_out for (outcome,) in ranking.outcomes.values()]
     assert left_out == [(), ("max_deceleration",), ("max_deceleration",)]
     assert sorted(ids(ranking.table)) == [0, 1, 2]
     with pytest.raises(RankError, match="max_deceleration needs a striker"):
         rank(CRUSHED, require={"max_deceleration": "500 m/s^2"})
+
+
+LOADED = {"loading_mode": "force", "force_N": 5.0, "absorbed_energy_J": 0.01, "peak_strain": 0.9}
+
+
+def test_a_loading_is_not_asked_for_what_it_sets_itself():
+    table = summary({}, LOADED, struck(60.0))
+    asked = {"max_force": "70 N", "min_absorbed": "20 mJ", "max_mass": "3 g"}
+    ranking = ranked(table, require=asked)
+    assert sorted(ids(ranking.table)) == [0, 1, 2]
+    left_out = {outcome.mode: outcome.left_out for (outcome,) in ranking.outcomes.values()}
+    both = ("max_force", "min_absorbed")
+    assert left_out == {"displacement": (), "force": both, "impact": both[1:]}
+    sinks = ranked(table, require={"max_stroke": "7 mm"})  # 0.9 of 12.2 mm under the dead load
+    assert sorted(ids(sinks.table)) == [0, 2]
+
+
+@pytest.mark.parametrize(
+    ("name", "limit", "needed"),
+    [
+        ("max_force", "70 N", "max_force needs a crush or a striker, and there is none"),
+        ("min_absorbed", "1 J", "min_absorbed needs a crush, and there is none"),
+    ],
+)
+def test_what_no_loading_of_the_results_is_asked_for_is_refused(name, limit, needed):
+    with pytest.raises(RankError, match=needed):
+        rank(summary(LOADED), require={name: limit})
+
+
+def test_counts_are_those_of_each_budget():
+    ranking = ranked(CRUSHED, budget=["2 g", "9 g", "0.5 g"], require={"min_absorbed": "200 mJ"})
+    small, large, none = ranking.outcomes[SCENE]
+    assert (small.budget_g, small.designs, small.fulfil) == (2.0, 2, 0)
+    assert small.failed == {"min_absorbed": 2}
+    assert small.best["min_absorbed"].value == 0.18
+    assert (large.designs, large.fulfil, large.failed) == (3, 1, {"min_absorbed": 2})
+    assert (none.designs, none.fulfil, len(none.nearest)) == (0, 0, 0)
+    assert ids(small.lightest) == [2]
+    assert ranking.instead(SCENE) == ("nearest", small.nearest)
+
+
+def test_nearest_design_has_the_least_of_the_greatest_misses():
+    """Misses of 8 N and 0.36 J: 1.5 and 0.72; 2.75 and 0.5; 9 and none."""
+    asked = {"max_force": "8 N", "min_absorbed": "0.36 J"}
+    (outcome,) = ranked(CRUSHED, require=asked).outcomes[SCENE]
+    assert ids(outcome.nearest) == [0]
+    assert outcome.misses == pytest.approx({"max_force": 1.5, "min_absorbed": 1 - 0.1 / 0.36})
+    assert outcome.missed == pytest.approx({"max_force": 20.0, "min_absorbed": 0.1})
+    asked = {"max_force": "40 N", "min_absorbed": "0.36 J"}
+    (outcome,) = ranked(CRUSHED, require=asked).outcomes[SCENE]
+    assert ids(outcome.nearest) == [1]
+    assert outcome.misses == pytest.approx({"min_absorbed": 0.5})
+    (met,) = ranked(CRUSHED, require={"max_force": "40 N"}).outcomes[SCENE]
+    assert (len(met.nearest), met.missed, met.misses) == (0, {}, {})
+
+
+def test_of_equal_misses_the_lightest_is_the_nearest():
+    alike = summary(*designs([2.0, 1.0, 3.0], [0.1, 0.1, 0.1]))
+    (outcome,) = ranked(alike, require={"min_absorbed": "1 J"}).outcomes[SCENE]
+    assert ids(outcome.nearest) == [1]
+
+
+def test_a_doubtful_design_is_the_nearest_only_if_there_is_no_other():
+    """Beyond the model, the second passes 50 N; it meets 55 N, but is not counted as sound."""
+    table = summary(struck(76.0), struck(50.0, stroke_left_m=-1e-3), struck(90.0))
+    (outcome,) = next(iter(ranked(table, require={"max_force": "40 N"}).outcomes.values()))
+    assert ids(outcome.nearest) == [0]
+    assert outcome.best == {"max_force": Best(76.0, doubtful=False)}
+    (outcome,) = next(iter(ranked(table, require={"max_force": "55 N"}).outcomes.values()))
+    assert (outcome.fulfil, outcome.doubtful, ids(outcome.nearest)) == (1, 1, [0])
+    assert outcome.lightest.empty
+    alone = table[1:2]
+    (outcome,) = next(iter(ranked(alone, require={"max_force": "40 N"}).outcomes.values()))
+    assert ids(outcome.nearest) == [1]
+    assert outcome.best == {"max_force": Best(50.0, doubtful=True)}
+
+
+def test_designs_without_a_value_are_not_the_nearest():
+    table = summary(struck(60.0, NAN), struck(90.0, 900.0))
+    asked = {"max_deceleration": "50 g0", "max_force": "50 N"}
+    (outcome,) = next(iter(ranked(table, require=asked).outcomes.values()))
+    assert ids(outcome.nearest) == [1]
+    (outcome,) = next(iter(ranked(table[:1], require=asked).outcomes.values()))
+    assert outcome.nearest.empty
+
+
+def test_energies_that_a_longer_crush_may_raise_are_open():
+    """The first has not packed, the second has, the third also passes too much force."""
+    rising = CRUSHED.assign(densification_strain=[NAN, 0.5, NAN])
+    asked = {"max_force": "40 N", "min_absorbed": "0.5 J"}
+    (outcome,) = ranked(rising, require=asked).outcomes[SCENE]
+    assert (outcome.failed["min_absorbed"], outcome.open) == (3, 1)
+    whole = ranked(rising, by="absorbed_energy_J", require={"min_absorbed": "0.5 J"})
+    assert whole.outcomes[SCENE][0].open == 0
+    up_to = CRUSHED.assign(absorbed_energy_at_50N_J=0.1, peak_force_N=[20.0, 60.0, 80.0])
+    force = ranked(up_to, allowed_force="50 N", require={"min_absorbed": "0.5 J"})
+    assert force.outcomes[SCENE][0].open == 1
+    assert list(force.table["ends_early"]) == []
+    assert list(rank(up_to, allowed_force="50 N", by="mass_g")["ends_early"]) == [
+        True,
+        False,
+        False,
+    ]
 
 
 def test_stroke_is_that_of_the_counted_energy():

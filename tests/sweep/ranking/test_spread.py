@@ -6,7 +6,7 @@ import pytest
 from sweep.ranking.rank import ranked
 from sweep.ranking.spread import AS_GIVEN, ends, spreads
 from sweep.result import Status
-from tests.support.specimens import designs, summary
+from tests.support.results.specimens import designs, summary
 
 QUESTION = {"budget": None, "panel": None, "top": 5}
 NAMES = ("soft", "hard")

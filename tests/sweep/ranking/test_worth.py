@@ -4,7 +4,7 @@ import pytest
 
 from sweep.ranking.merit import RankError
 from sweep.ranking.worth import check_column, check_searched, front, thinned, worths
-from tests.support.specimens import designs, summary
+from tests.support.results.specimens import designs, summary
 
 QUESTION = {"budget": None, "panel": None, "by": None, "allowed_force": None}
 

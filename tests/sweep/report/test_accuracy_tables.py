@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.report.accuracy_tables import accuracy_sheets, answers, percents, scene_title, setting
-from tests.support.made_up_studies import STEPS, all_steps, made_up, study
+from tests.support.results.made_up_studies import STEPS, all_steps, made_up, study
 
 
 def test_answer_is_the_cheapest_setting(tmp_path):

@@ -6,7 +6,7 @@ from PIL import Image
 
 from sweep.report import case_plots
 from sweep.report.animation import REST, STEP, moment, standing, write_gif
-from tests.support.specimens import squeezed_cell, summary, there_and_back
+from tests.support.results.specimens import squeezed_cell, summary, there_and_back
 
 ROW = summary({}).iloc[0]
 

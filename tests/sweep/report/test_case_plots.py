@@ -5,7 +5,7 @@ import pandas
 import pytest
 
 from sweep.report import case_plots
-from tests.support.specimens import (
+from tests.support.results.specimens import (
     HEIGHT,
     T,
     squeezed_cell,
@@ -199,8 +199,25 @@ def test_winners_are_as_high_as_their_shapes():
     case_plots.winners(figure, dict(zip(["flat", "tall"], cells, strict=True)))
     figure.draw_without_rendering()
     heights = [strip.bbox.height / figure.dpi for strip in figure.subfigs]
-    asked = [case_plots.shapes_size("", frames)[1] for frames in cells]
+    scale = min(case_plots.shapes_scale(frames) for frames in cells)
+    asked = [case_plots.shapes_size("", frames, scale=scale)[1] for frames in cells]
     np.testing.assert_allclose(heights, asked, rtol=0.02)
+
+
+def test_winners_are_drawn_to_one_scale():
+    figure = case_plots.blank(12, 6)
+    cells = [squeezed_cell(heights=heights) for heights in (FLAT, TALL)]
+    alone = [case_plots.shapes_scale(frames) for frames in cells]
+    assert alone[0] > 1.1 * alone[1]
+    case_plots.winners(figure, dict(zip(["flat", "tall"], cells, strict=True)))
+    figure.draw_without_rendering()
+    axes = [ax for strip in figure.subfigs for ax in strip.axes]
+    scales = [ax.bbox.width / np.ptp(ax.get_xlim()) for ax in axes]
+    np.testing.assert_allclose(scales, case_plots.FITS * alone[1] * figure.dpi)
+    for strip in figure.subfigs:
+        left, right = strip.axes[0].bbox, strip.axes[1].bbox
+        assert left.x1 <= right.x0
+        assert left.y1 < strip.bbox.y1
 
 
 def test_pictures_are_png_files(tmp_path):

@@ -12,7 +12,7 @@ from sweep.report.cushion_plots import (
     envelope,
     same_design,
 )
-from tests.support.specimens import summary
+from tests.support.results.specimens import summary
 
 STRAIN = np.linspace(0.001, 0.6, 600)
 SPEED = (2.0 * GRAVITY * 0.5) ** 0.5  # of a fall from 0.5 m
@@ -56,6 +56,22 @@ def test_the_diagram_has_a_curve_and_a_shoulder_for_each_design(designs):
     np.testing.assert_allclose(shoulders * 12e6, [[20e3, 10e3], [5e3, 2.5e3]], rtol=0.02)
     assert most.get_ydata().max() == pytest.approx(thick.get_ydata().max())
     assert ax.get_xlabel() == "greatest stress / modulus"
+
+
+@pytest.mark.parametrize("diagram", ["absorption", "cushion"])
+def test_walls_are_lines_in_the_legend_as_thick_as_their_curves(designs, diagram):
+    rows, crushes = crushed(designs)
+    figure = blank(8, 4)
+    if diagram == "absorption":
+        absorption_diagram(figure, rows, crushes)
+    else:
+        cushion_diagram(figure, rows, crushes, 0.5, drops(designs[2:]))
+    thick, thin = figure.axes[0].get_lines()[:2]
+    entries = {entry.get_label(): entry for entry in figure.legends[0].legend_handles}
+    for label, curve in {"0.8 mm": thick, "0.4 mm": thin}.items():
+        entry = entries[label]
+        assert (entry.get_linestyle(), entry.get_marker()) == ("-", "")
+        assert entry.get_linewidth() == curve.get_linewidth()
 
 
 def test_without_the_modulus_of_every_design_nothing_is_divided(designs):

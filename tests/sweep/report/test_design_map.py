@@ -10,7 +10,7 @@ from sweep.ranking.rank import ranked
 from sweep.report.case_plots import TICKS, blank, round_ticks
 from sweep.report.design_map import TITLE, design_map, has_trends, thickness_trends
 from sweep.report.pattern_bars import pattern_bars
-from tests.support.specimens import designs, summary
+from tests.support.results.specimens import designs, summary
 
 
 @pytest.fixture

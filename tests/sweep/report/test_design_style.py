@@ -7,7 +7,7 @@ import pytest
 
 from sweep.ranking.rank import ranked
 from sweep.report.design_style import budget_winners, looks, merits
-from tests.support.specimens import designs, summary
+from tests.support.results.specimens import designs, summary
 
 
 @pytest.fixture

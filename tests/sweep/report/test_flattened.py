@@ -6,7 +6,7 @@ import pytest
 from sweep.report.flattened import THIN, lines, plan
 from sweep.report.page.trails import drawing, moving_shape
 from sweep.report.shaded import seen
-from tests.support.specimens import tube
+from tests.support.results.specimens import tube
 
 
 def test_plan_of_a_tube_is_a_square_of_its_thickness():

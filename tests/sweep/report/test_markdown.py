@@ -3,7 +3,7 @@
 from sweep.ranking.rank import ranked
 from sweep.report.markdown import markdown
 from sweep.report.sheets import Sheet, ranking_sheets
-from tests.support.specimens import designs, summary
+from tests.support.results.specimens import designs, summary
 
 
 def test_budgets_stand_one_below_the_other_in_markdown():
@@ -17,7 +17,8 @@ def test_budgets_stand_one_below_the_other_in_markdown():
         "| 1       | 1* | 3 x 3 | 1.00   | 100        | 0.100 | 20.0   | 54     | 0      |\n"
         "| 2       | 1* | 3 x 3 | 2.00   | 300        | 0.150 | 20.0   | 54     | 0      |\n"
         "|         | 2* | 3 x 3 | 1.00   | 100        | 0.100 | 20.0   | 54     | 0      |\n\n"
-        "Nothing weighs 0.5 g or less: the lightest weighs 1 g.\n"
+        "Nothing weighs 0.5 g or less: the lightest weighs 1 g, "
+        "case 0000000000000000, cells 3 x 3.\n"
     )
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from sweep.config.material_file import available, locate, read_record
 from sweep.report.material_sheets import details, material_sheet, number
-from tests.support.records import HEADER
+from tests.support.materials.records import HEADER
 
 ROWS = "0.01,2e4\n0.05,1e5\n"
 

@@ -6,7 +6,7 @@ import pytest
 from sweep.ranking.rank import ranked
 from sweep.report.case_plots import blank
 from sweep.report.pattern_bars import panel_size, pattern_bars
-from tests.support.specimens import designs, summary
+from tests.support.results.specimens import designs, summary
 
 
 def test_several_patterns_are_drawn_side_by_side(tmp_path):

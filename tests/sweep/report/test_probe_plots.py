@@ -6,7 +6,7 @@ import pytest
 
 from sweep.report.case_plots import blank
 from sweep.report.probe_plots import COLORS, probe_reactions
-from tests.support.specimens import summary
+from tests.support.results.specimens import summary
 
 TIME = np.linspace(0.0, 0.02, 3)
 

@@ -6,7 +6,7 @@ import pytest
 from sweep.ranking.merit import RankError
 from sweep.report.publish import publish_case, publish_ranking
 from sweep.report.sheets import LOADED, MARKS
-from tests.support.specimens import designs, summary, write
+from tests.support.results.specimens import designs, summary, write
 
 DESIGN_MAP = "sweep.report.design_map.design_map"
 

@@ -5,7 +5,7 @@ import pytest
 
 from sweep.report.results import Picture, Results
 from sweep.store.read import read_history
-from tests.support.specimens import designs, summary, write
+from tests.support.results.specimens import designs, summary, write
 
 PNG = b"\x89PNG"
 

@@ -6,7 +6,7 @@ from pandas import DataFrame
 from sweep.ranking.rank import ranked
 from sweep.ranking.spread import AS_GIVEN, FINE, Spread
 from sweep.report.search_sheets import finalist_sheet, front_sheet, nearest_sheet
-from tests.support.specimens import designs, summary
+from tests.support.results.specimens import designs, summary
 
 ENERGY = "absorbed_energy_J"
 OWN = summary(*designs([1.0, 2.0], [0.4, 0.3]))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.report.shaded import AMBIENT, LIGHT, cut_open, faces, platen, seen
-from tests.support.specimens import tube
+from tests.support.results.specimens import tube
 
 
 def test_lengths_across_the_screen_are_true_and_up_is_up():

@@ -22,7 +22,7 @@ from sweep.report.sheets import (
     legend,
     ranking_sheets,
 )
-from tests.support.specimens import CRUSHED_SOLID, SPARSE, designs, summary
+from tests.support.results.specimens import CRUSHED_SOLID, SPARSE, designs, summary
 
 NAN = float("nan")
 
@@ -73,15 +73,17 @@ def test_walls_that_are_stretched_beyond_the_measured_curve_are_marked():
 def test_a_budget_below_all_designs_is_one_sentence_and_no_table():
     rows = designs([1.0, 2.0], [0.4, 0.5]) + designs([3.0], [0.5], platen="contact")
     table = summary(*rows)
-    nothing = "Nothing weighs {} g or less: the lightest weighs {} g."
+    nothing = (
+        "Nothing weighs {} g or less: the lightest weighs {} g, case 000000000000000{}, ninjaflex."
+    )
     (sheet,) = ranking_sheets(ranked(table, budget=["0.5 g", "0.7 g"]), table)
     assert (sheet.title, sheet.heads, sheet.rows) == ("", [], [])
-    assert sheet.notes == (nothing.format(0.5, 1), nothing.format(0.7, 1))
+    assert sheet.notes == (nothing.format(0.5, 1, 0), nothing.format(0.7, 1, 0))
     assert markdown([sheet]) == "\n".join([*sheet.notes, ""])
     glued, loose = ranking_sheets(ranked(table, budget=["0.5 g", "2 g"]), table)
-    assert (len(glued.rows), glued.notes) == (2, (nothing.format(0.5, 1),))
+    assert (len(glued.rows), glued.notes) == (2, (nothing.format(0.5, 1, 0),))
     assert (loose.title, loose.heads) == ("crushed to 50 %, contact platens", [])
-    assert loose.notes == (nothing.format(0.5, 3), nothing.format(2, 3))
+    assert loose.notes == (nothing.format(0.5, 3, 2), nothing.format(2, 3, 2))
     assert markdown([loose]).splitlines()[::2] == [f"### {loose.title}", loose.notes[0]]
 
 
@@ -243,12 +245,21 @@ def test_both_directions_stand_side_by_side_in_one_ranking():
     """The direction belongs to the design, also as a key of the grid."""
     across = {"absorbed_energy_J": 0.1, "loading.direction": "in_plane"}
     along = {"absorbed_energy_J": 1.8, "loading.direction": "out_of_plane"} | UPRIGHT
+    along |= {"depth_m": 13e-3}  # of the plan
     table = summary(across, along)
     (sheet,) = ranking_sheets(ranked(table), table)
     assert sheet.heads[:2] == ["#", "pressed"]
     assert [row[1] for row in sheet.rows] == ["along", "across"]
     assert design_labels(table, table) == ["pressed across", "pressed along"]
     assert "pressed" not in design_text(table.iloc[:1], table.iloc[:1])
+
+
+@pytest.mark.parametrize(("depths", "shown"), [((13.0, 12.6), False), ((13.0, 14.0), True)])
+def test_depth_of_a_plan_over_all_is_no_size_of_its_own(depths, shown):
+    walls = zip((0.8, 0.4), depths, strict=True)
+    rows = [{"wall_thickness_m": 1e-3 * t, "depth_m": 1e-3 * d} | UPRIGHT for t, d in walls]
+    table = summary({}, *rows)
+    assert ("depth mm" in design_text(table, table)) == shown
 
 
 def test_what_plates_leave_out_is_told():

@@ -5,7 +5,7 @@ from pandas import DataFrame
 
 from sweep.ranking.spread import AS_GIVEN, Spread
 from sweep.report.spread_sheets import spread_sheets
-from tests.support.specimens import designs, summary
+from tests.support.results.specimens import designs, summary
 
 COLUMN = "mass_g"
 OWN = summary(*designs([1.0, 2.0], [0.4, 0.3]))
@@ -24,7 +24,7 @@ def sheet(first, second, failed=0):
     ("values", "sentence"),
     [
         ((1.5, 2.0), "The order of these designs does not change."),
-        ((3.0, 2.0), "The order changes. The first is another one with friction 0.9, "),
+        ((3.0, 2.0), "The order changes: with friction 0.9, the first is "),
         ((None, None), "No number is uncertain here."),
     ],
 )

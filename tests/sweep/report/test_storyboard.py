@@ -4,7 +4,7 @@ import pandas
 import pytest
 
 from sweep.report.storyboard import headline, last_loaded, parts_of, path_of, shots
-from tests.support.specimens import squeezed_cell, summary, there_and_back, under_dead_load
+from tests.support.results.specimens import squeezed_cell, summary, there_and_back, under_dead_load
 
 
 def captions(heights, release=None):

@@ -5,7 +5,7 @@ import pytest
 
 from sweep.report.case_plots import blank
 from sweep.report.work_precision import work_precision
-from tests.support.made_up_studies import STEPS, all_steps, study
+from tests.support.results.made_up_studies import STEPS, all_steps, study
 
 
 @pytest.fixture

@@ -12,7 +12,7 @@ from sweep.config.case import Case, Lattice, Material, Solver
 from sweep.result import Status
 from sweep.running.batches import Plan, cost
 from sweep.running.dask_graph import GraphError, Stop, check_scheduler, run
-from tests.support.standin import cases, number_of, simulate
+from tests.support.results.standin import cases, number_of, simulate
 
 
 class Kept(list):

@@ -146,3 +146,14 @@ def test_budget_counts_what_a_slicer_extrudes(laid, pattern, line):
 def test_budget_below_the_least_infill_has_no_designs(laid):
     of = laid("grid", '"lattice.infill" = {from = "20 %", to = "60 %"}', budget=2e-3)
     assert of.case([0.0]) is None
+
+
+def test_panel_of_what_is_pressed_along_its_cells_is_filled_by_plans(tmp_path):
+    """A plan of 25 x 12.5 mm over centre lines: 4 x 4 of them fill 100 x 50 mm."""
+    path = tmp_path / "along.toml"
+    head = '[lattice]\nwidth = "25 mm"\n[loading]\ndirection = "out_of_plane"\n[search]\n'
+    path.write_text(f'{head}"lattice.wall_thickness" = {{from = "0.4 mm", to = "0.5 mm"}}')
+    space = DesignSpace(load_config(path), panel=(0.1, 0.05), budget=1.0)
+    case = space.case((0.0,))
+    assert case.loading.direction == "out_of_plane"
+    assert space.weight(case) == pytest.approx(16e-3 * grams(case))

@@ -16,8 +16,8 @@ from sweep.running.error_bars import add_error_bars, companions, companions_file
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate as crush
 from sweep.store.read import Rerun, read_attributes, read_summary
-from tests.support.standin import forget_version, simulate
-from tests.support.structures import BEAM
+from tests.support.designs.structures import BEAM
+from tests.support.results.standin import forget_version, simulate
 
 ENERGY, BAR = "absorbed_energy_J", "error_absorbed_energy_J"
 PRESSED = Loading(mode="displacement", strain=0.3)

@@ -48,6 +48,14 @@ def test_straight_walls_have_no_imperfection_to_change():
     assert [corner.name for corner in perturbed(case)] == [FINE, "walls -5 %", "walls +5 %"]
 
 
+def test_plates_have_twice_the_layers_too():
+    loading = Loading(direction="out_of_plane", strain=0.3)
+    case = Case(lattice=Lattice(wall_thickness=0.2e-3), loading=loading)
+    fine = perturbed(case)[0].case.lattice
+    assert (case.lattice.nodes_per_wall, fine.nodes_per_wall) == (5, 11)
+    assert fine.layers == pytest.approx(2 * case.lattice.layers, abs=1)
+
+
 @pytest.mark.parametrize("slicer", ["prusa", "cura"])
 def test_lines_of_a_slicer_are_wider_at_the_same_distance(slicer):
     """So that 5 % more is extruded. The settings are a column of the results."""
@@ -63,11 +71,3 @@ def test_lines_of_a_slicer_are_wider_at_the_same_distance(slicer):
     )
     assert all(design_columns(case)["slicer_settings"] for case in found.values())
     assert len({case.case_id for case in found.values()}) == 5
-
-
-def test_plates_have_twice_the_layers_too():
-    loading = Loading(direction="out_of_plane", strain=0.3)
-    case = Case(lattice=Lattice(wall_thickness=0.2e-3), loading=loading)
-    fine = perturbed(case)[0].case.lattice
-    assert (case.lattice.nodes_per_wall, fine.nodes_per_wall) == (5, 11)
-    assert fine.layers == pytest.approx(2 * case.lattice.layers, abs=1)

@@ -7,7 +7,7 @@ import pytest
 from sweep.__main__ import main
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_attributes
-from tests.support.standin import cases, simulate
+from tests.support.results.standin import cases, simulate
 
 CONFIG = """
 name = "trial"
@@ -21,6 +21,21 @@ def test_cases_of_other_configs_are_counted_anew_by_every_run(tmp_path):
     for asked, others in ((6, 0), (9, 0), (4, 5), (4, 5), (9, 0)):
         run_sweep(cases(asked), out, simulate=lambda case, stop: simulate(case))
         assert read_attributes(out)["other_cases"] == others
+
+
+def test_an_edited_question_is_stored_although_no_case_is_missing(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(import_module("sweep.simulation.simulate"), "simulate", simulate)
+    monkeypatch.chdir(tmp_path)
+    config = tmp_path / "trial.toml"
+    for limit in ("1 g", "2 g"):
+        config.write_text(CONFIG.format(values=[0.1]) + f'[require]\nmax_mass = "{limit}"\n')
+        assert main(["run", str(config)]) == 0
+        capsys.readouterr()
+        main(["rank", "results/trial.h5"])
+        assert f"mass at most {limit}" in capsys.readouterr().out
+    stored = (tmp_path / "results/trial.h5").stat().st_mtime_ns
+    assert main(["run", str(config)]) == 0
+    assert (tmp_path / "results/trial.h5").stat().st_mtime_ns == stored
 
 
 @pytest.mark.parametrize("verb", ["run", "rank", "status"])

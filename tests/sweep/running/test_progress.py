@@ -9,7 +9,7 @@ from rich.console import Console
 
 from sweep.running import progress
 from sweep.running.progress import Progress
-from tests.support.standin import cases, simulate
+from tests.support.results.standin import cases, simulate
 
 
 class Clock:

@@ -6,8 +6,8 @@ from sweep.config.case import Case, Loading, Material
 from sweep.running.relaxation_times import loading_time, lossless
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
-from tests.support import standin
-from tests.support.cases import pressed
+from tests.support.designs.cases import pressed
+from tests.support.results import standin
 
 SLOW = Material(relaxation_times=(2.0, 60.0), relaxation_shares=(0.2, 0.1), reference_time=1.0)
 

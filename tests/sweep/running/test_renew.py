@@ -15,7 +15,7 @@ from sweep.running.sweep import Interrupted, run_sweep
 from sweep.store.read import Rerun, read_history, read_summary
 from tests.conftest import CONFIG
 from tests.support.command import crumple
-from tests.support.standin import (
+from tests.support.results.standin import (
     cases,
     forget_version,
     number_of,
@@ -28,7 +28,7 @@ from tests.support.standin import (
 ROOT = Path(__file__).parents[3]
 OLDER = Rerun(older=True)
 RENEW = """
-from tests.support.standin import cases, slow
+from tests.support.results.standin import cases, slow
 from sweep.running.sweep import run_sweep
 from sweep.store.read import Rerun
 

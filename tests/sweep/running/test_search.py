@@ -9,7 +9,7 @@ from sweep.config.units import load_config
 from sweep.running.design_space import DesignSpace
 from sweep.running.search import Search, Settings
 from sweep.store.read import read_attributes, read_summary
-from tests.support.searches import BEST, THIN, TOML, energy, simulate
+from tests.support.results.searches import BEST, THIN, TOML, energy, simulate
 
 QUESTION = {"budget": None, "panel": None, "by": "absorbed_energy_J", "allowed_force": None}
 
@@ -35,7 +35,7 @@ def searched(tmp_path):
     return run
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", [1, 2])
 def test_a_narrow_peak_of_one_pattern_is_found(searched, seed):
     """The peak takes 1/3 x 1/5 x 1/10 of the cube."""
     search, log = searched(seed=seed)
@@ -127,7 +127,7 @@ def test_search_approaches_requirements_that_none_fulfils(searched):
     lattice = search.cases[nearest].lattice
     assert (lattice.kind, lattice.cells_x) == (kind, cells)
     least = min(
-        max(t / 0.65 - 1.0, 0.0) + 1.0 - exp(-(((t - 0.71) / 0.047) ** 2))
+        max(t / 0.65 - 1.0, 1.0 - exp(-(((t - 0.71) / 0.047) ** 2)))
         for t in [0.55 + 0.001 * k for k in range(200)]
     )
     assert missed == pytest.approx(least, rel=0.1)

@@ -5,8 +5,8 @@ import pytest
 from sweep.config.case import Case, Contact, Lattice, Loading, Material
 from sweep.running.spread import FRICTION, SEEDS, corners, corners_of, run_corners, spread_file
 from sweep.store.read import read_summary
-from tests.support.records import HEADER
-from tests.support.standin import cases, simulate
+from tests.support.materials.records import HEADER
+from tests.support.results.standin import cases, simulate
 
 PRESSED = Loading(mode="displacement", strain=0.3)
 FRICTIONS = [f"friction {value:g}" for value in FRICTION]

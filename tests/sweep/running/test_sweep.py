@@ -29,11 +29,11 @@ from sweep.store.read import (
     read_summary,
 )
 from sweep.store.write import Writer
-from tests.support.standin import cases, number_of, parts_of, simulate, slow
+from tests.support.results.standin import cases, number_of, parts_of, simulate, slow
 
 ROOT = Path(__file__).parents[3]
 SWEEP = """
-from tests.support.standin import cases, slow
+from tests.support.results.standin import cases, slow
 from sweep.running.sweep import Interrupted, run_sweep
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ import pytest
 from sweep.config.case import Case, Lattice, Loading, Material, Solver
 from sweep.scene.lattice import build_scene
 from tests.studies.verify import MATERIAL
-from tests.support.solving import whole
+from tests.support.kernels.solving import whole
 
 DEPTH, THICKNESS, WALL = 12e-3, 0.8e-3, 12.5e-3 / 3
 RIGIDITY = MATERIAL.modulus * DEPTH * THICKNESS**3 / 12

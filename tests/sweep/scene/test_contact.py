@@ -8,7 +8,7 @@ from sweep.config.case import Case, Contact, Lattice, Loading
 from sweep.scene.contact import PAIRS
 from sweep.scene.lattice import build_scene
 from tests.studies.verify import MATERIAL
-from tests.support.grids import DEPTH, LOADINGS, THICKNESS, WALL, scene_of
+from tests.support.designs.grids import DEPTH, LOADINGS, THICKNESS, WALL, scene_of
 
 
 def test_stiffness_of_contact_is_c_times_that_of_a_wall():

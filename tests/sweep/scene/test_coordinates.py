@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.support.grids import LOADINGS, row_of_nodes, scene_of
+from tests.support.designs.grids import LOADINGS, row_of_nodes, scene_of
 
 
 @pytest.mark.parametrize("elements", [1, 3])

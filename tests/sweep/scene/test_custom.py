@@ -9,7 +9,7 @@ from sweep.config.case import Contact
 from sweep.config.grid import expand
 from sweep.config.units import load_config
 from tests.studies.validation.elastica import cantilever
-from tests.support.structures import (
+from tests.support.designs.structures import (
     AXIAL,
     BEAM,
     BENDING,

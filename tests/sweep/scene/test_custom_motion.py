@@ -6,8 +6,8 @@ import pytest
 from sweep.config.case import Contact, Damping
 from sweep.result import Column, describe_history
 from tests.studies.verify import MATERIAL
-from tests.support.scenes import unbalanced
-from tests.support.structures import (
+from tests.support.designs.scenes import unbalanced
+from tests.support.designs.structures import (
     BEAM,
     GRAVITY,
     LENGTH,

@@ -6,7 +6,7 @@ import pytest
 from sweep.config.case import Case, Loading, Solver
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
-from tests.support.grids import LOADINGS, row_of_nodes, scene_of
+from tests.support.designs.grids import LOADINGS, row_of_nodes, scene_of
 
 
 @pytest.mark.parametrize("elements", [1, 3])

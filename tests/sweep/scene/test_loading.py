@@ -7,7 +7,7 @@ from sweep.config.case import Case, Loading, Solver
 from sweep.config.solver_defaults import steps
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import stages, tolerances
-from tests.support.cases import pressed
+from tests.support.designs.cases import pressed
 
 
 @pytest.mark.parametrize(("step", "steps", "dt"), [(15e-3, 2, 10e-3), (10e-3, 2, 10e-3)])

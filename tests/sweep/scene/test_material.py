@@ -8,7 +8,7 @@ from kernels.laws.law import Memory
 from kernels.laws.yielding import STATE
 from sweep.config.case import Material
 from sweep.scene.material import law_in_stretch, monotonic_law, stress_law
-from tests.support.records import HEADER, RUBBERS
+from tests.support.materials.records import HEADER, RUBBERS
 
 NAMES = RUBBERS
 

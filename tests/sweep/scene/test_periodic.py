@@ -9,9 +9,9 @@ from kernels.solve import newton
 from sweep.design.lattice import build_network
 from sweep.scene import periodic
 from sweep.simulation.simulate import simulate
-from tests.support.periods import PITCH, L, cut_elsewhere, follow, lattice_of, pressed
-from tests.support.scenes import is_sound, trapezoid, unbalanced
-from tests.support.solving import at_rest, descend, go_on, ramp, whole
+from tests.support.designs.periods import PITCH, L, cut_elsewhere, follow, lattice_of, pressed
+from tests.support.designs.scenes import is_sound, trapezoid, unbalanced
+from tests.support.kernels.solving import at_rest, descend, go_on, ramp, whole
 
 
 def cut_at(case, cut=(0.0, 0.0), wave=None):

@@ -7,7 +7,7 @@ from kernels.laws.relaxation import _square
 from sweep.config.case import Material
 from sweep.scene.material import law_in_stretch, law_of_hinge, law_of_section, stress_law
 from sweep.scene.relaxation import ELASTIC, exponent, lost_share, power_law, relaxation_of
-from tests.support.memory import follow, prepare, relaxing, virgin
+from tests.support.materials.memory import follow, prepare, relaxing, virgin
 
 LOSSES = [0.1, 0.2, 0.3, 0.4, 0.45]
 STRIP = Material(modulus=12e6, density=1190.0, loss=0.3)

@@ -9,7 +9,7 @@ from sweep.design.network import mass
 from sweep.scene.beams import plane_factors
 from sweep.scene.lattice import build_scene
 from tests.studies.verify import MATERIAL
-from tests.support.grids import DEPTH, LOADINGS, THICKNESS, WALL, scene_of
+from tests.support.designs.grids import DEPTH, LOADINGS, THICKNESS, WALL, scene_of
 
 
 @pytest.mark.parametrize("platen", LOADINGS)

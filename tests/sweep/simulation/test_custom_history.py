@@ -6,7 +6,7 @@ import pytest
 from sweep.config.case import Case, Lattice, Solver
 from sweep.scene.custom import build_structure
 from sweep.simulation.custom_history import structure_columns
-from tests.support.structures import BEAM, MATERIAL, end_load, probe, pushed, structure
+from tests.support.designs.structures import BEAM, MATERIAL, end_load, probe, pushed, structure
 
 
 def test_rows_of_equal_increments():

@@ -7,7 +7,7 @@ from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
 from sweep.result import cycle_columns
 from sweep.simulation.cycles import columns_of_cycles
 from sweep.simulation.simulate import simulate
-from tests.support.cases import pressed
+from tests.support.designs.cases import pressed
 
 WORK = np.array([0.0, 1.0, 4.0, 3.0, 2.0, 2.5, 4.0, 3.5, 3.0])
 FORCE = np.array([0.0, 5.0, 9.0, 3.0, 1.0, 4.0, 8.0, 2.0, 0.0])

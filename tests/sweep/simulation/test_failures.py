@@ -10,7 +10,7 @@ import pytest
 from sweep.config.case import Case, Contact, Lattice, Loading, Solver
 from sweep.result import ABSORBED_AT, COLUMNS, HISTORY_COLUMNS, Status
 from sweep.simulation.simulate import simulate
-from tests.support.scenes import is_sound, pressed
+from tests.support.designs.scenes import is_sound, pressed
 
 LONG = Case(
     lattice=Lattice(cells_x=8, cells_y=8, wall_thickness=0.4e-3),

@@ -14,7 +14,7 @@ from sweep.simulation.plate_shapes import (
     principal,
     surface_crossings,
 )
-from tests.support.plates import BOX, T, along, network
+from tests.support.designs.plates import BOX, T, along, network
 
 
 class Stand:

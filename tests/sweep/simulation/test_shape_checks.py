@@ -16,7 +16,7 @@ from sweep.simulation.shape_checks import (
     shortening,
     work_within_model,
 )
-from tests.support.specimens import squeezed_cell
+from tests.support.results.specimens import squeezed_cell
 
 SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1]]
 SIDES = [[0, 1], [1, 2], [2, 3], [3, 0]]

@@ -14,7 +14,7 @@ from sweep.scene.lattice import build_scene
 from sweep.simulation.deceleration import filtered_peak
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
-from tests.support.scenes import (
+from tests.support.designs.scenes import (
     LOST,
     SEED,
     STORED,
@@ -28,7 +28,7 @@ from tests.support.scenes import (
     summed,
     unbalanced,
 )
-from tests.support.solving import at_rest, go_on, ramp
+from tests.support.kernels.solving import at_rest, go_on, ramp
 
 RECOVERABLE = ("stretch_J", "bend_J", "contact_J")
 EULER = "backward_euler"

@@ -11,7 +11,7 @@ from sweep.store.read import (
     read_history,
     read_summary,
 )
-from tests.support.standin import cases, parts_of, write
+from tests.support.results.standin import cases, parts_of, write
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import pytest
 
 from sweep.result import COLUMNS, MODEL_VERSION, OLDER
 from sweep.store.read import read_summary
-from tests.support.standin import cases, write, write_older
+from tests.support.results.standin import cases, write, write_older
 
 FIRST = 51  # columns of a summary that every file has
 

@@ -8,7 +8,7 @@ from sweep.result import Result, Status
 from sweep.store.batch import OF_PLATES
 from sweep.store.read import StoreError, read_cases, read_frames
 from sweep.store.write import Writer
-from tests.support.specimens import squeezed_cell, summary, tube
+from tests.support.results.specimens import squeezed_cell, summary, tube
 
 
 def results():

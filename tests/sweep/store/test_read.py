@@ -23,7 +23,7 @@ from sweep.store.read import (
     read_summary,
 )
 from sweep.store.write import Writer
-from tests.support.standin import cases, frames, parts_of, simulate, write
+from tests.support.results.standin import cases, frames, parts_of, simulate, write
 
 ROOT = Path(__file__).parents[3]
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
 from sweep.simulation.simulate import simulate
-from tests.support.structures import BEAM, structure
+from tests.support.designs.structures import BEAM, structure
 
 PRESSED = {"mode": "displacement", "strain": 0.01}
 BRIEF = {"release_time": 2e-4, "duration": 4e-4}

@@ -9,7 +9,7 @@ import pytest
 
 from kernels.compile.fast.sealed import SealedFiles, seal
 from kernels.compile.jit import jit
-from tests.support import packages
+from tests.support.kernels import packages
 
 DAMAGE = {
     "empty": lambda content: b"",

@@ -5,7 +5,7 @@ import pytest
 
 from kernels.geometry.space import crossing, surface
 from kernels.geometry.space.crossing import ACROSS, APART, UNSURE
-from tests.support.surfaces import Sheet, united
+from tests.support.kernels.surfaces import Sheet, united
 
 TRIANGLE = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 

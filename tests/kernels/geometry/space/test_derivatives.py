@@ -5,7 +5,7 @@ import pytest
 
 from kernels.geometry.space import closest, derivatives
 from kernels.geometry.space.closest import FACE
-from tests.support.terms import Term, derivative_error
+from tests.support.kernels.terms import Term, derivative_error
 
 
 def corner_points(y):

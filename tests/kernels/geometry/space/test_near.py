@@ -6,7 +6,7 @@ import pytest
 from kernels.geometry.space import near
 from kernels.geometry.space.closest import squared_between_edges, squared_to_triangle
 from kernels.geometry.space.vectors import SIZE, point
-from tests.support.surfaces import placed
+from tests.support.kernels.surfaces import placed
 
 
 def scattered(seed, n=40, reach=5):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.geometry.space import parallel
-from tests.support.terms import Term, derivative_error
+from tests.support.kernels.terms import Term, derivative_error
 
 NORMAL = (0.6, 0.0, 0.8)
 SHARE = (0.3, 0.7, -0.4, -0.6)

@@ -7,7 +7,7 @@ import pytest
 
 from kernels.geometry.space import surface
 from kernels.geometry.space.vectors import combined, cross, inner, length, minus, plus, row, times
-from tests.support.surfaces import Sheet
+from tests.support.kernels.surfaces import Sheet
 
 
 @pytest.mark.parametrize(("across", "along"), [(1, 1), (3, 2), (5, 7)])

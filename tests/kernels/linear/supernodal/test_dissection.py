@@ -5,8 +5,8 @@ import pytest
 
 from kernels.linear.supernodal.dissection import SMALLEST, dissect, neighbours
 from kernels.linear.supernodal.elimination import columns
-from tests.support.supernodes import random_blocks
-from tests.support.wall_graph import lattice_of_plates
+from tests.support.kernels.supernodes import random_blocks
+from tests.support.kernels.wall_graph import lattice_of_plates
 
 
 @pytest.mark.parametrize("n", [1, 2, 9, 60, 200])

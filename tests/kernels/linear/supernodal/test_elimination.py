@@ -5,7 +5,7 @@ import pytest
 
 from kernels.linear.supernodal.dissection import neighbours
 from kernels.linear.supernodal.elimination import columns, supernodes
-from tests.support.supernodes import random_blocks
+from tests.support.kernels.supernodes import random_blocks
 
 
 def filled(n, pairs, order):

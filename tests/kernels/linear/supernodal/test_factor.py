@@ -7,8 +7,8 @@ from kernels.linear.block_ldlt import CONVEX, ROUNDED, SOFT, THROUGH
 from kernels.linear.supernodal import factor as ldlt
 from kernels.linear.supernodal.matrix import clear
 from kernels.linear.supernodal.solution import solve
-from tests.support.blocks import column
-from tests.support.supernodes import (
+from tests.support.kernels.blocks import column
+from tests.support.kernels.supernodes import (
     assembled,
     dominant,
     factored,
@@ -16,7 +16,7 @@ from tests.support.supernodes import (
     random_blocks,
     random_dense,
 )
-from tests.support.wall_graph import lattice_of_plates
+from tests.support.kernels.wall_graph import lattice_of_plates
 
 SHAPES = [(1, 0.0), (2, 0.0), (5, 0.5), (25, 0.02), (40, 0.1)]
 

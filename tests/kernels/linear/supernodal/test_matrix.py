@@ -14,7 +14,7 @@ from kernels.linear.supernodal.matrix import (
     position,
     scatter,
 )
-from tests.support.supernodes import assembled, random_blocks, random_dense
+from tests.support.kernels.supernodes import assembled, random_blocks, random_dense
 
 FAR = np.array([(0, 1), (1, 2), (3, 4)])  # two parts of a graph
 

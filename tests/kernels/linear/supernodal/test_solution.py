@@ -4,8 +4,14 @@ import numpy as np
 import pytest
 
 from kernels.linear.supernodal.solution import descend, solve
-from tests.support.supernodes import assembled, dominant, factored, random_blocks, random_dense
-from tests.support.wall_graph import lattice_of_plates
+from tests.support.kernels.supernodes import (
+    assembled,
+    dominant,
+    factored,
+    random_blocks,
+    random_dense,
+)
+from tests.support.kernels.wall_graph import lattice_of_plates
 
 
 @pytest.mark.parametrize("scale", [1.0, 1e6, 1e-6])

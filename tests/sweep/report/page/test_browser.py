@@ -12,8 +12,8 @@ import pytest
 from sweep.report.page.write import write_page
 from tests.support.browser import CHROMIUM, browser
 from tests.support.command import crumple
-from tests.support.page_data import expected, sweep
-from tests.support.specimens import summary, write
+from tests.support.results.page_data import expected, sweep
+from tests.support.results.specimens import summary, write
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="needs chromium (a package of Debian)")
 

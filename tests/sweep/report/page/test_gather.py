@@ -14,8 +14,8 @@ from sweep.report.page.gather import curve_of, page_data
 from sweep.report.page.thinning import work_until
 from sweep.result import Result, Status
 from sweep.store.write import Writer
-from tests.support.page_data import expected, sweep
-from tests.support.specimens import HEIGHT, squeezed_cell, summary, there_and_back, write
+from tests.support.results.page_data import expected, sweep
+from tests.support.results.specimens import HEIGHT, squeezed_cell, summary, there_and_back, write
 
 SCRIPT = Path(gather.__file__).with_name("rank.js")
 NODE = shutil.which("node")

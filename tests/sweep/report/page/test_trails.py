@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from sweep.report.page.trails import FRAMES, drawing, moving_shape, trails
-from tests.support.specimens import squeezed_cell
+from tests.support.results.specimens import squeezed_cell
 
 CROSS = np.array([[0, 0], [1, 0], [2, 0], [1, 1], [1, -1]]) * 1e-3
 ARMS = np.array([[0, 1], [1, 2], [1, 3], [4, 1]])

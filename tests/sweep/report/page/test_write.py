@@ -9,8 +9,8 @@ import pytest
 from sweep.report.page.gather import page_data
 from sweep.report.page.write import page, tables, write_page
 from tests.support.command import crumple
-from tests.support.page_data import sweep
-from tests.support.specimens import designs, summary, write
+from tests.support.results.page_data import sweep
+from tests.support.results.specimens import designs, summary, write
 
 EVIL = '<script>alert("&")</script>'
 VOID = {"meta", "input", "br", "link", "img"}

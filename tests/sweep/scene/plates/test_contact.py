@@ -7,7 +7,7 @@ from sweep.config.case import TABLES, Case, Contact
 from sweep.scene.plates.contact import contact_of, mirror_of
 from sweep.scene.plates.coordinates import Numbering
 from sweep.scene.plates.mesh import build_mesh
-from tests.support.plates import BOX, T, along
+from tests.support.designs.plates import BOX, T, along
 
 
 def built(platen="glued", model="auto", **lattice):

@@ -5,7 +5,7 @@ import pytest
 
 from sweep.scene.plates.coordinates import Numbering, at_rest, heights, leaders, masses
 from sweep.scene.plates.mesh import build_mesh
-from tests.support.plates import BOX, FAMILIES, T, along
+from tests.support.designs.plates import BOX, FAMILIES, T, along
 
 
 def parts(platen, **lattice):

@@ -5,7 +5,7 @@ import pytest
 
 from sweep.scene.plates.imperfection import amplitudes, bow, half_waves
 from sweep.scene.plates.mesh import build_mesh
-from tests.support.plates import BOX, T, along
+from tests.support.designs.plates import BOX, T, along
 
 
 def plan_and_lattice(**lattice):

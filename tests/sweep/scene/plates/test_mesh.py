@@ -6,7 +6,7 @@ import pytest
 from sweep.config.case import Case
 from sweep.design.extrusion import plan_of, quads_along
 from sweep.scene.plates.mesh import build_mesh, extruded
-from tests.support.plates import BOX, FAMILIES, T, along, network
+from tests.support.designs.plates import BOX, FAMILIES, T, along, network
 
 MESHES = [(kind, "none") for kind in FAMILIES] + [("square", "quarter")]
 

@@ -7,7 +7,7 @@ from kernels.plates import shell
 from kernels.solve.problem import FREE, HELD, LED, TIED
 from sweep.config.case import TABLES, Case, Loading
 from sweep.scene.plates.scene import build_scene
-from tests.support.plates import along
+from tests.support.designs.plates import along
 
 
 def struck(platen="glued", **lattice):

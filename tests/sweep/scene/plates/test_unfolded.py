@@ -5,7 +5,7 @@ import pytest
 
 from sweep.scene.plates.mesh import build_mesh
 from sweep.scene.plates.unfolded import unfolded
-from tests.support.plates import along
+from tests.support.designs.plates import along
 
 
 def meshes(**lattice):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from sweep.ranking.rank import ranked
-from tests.support.specimens import summary
+from tests.support.results.specimens import summary
 
 FORCES = (20.0, 50.0)
 BARS = ("absorbed_energy_until_packed_J", "peak_force_until_packed_N")

@@ -6,7 +6,7 @@ import numpy as np
 
 from kernels.geometry.space.vectors import SIZE
 from kernels.plates import contact, pairs
-from tests.support.terms import Term
+from tests.support.kernels.terms import Term
 
 NOBODY = np.empty(0, np.int64), np.empty(0)
 FAR_APART = 100.0

@@ -47,6 +47,12 @@ class Term:
         return self.second(x, projected)
 
 
+def difference(one: Term, other: Term, x: np.ndarray) -> float:
+    """Largest difference of two terms at ``x``, over the largest entry of the same kind."""
+    pairs = [(getattr(one, k)(x), getattr(other, k)(x)) for k in ("energy", "gradient", "hessian")]
+    return max(np.abs(found - other).max() / np.abs(other).max() for found, other in pairs)
+
+
 def room(
     walls: elements.Walls,
 ) -> tuple[elements.Shape, elements.Resultants, elements.Stiffness]:

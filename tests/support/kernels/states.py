@@ -4,7 +4,7 @@ import numpy as np
 
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
 from sweep.scene.lattice import build_scene
-from tests.support.solving import whole
+from tests.support.kernels.solving import whole
 
 DT = 1e-3
 RAYLEIGH = Damping(model="rayleigh", mass=300.0, stiffness=1e-3)

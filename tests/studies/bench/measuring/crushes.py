@@ -1,9 +1,9 @@
 """Crushes that were taken to where they are watched, and go on from there again and again."""
 
 from sweep.scene.lattice import build_scene
-from tests.studies.bench import cases
-from tests.studies.bench.marching import copied, press, sustained
-from tests.support.solving import at_rest
+from tests.studies.bench.measuring import cases
+from tests.studies.bench.measuring.marching import copied, press, sustained
+from tests.support.kernels.solving import at_rest
 
 APPROACH = 0.005  # strain of a step on the way there
 BUCKLED, COLLAPSED = (0.05, 0.1), (0.55, 0.6)

@@ -1,6 +1,6 @@
 """A case in a process of its own: only there can its memory be told.
 
-    python -m tests.studies.bench.alone < case > summary
+    python -m tests.studies.bench.measuring.alone < case > summary
 
 Read from /proc: what `getrusage` tells includes the process that started this one.
 """
@@ -18,7 +18,7 @@ MEMORY = "peak_memory_MB"
 
 def alone(case):
     """Summary of a case, and the peak memory of the process that simulated it in MB."""
-    command = [sys.executable, "-m", "tests.studies.bench.alone"]
+    command = [sys.executable, "-m", "tests.studies.bench.measuring.alone"]
     asked = pickle.dumps(case)
     return json.loads(subprocess.run(command, input=asked, check=True, capture_output=True).stdout)
 

@@ -3,8 +3,8 @@
 import numpy as np
 
 from kernels.linear import analysis, block_matrix, system
-from tests.support.frames import frame, layout_of, walls_of
-from tests.support.terms import assembled, room
+from tests.support.kernels.frames import frame, layout_of, walls_of
+from tests.support.kernels.terms import assembled, room
 
 JOINTS = [(0, 0), (4, 0), (4, 3), (0, 3), (2, 1.5), (6, 1)]
 WALLS = [(0, 1), (1, 2), (3, 2), (0, 4), (4, 2), (4, 1), (1, 5), (0, 3)]

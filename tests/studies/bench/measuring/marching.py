@@ -7,8 +7,8 @@ import numpy as np
 from kernels.solve import history, march, newton
 from kernels.terms.rows import ROW, Output
 from sweep.scene.loading import stages, tolerances
-from tests.studies.bench.clock import seconds
-from tests.support.solving import at_rest, ramp
+from tests.studies.bench.measuring.clock import seconds
+from tests.support.kernels.solving import at_rest, ramp
 
 SAMPLE = 5e-3  # s of marches in a sample
 

@@ -8,7 +8,7 @@ from sweep.design.lattice import build_network
 from sweep.design.network import mass, relative_density
 from sweep.result import design_columns
 from sweep.running.provenance import config_text
-from tests.support.specimens import summary, write
+from tests.support.results.specimens import summary, write
 
 
 def row_of(case, **changes):

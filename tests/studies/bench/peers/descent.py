@@ -9,9 +9,9 @@ the exact Hessian, which is positive all the way.
 import numpy as np
 
 from sweep.scene.loading import stages, tolerances
-from tests.studies.bench.beams import Beams
-from tests.studies.bench.clock import seconds
-from tests.studies.bench.marching import Spent
+from tests.studies.bench.measuring.clock import seconds
+from tests.studies.bench.measuring.marching import Spent
+from tests.studies.bench.peers.beams import Beams
 
 
 class Step:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from kernels.laws.sheet import Sheet, neo_hookean
 from kernels.plates import shell
 from kernels.plates.shell import Shell
-from tests.support.terms import Term
+from tests.support.kernels.terms import Term
 
 Floats = NDArray[np.float64]
 

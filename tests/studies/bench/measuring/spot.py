@@ -4,9 +4,9 @@ import numpy as np
 
 from kernels.compile.reference import referred
 from kernels.linear.block_matrix import SIZE
-from tests.studies.bench import loops
-from tests.studies.bench.clock import seconds
-from tests.support.solving import whole
+from tests.studies.bench.measuring import loops
+from tests.studies.bench.measuring.clock import seconds
+from tests.support.kernels.solving import whole
 
 SAMPLE = 2e-3  # s of calls in a sample
 

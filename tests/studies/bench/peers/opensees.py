@@ -14,8 +14,8 @@ import numpy as np
 from sweep.config.case import given
 from sweep.scene.loading import stages, tolerances
 from sweep.scene.terms import time_step
-from tests.studies.bench.clock import seconds
-from tests.studies.bench.marching import Spent
+from tests.studies.bench.measuring.clock import seconds
+from tests.studies.bench.measuring.marching import Spent
 
 
 @cache

@@ -16,7 +16,7 @@ from kernels.terms import contact, fold, friction, spring
 from kernels.terms.rows import ROW, STORED, Output
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
-from tests.support.terms import assembled, dense, full_matrix, nowhere
+from tests.support.kernels.terms import assembled, dense, full_matrix, nowhere
 
 RUN = np.zeros(2, dtype=np.int64)  # nobody asks to stop
 

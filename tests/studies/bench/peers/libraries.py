@@ -11,11 +11,11 @@ from scipy import linalg
 from scipy.sparse import csgraph, triu
 from scipy.sparse.linalg import splu
 
-from tests.studies.bench import loops
-from tests.studies.bench.clock import medians, seconds
-from tests.studies.bench.crushes import Crush
-from tests.studies.bench.matrix import assembled
-from tests.studies.bench.spot import Spot
+from tests.studies.bench.measuring import loops
+from tests.studies.bench.measuring.clock import medians, seconds
+from tests.studies.bench.measuring.crushes import Crush
+from tests.studies.bench.measuring.spot import Spot
+from tests.studies.bench.peers.matrix import assembled
 from tests.studies.bench.table import Table
 
 OURS = "ours, from the elements"

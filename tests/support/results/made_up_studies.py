@@ -6,7 +6,7 @@ from sweep.ranking.accuracy import studies
 from sweep.result import HISTORY_COLUMNS, Result, Status
 from sweep.store.read import read_summary
 from sweep.store.write import Writer
-from tests.support.specimens import summary
+from tests.support.results.specimens import summary
 
 ORDERS = {"backward_euler": 1, "bdf2": 2, "newmark": 2}
 STEPS = (1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import solve
 
-from tests.studies.bench.beams import Material
+from tests.studies.bench.peers.beams import Material
 
 
 class Found(NamedTuple):

@@ -1,0 +1,1 @@
+"""Cases and states that are timed, and how: clocks, counts, repeated kernels."""

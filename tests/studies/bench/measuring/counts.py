@@ -1,0 +1,33 @@
+"""How often a march calls what it is made of: that runs compiled, all that calls it as Python."""
+
+from collections import Counter
+from unittest.mock import patch
+
+from kernels.compile.jit import Kernel
+from kernels.planar import reach
+from kernels.planar.problem import Planar
+from kernels.solve import newton
+
+WATCHED = {
+    Planar.evaluate: "evaluate",
+    Planar.factor: "factor",
+    newton._newton_direction: "solve",
+    Planar.step_limit: "limit",
+    reach.list_neighbours: "list",
+    reach.make_system: "room",
+}
+
+
+def counted(crush):
+    """Calls an iteration of every part while a crush goes on."""
+    calls, compiled = Counter(), Kernel.__call__
+
+    def call(kernel, *args):
+        if kernel not in WATCHED:
+            return kernel.__wrapped__(*args)
+        calls[WATCHED[kernel]] += 1
+        return compiled(kernel, *args)
+
+    with patch.object(Kernel, "__call__", call):
+        spent, _ = crush.onwards()
+    return {part: calls[part] / spent.iterations for part in WATCHED.values()}
