@@ -17,7 +17,7 @@ from scipy.optimize import minimize_scalar
 from tests.studies.plates import model, square
 from tests.studies.plates.square import SUPPORTED
 from tests.studies.plates.tied import Platen, Tied
-from tests.support.shells import at_rest, element_hessians, plate
+from tests.support.kernels.shells import at_rest, element_hessians, plate
 
 STRAIGHT, WAVING = "straight", "waving"
 BUCKLING_STRAIN = 4.0 * np.pi**2 / 9.0  # over (t / b)^2
