@@ -13,11 +13,11 @@ STAMP = .venv/.ready
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
 .PHONY: help setup sweep rank warm test stock mutants verify validate elements continuum accuracy mesh pictures \
-        bars spread search memory stability plates bench experiment figures lint clean
+        bars spread search memory stability plates plates_solid bench experiment figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-10s  %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z_]+:.*## / {printf "make %-12s  %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
 
 setup: $(STAMP)  ## make the environment: Python 3.11 to 3.13, packages from requirements.lock
 
@@ -86,6 +86,9 @@ memory: setup  ## measure what loss and softening change; goes to results/memory
 
 plates: setup  ## compare shells with the theory of plates, at five meshes
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.plates
+
+plates_solid: setup  ## compare a square tube of shells with one of bricks, through buckling (15 min)
+	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.plates.gate
 
 stability: setup  ## crush 1,000 stiff and extreme scenes; goes to results/stability/ (30 min)
 	@$(PYTHON) -m tests.studies.stability results/stability

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.studies.plates import __main__ as table
-from tests.studies.plates import joints, square, strip
+from tests.studies.plates import buckled, joints, square, strip
 from tests.studies.plates.square import CLAMPED, SUPPORTED
 
 
@@ -92,6 +92,25 @@ def test_joints_do_not_hinder_walls_that_buckle_like_a_chequerboard(kind, n):
 
 def test_sides_that_are_clamped_cannot_buckle_like_a_chequerboard():
     assert square.factor(4, CLAMPED, SUPPORTED) > 1.7 * square.factor(4, SUPPORTED, SUPPORTED)
+
+
+def test_a_long_plate_buckles_in_squares():
+    assert buckled.wave(8) == pytest.approx(1.0, abs=1e-3)
+
+
+def test_sides_that_wave_leave_less_stiffness():
+    """0.408: G. Hemp, 1945."""
+    assert buckled.waving() == pytest.approx(0.408, abs=5e-4)
+
+
+@pytest.mark.parametrize(
+    ("sides", "coarse", "fine"), [(buckled.STRAIGHT, 0.02, 8e-3), (buckled.WAVING, 0.03, 8e-3)]
+)
+def test_stiffness_that_is_left_after_buckling(sides, coarse, fine):
+    """The theory is of one wave each way: sides that wave soon need more."""
+    found = [buckled.left(n, sides) / buckled.LEFT[sides] for n in (8, 12)]
+    assert found[0] == pytest.approx(1.0, abs=coarse)
+    assert found[1] == pytest.approx(1.0, abs=fine)
 
 
 def test_the_table_has_all_rungs(monkeypatch, capsys):

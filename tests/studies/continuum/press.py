@@ -52,8 +52,10 @@ def factor(matrix):
 class Press:
     """solid: the body, glued at its lowest and highest nodes. touch: its contact, if it has any.
 
-    height: of which a strain is a share, mm.
+    height: of which a strain is a share, mm. tolerance: of the residual, N.
     """
+
+    tolerance = TOLERANCE
 
     def __init__(self, solid, height, touch=None):
         self.body, self.touch, self.size = solid, touch, solid.size
@@ -98,7 +100,7 @@ class Press:
             gradient, step = self.gradient(u), np.zeros(self.size)
             solver, definite = self._solver(self.hessian(u))
             step[self.free] = -solver.solve(gradient[self.free])
-            if definite and np.abs(gradient[self.free]).max() < TOLERANCE:
+            if definite and np.abs(gradient[self.free]).max() < self.tolerance:
                 return u
             share = self.room(u, step)
             for _ in range(HALVINGS):

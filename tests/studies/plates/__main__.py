@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 
-from tests.studies.plates import joints, square, strip
+from tests.studies.plates import buckled, joints, square, strip
 
 MESHES = (4, 6, 8, 12, 16)
 
@@ -44,6 +44,13 @@ def rows():
         )
     for kind in (joints.TUBE, joints.X_JOINT, joints.Y_JOINT):
         yield f"k, {kind}, t/l = 0.025", 4.0, lambda n, kind=kind: joints.factor(kind, n)
+    yield "half wave of a long plate over its width", 1.0, buckled.wave
+    for sides, exact in buckled.LEFT.items():
+        yield (
+            f"stiffness left after buckling, sides {sides}",
+            exact,
+            lambda n, sides=sides: buckled.left(n, sides),
+        )
 
 
 def main():

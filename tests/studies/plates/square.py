@@ -48,9 +48,12 @@ def rigidity(thickness: float) -> float:
     return MODULUS * thickness**3 / 12 / 0.75
 
 
-def factor(n: int, sides: str, ends: str, thickness: float = 0.001) -> float:
-    """Factor k of a plate of width 1 with n quads a side."""
-    height = LONGEST_WAVE if (sides, ends) == (CLAMPED, SUPPORTED) else 1.0
+def factor(
+    n: int, sides: str, ends: str, thickness: float = 0.001, height: float | None = None
+) -> float:
+    """Factor k of a plate of width 1 with n quads a side; height: 1, or of its half wave."""
+    if height is None:
+        height = LONGEST_WAVE if (sides, ends) == (CLAMPED, SUPPORTED) else 1.0
     of = plate(n, n, 1.0, height, thickness)
     stress = MODULUS * buckling_strain(of, held(of, sides, ends))[0]
     return stress * thickness / (np.pi**2 * rigidity(thickness))
