@@ -27,4 +27,3 @@ def roll_back(problem, step):
 def project(problem, x):
     """Return False: nothing is moved after a step."""
     return False
-
