@@ -41,7 +41,7 @@ def rolled(n: int, thickness: float = 2e-3) -> tuple[float, float]:
         curve = np.pi / steps * (2 * step + 2) * of.points[:, 0]
         x = bent(of, x, curve, 2 * np.pi / steps)
         of, x = relaxed(of, x, held, none)
-    moment = 0.5 * slopes(of, x)[turned].sum()
+    moment = 0.25 * slopes(of, x)[turned].sum()  # a small w turns by 4 w
     ends = x[:-2].reshape(-1, 6)[:, :3]
     gap = np.linalg.norm(ends[end].mean(axis=0) - ends[of.points[:, 0] == 0.0].mean(axis=0))
     return moment / bending(of, thickness) / (2 * np.pi), float(gap)
