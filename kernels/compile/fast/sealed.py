@@ -96,8 +96,10 @@ class SealedCache(FunctionCache):
             return None
 
     def save_overload(self, sig, data):
-        """Keep the code of a signature, if it can be: not on a full disk, nor what numba cannot pickle
-        (the call from Python of some separate kernels).
+        """Keep the code of a signature, if it can be.
+
+        It cannot on a full disk, or where numba cannot pickle it: the call from Python of some
+        separate kernels.
         """
         if not all(map(is_of_kernels, sig)):
             return
