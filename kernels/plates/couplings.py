@@ -37,7 +37,7 @@ def _between(layout, nodes, size, found, count):
 
 
 @jit_exact
-def _write(scene, pairs, found, stencil):
+def _write(scene, pairs, lagged_contacts, found, stencil):
     """Write all pairs of blocks to ``found``; return their number. stencil (4,): scratch."""
     layout, contact, count = scene.layout, scene.contact, 0
     for e in range(scene.shell.quads.shape[0]):
@@ -55,21 +55,25 @@ def _write(scene, pairs, found, stencil):
                 stencil[i] = contact.edges[pairs.one[k], i]
                 stencil[2 + i] = contact.edges[pairs.two[k], i]
             count = _between(layout, stencil, 4, found, count)
+    for k in range(lagged_contacts.count[0]):
+        nodes, size = lagged_contacts.nodes[k], lagged_contacts.size[k]
+        count = _between(layout, nodes, size, found, count)
     return count
 
 
 @jit_owning
-def couplings(scene, pairs):
+def couplings(scene, pairs, lagged_contacts):
     """Return (k, 2): pairs of blocks that couple, or may soon; repeats are possible.
 
-    If the upper platen is free, it couples with all nodes that may touch it.
+    Contacts with lagged friction couple however far they have moved apart in the step. If the
+    upper platen is free, it couples with all nodes that may touch it.
     """
     stencil, none = np.empty(4, np.int64), np.empty((0, 2), np.int64)
     layout, contact = scene.layout, scene.contact
-    last, count = layout.size.size - 1, _write(scene, pairs, none, stencil)
+    last, count = layout.size.size - 1, _write(scene, pairs, lagged_contacts, none, stencil)
     platen = contact.high_nodes if layout.unknown[contact.high] >= 0 else np.empty(0, np.int64)
     found = np.empty((count + platen.size, 2), np.int64)
-    count = _write(scene, pairs, found, stencil)
+    count = _write(scene, pairs, lagged_contacts, found, stencil)
     for p in platen:
         if layout.block[p] >= 0:
             found[count, 0], found[count, 1] = layout.block[p], last

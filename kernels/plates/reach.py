@@ -49,10 +49,11 @@ def list_pairs(scene, x, move):
 
 @separate
 @jit_owning
-def make_matrix(scene, x, listed):
+def make_matrix(scene, listed, lagged_contacts):
     """Return the matrix with room for all couplings of nodes that may soon share a term."""
     layout = scene.layout
-    return analyse(layout.size, couplings.couplings(scene, listed), layout.point)
+    found = couplings.couplings(scene, listed, lagged_contacts)
+    return analyse(layout.size, found, layout.point)
 
 
 @jit_owning
@@ -60,7 +61,8 @@ def find_neighbours(scene, x):
     """Return `Neighbours` at ``x``, without lagged friction."""
     listed, margin = list_pairs(scene, x, 0.0)
     lagged_contacts = friction.no_contacts(listed, scene.contact, scene.friction)
-    matrix, touching = make_matrix(scene, x, listed), contact.no_contacts(scene.contact, listed)
+    matrix = make_matrix(scene, listed, lagged_contacts)
+    touching = contact.no_contacts(scene.contact, listed)
     return Neighbours(listed, x.copy(), margin, matrix, touching, lagged_contacts)
 
 
@@ -74,7 +76,7 @@ def renew_neighbours(scene, neighbours, x, move):
     listed, margin = list_pairs(scene, x, move)
     matrix, lagged_contacts = neighbours.matrix, neighbours.lagged_contacts
     if matrix.missing[0] != 0:
-        matrix = make_matrix(scene, x, listed)
+        matrix = make_matrix(scene, listed, lagged_contacts)
     wider = friction.no_contacts(listed, scene.contact, scene.friction)
     if wider.load.size > lagged_contacts.load.size:
         lagged_contacts = friction.enlarged(lagged_contacts, wider)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.plates.factoring import LOWERED, RAISED
+from kernels.plates.reach import make_matrix
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
 from tests.support.kernels.pressed_plates import (
     CASES,
@@ -105,3 +106,20 @@ def test_what_has_come_near_needs_room_and_gets_it():
     assert there.problem.factor(x, args.step, there.found(x)[1], False, False)[0] != NO_ROOM
     again = of.terms.renew_neighbours(renewed, x, 0.0)
     assert np.shares_memory(again.matrix.values, renewed.matrix.values)
+
+
+def test_lagged_friction_has_room_also_where_its_walls_have_parted():
+    """Friction of a step acts on the contacts of its start, although they may open within it."""
+    of = scene("glued")
+    touching = neighbours_of(pinched(of), of.terms)
+    touching.matrix.missing[0] = 1
+    apart = of.terms.renew_neighbours(touching, of.x_rest, 0.0)
+    args = whole(of, of.x_rest)
+    nothing = neighbours_of(of.x_rest, of.terms).lagged_contacts
+    without = apart._replace(matrix=make_matrix(of.terms, apart.pairs, nothing))
+    for neighbours, has_room in ((apart, True), (without, False)):
+        there = args.beside(neighbours)
+        met, _ = there.problem.factor(
+            of.x_rest, args.step, there.found(of.x_rest)[1], False, False
+        )
+        assert (met != NO_ROOM) == has_room

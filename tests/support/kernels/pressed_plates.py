@@ -129,7 +129,7 @@ def neighbours_of(x, terms, move=0.0):
     listed, margin = reach.list_pairs(terms, x, move)
     lagged = friction.no_contacts(listed, terms.contact, terms.friction)
     friction.lag(lagged, x, terms.contact, listed, 0.0, terms.friction)
-    matrix, touching = reach.make_matrix(terms, x, listed), no_contacts(terms.contact, listed)
+    matrix, touching = reach.make_matrix(terms, listed, lagged), no_contacts(terms.contact, listed)
     return reach.Neighbours(listed, x.copy(), margin, matrix, touching, lagged)
 
 
