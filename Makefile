@@ -13,7 +13,7 @@ STAMP = .venv/.ready
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
 .PHONY: help setup sweep rank warm test stock mutants verify validate elements continuum accuracy mesh pictures \
-        bars spread search memory stability plates plates_solid bench experiment figures lint clean
+        bars spread search memory stability plates plates_solid bench experiment along figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -104,6 +104,9 @@ pictures: setup  ## draw the pictures of README.md again, from results/infills.h
 
 experiment: setup  ## predict a measured crush and its sensitivities; goes to results/experiment/
 	@$(PYTHON) -m sweep.studies.khatri_egan results/experiment
+
+along: setup  ## predict measured crushes along the cells; goes to results/experiment/ (50 min)
+	@OMP_NUM_THREADS=1 $(PYTHON) -m sweep.studies.khatri_egan_along results/experiment
 
 figures: setup  ## draw the figures of the course report beside ours, with captions, into results/figures/
 	@$(PYTHON) -m sweep.studies.course_report results/figures

@@ -119,7 +119,5 @@ def test_lagged_friction_has_room_also_where_its_walls_have_parted():
     without = apart._replace(matrix=make_matrix(of.terms, apart.pairs, nothing))
     for neighbours, has_room in ((apart, True), (without, False)):
         there = args.beside(neighbours)
-        met, _ = there.problem.factor(
-            of.x_rest, args.step, there.found(of.x_rest)[1], False, False
-        )
+        met, _ = there.problem.factor(of.x_rest, args.step, there.found(of.x_rest)[1], False, False)
         assert (met != NO_ROOM) == has_room
