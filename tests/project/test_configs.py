@@ -22,8 +22,9 @@ def test_no_config_is_forgotten():
     names = {path.stem for path in CONFIGS.glob("*.toml")}
     others = {"custom", "extreme", "impact", "khatri_egan_square"}
     assert names == others | {
-        "armor", "drop", "infills", "khatri_egan_square_out_of_plane", "reuse", "seed", "search",
-        "slicer", "smoke", "thousand", "which_way",
+        "armor", "drop", "infills", "khatri_egan_hexagon_out_of_plane",
+        "khatri_egan_square_out_of_plane", "reuse", "seed", "search", "slicer", "smoke",
+        "thousand", "which_way",
     }  # fmt: skip
 
 
@@ -176,22 +177,31 @@ def pressed_a_little(case, **lattice):
     return simulate(Case(**tables)).summary
 
 
-def test_khatri_egan_along_the_cells_begins_as_a_block():
+@pytest.mark.parametrize(
+    ("cells", "walls", "area", "peak"),
+    [("square", 24 * 4.0, 37.12, 28.03), ("hexagon", 49 * 2.0207, 38.082, 28.60)],
+)
+def test_khatri_egan_along_the_cells_begins_as_a_block(cells, walls, area, peak):
     """Before walls buckle, F = mu A (1 / l^2 - l) if they are free to widen; the glue holds their
     ends, which makes them stiffer, by 4 / 3 if it held all of them.
+
+    walls: length of all, mm; area: of their union, mm2; peak: pinned, N.
     """
-    cases = expand(load_config(CONFIGS / "khatri_egan_square_out_of_plane.toml"))
+    cases = expand(load_config(CONFIGS / f"khatri_egan_{cells}_out_of_plane.toml"))
     assert {case.loading.platen for case in cases} == {"glued", "clamped", "contact"}
     assert len(cases) == 9
     case = cases[0]
     summary = pressed_a_little(case, nodes_per_wall=3, imperfection=0.0)
     assert summary["status"] == "converged"
-    assert summary["solid_strain"] == pytest.approx(1.0 - 37.12 / 12.4**2)
-    length, area = 0.99, 24 * 4e-3 * 0.4e-3
-    force = case.material.modulus * area * (1.0 / length**2 - length) / 3.0
+    outer = case.lattice.outer_size
+    assert summary["solid_strain"] == pytest.approx(
+        1.0 - 1e-6 * area / (outer[0] * outer[1]), rel=1e-5
+    )
+    length = 0.99
+    force = case.material.modulus * 4e-7 * walls * (1.0 / length**2 - length) / 3.0
     assert force < summary["peak_force_N"] < 4.0 / 3.0 * force
-    assert summary["peak_force_N"] == pytest.approx(28.03, rel=1e-2)
-    assert summary["mass_g"] == pytest.approx(1.22 * 37.12 * 12.0e-3, rel=1e-9)
+    assert summary["peak_force_N"] == pytest.approx(peak, rel=1e-2)
+    assert summary["mass_g"] == pytest.approx(1.22 * area * 12.0e-3, rel=1e-5)
 
 
 def test_which_way_presses_one_print_in_both_directions():

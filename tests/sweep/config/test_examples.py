@@ -46,6 +46,7 @@ CONFIGS = Path(__file__).parents[3] / "configs"
         ("slicer", 10),
         ("khatri_egan_square", 72),
         ("khatri_egan_square_out_of_plane", 9),
+        ("khatri_egan_hexagon_out_of_plane", 9),
         ("which_way", 16),
     ],
 )
@@ -58,5 +59,6 @@ def test_shipped_configs_expand(name, cases):
 def test_every_shipped_config_is_pinned():
     studies = {"custom", "seed", "impact", "khatri_egan_square", "extreme", "reuse", "search"}
     names = {"smoke", "armor", "drop", "infills", "slicer", "thousand"}
-    names |= {"khatri_egan_square_out_of_plane", "which_way"}
+    names |= {f"khatri_egan_{cells}_out_of_plane" for cells in ("square", "hexagon")}
+    names |= {"which_way"}
     assert {path.stem for path in CONFIGS.glob("*.toml")} == names | studies
