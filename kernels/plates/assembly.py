@@ -75,17 +75,17 @@ def add_stencil(matrix, layout, pull, nodes, count, width, part):
 
 
 @jit
-def add_contacts(problem, x, step, found):
+def add_contacts(problem, x, step, found, projected):
     """Add the second derivatives of contact at ``x``, of friction and of contact with platens."""
     scene, neighbours, buffers = problem.scene, problem.neighbours, problem.buffers
     matrix, layout, pull, part = neighbours.matrix, scene.layout, buffers.pull, buffers.part
     touching, lagged = neighbours.touching, neighbours.lagged_contacts
     for n in range(touching.count[0]):
-        count = contact.block(x, scene.contact, neighbours.pairs, touching, n, False, part)
+        count = contact.block(x, scene.contact, neighbours.pairs, touching, n, projected, part)
         add_stencil(matrix, layout, pull, touching.nodes[n], count, POSITION, part)
     slip = slip_of(problem, step)
     for k in range(lagged.count[0]):
-        count = friction.block(found.u, lagged, slip, k, False, part)
+        count = friction.block(found.u, lagged, slip, k, projected, part)
         add_stencil(matrix, layout, pull, lagged.nodes[k], count, POSITION, part)
     for i in range(scene.contact.low_nodes.size):
         _add_platen(problem, x, False, i)

@@ -20,8 +20,11 @@ MOST_SHIFT = 1e3
 
 
 @jit_exact
-def _assemble(problem, x, step, found):
-    """Fill the matrix with the exact Hessian, and the pull of the driven coordinate."""
+def _assemble(problem, x, step, found, projected):
+    """Fill the matrix with the Hessian, and the pull of the driven coordinate.
+
+    projected: without negative parts of contacts and of friction.
+    """
     scene, buffers = problem.scene, problem.buffers
     matrix, layout, pull = problem.neighbours.matrix, scene.layout, buffers.pull
     blocks.clear(matrix)
@@ -31,7 +34,7 @@ def _assemble(problem, x, step, found):
         assembly.add_stencil(
             matrix, layout, pull, scene.shell.quads[e], 4, assembly.PER_NODE, buffers.second
         )
-    assembly.add_contacts(problem, x, step, found)
+    assembly.add_contacts(problem, x, step, found, projected)
     if step.dynamic:
         inert, mass = 1.0 / (step.h * step.h), scene.coordinates.mass
         for i in range(mass.size):
@@ -58,9 +61,9 @@ def _shifted(problem):
 def factor(problem, x, step, found, projected, through):
     """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""
     layout, matrix = problem.scene.layout, problem.neighbours.matrix
-    if projected:  # the exact one, which the matrix has, is not positive
+    _assemble(problem, x, step, found, projected)
+    if projected:
         return (POSITIVE if _shifted(problem) else NEGATIVE), 0.0
-    _assemble(problem, x, step, found)
     if matrix.missing[0] != 0:
         return NO_ROOM, 0.0
     rounded = THROUGH if through else ROUNDED
