@@ -125,7 +125,7 @@ def _coordinates(
         load=np.zeros(leader.size),
         driven=driven,
         cap=0.25 * float(mesh.plan.span.mean()),
-        leap=0.1 * thickness,
+        leap=0.01 * thickness,
         close=1e-3 * thickness,
     )
 
