@@ -75,17 +75,25 @@ def add_stencil(matrix, layout, pull, nodes, count, width, part):
 
 
 @jit
-def add_contacts(problem, x, step, found, projected):
+def _subtract(part, projected):
+    """Replace the projected Hessian of a contact by what it has more than the exact ``part``."""
+    for i in range(part.shape[0]):
+        for j in range(part.shape[0]):
+            projected[i, j] -= part[i, j]
+
+
+@jit
+def add_contacts(problem, x, step, found):
     """Add the second derivatives of contact at ``x``, of friction and of contact with platens."""
     scene, neighbours, buffers = problem.scene, problem.neighbours, problem.buffers
     matrix, layout, pull, part = neighbours.matrix, scene.layout, buffers.pull, buffers.part
     touching, lagged = neighbours.touching, neighbours.lagged_contacts
     for n in range(touching.count[0]):
-        count = contact.block(x, scene.contact, neighbours.pairs, touching, n, projected, part)
+        count = contact.block(x, scene.contact, neighbours.pairs, touching, n, False, part)
         add_stencil(matrix, layout, pull, touching.nodes[n], count, POSITION, part)
     slip = slip_of(problem, step)
     for k in range(lagged.count[0]):
-        count = friction.block(found.u, lagged, slip, k, projected, part)
+        count = friction.block(found.u, lagged, slip, k, False, part)
         add_stencil(matrix, layout, pull, lagged.nodes[k], count, POSITION, part)
     for i in range(scene.contact.low_nodes.size):
         _add_platen(problem, x, False, i)
@@ -96,6 +104,30 @@ def add_contacts(problem, x, step, found, projected):
         if stiffness != 0.0:
             c = scene.mirror.coordinate[i]
             add_entry(matrix, layout, pull, c, c, stiffness)
+
+
+@jit
+def project_contacts(problem, x, step, found):
+    """Take the negative parts of contact and friction out of the matrix that `add_contacts` has
+    filled.
+    """
+    scene, neighbours, buffers = problem.scene, problem.neighbours, problem.buffers
+    matrix, layout, pull = neighbours.matrix, scene.layout, buffers.pull
+    part, projected = buffers.part, buffers.projected
+    touching, lagged = neighbours.touching, neighbours.lagged_contacts
+    for n in range(touching.count[0]):
+        contact.block(x, scene.contact, neighbours.pairs, touching, n, False, part)
+        count = contact.block(x, scene.contact, neighbours.pairs, touching, n, True, projected)
+        _subtract(part, projected)
+        add_stencil(matrix, layout, pull, touching.nodes[n], count, POSITION, projected)
+    slip = slip_of(problem, step)
+    for k in range(lagged.count[0]):
+        if lagged.load[k] < 0.0:  # only its projection differs: it is zero
+            count = friction.block(found.u, lagged, slip, k, False, part)
+            for i in range(POSITION * count):
+                for j in range(POSITION * count):
+                    part[i, j] = -part[i, j]
+            add_stencil(matrix, layout, pull, lagged.nodes[k], count, POSITION, part)
 
 
 @jit

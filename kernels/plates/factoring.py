@@ -1,7 +1,10 @@
 """The Hessian of a lattice of plates at the point of the last `potential.evaluate`, factored.
 
-Where the exact Hessian H is not positive, H + sigma W is the projected one, with W the weights of
-`Layout`. The shift sigma is raised from below its last value until all pivots are positive.
+Where the exact Hessian H is not positive, H_+ + sigma W is the projected one. H_+ is H without the
+negative parts of contacts and of friction: a wall that turns about the one that it touches has a
+negative stiffness as large as force / gap, and a shift that makes up for it would slow all nodes.
+W are the weights of `Layout`. The shift sigma is raised from below its last value until all pivots
+are positive.
 """
 
 from kernels.arrays import zero
@@ -20,11 +23,8 @@ MOST_SHIFT = 1e3
 
 
 @jit_exact
-def _assemble(problem, x, step, found, projected):
-    """Fill the matrix with the Hessian, and the pull of the driven coordinate.
-
-    projected: without negative parts of contacts and of friction.
-    """
+def _assemble(problem, x, step, found):
+    """Fill the matrix with the exact Hessian, and the pull of the driven coordinate."""
     scene, buffers = problem.scene, problem.buffers
     matrix, layout, pull = problem.neighbours.matrix, scene.layout, buffers.pull
     blocks.clear(matrix)
@@ -34,7 +34,7 @@ def _assemble(problem, x, step, found, projected):
         assembly.add_stencil(
             matrix, layout, pull, scene.shell.quads[e], 4, assembly.PER_NODE, buffers.second
         )
-    assembly.add_contacts(problem, x, step, found, projected)
+    assembly.add_contacts(problem, x, step, found)
     if step.dynamic:
         inert, mass = 1.0 / (step.h * step.h), scene.coordinates.mass
         for i in range(mass.size):
@@ -44,7 +44,7 @@ def _assemble(problem, x, step, found, projected):
 
 @jit_exact
 def _shifted(problem):
-    """Factor H + sigma W with the least sigma that is found; return whether that succeeds."""
+    """Factor H_+ + sigma W with the least sigma that is found; return whether that succeeds."""
     layout, matrix, shift = problem.scene.layout, problem.neighbours.matrix, problem.buffers.shift
     stiffest = ldlt.stiffest(matrix, layout.is_length)
     sigma = max(LOWERED * shift[0], LEAST_SHIFT * stiffest)
@@ -61,9 +61,10 @@ def _shifted(problem):
 def factor(problem, x, step, found, projected, through):
     """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""
     layout, matrix = problem.scene.layout, problem.neighbours.matrix
-    _assemble(problem, x, step, found, projected)
-    if projected:
+    if projected:  # the matrix has the exact one, which is not positive
+        assembly.project_contacts(problem, x, step, found)
         return (POSITIVE if _shifted(problem) else NEGATIVE), 0.0
+    _assemble(problem, x, step, found)
     if matrix.missing[0] != 0:
         return NO_ROOM, 0.0
     rounded = THROUGH if through else ROUNDED

@@ -20,8 +20,8 @@ class Buffers(NamedTuple):
     """Arrays that are allocated once a march.
 
     frames (n_nodes, 9): committed frames of the nodes, `history.State.memory`. shell: scratch of
-    one quad; second (24, 24): its Hessian. part (12, 12): Hessian of one contact. parts (3,):
-    energies of the walls, J. pull (n,): derivatives of the gradient in the driven coordinate.
+    one quad; second (24, 24): its Hessian. part, projected (12, 12): Hessians of one contact. parts
+    (3,): energies of the walls, J. pull (n,): derivatives of the gradient in the driven coordinate.
     unknowns (u,): scratch. shift (1,): last shift of a projected Hessian, N/m.
     """
 
@@ -29,6 +29,7 @@ class Buffers(NamedTuple):
     shell: object
     second: np.ndarray
     part: np.ndarray
+    projected: np.ndarray
     parts: np.ndarray
     pull: np.ndarray
     unknowns: np.ndarray
@@ -80,7 +81,8 @@ def make_buffers(scene, committed):
     """Return the `Buffers`. committed: `solve.history.State.memory`."""
     layout = scene.layout
     return Buffers(
-        committed, shell.make_scratch(), np.zeros((24, 24)), np.zeros((12, 12)), np.zeros(3),
+        committed, shell.make_scratch(), np.zeros((24, 24)), np.zeros((12, 12)),
+        np.zeros((12, 12)), np.zeros(3),
         np.zeros(layout.leader.size), np.zeros(layout.scale.size), np.zeros(1),
     )  # fmt: skip
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.linalg import eigh
 
 from kernels.plates.factoring import LOWERED, RAISED
 from kernels.plates.reach import make_matrix
@@ -80,6 +81,29 @@ def test_the_shift_is_about_the_least_that_makes_all_pivots_positive():
     np.testing.assert_allclose(args.solve(g), expected, rtol=0, atol=1e-8 * np.abs(expected).max())
     args.factored(x, projected=True)
     assert args.problem.buffers.shift[0] == pytest.approx(sigma * RAISED * LOWERED)
+
+
+def test_the_projected_matrix_lacks_the_negative_parts_of_contacts_only():
+    """Without them a much smaller shift is enough."""
+    of = scene("glued")
+    x, layout = pinched(of), of.terms.layout
+    args = whole(of, x)
+    args.factored(x)
+    exact = args.entries()
+    args.factored(x, projected=True)
+    projected, W = args.entries(), np.diag(layout.weight)
+    least = [eigh(H, W, eigvals_only=True, subset_by_index=[0, 0])[0] for H in (exact, projected)]
+    assert least[0] < 10.0 * least[1] < 0.0
+    change = np.abs(projected - exact)[~layout.is_length]  # rotations touch nothing
+    assert change.max() <= 1e-9 * np.abs(exact).max()
+    free = bent(of)
+    apart = whole(of, free)
+    assert apart.factored(free)[0] == NEGATIVE
+    exact = apart.entries()
+    apart.factored(free, projected=True)
+    touches = of.terms.contact.low_nodes.size  # platens press, which has no negative part
+    assert touches > 0
+    np.testing.assert_array_equal(apart.entries(), exact)
 
 
 def test_the_stiffest_length_is_the_largest_on_the_diagonal():
