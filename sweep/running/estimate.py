@@ -16,6 +16,7 @@ from math import isnan
 from sweep.config.case import Case
 from sweep.config.direction import is_along
 from sweep.config.grid import Config, case_count, expand
+from sweep.config.solver_defaults import steps
 from sweep.result import Result, Status
 from sweep.running.batches import Plan, cost
 from sweep.running.dask_graph import Simulate, Stop, run
@@ -26,6 +27,7 @@ from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 BYTES = 4  # of a stored number, in single precision
 PACKED = 0.9  # compressed / original size, of curves and shapes together
 SPENT = 8.0  # s of processor time for the groups of all kinds
+LONGEST = 10.0  # s for a pilot; one that takes longer is stopped, and its time extrapolated
 GROUPS = 9  # of one kind
 SHARE = 3  # least number of cases in a group
 ROW = 1000  # bytes of the summary of a case
@@ -36,7 +38,8 @@ class Estimate:
     """Processor time `cpu` (s) and disk space (bytes) of a sweep.
 
     The `pilots` are the cases that were run for it, in `seconds`; `failures`: messages of pilots
-    that did not converge. The time is NaN if a pilot has no measured time.
+    that did not converge. The time is NaN if a pilot has no measured time. `stopped`: pilots whose
+    time is extrapolated from their first steps.
     """
 
     cpu: float
@@ -44,6 +47,7 @@ class Estimate:
     pilots: int
     failures: list[str]
     seconds: float
+    stopped: int = 0
 
 
 def dry_run(
@@ -80,6 +84,9 @@ def dry_run(
         f"  disk            {found.disk / 1e6:.2g} MB",
         "nothing was written",
     ]
+    if found.stopped:
+        first = f"{found.stopped} of them stopped after {LONGEST:g} s; later steps may be slower"
+        lines.insert(2, f"  {first}")
     if found.failures:
         count = f"{len(found.failures)} of the pilot cases did not converge"
         lines.insert(-1, f"  {count}: {found.failures[0]}")
@@ -100,27 +107,47 @@ def estimate(cases: Sequence[Case], simulate: Simulate) -> Estimate:
     pilots = [
         group
         for pilot, alike in first
-        for group in _groups(pilot, alike, spent, float(results[pilot.case_id].summary["cpu_s"]))
+        for group in _groups(pilot, alike, spent, _seconds(pilot, results[pilot.case_id]))
     ]
     others = [pilot for pilot, _ in pilots if pilot.case_id not in results]
     results |= _run_all(others, simulate) if others else {}
     cpu = disk = 0.0
     for pilot, alike in pilots:
         result = results[pilot.case_id]
-        cpu += float(result.summary["cpu_s"]) * sum(map(cost, alike)) / cost(pilot)
+        cpu += _seconds(pilot, result) * sum(map(cost, alike)) / cost(pilot)
         disk += len(alike) * _stored(result)
-    failures = [r.message for r in results.values() if r.status is not Status.CONVERGED]
-    return Estimate(cpu, disk, len(results), failures, time.perf_counter() - started)
+    failures = [
+        r.message for r in results.values() if r.status not in (Status.CONVERGED, Status.TIMED_OUT)
+    ]
+    stopped = sum(r.status is Status.TIMED_OUT for r in results.values())
+    return Estimate(cpu, disk, len(results), failures, time.perf_counter() - started, stopped)
 
 
 def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
     """Results by case id, computed one at a time in the same way as in a sweep."""
     stop, results = Stop(), list[Result]()
     with interruptible(stop):
-        run(Plan(pilots, workers=1), simulate, results.extend, stop)
+        run(Plan(map(_limited, pilots), workers=1), simulate, results.extend, stop)
     if stop.asked:
         raise Interrupted("interrupted; nothing was written")
     return {result.case_id: result for result in results}
+
+
+def _limited(pilot: Case) -> Case:
+    """The case with a time limit of at most `LONGEST`, which is no part of its id."""
+    limit = min(LONGEST, pilot.solver.time_limit)
+    return pilot.model_copy(
+        update={"solver": pilot.solver.model_copy(update={"time_limit": limit})}
+    )
+
+
+def _seconds(pilot: Case, result: Result) -> float:
+    """Processor time of a pilot, s; of one that was stopped, in proportion to its steps."""
+    seconds = float(result.summary["cpu_s"])
+    if result.status is not Status.TIMED_OUT:
+        return seconds
+    done = max(len(next(iter(result.history.values()))) - 1, 1)
+    return seconds * max(steps(pilot.loading, pilot.solver) / done, 1.0)
 
 
 def duration(seconds: float) -> str:

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Lattice, Loading
+from sweep.config.solver_defaults import steps
 from sweep.result import Result, Status
 from sweep.running.batches import cost
-from sweep.running.estimate import duration, estimate
+from sweep.running.estimate import LONGEST, duration, estimate
 from sweep.running.sweep import Interrupted
 
 GLUED = Loading(mode="displacement", platen="glued")
@@ -80,6 +81,26 @@ def test_groups_of_short_cases_have_a_pace_of_their_own():
 def test_long_cases_are_not_run_for_the_estimate():
     many, simulate, asked = by_thickness(1e4)
     assert estimate(many, simulate).pilots == len(asked) == 1
+
+
+def test_long_pilots_are_stopped_and_extrapolated():
+    """A quarter of the steps in the time that a pilot may take."""
+    asked = []
+
+    def slow(case, control):
+        asked.append(case)
+        done = int(steps(case.loading, case.solver) / 4)
+        history = {"strain": np.zeros(done + 1)}
+        taken = {"cpu_s": case.solver.time_limit}
+        return Result(case.case_id, Status.TIMED_OUT, "raise it", taken, history)
+
+    (case,) = cases(GLUED, (3,))
+    found = estimate([case], slow)
+    assert asked[0].solver.time_limit == LONGEST < case.solver.time_limit
+    assert asked[0].case_id == case.case_id
+    assert found.cpu == pytest.approx(4.0 * LONGEST, rel=0.05)
+    assert found.stopped == 1
+    assert found.failures == []
 
 
 def test_failed_pilots_are_counted():
