@@ -32,7 +32,7 @@ MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass
 CRUSHED = "peak: greatest force of one specimen. Peak and energy are counted {until}."
 WHOLE = """\
 pack: strain at which the lattice has packed down, a mean over strains of nearly the greatest
-efficiency; "> 60": not before the end of this crush at 60 %.
+efficiency; "> 60": not before the end of a crush to 60 %.
 back: returned energy / work of the whole crush."""
 AGAIN = "again: energy absorbed in the second cycle / in the first; other columns are of the first."
 ELASTIC = (
