@@ -73,6 +73,35 @@ def total(vector):
     return value
 
 
+@jit_exact
+def first_at_least(ascending, value, low, high):
+    """Return the first of the indices ``low`` .. ``high`` - 1 whose entry of ``ascending`` (n,) is
+    at least ``value``, ``high`` if there is none.
+    """
+    while low < high:
+        middle = (low + high) // 2
+        if ascending[middle] < value:
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
+@jit_exact
+def piece(bounds, value):
+    """Return the index i with bounds[i] <= ``value`` < bounds[i + 1]; beyond the ends, that of the
+    first or the last piece. bounds (n + 1,): ascending.
+    """
+    low, high = 0, bounds.size - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if bounds[middle] <= value:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
 @jit_owning
 def grouped(group, n):
     """Return (start (n + 1,), order): the members of group g are order[start[g]:start[g + 1]].

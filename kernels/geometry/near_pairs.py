@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.arrays import grouped, pair
+from kernels.arrays import first_at_least, grouped, pair
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.geometry.distance import squared_distance
 
@@ -177,14 +177,7 @@ def counted(pairs, k, contact):
 @jit_exact
 def within(pairs, radius):
     """Return the number of pairs, the first ones, that may be nearer than ``radius`` (m)."""
-    low, high = 0, pairs.distance.size
-    while low < high:
-        middle = (low + high) // 2
-        if pairs.distance[middle] < radius:
-            low = middle + 1
-        else:
-            high = middle
-    return low
+    return first_at_least(pairs.distance, radius, 0, pairs.distance.size)
 
 
 @jit_owning

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.arrays import zero
+from kernels.arrays import first_at_least, zero
 from kernels.compile.jit import jit, jit_exact, jit_owning
 from kernels.compile.simd import LANES
 
@@ -58,14 +58,9 @@ def home_of(block, slot):
 @jit_exact
 def find(start, row, i, j):
     """Return the index in ``row`` of block (i, j), i > j; -1 if there is none."""
-    low, high = start[j], start[j + 1]
-    while low < high:
-        middle = (low + high) // 2
-        if row[middle] < i:
-            low = middle + 1
-        else:
-            high = middle
-    return low if low < start[j + 1] and row[low] == i else -1
+    end = start[j + 1]
+    k = first_at_least(row, i, start[j], end)
+    return k if k < end and row[k] == i else -1
 
 
 @jit_owning

@@ -9,14 +9,13 @@ import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.laws.law import Memory
-from kernels.planar import constraints, factoring, potential, reach, rows, steps
+from kernels.planar import constraints, factoring, potential, reach, steps
 from kernels.planar.reach import Neighbours
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
-from kernels.terms import lagging
+from kernels.terms import followers, lagging, rows
 from kernels.terms.damping import Before
 from kernels.terms.elements import Resultants, Shape, Stiffness
-from kernels.terms.rows import STORED
 
 
 class Buffers(NamedTuple):
@@ -57,12 +56,13 @@ class Planar(NamedTuple):
     reduce = constraints.reduce
     lead = constraints.lead
     pull = constraints.pull
-    tie = constraints.tie
+    tie = followers.tie
 
     travel = reach.travel
     step_limit = reach.step_limit
     covers = reach.covers
     drift = reach.drift
+    least_gap = reach.least_gap
 
     lags = lagging.lags
     lag = lagging.lag
@@ -116,7 +116,7 @@ def at_rest(scene, x):
     numbers, elements = _told(scene.law, "state_size"), scene.stretch.l0.size
     points = elements * (2 + _told(scene.bend.section, "points"))
     memory = (points, numbers) if numbers > 0 else (0, 0)
-    return history.at_rest(x, STORED, memory)
+    return history.at_rest(x, rows.STORED, memory)
 
 
 class PlanarScene(NamedTuple):

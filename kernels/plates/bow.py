@@ -19,9 +19,9 @@ TWELFTH = 1.0 / 12.0
 
 @jit
 def lengthen(size, rest, m):
-    """Replace measures ``m`` (9,) less those at ``rest`` (9,) by those of the arcs.
+    """Replace the measures ``m`` (9,) of chords by those of arcs, both less those at ``rest`` (9,).
 
-    Return B11, D11, B22, D22 of the chords, for the derivatives.
+    size: h_s, h_z in m. Return B11, D11, B22, D22 of the chords, which the derivatives need.
     """
     chords = (m[3] + rest[3], m[6] + rest[6], m[4] + rest[4], m[7] + rest[7])
     for k in range(2):
@@ -43,7 +43,7 @@ def _factors(size, chords, k):
 
 @jit
 def pull_back(size, chords, slope):
-    """Turn the slopes (9,) of an energy in the measures of arcs into those in measures."""
+    """Turn the slopes (9,) of an energy in measures of arcs into those in measures of chords."""
     for k in range(2):
         ab, bb, db, dd = _factors(size, chords, k)
         slope[3 + k] = ab * slope[k] + bb * slope[3 + k] + db * slope[6 + k]
@@ -52,7 +52,7 @@ def pull_back(size, chords, slope):
 
 @jit
 def pull_back_second(size, chords, slope, second):
-    """Turn its second derivatives (9, 9) into those in measures; slope: not yet turned."""
+    """Turn the second derivatives (9, 9) likewise; slope: that in measures of arcs."""
     for k in range(2):
         ab, bb, db, dd = _factors(size, chords, k)
         for i in range(9):

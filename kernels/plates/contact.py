@@ -434,7 +434,8 @@ def block(x, contact, pairs, touching, n, projected, K):
 
 @jit
 def _against(x, contact, p, rest, platen, side):
-    """Return distance, energy and its derivatives of node ``p`` against a platen, J, N, N/m.
+    """Return energy (J), slope (N) and curvature (N/m) of node ``p`` against a platen, in its
+    distance.
 
     rest: distance at rest, m; side: 1 for the lower platen, -1 for the upper one.
     """

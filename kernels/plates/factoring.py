@@ -14,6 +14,7 @@ from kernels.linear.supernodal import factor as ldlt
 from kernels.linear.supernodal import matrix as blocks
 from kernels.linear.supernodal import solution
 from kernels.plates import assembly, shell
+from kernels.plates.layout import PER_NODE
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
 
 RAISED = 4.0  # ratio of a shift to the one before, which was too small
@@ -32,7 +33,7 @@ def _assemble(problem, x, step, found):
     for e in range(scene.shell.quads.shape[0]):
         shell.hessian(x, buffers.frames, scene.shell, scene.law, e, buffers.shell, buffers.second)
         assembly.add_stencil(
-            matrix, layout, pull, scene.shell.quads[e], 4, assembly.PER_NODE, buffers.second
+            matrix, layout, pull, scene.shell.quads[e], 4, PER_NODE, buffers.second
         )
     assembly.add_contacts(problem, x, step, found)
     if step.dynamic:
@@ -90,6 +91,15 @@ def _spread(layout, vector, move):
     for i in range(move.size):
         u = layout.unknown[i]
         move[i] = layout.ratio[i] * vector[u] if u >= 0 else 0.0
+
+
+@jit_exact
+def pull(problem, move, direction):
+    """Fill ``direction`` (n,) with the linearised change of the gradient when the driven coordinate
+    moves by ``move`` m.
+    """
+    for i in range(direction.size):
+        direction[i] = problem.buffers.pull[i] * move
 
 
 @jit_exact

@@ -5,8 +5,7 @@
 s, z: sides of the element at the corner, d: director there; b: `barrier`. v is the cosine of the
 angle times the ratio of areas. Beyond 90 degrees the shear of an element becomes smaller again:
 without a barrier a director turned over would be a second minimum, in which no wall can be. The
-barrier starts at an angle to which only folds within one element bend, or where nothing is left of
-an element.
+barrier acts only on elements that are themselves folded, or squeezed to nothing.
 """
 
 from kernels.compile.jit import jit
@@ -33,6 +32,7 @@ def _between(q, a, b):
 
 @jit
 def _cross(a, b):
+    """Return a x b."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 

@@ -235,11 +235,11 @@ def curvature(u, w, slip):
 
 @jit
 def _next_dual(u, move, w, slip):
-    """Return the dual that the Newton step ``move`` from the slip ``u`` and the dual ``w`` assumes,
-    at most of size 1.
+    """Return the dual after the Newton step ``move`` from the slip ``u`` and the dual ``w``.
 
-    It is that of the symmetric matrix in use: with that of the matrix before it is made symmetric,
-    a tenth of 200 random problems of one contact ended in a cycle.
+    Its size is at most 1. It is linearised with the symmetric `curvature`, as the Hessian is: with
+    the linearisation that is not symmetric, a tenth of 200 random problems of one contact ended in
+    a cycle.
     """
     psi, _ = _psi(math.hypot(u[0], u[1]), slip)
     c11, c12, c22 = curvature(u, w, slip)

@@ -52,11 +52,11 @@ def make_moments():
 
 @jit
 def _thickening(m):
-    """Return j and det(1 + A); j is infinite where the determinant is not positive."""
+    """Return j, infinite where the mid-surface has no area left."""
     det = 1.0 + (m[0] + m[1] + m[0] * m[1] - m[2] * m[2])
     if not (det > 0.0 and m[0] > -1.0):
-        return math.inf, det
-    return 1.0 / math.sqrt(det), det
+        return math.inf
+    return 1.0 / math.sqrt(det)
 
 
 @jit
@@ -95,7 +95,7 @@ def resultants(law, m, thickness, slope):
 
     m (9,): measures. slope (9,) receives dU/dm. U is infinite where a layer has no area left.
     """
-    j, _ = _thickening(m)
+    j = _thickening(m)
     if math.isinf(j):
         return math.inf, math.inf
     middle, s, _ = law.respond(m[0], m[1], m[2])
@@ -174,7 +174,7 @@ def rigidity(law, m, thickness, moments, slope, second):
 
     To be called where U is finite.
     """
-    j, _ = _thickening(m)
+    j = _thickening(m)
     u_j, u_jj = _sum_layers(law, m, thickness, j, moments)
     dj = _slopes_of_thickening(m, j)
     n, t, mixed = moments.stress, moments.tangent, moments.by_j

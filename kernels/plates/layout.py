@@ -9,7 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-PER_NODE = 6  # coordinates of a node
+from kernels.geometry.space.vectors import SIZE
+
+PER_NODE = SIZE  # coordinates of a node
 POSITION = 3  # of them are those of its position
 
 
@@ -18,7 +20,7 @@ class Layout(NamedTuple):
 
     leader (n,): the coordinate itself if it is free, that of a platen if it is tied to it, -1 if
     held. ratio (n,): move divided by that of the leader. driven: coordinate with a prescribed
-    value, -1 if none. unknown (n,): of the coordinate that is followed, -1 if it is held or driven.
+    value, -1 if none. unknown (n,): number of the unknown that is the leader, -1 if none is.
     slot (n,): place of a free coordinate in the block of its node, else -1. follows (n_nodes,):
     whether a coordinate of a node follows another one. block (n_nodes,): of each node, -1 if it has
     no free coordinate. size (nb,): unknowns of each block, the last of which is that of a platen

@@ -34,7 +34,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.arrays import grouped, triple
+from kernels.arrays import first_at_least, grouped, triple
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.geometry.space import near
 from kernels.geometry.space.closest import (
@@ -326,11 +326,4 @@ def renew_distances(contact, pairs):
 @jit_exact
 def edges_within(pairs, radius):
     """Return the number of pairs of edges, the first ones, that may be nearer than ``radius``."""
-    low, high = 0, pairs.edge_bound.size
-    while low < high:
-        middle = (low + high) // 2
-        if pairs.edge_bound[middle] < radius:
-            low = middle + 1
-        else:
-            high = middle
-    return low
+    return first_at_least(pairs.edge_bound, radius, 0, pairs.edge_bound.size)

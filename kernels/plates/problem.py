@@ -8,12 +8,11 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
-from kernels.plates import constraints, factoring, potential, reach, rows, shell, steps
+from kernels.plates import factoring, potential, reach, shell, steps
 from kernels.plates.reach import Neighbours
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
-from kernels.terms import lagging
-from kernels.terms.rows import STORED
+from kernels.terms import followers, lagging, rows
 
 
 class Buffers(NamedTuple):
@@ -55,15 +54,16 @@ class Plates(NamedTuple):
     unstable = factoring.unstable
     stiffest = factoring.stiffest
 
-    reduce = constraints.reduce
-    lead = constraints.lead
-    pull = constraints.pull
-    tie = constraints.tie
+    reduce = followers.reduce
+    lead = followers.lead
+    pull = factoring.pull
+    tie = followers.tie
 
     travel = reach.travel
     step_limit = reach.step_limit
     covers = reach.covers
     drift = reach.drift
+    least_gap = reach.least_gap
 
     lags = lagging.lags
     lag = lagging.lag
@@ -95,7 +95,7 @@ def assemble(scene, neighbours, buffers):
 
 def at_rest(frames, x):
     """Return the `history.State` at rest at ``x`` (n,), with ``frames`` (n_nodes, 9) of nodes."""
-    state = history.at_rest(x, STORED, frames.shape)
+    state = history.at_rest(x, rows.STORED, frames.shape)
     state.memory[:] = frames
     return state
 

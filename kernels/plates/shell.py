@@ -2,8 +2,8 @@
 
 Node i has the coordinates x[6 i] .. x[6 i + 2], its position, and x[6 i + 3] .. x[6 i + 5], its
 rotation w since the last commit; its frame Q is a row of ``frames`` (n, 9). At corner a of element
-e, the director is d = Q R(w) dloc[e, a] (`rotation`). Walls that meet along a line share its nodes
-and have a ``dloc`` each, so that a joint needs no constraint.
+e, the director is d = Q R(w) v, with v = directors[e, a] (`rotation`). Walls that meet along a line
+share its nodes, each with directors of its own, so that a joint needs no constraint.
 
 In an element with the sides h_s and h_z of the flat rest grid, x and d are bilinear in the arc
 lengths s and z. With p = (x,s; d,s; x,z; d,z) at a Gauss point each strain measure of `layers` is
@@ -37,27 +37,28 @@ CORNERS = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
 class Shell(NamedTuple):
     """quads (m, 4): nodes (s0 z0), (s1 z0), (s1 z1), (s0 z1). size (m, 2): h_s, h_z in m.
 
-    thickness (m,) in m. dloc (m, 4, 3): directors at rest in the frames of the nodes. rest
-    (m, 4, 9): measures at rest at the Gauss points, in the order of the corners, less those of the
-    flat grid. shear_rest (m, 4): shear at rest of the edges of `shear`. shear_modulus: kappa G, Pa.
+    thickness (m,) in m. directors (m, 4, 3): at rest, in the frames of the nodes. rest (m, 4, 9):
+    measures at rest at the Gauss points, in the order of the corners, less those of the flat grid.
+    shear_rest (m, 4): shear at rest of the edges of `shear`. shear_modulus: kappa G, Pa.
     """
 
     quads: np.ndarray
     size: np.ndarray
     thickness: np.ndarray
-    dloc: np.ndarray
+    directors: np.ndarray
     rest: np.ndarray
     shear_rest: np.ndarray
     shear_modulus: float
 
 
 class Scratch(NamedTuple):
-    """Arrays of one element: q (24,), its gradient ``slope`` (24,); p (12,), measure and
-    ``resultant`` (9,) of a point, with ``rigidity`` (9, 9), ``moments``, ``rows`` (9, 12): M_k p,
-    ``pushed`` (9, 12): rigidity x rows, ``by_p`` (12, 12), ``half`` (48, 24): by_p x dp/dq of all
-    points, ``grid`` (4, 4, 2): N_a,s and N_a,z of points and corners; for shear, ``edges`` and
-    ``strained`` (7, 24), ``inner`` (7, 7); ``turn`` (4, 3, 3): dd/dw of the corners, ``column``
-    (24, 3).
+    """Arrays of one element.
+
+    q, slope (24,): of the corners, and the gradient in q. At a Gauss point: p (12,); measure,
+    resultant (9,); rigidity (9, 9); moments; rows (9, 12): M_k p; pushed (9, 12): rigidity x rows;
+    by_p (12, 12): d2U/dp2. half (48, 24): by_p x dp/dq of all points. grid (4, 4, 2): N_a,s and
+    N_a,z by point and corner. Of shear, see `shear.hessian`: edges, strained (7, 24), inner (7, 7).
+    row (24,): of `fold`. turn (4, 3, 3): dd/dw of the corners; column (24, 3).
     """
 
     q: np.ndarray
@@ -100,8 +101,8 @@ def _rotation_of(x, node):
 
 @jit
 def _rest_director(shell, e, a):
-    """Return dloc of a corner."""
-    return shell.dloc[e, a, 0], shell.dloc[e, a, 1], shell.dloc[e, a, 2]
+    """Return v of a corner."""
+    return shell.directors[e, a, 0], shell.directors[e, a, 1], shell.directors[e, a, 2]
 
 
 @jit

@@ -1,10 +1,15 @@
-"""Rows of a history: the energy book by terms, and what is measured after each step."""
+"""Rows and frames of a history: the energy book by terms, and what is measured after each step.
+
+The same for walls in the plane and for plates: a problem gives its `least_gap`.
+"""
 
 from typing import NamedTuple
 
 import numpy as np
 
+from kernels.arrays import total
 from kernels.compile.jit import jit_exact
+from kernels.geometry.specimen_height import height
 
 STRETCH, BEND, CONTACT = range(3)  # stored energies: E_s with springs, E_b with folds, E_c
 STORED = 3
@@ -52,7 +57,7 @@ class Output(NamedTuple):
 
 
 @jit_exact
-def enter(row, state):
+def _enter(row, state):
     """Write the energy book of ``state`` into a row."""
     book = state.book[0]
     row.work, row.kinetic = book.work, book.kinetic
@@ -60,3 +65,26 @@ def enter(row, state):
     row.contact = state.stored[CONTACT]
     row.material, row.friction = book.material, book.friction
     row.integrator, row.injected, row.residual = book.integrator, book.injected, book.residual
+
+
+@jit_exact
+def write(problem, out, k, state, found):
+    """Write row ``k`` of the history, and its frame if one is asked for."""
+    row, totals, coordinates = out.rows[k], state.totals[0], problem.scene.coordinates
+    _enter(row, state)
+    row.time, row.iterations = totals.time, totals.iterations
+    row.height = height(state.x, out.top, out.base)
+    row.reaction_bottom = 0.0
+    for c in out.bottom:
+        row.reaction_bottom += found.g[c]
+    row.reaction_top = -totals.reaction
+    if coordinates.driven < 0:
+        row.reaction_top = -totals.factor * total(coordinates.load)
+    for p in range(out.probes.size):
+        out.probed[k, 0, p] = state.x[out.probes[p]]
+        out.probed[k, 1, p] = found.g[out.probes[p]]
+    row.speed = state.v[problem.scene.contact.high]
+    row.gap = problem.least_gap(state.x)
+    if out.frame_of[k] >= 0:
+        for i in range(state.x.size):
+            out.frames[out.frame_of[k], i] = state.x[i]

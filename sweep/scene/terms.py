@@ -10,6 +10,7 @@ import numpy as np
 
 from kernels.linear import analysis, periodic_images
 from kernels.planar.problem import PlanarScene, at_rest
+from kernels.plates.layout import Layout as LayoutOfPlates
 from kernels.solve import march
 from kernels.solve.history import State
 from kernels.solve.problem import FREE, HELD, LED, TIED, Coordinates
@@ -126,11 +127,11 @@ def coordinates_of(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -
     scale = np.ones(numbering.size)
     scale[numbering.rotation] = mesh.rest_length.mean()
     return Coordinates(
-        role=_roles(layout),
+        role=roles(layout),
         scale=scale,
         lever=1.0 / scale,
         mass=parts.mass,
-        heavy=_heavy(layout, parts.mass),
+        heavy=heavy(layout, parts.mass),
         load=parts.load,
         driven=layout.driven,
         cap=0.25 * min(lattice.width / lattice.cells_x, lattice.height / lattice.cells_y),
@@ -139,7 +140,7 @@ def coordinates_of(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -
     )
 
 
-def _roles(layout: analysis.Layout) -> Ints:
+def roles(layout: analysis.Layout | LayoutOfPlates) -> Ints:
     """Role of each coordinate, (n,): `FREE`, `TIED` to another one, `LED` or `HELD`."""
     leader = layout.leader
     role = np.where(leader == np.arange(leader.size), FREE, TIED)
@@ -149,7 +150,7 @@ def _roles(layout: analysis.Layout) -> Ints:
     return role
 
 
-def _heavy(layout: analysis.Layout, mass: Floats) -> Floats:
+def heavy(layout: analysis.Layout | LayoutOfPlates, mass: Floats) -> Floats:
     """1 for a moving coordinate with mass, its own or that of a coordinate tied with it; else 0.
 
     (n,); 0 for coordinates that follow the driven one.
@@ -157,9 +158,9 @@ def _heavy(layout: analysis.Layout, mass: Floats) -> Floats:
     moving = np.flatnonzero(layout.leader >= 0)
     leader = layout.leader[moving]
     moved = np.bincount(leader, layout.ratio[moving] * mass[moving], mass.size)
-    heavy = np.zeros(mass.size)
-    heavy[moving] = (moved[leader] > 0.0) & (leader != layout.driven)
-    return heavy
+    found = np.zeros(mass.size)
+    found[moving] = (moved[leader] > 0.0) & (leader != layout.driven)
+    return found
 
 
 def contact_stiffness(case: Case) -> float:

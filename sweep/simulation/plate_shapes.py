@@ -8,8 +8,8 @@ the turns by transverse shear.
 import numpy as np
 
 from kernels.geometry.space import crossing, surface
+from kernels.plates.layout import PER_NODE
 from sweep.scene.mesh import Floats, Ints
-from sweep.scene.plates.coordinates import PER_NODE
 from sweep.scene.plates.mesh import PlateMesh
 from sweep.scene.plates.scene import Scene
 from sweep.scene.plates.unfolded import unfolded

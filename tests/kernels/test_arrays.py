@@ -31,6 +31,18 @@ def test_vectors_are_copied_added_and_cleared(vectors):
     assert not vectors.any()
 
 
+@pytest.mark.parametrize("value", [-1.0, 0.0, 0.5, 2.0, 3.5, 4.0, 9.0])
+def test_places_among_ascending_numbers(value):
+    """As by bisection of the whole, or of a part; a piece is one of those between the bounds."""
+    ascending = np.array([0.0, 1.0, 2.0, 2.0, 3.5, 4.0])
+    for low, high in ((0, 6), (1, 4), (3, 3)):
+        expected = low + np.searchsorted(ascending[low:high], value)
+        assert arrays.first_at_least(ascending, value, low, high) == expected
+    bounds = np.unique(ascending)
+    inside = np.clip(np.searchsorted(bounds, value, side="right") - 1, 0, len(bounds) - 2)
+    assert arrays.piece(bounds, value) == inside
+
+
 def test_sums_and_the_largest(vectors):
     one, other = vectors
     assert arrays.dot(one, other) == pytest.approx(one @ other, rel=1e-13)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.arrays import zero
+from kernels.arrays import first_at_least, piece, zero
 from kernels.compile.jit import jit, jit_exact, jit_owning
 
 ROWS = 12  # of a tile: see `dense`
@@ -102,16 +102,11 @@ def _row(matrix, s, p):
     """
     if p < matrix.block[s + 1]:
         return matrix.begin[p] - matrix.column[s]
-    low, high = matrix.below[s], matrix.below[s + 1]
-    while low < high:
-        middle = (low + high) // 2
-        if matrix.rows[middle] < p:
-            low = middle + 1
-        else:
-            high = middle
-    if low == matrix.below[s + 1] or matrix.rows[low] != p:
+    end = matrix.below[s + 1]
+    k = first_at_least(matrix.rows, p, matrix.below[s], end)
+    if k == end or matrix.rows[k] != p:
         return -1
-    return matrix.column[s + 1] - matrix.column[s] + matrix.offset[low]
+    return matrix.column[s + 1] - matrix.column[s] + matrix.offset[k]
 
 
 @jit_exact
@@ -195,25 +190,12 @@ def position(matrix, i, j):
     """Return the position in ``values`` of the entry of unknowns (i, j), -1 if it has no room."""
     p, q = matrix.home[i], matrix.home[j]
     p, q = max(p, q), min(p, q)
-    a, b = _block_at(matrix, p), _block_at(matrix, q)
+    a, b = piece(matrix.begin, p), piece(matrix.begin, q)
     s = matrix.supernode[b]
     row, (width, below) = _row(matrix, s, a), size(matrix, s)
     if row < 0:
         return -1
     return matrix.panel[s] + (q - matrix.column[s]) * (width + below) + row + p - matrix.begin[a]
-
-
-@jit_exact
-def _block_at(matrix, p):
-    """Return the place of the block of the unknown at place ``p``."""
-    low, high = 0, matrix.begin.size - 1
-    while high - low > 1:
-        middle = (low + high) // 2
-        if matrix.begin[middle] <= p:
-            low = middle
-        else:
-            high = middle
-    return low
 
 
 @jit

@@ -1,6 +1,6 @@
 """Solves with the factor, and directions of negative curvature."""
 
-from kernels.arrays import zero
+from kernels.arrays import piece, zero
 from kernels.compile.jit import jit, jit_exact
 from kernels.linear.supernodal.dense import times, transposed_times
 from kernels.linear.supernodal.fronts import strip
@@ -131,13 +131,7 @@ def descend(matrix, direction):
     """Fill ``direction`` (n,), by unknown, with d such that d^T A d is the negative pivot
     that `factor` returned.
     """
-    low, high, failed = 0, matrix.column.size - 1, matrix.failed[0]
-    while high - low > 1:
-        middle = (low + high) // 2
-        if matrix.column[middle] <= failed:
-            low = middle
-        else:
-            high = middle
-    descend_to(matrix, low, failed)
+    failed = matrix.failed[0]
+    descend_to(matrix, piece(matrix.column, failed), failed)
     for i in range(direction.size):
         direction[i] = matrix.vector[matrix.home[i]]

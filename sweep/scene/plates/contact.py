@@ -4,9 +4,10 @@ import numpy as np
 
 from kernels.geometry.space import surface
 from kernels.plates.contact import Contact
+from kernels.plates.layout import PER_NODE
 from kernels.plates.mirror import NO_MIRROR, Mirror
 from sweep.config.case import Case, given
-from sweep.scene.plates.coordinates import BONDED, PER_NODE, Numbering, heights
+from sweep.scene.plates.coordinates import BONDED, Numbering, heights
 from sweep.scene.plates.mesh import PlateMesh
 
 MOST_MOVE = 1.0  # longest move that neighbour lists cover, in mean widths of walls

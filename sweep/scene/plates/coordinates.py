@@ -15,12 +15,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from kernels.plates.layout import PER_NODE
 from sweep.design.drawing import Indices
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.mesh import PlateMesh
 
 BONDED = ("glued", "clamped")
-PER_NODE = 6
 ALONG, UP, NORMAL = range(3)  # axes of a node inside a wall
 VERTICAL = 2  # of the axes x, y, z of a node of a joint
 

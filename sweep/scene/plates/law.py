@@ -5,10 +5,9 @@ from functools import lru_cache
 import numpy as np
 
 from kernels.laws import sheet
+from kernels.plates.shear import KAPPA
 from sweep.config.case import Material
 from sweep.scene.material import Floats, StressLaw, stress_law
-
-SHEAR_COEFFICIENT = 5.0 / 6.0
 
 
 @lru_cache(maxsize=64)
@@ -26,7 +25,7 @@ def law_of_sheet(material: Material) -> sheet.Sheet:
 
 def shear_modulus(material: Material) -> float:
     """Kappa G of an incompressible wall, Pa."""
-    return SHEAR_COEFFICIENT * law_of_sheet(material).shear_modulus
+    return KAPPA * law_of_sheet(material).shear_modulus
 
 
 def _with_slope(curve: StressLaw, strain: Floats) -> tuple[Floats, Floats]:

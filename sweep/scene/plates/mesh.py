@@ -26,10 +26,10 @@ class PlateMesh:
     rest (n, 3): nodes at rest, bowed by the imperfection, m. frames (n, 9): axes of each node at
     rest as columns of a matrix, row by row: (e_s, e_z, n) where all of its quads are in one plane,
     else x, y and z. quads (m, 4): nodes (s0 z0), (s1 z0), (s1 z1), (s0 z1). size (m, 2): lengths
-    along s and z of the flat quad, m. thickness (m,), m. wall (m,): of the plan. dloc (m, 4, 3):
-    normal of the quad in the axes of each of its nodes. flat (n,): whether all quads of a node are
-    in one plane; its turn about n, the third axis, has then no stiffness. level (n,): of a node.
-    on (n, 2): whether a node is on the mirror plane of x and of y.
+    along s and z of the flat quad, m. thickness (m,), m. wall (m,): of the plan. directors (m, 4,
+    3): normal of the quad in the axes of each of its nodes. flat (n,): whether all quads of a node
+    are in one plane; its turn about n, the third axis, has then no stiffness. level (n,): of a
+    node. on (n, 2): whether a node is on the mirror plane of x and of y.
     """
 
     plan: Plan
@@ -40,7 +40,7 @@ class PlateMesh:
     size: Floats
     thickness: Floats
     wall: Ints
-    dloc: Floats
+    directors: Floats
     flat: np.ndarray
     level: Ints
     on: np.ndarray
@@ -88,23 +88,16 @@ class PlateMesh:
     def triangles(self) -> Ints:
         """Two triangles of each quad, (2 m, 3), with alternate diagonals; normals as the quads."""
         a, b, c, d = self.quads.T
-        column = self._place
-        even = (column + self.level[a]) % 2 == 0
+        even = (self._number + self.level[a]) % 2 == 0
         one = np.where(even[:, None], np.column_stack([a, b, c]), np.column_stack([a, b, d]))
         two = np.where(even[:, None], np.column_stack([a, c, d]), np.column_stack([b, c, d]))
         return np.stack([one, two], axis=1).reshape(-1, 3)
 
     @property
-    def _place(self) -> Ints:
+    def _number(self) -> Ints:
         """Number of each quad along its wall, (m,)."""
         first = np.searchsorted(self.wall, self.wall)
         return (np.arange(len(self.wall)) - first) // self.layers
-
-    @cached_property
-    def edges(self) -> Ints:
-        """Edges of the triangles, each once, (l, 2)."""
-        corners = self.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-        return np.unique(np.sort(corners, axis=1), axis=0)
 
 
 @lru_cache(maxsize=16)
@@ -137,21 +130,13 @@ def extruded(
     level = np.arange(layers + 1)
     rest = np.empty((len(plane), layers + 1, 3))
     rest[..., :2], rest[..., 2] = plane[:, None], height * level / layers
+    right = np.column_stack([axis[:, 1], -axis[:, 0], np.zeros(walls)])
     if amplitude is not None:
-        cut = np.flatnonzero(plan.on[plan.walls[:, 1]].any(axis=1))
-        bowed, of = np.append(inner, plan.walls[cut, 1]), np.append(wall_of[inner], cut)
-        across = np.append(share[inner], np.ones(len(cut))) * (length / plan.span)[of]
-        shift = bow(
-            np.repeat(amplitude[of], layers + 1, axis=0),
-            np.repeat(across, layers + 1), np.tile(level / layers, len(of)),
-        )  # fmt: skip
-        right = np.column_stack([axis[:, 1], -axis[:, 0]])[of]
-        rest[bowed, :, :2] += shift.reshape(len(of), -1, 1) * right[:, None]
+        _bow_walls(rest, plan, wall_of[inner], share[inner], amplitude, right)
     frames, flat = _frames(plan, axis, wall_of)
     strip = columns[:, [0, 1, 1, 0]][:, None] * (layers + 1)
     quads = strip + np.array([0, 0, 1, 1]) + np.arange(layers)[:, None]
-    normal = np.column_stack([axis[:, 1], -axis[:, 0], np.zeros(walls)])
-    dloc = np.einsum("scji,sj->sci", frames[columns[:, [0, 1, 1, 0]]], normal[of_wall])
+    directors = np.einsum("scji,sj->sci", frames[columns[:, [0, 1, 1, 0]]], right[of_wall])
     size = np.column_stack([length / along, np.full(walls, height / layers)])
     on = np.concatenate([plan.on, np.zeros((len(inner), 2), np.bool_)])
     wall = np.repeat(of_wall, layers)
@@ -164,11 +149,31 @@ def extruded(
         size=size[wall],
         thickness=plan.thickness[wall],
         wall=wall,
-        dloc=np.repeat(dloc, layers, axis=0),
+        directors=np.repeat(directors, layers, axis=0),
         flat=np.repeat(flat, layers + 1),
         level=np.tile(level, len(plane)),
         on=np.repeat(on, layers + 1, axis=0),
     )
+
+
+def _bow_walls(
+    rest: Floats, plan: Plan, wall_of: Ints, share: Floats, amplitude: Floats, right: Floats
+) -> None:
+    """Bow the columns of ``rest`` (c, layers + 1, 3) inside walls, and those on mirror planes.
+
+    wall_of, share (i,): of the columns inside walls, their wall and the share of it before them.
+    amplitude (w, j): as in `extruded`. right (w, 3): normal of each wall.
+    """
+    inner = len(plan.points) + np.arange(len(share))
+    levels = rest.shape[1]
+    cut = np.flatnonzero(plan.on[plan.walls[:, 1]].any(axis=1))
+    bowed, of = np.append(inner, plan.walls[cut, 1]), np.append(wall_of, cut)
+    across = np.append(share, np.ones(len(cut))) * (plan.length / plan.span)[of]
+    up = np.arange(levels) / (levels - 1)
+    shift = bow(
+        np.repeat(amplitude[of], levels, axis=0), np.repeat(across, levels), np.tile(up, len(of))
+    )
+    rest[bowed] += shift.reshape(len(of), levels, 1) * right[of, None]
 
 
 def _columns(plan: Plan, along: Ints, of_wall: Ints, number: Ints) -> Ints:

@@ -5,11 +5,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from kernels.plates import shell
-from kernels.plates.layout import Layout
+from kernels.plates.layout import PER_NODE, Layout
 from kernels.plates.problem import PlateScene, at_rest
 from kernels.solve import march
 from kernels.solve.history import State
-from kernels.solve.problem import FREE, HELD, LED, TIED, Coordinates
+from kernels.solve.problem import Coordinates
 from sweep.config.case import Case, given
 from sweep.config.direction import network_of
 from sweep.design.drawing import Indices
@@ -17,10 +17,10 @@ from sweep.design.network import Network, mass
 from sweep.scene.mesh import Floats
 from sweep.scene.plates import coordinates
 from sweep.scene.plates.contact import contact_of, mirror_of
-from sweep.scene.plates.coordinates import PER_NODE, Numbering
+from sweep.scene.plates.coordinates import Numbering
 from sweep.scene.plates.law import law_of_sheet, shear_modulus
 from sweep.scene.plates.mesh import PlateMesh, build_mesh
-from sweep.scene.terms import friction_of
+from sweep.scene.terms import friction_of, heavy, roles
 
 NONE = np.empty(0, np.int64)
 
@@ -78,15 +78,16 @@ def build_scene(case: Case) -> Scene:
     printed = mass(network, lattice.depth, case.material.density) / copies
     masses = coordinates.masses(mesh, printed, (loading.striker_mass or 0.0) / copies)
     x_rest = coordinates.at_rest(mesh, platen)
+    layout = _layout(mesh, numbering, leader, case)
     terms = PlateScene(
-        coordinates=_coordinates(mesh, numbering, leader, masses, case),
+        coordinates=_coordinates(mesh, numbering, layout, masses),
         law=law_of_sheet(case.material),
         shell=_shell(mesh, x_rest, case),
         contact=contact_of(mesh, numbering, case),
         mirror=mirror_of(mesh, case),
         # The loop for the forces of the end does not settle where folds snap against each other.
         friction=friction_of(case)._replace(is_renewed=False),
-        layout=_layout(mesh, numbering, leader, case),
+        layout=layout,
     )
     loose = platen == "contact"
     low, high = np.array([numbering.low]), np.array([numbering.high])
@@ -98,32 +99,20 @@ def build_scene(case: Case) -> Scene:
     )  # fmt: skip
 
 
-def _driven(numbering: Numbering, case: Case) -> int:
-    return numbering.high if case.loading.mode == "displacement" else -1
-
-
 def _coordinates(
-    mesh: PlateMesh, numbering: Numbering, leader: Indices, masses: Floats, case: Case
+    mesh: PlateMesh, numbering: Numbering, layout: Layout, masses: Floats
 ) -> Coordinates:
     """The data of the coordinates that the solver needs; a rotation w turns by 4 w."""
     scale = np.where(_is_rotation(numbering), 4.0 * mesh.size.mean(), 1.0)
-    driven = _driven(numbering, case)
-    role = np.where(leader == np.arange(leader.size), FREE, TIED)
-    if driven >= 0:
-        role[leader == driven] = LED
-    role[leader < 0] = HELD
-    moved = np.bincount(leader[leader >= 0], masses[leader >= 0], leader.size)
-    heavy = np.zeros(leader.size)
-    heavy[leader >= 0] = (moved[leader[leader >= 0]] > 0.0) & (leader[leader >= 0] != driven)
     thickness = float(mesh.thickness.min())
     return Coordinates(
-        role=role,
+        role=roles(layout),
         scale=scale,
         lever=1.0 / scale,
         mass=masses,
-        heavy=heavy,
-        load=np.zeros(leader.size),
-        driven=driven,
+        heavy=heavy(layout, masses),
+        load=np.zeros(numbering.size),
+        driven=layout.driven,
         cap=0.25 * float(mesh.plan.span.mean()),
         leap=0.01 * thickness,
         close=1e-3 * thickness,
@@ -140,23 +129,28 @@ def _shell(mesh: PlateMesh, x_rest: Floats, case: Case) -> shell.Shell:
     """The shells, without stress in the bowed shape at rest."""
     m = len(mesh.quads)
     made = shell.Shell(
-        mesh.quads, mesh.size, mesh.thickness, mesh.dloc, np.zeros((m, 4, 9)), np.zeros((m, 4)),
-        shear_modulus(case.material),
-    )  # fmt: skip
+        quads=mesh.quads,
+        size=mesh.size,
+        thickness=mesh.thickness,
+        directors=mesh.directors,
+        rest=np.zeros((m, 4, 9)),
+        shear_rest=np.zeros((m, 4)),
+        shear_modulus=shear_modulus(case.material),
+    )
     shell.measure_rest(x_rest, mesh.frames, made, shell.make_scratch())
     return made
 
 
 def _layout(mesh: PlateMesh, numbering: Numbering, leader: Indices, case: Case) -> Layout:
     """Constraints, and the places of the unknowns: node by node, then the upper platen."""
-    n, driven, own = mesh.n_nodes, _driven(numbering, case), np.arange(leader.size)
+    driven = numbering.high if case.loading.mode == "displacement" else -1
+    own, low = np.arange(leader.size), numbering.low
     free = (leader == own) & (own != driven)
-    count = free[: numbering.low].reshape(n, PER_NODE).sum(axis=1)
-    slot = np.where(free, np.cumsum(free) - 1, -1)
-    slot[: numbering.low] -= np.where(
-        free[: numbering.low], np.repeat(np.cumsum(count) - count, PER_NODE), 0
-    )
-    slot[numbering.low :] = np.where(free[numbering.low :], 0, -1)
+    follows = (leader >= 0) & (leader != own)
+    free_of_node, follows_of_node = (each[:low].reshape(-1, PER_NODE) for each in (free, follows))
+    count = free_of_node.sum(axis=1)
+    slots = [(free_of_node.cumsum(axis=1) - 1).ravel(), np.zeros(leader.size - low, np.int64)]
+    slot = np.where(free, np.concatenate(slots), -1)
     number = np.where(free, np.cumsum(free) - 1, -1)
     unknown = np.where(leader >= 0, number[leader], -1)
     block = np.where(count > 0, np.cumsum(count > 0) - 1, -1)
@@ -171,15 +165,14 @@ def _layout(mesh: PlateMesh, numbering: Numbering, leader: Indices, case: Case) 
         driven=driven,
         unknown=unknown,
         slot=slot,
-        follows=np.any((leader != own)[: numbering.low].reshape(n, PER_NODE)
-                       & (leader[: numbering.low].reshape(n, PER_NODE) >= 0), axis=1),
+        follows=follows_of_node.any(axis=1),
         block=block,
         size=np.append(count[count > 0], np.ones(platen, np.int64)),
         point=np.concatenate([mesh.rest[count > 0], top[:platen]]),
         scale=np.where(turns, bending, stretching),
         weight=np.where(turns, (4.0 * lengths) ** 2, 1.0),
         is_length=~turns,
-    )  # fmt: skip
+    )
 
 
 def _stiffness(mesh: PlateMesh, case: Case) -> tuple[float, float]:

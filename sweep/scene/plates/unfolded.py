@@ -40,7 +40,7 @@ def unfolded(mesh: PlateMesh) -> Unfolded:
         return Unfolded(
             mesh.plan.planes, np.arange(n), none, mesh.quads, np.arange(m), mesh.triangles
         )
-    images = np.array([[False, False], [True, False], [False, True], [True, True]])
+    images = np.array([[False, False], [True, False], [False, True], [True, True]])  # bits of k
     own = np.empty((4, n), np.int64)  # the node of the whole for each image of a node
     node: list[Ints] = []
     at: list[np.ndarray] = []
@@ -49,8 +49,7 @@ def unfolded(mesh: PlateMesh) -> Unfolded:
         own[k, new] = sum(len(each) for each in node) + np.arange(new.sum())
         for axis in (0, 1):
             on = ~new & mesh.on[:, axis] & image[axis]
-            before = np.flatnonzero((images == np.where(np.arange(2) == axis, False, image)).all(1))
-            own[k, on] = own[before[0], on]
+            own[k, on] = own[k - 2**axis, on]  # that of the image which is not mirrored there
         node.append(np.flatnonzero(new))
         at.append(np.broadcast_to(image, (int(new.sum()), 2)))
     turned_over = [image.sum() == 1 for image in images]  # two mirrors are a turn

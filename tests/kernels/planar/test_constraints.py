@@ -1,69 +1,63 @@
-"""Constraints as one matrix R (n, k): x = R q, so that forces on q are R^T g."""
+"""Constraints of lattices: periodic images, and what a prescribed move pulls.
+
+All coordinates of a period are a matrix F (n, k) times those that it leads and does not lead.
+"""
 
 import numpy as np
 import pytest
 
-from tests.support.kernels.solving import whole
+from sweep.scene.periodic import build_periodic
+from tests.support.designs.periods import follow, lattice_of, pressed
+from tests.support.kernels.solving import reduction, whole
 from tests.support.kernels.states import bent, driven
 
 PLATENS = ["glued", "sliding", "contact"]
 MOVE = -1e-4  # m
 
 
-@pytest.fixture(params=PLATENS)
-def scene(request):
-    return driven(request.param)
+def random(of, seed):
+    return np.random.default_rng(seed).uniform(-1, 1, of.x_rest.size)
 
 
-def random(scene, seed):
-    return np.random.default_rng(seed).uniform(-1, 1, scene.x_rest.size)
+def own(of):
+    layout = of.terms.layout
+    free = np.setdiff1d(layout.leader[layout.leader >= 0], [*layout.images[:, 0], layout.driven])
+    return [*free, layout.driven]
 
 
-def own(scene):
-    """Coordinates (k,) that follow no other: the free ones and the driven one."""
-    leader = scene.terms.layout.leader
-    return np.flatnonzero(leader == np.arange(leader.size))
+@pytest.fixture(scope="module")
+def endless():
+    """One period of a honeycomb, whose height is prescribed."""
+    of = build_periodic(pressed(lattice_of("hex", (2, 2), 0.08)))
+    assert len(of.terms.layout.images) > 0
+    return of
 
 
-def reduction(scene):
-    return (scene.terms.layout.leader[:, None] == own(scene)).astype(float)
+def test_forces_on_images_act_on_what_they_follow(endless):
+    g, residual, expected = random(endless, 0), random(endless, 1), np.zeros(endless.x_rest.size)
+    expected[own(endless)] = follow(endless).T @ g
+    whole(endless, endless.x_rest).problem.reduce(g, residual)
+    np.testing.assert_allclose(residual, expected, rtol=0, atol=1e-13)
 
 
-def column(scene):
-    """Column of R that belongs to the driven coordinate."""
-    return reduction(scene)[:, own(scene) == scene.terms.layout.driven][:, 0]
+def test_a_prescribed_height_moves_the_images(endless):
+    move = np.zeros(endless.x_rest.size)
+    whole(endless, endless.x_rest).problem.lead(MOVE, move)
+    np.testing.assert_allclose(move, MOVE * follow(endless)[:, -1], rtol=1e-15)
+    images = endless.terms.layout.images[:, 0]
+    assert np.count_nonzero(move[images]) > 0
 
 
-def test_forces_on_tied_coordinates_act_on_their_leader(scene):
-    g, residual = random(scene, 0), random(scene, 1)
-    whole(scene, scene.x_rest).problem.reduce(g, residual)
-    expected = np.zeros(g.size)
-    expected[own(scene)] = reduction(scene).T @ g
-    np.testing.assert_allclose(residual, expected, rtol=1e-14, atol=1e-14)
-
-
-def test_tied_coordinates_follow_their_leader(scene):
-    vector = random(scene, 2)
-    held = scene.terms.layout.leader < 0
-    expected = np.where(held, vector, reduction(scene) @ vector[own(scene)])
-    whole(scene, scene.x_rest).problem.tie(vector)
-    np.testing.assert_array_equal(vector, expected)
-
-
-def test_a_prescribed_move_takes_along_all_that_is_led(scene):
-    move = np.zeros(scene.x_rest.size)
-    whole(scene, scene.x_rest).problem.lead(MOVE, move)
-    np.testing.assert_array_equal(move, MOVE * column(scene))
-    assert np.count_nonzero(move) > 0
-
-
-def test_a_prescribed_move_pulls_with_its_column_of_the_hessian(scene):
+@pytest.mark.parametrize("platen", PLATENS)
+def test_a_prescribed_move_pulls_with_its_column_of_the_hessian(platen):
+    scene = driven(platen)
     x = bent(scene)
-    args, change = whole(scene, x), np.zeros(x.size)
+    args, change, lead = whole(scene, x), np.zeros(x.size), np.zeros(x.size)
     args.factor(x)
     args.problem.pull(MOVE, change)
-    others = reduction(scene)[:, own(scene) != scene.terms.layout.driven]
-    expected = others.T @ args.hessian(x) @ column(scene) * MOVE
+    args.problem.lead(MOVE, lead)
+    others = reduction(scene)
+    expected = others.T @ args.hessian(x) @ lead
     scale = abs(expected).max()
     assert scale > 0.0
     np.testing.assert_allclose(others.T @ change, expected, rtol=1e-9, atol=1e-9 * scale)

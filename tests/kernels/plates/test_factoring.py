@@ -17,8 +17,12 @@ from tests.support.kernels.pressed_plates import (
     reduction,
     scene,
     shaken,
+    unit,
     whole,
 )
+from tests.support.kernels.terms import differences
+
+MOVE = -1e-4  # m
 
 
 def near_rest(of):
@@ -145,3 +149,34 @@ def test_lagged_friction_has_room_also_where_its_walls_have_parted():
         there = args.beside(neighbours)
         met, _ = there.problem.factor(of.x_rest, args.step, there.found(of.x_rest)[1], False, False)
         assert (met != NO_ROOM) == has_room
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_solutions_obey_the_constraints(name):
+    of = scene(name)
+    args = whole(of, bent(of))
+    args.factored(bent(of), through=True)
+    y, R = args.solve(forces(of.x_rest.size)), reduction(of)
+    short = np.linalg.lstsq(R, y)[0]
+    np.testing.assert_allclose(R @ short, y, rtol=0, atol=1e-12 * np.abs(y).max())
+
+
+@pytest.mark.parametrize("name", ["glued", "loose quarter"])
+def test_a_prescribed_move_changes_the_gradient_by_its_pull(name):
+    """Of all coordinates that are not held, the driven one included."""
+    of = scene(name)
+    x, change, lead = pinched(of), np.zeros(of.x_rest.size), np.zeros(of.x_rest.size)
+    args = whole(of, x)
+    args.factored(x, through=True)
+    args.problem.pull(MOVE, change)
+    args.problem.lead(1.0, lead)
+    step = np.array([1e-5 * of.mesh.size.mean()])
+    found = differences(lambda s: args.gradient(x + s[0] * lead), np.zeros(1), step)[0]
+    kept, size = reduction(of), unit(of)
+    for expected, pulled in (
+        (kept.T @ (size * found) * MOVE, kept.T @ (size * change)),
+        (lead @ found * MOVE, lead @ change),
+    ):
+        scale = np.abs(expected).max()
+        assert scale > 0.0
+        np.testing.assert_allclose(pulled, expected, rtol=0, atol=1e-7 * scale)

@@ -74,16 +74,16 @@ def structure(
         along += [(a, b, s, length) for a, b in pairwise(path)]
     n, levels = len(columns), np.linspace(0.0, height, layers + 1)
     points = np.array([[*c, z] for z in levels for c in columns])
-    quads, size, dloc = [], [], []
+    quads, size, directors = [], [], []
     for level in range(layers):
         for a, b, s, length in along:
             quads.append([level * n + a, level * n + b, (level + 1) * n + b, (level + 1) * n + a])
             size.append([length, height / layers])
             normal = np.cross(s, UP)
-            dloc.append([frames[c].T @ normal for c in (a, b, b, a)])
+            directors.append([frames[c].T @ normal for c in (a, b, b, a)])
     m = len(quads)
     shells = Shell(
-        np.array(quads), np.array(size), np.full(m, thickness), np.array(dloc),
+        np.array(quads), np.array(size), np.full(m, thickness), np.array(directors),
         np.zeros((m, 4, 9)), np.zeros((m, 4)), 5.0 / 6.0 * modulus / 3.0,
     )  # fmt: skip
     return Structure(points, np.tile([f.ravel() for f in frames], (layers + 1, 1)), shells)

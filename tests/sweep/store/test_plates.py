@@ -58,10 +58,12 @@ def test_file_without_groups_of_plates_is_read(tmp_path):
     assert read_frames(path, results()[1].case_id)["position_m"].shape == (3, 8, 3)
 
 
-def test_file_without_another_group_is_damaged(stored):
-    if not stored.exists():
-        pytest.skip("only parts")
-    with h5py.File(stored, "r+") as file:
+def test_file_without_another_group_is_damaged(tmp_path):
+    path = tmp_path / "damaged.h5"
+    with Writer(path) as writer:
+        writer.append(results()[:1])
+        writer.fold()
+    with h5py.File(path, "r+") as file:
         del file["edges"]
     with pytest.raises(StoreError, match="damaged"):
-        read_frames(stored, results()[0].case_id)
+        read_frames(path, results()[0].case_id)

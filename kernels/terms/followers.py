@@ -1,10 +1,15 @@
-"""Constraints of a lattice of plates: supports, platens, mirror planes and prescribed moves."""
+"""Coordinates that follow others: supports, platens and prescribed moves.
+
+Verbs of a problem for its constraints (`solve.problem`), whatever the dimension: its layout has
+leader (n,), the coordinate that each one follows, itself or -1 if held; ratio (n,), its move
+divided by that of its leader; and driven, the leader with a prescribed move.
+"""
 
 from kernels.arrays import zero
-from kernels.compile.jit import jit_exact
+from kernels.compile.jit import jit, jit_exact
 
 
-@jit_exact
+@jit
 def reduce(problem, g, residual):
     """Fill ``residual`` (n,) with the gradient ``g`` (n,) of the free and driven coordinates.
 
@@ -24,15 +29,6 @@ def lead(problem, move, direction):
     for i in range(direction.size):
         if layout.leader[i] == layout.driven:
             direction[i] = layout.ratio[i] * move
-
-
-@jit_exact
-def pull(problem, move, direction):
-    """Fill ``direction`` (n,), zero before, with the linearised change of the gradient when the
-    driven coordinate moves by ``move`` m.
-    """
-    for i in range(direction.size):
-        direction[i] = problem.buffers.pull[i] * move
 
 
 @jit_exact

@@ -1,0 +1,104 @@
+"""Coordinates that follow others, as one matrix R (n, k): x = R q, so that forces on q are R^T g.
+
+With a driven platen, or with prescribed moves, some coordinates are led; under a striker they are
+tied to the platen.
+"""
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case, Lattice, Solver
+from sweep.scene.custom import build_structure
+from tests.support.designs.structures import APART, BEAM, MATERIAL, structure
+from tests.support.kernels import pressed_plates, solving, states
+
+MOVE = -1e-4  # m
+PULLED = {
+    "prescribed": [
+        {"node": 1, "direction": "x", "displacement_mm": 2.0},
+        {"node": 1, "direction": "y", "displacement_mm": -5.0},
+    ]
+}
+
+
+def in_the_plane(of):
+    return solving.whole(of, of.x_rest).problem
+
+
+def of_plates(name):
+    of = pressed_plates.scene(name)
+    return pressed_plates.whole(of, of.x_rest).problem
+
+
+def prescribed():
+    case = Case(
+        lattice=Lattice(kind="custom", structure=structure(**BEAM, **PULLED)),
+        material=MATERIAL,
+        contact=APART,
+        solver=Solver(integrator="static"),
+    )
+    return in_the_plane(build_structure(case))
+
+
+DRIVEN = {
+    "glued": lambda: in_the_plane(states.driven("glued")),
+    "sliding": lambda: in_the_plane(states.driven("sliding")),
+    "contact": lambda: in_the_plane(states.driven("contact")),
+    "prescribed": prescribed,
+    "plates, glued": lambda: of_plates("glued"),
+    "plates, loose": lambda: of_plates("loose quarter"),
+}
+PROBLEMS = DRIVEN | {"plates, struck": lambda: of_plates("struck")}
+LOOSE = ["contact", "plates, loose"]  # platens that nothing follows
+
+
+def random(problem, seed):
+    return np.random.default_rng(seed).uniform(-1, 1, problem.scene.layout.leader.size)
+
+
+def own(problem):
+    """Coordinates (k,) that follow no other: the free ones and the driven one."""
+    leader = problem.scene.layout.leader
+    return np.flatnonzero(leader == np.arange(leader.size))
+
+
+def moves(problem):
+    """R: moves (n, k) of all coordinates by those that follow no other."""
+    layout = problem.scene.layout
+    return (layout.leader[:, None] == own(problem)) * layout.ratio[:, None]
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_forces_on_tied_coordinates_act_on_their_leader(name):
+    problem = PROBLEMS[name]()
+    g, residual = random(problem, 0), random(problem, 1)
+    expected = np.zeros(g.size)
+    expected[own(problem)] = moves(problem).T @ g
+    problem.reduce(g, residual)
+    np.testing.assert_allclose(residual, expected, rtol=1e-14, atol=1e-14)
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_tied_coordinates_follow_their_leader(name):
+    problem = PROBLEMS[name]()
+    vector = random(problem, 2)
+    held = problem.scene.layout.leader < 0
+    expected = np.where(held, vector, moves(problem) @ vector[own(problem)])
+    problem.tie(vector)
+    np.testing.assert_array_equal(vector, expected)
+
+
+@pytest.mark.parametrize("name", DRIVEN)
+def test_a_prescribed_move_takes_along_all_that_is_led(name):
+    problem = DRIVEN[name]()
+    layout, move = problem.scene.layout, np.zeros(problem.scene.layout.leader.size)
+    problem.lead(MOVE, move)
+    column = moves(problem)[:, own(problem) == layout.driven][:, 0]
+    np.testing.assert_array_equal(move, MOVE * column)
+    assert np.count_nonzero(move) >= 1
+    assert (np.count_nonzero(move) == 1) == (name in LOOSE)
+
+
+def test_prescribed_moves_have_different_ratios():
+    """Else nothing above holds the ratio."""
+    assert {-1.0, 0.4, 1.0} <= set(prescribed().scene.layout.ratio)
