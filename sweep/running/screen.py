@@ -3,8 +3,9 @@
 The unit column is a tube of one cell of the same width, height, walls, mesh and loading. Its
 energies, forces and mass are scaled by the ratio of the masses of the design and of the column, its
 stresses by that of the relative densities; strains and energies per gram are those of the column.
-A tube has no neighbours that hold its walls, and no cells that fold against one another: its values
-are estimates, good enough to choose which designs to simulate as a whole.
+A tube has no neighbours that hold its walls, and no cells that fold against one another: it absorbs
+less than its share of the design, by a factor that depends on the infill. The order of estimates is
+to be trusted within one infill, and less between infills.
 
 Columns are ordinary cases, in a results file of their own beside that of the sweep, so that they
 are no designs of its ranking: `armor.screen.h5` beside `armor.h5`. The values in it are not scaled.
