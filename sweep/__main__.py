@@ -26,6 +26,7 @@ EXAMPLES = """examples:
   crumple run armor                             simulate; after a stop, the same command continues
   crumple run armor --error-bars                also estimate the error of each number, and ties
   crumple run armor --spread                    also show what uncertain numbers change
+  crumple run which_way --screen 1              crush one cell of each, then the best of each
   crumple optimize search --budget "1.2 g"      seek the best design within a budget
   crumple warm                                  compile the kernels before the first run
   crumple status results/armor.h5               what is done, what failed and why
@@ -51,7 +52,9 @@ extension of the grid, run the same command again. Rows of an older model stay u
 computes them again. With --error-bars every design runs again with half the elements and again with
 half the steps: about twice the work. With --spread the five best designs of each ranking run again
 with every uncertain number at both ends of its range (crumple materials lists them; friction from
-0.2 to 0.9), and a table shows how far their values move and whether their order changes."""
+0.2 to 0.9), and a table shows how far their values move and whether their order changes. With
+--screen N a design that is pressed along its cells is first crushed as one cell, a tube, and only
+the N best of each infill run as a whole; a table shows estimates beside results."""
 OPTIMIZE = """Search for the best design among those that the table [search] of CONFIG allows:
 
   [search]
@@ -207,6 +210,12 @@ def parser() -> Parser:
     )
     run.add_argument(
         "--spread", action="store_true", help="run the best designs with uncertain numbers"
+    )
+    run.add_argument(
+        "--screen",
+        type=_count,
+        metavar="N",
+        help="along the cells: crush one cell of each, then the N best of each infill",
     )
     run.add_argument("--retry-failed", action="store_true", help="compute failed cases again")
     run.add_argument("--renew", action="store_true", help="compute rows of an older model again")

@@ -34,6 +34,11 @@ if TYPE_CHECKING:
 DONE, SOME_FAILED = 0, 1
 WORKERS = 2
 TOP, TOP_OF_A_BUDGET = 10, 3
+SCREENED = "--screen runs one cell of each design first, and only the best of each infill in full"
+NO_COLUMNS = (
+    "--screen estimates crushes along equal cells without an outline by one cell each, and no case "
+    'of this config is one; allowed: cases with loading.direction = "out_of_plane"'
+)
 UNKNOWN_BEST = "--spread runs more cases, of designs that are known only after the sweep"
 IDS = 3  # shown for each kind of failure
 NUMBERED = "--scene, --budget and --allowed-force"
@@ -87,16 +92,24 @@ def run(arguments: Namespace) -> int:
 
         say(dry_run(config, out, workers, rerun, arguments.error_bars))
         say_all([UNKNOWN_BEST] if arguments.spread else [])
+        say_all([SCREENED] if arguments.screen else [])
         return DONE
     from sweep.running.error_bars import add_error_bars
     from sweep.running.sweep import run_sweep
 
     how = workers, arguments.scheduler, rerun
-    failed = run_sweep(config, out, *how)
-    failed += add_error_bars(config, out, *how) if arguments.error_bars else 0
     question = _question(config.rank.budgets, config.rank.panel)
     question |= {"require": config.require.model_dump(), "per": config.rank.per}
+    failed, estimates = 0, None
+    if arguments.screen:
+        config, estimates, failed = _screen(config, out, how, question, arguments.screen)
+    failed += run_sweep(config, out, *how)
+    failed += add_error_bars(config, out, *how) if arguments.error_bars else 0
     print_ranking(out, read_summary(out), question)
+    if estimates is not None:
+        from sweep.report.screen_sheets import screen_sheets
+
+        print_sheets(screen_sheets(estimates, read_summary(out), question))
     failed += _spread(config, out, how, question) if arguments.spread else 0
     _hint(next_commands(out, read_summary(out)))
     return SOME_FAILED if failed else DONE
@@ -109,6 +122,30 @@ def _check_required(config: Config) -> None:
 
     if required := [name for name, limit in config.require if limit is not None]:
         check_modes(required, {case.loading.mode for case in expand(config)})
+
+
+def _screen(
+    config: Config, out: str, how: tuple[Any, ...], question: dict[str, Any], count: int
+) -> tuple[Config, DataFrame, int]:
+    """Run the unit columns of a sweep; return the config of what is to run as a whole, the
+    estimates, and how many designs have none.
+    """
+    from sweep.config.grid import chosen_of, expand
+    from sweep.running.screen import best_of, has_column, run_columns, screen_file
+
+    cases = expand(config)
+    screened = [case for case in cases if has_column(case)]
+    if not screened:
+        raise ArgumentError(NO_COLUMNS)
+    estimates = run_columns(screened, out, *how)
+    missing = len(screened) - len(estimates)
+    if missing:
+        say(f"{missing} designs have no estimate: crumple status {screen_file(out)} says why")
+    if estimates.empty:
+        raise ArgumentError(f"no unit column converged: crumple status {screen_file(out)} says why")
+    best = best_of(estimates, question, count)
+    left_out = {case.case_id for case in screened} - {*best}
+    return chosen_of(config, (c for c in cases if c.case_id not in left_out)), estimates, missing
 
 
 def _spread(config: Config, out: str, how: tuple[Any, ...], question: dict[str, Any]) -> int:

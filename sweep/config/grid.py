@@ -104,11 +104,10 @@ class Config:
 
 
 @dataclass(frozen=True)
-class Designs(Config):
-    """The designs that a search has chosen so far, and its seed."""
+class Chosen(Config):
+    """A sweep of which only some designs are to run."""
 
     designs: tuple[Case, ...] = ()
-    seed: int = 0
 
     @cached_property
     def cases(self) -> tuple[Case, ...]:
@@ -116,10 +115,25 @@ class Designs(Config):
         return self.designs
 
 
+@dataclass(frozen=True)
+class Designs(Chosen):
+    """The designs that a search has chosen so far, and its seed."""
+
+    seed: int = 0
+
+
+def chosen_of(config: Config, designs: Iterable[Case]) -> Chosen:
+    """The config, of which only these designs are to run."""
+    return Chosen(**_fields_of(config), designs=tuple(designs))
+
+
 def designs_of(config: Config, designs: Iterable[Case], seed: int) -> Designs:
     """The config of a search, whose cases are these designs."""
-    shared = {each.name: getattr(config, each.name) for each in fields(config)}
-    return Designs(**shared, designs=tuple(designs), seed=seed)
+    return Designs(**_fields_of(config), designs=tuple(designs), seed=seed)
+
+
+def _fields_of(config: Config) -> dict[str, Any]:
+    return {each.name: getattr(config, each.name) for each in fields(Config)}
 
 
 def check(config: Config) -> None:

@@ -494,6 +494,57 @@ def test_spread_runs_the_best_designs_in_a_file_of_their_own(capsys, config):
     assert "cases, in" not in crumple(capsys, "run", config, "--spread")[2]
 
 
+MIXED = """
+name = "mixed"
+[lattice]
+cells = 2
+nodes_per_wall = 1
+depth = "12 mm"
+width = "12 mm"
+height = "12 mm"
+[loading]
+mode = "displacement"
+strain = 0.02
+unload = false
+[solver]
+load_steps = 2
+[grid]
+"lattice.wall_thickness" = ["1 mm", "1.2 mm"]
+"loading.direction" = ["in_plane", "out_of_plane"]
+"""
+
+
+def test_screen_runs_cells_first_and_only_the_best_as_a_whole(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("mixed.toml").write_text(MIXED)
+    assert (
+        "--screen runs one cell"
+        in crumple(capsys, "run", "mixed.toml", "--screen", "1", "--dry-run")[1]
+    )
+    status, out, err = crumple(capsys, "run", "mixed.toml", "--screen", "1")
+    assert status == 0
+    assert "screen of 2 designs: 2 unit columns, in results/mixed.screen.h5" in err
+    assert "Estimates of " in out
+    assert "1 of 2 designs ran as a whole: full / estimate " in out
+    found = read_summary("results/mixed.h5")
+    assert sorted(found["direction"]) == ["in_plane", "in_plane", "out_of_plane"]
+    assert set(read_summary("results/mixed.screen.h5")["cells_x"]) == {1}
+    status, again, err = crumple(capsys, "run", "mixed.toml", "--screen", "1")
+    assert (status, again) == (0, out)
+    assert "screen of" not in err
+    assert (
+        "2 of 2 designs ran as a whole" in crumple(capsys, "run", "mixed.toml", "--screen", "2")[1]
+    )
+    assert len(read_summary("results/mixed.h5")) == 4
+
+
+def test_screen_of_crushes_across_the_cells_is_refused(capsys, config):
+    status, _, err = crumple(capsys, "run", config, "--screen", "2")
+    assert status == 2
+    assert "no case of this config is one" in err
+    assert not Path("results/trial.h5").exists()
+
+
 @pytest.mark.parametrize(
     ("stop", "told"),
     [(KeyboardInterrupt(), "interrupted\n"), (Interrupted("it keeps 3 of 4"), "it keeps 3 of 4\n")],
