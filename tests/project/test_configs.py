@@ -189,7 +189,6 @@ def test_khatri_egan_along_the_cells_begins_as_a_block(cells, walls, area, peak)
     """
     cases = expand(load_config(CONFIGS / f"khatri_egan_{cells}_out_of_plane.toml"))
     assert {case.loading.platen for case in cases} == {"glued", "clamped", "contact"}
-    assert len(cases) == 9
     case = cases[0]
     summary = pressed_a_little(case, nodes_per_wall=3, imperfection=0.0)
     assert summary["status"] == "converged"

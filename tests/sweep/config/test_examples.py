@@ -46,7 +46,7 @@ CONFIGS = Path(__file__).parents[3] / "configs"
         ("slicer", 10),
         ("khatri_egan_square", 72),
         ("khatri_egan_square_out_of_plane", 9),
-        ("khatri_egan_hexagon_out_of_plane", 9),
+        ("khatri_egan_hexagon_out_of_plane", 5),
         ("which_way", 16),
     ],
 )

@@ -40,7 +40,10 @@ def loose(cases):
 @pytest.mark.parametrize("cells", NAMES)
 def test_cases_vary_platens_and_friction_only(cells):
     found = {(case.loading.platen, case.contact.friction) for case in CASES[cells]}
-    assert found == {(platen, friction) for platen in PLATENS for friction in (0.2, 0.5, 0.9)}
+    if cells == "square":
+        assert found == {(platen, friction) for platen in PLATENS for friction in (0.2, 0.5, 0.9)}
+    else:
+        assert found == {(platen, 0.5) for platen in PLATENS} | {("glued", 0.2), ("glued", 0.9)}
     assert any(case.contact.friction == COMPARED for case in CASES[cells])
     assert {case.material for case in CASES[cells]} == {CASES["square"][0].material}
     assert {case.loading.stroke for case in CASES[cells]} == {9.6e-3}
