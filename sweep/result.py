@@ -216,7 +216,9 @@ COLUMNS: dict[str, Column] = {
         "1", "energy absorbed in the second cycle / in the first; NaN with a single cycle", "more"
     ),
     "injected_by_projection_J": Column(
-        "J", "energy added by position-based contact; negative if it removes energy"
+        "J",
+        "energy added between steps, by position-based contact or by contact of walls that thicken "
+        "(pressed along their cells); negative if energy is removed",
     ),
     "energy_residual_J": Column("J", "residual of the energy book"),
     "specific_absorption_J_per_g": Column(
@@ -400,7 +402,7 @@ HISTORY_COLUMNS: dict[str, Column] = {
     "dissipated_friction_J": Column("J", "dissipated by friction so far"),
     "dissipated_integrator_J": Column("J", "removed by the time integrator so far"),
     "injected_by_projection_J": Column(
-        "J", "energy added by position-based contact so far; negative if it removes energy"
+        "J", "energy added between steps so far, by contact; negative if energy is removed"
     ),
     "energy_residual_J": Column("J", "residual of the energy book so far"),
     "newton_iterations": Column("1", "Newton iterations since the previous row"),

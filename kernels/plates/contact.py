@@ -34,7 +34,7 @@ from kernels.plates.pairs import EDGE_SHARE, edges_within
 NEGLIGIBLE = 1e-12  # of what adds up at a side or a corner: below it nothing is left of the sum
 ADVANCE = 0.9  # admissible share of the move up to the first contact with a platen
 NO_PAIR = -1
-MOST_SWELLING = 1.5  # greatest thickness that contact covers, as a multiple of that at rest
+MOST_THICKENING = 1.5  # greatest thickness over which walls touch / that at rest: few are thicker
 
 
 class Contact(NamedTuple):
@@ -44,7 +44,7 @@ class Contact(NamedTuple):
     a node that neighbour lists cover. triangles (k, 3), edges (l, 2): nodes; sides (k, 3): edges
     ab, bc, ca of each triangle (`geometry.space.surface`); widths (l,): of the strips that belong
     to edges. area (n,): a_p of each node. thickness (n,): at each node, which a problem may change
-    between steps, up to ``reach`` (`pairs.renew_distances`); rest_thickness (n,): at rest. rest (n,
+    between steps, up to ``reach`` (`plates.thickness`); rest_thickness (n,): at rest. rest (n,
     3): positions at rest. low_nodes (i,), high_nodes (j,): nodes that may touch the lower and the
     upper platen; low_rest, high_rest: their distances from it at rest. low, high: coordinates of
     the platens.
@@ -69,21 +69,28 @@ class Contact(NamedTuple):
     high: int
 
 
-@jit_owning
 def build(stiffness, most_move, triangles, area, thickness, rest, low, high):
-    """Return the `Contact` of a surface, for a thickness up to `MOST_SWELLING` times that at rest.
+    """Return the `Contact` of a surface that may thicken up to `MOST_THICKENING` times.
 
     low, high: (nodes, distances at rest, coordinate) of the two platens. Others: as in `Contact`.
     """
     edges, sides = surface.edges_of(triangles, area.size)
     widths = surface.widths(rest, triangles, edges, sides)
-    reach = 0.0
-    for t in thickness:
-        reach = max(reach, MOST_SWELLING * t)
     return Contact(
-        stiffness, reach, most_move, triangles, sides, edges, widths, area, thickness.copy(),
-        thickness, rest, low[0], low[1], high[0], high[1], low[2], high[2],
+        stiffness, MOST_THICKENING * float(thickness.max()), most_move, triangles, sides, edges,
+        widths, area, thickness.copy(), thickness, rest, low[0], low[1], high[0], high[1], low[2],
+        high[2],
     )  # fmt: skip
+
+
+@jit_exact
+def is_absent(contact):
+    """Return whether no wall touches another, and no node a platen."""
+    return (
+        contact.triangles.shape[0] == 0
+        and contact.low_nodes.size == 0
+        and contact.high_nodes.size == 0
+    )
 
 
 class Touching(NamedTuple):

@@ -31,7 +31,9 @@ def _assemble(problem, x, step, found):
     blocks.clear(matrix)
     zero(pull)
     for e in range(scene.shell.quads.shape[0]):
-        shell.hessian(x, buffers.frames, scene.shell, scene.law, e, buffers.shell, buffers.second)
+        shell.hessian(
+            x, buffers.committed, scene.shell, scene.law, e, buffers.shell, buffers.second
+        )
         assembly.add_stencil(
             matrix, layout, pull, scene.shell.quads[e], 4, PER_NODE, buffers.second
         )

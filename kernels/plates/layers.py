@@ -51,7 +51,7 @@ def make_moments():
 
 
 @jit
-def _thickening(m):
+def thickening(m):
     """Return j, infinite where the mid-surface has no area left."""
     det = 1.0 + (m[0] + m[1] + m[0] * m[1] - m[2] * m[2])
     if not (det > 0.0 and m[0] > -1.0):
@@ -95,7 +95,7 @@ def resultants(law, m, thickness, slope):
 
     m (9,): measures. slope (9,) receives dU/dm. U is infinite where a layer has no area left.
     """
-    j = _thickening(m)
+    j = thickening(m)
     if math.isinf(j):
         return math.inf, math.inf
     middle, s, _ = law.respond(m[0], m[1], m[2])
@@ -174,7 +174,7 @@ def rigidity(law, m, thickness, moments, slope, second):
 
     To be called where U is finite.
     """
-    j = _thickening(m)
+    j = thickening(m)
     u_j, u_jj = _sum_layers(law, m, thickness, j, moments)
     dj = _slopes_of_thickening(m, j)
     n, t, mixed = moments.stress, moments.tangent, moments.by_j

@@ -18,17 +18,12 @@ from kernels.terms.rows import BEND, CONTACT, STRETCH
 @jit_exact
 def evaluate(problem, x, step, found, projected):
     """Return E in J; fill ``found``."""
-    scene, coordinates = problem.scene, problem.scene.coordinates
+    coordinates = problem.scene.coordinates
     for i in range(x.size):
         found.u[i] = x[i] - step.y[i]
     for part in (found.elastic, found.material, found.friction):
         zero(part)
-    store_walls(problem, x, found)
-    found.stored[CONTACT] = contact.evaluate(
-        x, scene.contact, problem.neighbours.pairs, drift(problem, x),
-        problem.neighbours.touching, found.elastic,
-    )  # fmt: skip
-    found.stored[CONTACT] += mirror.evaluate(x, scene.contact, scene.mirror, found.elastic)
+    store(problem, x, step, found)
     total = found.stored[STRETCH] + found.stored[BEND] + found.stored[CONTACT]
     total -= step.factor * dot(coordinates.load, found.u)
     for i in range(x.size):
@@ -42,16 +37,15 @@ def evaluate(problem, x, step, found, projected):
 
 @jit_exact
 def store(problem, x, step, found):
-    """Fill the stored energies of the walls at ``x``; add their gradient to ``found.elastic``."""
-    store_walls(problem, x, found)
-
-
-@jit_exact
-def store_walls(problem, x, found):
-    """Fill the stored energies of the walls; add their gradient to ``found.elastic``."""
+    """Fill the stored energies at ``x``; add their gradient to ``found.elastic``."""
     scene, buffers = problem.scene, problem.buffers
     zero(buffers.parts)
     total = shell.evaluate(
-        x, buffers.frames, scene.shell, scene.law, buffers.shell, found.elastic, buffers.parts
+        x, buffers.committed, scene.shell, scene.law, buffers.shell, found.elastic, buffers.parts
     )
     found.stored[STRETCH], found.stored[BEND] = buffers.parts[0], total - buffers.parts[0]
+    found.stored[CONTACT] = contact.evaluate(
+        x, scene.contact, problem.neighbours.pairs, drift(problem, x),
+        problem.neighbours.touching, found.elastic,
+    )  # fmt: skip
+    found.stored[CONTACT] += mirror.evaluate(x, scene.contact, scene.mirror, found.elastic)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
-from kernels.plates import factoring, potential, reach, shell, steps
+from kernels.plates import factoring, potential, reach, shell, steps, thickness
 from kernels.plates.reach import Neighbours
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
@@ -18,13 +18,14 @@ from kernels.terms import followers, lagging, rows
 class Buffers(NamedTuple):
     """Arrays that are allocated once a march.
 
-    frames (n_nodes, 9): committed frames of the nodes, `history.State.memory`. shell: scratch of
-    one quad; second (24, 24): its Hessian. part, projected (12, 12): Hessians of one contact. parts
-    (3,): energies of the walls, J. pull (n,): derivatives of the gradient in the driven coordinate.
-    unknowns (u,): scratch. shift (1,): last shift of a projected Hessian, N/m.
+    committed (n_nodes, 10): frames of the nodes and their `thickness.THICKENING`, which is
+    `history.State.memory`. shell: scratch of one quad; second (24, 24): its Hessian. part,
+    projected (12, 12): Hessians of one contact. parts (3,): energies of the walls, J. pull (n,):
+    derivatives of the gradient in the driven coordinate. unknowns (u,), weight (n_nodes,): scratch.
+    shift (1,): last shift of a projected Hessian, N/m.
     """
 
-    frames: np.ndarray
+    committed: np.ndarray
     shell: object
     second: np.ndarray
     part: np.ndarray
@@ -33,6 +34,7 @@ class Buffers(NamedTuple):
     pull: np.ndarray
     unknowns: np.ndarray
     shift: np.ndarray
+    weight: np.ndarray
 
 
 class Plates(NamedTuple):
@@ -78,12 +80,17 @@ class Plates(NamedTuple):
 
 @jit_owning
 def make_buffers(scene, committed):
-    """Return the `Buffers`. committed: `solve.history.State.memory`."""
+    """Return the `Buffers`, and recall the thickness of the walls.
+
+    committed: `solve.history.State.memory`.
+    """
     layout = scene.layout
+    thickness.recall(scene.contact, committed)
     return Buffers(
         committed, shell.make_scratch(), np.zeros((24, 24)), np.zeros((12, 12)),
         np.zeros((12, 12)), np.zeros(3),
         np.zeros(layout.leader.size), np.zeros(layout.scale.size), np.zeros(1),
+        np.zeros(layout.block.size),
     )  # fmt: skip
 
 
@@ -95,8 +102,9 @@ def assemble(scene, neighbours, buffers):
 
 def at_rest(frames, x):
     """Return the `history.State` at rest at ``x`` (n,), with ``frames`` (n_nodes, 9) of nodes."""
-    state = history.at_rest(x, rows.STORED, frames.shape)
-    state.memory[:] = frames
+    state = history.at_rest(x, rows.STORED, (len(frames), thickness.THICKENING + 1))
+    state.memory[:, : thickness.THICKENING] = frames
+    state.memory[:, thickness.THICKENING] = 1.0
     return state
 
 

@@ -176,6 +176,18 @@ def measure_rest(x, frames, shell, scratch):
             shell.shear_rest[e, edge] = shear.strain(scratch.q, shear.EDGES[edge], length)
 
 
+@jit_exact
+def thickening(x, frames, shell, e, scratch):
+    """Return the mean of j (`layers`) at the Gauss points of element ``e``."""
+    total = 0.0
+    _gather(x, frames, shell, e, scratch.q)
+    _differentiate(shell.size[e], scratch.grid)
+    for g in range(4):
+        _strain(scratch, shell, e, g)
+        total += layers.thickening(scratch.measure)
+    return 0.25 * total
+
+
 @jit
 def _matrix(u):
     """Return the upper triangle of R, row by row, for the slopes ``u`` (9,) in the measures."""

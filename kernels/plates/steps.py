@@ -1,7 +1,7 @@
 """Start and end of a step of a lattice of plates: commit, roll back."""
 
 from kernels.compile.jit import jit_exact
-from kernels.plates import rotation
+from kernels.plates import rotation, thickness
 
 
 @jit_exact
@@ -15,7 +15,7 @@ def commit(problem, x, step, found):
 
     The energy does not change, as it depends on the directors alone.
     """
-    rotation.rebase(problem.buffers.frames, x)
+    rotation.rebase(problem.buffers.committed, x)
 
 
 @jit_exact
@@ -25,5 +25,5 @@ def roll_back(problem, step):
 
 @jit_exact
 def project(problem, x):
-    """Return False: nothing is moved after a step."""
-    return False
+    """Renew the thickness over which walls touch; return whether contact may have changed."""
+    return thickness.renew(problem, x)

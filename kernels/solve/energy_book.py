@@ -150,9 +150,9 @@ def _add_velocity(x, start, h, load, v):
 
 @jit_exact
 def project(problem, step, state, found, start):
-    """Project the positions after a step (`Problem.project`), and book the energy injected.
+    """Change what changes between steps (`Problem.project`), and book the energy injected.
 
-    Return whether any coordinate has moved. start (n,): scratch.
+    Return whether anything has changed. start (n,): scratch.
     """
     book, coordinates = state.book[0], problem.scene.coordinates
     copy(state.x, start)

@@ -330,7 +330,8 @@ def march(scene, tolerance, stage, state, out, control):
     last = state.totals[0].last
     if stage.error < np.inf and last > 0.0:
         progress[0].share = last / stage.duration
-    neighbours, buffers = scene.find_neighbours(state.x), scene.make_buffers(state.memory)
+    buffers = scene.make_buffers(state.memory)
+    neighbours = scene.find_neighbours(state.x)
     space = make_workspace(state.x.size, state.stored.size)
     while True:
         problem = by_reference(scene).assemble(by_reference(neighbours), by_reference(buffers))

@@ -192,7 +192,9 @@ class Problem(Protocol):
     # After a step: projection and output.
 
     def project(self, x):
-        """Move apart in ``x`` what is too near; return whether any coordinate has moved."""
+        """Change what changes between steps, positions in ``x`` or data of the problem; return
+        whether the stored energy may have changed.
+        """
 
     def covers_projection(self, x):
         """Return whether the neighbour lists hold for `project` at ``x``."""

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from kernels.geometry.space import surface
-from kernels.plates.contact import Contact
+from kernels.plates import contact
 from kernels.plates.layout import PER_NODE
 from kernels.plates.mirror import NO_MIRROR, Mirror
 from sweep.config.case import Case, given
@@ -27,34 +26,21 @@ def mirror_of(mesh: PlateMesh, case: Case) -> Mirror:
     )
 
 
-def contact_of(mesh: PlateMesh, numbering: Numbering, case: Case) -> Contact:
+def contact_of(mesh: PlateMesh, numbering: Numbering, case: Case) -> contact.Contact:
     """Contact of all walls over their thickness, and of nodes that no platen holds with platens.
 
     With the contact model "none", only loose platens touch nodes.
     """
     platen, walls = given(case.loading.platen), case.contact.model != "none"
     low, high = heights(mesh, platen)
-    thickness, triangles = mesh.node_thickness, mesh.triangles[: None if walls else 0]
-    edges, sides = surface.edges_of(triangles, mesh.n_nodes)
+    triangles = mesh.triangles[: None if walls else 0]
     height, every = mesh.rest[:, 2], np.arange(mesh.n_nodes if walls or platen == "contact" else 0)
     loose_low = np.setdiff1d(every, mesh.bottom) if platen in BONDED else every
     loose_high = np.setdiff1d(every, mesh.top) if platen in BONDED else every
-    return Contact(
-        stiffness=case.material.modulus * 4.0 / 3.0 * (case.contact.stiffness or 0.0),
-        reach=float(thickness.max()),
-        most_move=MOST_MOVE * float(mesh.plan.span.mean()),
-        triangles=triangles,
-        sides=sides,
-        edges=edges,
-        widths=surface.widths(mesh.rest, triangles, edges, sides),
-        area=mesh.area,
-        thickness=thickness.copy(),
-        rest_thickness=thickness,
-        rest=mesh.rest,
-        low_nodes=loose_low,
-        low_rest=height[loose_low] - low,
-        high_nodes=loose_high,
-        high_rest=high - height[loose_high],
-        low=numbering.low,
-        high=numbering.high,
-    )
+    return contact.build(
+        case.material.modulus * 4.0 / 3.0 * (case.contact.stiffness or 0.0),
+        MOST_MOVE * float(mesh.plan.span.mean()),
+        triangles, mesh.area, mesh.node_thickness, mesh.rest,
+        (loose_low, height[loose_low] - low, numbering.low),
+        (loose_high, high - height[loose_high], numbering.high),
+    )  # fmt: skip

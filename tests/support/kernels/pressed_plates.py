@@ -140,7 +140,7 @@ def whole(of, x, seed=0):
     neighbours = neighbours_of(x, terms)
     problem = Plates(
         by_reference(terms), by_reference(neighbours),
-        by_reference(terms.make_buffers(of.mesh.frames.copy())),
+        by_reference(terms.make_buffers(of.at_rest().memory)),
     )  # fmt: skip
     h = DT if dynamic else 1.0
     step = Step(x0, x0, 2.0 * x0 - x if dynamic else x0, h, h, dynamic, 0.7, 0.5)

@@ -24,8 +24,9 @@ def once(edges):
 
 def test_walls_touch_over_their_thickness():
     mesh, contact, _ = built()
-    assert contact.reach == pytest.approx(T)
+    assert contact.reach == pytest.approx(1.5 * T)
     assert np.array_equal(contact.thickness, mesh.node_thickness)
+    assert np.array_equal(contact.rest_thickness, mesh.node_thickness)
     assert len(contact.triangles) == 2 * len(mesh.quads)
     assert once(contact.edges) == once(contact.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2))
     assert len(contact.edges) == len(once(contact.edges))
