@@ -61,7 +61,7 @@ def test_energies_balance_and_are_the_area_below_the_curve(pressed):
 
 
 def test_the_book_has_what_contact_gains_by_thicker_walls():
-    """Loose platens press on walls that are thicker each step; without contact nothing is gained."""
+    """Loose platens press on walls that are thicker with each step."""
     history = simulate(tube("contact", steps=20)).history
     injected = history["injected_by_projection_J"]
     assert 0.0 < injected[-1] < 0.02 * history["work_in_J"][-1]
