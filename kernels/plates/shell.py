@@ -31,6 +31,7 @@ from kernels.plates import bow, fold, layers, rotation, shear
 
 GAUSS = math.sqrt(1.0 / 3.0)
 POINTS = ((-GAUSS, -GAUSS), (GAUSS, -GAUSS), (GAUSS, GAUSS), (-GAUSS, GAUSS))
+MEASURES_OF = ((0, 2, 3, 5), (3, 5, 6, 8), (1, 2, 4, 5), (4, 5, 7, 8))  # with x,s; d,s; x,z; d,z
 CORNERS = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
 
 
@@ -58,7 +59,7 @@ class Scratch(NamedTuple):
     resultant (9,); rigidity (9, 9); moments; rows (9, 12): M_k p; pushed (9, 12): rigidity x rows;
     by_p (12, 12): d2U/dp2. half (48, 24): by_p x dp/dq of all points. grid (4, 4, 2): N_a,s and
     N_a,z by point and corner. Of shear, see `shear.hessian`: edges, strained (7, 24), inner (7, 7).
-    row (24,): of `fold`. turn (4, 3, 3): dd/dw of the corners; column (24, 3).
+    row (24,): of `fold`. turn (4, 3, 3): dd/dw of the corners.
     """
 
     q: np.ndarray
@@ -78,7 +79,6 @@ class Scratch(NamedTuple):
     strained: np.ndarray
     inner: np.ndarray
     turn: np.ndarray
-    column: np.ndarray
 
 
 @jit_owning
@@ -89,7 +89,7 @@ def make_scratch():
         layers.make_moments(), np.zeros((9, 12)), np.zeros((9, 12)), np.zeros((12, 12)),
         np.zeros((48, 24)), np.zeros((4, 4, 2)), np.zeros((shear.NUMBERS, 24)), np.zeros(24),
         np.zeros((shear.NUMBERS, 24)), np.zeros((shear.NUMBERS, shear.NUMBERS)),
-        np.zeros((4, 3, 3)), np.zeros((24, 3)),
+        np.zeros((4, 3, 3)),
     )  # fmt: skip
 
 
@@ -288,18 +288,20 @@ def _by_p(scratch, area):
     """Fill ``by_p`` with ``area`` d2U/dp2."""
     rows, pushed, by_p, second = scratch.rows, scratch.pushed, scratch.by_p, scratch.rigidity
     _differentiate_measures(scratch.p, rows)
-    for k in range(9):
-        for i in range(12):
-            total = 0.0
-            for m in range(9):
-                total += second[k, m] * rows[m, i]
-            pushed[k, i] = area * total
     for i in range(12):
+        a, b, c, d = MEASURES_OF[i // 3]
+        one, two, three, four = rows[a, i], rows[b, i], rows[c, i], rows[d, i]
+        for k in range(9):
+            pushed[k, i] = area * (
+                second[k, a] * one + second[k, b] * two + second[k, c] * three + second[k, d] * four
+            )
+    for i in range(12):
+        a, b, c, d = MEASURES_OF[i // 3]
+        one, two, three, four = rows[a, i], rows[b, i], rows[c, i], rows[d, i]
         for k in range(12):
-            total = 0.0
-            for m in range(9):
-                total += rows[m, i] * pushed[m, k]
-            by_p[i, k] = total
+            by_p[i, k] = (
+                one * pushed[a, k] + two * pushed[b, k] + three * pushed[c, k] + four * pushed[d, k]
+            )
     r, at = _matrix(scratch.resultant), 0
     for i in range(4):
         for k in range(i, 4):
@@ -339,7 +341,6 @@ def _whole(scratch, second):
 @jit
 def _turn_back(x, frames, shell, e, scratch, second):
     """Turn the Hessian in q into that by coordinate: the chain rule through d(w)."""
-    column = scratch.column
     for a in range(4):
         i, at = shell.quads[e, a], 6 * a + 3
         frame, w, v = frames[i], _rotation_of(x, i), _rest_director(shell, e, a)
@@ -348,24 +349,13 @@ def _turn_back(x, frames, shell, e, scratch, second):
             d = rotation.slope(frame, w, v, k)
             turn[0, k], turn[1, k], turn[2, k] = d[0], d[1], d[2]
         for row in range(24):
+            one, two, three = second[row, at], second[row, at + 1], second[row, at + 2]
             for k in range(3):
-                column[row, k] = (
-                    second[row, at] * turn[0, k]
-                    + second[row, at + 1] * turn[1, k]
-                    + second[row, at + 2] * turn[2, k]
-                )
-            for k in range(3):
-                second[row, at + k] = column[row, k]
-        for k in range(3):
-            for row in range(24):
-                column[row, k] = (
-                    turn[0, k] * second[at, row]
-                    + turn[1, k] * second[at + 1, row]
-                    + turn[2, k] * second[at + 2, row]
-                )
-        for k in range(3):
-            for row in range(24):
-                second[at + k, row] = column[row, k]
+                second[row, at + k] = one * turn[0, k] + two * turn[1, k] + three * turn[2, k]
+        for k in range(24):
+            one, two, three = second[at, k], second[at + 1, k], second[at + 2, k]
+            for row in range(3):
+                second[at + row, k] = turn[0, row] * one + turn[1, row] * two + turn[2, row] * three
         slope = scratch.slope
         own = rotation.moment_slopes(frame, w, v, (slope[at], slope[at + 1], slope[at + 2]))
         n = 0
