@@ -177,14 +177,25 @@ def _meshed(lattice: Lattice) -> Lattice:
     if quarter and (fault := mirror_fault(network)):
         raise refusal("lattice.symmetry", "quarter", f'"none", as {fault}')
     plan = plan_of(network, quarter)
+    thickest = float(plan.thickness.max())
+    _be_higher(lattice, thickest)
     along = quads_along(plan, quads_wanted(meshed))
     layers = lattice.layers or layers_of(plan, along, lattice.depth)
     _be_solvable(meshed, len(plan.points) + int((along - 1).sum()), layers)
-    most = int(lattice.depth / plan.thickness.max() * (1.0 + 1e-9))
-    if layers > max(most, 1):
+    most = int(lattice.depth / thickest * (1.0 + 1e-9))
+    if layers > most:
         allowed = f"at most {most} here, as quads are no lower than walls are thick"
         raise refusal("lattice.layers", layers, allowed)
     return meshed.model_copy(update={"layers": layers})
+
+
+def _be_higher(lattice: Lattice, thickest: float) -> None:
+    """Refuse a height below that of one quad, the thickness of the thickest wall, m."""
+    if lattice.depth * (1.0 + 1e-9) < thickest:
+        allowed = f"at least the wall thickness, {1e3 * thickest:.4g} mm here, {WHERE}"
+        if lattice.structure is not None:
+            raise refusal("lattice.file", lattice.file, f"a depth_mm of {allowed}")
+        raise refusal("lattice.depth", lattice.depth, allowed)
 
 
 def _be_solvable(lattice: Lattice, columns: int, layers: int) -> None:
