@@ -1,10 +1,10 @@
 """The potential of one step of a lattice of plates: the sum of all terms, with its gradient.
 
-    E(x) = E_m + E_b + E_c - f . u + |x - x~|_M^2 / (2 h^2) + D_f(u),   u = x - y
+    E(x) = E_s + E_b + E_c - f . u + |x - x~|_M^2 / (2 h^2) + D_f(u),   u = x - y
 
-E_m: energy of the mid-surfaces; E_b: of bending and transverse shear; E_c: of contact. u / h is the
-velocity at the end of the step (`solve.integrators`). In a static step y = x0, and inertia
-vanishes. The Hessian is in `factoring`.
+E_s: strain of the mid-surfaces; E_b: bending, transverse shear and folds; E_c: contact, also of
+images. u / h is the velocity at the end of the step (`solve.integrators`). In a static step y = x0,
+and inertia vanishes. The Hessian is in `factoring`.
 """
 
 from kernels.arrays import dot, zero

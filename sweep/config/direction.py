@@ -165,7 +165,7 @@ def quads_wanted(lattice: Lattice) -> Any:
 
 def _meshed(lattice: Lattice) -> Lattice:
     """The lattice with its numbers of quads; refused if there are too many, or no mirror planes."""
-    from sweep.design.extrusion import layers_of, mirror_fault, plan_of, quads_along
+    from sweep.design.extrusion import layers_of, mirror_fault, most_layers, plan_of, quads_along
 
     changes: dict[str, Any] = {}
     if lattice.structure is None and "nodes_per_wall" not in lattice.model_fields_set:
@@ -177,14 +177,24 @@ def _meshed(lattice: Lattice) -> Lattice:
     if quarter and (fault := mirror_fault(network)):
         raise refusal("lattice.symmetry", "quarter", f'"none", as {fault}')
     plan = plan_of(network, quarter)
+    most = most_layers(plan.thickness, lattice.depth)
+    if most < 1:
+        raise _too_low(lattice, float(plan.thickness.max()))
     along = quads_along(plan, quads_wanted(meshed))
     layers = lattice.layers or layers_of(plan, along, lattice.depth)
     _be_solvable(meshed, len(plan.points) + int((along - 1).sum()), layers)
-    most = int(lattice.depth / plan.thickness.max() * (1.0 + 1e-9))
-    if layers > max(most, 1):
+    if layers > most:
         allowed = f"at most {most} here, as quads are no lower than walls are thick"
         raise refusal("lattice.layers", layers, allowed)
     return meshed.model_copy(update={"layers": layers})
+
+
+def _too_low(lattice: Lattice, thickest: float) -> Exception:
+    """The error of a height below that of one quad, the thickness of the thickest wall, m."""
+    allowed = f"at least the wall thickness, {1e3 * thickest:.4g} mm here, {WHERE}"
+    if lattice.structure is not None:
+        return refusal("lattice.file", lattice.file, f"a depth_mm of {allowed}")
+    return refusal("lattice.depth", lattice.depth, allowed)
 
 
 def _be_solvable(lattice: Lattice, columns: int, layers: int) -> None:

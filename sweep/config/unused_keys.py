@@ -96,6 +96,8 @@ def _reason_in_lattice(key: str, case: Case) -> str:
     }
     if key.removeprefix("lattice.") in NOT_ACROSS and not is_along(case.loading):
         return f'loading.direction is "{case.loading.direction}"'
+    if key == "lattice.imperfection_seed":
+        return "lattice.imperfection is 0"
     return reasons.get(key, "")
 
 

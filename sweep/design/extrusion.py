@@ -83,8 +83,12 @@ def layers_of(plan: Plan, along: Indices, height: float) -> int:
     `quads_along`), and no lower than the thickest wall; `height` in m.
     """
     mean = plan.length.sum() / along.sum()
-    most = max(int(height / plan.thickness.max() * (1.0 + ROUND_OFF)), 1)
-    return int(np.clip(round(height / mean), 1, most))
+    return int(np.clip(round(height / mean), 1, max(most_layers(plan.thickness, height), 1)))
+
+
+def most_layers(thickness: Floats, height: float) -> int:
+    """Number of layers of quads as low as the thickest wall, `thickness` (w,) m, in a height, m."""
+    return int(height / thickness.max() * (1.0 + ROUND_OFF))
 
 
 def turns(joints: int, walls: Indices) -> Indices:

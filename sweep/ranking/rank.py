@@ -55,6 +55,7 @@ ASSUMPTIONS = (
     "damping.",
     "solver.",
     "lattice.nodes_per_wall",
+    "lattice.layers",
     "lattice.imperfection",
     "material.stretch",
     "material.bend",
@@ -62,6 +63,9 @@ ASSUMPTIONS = (
     "material.poisson",
 )
 """Grid keys of the test and not of the design: every value of them makes a scene of its own."""
+
+OF_DESIGN = ("loading.direction",)
+"""Keys of the loading that belong to the design all the same: how a panel is laid."""
 
 PER = ("specimen", "panel")
 NO_ATTRS = (

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from pandas import DataFrame
 
 from sweep.ranking.merit import Compared, RankError, doubtful
-from sweep.ranking.rank import ASSUMPTIONS, pareto, ranked
+from sweep.ranking.rank import ASSUMPTIONS, OF_DESIGN, pareto, ranked
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, limits, measured, misses, nearest_first
 from sweep.result import describe_column, less_is_better
@@ -95,7 +95,8 @@ def thinned(rows: DataFrame, columns: Iterable[str]) -> DataFrame:
 
 def check_searched(keys: Iterable[str]) -> None:
     """Refuse keys of the test: designs in different scenes cannot be compared."""
-    if wrong := [key for key in keys if key.startswith(ASSUMPTIONS)]:
+    chosen = [key for key in keys if key not in OF_DESIGN]
+    if wrong := [key for key in chosen if key.startswith(ASSUMPTIONS)]:
         why = "belongs to the test, not to the design: each value is a scene of its own"
         raise RankError(f"[search] {wrong[0]}: {why}; allowed: lattice.cells_x and the like")
 

@@ -9,8 +9,12 @@ walls 5 % thinner and thicker, and a quarter and four times the imperfection.
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from pydantic import ValidationError
+
 from sweep.config.case import Case, given
+from sweep.config.direction import network_of
 from sweep.config.lattice_table import Lattice
+from sweep.design.extrusion import most_layers
 from sweep.ranking.spread import FINE
 from sweep.running.spread import Corner
 
@@ -48,16 +52,20 @@ def _near(one: object, other: object) -> bool:
 
 
 def perturbed(design: Case) -> list[Corner]:
-    """The design with twice the elements, and so with other walls and imperfections."""
-    fine = _finer(design.lattice)
-    found = [Corner(FINE, _with(design, fine))]
-    if fine.structure is None:
-        bow = fine.imperfection
-        found += [Corner(name, _with(design, _printed(fine, by))) for name, by in WALLS.items()]
-        for name, by in BOWS.items() if bow else ():
-            bent = fine.model_copy(update={"imperfection": by * bow})
-            found.append(Corner(name, _with(design, bent)))
-    return found
+    """The design with twice the elements, and so with other walls and imperfections.
+
+    Plates that would have too many nodes then keep their mesh; changes that do not fit the rest of
+    a design are left out.
+    """
+    fine = _with(design, _with_elements(design.lattice, 2))
+    base = _with_elements(design.lattice, 2 if fine else 1)
+    found = {FINE: fine}
+    if base.structure is None:
+        found |= {name: _with(design, _printed(base, by)) for name, by in WALLS.items()}
+        for name, by in BOWS.items() if base.imperfection else ():
+            bent = base.model_copy(update={"imperfection": by * base.imperfection})
+            found[name] = _with(design, bent)
+    return [Corner(name, case) for name, case in found.items() if case]
 
 
 def _printed(lattice: Lattice, by: float) -> Lattice:
@@ -71,28 +79,40 @@ def _printed(lattice: Lattice, by: float) -> Lattice:
     return Lattice(**known | {"line_width": wider, "infill": by * given(lattice.infill)})
 
 
-def _finer(lattice: Lattice) -> Lattice:
-    """Twice the elements in every wall; its thickness no longer follows from a mass or a share."""
+def _with_elements(lattice: Lattice, ratio: int) -> Lattice:
+    """`ratio` times the elements in every wall, whose thickness no longer follows from a mass or a
+    share, and as many times the layers of plates.
+    """
+    layers = None if lattice.layers is None else ratio * lattice.layers
     if lattice.structure is not None:
-        pieces = tuple(2 * n for n in lattice.structure.pieces)
+        pieces = tuple(ratio * n for n in lattice.structure.pieces)
         finer = lattice.structure.model_copy(update={"subdivide": pieces})
-        return lattice.model_copy(update={"structure": finer, "layers": None})
-    change = {"nodes_per_wall": 2 * lattice.nodes_per_wall + 1, "mass": None}
-    change["layers"] = None  # follow from the elements
+        return lattice.model_copy(update={"structure": finer, "layers": layers})
+    nodes = ratio * (lattice.nodes_per_wall + 1) - 1
+    change = {"nodes_per_wall": nodes, "mass": None, "layers": layers}
     if lattice.slicer is None:
         change["infill"] = None
     return lattice.model_copy(update=change)
 
 
-def _with(design: Case, lattice: Lattice) -> Case:
-    """The design with another lattice, labelled by what differs."""
+def _with(design: Case, lattice: Lattice) -> Case | None:
+    """The design with another lattice, labelled by what differs; None if that does not fit.
+
+    Layers of plates are at most as many as leave quads as high as walls are thick.
+    """
     tables: dict[str, Any] = {table: getattr(design, table) for table in Case.model_fields}
+    if lattice.layers is not None:
+        most = most_layers(network_of(lattice).wall_thickness, lattice.depth)
+        lattice = lattice.model_copy(update={"layers": max(min(lattice.layers, most), 1)})
     labels = {
         "lattice.nodes_per_wall": lattice.nodes_per_wall,
         "lattice.wall_thickness": lattice.wall_thickness,
         "lattice.imperfection": lattice.imperfection,
     }
-    return Case(**tables | {"lattice": lattice, "axes": design.axes | labels})
+    try:
+        return Case(**tables | {"lattice": lattice, "axes": design.axes | labels})
+    except ValidationError:
+        return None
 
 
 def perturbed_of(best: Sequence[Case]) -> dict[str, list[Corner]]:

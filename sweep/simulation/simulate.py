@@ -34,6 +34,7 @@ FRAMES = 40
 EARLY_FRAMES = 4 * FRAMES  # most impacts and many paths end within a quarter of their steps
 LONGER = "try a longer loading.duration"
 SAFER = 'try smaller steps, damping or solver.integrator "backward_euler"'
+SAFER_ALONG = 'try smaller steps or solver.integrator "backward_euler"'  # there is no damping
 FINER = "try more solver.load_steps"
 SOUNDER = "try a smaller solver.tolerance, and look for values out of all proportion"
 GAP = 1e-3  # of the greatest energy in the book: residual that is allowed
@@ -187,7 +188,7 @@ class _Run:
             for phase in self.stages:
                 outcome = self._through(phase.stage)
                 if outcome != newton.INTERRUPTED and self._creates_energy():
-                    advice = FINER if self.case.loading.quasi_static else SAFER
+                    advice = self._for_less_energy()
                     return Status.STOPPED, f"the integrator made energy out of nothing; {advice}"
                 if outcome != newton.CONVERGED:
                     return self._failed(outcome, phase.name)
@@ -208,6 +209,13 @@ class _Run:
             return False
         rows = self.rows[: self.done]
         return bool(rows["integrator"].min() < -CREATED * rows["work"].max() - self.noise)
+
+    def _for_less_energy(self) -> str:
+        """What to try if the integrator has created energy."""
+        loading = self.case.loading
+        if loading.quasi_static:
+            return FINER
+        return SAFER_ALONG if is_along(loading) else SAFER
 
     def _balances(self) -> bool:
         """True if the residual of the energy book is below a share `GAP` of its greatest entry."""

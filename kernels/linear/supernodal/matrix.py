@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.arrays import first_at_least, piece, zero
-from kernels.compile.jit import jit, jit_exact, jit_owning
+from kernels.compile.jit import jit, jit_exact
 
 ROWS = 12  # of a tile: see `dense`
 COLUMNS = 4
@@ -124,65 +124,6 @@ def place(matrix, i, j):
     step = width + below
     at = matrix.panel[s] + (matrix.begin[min(p, q)] - matrix.column[s]) * step + row
     return (at, step, 1) if p < q else (at, 1, step)
-
-
-@jit
-def scatter(matrix, found, part, top, left, height, width):
-    """Add the ``height`` x ``width`` entries of ``part`` from (top, left) on to the block whose
-    `place` is ``found``.
-    """
-    at, down, across = found
-    for c in range(width):
-        for r in range(height):
-            matrix.values[at + r * down + c * across] += part[top + r, left + c]
-
-
-@jit_owning
-def places(matrix, blocks):
-    """Return the `place` (m, k (k + 1) / 2, 3) of all pairs of the ``blocks`` (m, k) of elements:
-    that of (blocks[e, a], blocks[e, b]), b <= a, is found[e, a (a + 1) / 2 + b].
-    """
-    m, k = blocks.shape
-    found = np.empty((m, k * (k + 1) // 2, 3), np.int64)
-    for e in range(m):
-        for a in range(k):
-            for b in range(a + 1):
-                pair = a * (a + 1) // 2 + b
-                at, down, across = place(matrix, blocks[e, a], blocks[e, b])
-                found[e, pair, 0], found[e, pair, 1], found[e, pair, 2] = at, down, across
-    return found
-
-
-@jit
-def add_element(matrix, found, part, first, count):
-    """Add the symmetric array ``part`` of an element whose `places` are ``found``.
-
-    first, count (k,): rows of ``part`` that belong to the unknowns of each block: the first
-    ``count[a]`` unknowns of block a are rows first[a], first[a] + 1, ...; 0: none of them. Where a
-    pair with unknowns has no room, ``missing`` is set.
-    """
-    pair = 0
-    for a in range(first.size):
-        for b in range(a + 1):
-            if count[a] > 0 and count[b] > 0:
-                if found[pair, 0] < 0:
-                    matrix.missing[0] = 1
-                else:
-                    block = found[pair, 0], found[pair, 1], found[pair, 2]
-                    scatter(matrix, block, part, first[a], first[b], count[a], count[b])
-            pair += 1
-
-
-@jit
-def add(matrix, i, j, block):
-    """Add ``block``, one row for each unknown of block i, one column for each of block j, to blocks
-    (i, j) and (j, i), once if i == j. Where there is no room, ``missing`` is set.
-    """
-    found = place(matrix, i, j)
-    if found[0] < 0:
-        matrix.missing[0] = 1
-    else:
-        scatter(matrix, found, block, 0, 0, block.shape[0], block.shape[1])
 
 
 @jit_exact

@@ -318,4 +318,51 @@ MUTANTS = [
         ("friction in space: mixed", "-0.5 * slope * (one * f", "0.5 * slope * (one * f"),
         ("friction in space: dual", "+ c12 * move[1]", "- c12 * move[1]"),
     ),
+    *_of(
+        f"{PLATES}/shell.py",
+        ("shell: force along s", "r[0] * xs + r[1] * ds", "r[0] * xs - r[1] * ds"),
+        ("shell: strain at rest", "measure[k] -= shell.rest", "measure[k] += shell.rest"),
+    ),
+    *_of(
+        f"{PLATES}/layers.py",
+        ("layers: thickening", "cube = -0.5 * j * j * j", "cube = 0.5 * j * j * j"),
+        ("layers: Hessian", "second[2, 2] += 2.0 * curl", "second[2, 2] -= 2.0 * curl"),
+    ),
+    *_of(
+        f"{PLATES}/shear.py",
+        (
+            "shear of plates: strained surface",
+            "1.0 / det, p * a[1] + q * a[0] - 2.0 * r",
+            "1.0 / det, p * a[1] + q * a[0] + 2.0 * r",
+        ),
+        ("shear of plates: long quads", "1.0 + share * size[0]", "1.0 - share * size[0]"),
+    ),
+    *_of(
+        f"{PLATES}/fold.py",
+        (
+            "fold: gradient",
+            "by_s, by_z = _cross(s, z), _cross(z, d)",
+            "by_s, by_z = _cross(s, z), _cross(d, z)",
+        ),
+        ("fold: Hessian", "(at, to, -sign * factor, s", "(at, to, sign * factor, s"),
+    ),
+    *_of(
+        f"{PLATES}/bow.py",
+        ("arc of plates: bending", "m[3 + k] += q * b", "m[3 + k] -= q * b"),
+        ("arc of plates: at rest", "m[k] += q - q0", "m[k] += q + q0"),
+    ),
+    *_of(
+        f"{PLATES}/rotation.py",
+        ("rotation: moment", "by = _cross(v, h)  # of", "by = _cross(h, v)  # of"),
+        ("rotation: second derivative", "w[0] * m1 + w[1] * m0 + b", "w[0] * m1 + w[1] * m0 - b"),
+    ),
+    *_of(
+        f"{PLATES}/mirror.py",
+        ("mirror: force", "coordinate[i]] -= slope", "coordinate[i]] += slope"),
+    ),
+    *_of(
+        f"{LAWS}/sheet.py",
+        ("sheet: shear", "q * v + g * j3)", "q * v - g * j3)"),
+        ("sheet: Hessian", "vv + gg * j3 * j3 - 2.0 * g", "vv + gg * j3 * j3 + 2.0 * g"),
+    ),
 ]

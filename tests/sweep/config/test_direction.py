@@ -127,6 +127,16 @@ UNFIT = {
 }
 
 
+def test_a_height_below_the_wall_thickness_is_refused(tmp_path, lines):
+    (line,) = lines(f'{ALONG}[lattice]\ndepth = "0.3 mm"\nwall_thickness = "0.4 mm"')
+    why = f"does not fit; allowed: at least the wall thickness, 0.4 mm here, {ONLY}"
+    assert line == f'lattice.depth = "0.3 mm": {why}'
+    assert along(Lattice(depth=0.4e-3, wall_thickness=0.4e-3)).lattice.layers == 1
+    written(tmp_path, depth_mm=0.3, wall_thickness_mm=0.4)
+    (line,) = lines(f'{ALONG}[lattice]\nkind = "custom"\nfile = "angle.json"')
+    assert "a depth_mm of at least the wall thickness, 0.4 mm here" in line
+
+
 @pytest.mark.parametrize("text", UNFIT)
 def test_what_does_not_go_along_the_cells_is_refused(lines, text):
     assert lines(ALONG + text) == [UNFIT[text]]
@@ -155,6 +165,12 @@ def test_key_of_the_other_direction_has_no_effect(lines, text):
     direction = "out_of_plane" if text.startswith(ALONG) else "in_plane"
     why = f'has no effect, as loading.direction is "{direction}"'
     assert lines(text) == [f"{IDLE[text]}: {why}"]
+
+
+def test_a_draw_of_no_imperfection_has_no_effect(lines):
+    text = f"{ALONG}[lattice]\nimperfection = 0.0\nimperfection_seed = 1"
+    why = "has no effect, as lattice.imperfection is 0"
+    assert lines(text) == [f"lattice.imperfection_seed = 1: {why}"]
 
 
 def test_both_directions_in_one_sweep_share_keys_of_either(load):

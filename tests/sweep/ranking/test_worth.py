@@ -69,9 +69,12 @@ def test_front_of_two_aims():
 
 
 def test_keys_of_the_test_are_not_searched():
-    check_searched(["lattice.cells_x", "material.name"])
+    check_searched(["lattice.cells_x", "material.name", "loading.direction"])
     with pytest.raises(RankError, match=r"contact\.friction: belongs to the test"):
         check_searched(["lattice.cells_x", "contact.friction"])
+    for key in ("lattice.layers", "lattice.imperfection_seed"):
+        with pytest.raises(RankError, match=rf"{key}: belongs to the test"):
+            check_searched([key])
 
 
 def test_columns_without_a_better_value_are_refused():

@@ -56,6 +56,25 @@ def test_plates_have_twice_the_layers_too():
     assert fine.layers == pytest.approx(2 * case.lattice.layers, abs=1)
 
 
+def test_layers_that_are_given_are_twice_as_many_but_no_lower_than_walls():
+    """12 mm hold 30 quads as high as walls of 0.4 mm."""
+    given = {"width": 12e-3, "height": 12e-3, "depth": 12e-3, "cells_x": 1, "cells_y": 1}
+    lattice = Lattice(wall_thickness=0.4e-3, nodes_per_wall=3, layers=12, **given)
+    case = Case(lattice=lattice, loading=Loading(direction="out_of_plane", strain=0.3))
+    assert perturbed(case)[0].case.lattice.layers == 24
+    high = case.model_copy(update={"lattice": case.lattice.model_copy(update={"layers": 28})})
+    assert [corner.case.lattice.layers for corner in perturbed(high)] == [30, 31, 28, 30, 30]
+
+
+def test_plates_of_many_nodes_keep_their_mesh():
+    given = {"width": 20e-3, "height": 20e-3, "cells_x": 5, "cells_y": 5, "wall_thickness": 0.3e-3}
+    case = Case(lattice=Lattice(**given), loading=Loading(direction="out_of_plane", strain=0.3))
+    found = {corner.name: corner.case.lattice for corner in perturbed(case)}
+    assert list(found) == ["walls -5 %", "walls +5 %", "imperfection / 4", "imperfection x 4"]
+    meshes = {(lattice.nodes_per_wall, lattice.layers) for lattice in found.values()}
+    assert meshes == {(case.lattice.nodes_per_wall, case.lattice.layers)}
+
+
 @pytest.mark.parametrize("slicer", ["prusa", "cura"])
 def test_lines_of_a_slicer_are_wider_at_the_same_distance(slicer):
     """So that 5 % more is extruded. The settings are a column of the results."""

@@ -1,5 +1,7 @@
 """Crushes along the cells from a case to its result; tubes of few quads, pressed a little."""
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 
@@ -108,6 +110,16 @@ def test_energy_within_the_model_ends_where_walls_fill_the_area(stroke, within):
     loading = {"strain": strain, "work_in_J": 2.0 * strain}
     columns = plate_columns(tube(), scene, frames, (flat, flat, flat), loading)
     assert columns["absorbed_energy_within_model_J"] == pytest.approx(within)
+
+
+def test_damping_is_no_advice_as_it_is_refused(monkeypatch):
+    module = import_module("sweep.simulation.simulate")
+    monkeypatch.setattr(module._Run, "_creates_energy", lambda run: True)
+    loading = Loading(direction="out_of_plane", striker_mass=5e-3, striker_speed=0.3, duration=1e-4)
+    steps = Solver(integrator="newmark", time_step=2e-5)
+    found = simulate(Case(lattice=tube().lattice, material=LINEAR, loading=loading, solver=steps))
+    advice = 'try smaller steps or solver.integrator "backward_euler"'
+    assert found.message == f"the integrator made energy out of nothing; {advice}"
 
 
 def test_a_striker_is_stopped_and_thrown_back():
