@@ -29,15 +29,9 @@ import numpy as np
 from kernels.compile.jit import jit, jit_exact, jit_owning
 from kernels.geometry.space.derivatives import gap
 from kernels.geometry.space.vectors import SIZE, cross, inner, length, minus, plus, point, times
-from kernels.plates.contact import (
-    NO_PAIR,
-    Touching,
-    corners,
-    detect,
-    platen_block,
-    shares,
-)
-from kernels.plates.contact import no_contacts as none_touching
+from kernels.plates.contact import platen_block
+from kernels.plates.touching import NO_PAIR, Touching, corners, detect, shares
+from kernels.plates.touching import no_contacts as none_touching
 from kernels.terms.friction import DUAL_TOLERANCE, UNKNOWN, smooth
 
 
@@ -162,7 +156,7 @@ def _lag_platen(x, contact, upper, mu, lagged_contacts, n):
 def lag(lagged_contacts, x, contact, pairs, drift, friction):
     """Fill ``lagged_contacts`` with all contacts at ``x``.
 
-    drift: as in `contact.detect`; friction: `kernels.terms.friction.Friction`.
+    drift: as in `touching.detect`; friction: `kernels.terms.friction.Friction`.
     """
     n, lagged_contacts.count[0], touching = 0, 0, lagged_contacts.touching
     if friction.mu == 0.0:

@@ -8,11 +8,11 @@ from kernels.compile.jit import jit_exact, jit_owning, separate
 from kernels.geometry.space import near
 from kernels.linear.supernodal.analysis import analyse
 from kernels.linear.supernodal.matrix import Matrix
-from kernels.plates import contact, couplings, friction, mirror, pairs
-from kernels.plates.contact import Touching
+from kernels.plates import admissible, couplings, friction, mirror, pairs, touching
 from kernels.plates.friction import LaggedContacts
 from kernels.plates.layout import PER_NODE, POSITION
 from kernels.plates.pairs import Pairs
+from kernels.plates.touching import Touching
 
 MARGIN = 0.5  # least margin of the pair list, as a share of the reach of contact
 MOST_TURN = 0.125  # of a node in one move: w, the tangent of a quarter of the angle
@@ -62,8 +62,8 @@ def find_neighbours(scene, x):
     listed, margin = list_pairs(scene, x, 0.0)
     lagged_contacts = friction.no_contacts(listed, scene.contact, scene.friction)
     matrix = make_matrix(scene, listed, lagged_contacts)
-    touching = contact.no_contacts(scene.contact, listed)
-    return Neighbours(listed, x.copy(), margin, matrix, touching, lagged_contacts)
+    met = touching.no_contacts(scene.contact, listed)
+    return Neighbours(listed, x.copy(), margin, matrix, met, lagged_contacts)
 
 
 @jit_owning
@@ -80,8 +80,8 @@ def renew_neighbours(scene, neighbours, x, move):
     wider = friction.no_contacts(listed, scene.contact, scene.friction)
     if wider.load.size > lagged_contacts.load.size:
         lagged_contacts = friction.enlarged(lagged_contacts, wider)
-    touching = contact.no_contacts(scene.contact, listed)
-    return Neighbours(listed, x.copy(), margin, matrix, touching, lagged_contacts)
+    met = touching.no_contacts(scene.contact, listed)
+    return Neighbours(listed, x.copy(), margin, matrix, met, lagged_contacts)
 
 
 @jit_exact
@@ -120,7 +120,7 @@ def step_limit(problem, x, dx, far):
     if far >= scene.contact.most_move:
         far = near.longest(dx, n_nodes(scene))
         shortest = min(1.0, scene.contact.most_move / far)
-    first = contact.step_limit(
+    first = admissible.step_limit(
         x, dx, far, scene.contact, problem.neighbours.pairs, drift(problem, x)
     )
     turn = _longest_turn(dx, n_nodes(scene))
@@ -143,5 +143,5 @@ def _longest_turn(dx, n):
 def least_gap(problem, x):
     """Return the smallest distance in m between mid-surfaces that may touch."""
     scene, moved = problem.scene, drift(problem, x)
-    least = contact.least_gap(x, scene.contact, problem.neighbours.pairs, moved)
+    least = admissible.least_gap(x, scene.contact, problem.neighbours.pairs, moved)
     return mirror.least_gap(x, scene.mirror, least)

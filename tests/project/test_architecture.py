@@ -72,6 +72,7 @@ TESTED_ELSEWHERE = {
     "kernels.plates.couplings": "kernels/plates/test_factoring.py",
     "kernels.plates.problem": "kernels/plates/test_potential.py",
     "kernels.plates.steps": "kernels/plates/test_potential.py",
+    "kernels.plates.touching": "kernels/plates/test_contact.py",
     "kernels.linear.supernodal.fronts": "kernels/linear/supernodal/test_factor.py",
     "kernels.solve.history": "kernels/solve/test_chain.py",
     "kernels.solve.residual": "kernels/solve/test_newton.py",

@@ -1,22 +1,25 @@
-"""Contact in space: surfaces that count once at any mesh, derivatives, platens, no crossing."""
+"""Contact in space: surfaces that count once at any mesh, derivatives, platens."""
 
 import itertools
 
 import numpy as np
 import pytest
 
-from kernels.geometry.space import advancement, crossing, near
+from kernels.geometry.space import near
 from kernels.geometry.space.vectors import SIZE
 from kernels.laws.barrier import barrier
-from kernels.plates import contact, pairs
+from kernels.plates import contact, touching
 from tests.support.kernels.surfaces import (
     Sheet,
+    between_platens,
     contact_of,
     pairs_of,
     placed,
     positions,
     term_of,
     two_sheets,
+    two_triangles,
+    wavy,
 )
 from tests.support.kernels.terms import derivative_error, least_share
 
@@ -36,13 +39,6 @@ def without_edges(listed):
 
 def of_nodes(x, touch):
     return term_of(x, touch, without_edges(pairs_of(x, touch)))
-
-
-def wavy(seed, gap=0.5, amount=0.2):
-    """Coordinates and contact of two shaken sheets, one smaller than the other."""
-    x, touch = two_sheets(gap, Sheet(2, 2, 3, 3), Sheet(2, 1, 2.7, 2.5, (0.13, 0.21, 0.0)))
-    shake = np.random.default_rng(seed).uniform(-amount, amount, positions(x).shape)
-    return placed(positions(x) + shake), touch
 
 
 def scaled(touch, length):
@@ -76,8 +72,8 @@ def test_above_the_inside_of_a_sheet_one_contact_is_left_for_a_node(shift):
     )
     touch.area[:49] = 0.0
     listed = without_edges(pairs_of(x, touch))
-    found = contact.no_contacts(touch, listed)
-    energy = contact.detect(x, touch, listed, 0.0, found)
+    found = touching.no_contacts(touch, listed)
+    energy = touching.detect(x, touch, listed, 0.0, found)
     assert energy == pytest.approx(0.5 * 4.0 * phi(0.4), rel=1e-12)
     per_node = np.bincount(found.nodes[: found.count[0], 0], minlength=58)
     assert (per_node[49:] == 1).all()
@@ -155,8 +151,8 @@ def test_derivatives_of_shaken_sheets(seed, length):
     x, touch = wavy(seed)
     touch, y = scaled(touch, length), length * x
     listed = pairs_of(y, touch)
-    found = contact.no_contacts(touch, listed)
-    contact.detect(y, touch, listed, 0.0, found)
+    found = touching.no_contacts(touch, listed)
+    touching.detect(y, touch, listed, 0.0, found)
     sizes = found.size[: found.count[0]]
     assert {2, 3, 4} <= set(sizes.tolist())
     assert (found.pair[: found.count[0]] >= 0).sum() > 5
@@ -189,14 +185,6 @@ def test_the_gradient_is_continuous_over_corners_sides_and_the_rim():
         slopes.append(term.gradient(x + move))
     assert np.abs(slopes[0]).max() > 0.5
     np.testing.assert_allclose(slopes, np.tile(slopes[0], (6, 1)), atol=1e-6)
-
-
-def two_triangles(lower, upper):
-    """Coordinates and contact of two triangles that are far apart at rest."""
-    points = np.array([*lower, *upper], float)
-    rest = points + np.outer([0, 0, 0, 1, 1, 1], [0, 0, 50.0])
-    touch = contact_of(points, np.array([(0, 1, 2), (3, 4, 5)]), np.ones(6), T, rest)
-    return placed(points), touch
 
 
 def test_edges_that_cross_are_pushed_apart():
@@ -284,35 +272,11 @@ def test_lists_with_a_margin_hold_while_nodes_move():
         y = placed(positions(x) + rng.uniform(-0.3, 0.3, positions(x).shape))
         drift = near.farthest(y, x, len(touch.area))
         assert 2.0 * drift < touch.reach
-        found, g = contact.no_contacts(touch, listed), np.zeros_like(y)
+        found, g = touching.no_contacts(touch, listed), np.zeros_like(y)
         energy = contact.evaluate(y, touch, listed, drift, found, g)
         expected = term_of(y, touch)
         assert energy == pytest.approx(expected.energy(y), rel=1e-12)
         np.testing.assert_allclose(g, expected.gradient(y), rtol=1e-9, atol=1e-12)
-        assert contact.least_gap(y, touch, listed, drift) == pytest.approx(
-            contact.least_gap(y, touch, pairs_of(y, touch), 0.0)
-        )
-
-
-def test_the_least_gap_of_parallel_sheets():
-    x, touch = two_sheets(0.4, Sheet(3, 3, 4, 4), Sheet(2, 2, 3, 3))
-    assert contact.least_gap(x, touch, pairs_of(x, touch), 0.0) == pytest.approx(0.4)
-
-
-def between_platens(low, high):
-    """Coordinates and contact of an upright wall between two platens."""
-    sheet = Sheet(2, 2, 3.0, 3.0)
-    points = sheet.points[:, [0, 2, 1]]
-    ends = [np.flatnonzero(points[:, 2] == z) for z in (0.0, 3.0)]
-    rest = points.copy()
-    others = np.flatnonzero(points[:, 2] == 1.5)
-    low_nodes, high_nodes = (np.concatenate([end, others]) for end in ends)
-    touch = contact_of(
-        points, sheet.triangles, sheet.area, 0.8, rest,
-        low=(low_nodes, np.where(np.isin(low_nodes, others), 1.6, 0.08)),
-        high=(high_nodes, np.where(np.isin(high_nodes, others), 1.6, 0.08)),
-    )  # fmt: skip
-    return placed(points, low, high), touch
 
 
 @pytest.mark.parametrize(("low", "high"), [(-0.05, 3.07), (-0.02, 3.2), (1.2, 1.8)])
@@ -340,93 +304,3 @@ def test_contact_with_platens_starts_at_rest_or_half_of_the_thickness():
     assert -term_of(x, touch).gradient(x)[-2] == pytest.approx(-sum(pressed))
     x[-2], x[SIZE * np.arange(3) + 1], x[SIZE * np.arange(3) + 2] = 1.5 - 0.3, 1.5, 2.0
     assert term_of(x, touch).energy(x) == pytest.approx(2.0 * area * phi(0.3, half))
-
-
-def advanced(x, dx, touch):
-    """Coordinates after the admissible share of a move, and that share."""
-    far = near.longest(dx, len(touch.area))
-    listed = pairs.find(x, touch, touch.reach + 2.0 * far)
-    share = contact.step_limit(x, dx, far, touch, listed, 0.0)
-    return x + share * dx, share
-
-
-def crossings(x, touch):
-    return crossing.count(positions(x), touch.triangles, touch.edges, np.empty((1, 2), np.int64))
-
-
-@pytest.mark.parametrize("speed", [0.1, 1.0, 30.0, 1e4])
-def test_no_move_makes_surfaces_cross(speed):
-    """Random and common moves of all nodes of two sheets, at any size."""
-    limited = 0
-    for seed in range(6):
-        x, touch = wavy(seed, 0.5, 0.1)
-        rng = np.random.default_rng(seed)
-        for turn in range(5):
-            dx = np.zeros_like(x)
-            dx[:-2].reshape(-1, SIZE)[:, :3] = rng.normal(size=positions(x).shape)
-            if turn % 2:
-                dx[:-2].reshape(-1, SIZE)[9:, 2] -= 5.0
-            x, share = advanced(x, speed * dx, touch)
-            limited += share < 1.0
-            assert share > 0.0
-            assert crossings(x, touch) == (0, 0)
-            assert contact.least_gap(x, touch, pairs_of(x, touch), 0.0) > 0.0
-    assert limited > 10
-
-
-def test_moves_that_cross_without_a_limit_do():
-    """The check of the check above."""
-    x, touch = wavy(0, 0.5, 0.1)
-    dx = np.zeros_like(x)
-    dx[:-2].reshape(-1, SIZE)[9:11, 2] = -1.0
-    assert crossings(x + dx, touch)[0] > 0
-
-
-@pytest.mark.parametrize("speed", [0.3, 3.0, 3e3])
-def test_an_edge_does_not_pass_an_edge(speed):
-    """Ridges at right angles, pressed upon each other with all nodes far away."""
-    x, touch = two_triangles(
-        [[-2, 0, 0], [2, 0, 0], [0, 0, -5.0]], [[0, -2, 0.4], [0, 2, 0.4], [0, 0, 5]]
-    )
-    dx = np.zeros_like(x)
-    dx[SIZE * np.arange(3, 6) + 2] = -speed
-    for _ in range(4):
-        x, share = advanced(x, dx, touch)
-        assert crossings(x, touch) == (0, 0)
-        assert x[SIZE * 3 + 2] > 0.0
-    assert share < 1.0
-
-
-def test_a_node_does_not_pass_a_rim():
-    sheet = Sheet(2, 2)
-    points = np.vstack([sheet.points, [(1.4, 0.5, 0.01), (1.6, 0.3, 0.8), (1.6, 0.8, 0.9)]])
-    triangles = np.vstack([sheet.triangles, [(9, 10, 11)]])
-    touch = contact_of(points, triangles, np.ones(12), 0.2)
-    x, dx = placed(points), np.zeros(12 * SIZE + 2)
-    dx[SIZE * 9 : SIZE * 9 + 3] = -0.8, 0.0, -0.04
-    at, share = advanced(x, dx, touch)
-    assert crossings(x + dx, touch)[0] > 0
-    assert share < 1.0
-    assert crossings(at, touch) == (0, 0)
-
-
-def test_nodes_stop_before_platens():
-    x, touch = between_platens(-0.05, 3.07)
-    dx = np.zeros_like(x)
-    dx[-2] = 0.5
-    _, share = advanced(x, dx, touch)
-    assert share == pytest.approx(contact.ADVANCE * 0.1)
-    assert contact.least_gap(x, touch, pairs_of(x, touch), 0.0) == pytest.approx(0.05)
-    dx[-2], dx[-1] = 0.0, -7.0
-    assert advanced(x, dx, touch)[1] == pytest.approx(contact.ADVANCE * 0.01)
-    dx[-1] = 1.0
-    assert advanced(x, dx, touch)[1] == 1.0
-
-
-def test_part_of_a_distance_is_kept():
-    x, touch = two_sheets(0.5, Sheet(2, 2, 3, 3), Sheet(1, 1, 2, 2, (0.4, 0.4, 0)))
-    dx = np.zeros_like(x)
-    dx[:-2].reshape(-1, SIZE)[9:, 2] = -1.0
-    at, _ = advanced(x, dx, touch)
-    gap = contact.least_gap(at, touch, pairs_of(at, touch), 0.0)
-    assert advancement.KEPT * 0.5 * (1 - 1e-12) <= gap < 0.1

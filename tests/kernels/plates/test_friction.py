@@ -5,7 +5,7 @@ import pytest
 
 from kernels.geometry.space.vectors import SIZE
 from kernels.laws.barrier import barrier
-from kernels.plates import contact, friction
+from kernels.plates import friction, touching
 from kernels.terms.friction import DUAL_TOLERANCE, UNKNOWN, Friction
 from tests.support.kernels.surfaces import (
     Sheet,
@@ -89,8 +89,8 @@ def test_sliding_sheets_are_held_by_mu_times_the_normal_force(direction):
 def pressed_together(x, touch):
     """Sum of the normal forces of nodes and triangles, N: half is that of the upper nodes."""
     listed = pairs_of(x, touch)
-    found = contact.no_contacts(touch, listed)
-    contact.detect(x, touch, listed, 0.0, found)
+    found = touching.no_contacts(touch, listed)
+    touching.detect(x, touch, listed, 0.0, found)
     n = found.count[0]
     return -found.slope[:n][found.pair[:n] < 0].sum()
 

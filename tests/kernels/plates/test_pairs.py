@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.plates import contact, pairs
+from kernels.plates import pairs, touching
 from kernels.plates.pairs import FAR, LEAST_PATH, NEAR_SHARE, starts_at
 from tests.support.kernels.surfaces import (
     Sheet,
@@ -192,6 +192,6 @@ def test_pairs_are_sorted_by_distance():
     assert (np.diff(listed.edge_bound) >= 0.0).all()
     assert pairs.edges_within(listed, 0.5) == (listed.edge_bound < 0.5).sum()
     assert pairs.edges_within(listed, np.inf) == len(listed.one)
-    found = contact.no_contacts(touch, listed)
+    found = touching.no_contacts(touch, listed)
     assert found.distance.size == len(listed.triangle) + len(listed.lower) + len(listed.one)
     assert positions(x).shape == touch.rest.shape

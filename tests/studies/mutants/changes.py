@@ -308,7 +308,7 @@ MUTANTS = [
         tests=f"{PLATES}/test_contact.py::test_derivatives_against_platens",
     ),
     *_of(
-        f"{PLATES}/contact.py",
+        f"{PLATES}/touching.py",
         ("surfaces: half of a side", "touching, p, e, s, k)", "touching, p, e, 1.0 - s, k)"),
         tests=f"{PLATES}/test_contact.py::test_derivatives_above_corners_sides_and_the_rim",
     ),
@@ -340,7 +340,7 @@ MUTANTS = [
     *_of(
         f"{PLATES}/fold.py",
         (
-            "fold: gradient",
+            "fold of a shell: gradient",
             "by_s, by_z = _cross(s, z), _cross(z, d)",
             "by_s, by_z = _cross(s, z), _cross(d, z)",
         ),

@@ -13,8 +13,8 @@ import numpy as np
 from kernels.compile.reference import by_reference, referred
 from kernels.linear.supernodal.matrix import place
 from kernels.plates import friction, reach
-from kernels.plates.contact import no_contacts
 from kernels.plates.problem import Plates
+from kernels.plates.touching import no_contacts
 from kernels.solve.problem import NO_ROOM, Step
 from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
 from sweep.scene.plates.scene import build_scene

@@ -6,6 +6,7 @@ import numpy as np
 
 from kernels.geometry.space.vectors import SIZE
 from kernels.plates import contact, pairs
+from kernels.plates.touching import no_contacts
 from tests.support.kernels.terms import Term
 
 NOBODY = np.empty(0, np.int64), np.empty(0)
@@ -83,7 +84,7 @@ def pairs_of(x, touch, margin=1.0):
 def term_of(x, touch, listed=None) -> Term:
     """Contact with its pairs at ``x``, with a dense Hessian."""
     listed = pairs_of(x, touch) if listed is None else listed
-    touching = contact.no_contacts(touch, listed)
+    touching = no_contacts(touch, listed)
 
     def slope(y, g):
         return contact.evaluate(y, touch, listed, np.inf, touching, g)
@@ -105,3 +106,34 @@ def term_of(x, touch, listed=None) -> Term:
         return matrix
 
     return Term(slope, second)
+
+
+def wavy(seed, gap=0.5, amount=0.2):
+    """Coordinates and contact of two shaken sheets, one smaller than the other."""
+    x, touch = two_sheets(gap, Sheet(2, 2, 3, 3), Sheet(2, 1, 2.7, 2.5, (0.13, 0.21, 0.0)))
+    shake = np.random.default_rng(seed).uniform(-amount, amount, positions(x).shape)
+    return placed(positions(x) + shake), touch
+
+
+def two_triangles(lower, upper):
+    """Coordinates and contact of two triangles that are far apart at rest."""
+    points = np.array([*lower, *upper], float)
+    rest = points + np.outer([0, 0, 0, 1, 1, 1], [0, 0, 50.0])
+    touch = contact_of(points, np.array([(0, 1, 2), (3, 4, 5)]), np.ones(6), 1.0, rest)
+    return placed(points), touch
+
+
+def between_platens(low, high):
+    """Coordinates and contact of an upright wall between two platens."""
+    sheet = Sheet(2, 2, 3.0, 3.0)
+    points = sheet.points[:, [0, 2, 1]]
+    ends = [np.flatnonzero(points[:, 2] == z) for z in (0.0, 3.0)]
+    rest = points.copy()
+    others = np.flatnonzero(points[:, 2] == 1.5)
+    low_nodes, high_nodes = (np.concatenate([end, others]) for end in ends)
+    touch = contact_of(
+        points, sheet.triangles, sheet.area, 0.8, rest,
+        low=(low_nodes, np.where(np.isin(low_nodes, others), 1.6, 0.08)),
+        high=(high_nodes, np.where(np.isin(high_nodes, others), 1.6, 0.08)),
+    )  # fmt: skip
+    return placed(points, low, high), touch
