@@ -246,7 +246,7 @@ function showAnswer() {
   $("picture").replaceChildren();
   $("command").replaceChildren();
   if (!best) {
-    const none = Number.isFinite(now.lightest) && asked.budget < now.lightest;
+    const none = asked.budget !== null && Number.isFinite(now.lightest) && asked.budget < now.lightest;
     $("sentence").textContent = none
       ? `Nothing weighs ${inUnit(asked.budget)} or less: the lightest weighs ${inUnit(now.lightest)}.`
       : "No design has a value to rank by.";

@@ -151,6 +151,9 @@ def test_requirements_that_nothing_fulfils_are_answered(tab):
     more = tab.run('document.getElementById("detail").textContent')
     assert "Required of a specimen: absorbed energy at least 1000 J." in more
     assert "Nearest: " in more
+    put(tab, "budget-on", False, what="checked", event="change")
+    without_budget = tab.run('document.getElementById("sentence").textContent')
+    assert without_budget == "No design fulfils what is required."
     put(tab, "min_absorbed-on", False, what="checked", event="change")
     assert len(tab.run(ROWS)) > 5
 
