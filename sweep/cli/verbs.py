@@ -324,6 +324,7 @@ def report(arguments: Namespace) -> int:
 
     summary, stored = read_summary(arguments.file), _stored(arguments.file, "rank")
     question = {"budget": stored.get("budgets"), "panel": stored.get("panel")}
+    question |= {"require": _stored(arguments.file, "require"), "per": stored.get("per")}
     out = Path(arguments.out or Path(arguments.file).with_suffix(".html"))
     with _writing(out.parent):
         page = write_page(arguments.file, summary, question, out)

@@ -76,6 +76,14 @@ COLUMN_NOTES = {
     "decel. g0": "decel.: greatest deceleration of the striker, filtered (loading.filter_class).",
     "stroke mm": "stroke: in which the counted energy is absorbed; without a crush, the greatest.",
 }
+UNITS = {
+    "max_force": (1.0, "N"),
+    "max_deceleration": (1.0 / STANDARD_GRAVITY, "g0"),
+    "max_mass": (1e3, "g"),
+    "min_absorbed": (1.0, "J"),
+    "max_stroke": (1e3, "mm"),
+}
+"""Value in the unit of a maker / value in SI, and that unit."""
 WIDTH = 100  # letters in a line
 DISTRUST = "marked {}: do not trust it"
 
@@ -84,12 +92,7 @@ def quantity(name: str, value: float, digits: int = 4) -> str:
     """The value of a requirement (SI) in the unit of a maker."""
     if name == "min_absorbed":
         return energy_text(value)
-    scale, unit = {
-        "max_force": (1.0, "N"),
-        "max_deceleration": (1.0 / STANDARD_GRAVITY, "g0"),
-        "max_mass": (1e3, "g"),
-        "max_stroke": (1e3, "mm"),
-    }[name]
+    scale, unit = UNITS[name]
     return f"{float(f'{scale * value:.{digits}g}'):g} {unit}"
 
 

@@ -25,5 +25,10 @@ def run(
     path = Path(out or f"results/{known.name}.h5")
     run_sweep(known, path, workers, rerun=rerun)
     ids = [case.case_id for case in expand(known)]
-    question = {"budget": list(known.rank.budgets) or None, "panel": known.rank.panel}
+    question = {
+        "budget": list(known.rank.budgets) or None,
+        "panel": known.rank.panel,
+        "require": known.require.model_dump(),
+        "per": known.rank.per,
+    }
     return Results(path, ids, question)

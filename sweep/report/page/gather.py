@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from sweep.numbers import short
+from sweep.ranking.curves import reached
 from sweep.ranking.merit import LEAST, Compared, merits, through_solid
 from sweep.ranking.rank import by_scene, pareto, ranked, scene_label
+from sweep.ranking.requirements import MEASURES, limits
 from sweep.report.flattened import lines, plan
 from sweep.report.page.thinning import (
     force_stairs,
@@ -21,6 +23,7 @@ from sweep.report.page.thinning import (
     work_until,
 )
 from sweep.report.page.trails import UNIT, drawing, moving_shape
+from sweep.report.requirement_notes import UNITS, WORDS
 from sweep.report.sheets import crush_text, design_labels, design_text, impact_text
 from sweep.report.storyboard import last_loaded, parts_of, path_of
 from sweep.result import ABSORBED_AT, Status, correction_column, error_column
@@ -56,16 +59,21 @@ class Counted(NamedTuple):
 def page_data(file: str, summary: DataFrame, question: Mapping[str, Any]) -> dict[str, Any]:
     """All that a page shows, for JSON; numbers that rank designs keep all their digits.
 
-    question : budget (kg) and panel (m) that the page starts with, lists or None.
+    question : budget (kg) and panel (m) that the page starts with, lists or None; `require` and
+    `per` of `rank`.
     """
     finished = summary[summary["status"] == Status.CONVERGED]
     counted = _counted(finished)
     scenes = by_scene(counted[0].rows) if len(finished) else []
     cases = _cases(counted, scenes, summary)
     about = read_attributes(file)
+    forces = [each.force for each in counted if each.force is not None]
     stored, by_id = _Stored(len(cases)), finished.set_index("case_id", drop=False)
     for case in read_cases(file, _first_shown(finished, counted, question)):
         cases[case.case_id] |= stored.take(case, by_id.loc[case.case_id])
+        if len(case.history) and by_id.loc[case.case_id, "loading_mode"] == "displacement":
+            strokes = [reached(case.history, force)[1] for force in forces]
+            cases[case.case_id]["strokes"] += _exact(strokes)
     return {
         "file": Path(file).name,
         "name": _config(about).get("name") or Path(file).stem,
@@ -75,7 +83,10 @@ def page_data(file: str, summary: DataFrame, question: Mapping[str, Any]) -> dic
         "question": {
             "budgets_g": [1e3 * mass for mass in question.get("budget") or ()],
             "panel": list(question.get("panel") or ()) or None,
+            "require": limits(question.get("require")),
+            "per": question.get("per") or "specimen",
         },
+        "measures": _requirements(),
         "cases": list(cases.values()),
         "total": len(summary),
         "failures": list(_failures(summary)),
@@ -85,6 +96,28 @@ def page_data(file: str, summary: DataFrame, question: Mapping[str, Any]) -> dic
         "doubt": stored.doubt,
         "about": _about(about, summary),
         "config": _config(about),
+    }
+
+
+def required(question: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments of `rank` that say what a design must fulfil."""
+    return {"require": question.get("require"), "per": question.get("per") or "specimen"}
+
+
+def _requirements() -> dict[str, dict[str, Any]]:
+    """What may be required, of which loadings, in which unit and words."""
+    return {
+        name: {
+            "shared": measure.shared,
+            "least": measure.least,
+            "modes": measure.asked_of,
+            "scale": UNITS[name][0],
+            "unit": UNITS[name][1],
+            "limit": WORDS[name].limit,
+            "noun": WORDS[name].noun,
+            "far": WORDS[name].far,
+        }
+        for name, measure in MEASURES.items()
     }
 
 
@@ -117,6 +150,9 @@ def _cases(
             "passed": _exact(part["passed_on_N"]),
             "peak": _exact(part["peak_force_N"]),
             "within": _exact(part["absorbed_energy_within_model_J"]),
+            "height": _exact(part["height_m"]),
+            "deceleration": _exact(part["peak_deceleration_filtered_m_per_s2"]),
+            "strokes": [[stroke] for stroke in _exact(part["counted_stroke_m"])],
             "solid": through_solid(part).tolist(),
             "crossed": part["crossed"].tolist(),
             "message": part["message"],
@@ -179,7 +215,8 @@ def _first_shown(
 ) -> list[str]:
     """Ids of all cases; those whose shapes are kept first: winners, then those that may win."""
     budget, panel = question.get("budget"), question.get("panel")
-    winners = ranked(finished, budget, panel, top=3).table.sort_values("place", kind="stable")
+    best = ranked(finished, budget, panel, top=3, **required(question)).table
+    winners = best.sort_values("place", kind="stable")
     fronts = [front for each in counted for front in _fronts(finished, each)]
     return list(dict.fromkeys([*winners["case_id"], *fronts, *finished["case_id"]]))
 

@@ -9,7 +9,7 @@ const FIRST = 3; // best designs whose curves are shown until others are chosen
 const PER_SECOND = 12; // frames
 const LENGTH = { low: 10, high: 1000 }; // mm, of a panel
 
-const asked = { scene: 0, budget: null, panel: null, force: null };
+const asked = { scene: 0, budget: null, panel: null, force: null, require: {}, per: "specimen" };
 const view = { sort: null, up: true, all: false, chosen: null, current: null, frame: 0, timer: null };
 let now = null; // the ranking that is shown
 let player = null;
@@ -114,7 +114,83 @@ function settle() {
   if (!crushed()) asked.force = null;
 }
 
+// A box and a number for each requirement that the scene can be asked for, in a maker's unit.
+function showRequired() {
+  const known = Object.entries(data.measures).filter(([, measure]) => measure.modes.includes(scene().mode));
+  $("require-box").hidden = !known.length;
+  $("per").value = asked.per;
+  for (const input of [...$("require").children]) input.hidden = !known.some(([name]) => name === input.dataset.name);
+  for (const [name, { scale }] of known) {
+    const [box, number] = [$(`${name}-on`), $(name)];
+    box.checked = asked.require[name] !== undefined;
+    if (box.checked && document.activeElement !== number) number.value = Number((scale * asked.require[name]).toPrecision(6));
+  }
+}
+
+function makeRequired() {
+  for (const [name, { scale, unit, limit }] of Object.entries(data.measures)) {
+    const words = limit.replace(/ *\{\}/, "");
+    const box = element("input", { type: "checkbox", id: `${name}-on` });
+    const number = element("input", { type: "number", id: name, min: 0, step: "any", "aria-label": `${words}, ${unit}` });
+    const tell = () => {
+      const value = Number(number.value);
+      if (box.checked && value > 0) asked.require[name] = value / scale;
+      else if (!box.checked) delete asked.require[name];
+      else return;
+      Object.assign(view, { chosen: null, current: null });
+      refresh();
+    };
+    box.addEventListener("change", tell);
+    number.addEventListener("input", () => {
+      box.checked = true;
+      tell();
+    });
+    $("require").append(element("span", { "data-name": name }, element("label", {}, box, ` ${words}`), number, unit));
+  }
+  $("per").addEventListener("change", () => {
+    asked.per = $("per").value;
+    refresh();
+  });
+}
+
+function limitText(name, value) {
+  const { scale, unit } = data.measures[name];
+  if (name === "min_absorbed") return energyText(value);
+  return `${Number((scale * value).toPrecision(4))} ${unit}`;
+}
+
+// What is required, and how many designs within the budget fulfil it.
+function requiredText() {
+  const limits = Object.entries(askedOf(data, asked));
+  if (!limits.length)
+    return Object.keys(asked.require).length && asked.per === "panel" && !asked.panel
+      ? "What is required of a panel is not asked, as there is no panel."
+      : "";
+  const words = limits.map(([name, limit]) => data.measures[name].limit.replace("{}", limitText(name, limit)));
+  const counts = limits.map(([name]) => [name, now.missing.filter((row) => row.misses[name] > 0).length]);
+  const failed = counts.filter(([, n]) => n).map(([name, n]) => `${data.measures[name].noun} (${n})`);
+  const most = asked.budget === null ? Infinity : asked.budget * (1 + ROUND_OFF);
+  const designs = now.rows.filter((row) => row.mass <= most).length;
+  const within = asked.budget === null ? "" : ` up to ${inUnit(asked.budget)}`;
+  return `Required of a ${asked.per}: ${words.join(", ")}. ${designs - now.missing.length} of ${designs} designs${within} ` +
+    `fulfil this${failed.length ? `; the others fail: ${failed.join(", ")}` : ""}.`;
+}
+
+// The requirements that a row misses, with its values.
+function missText(row) {
+  const found = required(data, row, asked);
+  return Object.entries(row.misses)
+    .filter(([, share]) => share > 0)
+    .map(([name, share]) => {
+      const { noun, far } = data.measures[name];
+      if (share === Infinity) return `${noun} unknown`;
+      return `${noun} ${limitText(name, found[name])}, ${Number((100 * share).toPrecision(2))} % ${far}`;
+    })
+    .join("; ");
+}
+
 function showAsked() {
+  showRequired();
   const { low, high } = massRange();
   $("budget-on").checked = asked.budget !== null;
   $("panel-on").checked = asked.panel !== null;
@@ -170,11 +246,15 @@ function showAnswer() {
   $("picture").replaceChildren();
   $("command").replaceChildren();
   if (!best) {
-    const none = Number.isFinite(now.lightest) && asked.budget < now.lightest;
+    const none = asked.budget !== null && Number.isFinite(now.lightest) && asked.budget < now.lightest;
     $("sentence").textContent = none
       ? `Nothing weighs ${inUnit(asked.budget)} or less: the lightest weighs ${inUnit(now.lightest)}.`
       : "No design has a value to rank by.";
-    $("detail").textContent = "";
+    const nearest = none ? undefined : now.missing[0];
+    if (nearest) $("sentence").textContent = `No design${limit} fulfils what is required.`;
+    const near = nearest ? `Nearest: ${nearest.design.label}: ${missText(nearest)}.` : "";
+    $("detail").textContent = [requiredText(), near].filter(Boolean).join(" ");
+    showCommand();
     return;
   }
   $("sentence").replaceChildren(
@@ -208,12 +288,14 @@ function* words(best) {
 }
 
 function detail(best) {
-  return [...words(best)];
+  return [...words(best), requiredText()].filter(Boolean);
 }
 
 // The command that prints the same ranking, if there is one.
 function showCommand() {
-  const known = storedEnergy(data, asked) >= 0;
+  // --allowed-force is of what requirements are of; that of the page is of a specimen
+  const known = storedEnergy(data, asked) >= 0 && (asked.force === null || asked.per === "specimen");
+  if (asked.per === "panel" && !asked.panel) return;
   const budgeted = asked.budget !== null || !data.question.budgets_g.length;
   const paneled = asked.panel !== null || !data.question.panel;
   if (!(known && budgeted && paneled)) return;
@@ -221,7 +303,18 @@ function showCommand() {
   const budget = asked.budget === null ? "" : ` --budget "${inUnit(asked.budget, 9)}"`;
   const panel = asked.panel ? ` --panel ${asked.panel.map((side) => `"${Number((1000 * side).toPrecision(6))} mm"`).join(" ")}` : "";
   const force = asked.force === null ? "" : ` --allowed-force "${asked.force} N"`;
-  $("command").append("In a terminal: ", element("code", {}, `crumple rank ${file}${budget}${panel}${force}`));
+  $("command").append("In a terminal: ", element("code", {}, `crumple rank ${file}${budget}${panel}${force}${requiredOptions()}`));
+}
+
+// The options that differ from what the config of the file requires.
+function requiredOptions() {
+  const { require, per } = data.question;
+  const options = Object.entries(data.measures).flatMap(([name, { scale, unit }]) => {
+    if (asked.require[name] === require[name]) return [];
+    const value = asked.require[name] === undefined ? "none" : `"${Number((scale * asked.require[name]).toPrecision(12))} ${unit}"`;
+    return [` --${name.replaceAll("_", "-")} ${value}`];
+  });
+  return options.join("") + (asked.per === per ? "" : ` --per ${asked.per}`);
 }
 
 // ---- the table ----
@@ -329,8 +422,8 @@ function notes() {
   if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
   if (rows.some((row) => row.beyond)) lines.push("!: beyond the model: do not trust this result.");
   if (rows.some((row) => row.design.crossed)) lines.push("x: walls cross one another: do not trust this result.");
-  const over = now.rows.length - rows.length;
-  if (over && asked.budget !== null) lines.push(`${over} of ${now.rows.length} designs are above the budget or have no value.`);
+  const over = now.rows.length - rows.length - now.missing.length;
+  if (over > 0 && asked.budget !== null) lines.push(`${over} of ${now.rows.length} designs are above the budget or have no value.`);
   $("notes").textContent = lines.join(" ");
 }
 
@@ -404,7 +497,8 @@ function showCard(plot, row, x, y) {
   const { design } = row;
   const card = $("card");
   const drawn = design.drawing === undefined || design.drawing === null ? [] : [drawingOf(data.drawings[design.drawing])];
-  const place = row.place === undefined ? "above the budget" : `place ${placeText(row)}`;
+  const out = missText(row) || (row.value === null ? "no place" : "above the budget");
+  const place = row.place === undefined ? out : `place ${placeText(row)}`;
   const values = `${digits(row.mass)} g, ${row.value === null ? "no value" : valueText(row) + percentOf(row)}`;
   card.replaceChildren(...drawn, element("p", {}, design.label), element("p", {}, `${values}; ${place}`));
   card.hidden = false;
@@ -590,6 +684,9 @@ function start() {
   const { budgets_g: budgets, panel } = data.question;
   asked.budget = budgets.length ? budgets[Math.floor(budgets.length / 2)] : null;
   asked.panel = panel;
+  asked.require = { ...data.question.require };
+  asked.per = data.question.per;
+  makeRequired();
   data.scenes.forEach(({ label }, i) => $("scene").append(element("option", { value: i }, label)));
   $("scenes").hidden = data.scenes.length < 2;
   $("scene").addEventListener("change", () => {

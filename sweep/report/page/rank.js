@@ -22,6 +22,57 @@ function countedEnergy(data, design, question) {
   return design.stairs ? [workUntil(question.force, design.stairs), null, null] : [null, null, null];
 }
 
+// Stroke (m) in which the counted energy is absorbed; read from the curve where it is not stored.
+function countedStroke(data, design, question) {
+  const known = storedEnergy(data, question);
+  if (known >= 0) return design.strokes?.[known] ?? null;
+  if (!design.curve) return null;
+  const [strains, forces] = design.curve;
+  const end = strains.indexOf(Math.max(...strains)) + 1;
+  return (design.height * workUntil(question.force, [forces.slice(0, end), strains.slice(0, end)])) / 100;
+}
+
+// The limits (SI) that are asked of the designs of a scene: sweep/ranking/requirements.py. Those of
+// a panel need a panel.
+function askedOf(data, question) {
+  if (question.per === "panel" && !question.panel) return {};
+  const mode = data.scenes[question.scene].mode;
+  const limits = Object.entries(question.require ?? {});
+  return Object.fromEntries(limits.filter(([name]) => data.measures[name].modes.includes(mode)));
+}
+
+// The value (SI) of a row for each requirement, of a specimen or of the panel.
+function required(data, row, question) {
+  const { design } = row;
+  const crushed = data.scenes[question.scene].mode === "displacement";
+  const count = row.panel ? row.panel.specimens : 1;
+  const of = {
+    max_force: crushed ? row.passed : design.peak,
+    max_deceleration: design.deceleration,
+    max_mass: (1e-3 * row.mass) / count,
+    min_absorbed: row.energy === null ? null : row.energy / count,
+    max_stroke: row.stroke,
+  };
+  const together = question.per === "panel" ? count : 1;
+  for (const [name, { shared }] of Object.entries(data.measures))
+    if (shared && of[name] !== null) of[name] *= together;
+  return of;
+}
+
+// By what share of its limit a row misses each requirement: 0 if it is met, Infinity if unknown.
+function missesOf(data, row, question) {
+  const asked = Object.entries(askedOf(data, question));
+  if (!asked.length) return {};
+  const found = required(data, row, question);
+  const shares = asked.map(([name, limit]) => {
+    const value = found[name] ?? null;
+    if (value === null) return [name, Infinity];
+    const share = data.measures[name].least ? 1 - value / limit : value / limit - 1;
+    return [name, share <= ROUND_OFF ? 0 : share];
+  });
+  return Object.fromEntries(shares);
+}
+
 const BESIDE = 0.4e-3; // m, between two specimens
 
 // Numbers of specimens of an outer width x depth (m) side by side and one behind the other, of the
@@ -33,7 +84,7 @@ function panelOf([first, second], [width, depth]) {
 }
 
 // What is compared of one design. question: scene, budget (g) or null, panel [m, m] or null,
-// force (N) or null.
+// force (N) or null, require {name: limit} and per, "specimen" or "panel", if anything is required.
 function measured(data, design, question) {
   const scene = data.scenes[question.scene];
   const [energy, error, correction] = countedEnergy(data, design, question);
@@ -49,6 +100,7 @@ function measured(data, design, question) {
     passed: question.force === null ? design.passed : Math.min(design.peak, question.force),
     beyond: design.solid || (energy !== null && energy > design.within * (1 + ROUND_OFF)),
   };
+  row.stroke = countedStroke(data, design, question);
   row.early =
     scene.mode === "displacement" && question.force !== null && design.peak <= row.passed;
   let bars;
@@ -58,6 +110,8 @@ function measured(data, design, question) {
   else
     bars = [row.perGram, ...[error, correction].map((v) => (v === null ? null : v / design.mass))];
   [row.value, row.error, row.correction] = bars;
+  row.misses = missesOf(data, row, question);
+  row.worst = Math.max(0, ...Object.values(row.misses));
   return row;
 }
 
@@ -95,19 +149,25 @@ function markPlaces(rows, bar) {
   for (const row of rows) row.sharing = sharing.get(row.place);
 }
 
-// All designs of a scene as `rows`, and those with a place, best first, as `placed`.
+// All designs of a scene as `rows`, and those with a place, best first, as `placed`; those within
+// the budget that miss what is required, the nearest first, as `missing`.
 function ranked(data, question) {
   const scene = data.scenes[question.scene];
   const designs = data.cases.filter((design) => design.scene === question.scene);
   const rows = designs.map((design) => measured(data, design, question));
   const sign = scene.least ? 1 : -1;
-  markFront(rows, scene.least ? (row) => (row.value === null ? null : -row.value) : (row) => row.energy);
+  const meeting = rows.filter((row) => row.worst === 0);
+  markFront(meeting, scene.least ? (row) => (row.value === null ? null : -row.value) : (row) => row.energy);
   const most = question.budget === null ? Infinity : question.budget * (1 + ROUND_OFF);
-  const placed = rows.filter((row) => row.mass <= most && row.value !== null);
+  const placed = meeting.filter((row) => row.mass <= most && row.value !== null);
   const byId = (a, b) => (a.design.id < b.design.id ? -1 : 1);
   placed.sort((a, b) => sign * (a.value - b.value) || a.mass - b.mass || byId(a, b));
+  const doubtful = (row) => Number(row.beyond || row.design.crossed);
+  const missing = rows.filter((row) => row.worst > 0 && row.mass <= most);
+  const further = (a, b) => (a.worst === b.worst ? 0 : a.worst - b.worst);
+  missing.sort((a, b) => doubtful(a) - doubtful(b) || further(a, b) || a.mass - b.mass || byId(a, b));
   const known = storedEnergy(data, question);
   const bar = scene.least ? scene.bar : known >= 0 ? data.energies[known].bar : null;
   markPlaces(placed, bar);
-  return { rows, placed, bar, lightest: Math.min(...rows.map((row) => row.mass)) };
+  return { rows, placed, missing, bar, lightest: Math.min(...rows.map((row) => row.mass)) };
 }

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from sweep.ranking.merit import doubtful
 from sweep.ranking.rank import ranked
-from sweep.report.page.gather import page_data
+from sweep.report.page.gather import page_data, required
 from sweep.report.sheets import design_labels, legend, ranking_sheets
 from sweep.report.storyboard import PARTS
 
@@ -61,7 +61,7 @@ def tables(summary: DataFrame, question: Mapping[str, Any]) -> str:
     """The ranking of a question: the best designs in words, then tables with their legend."""
     budget, panel = question.get("budget"), question.get("panel")
     top = TOP_OF_A_BUDGET if len(budget or ()) > 1 else TOP
-    ranking = ranked(summary, budget, panel, top=top)
+    ranking = ranked(summary, budget, panel, top=top, **required(question))
     if ranking.failed == ranking.cases:
         return "<p>No case has converged, so there is no ranking.</p>"
     sheets = "".join(_table(sheet) for sheet in ranking_sheets(ranking, summary))

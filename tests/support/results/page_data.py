@@ -30,6 +30,8 @@ def sweep(count=24, seed=1, bars=("error", "correction"), more=None):
             "absorbed_energy_within_model_J": energy * (0.4 if k % 5 == 0 else 1.0),
             "peak_force_N": float(rng.uniform(15.0, 80.0)),
             "peak_strain": 0.5,
+            "packing_strain": 0.3 + 0.02 * (k % 9),
+            "peak_deceleration_filtered_m_per_s2": 100.0 * (k % 6) if k % 6 else np.nan,
             "returned_energy_J": 0.9 * energy,
             "max_crossings": int(k % 11 == 0),
         }
@@ -49,9 +51,10 @@ def sweep(count=24, seed=1, bars=("error", "correction"), more=None):
     return table.assign(**(more or {}))
 
 
-def expected(table, budget=None, panel=None, force=None):
+def expected(table, budget=None, panel=None, force=None, require=None, per="specimen"):
     """The ranking that the page should show, as a list of dicts for each scene."""
-    ranking = ranked(table, None if budget is None else 1e-3 * budget, panel, None, None, force)
+    grams = None if budget is None else 1e-3 * budget
+    ranking = ranked(table, grams, panel, None, None, force, require, per)
     frame = ranking.table
     tied = frame["tied"] if "tied" in frame else [False] * len(frame)
     known = frame.assign(

@@ -90,6 +90,8 @@ MOVES = [
     [("force", "50"), ("budget", "45.5")],
     [("width-slide", "350"), ("height", "75"), ("budget", "61")],
     [("unit", "28.349523125"), ("budget", "2")],
+    [("min_absorbed", "0.3"), ("max_force", "60")],
+    [("min_absorbed", "12"), ("per", "panel")],
 ]
 
 
@@ -97,7 +99,7 @@ MOVES = [
 def test_sliders_rank_as_the_command_that_is_shown(tab, capsys, file, moves):
     before = tab.run(ROWS)
     for name, value in moves:
-        put(tab, name, value, event="change" if name == "unit" else "input")
+        put(tab, name, value, event="change" if name in ("unit", "per") else "input")
     shown = tab.run(ROWS)
     ids, order = ranked_by_the_command(tab, capsys, file)
     assert [row[0] for row in shown] == ids
@@ -139,6 +141,21 @@ def test_a_budget_below_the_lightest_design_is_answered(tab):
     assert tab.run(ROWS) == []
     said = tab.run('document.getElementById("sentence").textContent')
     assert said.startswith("Nothing weighs 0.5 g or less: the lightest weighs ")
+
+
+def test_requirements_that_nothing_fulfils_are_answered(tab):
+    put(tab, "min_absorbed", "1000")
+    assert tab.run(ROWS) == []
+    said = tab.run('document.getElementById("sentence").textContent')
+    assert said == "No design up to 60 g fulfils what is required."
+    more = tab.run('document.getElementById("detail").textContent')
+    assert "Required of a specimen: absorbed energy at least 1000 J." in more
+    assert "Nearest: " in more
+    put(tab, "budget-on", False, what="checked", event="change")
+    without_budget = tab.run('document.getElementById("sentence").textContent')
+    assert without_budget == "No design fulfils what is required."
+    put(tab, "min_absorbed-on", False, what="checked", event="change")
+    assert len(tab.run(ROWS)) > 5
 
 
 def test_heads_sort_the_rows_without_changing_places(tab):

@@ -72,6 +72,42 @@ def test_script_ranks_as_rank_does(tmp_path, bars):
     assert (ties > 50) == bool(bars)
 
 
+LIMITS = {
+    "max_force": (30.0, 900.0),
+    "min_absorbed": (0.5, 20.0),
+    "max_mass": (1.5e-3, 0.05),
+    "max_stroke": (5e-3, 5e-3),
+    "max_deceleration": (350.0, 350.0),
+}
+"""Limits (SI) of a specimen and of a panel."""
+WISHES = [*([name] for name in LIMITS), ["max_force", "min_absorbed"], [*LIMITS]]
+
+
+@pytest.mark.skipif(NODE is None, reason="needs node")
+@pytest.mark.parametrize("names", WISHES, ids="+".join)
+def test_script_requires_what_rank_requires(tmp_path, names):
+    """The designs that miss a limit have no place, of a specimen or of a panel, as in `rank`."""
+    table = sweep()
+    data = gathered(tmp_path, table)
+    questions = [
+        {**question, "require": {name: LIMITS[name][of_panel] for name in names}, "per": per}
+        for question in QUESTIONS
+        for of_panel, per in enumerate(("specimen", "panel"))
+        if per == "specimen" or (question["panel"] and question["force"] is None)
+    ]
+    dropped = kept = 0
+    for question, told in zip(questions, told_by_the_script(data, questions), strict=True):
+        wanted = expected(str(tmp_path / "trial.h5"), **question)
+        free = expected(table, **question | {"require": None, "per": "specimen"})
+        for scene, found in zip(data["scenes"], told, strict=True):
+            if question["force"] is None or scene["mode"] == "displacement":
+                assert found == wanted.get(scene["label"], []), (question, scene["label"])
+            kept += len(found)
+            dropped += len(free.get(scene["label"], [])) - len(found)
+    assert kept > 0
+    assert dropped > 50
+
+
 @pytest.mark.skipif(NODE is None, reason="needs node")
 def test_energies_between_the_stored_forces_are_read_from_curves(tmp_path):
     table = summary({"peak_force_N": 20.8, "absorbed_energy_at_20N_J": 1.0})

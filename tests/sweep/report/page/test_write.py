@@ -102,6 +102,20 @@ def test_tables_are_readable_without_scripts(tmp_path):
     assert text in written(tmp_path, table, {"budget": [0.002, 0.004]})
 
 
+def test_tables_have_only_what_is_required(tmp_path):
+    table = summary(*designs([1.0, 2.0, 4.0], [0.1, 0.3, 0.4]))
+    read = Reader(tables(table, {"require": {"max_mass": 2.5e-3, "min_absorbed": 0.2}}))
+    assert "absorbed energy at least 200 mJ" in read.text["p"]
+    assert "1 of 3 designs fulfil this" in " ".join(read.text["p"].split())
+    assert [tag for tag, _ in read.elements].count("tr") == 2
+
+
+def test_tables_say_that_nothing_fulfils_what_is_required(tmp_path):
+    table = summary(*designs([1.0, 2.0], [0.1, 0.3]))
+    said = written(tmp_path, table, {"require": {"min_absorbed": 9.0}})
+    assert "0 of 2 designs fulfil this" in " ".join(Reader(said).text["p"].split())
+
+
 def test_page_of_failures_alone_says_so(tmp_path):
     text = written(tmp_path, summary({"status": "stopped", "message": "more steps"}))
     assert "No case has converged" in text
@@ -139,13 +153,19 @@ def test_slicer_settings_are_shown_if_a_file_has_them(tmp_path):
 
 
 def test_verb_writes_the_page_beside_the_file(capsys, tmp_path):
-    config = {"rank": {"budgets": [0.002], "panel": [0.1, 0.05]}, "name": "mine"}
+    config = {"rank": {"budgets": [0.002], "panel": [0.1, 0.05], "per": "panel"}, "name": "mine"}
+    config |= {"require": {"min_absorbed": 2.0, "max_force": None}}
     file = write(tmp_path / "trial.h5", summary({}), {"config": json.dumps(config)})
     status, out, _ = crumple(capsys, "report", file)
     made = tmp_path / "trial.html"
     assert (status, out.split()[0]) == (0, str(made))
     data = json.loads(re.search(r'id="data">(.*?)</script>', made.read_text("utf-8"))[1])
-    assert data["question"] == {"budgets_g": [2.0], "panel": [0.1, 0.05]}
+    assert data["question"] == {
+        "budgets_g": [2.0],
+        "panel": [0.1, 0.05],
+        "require": {"min_absorbed": 2.0},
+        "per": "panel",
+    }
     assert [path.name for path in tmp_path.iterdir()].count("trial.html.tmp") == 0
     status, out, _ = crumple(capsys, "report", file, "--out", str(tmp_path / "new" / "a.html"))
     assert (status, (tmp_path / "new" / "a.html").exists()) == (0, True)
