@@ -12,7 +12,7 @@ returns a `Result`; `run` crushes all cases, stores the results in a file and re
 
     results = crumple.run(config)  # in results/smoke.h5; run_sweep does no more than write
     print(results.table, results.curve(0))  # DataFrames: a row per case, a row per step
-    print(crumple.rank(results.table, budget="2 g"))
+    print(results.rank(budget="2 g"))  # crumple.rank for any results file
     results.plot(0).save("force.png")  # a notebook shows results.plot(0), results.plot()
     results = crumple.Results("results/smoke.h5")  # the same again, later
 

@@ -213,16 +213,17 @@ def warm(_: Namespace) -> int:
 
 def status(arguments: Namespace) -> int:
     """Print counts, failures with their messages, run time and origin of a results file."""
+    from sweep.cli.status_json import missing_cases, status_record
     from sweep.store.read import read_attributes, read_summary
 
     summary, about = read_summary(arguments.file), read_attributes(arguments.file)
     if arguments.json:
-        from sweep.cli.status_json import status_record
-
         say(json.dumps(status_record(arguments.file, summary, about), indent=2))
         return _exit_status(summary)
     counts = summary["status"].value_counts()
-    say(f"{arguments.file}: {len(summary)} cases")
+    missing = missing_cases(summary, about)
+    more = f"; {missing} that the last run was asked for are missing" if missing else ""
+    say(f"{arguments.file}: {len(summary)} cases{more}")
     say_all(f"{count:7d} {name}" for name, count in counts.items())
     say_all(_failures(arguments.file, summary))
     say_all(_bars(summary))

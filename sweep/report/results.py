@@ -8,6 +8,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from sweep.ranking.curves import with_allowed
+from sweep.ranking.merit import be_written
+from sweep.ranking.rank import ranked
 from sweep.report.publish import case_figures, ranking_figures
 from sweep.result import Status
 from sweep.store.read import read_frames, read_history, read_summary
@@ -68,6 +71,15 @@ class Results:
     def failed(self) -> DataFrame:
         """The rows that are not converged; their `message` says why."""
         return self.table[self.table["status"] != Status.CONVERGED]
+
+    def rank(self, **question: Any) -> DataFrame:
+        """The best designs by what the config asks for; question : arguments of `crumple.rank`, in
+        place of these. Numbers need their units, such as budget="25 g".
+        """
+        given = {name: question.get(name) for name in ("budget", "panel", "allowed_force")}
+        be_written(given | dict(question.get("require") or {}))
+        asked = self._question | question
+        return ranked(with_allowed(self.path, self.table, asked), **asked).table
 
     def curve(self, case: int | str) -> DataFrame:
         """The history of a case: a row per stored step. case : row of the table, or its id."""

@@ -90,7 +90,11 @@ class Growing:
                 _describe(data, describe_column(name))
         for ragged in self._ragged.values():
             ragged.finish(order)
-        counts = {"folded": about.last, "other_cases": beyond(rows, about.axes)}
+        counts = {
+            "folded": about.last,
+            "asked_cases": len(about.axes),
+            "other_cases": beyond(rows, about.axes),
+        }
         self._file.attrs.update({**about.attributes, "format": FORMAT, **counts})
         self._file.close()
         self._disk.seal()

@@ -10,7 +10,7 @@ from tests.support.results.specimens import summary
 def test_record_counts_cases_and_gathers_failures():
     stopped = {"status": "stopped", "message": "too long"}
     table = summary({}, stopped, stopped | {"message": "too short"}, stopped)
-    about = {"created": "today", "version_numpy": "9.9", "other_cases": 2}
+    about = {"created": "today", "version_numpy": "9.9", "other_cases": 2, "asked_cases": 9}
     record = json.loads(json.dumps(status_record("a.h5", table, about)))
     assert record["by_status"] == {"stopped": 3, "converged": 1}
     assert record["failures"] == [
@@ -20,6 +20,7 @@ def test_record_counts_cases_and_gathers_failures():
     assert record["model_versions"] == {str(MODEL_VERSION): 4}
     assert record["processor_time_s"] == 8.0
     assert (record["other_cases"], record["last_run"]) == (2, "today")
+    assert record["missing_cases"] == 9 - (4 - 2)
     assert (record["git_revision"], record["versions"]) == (None, {"numpy": "9.9"})
 
 
@@ -27,3 +28,8 @@ def test_error_bars_count_where_a_case_has_one():
     table = summary({"error_absorbed_energy_J": 0.1}, {"error_absorbed_energy_J": float("nan")})
     assert status_record("a.h5", table, {})["with_error_bars"] == 1
     assert status_record("a.h5", summary({}), {})["with_error_bars"] == 0
+
+
+def test_a_file_that_does_not_know_what_was_asked_misses_nothing():
+    assert status_record("a.h5", summary({}), {})["missing_cases"] == 0
+    assert status_record("a.h5", summary({}), {"asked_cases": 1})["missing_cases"] == 0

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from sweep.ranking.merit import RankError
 from sweep.report.results import Picture, Results
 from sweep.store.read import read_history
 from tests.support.results.specimens import designs, summary, write
@@ -42,6 +43,18 @@ def test_curve_is_that_of_the_row_or_id(file):
         results.curve(-1)
     with pytest.raises(KeyError, match='"0" begins 2 ids of 2'):
         results.curve("0")
+
+
+def test_ranking_asks_what_the_config_asks_unless_told_otherwise(file):
+    plain, asked = Results(file), Results(file, question={"budget": ["1.5 g"]})
+    assert list(plain.rank()["mass_g"]) == [2.0, 1.0]
+    assert list(asked.rank()["mass_g"]) == [1.0]
+    assert list(asked.rank(budget="3 g")["mass_g"]) == [2.0, 1.0]
+    assert list(asked.rank(budget="3 g", require={"max_mass": "1 g"})["mass_g"]) == [1.0]
+    best = plain.rank(panel=("100 mm", "100 mm"), allowed_force="300 N", per="panel")
+    assert (best["panel_specimens"] > 1).all()
+    with pytest.raises(RankError, match="budget"):
+        plain.rank(budget=2.0)
 
 
 def test_picture_of_a_case_and_of_all(file, tmp_path):
