@@ -105,7 +105,7 @@ pictures: setup  ## draw the pictures of README.md again, from results/infills.h
 experiment: setup  ## predict a measured crush and its sensitivities; goes to results/experiment/
 	@$(PYTHON) -m sweep.studies.khatri_egan results/experiment
 
-along: setup  ## predict measured crushes along the cells; goes to results/experiment/ (50 min)
+along: setup  ## predict measured crushes along the cells; goes to results/experiment/ (half an hour)
 	@OMP_NUM_THREADS=1 $(PYTHON) -m sweep.studies.khatri_egan_along results/experiment
 
 figures: setup  ## draw the figures of the course report beside ours, with captions, into results/figures/
