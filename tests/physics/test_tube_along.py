@@ -51,7 +51,16 @@ def test_the_book_is_closed(crushed):
     assert np.abs(rows["residual"]).max() < 1e-6 * rows["work"].max()
     spent = sum(rows[name] for name in ("stretch", "bend", "contact", "friction", "material"))
     spent += rows["integrator"] + rows["residual"]
-    np.testing.assert_allclose(rows["work"], spent, rtol=0, atol=1e-9 * rows["work"].max())
+    given = rows["work"] + rows["injected"]
+    np.testing.assert_allclose(given, spent, rtol=0, atol=1e-9 * rows["work"].max())
+
+
+def test_the_book_enters_what_contact_gains_where_walls_thicken(crushed):
+    """Nothing before folds touch, and little after."""
+    _, rows, _ = crushed
+    gained, touches = np.abs(rows["injected"]), rows["contact"] > 1e-6 * rows["work"]
+    assert gained[: np.argmax(touches)].max() < 1e-12 * rows["work"].max()
+    assert 1e-5 * rows["work"].max() < gained.max() < 1e-2 * rows["work"].max()
 
 
 def test_no_walls_cross(crushed):
