@@ -75,6 +75,8 @@ def sheet(cells: str, table: DataFrame, others: DataFrame) -> Sheet:
         "to 50 %, J": _digits(table["to_half_J"]),
         "within the model, J": _digits(table["absorbed_energy_within_model_J"]),
         "absorbed, J": _digits(table["absorbed_energy_J"]),
+        "iterations": [f"{count:,}" for count in table["newton_iterations"]],
+        "CPU, s": _digits(table["cpu_s"]),
         "status": [row.message or row.status for row in table.itertuples()],
     }
     rows = [list(row) for row in zip(*columns.values(), strict=True)]
