@@ -1,8 +1,9 @@
 """A panel: whole specimens in a rectangle, as it is ranked, searched and exported.
 
 Specimens stand side by side along the first length of the panel, with a gap of `BESIDE`, and one
-behind the other along the second, without a gap, so that walls go on in depth. In each direction
-their number is the one with which the rectangle comes nearest to the length that is asked for. It
+behind the other along the second: without a gap, so that walls go on in depth, or with the same gap
+if they are pressed along their cells and so show their drawing from above. In each direction their
+number is the one with which the rectangle comes nearest to the length that is asked for. It
 may exceed that length, by less than half a specimen.
 """
 
@@ -11,6 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 BESIDE = 0.4e-3  # m: gap between two specimens; closer ones would be printed as one
+
+BEHIND = {"in_plane": 0.0, "out_of_plane": BESIDE}
+"""Gap (m) between two specimens one behind the other, by the direction that they are pressed in."""
 
 
 class Panel(NamedTuple):
@@ -30,11 +34,15 @@ class Panel(NamedTuple):
         return self.across * self.behind
 
 
-def panel_of(sides: tuple[float, float], width: Any, depth: Any) -> Panel:
-    """The panel nearest to `sides` (m), of specimens of outer `width` x `depth` (m)."""
+def panel_of(sides: tuple[float, float], width: Any, depth: Any, gap: Any = 0.0) -> Panel:
+    """The panel nearest to `sides` (m), of specimens of outer `width` x `depth` (m).
+
+    gap : of `BEHIND`, m.
+    """
     across = _nearest((sides[0] + BESIDE) / (width + BESIDE))
-    behind = _nearest(sides[1] / depth)
-    return Panel(across, behind, across * (width + BESIDE) - BESIDE, behind * depth)
+    behind = _nearest((sides[1] + gap) / (depth + gap))
+    lengths = across * (width + BESIDE) - BESIDE, behind * (depth + gap) - gap
+    return Panel(across, behind, *lengths)
 
 
 def _nearest(count: Any) -> Any:

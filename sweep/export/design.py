@@ -44,6 +44,12 @@ class Design:
         return self.lattice.depth
 
     @property
+    def footprint(self) -> tuple[float, float]:
+        """The sides of the area that is pressed, m."""
+        width, height = self.lattice.outer_size
+        return (width, height) if self.along else (width, self.depth)
+
+    @property
     def extruded_grams(self) -> float | None:
         """Mass of one specimen as its slicer extrudes it, which budgets count; None without one."""
         if self.lattice.slicer is None:

@@ -16,7 +16,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
-from sweep.design.panel import panel_of
 from sweep.export.errors import ExportError
 
 if TYPE_CHECKING:
@@ -230,11 +229,6 @@ def _layout(source: Source | Planned, wish: Wish) -> Layout:
     from sweep.export.outline import block, outline, panel, specimen
 
     design = source.design
-    if wish.panel and design.along:
-        raise ExportError(
-            f"case {design.name} is pressed along its cells, and a panel is a row of specimens "
-            "across them; allowed: one specimen"
-        )
     shape = block(design.lattice) if wish.kind == "settings" else outline(design.network)
     return panel(design, shape, wish.panel) if wish.panel else specimen(design, shape)
 
@@ -319,6 +313,8 @@ def _gif(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
 
 def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
     """What a layout is, in a sentence; of a panel, in two."""
+    from sweep.export.outline import filled_panel
+
     _, _, width, height = layout.shape.bounds
     size = f"{width:.4g} x {height:.4g} mm, {layout.depth:.4g} mm deep: {layout.grams:.4g} g"
     if extruded := source.design.extruded_grams:
@@ -328,14 +324,9 @@ def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
     if wish.panel is None:
         return [size]
     asked = " x ".join(f"{MM * side:g}" for side in wish.panel)
-    nominal = (
-        MM
-        * panel_of(
-            (wish.panel[0], wish.panel[1]), source.design.lattice.outer_size[0], source.design.depth
-        ).width
-    )
+    nominal = MM * filled_panel(source.design, wish.panel).width
     wider = f"; corners that stick out make them {width - nominal:.2g} mm wider"
-    deep = f"each {layout.behind} specimens of {MM * source.design.depth:.4g} mm deep"
+    deep = f"each {layout.behind} specimens of {MM * source.design.footprint[1]:.4g} mm deep"
     return [
         f"{layout.across} side by side, {deep}: {size}",
         f"these {layout.specimens} specimens are what rank counts for a panel of {asked} mm"

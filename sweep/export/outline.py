@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from sweep.design.panel import BESIDE, panel_of
+from sweep.design.panel import BEHIND, BESIDE, Panel, panel_of
 from sweep.export.errors import ExportError
 
 if TYPE_CHECKING:
@@ -70,15 +70,14 @@ def specimen(design: Design, shape: Any) -> Layout:
 def panel(design: Design, shape: Any, sides: Sequence[float]) -> Layout:
     """The specimens that a ranking counts in a panel of two sides (m), with gaps of `BESIDE`.
 
-    Specimens one behind the other are one, with walls as deep as they are together: nothing in the
-    model changes along the depth. Corners that stick out of the outer width, by less than half a
-    wall, make the row so much wider.
+    Specimens one behind the other are one, with walls as deep as they are together, as nothing in
+    the model changes along the depth; those that are pressed along their cells are apart. Corners
+    that stick out of the outer width, by less than half a wall, make the row so much wider.
     """
     import shapely
     import shapely.affinity
 
-    width, depth = design.lattice.outer_size[0], design.depth
-    filled = panel_of((sides[0], sides[1]), width, depth)
+    filled, (width, depth) = filled_panel(design, sides), design.footprint
     for asked, count, one in zip(sides, filled[:2], (width, depth), strict=True):
         if count < 1:
             raise ExportError(
@@ -86,12 +85,23 @@ def panel(design: Design, shape: Any, sides: Sequence[float]) -> Layout:
                 f"{MM * one:.4g} mm; allowed: a larger one, first its length along the width, then "
                 "along the depth"
             )
-    pitch = max(shape.bounds[2], MM * width) + MM * BESIDE
     across, behind = int(filled.across), int(filled.behind)
-    row = [shapely.affinity.translate(shape, k * pitch) for k in range(across)]
-    whole = shapely.set_precision(shapely.multipolygons(shapely.get_parts(row)), GRID)
-    grams = across * behind * design.grams
-    return Layout(design.name, whole, MM * filled.depth, across, behind, grams)
+    right, up = max(shape.bounds[2], MM * width), max(shape.bounds[3], MM * depth)
+    gap, rows = MM * BESIDE, behind if design.along else 1
+    placed = [
+        shapely.affinity.translate(shape, k * (right + gap), j * (up + gap))
+        for j in range(rows)
+        for k in range(across)
+    ]
+    whole = shapely.set_precision(shapely.multipolygons(shapely.get_parts(placed)), GRID)
+    height, grams = design.depth if design.along else filled.depth, across * behind * design.grams
+    return Layout(design.name, whole, MM * height, across, behind, grams)
+
+
+def filled_panel(design: Design, sides: Sequence[float]) -> Panel:
+    """The panel of a design that a ranking counts for two sides (m)."""
+    gap = BEHIND["out_of_plane" if design.along else "in_plane"]
+    return panel_of((sides[0], sides[1]), *design.footprint, gap)
 
 
 def rings(layout: Layout) -> list[Any]:

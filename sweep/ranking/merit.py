@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from sweep.design.panel import Panel, panel_of
+from sweep.design.panel import BEHIND, Panel, panel_of
 from sweep.result import (
     ABSORBED_AT,
     COLUMNS,
@@ -147,7 +147,8 @@ def panel_in(frame: DataFrame, panel: Sequence[Quantity]) -> Panel:
     if len(panel) != 2:
         raise RankError(f"a panel has two lengths, got {len(panel)}")
     sides = in_si(panel[0], "m"), in_si(panel[1], "m")
-    found = panel_of(sides, frame["outer_width_m"], frame["depth_m"])
+    gap = frame["direction"].map(BEHIND)
+    found = panel_of(sides, frame["outer_width_m"], frame["depth_m"], gap)
     for asked, count, one in zip(sides, found[:2], ("outer_width_m", "depth_m"), strict=True):
         if (count < 1).any():
             widest = 1e3 * frame[one].max()

@@ -18,7 +18,7 @@ from sweep.config.case import Case, Lattice, Loading
 from sweep.config.direction import footprint
 from sweep.config.grid import Config, Values, chosen_case
 from sweep.design.lattice import counted_area
-from sweep.design.panel import panel_of
+from sweep.design.panel import BEHIND, panel_of
 from sweep.ranking.merit import greatest_mass
 
 SIZES = ("lattice.wall_thickness", "lattice.mass", "lattice.infill")
@@ -128,7 +128,8 @@ class DesignSpace:
         """Number of specimens in a panel, as a ranking counts them; 1 without a panel."""
         if self.panel is None:
             return 1.0
-        return float(panel_of(self.panel, *footprint(lattice, loading)).specimens)
+        gap = BEHIND[loading.direction]
+        return float(panel_of(self.panel, *footprint(lattice, loading), gap).specimens)
 
 
 def _widest(lattice: Lattice) -> float:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from sweep.design.panel import BEHIND
 from sweep.numbers import short
 from sweep.ranking.curves import reached
 from sweep.ranking.merit import LEAST, Compared, merits, through_solid
@@ -145,6 +146,7 @@ def _cases(
             "more": list(zip(*_measures(part).values(), strict=True)) or [()] * len(part),
             "mass": _exact(part[counted[0].names.mass]),
             "outer": list(zip(_exact(part["outer_width_m"]), _exact(part["depth_m"]), strict=True)),
+            "gap": _exact(part["direction"].map(BEHIND)),
             "energies": list(zip(*energies, strict=True)),
             "least": _with_bars(part, least) if least else [None] * len(part),
             "passed": _exact(part["passed_on_N"]),

@@ -75,12 +75,14 @@ function missesOf(data, row, question) {
 
 const BESIDE = 0.4e-3; // m, between two specimens
 
-// Numbers of specimens of an outer width x depth (m) side by side and one behind the other, of the
-// panel nearest to two lengths (m), at least one each, and its true lengths: sweep/design/panel.py.
-function panelOf([first, second], [width, depth]) {
+// Numbers of specimens of an outer width x depth (m) side by side and one behind the other, with a
+// gap (m) there, of the panel nearest to two lengths (m), at least one each, and its true lengths:
+// sweep/design/panel.py.
+function panelOf([first, second], [width, depth], gap) {
   const across = Math.max(1, Math.floor((first + BESIDE) / (width + BESIDE) + 0.5));
-  const behind = Math.max(1, Math.floor(second / depth + 0.5));
-  return { specimens: across * behind, lengths: [across * (width + BESIDE) - BESIDE, behind * depth] };
+  const behind = Math.max(1, Math.floor((second + gap) / (depth + gap) + 0.5));
+  const lengths = [across * (width + BESIDE) - BESIDE, behind * (depth + gap) - gap];
+  return { specimens: across * behind, lengths };
 }
 
 // What is compared of one design. question: scene, budget (g) or null, panel [m, m] or null,
@@ -88,7 +90,7 @@ function panelOf([first, second], [width, depth]) {
 function measured(data, design, question) {
   const scene = data.scenes[question.scene];
   const [energy, error, correction] = countedEnergy(data, design, question);
-  const panel = question.panel ? panelOf(question.panel, design.outer) : null;
+  const panel = question.panel ? panelOf(question.panel, design.outer, design.gap) : null;
   const factor = panel ? panel.specimens : 1;
   const times = (value, by) => (value === null ? null : by * value);
   const row = {

@@ -25,6 +25,7 @@ def sweep(count=24, seed=1, bars=("error", "correction"), more=None):
             "mass_g": mass,
             "wall_thickness_m": 1e-4 * (k % 7 + 4),
             "cells_x": k % 4 + 2,
+            "direction": "out_of_plane" if k % 6 == 1 else "in_plane",
             "outer_width_m": 0.013 if k % 2 else 0.02,
             "absorbed_energy_J": energy,
             "absorbed_energy_within_model_J": energy * (0.4 if k % 5 == 0 else 1.0),

@@ -3,7 +3,7 @@
 import pandas as pd
 import pytest
 
-from sweep.design.panel import BESIDE, panel_of
+from sweep.design.panel import BEHIND, BESIDE, panel_of
 
 ONE = 12.6e-3, 10e-3  # outer width and depth; side by side, 13 mm each
 
@@ -24,6 +24,15 @@ def test_depth_has_no_gaps_and_a_half_counts(depth, count):
     found = panel_of((12.6e-3, 1e-3 * depth), *ONE)
     assert (found.across, found.behind) == (1, count)
     assert found.depth == pytest.approx(1e-2 * count)
+
+
+@pytest.mark.parametrize(("depth", "count"), [(4.6, 0), (4.9, 1), (15.1, 1), (15.3, 2), (30.8, 3)])
+def test_what_is_pressed_along_its_cells_has_gaps_both_ways(depth, count):
+    """N specimens are n 10.4 mm - 0.4 mm long."""
+    found = panel_of((12.6e-3, 1e-3 * depth), *ONE, BEHIND["out_of_plane"])
+    assert (found.across, found.behind) == (1, count)
+    assert found.depth == pytest.approx(1.04e-2 * count - BESIDE)
+    assert BEHIND["in_plane"] == 0.0
 
 
 def test_columns_as_numbers():

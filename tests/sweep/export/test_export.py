@@ -70,12 +70,22 @@ def test_panel_is_a_row_of_specimens(file, tmp_path):
     assert found.notes[1:] == ["these 28 specimens are what rank counts for a panel of 100 x 50 mm"]
 
 
-def test_what_is_pressed_along_its_cells_is_no_panel(tmp_path):
+def test_panel_of_what_is_pressed_along_its_cells_shows_its_drawing(tmp_path):
+    """Plans of 13.3 x 13.3 mm, 7 x 4 of them: as high as one, apart in both directions."""
     case = Case(loading=Loading(direction="out_of_plane"))
-    with pytest.raises(ExportError, match="pressed along its cells"):
-        export_case(case, tmp_path / "panel.stl", panel=("100 mm", 0.05))
-    (path,), _ = export_case(case, tmp_path / "one.stl")
-    assert path.exists()
+    found = export_case(case, tmp_path / "panel.stl", panel=("100 mm", 0.05))
+    body = trimesh.load_mesh(tmp_path / "panel.stl")
+    side, height = 1e3 * case.lattice.outer_size[0], 1e3 * case.lattice.depth
+    extents = [count * (side + 0.4) - 0.4 for count in (7, 4)]
+    assert body.extents == pytest.approx([*extents, height], abs=1e-3)
+    assert len(body.split()) == 28
+    assert f"7 side by side, each 4 specimens of {side:.4g} mm deep" in found.notes[0]
+    table = summary({"direction": "out_of_plane"}).assign(
+        outer_width_m=1e-3 * side, depth_m=1e-3 * side
+    )
+    (row,) = crumple.rank(table, panel=("100 mm", "50 mm")).to_dict("records")
+    assert row["panel_specimens"] == 28
+    assert [1e3 * row["panel_width_m"], 1e3 * row["panel_depth_m"]] == pytest.approx(extents)
 
 
 @pytest.mark.parametrize("sides", [("100 mm", "50 mm"), ("4 in", "2 in"), ("30 mm", "17 mm")])
