@@ -41,6 +41,7 @@ PARTS = (
     *("floor_y_mm", "gravity_mm_s2", "initial_velocity_mm_s", "probes"),
 )
 """Keys of the file of a structure that cannot be pressed along its walls."""
+MOST_IMPERFECTION = 1.0  # in wall thicknesses: a bow should start a buckle, not be one
 
 
 def is_along(loading: Loading) -> bool:
@@ -102,6 +103,9 @@ def _defaults(table: Any, name: str) -> dict[str, Any]:
 def _check_lattice(lattice: Lattice) -> None:
     if lattice.boundary != "free":
         raise refusal("lattice.boundary", lattice.boundary, f'"free" {WHERE}')
+    if lattice.imperfection > MOST_IMPERFECTION:
+        allowed = f"at most {MOST_IMPERFECTION:g}, in wall thicknesses, {WHERE}"
+        raise refusal("lattice.imperfection", lattice.imperfection, allowed)
     if lattice.slicer is not None:
         raise refusal("lattice.slicer", lattice.slicer, f"none {WHERE}: give kind and cells")
     structure = lattice.structure

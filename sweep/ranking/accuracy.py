@@ -22,7 +22,10 @@ from sweep.store.read import read_history
 MEASURES = ("energy", "peak", "path")
 TARGETS = (0.01, 0.001)  # relative errors for which the cheapest settings are reported
 FINER_IF_SMALLER = ("solver.time_step", "solver.step_error")
-FINER_IF_GREATER = ("solver.load_steps", "loading.load_steps", "lattice.nodes_per_wall")
+FINER_IF_GREATER = (
+    *("solver.load_steps", "loading.load_steps"),
+    *("lattice.nodes_per_wall", "lattice.layers"),
+)
 REFINED = (*FINER_IF_SMALLER, *FINER_IF_GREATER)
 GAIN = 0.05  # of an error: least gain of a dearer setting on the front
 EQUALS = 4  # first numbers of `_merit`; methods that agree in them should have the same limit

@@ -25,9 +25,11 @@ from statistics import median
 from typing import Any, NamedTuple
 
 from sweep.config.case import Case
+from sweep.config.direction import network_of
 from sweep.config.grid import Config, expand
 from sweep.config.lattice_table import Lattice
 from sweep.config.tables import Solver
+from sweep.design.extrusion import most_layers
 from sweep.result import ABSORBED_AT, IN_CYCLE, Status, correction_column, error_column
 from sweep.running.dask_graph import Simulate
 from sweep.running.progress import tell
@@ -118,8 +120,11 @@ def _remeshed(lattice: Lattice) -> tuple[Lattice, float]:
 
 
 def _layers(lattice: Lattice, ratio: float) -> dict[str, int]:
-    """The layers of quads that are higher by a ratio, of plates."""
-    return {} if lattice.layers is None else {"layers": max(round(lattice.layers / ratio), 1)}
+    """The layers of quads that are higher by a ratio, of plates; none is lower than it may be."""
+    if lattice.layers is None:
+        return {}
+    most = most_layers(network_of(lattice).wall_thickness, lattice.depth)
+    return {"layers": max(min(round(lattice.layers / ratio), most), 1)}
 
 
 def _longer_steps(solver: Solver) -> tuple[Solver, float]:

@@ -70,6 +70,12 @@ def test_what_only_the_other_direction_uses_does_not_count():
     assert sheet.case_id == along().case_id
 
 
+def test_an_imperfection_is_smaller_than_a_wall_is_thick(lines):
+    text = ALONG + "[lattice]\nimperfection = 10.0"
+    allowed = f"at most 1, in wall thicknesses, {ONLY}"
+    assert lines(text) == [f"lattice.imperfection = 10.0: does not fit; allowed: {allowed}"]
+
+
 UNFIT = {
     'force = "3 N"': 'loading.mode = "force", as loading.force is given: does not fit; allowed: '
     f'"displacement" or "impact" {ONLY}',

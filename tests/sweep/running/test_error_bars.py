@@ -330,3 +330,12 @@ def test_other_mesh_of_plates_has_other_layers_too():
     assert (case.lattice.nodes_per_wall, case.lattice.layers) == (5, 14)
     assert (coarse.nodes_per_wall, coarse.layers) == (2, 7)
     assert longer == case.lattice
+
+
+def test_other_mesh_of_plates_has_no_quads_lower_than_walls_are_thick():
+    """One quad a wall: the other mesh is finer, and quads of 20 layers would be too low."""
+    lattice = Lattice(nodes_per_wall=0, layers=10)
+    case = Case(lattice=lattice, loading=Loading(direction="out_of_plane", strain=0.3))
+    fine = companions(case)[0].case.lattice
+    assert fine.nodes_per_wall == 1
+    assert fine.layers == int(lattice.depth / lattice.wall_thickness) < 20
