@@ -313,7 +313,7 @@ def test_after_each_failure_more_shares_are_accepted_before_one_is_doubled():
     still, state = SimpleNamespace(roll_back=lambda step: None), SimpleNamespace(x=np.zeros(1))
     space = SimpleNamespace(x0=np.zeros(1), found=SimpleNamespace(u=np.zeros(1)))
     reject, next_share = (
-        getattr(kernel, "py_func", kernel) for kernel in (march._reject, march._next_share)
+        getattr(kernel, "__wrapped__", kernel) for kernel in (march._reject, march._next_share)
     )
     progress.share, shares = 2.0**-4, []
     for fails in (True, False, True, False, False, False, False, False, False, False):
