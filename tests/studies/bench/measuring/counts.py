@@ -16,6 +16,7 @@ WATCHED = {
     reach.list_neighbours: "list",
     reach.make_system: "room",
 }
+COMPILED = (Planar.descend,)  # meets records that only compiled code can read
 
 
 def counted(crush):
@@ -24,7 +25,7 @@ def counted(crush):
 
     def call(kernel, *args):
         if kernel not in WATCHED:
-            return kernel.__wrapped__(*args)
+            return compiled(kernel, *args) if kernel in COMPILED else kernel.__wrapped__(*args)
         calls[WATCHED[kernel]] += 1
         return compiled(kernel, *args)
 
