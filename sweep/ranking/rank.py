@@ -56,6 +56,7 @@ ASSUMPTIONS = (
     "solver.",
     "lattice.nodes_per_wall",
     "lattice.layers",
+    "lattice.symmetry",
     "lattice.imperfection",
     "material.stretch",
     "material.bend",

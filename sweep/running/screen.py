@@ -36,10 +36,11 @@ ONE = 1, 1
 
 
 def has_column(design: Case) -> bool:
-    """Whether one cell stands for a design: a crush along equal cells without an outline."""
+    """Whether one cell stands for a design: a crush along several equal cells without outline."""
     lattice = design.lattice
     even = lattice.structure is None and lattice.grading == 1.0 and not any(lattice.outline)
-    return even and is_along(design.loading) and design.loading.mode == "displacement"
+    several = (lattice.cells_x, lattice.cells_y) != ONE
+    return even and several and is_along(design.loading) and design.loading.mode == "displacement"
 
 
 def unit_column(design: Case) -> Case:

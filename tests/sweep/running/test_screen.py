@@ -61,6 +61,8 @@ def test_quarter_stays_where_the_cell_has_mirror_planes():
 def test_only_crushes_along_equal_cells_have_a_column():
     assert has_column(along())
     assert not has_column(along(grading=1.5))
+    assert not has_column(along(cells_x=1, cells_y=1))
+    assert has_column(along(cells_x=2, cells_y=1))
     assert not has_column(along(perimeters=1))
     across = Loading(mode="displacement", strain=0.3)
     assert not has_column(Case(lattice=along().lattice, loading=across))
