@@ -26,7 +26,7 @@ class Memory(NamedTuple):
     """What a response depends on beside the strain.
 
     committed (p, k): state of each material point after the last accepted step, which only `commit`
-    changes; p = 0 if no law has memory. line (p, 2): data of a point for the present step, which
+    changes; p = 0 if no law has memory. line (p, j): data of a point for the present step, which
     `begin` sets. pace: data of the step that all points share, which `set_pace` sets.
     """
 
@@ -79,3 +79,9 @@ def commit_point(law, strain, memory, point):
     potential = law.respond(strain, memory, point)[0]
     stored, dissipated = law.commit(strain, memory, point)
     return potential - stored, dissipated
+
+
+def told(law, name):
+    """Return the number that a verb of a law tells, as plain Python: no kernel is compiled."""
+    verb = getattr(type(law), name)
+    return getattr(verb, "__wrapped__", verb)(law)

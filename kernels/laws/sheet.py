@@ -116,6 +116,15 @@ def respond(law, a, b, v):
     return _measured(law.curve, a, b, v)
 
 
+@jit
+def of_stretch(law, x):
+    """Return H, h and its slope at the logarithm ``x`` of one stretch, J/m^3 and Pa."""
+    if law.is_neo_hookean:
+        square = law.shear_modulus * math.exp(2.0 * x)
+        return 0.5 * law.shear_modulus * math.expm1(2.0 * x), square, 2.0 * square
+    return law.curve.respond(x)
+
+
 class Sheet(NamedTuple):
     """curve: `elastic.FibreCurve` of h over x. shear_modulus: mu = Y / 3 at rest, Pa."""
 
@@ -124,6 +133,7 @@ class Sheet(NamedTuple):
     is_neo_hookean: bool
 
     respond = respond
+    of_stretch = of_stretch
 
 
 def neo_hookean(modulus):

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
-from kernels.laws.law import Memory
+from kernels.laws.law import Memory, told
 from kernels.planar import constraints, factoring, potential, reach, steps
 from kernels.planar.reach import Neighbours
 from kernels.solve import history
@@ -102,19 +102,13 @@ def assemble(scene, neighbours, buffers):
     return Planar(scene, neighbours, buffers)
 
 
-def _told(law, name):
-    """Return the number that a verb of a law tells, as plain Python: no kernel is compiled."""
-    verb = getattr(type(law), name)
-    return getattr(verb, "__wrapped__", verb)(law)
-
-
 def at_rest(scene, x):
     """Return the `history.State` of a lattice at rest at ``x`` (n,), with a virgin material.
 
     Every material point has a row of memory.
     """
-    numbers, elements = _told(scene.law, "state_size"), scene.stretch.l0.size
-    points = elements * (2 + _told(scene.bend.section, "points"))
+    numbers, elements = told(scene.law, "state_size"), scene.stretch.l0.size
+    points = elements * (2 + told(scene.bend.section, "points"))
     memory = (points, numbers) if numbers > 0 else (0, 0)
     return history.at_rest(x, rows.STORED, memory)
 

@@ -32,8 +32,9 @@ def _assemble(problem, x, step, found):
     zero(pull)
     for e in range(scene.shell.quads.shape[0]):
         shell.hessian(
-            x, buffers.committed, scene.shell, scene.law, e, buffers.shell, buffers.second
-        )
+            x, buffers.committed, scene.shell, scene.law, buffers.memory, e, buffers.shell,
+            buffers.second,
+        )  # fmt: skip
         assembly.add_stencil(
             matrix, layout, pull, scene.shell.quads[e], 4, PER_NODE, buffers.second
         )

@@ -26,11 +26,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.compile.jit import jit, jit_owning
+from kernels.compile.jit import jit, jit_exact, jit_owning
 
 OUTER = math.sqrt(0.15)  # of a thickness: place of the outer of three Gauss points
 SHARES = (5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0)
 MEASURES = 9
+LAYERS = 3
 
 
 class Moments(NamedTuple):
@@ -90,26 +91,27 @@ def _times(t, e):
 
 
 @jit
-def resultants(law, m, thickness, slope):
+def resultants(law, m, thickness, memory, point, slope):
     """Return U and that part of it which the strain of the mid-surface alone would take, J/m^2.
 
-    m (9,): measures. slope (9,) receives dU/dm. U is infinite where a layer has no area left.
+    m (9,): measures. memory, point: of the first layer, see `laws.law`. slope (9,) receives dU/dm.
+    U is infinite where a layer has no area left.
     """
     j = thickening(m)
     if math.isinf(j):
         return math.inf, math.inf
-    middle, s, _ = law.respond(m[0], m[1], m[2])
+    middle, s, _ = law.respond(m[0], m[1], m[2], memory, point + 1)
     middle *= thickness
     total = SHARES[1] * middle
     v = SHARES[1] * thickness
     for i in range(3):
         slope[i], slope[3 + i], slope[6 + i] = v * s[i], 0.0, 0.0
     by_j, v = 0.0, SHARES[0] * thickness
-    for side in (-1.0, 1.0):
+    for side in range(-1, 2, 2):
         zeta = side * OUTER * thickness
         z = zeta * j
         c, e = _layer(m, z)
-        value, s, _ = law.respond(c[0], c[1], c[2])
+        value, s, _ = law.respond(c[0], c[1], c[2], memory, point + 1 + side)
         total += v * value
         by_j += v * zeta * (s[0] * e[0] + s[1] * e[1] + s[2] * e[2])
         for i in range(3):
@@ -123,7 +125,7 @@ def resultants(law, m, thickness, slope):
 
 
 @jit
-def _sum_layers(law, m, thickness, j, moments):
+def _sum_layers(law, m, thickness, memory, point, j, moments):
     """Fill the moments; return U_j and U_jj."""
     stress, tangent, mixed = moments.stress, moments.tangent, moments.by_j
     stress[:] = 0.0
@@ -134,7 +136,7 @@ def _sum_layers(law, m, thickness, j, moments):
         v, zeta = SHARES[layer] * thickness, (layer - 1.0) * OUTER * thickness
         z = zeta * j
         c, e = _layer(m, z)
-        _, s, t = law.respond(c[0], c[1], c[2])
+        _, s, t = law.respond(c[0], c[1], c[2], memory, point + layer)
         f = _times(t, e)
         lever = v * zeta
         power = v
@@ -169,13 +171,13 @@ def _place(block, row, column, factor, t):
 
 
 @jit
-def rigidity(law, m, thickness, moments, slope, second):
+def rigidity(law, m, thickness, memory, point, moments, slope, second):
     """Fill ``slope`` (9,) with dU/dm and ``second`` (9, 9), symmetric, with d2U/dm2.
 
     To be called where U is finite.
     """
     j = thickening(m)
-    u_j, u_jj = _sum_layers(law, m, thickness, j, moments)
+    u_j, u_jj = _sum_layers(law, m, thickness, memory, point, j, moments)
     dj = _slopes_of_thickening(m, j)
     n, t, mixed = moments.stress, moments.tangent, moments.by_j
     for i in range(3):
@@ -200,3 +202,23 @@ def rigidity(law, m, thickness, moments, slope, second):
     for i in range(3, 9):
         for k in range(3 if i < 6 else 6):
             second[i, k] = second[k, i]
+
+
+@jit_exact
+def commit(law, m, thickness, memory, point):
+    """Accept the measures ``m`` in all layers.
+
+    Return potential less stored energy, that part of it which counts as the mid-surface's, and the
+    dissipation of the step, J/m^2.
+    """
+    released, of_middle, dissipated, j = 0.0, 0.0, 0.0, thickening(m)
+    for layer in range(LAYERS):
+        v = SHARES[layer] * thickness
+        c, _ = _layer(m, (layer - 1.0) * OUTER * thickness * j)
+        potential = law.respond(c[0], c[1], c[2], memory, point + layer)[0]
+        stored, lost = law.commit(c[0], c[1], c[2], memory, point + layer)
+        released += v * (potential - stored)
+        dissipated += v * lost
+        if layer == 1:
+            of_middle = thickness * (potential - stored)
+    return released, of_middle, dissipated

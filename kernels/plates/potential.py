@@ -2,9 +2,10 @@
 
     E(x) = E_s + E_b + E_c - f . u + |x - x~|_M^2 / (2 h^2) + D_f(u),   u = x - y
 
-E_s: strain of the mid-surfaces; E_b: bending, transverse shear and folds; E_c: contact, also of
-images. u / h is the velocity at the end of the step (`solve.integrators`). In a static step y = x0,
-and inertia vanishes. The Hessian is in `factoring`.
+E_s: strain of the mid-surfaces; E_b: bending, transverse shear and folds; both of a law that may
+relax, whose potential of the step they then are. E_c: contact, also of images. u / h is the
+velocity at the end of the step (`solve.integrators`). In a static step y = x0, and inertia
+vanishes. The Hessian is in `factoring`.
 """
 
 from kernels.arrays import dot, zero
@@ -23,7 +24,7 @@ def evaluate(problem, x, step, found, projected):
         found.u[i] = x[i] - step.y[i]
     for part in (found.elastic, found.material, found.friction):
         zero(part)
-    store(problem, x, step, found)
+    _store(problem, x, found)
     total = found.stored[STRETCH] + found.stored[BEND] + found.stored[CONTACT]
     total -= step.factor * dot(coordinates.load, found.u)
     for i in range(x.size):
@@ -37,12 +38,32 @@ def evaluate(problem, x, step, found, projected):
 
 @jit_exact
 def store(problem, x, step, found):
-    """Fill the stored energies at ``x``; add their gradient to ``found.elastic``."""
+    """Fill the stored energies at ``x``; add their gradient to ``found.elastic``.
+
+    The duration is zero: the step is accepted, and its time has passed.
+    """
+    recall(problem, x, 0.0)
+    _store(problem, x, found)
+
+
+@jit_exact
+def recall(problem, x, duration):
+    """Prepare the law of the walls for a step of ``duration`` in s from ``x``."""
+    scene, buffers = problem.scene, problem.buffers
+    if scene.law.state_size() > 0:
+        scene.law.set_pace(duration, buffers.memory.pace)
+        shell.begin(x, buffers.committed, scene.shell, scene.law, buffers.memory, buffers.shell)
+
+
+@jit_exact
+def _store(problem, x, found):
+    """Fill the energies of walls and contact; add their gradient to ``found.elastic``."""
     scene, buffers = problem.scene, problem.buffers
     zero(buffers.parts)
     total = shell.evaluate(
-        x, buffers.committed, scene.shell, scene.law, buffers.shell, found.elastic, buffers.parts
-    )
+        x, buffers.committed, scene.shell, scene.law, buffers.memory, buffers.shell, found.elastic,
+        buffers.parts,
+    )  # fmt: skip
     found.stored[STRETCH], found.stored[BEND] = buffers.parts[0], total - buffers.parts[0]
     found.stored[CONTACT] = contact.evaluate(
         x, scene.contact, problem.neighbours.pairs, drift(problem, x),

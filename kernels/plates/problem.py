@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
-from kernels.plates import factoring, potential, reach, shell, steps, thickness
+from kernels.laws.law import Memory, told
+from kernels.plates import factoring, potential, reach, relaxing_shear, shell, steps, thickness
 from kernels.plates.reach import Neighbours
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
@@ -18,14 +19,15 @@ from kernels.terms import followers, lagging, rows
 class Buffers(NamedTuple):
     """Arrays that are allocated once a march.
 
-    committed (n_nodes, 10): frames of the nodes and their `thickness.THICKENING`, which is
-    `history.State.memory`. shell: scratch of one quad; second (24, 24): its Hessian. part,
-    projected (12, 12): Hessians of one contact. parts (3,): energies of the walls, J. pull (n,):
-    derivatives of the gradient in the driven coordinate. unknowns (u,), weight (n_nodes,): scratch.
-    shift (1,): last shift of a projected Hessian, N/m.
+    committed (n_nodes, k): frames of the nodes and their `thickness.THICKENING`; memory: of the law
+    at its material points (`shell`). Both are rows of `history.State.memory`. shell: scratch of one
+    quad; second (24, 24): its Hessian. part, projected (12, 12): Hessians of one contact. parts
+    (3,): energies of the walls, J. pull (n,): derivatives of the gradient in the driven coordinate.
+    unknowns (u,), weight (n_nodes,): scratch. shift (1,): last shift of a projected Hessian, N/m.
     """
 
     committed: np.ndarray
+    memory: Memory
     shell: object
     second: np.ndarray
     part: np.ndarray
@@ -84,11 +86,13 @@ def make_buffers(scene, committed):
 
     committed: `solve.history.State.memory`.
     """
-    layout = scene.layout
+    layout, n = scene.layout, scene.layout.block.size
     thickness.recall(scene.contact, committed)
+    line = np.zeros((committed.shape[0] - n, relaxing_shear.LINE))
     return Buffers(
-        committed, shell.make_scratch(), np.zeros((24, 24)), np.zeros((12, 12)),
-        np.zeros((12, 12)), np.zeros(3),
+        committed[:n], Memory(committed[n:], line, scene.law.make_pace()),
+        shell.make_scratch(), np.zeros((24, 24)), np.zeros((12, 12)), np.zeros((12, 12)),
+        np.zeros(3),
         np.zeros(layout.leader.size), np.zeros(layout.scale.size), np.zeros(1),
         np.zeros(layout.block.size),
     )  # fmt: skip
@@ -100,11 +104,16 @@ def assemble(scene, neighbours, buffers):
     return Plates(scene, neighbours, buffers)
 
 
-def at_rest(frames, x):
-    """Return the `history.State` at rest at ``x`` (n,), with ``frames`` (n_nodes, 9) of nodes."""
-    state = history.at_rest(x, rows.STORED, (len(frames), thickness.THICKENING + 1))
-    state.memory[:, : thickness.THICKENING] = frames
-    state.memory[:, thickness.THICKENING] = 1.0
+def at_rest(scene, frames, x):
+    """Return the `history.State` at rest at ``x`` (n,), with ``frames`` (n_nodes, 9) of nodes and a
+    virgin material.
+    """
+    n, numbers = len(frames), told(scene.law, "state_size")
+    points = (shell.POINTS_OF_LAYERS + 1) * len(scene.shell.quads) if numbers > 0 else 0
+    memory = (n + points, max(numbers, thickness.THICKENING + 1))
+    state = history.at_rest(x, rows.STORED, memory)
+    state.memory[:n, : thickness.THICKENING] = frames
+    state.memory[:n, thickness.THICKENING] = 1.0
     return state
 
 

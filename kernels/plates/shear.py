@@ -52,7 +52,7 @@ def strain(q, edge, length):
 
 
 @jit
-def _strains(q, size, rest):
+def strains(q, size, rest):
     """Return g of the four edges."""
     return (
         strain(q, EDGES[0], size[0]) - rest[0],
@@ -70,7 +70,7 @@ def _sides(q, size, c):
 
 
 @jit
-def _surface(q, size):
+def surface(q, size):
     """Return A11, A22, A12 in the middle of the element."""
     a11, a22, a12 = 0.0, 0.0, 0.0
     for c in range(3):
@@ -123,6 +123,12 @@ def _energy(g, a, k):
             2.0 * (fall * a[2] - half * r),
         ),
     )
+
+
+@jit
+def energy(g, a, k):
+    """Return E at the shears ``g`` of the edges and the strain ``a`` of the mid-surface."""
+    return _energy(g, a, k)[0]
 
 
 @jit
@@ -191,7 +197,7 @@ def evaluate(q, size, rest, stiffness, slope):
     """Return E in J, infinite where the element has no area left; add its gradient to ``slope``
     (24,). stiffness: see `stiffnesses`.
     """
-    value, s = _energy(_strains(q, size, rest), _surface(q, size), stiffness)
+    value, s = _energy(strains(q, size, rest), surface(q, size), stiffness)
     if math.isinf(value):
         return math.inf
     _add_slope(q, EDGES[0], s[0] / size[0], slope)
@@ -231,7 +237,7 @@ def hessian(q, size, rest, stiffness, rows, pushed, inner, second):
     """Add the Hessian to ``second`` (24, 24), where E is finite; rows, pushed (7, 24) and inner
     (7, 7) are scratch.
     """
-    g, a = _strains(q, size, rest), _surface(q, size)
+    g, a = strains(q, size, rest), surface(q, size)
     _, s = _energy(g, a, stiffness)
     _second_energy(g, a, stiffness, inner)
     rows[:] = 0.0

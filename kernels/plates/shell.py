@@ -27,12 +27,13 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit, jit_exact, jit_owning
-from kernels.plates import bow, fold, layers, rotation, shear
+from kernels.plates import bow, fold, layers, relaxing_shear, rotation, shear
 
 GAUSS = math.sqrt(1.0 / 3.0)
 POINTS = ((-GAUSS, -GAUSS), (GAUSS, -GAUSS), (GAUSS, GAUSS), (-GAUSS, GAUSS))
 MEASURES_OF = ((0, 2, 3, 5), (3, 5, 6, 8), (1, 2, 4, 5), (4, 5, 7, 8))  # with x,s; d,s; x,z; d,z
 CORNERS = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+POINTS_OF_LAYERS = 4 * layers.LAYERS  # material points of an element; those of shear come last
 
 
 class Shell(NamedTuple):
@@ -40,7 +41,8 @@ class Shell(NamedTuple):
 
     thickness (m,) in m. directors (m, 4, 3): at rest, in the frames of the nodes. rest (m, 4, 9):
     measures at rest at the Gauss points, in the order of the corners, less those of the flat grid.
-    shear_rest (m, 4): shear at rest of the edges of `shear`. shear_modulus: kappa G, Pa.
+    shear_rest (m, 4): shear at rest of the edges of `shear`. shear_modulus: kappa G at once, Pa.
+    fold_modulus: the same at the reference time of a material that relaxes.
     """
 
     quads: np.ndarray
@@ -50,6 +52,7 @@ class Shell(NamedTuple):
     rest: np.ndarray
     shear_rest: np.ndarray
     shear_modulus: float
+    fold_modulus: float
 
 
 class Scratch(NamedTuple):
@@ -226,11 +229,81 @@ def _scatter(x, frames, shell, e, slope, gradient):
 
 
 @jit
-def evaluate(x, frames, shell, law, scratch, gradient, stored):
+def _shear_at(shell, law, memory, e):
+    """Return the shears at rest of the edges of an element, its stiffnesses in shear, and the
+    constant of its energy, all for the present step.
+    """
+    stiffness = shear.stiffnesses(shell.shear_modulus, shell.thickness[e], shell.size[e])
+    if law.shares.size == 0:
+        rest = shell.shear_rest[e]
+        return (rest[0], rest[1], rest[2], rest[3]), stiffness, 0.0
+    row = POINTS_OF_LAYERS * shell.quads.shape[0] + e
+    return relaxing_shear.of_step(memory, row, stiffness)
+
+
+@jit_exact
+def begin(x, frames, shell, law, memory, scratch):
+    """Set the data of all material points for a step from ``x``, at the pace of ``memory``."""
+    m = shell.quads.shape[0]
+    for point in range(POINTS_OF_LAYERS * m):
+        law.begin(memory, point)
+    for e in range(m):
+        _gather(x, frames, shell, e, scratch.q)
+        surface = shear.surface(scratch.q, shell.size[e])
+        stiffness = shear.stiffnesses(shell.shear_modulus, shell.thickness[e], shell.size[e])
+        row, rest = POINTS_OF_LAYERS * m + e, shell.shear_rest[e]
+        relaxing_shear.begin(law, memory, row, rest, surface, stiffness)
+
+
+@jit_exact
+def _commit_shear(shell, law, memory, e, q):
+    """Accept the shears of an element; return potential less stored energy, and dissipation, J."""
+    size, m = shell.size[e], shell.quads.shape[0]
+    stiffness = shear.stiffnesses(shell.shear_modulus, shell.thickness[e], size)
+    rest, soft, constant = _shear_at(shell, law, memory, e)
+    surface, row = shear.surface(q, size), POINTS_OF_LAYERS * m + e
+    potential = shear.energy(shear.strains(q, size, rest), surface, soft) + constant
+    g = shear.strains(q, size, shell.shear_rest[e])
+    stored, dissipated = relaxing_shear.commit(law, g, memory, row, surface, stiffness)
+    return potential - stored, dissipated
+
+
+@jit_exact
+def commit(x, frames, shell, law, memory, scratch, released):
+    """Accept ``x`` at all material points; return the dissipation of the step in J.
+
+    released (3,): potential less stored energy, in parts as those of `evaluate`.
+    """
+    dissipated = 0.0
+    for k in range(3):
+        released[k] = 0.0
+    for e in range(shell.quads.shape[0]):
+        size = shell.size[e]
+        area = 0.25 * size[0] * size[1]
+        _gather(x, frames, shell, e, scratch.q)
+        _differentiate(size, scratch.grid)
+        for g in range(4):
+            _strain(scratch, shell, e, g)
+            point = POINTS_OF_LAYERS * e + layers.LAYERS * g
+            gone, of_middle, lost = layers.commit(
+                law, scratch.measure, shell.thickness[e], memory, point
+            )
+            released[0] += area * of_middle
+            released[1] += area * (gone - of_middle)
+            dissipated += area * lost
+        gone, lost = _commit_shear(shell, law, memory, e, scratch.q)
+        released[2] += gone
+        dissipated += lost
+    return dissipated
+
+
+@jit
+def evaluate(x, frames, shell, law, memory, scratch, gradient, stored):
     """Return the energy in J, infinite where a layer has no area left or a director is turned over;
     add its slopes to ``gradient`` (n,) and its parts to ``stored`` (3,): membrane, bending, shear.
 
-    law: `kernels.laws.sheet.Sheet`. Membrane is what the strain of the mid-surface alone would
+    law: `kernels.laws.relaxing_sheet.RelaxingSheet`, and its memory at the points of the layers of
+    all quads, then of the shear of all. Membrane is what the strain of the mid-surface alone would
     take; bending is what the layers take more. Where the energy is infinite all is incomplete.
     """
     total = 0.0
@@ -242,18 +315,21 @@ def evaluate(x, frames, shell, law, scratch, gradient, stored):
             return math.inf
         _differentiate(size, scratch.grid)
         scratch.slope[:] = 0.0
-        stiffness = shear.stiffnesses(shell.shear_modulus, thickness, size)
-        sheared = shear.evaluate(scratch.q, size, shell.shear_rest[e], stiffness, scratch.slope)
+        rest, stiffness, constant = _shear_at(shell, law, memory, e)
+        sheared = shear.evaluate(scratch.q, size, rest, stiffness, scratch.slope) + constant
         if math.isinf(sheared):
             return math.inf
         sheared += fold.evaluate(
-            scratch.q, size, shell.shear_modulus * thickness * area, scratch.slope
+            scratch.q, size, shell.fold_modulus * thickness * area, scratch.slope
         )
         total += sheared
         stored[2] += sheared
         for g in range(4):
             chords = _strain(scratch, shell, e, g)
-            value, middle = layers.resultants(law, scratch.measure, thickness, scratch.resultant)
+            point = POINTS_OF_LAYERS * e + layers.LAYERS * g
+            value, middle = layers.resultants(
+                law, scratch.measure, thickness, memory, point, scratch.resultant
+            )
             if math.isinf(value):
                 return math.inf
             total += area * value
@@ -368,7 +444,7 @@ def _turn_back(x, frames, shell, e, scratch, second):
 
 
 @jit
-def hessian(x, frames, shell, law, e, scratch, second):
+def hessian(x, frames, shell, law, memory, e, scratch, second):
     """Set ``second`` (24, 24) to the exact Hessian of element ``e`` by coordinate: rows
     6 a .. 6 a + 5 of corner a. To be called where the energy is finite.
     """
@@ -378,20 +454,21 @@ def hessian(x, frames, shell, law, e, scratch, second):
     _differentiate(size, scratch.grid)
     scratch.slope[:] = 0.0
     second[:] = 0.0
-    stiffness = shear.stiffnesses(shell.shear_modulus, thickness, size)
-    shear.evaluate(scratch.q, size, shell.shear_rest[e], stiffness, scratch.slope)
+    rest, stiffness, _ = _shear_at(shell, law, memory, e)
+    shear.evaluate(scratch.q, size, rest, stiffness, scratch.slope)
     shear.hessian(
-        scratch.q, size, shell.shear_rest[e], stiffness, scratch.edges, scratch.strained,
-        scratch.inner, second,
-    )  # fmt: skip
-    folding = shell.shear_modulus * thickness * area
+        scratch.q, size, rest, stiffness, scratch.edges, scratch.strained, scratch.inner, second
+    )
+    folding = shell.fold_modulus * thickness * area
     fold.evaluate(scratch.q, size, folding, scratch.slope)
     fold.hessian(scratch.q, size, folding, scratch.row, second)
     for g in range(4):
         chords = _strain(scratch, shell, e, g)
+        point = POINTS_OF_LAYERS * e + layers.LAYERS * g
         layers.rigidity(
-            law, scratch.measure, thickness, scratch.moments, scratch.resultant, scratch.rigidity
-        )
+            law, scratch.measure, thickness, memory, point, scratch.moments, scratch.resultant,
+            scratch.rigidity,
+        )  # fmt: skip
         bow.pull_back_second(size, chords, scratch.resultant, scratch.rigidity)
         bow.pull_back(size, chords, scratch.resultant)
         _add_slopes(scratch, g, area)

@@ -1,26 +1,38 @@
 """Start and end of a step of a lattice of plates: commit, roll back."""
 
 from kernels.compile.jit import jit_exact
-from kernels.plates import rotation, thickness
+from kernels.plates import rotation, shell, thickness
+from kernels.plates.potential import recall
+from kernels.terms.rows import BEND, STRETCH
 
 
 @jit_exact
 def begin(problem, step, ahead, scratch):
-    """Nothing is prepared: the frames of the nodes are those of the last commit."""
+    """Prepare the law of the walls; the frames of the nodes are those of the last commit."""
+    recall(problem, step.x0, step.duration)
 
 
 @jit_exact
 def commit(problem, x, step, found):
-    """Pass the rotations of the nodes on to their frames: the coordinates of rotations become zero.
+    """Commit the state of the law; correct stored energies, and add the dissipation of the step.
 
-    The energy does not change, as it depends on the directors alone.
+    The rotations of the nodes are passed on to their frames: the coordinates of rotations become
+    zero. The energy does not change with them, as it depends on the directors alone.
     """
-    rotation.rebase(problem.buffers.committed, x)
+    scene, buffers = problem.scene, problem.buffers
+    if scene.law.state_size() > 0:
+        released = buffers.parts
+        found.sums[0].dissipated += shell.commit(
+            x, buffers.committed, scene.shell, scene.law, buffers.memory, buffers.shell, released
+        )
+        found.stored[STRETCH] -= released[0]
+        found.stored[BEND] -= released[1] + released[2]
+    rotation.rebase(buffers.committed, x)
 
 
 @jit_exact
 def roll_back(problem, step):
-    """Nothing is restored: frames change at `commit` only."""
+    """Nothing is restored: frames and memory change at `commit` only."""
 
 
 @jit_exact

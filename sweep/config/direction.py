@@ -118,13 +118,10 @@ def _check_lattice(lattice: Lattice) -> None:
 
 
 def _check_material(material: Material) -> None:
-    """A wall is a sheet of layers that all follow one law, which is elastic."""
-    if material.remembers:
-        keys = ("loss", "relaxation_times", "softening_r", "yield_stress")
-        key = next(key for key in keys if getattr(material, key))
-        value = getattr(material, key)
-        value = list(value) if isinstance(value, tuple) else value
-        raise refusal(f"material.{key}", value, f"none {WHERE}: its walls are elastic")
+    """A wall is a sheet of layers that all follow one law, elastic or relaxing."""
+    for key in ("softening_r", "yield_stress"):
+        if value := getattr(material, key):
+            raise refusal(f"material.{key}", value, f"none {WHERE}: its walls are elastic or relax")
     if material.bend == "fibres":
         raise refusal("material.bend", material.bend, f'"section" or "linear" {WHERE}')
     fit = dict(zip(*LAWS.values(), strict=True))[material.stretch]

@@ -5,32 +5,44 @@ from functools import lru_cache
 import numpy as np
 
 from kernels.laws import sheet
+from kernels.laws.relaxing_sheet import RelaxingSheet
 from kernels.plates.shear import KAPPA
 from sweep.config.case import Material
 from sweep.scene.material import Floats, StressLaw, stress_law
+from sweep.scene.relaxation import relaxation_of
 
 
 @lru_cache(maxsize=64)
-def law_of_sheet(material: Material) -> sheet.Sheet:
+def law_of_sheet(material: Material) -> RelaxingSheet:
     """The law of an incompressible sheet in plane stress; neo-Hookean if the material is linear.
 
-    The curve is followed down to its least strain, beyond which the sheet stiffens.
+    The curve, times the instantaneous modulus over that at the reference time, is followed down to
+    its least strain, beyond which the sheet stiffens.
     """
+    shares, times, instant = relaxation_of(material)
+    elastic = _elastic(material, instant)
+    return RelaxingSheet(elastic, shares, times, elastic.shear_modulus)
+
+
+def _elastic(material: Material, factor: float) -> sheet.Sheet:
+    """The sheet of the curve with all stresses times ``factor``."""
     if material.stretch == "linear":
-        return sheet.neo_hookean(material.modulus)
+        return sheet.neo_hookean(factor * material.modulus)
     curve = stress_law(material)
-    slope = float(_with_slope(curve, np.zeros(1))[1][0])
-    return sheet.measured(lambda strain: _with_slope(curve, strain), curve.knots[0], slope)
+    slope = float(_with_slope(curve, np.zeros(1), factor)[1][0])
+    return sheet.measured(lambda strain: _with_slope(curve, strain, factor), curve.knots[0], slope)
 
 
-def shear_modulus(material: Material) -> float:
-    """Kappa G of an incompressible wall, Pa."""
-    return KAPPA * law_of_sheet(material).shear_modulus
+def shear_moduli(material: Material) -> tuple[float, float]:
+    """Kappa G of an incompressible wall at once, and at the reference time, Pa."""
+    instant = KAPPA * law_of_sheet(material).shear_modulus
+    return instant, instant / relaxation_of(material).instant
 
 
-def _with_slope(curve: StressLaw, strain: Floats) -> tuple[Floats, Floats]:
-    """Stress and its slope (n,) in Pa at strains (n,)."""
+def _with_slope(curve: StressLaw, strain: Floats, factor: float) -> tuple[Floats, Floats]:
+    """Stress and its slope (n,) in Pa at strains (n,), times ``factor``."""
     last = len(curve.coefficients) - 1
     piece = np.clip(np.searchsorted(curve.knots, strain, side="right") - 1, 0, last)
     c, s = curve.coefficients[piece].T, np.clip(strain, *curve.knots[[0, -1]]) - curve.knots[piece]
-    return curve.at(strain), np.asarray(c[1] + s * (2.0 * c[2] + s * 3.0 * c[3]))
+    slope = c[1] + s * (2.0 * c[2] + s * 3.0 * c[3])
+    return factor * curve.at(strain), factor * np.asarray(slope)

@@ -18,7 +18,7 @@ from sweep.scene.mesh import Floats
 from sweep.scene.plates import coordinates
 from sweep.scene.plates.contact import contact_of, mirror_of
 from sweep.scene.plates.coordinates import Numbering
-from sweep.scene.plates.law import law_of_sheet, shear_modulus
+from sweep.scene.plates.law import law_of_sheet, shear_moduli
 from sweep.scene.plates.mesh import PlateMesh, build_mesh
 from sweep.scene.terms import friction_of, heavy, roles
 
@@ -61,7 +61,7 @@ class Scene:
 
     def at_rest(self) -> State:
         """The state at the start, without velocities."""
-        return at_rest(self.mesh.frames, self.x_rest)
+        return at_rest(self.terms, self.mesh.frames, self.x_rest)
 
     def strained(self) -> float:
         """Energy at the start, J: none."""
@@ -128,6 +128,7 @@ def _is_rotation(numbering: Numbering) -> np.ndarray:
 def _shell(mesh: PlateMesh, x_rest: Floats, case: Case) -> shell.Shell:
     """The shells, without stress in the bowed shape at rest."""
     m = len(mesh.quads)
+    instant, lasting = shear_moduli(case.material)
     made = shell.Shell(
         quads=mesh.quads,
         size=mesh.size,
@@ -135,7 +136,8 @@ def _shell(mesh: PlateMesh, x_rest: Floats, case: Case) -> shell.Shell:
         directors=mesh.directors,
         rest=np.zeros((m, 4, 9)),
         shear_rest=np.zeros((m, 4)),
-        shear_modulus=shear_modulus(case.material),
+        shear_modulus=instant,
+        fold_modulus=lasting,
     )
     shell.measure_rest(x_rest, mesh.frames, made, shell.make_scratch())
     return made

@@ -3,12 +3,16 @@
 import numpy as np
 import pytest
 
+from kernels.laws.law import Memory
+from kernels.laws.relaxing_sheet import elastic_only
 from kernels.laws.sheet import neo_hookean
 from kernels.plates import layers
 from tests.support.kernels.sheets import MODULUS, sheet_of_rubber
 from tests.support.kernels.terms import differences
 
-LINEAR = neo_hookean(MODULUS)
+LINEAR = elastic_only(neo_hookean(MODULUS))
+RUBBER = elastic_only(sheet_of_rubber())
+NONE = Memory(np.zeros((0, 0)), np.zeros((0, 4)), LINEAR.make_pace())
 THICKNESS = 0.1
 STATES = {
     "rest": np.zeros(9),
@@ -19,19 +23,19 @@ STATES = {
 
 
 def energy(m, law=LINEAR, thickness=THICKNESS):
-    return layers.resultants(law, m, thickness, np.empty(9))[0]
+    return layers.resultants(law, m, thickness, NONE, 0, np.empty(9))[0]
 
 
 def derivatives(m, law=LINEAR):
     """Slopes (9,) by both ways, and second derivatives (9, 9)."""
     one, two, second = np.empty(9), np.empty(9), np.empty((9, 9))
-    layers.resultants(law, m, THICKNESS, one)
-    layers.rigidity(law, m, THICKNESS, layers.make_moments(), two, second)
+    layers.resultants(law, m, THICKNESS, NONE, 0, one)
+    layers.rigidity(law, m, THICKNESS, NONE, 0, layers.make_moments(), two, second)
     np.testing.assert_allclose(one, two, rtol=1e-12, atol=1e-15)
     return one, second
 
 
-@pytest.mark.parametrize("law", [LINEAR, sheet_of_rubber()], ids=["linear", "rubber"])
+@pytest.mark.parametrize("law", [LINEAR, RUBBER], ids=["linear", "rubber"])
 @pytest.mark.parametrize("name", STATES)
 def test_derivatives(name, law):
     m, step = STATES[name], np.r_[np.full(3, 1e-5), np.full(6, 1e-3)]
@@ -71,12 +75,12 @@ def test_a_squeezed_wall_is_thicker_and_stiffer_against_bending(stretch):
 
 def test_the_middle_takes_the_membrane_energy():
     m = STATES["stretched"]
-    total, middle = layers.resultants(LINEAR, m, THICKNESS, np.empty(9))
+    total, middle = layers.resultants(LINEAR, m, THICKNESS, NONE, 0, np.empty(9))
     assert total == pytest.approx(middle)
-    assert middle == pytest.approx(THICKNESS * LINEAR.respond(*m[:3])[0])
+    assert middle == pytest.approx(THICKNESS * LINEAR.elastic.respond(*m[:3])[0])
     bent = STATES["pressed and bent"]
-    total, middle = layers.resultants(LINEAR, bent, THICKNESS, np.empty(9))
-    assert middle == pytest.approx(THICKNESS * LINEAR.respond(*bent[:3])[0])
+    total, middle = layers.resultants(LINEAR, bent, THICKNESS, NONE, 0, np.empty(9))
+    assert middle == pytest.approx(THICKNESS * LINEAR.elastic.respond(*bent[:3])[0])
     assert total > 1.01 * middle
 
 

@@ -71,8 +71,9 @@ def test_the_sum_has_all_terms_and_each_of_them_counts(name):
     none = np.zeros_like(x)
     parts = np.zeros(3)
     walls = shell.evaluate(
-        x, of.mesh.frames, terms.shell, terms.law, shell.make_scratch(), none, parts
-    )
+        x, of.mesh.frames, terms.shell, terms.law, args.problem.buffers.memory,
+        shell.make_scratch(), none, parts,
+    )  # fmt: skip
     stored = contact.evaluate(x, terms.contact, pairs, 0.0, touching, none)
     imaged = mirror.evaluate(x, terms.contact, terms.mirror, none)
     assert (imaged > 0.0) == (name == "loose quarter")
@@ -92,7 +93,7 @@ def test_the_sum_has_all_terms_and_each_of_them_counts(name):
 @pytest.mark.parametrize("name", CASES)
 def test_at_rest_there_is_nothing(name):
     of = scene(name)
-    args = whole(of, of.x_rest)
+    args = whole(of, of.x_rest, past=False)
     _, at = args.found(of.x_rest)
     assert max(at.stored) < 1e-18
     assert np.abs(at.elastic / of.terms.coordinates.lever).max() < 1e-9

@@ -289,6 +289,36 @@ MUTANTS = [
         ),
     ),
     *_of(
+        f"{LAWS}/log_strain.py",
+        ("logarithm: deviator", "mean - half * u", "mean + half * u"),
+        ("logarithm: slope by the mean", "half * wp - by * d", "half * wp + by * d"),
+        ("logarithm: mixed", "2.0 * rise * (u * in_v + v * in_u)", "2.0 * rise * (u * in_v)"),
+        ("logarithm: sum of powers", "second * y + 2.0 * first", "second * y + first"),
+    ),
+    *_of(
+        f"{LAWS}/relaxing_sheet.py",
+        ("relaxing sheet: stress", "decay * (s[k] - state[at + k])", "decay * s[k]"),
+        ("relaxing sheet: constant", "* state[ENERGY] - past", "* state[ENERGY] + past"),
+        ("relaxing sheet: viscous strain", "(d2 + d3) * r1 - d3 * r2", "(d2 + d3) * r1 + d3 * r2"),
+        ("relaxing sheet: dissipation", "weights[2] * _inner(change", "weights[1] * _inner(change"),
+        ("relaxing sheet: stored", "complement - _inner(own", "complement + _inner(own"),
+    ),
+    *_of(
+        f"{PLATES}/relaxing_shear.py",
+        ("relaxing shear: rest", "rest[k] - slope[k] / scale", "rest[k] + slope[k] / scale"),
+        ("relaxing shear: constant", "state[STORED] - scale", "state[STORED] + scale"),
+        ("relaxing shear: dissipation", "work = 2.0 * weights[0]", "work = weights[0]"),
+    ),
+    *_of(
+        f"{PLATES}/steps.py",
+        (
+            "memory along: stored",
+            "found.stored[BEND] -= released",
+            "found.stored[BEND] += released",
+        ),
+        tests="physics/test_memory_along.py",
+    ),
+    *_of(
         f"{PLATES}/pairs.py",
         (
             "surfaces: corners",

@@ -6,7 +6,7 @@ from scipy.sparse import coo_matrix, csc_matrix
 from scipy.sparse.linalg import eigsh, spsolve
 
 from kernels.plates import rotation, shell
-from tests.support.kernels.shells import LINEAR, Structure, element_hessians
+from tests.support.kernels.shells import LINEAR, Structure, element_hessians, virgin
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.int64]
@@ -37,13 +37,15 @@ def stiffness(of: Structure, x: Floats) -> csc_matrix:
 def energy(of: Structure, x: Floats) -> float:
     """Energy in J at ``x``."""
     room, g = shell.make_scratch(), np.zeros_like(x)
-    return float(shell.evaluate(x, of.frames, of.walls, LINEAR, room, g, np.zeros(3)))
+    return float(
+        shell.evaluate(x, of.frames, of.walls, LINEAR, virgin(of, LINEAR), room, g, np.zeros(3))
+    )
 
 
 def slopes(of: Structure, x: Floats) -> Floats:
     """Gradient (6 n,) at ``x``."""
-    g = np.zeros_like(x)
-    shell.evaluate(x, of.frames, of.walls, LINEAR, shell.make_scratch(), g, np.zeros(3))
+    room, g = shell.make_scratch(), np.zeros_like(x)
+    shell.evaluate(x, of.frames, of.walls, LINEAR, virgin(of, LINEAR), room, g, np.zeros(3))
     return g[:-2]
 
 

@@ -1,8 +1,8 @@
 """The inside of a step of a tube that is pressed along its cell, as tests reach it.
 
-`SCENES` are three tubes of 3 x 6 quads a wall with the same kinds of arrays, so that one program
-serves them all: glued to a driven platen that presses on folds too, the quarter of a tube between
-loose platens, and a tube glued to a striker that flies.
+`CASES` are four tubes of 3 x 6 quads a wall with the same kinds of arrays, so that one program
+serves them all: glued to a driven platen that presses on folds too, the same of a material that
+relaxes, the quarter of a tube between loose platens, and a tube glued to a striker that flies.
 """
 
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ import numpy as np
 
 from kernels.compile.reference import by_reference, referred
 from kernels.linear.supernodal.matrix import place
-from kernels.plates import friction, reach
+from kernels.plates import friction, potential, reach, shell
 from kernels.plates.problem import Plates
 from kernels.plates.touching import no_contacts
 from kernels.solve.problem import NO_ROOM, Step
@@ -23,11 +23,12 @@ from tests.support.kernels.terms import nowhere
 
 SIDE, T = 4e-3, 0.4e-3
 LINEAR = Material(name="ultimaker_tpu95a", stretch="linear")
+RELAXING = Material(name="ultimaker_tpu95a", stretch="linear", loss=0.4)
 MOVED = 0.02  # of a quad, in a step that ends in a state
 DT = 1e-4
 
 
-def tube(loading, symmetry="none", steps=20, friction=0.3):
+def tube(loading, symmetry="none", steps=20, friction=0.3, material=LINEAR):
     """A case of a square tube of 4 x 4 x 8 mm with walls of 0.4 mm."""
     return Case(
         lattice=Lattice(
@@ -35,7 +36,7 @@ def tube(loading, symmetry="none", steps=20, friction=0.3):
             width=SIDE, height=SIDE, depth=2 * SIDE, wall_thickness=T, imperfection=0.05,
             symmetry=symmetry,
         ),
-        material=LINEAR,
+        material=material,
         loading=Loading(direction="out_of_plane", unload=False, **loading),
         contact=Contact(friction=friction),
         solver=Solver(load_steps=steps) if loading["mode"] == "displacement" else Solver(),
@@ -46,6 +47,7 @@ DRIVEN = {"mode": "displacement", "strain": 0.4}
 STRUCK = {"mode": "impact", "striker_mass": 0.02}
 CASES = {
     "glued": tube(DRIVEN | {"platen": "glued"}),
+    "relaxing": tube(DRIVEN | {"platen": "glued"}, material=RELAXING),
     "loose quarter": tube(DRIVEN | {"platen": "contact"}, "quarter"),
     "struck": tube(STRUCK | {"platen": "glued"}),
 }
@@ -133,8 +135,10 @@ def neighbours_of(x, terms, move=0.0):
     return reach.Neighbours(listed, x.copy(), margin, matrix, touching, lagged)
 
 
-def whole(of, x, seed=0):
-    """A step that ends in ``x``, from nearby; with inertia under a striker."""
+def whole(of, x, seed=0, past=True):
+    """A step that ends in ``x``, from nearby; with inertia under a striker. past: of a material
+    that relaxes.
+    """
     terms, dynamic = of.terms, of.terms.coordinates.driven < 0
     x0 = shaken(of, x, 100 + seed, MOVED)
     neighbours = neighbours_of(x, terms)
@@ -144,8 +148,22 @@ def whole(of, x, seed=0):
     )  # fmt: skip
     h = DT if dynamic else 1.0
     step = Step(x0, x0, 2.0 * x0 - x if dynamic else x0, h, h, dynamic, 0.7, 0.5)
+    if past and of.terms.law.shares.size > 0:
+        _remember(problem, step, of, seed)
     problem.begin(step, nowhere(x.size), np.zeros(x.size))
     return WholeOfPlates(problem, step)
+
+
+def _remember(problem, step, of, seed):
+    """Commit two earlier steps of a material that relaxes; the coordinates are not re-based."""
+    buffers = referred(problem.buffers)
+    for k in range(2):
+        before = shaken(of, step.x0, 200 + 10 * seed + k, MOVED)
+        potential.recall(problem, before, step.duration)
+        shell.commit(
+            before, buffers.committed, of.terms.shell, of.terms.law, buffers.memory,
+            buffers.shell, np.zeros(3),
+        )  # fmt: skip
 
 
 def reduction(of):

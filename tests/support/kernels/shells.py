@@ -7,15 +7,17 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from kernels.laws.sheet import Sheet, neo_hookean
-from kernels.plates import shell
+from kernels.laws.law import Memory
+from kernels.laws.relaxing_sheet import RelaxingSheet, elastic_only
+from kernels.laws.sheet import neo_hookean
+from kernels.plates import relaxing_shear, shell
 from kernels.plates.shell import Shell
 from tests.support.kernels.terms import Term
 
 Floats = NDArray[np.float64]
 
 MODULUS = 12.0
-LINEAR = neo_hookean(MODULUS)
+LINEAR = elastic_only(neo_hookean(MODULUS))
 UP = np.array([0.0, 0.0, 1.0])
 
 
@@ -84,7 +86,7 @@ def structure(
     m = len(quads)
     shells = Shell(
         np.array(quads), np.array(size), np.full(m, thickness), np.array(directors),
-        np.zeros((m, 4, 9)), np.zeros((m, 4)), 5.0 / 6.0 * modulus / 3.0,
+        np.zeros((m, 4, 9)), np.zeros((m, 4)), 5.0 / 6.0 * modulus / 3.0, 5.0 / 18.0 * modulus,
     )  # fmt: skip
     return Structure(points, np.tile([f.ravel() for f in frames], (layers + 1, 1)), shells)
 
@@ -113,28 +115,35 @@ def shaken(of: Structure, seed: int, size: float, turn: float) -> Floats:
     return x
 
 
-def stored(of: Structure, x: Floats, law: Sheet = LINEAR) -> Floats:
+def virgin(of: Structure, law: RelaxingSheet) -> Memory:
+    """Memory of all material points before any step."""
+    size, points = law.state_size(), (shell.POINTS_OF_LAYERS + 1) * len(of.walls.quads)
+    rows = points if size > 0 else 0
+    return Memory(np.zeros((rows, size)), np.zeros((rows, relaxing_shear.LINE)), law.make_pace())
+
+
+def stored(of: Structure, x: Floats, law: RelaxingSheet = LINEAR) -> Floats:
     """Membrane, bending and shear energy in J."""
-    parts, room = np.zeros(3), shell.make_scratch()
-    energy = shell.evaluate(x, of.frames, of.walls, law, room, np.zeros_like(x), parts)
+    parts, room, g = np.zeros(3), shell.make_scratch(), np.zeros_like(x)
+    energy = shell.evaluate(x, of.frames, of.walls, law, virgin(of, law), room, g, parts)
     np.testing.assert_allclose(parts.sum(), energy, rtol=1e-12, atol=1e-300)
     return parts
 
 
-def element_hessians(of: Structure, x: Floats, law: Sheet = LINEAR) -> Floats:
+def element_hessians(of: Structure, x: Floats, law: RelaxingSheet = LINEAR) -> Floats:
     """Hessians (m, 24, 24) of all elements."""
     room, found = shell.make_scratch(), np.empty((len(of.walls.quads), 24, 24))
     for e in range(len(found)):
-        shell.hessian(x, of.frames, of.walls, law, e, room, found[e])
+        shell.hessian(x, of.frames, of.walls, law, virgin(of, law), e, room, found[e])
     return found
 
 
-def term_of(of: Structure, law: Sheet = LINEAR) -> Term:
+def term_of(of: Structure, law: RelaxingSheet = LINEAR) -> Term:
     """Energy of the shells with dense derivatives."""
-    room = shell.make_scratch()
+    room, memory = shell.make_scratch(), virgin(of, law)
 
     def slope(x: Floats, g: Floats) -> float:
-        return float(shell.evaluate(x, of.frames, of.walls, law, room, g, np.zeros(3)))
+        return float(shell.evaluate(x, of.frames, of.walls, law, memory, room, g, np.zeros(3)))
 
     def second(x: Floats, projected: bool) -> Floats:
         assert not projected

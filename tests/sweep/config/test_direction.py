@@ -115,11 +115,12 @@ UNFIT = {
         f'material.bend = "linear": does not fit; allowed: "section" {ONLY} and material.stretch is'
         ' "nonlinear"'
     ),
-    "[material]\nloss = 0.4": (
-        f"material.loss = 0.4: does not fit; allowed: none {ONLY}: its walls are elastic"
+    '[material]\nsoftening_r = 2.0\nsoftening_m = "0.5 MPa"': (
+        f"material.softening_r = 2.0: does not fit; allowed: none {ONLY}: its walls are elastic or"
+        " relax"
     ),
     '[material]\nname = "pla"': 'material.yield_stress = 4.5e+07 Pa in the file of "pla": does not'
-    f" fit; allowed: none {ONLY}: its walls are elastic",
+    f" fit; allowed: none {ONLY}: its walls are elastic or relax",
     '[contact]\nmodel = "position_based"': (
         f'contact.model = "position_based": does not fit; allowed: "barrier" or "none" {ONLY}'
     ),

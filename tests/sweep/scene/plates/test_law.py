@@ -5,14 +5,15 @@ import pytest
 
 from sweep.config.case import Material
 from sweep.scene.material import stress_law
-from sweep.scene.plates.law import law_of_sheet, shear_modulus
+from sweep.scene.plates.law import law_of_sheet, shear_moduli
+from sweep.scene.relaxation import relaxation_of
 
 
 def uniaxial(law, stretch):
     """Nominal stress of a sheet under uniaxial stress, from its energy per volume."""
 
     def energy(length):
-        return law.respond(length**2 - 1.0, 1.0 / length - 1.0, 0.0)[0]
+        return law.elastic.respond(length**2 - 1.0, 1.0 / length - 1.0, 0.0)[0]
 
     step = 1e-6
     return (energy(stretch + step) - energy(stretch - step)) / (2.0 * step)
@@ -32,10 +33,27 @@ def test_linear_material_is_neo_hookean():
     assert uniaxial(law_of_sheet(material), stretch) == pytest.approx(
         mu * (stretch - 1.0 / stretch**2), rel=1e-6
     )
-    assert shear_modulus(material) == pytest.approx(5.0 / 6.0 * mu)
+    assert shear_moduli(material) == pytest.approx((5.0 / 6.0 * mu,) * 2)
 
 
 def test_shear_modulus_is_that_of_the_curve_at_rest():
     material = Material(name="ninjaflex")
     slope = float(stress_law(material).at(np.array([1e-6]))[0]) / 1e-6
-    assert shear_modulus(material) == pytest.approx(5.0 / 6.0 * slope / 3.0, rel=1e-6)
+    assert shear_moduli(material) == pytest.approx((5.0 / 18.0 * slope,) * 2, rel=1e-6)
+
+
+@pytest.mark.parametrize("table", [{"name": "ninjaflex"}, {"modulus": 12e6, "density": 1200.0}])
+def test_a_material_that_relaxes_has_its_curve_at_the_reference_time(table):
+    """At once it is stiffer, by the same factor at all strains."""
+    elastic, material = Material(**table), Material(**table, loss=0.4)
+    law, instant = law_of_sheet(material), relaxation_of(material).instant
+    left = law.shares @ np.exp(-material.reference_time / law.times) + 1.0 - law.shares.sum()
+    assert instant * left == pytest.approx(1.0, rel=1e-12)
+    assert instant > 1.5
+    for stretch in (0.8, 1.1, 1.6):
+        expected = instant * uniaxial(law_of_sheet(elastic), stretch)
+        assert uniaxial(law, stretch) == pytest.approx(expected, rel=1e-6)
+    at_once, lasting = shear_moduli(material)
+    assert (lasting, at_once) == pytest.approx(
+        (shear_moduli(elastic)[0], instant * shear_moduli(elastic)[0])
+    )

@@ -76,9 +76,9 @@ def test_held_coordinates_have_no_unknown(pressed):
 
 def test_bowed_walls_are_free_of_stress_at_rest(pressed):
     terms, g = pressed.terms, np.zeros_like(pressed.x_rest)
-    parts = np.zeros(3)
+    parts, of = np.zeros(3), terms.make_buffers(pressed.at_rest().memory)
     shell.evaluate(
-        pressed.x_rest, pressed.mesh.frames, terms.shell, terms.law, shell.make_scratch(), g, parts
+        pressed.x_rest, of.committed, terms.shell, terms.law, of.memory, of.shell, g, parts
     )
     assert np.abs(parts).max() < 1e-20
     assert np.abs(g).max() < 1e-9

@@ -1,0 +1,84 @@
+"""A tube of a material that relaxes, pressed along its cell: loss, rate, book, and rest."""
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case, Contact, Loading, Material, Solver
+from sweep.scene.relaxation import lost_share, relaxation_of
+from sweep.simulation.simulate import simulate
+from tests.support.kernels.pressed_plates import SIDE, T, tube
+
+LOSS = 0.4
+SMALL = 0.004  # strain before any wall buckles
+
+
+def pressed(strain, steps, strain_rate=1e-2, loss=LOSS, **loading):
+    """A glued tube pressed and let go again."""
+    material = Material(name="ultimaker_tpu95a", **({"loss": loss} if loss else {}))
+    rate = {"strain_rate": strain_rate} if loss else {}
+    return Case(
+        lattice=tube({"mode": "displacement", "platen": "glued"}).lattice,
+        material=material,
+        loading=Loading(
+            direction="out_of_plane", mode="displacement", strain=strain, platen="glued",
+            **rate, **loading,
+        ),
+        contact=Contact(friction=0.0),
+        solver=Solver(load_steps=steps),
+    )  # fmt: skip
+
+
+def history(case):
+    result = simulate(case)
+    assert result.status == "converged"
+    return result.history
+
+
+@pytest.fixture(scope="module")
+def folded():
+    """A tube pressed by 40 % and let go."""
+    return simulate(pressed(0.4, 60))
+
+
+def test_the_book_is_closed_and_the_material_takes_its_share(folded):
+    assert folded.status == "converged"
+    summary = folded.summary
+    assert abs(summary["energy_residual_J"]) < 1e-8 * summary["absorbed_energy_J"]
+    spent = summary["dissipated_material_J"] / summary["absorbed_energy_J"]
+    assert LOSS < summary["lost_share"] < 0.62
+    assert LOSS < spent < 0.6
+
+
+def test_dissipation_never_falls(folded):
+    book = folded.history["dissipated_material_J"]
+    assert np.diff(book).min() >= -1e-9 * book.max()
+
+
+def test_before_it_buckles_a_tube_loses_what_a_strip_loses():
+    """Until its force is zero."""
+    rows = history(pressed(SMALL, 100))
+    strain, force = rows["strain"], rows["reaction_top_N"]
+    peak = np.argmax(strain)
+    zero = peak + np.argmax(np.append(force[peak:], -1.0) <= 0.0)
+    work = np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(strain)))
+    back = np.append(force[:zero], 0.0)
+    assert back.min() >= 0.0
+    lost = work[zero - 1] / work[peak]
+    assert lost == pytest.approx(LOSS, abs=0.02)
+    assert lost_share(0.1) < LOSS
+
+
+@pytest.mark.parametrize("strain_rate", [1e-3, 1.0, 1e3])
+def test_a_faster_crush_is_stiffer_as_the_modulus_of_a_ramp(strain_rate):
+    """Of the elastic tube's force: the mean of the relaxation modulus over the ramp."""
+    elastic = history(pressed(SMALL, 20, loss=0.0))["reaction_top_N"].max()
+    case = pressed(SMALL, 20, strain_rate)
+    time, branches = SMALL / strain_rate, relaxation_of(case.material)
+    decay = branches.times / time * -np.expm1(-time / branches.times)
+    mean = 1.0 - branches.shares.sum() + branches.shares @ decay
+    found = history(case)["reaction_top_N"].max()
+    assert found / elastic == pytest.approx(branches.instant * mean, rel=2e-3)
+
+
+def test_the_specimen_is_that_of_the_elastic_tests():
+    assert (SIDE, T) == (4e-3, 0.4e-3)
