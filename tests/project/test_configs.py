@@ -24,7 +24,7 @@ def test_no_config_is_forgotten():
     assert names == others | {
         "armor", "drop", "infills", "khatri_egan_hexagon_out_of_plane",
         "khatri_egan_square_out_of_plane", "reuse", "seed", "search", "slicer", "smoke",
-        "thousand", "which_way",
+        "thousand", "which_way", "which_way_lost",
     }  # fmt: skip
 
 
@@ -168,11 +168,11 @@ def test_search_holds_its_number():
     assert 1e3 * summary["absorbed_energy_at_50N_J"] == pytest.approx(14.320, rel=1e-3)
 
 
-def pressed_a_little(case, **lattice):
+def pressed_a_little(case, steps=2, **lattice):
     """The summary of a case that is pressed by 1 %, with coarse walls; along its cells."""
     coarse = case.lattice.model_copy(update={"layers": None} | lattice)
     loading = Loading(direction="out_of_plane", platen=case.loading.platen, strain=0.01)
-    steps = case.solver.model_copy(update={"load_steps": 2})
+    steps = case.solver.model_copy(update={"load_steps": steps})
     tables = {"lattice": coarse, "material": case.material, "loading": loading, "solver": steps}
     return simulate(Case(**tables)).summary
 
@@ -217,6 +217,22 @@ def test_which_way_presses_one_print_in_both_directions():
     assert summary["status"] == "converged"
     assert summary["mass_g"] == pytest.approx(0.5, rel=1e-9)
     assert summary["direction"] == "out_of_plane"
+
+
+def test_which_way_lost_presses_the_same_prints_of_a_material_that_loses_40_percent():
+    """Pressed by 1 % and let go, one loses a little more than a strip does until its force is
+    zero.
+    """
+    cases = expand(load_config(CONFIGS / "which_way_lost.toml"))
+    elastic = expand(load_config(CONFIGS / "which_way.toml"))
+    for case, other in zip(cases, elastic, strict=True):
+        assert case.lattice == other.lattice
+        assert case.loading.stroke == other.loading.stroke
+        assert (case.material.loss, case.loading.unload) == (0.4, True)
+    along = next(case for case in cases if case.loading.direction == "out_of_plane")
+    summary = pressed_a_little(along, nodes_per_wall=2, steps=20)
+    assert summary["status"] == "converged"
+    assert summary["lost_share"] == pytest.approx(0.447, abs=2e-3)
 
 
 def seed(model, hinges):

@@ -48,6 +48,7 @@ CONFIGS = Path(__file__).parents[3] / "configs"
         ("khatri_egan_square_out_of_plane", 9),
         ("khatri_egan_hexagon_out_of_plane", 5),
         ("which_way", 16),
+        ("which_way_lost", 16),
     ],
 )
 def test_shipped_configs_expand(name, cases):
@@ -60,5 +61,5 @@ def test_every_shipped_config_is_pinned():
     studies = {"custom", "seed", "impact", "khatri_egan_square", "extreme", "reuse", "search"}
     names = {"smoke", "armor", "drop", "infills", "slicer", "thousand"}
     names |= {f"khatri_egan_{cells}_out_of_plane" for cells in ("square", "hexagon")}
-    names |= {"which_way"}
+    names |= {"which_way", "which_way_lost"}
     assert {path.stem for path in CONFIGS.glob("*.toml")} == names | studies
