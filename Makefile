@@ -73,13 +73,13 @@ mesh: setup  ## measure how many elements a wall needs; kept in results/mesh/ (4
 	@$(PYTHON) -m tests.studies.mesh results/mesh
 
 bars: setup  ## measure whether error bars cover the error; kept in results/bars/ (10 min)
-	@$(PYTHON) -m tests.studies.bars results/bars
+	@$(PYTHON) -m tests.studies.rankings.bars results/bars
 
 spread: setup  ## measure how much columns move with mesh, imperfection, steps; kept in results/spread/
-	@$(PYTHON) -m tests.studies.spread results/spread
+	@$(PYTHON) -m tests.studies.rankings.spread results/spread
 
 search: setup  ## compare what optimize finds with a scan and with a grid; kept in results/search/ (2 min)
-	@$(PYTHON) -m tests.studies.search results/search
+	@$(PYTHON) -m tests.studies.rankings.search results/search
 
 memory: setup  ## measure what loss and softening change; goes to results/memory/ (10 min)
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.memory results/memory

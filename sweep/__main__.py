@@ -17,7 +17,7 @@ from typing import Any, NoReturn
 from sweep.cli.completion import SHELLS, cases, columns, complete, configs, offer, results
 from sweep.cli.completion import materials as material_words
 from sweep.cli.new import KINDS
-from sweep.config.examples import examples
+from sweep.config.reading.examples import examples
 
 ABOUT = "Which printed infill absorbs the most energy per gram?"
 EXAMPLES = """examples:

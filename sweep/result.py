@@ -566,9 +566,9 @@ def _unit_of_key(name: str) -> str:
 
 def design_columns(case: Case) -> dict[str, float | int | str]:
     """The summary columns that are known before the case runs."""
-    from sweep.config.direction import footprint, height_pressed
-    from sweep.config.printable import what_does_not_print
-    from sweep.config.slicer_settings import slicer_settings
+    from sweep.config.defaults.direction import footprint, height_pressed
+    from sweep.config.defaults.printable import what_does_not_print
+    from sweep.config.defaults.slicer_settings import slicer_settings
 
     lattice, loading = case.lattice, case.loading
     return {

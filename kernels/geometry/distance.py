@@ -11,7 +11,7 @@ the unit tangent u, the unit normal n towards p and the length l, q = (1, tau - 
 import numpy as np
 
 from kernels.compile.jit import jit, jit_exact
-from kernels.linear.block_matrix import add_block
+from kernels.linear.condensed.block_matrix import add_block
 
 
 @jit

@@ -1,6 +1,8 @@
-"""Laws of one strain: the material at a point, and the barrier.
+"""Laws of a material point, and the barrier.
 
 A material law (`law`) maps a strain and what the material remembers to a potential, its slope and
-its tangent. All scenes have that of `fibre`; `elastic`, `relaxation`, `softening` and `yielding`
-are its parts.
+its tangent. `fibre` is the law of all points in walls of the plane; `elastic`, `relaxation`,
+`softening` and `yielding` are its parts, `one_point` runs it alone. `sheet` is the law of walls in
+space, of three strains (`separable`), and `relaxing_sheet` the one with memory, in logarithmic
+strains (`log_strain`). `barrier` is that of contacts and folds.
 """

@@ -2,7 +2,7 @@
 
 from kernels.arrays import zero, zero_rows
 from kernels.compile.jit import jit, jit_exact
-from kernels.linear import periodic_images
+from kernels.linear.condensed import periodic_images
 from kernels.terms import elements, followers
 
 

@@ -1,8 +1,8 @@
 """The Hessian of a lattice at the point of the last `potential.evaluate`, factored and solved."""
 
 from kernels.compile.jit import jit_exact, separate
-from kernels.linear import block_ldlt, system
-from kernels.linear.block_matrix import clear
+from kernels.linear.condensed import block_ldlt, system
+from kernels.linear.condensed.block_matrix import clear
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
 from kernels.terms import contact, fold, friction, spring
 from kernels.terms.lagging import slip_of

@@ -8,11 +8,12 @@ from kernels.arrays import pair, triple
 from kernels.compile.jit import jit_exact, jit_owning, separate
 from kernels.geometry import ccd, near_pairs
 from kernels.geometry.near_pairs import Pairs
-from kernels.linear import analysis
-from kernels.linear.analysis import System
-from kernels.terms import contact, friction, position_based
+from kernels.linear.condensed import analysis
+from kernels.linear.condensed.analysis import System
+from kernels.planar import position_based
+from kernels.planar.couplings import couplings
+from kernels.terms import contact, friction
 from kernels.terms.contact import Touching
-from kernels.terms.couplings import couplings
 from kernels.terms.friction import LaggedContacts
 
 LEAST_LENGTH = 0.1  # of an element after a move, as a share of its length before

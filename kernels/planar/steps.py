@@ -1,8 +1,9 @@
 """Start and end of a step of a lattice: data of damping, commit, roll back, projection."""
 
 from kernels.compile.jit import jit_exact, separate
+from kernels.planar import position_based
 from kernels.planar.potential import recall
-from kernels.terms import bend, damping, position_based, stretch
+from kernels.terms import bend, damping, stretch
 from kernels.terms.rows import BEND, STRETCH
 
 

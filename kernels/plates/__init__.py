@@ -1,6 +1,7 @@
 """Walls as plates in space as a problem of the solver: upright walls pressed along the print axis.
 
-The terms: `shell` is the element, of `layers` and `shear`, with directors of `rotation` and a sheet
-(`kernels.laws.sheet`) as its material; `contact` and `friction` act between `pairs`. `problem` has
-the data and lists the verbs, as `kernels.planar.problem` does for walls in the plane.
+`element` has the quad with a director at each node, `contacts` what touches and slides. As in
+`kernels.planar`, `problem` has the data and lists the verbs, `potential` sums the energy,
+`factoring` the matrix (`assembly` says where its entries go), `reach` limits a move, `steps`
+begins and commits.
 """

@@ -9,11 +9,12 @@ are positive.
 
 from kernels.arrays import zero
 from kernels.compile.jit import jit_exact
-from kernels.linear.block_ldlt import ROUNDED, THROUGH
+from kernels.linear.condensed.block_ldlt import ROUNDED, THROUGH
 from kernels.linear.supernodal import factor as ldlt
 from kernels.linear.supernodal import matrix as blocks
 from kernels.linear.supernodal import solution
-from kernels.plates import assembly, shell
+from kernels.plates import assembly
+from kernels.plates.element import shell
 from kernels.plates.layout import PER_NODE
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
 

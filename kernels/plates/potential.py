@@ -10,7 +10,8 @@ vanishes. The Hessian is in `factoring`.
 
 from kernels.arrays import dot, zero
 from kernels.compile.jit import jit_exact
-from kernels.plates import contact, mirror, shell
+from kernels.plates.contacts import contact, mirror
+from kernels.plates.element import shell
 from kernels.plates.reach import drift
 from kernels.terms import inertia, lagging
 from kernels.terms.rows import BEND, CONTACT, STRETCH

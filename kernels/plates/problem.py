@@ -9,7 +9,9 @@ import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.laws.law import Memory, told
-from kernels.plates import factoring, potential, reach, relaxing_shear, shell, steps, thickness
+from kernels.plates import factoring, potential, reach, steps
+from kernels.plates.contacts import thickness
+from kernels.plates.element import relaxing_shear, shell
 from kernels.plates.reach import Neighbours
 from kernels.solve import history
 from kernels.solve.problem import Coordinates

@@ -8,11 +8,12 @@ from kernels.compile.jit import jit_exact, jit_owning, separate
 from kernels.geometry.space import near
 from kernels.linear.supernodal.analysis import analyse
 from kernels.linear.supernodal.matrix import Matrix
-from kernels.plates import admissible, couplings, friction, mirror, pairs, touching
-from kernels.plates.friction import LaggedContacts
+from kernels.plates import couplings
+from kernels.plates.contacts import admissible, friction, mirror, pairs, touching
+from kernels.plates.contacts.friction import LaggedContacts
+from kernels.plates.contacts.pairs import Pairs
+from kernels.plates.contacts.touching import Touching
 from kernels.plates.layout import PER_NODE, POSITION
-from kernels.plates.pairs import Pairs
-from kernels.plates.touching import Touching
 
 MARGIN = 0.5  # least margin of the pair list, as a share of the reach of contact
 MOST_TURN = 0.125  # of a node in one move: w, the tangent of a quarter of the angle

@@ -1,7 +1,8 @@
 """Start and end of a step of a lattice of plates: commit, roll back."""
 
 from kernels.compile.jit import jit_exact
-from kernels.plates import rotation, shell, thickness
+from kernels.plates.contacts import thickness
+from kernels.plates.element import rotation, shell
 from kernels.plates.potential import recall
 from kernels.terms.rows import BEND, STRETCH
 

@@ -27,7 +27,7 @@ from kernels.geometry.distance import (
 )
 from kernels.geometry.near_pairs import counted, within
 from kernels.laws.barrier import barrier
-from kernels.linear.block_matrix import add
+from kernels.linear.condensed.block_matrix import add
 
 
 class Contact(NamedTuple):

@@ -18,7 +18,7 @@ from kernels.arrays import triple
 from kernels.compile.jit import jit
 from kernels.geometry.angle import LARGEST, arctangent
 from kernels.laws.barrier import barrier
-from kernels.linear.block_matrix import add_block
+from kernels.linear.condensed.block_matrix import add_block
 
 LIMIT = math.radians(20.0)
 

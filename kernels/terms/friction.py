@@ -27,7 +27,7 @@ from kernels.arrays import pair
 from kernels.compile.jit import jit, jit_exact, jit_owning
 from kernels.geometry import near_pairs
 from kernels.geometry.distance import direction, normal
-from kernels.linear.block_matrix import add_block
+from kernels.linear.condensed.block_matrix import add_block
 from kernels.terms.contact import Touching, detect, normal_force, plate_force
 from kernels.terms.contact import no_contacts as none_touching
 

@@ -37,7 +37,7 @@ def configs(prefix: str, **_: object) -> list[str]:
     """Examples, and the files and folders that begin so."""
     from argcomplete.completers import FilesCompleter
 
-    from sweep.config.examples import examples
+    from sweep.config.reading.examples import examples
 
     return examples() + list(FilesCompleter(["toml"])(prefix))
 
@@ -67,6 +67,6 @@ def cases(parsed_args: Namespace, **_: object) -> list[str]:
 
 def materials(prefix: str, **_: object) -> list[str]:
     """The materials that come with Crumple, and the words of the verb."""
-    from sweep.config.material_file import available
+    from sweep.config.materials.material_file import available
 
     return ["plot", "fit", *available()]

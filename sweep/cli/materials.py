@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from sweep.config.material_file import Record
+    from sweep.config.materials.material_file import Record
 
 PLOTTED = -0.6, 1.0, 401  # strains and number of points of a picture
 UNBROKEN = 0.1  # strain to which a plastic is drawn that states no break
@@ -28,7 +28,7 @@ class MaterialsError(ValueError):
 
 def materials(arguments: Namespace) -> None:
     """List, show, plot or fit."""
-    from sweep.config.material_file import available
+    from sweep.config.materials.material_file import available
 
     first, *names = arguments.words or [""]
     if first != "fit":
@@ -52,19 +52,19 @@ def _refuse_options_of_a_fit(arguments: Namespace) -> None:
 
 
 def _record(name: str) -> Record:
-    from sweep.config.material_file import locate, read_record
+    from sweep.config.materials.material_file import locate, read_record
 
     return read_record(locate(name))
 
 
 def _list(names: list[str]) -> None:
-    from sweep.report.material_sheets import material_sheet
+    from sweep.report.tables.material_sheets import material_sheet
 
     print_sheets([material_sheet(map(_record, names))])
 
 
 def _show(names: list[str]) -> None:
-    from sweep.report.material_sheets import details
+    from sweep.report.tables.material_sheets import details
 
     for name, record in [(name, _record(name)) for name in names]:
         say(name)
@@ -72,8 +72,8 @@ def _show(names: list[str]) -> None:
 
 
 def _plot(names: list[str], out: Path) -> None:
-    from sweep.report.case_plots import blank, save
-    from sweep.report.material_plots import material_curves
+    from sweep.report.figures.case_plots import blank, save
+    from sweep.report.figures.material_plots import material_curves
 
     figure = blank(11.0, 4.6)
     material_curves(figure, {record.name: _curve(record) for record in map(_record, names)})
@@ -105,12 +105,12 @@ def _png(path: Path) -> Path:
 
 
 def _fit(arguments: Namespace, names: list[str]) -> None:
-    from sweep.config.material_file import read_record
+    from sweep.config.materials.material_file import read_record
     from sweep.coupon.fit import fit
     from sweep.coupon.record import read_coupon
     from sweep.coupon.write import fit_sentence, material_text, told
-    from sweep.report.case_plots import blank, save
-    from sweep.report.material_plots import coupon_fit
+    from sweep.report.figures.case_plots import blank, save
+    from sweep.report.figures.material_plots import coupon_fit
 
     if len(names) != 1:
         raise MaterialsError("fit needs the file of one coupon: crumple materials fit coupon.csv")

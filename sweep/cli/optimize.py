@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from sweep.config.grid import Config
-    from sweep.running.search import Search
+    from sweep.running.searching.search import Search
 
 FORCES = "loading.allowed_forces"
 SHORT = 8  # characters of an id in a command
@@ -27,8 +27,8 @@ class OptimizeError(ValueError):
 def optimize(config: Config, arguments: Namespace) -> int:
     """Search for the best design of a config; return how many of the finalists' cases failed."""
     from sweep.ranking.worth import check_searched
-    from sweep.running.design_space import DesignSpace
-    from sweep.running.search import Search, Settings
+    from sweep.running.searching.design_space import DesignSpace
+    from sweep.running.searching.search import Search, Settings
 
     if not config.search:
         wrong = "has no [search] with the keys that may be chosen"
@@ -131,9 +131,9 @@ def _tell_best(search: Search) -> int:
     from sweep.ranking.curves import with_allowed
     from sweep.ranking.rank import ranked
     from sweep.ranking.spread import spreads
-    from sweep.report.search_sheets import finalist_sheet
-    from sweep.running.finalists import finalists, perturbed
-    from sweep.running.spread import run_corners, spread_file
+    from sweep.report.tables.search_sheets import finalist_sheet
+    from sweep.running.beside.spread import run_corners, spread_file
+    from sweep.running.searching.finalists import finalists, perturbed
     from sweep.store.read import read_summary
 
     found, question = search.found, search.question
@@ -163,9 +163,9 @@ def _tell_best(search: Search) -> int:
 def _tell_nearest(search: Search) -> None:
     """Print that no design fulfils all requirements, why, and which comes nearest."""
     from sweep.ranking.rank import ranked
-    from sweep.report.search_sheets import nearest_sheet
-    from sweep.report.sheets import ranking_sheets
-    from sweep.running.finalists import finalists
+    from sweep.report.tables.search_sheets import nearest_sheet
+    from sweep.report.tables.sheets import ranking_sheets
+    from sweep.running.searching.finalists import finalists
 
     assert search.found is not None
     summary, question = search.rows(), search.question | {"top": None}
@@ -178,7 +178,7 @@ def _tell_nearest(search: Search) -> None:
 
 def _tell_front(search: Search, other: str) -> None:
     from sweep.ranking.worth import front, thinned
-    from sweep.report.search_sheets import front_sheet
+    from sweep.report.tables.search_sheets import front_sheet
 
     assert search.found is not None
     summary = search.rows()

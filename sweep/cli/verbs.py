@@ -94,7 +94,7 @@ def run(arguments: Namespace) -> int:
         say_all([UNKNOWN_BEST] if arguments.spread else [])
         say_all([SCREENED] if arguments.screen else [])
         return DONE
-    from sweep.running.error_bars import add_error_bars
+    from sweep.running.beside.error_bars import add_error_bars
     from sweep.running.sweep import run_sweep
 
     how = workers, arguments.scheduler, rerun
@@ -107,7 +107,7 @@ def run(arguments: Namespace) -> int:
     failed += add_error_bars(config, out, *how) if arguments.error_bars else 0
     print_ranking(out, read_summary(out), question)
     if estimates is not None:
-        from sweep.report.screen_sheets import screen_sheets
+        from sweep.report.tables.screen_sheets import screen_sheets
 
         print_sheets(screen_sheets(estimates, read_summary(out), question))
     failed += _spread(config, out, how, question) if arguments.spread else 0
@@ -131,7 +131,7 @@ def _screen(
     estimates, and how many designs have none.
     """
     from sweep.config.grid import chosen_of, expand
-    from sweep.running.screen import best_of, has_column, run_columns, screen_file
+    from sweep.running.beside.screen import best_of, has_column, run_columns, screen_file
 
     cases = expand(config)
     screened = [case for case in cases if has_column(case)]
@@ -154,8 +154,8 @@ def _spread(config: Config, out: str, how: tuple[Any, ...], question: dict[str, 
     """
     from sweep.ranking.rank import ranked
     from sweep.ranking.spread import spreads
-    from sweep.report.spread_sheets import spread_sheets
-    from sweep.running.spread import BEST, corners_of, run_corners, spread_file
+    from sweep.report.tables.spread_sheets import spread_sheets
+    from sweep.running.beside.spread import BEST, corners_of, run_corners, spread_file
     from sweep.store.read import read_summary
 
     summary = read_summary(out)
@@ -243,8 +243,8 @@ def rank(arguments: Namespace) -> int:
     """Print the ranking as tables or as text for other programs, or write it into a folder."""
     from sweep.ranking.curves import with_allowed
     from sweep.ranking.rank import ranked
-    from sweep.report.markdown import markdown
-    from sweep.report.sheets import ranking_sheets
+    from sweep.report.tables.markdown import markdown
+    from sweep.report.tables.sheets import ranking_sheets
     from sweep.store.read import read_summary
 
     question, heights = _asked(arguments), _drop_heights(arguments)
@@ -275,7 +275,7 @@ def rank(arguments: Namespace) -> int:
 
 def show(arguments: Namespace) -> int:
     """Draw one case, or list all cases."""
-    from sweep.report.sheets import about_direction, case_sheet, describe_case
+    from sweep.report.tables.sheets import about_direction, case_sheet, describe_case
     from sweep.store.read import read_summary
 
     summary = read_summary(arguments.file)

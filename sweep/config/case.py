@@ -8,8 +8,8 @@ from typing import Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from sweep.config.defaults.resolve import resolve
 from sweep.config.lattice_table import Lattice
-from sweep.config.resolve import resolve
 from sweep.config.tables import Contact, Damping, Loading, Material, Solver, Table, canonical
 
 __all__ = [

@@ -16,11 +16,11 @@ from pydantic_core import ErrorDetails
 
 from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import TABLES, Case
+from sweep.config.defaults.resolve import resolve
 from sweep.config.keys import ALIASES, case_keys
-from sweep.config.material_header import KEYS
-from sweep.config.resolve import resolve
+from sweep.config.materials.material_header import KEYS
+from sweep.config.reading.unused_keys import still_unused
 from sweep.config.tables import Rank, Require, Table, rounded
-from sweep.config.unused_keys import still_unused
 
 MAX_CASES = 1_000_000
 SHOWN = 10  # faults that the text of a ConfigError lists

@@ -12,9 +12,9 @@ from typing import Any
 
 from pydantic import ConfigDict, TypeAdapter
 
-from sweep.config import drop_tests
 from sweep.config.case import TABLES
-from sweep.config.material_file import available
+from sweep.config.defaults import drop_tests
+from sweep.config.materials.material_file import available
 from sweep.config.tables import QUESTION, Table
 
 ALIASES = {

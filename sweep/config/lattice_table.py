@@ -7,8 +7,8 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from sweep.config.structure import Structure
-from sweep.config.structure_file import faults, read_structure
+from sweep.config.structures.structure import Structure
+from sweep.config.structures.structure_file import faults, read_structure
 from sweep.config.tables import Few, Length, Mass, Size, Table, refusal
 from sweep.design.geometry import Geometry
 from sweep.design.infill import families, trait

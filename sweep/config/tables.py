@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from sweep.config.material_file import (
+from sweep.config.materials.material_file import (
     REFERENCE_TIME,
     Record,
     check_curve,

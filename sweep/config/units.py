@@ -14,11 +14,11 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from sweep.config.examples import examples, find_config
 from sweep.config.grid import MAX_CASES, Config, ConfigError, Fault, case_count, check, expand
 from sweep.config.keys import QUANTITIES
-from sweep.config.reader import Reader, in_words
-from sweep.config.unclosed import unclosed
+from sweep.config.reading.examples import examples, find_config
+from sweep.config.reading.reader import Reader, in_words
+from sweep.config.reading.unclosed import unclosed
 
 __all__ = ["MAX_CASES", "Config", "ConfigError", "case_count", "expand", "load_config", "quantity"]
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from sweep.config.material_file import SECANT
+from sweep.config.materials.material_file import SECANT
 
 Floats = NDArray[np.float64]
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from textwrap import wrap
 
-from sweep.config.material_file import Record
+from sweep.config.materials.material_file import Record
 from sweep.coupon.branches import branch_name
 from sweep.coupon.fit import Fit
 

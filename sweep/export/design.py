@@ -14,7 +14,7 @@ from sweep.export.errors import ExportError
 if TYPE_CHECKING:
     from sweep.config.case import Case
     from sweep.config.lattice_table import Lattice
-    from sweep.config.structure import Structure
+    from sweep.config.structures.structure import Structure
     from sweep.design.network import Network
 
 HEAD = "lattice."
@@ -137,7 +137,7 @@ def _infill(row: Mapping[str, Any]) -> dict[str, Any]:
 
 def _structure(content: Mapping[str, Any] | None) -> Structure | None:
     """A custom structure; its lists become tuples only if it is read as JSON."""
-    from sweep.config.structure import Structure
+    from sweep.config.structures.structure import Structure
 
     return Structure.model_validate_json(json.dumps(content)) if content else None
 

@@ -305,7 +305,7 @@ def _series(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
 
 
 def _gif(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
-    from sweep.report.animation import write_gif
+    from sweep.report.figures.animation import write_gif
 
     write_gif(path, source.row, source.frames, source.history)
     return []

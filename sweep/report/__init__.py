@@ -1,5 +1,5 @@
-"""Tables, Markdown, pictures and pages of results; the only home of matplotlib.
+"""Tables, pictures and pages of results; the only home of matplotlib.
 
-`publish` writes the files of a sweep or a case, `page` a sweep as one HTML page; every other module
-makes one kind of file.
+`publish` writes the files of a sweep or a case: `tables` as text, `figures`, and `page`, a sweep as
+one HTML page. `results` is what a user in Python gets from a run.
 """

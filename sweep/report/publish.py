@@ -14,15 +14,15 @@ from sweep.ranking.accuracy import studies
 from sweep.ranking.cushion import crush_of, drops
 from sweep.ranking.merit import RankError
 from sweep.ranking.rank import ranked
-from sweep.report import case_plots, cushion_plots, design_map
-from sweep.report.accuracy_tables import MARKS, accuracy_sheets, scene_title
-from sweep.report.markdown import markdown
-from sweep.report.pattern_bars import panel_size, pattern_bars
-from sweep.report.probe_plots import probe_reactions
-from sweep.report.shaded import cut_open
-from sweep.report.sheets import Sheet, design_labels, legend, ranking_sheets
-from sweep.report.storyboard import headline, last_loaded
-from sweep.report.work_precision import work_precision
+from sweep.report.figures import case_plots, cushion_plots, design_map
+from sweep.report.figures.pattern_bars import panel_size, pattern_bars
+from sweep.report.figures.probe_plots import probe_reactions
+from sweep.report.figures.shaded import cut_open
+from sweep.report.figures.storyboard import headline, last_loaded
+from sweep.report.figures.work_precision import work_precision
+from sweep.report.tables.accuracy_tables import MARKS, accuracy_sheets, scene_title
+from sweep.report.tables.markdown import markdown
+from sweep.report.tables.sheets import Sheet, design_labels, legend, ranking_sheets
 from sweep.store.read import read_frames, read_history, read_summary
 
 if TYPE_CHECKING:

@@ -5,8 +5,8 @@ from collections import deque
 from collections.abc import Iterable, Sequence
 
 from sweep.config.case import Case, given
-from sweep.config.direction import is_along
-from sweep.config.solver_defaults import steps
+from sweep.config.defaults.direction import is_along
+from sweep.config.defaults.solver_defaults import steps
 from sweep.config.tables import canonical
 
 SECONDS = 1.0  # of work in a batch: long against the cost of a task, short for progress

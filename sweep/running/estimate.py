@@ -14,13 +14,13 @@ from itertools import accumulate, pairwise
 from math import isnan
 
 from sweep.config.case import Case
-from sweep.config.direction import is_along
+from sweep.config.defaults.direction import is_along
+from sweep.config.defaults.solver_defaults import steps
 from sweep.config.grid import Config, case_count, expand
-from sweep.config.solver_defaults import steps
 from sweep.result import Result, Status
 from sweep.running.batches import Plan, cost
+from sweep.running.beside.error_bars import companions_beside, companions_file
 from sweep.running.dask_graph import Simulate, Stop, run
-from sweep.running.error_bars import companions_beside, companions_file
 from sweep.running.sweep import Interrupted, interruptible, real_simulate
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 

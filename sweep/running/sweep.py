@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from threading import current_thread, main_thread
 
 from sweep.config.case import Case
-from sweep.config.direction import is_along
+from sweep.config.defaults.direction import is_along
 from sweep.config.grid import Config, expand
 from sweep.result import HOW_TO_RENEW, Status
 from sweep.running.batches import Plan, cost

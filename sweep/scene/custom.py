@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kernels.linear import analysis
+from kernels.linear.condensed import analysis
 from kernels.terms import contact, spring
 from sweep.config.case import Case, given
-from sweep.config.structure import Structure
+from sweep.config.structures.structure import Structure
 from sweep.design.network import Network, mass
 from sweep.scene.beams import bends, build_beams
 from sweep.scene.bending import build_bend, build_fold

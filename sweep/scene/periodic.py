@@ -157,7 +157,7 @@ def _leaders(numbering: Repeated, case: Case) -> Ints:
 def _images(numbering: Repeated, leader: Ints) -> Ints:
     """The constraints of images: position = that of the original + shift x period.
 
-    (k, 4) as in `kernels.linear.periodic_images`.
+    (k, 4) as in `kernels.linear.condensed.periodic_images`.
     """
     nodes = np.flatnonzero(~numbering.own)
     rows = []

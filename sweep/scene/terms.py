@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.linear import analysis, periodic_images
+from kernels.linear.condensed import analysis, periodic_images
+from kernels.planar.position_based import Projection
 from kernels.planar.problem import PlanarScene, at_rest
 from kernels.plates.layout import Layout as LayoutOfPlates
 from kernels.solve import march
@@ -18,10 +19,9 @@ from kernels.terms import damping, elements, friction, spring, stretch
 from kernels.terms.bend import Bend
 from kernels.terms.contact import Contact
 from kernels.terms.fold import Fold
-from kernels.terms.position_based import Projection
 from kernels.terms.spring import Spring
 from sweep.config.case import Case, Loading, given
-from sweep.config.direction import height_pressed
+from sweep.config.defaults.direction import height_pressed
 from sweep.design.network import Network
 from sweep.scene.beams import Beams, plane_factors
 from sweep.scene.coordinates import Numbering

@@ -11,9 +11,9 @@ from kernels.geometry.specimen_height import height
 from kernels.solve import arc_length, energy_book, friction_loop, march, newton
 from kernels.terms.rows import ROW, STRETCH, Output
 from sweep.config.case import Case, Lattice, Loading, Solver
-from sweep.config.direction import height_pressed, is_along
-from sweep.config.solver_defaults import given_or
-from sweep.config.structure import Load, Structure, Support
+from sweep.config.defaults.direction import height_pressed, is_along
+from sweep.config.defaults.solver_defaults import given_or
+from sweep.config.structures.structure import Load, Structure, Support
 from sweep.result import Result, Status
 from sweep.scene.arcs import arc_of, path_columns
 from sweep.scene.custom import build_structure

@@ -10,7 +10,7 @@ from math import nan
 import numpy as np
 
 from sweep.config.case import Case, given
-from sweep.config.direction import is_along
+from sweep.config.defaults.direction import is_along
 from sweep.design.network import relative_density
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene

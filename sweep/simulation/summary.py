@@ -3,8 +3,8 @@
 import numpy as np
 
 from sweep.config.case import Case, Material, given
-from sweep.config.direction import footprint, height_pressed, is_along
-from sweep.config.solver_defaults import given_or
+from sweep.config.defaults.direction import footprint, height_pressed, is_along
+from sweep.config.defaults.solver_defaults import given_or
 from sweep.design.network import mass, relative_density
 from sweep.design.sliced import extruded_area
 from sweep.result import absorbed_energy_column, design_columns

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Contact, Lattice, Material, Solver
-from sweep.config.structure import Load, Structure, Support
+from sweep.config.structures.structure import Load, Structure, Support
 from sweep.simulation.simulate import simulate
 
 LENGTH, DEPTH, MODULUS = 100.0, 10.0, 12.0  # mm, MPa

@@ -33,11 +33,11 @@ HOMES = {
     "dask": "sweep.running.dask_graph",
     "distributed": "sweep.running.dask_graph",
     "h5py": "sweep.store.read sweep.store.hdf5",
-    "matplotlib": "sweep.report.case_plots",
+    "matplotlib": "sweep.report.figures.case_plots",
     "pint": "sweep.config.units",
     "manifold3d": "sweep.export.solid",
     "ezdxf": "sweep.export.dxf",
-    "PIL": "sweep.report.animation",
+    "PIL": "sweep.report.figures.animation",
 }
 # What reads results, and so must run where nothing is installed that simulates.
 READERS = [m for m in PROGRAM if m.startswith(("sweep.store", "sweep.ranking", "sweep.report"))]
@@ -72,7 +72,7 @@ TESTED_ELSEWHERE = {
     "kernels.plates.couplings": "kernels/plates/test_factoring.py",
     "kernels.plates.problem": "kernels/plates/test_potential.py",
     "kernels.plates.steps": "kernels/plates/test_potential.py",
-    "kernels.plates.touching": "kernels/plates/test_contact.py",
+    "kernels.plates.contacts.touching": "kernels/plates/contacts/test_contact.py",
     "kernels.linear.supernodal.fronts": "kernels/linear/supernodal/test_factor.py",
     "kernels.solve.history": "kernels/solve/test_chain.py",
     "kernels.solve.residual": "kernels/solve/test_newton.py",

@@ -8,7 +8,7 @@ import pytest
 
 PROGRAM = """
 from sweep import simulate
-from sweep.config.structure import Load, Structure, Support
+from sweep.config.structures.structure import Load, Structure, Support
 from sweep.config.case import Case, Lattice, Loading, Solver
 
 crush = Case(

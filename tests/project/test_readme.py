@@ -13,8 +13,8 @@ from sweep.__main__ import main, parser
 from sweep.config.case import TABLES, Case, Damping, Loading
 from sweep.config.grid import expand
 from sweep.config.keys import case_keys, table_keys
-from sweep.config.material_file import COLUMNS as RECORD
-from sweep.config.structure import Structure
+from sweep.config.materials.material_file import COLUMNS as RECORD
+from sweep.config.structures.structure import Structure
 from sweep.config.tables import QUESTION
 from sweep.config.units import load_config, quantity
 from sweep.design.infill import families

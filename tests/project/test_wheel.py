@@ -19,7 +19,7 @@ from pathlib import Path
 import pytest
 
 import crumple
-from sweep.config.examples import examples
+from sweep.config.reading.examples import examples
 
 ROOT = Path(__file__).parents[2]
 FOLDERS = ("configs", "kernels", "sweep")
@@ -40,7 +40,7 @@ import pydoc
 from importlib.resources import files
 from importlib.util import find_spec
 import crumple
-from crumple.sweep.config.examples import examples
+from crumple.sweep.config.reading.examples import examples
 
 print(find_spec("sweep"), find_spec("kernels"), files(crumple).joinpath("py.typed").is_file())
 print(*dir(crumple))

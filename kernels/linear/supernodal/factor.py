@@ -5,7 +5,7 @@ Pivots that are zero within round-off are treated as in `block_ldlt`, whose `ROU
 """
 
 from kernels.compile.jit import jit, jit_exact, separate
-from kernels.linear.block_ldlt import ROUNDED, SOFT, THROUGH, regularised
+from kernels.linear.condensed.block_ldlt import ROUNDED, SOFT, THROUGH, regularised
 from kernels.linear.supernodal.dense import divide, pack, subtract
 from kernels.linear.supernodal.fronts import assemble, strip
 from kernels.linear.supernodal.matrix import COLUMNS, ROWS, rounded_up, size

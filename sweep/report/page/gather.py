@@ -15,7 +15,8 @@ from sweep.ranking.curves import reached
 from sweep.ranking.merit import LEAST, Compared, merits, through_solid
 from sweep.ranking.rank import by_scene, pareto, ranked, scene_label
 from sweep.ranking.requirements import MEASURES, limits
-from sweep.report.flattened import lines, plan
+from sweep.report.figures.flattened import lines, plan
+from sweep.report.figures.storyboard import last_loaded, parts_of, path_of
 from sweep.report.page.thinning import (
     force_stairs,
     numbers,
@@ -24,9 +25,8 @@ from sweep.report.page.thinning import (
     work_until,
 )
 from sweep.report.page.trails import UNIT, drawing, moving_shape
-from sweep.report.requirement_notes import UNITS, WORDS
-from sweep.report.sheets import crush_text, design_labels, design_text, impact_text
-from sweep.report.storyboard import last_loaded, parts_of, path_of
+from sweep.report.tables.requirement_notes import UNITS, WORDS
+from sweep.report.tables.sheets import crush_text, design_labels, design_text, impact_text
 from sweep.result import ABSORBED_AT, Status, correction_column, error_column
 from sweep.store.read import StoredCase, read_attributes, read_cases
 

@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING, Any
 
 from sweep.ranking.merit import doubtful
 from sweep.ranking.rank import ranked
+from sweep.report.figures.storyboard import PARTS
 from sweep.report.page.gather import page_data, required
-from sweep.report.sheets import design_labels, legend, ranking_sheets
-from sweep.report.storyboard import PARTS
+from sweep.report.tables.sheets import design_labels, legend, ranking_sheets
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from sweep.report.sheets import Sheet
+    from sweep.report.tables.sheets import Sheet
 
 HERE = Path(__file__).parent
 PROGRAM = ("rank.js", "plots.js", "page.js")

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from kernels.plates import contact
+from kernels.plates.contacts import contact
+from kernels.plates.contacts.mirror import NO_MIRROR, Mirror
 from kernels.plates.layout import PER_NODE
-from kernels.plates.mirror import NO_MIRROR, Mirror
 from sweep.config.case import Case, given
 from sweep.scene.plates.coordinates import BONDED, Numbering, heights
 from sweep.scene.plates.mesh import PlateMesh

@@ -6,7 +6,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from sweep.config.case import Lattice, given
-from sweep.config.direction import network_of, quads_wanted
+from sweep.config.defaults.direction import network_of, quads_wanted
 from sweep.design.extrusion import Plan, plan_of, quads_along
 from sweep.scene.mesh import Floats, Ints
 from sweep.scene.plates.imperfection import amplitudes, bow

@@ -4,14 +4,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from kernels.plates import shell
+from kernels.plates.element import shell
 from kernels.plates.layout import PER_NODE, Layout
 from kernels.plates.problem import PlateScene, at_rest
 from kernels.solve import march
 from kernels.solve.history import State
 from kernels.solve.problem import Coordinates
 from sweep.config.case import Case, given
-from sweep.config.direction import network_of
+from sweep.config.defaults.direction import network_of
 from sweep.design.drawing import Indices
 from sweep.design.network import Network, mass
 from sweep.scene.mesh import Floats

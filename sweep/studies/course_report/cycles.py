@@ -5,7 +5,7 @@ from pathlib import Path
 from pandas import DataFrame
 
 from sweep.config.case import Case
-from sweep.report import case_plots
+from sweep.report.figures import case_plots
 from sweep.studies.course_report.cases import history, ours, run, varied
 from sweep.studies.course_report.panels import curves, legend, title
 

@@ -6,7 +6,7 @@ import numpy as np
 from pandas import DataFrame
 
 from sweep.config.case import Case, Material
-from sweep.report import case_plots
+from sweep.report.figures import case_plots
 from sweep.scene.material import stress_law
 from sweep.studies.course_report.cases import history, ours, varied
 from sweep.studies.course_report.panels import curves, dress, legend, ticks, title

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from pandas import DataFrame
 
-from sweep.report import case_plots
+from sweep.report.figures import case_plots
 from sweep.studies.course_report.cases import HELD, at, history, ours, report, run, share, varied
 from sweep.studies.course_report.panels import curves, legend, title
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from sweep.config.case import Case
-from sweep.report import case_plots
+from sweep.report.figures import case_plots
 from sweep.studies.course_report.cases import ours, report, run, varied
 from sweep.studies.course_report.springs import SHORT
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from sweep.report.case_plots import BLUE, GREY, GRID, ORANGE, PURPLE, SKY, VERMILION, plain
+from sweep.report.figures.case_plots import BLUE, GREY, GRID, ORANGE, PURPLE, SKY, VERMILION, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

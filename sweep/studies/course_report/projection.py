@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from sweep.config.case import Case
-from sweep.report import case_plots
+from sweep.report.figures import case_plots
 from sweep.studies.course_report.cases import at, history, report, run, varied
 from sweep.studies.course_report.panels import curves, legend, ticks, title
 from sweep.studies.course_report.springs import SHORT

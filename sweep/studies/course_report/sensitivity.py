@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from sweep.report import case_plots
+from sweep.report.figures import case_plots
 from sweep.studies.course_report.cases import HELD, at, coarse, history, run, share, varied
 from sweep.studies.course_report.panels import dress, title
 

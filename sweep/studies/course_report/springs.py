@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from sweep.report import case_plots
+from sweep.report.figures import case_plots
 from sweep.studies.course_report.cases import history, report, run, varied
 
 SHORT = {"duration": 0.03, "release_time": 0.03}

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from sweep.report import case_plots
+from sweep.report.figures import case_plots
 from sweep.studies.course_report.cases import HELD, at, coarse, history, ours, report, run, varied
 from sweep.studies.course_report.panels import curves, legend, title
 

@@ -6,7 +6,7 @@ import numpy as np
 from pandas import DataFrame
 
 from sweep.config.case import Case
-from sweep.report import case_plots
+from sweep.report.figures import case_plots
 from sweep.studies.course_report.cases import HELD, at, history, ours, report, varied
 from sweep.studies.course_report.panels import curves, legend, title
 

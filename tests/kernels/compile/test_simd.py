@@ -6,7 +6,7 @@ import pytest
 
 from kernels.compile.jit import jit
 from kernels.compile.simd import collect, exceeds, load, spread, store
-from kernels.linear import block_ldlt, block_matrix, periodic_images
+from kernels.linear.condensed import block_ldlt, block_matrix, periodic_images
 
 
 @pytest.fixture(autouse=True)

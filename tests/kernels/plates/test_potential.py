@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from kernels.plates import contact, mirror, shell
+from kernels.plates.contacts import contact, mirror
+from kernels.plates.element import shell
 from kernels.terms.rows import BEND, CONTACT, STRETCH
 from tests.support.kernels.pressed_plates import (
     CASES,

@@ -6,7 +6,7 @@ python -m tests.studies.bench FOLDER
 import sys
 from pathlib import Path
 
-from sweep.report.case_plots import save
+from sweep.report.figures.case_plots import save
 from sweep.simulation.simulate import warm_up
 from tests.studies.bench import (
     densify,

@@ -1,6 +1,15 @@
 """The picture of the bench: growth, an iteration taken apart, the seed's scene beside others."""
 
-from sweep.report.case_plots import BLUE, GREY, ORANGE, PURPLE, SKY, VERMILION, YELLOW, blank
+from sweep.report.figures.case_plots import (
+    BLUE,
+    GREY,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    YELLOW,
+    blank,
+)
 from tests.studies.bench import growth, iteration, scenes
 from tests.studies.bench.peers import libraries
 

@@ -32,7 +32,7 @@ def heads(strains):
 
 def main(folder):
     """Print the tables; write them and the figure to a folder."""
-    from sweep.report.case_plots import save
+    from sweep.report.figures.case_plots import save
     from tests.studies.continuum import figure, solids, study
 
     def told(lines):

@@ -1,6 +1,6 @@
 """The picture of the comparison: the crush with contact, and errors over the slenderness."""
 
-from sweep.report.case_plots import BLUE, GREY, ORANGE, SKY, VERMILION, blank
+from sweep.report.figures.case_plots import BLUE, GREY, ORANGE, SKY, VERMILION, blank
 from tests.studies.continuum import study
 
 COLORS = (BLUE, "#9ecae1", SKY, ORANGE, VERMILION, GREY)

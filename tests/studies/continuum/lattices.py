@@ -18,7 +18,7 @@ from sweep.design.infill import families
 from sweep.design.period import build_period
 from sweep.scene.joints import find_arms
 from tests.studies.continuum.arms import axes
-from tests.studies.continuum.openings import KINDS, Star, beam, matrix
+from tests.studies.continuum.joint_compliance import KINDS, Star, beam, matrix
 
 TABLE = Path(__file__).parents[3] / "sweep/scene/joints.csv"
 NEAR = 0.01  # of openings, degrees

@@ -8,7 +8,7 @@ against run time. Finished cases are kept in the given folder.
 import sys
 from pathlib import Path
 
-from sweep.report.markdown import markdown
+from sweep.report.tables.markdown import markdown
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_summary
 from tests.studies.memory.costs import costs

@@ -6,8 +6,8 @@ import numpy as np
 
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
 from sweep.numbers import tenths
-from sweep.report.sheets import Sheet
-from tests.studies.spread import CELLS
+from sweep.report.tables.sheets import Sheet
+from tests.studies.rankings.spread import CELLS
 
 PATTERNS = ("square", "hex", "circle", "triangle", "kagome")
 LOSSES = (None, 0.2, 0.4)

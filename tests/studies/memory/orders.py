@@ -1,9 +1,9 @@
 """Which answers change: the order of the designs of a sweep, with and without each part."""
 
 from sweep.ranking.rank import by_scene, scene_label
-from sweep.report.sheets import Sheet
+from sweep.report.tables.sheets import Sheet
 from tests.studies.memory.variants import PARTS, changed
-from tests.studies.orders import CONFIGS, cases_of, compared, merits
+from tests.studies.rankings.orders import CONFIGS, cases_of, compared, merits
 
 ELASTIC = "elastic"
 

@@ -11,15 +11,15 @@ the given folder.
 import sys
 from pathlib import Path
 
-from sweep.report.markdown import markdown
-from sweep.running.error_bars import companions
+from sweep.report.tables.markdown import markdown
+from sweep.running.beside.error_bars import companions
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_history, read_summary
 from tests.studies.mesh.certainty import covered
 from tests.studies.mesh.crushes import USUAL, cases_of, compare, without_contact
 from tests.studies.mesh.orders import by_order, finer
 from tests.studies.mesh.tables import by_column, by_design, by_group
-from tests.studies.orders import cases_of as cases_of_sweeps
+from tests.studies.rankings.orders import cases_of as cases_of_sweeps
 
 CONFIGS = Path(__file__).parents[3] / "configs"
 

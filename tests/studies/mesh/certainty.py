@@ -3,9 +3,9 @@
 import numpy as np
 import pandas as pd
 
-from sweep.running.error_bars import companions, error_bars
-from tests.studies.bars import beside_finer, coverage
+from sweep.running.beside.error_bars import companions, error_bars
 from tests.studies.mesh.crushes import USUAL, work
+from tests.studies.rankings.bars import beside_finer, coverage
 
 
 def covered(cases, rows):

@@ -8,7 +8,7 @@ import pandas as pd
 from sweep.config.case import Case, Contact, Lattice
 from sweep.design.lattice import build_network
 from sweep.result import Status
-from tests.studies.spread import ALLOWED, CELLS, crush
+from tests.studies.rankings.spread import ALLOWED, CELLS, crush
 
 MESHES = (1, 2, 3, 4, 6, 8)  # elements of a wall
 FINEST = (12, 24)

@@ -4,9 +4,9 @@ import numpy as np
 import pandas as pd
 
 from sweep.numbers import short, tenths
-from sweep.report.sheets import Sheet
+from sweep.report.tables.sheets import Sheet
 from tests.studies.mesh.crushes import APART, COLUMNS, DESIGN, FINEST, LASTING, USUAL, WINDOW
-from tests.studies.spread import nine_of_ten
+from tests.studies.rankings.spread import nine_of_ten
 
 MIDDLE, MOST = 0.01, 0.02  # errors allowed in the middle, and in nine of ten designs
 SLENDER = (0.0, 6.0, 12.0, np.inf)  # edges of groups of wall length / thickness

@@ -5,7 +5,7 @@ A snippet occurs once in its file. Names say what is wrong.
 
 from typing import NamedTuple
 
-LAWS, TERMS = "kernels/laws", "kernels/terms"
+LAWS, TERMS, PLANAR = "kernels/laws", "kernels/terms", "kernels/planar"
 SOLVE, LINEAR = "kernels/solve", "kernels/linear"
 PLATES, SPACE = "kernels/plates", "kernels/geometry/space"
 
@@ -205,22 +205,22 @@ MUTANTS = [
         ("friction: duals", "+ curvature(before", "- curvature(before"),
     ),
     *_of(
-        f"{TERMS}/position_based.py",
+        f"{PLANAR}/position_based.py",
         ("by position: pulled", "(d_contact - d) / weight", "(d - d_contact) / weight"),
         ("by position: off a platen", "x[plate] + side * d_contact", "x[plate] - side * d_contact"),
     ),
     *_of(
-        f"{TERMS}/couplings.py",
+        f"{PLANAR}/couplings.py",
         ("couplings: too late", "1.0 + MARGIN", "1.0 - MARGIN"),
         ("couplings: no springs", "n = _couple(nodes, n, a, a, b)", "pass"),
     ),
     *_of(
-        f"{LINEAR}/block_ldlt.py",
+        f"{LINEAR}/condensed/block_ldlt.py",
         ("factor: second pivot", "values[at + 5] -= l10", "values[at + 5] += l10"),
         ("factor: third pivot never negative", "not (c > 0.0 or", "not (c != 0.0 or"),
     ),
     *_of(
-        f"{LINEAR}/condense.py",
+        f"{LINEAR}/condensed/condense.py",
         ("walls: elimination", "spread(-1.0) * load", "spread(1.0) * load"),
         ("walls: no negative pivot", "not (pivot > 0.0 or", "not (pivot != 0.0 or"),
     ),
@@ -304,7 +304,7 @@ MUTANTS = [
         ("relaxing sheet: stored", "complement - _inner(own", "complement + _inner(own"),
     ),
     *_of(
-        f"{PLATES}/relaxing_shear.py",
+        f"{PLATES}/element/relaxing_shear.py",
         ("relaxing shear: rest", "rest[k] - slope[k] / scale", "rest[k] + slope[k] / scale"),
         ("relaxing shear: constant", "state[STORED] - scale", "state[STORED] + scale"),
         ("relaxing shear: dissipation", "work = 2.0 * weights[0]", "work = weights[0]"),
@@ -319,47 +319,47 @@ MUTANTS = [
         tests="physics/test_memory_along.py",
     ),
     *_of(
-        f"{PLATES}/pairs.py",
+        f"{PLATES}/contacts/pairs.py",
         (
             "surfaces: corners",
             "weight[contact.edges[listed[j] - n_nodes, i]] -= weight",
             "weight[contact.edges[listed[j] - n_nodes, i]] += weight",
         ),
-        tests=f"{PLATES}/test_contact.py::test_parallel_sheets_count_once_at_any_mesh",
+        tests=f"{PLATES}/contacts/test_contact.py::test_parallel_sheets_count_once_at_any_mesh",
     ),
     *_of(
-        f"{PLATES}/contact.py",
+        f"{PLATES}/contacts/contact.py",
         ("surfaces: edges that turn", "0] + k] -= value * first", "0] + k] += value * first"),
-        tests=f"{PLATES}/test_contact.py::test_derivatives_of_parallel_edges",
+        tests=f"{PLATES}/contacts/test_contact.py::test_derivatives_of_parallel_edges",
     ),
     *_of(
-        f"{PLATES}/contact.py",
+        f"{PLATES}/contacts/contact.py",
         ("surfaces: platen", "g[platen] -= side * slope", "g[platen] += side * slope"),
-        tests=f"{PLATES}/test_contact.py::test_derivatives_against_platens",
+        tests=f"{PLATES}/contacts/test_contact.py::test_derivatives_against_platens",
     ),
     *_of(
-        f"{PLATES}/touching.py",
+        f"{PLATES}/contacts/touching.py",
         ("surfaces: half of a side", "touching, p, e, s, k)", "touching, p, e, 1.0 - s, k)"),
-        tests=f"{PLATES}/test_contact.py::test_derivatives_above_corners_sides_and_the_rim",
+        tests=f"{PLATES}/contacts/test_contact.py::test_derivatives_above_corners_sides_and_the_rim",
     ),
     *_of(
-        f"{PLATES}/friction.py",
+        f"{PLATES}/contacts/friction.py",
         ("friction in space: rotation", "_turn(slopes, 1, d, u", "_turn(slopes, 1, -d, u"),
         ("friction in space: mixed", "-0.5 * slope * (one * f", "0.5 * slope * (one * f"),
         ("friction in space: dual", "+ c12 * move[1]", "- c12 * move[1]"),
     ),
     *_of(
-        f"{PLATES}/shell.py",
+        f"{PLATES}/element/shell.py",
         ("shell: force along s", "r[0] * xs + r[1] * ds", "r[0] * xs - r[1] * ds"),
         ("shell: strain at rest", "measure[k] -= shell.rest", "measure[k] += shell.rest"),
     ),
     *_of(
-        f"{PLATES}/layers.py",
+        f"{PLATES}/element/layers.py",
         ("layers: thickening", "cube = -0.5 * j * j * j", "cube = 0.5 * j * j * j"),
         ("layers: Hessian", "second[2, 2] += 2.0 * curl", "second[2, 2] -= 2.0 * curl"),
     ),
     *_of(
-        f"{PLATES}/shear.py",
+        f"{PLATES}/element/shear.py",
         (
             "shear of plates: strained surface",
             "1.0 / det, p * a[1] + q * a[0] - 2.0 * r",
@@ -368,7 +368,7 @@ MUTANTS = [
         ("shear of plates: long quads", "1.0 + share * size[0]", "1.0 - share * size[0]"),
     ),
     *_of(
-        f"{PLATES}/fold.py",
+        f"{PLATES}/element/fold.py",
         (
             "fold of a shell: gradient",
             "by_s, by_z = _cross(s, z), _cross(z, d)",
@@ -377,17 +377,17 @@ MUTANTS = [
         ("fold: Hessian", "(at, to, -sign * factor, s", "(at, to, sign * factor, s"),
     ),
     *_of(
-        f"{PLATES}/bow.py",
+        f"{PLATES}/element/bow.py",
         ("arc of plates: bending", "m[3 + k] += q * b", "m[3 + k] -= q * b"),
         ("arc of plates: at rest", "m[k] += q - q0", "m[k] += q + q0"),
     ),
     *_of(
-        f"{PLATES}/rotation.py",
+        f"{PLATES}/element/rotation.py",
         ("rotation: moment", "by = _cross(v, h)  # of", "by = _cross(h, v)  # of"),
         ("rotation: second derivative", "w[0] * m1 + w[1] * m0 + b", "w[0] * m1 + w[1] * m0 - b"),
     ),
     *_of(
-        f"{PLATES}/mirror.py",
+        f"{PLATES}/contacts/mirror.py",
         ("mirror: force", "coordinate[i]] -= slope", "coordinate[i]] += slope"),
     ),
     *_of(

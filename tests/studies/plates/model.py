@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix, csc_matrix
 from scipy.sparse.linalg import eigsh, spsolve
 
-from kernels.plates import rotation, shell
+from kernels.plates.element import rotation, shell
 from tests.support.kernels.shells import LINEAR, Structure, element_hessians, virgin
 
 Floats = NDArray[np.float64]

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
-from sweep.config.structure import Structure
+from sweep.config.structures.structure import Structure
 from tests.studies.stability.draw import Draws
 
 COUNT, SEED = 300, 43

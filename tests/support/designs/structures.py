@@ -8,7 +8,7 @@ import json
 import numpy as np
 
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
-from sweep.config.structure import Structure
+from sweep.config.structures.structure import Structure
 from sweep.simulation.simulate import simulate
 
 MATERIAL = Material(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")

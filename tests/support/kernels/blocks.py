@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from kernels.linear import block_matrix, periodic_images
+from kernels.linear.condensed import block_matrix, periodic_images
 
 NB = 12
 

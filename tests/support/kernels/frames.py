@@ -14,7 +14,8 @@ from kernels.laws.fibre import Fibre
 from kernels.laws.relaxation import Relaxing
 from kernels.laws.softening import Softening
 from kernels.laws.yielding import Yielding
-from kernels.linear import analysis, periodic_images
+from kernels.linear.condensed import analysis, periodic_images
+from kernels.planar import position_based
 from kernels.planar.problem import PlanarScene
 from kernels.solve.problem import FREE, Coordinates
 from kernels.terms import (
@@ -25,7 +26,6 @@ from kernels.terms import (
     elements,
     fold,
     friction,
-    position_based,
     section,
     spring,
     stretch,

@@ -12,9 +12,11 @@ import numpy as np
 
 from kernels.compile.reference import by_reference, referred
 from kernels.linear.supernodal.matrix import place
-from kernels.plates import friction, potential, reach, shell
+from kernels.plates import potential, reach
+from kernels.plates.contacts import friction
+from kernels.plates.contacts.touching import no_contacts
+from kernels.plates.element import shell
 from kernels.plates.problem import Plates
-from kernels.plates.touching import no_contacts
 from kernels.solve.problem import NO_ROOM, Step
 from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
 from sweep.scene.plates.scene import build_scene

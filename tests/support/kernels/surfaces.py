@@ -5,8 +5,8 @@ import itertools
 import numpy as np
 
 from kernels.geometry.space.vectors import SIZE
-from kernels.plates import contact, pairs
-from kernels.plates.touching import no_contacts
+from kernels.plates.contacts import contact, pairs
+from kernels.plates.contacts.touching import no_contacts
 from tests.support.kernels.terms import Term
 
 NOBODY = np.empty(0, np.int64), np.empty(0)

@@ -9,8 +9,8 @@ import numpy as np
 from kernels.geometry import near_pairs
 from kernels.laws.law import Memory
 from kernels.laws.relaxation import Pace
-from kernels.linear import block_matrix, periodic_images
-from kernels.linear.block_matrix import Blocks
+from kernels.linear.condensed import block_matrix, periodic_images
+from kernels.linear.condensed.block_matrix import Blocks
 from kernels.planar.problem import PlanarScene
 from kernels.solve.integrators import Ahead
 from kernels.terms import bend, contact, damping, elements, stretch

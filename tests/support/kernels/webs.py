@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from kernels.linear import analysis, block_matrix, system
+from kernels.linear.condensed import analysis, block_matrix, system
 from tests.support.kernels.frames import frame, layout_of, walls_of
 from tests.support.kernels.terms import assembled, room
 

@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.config.case import Material
-from sweep.config.material_file import available
+from sweep.config.materials.material_file import available
 from tests.support.command import crumple
 from tests.support.materials.coupons import coupon, written
 

@@ -5,7 +5,7 @@ from importlib import import_module
 
 import pytest
 
-from sweep.running.spread import spread_file
+from sweep.running.beside.spread import spread_file
 from sweep.store.read import read_summary
 from tests.support.command import crumple
 from tests.support.results.searches import TOML, simulate

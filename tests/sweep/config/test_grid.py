@@ -2,8 +2,8 @@
 
 import pytest
 
-from sweep.config import material_file
 from sweep.config.grid import case_count, chosen_case, designs_of, expand
+from sweep.config.materials import material_file
 from sweep.config.units import ConfigError
 
 THOUSAND = [round(0.01 + 1e-4 * i, 6) for i in range(1000)]

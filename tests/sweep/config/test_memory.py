@@ -7,7 +7,7 @@ import pytest
 from pydantic import ValidationError
 
 from sweep.config.case import Case, Loading, Material
-from sweep.config.material_file import REFERENCE_TIME
+from sweep.config.materials.material_file import REFERENCE_TIME
 
 CRUSH = Loading(mode="displacement", strain=0.5)
 SOFT = {"softening_r": 2.0, "softening_m": 1e5}

@@ -4,7 +4,7 @@ import pytest
 
 from sweep.config.case import Case, Damping, Lattice, Loading, Material, Solver
 from sweep.config.grid import expand
-from sweep.config.material_file import locate, not_rising, read_record
+from sweep.config.materials.material_file import locate, not_rising, read_record
 from sweep.scene.material import stress_law
 from tests.support.designs.structures import BEAM, structure
 from tests.support.materials.records import HEADER, RUBBERS

@@ -5,7 +5,7 @@ from pydantic import ValidationError
 
 from sweep.config.case import Case, Loading, Material
 from sweep.config.grid import expand
-from sweep.config.material_file import locate, read_record
+from sweep.config.materials.material_file import locate, read_record
 from sweep.config.tables import MODES
 from sweep.config.units import ConfigError
 from tests.support.designs.cases import pressed

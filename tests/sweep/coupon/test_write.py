@@ -5,8 +5,8 @@ import re
 import pytest
 
 from sweep.config.case import Material
-from sweep.config.material_file import read_record
-from sweep.config.material_header import assumed, source
+from sweep.config.materials.material_file import read_record
+from sweep.config.materials.material_header import assumed, source
 from sweep.coupon.fit import fit
 from sweep.coupon.record import Coupon
 from sweep.coupon.write import fit_sentence, material_text, told

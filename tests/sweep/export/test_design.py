@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Lattice, Loading
-from sweep.config.examples import examples
 from sweep.config.grid import Config, Written
+from sweep.config.reading.examples import examples
 from sweep.config.units import load_config
 from sweep.design.lattice import build_network
 from sweep.export.design import design_of, stored_design

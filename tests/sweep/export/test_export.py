@@ -92,7 +92,7 @@ def test_panel_of_what_is_pressed_along_its_cells_shows_its_drawing(tmp_path):
 def test_a_panel_is_what_is_ranked_and_searched(file, tmp_path, sides):
     """Number, true size and mass of the file are those of the ranking and of the search."""
     from sweep.config.grid import Config
-    from sweep.running.design_space import DesignSpace
+    from sweep.running.searching.design_space import DesignSpace
 
     exported(file, tmp_path / "panel.stl", panel=sides)
     mesh = trimesh.load_mesh(tmp_path / "panel.stl")

@@ -9,7 +9,7 @@ import pytest
 from sweep.config.grid import expand
 from sweep.config.units import load_config
 from sweep.ranking.accuracy import AccuracyError, energy, path, peak, studies
-from sweep.report.accuracy_tables import accuracy_sheets, setting
+from sweep.report.tables.accuracy_tables import accuracy_sheets, setting
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from sweep.store.read import read_summary

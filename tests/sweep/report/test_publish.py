@@ -5,10 +5,10 @@ import pytest
 
 from sweep.ranking.merit import RankError
 from sweep.report.publish import publish_case, publish_ranking
-from sweep.report.sheets import LOADED, MARKS
+from sweep.report.tables.sheets import LOADED, MARKS
 from tests.support.results.specimens import designs, summary, write
 
-DESIGN_MAP = "sweep.report.design_map.design_map"
+DESIGN_MAP = "sweep.report.figures.design_map.design_map"
 
 
 @pytest.fixture

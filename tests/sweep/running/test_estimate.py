@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Lattice, Loading
-from sweep.config.solver_defaults import steps
+from sweep.config.defaults.solver_defaults import steps
 from sweep.result import Result, Status
 from sweep.running.batches import cost
 from sweep.running.estimate import LONGEST, duration, estimate

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Loading, Solver
-from sweep.config.solver_defaults import steps
+from sweep.config.defaults.solver_defaults import steps
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import stages, tolerances
 from tests.support.designs.cases import pressed

@@ -5,7 +5,7 @@ The one file of the bench that knows how the kernels of a step are called.
 
 from kernels.arrays import copy
 from kernels.compile.jit import jit_exact, jit_owning
-from kernels.linear import block_ldlt, system
+from kernels.linear.condensed import block_ldlt, system
 from kernels.planar import reach
 from kernels.terms import (  # fmt: skip
     bend,

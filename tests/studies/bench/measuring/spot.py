@@ -3,7 +3,7 @@
 import numpy as np
 
 from kernels.compile.reference import referred
-from kernels.linear.block_matrix import SIZE
+from kernels.linear.condensed.block_matrix import SIZE
 from tests.studies.bench.measuring import loops
 from tests.studies.bench.measuring.clock import seconds
 from tests.support.kernels.solving import whole

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy import sparse
 
-from kernels.linear.block_matrix import HELD
+from kernels.linear.condensed.block_matrix import HELD
 
 
 def _parts(walls, stiffness, n):

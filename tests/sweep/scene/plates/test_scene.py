@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.plates import shell
+from kernels.plates.element import shell
 from kernels.solve.problem import FREE, HELD, LED, TIED
 from sweep.config.case import TABLES, Case, Loading
 from sweep.scene.plates.scene import build_scene

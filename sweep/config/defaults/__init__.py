@@ -1,0 +1,1 @@
+"""What a config leaves open: values that follow from others, from the loading, or from a slicer."""

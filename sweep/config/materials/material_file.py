@@ -1,0 +1,238 @@
+"""Material records: the tables in `configs/materials/`, which are in SI.
+
+A record is a csv file. Its comment lines hold the source and, one per line, `# key: value` for
+`density_kg_m3`, `poisson` and, optionally, `modulus_Pa`; `reference_time_s`, the time after
+loading for which the curve holds if the material relaxes; and the measured `loss`, `softening_r`,
+`softening_m_Pa` and `softening_beta`, which act where a config asks for them. Any of them may have
+a range (`material_header`). The columns `strain,stress_Pa` follow
+(nominal, tension positive, strains increasing; the origin is implied and may be left out).
+Rows of negative strain, if there are any, are the material's own compression branch.
+
+A plastic that yields has `yield_stress_Pa` instead of columns, a `modulus_Pa`, and optionally
+`hardening_Pa` and `fracture_strain`.
+"""
+
+import csv
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from math import inf, isfinite
+from pathlib import Path
+
+from sweep.config.materials.material_header import Stated, comments, stated
+
+Numbers = tuple[float, ...]
+
+FOLDER = Path(__file__).parents[3] / "configs" / "materials"
+COLUMNS = ["strain", "stress_Pa"]
+TOE = 0.01  # below this strain a record is replaced by a straight line from the origin
+MOST_STRAIN = 20.0  # no rubber is stretched farther
+REFERENCE_TIME = 1.0  # s; of a record that states none
+SECANT = (0.01, 0.04)  # strains of the secant that is the modulus of a curve
+MEMORY = ("loss", "softening_r", "softening_m", "softening_beta")
+PLASTICITY = ("yield_stress", "hardening", "fracture_strain")
+LIMITS = {
+    "loss": (0.0, 0.8, "above 0, at most 0.8; 38 % is 0.38"),
+    "fracture_strain": (0.0, 1.0, "above 0, at most 1; 2.5 % is 0.025"),
+    "poisson": (-1e-12, 0.5 - 1e-12, "at least 0, below 0.5"),
+    "softening_r": (1.0, inf, "above 1"),
+}
+"""Numbers of a header and both ends of their ranges: above, at most, in words."""
+RANGE_ALONE = ("modulus", "friction")  # of which a range may be stated without a number
+
+
+class RecordError(ValueError):
+    """A record that cannot be used; the text is one line with the file and the fault."""
+
+
+class UnknownMaterialError(RecordError):
+    """A name that is neither a shipped material nor a file."""
+
+
+@dataclass(frozen=True)
+class Record:
+    """One material: nominal strain (k,), nominal stress (k,) in Pa, and its numbers in SI.
+
+    memory: measured loss and softening, by the keys of a case. plasticity: numbers of a material
+    that yields, which has no curve; else empty. ranges: low and high end of every
+    number that has a range, by the same keys. comments: the text of the header.
+    """
+
+    name: str
+    strain: Numbers
+    stress: Numbers
+    density: float
+    poisson: float
+    modulus: float
+    reference_time: float
+    memory: Mapping[str, float]
+    plasticity: Mapping[str, float]
+    ranges: Mapping[str, tuple[float, float]]
+    comments: tuple[str, ...]
+
+
+def available() -> list[str]:
+    """Names of the records that come with the project."""
+    return sorted(path.stem for path in FOLDER.glob("*.csv"))
+
+
+def locate(name: str, folder: Path | None = None) -> Path:
+    """The file of a shipped material, or of a user's own csv, relative to `folder`."""
+    if name.endswith(".csv"):
+        path = (folder or Path()) / name
+        if path.is_file():
+            return path
+    elif name in available():
+        return FOLDER / f"{name}.csv"
+    names = ", ".join(available())
+    raise UnknownMaterialError(
+        f'"{name}" is no material; allowed: {names}, or the path of a .csv file'
+    )
+
+
+def read_record(path: Path) -> Record:
+    """Read and check one record. Modulus: the stated one, else the secant between 1 and 4 %."""
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+        numbers = stated(lines)
+        _check_numbers(numbers)
+        strain, stress = _curve(lines, "yield_stress" in numbers)
+        return _record(path.stem, strain, stress, numbers, comments(lines))
+    except (OSError, ValueError) as error:
+        raise RecordError(f"{path.name}: {error}") from None
+
+
+def _record(
+    name: str, strain: Numbers, stress: Numbers, numbers: dict[str, Stated], texts: tuple[str, ...]
+) -> Record:
+    known = {key: number.value for key, number in numbers.items() if number.value is not None}
+    ranges = {
+        key: (low, high)
+        for key, (_, low, high) in numbers.items()
+        if low is not None and high is not None
+    }
+    return Record(
+        name=name,
+        strain=strain,
+        stress=stress,
+        density=known["density"],
+        poisson=known["poisson"],
+        modulus=known["modulus"] if "modulus" in known else secant_modulus(strain, stress),
+        reference_time=known.get("reference_time", REFERENCE_TIME),
+        memory={key: known[key] for key in MEMORY if key in known},
+        plasticity={key: known[key] for key in PLASTICITY if key in known},
+        ranges=ranges,
+        comments=texts,
+    )
+
+
+def _check_numbers(numbers: Mapping[str, Stated]) -> None:
+    """Refuse a header without the numbers that every material needs."""
+    if "density" not in numbers or "poisson" not in numbers:
+        raise RecordError("needs the lines # density_kg_m3: ... and # poisson: ...")
+    for key, number in numbers.items():
+        _check_limits(key, number)
+    alone = [key for key, number in numbers.items() if number.value is None]
+    if any(key not in RANGE_ALONE for key in alone):
+        raise RecordError(f"{alone[0]} needs a number beside its range")
+    if ("softening_r" in numbers) != ("softening_m" in numbers):
+        raise RecordError("softening needs the lines # softening_r: ... and # softening_m_Pa: ...")
+    yields = "yield_stress" in numbers
+    if not yields and (other := [key for key in PLASTICITY if key in numbers]):
+        raise RecordError(f"{other[0]} needs the line # yield_stress_Pa: ...")
+    if yields and ("modulus" not in numbers or "modulus" in alone):
+        raise RecordError("a material that yields needs the line # modulus_Pa: ...")
+
+
+def _check_limits(key: str, number: Stated) -> None:
+    """Refuse a number, or an end of its range, that no case may have."""
+    above, at_most, words = LIMITS.get(key, (-inf, inf, ""))
+    for value in number:
+        if value is not None and not above < value <= at_most:
+            raise RecordError(f"# {key}: {value:g}; allowed: {words}")
+
+
+def _curve(lines: list[str], yields: bool) -> tuple[Numbers, Numbers]:
+    """The checked curve of a record; none if it yields."""
+    if not yields:
+        strain, stress = _columns(lines)
+        check_curve(strain, stress)
+        return strain, stress
+    if any(line.strip() and not line.startswith("#") for line in lines):
+        raise RecordError("a material that yields has no curve")
+    return (), ()
+
+
+def _columns(lines: list[str]) -> tuple[Numbers, Numbers]:
+    """Strain and stress below the header."""
+    rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))
+    if not rows or [word.strip() for word in rows[0]] != COLUMNS:
+        told = f"the first row must read {','.join(COLUMNS)}"
+        raise RecordError(f"{told}, with a comma between the heads")
+    strain, stress = zip(*(_pair(row) for row in rows[1:]), strict=True) if rows[1:] else ((), ())
+    return strain, stress
+
+
+def _pair(row: list[str]) -> tuple[float, float]:
+    """Strain and stress of a row."""
+    try:
+        strain, stress = map(float, row)
+    except ValueError:
+        needed = "needed: two numbers with a comma between them"
+        wrong = f'one is "{",".join(row)}"; {needed}'
+        raise RecordError(f"every row must hold two numbers, but {wrong}") from None
+    return strain, stress
+
+
+def check_curve(strain: Numbers, stress: Numbers) -> None:
+    """Refuse a curve that is not a function of strain, or whose stress does not rise at first."""
+    if len(strain) != len(stress) or not all(map(isfinite, strain + stress)):
+        raise RecordError("a curve needs a stress for every strain, all of them finite")
+    if any(b <= a for a, b in pairwise(strain)) or min(strain, default=0.0) <= -1.0:
+        raise RecordError("the strains of a curve must increase, from above -1")
+    if max(strain, default=0.0) > MOST_STRAIN:
+        told = f"a curve to a strain of {max(strain):g}: is it in percent?"
+        raise RecordError(f"{told} allowed: up to {MOST_STRAIN:g}; 10 % is 0.1")
+    if max(strain, default=0.0) < SECANT[1]:
+        raise RecordError(f"a curve must reach a strain of {SECANT[1]:g}")
+    if stress_at(TOE, strain, stress) <= 0.0:
+        raise RecordError("the stress of a curve must be positive at 1 % strain")
+
+
+def not_rising(strain: Numbers, stress: Numbers) -> float | None:
+    """The first strain from which the stress of a curve does not rise; None if it rises throughout.
+
+    Beyond its ends a curve goes on as a shape-preserving cubic ends: level, if its last secant is
+    so much flatter than the one before that a parabola through the last three points would fall.
+    """
+    pairs = list(zip(strain, stress, strict=True))
+    below = [(e, s) for e, s in pairs if e < 0.0]
+    toe = (TOE, stress_at(TOE, strain, stress))
+    points = [*below, (0.0, 0.0), toe, *((e, s) for e, s in pairs if e > TOE)]
+    steps = [(a, b - a, (t - s) / (b - a)) for (a, s), (b, t) in pairwise(points)]
+    for at, _, slope in steps:
+        if slope <= 0.0:
+            return at
+    ends = [(points[-1][0], steps[-1], steps[-2])]
+    if below:
+        ends.append((points[0][0], steps[0], steps[1]))
+    for at, (_, last, slope), (_, width, before) in ends:
+        if (2.0 * last + width) * slope <= last * before:
+            return at
+    return None
+
+
+def secant_modulus(strain: Numbers, stress: Numbers) -> float:
+    """Slope of the record between 1 and 4 % tension (Pa)."""
+    low, high = SECANT
+    rise = stress_at(high, strain, stress) - stress_at(low, strain, stress)
+    return rise / (high - low)
+
+
+def stress_at(at: float, strain: Numbers, stress: Numbers) -> float:
+    """Stress (Pa) at a tensile strain, linear between the origin and the points of the record."""
+    points = [(0.0, 0.0), *((e, s) for e, s in zip(strain, stress, strict=True) if e > 0.0)]
+    for (e0, s0), (e1, s1) in pairwise(points):
+        if at <= e1:
+            return s0 + (s1 - s0) * (at - e0) / (e1 - e0)
+    raise RecordError(f"the record ends below a strain of {at:g}")

@@ -1,0 +1,349 @@
+"""Reads a TOML document, table by table, into a sweep; every fault becomes one line.
+
+The reader knows no units: its caller passes the conversion.
+"""
+
+import json
+import re
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from sweep.config.axis import Choice, Interval, Written
+from sweep.config.case import TABLES
+from sweep.config.defaults import drop_tests
+from sweep.config.grid import Axes, Config, Fault, Values
+from sweep.config.keys import ALIASES, Key, case_keys, table_keys
+from sweep.config.materials.material_file import (
+    RecordError,
+    UnknownMaterialError,
+    locate,
+    read_record,
+)
+from sweep.config.reading.other_names import meant, present_choice
+from sweep.config.reading.renamed import present
+from sweep.config.structures.structure_file import StructureError, read_structure
+from sweep.config.tables import QUESTION, Rank, Require, rounded
+
+_REASONS = {
+    "literal_error": "unknown choice",
+    "finite_number": "not finite",
+    "missing": "too few values",
+    "too_long": "too many values",
+}
+BRANCH = ("time", "share")  # keys of a branch of relaxation
+BY_MATERIAL = {
+    "loading.strain_rate",
+    "lattice.mass",
+    "solver.bend_measure",
+    "solver.joints",
+}
+"""Keys of other tables that may be refused because of the material."""
+RANGE = ("from", "to")  # keys of a range of a search
+IN_SEARCH = "a range, which belongs into [search]"
+_NAME = re.compile(r"\w[\w.-]*")
+
+
+class Reader:
+    """Turns a document into a config and collects its faults.
+
+    folder: the folder of the document, to which paths in it are relative.
+    to_si(quantity, unit): converts a quantity to an SI unit.
+    """
+
+    def __init__(self, folder: Path, to_si: Callable[[Any, str], float]) -> None:
+        self.folder = folder
+        self.to_si = to_si
+        self.faults: list[Fault] = []
+        self.varied: dict[str, str] = {}  # keys of a case that vary, and the table that says so
+
+    def config(self, document: dict[str, Any], path: Path) -> Config:
+        """The config of a whole document."""
+        document = present(document)
+        sections = ["name", *TABLES, "grid", "zip", "exclude", "search", *QUESTION]
+        for section in document:
+            if section not in sections:
+                self._unknown(section, document[section], sections)
+        return Config(
+            name=self._name(document["name"]) if "name" in document else path.stem,
+            base=self._base(document),
+            grid=self._axes(_flat(self._section(document, "grid")), "[grid]"),
+            zip=tuple(
+                tied for table in self._tables(document, "zip") if (tied := self._zip(table))
+            ),
+            exclude=tuple(filter(None, map(self._exclude, self._tables(document, "exclude")))),
+            rank=self._rank(self._question(document, "rank")),
+            require=Require(**self._question(document, "require")),
+            path=path,
+            search=self._search(document),
+        )
+
+    def trusts(self, fault: Fault) -> bool:
+        """False if this fault of a case may be a consequence of a fault found before."""
+        depends_on = {
+            "lattice": {"lattice"},
+            "material": {"material"},
+            "grid": set(),
+            "exclude": {*TABLES, "exclude", "grid", "zip"},
+        }.get(_table(fault.key), TABLES.keys() - {"material"})
+        depends_on = depends_on | ({"material"} if fault.key in BY_MATERIAL else set())
+        return not depends_on & {_table(known.key) for known in self.faults}
+
+    def _name(self, name: object) -> str:
+        if isinstance(name, str) and _NAME.fullmatch(name):
+            return name
+        self._refuse(
+            "name", name, "not a name; allowed: letters, digits, dots, dashes, underscores"
+        )
+        return ""
+
+    def _section(self, document: dict[str, Any], name: str) -> dict[str, Any]:
+        section = document.get(name, {})
+        if isinstance(section, dict):
+            return section
+        self._refuse(name, section, f"not a table; allowed: a table [{name}]")
+        return {}
+
+    def _tables(self, document: dict[str, Any], name: str) -> list[dict[str, Any]]:
+        tables = document.get(name, [])
+        if isinstance(tables, list) and all(isinstance(table, dict) for table in tables):
+            return [_flat(table) for table in tables]
+        self._refuse(name, tables, f"not a list of tables; allowed: tables [[{name}]]")
+        return []
+
+    def _base(self, document: dict[str, Any]) -> Values:
+        """The values that all cases share, unless an axis replaces them."""
+        base: Values = {}
+        names: dict[str, str] = {}  # key of a case -> the name under which the config sets it
+        for table in TABLES:
+            for field, raw in self._branches(self._section(document, table), table).items():
+                name = f"{table}.{field}"
+                if (written := self._value(name, raw)) is None:
+                    continue
+                for target in ALIASES.get(name, (name,)):
+                    first = base.setdefault(target, written)
+                    other = names.setdefault(target, name)
+                    if first.value != written.value:
+                        wrong = f"set twice; allowed: the same as {other} = {first.text}"
+                        self._refuse(name, raw, wrong)
+        return base
+
+    def _branches(self, section: dict[str, Any], table: str) -> dict[str, Any]:
+        """A table whose branches of relaxation, if it has any, are lists of times and of shares."""
+        if table != "material" or "relaxation" not in section:
+            return section
+        left = {name: value for name, value in section.items() if name != "relaxation"}
+        branches = section["relaxation"]
+        if not isinstance(branches, list) or not all(map(_is_branch, branches)) or not branches:
+            allowed = 'a list of tables, each {time = "1 ms", share = 0.05}'
+            self._refuse("material.relaxation", branches, f"no branches; allowed: {allowed}")
+            return left
+        lists = {f"relaxation_{name}s": [b[name] for b in branches] for name in BRANCH}
+        if twice := [name for name in lists if name in left]:
+            wrong = f"material.{twice[0]} states the same; allowed: one of them"
+            self._refuse("material.relaxation", branches, wrong)
+        return left | lists
+
+    def _question(self, document: dict[str, Any], table: str) -> dict[str, Any]:
+        """The values of a table that asks something of the results."""
+        section = self._section(document, table)
+        read = {field: self._value(f"{table}.{field}", raw) for field, raw in section.items()}
+        return {field: written.value for field, written in read.items() if written}
+
+    def _rank(self, values: dict[str, Any]) -> Rank:
+        if values.get("per") == "panel" and "panel" not in values:
+            self._refuse("rank.per", "panel", 'no rank.panel; allowed: "specimen", or a panel')
+        return Rank(**values)
+
+    def _axes(self, axes: dict[str, Any], where: str) -> Axes:
+        """Keys that vary, each with its values."""
+        return {
+            name: values for name, raw in axes.items() if (values := self._axis(name, raw, where))
+        }
+
+    def _axis(self, name: str, raw: Any, where: str) -> tuple[Written, ...]:
+        key = case_keys().get(name)
+        if key is None:
+            self._unknown(name, raw, case_keys(), where)
+        elif key.is_list:
+            self._refuse(name, raw, "a list itself, no axis; allowed: keys with one value", where)
+        elif not isinstance(raw, list) or not raw:
+            wrong = "no values" if raw == [] else "not a list"
+            wrong = IN_SEARCH if is_range(raw) else wrong
+            self._refuse(name, raw, f"{wrong}; allowed: a list, each {key.allowed}", where)
+        elif other := next((self.varied[t] for t in key.targets if t in self.varied), None):
+            self._refuse(name, raw, f"varied in {other} too; allowed: one of them", where)
+        else:
+            self.varied |= dict.fromkeys(key.targets, where)
+            values = [self._value(name, value, where) for value in raw]
+            return tuple(value for value in values if value)
+        return ()
+
+    def _zip(self, table: dict[str, Any]) -> Axes:
+        """Keys that vary together; an empty text leaves a key unset in that row."""
+        tied = self._axes(table, "[[zip]]")
+        lengths = {name: len(raw) for name, raw in table.items() if isinstance(raw, list)}
+        if len(set(lengths.values())) > 1:
+            name = max(lengths, key=lengths.__getitem__)
+            counts = ", ".join(f"{name} has {length}" for name, length in lengths.items())
+            wrong = f"lengths differ ({counts}); allowed: lists of equal length"
+            self._refuse(name, table[name], wrong, "[[zip]]")
+        return tied if len({len(values) for values in tied.values()}) == 1 else {}
+
+    def _search(self, document: dict[str, Any]) -> dict[str, Interval | Choice]:
+        """What a search may choose: keys with an interval, or with a list of values."""
+        section = _flat(self._section(document, "search"))
+        for other in ("grid", "zip", "exclude") if section else ():
+            if document.get(other):
+                wrong = f"beside [search]; allowed: one of [search] and [{other}]"
+                self._refuse(other, document[other], wrong)
+        read = {name: self._searched(name, raw) for name, raw in section.items()}
+        return {name: axis for name, axis in read.items() if axis}
+
+    def _searched(self, name: str, raw: Any) -> Interval | Choice | None:
+        """The values of a key that a search may choose."""
+        ranged = is_range(raw)
+        values = self._axis(name, [raw[end] for end in RANGE] if ranged else raw, "[search]")
+        if not ranged:
+            return Choice(values) if values else None
+        if len(values) < len(RANGE):
+            return None
+        low, high = (written.value for written in values)
+        if isinstance(low, bool | str) or not low < high:
+            wrong = "no range; allowed: numbers, from the smaller to the greater, or a list"
+            self._refuse(name, raw, wrong, "[search]")
+            return None
+        unit = case_keys()[name].unit
+        return Interval(name, low, high, "" if unit in (None, "1") else str(unit))
+
+    def _exclude(self, table: dict[str, Any]) -> dict[str, tuple[object, ...]]:
+        """The values of an [[exclude]] table, in the form of a case; empty if one is wrong."""
+        if not table:
+            self._refuse("[[exclude]]", table, "is empty; allowed: at least one key")
+        excluded = {}
+        for name, raw in table.items():
+            raws = raw if isinstance(raw, list) else [raw]
+            values = [self._value(name, value, "[[exclude]]") for value in raws]
+            if raws == []:
+                self._refuse(name, raw, "is empty; allowed: at least one value", "[[exclude]]")
+            held = [value.value for value in values if value]
+            if name == "material.name":
+                held = [Path(value).name.removesuffix(".csv") for value in held]
+            if name == "lattice.file":
+                held = [Path(value).name for value in held]
+            if held and len(held) == len(raws):
+                excluded[name] = tuple(rounded(value) for value in held)
+        return excluded if len(excluded) == len(table) else {}
+
+    def _value(self, name: str, raw: Any, where: str = "") -> Written | None:
+        """A value in SI; if it is wrong, None, and one fault is added."""
+        questions = {} if where else table_keys("rank") | table_keys("require")
+        known = case_keys() | questions
+        if name not in known:
+            self._unknown(name, raw, known, where)
+            return None
+        if raw == "" and where == "[[zip]]":
+            return Written(None, '""')
+        try:
+            return Written(self._checked(known[name], raw), in_words(raw), name)
+        except RecordError as error:
+            self._refuse(name, raw, str(error).removeprefix(f"{Path(raw).name}: "), where)
+            return None
+        except StructureError as error:
+            for line in error.lines:
+                self._refuse(name, raw, line, where)
+            return None
+        except ValueError as error:
+            self._refuse(name, raw, f"{error}; allowed: {known[name].allowed}", where)
+            return None
+
+    def _unknown(self, name: str, raw: Any, known: Iterable[str], where: str = "") -> None:
+        near, clause = meant(name, known)
+        self._refuse(name, raw, f"unknown key; {clause}", where, about=near)
+
+    def _refuse(self, name: str, raw: Any, wrong: str, where: str = "", about: str = "") -> None:
+        line = f"{where} {_one_line(name)} = {in_words(raw)}: {wrong}".lstrip()
+        self.faults.append(Fault(about or name, line))
+
+    def _checked(self, key: Key, raw: Any) -> Any:
+        """A value in SI; raises ValueError with the reason if it is wrong."""
+        if key.targets == ("material.name",) and isinstance(raw, str):
+            return _material(raw, self.folder)
+        if key.targets == ("lattice.file",) and isinstance(raw, str):
+            return _structure(self.folder / raw)
+        raw = present_choice(key.targets[0], raw)
+        if key.targets == ("loading.preset",) and isinstance(raw, str):
+            return drop_tests.in_si(raw, self.to_si)
+        many = isinstance(raw, list)
+        if many and not key.is_list:
+            raise ValueError("a list, which belongs in [grid]")
+        value: Any = [self._in_si(key, v) for v in raw] if many else self._in_si(key, raw)
+        try:
+            return key.adapter.validate_python(tuple(value) if many else value)
+        except ValidationError as error:
+            kind = error.errors()[0]["type"]
+            wrong_type = "wrong type" if kind.endswith("_type") else "out of range"
+            raise ValueError(_REASONS.get(kind, wrong_type)) from None
+
+    def _in_si(self, key: Key, raw: Any) -> Any:
+        """One value without its unit, if its key has one."""
+        if is_range(raw):
+            raise ValueError(IN_SEARCH)
+        bare = key.bare and isinstance(raw, int | float)
+        if bare and raw > key.bare_most:
+            raise ValueError(
+                f"a bare number above {key.bare_most:g}, which may be meant in percent"
+            )
+        return self.to_si(raw, key.unit) if key.unit and not bare else raw
+
+
+def is_range(value: object) -> bool:
+    """Whether a value is a range of a search: a table with its ends."""
+    return isinstance(value, dict) and sorted(value) == sorted(RANGE)
+
+
+def _is_branch(value: object) -> bool:
+    """Whether a value is a branch of relaxation: a table with a time and a share."""
+    return isinstance(value, dict) and sorted(value) == sorted(BRANCH)
+
+
+def _material(name: str, folder: Path) -> str:
+    """The name of a shipped material, or the absolute path of a user's own record."""
+    try:
+        path = locate(name, folder)
+    except UnknownMaterialError:
+        raise ValueError("unknown material") from None
+    read_record(path)
+    return str(path.resolve()) if name.endswith(".csv") else name
+
+
+def _structure(path: Path) -> str:
+    """The absolute path of a user's own structure."""
+    read_structure(path)
+    return str(path.resolve())
+
+
+def _flat(table: dict[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Dotted keys of nested tables: "lattice.cells" = 3 and lattice.cells = 3 are the same."""
+    flat: dict[str, Any] = {}
+    for name, value in table.items():
+        is_table = isinstance(value, dict) and not is_range(value)
+        inner = _flat(value, f"{prefix}{name}.") if is_table else None
+        flat |= inner or {f"{prefix}{name}": value}
+    return flat
+
+
+def _table(key: str) -> str:
+    return key.split(".")[0]
+
+
+def in_words(raw: object) -> str:
+    """A value as TOML writes it, on one line of at most 60 characters."""
+    text = json.dumps(raw, default=str, ensure_ascii=False)
+    return _one_line(text if len(text) <= 60 else f"{text[:57]}...")
+
+
+def _one_line(text: str) -> str:
+    return "".join(char if char.isprintable() else "?" for char in text)

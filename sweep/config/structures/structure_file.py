@@ -1,0 +1,244 @@
+"""Reads the file of a custom structure and lists its faults, one line each."""
+
+import json
+from collections.abc import Iterator, Sequence
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from sweep.config.structures.structure import (
+    Load,
+    PointMass,
+    Prescribed,
+    SpringPart,
+    Structure,
+    Support,
+)
+
+MAX_ELEMENTS = 50_000
+TOUCHING = 1e-9  # of half a thickness: round-off
+_PARTS = (Structure, Support, Load, Prescribed, PointMass, SpringPart)
+_EITHER = {"wall_thickness_mm", "subdivide", "initial_velocity_mm_s"}
+_KEYS = list(dict.fromkeys(key for part in _PARTS for key in part.model_fields))
+
+
+class StructureError(ValueError):
+    """A structure that cannot be used; `lines`: its faults, one line each."""
+
+    def __init__(self, lines: Sequence[str]) -> None:
+        super().__init__("\n".join(lines))
+        self.lines = list(lines)
+
+
+def read_structure(path: Path) -> Structure:
+    """Read and check a file; `StructureError` holds all faults."""
+    try:
+        text = path.read_text(encoding="utf-8")
+        if not isinstance(json.loads(text), dict):
+            raise StructureError(["not a JSON object; allowed: { ... } with nodes_mm and walls"])
+        found = Structure.model_validate_json(text)
+    except ValidationError as error:
+        raise StructureError(list(_misfits(error))) from None
+    except OSError as error:
+        raise StructureError([f"cannot be read ({error.strerror}); needed: a JSON file"]) from None
+    except ValueError as error:
+        if isinstance(error, StructureError):
+            raise
+        raise StructureError([f"not JSON ({error})"]) from None
+    except RecursionError:
+        raise StructureError(["not JSON (nested too deeply)"]) from None
+    lines = list(faults(found))
+    if lines:
+        raise StructureError(lines)
+    return found
+
+
+def _misfits(error: ValidationError) -> Iterator[str]:
+    """One line for each fault of form; a value of two allowed forms gets that of the closer one."""
+    closest: dict[object, tuple[int, str]] = {}
+    found = error.errors()
+    inside = {wrong["loc"][:depth] for wrong in found for depth in range(len(wrong["loc"]))}
+    unknown = {wrong["loc"][:-1] for wrong in found if wrong["type"] == "extra_forbidden"}
+    for wrong in found:
+        follows = wrong["type"] == "missing" and wrong["loc"][:-1] in unknown
+        if wrong["loc"] in inside or follows:
+            continue
+        loc = [part for part in wrong["loc"] if isinstance(part, int) or part in _KEYS]
+        place = loc[0] if loc and loc[0] in _EITHER else tuple(wrong["loc"])
+        depth, line = len(loc), _misfit(loc, dict(wrong))
+        if depth > closest.get(place, (-1, ""))[0]:
+            closest[place] = depth, line
+    yield from (line for _, line in closest.values())
+
+
+def _misfit(loc: Sequence[str | int], wrong: dict[str, Any]) -> str:
+    if wrong["type"] == "extra_forbidden":
+        *loc, key = wrong["loc"]
+        near = get_close_matches(str(key), _KEYS, n=1, cutoff=0.0)[0]
+        return f"{_where((*loc, key))}: unknown key; the nearest is {near}"
+    if wrong["type"] == "missing":
+        return f"{_where(wrong['loc'])} is missing"
+    allowed = wrong["msg"].removeprefix("Input should be ").removeprefix("Input should ")
+    return _fault(loc, wrong["input"], f"does not fit; allowed: {allowed}")
+
+
+def _where(loc: Sequence[str | int]) -> str:
+    """The place of a value, such as supports[0].node."""
+    dotted = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc)
+    return dotted.removeprefix(".")
+
+
+def _fault(loc: Sequence[str | int], value: object, wrong: str) -> str:
+    text = json.dumps(value, default=str)
+    return f"{_where(loc)} = {text if len(text) <= 60 else f'{text[:57]}...'}: {wrong}"
+
+
+def faults(structure: Structure) -> Iterator[str]:
+    """The faults of a structure of valid form."""
+    unknown = list(_unknown_nodes(structure))
+    if unknown:
+        yield from unknown
+        return
+    yield from _lists(structure)
+    yield from _drives(structure)
+    geometry = list(_geometry(structure))
+    yield from geometry or _loose(structure)
+
+
+def _node_references(structure: Structure) -> Iterator[tuple[tuple[str | int, ...], int]]:
+    """Every reference to a node: its place in the file, and the number of the node."""
+    for k, ends in enumerate(structure.walls):
+        yield from ((("walls", k, side), node) for side, node in enumerate(ends))
+    for k, spring in enumerate(structure.springs):
+        yield from ((("springs", k, "nodes", side), node) for side, node in enumerate(spring.nodes))
+    for key in ("supports", "loads", "prescribed", "masses"):
+        yield from (((key, k, "node"), part.node) for k, part in enumerate(getattr(structure, key)))
+    for key in ("pins", "probes"):
+        yield from (((key, k), node) for k, node in enumerate(getattr(structure, key)))
+
+
+def _unknown_nodes(structure: Structure) -> Iterator[str]:
+    last = len(structure.nodes_mm) - 1
+    for loc, node in _node_references(structure):
+        if node > last:
+            yield _fault(loc, node, f"no such node; allowed: 0 to {last}")
+
+
+def _lists(structure: Structure) -> Iterator[str]:
+    """Faults of lists with too many or too few entries."""
+    walls, nodes = len(structure.walls), len(structure.nodes_mm)
+    for key, given, wanted, what in (
+        ("wall_thickness_mm", structure.thickness_mm, walls, "wall"),
+        ("subdivide", structure.pieces, walls, "wall"),
+        ("initial_velocity_mm_s", structure.velocity_mm_s, nodes, "node"),
+    ):
+        if len(given) != wanted:
+            allowed = f"one value, or one for each {what}, {wanted} here"
+            yield _fault(
+                (key,), getattr(structure, key), f"{len(given)} values; allowed: {allowed}"
+            )
+    if sum(structure.pieces) > MAX_ELEMENTS:
+        allowed = f"at most {MAX_ELEMENTS:,} elements in all, {sum(structure.pieces):,} here"
+        yield _fault(("subdivide",), structure.subdivide, f"does not fit; allowed: {allowed}")
+
+
+def _drives(structure: Structure) -> Iterator[str]:
+    """Faults of prescribed moves, loads and pins that contradict one another."""
+    driven: set[tuple[int, str]] = set()
+    for k, part in enumerate(structure.prescribed):
+        turned = part.direction == "rotation"
+        wanted, other = ("angle_rad", "displacement_mm")[:: 1 if turned else -1]
+        if getattr(part, wanted) is None or getattr(part, other) is not None:
+            wrong = f"does not fit; allowed: {wanted}, and no {other}, with this direction"
+            yield _fault(("prescribed", k, "direction"), part.direction, wrong)
+        coordinate = part.node, part.direction
+        if coordinate in structure.held or coordinate in driven:
+            wrong = "held or moved already; allowed: one support or one prescribed move of each"
+            yield _fault(("prescribed", k, "direction"), part.direction, wrong)
+        driven.add(coordinate)
+    turning = {(load.node, "rotation") for load in structure.loads if load.moment_Nmm}
+    for k, node in enumerate(structure.pins):
+        if (node, "rotation") in structure.held | driven | turning:
+            wrong = "has no rotation to fix, move or load; allowed: nodes without these"
+            yield _fault(("pins", k), node, wrong)
+
+
+def _geometry(structure: Structure) -> Iterator[str]:
+    """Faults of geometry: walls and springs without length, walls that cross or overlap."""
+    import numpy as np
+    from shapely import STRtree, intersects, linestrings
+
+    points = np.array(structure.nodes_mm)
+    ends = np.array(structure.walls)
+    for k, (a, b) in enumerate(structure.walls):
+        if structure.nodes_mm[a] == structure.nodes_mm[b]:
+            yield _fault(("walls", k), (a, b), "has no length; allowed: two nodes apart")
+            return
+    for k, (a, b) in enumerate(spring.nodes for spring in structure.springs):
+        if structure.nodes_mm[a] == structure.nodes_mm[b]:
+            yield _fault(("springs", k, "nodes"), (a, b), "has no length; allowed: two nodes apart")
+    if structure.floor_y_mm is not None:
+        yield from _sunk(structure, structure.floor_y_mm)
+    lines = linestrings(points[ends])
+    one, two = STRtree(lines).query(lines)
+    one, two = one[one < two], two[one < two]
+    shared = ends[one][:, :, None] == ends[two][:, None, :]
+    apart = ~shared.any(axis=(1, 2))
+    for i, j in zip(one[apart], two[apart], strict=True):
+        if intersects(lines[i], lines[j]):
+            wrong = f"meets wall {i} without a common node; allowed: walls that meet at nodes"
+            yield _fault(("walls", int(j)), structure.walls[j], wrong)
+    for i, j in zip(one[~apart], two[~apart], strict=True):
+        if _overlap(points, structure.walls[i], structure.walls[j]):
+            wrong = f"lies upon wall {i}; allowed: walls in different directions at a node"
+            yield _fault(("walls", int(j)), structure.walls[j], wrong)
+
+
+def _sunk(structure: Structure, floor: float) -> Iterator[str]:
+    """The fault of a floor above the lowest surface of the walls."""
+    reaches = [
+        (structure.nodes_mm[node][1] - 0.5 * thickness, node, 0.5 * thickness)
+        for wall, thickness in zip(structure.walls, structure.thickness_mm, strict=True)
+        for node in wall
+    ]
+    lowest, node, half = min(reaches)
+    if floor > lowest + TOUCHING * half:
+        wrong = f"node {node} is {lowest + half - floor:g} mm above it, half its wall {half:g} mm"
+        yield _fault(("floor_y_mm",), floor, f"{wrong}; allowed: at most {lowest:g} here")
+
+
+def _overlap(points: Any, one: tuple[int, int], two: tuple[int, int]) -> bool:
+    """True for walls that leave a common node in the same direction."""
+    for node in set(one) & set(two):
+        u, v = (
+            points[wall[1] if wall[0] == node else wall[0]] - points[node] for wall in (one, two)
+        )
+        cross, dot = u[0] * v[1] - u[1] * v[0], float(u @ v)
+        if dot > 0.0 and abs(cross) <= 1e-9 * dot:
+            return True
+    return False
+
+
+def _loose(structure: Structure) -> Iterator[str]:
+    """Faults of nodes without walls, and of walls that are not connected to the first one."""
+    used = {node for wall in structure.walls for node in wall}
+    for k, at in enumerate(structure.nodes_mm):
+        if k not in used:
+            yield _fault(("nodes_mm", k), at, "no wall ends here; allowed: nodes of walls")
+    owner = {node: node for node in used}
+
+    def root(node: int) -> int:
+        while owner[node] != node:
+            owner[node] = node = owner[owner[node]]
+        return node
+
+    for a, b in [*structure.walls, *(spring.nodes for spring in structure.springs)]:
+        if a in owner and b in owner:
+            owner[max(root(a), root(b))] = min(root(a), root(b))
+    for k, wall in enumerate(structure.walls):
+        if root(wall[0]) != root(structure.walls[0][0]):
+            wrong = "not connected with wall 0; allowed: a structure in one piece"
+            yield _fault(("walls", k), wall, wrong)
+            return

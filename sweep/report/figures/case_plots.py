@@ -1,0 +1,382 @@
+"""Pictures of a case: force, energies, shapes; and functions shared by all pictures.
+
+The functions draw into the figures or axes of their arguments. Lengths are in mm. The colours of
+Okabe and Ito can be distinguished without telling red from green.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import PathPatch, Rectangle
+from matplotlib.path import Path as Outline
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
+from matplotlib.transforms import Bbox, ScaledTranslation
+
+from sweep.design.silhouette import silhouette
+from sweep.numbers import energy_text, three_digits
+from sweep.report.figures import shaded
+from sweep.report.figures.storyboard import (
+    PARTS,
+    headline,
+    last_loaded,
+    parts_of,
+    path_of,
+    shots,
+    turns,
+)  # fmt: skip
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import SubFigure
+    from pandas import DataFrame
+
+BLUE, SKY, ORANGE = "#0072b2", "#56b4e9", "#e69f00"
+VERMILION, PURPLE, YELLOW, GREY = "#d55e00", "#cc79a7", "#f0e442", "#8a8a8a"
+WALL, PLATEN, GRID = "#2b4c6f", "#c9c9c9", "#e6e6e6"
+
+SHADES = LinearSegmentedColormap.from_list("walls", ["#16283c", WALL, "#7fa3c7", "#dfe9f3"])
+COLORS = dict(zip(PARTS, (BLUE, SKY, ORANGE, YELLOW, VERMILION, PURPLE, GREY), strict=True))
+PANEL, GAP = 1.9, 0.1  # inches: longer side of the picture of a shape; gap between two pictures
+ENTRY, SIGN = 0.22, 0.6  # inches: height of an entry of a legend; width of its sign
+LETTER, LINE = 0.075, 0.2  # inches: width of a letter of a title; height of a line
+FITS = 0.97  # of the planned scale of shapes: what the layout leaves them
+TICKS = 3  # least number of labels of a log axis
+ROUND = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))  # x powers of ten
+
+
+def blank(width: float, height: float) -> Figure:
+    """An empty figure (inches) with a layout that adapts to its labels."""
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def save(figure: Figure, path: Path) -> Path:
+    """Write a figure as PNG."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=160, facecolor="white")
+    return path
+
+
+def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
+    """Force on the top over strain: loading, unloading, and the absorbed energy as an area.
+
+    history : from `read_history`; row : of the case in the summary. A dead load appears and
+    disappears within one step.
+    """
+    strain, force = 100.0 * history["strain"], history["reaction_top_N"]
+    turn = last_loaded(history, row)
+    first = 2 * turn + 1 if row["loading_mode"] == "displacement" else None  # rows of a cycle
+    down, back = slice(turn + 1), slice(turn, first)
+    dead = row["loading_mode"] == "force"
+    absorbed = row["absorbed_energy_J"]
+    given_back = f"returns {100.0 * row['returned_energy_J'] / absorbed:.0f} %"
+    words = ("load on", "load off") if dead else ("loading", f"unloading,\n{given_back}")
+    style: Any = "steps-pre" if dead else "default"
+    sky: dict[str, Any] = {"color": SKY, "alpha": 0.3, "lw": 0, "step": "pre" if dead else None}
+    whole = f"absorbed in all\n{_energy(absorbed, row)}"
+    ax.fill_between(strain[down], force[down], label=whole, **sky)
+    ax.plot(strain[down], force[down], drawstyle=style, color=BLUE, lw=2.2, label=words[0])
+    if turn + 1 < len(history):
+        dashes: dict[str, Any] = {"color": ORANGE, "lw": 1.6, "ls": "--", "drawstyle": style}
+        ax.plot(strain[back], force[back], label=words[1], **dashes)
+    if first is not None and first < len(history):
+        again = slice(first - 1, None)
+        ax.plot(strain[again], force[again], color=PURPLE, lw=1.0, label="further cycles")
+    bottom = history["reaction_bottom_N"]
+    if np.abs(bottom - force).max() > 0.02 * np.abs(force).max():
+        ax.plot(strain, bottom, color=GREY, lw=1.0, zorder=1, label="on the support")
+    _until_packed(ax, row)
+    ax.set(xlabel="strain, %", ylabel="force, N")
+    ax.set_title(headline(row), loc="left", fontsize="medium")
+    ax.set(xlim=(0.0, 1.02 * strain.max()), ylim=(min(0.0, force[down].min()), None))
+    scale = 10.0 * row["height_m"]  # mm of travel for one percent
+    travel = ax.secondary_xaxis("top", functions=(lambda x: x * scale, lambda x: x / scale))
+    travel.set_xlabel("travel of the top, mm")
+    ax.legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
+    plain(ax, top=True)
+
+
+def _until_packed(ax: Axes, row: Mapping[str, Any]) -> None:
+    """The mean force until the lattice has packed, with the energy; the area below is that energy.
+
+    If the efficiency still rises at full stroke, the lattice has not packed.
+    """
+    strain, energy = row["packing_strain"], row["absorbed_energy_until_packed_J"]
+    if row["loading_mode"] != "displacement" or not strain > 0.0:
+        return
+    mean, end = energy / (strain * row["height_m"]), 100.0 * strain
+    packs = np.isfinite(row["densification_strain"])
+    words = f"packed at {end:.0f} %, until then\n{_energy(energy, row)}" if packs else "not packed"
+    stairs = [0.0, end, end], [mean, mean, 0.0]
+    label = f"mean force {three_digits(mean)} N,\n{words}"
+    ax.plot(*stairs, color="black", lw=1.0, ls=":", label=label)
+
+
+def _energy(joules: float, row: Mapping[str, Any]) -> str:
+    """An energy of a case, in all and per gram."""
+    grams = row["mass_g"] if np.isnan(row["printed_mass_g"]) else row["printed_mass_g"]
+    return f"{energy_text(joules)}, {three_digits(joules / grams)} J/g"
+
+
+def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
+    """The parts of the work done, stacked, in mJ: stored, kinetic, dissipated.
+
+    Over the path of a driven platen, down and back; otherwise over time.
+    """
+    work = 1e3 * history["work_in_J"]
+    place, words = path_of(history, row)
+    ax.set_xlabel(words)
+    for at, words in turns(history, row).items():
+        mark(ax, place[at], words, after=words.startswith("cycle"))
+    parts = parts_of(history)
+    colors = [COLORS[name] for name in parts]
+    values = [1e3 * history[name] for name in parts]
+    ax.stackplot(place, *values, colors=colors, labels=list(parts.values()), linewidth=0)
+    total = "brought by the striker" if row["loading_mode"] == "impact" else "work done"
+    ax.plot(place, work, color="black", lw=1.4, label=total)
+    ax.set_ylabel("energy, mJ")
+    ax.set_title(headline(row), loc="left", fontsize="medium")
+    ax.margins(x=0.0, y=0.1)
+    ax.set_ylim(bottom=min(0.0, work.min()))
+    handles, labels = ax.get_legend_handles_labels()
+    ax.legend(handles[::-1], labels[::-1], frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
+    plain(ax)
+
+
+class View(NamedTuple):
+    """The region shown in the picture of each shape of a case, in mm.
+
+    ground: surface of the support; margin: also the height of a drawn platen.
+    """
+
+    left: float
+    right: float
+    below: float
+    top: float
+    ground: float
+    margin: float
+
+
+def _view(frames: Mapping[str, Any], chosen: list[int]) -> View:
+    """The view that contains the chosen frames and their platens."""
+    if "quads" in frames:
+        return _view_of_plates(frames, chosen)
+    points, drawn = 1e3 * frames["position_m"][chosen], np.unique(frames["edges"])
+    plates, thickness = 1e3 * frames["plate_y_m"][chosen], 1e3 * frames["edge_thickness_m"].max()
+    ground = points[0, drawn, 1].min() - 0.5 * thickness
+    low, high = (end(points[:, drawn], (0, 1)) for end in (np.min, np.max))
+    low, high = low - thickness, high + thickness
+    margin = 0.06 * (high - low).max()
+    top = max(high[1], np.nanmax(plates, initial=high[1]) + margin)
+    below = min(low[1], ground - margin) - margin
+    return View(low[0] - margin, high[0] + margin, below, top, ground, margin)
+
+
+def _view_of_plates(frames: Mapping[str, Any], chosen: list[int]) -> View:
+    """The same of plates, as the camera sees them; ground: height of the lower platen."""
+    points = 1e3 * np.asarray(frames["position_m"][chosen], float)
+    margin = 0.03 * float(np.ptp(points[0], axis=0).max())
+    plates = [
+        shaded.platen(_extent(frames), 1e3 * float(height), margin)
+        for height in frames["plate_y_m"][chosen].ravel()
+    ]
+    screen = np.concatenate([shaded.seen(points)[0].reshape(-1, 2), *plates])
+    (left, below), (right, top) = screen.min(axis=0) - margin, screen.max(axis=0) + margin
+    ground = 1e3 * float(frames["plate_y_m"][chosen[0], 0])
+    return View(left, right, below - margin, top, ground, margin)
+
+
+def _extent(frames: Mapping[str, Any]) -> np.ndarray:
+    """Least and greatest x and y of plates at rest, (2, 2) mm."""
+    plan = 1e3 * np.asarray(frames["position_m"][0], float)[:, :2]
+    return np.stack([plan.min(axis=0), plan.max(axis=0)])
+
+
+def shapes_scale(frames: Mapping[str, Any], release: float | None = None) -> float:
+    """Inches of a picture for a millimetre of its shapes."""
+    view = _view(frames, list(dict(shots(frames, release))))
+    return PANEL / max(view.right - view.left, view.top - view.below)
+
+
+def shapes_size(
+    title: str,
+    frames: Mapping[str, Any],
+    release: float | None = None,
+    scale: float | None = None,
+) -> tuple[float, float]:
+    """Width and height (inches) of a figure that the shapes fill; scale: of `shapes_scale`."""
+    chosen = dict(shots(frames, release))
+    view = _view(frames, list(chosen))
+    width, height = view.right - view.left, view.top - view.below
+    scale = scale or shapes_scale(frames, release)
+    lines = 3 + max(words.count("\n") for words in chosen.values())  # also title and scale bar
+    row = len(chosen) * (scale * width + GAP)
+    return max(row, LETTER * len(title)), scale * height + LINE * lines + GAP
+
+
+def deformed_shapes(
+    fig: Figure | SubFigure, title: str, frames: Mapping[str, Any], release: float | None = None
+) -> None:
+    """Up to six shapes in a row, chosen by `shots`, with walls of their true thickness."""
+    chosen = dict(shots(frames, release))
+    axes = fig.subplots(1, len(chosen), sharex=True, sharey=True, squeeze=False)[0]
+    fig.suptitle(title, x=0.01, ha="left", fontsize="medium")
+    view = _view(frames, list(chosen))
+    points, plates = (1e3 * frames[name][list(chosen)] for name in ("position_m", "plate_y_m"))
+    for ax, caption, position, plate in zip(axes, chosen.values(), points, plates, strict=True):
+        _shape(ax, view, frames, position, plate)
+        ax.set_title(caption, fontsize="medium")
+    axes[0].set(xlim=(view.left, view.right), ylim=(view.below, view.top))
+    _scale_bar(axes[0], view.left, view.below)
+
+
+def one_shape(ax: Axes, frames: Mapping[str, Any], number: int) -> None:
+    """The shape of this number, in a view that contains all shapes."""
+    view = _view(frames, list(range(len(frames["strain"]))))
+    position, plate = (1e3 * frames[name][number] for name in ("position_m", "plate_y_m"))
+    _shape(ax, view, frames, position, plate)
+    ax.set(xlim=(view.left, view.right), ylim=(view.below, view.top))
+    _scale_bar(ax, view.left, view.below)
+
+
+def _shape(ax: Axes, view: View, frames: Mapping[str, Any], position: Any, plate: Any) -> None:
+    """Walls of their true thickness, and the platens; position (n, 2) and plate (2,) in mm."""
+    if "quads" in frames:
+        _plates(ax, view, frames, position, plate)
+        return
+    walls(ax, position, frames)
+    if np.isfinite([plate[0], frames["strain"][0]]).any() and not np.isinf(plate[0]):
+        _platen(ax, view, (view.ground if np.isnan(plate[0]) else plate[0]) - view.margin)
+    if np.isfinite(plate[1]):
+        _platen(ax, view, plate[1])
+
+
+def walls(ax: Axes, position: np.ndarray, frames: Mapping[str, Any]) -> None:
+    """Draw the walls of a case, of true thickness, with nodes at ``position`` (n, 2) in mm; plates
+    (n, 3) as shaded surfaces.
+    """
+    if "quads" in frames:
+        surfaces(ax, position, frames["quads"])
+        return
+    loops = silhouette(position, frames["edges"], 1e3 * frames["edge_thickness_m"])
+    outline = Outline.make_compound_path(*(Outline(loop, closed=True) for loop in loops))
+    ax.add_patch(PathPatch(outline, facecolor=WALL, edgecolor="none", snap=False))
+    ax.set_aspect("equal")
+    ax.set_axis_off()
+
+
+def surfaces(ax: Axes, position: np.ndarray, quads: np.ndarray) -> None:
+    """Draw plates as shaded surfaces without thickness; position (n, 3) in mm."""
+    found = shaded.faces(position, quads)
+    colours = SHADES(found.shades)
+    edges = np.append(0.8 * colours[:, :3], colours[:, 3:], axis=1)
+    drawn = PolyCollection(list(found.corners), facecolors=colours, edgecolors=edges, lw=0.15)
+    ax.add_collection(drawn)
+    ax.set_aspect("equal")
+    ax.set_axis_off()
+
+
+def _plates(ax: Axes, view: View, frames: Mapping[str, Any], position: Any, plate: Any) -> None:
+    """Plates on the lower platen, and the outline of the upper one."""
+    box = _extent(frames)
+    low, high = (shaded.platen(box, float(height), view.margin) for height in plate)
+    ax.add_collection(PolyCollection([low], facecolors=PLATEN, edgecolors="none"))
+    surfaces(ax, position, frames["quads"])
+    ax.add_collection(PolyCollection([high], facecolors="none", edgecolors=GREY, lw=0.8))
+
+
+def beside(ax: Axes, inches: float, bottom: float, height: float) -> Axes:
+    """New axes that begin ``inches`` left of ``ax``, from ``bottom`` on, in its unit of y."""
+    left = ScaledTranslation(-inches, 0.0, ax.figure.dpi_scale_trans)
+    found = ax.inset_axes((0.0, bottom, 1.0, height), transform=ax.get_yaxis_transform() + left)
+    found.set_anchor("W")
+    return found
+
+
+def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:
+    """Six shapes of each of several cases, one case below another, all to one scale.
+
+    cases : title -> frames. The size of the figure is set.
+    """
+    scale = min(map(shapes_scale, cases.values()))
+    sizes = (shapes_size(*case, scale=scale) for case in cases.items())
+    widths, heights = zip(*sizes, strict=True)
+    fig.set_size_inches(max(widths), sum(heights))
+    strips = fig.subfigures(len(cases), 1, squeeze=False, height_ratios=heights)[:, 0]
+    for strip, (name, frames) in zip(strips, cases.items(), strict=True):
+        deformed_shapes(strip, name, frames)
+        for ax in strip.axes:
+            ax.set_axes_locator(_to_scale(FITS * scale))
+
+
+def _to_scale(scale: float) -> Callable[[Axes, Any], Bbox]:
+    """A locator that draws axes to a scale (inches / mm), in the middle of their place."""
+
+    def box(ax: Axes, _: Any) -> Bbox:
+        place, pixels = ax.get_position(original=True), np.array(ax.figure.bbox.size)
+        spans = [high - low for low, high in (ax.get_xlim(), ax.get_ylim())]
+        size = scale * np.array(spans) * ax.figure.dpi / pixels
+        return Bbox.from_bounds(*(0.5 * (place.min + place.max - size)), *size)
+
+    return box
+
+
+def legend(fig: Figure, entries: list[dict[str, Any]]) -> None:
+    """One legend for all axes, to the right of them, in as many columns as needed.
+
+    Every column after the first widens the figure.
+    """
+    handles = [Line2D([], [], **entry) for entry in entries]
+    width, height = fig.get_size_inches()
+    columns = -(-len(handles) // int(height / ENTRY))
+    if handles:
+        longest = max(len(entry["label"]) for entry in entries)
+        fig.set_size_inches(width + (columns - 1) * (SIGN + LETTER * longest), height)
+        fig.legend(handles=handles, loc="outside right upper", frameon=False, ncols=columns)
+
+
+def mark(ax: Axes, x: float, words: str, after: bool = False) -> None:
+    """A vertical dotted line at `x`, with `words` at its upper end, before it or after it."""
+    ax.axvline(x, color=GREY, lw=1.0, ls=":")
+    side, shift = ("left", 3) if after else ("right", -3)
+    ax.annotate(words, (x, 1.0), (shift, -2), xycoords=ax.get_xaxis_transform(), ha=side, va="top",
+                textcoords="offset points", fontsize="small", color="#555555")  # fmt: skip
+
+
+def round_ticks(axis: Any) -> None:
+    """Ticks of a log axis at round numbers, with at least `TICKS` of them in view."""
+    low, high = axis.get_view_interval()
+    for locator in (*(LogLocator(subs=subs) for subs in ROUND), MaxNLocator(2 * TICKS)):
+        axis.set_major_locator(locator)
+        places = locator.tick_values(low, high)
+        if ((low <= places) & (places <= high)).sum() >= TICKS:
+            break
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _platen(ax: Axes, view: View, bottom: float) -> None:
+    """A plate over the width of the picture, from `bottom` upwards."""
+    width = view.right - view.left
+    plate = Rectangle((view.left, bottom), width, view.margin, facecolor=PLATEN, edgecolor="none")
+    ax.add_patch(plate)
+
+
+def _scale_bar(ax: Axes, left: float, below: float) -> None:
+    """A length of 5 mm under the first shape."""
+    ax.plot([left, left + 5.0], [below, below], color="black", lw=1.5, clip_on=False)
+    ax.annotate("5 mm", (left + 2.5, below), (0, -3), va="top", ha="center", fontsize="small",
+                textcoords="offset points", annotation_clip=False)  # fmt: skip
+
+
+def plain(ax: Axes, top: bool = False) -> None:
+    """Axes without a box."""
+    ax.spines["right"].set_visible(False)
+    ax.spines["top"].set_visible(top)

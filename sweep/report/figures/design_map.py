@@ -1,0 +1,169 @@
+"""Charts of a sweep, in colours of viridis: merit over mass (absorption.png, sink.png,
+passed_on.png) and over the wall thickness (wall_thickness.png).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from textwrap import TextWrapper
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sweep.ranking.merit import doubtful
+from sweep.report.figures.case_plots import GREY, GRID, legend, mark, plain, round_ticks
+from sweep.report.figures.design_style import (
+    budget_winners,
+    errors_of,
+    looks,
+    merit_errors,
+    merits,
+    until,
+)
+from sweep.report.tables.requirement_notes import titled
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from pandas import DataFrame, Series
+
+    from sweep.ranking.ranking import Ranking
+
+LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
+TITLE = 72  # letters in a line above a panel
+WHITE = (1.0, 1.0, 1.0, 1.0)
+VARIANT = [
+    "lattice_kind",
+    "cells_x",
+    "cells_y",
+    "material",
+    "direction",
+]  # constant along a line of trends
+SHAPED = "lattice.", "material."  # keys of a design
+THICK = tuple(f"lattice.{key}" for key in ("wall_thickness", "mass", "line_width", "infill"))
+"""Keys of a design that set the thickness of its walls."""
+NARROW, MARGIN = 1.2, 0.1  # of the axis of mass: least ratio of its ends; margin at either end
+ENDS = 0.1, 10.0  # of a value: limits of its error bar, since a log axis has no zero
+
+
+def design_map(fig: Figure, ranking: Ranking) -> None:
+    """Merit over mass, one panel per scene, with the winner of each budget named.
+
+    ranking : all places (`top=None`), of one mode. Merit: absorbed energy, strain under a dead
+    load, or force on the support under a striker, with its error bar. The stairs are the Pareto
+    front, the best merit up to every mass; its designs are drawn on top. The winner of a budget is
+    the last design of the front within it.
+    """
+    designs, mass, energy = ranking.table, ranking.mass, ranking.energy
+    noun = "panel" if mass == "panel_mass_g" else "specimen"
+    look = looks(designs)
+    for ax, rows in scene_axes(fig, designs.round({mass: 9})):  # without round-off
+        merit, error = merits(rows, energy), merit_errors(rows, energy)
+        least = LEAST_SHOWN.get(rows["loading_mode"].iloc[0])
+        by_style = rows[::-1].groupby(["pareto", "lattice_kind", "material"])
+        for _, points in by_style:  # the best are drawn last, on top
+            _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
+        front = rows[rows["pareto"]].sort_values(mass)
+        stairs: dict[str, Any] = {"color": "black", "lw": 0.9, "drawstyle": "steps-post"}
+        _line(ax, front[mass], merit.loc[front.index], stairs, front)
+        ax.set(xscale="log", yscale="log")
+        ax.set_xlim(_span([*rows[mass], *ranking.budgets_g]))
+        ax.margins(y=0.15)
+        _error_bars(ax, rows[mass], merit, error)
+        for budget in ranking.budgets_g:
+            mark(ax, budget, f"{budget:g} g")
+        words = [_in_lines(line) for line in titled(ax.get_title("left"), ranking).split("\n")]
+        for sentence, x, y in budget_winners(rows, ranking):
+            ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")
+            words.append(_in_lines(sentence))
+        ax.set_title("\n".join(words), loc="left", fontsize="small")
+        ax.set_xlabel(f"mass of the {noun}, g")
+        least = least and f"{least}{', of a specimen' if noun == 'panel' else ''}"
+        ax.set_ylabel(least or f"energy absorbed by the {noun}{until(ranking)}, J")
+        round_ticks(ax.xaxis)
+        round_ticks(ax.yaxis)
+    legend(fig, look.legend(barred=bool(merit_errors(designs, energy).notna().any())))
+
+
+def thickness_trends(fig: Figure, ranking: Ranking) -> None:
+    """Energy per gram over wall thickness, one panel per scene."""
+    designs, per_gram = ranking.table, ranking.per_gram
+    look = looks(designs)
+    for ax, rows in scene_axes(fig, designs):
+        for _, points in rows.groupby(VARIANT):
+            best = points.loc[points.groupby("wall_thickness_m")[per_gram].idxmax()]
+            style = look.of(best) | {"s": 28.0}
+            wall = 1e3 * best["wall_thickness_m"]
+            _line(ax, wall, best[per_gram], {"color": style["c"][0], "lw": 1.2}, best)
+            _dots(ax, wall, best[per_gram], style, best)
+            _error_bars(ax, wall, best[per_gram], errors_of(best, per_gram), style["c"][0])
+        what = f"absorbed energy per gram{until(ranking)}, J/g"
+        ax.set(xlabel="wall thickness, mm", ylabel=what, yscale="log")
+        ax.set_title(titled(ax.get_title("left"), ranking), loc="left", fontsize="medium")
+        round_ticks(ax.yaxis)
+    barred = bool(errors_of(designs, per_gram).notna().any())
+    legend(fig, look.legend(walls=False, barred=barred))
+
+
+def _span(values: Sequence[float]) -> tuple[float, float]:
+    """Ends of a log axis that contains all values, also if all are equal."""
+    low, high = min(values), max(values)
+    middle, half = (low * high) ** 0.5, max(high / low, NARROW) ** (0.5 + MARGIN)
+    return middle / half, middle * half
+
+
+def has_trends(designs: DataFrame) -> bool:
+    """True if some designs differ only in the thickness of their walls."""
+    others = [key for key in designs if key.startswith(SHAPED) and key not in THICK]
+    alike = designs.groupby(["scene", *VARIANT, *others], dropna=False)
+    return not designs.empty and alike["wall_thickness_m"].nunique().max() > 1
+
+
+def _in_lines(words: str) -> str:
+    """A title whose lines end behind commas."""
+    one_piece = words.replace(" ", "\xa0").replace(",\xa0", ", ")
+    wrapper = TextWrapper(
+        TITLE, subsequent_indent="    ", break_on_hyphens=False, break_long_words=False
+    )
+    return wrapper.fill(one_piece).replace("\xa0", " ")
+
+
+def _line(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
+    """A line through designs; dashed to and from doubtful ones."""
+    beyond = doubtful(points)
+    ax.plot(x, y.mask(beyond), zorder=1, **style)
+    if beyond.any():
+        ax.plot(x, y, zorder=1, ls="--", **style)
+
+
+def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
+    """Designs of one pattern and material as dots; open if doubtful."""
+    dots = ax.scatter(x, y, lw=1.2, zorder=2, **style)
+    colors = dots.get_facecolor()
+    beyond = doubtful(points).to_numpy()[:, None]
+    faces: Any = np.where(beyond, WHITE, colors)
+    dots.set(edgecolor=colors, facecolor=faces)
+
+
+def _error_bars(ax: Axes, x: Series, y: Series, error: Series, color: str = GREY) -> None:
+    """Value ± error as a thin line behind each design with a known error."""
+    known = error.notna()
+    if known.any():
+        low, high = (end.clip(*(share * y for share in ENDS)) for end in (y - error, y + error))
+        ax.vlines(x[known], low[known], high[known], color=color, lw=0.8, zorder=0)
+
+
+def scene_axes(fig: Figure, designs: DataFrame) -> Iterator[tuple[Axes, DataFrame]]:
+    """Axes and designs of each scene, at most two scenes in a row of the figure."""
+    scenes = designs.groupby("scene", sort=False)
+    columns = min(2, len(scenes))
+    rows = -(-len(scenes) // columns)
+    axes = fig.subplots(rows, columns, squeeze=False).ravel()
+    for ax in axes[len(scenes) :]:
+        ax.remove()
+    for ax, (scene, group) in zip(axes, scenes, strict=False):
+        ax.set_title(scene, loc="left", fontsize="medium")
+        ax.grid(color=GRID, lw=0.6)
+        ax.set_axisbelow(True)
+        plain(ax)
+        yield ax, group

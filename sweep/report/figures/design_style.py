@@ -1,0 +1,244 @@
+"""Designs in charts: their style, their merit, and the winners of budgets.
+
+The same in every panel: colour = cells; sign = pattern, or material if there is only one pattern;
+size = wall thickness; open and dashed = doubtful. If patterns and materials vary, the colour
+stands for cells and material; if the direction varies, also for that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import cycle
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from pandas import concat
+
+from sweep.numbers import energy_text, tenths, three_digits
+from sweep.ranking.merit import LEAST, doubtful, greatest_mass
+from sweep.ranking.rank import places_by
+from sweep.report.tables.sheets import WAYS, design_labels
+from sweep.result import error_column, less_is_better
+
+if TYPE_CHECKING:
+    from pandas import DataFrame, Series
+
+    from sweep.ranking.ranking import Ranking
+
+RAMP = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98))  # viridis: few to many cells
+SIGNS = "o^sDvP*Xh<>pd"
+LIKE_PATTERNS = {"circle": "o", "triangle": "^", "square": "s", "diamond": "D", "hex": "h"}
+LIKE_PATTERNS |= {"triangles": "^", "grid": "s", "honeycomb": "h", "stars": "*"}
+SIZES = 5  # greatest number of wall thicknesses in a legend
+AREAS = (15.0, 75.0)  # points^2: sign of the thinnest and of the thickest wall
+THIN = 0.2  # points of a line / diameter of the sign of a design
+LINE = {"ls": "-", "marker": ""}
+PLAIN = {"ls": "", "marker": "o", "ms": 6.0, "color": "#8a8a8a"}
+
+
+class Looks(NamedTuple):
+    """The style of all designs of a ranking.
+
+    colors: values of the columns `tint` -> colour. signs: values of the column `sign` -> marker.
+    areas: wall thickness (m) -> area of a marker (points^2). tint: `cells_x`, `cells_y` and, if the
+    sign stands for the pattern, `material`; `direction` if that varies. doubtful: True if some
+    designs are doubtful.
+    """
+
+    tint: list[str]
+    colors: dict[tuple[Any, ...], str]
+    sign: str
+    signs: dict[str, str]
+    areas: dict[float, float]
+    doubtful: bool
+
+    def of(self, points: DataFrame) -> dict[str, Any]:
+        """Keywords of a scatter plot for designs of one pattern and material."""
+        return {
+            "c": [self.colors[values] for values in _rows(points, self.tint)],
+            "s": points["wall_thickness_m"].map(self.areas).to_numpy(),
+            "marker": self.signs[points[self.sign].iloc[0]],
+        }
+
+    def width(self, thickness: float) -> float:
+        """Width (points) of a line for walls of a thickness (m)."""
+        return THIN * self.areas[thickness] ** 0.5
+
+    def legend(
+        self, walls: bool = True, barred: bool = False, lines: bool = False
+    ) -> list[dict[str, Any]]:
+        """Keywords of an empty line for each entry of a legend; groups that vary have a heading.
+
+        walls: with wall thicknesses; barred: with an entry for error bars; lines: designs are lines
+        whose width is that of the walls.
+        """
+        heading, words = _tint_words(self.tint, list(self.colors))
+        noun = "pattern" if self.sign == "lattice_kind" else self.sign
+        groups: dict[str, dict[str, dict[str, Any]]] = {
+            heading: {w: {"color": c} for w, c in zip(words, self.colors.values(), strict=True)},
+            noun: {name: {"marker": sign} for name, sign in self.signs.items()},
+            "wall": {
+                f"{1e3 * t:.3g} mm": LINE | {"lw": self.width(t)} if lines else {"ms": area**0.5}
+                for t, area in self.areas.items()
+            },
+        }
+        groups["wall"] = _some(groups["wall"], SIZES)
+        beyond = {**PLAIN, "mfc": "white", "ls": "--", "label": "not to be trusted"}
+        shown = [name for name in groups if len(groups[name]) > 1 and (walls or name != "wall")]
+        entries = [
+            {**PLAIN, **look, "label": label}
+            for name in shown
+            for label, look in [(name, {"marker": ""}), *groups[name].items()]
+        ]
+        bar = {**PLAIN, "marker": "|", "ms": 12.0, "label": "± estimated error"}
+        return entries + [bar] * barred + [beyond] * self.doubtful
+
+
+def looks(designs: DataFrame) -> Looks:
+    """The style of all designs of a ranking."""
+    patterned = len(designs["lattice_kind"].unique()) > 1
+    turned = len(designs["direction"].unique()) > 1
+    tint = ["cells_x", "cells_y", *(["material"] * patterned), *(["direction"] * turned)]
+    sign = "lattice_kind" if patterned else "material"
+    values = sorted(set(_rows(designs, tint)))
+    walls = sorted(designs["wall_thickness_m"].unique())
+    return Looks(
+        tint,
+        dict(zip(values, _ramp(len(values)), strict=True)),
+        sign,
+        _signs(sorted(designs[sign].unique())),
+        dict(zip(walls, np.linspace(*AREAS, len(walls)), strict=True)),
+        bool(doubtful(designs).any()),
+    )
+
+
+def _rows(designs: DataFrame, names: list[str]) -> Iterator[tuple[Any, ...]]:
+    """The values of the named columns, design by design."""
+    return zip(*(designs[name] for name in names), strict=True)
+
+
+def _signs(names: list[str]) -> dict[str, str]:
+    """A sign for each name, similar to the pattern of this name if possible."""
+    alike = {name: LIKE_PATTERNS[name] for name in names if name in LIKE_PATTERNS}
+    spare = cycle(sign for sign in SIGNS if sign not in alike.values())
+    return {name: alike.get(name) or next(spare) for name in names}
+
+
+def _tint_words(tint: list[str], values: list[tuple[Any, ...]]) -> tuple[str, list[str]]:
+    """Heading and entries of the legend of colours, with only the values that vary."""
+    columns = dict(zip(tint, zip(*values, strict=True), strict=True))
+    cells = [f"{x} x {y}" for x, y, *_ in values]
+    parts = {"cells": cells, "material": columns.get("material", ())}
+    parts["pressed"] = [WAYS[way] for way in columns.get("direction", ())]
+    shown = {name: words for name, words in parts.items() if len({*words}) > 1} or {"cells": cells}
+    return ", ".join(shown), [", ".join(words) for words in zip(*shown.values(), strict=True)]
+
+
+def _some(entries: dict[str, Any], count: int) -> dict[str, Any]:
+    """At most ``count`` entries, evenly spaced from the first to the last."""
+    kept = np.linspace(0, len(entries) - 1, min(count, len(entries))).round()
+    return {name: entries[name] for k, name in enumerate(entries) if k in kept}
+
+
+def merits(rows: DataFrame, energy: str) -> Series:
+    """The compared values of the designs of one scene: sink in %, force in N, or energy in J."""
+    name, scale = _compared(rows, energy)
+    return scale * rows[name]
+
+
+def merit_errors(rows: DataFrame, energy: str) -> Series:
+    """The errors of `merits`; NaN if unknown."""
+    name, scale = _compared(rows, energy)
+    return scale * errors_of(rows, name)
+
+
+def errors_of(rows: DataFrame, name: str) -> Series:
+    """The errors of a column; NaN if unknown."""
+    known = rows.get(error_column(name))
+    return rows[name] * np.nan if known is None else known
+
+
+def _compared(rows: DataFrame, energy: str) -> tuple[str, float]:
+    """The compared column of the designs of one scene, and its factor in charts."""
+    least = LEAST.get(rows["loading_mode"].iloc[0])
+    return least or energy, 100.0 if least == "peak_strain" else 1.0
+
+
+def until(ranking: Ranking) -> str:
+    """Up to which force energy is counted, on a line of its own; "" without an allowed force."""
+    return f"\n{ranking.until}" if ranking.limited else ""
+
+
+def budget_winners(rows: DataFrame, ranking: Ranking) -> list[tuple[str, float, float]]:
+    """Words, mass and merit of the best design of one scene within each budget.
+
+    Without budgets, those of the first design.
+    """
+    mass, energy = ranking.mass, ranking.energy
+    front, (name, _) = rows[rows["pareto"]].sort_values(mass), _compared(rows, energy)
+    winners = [
+        (f"up to {budget:g} g", front[front[mass] <= limit].tail(1), rows[rows[mass] <= limit])
+        for budget in ranking.budgets_g
+        for limit in [greatest_mass(budget)]
+    ]
+    if not winners:
+        best = rows[rows["place"] == 1].head(1)
+        winners, name = [("best", best, rows)], best["ranked_by"].item()
+    return [
+        (
+            f"{limit}: {_words(won, others, ranking, name)}",
+            won[mass].item(),
+            merits(won, energy).item(),
+        )
+        for limit, won, others in winners
+        if not won.empty and merits(won, energy).notna().item()
+    ]
+
+
+def _words(won: DataFrame, among: DataFrame, ranking: Ranking, name: str) -> str:
+    """A design with its merit, error and marks, such as "cells 3 x 3, wall 0.8 mm, 13.4 J".
+
+    name: the column in which the design is the best `among` others; its value comes last.
+    """
+    (design,), energy = design_labels(won, ranking.table), ranking.energy
+    merit, value = merits(won, energy).item(), three_digits(won[name].item())
+    words_by_mode = {
+        "force": f"sinks {three_digits(merit)} %",
+        "impact": f"{three_digits(merit)} N on the support{_of_panel(won)}",
+    }
+    words = words_by_mode.get(won["loading_mode"].item(), energy_text(merit))
+    if name == ranking.per_gram:
+        words += f", {value} J/g"
+    elif name != _compared(won, energy)[0]:
+        words += f", {name} {value}"
+    beyond = ", beyond the model" if won["beyond_model"].item() else ""
+    crossed = ", walls cross" if won["crossed"].item() else ""
+    return f"{design}, {words}{_ties(among, won, name)}{beyond}{crossed}"
+
+
+def _of_panel(won: DataFrame) -> str:
+    """The force of a panel beside that of a specimen; "" without a panel."""
+    if "panel_force_N" not in won:
+        return ""
+    return f", {three_digits(won['panel_force_N'].item())} N of the panel"
+
+
+def _ties(rows: DataFrame, won: DataFrame, name: str) -> str:
+    """The error of the best design of a scene, and how many designs tie with it; "" if unknown."""
+    error = errors_of(won, name).item()
+    if not (np.isfinite(error) and won[name].item()):
+        return ""
+    others = rows.drop(index=won.index).sort_values(name, ascending=less_is_better(name))
+    ordered = concat([won, others])
+    count = int((places_by(ordered, name) == 1).sum())
+    share = f" ± {tenths(error / abs(won[name].item()))} %"
+    return f"{share}, a tie of {count}" if count > 1 else share
+
+
+def _ramp(count: int) -> list[str]:
+    """Evenly spaced colours from dark to light."""
+    at = np.linspace(0.0, len(RAMP) - 1.0, count)
+    channels = [np.interp(at, range(len(RAMP)), channel) for channel in zip(*RAMP, strict=True)]
+    return [
+        "#" + "".join(f"{round(c):02x}" for c in color) for color in zip(*channels, strict=True)
+    ]

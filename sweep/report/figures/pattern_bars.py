@@ -1,0 +1,72 @@
+"""Which pattern: designs of several families side by side, as bars."""
+
+from __future__ import annotations
+
+from textwrap import fill
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sweep.ranking.merit import doubtful
+from sweep.report.figures.case_plots import beside, walls
+from sweep.report.figures.design_style import errors_of, until
+from sweep.report.tables.requirement_notes import titled
+from sweep.report.tables.sheets import design_labels
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from pandas import DataFrame
+
+    from sweep.ranking.ranking import Ranking
+
+
+ROW, DRAWN_ROW = 0.25, 0.5  # inches for a bar, without and with a drawing
+WIDTH, DRAWN = 9.0, 0.7  # inches of the figure, and for a drawing
+PAD = 3.0  # points between the drawings and the names
+LETTERS = 46  # of a line of a name beside a drawing
+
+
+def pattern_bars(
+    fig: Figure, ranking: Ranking, shapes: Mapping[str, Mapping[str, Any]] | None = None
+) -> None:
+    """Energy per gram of every design with its error bar, the best on top, one panel per scene.
+
+    Bars of doubtful designs are open. shapes: case_id -> frames; then each name has a drawing.
+    """
+    designs, per_gram = ranking.table, ranking.per_gram
+    scenes = designs.groupby("scene", sort=False)
+    axes = fig.subplots(len(scenes), 1, squeeze=False).ravel()
+    for ax, (scene, rows) in zip(axes, scenes, strict=True):
+        ordered = rows.sort_values([per_gram, "case_id"])
+        bars = ax.barh(range(len(ordered)), ordered[per_gram], color="#3b528b", ec="#3b528b")
+        for bar, doubt in zip(bars, doubtful(ordered), strict=True):
+            bar.set(fill=not doubt)
+        errors = errors_of(ordered, per_gram)
+        ax.errorbar(ordered[per_gram], range(len(ordered)), xerr=errors, fmt="none", ecolor="black")
+        labels = design_labels(ordered, designs)
+        labels = [fill(label, LETTERS) for label in labels] if shapes else labels
+        ax.set_yticks(range(len(ordered)), labels, fontsize="small")
+        for place, case_id in enumerate(ordered["case_id"]):
+            if shapes:
+                _draw(ax, place, shapes[case_id])
+        ax.margins(y=0.5 / len(ordered))
+        ax.set_title(titled(str(scene), ranking), loc="left", fontsize="medium")
+        ax.set_xlabel(f"absorbed energy per gram{until(ranking)}, J/g")
+        ax.spines[["top", "right"]].set_visible(False)
+
+
+def _draw(ax: Axes, place: int, frames: Mapping[str, Any]) -> None:
+    """Draw the shape at rest left of the bar at ``place``, and move the names out of its way."""
+    ax.tick_params(axis="y", length=0.0, pad=72.0 * DRAWN + PAD)
+    left = beside(ax, DRAWN, place - 0.46, 0.92)
+    walls(left, 1e3 * np.asarray(frames["position_m"][0], float), frames)
+    left.autoscale_view()
+
+
+def panel_size(designs: DataFrame, drawn: bool = False) -> tuple[float, float]:
+    """Width and height (inches) for one bar per design and one panel per scene."""
+    row = DRAWN_ROW if drawn else ROW
+    return WIDTH, row * len(designs) + 0.9 * designs["scene"].nunique()

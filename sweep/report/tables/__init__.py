@@ -1,0 +1,1 @@
+"""Tables as text: rankings (`sheets`), accuracy, materials, searches; Markdown of any of them."""

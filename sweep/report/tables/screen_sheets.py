@@ -1,0 +1,74 @@
+"""Estimates by unit columns beside the values of the whole models, as tables of text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from math import isnan
+from typing import TYPE_CHECKING, Any
+
+from sweep.numbers import NOTHING, three_digits
+from sweep.ranking.merit import merits
+from sweep.ranking.rank import ranked
+from sweep.report.tables.sheets import Sheet, design_text
+from sweep.result import Status
+
+if TYPE_CHECKING:
+    from pandas import DataFrame, Series
+
+ABOUT = (
+    "estimate: one cell, scaled by mass; no result, and in no ranking. full: the whole model; "
+    f"{NOTHING}: not run, or it failed."
+)
+FEWEST = 3  # designs whose order is told
+
+
+def screen_sheets(
+    estimates: DataFrame, summary: DataFrame, question: Mapping[str, Any]
+) -> Iterator[Sheet]:
+    """A sheet for each scene and budget. summary: rows of the whole models; question: arguments of
+    `rank`, of which requirements are left out, as they are asked of the whole models.
+    """
+    asked = {**question, "top": None, "require": None}
+    table = ranked(estimates, **asked).table
+    finished = summary[summary["status"] == Status.CONVERGED]
+    panel, per = question.get("panel"), str(question.get("per") or "specimen")
+    compared = merits(finished, None, panel, None, per)[0].set_index("case_id")
+    for (_, scene), rows in table.groupby(["budget_g", "scene"], dropna=False, sort=False):
+        column, budget = str(rows["ranked_by"].iloc[0]), rows["budget_g"].iloc[0]
+        within = f", up to {budget:g} g" if budget > 0.0 else ""
+        known = (
+            compared[column] if column in compared else compared.index.to_series() * float("nan")
+        )
+        both = rows.assign(full=rows["case_id"].map(known).astype(float))
+        design = design_text(rows, estimates)
+        texts = zip(*design.values(), strict=True) if design else [()] * len(rows)
+        yield Sheet(
+            f"Estimates of {column}: {scene}{within}",
+            ["#", *design, "estimate", "full", "full / estimate"],
+            [
+                [str(row["place"]), *text, *_values(row[column], row["full"])]
+                for (_, row), text in zip(both.iterrows(), texts, strict=True)
+            ],
+            notes=(ABOUT, *_agreement(both[column], both["full"])),
+        )
+
+
+def _values(estimate: float, full: float) -> list[str]:
+    """The texts of an estimate, of the value of the whole model if it is known, and their ratio."""
+    if isnan(full):
+        return [three_digits(estimate), NOTHING, NOTHING]
+    return [three_digits(value) for value in (estimate, full, full / estimate)]
+
+
+def _agreement(estimate: Series, full: Series) -> Iterator[str]:
+    """How well estimates agree with whole models, of the designs that have both."""
+    known = full.notna()
+    if not known.any():
+        return
+    ratio = (full / estimate)[known]
+    text = f"{known.sum()} of {len(full)} designs ran as a whole: full / estimate "
+    text += f"{ratio.min():.2f} to {ratio.max():.2f}"
+    if known.sum() >= FEWEST:
+        order = estimate[known].rank().corr(full[known].rank())
+        text += f", rank correlation {order:.2f}"
+    yield f"{text}."

@@ -1,0 +1,150 @@
+"""What a search has found, as tables of text and sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from pandas import Series
+
+from sweep.numbers import NOTHING, numerals, three_digits
+from sweep.ranking.spread import AS_GIVEN, FINE, Spread, ends
+from sweep.ranking.worth import ALIKE
+from sweep.report.tables.requirement_notes import panel_column
+from sweep.report.tables.sheets import Sheet, design_text, mark_notes, marks
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+    from sweep.ranking.ranking import Ranking
+
+AGAIN = """\
+fine mesh: with twice the elements. lowest, highest: of this, of walls 5 % thinner and thicker, and
+of a quarter and four times the imperfection, one change at a time. {}: least and greatest of
+these."""
+NARROW = 0.8  # of its value: a design that keeps less stands on a narrow peak
+FRONT = """\
+This is the front of the designs that were evaluated; the search itself sought only {}.
+From the best design on, a row is left out if both of its values are within {:.0f} % of those of the
+row that was kept last."""
+
+
+def finalist_sheet(spread: Spread, summary: DataFrame) -> Sheet:
+    """The finalists with their values on a fine mesh and with other geometry.
+
+    summary: all designs, among which they are described.
+    """
+    rows, mass = spread.rows, "panel g" if "panel_mass_g" in spread.rows else "mass g"
+    columns = {
+        "#": rows["place"].astype(str) + marks(rows),
+        **design_text(rows, summary),
+        mass: _masses(spread),
+        "value": numerals(rows[spread.column]),
+    }
+    texts = [list(row) for row in zip(*columns.values(), strict=True)]
+    again = [_again(values) for _, values in spread.at_corners.iterrows()]
+    return Sheet(
+        f"Best designs, simulated again: {spread.column}",
+        [*columns, FINE, "lowest", "at", "highest", "at"],
+        [text + more for text, more in zip(texts, again, strict=True)],
+        notes=(AGAIN.format(mass), *mark_notes(rows), *_verdict(spread)),
+    )
+
+
+def _masses(spread: Spread) -> Series:
+    """From the least to the greatest mass of each design, as text."""
+    rows = spread.rows
+    if spread.masses is None:
+        return numerals(rows["mass_g"])
+    low, high = (numerals(Series(one.to_numpy(), rows.index))
+                 for one in (spread.masses.min(axis=1), spread.masses.max(axis=1)))  # fmt: skip
+    return (low + "-" + high).where(low != high, low)
+
+
+def _again(values: Series) -> list[str]:
+    """A design's value on the fine mesh, and its lowest and highest one with their corners."""
+    others = values.drop(AS_GIVEN)
+    found = ends(others)
+    if found is None:
+        return [NOTHING] * 5
+    spans = [text for name in found for text in (three_digits(float(others[name])), name)]
+    return [three_digits(float(others.get(FINE, float("nan")))), *spans]
+
+
+def _verdict(spread: Spread) -> Iterator[str]:
+    """Sentences about how far the value of the first design may be trusted."""
+    worst, values = spread.worst, spread.at_corners[AS_GIVEN]
+    kept = worst / values
+    if spread.failed:
+        yield f"{spread.failed} values are missing, as these cases failed."
+    yield from _limits_missed(spread)
+    first = float(kept.iloc[0])
+    if first < NARROW or first > 1.0 / NARROW:
+        at = _where(spread)
+        yield f"The first design stands on a narrow peak: {at} leaves {100 * first:.0f} % of it."
+    safest = worst if spread.sign > 0 else -worst
+    if safest.notna().any() and (k := int(safest.argmax())):
+        place, value = spread.rows["place"].iloc[k], three_digits(float(worst.iloc[k]))
+        yield f"The safest of these is number {place}, with {value} at its worst."
+
+
+def _limits_missed(spread: Spread) -> Iterator[str]:
+    """A sentence for each limit and corner at which designs do not keep the limit."""
+    found: dict[tuple[str, str], list[str]] = {}
+    for place, corner, what in spread.missed:
+        found.setdefault((what, corner), []).append(str(place))
+    for (what, corner), places in found.items():
+        several = len(places) > 1
+        who = f"Number{'s' if several else ''} {', '.join(places)}"
+        if what == "budget":
+            yield f"{who} exceed{'' if several else 's'} the budget with {corner}."
+        else:
+            yield f"{who} do{'' if several else 'es'} not fulfil {what} with {corner}."
+
+
+def _where(spread: Spread) -> str:
+    """The corner at which the first design is worst."""
+    others = spread.at_corners.iloc[0].drop(AS_GIVEN)
+    return str(others.idxmin() if spread.sign > 0 else others.idxmax())
+
+
+def nearest_sheet(ranking: Ranking, missed: Mapping[str, float], summary: DataFrame) -> Sheet:
+    """The designs that come nearest to all requirements; missed: of `Worths`, by id.
+
+    ranking: of all designs, whatever is required.
+    """
+    rows = ranking.table.set_index("case_id", drop=False).loc[list(missed)]
+    shares = Series(list(missed.values()), rows.index)
+    columns = {
+        "case": rows["case_id"].str[:8] + marks(rows),
+        **design_text(rows, summary),
+        "mass g" if "panel_mass_g" not in rows else "panel g": numerals(rows[ranking.mass]),
+        f"{'panel' if 'panel_mass_g' in rows else 'absorbs'} J": numerals(rows[ranking.energy]),
+        "peak N": numerals(rows["passed_on_N"]),
+        **panel_column(rows),
+        "stroke mm": numerals(1e3 * rows["counted_stroke_m"]),
+        "misses by %": numerals(100.0 * shares),
+    }
+    return Sheet(
+        "Nearest to what is required",
+        list(columns),
+        [list(row) for row in zip(*columns.values(), strict=True)],
+        notes=("misses by: greatest share by which a limit is missed.", *mark_notes(rows)),
+    )
+
+
+def front_sheet(rows: DataFrame, summary: DataFrame, other: str) -> Sheet:
+    """The Pareto front of two columns: that of the ranking, and another one."""
+    column = "" if rows.empty else str(rows["ranked_by"].iloc[0])
+    shown = dict.fromkeys([other, column])
+    columns = {
+        "#": rows["place"].astype(str) + marks(rows) if len(rows) else rows.get("place", Series()),
+        **design_text(rows, summary),
+        **{name: numerals(rows[name]) for name in shown if name},
+    }
+    return Sheet(
+        f"Pareto front of {column} and {other}",
+        list(columns),
+        [list(row) for row in zip(*columns.values(), strict=True)],
+        notes=(FRONT.format(column, 100.0 * ALIKE), *mark_notes(rows)),
+    )

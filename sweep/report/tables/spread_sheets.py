@@ -1,0 +1,80 @@
+"""The spread of the best designs as tables of text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from sweep.numbers import NOTHING, three_digits
+from sweep.ranking.spread import Spread, ends
+from sweep.report.tables.sheets import Sheet, design_text
+
+if TYPE_CHECKING:
+    from pandas import DataFrame, Series
+
+ABOUT = (
+    "lowest, highest: with one uncertain number at a time at an end of its range.\n"
+    "places: among these designs only; designs that did not run again may pass them."
+)
+
+
+def spread_sheets(found: Iterable[Spread], summary: DataFrame) -> Iterator[Sheet]:
+    """A sheet for each scene and budget; summary: all designs, among which they are described."""
+    for spread in found:
+        rows = spread.rows
+        budget = rows["budget_g"].iloc[0]
+        within = f", up to {budget:g} g" if budget > 0.0 else ""
+        design = _differing(rows, summary)
+        texts = [list(text) for text in zip(*design.values(), strict=True)]
+        labels = [", ".join(filter(None, text)) for text in texts]
+        heads = ["#", *design, "value", "lowest", "at", "highest", "at", "places"]
+        yield Sheet(
+            f"Spread of {spread.column}: {rows['scene'].iloc[0]}{within}",
+            heads,
+            [_row(spread, k, text) for k, text in enumerate(texts)],
+            notes=(ABOUT, *_order(spread, labels)),
+        )
+
+
+def _differing(rows: DataFrame, summary: DataFrame) -> dict[str, Series]:
+    """The columns that describe the designs, without those in which all shown ones are equal."""
+    columns = design_text(rows, summary) or {"material": rows["material"].astype(str)}
+    return {head: text for head, text in columns.items() if len(set(text)) > 1} or columns
+
+
+def _row(spread: Spread, k: int, design: list[str]) -> list[str]:
+    row, values = spread.rows.iloc[k], spread.at_corners.iloc[k]
+    value = three_digits(float(row[spread.column]))
+    found = ends(values)
+    if found is None:
+        return [str(row["place"]), *design, value, *[NOTHING] * 5]
+    low, high = found
+    places = spread.places.iloc[k].dropna()
+    best, worst = int(places.min()), int(places.max())
+    return [
+        str(row["place"]),
+        *design,
+        value,
+        three_digits(float(values[low])),
+        low,
+        three_digits(float(values[high])),
+        high,
+        str(best) if best == worst else f"{best} to {worst}",
+    ]
+
+
+def _order(spread: Spread, labels: list[str]) -> Iterator[str]:
+    """Sentences about the order of the designs, and about what is missing."""
+    swaps = spread.swaps
+    others = {name: labels[spread.first(name)] for name in swaps if spread.first(name) != 0}
+    if spread.at_corners.columns.size == 1:
+        yield "No number is uncertain here."
+    elif not swaps:
+        yield "The order of these designs does not change."
+    elif not others:
+        yield f"The first design stays the first; others change places with {', '.join(swaps)}."
+    else:
+        firsts = "; ".join(f"with {name}, the first is {label}" for name, label in others.items())
+        yield f"The order changes: {firsts}."
+    if spread.failed:
+        yield f"{spread.failed} values are missing, as these cases failed or have no such value."

@@ -1,0 +1,1 @@
+"""Runs beside a sweep, in files of their own: error bars, spreads of materials, first screens."""

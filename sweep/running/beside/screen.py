@@ -1,0 +1,130 @@
+"""Screening: a design that is pressed along its cells is first crushed as one cell of its walls.
+
+The unit column is a tube of one cell of the same width, height, walls, mesh and loading. Its
+energies, forces and mass are scaled by the ratio of the masses of the design and of the column, its
+stresses by that of the relative densities; strains and energies per gram are those of the column.
+A tube has no neighbours that hold its walls, and no cells that fold against one another: it absorbs
+less than its share of the design, by a factor that depends on the infill. So the best designs are
+chosen within each infill, not between infills.
+
+Columns are ordinary cases, in a results file of their own beside that of the sweep, so that they
+are no designs of its ranking: `armor.screen.h5` beside `armor.h5`. The values in it are not scaled.
+"""
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from pandas import DataFrame
+
+from sweep.config.case import Case
+from sweep.config.defaults.direction import is_along, network_of
+from sweep.config.lattice_table import Lattice
+from sweep.design.drawing import extent
+from sweep.design.extrusion import mirror_fault
+from sweep.ranking.rank import ranked
+from sweep.result import Status, describe_column, design_columns
+from sweep.running.dask_graph import Simulate
+from sweep.running.progress import tell
+from sweep.running.sweep import run_sweep
+from sweep.store.read import ONLY_MISSING, Rerun, exists, finished_ids, read_summary
+
+EXTENSIVE = ("J", "N", "g")
+PER_AREA = ("Pa", "J/m^3")
+ONE = 1, 1
+
+
+def has_column(design: Case) -> bool:
+    """Whether one cell stands for a design: a crush along several equal cells without outline."""
+    lattice = design.lattice
+    even = lattice.structure is None and lattice.grading == 1.0 and not any(lattice.outline)
+    several = (lattice.cells_x, lattice.cells_y) != ONE
+    return even and several and is_along(design.loading) and design.loading.mode == "displacement"
+
+
+def unit_column(design: Case) -> Case:
+    """One cell of a design, as high as the design, with its walls and its mesh.
+
+    A quarter of it is computed where that is so of the design, and the cell allows it. Energies up
+    to allowed forces are left out, since the column reaches these forces later.
+    """
+    lattice = design.lattice
+    cells = lattice.cells_x, lattice.cells_y
+    (low, high), (left, right) = (
+        extent(lattice.kind, lattice.orientation, count) for count in (cells, ONE)
+    )
+    width, height = (right - left) / (high - low) * (lattice.width, lattice.height)
+    change: dict[str, Any] = {"cells_x": 1, "cells_y": 1, "mass": None, "infill": None}
+    change |= {"width": float(width), "height": float(height)}
+    cell = lattice.model_copy(update=change)
+    if cell.symmetry == "quarter" and mirror_fault(network_of(cell)):
+        cell = cell.model_copy(update={"symmetry": "none"})
+    tables: dict[str, Any] = {table: getattr(design, table) for table in Case.model_fields}
+    tables["loading"] = design.loading.model_copy(update={"allowed_forces": ()})
+    return Case(**tables | {"lattice": cell})
+
+
+def screen_file(out: str | os.PathLike[str]) -> Path:
+    """The results file of the unit columns of the designs in `out`."""
+    return Path(out).with_suffix(".screen.h5")
+
+
+def run_columns(
+    designs: Sequence[Case],
+    out: str | os.PathLike[str],
+    workers: int = 2,
+    scheduler: str | None = None,
+    rerun: Rerun = ONLY_MISSING,
+    simulate: Simulate | None = None,
+) -> DataFrame:
+    """Run the missing columns of designs; return `estimates`. Arguments as of `run_sweep`."""
+    columns = {design.case_id: unit_column(design) for design in designs}
+    alone = {column.case_id: column for column in columns.values()}
+    beside = screen_file(out)
+    if not exists(beside) or alone.keys() - finished_ids(beside, rerun):
+        tell(f"screen of {len(designs)} designs: {len(alone)} unit columns, in {beside}")
+        run_sweep(list(alone.values()), beside, workers, scheduler, rerun, simulate)
+    rows = read_summary(beside)
+    found = rows[rows["status"] == Status.CONVERGED].set_index("case_id", drop=False)
+    return DataFrame(
+        [
+            _scaled(found.loc[column.case_id].to_dict(), design, column.lattice)
+            for design, column in zip(designs, columns.values(), strict=True)
+            if column.case_id in found.index
+        ]
+    )
+
+
+def _scaled(row: dict[str, Any], design: Case, cell: Lattice) -> dict[str, Any]:
+    """The row of a design as its column (`row`) estimates it; id and labels are the design's."""
+    whole = design.lattice
+    areas = [network_of(lattice).printed_area for lattice in (whole, cell)]
+    boxes = [lattice.outer_size[0] * lattice.outer_size[1] for lattice in (whole, cell)]
+    mass = areas[0] / areas[1]
+    density = mass * boxes[1] / boxes[0]
+    made = dict(row)
+    for name, value in row.items():
+        units = describe_column(name).units
+        if units in EXTENSIVE:
+            made[name] = mass * value
+        elif units in PER_AREA:
+            made[name] = density * value
+    filled = density * row["relative_density"]
+    made |= {"relative_density": filled, "solid_strain": 1.0 - filled}
+    own = {"case_id": design.case_id, "model_version": row["model_version"]}
+    return made | design_columns(design) | design.axes | own
+
+
+def best_of(estimates: DataFrame, question: dict[str, Any], count: int) -> list[str]:
+    """Ids of the `count` best estimates of each infill, scene and budget of a ranking.
+
+    If none of an infill meets the requirements, its best without: the whole model decides.
+    """
+    best: list[str] = []
+    for _, alike in estimates.groupby("lattice_kind", sort=False):
+        table = ranked(alike, **question | {"top": count}).table
+        if table.empty:
+            table = ranked(alike, **question | {"top": count, "require": None}).table
+        best.extend(table["case_id"])
+    return [*dict.fromkeys(best)]

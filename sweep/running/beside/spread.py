@@ -1,0 +1,121 @@
+"""The spread of the best designs: each simulated again at both ends of every uncertain number.
+
+Uncertain are the numbers of a material whose file states a range (`config.material_header`), as far
+as the config does not give them itself, and the friction. One number at a time is at an end of its
+range; the shape of the specimen stays. A modulus scales the whole curve. Along the cells, a lattice
+also has other imperfections, as there are many ways to fold.
+
+These corners are ordinary cases, in a results file of their own beside that of the sweep, so that
+they are no designs of its ranking: `armor.spread.h5` beside `armor.h5`.
+"""
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from sweep.config.case import Case, Material
+from sweep.config.defaults.direction import is_along
+from sweep.config.grid import Config, expand
+from sweep.running.dask_graph import Simulate
+from sweep.running.progress import tell
+from sweep.running.sweep import run_sweep
+from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
+
+FRICTION = 0.2, 0.9  # of TPU on TPU or steel, which no source tells: configs/materials/README.md
+BEST = 5  # designs of a ranking
+SEEDS = 1, 2, 3  # of other imperfections of a lattice that is pressed along its cells
+
+
+class Corner(NamedTuple):
+    """A case with a number at an end of its range; `name`: what, such as "friction 0.9"."""
+
+    name: str
+    case: Case
+
+    @property
+    def case_id(self) -> str:
+        """The id of the case."""
+        return self.case.case_id
+
+
+def corners(design: Case) -> list[Corner]:
+    """The corners of a design that differ from it. A friction that the sweep varies stays."""
+    ranges = {name: (low, high) for name, low, high in design.material.uncertain}
+    if design.material.plane == "stress":
+        ranges.pop("poisson", None)
+    friction = ranges.pop("friction", FRICTION)
+    if design.contact.friction is not None and "contact.friction" not in design.axes:
+        ranges["friction"] = friction
+    found = [
+        Corner(f"{name} {end}", _moved(design, name, value))
+        for name, ends in ranges.items()
+        for end, value in _named(name, ends)
+    ]
+    if is_along(design.loading) and design.lattice.imperfection > 0.0:
+        found += [Corner(f"imperfection {seed}", _bowed(design, seed)) for seed in SEEDS]
+    return [corner for corner in found if corner.case_id != design.case_id]
+
+
+def _bowed(design: Case, seed: int) -> Case:
+    """The design with an imperfection that a seed draws."""
+    lattice = design.lattice.model_copy(update={"imperfection_seed": seed, "mass": None})
+    tables: dict[str, Any] = {table: getattr(design, table) for table in Case.model_fields}
+    axes = design.axes | {"lattice.imperfection_seed": seed}
+    return Case(**tables | {"lattice": lattice, "axes": axes})
+
+
+def _named(name: str, ends: tuple[float, float]) -> Iterable[tuple[str, float]]:
+    """Both ends of a range with what they are called: friction by its value, as it is the same of
+    all materials.
+    """
+    words = [f"{value:g}" for value in ends] if name == "friction" else ["low", "high"]
+    return zip(words, ends, strict=True)
+
+
+def _moved(design: Case, name: str, value: float) -> Case:
+    """The design with another value of an uncertain number, which labels it."""
+    tables: dict[str, Any] = {table: getattr(design, table) for table in Case.model_fields}
+    if name == "friction":
+        tables["contact"] = design.contact.model_copy(update={"friction": value})
+    else:
+        tables["material"] = _other(design.material, name, value)
+    tables["lattice"] = design.lattice.model_copy(update={"mass": None})  # its walls stay
+    key = f"contact.{name}" if name == "friction" else f"material.{name}"
+    return Case(**tables | {"axes": design.axes | {key: value}})
+
+
+def _other(material: Material, name: str, value: float) -> Material:
+    """A material with another value of a number."""
+    change: dict[str, Any] = {name: value}
+    if name == "modulus":
+        scale = value / material.modulus
+        change["curve_stress"] = tuple(scale * stress for stress in material.curve_stress)
+    return material.model_copy(update=change)
+
+
+def spread_file(out: str | os.PathLike[str]) -> Path:
+    """The results file of the corners of the designs in `out`."""
+    return Path(out).with_suffix(".spread.h5")
+
+
+def corners_of(sweep: Config | Sequence[Case], best: Iterable[str]) -> dict[str, list[Corner]]:
+    """The corners of the cases whose ids are among the `best`, by the id of the case."""
+    cases = {case.case_id: case for case in (expand(sweep) if isinstance(sweep, Config) else sweep)}
+    return {case_id: corners(cases[case_id]) for case_id in best if case_id in cases}
+
+
+def run_corners(
+    found: Mapping[str, Sequence[Corner]],
+    out: str | os.PathLike[str],
+    workers: int = 2,
+    scheduler: str | None = None,
+    rerun: Rerun = ONLY_MISSING,
+    simulate: Simulate | None = None,
+) -> None:
+    """Run the corners of designs in `out` that are missing; arguments as those of `run_sweep`."""
+    others = {c.case_id: c.case for several in found.values() for c in several}
+    beside = spread_file(out)
+    if others.keys() - finished_ids(beside, rerun):
+        tell(f"spread of {len(found)} designs: {len(others)} cases, in {beside}")
+        run_sweep(list(others.values()), beside, workers, scheduler, rerun, simulate)

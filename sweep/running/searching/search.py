@@ -1,0 +1,191 @@
+"""A search for the best design: a Sobol sequence, then differential evolution, resumed by replay.
+
+Differential evolution (Storn & Price 1997, as in scipy) asks for whole generations of designs. The
+new ones of a generation run as a sweep does and are rows of the results file. The same seed asks
+for the same designs again, so that a search that was stopped continues where it ended: what the
+file holds is looked up. When a population has converged before all evaluations are used up, the
+search starts again from other points.
+
+Requirements are compared by the rules of K. Deb (Comput. Methods Appl. Mech. Eng. 186, 311-338,
+2000), which scipy applies as J. Lampinen (2002) describes for differential evolution: a design that
+fulfils all of them is better than one that does not; of two that do, the value decides; of two that
+do not, the nearest one as `rank` defines it (`ranking.requirements`): their violation is the
+greatest share by which a limit is missed, where Deb takes the sum.
+"""
+
+import os
+from dataclasses import dataclass, field
+from itertools import count
+from math import inf
+from typing import Any, NamedTuple
+
+import numpy as np
+from pandas import DataFrame
+from scipy.optimize import NonlinearConstraint, differential_evolution
+from scipy.stats import qmc
+
+from sweep.config.case import Case
+from sweep.config.grid import designs_of
+from sweep.numbers import three_digits
+from sweep.ranking.curves import Known, with_allowed
+from sweep.ranking.worth import Worths, worths
+from sweep.running.dask_graph import Simulate
+from sweep.running.progress import tell
+from sweep.running.searching.design_space import DesignSpace
+from sweep.running.sweep import run_sweep
+from sweep.store.read import Rerun, finished_ids, read_summary
+
+START = 4  # binary logarithm of the number of designs of a Sobol start
+POPULATION = 6  # of the best of them evolve
+MUTATION = 0.2, 0.6  # below scipy's, which suits searches of thousands; `make search`
+IDLE = 20  # generations without a new design that end a population
+CLOSE = 1e-3  # relative scatter of the values at which a population has converged
+RENEW = Rerun(older=True)  # a search does not compare versions of the model
+
+
+class Settings(NamedTuple):
+    """How to search: number of designs, seed, threads or the address of a Dask scheduler."""
+
+    evaluations: int = 150
+    seed: int = 1
+    workers: int = 2
+    scheduler: str | None = None
+
+
+@dataclass
+class Search:
+    """A search into the results file `out`; question: the arguments of `rank`, with what is
+    required.
+
+    cases: the designs so far by id. found: their worths.
+    """
+
+    space: DesignSpace
+    question: dict[str, Any]
+    out: str | os.PathLike[str]
+    settings: Settings
+    simulate: Simulate | None = None
+    cases: dict[str, Case] = field(default_factory=dict)
+    found: Worths | None = None
+    _known: Known = field(default_factory=dict)
+    _idle: int = 0
+    _before: int = 0  # designs before the present generation
+
+    @property
+    def mode(self) -> str:
+        """The loading mode of the first design that exists; "" if none of the start does."""
+        points = _start(self.space.dimension, self.settings.seed * 1000)
+        found = next((case for point in points if (case := self.space.case(point))), None)
+        return found.loading.mode if found else ""
+
+    @property
+    def left(self) -> int:
+        """Number of evaluations left."""
+        return self.settings.evaluations - len(self.cases)
+
+    def run(self) -> Worths | None:
+        """Search until all evaluations are used up, or nothing new is found."""
+        for seed in count(self.settings.seed * 1000):
+            before = len(self.cases)
+            self._evolve(seed)
+            if self.left <= 0 or len(self.cases) == before:
+                break
+        if self.cases:
+            self._simulate()
+        return self.found
+
+    def _evolve(self, seed: int) -> None:
+        """One population, from its Sobol start until it has converged or is stopped."""
+        start = _start(self.space.dimension, seed)
+        best = np.lexsort([self.costs(start.T), self.violations(start.T)[0]])[:POPULATION]
+        self._idle, self._before = 1, len(self.cases)
+        required = any(value is not None for value in (self.question.get("require") or {}).values())
+        if self.left > 0:
+            differential_evolution(
+                self.costs,
+                [(0.0, 1.0)] * self.space.dimension,
+                init=start[best],
+                maxiter=10_000,
+                tol=CLOSE,
+                mutation=MUTATION,
+                seed=seed,
+                polish=False,
+                updating="deferred",
+                vectorized=True,
+                constraints=NonlinearConstraint(self.violations, -inf, 0.0) if required else (),
+                callback=self._is_over,
+            )
+
+    def _is_over(self, *_: object, **__: object) -> bool:
+        """Whether a population ends after this generation."""
+        self._idle = 0 if len(self.cases) > self._before else self._idle + 1
+        self._before = len(self.cases)
+        return self.left <= 0 or self._idle >= IDLE
+
+    def costs(self, points: np.ndarray) -> np.ndarray:
+        """The values to be minimised of the columns of `points` (dimension, n): (n,).
+
+        A design without a value, or that misses a requirement, costs inf.
+        """
+        ids, found = self._assessed(points)
+        values = found.by_id if found else {}
+        sign = found.sign if found else 1.0
+        return np.array([sign * values.get(case_id, sign * inf) for case_id in ids])
+
+    def violations(self, points: np.ndarray) -> np.ndarray:
+        """The violations of one point (dimension,), or of the columns of `points`: (1,) or (1, n).
+
+        That of a design without a value is inf.
+        """
+        ids, found = self._assessed(points.reshape(self.space.dimension, -1))
+        fulfil, missed = (found.by_id, found.missed) if found else ({}, {})
+        values = [0.0 if case_id in fulfil else missed.get(case_id, inf) for case_id in ids]
+        return np.array(values if points.ndim == 1 else [values])
+
+    def _assessed(self, points: np.ndarray) -> tuple[list[str], Worths | None]:
+        """The ids of designs, "" where there is none, and the worths of all, the new ones included.
+
+        No more designs are simulated than are left; further ones are worthless.
+        """
+        designs = [self.space.case(point) for point in points.T]
+        new = {d.case_id: d for d in designs if d is not None and d.case_id not in self.cases}
+        chosen = dict(list(new.items())[: self.left])
+        self.cases |= chosen
+        if chosen:
+            if chosen.keys() - finished_ids(self.out, RENEW):
+                self._simulate()
+            self._assess()
+        return [design.case_id if design else "" for design in designs], self.found
+
+    def _simulate(self) -> None:
+        """Run the designs so far that the file does not hold."""
+        designs = designs_of(self.space.config, self.cases.values(), self.settings.seed)
+        how = self.settings.workers, self.settings.scheduler, RENEW, self.simulate
+        run_sweep(designs, self.out, *how, part=True)
+
+    def _assess(self) -> None:
+        """Value the designs so far, and tell the best."""
+        self.found = worths(self.rows(), self.question)
+        counted = f"{len(self.cases)} of at most {self.settings.evaluations} designs"
+        tell(f"{counted}: {self.found.column}, {_best(self.found)}")
+
+    def rows(self) -> DataFrame:
+        """The rows of the designs so far, with energies up to an allowed force of the panel."""
+        summary = read_summary(self.out)
+        mine = summary[summary["case_id"].isin(self.cases)].reset_index(drop=True)
+        return with_allowed(self.out, mine, self.question, self._known)
+
+
+def _best(found: Worths) -> str:
+    """How good the best design so far is, in words."""
+    if found.by_id:
+        return f"the best {three_digits(next(iter(found.by_id.values())))}"
+    least = min(found.missed.values(), default=inf)
+    if least < inf:
+        return f"none fulfils all requirements; the nearest misses them by {100.0 * least:.3g} %"
+    return "none can be ranked"
+
+
+def _start(dimension: int, seed: int) -> np.ndarray:
+    """The first points of a scrambled Sobol sequence (2^START, dimension)."""
+    return qmc.Sobol(dimension, scramble=True, seed=seed).random_base2(START)

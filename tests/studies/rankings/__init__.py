@@ -1,0 +1,1 @@
+"""Studies of rankings: error bars, orders of designs, the search, spreads, renumbered nodes."""

@@ -1,0 +1,213 @@
+"""A lattice pressed along its cells: what is filled in, what does not go with it, what is idle."""
+
+import json
+
+import pytest
+
+from sweep.config.case import TABLES, Case, Lattice, Loading, Material
+from sweep.config.defaults.direction import footprint, height_pressed
+from sweep.config.grid import expand
+
+ALONG = '[loading]\ndirection = "out_of_plane"\n'
+ONLY = 'if loading.direction is "out_of_plane"'
+STRUCTURE = {"nodes_mm": [[0, 0], [5, 0], [5, 4]], "walls": [[0, 1], [1, 2]]}
+
+
+def along(lattice=None, **loading):
+    return Case(lattice=lattice or Lattice(), loading=Loading(direction="out_of_plane", **loading))
+
+
+def test_a_crush_along_the_cells_presses_the_depth():
+    case = along(Lattice(height=9e-3, depth=20e-3))
+    assert (case.loading.mode, case.loading.platen) == ("displacement", "glued")
+    assert case.loading.stroke == pytest.approx(0.6 * 20e-3)
+    assert height_pressed(case.lattice, case.loading) == 20e-3
+    assert footprint(case.lattice, case.loading) == pytest.approx((13.3e-3, 9.8e-3))
+
+
+def test_the_plane_has_its_own_height_and_footprint():
+    case = Case(lattice=Lattice(height=9e-3, depth=20e-3), loading=Loading(mode="displacement"))
+    assert height_pressed(case.lattice, case.loading) == 9e-3
+    assert footprint(case.lattice, case.loading) == pytest.approx((13.3e-3, 20e-3))
+
+
+def test_a_wall_has_six_quads_and_layers_as_high():
+    """A wall of 4 mm has quads of 0.667 mm, and 12 mm have 18 of them."""
+    case = along(Lattice(width=12e-3, height=12e-3, depth=12e-3, wall_thickness=0.4e-3))
+    assert (case.lattice.nodes_per_wall, case.lattice.layers) == (5, 18)
+    coarse = along(Lattice(width=12e-3, height=12e-3, wall_thickness=0.4e-3, nodes_per_wall=3))
+    assert (coarse.lattice.nodes_per_wall, coarse.lattice.layers) == (3, 12)
+
+
+def test_quads_are_no_smaller_than_walls_are_thick():
+    thick = along(Lattice(width=12e-3, height=12e-3, wall_thickness=0.8e-3))
+    assert thick.lattice.layers == 15
+
+
+def test_a_resolved_case_stays_as_it_is():
+    case = along()
+    again = Case(**{name: getattr(case, name) for name in TABLES})
+    assert again == case
+    assert again.case_id == case.case_id
+
+
+def test_layers_that_are_given_and_found_are_the_same_case():
+    assert along(Lattice(layers=14)).case_id == along().case_id != along(Lattice(layers=9)).case_id
+
+
+def test_each_draw_of_the_imperfection_is_a_case_unless_there_is_none():
+    ids = {along(Lattice(imperfection_seed=seed)).case_id for seed in (None, 0, 1)}
+    assert len(ids) == 3
+    straight = {along(Lattice(imperfection=0.0, imperfection_seed=s)).case_id for s in (None, 1)}
+    assert len(straight) == 1
+
+
+def test_what_only_the_other_direction_uses_does_not_count():
+    pressed = Loading(mode="displacement")
+    turned = Lattice(layers=7, symmetry="quarter", imperfection_seed=3)
+    assert Case(lattice=turned, loading=pressed).case_id == Case(loading=pressed).case_id
+    sheet = Case(material=Material(plane="stress"), loading=along().loading)
+    assert sheet.case_id == along().case_id
+
+
+def test_an_imperfection_is_smaller_than_a_wall_is_thick(lines):
+    text = ALONG + "[lattice]\nimperfection = 10.0"
+    allowed = f"at most 1, in wall thicknesses, {ONLY}"
+    assert lines(text) == [f"lattice.imperfection = 10.0: does not fit; allowed: {allowed}"]
+
+
+UNFIT = {
+    'force = "3 N"': 'loading.mode = "force", as loading.force is given: does not fit; allowed: '
+    f'"displacement" or "impact" {ONLY}',
+    'platen = "sliding"': 'loading.platen = "sliding": does not fit; allowed: "glued", "clamped" or'
+    f' "contact" {ONLY}',
+    'platen = "none"': f'loading.platen = "none": does not fit; allowed: "glued", "clamped" or'
+    f' "contact" {ONLY}',
+    '[lattice]\nboundary = "periodic"': (
+        f'lattice.boundary = "periodic": does not fit; allowed: "free" {ONLY}'
+    ),
+    '[lattice]\nslicer = "prusa"\npattern = "grid"\ninfill = "20 %"\nperimeters = 2': (
+        f'lattice.slicer = "prusa": does not fit; allowed: none {ONLY}: give kind and cells'
+    ),
+    '[lattice]\ncells = 2\nsymmetry = "quarter"': (
+        'lattice.symmetry = "quarter": does not fit; allowed: "none", as joints lie on its middle '
+        "planes, and could not turn there as walls buckle"
+    ),
+    '[lattice]\nkind = "hex"\nsymmetry = "quarter"': (
+        'lattice.symmetry = "quarter": does not fit; allowed: "none", as the drawing is not '
+        "symmetric about its middle"
+    ),
+    'stroke = "20 mm"': (
+        'loading.stroke = "20 mm": does not fit; allowed: below the depth of the lattice, 12 mm'
+    ),
+    "[lattice]\nlayers = 16": (
+        "lattice.layers = 16: does not fit; allowed: at most 15 here, as quads are no lower than "
+        "walls are thick"
+    ),
+    '[lattice]\ncells = 40\nwidth = "1 m"\nheight = "1 m"\ndepth = "1 m"': (
+        "lattice.cells = 40: does not fit; allowed: at most 20,000 nodes in all "
+        f"{ONLY}, 4,357,521 here"
+    ),
+    '[material]\nbend = "fibres"': (
+        f'material.bend = "fibres": does not fit; allowed: "section" or "linear" {ONLY}'
+    ),
+    '[material]\nbend = "linear"': (
+        f'material.bend = "linear": does not fit; allowed: "section" {ONLY} and material.stretch is'
+        ' "nonlinear"'
+    ),
+    '[material]\nsoftening_r = 2.0\nsoftening_m = "0.5 MPa"': (
+        f"material.softening_r = 2.0: does not fit; allowed: none {ONLY}: its walls are elastic or"
+        " relax"
+    ),
+    '[material]\nname = "pla"': 'material.yield_stress = 4.5e+07 Pa in the file of "pla": does not'
+    f" fit; allowed: none {ONLY}: its walls are elastic or relax",
+    '[contact]\nmodel = "position_based"': (
+        f'contact.model = "position_based": does not fit; allowed: "barrier" or "none" {ONLY}'
+    ),
+    '[damping]\nmodel = "rayleigh"': (
+        f'damping.model = "rayleigh": does not fit; allowed: "none" {ONLY}'
+    ),
+    '[solver]\nintegrator = "arc_length"': (
+        'solver.integrator = "arc_length": does not fit; allowed: "static" where quasi-static, else'
+        ' "backward_euler", "bdf2" or "newmark"'
+    ),
+}
+
+
+def test_a_height_below_the_wall_thickness_is_refused(tmp_path, lines):
+    (line,) = lines(f'{ALONG}[lattice]\ndepth = "0.3 mm"\nwall_thickness = "0.4 mm"')
+    why = f"does not fit; allowed: at least the wall thickness, 0.4 mm here, {ONLY}"
+    assert line == f'lattice.depth = "0.3 mm": {why}'
+    assert along(Lattice(depth=0.4e-3, wall_thickness=0.4e-3)).lattice.layers == 1
+    written(tmp_path, depth_mm=0.3, wall_thickness_mm=0.4)
+    (line,) = lines(f'{ALONG}[lattice]\nkind = "custom"\nfile = "angle.json"')
+    assert "a depth_mm of at least the wall thickness, 0.4 mm here" in line
+
+
+@pytest.mark.parametrize("text", UNFIT)
+def test_what_does_not_go_along_the_cells_is_refused(lines, text):
+    assert lines(ALONG + text) == [UNFIT[text]]
+
+
+def test_clamped_platens_are_for_plates(lines):
+    (line,) = lines('[loading]\nmode = "displacement"\nplaten = "clamped"')
+    assert line == (
+        'loading.platen = "clamped": does not fit; allowed: "contact", "glued" or "sliding" if '
+        'loading.direction is "in_plane"'
+    )
+
+
+IDLE = {
+    ALONG + '[material]\nplane = "strain"': 'material.plane = "strain"',
+    ALONG + '[solver]\njoints = "points"': 'solver.joints = "points"',
+    ALONG + '[damping]\nmass = "5 1/s"': 'damping.mass = "5 1/s"',
+    "[lattice]\nlayers = 9": "lattice.layers = 9",
+    "[lattice]\nimperfection_seed = 1": "lattice.imperfection_seed = 1",
+    '[lattice]\nsymmetry = "quarter"': 'lattice.symmetry = "quarter"',
+}
+
+
+@pytest.mark.parametrize("text", IDLE)
+def test_key_of_the_other_direction_has_no_effect(lines, text):
+    direction = "out_of_plane" if text.startswith(ALONG) else "in_plane"
+    why = f'has no effect, as loading.direction is "{direction}"'
+    assert lines(text) == [f"{IDLE[text]}: {why}"]
+
+
+def test_a_draw_of_no_imperfection_has_no_effect(lines):
+    text = f"{ALONG}[lattice]\nimperfection = 0.0\nimperfection_seed = 1"
+    why = "has no effect, as lattice.imperfection is 0"
+    assert lines(text) == [f"lattice.imperfection_seed = 1: {why}"]
+
+
+def test_both_directions_in_one_sweep_share_keys_of_either(load):
+    text = (
+        '[lattice]\nlayers = 9\n[material]\nplane = "stress"\n[loading]\nmode = "displacement"\n'
+        '[grid]\n"loading.direction" = ["in_plane", "out_of_plane"]\n'
+    )
+    across, up = expand(load(text))
+    assert (across.lattice.layers, across.material.plane) == (None, "stress")
+    assert (up.lattice.layers, up.material.plane) == (9, "strain")
+
+
+def written(tmp_path, **parts):
+    file = tmp_path / "angle.json"
+    file.write_text(json.dumps(STRUCTURE | parts))
+    return Lattice(kind="custom", file=str(file), imperfection=0.2)
+
+
+def test_custom_structure_stands_on_its_walls(tmp_path):
+    case = along(written(tmp_path, subdivide=[5, 4], wall_thickness_mm=0.5), strain=0.5)
+    assert case.loading.stroke == pytest.approx(6e-3)
+    assert (case.lattice.layers, case.lattice.imperfection) == (12, 0.2)
+
+
+def test_custom_structure_in_the_plane_has_no_imperfection(tmp_path):
+    fixed = written(tmp_path, supports=[{"node": 0, "fix": ["x", "y", "rotation"]}])
+    assert Case(lattice=fixed).lattice.imperfection == 0.0
+
+
+def test_parts_of_a_structure_that_plates_lack_are_refused(tmp_path, lines):
+    written(tmp_path, supports=[{"node": 0, "fix": ["x"]}], probes=[1])
+    (line,) = lines(f'{ALONG}[lattice]\nkind = "custom"\nfile = "angle.json"')
+    assert "a file without supports, probes" in line

@@ -1,0 +1,92 @@
+"""Drop tests of standards: their heights, and what a flat planar model cannot claim."""
+
+import pytest
+from pydantic import ValidationError
+
+from sweep.config.case import Case, Loading
+from sweep.config.defaults.drop_tests import drop_of, drops, in_si, limits
+from sweep.config.grid import expand
+from sweep.config.units import load_config, quantity
+
+ALLOWED = (
+    'allowed: ista-1a, ista-2a or mil-std-810 with a mass or a height, such as "ista-1a 5 kg" or'
+    ' "mil-std-810 1.22 m"'
+)
+REFUSED = {
+    "ista-9": "unknown test",
+    "ista-1a": "neither a mass nor a height",
+    "ista-1a 68 kg": "a mass that ista-1a does not have, which ends at 68 kg",
+    "ista-1a 0 kg": "a mass that ista-1a does not have, which ends at 68 kg",
+    "mil-std-810 1 m": "no height of mil-std-810, which has 1.22 m",
+    "mil-std-810 1 s": '"s" is a unit of another kind',
+    "en-1078 5 kg": (
+        "a flat planar model cannot claim en-1078; simulate a flat striker at equal J/cm2"
+    ),
+    "en-1621-1": (
+        "a flat planar model cannot claim en-1621-1; simulate a flat striker at equal J/cm2"
+    ),
+}
+
+
+@pytest.mark.parametrize("preset", REFUSED)
+def test_what_is_no_drop_is_one_line(lines, preset):
+    found = lines(f'[loading]\npreset = "{preset}"')
+    assert found == [f'loading.preset = "{preset}": {REFUSED[preset]}; {ALLOWED}']
+
+
+def test_height_goes_by_the_mass():
+    masses = (0.1, 9.99, 10.0, 18.9, 19.0, 28.0, 45.0, 67.9)
+    heights = [drop_of(f"ista-1a {mass} kg").height for mass in masses]
+    assert heights == [0.76, 0.76, 0.61, 0.61, 0.46, 0.31, 0.20, 0.20]
+    assert drop_of("ista-2a 5 kg") == (5.0, 0.97)
+    assert drop_of("mil-std-810 1.22 m") == (None, 1.22)
+
+
+def test_heavier_packages_fall_less_far():
+    flat = [rows for name in drops() if drops()[name] for rows in [limits(name)]]
+    assert len(flat) == 3
+    for rows in flat:
+        masses, heights = zip(*rows, strict=True)
+        assert [*masses] == sorted({*masses})
+        assert [*heights] == sorted({*heights}, reverse=True)
+
+
+def test_units_are_those_of_a_case():
+    assert in_si("ista-1a 5000 g", quantity) == "ista-1a 5 kg"
+    assert in_si("mil-std-810 122 cm", quantity) == "mil-std-810 1.22 m"
+
+
+def test_a_preset_is_a_mass_and_a_height(tmp_path):
+    path = tmp_path / "drop.toml"
+    path.write_text('[loading]\nspecimens = 20\n[grid]\n"loading.preset" = ["ista-1a 5 kg"]')
+    (case,) = expand(load_config(path))
+    by_hand = Case(loading=Loading(striker_mass=0.25, drop_height=0.76))
+    assert case.case_id == by_hand.case_id
+    assert case.axes == {"loading.preset": "ista-1a 5 kg"}
+    assert Case(loading=case.loading).loading == case.loading
+
+
+CONTRADICTIONS = {
+    'preset = "ista-1a 5 kg"\nstriker_mass = "1 lb"': (
+        'loading.striker_mass = "1 lb": does not fit; allowed: 11.02 lb, as loading.preset is given'
+    ),
+    'preset = "ista-1a 5 kg"\ndrop_height = "1 m"': (
+        'loading.drop_height = "1 m": does not fit; allowed: 0.76 m, as loading.preset is given'
+    ),
+    'preset = "mil-std-810 1.22 m"': (
+        "loading.striker_mass is missing; needed: the mass that falls, as the preset has none"
+    ),
+    'striker_mass = "1 g"\nspecimens = 3': (
+        "loading.specimens = 3: does not fit; allowed: none unless loading.preset has a mass"
+    ),
+}
+
+
+@pytest.mark.parametrize("text", CONTRADICTIONS)
+def test_contradictions_are_one_line(lines, text):
+    assert lines(f"[loading]\n{text}") == [CONTRADICTIONS[text]]
+
+
+def test_a_preset_that_is_none_is_refused_in_python_too():
+    with pytest.raises(ValidationError, match="unknown test"):
+        Case(loading=Loading(preset="ista-9 5 kg"))

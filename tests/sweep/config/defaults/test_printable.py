@@ -1,0 +1,73 @@
+"""What does not print: in words, refused in a single case, left out of a grid."""
+
+import pytest
+
+from sweep.config.case import Case, Lattice
+from sweep.config.defaults.printable import what_does_not_print
+from sweep.config.grid import ConfigError, expand
+from tests.support.designs.structures import ROD, structure
+
+KEPT = (
+    '[lattice]\nprintable = true\n[grid]\n"lattice.wall_thickness" = ["0.4 mm", "0.6 mm", "0.8 mm"]'
+)
+
+
+@pytest.mark.parametrize(
+    ("lattice", "wrong"),
+    [
+        ({}, ""),
+        ({"wall_thickness": 0.79e-3}, ""),
+        ({"wall_thickness": 0.6e-3}, "walls of 1.5 lines of 0.4 mm"),
+        ({"wall_thickness": 0.2e-3}, "walls of 0.5 lines of 0.4 mm"),
+        ({"wall_thickness": 0.6e-3, "nozzle": 0.6e-3}, ""),
+        ({"nozzle": 0.6e-3}, "walls of 1.33 lines of 0.6 mm"),
+        ({"perimeters": 1, "line_width": 0.5e-3}, "walls of 1.6 lines of 0.5 mm"),
+        ({"grading": 2.0}, "walls of 1.33 to 2.67 lines of 0.4 mm"),
+        (
+            {"cells_x": 12, "cells_y": 12, "wall_thickness": 0.5e-3, "nozzle": 0.6e-3},
+            "walls of 0.833 lines and gaps of 0.9 lines of 0.6 mm",
+        ),
+        ({"slicer": "prusa", "pattern": "grid", "infill": 0.2}, ""),
+        ({"slicer": "prusa", "pattern": "stars", "infill": 0.48}, "gaps of 0.98 lines of 0.45 mm"),
+    ],
+)
+def test_what_does_not_print_is_said(lattice, wrong):
+    assert what_does_not_print(Lattice(**lattice)) == wrong
+
+
+def test_walls_of_a_structure_are_judged_too():
+    """Its gaps are not known."""
+    found = [
+        what_does_not_print(Lattice(kind="custom", structure=structure(**ROD, **walls)))
+        for walls in ({"wall_thickness_mm": 0.8}, {"wall_thickness_mm": 1.0})
+    ]
+    assert found == ["", "walls of 2.5 lines of 0.4 mm"]
+
+
+def test_a_grid_keeps_what_prints_and_counts_the_rest(load):
+    kept = load(KEPT)
+    assert [case.lattice.wall_thickness for case in expand(kept)] == [0.4e-3, 0.8e-3]
+    assert kept.unprintable == 1
+    assert load(KEPT.replace("true", "false")).unprintable == 0
+
+
+def test_a_single_case_that_does_not_print_is_refused(lines):
+    assert lines('[lattice]\nprintable = true\nwall_thickness = "0.6 mm"') == [
+        "lattice.printable = true: does not fit; allowed: false, as it has walls of 1.5 lines of"
+        " 0.4 mm"
+    ]
+
+
+def test_a_grid_of_which_nothing_prints_is_refused(lines):
+    (line,) = lines(KEPT.replace('"0.4 mm", "0.6 mm", "0.8 mm"', '"0.5 mm", "0.6 mm"'))
+    assert line.endswith("walls of 1.25 lines of 0.4 mm (2 of 2 combinations)")
+
+
+def test_other_faults_are_not_left_out(load):
+    with pytest.raises(ConfigError, match="below half the width"):
+        load(KEPT.replace("0.6 mm", "5 mm"))
+
+
+def test_what_prints_has_the_id_that_it_has_without_the_key():
+    assert Case(lattice=Lattice(printable=True)).case_id == Case().case_id
+    assert Case(lattice=Lattice(nozzle=0.2e-3)).case_id == Case().case_id

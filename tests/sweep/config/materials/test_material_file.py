@@ -1,0 +1,105 @@
+"""Records of materials: what is stated wins, what cannot be used is refused by its name."""
+
+import pytest
+
+from sweep.config.case import Material
+from sweep.config.materials.material_file import (
+    FOLDER,
+    RecordError,
+    UnknownMaterialError,
+    locate,
+    read_record,
+    stress_at,
+)
+from tests.support.materials.records import HEADER
+
+
+def test_a_stated_modulus_wins(own_record):
+    path = own_record("# modulus_Pa: 3e6\n" + HEADER + "0.01,2e4\n0.05,1e5\n")
+    assert read_record(path).modulus == 3e6
+    assert Material(name=str(path)).name == "own"
+
+
+CURVE = "0.01,1e5\n0.1,9e5\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("strain,stress_Pa\n0.01,1\n0.1,2\n", "needs the lines # density_kg_m3"),
+        ("# density_kg_m3: 1.2 g/cm^3\n# poisson: 0.4\nstrain,stress_Pa\n0,0\n1,1\n", "density_kg"),
+        (HEADER.replace("_Pa", "_MPa") + "0.01,1\n", "first row must read strain,stress_Pa"),
+        (HEADER + "0.01,1,3\n", "two numbers"),
+        (HEADER + "0.01,soft\n0.1,2\n", "two numbers, but one is .0.01,soft."),
+        (HEADER + "0.01,nan\n0.1,2\n", "finite"),
+        (HEADER + "0.02,1\n0.01,2\n", "must increase"),
+        (HEADER + "-1.0,-1\n0.1,2\n", "from above -1"),
+        (HEADER + "0.01,1\n0.02,2\n", "reach a strain of 0.04"),
+        (HEADER + "0.01,-1\n0.5,2\n", "positive at 1 % strain"),
+        (HEADER, "reach a strain"),
+        (HEADER + "1,6e5\n35,8e6\n", "a curve to a strain of 35: is it in percent"),
+        (
+            "# loss: 38\n" + HEADER + CURVE,
+            "# loss: 38; allowed: above 0, at most 0.8; 38 % is 0.38",
+        ),
+        ("# loss: 0.3 (0.2 .. 0.9)\n" + HEADER + CURVE, "# loss: 0.9; allowed: above 0, at most"),
+        ("# softening_r: 1\n# softening_m_Pa: 1e5\n" + HEADER + CURVE, "# softening_r: 1; allo"),
+    ],
+)
+def test_unusable_records_are_refused_by_name(own_record, text, message):
+    with pytest.raises(RecordError, match=f"own.csv: .*{message}"):
+        read_record(own_record(text))
+
+
+def test_the_modulus_is_the_secant_between_one_and_four_percent(own_record):
+    """With the origin implied, and rows of compression left alone."""
+    path = own_record(HEADER + "-0.2,-9e5\n0.02,3e4\n0.06,1.1e5\n")
+    assert read_record(path).modulus == pytest.approx((7e4 - 1.5e4) / 0.03)
+
+
+def test_stress_is_straight_between_the_points_and_ends_with_them():
+    strain, stress = (-0.1, 0.02, 0.06), (-1e5, 3e4, 1.1e5)
+    found = [stress_at(at, strain, stress) for at in (0.0, 0.01, 0.02, 0.05, 0.06)]
+    assert found == pytest.approx([0.0, 1.5e4, 3e4, 9e4, 1.1e5])
+    with pytest.raises(RecordError, match=r"ends below a strain of 0\.07"):
+        stress_at(0.07, strain, stress)
+
+
+def test_own_file_is_looked_for_in_its_folder_and_shipped_ones_are_not(tmp_path):
+    (tmp_path / "mine.csv").touch()
+    assert locate("mine.csv", tmp_path) == tmp_path / "mine.csv"
+    assert locate("cheetah", tmp_path) == FOLDER / "cheetah.csv"
+    for name in ("mine", "yours.csv"):
+        with pytest.raises(UnknownMaterialError, match=f'"{name}" is no material; allowed: .*chee'):
+            locate(name, tmp_path)
+
+
+PLASTIC = "# density_kg_m3: 1200\n# poisson: 0.35\n# modulus_Pa: 2e9\n# yield_stress_Pa: 4e7\n"
+
+
+def test_a_material_with_a_yield_stress_yields_unless_told_otherwise(own_record):
+    path = own_record(PLASTIC + "# hardening_Pa: 1e7\n# fracture_strain: 0.05\n")
+    material = Material(name=str(path))
+    assert (material.stretch, material.bend, material.fibres) == ("linear", "fibres", 7)
+    assert (material.modulus, material.yield_stress, material.hardening) == (2e9, 4e7, 1e7)
+    assert material.fracture_strain == 0.05
+    assert material.curve_strain == ()
+    other = Material(name=str(path), yield_stress=3e7, bend="section", hardening=None)
+    assert (other.yield_stress, other.hardening, other.fibres) == (3e7, 1e7, None)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (PLASTIC + "strain,stress_Pa\n0.1,1e6\n", "yields has no curve"),
+        (PLASTIC.replace("# modulus_Pa: 2e9\n", ""), "yields needs the line # modulus_Pa"),
+        (
+            PLASTIC + "# fracture_strain: 2.5\n",
+            "# fracture_strain: 2.5; allowed: above 0, at most 1; 2.5 % is 0.025",
+        ),
+        ("# fracture_strain: 0.1\n" + HEADER + "0.1,1e6\n", "fracture_strain needs the line # y"),
+    ],
+)
+def test_unusable_plastics_are_refused_by_name(own_record, text, message):
+    with pytest.raises(RecordError, match=f"own.csv: .*{message}"):
+        read_record(own_record(text))

@@ -1,0 +1,77 @@
+"""Words of slicers and users: each means a choice or a key that there is."""
+
+import pytest
+
+from sweep.config.grid import expand
+from sweep.config.keys import case_keys, table_keys
+from sweep.config.reading.other_names import CHOICES, KEYS, meant, present_choice
+
+
+@pytest.mark.parametrize("key", CHOICES)
+def test_words_mean_choices_that_there_are_and_are_none_themselves(key):
+    adapter = case_keys()[key].adapter
+    assert all(adapter.validate_python(choice) == choice for choice in CHOICES[key].values())
+    for word in CHOICES[key]:
+        with pytest.raises(ValueError, match=r"literal_error|Input should be"):
+            adapter.validate_python(word)
+
+
+def test_hints_name_keys_that_there_are_and_are_none_themselves():
+    known = case_keys() | table_keys("rank")
+    assert {key for key, _ in KEYS.values()} <= known.keys()
+    assert not {f"{key.split('.')[0]}.{word}" for word, (key, _) in KEYS.items()} & known.keys()
+
+
+@pytest.mark.parametrize("word", ["hex", "honeycomb", "Honeycomb"])
+def test_honeycomb_is_hex(load, word):
+    (case,) = expand(load(f'[lattice]\nkind = "{word}"'))
+    assert case.lattice.kind == "hex"
+
+
+def test_words_are_understood_in_every_table(load):
+    text = """
+    [lattice]
+    width = "25 mm"
+    height = "25 mm"
+    [grid]
+    lattice.kind = ["grid", "stars", "auxetic"]
+    loading.mode = ["crush", "drop"]
+    [[exclude]]
+    lattice.kind = "re-entrant"
+    """
+    kinds = [(case.lattice.kind, case.loading.mode) for case in expand(load(text))]
+    modes = ["displacement", "impact"]
+    assert kinds == [(kind, mode) for kind in ("square", "kagome") for mode in modes]
+
+
+def test_other_values_are_left_for_the_key_to_refuse(lines):
+    assert present_choice("lattice.kind", 3) == 3
+    assert present_choice("material.name", "grid") == "grid"
+    (line,) = lines('[lattice]\nkind = "gird"')
+    assert 'kind = "gird": unknown choice; allowed: "brick"' in line
+
+
+@pytest.mark.parametrize(
+    ("table", "told"),
+    [
+        (
+            '[loading]\nfall_height = "0.5 m"',
+            'loading.fall_height = "0.5 m": unknown key; the nearest is loading.drop_height',
+        ),
+        (
+            '[lattice]\ninfill_pattern = "hex"',
+            'lattice.infill_pattern = "hex": unknown key; the nearest is lattice.pattern: '
+            "with lattice.slicer; without a slicer, lattice.kind",
+        ),
+        (
+            "[lattice]\nwall_thicknes = 1",
+            "lattice.wall_thicknes = 1: unknown key; the nearest is lattice.wall_thickness",
+        ),
+    ],
+)
+def test_key_that_a_user_may_think_of_is_answered_with_the_one_there_is(lines, table, told):
+    assert lines(table) == [told]
+
+
+def test_hint_that_does_not_belong_to_the_known_keys_is_not_given():
+    assert meant("budget", ["name", "rank"]) == ("name", "the nearest is name")

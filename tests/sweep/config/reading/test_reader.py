@@ -1,0 +1,338 @@
+"""From the tables of a file to a sweep: keys, types, axes; one line for each mistake, no more."""
+
+import json
+
+import pytest
+
+from sweep.config.axis import Interval
+from sweep.config.case import Case
+from sweep.config.grid import expand
+from sweep.config.materials.material_file import available
+from sweep.config.units import load_config
+from tests.support.designs.structures import BEAM
+
+
+def test_empty_config_is_the_seed(load):
+    (case,) = expand(load(""))
+    assert case == Case()
+
+
+def test_config_keeps_its_name_and_path(load, tmp_path):
+    assert load("").name == "sweep"
+    config = load('name = "armour-2"')
+    assert (config.name, config.path) == ("armour-2", tmp_path / "sweep.toml")
+
+
+def test_a_strain_may_be_a_number_or_a_share_in_percent(load):
+    number, percent = (
+        expand(load(f"[loading]\nstrain = {strain}")) for strain in ("0.6", '"60 %"')
+    )
+    assert [case.case_id for case in number] == [case.case_id for case in percent]
+    config = load(
+        '[grid]\nloading.strain = ["40 %", 0.5, "60 %"]\n[[exclude]]\nloading.strain = "50 %"'
+    )
+    assert [case.axes["loading.strain"] for case in expand(config)] == [0.4, 0.6]
+
+
+@pytest.mark.parametrize(
+    ("table", "number", "percent"),
+    [
+        ("[material]\nloss = {}", "0.4", '"40 %"'),
+        ("[material]\nrelaxation_times = ['1 s']\nrelaxation_shares = {}", "[0.1]", '["10 %"]'),
+        ("[material]\nrelaxation = [{{time = '1 s', share = {}}}]", "0.1", '"10%"'),
+        ("[material]\nname = 'pla'\nfracture_strain = {}", "0.025", '"2.5 %"'),
+        ("[lattice]\nimperfection = {}", "0.02", '"2 %"'),
+        ("[grid]\nlattice.imperfection = {}", "[0.0, 0.02]", '["0 %", 0.02]'),
+        ("[loading]\nmode = 'displacement'\nstrain = {}", "0.3", '"30 %"'),
+    ],
+)
+def test_every_share_is_a_number_or_in_percent(load, table, number, percent):
+    ids = [[case.case_id for case in expand(load(table.format(v)))] for v in (number, percent)]
+    assert ids[0] == ids[1]
+    assert ids[0] != [case.case_id for case in expand(load(""))]
+
+
+def test_own_material_is_found_beside_the_config(load, tmp_path):
+    header = "# density_kg_m3: 1100\n# poisson: 0.4\nstrain,stress_Pa\n"
+    (tmp_path / "mine.csv").write_text(header + "0.01,1e5\n0.05,4e5\n1,2e6\n")
+    config = load(
+        '[grid]\nmaterial.name = ["ninjaflex", "mine.csv"]\nmaterial.density = ["1 g/cm^3"]'
+    )
+    mine = expand(config)[1]
+    assert (mine.material.name, mine.material.density) == ("mine", 1000.0)
+    assert mine.axes["material.name"] == "mine"
+    dropped = load(
+        '[grid]\nmaterial.name = ["ninjaflex", "mine.csv"]\n[[exclude]]\nmaterial.name = "mine.csv"'
+    )
+    assert len(expand(dropped)) == 1
+
+
+def test_what_is_wrong_with_an_own_material_is_told(lines, tmp_path):
+    (tmp_path / "mine.csv").write_text("strain;stress_Pa\n0,01;1e5\n")
+    (line,) = lines('[material]\nname = "mine.csv"')
+    assert line == (
+        'material.name = "mine.csv": needs the lines # density_kg_m3: ... and # poisson: ...'
+    )
+
+
+def test_numbers_of_a_material_are_not_called_defaults(lines):
+    (line,) = lines('[material]\nname = "pla"\nloss = 0.3')
+    assert line == (
+        'material.yield_stress = 4.5e+07 Pa in the file of "pla": does not fit; allowed: none if '
+        "loss is given"
+    )
+
+
+def test_rank_is_in_si(load):
+    rank = load(
+        '[rank]\nbudgets = ["20 g", "1 oz"]\npanel = ["100 mm", "2 in"]\ndrop_heights = ["1 ft"]'
+    ).rank
+    assert rank.budgets == pytest.approx((0.02, 0.028349523125))
+    assert rank.panel == pytest.approx((0.1, 0.0508))
+    assert rank.drop_heights == pytest.approx((0.3048,))
+
+
+def test_requirements_are_in_si_and_in_no_id(load):
+    text = 'max_force = "60 N"\nmax_deceleration = "10 g0"\nmin_absorbed = "20 mJ"'
+    config = load(f'[require]\n{text}\n[rank]\nper = "panel"\npanel = ["1 in", "2 in"]')
+    found = config.require.model_dump(exclude_none=True)
+    assert found == {"max_force": 60.0, "max_deceleration": 98.0665, "min_absorbed": 0.02}
+    assert config.rank.per == "panel"
+    assert [case.case_id for case in expand(config)] == [case.case_id for case in expand(load(""))]
+
+
+LENGTH = 'a length with a unit, such as "0.8 mm", above 0'
+
+
+STRAIN = 'a number or a share in percent, such as "20 %", above 0, below 1'
+
+
+SIZE = f"{LENGTH}, at most 1000 m"
+
+
+CELLS = "a whole number, at least 1, at most 1000"
+
+
+MATERIALS = ", ".join(available())
+
+
+VALUES = {
+    '[lattice]\nwall_thicknes = "0.8 mm"': (
+        'lattice.wall_thicknes = "0.8 mm": unknown key; the nearest is lattice.wall_thickness'
+    ),
+    '[latice]\nwidth = "1 mm"': 'latice = {"width": "1 mm"}: unknown key; the nearest is lattice',
+    "[lattice]\nwidth = 12.5": f"lattice.width = 12.5: a bare number; allowed: {SIZE}",
+    '[lattice]\nwidth = "1 kg"': (
+        f'lattice.width = "1 kg": "kg" is a unit of another kind; allowed: {SIZE}'
+    ),
+    '[lattice]\nwidth = "1 mmm"': f'lattice.width = "1 mmm": unknown unit "mmm"; allowed: {SIZE}',
+    '[lattice]\ndepth = "-8 mm"': f'lattice.depth = "-8 mm": out of range; allowed: {SIZE}',
+    '[lattice]\nwidth = "1e30 m"': f'lattice.width = "1e30 m": out of range; allowed: {SIZE}',
+    '[lattice]\nwidth = "1e999 mm"': f'lattice.width = "1e999 mm": not finite; allowed: {SIZE}',
+    "[lattice]\nwidth = true": f"lattice.width = true: no quantity; allowed: {SIZE}",
+    "[lattice]\ncells_x = true": f"lattice.cells_x = true: wrong type; allowed: {CELLS}",
+    "[lattice]\ncells_y = 3.0": f"lattice.cells_y = 3.0: wrong type; allowed: {CELLS}",
+    "lattice = 3": "lattice = 3: not a table; allowed: a table [lattice]",
+    '[loading]\nstrain = "160 %"': f'loading.strain = "160 %": out of range; allowed: {STRAIN}',
+    '[loading]\nstrain = "0.6"': f'loading.strain = "0.6": a bare number; allowed: {STRAIN}',
+    '[loading]\nstrain = "6 mm"': (
+        f'loading.strain = "6 mm": "mm" is a unit of another kind; allowed: {STRAIN}'
+    ),
+    "[loading]\nstrain = 60": f"loading.strain = 60: out of range; allowed: {STRAIN}",
+    "[loading]\nstrain = true": f"loading.strain = true: wrong type; allowed: {STRAIN}",
+    "[contact]\nfriction = nan": (
+        "contact.friction = NaN: not finite; allowed: a number, at least 0"
+    ),
+    '[material]\nname = "ninjaflx"': (
+        f'material.name = "ninjaflx": unknown material; allowed: {MATERIALS}, or the path of a'
+        " .csv file"
+    ),
+    "[material]\nloss = [0.2, 0.4]": (
+        "material.loss = [0.2, 0.4]: a list, which belongs in [grid]; allowed: a number or a share "
+        'in percent, such as "20 %", above 0, at most 0.8'
+    ),
+    '[rank]\nper = "panel"': ('rank.per = "panel": no rank.panel; allowed: "specimen", or a panel'),
+    '[require]\nmax_forces = "3 N"': (
+        'require.max_forces = "3 N": unknown key; the nearest is require.max_force'
+    ),
+    '[require]\nmax_deceleration = "80 g"': (
+        'require.max_deceleration = "80 g": "g" is a unit of another kind; allowed: an acceleration'
+        ' with a unit, such as "80 g0", of standard gravity (g is a gram), above 0'
+    ),
+    '[rank]\npanel = ["1 mm"]': (
+        f'rank.panel = ["1 mm"]: too few values; allowed: a list of 2 values, each {LENGTH}'
+    ),
+    'name = "a/b"': 'name = "a/b": not a name; allowed: letters, digits, dots, dashes, underscores',
+    "[loading]\nload_steps = 3\n[solver]\nload_steps = 4": (
+        "solver.load_steps = 4: set twice; allowed: the same as loading.load_steps = 3"
+    ),
+}
+
+
+AXES = {
+    "[grid]\nlattice.cells = []": (
+        f"[grid] lattice.cells = []: no values; allowed: a list, each {CELLS}"
+    ),
+    "[grid]\nlattice.cells = 3": (
+        f"[grid] lattice.cells = 3: not a list; allowed: a list, each {CELLS}"
+    ),
+    "[grid]\nlattice.cels = [1]": (
+        "[grid] lattice.cels = [1]: unknown key; the nearest is lattice.cells"
+    ),
+    '[grid]\nloading.allowed_forces = [["1 N"]]': (
+        '[grid] loading.allowed_forces = [["1 N"]]: a list itself, no axis; allowed: keys with one'
+        " value"
+    ),
+    "[grid]\nlattice.cells = [2, 3]\n[[zip]]\nlattice.cells_x = [2, 3]": (
+        "[[zip]] lattice.cells_x = [2, 3]: varied in [grid] too; allowed: one of them"
+    ),
+    '[[zip]]\nlattice.cells = [1, 2]\nloading.force = ["1 N"]': (
+        "[[zip]] lattice.cells = [1, 2]: lengths differ (lattice.cells has 2, loading.force has"
+        " 1); allowed: lists of equal length"
+    ),
+    "zip = 3": "zip = 3: not a list of tables; allowed: tables [[zip]]",
+    "[grid]\nlattice.cells = [2, 3]\n[[exclude]]\nlattice.cell = 2": (
+        "[[exclude]] lattice.cell = 2: unknown key; the nearest is lattice.cells"
+    ),
+    "[[exclude]]\nlatice.cells = 2": (
+        "[[exclude]] latice.cells = 2: unknown key; the nearest is lattice.cells"
+    ),
+    "[[exclude]]": "[[exclude]] = {}: is empty; allowed: at least one key",
+    "[[exclude]]\nlattice.cells = []": (
+        "[[exclude]] lattice.cells = []: is empty; allowed: at least one value"
+    ),
+    '[[exclude]]\nrank.budgets = ["2 g"]': (
+        '[[exclude]] rank.budgets = "2 g": unknown key; the nearest is loading.preset'
+    ),
+}
+
+
+@pytest.mark.parametrize("text", [*VALUES, *AXES])
+def test_one_fault_is_one_line(lines, text):
+    assert lines(text) == [(VALUES | AXES)[text]]
+
+
+def test_all_faults_are_told_at_once(lines):
+    told = lines(
+        '[lattice]\nwall_thickness = "3 mm"\n'
+        '[material]\nname = "x"\n'
+        '[contact]\nfriction = -1\nmodel = "foo"\n'
+        '[grid]\nsolver.tol = [1]\nloading.force = ["1 N", 2]'
+    )
+    keys = [line.split(" = ")[0] for line in told]
+    assert keys == [
+        "material.name",
+        "contact.friction",
+        "contact.model",
+        "[grid] solver.tol",
+        "[grid] loading.force",
+        "lattice.wall_thickness",
+    ]
+
+
+def test_what_may_only_follow_from_a_fault_is_not_told(lines):
+    (line,) = lines('[lattice]\ncels = 1\nwall_thickness = "3 mm"')
+    assert "lattice.cels" in line
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '[material]\nloss = 40\n[loading]\nstrain_rate = "0.1 1/s"',
+        '[grid]\nmaterial.loss = [30]\nloading.strain_rate = ["1 1/s", "2 1/s"]',
+        '[material]\ndensity = 1200\nname = "pla"\n[lattice]\nmass = "99 g"',
+        '[material]\nbend = "linaer"\n[solver]\nbend_measure = "tangent"',
+    ],
+)
+def test_what_may_only_follow_from_a_fault_of_the_material_is_not_told(lines, text):
+    (line,) = lines(text)
+    assert "material." in line
+
+
+def test_a_fault_that_does_not_follow_from_the_material_is_told_beside_it(lines):
+    assert len(lines('[material]\nloss = 40\n[lattice]\nwall_thickness = "3 mm"')) == 2
+
+
+def test_branches_are_stated_once(lines):
+    branches = '[material]\nrelaxation = [{time = "1 s", share = 0.1}]'
+    (line,) = lines(f'{branches}\nrelaxation_times = ["5 s"]\nrelaxation_shares = [0.3]')
+    assert line == (
+        'material.relaxation = [{"time": "1 s", "share": 0.1}]: material.relaxation_times states '
+        "the same; allowed: one of them"
+    )
+    (line,) = lines(f"{branches}\nloss = 0.3")
+    assert line == "material.loss = 0.3: does not fit; allowed: one of loss and relaxation"
+
+
+def test_a_strain_above_one_needs_its_unit(load, lines):
+    plastic = '[material]\nname = "pla"\nfracture_strain = '
+    (line,) = lines(f"{plastic}2.5")
+    assert line == (
+        "material.fracture_strain = 2.5: a bare number above 1, which may be meant in percent; "
+        'allowed: a number up to 1 or a share in percent, such as "20 %", above 0'
+    )
+    strains = {"0.025": 0.025, '"2.5 %"': 0.025, "1": 1.0, '"250 %"': 2.5}
+    for text, strain in strains.items():
+        (case,) = expand(load(f"{plastic}{text}"))
+        assert case.material.fracture_strain == strain
+
+
+def test_a_text_with_line_breaks_stays_in_one_line(lines):
+    assert len(lines('[material]\nname = "a\\nb"\n"c\\nd" = 1')) == 2
+
+
+def test_files_are_an_axis(tmp_path):
+    for name, thickness in (("thin", 1.0), ("thick", 2.0)):
+        whole = BEAM | {"wall_thickness_mm": thickness}
+        (tmp_path / f"{name}.json").write_text(json.dumps(whole))
+    text = """[lattice]
+    kind = "custom"
+    [grid]
+    lattice.file = ["thin.json", "thick.json"]
+    """
+    (tmp_path / "two.toml").write_text(text)
+    cases = expand(load_config(tmp_path / "two.toml"))
+    assert [case.axes["lattice.file"] for case in cases] == ["thin.json", "thick.json"]
+    assert [case.lattice.wall_thickness for case in cases] == [1e-3, 2e-3]
+    (tmp_path / "one.toml").write_text(f'{text}[[exclude]]\nlattice.file = "thin.json"')
+    assert len(expand(load_config(tmp_path / "one.toml"))) == 1
+
+
+def test_ranges_and_lists_of_a_search(load):
+    text = '[search]\n"lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"}\n'
+    text += 'lattice.cells = {from = 2, to = 5}\n"lattice.kind" = ["square", "hex"]'
+    search = load(text).search
+    assert search["lattice.wall_thickness"] == Interval(
+        "lattice.wall_thickness", 0.4e-3, 1.6e-3, "m"
+    )
+    assert (search["lattice.cells"].low, search["lattice.cells"].whole) == (2, True)
+    assert [written.value for written in search["lattice.kind"].values] == ["square", "hex"]
+
+
+def test_number_without_a_unit_is_no_whole_number(load):
+    search = load("[search]\nlattice.grading = {from = 1, to = 3}").search
+    assert not search["lattice.grading"].whole
+
+
+TWICE = "varied in [search] too; allowed: one of them"
+NO_RANGE = "no range; allowed: numbers, from the smaller to the greater, or a list"
+IN_SEARCH = "a range, which belongs into [search]; allowed: "
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ('[search]\nlattice.wal = {from = "1 mm", to = "2 mm"}', "unknown key; the nearest is"),
+        ('[search]\nlattice.depth = {from = "2 mm", to = "1 mm"}', NO_RANGE),
+        ('[search]\nlattice.kind = {from = "hex", to = "square"}', NO_RANGE),
+        ('[search]\nlattice.depth = {from = "2 mm", to = 3}', "a bare number"),
+        ("[search]\nlattice.cells = {from = 2, to = 3}\nlattice.cells_x = [2]", TWICE),
+        ("[search]\nlattice.cells = [2]\n[grid]\nlattice.depth = ['1 mm']", "beside [search]"),
+        ("[grid]\nlattice.cells = {from = 2, to = 3}", f"{IN_SEARCH}a list, each a whole"),
+        ("[lattice]\ncells = {from = 2, to = 3}", f"{IN_SEARCH}a whole number"),
+        ("search = 3", "not a table; allowed: a table [search]"),
+    ],
+)
+def test_a_search_that_cannot_be_read(lines, text, told):
+    (line,) = lines(text)
+    assert told in line

@@ -1,0 +1,227 @@
+"""Pictures: what they show is what the numbers say."""
+
+import numpy as np
+import pandas
+import pytest
+
+from sweep.report.figures import case_plots
+from tests.support.results.specimens import (
+    HEIGHT,
+    T,
+    squeezed_cell,
+    summary,
+    there_and_back,
+    under_dead_load,
+)
+
+
+@pytest.fixture
+def row():
+    (row,) = summary(
+        {
+            "height_m": HEIGHT,
+            "wall_thickness_m": T,
+            "outer_width_m": 10e-3 + T,
+            "stroke_m": 4e-3,
+            "densification_strain": 0.31,
+            "packing_strain": 0.3,
+            "absorbed_energy_J": 0.096,
+            "absorbed_energy_until_packed_J": 0.066,
+            "returned_energy_J": 0.048,
+            "peak_strain": 0.4,
+        }
+    ).to_dict("records")
+    return row
+
+
+@pytest.fixture
+def dead(row):
+    return row | {"loading_mode": "force", "force_N": 20.0, "stroke_m": np.nan}
+
+
+def axes_of(draw, *arguments):
+    ax = case_plots.blank(4, 3).subplots()
+    draw(ax, *arguments)
+    return ax
+
+
+def labels(ax):
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def area(filled):
+    """Area in J of what is filled in a diagram of N over % of the height."""
+    x, y = filled.get_paths()[0].vertices.T
+    return 0.5 * abs(np.dot(x, np.roll(y, 1)) - np.dot(y, np.roll(x, 1))) / 100 * HEIGHT
+
+
+def test_shaded_area_is_the_absorbed_energy(row):
+    history = there_and_back()
+    ax = axes_of(case_plots.force_displacement, history, row)
+    assert area(ax.collections[0]) == pytest.approx(history["work_in_J"].max())
+    assert labels(ax)[0] == "absorbed in all\n96.0 mJ, 0.0960 J/g"
+
+
+def test_way_down_and_way_back_are_told_apart(row):
+    ax = axes_of(case_plots.force_displacement, there_and_back(), row)
+    down, back = ax.get_lines()[:2]
+    assert down.get_xdata()[-1] == back.get_xdata()[0] == pytest.approx(40.0)
+    assert down.get_color() != back.get_color()
+    assert down.get_linestyle() != back.get_linestyle()
+    assert labels(ax)[1:3] == ["loading", "unloading,\nreturns 50 %"]
+
+
+def test_further_cycles_have_a_line_of_their_own(row):
+    once = there_and_back()
+    thrice = pandas.concat([once, once[1:], once[1:]], ignore_index=True)
+    ax = axes_of(case_plots.force_displacement, thrice, row)
+    down, back, again = ax.get_lines()[:3]
+    lengths = [len(line.get_xdata()) for line in (down, back, again)]
+    assert lengths == [21, 21, 81]
+    assert again.get_xdata()[0] == back.get_xdata()[-1] == 0.0
+    assert labels(ax)[3] == "further cycles"
+
+
+def test_the_area_below_the_mean_force_is_the_energy_until_packed(row):
+    ax = axes_of(case_plots.force_displacement, there_and_back(), row)
+    dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
+    assert dotted.get_xdata()[-1] == pytest.approx(30.0)
+    assert dotted.get_ydata()[0] == pytest.approx(0.066 / (0.3 * HEIGHT))
+    assert labels(ax)[-1] == "mean force 22.0 N,\npacked at 30 %, until then\n66.0 mJ, 0.0660 J/g"
+
+
+def test_what_has_not_packed_is_told(row):
+    never = row | {"densification_strain": np.nan}
+    ax = axes_of(case_plots.force_displacement, there_and_back(), never)
+    assert labels(ax)[-1] == "mean force 22.0 N,\nnot packed"
+    older = row | {"packing_strain": np.nan, "absorbed_energy_until_packed_J": np.nan}
+    ax = axes_of(case_plots.force_displacement, there_and_back(), older)
+    assert ":" not in [line.get_linestyle() for line in ax.get_lines()]
+
+
+def test_dead_load_comes_and_goes_in_a_step(dead):
+    history = under_dead_load()
+    ax = axes_of(case_plots.force_displacement, history, dead)
+    on, off = ax.get_lines()[:2]
+    assert {on.get_drawstyle(), off.get_drawstyle()} == {"steps-pre"}
+    assert on.get_ydata()[-1] == off.get_ydata()[0] == 20.0
+    assert off.get_ydata()[-1] == 0.0
+    assert area(ax.collections[0]) == pytest.approx(history["work_in_J"].max())
+    assert labels(ax)[1:] == ["load on", "load off"]
+
+
+@pytest.mark.parametrize("draw", [case_plots.force_displacement, case_plots.energies])
+def test_title_says_design_and_scene(row, draw):
+    title = axes_of(draw, there_and_back(), row).get_title("left")
+    assert title == "square, 3 x 3 cells, wall 1 mm, ninjaflex\ncrushed to 40 %, glued platens"
+
+
+def test_energies_add_up_to_the_work_along_the_path_of_the_platen(row):
+    history = there_and_back()
+    ax = axes_of(case_plots.energies, history, row)
+    top = max(stack.get_paths()[0].vertices[:, 1].max() for stack in ax.collections)
+    assert top == pytest.approx(1e3 * history["work_in_J"].max())
+    turn, work = ax.get_lines()
+    assert turn.get_xdata()[0] == pytest.approx(4.0)
+    assert work.get_xdata()[-1] == pytest.approx(8.0)
+
+
+def test_every_turn_of_the_platen_is_marked(row):
+    once = there_and_back()
+    twice = pandas.concat([once, once[1:]], ignore_index=True)
+    ax = axes_of(case_plots.energies, twice, row)
+    *marks, work = ax.get_lines()
+    assert [line.get_xdata()[0] for line in marks] == pytest.approx([4.0, 8.0, 12.0])
+    assert work.get_xdata()[-1] == pytest.approx(16.0)
+    assert [text.get_text() for text in ax.texts] == ["turns", "cycle 2", "turns"]
+    halted = axes_of(case_plots.energies, twice[:31], row)
+    assert [text.get_text() for text in halted.texts] == ["turns"]
+
+
+def test_energies_under_a_dead_load_are_drawn_over_time(dead):
+    ax = axes_of(case_plots.energies, under_dead_load(), dead)
+    release, work = ax.get_lines()
+    assert release.get_xdata()[0] == pytest.approx(20.0)
+    assert work.get_xdata()[-1] == pytest.approx(40.0)
+    assert [text.get_text() for text in ax.texts] == ["load off"]
+
+
+def test_negligible_energies_have_no_colour(row):
+    ax = axes_of(case_plots.energies, there_and_back(), row)
+    assert labels(ax) == ["work done", "lost to friction", "bending"]
+
+
+def test_shapes_have_captions_under_a_title():
+    figure = case_plots.blank(12, 3)
+    case_plots.deformed_shapes(figure, "a cell", squeezed_cell())
+    titles = [ax.get_title() for ax in figure.axes]
+    assert titles == ["0 %", "10 %", "20 %", "40 %", "50 %", "released"]
+    assert figure.get_suptitle() == "a cell"
+
+
+def test_walls_are_as_thick_as_they_are_in_millimetres():
+    figure = case_plots.blank(12, 3)
+    case_plots.deformed_shapes(figure, "", squeezed_cell())
+    ax = figure.axes[0]
+    walls, lower, upper = ax.patches
+    box = walls.get_path().get_extents()
+    assert box.bounds == pytest.approx((-0.5, -0.5, 11.0, 11.0))
+    assert lower.get_y() + lower.get_height() == pytest.approx(-0.5)
+    assert upper.get_y() == pytest.approx(10.5)
+    assert ax.get_aspect() == 1.0
+
+
+def test_without_platens_only_the_ground_is_drawn():
+    figure = case_plots.blank(12, 3)
+    case_plots.deformed_shapes(figure, "", squeezed_cell(platens=False))
+    assert [len(ax.patches) for ax in figure.axes] == [2] * 6
+
+
+FLAT, TALL = [4.0, 3.8, 3.6, 3.4, 3.2], [40.0, 38.0, 36.0, 34.0, 32.0]
+
+
+@pytest.mark.parametrize("heights", [FLAT, TALL])
+def test_nothing_is_left_blank_between_shapes(heights):
+    frames = squeezed_cell(heights=heights)
+    figure = case_plots.blank(*case_plots.shapes_size("a cell", frames))
+    case_plots.deformed_shapes(figure, "a cell", frames)
+    figure.draw_without_rendering()
+    boxes = [ax.get_window_extent() for ax in figure.axes]
+    between = figure.bbox.width - sum(box.width for box in boxes)
+    above_and_below = figure.bbox.height - boxes[0].height
+    assert between < 0.15 * len(boxes) * figure.dpi  # inches
+    assert above_and_below < 0.9 * figure.dpi  # a title, a caption, the scale bar
+
+
+def test_winners_are_as_high_as_their_shapes():
+    figure = case_plots.blank(12, 6)
+    cells = [squeezed_cell(heights=heights) for heights in (FLAT, TALL)]
+    case_plots.winners(figure, dict(zip(["flat", "tall"], cells, strict=True)))
+    figure.draw_without_rendering()
+    heights = [strip.bbox.height / figure.dpi for strip in figure.subfigs]
+    scale = min(case_plots.shapes_scale(frames) for frames in cells)
+    asked = [case_plots.shapes_size("", frames, scale=scale)[1] for frames in cells]
+    np.testing.assert_allclose(heights, asked, rtol=0.02)
+
+
+def test_winners_are_drawn_to_one_scale():
+    figure = case_plots.blank(12, 6)
+    cells = [squeezed_cell(heights=heights) for heights in (FLAT, TALL)]
+    alone = [case_plots.shapes_scale(frames) for frames in cells]
+    assert alone[0] > 1.1 * alone[1]
+    case_plots.winners(figure, dict(zip(["flat", "tall"], cells, strict=True)))
+    figure.draw_without_rendering()
+    axes = [ax for strip in figure.subfigs for ax in strip.axes]
+    scales = [ax.bbox.width / np.ptp(ax.get_xlim()) for ax in axes]
+    np.testing.assert_allclose(scales, case_plots.FITS * alone[1] * figure.dpi)
+    for strip in figure.subfigs:
+        left, right = strip.axes[0].bbox, strip.axes[1].bbox
+        assert left.x1 <= right.x0
+        assert left.y1 < strip.bbox.y1
+
+
+def test_pictures_are_png_files(tmp_path):
+    figure = case_plots.blank(12, 6)
+    case_plots.winners(figure, {"one": squeezed_cell(), "two": squeezed_cell(platens=False)})
+    path = case_plots.save(figure, tmp_path / "new" / "shapes.png")
+    assert path.read_bytes().startswith(b"\x89PNG")

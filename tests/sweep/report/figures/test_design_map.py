@@ -1,0 +1,225 @@
+"""Charts of a ranking: every design at its place, the best of them marked."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.collections import LineCollection
+
+from sweep.ranking.rank import ranked
+from sweep.report.figures.case_plots import TICKS, blank, round_ticks
+from sweep.report.figures.design_map import TITLE, design_map, has_trends, thickness_trends
+from sweep.report.figures.pattern_bars import pattern_bars
+from tests.support.results.specimens import designs, summary
+
+
+@pytest.fixture
+def ranking():
+    rows = designs([1.0, 2.0, 3.0], [0.1, 0.3, 0.2])
+    for row, wall in zip(rows, [0.4e-3, 0.8e-3, 1.2e-3], strict=True):
+        row["wall_thickness_m"] = wall
+    glued = summary(*rows, *[row | {"platen": "contact"} for row in rows])
+    return ranked(glued, top=None)
+
+
+def test_map_has_a_panel_a_scene_and_stairs_along_the_pareto_front(ranking):
+    figure = blank(8, 4)
+    design_map(figure, ranking)
+    scenes = [ax.get_title("left").splitlines()[0] for ax in figure.axes]
+    assert scenes == list(ranking.table["scene"].unique())
+    stairs = figure.axes[0].get_lines()[0]
+    np.testing.assert_allclose(stairs.get_xydata(), [[1.0, 0.1], [2.0, 0.3]])
+    assert stairs.get_drawstyle() == "steps-post"
+
+
+def test_map_names_and_rings_the_winner_of_each_budget(ranking):
+    figure = blank(8, 4)
+    design_map(figure, replace(ranking, budgets_g=(1.5, 3.0)))
+    ax = figure.axes[0]
+    said = ax.get_title("left").splitlines()[1:]
+    assert said == ["up to 1.5 g: wall 0.4 mm, 100 mJ", "up to 3 g: wall 0.8 mm, 300 mJ"]
+    assert [text.get_text() for text in ax.texts] == ["1.5 g", "3 g"]
+    rings = [tuple(dots.get_offsets()[0]) for dots in ax.collections[-2:]]
+    assert rings == [(1.0, 0.1), (2.0, 0.3)]
+
+
+def test_map_says_what_is_required(ranking):
+    figure = blank(8, 4)
+    design_map(figure, replace(ranking, required={"max_force": 60.0}))
+    said = figure.axes[0].get_title("left").splitlines()
+    assert said[1] == "Required of a specimen: force at most 60 N."
+    figure = blank(8, 4)
+    thickness_trends(figure, replace(ranking, required={"max_force": 60.0}))
+    assert figure.axes[0].get_title("left").splitlines()[1:] == said[1:2]
+
+
+def test_force_of_a_panel_stands_beside_that_of_a_specimen():
+    hit = {"loading_mode": "impact", "stroke_m": np.nan, "peak_force_N": 30.0}
+    figure = blank(8, 4)
+    design_map(figure, ranked(summary(hit, hit), panel=("130 mm", "50 mm"), top=None))
+    (ax,) = figure.axes
+    assert "30.0 N on the support, 1500 N of the panel" in ax.get_title("left")
+    assert ax.get_ylabel() == "greatest force on the support, N, of a specimen"
+
+
+def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
+    loaded = changed(ranking, loading_mode="force", peak_strain=[0.3, 0.2, 0.1] * 2)
+    figure = blank(8, 4)
+    design_map(figure, loaded)
+    ax = figure.axes[0]
+    assert ax.get_ylabel() == "sink, %"
+    sinks = [y for dots in ax.collections[:2] for _, y in dots.get_offsets()]
+    np.testing.assert_allclose(sorted(sinks), [10.0, 20.0, 30.0])
+
+
+def test_legends_explain_error_bars_where_any_are_drawn(ranking):
+    for name, draw in ((ranking.energy, design_map), (ranking.per_gram, thickness_trends)):
+        bars = changed(ranking, **{f"error_{name}": [np.nan, 0.1] * 3})
+        for shown, known in ((ranking, False), (bars, True)):
+            legends = drawn(shown, draw).legends
+            texts = [text.get_text() for each in legends for text in each.get_texts()]
+            assert ("± estimated error" in texts) == known
+
+
+@pytest.mark.parametrize(("patterns", "cells"), [(8, 3), (12, 20)])
+def test_legends_stay_on_the_page(patterns, cells):
+    rows = [
+        {"lattice_kind": f"pattern {k}", "cells_x": n + 2, "wall_thickness_m": (4 + n) * 1e-4}
+        for k in range(patterns)
+        for n in range(cells)
+    ]
+    figure = blank(6.8, 4.2)
+    design_map(figure, ranked(summary(*rows), top=None))
+    figure.draw_without_rendering()
+    (legend,) = figure.legends
+    page, box = figure.bbox, legend.get_window_extent()
+    assert page.x0 <= box.x0 < box.x1 <= page.x1
+    assert page.y0 <= box.y0 < box.y1 <= page.y1
+    assert figure.axes[0].bbox.width > 0.3 * 6.8 * figure.dpi
+
+
+def test_designs_of_the_same_mass_differ_in_their_signs():
+    kinds = ["square", "hex"]
+    rows = [{"mass_g": 1.4, "lattice_kind": kind, "cells_x": 4} for kind in kinds]
+    figure = drawn(ranked(summary(*rows), top=None))
+    signs = [dots.get_paths()[0].vertices.tolist() for dots in figure.axes[0].collections[:2]]
+    assert signs[0] != signs[1]
+    said = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert said == ["pattern", "hex", "square"]
+
+
+def test_charts_say_up_to_which_force_energy_counts():
+    rows = [row | {"absorbed_energy_at_50N_J": 0.1} for row in designs([1.0, 2.0], [0.1, 0.3])]
+    ranking = ranked(summary(*rows), top=None, allowed_force="50 N")
+    for draw in design_map, thickness_trends:
+        assert "\nuntil the force exceeds 50 N, J" in drawn(ranking, draw).axes[0].get_ylabel()
+
+
+def test_designs_beyond_the_model_are_open(ranking):
+    ranking.table["beyond_model"] = ranking.table["wall_thickness_m"] > 1e-3
+    figure = blank(8, 4)
+    design_map(figure, ranking)
+    for dots in figure.axes[0].collections[:2]:
+        is_open = (dots.get_facecolor() == 1.0).all(axis=1)
+        np.testing.assert_array_equal(is_open, dots.get_offsets()[:, 0] == 3.0)
+
+
+def test_stairs_and_trends_are_dashed_to_and_from_what_is_not_to_be_trusted(ranking):
+    ranking.table["crossed"] = ranking.table["wall_thickness_m"].between(0.7e-3, 0.9e-3)
+    for draw, y in ((design_map, [0.1, 0.3]), (thickness_trends, [0.1, 0.15, 0.2 / 3.0])):
+        figure = blank(8, 4)
+        draw(figure, ranking)
+        solid, dashed = figure.axes[0].get_lines()
+        assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
+        np.testing.assert_allclose(dashed.get_ydata(), y)
+        np.testing.assert_allclose(solid.get_ydata(), [y[0], np.nan, *y[2:]])
+        assert solid.get_drawstyle() == dashed.get_drawstyle()
+
+
+def test_designs_on_the_front_are_drawn_on_top_the_best_last(ranking):
+    ranking.table["material"] = np.where(ranking.table["pareto"], "cheetah", "ninjaflex")
+    figure = blank(8, 4)
+    design_map(figure, ranking)
+    others, front = figure.axes[0].collections[:2]
+    assert [tuple(point) for point in others.get_offsets()] == [(3.0, 0.2)]
+    assert [tuple(point) for point in front.get_offsets()] == [(1.0, 0.1), (2.0, 0.3)]
+
+
+def test_trend_follows_the_wall_thickness(ranking):
+    figure = blank(8, 4)
+    thickness_trends(figure, ranking)
+    line = figure.axes[0].get_lines()[0]
+    np.testing.assert_allclose(line.get_xdata(), [0.4, 0.8, 1.2])
+    np.testing.assert_allclose(line.get_ydata(), [0.1, 0.15, 0.2 / 3.0])
+
+
+def bars_of(ax):
+    lines = [c for c in ax.collections if isinstance(c, LineCollection)]
+    return [segment for line in lines for segment in line.get_segments()]
+
+
+def test_designs_have_their_error_bars_which_end_above_zero(ranking):
+    assert not any(map(bars_of, drawn(ranking).axes))
+    error = f"error_{ranking.energy}"
+    sure = changed(ranking, **{error: [0.01, 0.5, np.nan] * 2})
+    ends = [bar[:, 1] for bar in bars_of(drawn(sure).axes[0])]
+    best, second = ranking.table["absorbed_energy_J"][:2]
+    np.testing.assert_allclose(ends, [[best - 0.01, best + 0.01], [0.1 * second, second + 0.5]])
+    wild = changed(ranking, **{error: 1e6})
+    assert drawn(wild).axes[0].get_ylim()[1] < 100.0 * best
+
+
+def test_trends_and_patterns_have_the_error_bars_of_energy_per_gram(ranking):
+    sure = changed(ranking, **{f"error_{ranking.per_gram}": 0.02})
+    for draw, across in ((thickness_trends, 1), (pattern_bars, 0)):
+        widths = [np.ptp(bar[:, across]) for bar in bars_of(drawn(sure, draw).axes[0])]
+        np.testing.assert_allclose(widths, [0.04] * 3)
+
+
+def test_titles_break_behind_commas_only(ranking):
+    names = "a rather long-winded name of a self-made material", "x" * (TITLE + 1)
+    ranking.table["material"] = [names[k % 2] for k in range(6)]
+    lines = [line.strip() for line in drawn(ranking).axes[0].get_title("left").splitlines()]
+    assert len(lines) > 2
+    assert all(line.endswith((",", "J/g", "platens")) for line in lines)
+
+
+@pytest.mark.parametrize("view", [(1e-6, 1.0), (0.05, 30.0), (0.8, 2.2), (0.9, 1.02), (38.0, 71.0)])
+def test_a_log_axis_has_enough_round_labels_and_not_too_many(view):
+    ax = blank(4, 3).subplots()
+    ax.set(xscale="log", xlim=view)
+    round_ticks(ax.xaxis)
+    seen = [tick for tick in ax.get_xticks() if view[0] <= tick <= view[1]]
+    assert TICKS <= len(seen) <= 3 * TICKS
+    np.testing.assert_allclose(seen, [float(f"{tick:.3g}") for tick in seen], rtol=1e-9)
+
+
+def drawn(ranking, draw=design_map):
+    figure = blank(8, 4)
+    draw(figure, ranking)
+    return figure
+
+
+def changed(ranking, **columns):
+    return replace(ranking, table=ranking.table.assign(**columns))
+
+
+def test_designs_that_all_weigh_the_same_have_an_axis():
+    rows = designs([1.4, 1.4 + 1e-14, 1.4 - 1e-14], [0.1, 0.3, 0.2])
+    axis = drawn(ranked(summary(*rows), top=None)).axes[0].xaxis
+    low, high = axis.get_view_interval()
+    assert 1.1 < high / low < 2.0
+    assert low < 1.4 < high
+    assert 2 < np.sum((axis.get_ticklocs() >= low) & (axis.get_ticklocs() <= high)) < 12
+
+
+def test_trends_are_of_one_pattern_each(ranking):
+    table = ranking.table
+    assert has_trends(table)
+    table["lattice_kind"] = ["square", "hex", "square"] * 2
+    assert has_trends(table)
+    lines = drawn(ranking, thickness_trends).axes[0].get_lines()
+    assert sorted(len(line.get_xdata()) for line in lines) == [1, 2]
+    table["lattice.grading"] = [1.0, 1.0, 2.0] * 2
+    assert not has_trends(table)
+    assert not has_trends(table.head(0))

@@ -1,0 +1,175 @@
+"""One design looks the same wherever it is drawn; the legend says how; the winners are named."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from sweep.ranking.rank import ranked
+from sweep.report.figures.design_style import budget_winners, looks, merits
+from tests.support.results.specimens import designs, summary
+
+
+@pytest.fixture
+def ranking():
+    cells, walls = [10, 2, 3, 2], [0.8e-3, 0.4e-3, 0.8e-3, 0.8e-3]
+    rows = designs([1.0, 2.0, 3.0, 4.0], [0.1, 0.4, 0.3, 1.6])
+    for row, n, wall in zip(rows, cells, walls, strict=True):
+        row |= {"cells_x": n, "cells_y": n, "wall_thickness_m": wall}
+    ranking = ranked(summary(*rows), top=None)
+    return replace(ranking, table=ranking.table.sort_values("mass_g", ignore_index=True))
+
+
+@pytest.fixture
+def table(ranking):
+    return ranking.table
+
+
+def changed(ranking, **columns):
+    return replace(ranking, table=ranking.table.assign(**columns))
+
+
+def winners(ranking):
+    return budget_winners(ranking.table, ranking)
+
+
+def entries(designs, **chosen):
+    return [entry["label"] for entry in looks(designs).legend(**chosen)]
+
+
+def test_colours_go_by_number_of_cells(table):
+    colors = looks(table).colors
+    assert list(colors) == [(2, 2), (3, 3), (10, 10)]
+    assert colors[2, 2] == "#440154"
+    assert len({*colors.values()}) == 3
+
+
+def test_a_design_keeps_its_look_in_a_part_of_the_ranking(table):
+    of = looks(table).of
+    whole, part = of(table), of(table.tail(1))
+    assert (part["c"][0], part["s"][0]) == (whole["c"][3], whole["s"][3])
+    assert part["marker"] == whole["marker"]
+    assert whole["s"][1] < whole["s"][0]
+
+
+def test_legend_lists_what_varies_under_headings(table):
+    assert entries(table) == ["cells", "2 x 2", "3 x 3", "10 x 10", "wall", "0.4 mm", "0.8 mm"]
+    assert entries(table, walls=False) == ["cells", "2 x 2", "3 x 3", "10 x 10"]
+
+
+def test_legend_explains_open_signs_where_there_are_any(table):
+    for mark in ("beyond_model", "crossed"):
+        assert entries(table.assign(**{mark: [False, True] * 2}))[-1] == "not to be trusted"
+
+
+def test_legend_explains_error_bars_where_there_are_any(table):
+    assert entries(table, barred=True) == [*entries(table), "± estimated error"]
+
+
+def test_materials_have_signs(table):
+    signs = looks(table.assign(material=["cheetah", "ninjaflex"] * 2)).signs
+    assert list(signs) == ["cheetah", "ninjaflex"]
+    assert len({*signs.values()}) == 2
+
+
+def test_patterns_have_signs_where_there_are_several(table):
+    kinds = table.assign(lattice_kind=["brick", "hex", "square", "hex"])
+    look = looks(kinds)
+    assert entries(kinds)[4:8] == ["pattern", "brick", "hex", "square"]
+    assert (look.signs["hex"], look.signs["square"]) == ("h", "s")
+    assert len({*look.signs.values()}) == 3
+    assert [look.of(kinds[k : k + 1])["marker"] for k in (1, 2)] == ["h", "s"]
+    assert look.colors.keys() == {(n, n, "ninjaflex") for n in (2, 3, 10)}
+    assert entries(kinds)[:4] == entries(table)[:4]
+
+
+def test_of_several_patterns_colours_tell_the_material_too(table):
+    materials = ["cheetah", "ninjaflex", "ninjaflex", "cheetah"]
+    both = table.assign(lattice_kind=["hex", "square"] * 2, material=materials)
+    colours = ["2 x 2, cheetah", "2 x 2, ninjaflex", "3 x 3, ninjaflex", "10 x 10, cheetah"]
+    assert entries(both)[:5] == ["cells, material", *colours]
+    assert entries(both.assign(cells_x=3, cells_y=3))[:3] == ["material", "cheetah", "ninjaflex"]
+
+
+def test_colours_tell_the_direction_where_there_are_both(table):
+    ways = ["in_plane", "out_of_plane", "in_plane", "in_plane"]  # of 10, 2, 3 and 2 cells
+    both = looks(table.assign(direction=ways))
+    assert both.tint == ["cells_x", "cells_y", "direction"]
+    assert len(set(both.colors.values())) == len(both.colors) == 4
+    labels = entries(table.assign(direction=ways, cells_x=2, cells_y=2))
+    assert labels[:3] == ["pressed", "across", "along"]
+
+
+def test_of_many_walls_the_legend_has_some():
+    walls = [*np.arange(4, 17) * 1e-4]
+    many = ranked(summary(*({"wall_thickness_m": wall} for wall in walls)), top=None).table
+    assert entries(many) == ["wall", "0.4 mm", "0.7 mm", "1 mm", "1.3 mm", "1.6 mm"]
+
+
+def test_winners_of_budgets_are_the_most_that_is_light_enough(ranking):
+    assert winners(replace(ranking, budgets_g=(0.5, 1.5, 2.0, 9.0))) == [
+        ("up to 1.5 g: cells 10 x 10, wall 0.8 mm, 100 mJ", 1.0, 0.1),
+        ("up to 2 g: cells 2 x 2, wall 0.4 mm, 400 mJ", 2.0, 0.4),
+        ("up to 9 g: cells 2 x 2, wall 0.8 mm, 1.60 J", 4.0, 1.6),
+    ]
+
+
+def test_a_winner_may_weigh_the_budget_but_for_round_off(ranking):
+    ranking.table["mass_g"] *= 1.0 + 5e-14
+    asked = replace(ranking, budgets_g=(2.0,))
+    ((words, *point),) = budget_winners(asked.table, asked)
+    assert words == "up to 2 g: cells 2 x 2, wall 0.4 mm, 400 mJ"
+    assert point == pytest.approx([2.0, 0.4])
+
+
+def test_without_a_budget_the_first_in_the_table_wins(ranking):
+    ((words, *point),) = winners(changed(ranking, beyond_model=True))
+    assert words == "best: cells 2 x 2, wall 0.8 mm, 1.60 J, 0.400 J/g, beyond the model"
+    ((words, *point),) = winners(changed(ranking, crossed=True))
+    assert words == "best: cells 2 x 2, wall 0.8 mm, 1.60 J, 0.400 J/g, walls cross"
+    assert point == [4.0, 1.6]
+    sparing = ranked(summary(*designs([1.0, 3.0, 2.0], [0.3, 0.6, 0.5])), top=None)
+    per_gram = changed(sparing, **{f"error_{sparing.per_gram}": 0.03})
+    ((words, *point),) = winners(per_gram)  # the least J
+    assert words == "best: ninjaflex, 300 mJ, 0.300 J/g ± 10 %, a tie of 2"
+    assert point == [1.0, 0.3]
+
+
+def test_who_is_first_by_another_column_is_named_with_that():
+    rows = designs([1.0, 3.0, 2.0], [0.3, 0.6, 0.5])
+    for row, force in zip(rows, [20.0, 10.0, 30.0], strict=True):
+        row["peak_force_N"] = force
+    ranking = ranked(summary(*rows), top=None, by="peak_force_N")
+    sure = changed(ranking, error_peak_force_N=1.0, error_absorbed_energy_J=0.5)
+    ((words, *point),) = winners(changed(sure, beyond_model=True))
+    assert words == "best: ninjaflex, 600 mJ, peak_force_N 10.0 ± 10 %, beyond the model"
+    assert point == [3.0, 0.6]
+    assert winners(changed(ranking, **{ranking.energy: np.nan})) == []
+
+
+def test_under_a_dead_load_the_least_sink_wins():
+    sinks = zip([1.0, 2.0, 3.0], [0.5, 0.2, 0.3], [0.4e-3, 0.8e-3, 1.2e-3], strict=True)
+    load = {"loading_mode": "force", "force_N": 5.0}
+    rows = [load | {"mass_g": m, "peak_strain": e, "wall_thickness_m": t} for m, e, t in sinks]
+    ranking = ranked(summary(*rows), top=None)
+    assert winners(ranking) == [("best: wall 0.8 mm, sinks 20.0 %", 2.0, 20.0)]
+    assert merits(ranking.table, "absorbed_energy_J").tolist() == [20.0, 30.0, 50.0]
+
+
+def test_winners_say_how_sure_they_are_and_whom_they_tie_with(ranking):
+    sure = changed(ranking, **{f"error_{ranking.energy}": [0.01, 0.06, 0.05, np.nan]})
+    assert [words for words, *_ in winners(replace(sure, budgets_g=(1.5, 3.0, 9.0)))] == [
+        "up to 1.5 g: cells 10 x 10, wall 0.8 mm, 100 mJ ± 10 %",
+        "up to 3 g: cells 2 x 2, wall 0.4 mm, 400 mJ ± 15 %, a tie of 2",
+        "up to 9 g: cells 2 x 2, wall 0.8 mm, 1.60 J",
+    ]
+
+
+def test_of_equal_winners_the_one_named_tells_its_own_error():
+    rows = designs([1.0, 2.0], [0.3, 0.3])
+    error = "error_absorbed_energy_until_packed_J"
+    force = {"error_peak_force_until_packed_N": 0.0}
+    rows[0] |= {"case_id": "f" * 16, error: 0.01} | force
+    rows[1] |= {"case_id": "0" * 16, error: 0.1} | force
+    ((words, *_),) = winners(ranked(summary(*rows), top=None, budget="9 g"))
+    assert words.endswith("300 mJ ± 3.3 %, a tie of 2")

@@ -1,0 +1,79 @@
+"""Accuracy studies in words: what to choose, what is not resolved, what failed."""
+
+import pytest
+
+from sweep.report.tables.accuracy_tables import (
+    accuracy_sheets,
+    answers,
+    percents,
+    scene_title,
+    setting,
+)
+from tests.support.results.made_up_studies import STEPS, all_steps, made_up, study
+
+
+def test_answer_is_the_cheapest_setting(tmp_path):
+    (found,) = study(tmp_path, all_steps("backward_euler", "bdf2"))
+    text = " ".join(answers(found))
+    assert "Reference: the limit of bdf2, 62.5 us: absorbed energy 50.0 mJ ± 0.16 %" in text
+    assert (
+        "The cheapest setting below 1 % in absorbed energy, peak force and strain over time is "
+        "bdf2, 0.125 ms: 17.6 s." in text
+    )
+    assert "The cheapest setting below 0.1 % in strain over time is bdf2, 62.5 us: 35.2 s." in text
+    assert list(found.settings["front"]) == [*[True] * 4, *[False] * 3, *[True] * 3]
+
+
+def test_what_finer_steps_do_not_settle_is_not_resolved(tmp_path):
+    rows = all_steps("bdf2")
+    for row, force in zip(rows, [20.0, 25.0, 30.0, 22.0, 27.0], strict=True):
+        row["peak_force_N"] = force
+    (found,) = study(tmp_path, rows)
+    (sheet, orders) = accuracy_sheets(found, "made up")
+    assert found.resolved == ("energy", "path")
+    assert "Not resolved: peak force, whose limit is uncertain by 30 %." in answers(found)
+    assert "in absorbed energy and strain over time is bdf2" not in " ".join(answers(found))
+    assert [row[sheet.heads.index("peak %")] for row in sheet.rows] == ["< 30"] * 5
+    assert orders.rows[0][2:] == ["2.00", "–", "2.00"]
+
+
+def test_scenes_are_studied_apart(tmp_path):
+    rows = [row | {"loading.force": row["force_N"]} for row in all_steps("bdf2")]
+    others = [row | {"loading.force": 7.0, "force_N": 7.0} for row in all_steps("bdf2")]
+    for row in others:
+        row["absorbed_energy_J"] *= 3.0
+    found = study(tmp_path, rows + others)
+    titles = [scene_title(one, "trial") for one in found]
+    assert titles == [
+        f"trial: dead load of {n} N, glued platens, solver integrator bdf2" for n in (5, 7)
+    ]
+    assert [one.references["energy"].value[0] for one in found] == pytest.approx(
+        [0.05, 0.15], rel=1e-4
+    )
+
+
+def test_failed_settings_keep_their_row(tmp_path):
+    rows = all_steps("backward_euler", "bdf2")
+    rows[0] |= {"status": "stopped", "message": "stopped at once"}
+    (found,) = study(tmp_path, rows)
+    sheet, _ = accuracy_sheets(found, "made up")
+    assert sheet.rows[0][2:5] == ["stopped"] * 3
+    assert sheet.notes[-1] == "Failed: 1 settings; the first stopped at once."
+    assert not found.settings["front"].iloc[0]
+    assert study(tmp_path / "none", [row | {"status": "stopped"} for row in rows]) == []
+
+
+@pytest.mark.parametrize(
+    ("share", "text"),
+    [(0.3, "30 %"), (0.0123, "1.2 %"), (1e-5, "0.001 %"), (12.34, "1234 %"), (0.0, "0 %")],
+)
+def test_shares_have_two_digits_and_no_powers_of_ten(share, text):
+    assert percents(share) == text
+
+
+def test_settings_are_told_by_their_method_and_their_sizes(tmp_path):
+    rows = [made_up("bdf2", step) | {"lattice.nodes_per_wall": n} for step in STEPS for n in (1, 5)]
+    (found,) = study(tmp_path, rows)
+    words = [setting(found, row) for _, row in found.settings.iterrows()]
+    assert words[:2] == ["as set, 1 ms, 2 elements a wall", "as set, 1 ms, 6 elements a wall"]
+    assert words[-1] == "as set, 62.5 us, 6 elements a wall"

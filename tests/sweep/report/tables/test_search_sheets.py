@@ -1,0 +1,99 @@
+"""What a search tells of its finalists and of its front."""
+
+import pytest
+from pandas import DataFrame
+
+from sweep.ranking.rank import ranked
+from sweep.ranking.spread import AS_GIVEN, FINE, Spread
+from sweep.report.tables.search_sheets import finalist_sheet, front_sheet, nearest_sheet
+from tests.support.results.specimens import designs, summary
+
+ENERGY = "absorbed_energy_J"
+OWN = summary(*designs([1.0, 2.0], [0.4, 0.3]))
+NAN = float("nan")
+
+
+def sheet(fine, thin, thick, column=ENERGY):
+    """The sheet of two designs; arguments: values of both at one corner."""
+    rows = ranked(OWN, by=column).table
+    values = {AS_GIVEN: rows[column], FINE: fine, "walls -5 %": thin, "walls +5 %": thick}
+    table = DataFrame({name: list(numbers) for name, numbers in values.items()})
+    failed = int(table.isna().to_numpy().sum())
+    return finalist_sheet(Spread(rows, column, table, table.rank(), failed), OWN)
+
+
+def test_row_has_the_fine_mesh_and_the_spread():
+    found = sheet((0.39, 0.28), (0.35, 0.27), (0.41, 0.29))
+    assert found.title == f"Best designs, simulated again: {ENERGY}"
+    told = ["0.400", "0.390", "0.350", "walls -5 %", "0.410", "walls +5 %"]
+    assert found.rows[0][-6:] == told
+    assert len(found.notes) == 1
+
+
+def test_narrow_peak_and_the_safest_design_are_told():
+    found = sheet((0.39, 0.28), (0.35, 0.27), (0.04, 0.29))
+    told = "The first design stands on a narrow peak: walls +5 % leaves 10 % of it."
+    assert found.notes[1:] == (
+        told,
+        "The safest of these is number 2, with 0.270 at its worst.",
+    )
+
+
+def test_least_is_the_best_where_the_column_says_so():
+    found = sheet((1.0, 2.0), (1.0, 2.0), (3.0, 2.1), "mass_g")
+    assert "walls +5 % leaves 300 % of it." in found.notes[1]
+    assert found.notes[2].startswith("The safest of these is number 2, with 2.10")
+
+
+@pytest.mark.parametrize("missing", [1, 3])
+def test_missing_values_are_told(missing):
+    values = [(NAN, 0.28), (NAN, 0.27), (NAN, 0.29)][:missing] + [(0.4, 0.28)] * (3 - missing)
+    found = sheet(*values)
+    assert found.notes[1] == f"{missing} values are missing, as these cases failed."
+    if missing == 3:
+        assert found.rows[0][-5:] == ["–"] * 5
+
+
+def test_front_has_both_columns():
+    rows = ranked(OWN, by=ENERGY).table
+    found = front_sheet(rows, OWN, "mass_g")
+    assert found.title == f"Pareto front of {ENERGY} and mass_g"
+    assert found.heads[-2:] == ["mass_g", ENERGY]
+    assert [row[-2:] for row in found.rows] == [["1.00", "0.400"], ["2.00", "0.300"]]
+    assert front_sheet(rows.head(0), OWN, "mass_g").rows == []
+
+
+def test_budget_and_requirements_that_prints_miss_are_told():
+    rows = ranked(OWN, by=ENERGY).table
+    table = DataFrame({AS_GIVEN: rows[ENERGY], FINE: rows[ENERGY], "walls +5 %": rows[ENERGY]})
+    masses = DataFrame({AS_GIVEN: [1.0, 2.0], FINE: [1.0, 2.0], "walls +5 %": [1.05, 2.0]})
+    missed = ((1, "walls +5 %", "budget"), (1, FINE, "max_force"), (2, FINE, "max_force"))
+    spread = Spread(rows, ENERGY, table, table.rank(), 0, masses, missed)
+    found = finalist_sheet(spread, OWN)
+    mass = found.heads.index("mass g")
+    assert [row[mass] for row in found.rows] == ["1.00-1.05", "2.00"]
+    assert "Number 1 exceeds the budget with walls +5 %." in found.notes
+    assert "Numbers 1, 2 do not fulfil max_force with fine mesh." in found.notes
+
+
+def test_what_does_not_print_is_marked_in_every_table():
+    rough = OWN.assign(does_not_print=["", "walls of 1.5 lines"])
+    rows = ranked(rough, by=ENERGY).table
+    table = DataFrame({AS_GIVEN: rows[ENERGY], FINE: rows[ENERGY]})
+    sheets = [
+        finalist_sheet(Spread(rows, ENERGY, table, table.rank(), 0), rough),
+        front_sheet(rows, rough, "mass_g"),
+        nearest_sheet(ranked(rough, by=ENERGY), {"0" * 16: 0.1, f"{1:016x}": 0.2}, rough),
+    ]
+    for sheet in sheets:
+        first, second = (row[0] for row in sheet.rows)
+        assert (first.endswith("p"), second.endswith("p")) == (False, True)
+        assert any(note.startswith("p: does not print") for note in sheet.notes)
+
+
+def test_nearest_designs_have_what_is_required_beside_what_they_miss():
+    found = nearest_sheet(ranked(OWN, by=ENERGY), {f"{1:016x}": 0.25}, OWN)
+    assert found.heads[-1] == "misses by %"
+    assert len(found.rows) == 1
+    assert found.rows[0][-1] == "25.0"
+    assert found.rows[0][0] == f"{1:016x}"[:8]

@@ -1,0 +1,272 @@
+"""Rankings as tables of text: marks, notes, legends, and budgets that share a section."""
+
+import pytest
+
+from sweep.ranking.rank import ranked
+from sweep.report.tables.markdown import markdown
+from sweep.report.tables.sheets import (
+    AGAIN,
+    BEYOND,
+    CROSSED,
+    EARLY,
+    ELASTIC,
+    LOADED,
+    LOSSY,
+    MIXED,
+    PLASTIC,
+    STRETCHED,
+    UNSURE,
+    about_direction,
+    design_labels,
+    design_text,
+    legend,
+    ranking_sheets,
+)
+from tests.support.results.specimens import CRUSHED_SOLID, SPARSE, designs, summary
+
+NAN = float("nan")
+
+
+def test_energy_of_the_whole_crush_is_marked_where_the_model_does_not_hold_it():
+    table = summary(CRUSHED_SOLID, SPARSE)
+    ranking = ranked(table, by="absorbed_energy_J")
+    assert [int(case_id) for case_id in ranking.table["case_id"]] == [0, 1]
+    assert list(ranking.table["passed_on_N"]) == [900.0, 25.0]
+    assert list(ranking.table["beyond_model"]) == [True, False]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert [row[0] for row in sheet.rows] == ["1*!", "2 "]
+    assert sheet.notes == (BEYOND,)
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert sheet.notes == ()
+
+
+def test_a_crush_that_ends_below_the_allowed_force_absorbs_at_least_so_much():
+    given = {"absorbed_energy_at_50N_J": 0.2, "loading.allowed_forces": 50.0}
+    table = summary(CRUSHED_SOLID | given, SPARSE | given)
+    (sheet,) = ranking_sheets(ranked(table, allowed_force=50.0), table)
+    energy = sheet.heads.index("absorbs mJ")
+    assert sorted(row[energy] for row in sheet.rows) == ["200", "> 200"]
+    assert EARLY in sheet.notes
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert not any(text.startswith(">") for row in sheet.rows for text in row[:energy])
+
+
+def test_walls_that_pass_through_one_another_are_marked():
+    table = summary(CRUSHED_SOLID, SPARSE | {"contact_model": "none", "max_crossings": 3})
+    ranking = ranked(table, by="absorbed_energy_J")
+    assert list(ranking.table["crossed"]) == [False, True]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert [row[0] for row in sheet.rows] == ["1*!", "2 x"]
+    assert sheet.notes == (BEYOND, CROSSED)
+
+
+def test_walls_that_are_stretched_beyond_the_measured_curve_are_marked():
+    table = summary({"stretch_over_curve": 1.2}, {"stretch_over_curve": 0.9, "mass_g": 2.0})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert [row[0] for row in sheet.rows] == ["1*^", "2 "]
+    assert sheet.notes == (STRETCHED,)
+    table = summary({"stretch_over_curve": NAN}, {"stretch_over_curve": 1.0})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert sheet.notes == ()
+
+
+def test_a_budget_below_all_designs_is_one_sentence_and_no_table():
+    rows = designs([1.0, 2.0], [0.4, 0.5]) + designs([3.0], [0.5], platen="contact")
+    table = summary(*rows)
+    nothing = (
+        "Nothing weighs {} g or less: the lightest weighs {} g, case 000000000000000{}, ninjaflex."
+    )
+    (sheet,) = ranking_sheets(ranked(table, budget=["0.5 g", "0.7 g"]), table)
+    assert (sheet.title, sheet.heads, sheet.rows) == ("", [], [])
+    assert sheet.notes == (nothing.format(0.5, 1, 0), nothing.format(0.7, 1, 0))
+    assert markdown([sheet]) == "\n".join([*sheet.notes, ""])
+    glued, loose = ranking_sheets(ranked(table, budget=["0.5 g", "2 g"]), table)
+    assert (len(glued.rows), glued.notes) == (2, (nothing.format(0.5, 1, 0),))
+    assert (loose.title, loose.heads) == ("crushed to 50 %, contact platens", [])
+    assert loose.notes == (nothing.format(0.5, 3, 2), nothing.format(2, 3, 2))
+    assert markdown([loose]).splitlines()[::2] == [f"### {loose.title}", loose.notes[0]]
+
+
+def test_a_scene_in_which_nothing_has_a_place_says_so():
+    table = summary({}, {"platen": "contact", "densification_strain": NAN})
+    _, sheet = ranking_sheets(ranked(table, by="densification_strain"), table)
+    assert (sheet.heads, sheet.notes) == ([], ("No design has a place here.",))
+
+
+def test_what_comes_back_and_what_has_not_packed_is_told():
+    nowhere = {"densification_strain": NAN, "packing_strain": NAN, "peak_strain": NAN}
+    table = summary(CRUSHED_SOLID, SPARSE, SPARSE | nowhere)
+    ranking = ranked(table)
+    assert list(ranking.table["returned_share"]) == pytest.approx([0.95, 0.95, 0.9])
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sheet.heads[-2:] == ["pack %", "back %"]
+    assert [row[-2:] for row in sheet.rows] == [["> 50", "95"], ["–", "95"], ["54", "90"]]
+
+
+def test_a_lattice_that_packs_at_two_strains_is_marked():
+    rising = {"packing_span": 0.21, "densification_strain": NAN, "peak_strain": 0.5}
+    table = summary({"packing_span": 0.21}, rising, {})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert [row[-2] for row in sheet.rows] == ["54~", "> 50", "54"]
+    assert UNSURE in sheet.notes
+    (sheet,) = ranking_sheets(ranked(table.iloc[2:]), table)
+    assert UNSURE not in sheet.notes
+
+
+def test_legend_explains_what_is_shown():
+    crushed = summary({"absorbed_energy_at_50N_J": 0.1})
+    assert "are counted until the lattice has packed" in legend(ranked(crushed))
+    assert "are counted until the force exceeds 50 N" in legend(ranked(crushed, allowed_force=50.0))
+    assert "are counted to the end of the stroke" in legend(ranked(crushed, by="absorbed_energy_J"))
+    assert "sink" not in legend(ranked(crushed))
+    loaded = summary({"loading_mode": "force", "force_N": 5.0})
+    assert legend(ranked(loaded)).splitlines()[1:] == [LOADED]
+
+
+def test_legend_says_what_takes_the_energy_that_does_not_come_back():
+    relaxing = {"material_memory": "relaxes", "material": "mine"}
+    struck = {"loading_mode": "impact", "striker_mass_g": 50.0, "striker_speed_m_per_s": 1.0}
+    for common in ({}, struck):
+        said = legend(ranked(summary(common, common)))
+        assert said.endswith(ELASTIC)
+        assert max(map(len, f"{said}\n{MIXED}\n{PLASTIC}\n{AGAIN}".splitlines())) <= 100
+        assert legend(ranked(summary(common | relaxing))).endswith(LOSSY)
+        assert legend(ranked(summary(common, common | relaxing))).endswith(MIXED)
+        yielding = common | {"material_memory": "yields"}
+        assert legend(ranked(summary(yielding))).endswith(PLASTIC)
+        assert legend(ranked(summary(yielding, common | relaxing))).endswith(LOSSY)
+    pulled = summary({"absorbed_energy_at_50N_J": 0.1})
+    assert ELASTIC not in legend(ranked(pulled, allowed_force=50.0))
+
+
+def test_behaviour_of_walls_is_shown_where_it_differs():
+    table = summary({}, {"material_memory": "softens"})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    behaviour = sorted(row[sheet.heads.index("behaviour")] for row in sheet.rows)
+    assert behaviour == ["elastic", "softens"]
+    table = summary({}, {})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert "behaviour" not in sheet.heads
+
+
+@pytest.mark.parametrize(
+    ("key", "values", "head", "texts"),
+    [
+        ("material.loss", (0.2, 0.45), "loss %", ["20", "45"]),
+        ("material.reference_time", (1e-3, 0.5), "reference time ms", ["1", "500"]),
+        ("material.softening_m", (5e5, 2e6), "softening m MPa", ["0.5", "2"]),
+        ("material.softening_r", (2.0, 3.0), "softening r", ["2", "3"]),
+        ("lattice.layer_height", (2e-4, NAN), "layer height um", ["200", "–"]),
+        ("material.memory", ("none", "measured"), "memory", ["none", "measured"]),
+    ],
+)
+def test_grid_keys_are_shown_with_their_units(key, values, head, texts):
+    table = summary(*({key: value} for value in values))
+    (sheet,) = ranking_sheets(ranked(table, by="mass_g"), table)
+    assert sheet.columns[sheet.heads.index(head)] == texts
+    labels = design_labels(table, table)
+    unit = head.removeprefix(key.split(".")[1].replace("_", " "))
+    assert labels[0] == f"{head.removesuffix(unit)} {texts[0]}{unit}"
+
+
+def test_a_grid_key_that_does_not_vary_has_no_column():
+    table = summary({"material.loss": 0.2}, {"material.loss": 0.2})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert "loss %" not in sheet.heads
+
+
+def test_the_sorted_column_is_never_spare():
+    table = summary({"second_cycle_share": 0.7}, {"second_cycle_share": 0.8})
+    heads = {None: "J/g", "second_cycle_share": "again %", "returned_share": "back %"}
+    for by, head in heads.items():
+        (sheet,) = ranking_sheets(ranked(table, by=by), table)
+        assert head not in sheet.spare
+        others = {"again %", "back %", "pack %", "peak N", "mass g"} - {head}
+        assert others <= set(sheet.spare) < set(sheet.heads)
+
+
+def test_second_cycle_is_told_where_there_is_one():
+    table = summary({"second_cycle_share": 0.7}, {})
+    ranking = ranked(table)
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sorted(row[sheet.heads.index("again %")] for row in sheet.rows) == ["70", "–"]
+    assert AGAIN in legend(ranking)
+    table = summary({})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert "again %" not in sheet.heads
+    assert AGAIN not in legend(ranked(table))
+
+
+@pytest.mark.parametrize("by", ["lost_energy_J", "lost_share", "lost_energy_J_per_g"])
+def test_what_is_lost_ranks_designs(by):
+    table = summary({by: 0.1}, {by: 0.3}, {by: NAN})
+    ranking = ranked(table, by=by)
+    assert [int(case_id) for case_id in ranking.table["case_id"]] == [1, 0]
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sheet.heads[-1] == by
+
+
+def test_budgets_with_the_same_places_share_a_section():
+    table = summary(*designs([1.0, 2.0], [0.3, 0.1]), {"mass_g": 9.0, "absorbed_energy_J": 0.9})
+    ranking = ranked(table, budget=["1 g", "3 g", "5 g", "9 g"], top=1)
+    sheet = next(ranking_sheets(ranking, table))
+    assert [row[:2] for row in sheet.rows] == [["1-5", "1*"], ["9", "1*"]]
+
+
+def test_what_does_not_print_is_marked():
+    table = summary(*designs([1.0, 2.0], [0.3, 0.1]))
+    table["does_not_print"] = ["", "walls of 1.5 lines of 0.4 mm"]
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert [row[0] for row in sheet.rows] == ["1*", "2 p"]
+    assert any("p: does not print as drawn" in note for note in sheet.notes)
+    table["does_not_print"] = ""
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert [row[0] for row in sheet.rows] == ["1*", "2 "]
+    assert not any("does not print" in note for note in sheet.notes)
+
+
+def test_designs_of_a_slicer_are_told_by_their_share_instead_of_cells():
+    table = summary({"infill_share": 0.2, "cells_x": 5}, {"infill_share": 0.3}, {"cells_x": 4})
+    assert list(design_text(table, table)["infill %"]) == ["20", "30", ""]
+    labels = ["cells 5 x 3, 20 % infill", "cells 3 x 3, 30 % infill", "cells 4 x 3"]
+    assert design_labels(table, table) == labels
+    laid = table.head(2)
+    assert "cells" not in design_text(laid, laid)
+    table["lattice.infill"] = [0.2, 0.3, 0.25]
+    assert "infill" not in design_text(table, table)
+    table["infill_share"] = NAN
+    assert list(design_text(table, table)["infill %"]) == ["20", "30", "25"]
+
+
+UPRIGHT = {"direction": "out_of_plane", "solid_strain": 0.7, "peak_strain": 0.6}
+
+
+def test_both_directions_stand_side_by_side_in_one_ranking():
+    """The direction belongs to the design, also as a key of the grid."""
+    across = {"absorbed_energy_J": 0.1, "loading.direction": "in_plane"}
+    along = {"absorbed_energy_J": 1.8, "loading.direction": "out_of_plane"} | UPRIGHT
+    along |= {"depth_m": 13e-3}  # of the plan
+    table = summary(across, along)
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert sheet.heads[:2] == ["#", "pressed"]
+    assert [row[1] for row in sheet.rows] == ["along", "across"]
+    assert design_labels(table, table) == ["pressed across", "pressed along"]
+    assert "pressed" not in design_text(table.iloc[:1], table.iloc[:1])
+
+
+@pytest.mark.parametrize(("depths", "shown"), [((13.0, 12.6), False), ((13.0, 14.0), True)])
+def test_depth_of_a_plan_over_all_is_no_size_of_its_own(depths, shown):
+    walls = zip((0.8, 0.4), depths, strict=True)
+    rows = [{"wall_thickness_m": 1e-3 * t, "depth_m": 1e-3 * d} | UPRIGHT for t, d in walls]
+    table = summary({}, *rows)
+    assert ("depth mm" in design_text(table, table)) == shown
+
+
+def test_what_plates_leave_out_is_told():
+    rows = summary({}, UPRIGHT, UPRIGHT | {"peak_strain": 0.8})
+    none, usual, beyond = (about_direction(row) for _, row in rows.iterrows())
+    assert none == []
+    assert len(usual) == 1
+    assert "layers part is not modelled" in usual[0]
+    assert beyond[0] == usual[0]
+    assert "beyond a strain of 70 %" in beyond[1]
