@@ -14,7 +14,6 @@ from sweep.scene.terms import Scene, time_step
 IMPACT_STEPS = 64  # steps of a stage of an impact; after each stage the run may end
 ROUND_OFF = 4e-15
 WHOLE = 1e-6  # of a step: tolerance in the number of steps of a stage
-GRIP = 1e3  # tolerance of lagged friction / tolerance of forces
 SCHEMES = {
     "backward_euler": integrators.BACKWARD_EULER,
     "bdf2": integrators.BDF2,
@@ -98,8 +97,6 @@ def tolerances(case: Case, scene: Scene | PlateScene, stage: march.Stage) -> Tol
     return Tolerance(
         force=allowed,
         decrement=1e-3 * allowed * case.lattice.wall_thickness,
-        friction=GRIP * allowed,
-        friction_share=GRIP * case.solver.tolerance,
         noise=ROUND_OFF * force * size,
         resolution=ROUND_OFF * size,
         iterations=case.solver.max_iterations,

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from kernels.geometry.specimen_height import height
-from kernels.solve import arc_length, energy_book, friction_loop, march, newton
+from kernels.solve import arc_length, energy_book, march, newton
 from kernels.terms.rows import ROW, STRETCH, Output
 from sweep.config.case import Case, Lattice, Loading, Solver
 from sweep.config.defaults.direction import height_pressed, is_along
@@ -41,7 +41,6 @@ GAP = 1e-3  # of the greatest energy in the book: residual that is allowed
 CREATED = 0.1  # of the work done: energy that an integrator may create
 ADVICE = {
     newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {further}",
-    friction_loop.UNSETTLED: "friction did not settle; try {shorter} or a smaller contact.friction",
     newton.STALLED: "the energy could not be lowered further; "
     "try a looser solver.tolerance or smaller steps",
     newton.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
