@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from kernels.compile.reference import by_reference
 from kernels.geometry import near_pairs
 from kernels.laws import elastic
 from kernels.laws.fibre import Fibre
@@ -265,12 +266,13 @@ def terms_of(of: Frame, law: Fibre, measure: int, damped: damping.Damp) -> Plana
     mass, one, none = np.zeros(n), np.ones(n), np.empty(0)
     mass[: 2 * len(of.points)] = np.repeat(share, 2)
     role, load = np.full(n, FREE), np.zeros(n)
-    return PlanarScene(
+    scene = PlanarScene(
         Coordinates(role, one, one, mass, one, load, -1, 1.0, 1.0, 1.0), law, walls_of(of),
         stretch_of(of), bend_of(of, measure), fold.Fold(np.empty((0, 3), np.int64), none, none),
         NO_SPRINGS, contact_of(of), friction.Friction(0.0, 1.0), damped, layout_of(of),
         position_based.Projection(contact_of(of), none),
     )  # fmt: skip
+    return by_reference(scene)
 
 
 def two_walls(gap: float, pieces=(3, 3), length=4.0, slope=0.0, shift=0.0) -> Frame:
