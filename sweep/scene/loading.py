@@ -8,6 +8,7 @@ import numpy as np
 from kernels.solve import integrators, march
 from kernels.solve.residual import Tolerance
 from sweep.config.case import Case, given
+from sweep.config.defaults.solver_defaults import hold_steps
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene, time_step
 
@@ -88,7 +89,12 @@ def _stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
         low, steps = rest - given(loading.stroke), given(solver.load_steps)
         down = march.Stage(steps, pace, dynamic, 0.0, 0.0, rest, low)
         up = march.Stage(steps, pace, dynamic, 0.0, 0.0, low, rest)
-        cycle = [Phase("loading", down)]
+        cycle, pause = [Phase("loading", down)], hold_steps(loading, solver)
+        if pause:
+            still = down._replace(
+                steps=pause, duration=given(loading.hold_time) / pause, driven0=low
+            )
+            cycle.append(Phase("holding", still, "hold"))
         if loading.unload:
             cycle.append(Phase("unloading", up, "unloading"))
         return _repeated(cycle, given(loading.cycles))

@@ -27,7 +27,7 @@ def test_what_does_not_fit_is_one_line(lines, text):
     "given",
     [
         *({"strain": 0.5}, {"stroke": 5e-3}, {"speed": 1e-3}),
-        *({"quasi_static": True}, {"unload": False}, {"cycles": 2}),
+        *({"quasi_static": True}, {"unload": False}, {"cycles": 2}, {"hold_time": 2.0}),
     ],
 )
 def test_keys_of_a_platen_say_the_mode(given):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Loading, Solver
+from sweep.config.case import Case, Loading, Material, Solver
 from sweep.config.defaults.solver_defaults import steps
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import CycleRows, Phase, cycle_rows, stages, tolerances
@@ -64,11 +64,24 @@ def test_a_dead_load_is_on_until_its_release():
         (Loading(mode="displacement"), [(0, 7, 7, 14)]),
         (Loading(mode="displacement", unload=False), [(0, 7, 7, 7)]),
         (Loading(mode="displacement", cycles=2), [(0, 7, 7, 14), (14, 21, 21, 28)]),
+        (Loading(mode="displacement", hold_time=9.0), [(0, 7, 14, 21)]),
+        (Loading(mode="displacement", hold_time=9.0, unload=False), [(0, 7, 14, 14)]),
+        (Loading(strain=0.56, speed=1.0, hold_time=3.5e-3), [(0, 7, 11, 18)]),
     ],
 )
 def test_rows_at_which_a_crush_turns(loading, rows):
-    case = Case(loading=loading, solver=Solver(load_steps=7))
+    case = Case(material=Material(loss=0.3), loading=loading, solver=Solver(load_steps=7))
     assert cycle_rows(stages(case, build_scene(case))) == rows
+    assert steps(case.loading, case.solver) == rows[-1][-1]
+
+
+def test_a_pause_lasts_as_long_as_it_is_given():
+    loading = Loading(strain=0.56, speed=1.0, hold_time=3.5e-3)
+    case = Case(loading=loading, solver=Solver(load_steps=7))
+    (_, pause, _) = stages(case, build_scene(case))
+    assert (pause.name, pause.role, pause.stage.dynamic) == ("holding", "hold", True)
+    assert pause.stage.steps * pause.stage.duration == pytest.approx(3.5e-3)
+    assert pause.stage.driven0 == pause.stage.driven1
 
 
 def test_rows_at_which_a_dead_load_is_removed():
