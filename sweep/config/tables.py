@@ -127,6 +127,10 @@ class Material(Table):
 
     labels: ClassVar[tuple[str, ...]] = ("memory", "uncertain")
     neutral: ClassVar[dict[str, Any]] = {"relaxation_times": (), "relaxation_shares": ()}
+    not_along: ClassVar[tuple[str, ...]] = (
+        "softening_r",
+        "yield_stress",
+    )  # refused along the cells
 
     name: str = "ninjaflex"
     stretch: Literal["nonlinear", "linear"] = "nonlinear"

@@ -118,7 +118,7 @@ def _check_lattice(lattice: Lattice) -> None:
 
 def _check_material(material: Material) -> None:
     """A wall is a sheet of layers that all follow one law, elastic or relaxing."""
-    for key in ("softening_r", "yield_stress"):
+    for key in material.not_along:
         if value := getattr(material, key):
             raise refusal(f"material.{key}", value, f"none {WHERE}: its walls are elastic or relax")
     if material.bend == "fibres":
