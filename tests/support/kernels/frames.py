@@ -12,9 +12,6 @@ from kernels.compile.reference import by_reference
 from kernels.geometry import near_pairs
 from kernels.laws import elastic
 from kernels.laws.fibre import Fibre
-from kernels.laws.relaxation import Relaxing
-from kernels.laws.softening import Softening
-from kernels.laws.yielding import Yielding
 from kernels.linear.condensed import analysis, periodic_images
 from kernels.planar import position_based
 from kernels.planar.problem import PlanarScene
@@ -32,6 +29,7 @@ from kernels.terms import (
     stretch,
 )
 from sweep.scene.bending import FIBRE, OUTER
+from tests.support.materials.memory import relaxing
 
 MODULUS, DEPTH = 12.0, 10.0
 NO_SPRINGS = spring.Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
@@ -172,9 +170,7 @@ def curve_law(modulus: float) -> elastic.ElasticCurve:
 
 def point_of(curve: elastic.ElasticCurve | elastic.FibreCurve) -> Fibre:
     """The law of a material point without a memory."""
-    softening = Softening(curve, 0.0, 0.0, 0.0)
-    relaxing = Relaxing(softening, np.empty(0), np.empty(0), curve.modulus)
-    return Fibre(relaxing, Yielding(curve.modulus, 0.0, 0.0, 0.0), curve.modulus, True)
+    return relaxing(curve)
 
 
 def fibre_of(curve: elastic.ElasticCurve) -> Fibre:
