@@ -8,15 +8,12 @@ that equal physics has an equal id; what cannot work along the cells is refused.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sweep.config.lattice_table import Lattice
+from sweep.config.network import network_of
 from sweep.config.tables import Damping, Loading, Material, Solver, refusal
 
-if TYPE_CHECKING:
-    from sweep.design.network import Network
-
-MM = 1e-3  # m
 ALONG = "out_of_plane"
 WHERE = f'if loading.direction is "{ALONG}"'
 NODES = 5  # inside a wall: six quads across
@@ -138,21 +135,6 @@ def check_platen(loading: Loading) -> None:
     if not is_along(loading) and platen == "clamped":
         allowed = '"contact", "glued" or "sliding" if loading.direction is "in_plane"'
         raise refusal("loading.platen", platen, allowed)
-
-
-def network_of(lattice: Lattice) -> Network:
-    """The centre lines of the walls in the plan, m; of a custom structure, those of its file."""
-    import numpy as np
-
-    from sweep.design.lattice import build_network
-    from sweep.design.network import Network
-
-    structure = lattice.structure
-    if structure is None:
-        return build_network(lattice.geometry)
-    points = MM * np.array(structure.nodes_mm)
-    thickness, none = MM * np.array(structure.thickness_mm), np.empty(0, np.int64)
-    return Network(points, np.array(structure.walls), thickness, none, none)
 
 
 def quads_wanted(lattice: Lattice) -> Any:

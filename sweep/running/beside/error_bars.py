@@ -25,9 +25,9 @@ from statistics import median
 from typing import Any, NamedTuple
 
 from sweep.config.case import Case
-from sweep.config.defaults.direction import network_of
 from sweep.config.grid import Config, expand
 from sweep.config.lattice_table import Lattice
+from sweep.config.network import network_of
 from sweep.config.tables import Solver
 from sweep.design.extrusion import most_layers
 from sweep.result import ABSORBED_AT, IN_CYCLE, Status, correction_column, error_column

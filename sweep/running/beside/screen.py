@@ -19,8 +19,9 @@ from typing import Any
 from pandas import DataFrame
 
 from sweep.config.case import Case
-from sweep.config.defaults.direction import is_along, network_of
+from sweep.config.defaults.direction import is_along
 from sweep.config.lattice_table import Lattice
+from sweep.config.network import network_of
 from sweep.design.drawing import extent
 from sweep.design.extrusion import mirror_fault
 from sweep.ranking.rank import ranked

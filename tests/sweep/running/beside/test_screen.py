@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Lattice, Loading
-from sweep.config.defaults.direction import network_of
+from sweep.config.network import network_of
 from sweep.design.network import mass
 from sweep.result import Result, Status, design_columns
 from sweep.running.beside.screen import best_of, has_column, run_columns, screen_file, unit_column
