@@ -6,7 +6,7 @@ is told with that of twice the elements, and with its spread over prints that mi
 walls 5 % thinner and thicker, and a quarter and four times the imperfection.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from pydantic import ValidationError
@@ -113,8 +113,3 @@ def _with(design: Case, lattice: Lattice) -> Case | None:
         return Case(**tables | {"lattice": lattice, "axes": design.axes | labels})
     except ValidationError:
         return None
-
-
-def perturbed_of(best: Sequence[Case]) -> dict[str, list[Corner]]:
-    """The perturbed designs of each finalist by its id."""
-    return {case.case_id: perturbed(case) for case in best}
