@@ -4,7 +4,7 @@ A `Case` is resolved when it is created (`resolve`), so that equal physics has a
 """
 
 from hashlib import blake2b
-from typing import Self, TypeVar
+from typing import Any, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -46,6 +46,10 @@ class Case(BaseModel):
         for name, table in tables.items():
             object.__setattr__(self, name, table)  # the model is frozen
         return self
+
+    def changed(self, **tables: Any) -> "Case":
+        """The case with other tables or labels, resolved anew."""
+        return Case(**{name: getattr(self, name) for name in Case.model_fields} | tables)
 
     @property
     def case_id(self) -> str:

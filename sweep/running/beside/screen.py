@@ -61,9 +61,8 @@ def unit_column(design: Case) -> Case:
     cell = lattice.model_copy(update=change)
     if cell.symmetry == "quarter" and mirror_fault(network_of(cell)):
         cell = cell.model_copy(update={"symmetry": "none"})
-    tables: dict[str, Any] = {table: getattr(design, table) for table in Case.model_fields}
-    tables["loading"] = design.loading.model_copy(update={"allowed_forces": ()})
-    return Case(**tables | {"lattice": cell})
+    loading = design.loading.model_copy(update={"allowed_forces": ()})
+    return design.changed(lattice=cell, loading=loading)
 
 
 def screen_file(out: str | os.PathLike[str]) -> Path:

@@ -60,9 +60,9 @@ def corners(design: Case) -> list[Corner]:
 def _bowed(design: Case, seed: int) -> Case:
     """The design with an imperfection that a seed draws."""
     lattice = design.lattice.model_copy(update={"imperfection_seed": seed, "mass": None})
-    tables: dict[str, Any] = {table: getattr(design, table) for table in Case.model_fields}
-    axes = design.axes | {"lattice.imperfection_seed": seed}
-    return Case(**tables | {"lattice": lattice, "axes": axes})
+    return design.changed(
+        lattice=lattice, axes=design.axes | {"lattice.imperfection_seed": seed}
+    )
 
 
 def _named(name: str, ends: tuple[float, float]) -> Iterable[tuple[str, float]]:
@@ -75,14 +75,17 @@ def _named(name: str, ends: tuple[float, float]) -> Iterable[tuple[str, float]]:
 
 def _moved(design: Case, name: str, value: float) -> Case:
     """The design with another value of an uncertain number, which labels it."""
-    tables: dict[str, Any] = {table: getattr(design, table) for table in Case.model_fields}
+    contact, material, table = design.contact, design.material, "material"
     if name == "friction":
-        tables["contact"] = design.contact.model_copy(update={"friction": value})
+        contact, table = contact.model_copy(update={"friction": value}), "contact"
     else:
-        tables["material"] = _other(design.material, name, value)
-    tables["lattice"] = design.lattice.model_copy(update={"mass": None})  # its walls stay
-    key = f"contact.{name}" if name == "friction" else f"material.{name}"
-    return Case(**tables | {"axes": design.axes | {key: value}})
+        material = _other(material, name, value)
+    return design.changed(
+        lattice=design.lattice.model_copy(update={"mass": None}),  # its walls stay
+        contact=contact,
+        material=material,
+        axes=design.axes | {f"{table}.{name}": value},
+    )
 
 
 def _other(material: Material, name: str, value: float) -> Material:

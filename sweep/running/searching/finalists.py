@@ -100,7 +100,6 @@ def _with(design: Case, lattice: Lattice) -> Case | None:
 
     Layers of plates are at most as many as leave quads as high as walls are thick.
     """
-    tables: dict[str, Any] = {table: getattr(design, table) for table in Case.model_fields}
     if lattice.layers is not None:
         most = most_layers(network_of(lattice).wall_thickness, lattice.depth)
         lattice = lattice.model_copy(update={"layers": max(min(lattice.layers, most), 1)})
@@ -110,6 +109,6 @@ def _with(design: Case, lattice: Lattice) -> Case | None:
         "lattice.imperfection": lattice.imperfection,
     }
     try:
-        return Case(**tables | {"lattice": lattice, "axes": design.axes | labels})
+        return design.changed(lattice=lattice, axes=design.axes | labels)
     except ValidationError:
         return None
