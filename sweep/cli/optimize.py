@@ -132,7 +132,8 @@ def _tell_best(search: Search) -> int:
     from sweep.ranking.rank import ranked
     from sweep.ranking.spread import spreads
     from sweep.report.tables.search_sheets import finalist_sheet
-    from sweep.running.beside.spread import run_corners, spread_file
+    from sweep.running.beside.run_beside import file_beside
+    from sweep.running.beside.spread import run_corners
     from sweep.running.searching.finalists import finalists, perturbed
     from sweep.store.read import read_summary
 
@@ -151,7 +152,7 @@ def _tell_best(search: Search) -> int:
     best = finalists(search.cases[case_id] for case_id in found.by_id)
     again = {case.case_id: perturbed(case) for case in best}
     run_corners(again, search.out, search.settings.workers, search.settings.scheduler)
-    summary, beside = search.rows(), spread_file(search.out)
+    summary, beside = search.rows(), file_beside(search.out, "spread")
     ids = {design: [(c.name, c.case_id) for c in corners] for design, corners in again.items()}
     ranking = ranked(summary, **question | {"top": None})
     corners = with_allowed(beside, read_summary(beside), question)

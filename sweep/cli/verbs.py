@@ -131,18 +131,19 @@ def _screen(
     estimates, and how many designs have none.
     """
     from sweep.config.grid import chosen_of, expand
-    from sweep.running.beside.screen import best_of, has_column, run_columns, screen_file
+    from sweep.running.beside.run_beside import file_beside
+    from sweep.running.beside.screen import best_of, has_column, run_columns
 
-    cases = expand(config)
+    cases, beside = expand(config), file_beside(out, "screen")
     screened = [case for case in cases if has_column(case)]
     if not screened:
         raise ArgumentError(NO_COLUMNS)
-    estimates = run_columns(screened, out, *how)
+    estimates, why = run_columns(screened, out, *how), f"crumple status {beside} says why"
     missing = len(screened) - len(estimates)
     if missing:
-        say(f"{missing} designs have no estimate: crumple status {screen_file(out)} says why")
+        say(f"{missing} designs have no estimate: {why}")
     if estimates.empty:
-        raise ArgumentError(f"no unit column converged: crumple status {screen_file(out)} says why")
+        raise ArgumentError(f"no unit column converged: {why}")
     best = best_of(estimates, question, count)
     left_out = {case.case_id for case in screened} - {*best}
     return chosen_of(config, (c for c in cases if c.case_id not in left_out)), estimates, missing
@@ -155,7 +156,8 @@ def _spread(config: Config, out: str, how: tuple[Any, ...], question: dict[str, 
     from sweep.ranking.rank import ranked
     from sweep.ranking.spread import spreads
     from sweep.report.tables.spread_sheets import spread_sheets
-    from sweep.running.beside.spread import BEST, corners_of, run_corners, spread_file
+    from sweep.running.beside.run_beside import file_beside
+    from sweep.running.beside.spread import BEST, corners_of, run_corners
     from sweep.store.read import read_summary
 
     summary = read_summary(out)
@@ -166,7 +168,7 @@ def _spread(config: Config, out: str, how: tuple[Any, ...], question: dict[str, 
         return 0
     run_corners(corners, out, *how)
     ids = {design: [(c.name, c.case_id) for c in found] for design, found in corners.items()}
-    found = spreads(ranking, read_summary(spread_file(out)), ids, question)
+    found = spreads(ranking, read_summary(file_beside(out, "spread")), ids, question)
     print_sheets(spread_sheets(found, summary))
     return sum(spread.failed for spread in found)
 

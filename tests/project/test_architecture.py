@@ -85,6 +85,7 @@ TESTED_ELSEWHERE = {
     "kernels.terms.rayleigh": "kernels/terms/test_damping.py",
     "sweep.__main__": "sweep/cli/test_verbs.py",
     "sweep.design.infill": "sweep/design/test_infill.py",
+    "sweep.running.beside.run_beside": "sweep/running/beside/test_spread.py",
     "sweep.running.batches": "sweep/running/test_dask_graph.py",
     "sweep.running.provenance": "sweep/running/test_sweep.py",
     "sweep.running.writer_thread": "sweep/running/test_sweep.py",

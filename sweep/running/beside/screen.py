@@ -13,7 +13,6 @@ are no designs of its ranking: `armor.screen.h5` beside `armor.h5`. The values i
 
 import os
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 from pandas import DataFrame
@@ -26,10 +25,9 @@ from sweep.design.drawing import extent
 from sweep.design.extrusion import mirror_fault
 from sweep.ranking.rank import ranked
 from sweep.result import Status, describe_column, design_columns
+from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
-from sweep.running.progress import tell
-from sweep.running.sweep import run_sweep
-from sweep.store.read import ONLY_MISSING, Rerun, exists, finished_ids, read_summary
+from sweep.store.read import ONLY_MISSING, Rerun, read_summary
 
 EXTENSIVE = ("J", "N", "g")
 PER_AREA = ("Pa", "J/m^3")
@@ -65,11 +63,6 @@ def unit_column(design: Case) -> Case:
     return design.changed(lattice=cell, loading=loading)
 
 
-def screen_file(out: str | os.PathLike[str]) -> Path:
-    """The results file of the unit columns of the designs in `out`."""
-    return Path(out).with_suffix(".screen.h5")
-
-
 def run_columns(
     designs: Sequence[Case],
     out: str | os.PathLike[str],
@@ -81,10 +74,9 @@ def run_columns(
     """Run the missing columns of designs; return `estimates`. Arguments as of `run_sweep`."""
     columns = {design.case_id: unit_column(design) for design in designs}
     alone = {column.case_id: column for column in columns.values()}
-    beside = screen_file(out)
-    if not exists(beside) or alone.keys() - finished_ids(beside, rerun):
-        tell(f"screen of {len(designs)} designs: {len(alone)} unit columns, in {beside}")
-        run_sweep(list(alone.values()), beside, workers, scheduler, rerun, simulate)
+    beside = file_beside(out, "screen")
+    what = f"screen of {len(designs)} designs: {len(alone)} unit columns"
+    run_beside(alone, beside, what, How(workers, scheduler, rerun, simulate))
     rows = read_summary(beside)
     found = rows[rows["status"] == Status.CONVERGED].set_index("case_id", drop=False)
     return DataFrame(

@@ -11,16 +11,14 @@ they are no designs of its ranking: `armor.spread.h5` beside `armor.h5`.
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path
 from typing import Any, NamedTuple
 
 from sweep.config.case import Case, Material
 from sweep.config.defaults.direction import is_along
 from sweep.config.grid import Config, expand
+from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
-from sweep.running.progress import tell
-from sweep.running.sweep import run_sweep
-from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
+from sweep.store.read import ONLY_MISSING, Rerun
 
 FRICTION = 0.2, 0.9  # of TPU on TPU or steel, which no source tells: configs/materials/README.md
 BEST = 5  # designs of a ranking
@@ -60,9 +58,7 @@ def corners(design: Case) -> list[Corner]:
 def _bowed(design: Case, seed: int) -> Case:
     """The design with an imperfection that a seed draws."""
     lattice = design.lattice.model_copy(update={"imperfection_seed": seed, "mass": None})
-    return design.changed(
-        lattice=lattice, axes=design.axes | {"lattice.imperfection_seed": seed}
-    )
+    return design.changed(lattice=lattice, axes=design.axes | {"lattice.imperfection_seed": seed})
 
 
 def _named(name: str, ends: tuple[float, float]) -> Iterable[tuple[str, float]]:
@@ -97,11 +93,6 @@ def _other(material: Material, name: str, value: float) -> Material:
     return material.model_copy(update=change)
 
 
-def spread_file(out: str | os.PathLike[str]) -> Path:
-    """The results file of the corners of the designs in `out`."""
-    return Path(out).with_suffix(".spread.h5")
-
-
 def corners_of(sweep: Config | Sequence[Case], best: Iterable[str]) -> dict[str, list[Corner]]:
     """The corners of the cases whose ids are among the `best`, by the id of the case."""
     cases = {case.case_id: case for case in (expand(sweep) if isinstance(sweep, Config) else sweep)}
@@ -118,7 +109,6 @@ def run_corners(
 ) -> None:
     """Run the corners of designs in `out` that are missing; arguments as those of `run_sweep`."""
     others = {c.case_id: c.case for several in found.values() for c in several}
-    beside = spread_file(out)
-    if others.keys() - finished_ids(beside, rerun):
-        tell(f"spread of {len(found)} designs: {len(others)} cases, in {beside}")
-        run_sweep(list(others.values()), beside, workers, scheduler, rerun, simulate)
+    what = f"spread of {len(found)} designs: {len(others)} cases"
+    how = How(workers, scheduler, rerun, simulate)
+    run_beside(others, file_beside(out, "spread"), what, how)

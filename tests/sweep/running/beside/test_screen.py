@@ -9,7 +9,8 @@ from sweep.config.case import Case, Lattice, Loading
 from sweep.config.network import network_of
 from sweep.design.network import mass
 from sweep.result import Result, Status, design_columns
-from sweep.running.beside.screen import best_of, has_column, run_columns, screen_file, unit_column
+from sweep.running.beside.run_beside import file_beside
+from sweep.running.beside.screen import best_of, has_column, run_columns, unit_column
 from sweep.store.read import read_summary
 from tests.support.results.standin import simulate as invent
 
@@ -110,7 +111,7 @@ def test_estimates_are_those_of_the_whole_where_walls_are_alike(tmp_path):
             "outer_width_m",
         ):
             assert found.loc[design.case_id, name] == pytest.approx(whole[name], rel=1e-9), name
-    cells = read_summary(screen_file(tmp_path / "trial.h5"))
+    cells = read_summary(file_beside(tmp_path / "trial.h5", "screen"))
     assert cells["mass_g"].max() < 0.3 * found["mass_g"].min()
 
 
@@ -127,7 +128,7 @@ def test_no_column_runs_twice_and_a_stopped_one_gives_no_estimate(tmp_path):
         found = run_columns(designs, out, simulate=logged)
     assert sorted(log) == sorted(unit_column(design).case_id for design in designs)
     assert set(found["case_id"]) == {design.case_id for design in DESIGNS}
-    assert screen_file(out).name == "trial.screen.h5"
+    assert file_beside(out, "screen").name == "trial.screen.h5"
     assert not out.exists()
 
 
