@@ -10,6 +10,7 @@ from pydantic_core import PydanticCustomError
 from sweep.config.structures.structure import Structure
 from sweep.config.structures.structure_file import faults, read_structure
 from sweep.config.tables import Few, Length, Mass, Size, Table, refusal
+from sweep.constants import MM, TO_MM
 from sweep.design.geometry import Geometry
 from sweep.design.infill import families, trait
 from sweep.design.slicer import (
@@ -159,10 +160,10 @@ class Lattice(Table):
             "file": Path(self.file).name if self.file else None,
             "cells_x": 1,
             "cells_y": 1,
-            "width": 1e-3 * width,
-            "height": 1e-3 * height,
-            "depth": 1e-3 * structure.depth_mm,
-            "wall_thickness": 1e-3 * sum(thickness) / len(thickness),
+            "width": MM * width,
+            "height": MM * height,
+            "depth": MM * structure.depth_mm,
+            "wall_thickness": MM * sum(thickness) / len(thickness),
             "nodes_per_wall": 0,
         }
         self._set(measures)
@@ -336,7 +337,7 @@ def _scaled(structure: Structure, thickness: float) -> Structure:
     """A structure whose walls are as thick on average as `thickness` (m)."""
     if not thickness > 0.0:
         return structure  # refused as a value of its key
-    made = structure.with_thickness(float(f"{1e3 * thickness:.15g}"))
+    made = structure.with_thickness(float(f"{TO_MM * thickness:.15g}"))
     if wrong := next(faults(made), None):
         raise refusal("lattice.wall_thickness", thickness, f"one that fits the structure ({wrong})")
     return made

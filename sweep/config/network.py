@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from sweep.constants import MM
+
 if TYPE_CHECKING:
     from sweep.config.lattice_table import Lattice
     from sweep.design.network import Network
-
-MM = 1e-3  # m
 
 
 def network_of(lattice: Lattice) -> Network:

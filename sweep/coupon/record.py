@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sweep.config.materials.material_file import SECANT
+from sweep.constants import MM
 
 Floats = NDArray[np.float64]
 
@@ -20,7 +21,6 @@ FEWEST = 20  # rows
 MOST_STRAIN = 5.0
 SOFTEST, STIFFEST = 1e5, 1e11  # Pa
 OFFSET = 0.005, 0.05  # greatest first strain, and first stress over the greatest one
-MM = 1e-3
 KNOWN = ("time_s", "strain", "displacement_mm", "stress_Pa", "force_N")
 SEPARATORS = {";": "semicolons", "\t": "tabs"}
 

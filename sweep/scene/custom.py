@@ -14,6 +14,7 @@ from kernels.terms import contact, spring
 from sweep.config.case import Case, given
 from sweep.config.network import network_of
 from sweep.config.structures.structure import Structure
+from sweep.constants import MM
 from sweep.design.network import Network, mass
 from sweep.scene.beams import bends, build_beams
 from sweep.scene.bending import build_bend, build_fold
@@ -32,7 +33,6 @@ from sweep.scene.terms import (
     walls_of,
 )
 
-MM = 1e-3
 SUDDEN = 5e-3  # of t^2 / size; a slender column buckles after it shortens by 0.8 t^2 / L
 FAR = 1e3  # times the size of a structure: height of the ceiling that contact requires
 DIRECTIONS = ("x", "y", "rotation")

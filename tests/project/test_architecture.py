@@ -23,7 +23,8 @@ KERNELS = [module for module in PROGRAM if module.startswith("kernels")]
 FLOORS = [
     "kernels.compile", "kernels.arrays", "kernels.solve", "kernels.linear", "kernels.geometry",
     "kernels.laws", "kernels.terms", "kernels.planar", "kernels.plates",
-    "sweep.version", "sweep.numbers", "sweep.design", "sweep.config", "sweep.result", "sweep.scene",
+    "sweep.version", "sweep.constants", "sweep.numbers", "sweep.design", "sweep.config",
+    "sweep.result", "sweep.scene",
     "sweep.coupon", "sweep.simulation", "sweep.store", "sweep.ranking", "sweep.report",
     "sweep.export", "sweep.running", "sweep.studies", "sweep.cli", "sweep.__main__",
 ]  # fmt: skip

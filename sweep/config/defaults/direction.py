@@ -13,6 +13,7 @@ from typing import Any
 from sweep.config.lattice_table import Lattice
 from sweep.config.network import network_of
 from sweep.config.tables import Damping, Loading, Material, Solver, refusal
+from sweep.constants import TO_MM
 
 ALONG = "out_of_plane"
 WHERE = f'if loading.direction is "{ALONG}"'
@@ -174,7 +175,7 @@ def _meshed(lattice: Lattice) -> Lattice:
 
 def _too_low(lattice: Lattice, thickest: float) -> Exception:
     """The error of a height below that of one quad, the thickness of the thickest wall, m."""
-    allowed = f"at least the wall thickness, {1e3 * thickest:.4g} mm here, {WHERE}"
+    allowed = f"at least the wall thickness, {TO_MM * thickest:.4g} mm here, {WHERE}"
     if lattice.structure is not None:
         return refusal("lattice.file", lattice.file, f"a depth_mm of {allowed}")
     return refusal("lattice.depth", lattice.depth, allowed)

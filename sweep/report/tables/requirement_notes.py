@@ -8,9 +8,10 @@ from itertools import groupby
 from textwrap import fill
 from typing import TYPE_CHECKING, NamedTuple
 
+from sweep.constants import STANDARD_GRAVITY
 from sweep.numbers import energy_text, numerals, tenths, three_digits
 from sweep.ranking.merit import doubtful
-from sweep.ranking.requirements import MEASURES, STANDARD_GRAVITY
+from sweep.ranking.requirements import MEASURES
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
