@@ -99,7 +99,7 @@ def _counted(count: int, noun: str) -> str:
 
 def _heading(question: Mapping[str, Any], ranking: Ranking) -> str:
     """The question that the tables answer, in one or two lines."""
-    from sweep.result import in_words, less_is_better
+    from sweep.columns import in_words, less_is_better
 
     by = ranking.by
     usual = {ranking.energy: "most energy", ranking.per_gram: "most energy per gram"}

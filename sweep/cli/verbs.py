@@ -501,7 +501,7 @@ def _in_common(messages: list[str]) -> str:
 
 def _bars(summary: DataFrame) -> list[str]:
     """A line with the number of cases that have error bars, if there are such columns."""
-    from sweep.result import ERROR
+    from sweep.columns import ERROR
 
     bars = summary.drop(index=_failed(summary).index).filter(regex=ERROR)
     count = bars.notna().any(axis=1).sum()

@@ -13,8 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from sweep.design.panel import BEHIND, Panel, panel_of
-from sweep.result import (
+from sweep.columns import (
     ABSORBED_AT,
     COLUMNS,
     OLDER,
@@ -22,6 +21,7 @@ from sweep.result import (
     correction_column,
     error_column,
 )
+from sweep.design.panel import BEHIND, Panel, panel_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series

@@ -16,6 +16,14 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
+from sweep.columns import (
+    OLDER,
+    correction_column,
+    describe_column,
+    error_column,
+    is_grid_key,
+    less_is_better,
+)
 from sweep.numbers import NOTHING, energy_text, short, with_unit
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import (
@@ -30,15 +38,7 @@ from sweep.ranking.merit import (
 )
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, judge, limits
-from sweep.result import (
-    OLDER,
-    Status,
-    correction_column,
-    describe_column,
-    error_column,
-    is_grid_key,
-    less_is_better,
-)
+from sweep.result import Status
 
 SCENE = ["loading_mode", "platen", "force_N", "striker_mass_g", "striker_speed_m_per_s"]
 

@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from pandas import DataFrame
 
+from sweep.columns import less_is_better
 from sweep.ranking.merit import greatest_mass, merits
 from sweep.ranking.requirements import measured, misses
-from sweep.result import Status, less_is_better
+from sweep.result import Status
 
 if TYPE_CHECKING:
     from pandas import Series

@@ -2,8 +2,8 @@
 
 from math import nan
 
+from sweep.columns import cycle_columns
 from sweep.config.case import Case, given
-from sweep.result import cycle_columns
 from sweep.scene.mesh import Floats
 
 

@@ -24,8 +24,8 @@ FLOORS = [
     "kernels.compile", "kernels.arrays", "kernels.solve", "kernels.linear", "kernels.geometry",
     "kernels.laws", "kernels.terms", "kernels.planar", "kernels.plates",
     "sweep.version", "sweep.constants", "sweep.numbers", "sweep.design", "sweep.config",
-    "sweep.result", "sweep.scene",
-    "sweep.coupon", "sweep.simulation", "sweep.store", "sweep.ranking", "sweep.report",
+    "sweep.columns", "sweep.result", "sweep.scene", "sweep.coupon", "sweep.simulation",
+    "sweep.store", "sweep.ranking", "sweep.report",
     "sweep.export", "sweep.running", "sweep.studies", "sweep.cli", "sweep.__main__",
 ]  # fmt: skip
 HOMES = {
@@ -91,7 +91,7 @@ TESTED_ELSEWHERE = {
     "sweep.running.provenance": "sweep/running/test_sweep.py",
     "sweep.running.writer_thread": "sweep/running/test_sweep.py",
     "sweep.store.batch": "sweep/store/test_read.py",
-    "sweep.store.columns": "sweep/store/test_read.py",
+    "sweep.store.tables": "sweep/store/test_read.py",
     "sweep.store.hdf5": "sweep/store/test_read.py",
     "sweep.store.lock": "sweep/store/test_read.py",
     "sweep.store.parts": "sweep/store/test_read.py",

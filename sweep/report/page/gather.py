@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from sweep.columns import ABSORBED_AT, correction_column, error_column
 from sweep.design.panel import BEHIND
 from sweep.numbers import short
 from sweep.ranking.curves import reached
@@ -27,7 +28,7 @@ from sweep.report.page.thinning import (
 from sweep.report.page.trails import UNIT, drawing, moving_shape
 from sweep.report.tables.requirement_notes import UNITS, WORDS
 from sweep.report.tables.sheets import crush_text, design_labels, design_text, impact_text
-from sweep.result import ABSORBED_AT, Status, correction_column, error_column
+from sweep.result import Status
 from sweep.store.read import StoredCase, read_attributes, read_cases
 
 if TYPE_CHECKING:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from pandas import Series
 from pandas.api.types import is_numeric_dtype
 
+from sweep.columns import describe_column
 from sweep.numbers import NOTHING, SHOWN, numerals, percent, scaled, short, tenths
 from sweep.ranking.merit import LEAST, greatest_mass
 from sweep.ranking.rank import ASSUMPTIONS, by_scene, scene_label
@@ -21,7 +22,6 @@ from sweep.report.tables.requirement_notes import (
     requirement_columns,
     requirement_notes,
 )
-from sweep.result import describe_column
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -23,13 +23,14 @@ from math import hypot, isfinite, isnan, nan
 from statistics import median
 from typing import Any, NamedTuple
 
+from sweep.columns import ABSORBED_AT, IN_CYCLE, correction_column, error_column
 from sweep.config.case import Case
 from sweep.config.grid import Config, expand
 from sweep.config.lattice_table import Lattice
 from sweep.config.network import network_of
 from sweep.config.tables import Solver
 from sweep.design.extrusion import most_layers
-from sweep.result import ABSORBED_AT, IN_CYCLE, Status, correction_column, error_column
+from sweep.result import Status
 from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
 from sweep.running.progress import tell

@@ -17,6 +17,7 @@ from typing import Any
 
 from pandas import DataFrame
 
+from sweep.columns import describe_column
 from sweep.config.case import Case
 from sweep.config.defaults.direction import is_along
 from sweep.config.lattice_table import Lattice
@@ -24,7 +25,7 @@ from sweep.config.network import network_of
 from sweep.design.drawing import extent
 from sweep.design.extrusion import mirror_fault
 from sweep.ranking.rank import ranked
-from sweep.result import Status, describe_column, design_columns
+from sweep.result import Status, design_columns
 from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
 from sweep.store.read import ONLY_MISSING, Rerun, read_summary

@@ -13,9 +13,9 @@ import pytest
 
 from sweep.__main__ import REQUIREMENTS, main
 from sweep.cli.verbs import VERBS
+from sweep.columns import absorbed_energy_column
 from sweep.config.tables import Require
 from sweep.ranking.requirements import MEASURES
-from sweep.result import absorbed_energy_column
 from sweep.running.sweep import Interrupted
 from sweep.store.read import read_summary
 from tests.support.command import crumple

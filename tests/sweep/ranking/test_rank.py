@@ -6,9 +6,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from sweep.columns import COLUMNS
 from sweep.ranking.rank import USUAL, RankError, pareto, rank, ranked, scene_label
 from sweep.report.tables.sheets import ranking_sheets
-from sweep.result import COLUMNS, MODEL_VERSION
+from sweep.result import MODEL_VERSION
 from tests.support.readme import QUOTED
 from tests.support.results.specimens import designs, ids, summary
 

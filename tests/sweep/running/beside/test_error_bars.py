@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from sweep.columns import describe_column, is_grid_key
 from sweep.config.case import Case, Lattice, Loading, Solver
 from sweep.config.grid import Config, Written, expand
 from sweep.config.structures.structure_file import read_structure
 from sweep.ranking.rank import rank
-from sweep.result import Status, describe_column, is_grid_key
+from sweep.result import Status
 from sweep.running.batches import cost
 from sweep.running.beside.error_bars import add_error_bars, companions, error_bars
 from sweep.running.beside.run_beside import file_beside
