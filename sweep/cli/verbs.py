@@ -46,7 +46,7 @@ NUMBER = re.compile(r"(?:(?<!\w)-)?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 HOME = __name__.removesuffix(".cli.verbs")
 REFUSALS = {
     f"{HOME}.config.grid": "ConfigError",
-    f"{HOME}.config.material_file": "RecordError",
+    f"{HOME}.config.materials.material_file": "RecordError",
     f"{HOME}.coupon.record": "CouponError",
     f"{HOME}.cli.materials": "MaterialsError",
     f"{HOME}.cli.optimize": "OptimizeError",

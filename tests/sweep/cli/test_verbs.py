@@ -5,6 +5,7 @@ import json
 import re
 import subprocess
 import sys
+from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
 
@@ -12,7 +13,7 @@ import pandas as pd
 import pytest
 
 from sweep.__main__ import REQUIREMENTS, main
-from sweep.cli.verbs import VERBS
+from sweep.cli.verbs import REFUSALS, VERBS
 from sweep.columns import absorbed_energy_column
 from sweep.config.tables import Require
 from sweep.ranking.requirements import MEASURES
@@ -575,3 +576,8 @@ def test_options_are_not_abbreviated(capsys, config):
     status, _, err = crumple(capsys, "run", config, "--worker", "1")
     assert status == 2
     assert "--worker" in err
+
+
+@pytest.mark.parametrize(("module", "error"), REFUSALS.items())
+def test_errors_that_are_refusals_are_there(module, error):
+    assert issubclass(getattr(import_module(module), error), Exception)
