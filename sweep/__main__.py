@@ -454,6 +454,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     complete(known)
     arguments = known.parse_args(argv)
     from sweep.cli import verbs
+    from sweep.cli.refusals import refusals
 
     warnings.formatwarning = lambda message, *_: f"crumple: {message}\n"  # without a place in ours
     sys.stdout = sys.stdout or os.fdopen(_nowhere(), "w")  # None if the caller closed it
@@ -470,7 +471,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except OSError as error:
         _silence()
         return _refuse(arguments.verb, error)
-    except verbs.refusals() as refusal:
+    except refusals() as refusal:
         return _refuse(arguments.verb, refusal)
     return status
 

@@ -260,3 +260,9 @@ def say_all(lines: Iterable[object]) -> None:
     """Print lines."""
     for line in lines:
         say(line)
+
+
+def hint(lines: Iterable[str]) -> None:
+    """Print lines on stderr, after what is on stdout."""
+    sys.stdout.flush()
+    sys.stderr.writelines(f"{line}\n" for line in lines)

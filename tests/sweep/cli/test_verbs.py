@@ -13,7 +13,8 @@ import pandas as pd
 import pytest
 
 from sweep.__main__ import REQUIREMENTS, main
-from sweep.cli.verbs import REFUSALS, VERBS
+from sweep.cli.refusals import REFUSALS
+from sweep.cli.verbs import VERBS
 from sweep.columns import absorbed_energy_column
 from sweep.config.tables import Require
 from sweep.ranking.requirements import MEASURES
