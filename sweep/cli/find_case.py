@@ -65,7 +65,7 @@ def by_number(
 
 def _no_place(ranking: Ranking, label: str, summary: DataFrame) -> str:
     """Why there is no number in a scene, and the id that takes its place."""
-    from sweep.report.tables.sheets import named_case
+    from sweep.report.tables.design_text import named_case
 
     why = f"no design has a place in the ranking{f' of {label}' if label else ''}"
     if (instead := ranking.instead(label)) is None:

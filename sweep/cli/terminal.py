@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from sweep.ranking.ranking import Ranking
-    from sweep.report.tables.sheets import Sheet
+    from sweep.report.tables.sheet import Sheet
 
 USUAL = 80  # columns of text; in wider tables, columns are closer
 WIDE = 10_000  # where no terminal limits the width
@@ -23,7 +23,8 @@ WIDE = 10_000  # where no terminal limits the width
 def print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -> None:
     """Print the tables of a ranking, their legend, and the warnings."""
     from sweep.ranking.rank import ranked
-    from sweep.report.tables.sheets import legend, ranking_sheets
+    from sweep.report.tables.legend import legend
+    from sweep.report.tables.sheets import ranking_sheets
 
     ranking = ranked(summary, **question)
     if ranking.failed < ranking.cases:
@@ -81,7 +82,7 @@ def next_commands(file: str, summary: DataFrame) -> Iterator[str]:
 
 def nearest_commands(file: str, ranking: Ranking, summary: DataFrame) -> Iterator[str]:
     """How to see and print the nearest design of the first scene in which none has a place."""
-    from sweep.report.tables.sheets import short_id
+    from sweep.report.tables.design_text import short_id
 
     placed = {*ranking.table["scene"]}
     for label in ranking.lightest_g:

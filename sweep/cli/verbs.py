@@ -122,7 +122,8 @@ def rank(arguments: Namespace) -> int:
 
 def show(arguments: Namespace) -> int:
     """Draw one case, or list all cases."""
-    from sweep.report.tables.sheets import about_direction, case_sheet, describe_case
+    from sweep.report.tables.design_text import about_direction, describe_case
+    from sweep.report.tables.sheets import case_sheet
     from sweep.store.read import read_summary
 
     summary = read_summary(arguments.file)

@@ -21,8 +21,11 @@ from sweep.report.figures.shaded import cut_open
 from sweep.report.figures.storyboard import headline, last_loaded
 from sweep.report.figures.work_precision import work_precision
 from sweep.report.tables.accuracy_tables import MARKS, accuracy_sheets, scene_title
+from sweep.report.tables.design_text import design_labels
+from sweep.report.tables.legend import legend
 from sweep.report.tables.markdown import markdown
-from sweep.report.tables.sheets import Sheet, design_labels, legend, ranking_sheets
+from sweep.report.tables.sheet import Sheet
+from sweep.report.tables.sheets import ranking_sheets
 from sweep.store.read import read_frames, read_history, read_summary
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from sweep.columns import error_column, less_is_better
 from sweep.numbers import energy_text, tenths, three_digits
 from sweep.ranking.merit import LEAST, doubtful, greatest_mass
 from sweep.ranking.rank import places_by
-from sweep.report.tables.sheets import WAYS, design_labels
+from sweep.report.tables.design_text import WAYS, design_labels
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series

@@ -26,8 +26,9 @@ from sweep.report.page.thinning import (
     work_until,
 )
 from sweep.report.page.trails import UNIT, drawing, moving_shape
+from sweep.report.tables.design_text import design_labels, design_text
 from sweep.report.tables.requirement_notes import UNITS, WORDS
-from sweep.report.tables.sheets import crush_text, design_labels, design_text, impact_text
+from sweep.report.tables.sheets import crush_text, impact_text
 from sweep.result import Status
 from sweep.store.read import StoredCase, read_attributes, read_cases
 

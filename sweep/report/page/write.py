@@ -15,12 +15,14 @@ from sweep.ranking.merit import doubtful
 from sweep.ranking.rank import ranked
 from sweep.report.figures.storyboard import PARTS
 from sweep.report.page.gather import page_data, required
-from sweep.report.tables.sheets import design_labels, legend, ranking_sheets
+from sweep.report.tables.design_text import design_labels
+from sweep.report.tables.legend import legend
+from sweep.report.tables.sheets import ranking_sheets
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from sweep.report.tables.sheets import Sheet
+    from sweep.report.tables.sheet import Sheet
 
 HERE = Path(__file__).parent
 PROGRAM = ("rank.js", "plots.js", "page.js")

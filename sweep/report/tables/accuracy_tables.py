@@ -13,7 +13,7 @@ from sweep.columns import describe_column
 from sweep.numbers import NOTHING, energy_text, short, three_digits, with_unit
 from sweep.ranking.accuracy import REFINED, TARGETS, Study, varies
 from sweep.ranking.rank import HELD_BY_SCENE, scene_keys, scene_label
-from sweep.report.tables.sheets import Sheet
+from sweep.report.tables.sheet import Sheet
 from sweep.result import Status
 
 if TYPE_CHECKING:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 from sweep.numbers import NOTHING, three_digits
 from sweep.ranking.merit import merits
 from sweep.ranking.rank import ranked
-from sweep.report.tables.sheets import Sheet, design_text
+from sweep.report.tables.design_text import design_text
+from sweep.report.tables.sheet import Sheet
 from sweep.result import Status
 
 if TYPE_CHECKING:

@@ -10,8 +10,10 @@ from pandas import Series
 from sweep.numbers import NOTHING, numerals, three_digits
 from sweep.ranking.spread import AS_GIVEN, FINE, Spread, ends
 from sweep.ranking.worth import ALIKE
+from sweep.report.tables.design_text import design_text
+from sweep.report.tables.legend import mark_notes, marks
 from sweep.report.tables.requirement_notes import panel_column
-from sweep.report.tables.sheets import Sheet, design_text, mark_notes, marks
+from sweep.report.tables.sheet import Sheet
 
 if TYPE_CHECKING:
     from pandas import DataFrame

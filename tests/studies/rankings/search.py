@@ -23,7 +23,7 @@ from sweep.config.units import load_config
 from sweep.numbers import three_digits
 from sweep.ranking.worth import worths
 from sweep.report.tables.markdown import markdown
-from sweep.report.tables.sheets import Sheet
+from sweep.report.tables.sheet import Sheet
 from sweep.running.searching.design_space import DesignSpace
 from sweep.running.searching.search import Search, Settings
 from sweep.running.sweep import run_sweep

@@ -5,7 +5,7 @@ import pytest
 
 from sweep.ranking.merit import RankError
 from sweep.report.publish import publish_case, publish_ranking
-from sweep.report.tables.sheets import LOADED, MARKS
+from sweep.report.tables.legend import LOADED, MARKS
 from tests.support.results.specimens import designs, summary, write
 
 DESIGN_MAP = "sweep.report.figures.design_map.design_map"
