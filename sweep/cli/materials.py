@@ -82,7 +82,7 @@ def _plot(names: list[str], out: Path) -> None:
 
 def _curve(record: Record) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Strain and stress of the first loading, to the end of the record or to the break."""
-    from sweep.config.tables import Material
+    from sweep.config.material_table import Material
     from sweep.scene.material import monotonic_law
 
     low, high, count = PLOTTED

@@ -10,7 +10,8 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from sweep.config.defaults.resolve import resolve
 from sweep.config.lattice_table import Lattice
-from sweep.config.tables import Contact, Damping, Loading, Material, Solver, Table, canonical
+from sweep.config.material_table import Material
+from sweep.config.tables import Contact, Damping, Loading, Solver, Table, canonical
 
 __all__ = [
     "TABLES",

@@ -177,7 +177,7 @@ def in_si(value: Any, unit: str) -> float:
     return float(number)
 
 
-def be_written(given: Mapping[str, Any]) -> None:
+def check_units(given: Mapping[str, Any]) -> None:
     """Refuse arguments with a number that has no unit."""
     examples = {"budget": "25 g", "panel": "100 mm", "allowed_force": "50 N"}
     examples |= {"max_force": "50 N", "max_deceleration": "80 g0", "max_mass": "25 g"}

@@ -31,7 +31,7 @@ from sweep.ranking.merit import (
     Compared,
     Quantity,
     RankError,
-    be_written,
+    check_units,
     greatest_mass,
     in_si,
     merits,
@@ -175,7 +175,7 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
     `attrs` holds older fields of `Ranking`, for one more release; use `ranked` for them.
     """
     asked = {"budget": budget, "panel": panel, "allowed_force": allowed_force}
-    be_written(asked | dict(require or {}))
+    check_units(asked | dict(require or {}))
     ranking = ranked(source, budget, panel, by, top, allowed_force, require, per)
     names = [field.name for field in fields(ranking)[1:] if field.name not in NO_ATTRS]
     others = {name: getattr(ranking, name) for name in names}

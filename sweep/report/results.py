@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sweep.ranking.curves import with_allowed
-from sweep.ranking.merit import be_written
+from sweep.ranking.merit import check_units
 from sweep.ranking.rank import ranked
 from sweep.report.publish import case_figures, ranking_figures
 from sweep.result import Status
@@ -77,7 +77,7 @@ class Results:
         place of these. Numbers need their units, such as budget="25 g".
         """
         given = {name: question.get(name) for name in ("budget", "panel", "allowed_force")}
-        be_written(given | dict(question.get("require") or {}))
+        check_units(given | dict(question.get("require") or {}))
         asked = self._question | question
         return ranked(with_allowed(self.path, self.table, asked), **asked).table
 

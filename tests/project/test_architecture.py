@@ -89,6 +89,8 @@ TESTED_ELSEWHERE = {
     "sweep.cli.refusals": "sweep/cli/test_verbs.py",
     "sweep.cli.run": "sweep/cli/test_verbs.py",
     "sweep.cli.status": "sweep/cli/test_verbs.py",
+    "sweep.config.lattice_limits": "sweep/config/test_lattice_table.py",
+    "sweep.config.slicer_lines": "sweep/config/test_lattice_table.py",
     "sweep.design.infill": "sweep/design/test_infill.py",
     "sweep.running.beside.run_beside": "sweep/running/beside/test_spread.py",
     "sweep.running.batches": "sweep/running/test_dask_graph.py",

@@ -8,7 +8,7 @@ from sweep.columns import (
     cycle_columns,
 )
 from sweep.config.case import Case, Material
-from sweep.config.tables import BY_NUMBERS
+from sweep.config.material_table import BY_NUMBERS
 from sweep.result import MODEL_VERSION, Result, Status, design_columns, failed_result
 
 

@@ -11,8 +11,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from sweep.config.lattice_table import Lattice
+from sweep.config.material_table import Material
 from sweep.config.network import network_of
-from sweep.config.tables import Damping, Loading, Material, Solver, refusal
+from sweep.config.tables import Damping, Loading, Solver, refusal
 from sweep.constants import TO_MM
 
 ALONG = "out_of_plane"
@@ -166,7 +167,7 @@ def _meshed(lattice: Lattice) -> Lattice:
         raise _too_low(lattice, float(plan.thickness.max()))
     along = quads_along(plan, quads_wanted(meshed))
     layers = lattice.layers or layers_of(plan, along, lattice.depth)
-    _be_solvable(meshed, len(plan.points) + int((along - 1).sum()), layers)
+    _check_nodes(meshed, len(plan.points) + int((along - 1).sum()), layers)
     if layers > most:
         allowed = f"at most {most} here, as quads are no lower than walls are thick"
         raise refusal("lattice.layers", layers, allowed)
@@ -181,7 +182,7 @@ def _too_low(lattice: Lattice, thickest: float) -> Exception:
     return refusal("lattice.depth", lattice.depth, allowed)
 
 
-def _be_solvable(lattice: Lattice, columns: int, layers: int) -> None:
+def _check_nodes(lattice: Lattice, columns: int, layers: int) -> None:
     nodes = columns * (layers + 1)
     if nodes > MOST_NODES:
         values = {key: getattr(lattice, key) for key in ("cells_x", "cells_y", "nodes_per_wall")}

@@ -10,7 +10,7 @@ TOLERANCE = 0.05  # of a line: how far a wall may be from a whole number of them
 ROUND_OFF = 1e-9
 
 
-def be_printable(lattice: Lattice) -> None:
+def check_printable(lattice: Lattice) -> None:
     """Refuse what does not print if the lattice is to be `printable`."""
     wrong = what_does_not_print(lattice) if lattice.printable else ""
     if wrong:

@@ -13,7 +13,7 @@ from pydantic_core import PydanticCustomError
 
 from sweep.config.defaults.direction import check_platen, height_pressed, is_along, turned
 from sweep.config.defaults.drop_tests import Drop, drop_of
-from sweep.config.defaults.printable import be_printable
+from sweep.config.defaults.printable import check_printable
 from sweep.config.defaults.solver_defaults import (
     ARCS,
     IN_TIME,
@@ -48,7 +48,7 @@ def resolve(
     try:
         if sound:
             found["lattice"] = sized(found["lattice"], found["material"].density)
-            be_printable(found["lattice"])
+            check_printable(found["lattice"])
         found |= turned(found, sound)
         material = found["material"]
         settled = _settled(

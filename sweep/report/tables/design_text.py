@@ -15,22 +15,15 @@ from sweep.ranking.rank import ASSUMPTIONS, scene_label
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-
 ID = 4  # letters of an id in a sentence, if no other id begins so
-
-
 WAYS = {"in_plane": "across", "out_of_plane": "along"}
 """How a lattice is pressed, by the column `direction`: across its cells or along them."""
-
-
 MILLIMETRES = {
     "wall_thickness_m": "wall mm",
     "width_m": "width mm",
     "height_m": "height mm",
     "depth_m": "depth mm",
 }
-
-
 SHOWN_BY_NAME = {
     "lattice.kind",
     "lattice.pattern",

@@ -16,84 +16,50 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-
 MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of one specimen."
-
-
 CRUSHED = "peak: greatest force of one specimen. Peak and energy are counted {until}."
-
-
 WHOLE = """\
 pack: strain at which the lattice has packed down, a mean over strains of nearly the greatest
 efficiency; "> 60": not before the end of a crush to 60 %.
 back: returned energy / work of the whole crush."""
-
-
 AGAIN = "again: energy absorbed in the second cycle / in the first; other columns are of the first."
-
-
 ELASTIC = (
     "Walls are elastic: what does not come back went into friction, damping, snaps or time steps."
 )
 
-
 PLASTIC = "What does not come back is lost in the material, in friction and in snaps."
-
-
 LOSSY = """\
 What does not come back is lost in the material (dissipated_material_J), in friction and in snaps,
 or is still stored in walls that relax."""
-
-
 MIXED = """\
 behaviour: of the walls. What does not come back went into friction, damping, snaps or time steps;
 where walls are not elastic, also into the material, or it is still stored in walls that relax."""
-
-
 LOADED = "sink: greatest strain under the load, with the overshoot of its sudden start."
-
-
 STRUCK = """\
 force: greatest force on the support. sink: greatest strain. left: stroke that is left until all
 voids are closed. rebound: energy of the striker when it leaves / at first touch."""
-
-
 TIED = """\
 ±: estimated error of the sorted column, from mesh and steps, in % of the value; not a bound.
 =: a shared place: the errors may reverse the order. Errors that all have in common do not count.
 ?: the error is unknown; the place is that of the value alone."""
-
-
 BEYOND = """\
 !: do not trust this result, which is beyond the model: an element is shorter than 0.7 of its rest
 length, the lattice is pressed below its solid height, a wall is broken (message: where), or walls
 that are pressed along the cells fill all of their area (solid_strain)."""
-
-
 PRINTED = """\
 print g: mass as the slicer extrudes it, crossings twice. Budgets, panels and J/g count this mass;
 for designs without a slicer they count mass g."""
-
-
 UNPRINTABLE = """\
 p: does not print as drawn (does_not_print: why): walls are no whole number of lines, or gaps are
 below a line (lattice.line_width or lattice.nozzle). lattice.printable = true leaves these out."""
-
-
 UNSURE = """\
 ~: pack is not sharp, as the lattice packs at two strains or slowly: the efficiency is within 2 % of
 the greatest over more than 10 % of strain."""
-
-
 EARLY = """\
 >: at least: the crush ended before the allowed force was reached; a longer one absorbs more."""
-
-
 STRETCHED = """\
 ^: a wall is stretched beyond the measured curve, which is continued as a straight line (column
 stretch_over_curve: how far)."""
-
-
 CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
 
 
