@@ -18,13 +18,11 @@ from pandas import DataFrame, Series
 
 from sweep.columns import (
     OLDER,
-    correction_column,
     describe_column,
     error_column,
     is_grid_key,
     less_is_better,
 )
-from sweep.numbers import NOTHING, energy_text, short, with_unit
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import (
     LEAST,
@@ -36,37 +34,11 @@ from sweep.ranking.merit import (
     in_si,
     merits,
 )
+from sweep.ranking.places import pareto, places_by
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, judge, limits
+from sweep.ranking.scenes import by_scene, scene_label
 from sweep.result import Status
-
-SCENE = ["loading_mode", "platen", "force_N", "striker_mass_g", "striker_speed_m_per_s"]
-
-HELD_BY_SCENE = tuple(
-    f"loading.{key}"
-    for key in (
-        *("mode", "direction", "platen", "force", "allowed_forces"),
-        *("striker_mass", "striker_speed", "energy", "drop_height", "preset", "specimens"),
-    )
-)
-ASSUMPTIONS = (
-    "loading.",
-    "contact.",
-    "damping.",
-    "solver.",
-    "lattice.nodes_per_wall",
-    "lattice.layers",
-    "lattice.symmetry",
-    "lattice.imperfection",
-    "material.stretch",
-    "material.bend",
-    "material.plane",
-    "material.poisson",
-)
-"""Grid keys of the test and not of the design: every value of them makes a scene of its own."""
-
-OF_DESIGN = ("loading.direction",)
-"""Keys of the loading that belong to the design all the same: how a panel is laid."""
 
 PER = ("specimen", "panel")
 NO_ATTRS = (
@@ -246,91 +218,6 @@ def model_versions(summary: DataFrame) -> dict[int, int]:
     """Number of rows of each version of the model, the oldest first."""
     versions = summary.get("model_version", Series(OLDER["model_version"], summary.index))
     return {int(version): int(n) for version, n in versions.value_counts().sort_index().items()}
-
-
-def by_scene(frame: DataFrame) -> list[DataFrame]:
-    """The rows of each loading scene, in the order in which scenes first appear."""
-    groups = frame.groupby(scene_keys(frame), dropna=False, sort=False)
-    return [rows for _, rows in groups] or [frame]
-
-
-def scene_keys(frame: DataFrame) -> list[str]:
-    """Columns that define a loading scene; rows that differ in one of them are not compared."""
-    assumed = [key for key in frame if key.startswith(ASSUMPTIONS) and key not in HELD_BY_SCENE]
-    return [key for key in SCENE if key in frame] + assumed
-
-
-def scene_label(rows: DataFrame) -> str:
-    """The loading of the cases of one scene, in words; different for every scene.
-
-    Keys that the scene does not use are left out.
-    """
-    if rows.empty:
-        return ""
-    first = rows.iloc[0]
-    shown = set(SCENE)
-    if first["loading_mode"] == "force":
-        words = [f"dead load of {first['force_N']:g} N"]
-    elif first["loading_mode"] == "custom":
-        words = ["loaded as its file says"]
-    elif first["loading_mode"] == "impact":
-        struck = short(float(first["striker_mass_g"])), short(float(first["striker_speed_m_per_s"]))
-        energy = energy_text(float(first["impact_energy_J"]))
-        words = [f"struck by {struck[0]} g at {struck[1]} m/s ({energy})"]
-    elif len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
-        words = [f"crushed to {100 * strains[0]:g} %"]
-        shown |= {"loading.strain", "loading.stroke"}
-    else:
-        words = ["crushed"]
-    platen = first["platen"]
-    if first["loading_mode"] != "custom":
-        words.append("no platens" if platen in ("none", "") else f"{platen} platens")
-    others = {
-        key: with_unit(first[key], describe_column(key).units)
-        for key in scene_keys(rows)
-        if key not in shown
-    }
-    used = {key: value for key, value in others.items() if value not in ("", NOTHING)}
-    words += [f"{key.replace('.', ' ').replace('_', ' ')} {value}" for key, value in used.items()]
-    return ", ".join(words)
-
-
-def pareto(mass: Series, energy: Series) -> Series:
-    """True for designs such that none lighter absorbs as much and none as light absorbs more."""
-    mass = mass.round(9)  # designs of equal mass may differ by round-off
-    best = energy.groupby(mass).max().dropna()
-    lighter = best.cummax().shift(fill_value=-np.inf)
-    return (energy == mass.map(best)) & (energy > mass.map(lighter))
-
-
-def places_by(rows: DataFrame, by: str) -> Series:
-    """Places of the rows of one scene, sorted by a column, the best first (`shared_places`)."""
-    return shared_places(rows[by], rows.get(error_column(by)), rows.get(correction_column(by)))
-
-
-def shared_places(
-    values: Series, errors: Series | None = None, corrections: Series | None = None
-) -> Series:
-    """Places of sorted values, the best first.
-
-    A value shares a place if it differs from the first value of the place by no more than their
-    corrections differ. An error that is common to both thus does not count. Without corrections,
-    which older results do not have, it shares a place if the intervals, value ± error, overlap or
-    touch. A missing correction or error is 0. Otherwise the value starts a new place, whose number
-    is 1 + the number of values before it.
-    """
-    known = errors if corrections is None else corrections
-    widths = np.zeros(len(values)) if known is None else known.fillna(0.0)
-    found: list[int] = []
-    best = first = np.nan
-    for value, width in zip(values, widths, strict=True):
-        slack = width + first if corrections is None else abs(width - first)
-        if abs(value - best) <= slack:
-            found.append(found[-1])
-        else:
-            best, first = value, width
-            found.append(len(found) + 1)
-    return Series(found, index=values.index, dtype=int)
 
 
 def _order(rows: DataFrame, by: str | None, usual: str) -> str:

@@ -9,9 +9,11 @@ from pandas import DataFrame
 
 from sweep.columns import describe_column, less_is_better
 from sweep.ranking.merit import Compared, RankError, doubtful
-from sweep.ranking.rank import ASSUMPTIONS, OF_DESIGN, pareto, ranked
+from sweep.ranking.places import pareto
+from sweep.ranking.rank import ranked
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, limits, measured, misses, nearest_first
+from sweep.ranking.scenes import ASSUMPTIONS, OF_DESIGN
 
 ALIKE = 0.05  # relative difference in both columns up to which a front lists one of two designs
 

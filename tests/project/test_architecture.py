@@ -92,6 +92,7 @@ TESTED_ELSEWHERE = {
     "sweep.config.lattice_limits": "sweep/config/test_lattice_table.py",
     "sweep.config.slicer_lines": "sweep/config/test_lattice_table.py",
     "sweep.design.infill": "sweep/design/test_infill.py",
+    "sweep.ranking.places": "sweep/ranking/test_ties.py",
     "sweep.running.beside.run_beside": "sweep/running/beside/test_spread.py",
     "sweep.running.batches": "sweep/running/test_dask_graph.py",
     "sweep.running.provenance": "sweep/running/test_sweep.py",

@@ -14,8 +14,10 @@ from sweep.design.panel import BEHIND
 from sweep.numbers import short
 from sweep.ranking.curves import reached
 from sweep.ranking.merit import LEAST, Compared, merits, through_solid
-from sweep.ranking.rank import by_scene, pareto, ranked, scene_label
+from sweep.ranking.places import pareto
+from sweep.ranking.rank import ranked
 from sweep.ranking.requirements import MEASURES, limits
+from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.figures.flattened import lines, plan
 from sweep.report.figures.storyboard import last_loaded, parts_of, path_of
 from sweep.report.page.thinning import (

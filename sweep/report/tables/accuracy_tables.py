@@ -12,7 +12,7 @@ import pandas as pd
 from sweep.columns import describe_column
 from sweep.numbers import NOTHING, energy_text, short, three_digits, with_unit
 from sweep.ranking.accuracy import REFINED, TARGETS, Study, varies
-from sweep.ranking.rank import HELD_BY_SCENE, scene_keys, scene_label
+from sweep.ranking.scenes import HELD_BY_SCENE, scene_keys, scene_label
 from sweep.report.tables.sheet import Sheet
 from sweep.result import Status
 

@@ -10,7 +10,7 @@ from pandas.api.types import is_numeric_dtype
 
 from sweep.columns import describe_column
 from sweep.numbers import NOTHING, SHOWN, scaled, short
-from sweep.ranking.rank import ASSUMPTIONS, scene_label
+from sweep.ranking.scenes import ASSUMPTIONS, scene_label
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -10,7 +10,7 @@ from pandas import Series
 
 from sweep.numbers import numerals, percent, tenths
 from sweep.ranking.merit import LEAST, greatest_mass
-from sweep.ranking.rank import by_scene, scene_label
+from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.legend import (
     BEYOND,
