@@ -64,11 +64,11 @@ OPTIMIZE = """Search for the best design among those that the table [search] of 
 
 The best is what rank lists first: most energy until the lattice has packed, or up to
 --allowed-force, or the best of --by, of those designs that fulfil [require] or its options. If none
-does, the nearest are told. With a budget, walls are as thick as it allows at most. Every design is
-a row of the results file; after a stop, the same command with the same seed continues, also with
+does, the nearest are listed. With a budget, walls are as thick as it allows at most. Every design
+is a row of the results file; after a stop, the same command with the same seed continues, also with
 more --evaluations. Six designs run at a time after the first sixteen: more workers do not help. The
 three best are simulated again with twice the elements, and with walls 5 % thinner and thicker and
-other imperfections, in a results file of their own, and told with the spread of their values."""
+other imperfections, in a results file of their own, and listed with the spread of their values."""
 ACCURACY = """Simulate a sweep over numerical settings, then print error against run time: a table,
 the observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 the limit to which the finest settings of the method of highest order converge. Cases that differ in

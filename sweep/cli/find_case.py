@@ -59,8 +59,8 @@ def by_number(
         raise CaseError(f"no number {number} in the ranking of {label}{within}; {allowed}")
     chosen = rows.iloc[[number - 1]]
     doubt = ", marked as not to be trusted" if doubtful(chosen).item() else ""
-    told = f"number {number} of {len(rows)}: {label}{within}{doubt}"
-    return by_id(summary, chosen["case_id"].item()), told
+    sentence = f"number {number} of {len(rows)}: {label}{within}{doubt}"
+    return by_id(summary, chosen["case_id"].item()), sentence
 
 
 def _no_place(ranking: Ranking, label: str, summary: DataFrame) -> str:

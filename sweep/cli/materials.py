@@ -108,7 +108,7 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
     from sweep.config.materials.material_file import read_record
     from sweep.coupon.fit import fit
     from sweep.coupon.record import read_coupon
-    from sweep.coupon.write import fit_sentence, material_text, told
+    from sweep.coupon.write import fit_sentence, material_text, sentences_on_fit
     from sweep.report.figures.case_plots import blank, save
     from sweep.report.figures.material_plots import coupon_fit
 
@@ -121,7 +121,7 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
     coupon = read_coupon(file, _size(arguments.gauge, "m"), _size(arguments.area, "m^2"))
     found = fit(coupon)
     out.write_text(material_text(found, _size(arguments.density, "kg/m^3")), encoding="utf-8")
-    say_all(told(found, read_record(out)))
+    say_all(sentences_on_fit(found, read_record(out)))
     figure = blank(8.0, 6.0)
     record, model = (coupon.strain, coupon.stress), (coupon.strain, found.model)
     coupon_fit(figure, record, model, f"{coupon.name}: {fit_sentence(found)}")

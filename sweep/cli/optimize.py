@@ -1,4 +1,4 @@
-"""The verb `optimize`: search, simulate the best designs again, tell how far to trust them."""
+"""The verb `optimize`: search, simulate the best designs again, show how far to trust them."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ def optimize(config: Config, arguments: Namespace) -> int:
     space = DesignSpace(_with_force(config, question), *limits)
     search = Search(space, question, out, how)
     search.run()
-    failed = _tell_best(search)
+    failed = _show_best(search)
     if arguments.pareto and search.found and search.found.by_id:
-        _tell_front(search, arguments.pareto)
+        _show_front(search, arguments.pareto)
     say_all(_to_print(search))
     say(f"results: {out}; to rank them: {_next_command(out, question)}")
     return failed
@@ -126,7 +126,7 @@ def _limits(question: dict[str, Any]) -> tuple[float, tuple[float, float] | None
     return budget, (sides[0], sides[1]) if sides else None
 
 
-def _tell_best(search: Search) -> int:
+def _show_best(search: Search) -> int:
     """Simulate the best designs again, and print them; return how many values are missing."""
     from sweep.ranking.curves import with_allowed
     from sweep.ranking.rank import ranked
@@ -147,7 +147,7 @@ def _tell_best(search: Search) -> int:
     if found.doubtful:
         say(f"Left out: {found.doubtful} designs whose results rank marks with ! or x.")
     if not found.by_id:
-        _tell_nearest(search)
+        _show_nearest(search)
         return 0
     best = finalists(search.cases[case_id] for case_id in found.by_id)
     again = {case.case_id: perturbed(case) for case in best}
@@ -161,7 +161,7 @@ def _tell_best(search: Search) -> int:
     return spread.failed
 
 
-def _tell_nearest(search: Search) -> None:
+def _show_nearest(search: Search) -> None:
     """Print that no design fulfils all requirements, why, and which comes nearest."""
     from sweep.ranking.rank import ranked
     from sweep.report.tables.search_sheets import nearest_sheet
@@ -177,7 +177,7 @@ def _tell_nearest(search: Search) -> None:
     print_sheets([nearest_sheet(whole, {one: missed[one] for one in chosen}, summary)])
 
 
-def _tell_front(search: Search, other: str) -> None:
+def _show_front(search: Search, other: str) -> None:
     from sweep.ranking.worth import front, thinned
     from sweep.report.tables.search_sheets import front_sheet
 

@@ -231,8 +231,8 @@ def _left_out(sheet: Sheet, shown: Sheet, limit: int) -> Iterator[str]:
     """Lines about the columns that are not shown."""
     missing = [head for head in sheet.heads if head not in shown.heads]
     if missing:
-        told = f"Not in this narrow terminal: {', '.join(missing)}."
-        yield from wrap(f"{told} A wider one shows them, and so does {sheet.elsewhere}.", limit)
+        missed = f"Not in this narrow terminal: {', '.join(missing)}."
+        yield from wrap(f"{missed} A wider one shows them, and so does {sheet.elsewhere}.", limit)
 
 
 def _terminal_table(table: Fitted) -> Table:

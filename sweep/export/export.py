@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from sweep.export.outline import Layout
 
 Kind = Literal["lattice", "settings"]
-SHOWN = 0.05  # mm: a difference of lengths that is told
+SHOWN = 0.05  # mm: a difference of lengths that is reported
 
 
 class Exported(NamedTuple):

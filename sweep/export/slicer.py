@@ -160,7 +160,7 @@ def _own_settings(lattice: Lattice) -> Settings:
     if lattice.slicer == "cura":
         raise ExportError(
             'lattice.slicer = "cura", which reads no settings from a .3mf; allowed with --kind '
-            "settings: prusa and orca. crumple show tells what to set in Cura; --kind lattice "
+            "settings: prusa and orca. crumple show says what to set in Cura; --kind lattice "
             "prints every design"
         )
     layer, line = (

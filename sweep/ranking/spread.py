@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 ROUND_OFF = 1e-9
 AS_GIVEN = "as given"  # the corner at which no number is at an end of its range
 FINE = "fine mesh"  # the corner with more elements
-MISSED = "missed "  # with a requirement, the column that tells whether it is missed
+MISSED = "missed "  # with a requirement, the column that says whether it is missed
 Corners = Mapping[str, Sequence[tuple[str, str]]]
 """Name and case id of the corners of each design, by the id of the design."""
 

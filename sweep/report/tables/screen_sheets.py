@@ -20,7 +20,7 @@ ABOUT = (
     "estimate: one cell, scaled by mass; no result, and in no ranking. full: the whole model; "
     f"{NOTHING}: not run, or it failed."
 )
-FEWEST = 3  # designs whose order is told
+FEWEST = 3  # designs whose order is stated
 
 
 def screen_sheets(

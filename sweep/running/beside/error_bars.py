@@ -33,7 +33,7 @@ from sweep.design.extrusion import most_layers
 from sweep.result import Status
 from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
-from sweep.running.progress import tell
+from sweep.running.progress import announce
 from sweep.running.provenance import config_text, describe_run
 from sweep.store.read import ONLY_MISSING, Rerun, exists, finished_ids, read_summary
 from sweep.store.write import Writer
@@ -179,7 +179,7 @@ def add_error_bars(
         writer.fold()
     without = sum(all(map(isnan, bar.values())) for bar in bars.values())
     if without:
-        tell(f"{without} of {len(designs)} designs have no error bar: crumple status {beside}")
+        announce(f"{without} of {len(designs)} designs have no error bar: crumple status {beside}")
     return without
 
 

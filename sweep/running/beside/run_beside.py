@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 from sweep.config.case import Case
 from sweep.running.dask_graph import Simulate
-from sweep.running.progress import tell
+from sweep.running.progress import announce
 from sweep.running.sweep import run_sweep
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 
@@ -31,5 +31,5 @@ def file_beside(
 def run_beside(cases: Mapping[str, Case], beside: Path, what: str, how: How) -> None:
     """Run the cases, by id, that `beside` does not hold; what: the beginning of a message."""
     if cases.keys() - finished_ids(beside, how.rerun):
-        tell(f"{what}, in {beside}")
+        announce(f"{what}, in {beside}")
         run_sweep(list(cases.values()), beside, *how)

@@ -20,7 +20,10 @@ from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
 from sweep.store.read import ONLY_MISSING, Rerun
 
-FRICTION = 0.2, 0.9  # of TPU on TPU or steel, which no source tells: configs/materials/README.md
+FRICTION = (
+    0.2,
+    0.9,
+)  # of TPU on TPU or steel, assumed: no source gives it (configs/materials/README.md)
 BEST = 5  # designs of a ranking
 SEEDS = 1, 2, 3  # of other imperfections of a lattice that is pressed along its cells
 

@@ -1,9 +1,9 @@
 """The finalists of a search: each simulated again on a finer mesh, and with other geometry.
 
-The best designs of a search often stand on a narrow peak, such as walls that just do not exceed an
-allowed force; and of many designs, the best is one whose error helps it. So the value of a finalist
-is told with that of twice the elements, and with its spread over prints that miss the drawing:
-walls 5 % thinner and thicker, and a quarter and four times the imperfection.
+The best of many designs often has a favourable error. Its value is therefore shown beside that on
+twice the elements. It also often stands on a narrow peak, such as walls that just do not exceed an
+allowed force. Its spread over prints that miss the drawing is therefore shown too: walls 5 %
+thinner and thicker, and a quarter and four times the imperfection.
 """
 
 from collections.abc import Iterable, Mapping

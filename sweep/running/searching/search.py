@@ -6,11 +6,14 @@ for the same designs again, so that a search that was stopped continues where it
 file holds is looked up. When a population has converged before all evaluations are used up, the
 search starts again from other points.
 
-Requirements are compared by the rules of K. Deb (Comput. Methods Appl. Mech. Eng. 186, 311-338,
-2000), which scipy applies as J. Lampinen (2002) describes for differential evolution: a design that
-fulfils all of them is better than one that does not; of two that do, the value decides; of two that
-do not, the nearest one as `rank` defines it (`ranking.requirements`): their violation is the
-greatest share by which a limit is missed, where Deb takes the sum.
+Requirements are compared by the three rules of K. Deb (Comput. Methods Appl. Mech. Eng. 186,
+311-338, 2000), which scipy applies as J. Lampinen (2002) describes for differential evolution:
+
+- A design that fulfils all requirements is better than one that does not.
+- Of two designs that do, the one with the better value is better.
+- Of two designs that do not, the one with the smaller violation is better. The violation is the
+  greatest share by which a limit is missed, as in `rank` (`ranking.requirements`); Deb takes the
+  sum.
 """
 
 import os
@@ -30,7 +33,7 @@ from sweep.numbers import three_digits
 from sweep.ranking.curves import Known, with_allowed
 from sweep.ranking.worth import Worths, worths
 from sweep.running.dask_graph import Simulate
-from sweep.running.progress import tell
+from sweep.running.progress import announce
 from sweep.running.searching.design_space import DesignSpace
 from sweep.running.sweep import run_sweep
 from sweep.store.read import Rerun, finished_ids, read_summary
@@ -164,10 +167,10 @@ class Search:
         run_sweep(designs, self.out, *how, part=True)
 
     def _assess(self) -> None:
-        """Value the designs so far, and tell the best."""
+        """Value the designs so far, and report the best."""
         self.found = worths(self.rows(), self.question)
         counted = f"{len(self.cases)} of at most {self.settings.evaluations} designs"
-        tell(f"{counted}: {self.found.column}, {_best(self.found)}")
+        announce(f"{counted}: {self.found.column}, {_best(self.found)}")
 
     def rows(self) -> DataFrame:
         """The rows of the designs so far, with energies up to an allowed force of the panel."""

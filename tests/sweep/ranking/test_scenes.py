@@ -3,7 +3,8 @@
 from sweep.ranking.rank import rank
 from sweep.ranking.scenes import scene_label
 from tests.support.results.specimens import designs, ids, summary
-from tests.sweep.ranking.test_rank import NAN
+
+NAN = float("nan")
 
 
 def test_scenes_are_never_compared():
