@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from pandas import DataFrame, Series
 
+    from sweep.ranking.question import Question
     from sweep.ranking.ranking import Ranking
 
 DIGITS = 3  # of a number in the ranking; a longer one begins an id
@@ -35,16 +34,16 @@ def by_id(summary: DataFrame, prefix: str) -> Series:
 
 
 def by_number(
-    summary: DataFrame, number: int, scene: str | None, question: Mapping[str, Any]
+    summary: DataFrame, number: int, scene: str | None, question: Question
 ) -> tuple[Series, str]:
     """The row with a number in the ranking of one scene, within the first budget; and a sentence.
 
-    question : keyword arguments of `rank`. scene : see `_scene`.
+    scene : see `_scene`.
     """
     from sweep.ranking.merit import doubtful
-    from sweep.ranking.rank import ranked
+    from sweep.ranking.rank import answer
 
-    ranking = ranked(summary, **{**question, "top": None})
+    ranking = answer(summary, question._replace(top=None))
     table = ranking.table
     placed = list(dict.fromkeys(table["scene"]))
     label = _scene(list(ranking.lightest_g) or [""], scene, (placed or [""])[0])

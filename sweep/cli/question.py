@@ -6,6 +6,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from sweep.cli.refusals import ArgumentError
+from sweep.ranking.question import Question
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -14,8 +15,8 @@ if TYPE_CHECKING:
 TOP, TOP_OF_A_BUDGET = 10, 3
 
 
-def asked(arguments: Namespace) -> dict[str, Any]:
-    """Keyword arguments of `rank` from the command line, completed from the config.
+def asked(arguments: Namespace) -> Question:
+    """What the options ask, completed from the config.
 
     The budgets of the config are used unless --budget or --by is given; its panel is used unless
     --panel is given, or --by without --budget where nothing is asked of a panel.
@@ -26,9 +27,13 @@ def asked(arguments: Namespace) -> dict[str, Any]:
     if arguments.by and not arguments.budget:
         budgets, panel = None, panel if per == "panel" else None
     question = question_of(arguments.budget or budgets, arguments.panel or panel)
-    question |= {"by": arguments.by, "allowed_force": arguments.allowed_force}
-    question |= {"require": _required(arguments), "per": per}
-    return question | ({"top": arguments.top} if arguments.top else {})
+    return question._replace(
+        by=arguments.by,
+        top=arguments.top or question.top,
+        allowed_force=arguments.allowed_force,
+        require=_required(arguments),
+        per=per,
+    )
 
 
 def drop_heights(arguments: Namespace) -> list[float]:
@@ -45,11 +50,11 @@ def stored_heights(file: str) -> list[float]:
     return [*dict.fromkeys(stored_table(file, "rank").get("drop_heights") or ())]
 
 
-def question_of(budgets: Iterable[Any] | None, panel: Iterable[Any] | None) -> dict[str, Any]:
-    """Keyword arguments of `rank`; several budgets show fewer places each."""
+def question_of(budgets: Iterable[Any] | None, panel: Iterable[Any] | None) -> Question:
+    """A question with these; several budgets show fewer places each."""
     masses, sides = list(budgets or ()), list(panel or ())
     top = TOP_OF_A_BUDGET if len(masses) > 1 else TOP
-    return {"budget": masses or None, "panel": sides or None, "top": top}
+    return Question(masses or None, sides or None, top=top)
 
 
 def _required(arguments: Namespace) -> dict[str, Any]:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
     from sweep.config.grid import Config
+    from sweep.ranking.question import Question
 
 WORKERS = 2
 SCREENED = "--screen runs one cell of each design first, and only the best of each infill in full"
@@ -47,7 +48,7 @@ def run(config: Config, arguments: Namespace) -> int:
 
     how = workers, arguments.scheduler, rerun
     question = question_of(config.rank.budgets, config.rank.panel)
-    question |= {"require": config.require.model_dump(), "per": config.rank.per}
+    question = question._replace(require=config.require.model_dump(), per=config.rank.per)
     failed, estimates = 0, None
     if arguments.screen:
         config, estimates, failed = _screen(config, out, how, question, arguments.screen)
@@ -73,7 +74,7 @@ def _check_required(config: Config) -> None:
 
 
 def _screen(
-    config: Config, out: str, how: tuple[Any, ...], question: dict[str, Any], count: int
+    config: Config, out: str, how: tuple[Any, ...], question: Question, count: int
 ) -> tuple[Config, DataFrame, int]:
     """Run the unit columns of a sweep; return the config of what is to run as a whole, the
     estimates, and how many designs have none.
@@ -97,11 +98,11 @@ def _screen(
     return chosen_of(config, (c for c in cases if c.case_id not in left_out)), estimates, missing
 
 
-def _spread(config: Config, out: str, how: tuple[Any, ...], question: dict[str, Any]) -> int:
+def _spread(config: Config, out: str, how: tuple[Any, ...], question: Question) -> int:
     """Run the best designs with uncertain numbers and print their spread; return how many values
     are missing.
     """
-    from sweep.ranking.rank import ranked
+    from sweep.ranking.rank import answer
     from sweep.ranking.spread import spreads
     from sweep.report.tables.spread_sheets import spread_sheets
     from sweep.running.beside.run_beside import file_beside
@@ -109,7 +110,7 @@ def _spread(config: Config, out: str, how: tuple[Any, ...], question: dict[str, 
     from sweep.store.read import read_summary
 
     summary = read_summary(out)
-    ranking = ranked(summary, **question | {"top": BEST})
+    ranking = answer(summary, question._replace(top=BEST))
     corners = corners_of(config, ranking.table["case_id"])
     if not any(corners.values()):
         say("No number of the best designs is uncertain.")

@@ -7,12 +7,13 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping
 from shlex import quote
 from textwrap import wrap
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
     from pandas import DataFrame
     from rich.table import Table
 
+    from sweep.ranking.question import Question
     from sweep.ranking.ranking import Ranking
     from sweep.report.tables.sheet import Sheet
 
@@ -20,13 +21,13 @@ USUAL = 80  # columns of text; in wider tables, columns are closer
 WIDE = 10_000  # where no terminal limits the width
 
 
-def print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -> None:
+def print_ranking(file: str, summary: DataFrame, question: Question) -> None:
     """Print the tables of a ranking, their legend, and the warnings."""
-    from sweep.ranking.rank import ranked
+    from sweep.ranking.rank import answer
     from sweep.report.tables.legend import legend
     from sweep.report.tables.sheets import ranking_sheets
 
-    ranking = ranked(summary, **question)
+    ranking = answer(summary, question)
     if ranking.failed < ranking.cases:
         say(_heading(question, ranking))
         print_sheets(ranking_sheets(ranking, summary))
@@ -98,7 +99,7 @@ def _counted(count: int, noun: str) -> str:
     return f"{count} {noun} has" if count == 1 else f"{count} {noun}s have"
 
 
-def _heading(question: Mapping[str, Any], ranking: Ranking) -> str:
+def _heading(question: Question, ranking: Ranking) -> str:
     """The question that the tables answer, in one or two lines."""
     from sweep.columns import in_words, less_is_better
 
@@ -109,13 +110,13 @@ def _heading(question: Mapping[str, Any], ranking: Ranking) -> str:
     order = usual.get(by, f"{'least' if less_is_better(by) else 'most'} {in_words(by)}")
     lines = [f"Best first: {order}."]
     crushed = ranking.table.empty or (ranking.table["loading_mode"] == "displacement").any()
-    if (force := question.get("allowed_force")) and crushed:
+    if (force := question.allowed_force) and crushed:
         lines.append(f"Energy is counted until the force of a {ranking.per} exceeds {force}.")
     elif force:
         lines.append(f"The force of {force} has no effect: without a crush no energy is ranked.")
-    if (budgets := question["budget"]) and len(budgets) == 1:
-        lines.insert(0, f"At most {_written(budgets[0], 1e3, 'g')}.")
-    if panel := question["panel"]:
+    if len(question.budgets) == 1:
+        lines.insert(0, f"At most {_written(question.budgets[0], 1e3, 'g')}.")
+    if panel := question.panel:
         sides = " x ".join(_written(side, 1e3, "mm") for side in panel)
         lines.insert(0, f"Panel of {sides}, filled with specimens side by side.")
     return " ".join(lines)

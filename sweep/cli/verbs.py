@@ -89,7 +89,7 @@ def status(arguments: Namespace) -> int:
 def rank(arguments: Namespace) -> int:
     """Print the ranking as tables or as text for other programs, or write it into a folder."""
     from sweep.ranking.curves import with_allowed
-    from sweep.ranking.rank import ranked
+    from sweep.ranking.rank import answer
     from sweep.report.tables.markdown import markdown
     from sweep.report.tables.sheets import ranking_sheets
     from sweep.store.read import read_summary
@@ -99,7 +99,7 @@ def rank(arguments: Namespace) -> int:
     if arguments.out:
         from sweep.report.publish import publish_ranking
 
-        folder, ranking = Path(arguments.out), ranked(summary, **question)
+        folder, ranking = Path(arguments.out), answer(summary, question)
         if (ranking.table["loading_mode"] == "displacement").any():
             heights = heights or stored_heights(arguments.file)
         with _writing(folder):
@@ -107,7 +107,7 @@ def rank(arguments: Namespace) -> int:
         say_all(files)
         _warn(arguments.file, ranking, summary)
     elif arguments.csv or arguments.json or arguments.markdown:
-        ranking = ranked(summary, **question)
+        ranking = answer(summary, question)
         if arguments.csv:
             say(ranking.table.to_csv(index=False), end="")
         elif arguments.json:
@@ -168,12 +168,17 @@ def export(arguments: Namespace) -> int:
 
 def report(arguments: Namespace) -> int:
     """Write a results file as one HTML page."""
+    from sweep.ranking.question import Question
     from sweep.report.page.write import write_page
     from sweep.store.read import read_summary
 
     summary, stored = read_summary(arguments.file), stored_table(arguments.file, "rank")
-    question = {"budget": stored.get("budgets"), "panel": stored.get("panel")}
-    question |= {"require": stored_table(arguments.file, "require"), "per": stored.get("per")}
+    question = Question(
+        budget=stored.get("budgets"),
+        panel=stored.get("panel"),
+        require=stored_table(arguments.file, "require"),
+        per=stored.get("per") or "specimen",
+    )
     out = Path(arguments.out or Path(arguments.file).with_suffix(".html"))
     with _writing(out.parent):
         page = write_page(arguments.file, summary, question, out)

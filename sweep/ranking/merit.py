@@ -26,6 +26,8 @@ from sweep.design.panel import BEHIND, Panel, panel_of
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
 
+    from sweep.ranking.question import Question
+
 Quantity = float | str
 """A number in SI, or text with a unit such as "25 g"."""
 
@@ -59,17 +61,10 @@ class Compared(NamedTuple):
     until: str
 
 
-def merits(
-    finished: DataFrame,
-    by: str | None,
-    panel: Sequence[Quantity] | None,
-    allowed_force: Quantity | None,
-    per: str = "specimen",
-) -> tuple[DataFrame, Compared]:
+def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared]:
     """Rows with the compared columns added, and the names of these columns.
 
-    per: whether the allowed force is that of a specimen or of the panel. A budget counts the mass
-    as extruded where there is a slicer (`counted_mass_g`).
+    A budget counts the mass as extruded where there is a slicer (`counted_mass_g`).
 
     Other added columns: `passed_on_N`, the greatest force while that energy is absorbed, and
     `panel_force_N`; `counted_stroke_m`; `returned_share`, returned energy / work of the whole
@@ -80,6 +75,8 @@ def merits(
         raise RankError(
             f"no {missing[0]}: an older version wrote these results; run them again into a new file"
         )
+    by, panel, per = question.by, question.panel, question.per
+    allowed_force = question.allowed_force
     filled = None if panel is None else panel_in(finished, panel)
     factor = None if filled is None else filled.specimens
     if per == "panel" and factor is None:

@@ -35,6 +35,7 @@ from sweep.ranking.merit import (
     merits,
 )
 from sweep.ranking.places import pareto, places_by
+from sweep.ranking.question import Question
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, judge, limits
 from sweep.ranking.scenes import by_scene, scene_label
@@ -148,7 +149,8 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
     """
     asked = {"budget": budget, "panel": panel, "allowed_force": allowed_force}
     check_units(asked | dict(require or {}))
-    ranking = ranked(source, budget, panel, by, top, allowed_force, require, per)
+    question = Question(budget, panel, by, top, allowed_force, require, per)
+    ranking = answer(source, question)
     names = [field.name for field in fields(ranking)[1:] if field.name not in NO_ATTRS]
     others = {name: getattr(ranking, name) for name in names}
     ranking.table.attrs = others | {"budgets_g": list(ranking.budgets_g)}
@@ -166,18 +168,23 @@ def ranked(  # noqa: PLR0913  every argument is a part of one question
     per: str = "specimen",
 ) -> Ranking:
     """The `Ranking` whose table `rank` returns for the same arguments; numbers are in SI."""
+    return answer(source, Question(budget, panel, by, top, allowed_force, require, per))
+
+
+def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranking:
+    """The ranking of a results file, or of a summary."""
+    budget, panel, by, top, allowed_force, require, per = question
     if per not in PER:
         raise RankError(f'per = "{per}"; allowed: {" or ".join(PER)}')
     required, summary = limits(require), source
     if not isinstance(summary, DataFrame):
-        question = {"panel": panel, "allowed_force": allowed_force, "require": required, "per": per}
         summary = with_allowed(summary, _read(summary), question)
     finished = summary[summary["status"] == Status.CONVERGED]
-    compared, names = merits(finished, by, panel, allowed_force, per)
+    compared, names = merits(finished, question)
     check(compared, required)
     usual = names.energy if budget is not None or panel is not None else names.per_gram
     by = by and _column(compared, by)
-    masses = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in _several(budget))] or [np.inf]
+    masses = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in question.budgets)] or [np.inf]
     found = {scene_label(rows): rows for rows in by_scene(compared)}
     allowed = np.nan if allowed_force is None else in_si(allowed_force, "N")
     judged = {
@@ -280,13 +287,6 @@ def _column(frame: DataFrame, by: str) -> str:
         f'cannot sort by "{by}": {why}{near}\nallowed: {usual} and '
         f"{more} others: the first line of rank --csv has all, docs/results.md explains most"
     )
-
-
-def _several(budget: Quantity | Sequence[Quantity] | None) -> list[Quantity]:
-    """Budgets as a list, which may be empty."""
-    if budget is None:
-        return []
-    return [budget] if isinstance(budget, float | int | str) else list(budget)
 
 
 def _read(path: str | PathLike[str]) -> DataFrame:

@@ -21,6 +21,7 @@ from sweep.result import Status
 if TYPE_CHECKING:
     from pandas import Series
 
+    from sweep.ranking.question import Question
     from sweep.ranking.ranking import Ranking
 
 ROUND_OFF = 1e-9
@@ -84,17 +85,15 @@ def _overtakes(before: Any, after: Any) -> bool:
 
 
 def spreads(
-    ranking: Ranking, summary: DataFrame, corners: Corners, question: Mapping[str, Any]
+    ranking: Ranking, summary: DataFrame, corners: Corners, question: Question
 ) -> list[Spread]:
     """The spread of each scene and budget of a ranking.
 
-    summary: rows of the corners. question: arguments of `rank`, as those of the ranking.
+    summary: rows of the corners. question: that of the ranking.
     """
     finished = summary[summary["status"] == Status.CONVERGED]
-    by, panel, force = (question.get(key) for key in ("by", "panel", "allowed_force"))
-    per = str(question.get("per") or "specimen")
-    compared, names = merits(finished, by, panel, force, per)
-    missed = misses(compared, measured(compared, names, per), ranking.required) != 0.0
+    compared, names = merits(finished, question)
+    missed = misses(compared, measured(compared, names, question.per), ranking.required) != 0.0
     compared = compared.join(missed.add_prefix(MISSED))
     known = ranking.table[ranking.table["case_id"].isin(corners)]
     groups = known.groupby(["budget_g", "scene"], dropna=False, sort=False)

@@ -24,7 +24,8 @@ from sweep.config.lattice_table import Lattice
 from sweep.config.network import network_of
 from sweep.design.drawing import extent
 from sweep.design.extrusion import mirror_fault
-from sweep.ranking.rank import ranked
+from sweep.ranking.question import Question
+from sweep.ranking.rank import answer
 from sweep.result import Status, design_columns
 from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
@@ -109,15 +110,15 @@ def _scaled(row: dict[str, Any], design: Case, cell: Lattice) -> dict[str, Any]:
     return made | design_columns(design) | design.axes | own
 
 
-def best_of(estimates: DataFrame, question: dict[str, Any], count: int) -> list[str]:
+def best_of(estimates: DataFrame, question: Question, count: int) -> list[str]:
     """Ids of the `count` best estimates of each infill, scene and budget of a ranking.
 
     If none of an infill meets the requirements, its best without: the whole model decides.
     """
     best: list[str] = []
     for _, alike in estimates.groupby("lattice_kind", sort=False):
-        table = ranked(alike, **question | {"top": count}).table
+        table = answer(alike, question._replace(top=count)).table
         if table.empty:
-            table = ranked(alike, **question | {"top": count, "require": None}).table
+            table = answer(alike, question._replace(top=count, require=None)).table
         best.extend(table["case_id"])
     return [*dict.fromkeys(best)]

@@ -20,7 +20,7 @@ import os
 from dataclasses import dataclass, field
 from itertools import count
 from math import inf
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from pandas import DataFrame
@@ -31,6 +31,7 @@ from sweep.config.case import Case
 from sweep.config.grid import designs_of
 from sweep.numbers import three_digits
 from sweep.ranking.curves import Known, with_allowed
+from sweep.ranking.question import Question
 from sweep.ranking.worth import Worths, worths
 from sweep.running.dask_graph import Simulate
 from sweep.running.progress import announce
@@ -57,14 +58,13 @@ class Settings(NamedTuple):
 
 @dataclass
 class Search:
-    """A search into the results file `out`; question: the arguments of `rank`, with what is
-    required.
+    """A search into the results file `out`; question: what its ranking is asked.
 
     cases: the designs so far by id. found: their worths.
     """
 
     space: DesignSpace
-    question: dict[str, Any]
+    question: Question
     out: str | os.PathLike[str]
     settings: Settings
     simulate: Simulate | None = None
@@ -102,7 +102,7 @@ class Search:
         start = _start(self.space.dimension, seed)
         best = np.lexsort([self.costs(start.T), self.violations(start.T)[0]])[:POPULATION]
         self._idle, self._before = 1, len(self.cases)
-        required = any(value is not None for value in (self.question.get("require") or {}).values())
+        required = any(value is not None for value in (self.question.require or {}).values())
         if self.left > 0:
             differential_evolution(
                 self.costs,

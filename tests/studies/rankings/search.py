@@ -21,6 +21,7 @@ from sweep.config.case import Case
 from sweep.config.grid import Config, chosen_case
 from sweep.config.units import load_config
 from sweep.numbers import three_digits
+from sweep.ranking.question import Question
 from sweep.ranking.worth import worths
 from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
@@ -31,7 +32,7 @@ from sweep.store.read import read_summary
 
 CONFIG = Path(__file__).parents[3] / "configs" / "search.toml"
 ENERGY = "absorbed_energy_at_50N_J"
-QUESTION = {"budget": None, "panel": None, "by": ENERGY, "allowed_force": "50 N"}
+QUESTION = Question(by=ENERGY, allowed_force="50 N")
 SEEDS = (1, 2, 3, 4, 5)
 KEYS = ("lattice.kind", "lattice.cells_x", "lattice.cells_y", "lattice.wall_thickness")
 WALLS = KEYS[-1]

@@ -3,6 +3,7 @@
 import pytest
 
 from sweep.ranking.merit import RankError
+from sweep.ranking.question import Question
 from sweep.ranking.worth import check_column, check_searched, front, thinned, worths
 from tests.support.results.specimens import designs, summary
 
@@ -17,7 +18,7 @@ def table(**changes):
 
 
 def asked(**question):
-    return QUESTION | question
+    return Question(**QUESTION | question)
 
 
 def test_best_first_as_in_the_ranking():

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from sweep.ranking.question import Question
 from sweep.ranking.rank import ranked
 from sweep.report.page import gather
 from sweep.report.page.gather import curve_of, page_data
@@ -38,7 +39,7 @@ process.stdout.write(JSON.stringify(told));
 
 
 def gathered(path, table, **question):
-    return page_data(write(path / "trial.h5", table, {"config": "{}"}), table, question)
+    return page_data(write(path / "trial.h5", table, {"config": "{}"}), table, Question(**question))
 
 
 def told_by_the_script(data, questions):
@@ -219,7 +220,7 @@ def test_five_hundred_cases_fit_into_five_megabytes(tmp_path):
     with Writer(path) as writer:
         writer.append(results)
         writer.fold()
-    data = page_data(str(path), table, {})
+    data = page_data(str(path), table, Question())
     size = len(json.dumps(data, separators=(",", ":")))
     assert 2_000_000 < size < 4_900_000
     assert data["points"] == 60

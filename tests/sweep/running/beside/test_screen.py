@@ -8,6 +8,7 @@ import pytest
 from sweep.config.case import Case, Lattice, Loading
 from sweep.config.network import network_of
 from sweep.design.network import mass
+from sweep.ranking.question import Question
 from sweep.result import Result, Status, design_columns
 from sweep.running.beside.run_beside import file_beside
 from sweep.running.beside.screen import best_of, has_column, run_columns, unit_column
@@ -136,10 +137,9 @@ def test_the_best_are_those_of_the_ranking_of_each_infill(tmp_path):
     """Between infills estimates do not order designs, and the worst one keeps its best."""
     thick = [along(kind, wall_thickness=5e-4, nodes_per_wall=4) for kind in WORTH]
     found = run_columns([*DESIGNS, *thick], tmp_path / "trial.h5", simulate=crush)
-    question = {"budget": None, "panel": None, "top": 10, "per": "specimen"}
-    question |= {"by": "absorbed_energy_J"}
+    question = Question(by="absorbed_energy_J")
     best = best_of(found, question, 1)
     assert best == [design.case_id for design in thick]
     assert len(best_of(found, question, 2)) == 6
-    unmet = question | {"require": {"max_force": 1e-3}}
+    unmet = question._replace(require={"max_force": 1e-3})
     assert best_of(found, unmet, 1) == best
