@@ -27,7 +27,7 @@ class OptimizeError(ValueError):
 
 def optimize(config: Config, arguments: Namespace) -> int:
     """Search for the best design of a config; return how many of the finalists' cases failed."""
-    from sweep.ranking.worth import check_searched
+    from sweep.ranking.assessment import check_searched
     from sweep.running.searching.design_space import DesignSpace
     from sweep.running.searching.search import Search, Settings
 
@@ -54,9 +54,9 @@ def optimize(config: Config, arguments: Namespace) -> int:
 
 def _question(config: Config, arguments: Namespace) -> Question:
     """What the options ask, else the config."""
+    from sweep.ranking.assessment import check_column
     from sweep.ranking.requirements import MEASURES
     from sweep.ranking.requirements import limits as required
-    from sweep.ranking.worth import check_column
 
     for name in filter(None, (arguments.by, arguments.pareto)):
         check_column(name)
@@ -180,7 +180,7 @@ def _show_nearest(search: Search) -> None:
 
 
 def _show_front(search: Search, other: str) -> None:
-    from sweep.ranking.worth import front, thinned
+    from sweep.ranking.assessment import front, thinned
     from sweep.report.tables.search_sheets import front_sheet
 
     assert search.found is not None

@@ -21,7 +21,7 @@ from sweep.result import Result, Status
 from sweep.running.batches import Plan, cost
 from sweep.running.beside.error_bars import companions_beside
 from sweep.running.beside.run_beside import file_beside
-from sweep.running.dask_graph import Simulate, Stop, run
+from sweep.running.dask_graph import Simulate, Stop, run_plan
 from sweep.running.sweep import Interrupted, interruptible, real_simulate
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 
@@ -128,7 +128,7 @@ def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
     """Results by case id, computed one at a time in the same way as in a sweep."""
     stop, results = Stop(), list[Result]()
     with interruptible(stop):
-        run(Plan(map(_limited, pilots), workers=1), simulate, results.extend, stop)
+        run_plan(Plan(map(_limited, pilots), workers=1), simulate, results.extend, stop)
     if stop.asked:
         raise Interrupted("interrupted; nothing was written")
     return {result.case_id: result for result in results}

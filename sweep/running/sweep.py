@@ -11,7 +11,7 @@ from sweep.config.defaults.direction import is_along
 from sweep.config.grid import Config, expand
 from sweep.result import HOW_TO_RENEW, Status
 from sweep.running.batches import Plan, cost
-from sweep.running.dask_graph import Simulate, Stop, check_scheduler, run
+from sweep.running.dask_graph import Simulate, Stop, check_scheduler, run_plan
 from sweep.running.progress import Progress, announce
 from sweep.running.provenance import config_text, describe_run
 from sweep.running.relaxation_times import sentences_on_lossless
@@ -69,7 +69,7 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                     Progress(costs, len(done), part=part) as progress,
                     result_sink(writer, plan, progress) as sink,
                 ):
-                    run(plan, chosen, sink, stop, scheduler)
+                    run_plan(plan, chosen, sink, stop, scheduler)
     statuses = read_statuses(out)
     converged = sum(statuses.get(case_id) == Status.CONVERGED for case_id in cases)
     kept = len(cases.keys() & finished_ids(out, rerun))

@@ -30,9 +30,9 @@ from scipy.stats import qmc
 from sweep.config.case import Case
 from sweep.config.grid import designs_of
 from sweep.numbers import three_digits
+from sweep.ranking.assessment import Assessment, assess
 from sweep.ranking.curves import Known, with_allowed
 from sweep.ranking.question import Question
-from sweep.ranking.worth import Worths, worths
 from sweep.running.dask_graph import Simulate
 from sweep.running.progress import announce
 from sweep.running.searching.design_space import DesignSpace
@@ -60,7 +60,7 @@ class Settings(NamedTuple):
 class Search:
     """A search into the results file `out`; question: what its ranking is asked.
 
-    cases: the designs so far by id. found: their worths.
+    cases: the designs so far by id. found: their values and misses.
     """
 
     space: DesignSpace
@@ -69,7 +69,7 @@ class Search:
     settings: Settings
     simulate: Simulate | None = None
     cases: dict[str, Case] = field(default_factory=dict)
-    found: Worths | None = None
+    found: Assessment | None = None
     _known: Known = field(default_factory=dict)
     _idle: int = 0
     _before: int = 0  # designs before the present generation
@@ -86,7 +86,7 @@ class Search:
         """Number of evaluations left."""
         return self.settings.evaluations - len(self.cases)
 
-    def run(self) -> Worths | None:
+    def run(self) -> Assessment | None:
         """Search until all evaluations are used up, or nothing new is found."""
         for seed in count(self.settings.seed * 1000):
             before = len(self.cases)
@@ -145,10 +145,10 @@ class Search:
         values = [0.0 if case_id in fulfil else missed.get(case_id, inf) for case_id in ids]
         return np.array(values if points.ndim == 1 else [values])
 
-    def _assessed(self, points: np.ndarray) -> tuple[list[str], Worths | None]:
-        """The ids of designs, "" where there is none, and the worths of all, the new ones included.
+    def _assessed(self, points: np.ndarray) -> tuple[list[str], Assessment | None]:
+        """The ids of designs, "" where there is none, and the assessment of all so far.
 
-        No more designs are simulated than are left; further ones are worthless.
+        No more designs are simulated than are left; further ones have no value.
         """
         designs = [self.space.case(point) for point in points.T]
         new = {d.case_id: d for d in designs if d is not None and d.case_id not in self.cases}
@@ -168,7 +168,7 @@ class Search:
 
     def _assess(self) -> None:
         """Value the designs so far, and report the best."""
-        self.found = worths(self.rows(), self.question)
+        self.found = assess(self.rows(), self.question)
         counted = f"{len(self.cases)} of at most {self.settings.evaluations} designs"
         announce(f"{counted}: {self.found.column}, {_best(self.found)}")
 
@@ -179,7 +179,7 @@ class Search:
         return with_allowed(self.out, mine, self.question, self._known)
 
 
-def _best(found: Worths) -> str:
+def _best(found: Assessment) -> str:
     """How good the best design so far is, in words."""
     if found.by_id:
         return f"the best {three_digits(next(iter(found.by_id.values())))}"

@@ -21,8 +21,8 @@ from sweep.config.case import Case
 from sweep.config.grid import Config, chosen_case
 from sweep.config.units import load_config
 from sweep.numbers import three_digits
+from sweep.ranking.assessment import assess
 from sweep.ranking.question import Question
-from sweep.ranking.worth import worths
 from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
 from sweep.running.searching.design_space import DesignSpace
@@ -94,7 +94,7 @@ def best_beside(question, folder, simulate=None):
     every = [case for cases in question.beside.values() for case in cases]
     out = folder / f"{question.name}_beside.h5"
     run_sweep(every, out, simulate=simulate)
-    values = worths(read_summary(out), QUESTION).by_id
+    values = assess(read_summary(out), QUESTION).by_id
     return {
         name: max(
             ((values[case.case_id], case) for case in cases if case.case_id in values),

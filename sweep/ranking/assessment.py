@@ -19,13 +19,13 @@ from sweep.ranking.scenes import ASSUMPTIONS, OF_DESIGN
 ALIKE = 0.05  # relative difference in both columns up to which a front lists one of two designs
 
 
-class Worths(NamedTuple):
+class Assessment(NamedTuple):
     """Designs by their value in a column.
 
     by_id: values by id of the designs that fulfil all requirements, the best first. missed:
     greatest misses by id of those that do not, the nearest first (`requirements.nearest_first`).
     doubtful: number of further designs whose result is marked as beyond the model or as crossed,
-    which are worth nothing.
+    which have no value.
     """
 
     column: str
@@ -39,8 +39,8 @@ class Worths(NamedTuple):
         return 1.0 if less_is_better(self.column) else -1.0
 
 
-def worths(summary: DataFrame, question: Question) -> Worths:
-    """The worths of the designs of one scene.
+def assess(summary: DataFrame, question: Question) -> Assessment:
+    """The values and misses of the designs of one scene.
 
     Designs without a place in the ranking have no value: failed ones, those above the budget.
     """
@@ -56,7 +56,7 @@ def worths(summary: DataFrame, question: Question) -> Worths:
     shares = misses(sound, measured(sound, _names(ranking), ranking.per), required)
     missed = nearest_first(sound, ranking.mass, shares)
     fulfil, others = sound[missed[sound.index] == 0.0], missed[missed > 0.0]
-    return Worths(
+    return Assessment(
         column,
         dict(zip(fulfil["case_id"], fulfil[column].astype(float), strict=True)),
         {str(sound.loc[at, "case_id"]): float(value) for at, value in others.items()},
