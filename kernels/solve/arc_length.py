@@ -25,8 +25,16 @@ from kernels.compile.reference import by_reference
 from kernels.solve import resolution
 from kernels.solve.energy_book import enter
 from kernels.solve.integrators import Ahead
-from kernels.solve.march import NOT_STARTED, SMALLEST_SHARE, UNRESOLVED
-from kernels.solve.newton import CONVERGED, INTERRUPTED, ITERATIONS, NOT_FINITE, OUTGROWN, STALLED
+from kernels.solve.march import NOT_STARTED, SMALLEST_SHARE
+from kernels.solve.outcomes import (
+    CONVERGED,
+    INTERRUPTED,
+    ITERATIONS,
+    NOT_FINITE,
+    OUTGROWN,
+    STALLED,
+    UNRESOLVED,
+)
 from kernels.solve.problem import NO_ROOM, TIED, Step
 from kernels.solve.residual import largest
 from kernels.solve.workspace import make_workspace

@@ -19,7 +19,6 @@ MAX_LOOPS = 30
 STAGNATION = 8  # loops without a new least error after which the loop fails
 INEXACT_LOOPS = 6  # later minima are found to the full tolerance
 FORCING_TERM = 0.1  # residual of the next minimum as a share of the error of the lagged forces
-UNSETTLED = 8  # outcome of a loop that fails, beside those of `newton` and `march`
 
 
 @jit_exact

@@ -14,14 +14,17 @@ from kernels.compile.reference import by_reference
 from kernels.solve import energy_book, friction_loop, integrators, resolution
 from kernels.solve.energy_book import energy_gain, enter, kinetic, strike, unbalanced
 from kernels.solve.integrators import BACKWARD_EULER, BDF2, Ahead
-from kernels.solve.newton import (
+from kernels.solve.newton import DESCENT, minimise
+from kernels.solve.outcomes import (
     CONVERGED,
-    DESCENT,
+    INACCURATE,
     INTERRUPTED,
     ITERATIONS,
     OUTGROWN,
     STALLED,
-    minimise,
+    UNBALANCED,
+    UNRESOLVED,
+    UNSETTLED,
 )
 from kernels.solve.problem import Step
 from kernels.solve.residual import scaled
@@ -34,7 +37,6 @@ EASY_LOOPS = 10  # friction loops of an easy share, at most
 MOST_PATIENCE = 63  # shares after a failure until a longer one is tried again, at most
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
 UNCHECKED_SHARE = 2.0**-12  # share of a step that may generate more: the whole run is checked later
-INACCURATE, UNBALANCED, UNRESOLVED = 7, 9, 10  # beside those of `newton` and `friction_loop`
 NOT_STARTED = -1  # friction loops of a share before `_begin_share`
 PROGRESS = np.dtype(
     (
@@ -177,7 +179,7 @@ def _equilibrate(x, target, problem, step, tolerance, space, descent, control, p
         if friction_loop.is_converged(x, problem, step, tolerance, space, progress):
             break
         if friction_loop.fails(progress):
-            outcome = friction_loop.UNSETTLED
+            outcome = UNSETTLED
             break
     return outcome
 

@@ -12,10 +12,18 @@ import numpy as np
 
 from kernels.arrays import copy, dot, zero
 from kernels.compile.jit import jit_exact, separate
+from kernels.solve.outcomes import (
+    CONVERGED,
+    INTERRUPTED,
+    ITERATIONS,
+    NOT_FINITE,
+    OUTGROWN,
+    SINGULAR,
+    STALLED,
+)
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE, TIED
 from kernels.solve.residual import allowed, allowed_decrement, largest
 
-CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
 ARMIJO = 1e-4  # share of the predicted decrease that is sufficient
 HALVINGS = 40  # of a line search, at most
 DUAL_HALVINGS = 3  # after more halvings the duals of lagged forces are reset

@@ -14,7 +14,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from kernels.solve import arc_length, integrators, march, newton, residual
+from kernels.solve import arc_length, integrators, march, outcomes, residual
 from kernels.solve.problem import Step
 from sweep.simulation.custom_history import WITHOUT_PLATENS
 from sweep.simulation.simulate import simulate
@@ -65,7 +65,7 @@ class Watch:
             (step, ahead), steps = _next_step(terms, piece, state), state.totals[0].steps
             outcome, more = MARCH(terms, tolerance, piece, state, _part(out, rows), control)
             written += more
-            if outcome != newton.CONVERGED:
+            if outcome != outcomes.CONVERGED:
                 return outcome, written
             self.still += _unborne(terms, state, step)
         undivided = state.totals[0].steps == steps + 1
@@ -78,7 +78,7 @@ class Watch:
         """Follow a path; its last point is an equilibrium under its load."""
         x0 = state.x.copy()
         outcome, written = FOLLOW(terms, tolerance, stage, state, out, control, arc)
-        if outcome == newton.CONVERGED:
+        if outcome == outcomes.CONVERGED:
             at = stage._replace(dynamic=False, factor1=state.totals[0].factor)
             step, ahead = _next_step(terms, at, state)
             self.still += _unborne(terms, state, step._replace(x0=x0))

@@ -10,7 +10,7 @@ from kernels.compile.reference import by_reference, referred
 from kernels.planar import problem as planar
 from kernels.planar import reach
 from kernels.planar.problem import Planar
-from kernels.solve import march, newton, workspace
+from kernels.solve import march, newton, outcomes, workspace
 from kernels.solve.problem import FREE, NEGATIVE, NO_ROOM, Found, Step
 from kernels.terms import contact, fold, friction, spring
 from kernels.terms.rows import ROW, STORED, Output
@@ -195,7 +195,7 @@ def descend(
             x, target, problem, args.step, left, by_reference(space), descent, control, evaluated
         )
         done += int(descent.iterations)
-        if outcome != newton.OUTGROWN:
+        if outcome != outcomes.OUTGROWN:
             return Descent(outcome, done, x)
         neighbours = neighbours_of(x, scene.terms, descent.travel_bound)._replace(
             lagged_contacts=problem.neighbours.lagged_contacts
