@@ -39,7 +39,7 @@ from kernels.solve.problem import NO_ROOM, TIED, Step
 from kernels.solve.residual import largest
 from kernels.solve.workspace import make_workspace
 
-PROGRESS = np.dtype(
+PATH_PROGRESS = np.dtype(
     (
         np.record,  # for attributes in plain Python too
         [
@@ -286,7 +286,7 @@ def follow(scene, tolerance, stage, state, out, control, arc):
 
     scene: `problem.Scene`. control (2,): [0] != 0 interrupts, [1] counts completed arcs.
     """
-    progress, n = np.zeros(1, PROGRESS), state.x.size
+    progress, n = np.zeros(1, PATH_PROGRESS), state.x.size
     heading = Heading(np.zeros(n), np.zeros(n))
     progress[0].row, progress[0].share, progress[0].iterations = -1, 1.0, NOT_STARTED
     neighbours, buffers = scene.find_neighbours(state.x), scene.make_buffers(state.memory)
