@@ -90,7 +90,7 @@ def nodes(scene, of_all):
 
 def parts(state):
     """All arrays of a state."""
-    return [*state[:2], *state.rates, *state.past, *state[4:]]
+    return [*state[:2], *state.rates, *state.gradients, *state[4:]]
 
 
 def momentum(scene, state):

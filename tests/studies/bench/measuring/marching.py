@@ -65,6 +65,6 @@ def sustained(march):
 
 def copied(state):
     """A state to march on from, again and again."""
-    rates, past = (type(part)(*(array.copy() for array in part)) for part in state[2:4])
+    rates, gradients = (type(part)(*(array.copy() for array in part)) for part in state[2:4])
     x, v, *rest = (array.copy() for array in (*state[:2], *state[4:]))
-    return history.State(x, v, rates, past, *rest)
+    return history.State(x, v, rates, gradients, *rest)
