@@ -120,22 +120,22 @@ def _load_increment(u, r, v, arc, progress):
 
 
 @jit_exact
-def _step(space, stage, progress, factor):
+def _step(workspace, stage, progress, factor):
     """Return the static `Step` of an arc that ends at the load ``factor``.
 
     Its duration is the share of the stage's; the start of the path takes no time.
     """
     duration = stage.duration * progress.share if progress.row >= 0 else 0.0
-    return Step(space.x0, space.y, space.x_pred, duration, duration, False, factor, 0.5)
+    return Step(workspace.x0, workspace.y, workspace.x_pred, duration, duration, False, factor, 0.5)
 
 
 @jit_exact
-def _correct(x, problem, tolerance, stage, space, arc, progress):
+def _correct(x, problem, tolerance, stage, workspace, arc, progress):
     """Correct ``x`` (n,) and the load factor by Newton's method; return the outcome.
 
     The first move is ``work.dx`` with ``progress.increment``, the predictor.
     """
-    found, work, coordinates = space.found, space.work, problem.scene.coordinates
+    found, work, coordinates = workspace.found, workspace.work, problem.scene.coordinates
     r, v = work.direction, work.escape
     while True:
         if not progress.longest_move < np.inf:
@@ -154,7 +154,7 @@ def _correct(x, problem, tolerance, stage, space, arc, progress):
         zero(work.dx)
         progress.increment, progress.longest_move = 0.0, 0.0
         progress.iterations += 1
-        step = _step(space, stage, progress, progress.load)
+        step = _step(workspace, stage, progress, progress.load)
         problem.evaluate(x, step, found, False)
         problem.reduce(found.g, work.residual)
         size = largest(work.residual, coordinates)
@@ -179,15 +179,15 @@ def _correct(x, problem, tolerance, stage, space, arc, progress):
 
 
 @jit_exact
-def _predict(problem, stage, state, space, arc, heading, progress):
+def _predict(problem, stage, state, workspace, arc, heading, progress):
     """Fill ``work.dx`` with the predictor: along the tangent, for an arc or up to the full load,
     whichever is shorter.
     """
-    work, factor, coordinates = space.work, state.totals[0].factor, problem.scene.coordinates
-    copy(state.x, space.x0)
-    copy(state.x, space.y)
+    work, factor, coordinates = workspace.work, state.totals[0].factor, problem.scene.coordinates
+    copy(state.x, workspace.x0)
+    copy(state.x, workspace.y)
     rates = Ahead(0.0, 0.0, state.rates.position, work.dx)
-    problem.begin(_step(space, stage, progress, factor), rates, work.trial)
+    problem.begin(_step(workspace, stage, progress, factor), rates, work.trial)
     tangent, last_move = heading.tangent, heading.last_move
     progress.iterations, progress.load, progress.target_load = 0, factor, factor
     progress.length, progress.increment = 0.0, 0.0
@@ -206,52 +206,52 @@ def _predict(problem, stage, state, space, arc, heading, progress):
 
 
 @jit_exact
-def _return_to_full_load(problem, stage, state, space, progress):
+def _return_to_full_load(problem, stage, state, workspace, progress):
     """Replace an arc that has passed the full load by a step from its start to the full load."""
-    work, totals, coordinates = space.work, state.totals[0], problem.scene.coordinates
+    work, totals, coordinates = workspace.work, state.totals[0], problem.scene.coordinates
     share = (1.0 - totals.factor) / (progress.load - totals.factor)
-    copy(space.x0, state.x)
-    problem.roll_back(_step(space, stage, progress, totals.factor))
+    copy(workspace.x0, state.x)
+    problem.roll_back(_step(workspace, stage, progress, totals.factor))
     zero(work.residual)
-    progress.longest_move = _combine(work.residual, share, space.found.u, coordinates, work.dx)
+    progress.longest_move = _combine(work.residual, share, workspace.found.u, coordinates, work.dx)
     progress.load, progress.increment = totals.factor, 1.0 - totals.factor
     totals.iterations += progress.iterations
     progress.length, progress.target_load, progress.iterations = 0.0, 1.0, 0
 
 
 @jit_exact
-def _follow_path(problem, tolerance, stage, state, out, control, space, arc, heading, progress):
+def _follow_path(problem, tolerance, stage, state, out, control, workspace, arc, heading, progress):
     """Continue the path at ``progress`` to its end, or until the neighbours must be renewed.
 
     Return (outcome, rows written).
     """
-    found, work, totals = space.found, space.work, state.totals[0]
+    found, work, totals = workspace.found, workspace.work, state.totals[0]
     while progress.row < stage.steps:
         if progress.iterations == NOT_STARTED:
             progress.share = min(progress.share, 1.0 - progress.done)
-            _predict(problem, stage, state, space, arc, heading, progress)
-        outcome = _correct(state.x, problem, tolerance, stage, space, arc, progress)
+            _predict(problem, stage, state, workspace, arc, heading, progress)
+        outcome = _correct(state.x, problem, tolerance, stage, workspace, arc, progress)
         if outcome == OUTGROWN and progress.iterations <= 2 * CORRECTIONS:
             return outcome, progress.row
         if control[0] != 0:
             outcome = INTERRUPTED
         if outcome == CONVERGED and progress.row >= 0:
             if progress.length > 0.0 and progress.load > 1.0:
-                _return_to_full_load(problem, stage, state, space, progress)
+                _return_to_full_load(problem, stage, state, workspace, progress)
                 continue
             sign = -1.0 if _inner(heading.tangent, heading.last_move, arc.weight) < 0.0 else 1.0
             if sign * _cosine(found.u, heading.tangent, arc.weight) < LEAST_COSINE:
                 outcome = STALLED
         totals.iterations += progress.iterations
         progress.iterations = NOT_STARTED
-        step = _step(space, stage, progress, progress.load)
+        step = _step(workspace, stage, progress, progress.load)
         load = resolution.largest_load(problem, step.factor, work)
         if outcome == CONVERGED and not resolution.is_resolved(
             problem, step, tolerance, state, found, work, load, progress.decrement
         ):
             outcome = UNRESOLVED
         if outcome != CONVERGED:
-            copy(space.x0, state.x)
+            copy(workspace.x0, state.x)
             problem.roll_back(step)
             progress.share *= 0.5
             if outcome == INTERRUPTED or progress.share < SMALLEST_SHARE or progress.row < 0:
@@ -290,13 +290,13 @@ def follow(scene, tolerance, stage, state, out, control, arc):
     heading = Heading(np.zeros(n), np.zeros(n))
     progress[0].row, progress[0].share, progress[0].iterations = -1, 1.0, NOT_STARTED
     neighbours, buffers = scene.find_neighbours(state.x), scene.make_buffers(state.memory)
-    space = make_workspace(n, state.stored.size)
+    workspace = make_workspace(n, state.stored.size)
     while True:
         record = progress[0]
         problem = by_reference(scene).assemble(by_reference(neighbours), by_reference(buffers))
         outcome, rows = _follow_path(
             problem, tolerance, stage, by_reference(state), out, control,
-            by_reference(space), arc, heading, record,
+            by_reference(workspace), arc, heading, record,
         )  # fmt: skip
         if outcome != OUTGROWN:
             return outcome, max(rows, 0)

@@ -94,12 +94,21 @@ def _target(stage, progress):
 
 
 @jit_exact
-def _step(stage, space, progress):
+def _step(stage, workspace, progress):
     """Return the `Step` of the attempted share."""
     duration = stage.duration * progress.share
     factor = stage.factor0 + (stage.factor1 - stage.factor0) * _stage_fraction(stage, progress)
     theta = integrators.weight(progress.h, duration, stage.dynamic)
-    return Step(space.x0, space.y, space.x_pred, progress.h, duration, stage.dynamic, factor, theta)
+    return Step(
+        workspace.x0,
+        workspace.y,
+        workspace.x_pred,
+        progress.h,
+        duration,
+        stage.dynamic,
+        factor,
+        theta,
+    )
 
 
 @jit_exact
@@ -116,21 +125,21 @@ def _extrapolation(u, driven, remaining):
 
 
 @jit_exact
-def _begin_share(problem, tolerance, stage, state, space, descent, progress):
+def _begin_share(problem, tolerance, stage, state, workspace, descent, progress):
     """Begin the next share of a step.
 
     The minimisation starts from the extrapolated positions, except after a snap in a static step,
     where it starts from x0.
     """
-    last, work = state.totals[0].last, space.work
+    last, work = state.totals[0].last, workspace.work
     if stage.scheme != BACKWARD_EULER and last == 0.0:
         factor = stage.factor0 + (stage.factor1 - stage.factor0) * _stage_fraction(stage, progress)
         first = resolution.first_share(
-            problem, tolerance, stage.duration, factor, state, space.work
+            problem, tolerance, stage.duration, factor, state, workspace.work
         )
         progress.share = min(progress.share, first)
     duration, coordinates = stage.duration * progress.share, problem.scene.coordinates
-    u, work, driven, remaining = space.found.u, space.work, coordinates.driven, 0.0
+    u, work, driven, remaining = workspace.found.u, workspace.work, coordinates.driven, 0.0
     if driven >= 0:
         remaining = _target(stage, progress) - state.x[driven]
     factor = _extrapolation(u, driven, remaining)
@@ -138,15 +147,15 @@ def _begin_share(problem, tolerance, stage, state, space, descent, progress):
     if stage.dynamic and h != progress.h:  # the Hessian depends on h
         descent.since_factor = np.inf
     progress.h = h
-    copy(state.x, space.x0)
-    copy(state.x, space.lagged)
+    copy(state.x, workspace.x0)
+    copy(state.x, workspace.lagged)
     if stage.dynamic:
         if driven >= 0 and stage.scheme != BACKWARD_EULER and last == 0.0:
             strike(state, problem, remaining / duration, work.direction)
         heavy = coordinates.heavy
-        integrators.predict(state, duration, h, heavy, space.y, space.x_pred, work.dx)
+        integrators.predict(state, duration, h, heavy, workspace.y, workspace.x_pred, work.dx)
     else:
-        copy(state.x, space.y)
+        copy(state.x, workspace.y)
         if factor * problem.travel(u) > max(coordinates.cap, MAX_EXTRAPOLATION * abs(remaining)):
             factor = 0.0  # the last step was a snap
         for i in range(u.size):
@@ -156,7 +165,7 @@ def _begin_share(problem, tolerance, stage, state, space, descent, progress):
     ahead = duration - h if h < duration else 0.0
     last = last if stage.scheme == BDF2 else 0.0
     rates = Ahead(ahead, last, state.rates.position, work.dx)
-    problem.begin(_step(stage, space, progress), rates, work.trial)
+    problem.begin(_step(stage, workspace, progress), rates, work.trial)
     if problem.lag(state.x):  # the Hessian of friction changes
         descent.since_factor = np.inf
     progress.share_iterations, progress.minimum_iterations, descent.cut_moves = 0, 0, 0
@@ -164,19 +173,19 @@ def _begin_share(problem, tolerance, stage, state, space, descent, progress):
 
 
 @jit_exact
-def _equilibrate(x, target, problem, step, tolerance, space, descent, control, progress):
+def _equilibrate(x, target, problem, step, tolerance, workspace, descent, control, progress):
     """Minimise until the lagged forces are consistent with the minimum; return the outcome."""
     outcome, evaluated = CONVERGED, False
     while True:
         loose = scaled(tolerance, progress.loosening, 1.0)
-        outcome = minimise(x, target, problem, step, loose, space, descent, control, evaluated)
+        outcome = minimise(x, target, problem, step, loose, workspace, descent, control, evaluated)
         evaluated = True
         progress.row_iterations += descent.iterations
         progress.share_iterations += descent.iterations
         progress.minimum_iterations += max(descent.iterations, 1)
         if outcome != CONVERGED or not problem.lags():
             break
-        if friction_loop.is_converged(x, problem, step, tolerance, space, progress):
+        if friction_loop.is_converged(x, problem, step, tolerance, workspace, progress):
             break
         if friction_loop.fails(progress):
             outcome = UNSETTLED
@@ -194,23 +203,23 @@ def _gains_energy(problem, stage, state, found, share, noise):
 
 
 @jit_exact
-def _assess(problem, stage, state, step, noise, space, progress):
+def _assess(problem, stage, state, step, noise, workspace, progress):
     """Return whether a step is accurate, and the ratio of its local error to the allowed one."""
     ratio = 0.0
     if stage.error < np.inf:
         ratio = integrators.error(state, step, problem.scene.coordinates.heavy) / stage.error
     accurate, first_order = ratio <= 1.0, stage.dynamic and step.h == step.duration
     if accurate and first_order and progress.share > UNCHECKED_SHARE:
-        accurate = not _gains_energy(problem, stage, state, space.found, progress.share, noise)
+        accurate = not _gains_energy(problem, stage, state, workspace.found, progress.share, noise)
     return accurate, ratio
 
 
 @jit_exact
-def _reject(outcome, problem, step, state, space, descent, progress):
+def _reject(outcome, problem, step, state, workspace, descent, progress):
     """Reject a share: restore the state at its start, and shorten it."""
-    copy(space.x0, state.x)
+    copy(workspace.x0, state.x)
     problem.roll_back(step)
-    zero(space.found.u)
+    zero(workspace.found.u)
     progress.loops, descent.since_factor = NOT_STARTED, np.inf
     if outcome != UNRESOLVED:
         progress.cause = outcome
@@ -222,12 +231,12 @@ def _reject(outcome, problem, step, state, space, descent, progress):
 
 
 @jit_exact
-def _accept(problem, stage, step, state, space, load, descent):
+def _accept(problem, stage, step, state, workspace, load, descent):
     """Accept a share: update rates, commit the material, enter the energy book, project.
 
     load: `resolution.largest_load` of the step.
     """
-    found, work, book, totals = space.found, space.work, state.book[0], state.totals[0]
+    found, work, book, totals = workspace.found, workspace.work, state.book[0], state.totals[0]
     if stage.dynamic:
         book.integrator += integrators.update(stage.scheme, state, step, problem, found.u)
         book.kinetic = kinetic(state.v, problem.scene.coordinates.mass)
@@ -262,23 +271,23 @@ def _next_share(ratio, iterations, descent, progress):
 
 
 @jit_exact
-def _run(problem, tolerance, stage, state, out, control, space, descent, progress):
+def _run(problem, tolerance, stage, state, out, control, workspace, descent, progress):
     """Continue the stage at ``progress`` to its end, or until the neighbours must be renewed.
 
     Return (outcome, rows written).
     """
-    work, totals = space.work, state.totals[0]
+    work, totals = workspace.work, state.totals[0]
     while progress.row < stage.steps:
         if progress.loops == NOT_STARTED:
             if not problem.covers(state.x, 0.0):  # after a rejected share
                 descent.travel_bound = 0.0
                 return OUTGROWN, progress.row
-            _begin_share(problem, tolerance, stage, state, space, descent, progress)
-        step, target = _step(stage, space, progress), _target(stage, progress)
+            _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
+        step, target = _step(stage, workspace, progress), _target(stage, progress)
         load = resolution.largest_load(problem, step.factor, work)
         fitting = resolution.fit(tolerance, step, problem.scene.coordinates, load)
         outcome = _equilibrate(
-            state.x, target, problem, step, fitting, space, descent, control, progress
+            state.x, target, problem, step, fitting, workspace, descent, control, progress
         )
         if outcome == CONVERGED and not problem.covers_projection(state.x):
             outcome, progress.minimum_iterations = OUTGROWN, 0
@@ -291,30 +300,32 @@ def _run(problem, tolerance, stage, state, out, control, space, descent, progres
             outcome = UNRESOLVED
         ratio = 0.0
         if outcome == CONVERGED:
-            accurate, ratio = _assess(problem, stage, state, step, tolerance.noise, space, progress)
+            accurate, ratio = _assess(
+                problem, stage, state, step, tolerance.noise, workspace, progress
+            )
             outcome = CONVERGED if accurate else INACCURATE
             if accurate and not resolution.is_resolved(
-                problem, step, fitting, state, space.found, work, load, descent.decrement
+                problem, step, fitting, state, workspace.found, work, load, descent.decrement
             ):
                 outcome = UNRESOLVED
-            elif accurate and unbalanced(problem, step, fitting, state, space.found, work):
+            elif accurate and unbalanced(problem, step, fitting, state, workspace.found, work):
                 outcome = UNBALANCED
         if outcome != CONVERGED:
             coarse = outcome == UNRESOLVED or outcome == UNBALANCED
             coarse = coarse and resolution.is_coarse(fitting, step, problem, load)
             outcome = UNRESOLVED if coarse else outcome
-            _reject(outcome, problem, step, state, space, descent, progress)
+            _reject(outcome, problem, step, state, workspace, descent, progress)
             if outcome == INTERRUPTED or progress.share < SMALLEST_SHARE or coarse:
                 if outcome == UNRESOLVED and progress.cause != CONVERGED:
                     outcome = progress.cause  # that made the shares so short
                 return (ITERATIONS if outcome == OUTGROWN else outcome), progress.row
             continue
-        _accept(problem, stage, step, state, space, load, descent)
+        _accept(problem, stage, step, state, workspace, load, descent)
         _next_share(ratio, tolerance.iterations, descent, progress)
         if progress.done == 1.0:
             totals.iterations += progress.row_iterations
             totals.time += stage.duration
-            problem.write(out, progress.row, state, space.found)
+            problem.write(out, progress.row, state, workspace.found)
             control[1] += 1
             progress.row, progress.done, progress.row_iterations = progress.row + 1, 0.0, 0
     return CONVERGED, progress.row
@@ -334,12 +345,12 @@ def march(scene, tolerance, stage, state, out, control):
         progress[0].share = last / stage.duration
     buffers = scene.make_buffers(state.memory)
     neighbours = scene.find_neighbours(state.x)
-    space = make_workspace(state.x.size, state.stored.size)
+    workspace = make_workspace(state.x.size, state.stored.size)
     while True:
         problem = by_reference(scene).assemble(by_reference(neighbours), by_reference(buffers))
         outcome, rows = _run(
             problem, tolerance, stage, by_reference(state), out, control,
-            by_reference(space), descent[0], progress[0],
+            by_reference(workspace), descent[0], progress[0],
         )  # fmt: skip
         if outcome != OUTGROWN:
             return outcome, rows

@@ -178,15 +178,15 @@ def _residual(x, target, problem, tolerance, found, work):
 
 @separate
 @jit_exact
-def minimise(x, target, problem, step, tolerance, space, descent, control, evaluated):
+def minimise(x, target, problem, step, tolerance, workspace, descent, control, evaluated):
     """Minimise over ``x`` (n,), in place, with the driven coordinate at ``target`` (m).
 
     Start from the admissible share of ``x`` + ``work.dx`` or, if ``evaluated``, from ``x``, whose
-    evaluation is in ``space.found``. Return the outcome and fill ``descent``. OUTGROWN: the
+    evaluation is in ``workspace.found``. Return the outcome and fill ``descent``. OUTGROWN: the
     neighbour lists do not cover a move of ``descent.travel_bound`` m, or the matrix lacks an entry:
     renew them and call again. control[0] != 0 interrupts.
     """
-    found, work, coordinates = space.found, space.work, problem.scene.coordinates
+    found, work, coordinates = workspace.found, workspace.work, problem.scene.coordinates
     outcome, iteration, halvings = ITERATIONS, 0 if evaluated else -1, 0
     new_direction, line_search, accepted, accept_any = not evaluated, not evaluated, evaluated, True
     shortened, uncapped = False, _reaches_target(x, work.dx, target, coordinates.driven)

@@ -5,10 +5,11 @@ import pytest
 from scipy.optimize import brentq, minimize
 
 from kernels.compile.reference import by_reference
-from kernels.solve import arc_length, history, march, newton, outcomes, workspace
+from kernels.solve import arc_length, history, march, newton, outcomes
 from kernels.solve.integrators import BDF2, TRAPEZOIDAL
 from kernels.solve.problem import FREE, HELD, LED, Coordinates, Step
 from kernels.solve.residual import Tolerance
+from kernels.solve.workspace import make_workspace
 from tests.support.designs.scenes import slopes
 from tests.support.kernels.chain import ROW, Chain, Line, Output
 
@@ -181,11 +182,11 @@ def test_the_residual_is_not_measured_by_an_old_factor():
     neighbours = chain.find_neighbours(x0)
     problem = Chain(*(by_reference(part) for part in (chain, neighbours, buffers)))
     step = Step(x0, x0.copy(), x0.copy(), 1.0, 1.0, False, 1.0, 0.5)
-    space, descent = workspace.make_workspace(1, 2), np.zeros(1, newton.DESCENT)[0]
-    x, descent.since_factor, space.work.dx[:] = x0.copy(), np.inf, zero
+    workspace, descent = make_workspace(1, 2), np.zeros(1, newton.DESCENT)[0]
+    x, descent.since_factor, workspace.work.dx[:] = x0.copy(), np.inf, zero
     outcome = newton.minimise(
-        x, 0.0, problem, step, TIGHT, by_reference(space), descent, np.zeros(2, int), False
+        x, 0.0, problem, step, TIGHT, by_reference(workspace), descent, np.zeros(2, int), False
     )
     assert outcome == outcomes.CONVERGED
-    assert abs(space.found.g[0]) < 1e-10
+    assert abs(workspace.found.g[0]) < 1e-10
     assert x[0] > -WIDTH + 0.01

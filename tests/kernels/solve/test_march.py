@@ -311,14 +311,14 @@ def test_after_each_failure_more_shares_are_accepted_before_one_is_doubled():
     """1, then 3; easy steps bring it back."""
     progress, descent = np.zeros(1, march.PROGRESS)[0], np.zeros(1, newton.DESCENT)[0]
     still, state = SimpleNamespace(roll_back=lambda step: None), SimpleNamespace(x=np.zeros(1))
-    space = SimpleNamespace(x0=np.zeros(1), found=SimpleNamespace(u=np.zeros(1)))
+    workspace = SimpleNamespace(x0=np.zeros(1), found=SimpleNamespace(u=np.zeros(1)))
     reject, next_share = (
         getattr(kernel, "__wrapped__", kernel) for kernel in (march._reject, march._next_share)
     )
     progress.share, shares = 2.0**-4, []
     for fails in (True, False, True, False, False, False, False, False, False, False):
         if fails:
-            reject(outcomes.ITERATIONS, still, None, state, space, descent, progress)
+            reject(outcomes.ITERATIONS, still, None, state, workspace, descent, progress)
             progress.done = 0.0
         else:
             next_share(0.0, 100, descent, progress)

@@ -10,8 +10,9 @@ from kernels.compile.reference import by_reference, referred
 from kernels.planar import problem as planar
 from kernels.planar import reach
 from kernels.planar.problem import Planar
-from kernels.solve import march, newton, outcomes, workspace
+from kernels.solve import march, newton, outcomes
 from kernels.solve.problem import FREE, NEGATIVE, NO_ROOM, Found, Step
+from kernels.solve.workspace import make_workspace
 from kernels.terms import contact, fold, friction, spring
 from kernels.terms.rows import ROW, STORED, Output
 from sweep.scene.lattice import build_scene
@@ -48,7 +49,7 @@ class Whole:
 
     def found(self, x, projected=False) -> tuple[float, Found]:
         """Energy and what else `evaluate` finds at ``x``."""
-        found = workspace.make_workspace(x.size, STORED).found
+        found = make_workspace(x.size, STORED).found
         return self.problem.evaluate(x, self.step, found, projected), found
 
     def energy_gradient(self, x):
@@ -181,18 +182,26 @@ def descend(
 
     ``there``: ``start`` has been evaluated before.
     """
-    x, space = start.copy(), workspace.make_workspace(start.size, STORED)
+    x, workspace = start.copy(), make_workspace(start.size, STORED)
     descent, problem, done = np.zeros(1, newton.DESCENT)[0], args.problem, 0
     allowed = tolerances(case, scene, like(args.step))._replace(**tolerance)
     target, descent.since_factor = x[-1] if target is None else target, np.inf
-    space.work.dx[:] = 0.0 if move is None else move
+    workspace.work.dx[:] = 0.0 if move is None else move
     if evaluated:
-        space.work.trial[:] = x
-        problem.evaluate(x, args.step, space.found, False)
+        workspace.work.trial[:] = x
+        problem.evaluate(x, args.step, workspace.found, False)
     while True:
         left = allowed._replace(iterations=allowed.iterations - done)
         outcome = newton.minimise(
-            x, target, problem, args.step, left, by_reference(space), descent, control, evaluated
+            x,
+            target,
+            problem,
+            args.step,
+            left,
+            by_reference(workspace),
+            descent,
+            control,
+            evaluated,
         )
         done += int(descent.iterations)
         if outcome != outcomes.OUTGROWN:
@@ -201,7 +210,7 @@ def descend(
             lagged_contacts=problem.neighbours.lagged_contacts
         )
         problem, evaluated = problem._replace(neighbours=by_reference(neighbours)), False
-        space.work.dx[:], descent.since_factor = 0.0, np.inf
+        workspace.work.dx[:], descent.since_factor = 0.0, np.inf
 
 
 def like(step):
