@@ -173,13 +173,13 @@ def _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
 
 
 @jit_exact
-def _equilibrate(x, target, problem, step, tolerance, workspace, descent, control, progress):
+def _equilibrate(x, problem, step, tolerance, workspace, descent, control, progress):
     """Minimise until the lagged forces are consistent with the minimum; return the outcome."""
-    outcome, evaluated = CONVERGED, False
+    outcome, descent.evaluated = CONVERGED, False
     while True:
         loose = scaled(tolerance, progress.loosening, 1.0)
-        outcome = minimise(x, target, problem, step, loose, workspace, descent, control, evaluated)
-        evaluated = True
+        outcome = minimise(x, problem, step, loose, workspace, descent, control)
+        descent.evaluated = True
         progress.row_iterations += descent.iterations
         progress.share_iterations += descent.iterations
         progress.minimum_iterations += max(descent.iterations, 1)
@@ -283,11 +283,11 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
                 descent.travel_bound = 0.0
                 return OUTGROWN, progress.row
             _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
-        step, target = _step(stage, workspace, progress), _target(stage, progress)
+        step, descent.target = _step(stage, workspace, progress), _target(stage, progress)
         load = resolution.largest_load(problem, step.factor, work)
         fitting = resolution.fit(tolerance, step, problem.scene.coordinates, load)
         outcome = _equilibrate(
-            state.x, target, problem, step, fitting, workspace, descent, control, progress
+            state.x, problem, step, fitting, workspace, descent, control, progress
         )
         if outcome == CONVERGED and not problem.covers_projection(state.x):
             outcome, progress.minimum_iterations = OUTGROWN, 0

@@ -11,3 +11,4 @@ INACCURATE = 7  # the local error is larger than allowed, or energy is generated
 UNSETTLED = 8  # lagged forces do not agree with the minimum
 UNBALANCED = 9  # the work of the residual is too large
 UNRESOLVED = 10  # the residual is round-off, but too large beside the forces
+UNFINISHED = 11  # it goes on

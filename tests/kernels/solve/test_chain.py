@@ -185,7 +185,7 @@ def test_the_residual_is_not_measured_by_an_old_factor():
     workspace, descent = make_workspace(1, 2), np.zeros(1, newton.DESCENT)[0]
     x, descent.since_factor, workspace.work.dx[:] = x0.copy(), np.inf, zero
     outcome = newton.minimise(
-        x, 0.0, problem, step, TIGHT, by_reference(workspace), descent, np.zeros(2, int), False
+        x, problem, step, TIGHT, by_reference(workspace), descent, np.zeros(2, int)
     )
     assert outcome == outcomes.CONVERGED
     assert abs(workspace.found.g[0]) < 1e-10

@@ -228,7 +228,11 @@ MUTANTS = [
         f"{SOLVE}/newton.py",
         ("line search: slope", "share * (slope +", "share * (-slope +"),
         ("Newton: direction", "-found.g[i] - direction[i]", "found.g[i] - direction[i]"),
-        ("Newton: saddles accepted", "if balanced and stable:", "if balanced:"),
+        (
+            "Newton: saddles accepted",
+            "if descent.stable and descent.balanced:",
+            "if descent.balanced:",
+        ),
     ),
     *_of(
         f"{SOLVE}/anderson.py",

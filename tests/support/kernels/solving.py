@@ -185,7 +185,8 @@ def descend(
     x, workspace = start.copy(), make_workspace(start.size, STORED)
     descent, problem, done = np.zeros(1, newton.DESCENT)[0], args.problem, 0
     allowed = tolerances(case, scene, like(args.step))._replace(**tolerance)
-    target, descent.since_factor = x[-1] if target is None else target, np.inf
+    descent.target, descent.since_factor = x[-1] if target is None else target, np.inf
+    descent.evaluated = evaluated
     workspace.work.dx[:] = 0.0 if move is None else move
     if evaluated:
         workspace.work.trial[:] = x
@@ -193,15 +194,7 @@ def descend(
     while True:
         left = allowed._replace(iterations=allowed.iterations - done)
         outcome = newton.minimise(
-            x,
-            target,
-            problem,
-            args.step,
-            left,
-            by_reference(workspace),
-            descent,
-            control,
-            evaluated,
+            x, problem, args.step, left, by_reference(workspace), descent, control
         )
         done += int(descent.iterations)
         if outcome != outcomes.OUTGROWN:
@@ -209,7 +202,7 @@ def descend(
         neighbours = neighbours_of(x, scene.terms, descent.travel_bound)._replace(
             lagged_contacts=problem.neighbours.lagged_contacts
         )
-        problem, evaluated = problem._replace(neighbours=by_reference(neighbours)), False
+        problem = problem._replace(neighbours=by_reference(neighbours))
         workspace.work.dx[:], descent.since_factor = 0.0, np.inf
 
 
