@@ -175,7 +175,7 @@ def _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
 @jit_exact
 def _equilibrate(x, problem, step, tolerance, workspace, descent, control, progress):
     """Minimise until the lagged forces are consistent with the minimum; return the outcome."""
-    outcome, descent.evaluated = CONVERGED, False
+    descent.evaluated = False
     while True:
         loose = scaled(tolerance, progress.loosening, 1.0)
         outcome = minimise(x, problem, step, loose, workspace, descent, control)
@@ -188,8 +188,12 @@ def _equilibrate(x, problem, step, tolerance, workspace, descent, control, progr
         if friction_loop.is_converged(x, problem, step, tolerance, workspace, progress):
             break
         if friction_loop.fails(progress):
-            outcome = UNSETTLED
-            break
+            return UNSETTLED
+    if outcome == CONVERGED and not problem.covers_projection(x):
+        outcome, progress.minimum_iterations = OUTGROWN, 0
+        zero(workspace.work.dx)
+    if outcome == OUTGROWN and step.dynamic:
+        zero(workspace.work.dx)  # the present point is the better guess
     return outcome
 
 
@@ -203,15 +207,26 @@ def _gains_energy(problem, stage, state, found, share, noise):
 
 
 @jit_exact
-def _assess(problem, stage, state, step, noise, workspace, progress):
-    """Return whether a step is accurate, and the ratio of its local error to the allowed one."""
-    ratio = 0.0
+def _judge(problem, stage, state, step, tolerance, load, workspace, descent, progress):
+    """Return the outcome of a share for which an equilibrium is found, and the ratio of its local
+    error to the allowed one.
+
+    load: `resolution.largest_load` of the step.
+    """
+    found, work, ratio = workspace.found, workspace.work, 0.0
     if stage.error < np.inf:
         ratio = integrators.error(state, step, problem.scene.coordinates.heavy) / stage.error
     accurate, first_order = ratio <= 1.0, stage.dynamic and step.h == step.duration
     if accurate and first_order and progress.share > UNCHECKED_SHARE:
-        accurate = not _gains_energy(problem, stage, state, workspace.found, progress.share, noise)
-    return accurate, ratio
+        accurate = not _gains_energy(problem, stage, state, found, progress.share, tolerance.noise)
+    if not accurate:
+        return INACCURATE, ratio
+    decrement = descent.decrement
+    if not resolution.is_resolved(problem, step, tolerance, state, found, work, load, decrement):
+        return UNRESOLVED, ratio
+    if unbalanced(problem, step, tolerance, state, found, work):
+        return UNBALANCED, ratio
+    return CONVERGED, ratio
 
 
 @jit_exact
@@ -271,12 +286,30 @@ def _next_share(ratio, iterations, descent, progress):
 
 
 @jit_exact
+def _reported(outcome, progress):
+    """Return the outcome by which a march ends: the one that made the shares so short."""
+    if outcome == UNRESOLVED and progress.cause != CONVERGED:
+        outcome = progress.cause
+    return ITERATIONS if outcome == OUTGROWN else outcome
+
+
+@jit_exact
+def _end_row(problem, stage, state, out, control, found, progress):
+    """Write the row whose step is complete, and go on to the next one."""
+    totals = state.totals[0]
+    totals.iterations += progress.row_iterations
+    totals.time += stage.duration
+    problem.write(out, progress.row, state, found)
+    control[1] += 1
+    progress.row, progress.done, progress.row_iterations = progress.row + 1, 0.0, 0
+
+
+@jit_exact
 def _run(problem, tolerance, stage, state, out, control, workspace, descent, progress):
     """Continue the stage at ``progress`` to its end, or until the neighbours must be renewed.
 
     Return (outcome, rows written).
     """
-    work, totals = workspace.work, state.totals[0]
     while progress.row < stage.steps:
         if progress.loops == NOT_STARTED:
             if not problem.covers(state.x, 0.0):  # after a rejected share
@@ -284,50 +317,32 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
                 return OUTGROWN, progress.row
             _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
         step, descent.target = _step(stage, workspace, progress), _target(stage, progress)
-        load = resolution.largest_load(problem, step.factor, work)
+        load = resolution.largest_load(problem, step.factor, workspace.work)
         fitting = resolution.fit(tolerance, step, problem.scene.coordinates, load)
         outcome = _equilibrate(
             state.x, problem, step, fitting, workspace, descent, control, progress
         )
-        if outcome == CONVERGED and not problem.covers_projection(state.x):
-            outcome, progress.minimum_iterations = OUTGROWN, 0
-            zero(work.dx)
         if outcome == OUTGROWN and progress.minimum_iterations <= tolerance.iterations:
-            if stage.dynamic:
-                zero(work.dx)  # the present point is the better guess
             return outcome, progress.row
-        if resolution.is_tighter(fitting, tolerance) and outcome in (ITERATIONS, STALLED):
-            outcome = UNRESOLVED
         ratio = 0.0
         if outcome == CONVERGED:
-            accurate, ratio = _assess(
-                problem, stage, state, step, tolerance.noise, workspace, progress
+            outcome, ratio = _judge(
+                problem, stage, state, step, fitting, load, workspace, descent, progress
             )
-            outcome = CONVERGED if accurate else INACCURATE
-            if accurate and not resolution.is_resolved(
-                problem, step, fitting, state, workspace.found, work, load, descent.decrement
-            ):
-                outcome = UNRESOLVED
-            elif accurate and unbalanced(problem, step, fitting, state, workspace.found, work):
-                outcome = UNBALANCED
-        if outcome != CONVERGED:
-            coarse = outcome == UNRESOLVED or outcome == UNBALANCED
-            coarse = coarse and resolution.is_coarse(fitting, step, problem, load)
-            outcome = UNRESOLVED if coarse else outcome
-            _reject(outcome, problem, step, state, workspace, descent, progress)
-            if outcome == INTERRUPTED or progress.share < SMALLEST_SHARE or coarse:
-                if outcome == UNRESOLVED and progress.cause != CONVERGED:
-                    outcome = progress.cause  # that made the shares so short
-                return (ITERATIONS if outcome == OUTGROWN else outcome), progress.row
+        elif resolution.is_tighter(fitting, tolerance) and outcome in (ITERATIONS, STALLED):
+            outcome = UNRESOLVED
+        if outcome == CONVERGED:
+            _accept(problem, stage, step, state, workspace, load, descent)
+            _next_share(ratio, tolerance.iterations, descent, progress)
+            if progress.done == 1.0:
+                _end_row(problem, stage, state, out, control, workspace.found, progress)
             continue
-        _accept(problem, stage, step, state, workspace, load, descent)
-        _next_share(ratio, tolerance.iterations, descent, progress)
-        if progress.done == 1.0:
-            totals.iterations += progress.row_iterations
-            totals.time += stage.duration
-            problem.write(out, progress.row, state, workspace.found)
-            control[1] += 1
-            progress.row, progress.done, progress.row_iterations = progress.row + 1, 0.0, 0
+        coarse = outcome == UNRESOLVED or outcome == UNBALANCED
+        coarse = coarse and resolution.is_coarse(fitting, step, problem, load)
+        outcome = UNRESOLVED if coarse else outcome
+        _reject(outcome, problem, step, state, workspace, descent, progress)
+        if outcome == INTERRUPTED or progress.share < SMALLEST_SHARE or coarse:
+            return _reported(outcome, progress), progress.row
     return CONVERGED, progress.row
 
 
