@@ -220,12 +220,59 @@ def _return_to_full_load(problem, stage, state, workspace, progress):
 
 
 @jit_exact
+def _judge(problem, tolerance, state, step, load, workspace, arc, heading, progress):
+    """Return the outcome of an arc for which an equilibrium is found.
+
+    load: `resolution.largest_load` of the step.
+    """
+    found, tangent = workspace.found, heading.tangent
+    if progress.row >= 0:
+        sign = -1.0 if _inner(tangent, heading.last_move, arc.weight) < 0.0 else 1.0
+        if sign * _cosine(found.u, tangent, arc.weight) < LEAST_COSINE:
+            return STALLED
+    decrement = progress.decrement
+    if not resolution.is_resolved(
+        problem, step, tolerance, state, found, workspace.work, load, decrement
+    ):
+        return UNRESOLVED
+    return CONVERGED
+
+
+@jit_exact
+def _accept(problem, step, state, workspace, load, heading, progress):
+    """Accept an arc: commit the material, enter the energy book, renew the heading.
+
+    load: `resolution.largest_load` of the step.
+    """
+    found, totals = workspace.found, state.totals[0]
+    problem.commit(state.x, step, found)
+    enter(problem, step, state, found, workspace.work)
+    totals.force = resolution.largest_force(problem.scene.coordinates, state, found, load)
+    copy(workspace.work.escape, heading.tangent)
+    if progress.row >= 0:
+        copy(found.u, heading.last_move)
+        progress.done += progress.share
+        totals.steps += 1
+
+
+@jit_exact
+def _end_row(problem, stage, state, out, control, found, arc, progress):
+    """Write the row whose arc is complete, and go on to the next one."""
+    if progress.row >= 0:
+        state.totals[0].time += stage.duration
+        problem.write(out, progress.row, state, found)
+        control[1] += 1
+    progress.row, progress.done, progress.share = progress.row + 1, 0.0, 1.0
+    arc.path[progress.row].factor = progress.load
+    arc.path[progress.row].unstable = problem.unstable()
+
+
+@jit_exact
 def _follow_path(problem, tolerance, stage, state, out, control, workspace, arc, heading, progress):
     """Continue the path at ``progress`` to its end, or until the neighbours must be renewed.
 
     Return (outcome, rows written).
     """
-    found, work, totals = workspace.found, workspace.work, state.totals[0]
     while progress.row < stage.steps:
         if progress.iterations == NOT_STARTED:
             progress.share = min(progress.share, 1.0 - progress.done)
@@ -235,21 +282,18 @@ def _follow_path(problem, tolerance, stage, state, out, control, workspace, arc,
             return outcome, progress.row
         if control[0] != 0:
             outcome = INTERRUPTED
-        if outcome == CONVERGED and progress.row >= 0:
-            if progress.length > 0.0 and progress.load > 1.0:
-                _return_to_full_load(problem, stage, state, workspace, progress)
-                continue
-            sign = -1.0 if _inner(heading.tangent, heading.last_move, arc.weight) < 0.0 else 1.0
-            if sign * _cosine(found.u, heading.tangent, arc.weight) < LEAST_COSINE:
-                outcome = STALLED
-        totals.iterations += progress.iterations
+        passed = progress.row >= 0 and progress.length > 0.0 and progress.load > 1.0
+        if outcome == CONVERGED and passed:
+            _return_to_full_load(problem, stage, state, workspace, progress)
+            continue
+        state.totals[0].iterations += progress.iterations
         progress.iterations = NOT_STARTED
         step = _step(workspace, stage, progress, progress.load)
-        load = resolution.largest_load(problem, step.factor, work)
-        if outcome == CONVERGED and not resolution.is_resolved(
-            problem, step, tolerance, state, found, work, load, progress.decrement
-        ):
-            outcome = UNRESOLVED
+        load = resolution.largest_load(problem, step.factor, workspace.work)
+        if outcome == CONVERGED:
+            outcome = _judge(
+                problem, tolerance, state, step, load, workspace, arc, heading, progress
+            )
         if outcome != CONVERGED:
             copy(workspace.x0, state.x)
             problem.roll_back(step)
@@ -257,23 +301,11 @@ def _follow_path(problem, tolerance, stage, state, out, control, workspace, arc,
             if outcome == INTERRUPTED or progress.share < SMALLEST_SHARE or progress.row < 0:
                 return (ITERATIONS if outcome == OUTGROWN else outcome), progress.row
             continue
-        problem.commit(state.x, step, found)
-        enter(problem, step, state, found, work)
-        totals.force = resolution.largest_force(problem.scene.coordinates, state, found, load)
-        copy(work.escape, heading.tangent)
-        if progress.row >= 0:
-            copy(found.u, heading.last_move)
-            progress.done += progress.share
-            totals.steps += 1
-            if progress.done < 1.0 and progress.load != 1.0:
-                progress.share *= 2.0
-                continue
-            totals.time += stage.duration
-            problem.write(out, progress.row, state, found)
-            control[1] += 1
-        progress.row, progress.done, progress.share = progress.row + 1, 0.0, 1.0
-        arc.path[progress.row].factor = progress.load
-        arc.path[progress.row].unstable = problem.unstable()
+        _accept(problem, step, state, workspace, load, heading, progress)
+        if progress.row >= 0 and progress.done < 1.0 and progress.load != 1.0:
+            progress.share *= 2.0
+            continue
+        _end_row(problem, stage, state, out, control, workspace.found, arc, progress)
         if progress.load == 1.0:
             break
     return CONVERGED, progress.row
