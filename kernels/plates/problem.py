@@ -25,7 +25,8 @@ class Buffers(NamedTuple):
     at its material points (`shell`). Both are rows of `history.State.memory`. shell: scratch of one
     quad; second (24, 24): its Hessian. part, projected (12, 12): Hessians of one contact. parts
     (3,): energies of the walls, J. pull (n,): derivatives of the gradient in the driven coordinate.
-    unknowns (u,), weight (n_nodes,): scratch. shift (1,): last shift of a projected Hessian, N/m.
+    diagonal (n,), unknowns (u,), weight (n_nodes,): scratch. shift (1,): last shift of a projected
+    Hessian, N/m.
     """
 
     committed: np.ndarray
@@ -36,6 +37,7 @@ class Buffers(NamedTuple):
     projected: np.ndarray
     parts: np.ndarray
     pull: np.ndarray
+    diagonal: np.ndarray
     unknowns: np.ndarray
     shift: np.ndarray
     weight: np.ndarray
@@ -95,8 +97,8 @@ def make_buffers(scene, committed):
         committed[:n], Memory(committed[n:], line, scene.law.make_pace()),
         shell.make_scratch(), np.zeros((24, 24)), np.zeros((12, 12)), np.zeros((12, 12)),
         np.zeros(3),
-        np.zeros(layout.leader.size), np.zeros(layout.scale.size), np.zeros(1),
-        np.zeros(layout.block.size),
+        np.zeros(layout.leader.size), np.zeros(layout.leader.size), np.zeros(layout.scale.size),
+        np.zeros(1), np.zeros(layout.block.size),
     )  # fmt: skip
 
 

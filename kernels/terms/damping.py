@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.compile.jit import jit
+from kernels.compile.jit import jit, jit_exact
 from kernels.terms import bend, elements, kelvin_voigt, rayleigh, stretch
 
 
@@ -96,3 +96,13 @@ def evaluate(u, scene, before, dt, shape, resultants, stiffness, projected, g):
     if scene.damp.beta_k > 0.0 or scene.damp.relaxation > 0.0:
         elements.gather(scene.walls, shape, g)
     return total
+
+
+@jit_exact
+def hessian(scene, dt, diagonal):
+    """Add the Hessian of D_mass to the ``diagonal`` (n,); `evaluate` has added that of the others
+    to the stiffness of the walls. dt: h.
+    """
+    factor, mass = scene.damp.alpha_m / dt, scene.coordinates.mass
+    for i in range(2 * scene.layout.n_nodes):
+        diagonal[i] += factor * mass[i]

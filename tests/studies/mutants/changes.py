@@ -132,11 +132,13 @@ MUTANTS = [
         f"{TERMS}/inertia.py",
         ("inertia: energy", "total += force", "total -= force"),
         ("inertia: gradient", "g[i] += force", "g[i] -= force"),
+        ("inertia: Hessian", "diagonal[i] += factor", "diagonal[i] -= factor"),
     ),
     *_of(
         f"{TERMS}/damping.py",
         ("damping by mass: energy", "total += 0.5 * alpha", "total -= 0.5 * alpha"),
         ("damping by mass: gradient", "g[i] += alpha", "g[i] -= alpha"),
+        ("damping by mass: Hessian", "diagonal[i] += factor", "diagonal[i] -= factor"),
     ),
     *_of(
         f"{TERMS}/rayleigh.py",
