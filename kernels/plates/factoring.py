@@ -9,7 +9,7 @@ are positive.
 
 from kernels.arrays import zero
 from kernels.compile.jit import jit_exact
-from kernels.linear.condensed.block_ldlt import ROUNDED, THROUGH
+from kernels.linear.pivots import ROUNDED, THROUGH
 from kernels.linear.supernodal import factor as ldlt
 from kernels.linear.supernodal import matrix as blocks
 from kernels.linear.supernodal import solution

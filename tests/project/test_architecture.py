@@ -73,6 +73,7 @@ TESTED_ELSEWHERE = {
     "kernels.plates.problem": "kernels/plates/test_potential.py",
     "kernels.plates.steps": "kernels/plates/test_potential.py",
     "kernels.plates.contacts.touching": "kernels/plates/contacts/test_contact.py",
+    "kernels.linear.pivots": "kernels/linear/condensed/test_block_ldlt.py",
     "kernels.linear.supernodal.fronts": "kernels/linear/supernodal/test_factor.py",
     "kernels.solve.history": "kernels/solve/test_chain.py",
     "kernels.solve.residual": "kernels/solve/test_newton.py",
