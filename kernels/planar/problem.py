@@ -13,7 +13,7 @@ from kernels.planar import constraints, factoring, potential, reach, steps
 from kernels.planar.reach import Neighbours
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
-from kernels.terms import followers, lagging, rows
+from kernels.terms import followers, lagging, moves, rows
 from kernels.terms.damping import Before
 from kernels.terms.elements import Resultants, Shape, Stiffness
 
@@ -58,9 +58,10 @@ class Planar(NamedTuple):
     pull = constraints.pull
     tie = followers.tie
 
-    travel = reach.travel
+    travel = moves.travel
     step_limit = reach.step_limit
-    covers = reach.covers
+    covers = moves.covers
+    longest = reach.longest
     drift = reach.drift
     least_gap = reach.least_gap
 

@@ -15,7 +15,7 @@ from kernels.plates.element import relaxing_shear, shell
 from kernels.plates.reach import Neighbours
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
-from kernels.terms import followers, lagging, rows
+from kernels.terms import followers, lagging, moves, rows
 
 
 class Buffers(NamedTuple):
@@ -67,9 +67,10 @@ class Plates(NamedTuple):
     pull = factoring.pull
     tie = followers.tie
 
-    travel = reach.travel
+    travel = moves.travel
     step_limit = reach.step_limit
-    covers = reach.covers
+    covers = moves.covers
+    longest = reach.longest
     drift = reach.drift
     least_gap = reach.least_gap
 

@@ -14,10 +14,10 @@ from kernels.plates.contacts.friction import LaggedContacts
 from kernels.plates.contacts.pairs import Pairs
 from kernels.plates.contacts.touching import Touching
 from kernels.plates.layout import PER_NODE, POSITION
+from kernels.terms.moves import MOVE_MARGIN, listed_share
 
 MARGIN = 0.5  # least margin of the pair list, as a share of the reach of contact
 MOST_TURN = 0.125  # of a node in one move: w, the tangent of a quarter of the angle
-MOVE_MARGIN = 2.2  # least margin as a multiple of a move; with 2 the list holds for no other move
 
 
 class Neighbours(NamedTuple):
@@ -92,16 +92,9 @@ def drift(problem, x):
 
 
 @jit_exact
-def travel(problem, dx):
-    """Return the longest move of a node in ``dx``, m, at most the longest that lists may cover."""
-    longest = near.longest(dx, n_nodes(problem.scene))
-    return min(longest, problem.scene.contact.most_move)
-
-
-@jit_exact
-def covers(problem, x, far):
-    """Return whether the pair list holds for moves of all nodes by at most ``far`` m from ``x``."""
-    return 2.0 * (drift(problem, x) + far) <= problem.neighbours.margin
+def longest(problem, dx):
+    """Return the longest move of a node in ``dx``, m."""
+    return near.longest(dx, n_nodes(problem.scene))
 
 
 @jit_exact
@@ -117,10 +110,8 @@ def step_limit(problem, x, dx, far):
 
     far: `travel` of ``dx``, m.
     """
-    scene, shortest = problem.scene, 1.0
-    if far >= scene.contact.most_move:
-        far = near.longest(dx, n_nodes(scene))
-        shortest = min(1.0, scene.contact.most_move / far)
+    scene = problem.scene
+    shortest, far = listed_share(problem, dx, far)
     first = admissible.step_limit(
         x, dx, far, scene.contact, problem.neighbours.pairs, drift(problem, x)
     )

@@ -5,8 +5,8 @@ on the deformation of each element alone. Their `evaluate` returns the energy an
 derivatives in strain and turns, the resultants of the sections, from which `elements` makes
 gradient and Hessian. `rayleigh` starts from that Hessian. The *other terms* have two verbs:
 `evaluate` returns the energy and adds the gradient, `hessian` adds to the matrix (`inertia`,
-`damping` by mass, `spring`, `fold`, `contact`, `friction`).
+`damping` by mass, `spring`, `fold`, `contact`, `friction`). `loads` are linear.
 
-`followers`, `lagging` and `rows` have verbs that problems of walls and of plates share.
+`followers`, `lagging`, `moves` and `rows` have verbs that problems of walls and of plates share.
 `contact_near_joints` prepares `contact`. The material laws are in `kernels.laws`.
 """

@@ -81,6 +81,7 @@ TESTED_ELSEWHERE = {
     "kernels.laws.barrier": "kernels/terms/test_contact.py",
     "kernels.laws.law": "physics/test_memories.py",
     "kernels.terms.lagging": "kernels/plates/test_potential.py",
+    "kernels.terms.moves": "kernels/planar/test_reach.py",
     "kernels.terms.rows": "sweep/simulation/test_custom_history.py",
     "kernels.terms.kelvin_voigt": "kernels/terms/test_damping.py",
     "kernels.terms.rayleigh": "kernels/terms/test_damping.py",

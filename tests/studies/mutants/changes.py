@@ -135,6 +135,11 @@ MUTANTS = [
         ("inertia: Hessian", "diagonal[i] += factor", "diagonal[i] -= factor"),
     ),
     *_of(
+        f"{TERMS}/loads.py",
+        ("loads: energy", "return -factor", "return factor"),
+        ("loads: gradient", "g[i] -= factor", "g[i] += factor"),
+    ),
+    *_of(
         f"{TERMS}/damping.py",
         ("damping by mass: energy", "total += 0.5 * alpha", "total -= 0.5 * alpha"),
         ("damping by mass: gradient", "g[i] += alpha", "g[i] -= alpha"),
