@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
-from kernels.laws.law import Memory, told
+from kernels.laws.law import Memory, in_python
 from kernels.plates import factoring, potential, reach, steps
 from kernels.plates.contacts import thickness
 from kernels.plates.element import relaxing_shear, shell
@@ -113,7 +113,7 @@ def at_rest(scene, frames, x):
     """Return the `history.State` at rest at ``x`` (n,), with ``frames`` (n_nodes, 9) of nodes and a
     virgin material.
     """
-    n, numbers = len(frames), told(scene.law, "state_size")
+    n, numbers = len(frames), in_python(scene.law, "state_size")
     points = (shell.POINTS_OF_LAYERS + 1) * len(scene.shell.quads) if numbers > 0 else 0
     memory = (n + points, max(numbers, thickness.THICKENING + 1))
     state = history.at_rest(x, rows.STORED, memory)
