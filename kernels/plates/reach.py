@@ -9,10 +9,10 @@ from kernels.geometry.space import near
 from kernels.linear.supernodal.analysis import analyse
 from kernels.linear.supernodal.matrix import Matrix
 from kernels.plates import couplings
-from kernels.plates.contacts import admissible, friction, mirror, pairs, touching
+from kernels.plates.contacts import admissible, friction, mirror, pairs
 from kernels.plates.contacts.friction import LaggedContacts
 from kernels.plates.contacts.pairs import Pairs
-from kernels.plates.contacts.touching import Touching
+from kernels.plates.contacts.touching import Touching, no_contacts
 from kernels.plates.layout import PER_NODE, POSITION
 from kernels.terms.moves import MOVE_MARGIN, listed_share
 
@@ -63,8 +63,8 @@ def find_neighbours(scene, x):
     listed, margin = list_pairs(scene, x, 0.0)
     lagged_contacts = friction.no_contacts(listed, scene.contact, scene.friction)
     matrix = make_matrix(scene, listed, lagged_contacts)
-    met = touching.no_contacts(scene.contact, listed)
-    return Neighbours(listed, x.copy(), margin, matrix, met, lagged_contacts)
+    touching = no_contacts(scene.contact, listed)
+    return Neighbours(listed, x.copy(), margin, matrix, touching, lagged_contacts)
 
 
 @jit_owning
@@ -81,8 +81,8 @@ def renew_neighbours(scene, neighbours, x, move):
     wider = friction.no_contacts(listed, scene.contact, scene.friction)
     if wider.load.size > lagged_contacts.load.size:
         lagged_contacts = friction.enlarged(lagged_contacts, wider)
-    met = touching.no_contacts(scene.contact, listed)
-    return Neighbours(listed, x.copy(), margin, matrix, met, lagged_contacts)
+    touching = no_contacts(scene.contact, listed)
+    return Neighbours(listed, x.copy(), margin, matrix, touching, lagged_contacts)
 
 
 @jit_exact

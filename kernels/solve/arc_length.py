@@ -23,7 +23,7 @@ from kernels.arrays import copy, dot, zero
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.compile.reference import by_reference
 from kernels.solve import resolution
-from kernels.solve.energy_book import enter
+from kernels.solve.energy_book import enter_step
 from kernels.solve.integrators import Ahead
 from kernels.solve.march import NOT_STARTED, SMALLEST_SHARE
 from kernels.solve.outcomes import (
@@ -36,7 +36,7 @@ from kernels.solve.outcomes import (
     UNRESOLVED,
 )
 from kernels.solve.problem import NO_ROOM, TIED, Step
-from kernels.solve.residual import largest
+from kernels.solve.residual import largest_residual
 from kernels.solve.workspace import make_workspace
 
 PATH_PROGRESS = np.dtype(
@@ -157,11 +157,11 @@ def _correct(x, problem, tolerance, stage, workspace, arc, progress):
         step = _step(workspace, stage, progress, progress.load)
         problem.evaluate(x, step, found, False)
         problem.reduce(found.g, work.residual)
-        size = largest(work.residual, coordinates)
+        size = largest_residual(work.residual, coordinates)
         if not size < np.inf:
             return NOT_FINITE
-        met, _ = problem.factor(x, step, found, False, True)
-        if met == NO_ROOM:
+        result, _ = problem.factor(x, step, found, False, True)
+        if result == NO_ROOM:
             return OUTGROWN
         for i in range(x.size):
             r[i], v[i] = -found.g[i], coordinates.load[i]
@@ -246,7 +246,7 @@ def _accept(problem, step, state, workspace, load, heading, progress):
     """
     found, totals = workspace.found, state.totals[0]
     problem.commit(state.x, step, found)
-    enter(problem, step, state, found, workspace.work)
+    enter_step(problem, step, state, found, workspace.work)
     totals.force = resolution.largest_force(problem.scene.coordinates, state, found, load)
     copy(workspace.work.escape, heading.tangent)
     if progress.row >= 0:

@@ -86,8 +86,8 @@ class Whole:
     def factor(self, x, projected=False):
         """Whether there is a negative pivot at ``x``, the first one; whether room is lacking."""
         _, found = self.found(x, projected)
-        met, pivot = self.problem.factor(x, self.step, found, projected, False)
-        return met == NEGATIVE, pivot, met == NO_ROOM
+        result, pivot = self.problem.factor(x, self.step, found, projected, False)
+        return result == NEGATIVE, pivot, result == NO_ROOM
 
     def solve(self, b):
         """Solution (n,) for a right side ``b`` (n,) after `factor`."""
