@@ -44,7 +44,7 @@ def _works(found, last, theta):
 
 
 @jit_exact
-def strike(state, problem, speed, led):
+def impose_speed(state, problem, speed, led):
     """Set the velocity of the driven coordinate to ``speed`` (m/s), and of all that it leads.
 
     Inelastic impact: half of its work is kinetic energy, half is lost. led (n,): scratch.
@@ -112,7 +112,7 @@ def unbalanced(problem, step, tolerance, state, found, work):
 
 
 @jit_exact
-def enter(problem, step, state, found, work):
+def enter_step(problem, step, state, found, work):
     """Enter a converged step into the book; ``found``: of the last `evaluate`, committed."""
     book, totals, theta = state.book[0], state.totals[0], step.theta
     reaction, move, driven = 0.0, 0.0, problem.scene.coordinates.driven

@@ -12,7 +12,7 @@ import numpy as np
 from kernels.arrays import copy, zero
 from kernels.compile.jit import jit_exact
 from kernels.solve.anderson import extrapolate
-from kernels.solve.residual import allowed, largest
+from kernels.solve.residual import allowed, largest_residual
 from kernels.solve.resolution import LARGEST_RESIDUAL
 
 MAX_LOOPS = 30
@@ -44,7 +44,9 @@ def is_converged(x, problem, step, tolerance, space, progress):
     if not problem.lag(space.lagged) and progress.loosening == 1.0:
         return True
     error = _error(problem, step, found, work)
-    limit = _admissible(largest(found.friction, coordinates), problem.stiffest(), tolerance)
+    limit = _admissible(
+        largest_residual(found.friction, coordinates), problem.stiffest(), tolerance
+    )
     converged = error <= limit and progress.loosening == 1.0
     if converged:  # also with the forces at ``x``, which may be far from the extrapolated place
         problem.lag(x)
@@ -67,7 +69,7 @@ def _error(problem, step, found, work):
     """Return the largest residual in N with the present lagged forces, which ``found`` then has."""
     problem.exchange(step, found)
     problem.reduce(found.g, work.residual)
-    return largest(work.residual, problem.scene.coordinates)
+    return largest_residual(work.residual, problem.scene.coordinates)
 
 
 @jit_exact

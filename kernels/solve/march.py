@@ -12,7 +12,7 @@ from kernels.arrays import copy, zero
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.compile.reference import by_reference
 from kernels.solve import energy_book, friction_loop, integrators, resolution
-from kernels.solve.energy_book import energy_gain, enter, kinetic, strike, unbalanced
+from kernels.solve.energy_book import energy_gain, enter_step, impose_speed, kinetic, unbalanced
 from kernels.solve.integrators import BACKWARD_EULER, BDF2, Ahead
 from kernels.solve.newton import DESCENT, minimise
 from kernels.solve.outcomes import (
@@ -151,7 +151,7 @@ def _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
     copy(state.x, workspace.lagged)
     if stage.dynamic:
         if driven >= 0 and stage.scheme != BACKWARD_EULER and last == 0.0:
-            strike(state, problem, remaining / duration, work.direction)
+            impose_speed(state, problem, remaining / duration, work.direction)
         heavy = coordinates.heavy
         integrators.predict(state, duration, h, heavy, workspace.y, workspace.x_pred, work.dx)
     else:
@@ -257,7 +257,7 @@ def _accept(problem, stage, step, state, workspace, load, descent):
         book.kinetic = kinetic(state.v, problem.scene.coordinates.mass)
         totals.last = step.duration
     problem.commit(state.x, step, found)
-    enter(problem, step, state, found, work)
+    enter_step(problem, step, state, found, work)
     totals.force = resolution.largest_force(problem.scene.coordinates, state, found, load)
     if energy_book.project(problem, step, state, found, work.trial):
         descent.since_factor = np.inf

@@ -25,7 +25,7 @@ from kernels.solve.outcomes import (
     UNFINISHED,
 )
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE, TIED
-from kernels.solve.residual import allowed, allowed_decrement, largest
+from kernels.solve.residual import allowed, allowed_decrement, largest_residual
 
 ARMIJO = 1e-4  # share of the predicted decrease that is sufficient
 HALVINGS = 40  # of a line search, at most
@@ -241,7 +241,7 @@ def _balance(x, problem, tolerance, found, work, descent):
     coordinates, before = problem.scene.coordinates, descent.residual
     descent.potential = found.sums[0].potential
     problem.reduce(found.g, work.residual)
-    descent.residual = largest(work.residual, coordinates)
+    descent.residual = largest_residual(work.residual, coordinates)
     descent.remaining = 0.0
     if coordinates.driven >= 0:
         descent.remaining = descent.target - x[coordinates.driven]

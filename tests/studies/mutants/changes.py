@@ -249,7 +249,7 @@ MUTANTS = [
         f"{SOLVE}/friction_loop.py",
         (
             "friction loop: ends at once",
-            "return largest(work.residual, problem.scene.coordinates)",
+            "return largest_residual(work.residual, problem.scene.coordinates)",
             "return 0.0",
         ),
         tests=f"{SOLVE}/test_chain.py::test_friction_of_a_loaded_particle_is_that_of_where_it_ends",

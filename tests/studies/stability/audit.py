@@ -110,9 +110,9 @@ def _unborne(terms, state, step):
     coordinates, left = terms.coordinates, np.zeros_like(state.x)
     here = whole(SimpleNamespace(terms=terms), state.x, factor=step.factor)
     here.problem.reduce(here.gradient(state.x), left)
-    size = residual.largest(left, coordinates)
+    size = residual.largest_residual(left, coordinates)
     here.problem.reduce(step.factor * coordinates.load, left)
-    load = residual.largest(left, coordinates)
+    load = residual.largest_residual(left, coordinates)
     if size > BORNE * load > 0.0:
         yield f"nothing moves under {load:.1e} N, of which {size:.1e} N are not borne"
 
@@ -231,10 +231,10 @@ def _balance(seen):
     _, found = step.found(seen.x)
     left = np.zeros_like(seen.x)
     step.problem.reduce(found.g, left)
-    size = residual.largest(left, coordinates)
+    size = residual.largest_residual(left, coordinates)
     allowed = residual.allowed(step.problem.stiffest(), seen.tolerance)
     if seen.terms.friction.mu > 0.0:
-        rubbing = residual.largest(found.friction, coordinates)
+        rubbing = residual.largest_residual(found.friction, coordinates)
         allowed += LAG * max(seen.tolerance.friction, seen.tolerance.friction_share * rubbing)
     if not size <= 1.01 * allowed:
         yield f"{size / allowed:.1e} of the allowed residual"
