@@ -11,7 +11,7 @@ import numpy as np
 from kernels.arrays import copy, zero
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.compile.reference import by_reference
-from kernels.solve import energy_book, friction_loop, integrators, resolution
+from kernels.solve import energy_book, integrators, resolution
 from kernels.solve.energy_book import energy_gain, enter_step, impose_speed, kinetic, unbalanced
 from kernels.solve.integrators import BACKWARD_EULER, BDF2, Ahead
 from kernels.solve.newton import DESCENT, minimise
@@ -24,20 +24,17 @@ from kernels.solve.outcomes import (
     STALLED,
     UNBALANCED,
     UNRESOLVED,
-    UNSETTLED,
 )
 from kernels.solve.problem import Step
-from kernels.solve.residual import scaled
 from kernels.solve.workspace import make_workspace
 
 SMALLEST_SHARE = 2.0**-24  # share of a step
 DOUBLING_ERROR = 0.1  # of the allowed error: below it the next share may be twice as long
 MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple of it
-EASY_LOOPS = 10  # friction loops of an easy share, at most
 MOST_PATIENCE = 63  # shares after a failure until a longer one is tried again, at most
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
 UNCHECKED_SHARE = 2.0**-12  # share of a step that may generate more: the whole run is checked later
-NOT_STARTED = -1  # friction loops of a share before `_begin_share`
+NOT_STARTED = -1  # corrections of a share before `_begin_share`
 PROGRESS = np.dtype(
     (
         np.record,  # for attributes in plain Python too
@@ -52,10 +49,7 @@ PROGRESS = np.dtype(
             ("row_iterations", np.int64),  # Newton iterations for the row
             ("share_iterations", np.int64),  # Newton iterations for the share
             ("minimum_iterations", np.int64),  # Newton iterations for the present minimum
-            ("loops", np.int64),  # friction loops in the share
-            ("least_error", np.float64),  # least residual after lagging friction again, N
-            ("stagnant", np.int64),  # loops since the least error
-            ("loosening", np.float64),  # factor on the tolerance of the next minimum
+            ("corrections", np.int64),  # of the lagged forces in the share
             ("h", np.float64),  # of the last attempted share, s
         ],
     )
@@ -148,7 +142,6 @@ def _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
         descent.since_factor = np.inf
     progress.h = h
     copy(state.x, workspace.x0)
-    copy(state.x, workspace.lagged)
     if stage.dynamic:
         if driven >= 0 and stage.scheme != BACKWARD_EULER and last == 0.0:
             impose_speed(state, problem, remaining / duration, work.direction)
@@ -169,26 +162,28 @@ def _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
     if problem.lag(state.x):  # the Hessian of friction changes
         descent.since_factor = np.inf
     progress.share_iterations, progress.minimum_iterations, descent.cut_moves = 0, 0, 0
-    friction_loop.begin(progress)
+    progress.corrections = 0
 
 
 @jit_exact
-def _equilibrate(x, problem, step, tolerance, workspace, descent, control, progress):
-    """Minimise until the lagged forces are consistent with the minimum; return the outcome."""
+def _equilibrate(x, problem, step, corrections, tolerance, workspace, descent, control, progress):
+    """Minimise; lag the forces again at the minimum and minimise once more, ``corrections`` times.
+
+    Return the outcome.
+    """
     descent.evaluated = False
     while True:
-        loose = scaled(tolerance, progress.loosening, 1.0)
-        outcome = minimise(x, problem, step, loose, workspace, descent, control)
-        descent.evaluated = True
+        outcome = minimise(x, problem, step, tolerance, workspace, descent, control)
         progress.row_iterations += descent.iterations
         progress.share_iterations += descent.iterations
         progress.minimum_iterations += max(descent.iterations, 1)
-        if outcome != CONVERGED or not problem.lags():
+        if outcome != CONVERGED or progress.corrections == corrections or not problem.lag(x):
             break
-        if friction_loop.is_converged(x, problem, step, tolerance, workspace, progress):
-            break
-        if friction_loop.fails(progress):
-            return UNSETTLED
+        problem.exchange(step, workspace.found)
+        copy(x, workspace.work.trial)
+        zero(workspace.work.dx)
+        descent.evaluated, descent.since_factor = True, np.inf
+        progress.corrections, progress.minimum_iterations = progress.corrections + 1, 0
     if outcome == CONVERGED and not problem.covers_projection(x):
         outcome, progress.minimum_iterations = OUTGROWN, 0
         zero(workspace.work.dx)
@@ -235,7 +230,7 @@ def _reject(outcome, problem, step, state, workspace, descent, progress):
     copy(workspace.x0, state.x)
     problem.roll_back(step)
     zero(workspace.found.u)
-    progress.loops, descent.since_factor = NOT_STARTED, np.inf
+    progress.corrections, descent.since_factor = NOT_STARTED, np.inf
     if outcome != UNRESOLVED:
         progress.cause = outcome
     if outcome != INACCURATE:
@@ -272,10 +267,9 @@ def _next_share(ratio, iterations, descent, progress):
     A failed attempt costs more than a double share saves: after every failure more shares have to
     be accepted before a double one is tried.
     """
-    easy = progress.share_iterations <= iterations and progress.loops <= EASY_LOOPS
-    easy = easy and ratio < DOUBLING_ERROR
-    progress.done, progress.failed, progress.loops = progress.done + progress.share, 0, NOT_STARTED
-    progress.cause = CONVERGED
+    easy = progress.share_iterations <= iterations and ratio < DOUBLING_ERROR
+    progress.done, progress.failed = progress.done + progress.share, 0
+    progress.corrections, progress.cause = NOT_STARTED, CONVERGED
     if progress.share < 1.0:
         descent.since_factor = np.inf
     if progress.wait > 0:
@@ -311,7 +305,7 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
     Return (outcome, rows written).
     """
     while progress.row < stage.steps:
-        if progress.loops == NOT_STARTED:
+        if progress.corrections == NOT_STARTED:
             if not problem.covers(state.x, 0.0):  # after a rejected share
                 descent.travel_bound = 0.0
                 return OUTGROWN, progress.row
@@ -320,8 +314,9 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
         load = resolution.largest_load(problem, step.factor, workspace.work)
         fitting = resolution.fit(tolerance, step, problem.scene.coordinates, load)
         outcome = _equilibrate(
-            state.x, problem, step, fitting, workspace, descent, control, progress
-        )
+            state.x, problem, step, integrators.corrections(stage.scheme), fitting, workspace,
+            descent, control, progress,
+        )  # fmt: skip
         if outcome == OUTGROWN and progress.minimum_iterations <= tolerance.iterations:
             return outcome, progress.row
         ratio = 0.0
@@ -354,7 +349,7 @@ def march(scene, tolerance, stage, state, out, control):
     counts completed steps.
     """
     progress, descent = np.zeros(1, PROGRESS), np.zeros(1, DESCENT)
-    progress[0].share, progress[0].loops, descent[0].since_factor = 1.0, NOT_STARTED, np.inf
+    progress[0].share, progress[0].corrections, descent[0].since_factor = 1.0, NOT_STARTED, np.inf
     last = state.totals[0].last
     if stage.error < np.inf and last > 0.0:
         progress[0].share = last / stage.duration

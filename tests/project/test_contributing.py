@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.project.test_architecture import FLOORS
+
 ROOT = Path(__file__).parents[2]
 TEXT = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
 QUOTED = re.findall(r"`([^`\n]+)`", TEXT)
@@ -16,6 +18,17 @@ NAMES = [
     if "NAME" not in path and not path.endswith(".md")
     for name in re.findall(r"`(_?[A-Za-z]\w*(?:\.\w+)?)`", said)
 ]
+
+
+def test_the_plan_has_all_folders_in_the_order_of_their_imports():
+    plan = re.search(r"```text\n(kernels/.*?)```", TEXT, re.DOTALL)[1]
+    folders = [
+        f"{top}.{name}"
+        for top, lines in re.findall(r"^(kernels|sweep)/.*\n((?:  .*\n)+)", plan, re.MULTILINE)
+        for line in lines.splitlines()
+        for name in re.findall(r"(\w+)/(?=\s)", line[:23])
+    ]
+    assert folders == [name for name in FLOORS if (ROOT / name.replace(".", "/")).is_dir()]
 
 
 @pytest.mark.parametrize("path", [path for path in PATHS if "NAME" not in path])
