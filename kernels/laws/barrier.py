@@ -24,3 +24,15 @@ def barrier(s):
     slope = -r * (2.0 * log + r / s)
     curvature = -2.0 * log - 4.0 * r / s + r * r / (s * s)
     return value, slope, curvature
+
+
+@jit
+def phi(weight, stiffness, starts, d):
+    """Return ``weight`` times phi(d) = stiffness t_c b(d / t_c), and its first two derivatives in
+    the distance ``d``, m.
+
+    starts: t_c, the distance at which contact starts, m.
+    """
+    value, slope, curvature = barrier(d / starts)
+    scale = weight * stiffness
+    return scale * starts * value, scale * slope, scale / starts * curvature

@@ -81,7 +81,7 @@ def commit_point(law, strain, memory, point):
     return potential - stored, dissipated
 
 
-def told(law, name):
-    """Return the number that a verb of a law tells, as plain Python: no kernel is compiled."""
+def in_python(law, name):
+    """Return the number that the verb ``name`` of a law returns, without compiling it."""
     verb = getattr(type(law), name)
     return getattr(verb, "__wrapped__", verb)(law)

@@ -200,8 +200,3 @@ class RelaxingSheet(NamedTuple):
     respond = respond
     state_size = state_size
     commit = commit
-
-
-def elastic_only(elastic):
-    """Return a `sheet.Sheet` as a law without branches."""
-    return RelaxingSheet(elastic, np.empty(0), np.empty(0), elastic.shear_modulus)

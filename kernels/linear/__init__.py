@@ -2,5 +2,5 @@
 
 `condensed` is that of walls in the plane: it eliminates the inside of walls, then factors 3 x 3
 blocks. `supernodal` factors the larger matrices of nodes in space. Both order their unknowns by
-`minimum_degree`.
+`minimum_degree`, and replace pivots that are zero within round-off (`pivots`).
 """

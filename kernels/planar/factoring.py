@@ -4,7 +4,7 @@ from kernels.compile.jit import jit_exact, separate
 from kernels.linear.condensed import block_ldlt, system
 from kernels.linear.condensed.block_matrix import clear
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
-from kernels.terms import contact, fold, friction, spring
+from kernels.terms import contact, damping, fold, friction, inertia, spring
 from kernels.terms.lagging import slip_of
 
 LENGTHS = 2  # x and y, the first slots of a block
@@ -14,7 +14,7 @@ LENGTHS = 2  # x and y, the first slots of a block
 @jit_exact
 def factor(problem, x, step, found, projected, through):
     """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""
-    scene, neighbours, coordinates = problem.scene, problem.neighbours, problem.scene.coordinates
+    scene, neighbours = problem.scene, problem.neighbours
     matrix = neighbours.system.matrix
     clear(matrix)
     fold.hessian(x, scene.fold, matrix, projected)
@@ -22,11 +22,8 @@ def factor(problem, x, step, found, projected, through):
     contact.hessian(x, scene.contact, neighbours.pairs, neighbours.touching, matrix, projected)
     friction.hessian(found.u, neighbours.lagged_contacts, slip_of(problem, step), matrix, projected)
     if step.dynamic:
-        inert, drag = 1.0 / (step.h * step.h), scene.damp.alpha_m / step.h
-        for i in range(x.size):
-            matrix.diagonal[i] += inert * coordinates.mass[i]
-        for i in range(2 * scene.layout.n_nodes):
-            matrix.diagonal[i] += drag * coordinates.mass[i]
+        inertia.hessian(scene.coordinates.mass, step.h, matrix.diagonal)
+        damping.hessian(scene, step.h, matrix.diagonal)
     failed, pivot = system.factor(
         neighbours.system, scene.layout, problem.buffers.stiffness, projected, through
     )

@@ -9,7 +9,7 @@ inertia and damping vanish. A term that is absent from a scene has empty arrays.
 
 import numpy as np
 
-from kernels.arrays import add, dot, zero, zero_rows
+from kernels.arrays import add, copy, zero_rows
 from kernels.compile.jit import jit_exact, separate
 from kernels.planar.reach import drift
 from kernels.terms import (
@@ -20,6 +20,8 @@ from kernels.terms import (
     fold,
     inertia,
     lagging,
+    loads,
+    moves,
     spring,
     stretch,
 )
@@ -41,21 +43,18 @@ LEAST = np.dtype(
 def evaluate(problem, x, step, found, projected):
     """Return E in J; fill ``found`` and the walls' part of the Hessian, ``projected`` or exact."""
     scene, neighbours, coordinates = problem.scene, problem.neighbours, problem.scene.coordinates
-    _reset(x, step, found)
+    moves.begin(x, step.y, found)
     store_walls(problem, x, found, projected)
     found.stored[CONTACT] = contact.evaluate(
         x, scene.contact, neighbours.pairs, drift(problem, x), neighbours.touching, found.elastic
     )
     total = found.stored[STRETCH] + found.stored[BEND] + found.stored[CONTACT]
-    total -= step.factor * dot(coordinates.load, found.u)
-    for i in range(x.size):
-        found.g[i] = found.elastic[i] - step.factor * coordinates.load[i]
+    copy(found.elastic, found.g)
+    total += loads.evaluate(found.u, coordinates.load, step.factor, found.g)
     if step.dynamic:
         total += inertia.evaluate(x, step.x_pred, coordinates.mass, step.h, found.g)
         total += _damping(problem, step, found, projected)
-    sums = found.sums[0]
-    sums.potential, sums.friction, sums.dissipated = total, 0.0, 0.0
-    return lagging.exchange(problem, step, found)
+    return lagging.complete(problem, step, found, total)
 
 
 @jit_exact
@@ -100,15 +99,6 @@ def store_walls(problem, x, found, projected):
     found.stored[STRETCH] += spring.evaluate(x, scene.spring, found.elastic)
     folding, least.opening = fold.evaluate(x, scene.fold, found.elastic)
     found.stored[BEND] += folding
-
-
-@jit_exact
-def _reset(x, step, found):
-    """Fill u = x - y; set the parts of the gradient to zero."""
-    for i in range(x.size):
-        found.u[i] = x[i] - step.y[i]
-    for part in (found.elastic, found.material, found.friction):
-        zero(part)
 
 
 @jit_exact

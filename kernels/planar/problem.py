@@ -8,12 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
-from kernels.laws.law import Memory, told
+from kernels.laws.law import Memory, in_python
 from kernels.planar import constraints, factoring, potential, reach, steps
 from kernels.planar.reach import Neighbours
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
-from kernels.terms import followers, lagging, rows
+from kernels.terms import followers, lagging, moves, rows
 from kernels.terms.damping import Before
 from kernels.terms.elements import Resultants, Shape, Stiffness
 
@@ -58,9 +58,10 @@ class Planar(NamedTuple):
     pull = constraints.pull
     tie = followers.tie
 
-    travel = reach.travel
+    travel = moves.travel
     step_limit = reach.step_limit
-    covers = reach.covers
+    covers = moves.covers
+    longest = reach.longest
     drift = reach.drift
     least_gap = reach.least_gap
 
@@ -106,8 +107,8 @@ def at_rest(scene, x):
 
     Every material point has a row of memory.
     """
-    numbers, elements = told(scene.law, "state_size"), scene.stretch.l0.size
-    points = elements * (2 + told(scene.bend.section, "points"))
+    numbers, elements = in_python(scene.law, "state_size"), scene.stretch.l0.size
+    points = elements * (2 + in_python(scene.bend.section, "points"))
     memory = (points, numbers) if numbers > 0 else (0, 0)
     return history.at_rest(x, rows.STORED, memory)
 

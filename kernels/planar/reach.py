@@ -15,12 +15,11 @@ from kernels.planar.couplings import couplings
 from kernels.terms import contact, friction
 from kernels.terms.contact import Touching
 from kernels.terms.friction import LaggedContacts
+from kernels.terms.moves import ADVANCE, MOVE_MARGIN, listed_share
 
 LEAST_LENGTH = 0.1  # of an element after a move, as a share of its length before
 MARGIN = 1.0  # least margin of the pair list, as a share of the reach of contact
 PROJECTION_MARGIN = 1.0  # margin of the projection pairs, as a share of their reach
-ADVANCE = 0.9  # admissible share of the move up to the first contact
-MOVE_MARGIN = 2.2  # least margin as a multiple of a move; with 2 the list holds for no other move
 
 
 class Neighbours(NamedTuple):
@@ -46,10 +45,8 @@ def step_limit(problem, x, dx, far):
     far: `travel` of ``dx``, m. Folds and lengths are checked only if ``far`` allows them to become
     critical.
     """
-    scene, least, shortest = problem.scene, problem.buffers.least[0], 1.0
-    if far >= scene.contact.most_move:
-        far = near_pairs.longest(dx, scene.layout.n_nodes)
-        shortest = min(1.0, scene.contact.most_move / far)
+    scene, least = problem.scene, problem.buffers.least[0]
+    shortest, far = listed_share(problem, dx, far)
     first = contact.step_limit(
         x, dx, far, scene.contact, problem.neighbours.pairs, drift(problem, x)
     )
@@ -143,16 +140,9 @@ def drift(problem, x):
 
 
 @jit_exact
-def travel(problem, dx):
-    """Return the longest move of a node in ``dx``, m, at most the longest that lists may cover."""
-    longest = near_pairs.longest(dx, problem.scene.layout.n_nodes)
-    return min(longest, problem.scene.contact.most_move)
-
-
-@jit_exact
-def covers(problem, x, far):
-    """Return whether the pair list holds for moves of all nodes by at most ``far`` m from ``x``."""
-    return 2.0 * (drift(problem, x) + far) <= problem.neighbours.margin
+def longest(problem, dx):
+    """Return the longest move of a node in ``dx``, m."""
+    return near_pairs.longest(dx, problem.scene.layout.n_nodes)
 
 
 @jit_exact

@@ -28,6 +28,14 @@ def add_entry(matrix, layout, pull, c, d, value):
 
 
 @jit
+def add_diagonal(matrix, layout, pull, diagonal):
+    """Add a ``diagonal`` (n,) of the Hessian by coordinate."""
+    for i in range(diagonal.size):
+        if diagonal[i] != 0.0:
+            add_entry(matrix, layout, pull, i, i, diagonal[i])
+
+
+@jit
 def _add_free(matrix, layout, i, j, part, top, left, width):
     """Add a block of ``part`` in the free coordinates of nodes ``i`` and ``j``."""
     one, other = layout.block[i], layout.block[j]

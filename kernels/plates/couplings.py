@@ -8,7 +8,7 @@ SOON = 1.2  # distance in units of the reach of contact below which nodes may so
 
 
 @jit_exact
-def _append(layout, i, j, found, count):
+def _add_pair(layout, i, j, found, count):
     """Append the blocks of nodes ``i`` and ``j``, and those that they follow; return the number.
 
     ``found`` may have no rows: the pairs are only counted.
@@ -32,7 +32,7 @@ def _between(layout, nodes, size, found, count):
     """Append the pairs of all ``nodes`` of a stencil of ``size`` nodes; return the number."""
     for a in range(size):
         for b in range(a + 1):
-            count = _append(layout, nodes[a], nodes[b], found, count)
+            count = _add_pair(layout, nodes[a], nodes[b], found, count)
     return count
 
 

@@ -9,7 +9,7 @@ are positive.
 
 from kernels.arrays import zero
 from kernels.compile.jit import jit_exact, separate
-from kernels.linear.condensed.block_ldlt import ROUNDED, THROUGH
+from kernels.linear.pivots import ROUNDED, THROUGH
 from kernels.linear.supernodal import factor as ldlt
 from kernels.linear.supernodal import matrix as blocks
 from kernels.linear.supernodal import solution
@@ -17,6 +17,7 @@ from kernels.plates import assembly
 from kernels.plates.element import shell
 from kernels.plates.layout import PER_NODE
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
+from kernels.terms import inertia
 
 RAISED = 4.0  # ratio of a shift to the one before, which was too small
 LOWERED = 1.0 / 3.0  # ratio of the first shift that is tried to the last that was large enough
@@ -41,10 +42,9 @@ def _assemble(problem, x, step, found):
         )
     assembly.add_contacts(problem, x, step, found)
     if step.dynamic:
-        inert, mass = 1.0 / (step.h * step.h), scene.coordinates.mass
-        for i in range(mass.size):
-            if mass[i] > 0.0:
-                assembly.add_entry(matrix, layout, pull, i, i, inert * mass[i])
+        zero(buffers.diagonal)
+        inertia.hessian(scene.coordinates.mass, step.h, buffers.diagonal)
+        assembly.add_diagonal(matrix, layout, pull, buffers.diagonal)
 
 
 @jit_exact

@@ -8,12 +8,12 @@ velocity at the end of the step (`solve.integrators`). In a static step y = x0, 
 vanishes. The Hessian is in `factoring`.
 """
 
-from kernels.arrays import dot, zero
+from kernels.arrays import copy, zero
 from kernels.compile.jit import jit_exact, separate
 from kernels.plates.contacts import contact, mirror
 from kernels.plates.element import shell
 from kernels.plates.reach import drift
-from kernels.terms import inertia, lagging
+from kernels.terms import inertia, lagging, loads, moves
 from kernels.terms.rows import BEND, CONTACT, STRETCH
 
 
@@ -22,20 +22,14 @@ from kernels.terms.rows import BEND, CONTACT, STRETCH
 def evaluate(problem, x, step, found, projected):
     """Return E in J; fill ``found``."""
     coordinates = problem.scene.coordinates
-    for i in range(x.size):
-        found.u[i] = x[i] - step.y[i]
-    for part in (found.elastic, found.material, found.friction):
-        zero(part)
+    moves.begin(x, step.y, found)
     _store(problem, x, found)
     total = found.stored[STRETCH] + found.stored[BEND] + found.stored[CONTACT]
-    total -= step.factor * dot(coordinates.load, found.u)
-    for i in range(x.size):
-        found.g[i] = found.elastic[i] - step.factor * coordinates.load[i]
+    copy(found.elastic, found.g)
+    total += loads.evaluate(found.u, coordinates.load, step.factor, found.g)
     if step.dynamic:
         total += inertia.evaluate(x, step.x_pred, coordinates.mass, step.h, found.g)
-    sums = found.sums[0]
-    sums.potential, sums.friction, sums.dissipated = total, 0.0, 0.0
-    return lagging.exchange(problem, step, found)
+    return lagging.complete(problem, step, found, total)
 
 
 @jit_exact

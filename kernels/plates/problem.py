@@ -8,14 +8,14 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
-from kernels.laws.law import Memory, told
+from kernels.laws.law import Memory, in_python
 from kernels.plates import factoring, potential, reach, steps
 from kernels.plates.contacts import thickness
 from kernels.plates.element import relaxing_shear, shell
 from kernels.plates.reach import Neighbours
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
-from kernels.terms import followers, lagging, rows
+from kernels.terms import followers, lagging, moves, rows
 
 
 class Buffers(NamedTuple):
@@ -25,7 +25,8 @@ class Buffers(NamedTuple):
     at its material points (`shell`). Both are rows of `history.State.memory`. shell: scratch of one
     quad; second (24, 24): its Hessian. part, projected (12, 12): Hessians of one contact. parts
     (3,): energies of the walls, J. pull (n,): derivatives of the gradient in the driven coordinate.
-    unknowns (u,), weight (n_nodes,): scratch. shift (1,): last shift of a projected Hessian, N/m.
+    diagonal (n,), unknowns (u,), weight (n_nodes,): scratch. shift (1,): last shift of a projected
+    Hessian, N/m.
     """
 
     committed: np.ndarray
@@ -36,6 +37,7 @@ class Buffers(NamedTuple):
     projected: np.ndarray
     parts: np.ndarray
     pull: np.ndarray
+    diagonal: np.ndarray
     unknowns: np.ndarray
     shift: np.ndarray
     weight: np.ndarray
@@ -65,9 +67,10 @@ class Plates(NamedTuple):
     pull = factoring.pull
     tie = followers.tie
 
-    travel = reach.travel
+    travel = moves.travel
     step_limit = reach.step_limit
-    covers = reach.covers
+    covers = moves.covers
+    longest = reach.longest
     drift = reach.drift
     least_gap = reach.least_gap
 
@@ -94,8 +97,8 @@ def make_buffers(scene, committed):
         committed[:n], Memory(committed[n:], line, scene.law.make_pace()),
         shell.make_scratch(), np.zeros((24, 24)), np.zeros((12, 12)), np.zeros((12, 12)),
         np.zeros(3),
-        np.zeros(layout.leader.size), np.zeros(layout.scale.size), np.zeros(1),
-        np.zeros(layout.block.size),
+        np.zeros(layout.leader.size), np.zeros(layout.leader.size), np.zeros(layout.scale.size),
+        np.zeros(1), np.zeros(layout.block.size),
     )  # fmt: skip
 
 
@@ -109,7 +112,7 @@ def at_rest(scene, frames, x):
     """Return the `history.State` at rest at ``x`` (n,), with ``frames`` (n_nodes, 9) of nodes and a
     virgin material.
     """
-    n, numbers = len(frames), told(scene.law, "state_size")
+    n, numbers = len(frames), in_python(scene.law, "state_size")
     points = (shell.POINTS_OF_LAYERS + 1) * len(scene.shell.quads) if numbers > 0 else 0
     memory = (n + points, max(numbers, thickness.THICKENING + 1))
     state = history.at_rest(x, rows.STORED, memory)

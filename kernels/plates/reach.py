@@ -9,15 +9,15 @@ from kernels.geometry.space import near
 from kernels.linear.supernodal.analysis import analyse
 from kernels.linear.supernodal.matrix import Matrix
 from kernels.plates import couplings
-from kernels.plates.contacts import admissible, friction, mirror, pairs, touching
+from kernels.plates.contacts import admissible, friction, mirror, pairs
 from kernels.plates.contacts.friction import LaggedContacts
 from kernels.plates.contacts.pairs import Pairs
-from kernels.plates.contacts.touching import Touching
+from kernels.plates.contacts.touching import Touching, no_contacts
 from kernels.plates.layout import PER_NODE, POSITION
+from kernels.terms.moves import MOVE_MARGIN, listed_share
 
 MARGIN = 0.5  # least margin of the pair list, as a share of the reach of contact
 MOST_TURN = 0.125  # of a node in one move: w, the tangent of a quarter of the angle
-MOVE_MARGIN = 2.2  # least margin as a multiple of a move; with 2 the list holds for no other move
 
 
 class Neighbours(NamedTuple):
@@ -63,8 +63,8 @@ def find_neighbours(scene, x):
     listed, margin = list_pairs(scene, x, 0.0)
     lagged_contacts = friction.no_contacts(listed, scene.contact, scene.friction)
     matrix = make_matrix(scene, listed, lagged_contacts)
-    met = touching.no_contacts(scene.contact, listed)
-    return Neighbours(listed, x.copy(), margin, matrix, met, lagged_contacts)
+    touching = no_contacts(scene.contact, listed)
+    return Neighbours(listed, x.copy(), margin, matrix, touching, lagged_contacts)
 
 
 @jit_owning
@@ -81,8 +81,8 @@ def renew_neighbours(scene, neighbours, x, move):
     wider = friction.no_contacts(listed, scene.contact, scene.friction)
     if wider.load.size > lagged_contacts.load.size:
         lagged_contacts = friction.enlarged(lagged_contacts, wider)
-    met = touching.no_contacts(scene.contact, listed)
-    return Neighbours(listed, x.copy(), margin, matrix, met, lagged_contacts)
+    touching = no_contacts(scene.contact, listed)
+    return Neighbours(listed, x.copy(), margin, matrix, touching, lagged_contacts)
 
 
 @jit_exact
@@ -92,16 +92,9 @@ def drift(problem, x):
 
 
 @jit_exact
-def travel(problem, dx):
-    """Return the longest move of a node in ``dx``, m, at most the longest that lists may cover."""
-    longest = near.longest(dx, n_nodes(problem.scene))
-    return min(longest, problem.scene.contact.most_move)
-
-
-@jit_exact
-def covers(problem, x, far):
-    """Return whether the pair list holds for moves of all nodes by at most ``far`` m from ``x``."""
-    return 2.0 * (drift(problem, x) + far) <= problem.neighbours.margin
+def longest(problem, dx):
+    """Return the longest move of a node in ``dx``, m."""
+    return near.longest(dx, n_nodes(problem.scene))
 
 
 @jit_exact
@@ -117,10 +110,8 @@ def step_limit(problem, x, dx, far):
 
     far: `travel` of ``dx``, m.
     """
-    scene, shortest = problem.scene, 1.0
-    if far >= scene.contact.most_move:
-        far = near.longest(dx, n_nodes(scene))
-        shortest = min(1.0, scene.contact.most_move / far)
+    scene = problem.scene
+    shortest, far = listed_share(problem, dx, far)
     first = admissible.step_limit(
         x, dx, far, scene.contact, problem.neighbours.pairs, drift(problem, x)
     )

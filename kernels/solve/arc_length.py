@@ -23,15 +23,23 @@ from kernels.arrays import copy, dot, zero
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.compile.reference import by_reference
 from kernels.solve import resolution
-from kernels.solve.energy_book import enter
+from kernels.solve.energy_book import enter_step
 from kernels.solve.integrators import Ahead
-from kernels.solve.march import NOT_STARTED, SMALLEST_SHARE, UNRESOLVED
-from kernels.solve.newton import CONVERGED, INTERRUPTED, ITERATIONS, NOT_FINITE, OUTGROWN, STALLED
+from kernels.solve.march import NOT_STARTED, SMALLEST_SHARE
+from kernels.solve.outcomes import (
+    CONVERGED,
+    INTERRUPTED,
+    ITERATIONS,
+    NOT_FINITE,
+    OUTGROWN,
+    STALLED,
+    UNRESOLVED,
+)
 from kernels.solve.problem import NO_ROOM, TIED, Step
-from kernels.solve.residual import largest
+from kernels.solve.residual import largest_residual
 from kernels.solve.workspace import make_workspace
 
-PROGRESS = np.dtype(
+PATH_PROGRESS = np.dtype(
     (
         np.record,  # for attributes in plain Python too
         [
@@ -112,22 +120,22 @@ def _load_increment(u, r, v, arc, progress):
 
 
 @jit_exact
-def _step(space, stage, progress, factor):
+def _step(workspace, stage, progress, factor):
     """Return the static `Step` of an arc that ends at the load ``factor``.
 
     Its duration is the share of the stage's; the start of the path takes no time.
     """
     duration = stage.duration * progress.share if progress.row >= 0 else 0.0
-    return Step(space.x0, space.y, space.x_pred, duration, duration, False, factor, 0.5)
+    return Step(workspace.x0, workspace.y, workspace.x_pred, duration, duration, False, factor, 0.5)
 
 
 @jit_exact
-def _correct(x, problem, tolerance, stage, space, arc, progress):
+def _correct(x, problem, tolerance, stage, workspace, arc, progress):
     """Correct ``x`` (n,) and the load factor by Newton's method; return the outcome.
 
     The first move is ``work.dx`` with ``progress.increment``, the predictor.
     """
-    found, work, coordinates = space.found, space.work, problem.scene.coordinates
+    found, work, coordinates = workspace.found, workspace.work, problem.scene.coordinates
     r, v = work.direction, work.escape
     while True:
         if not progress.longest_move < np.inf:
@@ -146,14 +154,14 @@ def _correct(x, problem, tolerance, stage, space, arc, progress):
         zero(work.dx)
         progress.increment, progress.longest_move = 0.0, 0.0
         progress.iterations += 1
-        step = _step(space, stage, progress, progress.load)
+        step = _step(workspace, stage, progress, progress.load)
         problem.evaluate(x, step, found, False)
         problem.reduce(found.g, work.residual)
-        size = largest(work.residual, coordinates)
+        size = largest_residual(work.residual, coordinates)
         if not size < np.inf:
             return NOT_FINITE
-        met, _ = problem.factor(x, step, found, False, True)
-        if met == NO_ROOM:
+        result, _ = problem.factor(x, step, found, False, True)
+        if result == NO_ROOM:
             return OUTGROWN
         for i in range(x.size):
             r[i], v[i] = -found.g[i], coordinates.load[i]
@@ -171,15 +179,15 @@ def _correct(x, problem, tolerance, stage, space, arc, progress):
 
 
 @jit_exact
-def _predict(problem, stage, state, space, arc, heading, progress):
+def _predict(problem, stage, state, workspace, arc, heading, progress):
     """Fill ``work.dx`` with the predictor: along the tangent, for an arc or up to the full load,
     whichever is shorter.
     """
-    work, factor, coordinates = space.work, state.totals[0].factor, problem.scene.coordinates
-    copy(state.x, space.x0)
-    copy(state.x, space.y)
+    work, factor, coordinates = workspace.work, state.totals[0].factor, problem.scene.coordinates
+    copy(state.x, workspace.x0)
+    copy(state.x, workspace.y)
     rates = Ahead(0.0, 0.0, state.rates.position, work.dx)
-    problem.begin(_step(space, stage, progress, factor), rates, work.trial)
+    problem.begin(_step(workspace, stage, progress, factor), rates, work.trial)
     tangent, last_move = heading.tangent, heading.last_move
     progress.iterations, progress.load, progress.target_load = 0, factor, factor
     progress.length, progress.increment = 0.0, 0.0
@@ -198,74 +206,106 @@ def _predict(problem, stage, state, space, arc, heading, progress):
 
 
 @jit_exact
-def _return_to_full_load(problem, stage, state, space, progress):
+def _return_to_full_load(problem, stage, state, workspace, progress):
     """Replace an arc that has passed the full load by a step from its start to the full load."""
-    work, totals, coordinates = space.work, state.totals[0], problem.scene.coordinates
+    work, totals, coordinates = workspace.work, state.totals[0], problem.scene.coordinates
     share = (1.0 - totals.factor) / (progress.load - totals.factor)
-    copy(space.x0, state.x)
-    problem.roll_back(_step(space, stage, progress, totals.factor))
+    copy(workspace.x0, state.x)
+    problem.roll_back(_step(workspace, stage, progress, totals.factor))
     zero(work.residual)
-    progress.longest_move = _combine(work.residual, share, space.found.u, coordinates, work.dx)
+    progress.longest_move = _combine(work.residual, share, workspace.found.u, coordinates, work.dx)
     progress.load, progress.increment = totals.factor, 1.0 - totals.factor
     totals.iterations += progress.iterations
     progress.length, progress.target_load, progress.iterations = 0.0, 1.0, 0
 
 
 @jit_exact
-def _follow_path(problem, tolerance, stage, state, out, control, space, arc, heading, progress):
+def _judge(problem, tolerance, state, step, load, workspace, arc, heading, progress):
+    """Return the outcome of an arc for which an equilibrium is found.
+
+    load: `resolution.largest_load` of the step.
+    """
+    found, tangent = workspace.found, heading.tangent
+    if progress.row >= 0:
+        sign = -1.0 if _inner(tangent, heading.last_move, arc.weight) < 0.0 else 1.0
+        if sign * _cosine(found.u, tangent, arc.weight) < LEAST_COSINE:
+            return STALLED
+    decrement = progress.decrement
+    if not resolution.is_resolved(
+        problem, step, tolerance, state, found, workspace.work, load, decrement
+    ):
+        return UNRESOLVED
+    return CONVERGED
+
+
+@jit_exact
+def _accept(problem, step, state, workspace, load, heading, progress):
+    """Accept an arc: commit the material, enter the energy book, renew the heading.
+
+    load: `resolution.largest_load` of the step.
+    """
+    found, totals = workspace.found, state.totals[0]
+    problem.commit(state.x, step, found)
+    enter_step(problem, step, state, found, workspace.work)
+    totals.force = resolution.largest_force(problem.scene.coordinates, state, found, load)
+    copy(workspace.work.escape, heading.tangent)
+    if progress.row >= 0:
+        copy(found.u, heading.last_move)
+        progress.done += progress.share
+        totals.steps += 1
+
+
+@jit_exact
+def _end_row(problem, stage, state, out, control, found, arc, progress):
+    """Write the row whose arc is complete, and go on to the next one."""
+    if progress.row >= 0:
+        state.totals[0].time += stage.duration
+        problem.write(out, progress.row, state, found)
+        control[1] += 1
+    progress.row, progress.done, progress.share = progress.row + 1, 0.0, 1.0
+    arc.path[progress.row].factor = progress.load
+    arc.path[progress.row].unstable = problem.unstable()
+
+
+@jit_exact
+def _follow_path(problem, tolerance, stage, state, out, control, workspace, arc, heading, progress):
     """Continue the path at ``progress`` to its end, or until the neighbours must be renewed.
 
     Return (outcome, rows written).
     """
-    found, work, totals = space.found, space.work, state.totals[0]
     while progress.row < stage.steps:
         if progress.iterations == NOT_STARTED:
             progress.share = min(progress.share, 1.0 - progress.done)
-            _predict(problem, stage, state, space, arc, heading, progress)
-        outcome = _correct(state.x, problem, tolerance, stage, space, arc, progress)
+            _predict(problem, stage, state, workspace, arc, heading, progress)
+        outcome = _correct(state.x, problem, tolerance, stage, workspace, arc, progress)
         if outcome == OUTGROWN and progress.iterations <= 2 * CORRECTIONS:
             return outcome, progress.row
         if control[0] != 0:
             outcome = INTERRUPTED
-        if outcome == CONVERGED and progress.row >= 0:
-            if progress.length > 0.0 and progress.load > 1.0:
-                _return_to_full_load(problem, stage, state, space, progress)
-                continue
-            sign = -1.0 if _inner(heading.tangent, heading.last_move, arc.weight) < 0.0 else 1.0
-            if sign * _cosine(found.u, heading.tangent, arc.weight) < LEAST_COSINE:
-                outcome = STALLED
-        totals.iterations += progress.iterations
+        passed = progress.row >= 0 and progress.length > 0.0 and progress.load > 1.0
+        if outcome == CONVERGED and passed:
+            _return_to_full_load(problem, stage, state, workspace, progress)
+            continue
+        state.totals[0].iterations += progress.iterations
         progress.iterations = NOT_STARTED
-        step = _step(space, stage, progress, progress.load)
-        load = resolution.largest_load(problem, step.factor, work)
-        if outcome == CONVERGED and not resolution.is_resolved(
-            problem, step, tolerance, state, found, work, load, progress.decrement
-        ):
-            outcome = UNRESOLVED
+        step = _step(workspace, stage, progress, progress.load)
+        load = resolution.largest_load(problem, step.factor, workspace.work)
+        if outcome == CONVERGED:
+            outcome = _judge(
+                problem, tolerance, state, step, load, workspace, arc, heading, progress
+            )
         if outcome != CONVERGED:
-            copy(space.x0, state.x)
+            copy(workspace.x0, state.x)
             problem.roll_back(step)
             progress.share *= 0.5
             if outcome == INTERRUPTED or progress.share < SMALLEST_SHARE or progress.row < 0:
                 return (ITERATIONS if outcome == OUTGROWN else outcome), progress.row
             continue
-        problem.commit(state.x, step, found)
-        enter(problem, step, state, found, work)
-        totals.force = resolution.largest_force(problem.scene.coordinates, state, found, load)
-        copy(work.escape, heading.tangent)
-        if progress.row >= 0:
-            copy(found.u, heading.last_move)
-            progress.done += progress.share
-            totals.steps += 1
-            if progress.done < 1.0 and progress.load != 1.0:
-                progress.share *= 2.0
-                continue
-            totals.time += stage.duration
-            problem.write(out, progress.row, state, found)
-            control[1] += 1
-        progress.row, progress.done, progress.share = progress.row + 1, 0.0, 1.0
-        arc.path[progress.row].factor = progress.load
-        arc.path[progress.row].unstable = problem.unstable()
+        _accept(problem, step, state, workspace, load, heading, progress)
+        if progress.row >= 0 and progress.done < 1.0 and progress.load != 1.0:
+            progress.share *= 2.0
+            continue
+        _end_row(problem, stage, state, out, control, workspace.found, arc, progress)
         if progress.load == 1.0:
             break
     return CONVERGED, progress.row
@@ -278,17 +318,17 @@ def follow(scene, tolerance, stage, state, out, control, arc):
 
     scene: `problem.Scene`. control (2,): [0] != 0 interrupts, [1] counts completed arcs.
     """
-    progress, n = np.zeros(1, PROGRESS), state.x.size
+    progress, n = np.zeros(1, PATH_PROGRESS), state.x.size
     heading = Heading(np.zeros(n), np.zeros(n))
     progress[0].row, progress[0].share, progress[0].iterations = -1, 1.0, NOT_STARTED
     neighbours, buffers = scene.find_neighbours(state.x), scene.make_buffers(state.memory)
-    space = make_workspace(n, state.stored.size)
+    workspace = make_workspace(n, state.stored.size)
     while True:
         record = progress[0]
         problem = by_reference(scene).assemble(by_reference(neighbours), by_reference(buffers))
         outcome, rows = _follow_path(
             problem, tolerance, stage, by_reference(state), out, control,
-            by_reference(space), arc, heading, record,
+            by_reference(workspace), arc, heading, record,
         )  # fmt: skip
         if outcome != OUTGROWN:
             return outcome, max(rows, 0)

@@ -28,23 +28,23 @@ def kinetic(v, mass):
 
 
 @jit_exact
-def _works(found, past, theta):
+def _works(found, last, theta):
     """Return the work of the elastic forces, of damping and of friction along ``found.u``; copy
-    these forces to ``past``.
+    these forces to ``last``, which has those of the last step.
     """
     u, elastic, material, friction, before = found.u, 0.0, 0.0, 0.0, 1.0 - theta
     for i in range(u.size):
-        elastic += (theta * found.elastic[i] + before * past.elastic[i]) * u[i]
-        material += (theta * found.material[i] + before * past.material[i]) * u[i]
-        friction += (theta * found.friction[i] + before * past.friction[i]) * u[i]
-    copy(found.elastic, past.elastic)
-    copy(found.material, past.material)
-    copy(found.friction, past.friction)
+        elastic += (theta * found.elastic[i] + before * last.elastic[i]) * u[i]
+        material += (theta * found.material[i] + before * last.material[i]) * u[i]
+        friction += (theta * found.friction[i] + before * last.friction[i]) * u[i]
+    copy(found.elastic, last.elastic)
+    copy(found.material, last.material)
+    copy(found.friction, last.friction)
     return elastic, material, friction
 
 
 @jit_exact
-def strike(state, problem, speed, led):
+def impose_speed(state, problem, speed, led):
     """Set the velocity of the driven coordinate to ``speed`` (m/s), and of all that it leads.
 
     Inelastic impact: half of its work is kinetic energy, half is lost. led (n,): scratch.
@@ -112,9 +112,9 @@ def unbalanced(problem, step, tolerance, state, found, work):
 
 
 @jit_exact
-def enter(problem, step, state, found, work):
+def enter_step(problem, step, state, found, work):
     """Enter a converged step into the book; ``found``: of the last `evaluate`, committed."""
-    book, past, totals, theta = state.book[0], state.past, state.totals[0], step.theta
+    book, totals, theta = state.book[0], state.totals[0], step.theta
     reaction, move, driven = 0.0, 0.0, problem.scene.coordinates.driven
     if driven >= 0:
         problem.reduce(found.g, work.residual)
@@ -123,7 +123,7 @@ def enter(problem, step, state, found, work):
     book.work += factor * dot(problem.scene.coordinates.load, found.u)
     book.work += (theta * reaction + (1.0 - theta) * totals.reaction) * move
     dissipated = found.sums[0].dissipated
-    elastic, material, friction = _works(found, past, theta)
+    elastic, material, friction = _works(found, state.gradients, theta)
     book.material += material + dissipated
     book.friction += friction
     loss, total = elastic - dissipated, 0.0

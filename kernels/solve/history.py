@@ -46,7 +46,7 @@ class Rates(NamedTuple):
     change: np.ndarray
 
 
-class Past(NamedTuple):
+class Gradients(NamedTuple):
     """Gradients (n,) after the last step in N: of stored energy, damping and friction."""
 
     elastic: np.ndarray
@@ -63,7 +63,7 @@ class State(NamedTuple):
     x: np.ndarray
     v: np.ndarray
     rates: Rates
-    past: Past
+    gradients: Gradients
     stored: np.ndarray
     memory: np.ndarray
     book: np.ndarray
@@ -75,8 +75,8 @@ def at_rest(x, stored, memory=(0, 0)):
     material. memory: shape of `State.memory`.
     """
     n = x.size
-    rates, past = Rates(*np.zeros((3, n))), Past(*np.zeros((3, n)))
+    rates, gradients = Rates(*np.zeros((3, n))), Gradients(*np.zeros((3, n)))
     book, totals = np.zeros(1, BOOK), np.zeros(1, TOTALS)
     return State(
-        x.copy(), np.zeros(n), rates, past, np.zeros(stored), np.zeros(memory), book, totals
+        x.copy(), np.zeros(n), rates, gradients, np.zeros(stored), np.zeros(memory), book, totals
     )

@@ -12,16 +12,18 @@ from kernels.arrays import copy, zero
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.compile.reference import by_reference
 from kernels.solve import energy_book, integrators, resolution
-from kernels.solve.energy_book import energy_gain, enter, kinetic, strike, unbalanced
+from kernels.solve.energy_book import energy_gain, enter_step, impose_speed, kinetic, unbalanced
 from kernels.solve.integrators import BACKWARD_EULER, BDF2, Ahead
-from kernels.solve.newton import (
+from kernels.solve.newton import DESCENT, minimise
+from kernels.solve.outcomes import (
     CONVERGED,
-    DESCENT,
+    INACCURATE,
     INTERRUPTED,
     ITERATIONS,
     OUTGROWN,
     STALLED,
-    minimise,
+    UNBALANCED,
+    UNRESOLVED,
 )
 from kernels.solve.problem import Step
 from kernels.solve.workspace import make_workspace
@@ -32,7 +34,6 @@ MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple
 MOST_PATIENCE = 63  # shares after a failure until a longer one is tried again, at most
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
 UNCHECKED_SHARE = 2.0**-12  # share of a step that may generate more: the whole run is checked later
-INACCURATE, UNBALANCED, UNRESOLVED = 7, 8, 9  # beside those of `newton`
 NOT_STARTED = -1  # corrections of a share before `_begin_share`
 PROGRESS = np.dtype(
     (
@@ -87,12 +88,21 @@ def _target(stage, progress):
 
 
 @jit_exact
-def _step(stage, space, progress):
+def _step(stage, workspace, progress):
     """Return the `Step` of the attempted share."""
     duration = stage.duration * progress.share
     factor = stage.factor0 + (stage.factor1 - stage.factor0) * _stage_fraction(stage, progress)
     theta = integrators.weight(progress.h, duration, stage.dynamic)
-    return Step(space.x0, space.y, space.x_pred, progress.h, duration, stage.dynamic, factor, theta)
+    return Step(
+        workspace.x0,
+        workspace.y,
+        workspace.x_pred,
+        progress.h,
+        duration,
+        stage.dynamic,
+        factor,
+        theta,
+    )
 
 
 @jit_exact
@@ -109,21 +119,21 @@ def _extrapolation(u, driven, remaining):
 
 
 @jit_exact
-def _begin_share(problem, tolerance, stage, state, space, descent, progress):
+def _begin_share(problem, tolerance, stage, state, workspace, descent, progress):
     """Begin the next share of a step.
 
     The minimisation starts from the extrapolated positions, except after a snap in a static step,
     where it starts from x0.
     """
-    last, work = state.totals[0].last, space.work
+    last, work = state.totals[0].last, workspace.work
     if stage.scheme != BACKWARD_EULER and last == 0.0:
         factor = stage.factor0 + (stage.factor1 - stage.factor0) * _stage_fraction(stage, progress)
         first = resolution.first_share(
-            problem, tolerance, stage.duration, factor, state, space.work
+            problem, tolerance, stage.duration, factor, state, workspace.work
         )
         progress.share = min(progress.share, first)
     duration, coordinates = stage.duration * progress.share, problem.scene.coordinates
-    u, work, driven, remaining = space.found.u, space.work, coordinates.driven, 0.0
+    u, work, driven, remaining = workspace.found.u, workspace.work, coordinates.driven, 0.0
     if driven >= 0:
         remaining = _target(stage, progress) - state.x[driven]
     factor = _extrapolation(u, driven, remaining)
@@ -131,14 +141,14 @@ def _begin_share(problem, tolerance, stage, state, space, descent, progress):
     if stage.dynamic and h != progress.h:  # the Hessian depends on h
         descent.since_factor = np.inf
     progress.h = h
-    copy(state.x, space.x0)
+    copy(state.x, workspace.x0)
     if stage.dynamic:
         if driven >= 0 and stage.scheme != BACKWARD_EULER and last == 0.0:
-            strike(state, problem, remaining / duration, work.direction)
+            impose_speed(state, problem, remaining / duration, work.direction)
         heavy = coordinates.heavy
-        integrators.predict(state, duration, h, heavy, space.y, space.x_pred, work.dx)
+        integrators.predict(state, duration, h, heavy, workspace.y, workspace.x_pred, work.dx)
     else:
-        copy(state.x, space.y)
+        copy(state.x, workspace.y)
         if factor * problem.travel(u) > max(coordinates.cap, MAX_EXTRAPOLATION * abs(remaining)):
             factor = 0.0  # the last step was a snap
         for i in range(u.size):
@@ -148,7 +158,7 @@ def _begin_share(problem, tolerance, stage, state, space, descent, progress):
     ahead = duration - h if h < duration else 0.0
     last = last if stage.scheme == BDF2 else 0.0
     rates = Ahead(ahead, last, state.rates.position, work.dx)
-    problem.begin(_step(stage, space, progress), rates, work.trial)
+    problem.begin(_step(stage, workspace, progress), rates, work.trial)
     if problem.lag(state.x):  # the Hessian of friction changes
         descent.since_factor = np.inf
     progress.share_iterations, progress.minimum_iterations, descent.cut_moves = 0, 0, 0
@@ -156,28 +166,30 @@ def _begin_share(problem, tolerance, stage, state, space, descent, progress):
 
 
 @jit_exact
-def _equilibrate(
-    x, target, problem, step, corrections, tolerance, space, descent, control, progress
-):
+def _equilibrate(x, problem, step, corrections, tolerance, workspace, descent, control, progress):
     """Minimise; lag the forces again at the minimum and minimise once more, ``corrections`` times.
 
     Return the outcome.
     """
-    evaluated = False
+    descent.evaluated = False
     while True:
-        outcome = minimise(x, target, problem, step, tolerance, space, descent, control, evaluated)
+        outcome = minimise(x, problem, step, tolerance, workspace, descent, control)
         progress.row_iterations += descent.iterations
         progress.share_iterations += descent.iterations
         progress.minimum_iterations += max(descent.iterations, 1)
-        if outcome != CONVERGED or progress.corrections == corrections:
-            return outcome
-        if not problem.lag(x):
-            return outcome
-        problem.exchange(step, space.found)
-        copy(x, space.work.trial)
-        zero(space.work.dx)
-        evaluated, descent.since_factor = True, np.inf
+        if outcome != CONVERGED or progress.corrections == corrections or not problem.lag(x):
+            break
+        problem.exchange(step, workspace.found)
+        copy(x, workspace.work.trial)
+        zero(workspace.work.dx)
+        descent.evaluated, descent.since_factor = True, np.inf
         progress.corrections, progress.minimum_iterations = progress.corrections + 1, 0
+    if outcome == CONVERGED and not problem.covers_projection(x):
+        outcome, progress.minimum_iterations = OUTGROWN, 0
+        zero(workspace.work.dx)
+    if outcome == OUTGROWN and step.dynamic:
+        zero(workspace.work.dx)  # the present point is the better guess
+    return outcome
 
 
 @jit_exact
@@ -190,23 +202,34 @@ def _gains_energy(problem, stage, state, found, share, noise):
 
 
 @jit_exact
-def _assess(problem, stage, state, step, noise, space, progress):
-    """Return whether a step is accurate, and the ratio of its local error to the allowed one."""
-    ratio = 0.0
+def _judge(problem, stage, state, step, tolerance, load, workspace, descent, progress):
+    """Return the outcome of a share for which an equilibrium is found, and the ratio of its local
+    error to the allowed one.
+
+    load: `resolution.largest_load` of the step.
+    """
+    found, work, ratio = workspace.found, workspace.work, 0.0
     if stage.error < np.inf:
         ratio = integrators.error(state, step, problem.scene.coordinates.heavy) / stage.error
     accurate, first_order = ratio <= 1.0, stage.dynamic and step.h == step.duration
     if accurate and first_order and progress.share > UNCHECKED_SHARE:
-        accurate = not _gains_energy(problem, stage, state, space.found, progress.share, noise)
-    return accurate, ratio
+        accurate = not _gains_energy(problem, stage, state, found, progress.share, tolerance.noise)
+    if not accurate:
+        return INACCURATE, ratio
+    decrement = descent.decrement
+    if not resolution.is_resolved(problem, step, tolerance, state, found, work, load, decrement):
+        return UNRESOLVED, ratio
+    if unbalanced(problem, step, tolerance, state, found, work):
+        return UNBALANCED, ratio
+    return CONVERGED, ratio
 
 
 @jit_exact
-def _reject(outcome, problem, step, state, space, descent, progress):
+def _reject(outcome, problem, step, state, workspace, descent, progress):
     """Reject a share: restore the state at its start, and shorten it."""
-    copy(space.x0, state.x)
+    copy(workspace.x0, state.x)
     problem.roll_back(step)
-    zero(space.found.u)
+    zero(workspace.found.u)
     progress.corrections, descent.since_factor = NOT_STARTED, np.inf
     if outcome != UNRESOLVED:
         progress.cause = outcome
@@ -218,18 +241,18 @@ def _reject(outcome, problem, step, state, space, descent, progress):
 
 
 @jit_exact
-def _accept(problem, stage, step, state, space, load, descent):
+def _accept(problem, stage, step, state, workspace, load, descent):
     """Accept a share: update rates, commit the material, enter the energy book, project.
 
     load: `resolution.largest_load` of the step.
     """
-    found, work, book, totals = space.found, space.work, state.book[0], state.totals[0]
+    found, work, book, totals = workspace.found, workspace.work, state.book[0], state.totals[0]
     if stage.dynamic:
         book.integrator += integrators.update(stage.scheme, state, step, problem, found.u)
         book.kinetic = kinetic(state.v, problem.scene.coordinates.mass)
         totals.last = step.duration
     problem.commit(state.x, step, found)
-    enter(problem, step, state, found, work)
+    enter_step(problem, step, state, found, work)
     totals.force = resolution.largest_force(problem.scene.coordinates, state, found, load)
     if energy_book.project(problem, step, state, found, work.trial):
         descent.since_factor = np.inf
@@ -257,62 +280,64 @@ def _next_share(ratio, iterations, descent, progress):
 
 
 @jit_exact
-def _run(problem, tolerance, stage, state, out, control, space, descent, progress):
+def _reported(outcome, progress):
+    """Return the outcome by which a march ends: the one that made the shares so short."""
+    if outcome == UNRESOLVED and progress.cause != CONVERGED:
+        outcome = progress.cause
+    return ITERATIONS if outcome == OUTGROWN else outcome
+
+
+@jit_exact
+def _end_row(problem, stage, state, out, control, found, progress):
+    """Write the row whose step is complete, and go on to the next one."""
+    totals = state.totals[0]
+    totals.iterations += progress.row_iterations
+    totals.time += stage.duration
+    problem.write(out, progress.row, state, found)
+    control[1] += 1
+    progress.row, progress.done, progress.row_iterations = progress.row + 1, 0.0, 0
+
+
+@jit_exact
+def _run(problem, tolerance, stage, state, out, control, workspace, descent, progress):
     """Continue the stage at ``progress`` to its end, or until the neighbours must be renewed.
 
     Return (outcome, rows written).
     """
-    work, totals = space.work, state.totals[0]
     while progress.row < stage.steps:
         if progress.corrections == NOT_STARTED:
             if not problem.covers(state.x, 0.0):  # after a rejected share
                 descent.travel_bound = 0.0
                 return OUTGROWN, progress.row
-            _begin_share(problem, tolerance, stage, state, space, descent, progress)
-        step, target = _step(stage, space, progress), _target(stage, progress)
-        load = resolution.largest_load(problem, step.factor, work)
+            _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
+        step, descent.target = _step(stage, workspace, progress), _target(stage, progress)
+        load = resolution.largest_load(problem, step.factor, workspace.work)
         fitting = resolution.fit(tolerance, step, problem.scene.coordinates, load)
         outcome = _equilibrate(
-            state.x, target, problem, step, integrators.corrections(stage.scheme), fitting,
-            space, descent, control, progress,
+            state.x, problem, step, integrators.corrections(stage.scheme), fitting, workspace,
+            descent, control, progress,
         )  # fmt: skip
-        if outcome == CONVERGED and not problem.covers_projection(state.x):
-            outcome, progress.minimum_iterations = OUTGROWN, 0
-            zero(work.dx)
         if outcome == OUTGROWN and progress.minimum_iterations <= tolerance.iterations:
-            if stage.dynamic:
-                zero(work.dx)  # the present point is the better guess
             return outcome, progress.row
-        if resolution.is_tighter(fitting, tolerance) and outcome in (ITERATIONS, STALLED):
-            outcome = UNRESOLVED
         ratio = 0.0
         if outcome == CONVERGED:
-            accurate, ratio = _assess(problem, stage, state, step, tolerance.noise, space, progress)
-            outcome = CONVERGED if accurate else INACCURATE
-            if accurate and not resolution.is_resolved(
-                problem, step, fitting, state, space.found, work, load, descent.decrement
-            ):
-                outcome = UNRESOLVED
-            elif accurate and unbalanced(problem, step, fitting, state, space.found, work):
-                outcome = UNBALANCED
-        if outcome != CONVERGED:
-            coarse = outcome == UNRESOLVED or outcome == UNBALANCED
-            coarse = coarse and resolution.is_coarse(fitting, step, problem, load)
-            outcome = UNRESOLVED if coarse else outcome
-            _reject(outcome, problem, step, state, space, descent, progress)
-            if outcome == INTERRUPTED or progress.share < SMALLEST_SHARE or coarse:
-                if outcome == UNRESOLVED and progress.cause != CONVERGED:
-                    outcome = progress.cause  # that made the shares so short
-                return (ITERATIONS if outcome == OUTGROWN else outcome), progress.row
+            outcome, ratio = _judge(
+                problem, stage, state, step, fitting, load, workspace, descent, progress
+            )
+        elif resolution.is_tighter(fitting, tolerance) and outcome in (ITERATIONS, STALLED):
+            outcome = UNRESOLVED
+        if outcome == CONVERGED:
+            _accept(problem, stage, step, state, workspace, load, descent)
+            _next_share(ratio, tolerance.iterations, descent, progress)
+            if progress.done == 1.0:
+                _end_row(problem, stage, state, out, control, workspace.found, progress)
             continue
-        _accept(problem, stage, step, state, space, load, descent)
-        _next_share(ratio, tolerance.iterations, descent, progress)
-        if progress.done == 1.0:
-            totals.iterations += progress.row_iterations
-            totals.time += stage.duration
-            problem.write(out, progress.row, state, space.found)
-            control[1] += 1
-            progress.row, progress.done, progress.row_iterations = progress.row + 1, 0.0, 0
+        coarse = outcome == UNRESOLVED or outcome == UNBALANCED
+        coarse = coarse and resolution.is_coarse(fitting, step, problem, load)
+        outcome = UNRESOLVED if coarse else outcome
+        _reject(outcome, problem, step, state, workspace, descent, progress)
+        if outcome == INTERRUPTED or progress.share < SMALLEST_SHARE or coarse:
+            return _reported(outcome, progress), progress.row
     return CONVERGED, progress.row
 
 
@@ -330,12 +355,12 @@ def march(scene, tolerance, stage, state, out, control):
         progress[0].share = last / stage.duration
     buffers = scene.make_buffers(state.memory)
     neighbours = scene.find_neighbours(state.x)
-    space = make_workspace(state.x.size, state.stored.size)
+    workspace = make_workspace(state.x.size, state.stored.size)
     while True:
         problem = by_reference(scene).assemble(by_reference(neighbours), by_reference(buffers))
         outcome, rows = _run(
             problem, tolerance, stage, by_reference(state), out, control,
-            by_reference(space), descent[0], progress[0],
+            by_reference(workspace), descent[0], progress[0],
         )  # fmt: skip
         if outcome != OUTGROWN:
             return outcome, rows

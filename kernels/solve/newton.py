@@ -8,14 +8,25 @@ residual and Newton decrement below tolerance *and* no negative pivot of the exa
 point within `Coordinates.close`. A factor is reused within that distance.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from kernels.arrays import copy, dot, zero
 from kernels.compile.jit import jit_exact, separate
+from kernels.solve.outcomes import (
+    CONVERGED,
+    INTERRUPTED,
+    ITERATIONS,
+    NOT_FINITE,
+    OUTGROWN,
+    SINGULAR,
+    STALLED,
+    UNFINISHED,
+)
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE, TIED
-from kernels.solve.residual import allowed, allowed_decrement, largest
+from kernels.solve.residual import allowed, allowed_decrement, largest_residual
 
-CONVERGED, ITERATIONS, STALLED, INTERRUPTED, SINGULAR, NOT_FINITE, OUTGROWN = range(7)
 ARMIJO = 1e-4  # share of the predicted decrease that is sufficient
 HALVINGS = 40  # of a line search, at most
 DUAL_HALVINGS = 3  # after more halvings the duals of lagged forces are reset
@@ -27,16 +38,45 @@ DESCENT = np.dtype(
     (
         np.record,  # for attributes in plain Python too
         [
+            # Set before a minimisation.
+            ("target", np.float64),  # of the driven coordinate, m
+            ("evaluated", np.bool_),  # whether `Workspace.found` is the evaluation at x
+            # Over the minimisations of a step.
             # bound of the move, m, since the last factor of an exact Hessian without a negative
             # pivot; infinite: there is none. Lagged forces may have changed since.
             ("since_factor", np.float64),
-            ("travel_bound", np.float64),  # move that the neighbour lists must cover, m
-            ("iterations", np.int64),  # of the last minimisation
-            ("decrement", np.float64),  # of Newton where it converged, J
             ("cut_moves", np.int64),  # of the step, shortened by `Coordinates.cap` or a step limit
+            # Of the last minimisation.
+            ("iterations", np.int64),  # -1 before the predictor is accepted
+            ("travel_bound", np.float64),  # move that the neighbour lists must cover, m
+            ("decrement", np.float64),  # of Newton where it converged, J
+            # At the present point.
+            ("potential", np.float64),  # J
+            ("remaining", np.float64),  # move of the driven coordinate to its target, m
+            ("residual", np.float64),  # the largest, N; infinite before it is known
+            ("balanced", np.bool_),  # whether residual and remaining move are admissible
+            ("stable", np.bool_),  # whether the last exact factor has no negative pivot
+            ("duals_fit", np.bool_),  # whether the duals of lagged forces allow to keep a factor
         ],
     )
 )
+
+
+class Move(NamedTuple):
+    """The next move, ``work.dx``.
+
+    slope, curvature: the predicted change of energy in a share s of it is s slope + s^2 curvature /
+    2, J. longest: of a coordinate, m. arrives: the whole move brings the driven coordinate to its
+    target. shortened: by `Coordinates.cap`. any_energy: the move is accepted if the energy is
+    finite: it is a predictor, or drives the problem.
+    """
+
+    slope: float
+    curvature: float
+    longest: float
+    arrives: bool
+    shortened: bool
+    any_energy: bool
 
 
 @jit_exact
@@ -83,27 +123,6 @@ def _escape_direction(problem, found, work, pivot):
 
 
 @jit_exact
-def _set_trial(x, work, share):
-    """Fill ``work.trial`` with x + share dx."""
-    for i in range(x.size):
-        work.trial[i] = x[i] + share * work.dx[i]
-
-
-@jit_exact
-def _accept_trial(x, problem, step, found, work, share, predicted, halvings):
-    """Copy the trial point, a ``share`` of dx, to ``x``; return whether its factor may be reused.
-
-    predicted: dx is a predictor instead of a Newton step, so that the duals of lagged forces are
-    not updated. After many halvings the duals are unreliable, and are reset.
-    """
-    copy(work.trial, x)
-    if halvings > DUAL_HALVINGS:
-        problem.forget()
-        return True
-    return predicted or problem.follow(work.dx, share, step, found)
-
-
-@jit_exact
 def _decreases(reached, start, share, model, noise):
     """Return whether the decrease from ``start`` to ``reached`` is sufficient (Armijo).
 
@@ -129,138 +148,188 @@ def _cap(dx, longest, cap):
 
 
 @jit_exact
-def _reaches_target(x, dx, target, driven):
-    """Return whether ``dx`` moves the driven coordinate exactly to its target."""
-    return driven >= 0 and dx[driven] == target - x[driven]
+def _predictor(x, dx, coordinates, target):
+    """Return the `Move` from which a minimisation starts: ``dx``, whatever the energy there."""
+    arrives = coordinates.driven >= 0 and dx[coordinates.driven] == target - x[coordinates.driven]
+    return Move(0.0, 0.0, _longest(dx, coordinates), arrives, False, True)
 
 
 @jit_exact
-def _choose_move(slope, stable, to_target, escape, coordinates, remaining, work):
+def _choose_move(slope, escape, coordinates, work, descent):
     """Fill dx with the Newton direction, or with the escape direction if its predicted decrease is
-    larger; cap its length.
+    larger; cap its length, and return it as a `Move`.
 
-    Return the model (slope, curvature) along dx, its longest move in m, and whether it is uncapped.
-    to_target: the driven coordinate is not at its target yet.
+    slope: of the Newton direction. escape: slope and curvature of the other one.
     """
+    drives, remaining = descent.remaining != 0.0, abs(descent.remaining)
     fall, curvature = escape
-    if to_target or stable or fall + 0.5 * curvature > 0.5 * slope:
+    if drives or descent.stable or fall + 0.5 * curvature > 0.5 * slope:
         copy(work.direction, work.dx)
         fall, curvature = slope, 0.0
     else:
         copy(work.escape, work.dx)
     longest = _longest(work.dx, coordinates)
-    cut = _cap(work.dx, longest, max(coordinates.cap, 5.0 * abs(remaining)))
-    return (fall * cut, curvature * cut * cut), max(longest * cut, abs(remaining)), cut == 1.0
+    cut = _cap(work.dx, longest, max(coordinates.cap, 5.0 * remaining))
+    shortened = cut != 1.0
+    return Move(
+        fall * cut,
+        curvature * cut * cut,
+        max(longest * cut, remaining),
+        drives and not shortened,
+        shortened,
+        drives,
+    )
 
 
 @jit_exact
-def _residual(x, target, problem, tolerance, found, work):
-    """Return the remaining move of the driven coordinate in m, the largest residual in N, and the
-    admissible residual (`residual.allowed`).
+def _start_move(x, problem, step, work, descent, move):
+    """Return an outcome, `UNFINISHED` if the move may begin, and the share of it to begin with."""
+    descent.travel_bound = problem.travel(work.dx)
+    if not problem.covers(x, descent.travel_bound):
+        return OUTGROWN, 0.0
+    share = problem.step_limit(x, work.dx, descent.travel_bound)
+    if share < LEAST_SHARE:
+        return STALLED, share
+    descent.cut_moves += share < 1.0 or move.shortened
+    if step.dynamic and descent.cut_moves > MOST_CUT_MOVES:
+        return ITERATIONS, share
+    return UNFINISHED, share
+
+
+@jit_exact
+def _accept(x, problem, step, found, work, descent, move, share, halvings):
+    """Copy the trial point, a ``share`` of the move, to ``x``.
+
+    The duals of lagged forces follow a Newton step, but not a predictor. After many halvings they
+    are unreliable, and are reset.
     """
-    coordinates = problem.scene.coordinates
+    copy(work.trial, x)
+    descent.duals_fit = True
+    if halvings > DUAL_HALVINGS:
+        problem.forget()
+    elif descent.iterations >= 0:
+        descent.duals_fit = problem.follow(work.dx, share, step, found)
+    descent.since_factor += share * move.longest
+    if move.arrives and share == 1.0:
+        x[problem.scene.coordinates.driven] = descent.target
+    descent.iterations += 1
+
+
+@jit_exact
+def _search(x, problem, step, noise, found, work, descent, move, share):
+    """Halve the ``share`` of the move until the energy decreases enough, and accept that share.
+
+    Return the outcome, `UNFINISHED` if a share is accepted.
+    """
+    reached, halvings, model = np.inf, 0, (move.slope, move.curvature)
+    while halvings < HALVINGS and share >= LEAST_SHARE:
+        for i in range(x.size):
+            work.trial[i] = x[i] + share * work.dx[i]
+        problem.evaluate(work.trial, step, found, False)
+        reached = found.sums[0].potential
+        sufficient = move.any_energy or _decreases(reached, descent.potential, share, model, noise)
+        if sufficient and reached < np.inf:
+            _accept(x, problem, step, found, work, descent, move, share, halvings)
+            return UNFINISHED
+        halvings, share = halvings + 1, 0.5 * share
+    return STALLED if reached < np.inf else NOT_FINITE
+
+
+@jit_exact
+def _balance(x, problem, tolerance, found, work, descent):
+    """Measure the residual at ``x``; have the factor renewed if it has fallen too slowly."""
+    coordinates, before = problem.scene.coordinates, descent.residual
+    descent.potential = found.sums[0].potential
     problem.reduce(found.g, work.residual)
-    remaining = target - x[coordinates.driven] if coordinates.driven >= 0 else 0.0
-    return (
-        remaining,
-        largest(work.residual, coordinates),
-        allowed(problem.stiffest(), tolerance),
-    )
+    descent.residual = largest_residual(work.residual, coordinates)
+    descent.remaining = 0.0
+    if coordinates.driven >= 0:
+        descent.remaining = descent.target - x[coordinates.driven]
+    limit = allowed(problem.stiffest(), tolerance)
+    descent.balanced = descent.remaining == 0.0 and descent.residual <= limit
+    if not descent.balanced and descent.residual > SLOW_REDUCTION * before:
+        descent.since_factor = np.inf
+
+
+@jit_exact
+def _renew_factor(x, problem, step, tolerance, found, work, descent):
+    """Factor the exact Hessian, and where it has a negative pivot the projected one, unless ``x``
+    is an equilibrium.
+
+    Return the outcome, `UNFINISHED` if the factor can be used, and slope and curvature of
+    ``work.escape``, J, which is filled if there is a negative pivot.
+    """
+    escape = (0.0, 0.0)
+    result, pivot = problem.factor(x, step, found, False, False)
+    if result != NO_ROOM:
+        limit = allowed(problem.stiffest(), tolerance)
+        descent.balanced = descent.balanced and descent.residual <= limit
+        descent.stable = result == POSITIVE
+        descent.since_factor = 0.0 if descent.stable and descent.duals_fit else np.inf
+        if descent.stable:
+            return UNFINISHED, escape
+        escape = _escape_direction(problem, found, work, pivot)
+        if descent.balanced:
+            return UNFINISHED, escape
+        problem.evaluate(work.trial, step, found, True)
+        result, _ = problem.factor(x, step, found, True, False)
+    if result == NO_ROOM:
+        descent.since_factor = np.inf
+        return OUTGROWN, escape
+    return (SINGULAR if result == NEGATIVE else UNFINISHED), escape
+
+
+@jit_exact
+def _descend(x, problem, step, tolerance, workspace, descent, control):
+    """Iterate as `minimise`; return the outcome."""
+    found, work, coordinates = workspace.found, workspace.work, problem.scene.coordinates
+    move, escape = _predictor(x, work.dx, coordinates, descent.target), (0.0, 0.0)
+    while True:
+        if not descent.evaluated:
+            outcome, share = _start_move(x, problem, step, work, descent, move)
+            if outcome == UNFINISHED:
+                outcome = _search(
+                    x, problem, step, tolerance.noise, found, work, descent, move, share
+                )
+            if outcome != UNFINISHED:
+                return outcome
+        descent.evaluated = False
+        _balance(x, problem, tolerance, found, work, descent)
+        if control[0] != 0:
+            return INTERRUPTED
+        if not descent.residual < np.inf:
+            return NOT_FINITE
+        if descent.since_factor > coordinates.close:
+            outcome, escape = _renew_factor(x, problem, step, tolerance, found, work, descent)
+            if outcome != UNFINISHED:
+                return outcome
+        slope = 0.0
+        if descent.stable or not descent.balanced:
+            slope = _newton_direction(problem, found, work, descent.remaining)
+        if descent.stable and descent.balanced:
+            descent.decrement = -0.5 * slope
+            if descent.decrement <= allowed_decrement(problem.stiffest(), tolerance, x.size):
+                return CONVERGED
+        if descent.iterations == tolerance.iterations:
+            return ITERATIONS
+        move = _choose_move(slope, escape, coordinates, work, descent)
 
 
 @separate
 @jit_exact
-def minimise(x, target, problem, step, tolerance, space, descent, control, evaluated):
-    """Minimise over ``x`` (n,), in place, with the driven coordinate at ``target`` (m).
+def minimise(x, problem, step, tolerance, workspace, descent, control):
+    """Minimise over ``x`` (n,), in place, with the driven coordinate at ``descent.target``.
 
-    Start from the admissible share of ``x`` + ``work.dx`` or, if ``evaluated``, from ``x``, whose
-    evaluation is in ``space.found``. Return the outcome and fill ``descent``. OUTGROWN: the
-    neighbour lists do not cover a move of ``descent.travel_bound`` m, or the matrix lacks an entry:
-    renew them and call again. control[0] != 0 interrupts.
+    Start from the admissible share of ``x`` + ``work.dx`` or, if ``descent.evaluated``, from ``x``,
+    whose evaluation is in ``workspace.found``. Return the outcome and fill ``descent``. OUTGROWN:
+    the neighbour lists do not cover a move of ``descent.travel_bound`` m, or the matrix lacks an
+    entry: renew them and call again. control[0] != 0 interrupts.
     """
-    found, work, coordinates = space.found, space.work, problem.scene.coordinates
-    outcome, iteration, halvings = ITERATIONS, 0 if evaluated else -1, 0
-    new_direction, line_search, accepted, accept_any = not evaluated, not evaluated, evaluated, True
-    shortened, uncapped = False, _reaches_target(x, work.dx, target, coordinates.driven)
-    projected, balanced = False, False
-    value, remaining, share, size, duals_fit = 0.0, 0.0, 0.0, 0.0, True
-    model, escape = (0.0, 0.0), (0.0, 0.0)
-    limit, stable = 0.0, True  # stable: of the last exact factor
-    longest, previous_size, descent.travel_bound = _longest(work.dx, coordinates), np.inf, 0.0
-    while True:  # each turn evaluates a trial point, or the same point for the projected Hessian
-        if new_direction:
-            descent.travel_bound = problem.travel(work.dx)
-            if not problem.covers(x, descent.travel_bound):
-                outcome = OUTGROWN
-                break
-            share = problem.step_limit(x, work.dx, descent.travel_bound)
-            if share < LEAST_SHARE:
-                outcome = STALLED
-                break
-            descent.cut_moves += share < 1.0 or shortened
-            if step.dynamic and descent.cut_moves > MOST_CUT_MOVES:
-                break
-            new_direction, line_search, halvings = False, True, 0
-            _set_trial(x, work, share)
-        if not evaluated:
-            problem.evaluate(work.trial, step, found, projected)
-        reached, evaluated = found.sums[0].potential, False
-        if line_search:
-            sufficient = accept_any or _decreases(reached, value, share, model, tolerance.noise)
-            if not (sufficient and reached < np.inf):
-                halvings, share = halvings + 1, 0.5 * share
-                if halvings == HALVINGS or share < LEAST_SHARE:
-                    outcome = STALLED if reached < np.inf else NOT_FINITE
-                    break
-                _set_trial(x, work, share)
-                continue
-            duals_fit = _accept_trial(x, problem, step, found, work, share, iteration < 0, halvings)
-            descent.since_factor += share * longest
-            if accept_any and uncapped and share == 1.0:
-                x[coordinates.driven] = target
-            iteration, line_search, accepted = iteration + 1, False, True
-        if accepted:
-            value, accepted = reached, False
-            remaining, size, limit = _residual(x, target, problem, tolerance, found, work)
-            if control[0] != 0 or not size < np.inf:
-                outcome = INTERRUPTED if control[0] != 0 else NOT_FINITE
-                break
-            balanced = remaining == 0.0 and size <= limit
-            if not balanced and size > SLOW_REDUCTION * previous_size:
-                descent.since_factor = np.inf
-            previous_size = size
-        if descent.since_factor > coordinates.close:
-            met, pivot = problem.factor(x, step, found, projected, False)
-            if met == NO_ROOM:
-                outcome, descent.since_factor = OUTGROWN, np.inf
-                break
-            if projected and met == NEGATIVE:
-                outcome = SINGULAR
-                break
-            if not projected:
-                limit = allowed(problem.stiffest(), tolerance)
-                balanced, stable = balanced and size <= limit, met == POSITIVE
-                descent.since_factor = 0.0 if stable and duals_fit else np.inf
-                if not stable:
-                    escape = _escape_direction(problem, found, work, pivot)
-                    projected = not balanced
-                    if projected:
-                        continue
-        has_direction = stable or projected
-        slope = _newton_direction(problem, found, work, remaining) if has_direction else 0.0
-        if balanced and stable:
-            descent.decrement = -0.5 * slope
-            if descent.decrement <= allowed_decrement(problem.stiffest(), tolerance, x.size):
-                outcome = CONVERGED
-                break
-        if iteration == tolerance.iterations:
-            break
-        accept_any, projected = remaining != 0.0, False
-        model, longest, uncapped = _choose_move(
-            slope, stable, accept_any, escape, coordinates, remaining, work
-        )
-        shortened, new_direction = not uncapped, True
-    if outcome == OUTGROWN and iteration >= 0:
-        zero(work.dx)
-    descent.iterations = max(iteration, 0)
+    descent.iterations = 0 if descent.evaluated else -1
+    descent.residual, descent.travel_bound = np.inf, 0.0
+    descent.stable, descent.duals_fit = True, True
+    outcome = _descend(x, problem, step, tolerance, workspace, descent, control)
+    if outcome == OUTGROWN and descent.iterations >= 0:
+        zero(workspace.work.dx)
+    descent.iterations = max(descent.iterations, 0)
     return outcome

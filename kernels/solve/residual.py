@@ -21,7 +21,7 @@ class Tolerance(NamedTuple):
 
 
 @jit_exact
-def largest(residual, coordinates):
+def largest_residual(residual, coordinates):
     """Return the largest residual of the free coordinates in N, NaN if any is NaN.
 
     residual (n,): of `Problem.reduce`. The driven coordinate, a support, is left out.

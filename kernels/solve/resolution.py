@@ -18,7 +18,7 @@ from kernels.compile.jit import jit_exact
 from kernels.solve.energy_book import LARGEST_IMBALANCE, largest_energy
 from kernels.solve.integrators import FIRST_SHARE
 from kernels.solve.problem import FREE
-from kernels.solve.residual import largest, scaled
+from kernels.solve.residual import largest_residual, scaled
 
 LARGEST_RESIDUAL = 1e-2  # as a share of the largest force
 TOLERATED = 1e-4  # residual that Newton may leave, as a share of the load, unless it is round-off
@@ -32,7 +32,7 @@ def largest_load(problem, factor, work):
     for i in range(work.trial.size):
         work.trial[i] = factor * coordinates.load[i]
     problem.reduce(work.trial, work.residual)
-    return largest(work.residual, coordinates)
+    return largest_residual(work.residual, coordinates)
 
 
 @jit_exact
@@ -138,7 +138,7 @@ def is_resolved(problem, step, tolerance, state, found, work, load, decrement):
     force = max(driving, largest_force(coordinates, state, found, load))
     limit, left, h2 = LARGEST_RESIDUAL * force, 2.0 * decrement, step.h * step.h
     problem.reduce(found.g, work.residual)
-    if largest(work.residual, coordinates) <= limit:
+    if largest_residual(work.residual, coordinates) <= limit:
         return True
     for i in range(state.x.size):
         if coordinates.role[i] != FREE:

@@ -1,4 +1,12 @@
-"""The terms of the energy, one file each: energy, gradient, Hessian, in the symbols of the paper.
+"""The terms of the energy, one file each, in the symbols of the paper.
 
-`stretch` and `bend` evaluate the material laws of `kernels.laws` at the sections of the walls.
+There are two patterns. *Terms of walls* (`stretch`, `bend` with `section`, `kelvin_voigt`) depend
+on the deformation of each element alone. Their `evaluate` returns the energy and writes its
+derivatives in strain and turns, the resultants of the sections, from which `elements` makes
+gradient and Hessian. `rayleigh` starts from that Hessian. The *other terms* have two verbs:
+`evaluate` returns the energy and adds the gradient, `hessian` adds to the matrix (`inertia`,
+`damping` by mass, `spring`, `fold`, `contact`, `friction`). `loads` are linear.
+
+`followers`, `lagging`, `moves` and `rows` have verbs that problems of walls and of plates share.
+`contact_near_joints` prepares `contact`. The material laws are in `kernels.laws`.
 """

@@ -250,9 +250,9 @@ def _commit_section(bend, stretch, memory, point, k, shape):
     at = (strain(stretch, shape, k)[0], *bending(bend, shape, k))
     released, dissipated = bend.section.commit(at, memory, point)
     both = shape.turn[0, k] + shape.turn[1, k]
-    gone, lost = commit_point(bend.hinge, both, memory, point + bend.section.points())
+    release, dissipation = commit_point(bend.hinge, both, memory, point + bend.section.points())
     volume, shear = bend.volume[k], bend.shear[k]
-    return volume * released + shear * gone, volume * dissipated + shear * lost
+    return volume * released + shear * release, volume * dissipated + shear * dissipation
 
 
 @jit_exact
@@ -263,9 +263,9 @@ def _commit_linear(bend, memory, point, k, shape):
         curvature(bend, k, 0, shape.turn[0, k])[0],
         curvature(bend, k, 1, shape.turn[1, k])[0],
     )
-    gone1, lost1 = commit_point(bend.hinge, one + ratio * two, memory, point)
-    gone2, lost2 = commit_point(bend.hinge, two, memory, point + 1)
-    return stiff * gone1 + rest * gone2, stiff * lost1 + rest * lost2
+    release1, dissipation1 = commit_point(bend.hinge, one + ratio * two, memory, point)
+    release2, dissipation2 = commit_point(bend.hinge, two, memory, point + 1)
+    return stiff * release1 + rest * release2, stiff * dissipation1 + rest * dissipation2
 
 
 @jit_exact
@@ -277,10 +277,10 @@ def commit(bend, stretch, memory, shape):
     released, dissipated, point, each = 0.0, 0.0, shape.length.size, points(bend)
     for k in range(shape.length.size):
         if is_bent(bend, k):
-            gone, lost = _commit_section(bend, stretch, memory, point, k, shape)
+            release, dissipation = _commit_section(bend, stretch, memory, point, k, shape)
         else:
-            gone, lost = _commit_linear(bend, memory, point, k, shape)
-        released += gone
-        dissipated += lost
+            release, dissipation = _commit_linear(bend, memory, point, k, shape)
+        released += release
+        dissipated += dissipation
         point += each
     return released, dissipated

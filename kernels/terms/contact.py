@@ -26,7 +26,7 @@ from kernels.geometry.distance import (
     push_stiffen,
 )
 from kernels.geometry.near_pairs import counted, is_guarded, within
-from kernels.laws.barrier import barrier
+from kernels.laws.barrier import phi
 from kernels.linear.condensed.block_matrix import add
 
 
@@ -60,14 +60,6 @@ class Contact(NamedTuple):
     high: int
 
 
-@jit
-def _law(contact, weight, d_contact, d):
-    """Return weight * phi(d) and its first two derivatives in d."""
-    value, slope, curvature = barrier(d / d_contact)
-    scale = weight * contact.stiffness
-    return scale * d_contact * value, scale * slope, scale / d_contact * curvature
-
-
 class Touching(NamedTuple):
     """Active contacts at one position, filled by `detect`: the first ``count`` (1,) entries.
 
@@ -95,7 +87,7 @@ def no_contacts(pairs):
 
 
 @jit
-def _append(touching, k, tau, end, weight, distance):
+def _add_contact(touching, k, tau, end, weight, distance):
     """Append a contact of pair ``k``."""
     n = touching.count[0]
     touching.pair[n], touching.tau[n], touching.end[n] = k, tau, end
@@ -127,12 +119,12 @@ def detect(x, contact, pairs, drift, touching):
         nearest = -1 if inside else (0 if tau == 0.0 else 1)
         if nearest < 0 or (first, second)[nearest] == 0.0:
             nearest = -1
-            _append(touching, k, tau, -1, 0.5 * length, d)
+            _add_contact(touching, k, tau, -1, 0.5 * length, d)
         for end, v, subtracted in ((0, a, first), (1, b, second)):
             if subtracted != 0.0 and end != nearest:
                 _, _, d = direction(x, v, p)
                 if d < dc:
-                    _append(touching, k, float(end), end, -0.5 * length, d)
+                    _add_contact(touching, k, float(end), end, -0.5 * length, d)
     return apart
 
 
@@ -156,7 +148,7 @@ def evaluate(x, contact, pairs, drift, touching, g):
         k, end = touching.pair[n], touching.end[n]
         p, dc = pairs.node[k], pairs.d_contact[k]
         a, b = pair(contact.edges, pairs.edge[k])
-        value, slope, _ = _law(contact, touching.weight[n], dc, touching.distance[n])
+        value, slope, _ = phi(touching.weight[n], contact.stiffness, dc, touching.distance[n])
         total += value
         if end < 0:
             push(g, x, p, a, b, slope)
@@ -173,7 +165,7 @@ def hessian(x, contact, pairs, touching, matrix, projected):
         k, end = touching.pair[n], touching.end[n]
         p, dc = pairs.node[k], pairs.d_contact[k]
         a, b = pair(contact.edges, pairs.edge[k])
-        _, slope, curvature = _law(contact, touching.weight[n], dc, touching.distance[n])
+        _, slope, curvature = phi(touching.weight[n], contact.stiffness, dc, touching.distance[n])
         if end < 0:
             push_stiffen(matrix, x, p, a, b, curvature, 0.0 if projected else slope)
         elif not projected:
@@ -184,7 +176,7 @@ def hessian(x, contact, pairs, touching, matrix, projected):
 def normal_force(contact, pairs, touching, n):
     """Return the normal force of contact ``n`` in N, negative for a subtracted contribution."""
     d_contact = pairs.d_contact[touching.pair[n]]
-    _, slope, _ = _law(contact, touching.weight[n], d_contact, touching.distance[n])
+    _, slope, _ = phi(touching.weight[n], contact.stiffness, d_contact, touching.distance[n])
     return -slope
 
 
@@ -194,7 +186,7 @@ def plate_force(contact, p, d):
     d_contact = 0.5 * contact.node_thickness[p]
     if d >= d_contact:
         return 0.0
-    _, slope, _ = _law(contact, contact.tributary[p], d_contact, d)
+    _, slope, _ = phi(contact.tributary[p], contact.stiffness, d_contact, d)
     return -slope
 
 
@@ -207,7 +199,7 @@ def _plates(x, contact, g):
         for plate, side in ((contact.low, 1.0), (contact.high, -1.0)):
             d = side * (y - x[plate])
             if d < dc:
-                value, slope, _ = _law(contact, contact.tributary[p], dc, d)
+                value, slope, _ = phi(contact.tributary[p], contact.stiffness, dc, d)
                 total += value
                 g[2 * p + 1] += side * slope
                 g[plate] -= side * slope
@@ -222,7 +214,7 @@ def _plates_hessian(x, contact, matrix):
         for plate, side in ((contact.low, 1.0), (contact.high, -1.0)):
             d = side * (y - x[plate])
             if d < dc:
-                _, _, curvature = _law(contact, contact.tributary[p], dc, d)
+                _, _, curvature = phi(contact.tributary[p], contact.stiffness, dc, d)
                 add(matrix, 2 * p + 1, 2 * p + 1, curvature)
                 add(matrix, plate, plate, curvature)
                 add(matrix, plate, 2 * p + 1, -curvature)

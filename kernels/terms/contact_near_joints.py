@@ -296,8 +296,8 @@ def _reduced(graph, node_thickness, edge_thickness, tributary):
 
 
 @jit_exact
-def _append(k, value, share, weight, shares, listed, count):
-    """Append edge ``k`` with a contact length ``value`` and ``share`` unless it is listed; return
+def _list_edge(k, value, share, weight, shares, listed, count):
+    """List edge ``k`` with a contact length ``value`` and ``share`` unless it is listed; return
     the count.
     """
     if weight[k] == UNLISTED:
@@ -317,18 +317,18 @@ def _entries(p, graph, tributary, reduced, near_pairs, weight, shares, listed):
     start, order, found = reduced
     for q in range(start[p], start[p + 1]):
         k = order[q]
-        count = _append(
+        count = _list_edge(
             found.edge[k], found.weight[k], found.share[k], weight, shares, listed, count
         )
     start, order, edge = near_pairs
     for q in range(start[p], start[p + 1]):
-        count = _append(edge[order[q]], tributary[p], 1.0, weight, shares, listed, count)
+        count = _list_edge(edge[order[q]], tributary[p], 1.0, weight, shares, listed, count)
     for i in range(count):
         for v in graph.edges[listed[i]]:
             for q in range(graph.start[v], graph.start[v + 1]):
                 k = graph.incident[q]
                 if graph.edges[k, 0] != p and graph.edges[k, 1] != p:
-                    count = _append(k, tributary[p], 1.0, weight, shares, listed, count)
+                    count = _list_edge(k, tributary[p], 1.0, weight, shares, listed, count)
     return count
 
 

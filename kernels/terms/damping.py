@@ -4,14 +4,14 @@
 
 (x - y) / h is the velocity at the end of the step (`solve.integrators`); with backward Euler y = x0
 and h = dt. M is the mass of the lattice alone: the flight of a striker is not damped. The gradient
-is dD/dx.
+is dD/dx. scene: `planar.problem.PlanarScene`.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from kernels.compile.jit import jit
+from kernels.compile.jit import jit, jit_exact
 from kernels.terms import bend, elements, kelvin_voigt, rayleigh, stretch
 
 
@@ -35,9 +35,9 @@ class Before(NamedTuple):
 
 
 @jit
-def _measure_ahead(x0, terms, before, move, place):
+def _measure_ahead(x0, scene, before, move, place):
     """Measure the shape at the expected end of the step, or at x0 if that would crush walls."""
-    walls, frame, shape = terms.walls, before.frame, before.shape
+    walls, frame, shape = scene.walls, before.frame, before.shape
     shortest = elements.measure(x0, walls, frame, shape)
     for i in range(x0.size):
         place[i] = x0[i] + move[i]
@@ -46,53 +46,63 @@ def _measure_ahead(x0, terms, before, move, place):
 
 
 @jit
-def prepare(x0, terms, memory, before, ahead, place, past, resultants):
+def prepare(x0, scene, memory, before, ahead, place, past, resultants):
     """Fill ``before`` for a step from ``x0``; data that no damping of the scene needs is left out.
 
     ahead: `integrators.Ahead`. place (n,), past (`Shape`), resultants: scratch.
     """
-    walls, frame, shape, stiffness = terms.walls, before.frame, before.shape, before.stiffness
+    walls, frame, shape, stiffness = scene.walls, before.frame, before.shape, before.stiffness
     elements.renew_frame(x0, walls, frame)
-    if terms.damp.beta_k > 0.0:
+    if scene.damp.beta_k > 0.0:
         if ahead.time > 0.0:
-            _measure_ahead(x0, terms, before, ahead.move, place)
+            _measure_ahead(x0, scene, before, ahead.move, place)
         else:
             elements.measure(x0, walls, frame, shape)
         elements.clear(shape, stiffness)
-        stretch.evaluate(terms.stretch, terms.law, memory, shape, resultants, True)
-        bend.evaluate(terms.bend, terms.stretch, memory, shape, resultants, True)
+        stretch.evaluate(scene.stretch, scene.law, memory, shape, resultants, True)
+        bend.evaluate(scene.bend, scene.stretch, memory, shape, resultants, True)
         elements.add(resultants, True, True, shape, stiffness)
-    if terms.damp.relaxation > 0.0:
+    if scene.damp.relaxation > 0.0:
         elements.measure(x0, walls, frame, shape)
-        kelvin_voigt.measure(terms, shape, before.strain)
+        kelvin_voigt.measure(scene, shape, before.strain)
         if ahead.time > 0.0 and ahead.last == 0.0:
-            kelvin_voigt.advance(terms, ahead.rate, ahead.time, shape, before.strain)
+            kelvin_voigt.advance(scene, ahead.rate, ahead.time, shape, before.strain)
         elif ahead.time > 0.0:
             for i in range(x0.size):
                 place[i] = x0[i] - ahead.last * ahead.rate[i]
             elements.measure(place, walls, frame, past)
             share = ahead.time / ahead.last
-            kelvin_voigt.extrapolate(terms, shape, before.strain, past, share)
+            kelvin_voigt.extrapolate(scene, shape, before.strain, past, share)
 
 
 @jit
-def evaluate(u, terms, before, dt, shape, resultants, stiffness, projected, g):
+def evaluate(u, scene, before, dt, shape, resultants, stiffness, projected, g):
     """Return D in J for a move ``u`` = x - y in ``dt`` = h; add dD/dx to ``g`` and the walls' part
     of the Hessian to ``stiffness``. Slopes of ``shape`` are zero on entry.
     """
     total = 0.0
-    alpha, mass = terms.damp.alpha_m / dt, terms.coordinates.mass
+    alpha, mass = scene.damp.alpha_m / dt, scene.coordinates.mass
     if alpha > 0.0:
-        for i in range(2 * terms.layout.n_nodes):
+        for i in range(2 * scene.layout.n_nodes):
             total += 0.5 * alpha * mass[i] * u[i] * u[i]
             g[i] += alpha * mass[i] * u[i]
-    if terms.damp.beta_k > 0.0:
-        rate = terms.damp.beta_k / dt
-        total += rayleigh.evaluate(u, terms.walls, before.stiffness, rate, shape, stiffness)
-    if terms.damp.relaxation > 0.0:
-        rate = terms.damp.relaxation / dt
-        total += kelvin_voigt.evaluate(terms, before, rate, shape, resultants, projected)
+    if scene.damp.beta_k > 0.0:
+        rate = scene.damp.beta_k / dt
+        total += rayleigh.evaluate(u, scene.walls, before.stiffness, rate, shape, stiffness)
+    if scene.damp.relaxation > 0.0:
+        rate = scene.damp.relaxation / dt
+        total += kelvin_voigt.evaluate(scene, before, rate, shape, resultants, projected)
         elements.add(resultants, True, projected, shape, stiffness)
-    if terms.damp.beta_k > 0.0 or terms.damp.relaxation > 0.0:
-        elements.gather(terms.walls, shape, g)
+    if scene.damp.beta_k > 0.0 or scene.damp.relaxation > 0.0:
+        elements.gather(scene.walls, shape, g)
     return total
+
+
+@jit_exact
+def hessian(scene, dt, diagonal):
+    """Add the Hessian of D_mass to the ``diagonal`` (n,); `evaluate` has added that of the others
+    to the stiffness of the walls. dt: h.
+    """
+    factor, mass = scene.damp.alpha_m / dt, scene.coordinates.mass
+    for i in range(2 * scene.layout.n_nodes):
+        diagonal[i] += factor * mass[i]

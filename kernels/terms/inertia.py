@@ -1,6 +1,6 @@
 """Inertia of a step as a potential: E_i = |x - x~|_M^2 / (2 h^2), M lumped."""
 
-from kernels.compile.jit import jit
+from kernels.compile.jit import jit, jit_exact
 
 
 @jit
@@ -15,3 +15,11 @@ def evaluate(x, x_pred, mass, dt, g):
         total += force * (x[i] - x_pred[i])
         g[i] += force
     return 0.5 * total
+
+
+@jit_exact
+def hessian(mass, dt, diagonal):
+    """Add M / h^2 to the ``diagonal`` (n,) of the Hessian. mass, dt: as in `evaluate`."""
+    factor = 1.0 / (dt * dt)
+    for i in range(mass.size):
+        diagonal[i] += factor * mass[i]

@@ -25,53 +25,53 @@ def _bend(bend, before, rate, k, shape, resultants):
 
 
 @jit
-def measure(terms, shape, strain):
+def measure(scene, shape, strain):
     """Fill the ``strain`` (m,) of every element."""
     for k in range(strain.size):
-        strain[k] = stretch.strain(terms.stretch, shape, k)[0]
+        strain[k] = stretch.strain(scene.stretch, shape, k)[0]
 
 
 @jit
-def advance(terms, v, time, shape, strain):
+def advance(scene, v, time, shape, strain):
     """Extrapolate ``strain`` (m,) and the turns of ``shape`` by ``time`` (s) at the velocities
     ``v`` (n,).
     """
-    dofs = terms.walls.dofs
+    dofs = scene.walls.dofs
     for k in range(strain.size):
         ex, ey = v[dofs[k, 3]] - v[dofs[k, 0]], v[dofs[k, 4]] - v[dofs[k, 1]]
         tx, ty = shape.t[0, k], shape.t[1, k]
         bearing = (tx * ey - ty * ex) / shape.length[k]
         one, two = bearing - v[dofs[k, 2]], bearing - v[dofs[k, 5]]
-        _, of_one, of_two = stretch.strain(terms.stretch, shape, k)
-        along = (tx * ex + ty * ey) / terms.stretch.l0[k]
+        _, of_one, of_two = stretch.strain(scene.stretch, shape, k)
+        along = (tx * ex + ty * ey) / scene.stretch.l0[k]
         strain[k] += time * (along + of_one * one + of_two * two)
         shape.turn[0, k] += time * one
         shape.turn[1, k] += time * two
 
 
 @jit
-def extrapolate(terms, shape, strain, past, share):
+def extrapolate(scene, shape, strain, past, share):
     """Extrapolate ``strain`` (m,) and the turns of ``shape`` by a ``share`` of their change since
     the shape ``past``.
     """
     for k in range(strain.size):
-        strain[k] += share * (strain[k] - stretch.strain(terms.stretch, past, k)[0])
+        strain[k] += share * (strain[k] - stretch.strain(scene.stretch, past, k)[0])
         for end in range(2):
             shape.turn[end, k] += share * (shape.turn[end, k] - past.turn[end, k])
 
 
 @jit
-def evaluate(terms, before, rate, shape, resultants, projected):
+def evaluate(scene, before, rate, shape, resultants, projected):
     """Return D in J; write its derivatives into ``resultants``. before: `damping.Before`, with
     strains and turns at y, from which rates are measured.
     """
-    total, viscosity = 0.0, rate * terms.law.modulus
+    total, viscosity = 0.0, rate * scene.law.modulus
     for k in range(shape.length.size):
-        volume = terms.stretch.area[k] * terms.stretch.l0[k]
-        strain, one, two = stretch.strain(terms.stretch, shape, k)
+        volume = scene.stretch.area[k] * scene.stretch.l0[k]
+        strain, one, two = stretch.strain(scene.stretch, shape, k)
         change = strain - before.strain[k]
         stress = viscosity * change
         total += 0.5 * volume * stress * change
-        stretch.push(terms.stretch, resultants, k, volume, (one, two), stress, viscosity, projected)
-        total += _bend(terms.bend, before.shape, rate, k, shape, resultants)
+        stretch.push(scene.stretch, resultants, k, volume, (one, two), stress, viscosity, projected)
+        total += _bend(scene.bend, before.shape, rate, k, shape, resultants)
     return total

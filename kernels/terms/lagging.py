@@ -48,6 +48,14 @@ def exchange(problem, step, found):
 
 
 @jit_exact
+def complete(problem, step, found, potential):
+    """Enter the ``potential`` of all other terms in J, and add friction; return their sum."""
+    sums = found.sums[0]
+    sums.potential, sums.friction, sums.dissipated = potential, 0.0, 0.0
+    return exchange(problem, step, found)
+
+
+@jit_exact
 def follow(problem, dx, share, step, found):
     """Update the duals of friction in a ``share`` of ``dx``; see `solve.problem.Problem.follow`."""
     return problem.neighbours.lagged_contacts.follow(found.u, dx, share, slip_of(problem, step))

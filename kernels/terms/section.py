@@ -132,9 +132,9 @@ def commit(law, strain, memory, point):
         for k in range(law.place.size):
             theta = law.place[k] * (strain[2] if section == 1 else strain[1])
             a = fibre(law.m, 1.0 + e, r, theta)[0]
-            gone, lost = commit_point(law.curve, a - 1.0, memory, point)
-            released += law.weight[k] * gone
-            dissipated += law.weight[k] * lost
+            release, dissipation = commit_point(law.curve, a - 1.0, memory, point)
+            released += law.weight[k] * release
+            dissipated += law.weight[k] * dissipation
             point += 1
     return released, dissipated
 

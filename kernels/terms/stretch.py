@@ -102,7 +102,7 @@ def commit(stretch, law, memory, shape):
     released, dissipated = 0.0, 0.0
     for k in range(stretch.l0.size):
         e, volume = strain(stretch, shape, k)[0], stretch.area[k] * stretch.l0[k]
-        gone, lost = commit_point(law, e, memory, k)
-        released += volume * gone
-        dissipated += volume * lost
+        release, dissipation = commit_point(law, e, memory, k)
+        released += volume * release
+        dissipated += volume * dissipation
     return released, dissipated

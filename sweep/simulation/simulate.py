@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from kernels.geometry.specimen_height import height
-from kernels.solve import arc_length, energy_book, march, newton
+from kernels.solve import arc_length, energy_book, march, outcomes
 from kernels.terms.rows import ROW, STRETCH, Output
 from sweep.config.case import Case, Lattice, Loading, Solver
 from sweep.config.defaults.direction import height_pressed, is_along
@@ -40,16 +40,16 @@ SOUNDER = "try a smaller solver.tolerance, and look for values out of all propor
 GAP = 1e-3  # of the greatest energy in the book: residual that is allowed
 CREATED = 0.1  # of the work done: energy that an integrator may create
 ADVICE = {
-    newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {further}",
-    newton.STALLED: "the energy could not be lowered further; "
+    outcomes.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {further}",
+    outcomes.STALLED: "the energy could not be lowered further; "
     "try a looser solver.tolerance or smaller steps",
-    newton.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
-    march.INACCURATE: "no step was short enough for solver.step_error; "
+    outcomes.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
+    outcomes.INACCURATE: "no step was short enough for solver.step_error; "
     "try a larger one or {shorter}",
-    march.UNBALANCED: f"work and energies do not balance; {SOUNDER}",
-    march.UNRESOLVED: "the forces are too small, or the steps too short, for the motion to exceed "
-    "round-off; try larger steps or loads",
-    newton.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
+    outcomes.UNBALANCED: f"work and energies do not balance; {SOUNDER}",
+    outcomes.UNRESOLVED: "the forces are too small, or the steps too short, for the motion to "
+    "exceed round-off; try larger steps or loads",
+    outcomes.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
 }
 
 LOST = "no equilibrium within the shortest arc; try a smaller solver.arc_length"
@@ -186,10 +186,10 @@ class _Run:
         with WATCH.limit(self.case.solver.time_limit, self._expire):
             for phase in self.stages:
                 outcome = self._through(phase.stage)
-                if outcome != newton.INTERRUPTED and self._creates_energy():
+                if outcome != outcomes.INTERRUPTED and self._creates_energy():
                     advice = self._for_less_energy()
                     return Status.STOPPED, f"the integrator made energy out of nothing; {advice}"
-                if outcome != newton.CONVERGED:
+                if outcome != outcomes.CONVERGED:
                     return self._failed(outcome, phase.name)
                 if self.struck and self._is_back():
                     break
@@ -273,7 +273,7 @@ class _Run:
         if self.expired:
             limit = self.case.solver.time_limit
             return Status.TIMED_OUT, f"solver.time_limit of {limit:g} s reached {where}; raise it"
-        if outcome == newton.INTERRUPTED:
+        if outcome == outcomes.INTERRUPTED:
             return Status.STOPPED, f"interrupted {where}; run again to complete it"
         solver = self.case.solver
         timed = solver.load_steps is None

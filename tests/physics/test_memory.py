@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.solve import march, newton
+from kernels.solve import march, outcomes
 from sweep.config.case import Case, Lattice, Loading, Material, Solver
 from sweep.scene.lattice import build_scene
 from sweep.scene.relaxation import relaxation_of
@@ -100,7 +100,7 @@ def test_a_hold_relaxes_as_the_material():
     for end in held:
         stay = march.Stage(3, (end - passed) / 3, False, 0.0, 0.0, down, down)
         outcome, rows = go_on(pressed, scene, state, stay)
-        assert outcome == newton.CONVERGED
+        assert outcome == outcomes.CONVERGED
         modulus = mean_modulus(pressed.material, end, end + 0.01)
         forces.append(rows["reaction_top"][-1] / modulus)
         passed = end

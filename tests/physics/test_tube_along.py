@@ -5,7 +5,7 @@ import pytest
 
 from kernels.geometry.space import crossing
 from kernels.solve import march
-from kernels.solve.newton import CONVERGED
+from kernels.solve.outcomes import CONVERGED
 from kernels.terms.rows import ROW, Output
 from sweep.scene.loading import stages, tolerances
 from sweep.scene.plates.scene import build_scene

@@ -4,18 +4,11 @@ The target of every update is known from the symbolic factorisation (George & Li
 Solution of Large Sparse Positive Definite Systems, ch. 5).
 """
 
-import math
-
 from kernels.arrays import zero
 from kernels.compile.jit import jit, jit_exact
 from kernels.compile.simd import load, spread, store
 from kernels.linear.condensed.block_matrix import SIZE, STRIDE
-
-ZERO_PIVOT = 1e-11  # a pivot below this share of its diagonal is zero within round-off
-SOFT = 1e-6  # share of its diagonal that replaces such a pivot
-ROUNDED = -1e-13  # a negative pivot above this share is round-off too: see `_is_rounded`
-CONVEX = -math.inf  # in a positive semi-definite matrix every negative pivot is round-off
-THROUGH = math.inf  # no pivot is replaced, negative ones are no failure: see `negatives`
+from kernels.linear.pivots import ROUNDED, SOFT, THROUGH, regularised
 
 
 @jit_exact
@@ -40,21 +33,6 @@ def add_diagonal(blocks, scale):
         if blocks.own[h] != -1.0:
             blocks.values[at] = scale[h % 3]
         blocks.own[h] = blocks.values[at]
-
-
-@jit_exact
-def regularised(pivot, own, scale, rounded):
-    """Return ``pivot``, or its replacement if it is zero within round-off.
-
-    Such a pivot, between ``rounded`` and `ZERO_PIVOT` times its diagonal ``own``, belongs to a
-    motion without stiffness. It is replaced by a small share of the diagonal (or of ``scale``, of
-    the same unit): the solution follows a force along the motion, but hardly the round-off in
-    forces. With `THROUGH` no pivot is replaced, as true pivots are as small near limit points.
-    """
-    size = max(abs(own), 1e-3 * scale)
-    if rounded * size <= pivot <= ZERO_PIVOT * size:
-        return SOFT * max(abs(own), scale)
-    return pivot
 
 
 @jit_exact

@@ -15,7 +15,7 @@ Four walls with the same number of elements are handled together, one in each la
 from kernels.arrays import zero
 from kernels.compile.jit import jit, jit_exact
 from kernels.compile.simd import LANES, collect, exceeds, load, spread, store
-from kernels.linear.condensed.block_ldlt import THROUGH, ZERO_PIVOT, regularised
+from kernels.linear.pivots import THROUGH, ZERO_PIVOT, regularised
 
 NODE, BAND, WIDTH, OUTER = 3, 6, 12, 6
 
@@ -147,7 +147,7 @@ def eliminate(rows, dofs, diagonal, own, outer, scale, rounded):
     Return (lane, row, pivot): the first wall that fails, with its first negative pivot; lane 4 if
     none does. Entries of a wall that fails are wrong from that row on. dofs (4 m,): coordinates of
     the rows. own (4 m,): filled with the diagonal before elimination. scale (3,), rounded: as in
-    `block_ldlt.regularised`.
+    `pivots.regularised`.
     """
     m, failure = own.size // LANES, (LANES, -1, 0.0)
     for k in range(m):

@@ -1,11 +1,10 @@
 """LDL^T factor without pivoting, supernode by supernode.
 
-Pivots that are zero within round-off are treated as in `block_ldlt`, whose `ROUNDED`, `CONVEX` and
-`THROUGH` are understood here.
+Pivots that are zero within round-off are treated as in `condensed.block_ldlt`.
 """
 
 from kernels.compile.jit import jit, jit_exact, separate
-from kernels.linear.condensed.block_ldlt import ROUNDED, SOFT, THROUGH, regularised
+from kernels.linear.pivots import ROUNDED, SOFT, THROUGH, regularised
 from kernels.linear.supernodal.dense import divide, pack, subtract
 from kernels.linear.supernodal.fronts import assemble, strip
 from kernels.linear.supernodal.matrix import COLUMNS, ROWS, rounded_up, size

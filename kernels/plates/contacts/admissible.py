@@ -7,8 +7,7 @@ from kernels.geometry.space import advancement
 from kernels.geometry.space.closest import squared_to_triangle
 from kernels.geometry.space.vectors import SIZE, point
 from kernels.plates.contacts.pairs import edges_within
-
-ADVANCE = 0.9  # admissible share of the move up to the first contact with a platen
+from kernels.terms.moves import ADVANCE
 
 
 @jit_exact

@@ -21,7 +21,8 @@ import numpy as np
 from kernels.compile.jit import jit, jit_exact
 from kernels.geometry.space import derivatives, parallel, surface
 from kernels.geometry.space.vectors import SIZE
-from kernels.plates.contacts.touching import NO_PAIR, corners, detect, phi, shares
+from kernels.laws.barrier import phi
+from kernels.plates.contacts.touching import NO_PAIR, corners, detect, shares
 
 MOST_THICKENING = 1.5  # greatest thickness over which walls touch / that at rest: few are thicker
 
@@ -110,7 +111,9 @@ def evaluate(x, contact, pairs, drift, touching, g):
 def _mollified(contact, pairs, touching, n, points):
     """Return phi and phi' of a contact of two edges, and m' and m''."""
     i = touching.pair[n]
-    value, slope, _ = phi(contact, pairs.edge_area[i], pairs.edge_contact[i], touching.distance[n])
+    value, slope, _ = phi(
+        pairs.edge_area[i], contact.stiffness, pairs.edge_contact[i], touching.distance[n]
+    )
     _, first, second = parallel.factor(points, pairs.edge_scale[i])
     return value, slope, first, second
 
@@ -163,7 +166,7 @@ def _against(x, contact, p, rest, platen, side):
     dc = min(0.5 * contact.thickness[p], rest)
     if d >= dc:
         return 0.0, 0.0, 0.0
-    return phi(contact, contact.area[p], dc, d)
+    return phi(contact.area[p], contact.stiffness, dc, d)
 
 
 @jit

@@ -15,7 +15,7 @@ import numpy as np
 
 from kernels.compile.jit import jit, jit_exact
 from kernels.laws.barrier import barrier
-from kernels.plates.contacts.admissible import ADVANCE
+from kernels.terms.moves import ADVANCE
 
 
 class Mirror(NamedTuple):

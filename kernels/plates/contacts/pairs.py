@@ -44,10 +44,10 @@ from kernels.geometry.space.closest import (
 )
 from kernels.geometry.space.parallel import SINE2
 from kernels.geometry.space.vectors import inner, length, minus, point, row
+from kernels.terms.contact_near_joints import FAR
 
 LEAST_PATH = 0.5 * math.pi  # of what may touch, at rest, in units of t
 NEAR_SHARE = 0.3  # of t_c, at which contact of near parts starts: a wall can be crushed to that
-FAR = 5.0  # s / t beyond which t_c = t: it would be less than 2 % smaller
 EDGE_SHARE = 0.5  # of t_c, at which contact of two edges starts
 SHELLS = 64  # number of distance classes by which pairs of edges are sorted
 

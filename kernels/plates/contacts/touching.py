@@ -12,7 +12,7 @@ from kernels.compile.jit import jit, jit_owning
 from kernels.geometry.space import parallel
 from kernels.geometry.space.closest import FACE, on_edge, on_edges, on_triangle
 from kernels.geometry.space.vectors import combined, inner, minus, point
-from kernels.laws.barrier import barrier
+from kernels.laws.barrier import phi
 from kernels.plates.contacts.pairs import EDGE_SHARE, edges_within
 
 NEGLIGIBLE = 1e-12  # of what adds up at a side or a corner: below it nothing is left of the sum
@@ -55,14 +55,6 @@ def no_contacts(contact, pairs):
         np.empty(n), np.empty(n, np.int64),
         np.full(contact.area.size + contact.edges.shape[0], -1), np.zeros(1, np.int64),
     )  # fmt: skip
-
-
-@jit
-def phi(contact, weight, d_contact, d):
-    """Return weight * phi(d), J, and its first two derivatives in d. weight in m^2; d in m."""
-    value, slope, curvature = barrier(d / d_contact)
-    scale = weight * contact.stiffness
-    return scale * d_contact * value, scale * slope, scale / d_contact * curvature
 
 
 @jit
@@ -166,7 +158,7 @@ def _triangles(x, contact, pairs, p, drift, touching):
         if not d2 > 0.0:
             return np.inf
         d = d2**0.5
-        value, slope, curvature = phi(contact, weight, dc, d)
+        value, slope, curvature = phi(weight, contact.stiffness, dc, d)
         total += value
         n = _meet(contact, touching, p, k, (feature, v, w))
         _raise(touching, n, d, slope, curvature)
@@ -192,7 +184,7 @@ def _lower(x, contact, pairs, p, drift, touching):
         if d2 >= dc * dc:
             continue
         weight, d = 0.5 * contact.area[p] * pairs.lower_weight[j], d2**0.5
-        value, slope, curvature = phi(contact, weight, dc, d)
+        value, slope, curvature = phi(weight, contact.stiffness, dc, d)
         total += value
         n = _meet_lower(contact, touching, p, f, s, pairs.lower_triangle[j])
         _raise(touching, n, d, slope, curvature)
@@ -263,7 +255,7 @@ def _edges(x, contact, pairs, drift, touching):
             continue
         if not d2 > 0.0:
             return np.inf
-        value, slope, curvature = phi(contact, pairs.edge_area[i], dc, d2**0.5)
+        value, slope, curvature = phi(pairs.edge_area[i], contact.stiffness, dc, d2**0.5)
         m, _, _ = parallel.factor(points, pairs.edge_scale[i])
         free = (1 if 0.0 < s < 1.0 else 0) + (2 if 0.0 < t < 1.0 else 0)
         n = _write(touching, (a, b, c, d), share, 4, free, -1)

@@ -216,9 +216,9 @@ def commit(law, m, thickness, memory, point):
         v = SHARES[layer] * thickness
         c, _ = _layer(m, (layer - 1.0) * OUTER * thickness * j)
         potential = law.respond(c[0], c[1], c[2], memory, point + layer)[0]
-        stored, lost = law.commit(c[0], c[1], c[2], memory, point + layer)
+        stored, dissipation = law.commit(c[0], c[1], c[2], memory, point + layer)
         released += v * (potential - stored)
-        dissipated += v * lost
+        dissipated += v * dissipation
         if layer == 1:
             of_middle = thickness * (potential - stored)
     return released, of_middle, dissipated

@@ -285,15 +285,15 @@ def commit(x, frames, shell, law, memory, scratch, released):
         for g in range(4):
             _strain(scratch, shell, e, g)
             point = POINTS_OF_LAYERS * e + layers.LAYERS * g
-            gone, of_middle, lost = layers.commit(
+            release, of_middle, dissipation = layers.commit(
                 law, scratch.measure, shell.thickness[e], memory, point
             )
             released[0] += area * of_middle
-            released[1] += area * (gone - of_middle)
-            dissipated += area * lost
-        gone, lost = _commit_shear(shell, law, memory, e, scratch.q)
-        released[2] += gone
-        dissipated += lost
+            released[1] += area * (release - of_middle)
+            dissipated += area * dissipation
+        release, dissipation = _commit_shear(shell, law, memory, e, scratch.q)
+        released[2] += release
+        dissipated += dissipation
     return dissipated
 
 

@@ -5,10 +5,10 @@ import pytest
 
 from kernels.laws import relaxing_sheet
 from kernels.laws.law import Memory
-from kernels.laws.relaxing_sheet import RelaxingSheet, elastic_only, inverse
+from kernels.laws.relaxing_sheet import RelaxingSheet, inverse
 from kernels.laws.sheet import neo_hookean
 from tests.support.designs.scenes import slopes
-from tests.support.kernels.sheets import MODULUS, measured, sheet_of_rubber
+from tests.support.kernels.sheets import MODULUS, elastic_only, measured, sheet_of_rubber
 from tests.support.kernels.terms import differences
 
 SHARES, TIMES = (0.3, 0.2, 0.25), (0.01, 0.5, 40.0)

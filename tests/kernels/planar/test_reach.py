@@ -7,6 +7,7 @@ import pytest
 
 from kernels.geometry import ccd, near_pairs
 from kernels.planar import reach
+from kernels.terms.moves import ADVANCE
 from sweep.config.case import Case, Contact, Lattice, Loading, Solver
 from sweep.scene.lattice import build_scene
 from tests.support.kernels.solving import whole
@@ -98,8 +99,8 @@ def test_the_bounds_of_a_step_miss_nothing(state, contact):
         rng = np.random.default_rng(seed)
         dx = unit(scene) * 10.0 ** rng.uniform(-2.5, 0.5) * rng.uniform(-1, 1, x.size)
         met, short = hits(scene, x, dx)
-        least = min(1.0, reach.ADVANCE * met.min(), short.min())
-        most = min(1.0, reach.ADVANCE * met[met <= 1.0].min(initial=np.inf), short.min())
+        least = min(1.0, ADVANCE * met.min(), short.min())
+        most = min(1.0, ADVANCE * met[met <= 1.0].min(initial=np.inf), short.min())
         assert least * (1 - 1e-12) <= args.limit(x, dx) <= most * (1 + 1e-12)
         limited += most < 1.0
     assert 5 < limited < 60

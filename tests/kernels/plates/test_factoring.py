@@ -51,10 +51,10 @@ def test_directions_of_descent_have_the_negative_pivot(name, state):
     of = scene(name)
     x, R = STATES[state](of), reduction(of)
     args = whole(of, x)
-    met, pivot = args.factored(x)
+    result, pivot = args.factored(x)
     H = args.entries()
-    assert (met == NEGATIVE) == (np.linalg.eigvalsh(H)[0] < 0.0)
-    if met == NEGATIVE:
+    assert (result == NEGATIVE) == (np.linalg.eigvalsh(H)[0] < 0.0)
+    if result == NEGATIVE:
         d = args.escape()
         short = np.linalg.lstsq(R, d)[0]
         np.testing.assert_allclose(R @ short, d, rtol=0, atol=1e-12 * np.abs(d).max())
@@ -147,8 +147,10 @@ def test_lagged_friction_has_room_also_where_its_walls_have_parted():
     without = apart._replace(matrix=make_matrix(of.terms, apart.pairs, nothing))
     for neighbours, has_room in ((apart, True), (without, False)):
         there = args.beside(neighbours)
-        met, _ = there.problem.factor(of.x_rest, args.step, there.found(of.x_rest)[1], False, False)
-        assert (met != NO_ROOM) == has_room
+        result, _ = there.problem.factor(
+            of.x_rest, args.step, there.found(of.x_rest)[1], False, False
+        )
+        assert (result != NO_ROOM) == has_room
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from kernels.solve import arc_length, newton
+from kernels.solve import arc_length, outcomes
 from sweep.config.case import Case, Contact, Lattice, Loading, Solver
 from sweep.config.grid import ConfigError, expand
 from sweep.config.units import load_config
@@ -168,7 +168,7 @@ def test_interruption_is_told():
 
 
 def test_a_path_that_is_lost_is_told(monkeypatch):
-    monkeypatch.setattr("kernels.solve.arc_length.follow", lambda *_: (newton.STALLED, 0))
+    monkeypatch.setattr("kernels.solve.arc_length.follow", lambda *_: (outcomes.STALLED, 0))
     result = simulate(case_of(lee(8)))
     assert result.status == "stopped"
     assert "try a smaller solver.arc_length" in result.message
@@ -217,7 +217,7 @@ def test_length_of_arcs_says_nothing_elsewhere(tmp_path):
 def test_a_move_out_of_the_range_of_numbers_ends_an_arc(move):
     """Nothing else is looked at: pairs for such a move would be listed for ever."""
     correct = getattr(arc_length._correct, "__wrapped__", arc_length._correct)
-    space = SimpleNamespace(found=None, work=SimpleNamespace(direction=0, escape=0))
+    workspace = SimpleNamespace(found=None, work=SimpleNamespace(direction=0, escape=0))
     problem = SimpleNamespace(scene=SimpleNamespace(coordinates=None))
-    found = correct(None, problem, None, 1.0, space, None, SimpleNamespace(longest_move=move))
-    assert found == newton.NOT_FINITE
+    found = correct(None, problem, None, 1.0, workspace, None, SimpleNamespace(longest_move=move))
+    assert found == outcomes.NOT_FINITE

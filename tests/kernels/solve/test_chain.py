@@ -5,10 +5,11 @@ import pytest
 from scipy.optimize import brentq, minimize
 
 from kernels.compile.reference import by_reference
-from kernels.solve import arc_length, history, march, newton, workspace
+from kernels.solve import arc_length, history, march, newton, outcomes
 from kernels.solve.integrators import BDF2, TRAPEZOIDAL
 from kernels.solve.problem import FREE, HELD, LED, Coordinates, Step
 from kernels.solve.residual import Tolerance
+from kernels.solve.workspace import make_workspace
 from tests.support.designs.scenes import slopes
 from tests.support.kernels.chain import ROW, Chain, Line, Output
 
@@ -68,7 +69,7 @@ def test_it_leaves_the_top_of_the_hills():
     chain = line(4, spring=0.01)._replace(apart=0.0)
     state = begun(chain, np.zeros(4))
     outcome, _, (end,) = go(chain, state, march.Stage(1, 1.0, False, 1.0, 1.0, 0.0, 0.0))
-    assert outcome == newton.CONVERGED
+    assert outcome == outcomes.CONVERGED
     np.testing.assert_allclose(np.abs(end), WIDTH, rtol=0.02)
 
 
@@ -79,7 +80,7 @@ def test_a_led_chain_goes_through_minima():
     state = begun(chain, [-1.5, *start.x, -1.2])
     stage = march.Stage(40, 1.0, False, 0.0, 0.0, -1.2, 4.8)
     outcome, rows, positions = go(chain, state, stage)
-    assert outcome == newton.CONVERGED
+    assert outcome == outcomes.CONVERGED
     assert is_balanced(rows)
     inner, moved = start.x, np.abs(np.diff(positions[:, 1:3], axis=0)).max(axis=1)
     assert moved.max() > 0.5  # one snaps
@@ -100,7 +101,7 @@ def test_friction_of_a_loaded_particle_is_that_of_where_a_step_starts():
     chain = line(1, load=1.8, friction=0.3)
     state = begun(chain, [-WIDTH])
     outcome, rows, positions = go(chain, state, march.Stage(8, 1.0, False, 0.0, 1.0, 0.0, 0.0))
-    assert outcome == newton.CONVERGED
+    assert outcome == outcomes.CONVERGED
     assert is_balanced(rows)
     x = positions[:, 0]
     moves = np.diff(x, prepend=-WIDTH)
@@ -123,7 +124,7 @@ def test_lagged_forces_keep_the_order_of_the_integrator(scheme, order):
         state.v[0] = 1.0
         stage = march.Stage(steps, 0.5 / steps, True, 1.0, 1.0, 0.0, 0.0, scheme)
         outcome, _, positions = go(chain, state, stage)
-        assert outcome == newton.CONVERGED
+        assert outcome == outcomes.CONVERGED
         ends.append(positions[-1, 0])
     coarse, fine = abs(ends[0] - ends[2]), abs(ends[1] - ends[2])
     assert np.log2(coarse / fine) == pytest.approx(order, abs=0.15)
@@ -133,7 +134,7 @@ def test_several_particles_slide():
     chain = line(5, driven=True, friction=0.4)
     state = begun(chain, np.linspace(-1.6, 0.0, 5))
     outcome, rows, _ = go(chain, state, march.Stage(20, 1.0, False, 0.0, 0.0, 0.0, 3.0))
-    assert outcome == newton.CONVERGED
+    assert outcome == outcomes.CONVERGED
     assert is_balanced(rows)
     assert np.all(np.diff(rows["friction"]) > 0.0)
 
@@ -148,7 +149,7 @@ def test_the_chain_swings_with_the_order_of_the_integrator(scheme, order):
         state = begun(chain, [1.6, 1.7, 2.0])
         stage = march.Stage(steps, 1.0 / steps, True, 0.0, 0.0, 0.0, 0.0, scheme)
         outcome, rows, positions = go(chain, state, stage)
-        assert outcome == newton.CONVERGED
+        assert outcome == outcomes.CONVERGED
         assert is_balanced(rows)
         ends[steps] = positions[-1]
     errors = [np.abs(ends[steps] - ends[12800]).max() for steps in (200, 400, 800)]
@@ -160,7 +161,7 @@ def test_a_step_that_fails_is_halved():
     state = begun(chain, [-1.5, -1.45, -1.35, -1.2])
     few = TIGHT._replace(iterations=5)
     outcome, rows, _ = go(chain, state, march.Stage(6, 1.0, False, 0.0, 0.0, -1.2, 4.8), few)
-    assert outcome == newton.CONVERGED
+    assert outcome == outcomes.CONVERGED
     assert state.totals[0].steps > 6
     assert is_balanced(rows)
 
@@ -177,7 +178,7 @@ def test_an_arc_follows_the_slope_of_the_well():
     stage = march.Stage(steps, 1.0, False, 0.0, 1.0, 0.0, 0.0)
     loose = TIGHT._replace(force=1e-9, decrement=1e-18)
     outcome, written = arc_length.follow(chain, loose, stage, state, out, np.zeros(2, int), arc)
-    assert outcome == newton.CONVERGED
+    assert outcome == outcomes.CONVERGED
     x, path = out.positions[:written, 0], arc.path[1 : written + 1]
     assert path["factor"][-1] == 1.0
     slope = 4.0 * HEIGHT * x / WIDTH**2 * ((x / WIDTH) ** 2 - 1.0)
@@ -196,11 +197,11 @@ def test_the_residual_is_not_measured_by_an_old_factor():
     neighbours = chain.find_neighbours(x0)
     problem = Chain(*(by_reference(part) for part in (chain, neighbours, buffers)))
     step = Step(x0, x0.copy(), x0.copy(), 1.0, 1.0, False, 1.0, 0.5)
-    space, descent = workspace.make_workspace(1, 2), np.zeros(1, newton.DESCENT)[0]
-    x, descent.since_factor, space.work.dx[:] = x0.copy(), np.inf, zero
+    workspace, descent = make_workspace(1, 2), np.zeros(1, newton.DESCENT)[0]
+    x, descent.since_factor, workspace.work.dx[:] = x0.copy(), np.inf, zero
     outcome = newton.minimise(
-        x, 0.0, problem, step, TIGHT, by_reference(space), descent, np.zeros(2, int), False
+        x, problem, step, TIGHT, by_reference(workspace), descent, np.zeros(2, int)
     )
-    assert outcome == newton.CONVERGED
-    assert abs(space.found.g[0]) < 1e-10
+    assert outcome == outcomes.CONVERGED
+    assert abs(workspace.found.g[0]) < 1e-10
     assert x[0] > -WIDTH + 0.01

@@ -22,18 +22,18 @@ def guess():
     case = cases.crush(2, 0.1, 10)
     scene = build_scene(case)
     state, problem = at_rest(scene), whole(scene, scene.x_rest).problem
-    space, driven = make_workspace(state.x.size, STORED), scene.terms.coordinates.driven
+    workspace, driven = make_workspace(state.x.size, STORED), scene.terms.coordinates.driven
     progress, descent = np.zeros(1, march.PROGRESS)[0], np.zeros(1, newton.DESCENT)[0]
     progress.share = 1.0
 
     def set_out(move, last=STEP):
-        u = space.found.u
+        u = workspace.found.u
         u[:], u[driven], u[0] = 0.0, -last, move
         stage = ramp(scene, 1, travel=(0.0, STEP))
-        state_, space_ = by_reference(state), by_reference(space)
+        state_, workspace_ = by_reference(state), by_reference(workspace)
         allowed = tolerances(case, scene, stage)
-        march._begin_share(problem, allowed, stage, state_, space_, descent, progress)
-        return space.work.dx.copy(), u.copy(), scene.terms.coordinates
+        march._begin_share(problem, allowed, stage, state_, workspace_, descent, progress)
+        return workspace.work.dx.copy(), u.copy(), scene.terms.coordinates
 
     return set_out
 

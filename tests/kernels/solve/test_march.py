@@ -10,7 +10,7 @@ import pytest
 from kernels.geometry import near_pairs
 from kernels.geometry.distance import squared_distance
 from kernels.geometry.specimen_height import height
-from kernels.solve import march, newton
+from kernels.solve import march, newton, outcomes
 from kernels.solve.energy_book import kinetic
 from kernels.terms.rows import CONTACT
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
@@ -62,7 +62,7 @@ def test_free_fall_follows_the_recurrence_of_backward_euler(drag):
     )
     scene.terms.coordinates.load[upwards] = -GRAVITY * scene.terms.coordinates.mass[upwards]
     outcome, rows = go_on(case, scene, state, ramp(scene, 12, DT, (1.0, 1.0)), force=1e-10)
-    assert outcome == newton.CONVERGED
+    assert outcome == outcomes.CONVERGED
     v, y, speeds, falls = 0.0, 0.0, [], []
     for _ in range(12):
         v = (v + GRAVITY * DT) / (1.0 + drag * DT)
@@ -90,7 +90,7 @@ def nodes(scene, of_all):
 
 def parts(state):
     """All arrays of a state."""
-    return [*state[:2], *state.rates, *state.past, *state[4:]]
+    return [*state[:2], *state.rates, *state.gradients, *state[4:]]
 
 
 def momentum(scene, state):
@@ -110,7 +110,7 @@ def test_what_nothing_holds_keeps_its_momentum(damping, friction):
     for _ in range(12):
         before, taken = momentum(scene, state), state.totals[0].steps
         outcome, rows = go_on(case, scene, state, ramp(scene, 1, DT), force=1e-9)
-        assert outcome == newton.CONVERGED
+        assert outcome == outcomes.CONVERGED
         assert abs(rows[0].residual) < 1e-9 * rows[0].kinetic
         touched = max(touched, rows[0].contact)
         if state.totals[0].steps > taken + 1:
@@ -165,7 +165,7 @@ def sliding():
     scene = build_scene(case)
     state = at_rest(scene)
     outcome, _ = go_on(case, scene, state, ramp(scene, 5, factor=(0.0, 1.0)))
-    assert outcome == newton.CONVERGED
+    assert outcome == outcomes.CONVERGED
     state.v[: 2 * len(scene.mesh.points) : 2] = 2.0
     state.book[0].work += kinetic(state.v, scene.terms.coordinates.mass)
     return case, scene, state
@@ -181,7 +181,7 @@ def test_friction_slows_what_slides_by_mu_times_the_forces_on_it():
     for _ in range(5):
         before, x = momentum(scene, state).sum(axis=0), state.x.copy()
         outcome, rows = go_on(case, scene, state, ramp(scene, 1, DT, (1.0, 1.0)))
-        assert outcome == newton.CONVERGED
+        assert outcome == outcomes.CONVERGED
         change = (momentum(scene, state).sum(axis=0) - before) / DT
         if rise is not None:
             assert change[0] == pytest.approx(-0.3 * (3.0 + 3.0 + rise), rel=1e-5)
@@ -236,7 +236,7 @@ def test_halved_steps_take_half_the_time():
     dt = 0.15 * case.lattice.height / 10.0
     stage = ramp(scene, 1, dt, travel=(0.0, 10.0 * dt))
     outcome, _ = go_on(case, scene, state, stage, iterations=6)
-    assert outcome == newton.CONVERGED
+    assert outcome == outcomes.CONVERGED
     assert state.totals[0].steps > 1
     assert state.totals[0].time == pytest.approx(dt)
     assert state.v[-1] == pytest.approx(-10.0, rel=1e-9)
@@ -254,11 +254,11 @@ def test_a_step_that_fails_at_any_length_leaves_the_state_before_it():
     scene = build_scene(case)
     state = at_rest(scene)
     travel = 0.05 * case.lattice.height
-    assert go_on(case, scene, state, ramp(scene, 1, travel=(0.0, travel)))[0] == newton.CONVERGED
+    assert go_on(case, scene, state, ramp(scene, 1, travel=(0.0, travel)))[0] == outcomes.CONVERGED
     kept = [part.copy() for part in parts(state)]
     stage = ramp(scene, 3, travel=(travel, 3 * travel))
     outcome, rows = go_on(case, scene, state, stage, iterations=0)
-    assert (outcome, len(rows)) == (newton.ITERATIONS, 0)
+    assert (outcome, len(rows)) == (outcomes.ITERATIONS, 0)
     for part, before in zip(parts(state), kept, strict=True):
         np.testing.assert_array_equal(part, before)
 
@@ -269,11 +269,11 @@ def test_an_interruption_keeps_what_is_done():
     state, control = at_rest(scene), np.zeros(2, dtype=np.int64)
     travel = 0.1 * case.lattice.height
     outcome, rows = go_on(case, scene, state, ramp(scene, 4, travel=(0.0, travel)), control)
-    assert (outcome, len(rows), list(control)) == (newton.CONVERGED, 4, [0, 4])
+    assert (outcome, len(rows), list(control)) == (outcomes.CONVERGED, 4, [0, 4])
     kept = [part.copy() for part in parts(state)]
     control[0] = 1
     outcome, rows = go_on(case, scene, state, ramp(scene, 4, travel=(travel, 0.0)), control)
-    assert (outcome, len(rows), list(control)) == (newton.INTERRUPTED, 0, [1, 4])
+    assert (outcome, len(rows), list(control)) == (outcomes.INTERRUPTED, 0, [1, 4])
     for part, before in zip(parts(state), kept, strict=True):
         np.testing.assert_array_equal(part, before)
 
@@ -308,7 +308,7 @@ def test_buckling_is_seen_however_small_the_steps(steps):
     scene = build_scene(case)
     state, travel = at_rest(scene), 0.03 * case.lattice.height
     outcome, rows = go_on(case, scene, state, ramp(scene, steps, travel=(0.0, travel)))
-    assert outcome == newton.CONVERGED
+    assert outcome == outcomes.CONVERGED
     bent, stretched = rows[-1].bend, rows[-1].stretch
     assert bent > 0.5 * stretched
     before = rows[steps // 8].bend
@@ -319,14 +319,14 @@ def test_after_each_failure_more_shares_are_accepted_before_one_is_doubled():
     """1, then 3; easy steps bring it back."""
     progress, descent = np.zeros(1, march.PROGRESS)[0], np.zeros(1, newton.DESCENT)[0]
     still, state = SimpleNamespace(roll_back=lambda step: None), SimpleNamespace(x=np.zeros(1))
-    space = SimpleNamespace(x0=np.zeros(1), found=SimpleNamespace(u=np.zeros(1)))
+    workspace = SimpleNamespace(x0=np.zeros(1), found=SimpleNamespace(u=np.zeros(1)))
     reject, next_share = (
         getattr(kernel, "__wrapped__", kernel) for kernel in (march._reject, march._next_share)
     )
     progress.share, shares = 2.0**-4, []
     for fails in (True, False, True, False, False, False, False, False, False, False):
         if fails:
-            reject(newton.ITERATIONS, still, None, state, space, descent, progress)
+            reject(outcomes.ITERATIONS, still, None, state, workspace, descent, progress)
             progress.done = 0.0
         else:
             next_share(0.0, 100, descent, progress)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.solve import newton
+from kernels.solve import newton, outcomes
 from sweep.config.case import Case, Lattice, Loading
 from sweep.scene.lattice import build_scene
 from tests.support.designs.scenes import grid
@@ -18,7 +18,7 @@ def test_a_wall_that_lies_upon_another_is_refused():
     above = np.argmin(np.linalg.norm(scene.mesh.points - (0.0, 2.0 * h), axis=1))
     x[2 * above : 2 * above + 2] = 1.5 * h, 0.0
     found = descend(case, scene, x, whole(scene, scene.x_rest))
-    assert found.outcome == newton.NOT_FINITE
+    assert found.outcome == outcomes.NOT_FINITE
     np.testing.assert_array_equal(found.x, x)
 
 
@@ -39,7 +39,7 @@ def test_the_first_move_goes_as_far_as_is_admissible(seed):
     args = whole(scene, start, reach=3e-2)
     share = args.limit(start, move)
     found = descend(case, scene, start, args, move=move, iterations=0)
-    assert found.outcome == newton.ITERATIONS
+    assert found.outcome == outcomes.ITERATIONS
     np.testing.assert_allclose(found.x, start + share * move, rtol=0, atol=1e-15)
 
 
@@ -76,7 +76,7 @@ def test_a_step_of_too_many_shortened_moves_is_given_up(moves):
     found = descend(case, scene, start, whole(scene, start, dt=1e-3, v=v, factor=0.0))
     gone = (found.x[0] - start[0]) / cap
     if moves < newton.MOST_CUT_MOVES:
-        assert (found.outcome, gone) == (newton.CONVERGED, pytest.approx(moves))
+        assert (found.outcome, gone) == (outcomes.CONVERGED, pytest.approx(moves))
     else:
         most = pytest.approx(newton.MOST_CUT_MOVES)
-        assert (found.outcome, found.iterations, gone) == (newton.ITERATIONS, most, most)
+        assert (found.outcome, found.iterations, gone) == (outcomes.ITERATIONS, most, most)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.solve import newton
+from kernels.solve import newton, outcomes
 from kernels.solve.problem import HELD
 from kernels.solve.residual import Tolerance, allowed, allowed_decrement
 from sweep.config.case import Case, Contact, Lattice, Loading, Solver
@@ -55,7 +55,7 @@ def test_a_straight_column_is_left_once_it_buckles():
     assert np.abs(residual(scene, start, args)).max() < 1e-9
     assert not is_minimum(case, scene, start, np.inf, args)
     found = descend(case, scene, start, args)
-    assert found.outcome == newton.CONVERGED
+    assert found.outcome == outcomes.CONVERGED
     assert is_minimum(case, scene, found.x, np.inf, args)
     assert np.abs(found.x - start)[: 2 * len(scene.mesh.points)].max() > 1e-3
     assert args.energy(found.x) < 0.75 * args.energy(start)
@@ -69,7 +69,7 @@ def test_it_goes_on_from_what_was_evaluated_before():
     start[::2] += 1e-4 * np.linspace(0.0, 1.0, start[::2].size)
     args = whole(scene, start)
     anew, on = (descend(case, scene, start, args, evaluated=known) for known in (False, True))
-    assert on.outcome == newton.CONVERGED
+    assert on.outcome == outcomes.CONVERGED
     assert on.iterations == anew.iterations
     np.testing.assert_array_equal(on.x, anew.x)
 
@@ -94,7 +94,7 @@ def test_a_straight_column_stays_straight_before_it_buckles():
     scene = build_scene(case)
     start = straight(scene, 0.01)
     found = descend(case, scene, start, whole(scene, start))
-    assert (found.outcome, found.iterations) == (newton.CONVERGED, 0)
+    assert (found.outcome, found.iterations) == (outcomes.CONVERGED, 0)
     np.testing.assert_array_equal(found.x, start)
 
 
@@ -105,7 +105,7 @@ def test_the_same_minimum_from_all_around(seed):
     args = whole(scene, scene.x_rest)
     expected = descend(case, scene, scene.x_rest, args)
     found = descend(case, scene, shaken(scene, scene.x_rest, seed, 0.1), args)
-    assert found.outcome == expected.outcome == newton.CONVERGED
+    assert found.outcome == expected.outcome == outcomes.CONVERGED
     np.testing.assert_allclose(found.x, expected.x, rtol=0, atol=1e-6 * HEIGHT)
     assert np.abs(expected.x - scene.x_rest).max() > 1e-4 * HEIGHT
 
@@ -119,7 +119,7 @@ def test_either_tolerance_alone_brings_it_to_the_minimum(loose):
     expected = descend(case, scene, scene.x_rest, args, force=1e-9, decrement=1e-20)
     tight = {"force": 1e-9, "decrement": 1e-20} | {loose: 1e9}
     found = descend(case, scene, scene.x_rest, args, **tight)
-    assert found.outcome == newton.CONVERGED
+    assert found.outcome == outcomes.CONVERGED
     np.testing.assert_allclose(found.x, expected.x, rtol=0, atol=1e-7 * HEIGHT)
 
 
@@ -137,7 +137,7 @@ def test_a_moment_counts_as_the_force_that_it_is_over_an_element(share, settled)
     allowed = share * sizes.max()
     assert sizes[lever == 1.0].max() < 0.5 * allowed
     found = descend(case, scene, x, args, force=allowed, decrement=1.0)
-    assert found.outcome == newton.CONVERGED
+    assert found.outcome == outcomes.CONVERGED
     assert (found.iterations == 0) == settled
 
 
@@ -160,11 +160,11 @@ def test_no_iteration_raises_the_energy(seed, dt):
     args = whole(scene, scene.x_rest, dt=dt)
     x = shaken(scene, scene.x_rest, seed, 0.3)
     x[[-2, -1]] += -1e-3, 1e-3
-    energies, outcome = [whole(scene, x, scene.x_rest, dt).energy(x)], newton.ITERATIONS
-    while outcome == newton.ITERATIONS and len(energies) < 300:
+    energies, outcome = [whole(scene, x, scene.x_rest, dt).energy(x)], outcomes.ITERATIONS
+    while outcome == outcomes.ITERATIONS and len(energies) < 300:
         outcome, _, x = descend(case, scene, x, args, iterations=1)
         energies.append(whole(scene, x, scene.x_rest, dt).energy(x))
-    assert outcome == newton.CONVERGED
+    assert outcome == outcomes.CONVERGED
     noise = 2.0 * newton.RESOLVED * np.abs(energies[:-1])
     assert np.all(np.diff(energies) <= noise + tolerances(case, scene, ramp(scene, 1, dt)).noise)
     assert is_minimum(case, scene, x, dt, whole(scene, x, scene.x_rest, dt))
@@ -178,8 +178,8 @@ def test_it_ends_quadratically(force, contact, dt):
     case = grid(force, "contact", contact)
     scene = build_scene(case)
     args = whole(scene, scene.x_rest, dt=dt)
-    x, sizes, outcome = scene.x_rest, [], newton.ITERATIONS
-    while outcome == newton.ITERATIONS:
+    x, sizes, outcome = scene.x_rest, [], outcomes.ITERATIONS
+    while outcome == outcomes.ITERATIONS:
         outcome, _, x = descend(case, scene, x, args, iterations=1)
         sizes.append(np.abs(residual(scene, x, whole(scene, x, scene.x_rest, dt))).max())
     falls = np.diff(np.log([size for size in sizes if size > ROUND_OFF][-3:]))
@@ -191,7 +191,7 @@ def test_the_platen_ends_exactly_at_its_target():
     scene = build_scene(case)
     start, target = straight(scene, 0.004), (1.0 - 0.012) * HEIGHT + scene.x_rest[-1] - HEIGHT
     found = descend(case, scene, start, whole(scene, start), target)
-    assert found.outcome == newton.CONVERGED
+    assert found.outcome == outcomes.CONVERGED
     assert found.x[-1] == target
     np.testing.assert_allclose(found.x, straight(scene, 0.012), rtol=0, atol=1e-9 * HEIGHT)
 
@@ -215,11 +215,11 @@ def test_too_few_iterations_are_a_failure(most):
     start = shaken(scene, straight(scene, BUCKLED), 0, 0.05)
     args = whole(scene, start)
     found = descend(case, scene, start, args, iterations=most)
-    assert (found.outcome, found.iterations) == (newton.ITERATIONS, most)
+    assert (found.outcome, found.iterations) == (outcomes.ITERATIONS, most)
     assert not is_minimum(case, scene, found.x, np.inf, args)
     on = descend(case, scene, found.x, args)
     whole_way = descend(case, scene, start, args)
-    assert on.outcome == whole_way.outcome == newton.CONVERGED
+    assert on.outcome == whole_way.outcome == outcomes.CONVERGED
     assert on.iterations + most == whole_way.iterations
 
 
@@ -228,7 +228,7 @@ def test_an_interruption_leaves_everything_where_it_is():
     scene = build_scene(case)
     args = whole(scene, scene.x_rest)
     found = descend(case, scene, scene.x_rest, args, control=np.array([1, 0]))
-    assert (found.outcome, found.iterations) == (newton.INTERRUPTED, 0)
+    assert (found.outcome, found.iterations) == (outcomes.INTERRUPTED, 0)
     np.testing.assert_array_equal(found.x, scene.x_rest)
 
 
@@ -239,7 +239,7 @@ def test_nodes_in_one_place_leave_the_range_of_numbers():
     x = scene.x_rest.copy()
     x[2 * one : 2 * one + 2] = x[2 * two : 2 * two + 2]
     found = descend(case, scene, x, whole(scene, scene.x_rest))
-    assert found.outcome == newton.NOT_FINITE
+    assert found.outcome == outcomes.NOT_FINITE
 
 
 @pytest.mark.parametrize("platen", ["glued", "contact"])

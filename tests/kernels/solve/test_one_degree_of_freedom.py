@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.solve import newton
+from kernels.solve import outcomes
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
@@ -216,7 +216,7 @@ def test_a_static_load_that_grows_does_half_of_its_work():
     scene = build_scene(case)
     state = at_rest(scene)
     outcome, rows = go_on(case, scene, state, ramp(scene, 3, factor=(0.0, 1.0)), **EXACT)
-    assert outcome == newton.CONVERGED
+    assert outcome == outcomes.CONVERGED
     share = np.array([1, 2, 3]) / 3
     full = 0.5 * 0.2**2 / springs(case)[0]
     np.testing.assert_allclose(rows["reaction_top"], 0.2 * share, rtol=1e-12)

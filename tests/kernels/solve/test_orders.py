@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from kernels.solve import newton
+from kernels.solve import outcomes
 from kernels.terms import friction
 from sweep.config.case import Case, Loading
 from sweep.scene.lattice import build_scene
@@ -101,7 +101,7 @@ class Descent:
 def test_newton_is_quadratic_near_a_minimum(scene):
     """What one iteration leaves of a disturbance falls with its square."""
     descent = scene()
-    assert descent.go_on(100) == newton.CONVERGED
+    assert descent.go_on(100) == outcomes.CONVERGED
     minimum, left = descent.x.copy(), []
     for amount in (1e-7, 5e-8, 2.5e-8, 1.25e-8):
         descent.x = minimum.copy()
@@ -116,8 +116,8 @@ def test_newton_ends_a_smooth_step_quadratically(travel):
     """Order log(r'' / r') / log(r' / r) of the last residuals above round-off."""
     descent, residuals = crushed(), []
     target = descent.x[-1] - travel
-    outcome = newton.ITERATIONS
-    while outcome == newton.ITERATIONS:
+    outcome = outcomes.ITERATIONS
+    while outcome == outcomes.ITERATIONS:
         outcome = descent.go_on(1, target)
         residuals.append(descent.residual())
     falls = np.diff(np.log([size for size in residuals if size > ROUND_OFF]))
@@ -129,7 +129,7 @@ def test_newton_with_the_tangent_modulus_is_of_first_order():
     """Its last residuals fall by one factor, each time."""
     descent, residuals = crushed(hessian="tangent_modulus"), []
     target = descent.x[-1] - 3e-4
-    while descent.go_on(1, target) == newton.ITERATIONS:
+    while descent.go_on(1, target) == outcomes.ITERATIONS:
         residuals.append(descent.residual())
     falls = np.diff(np.log(residuals))[-6:]
     np.testing.assert_allclose(falls[1:] / falls[:-1], 1.0, atol=0.02)

@@ -11,11 +11,14 @@ MASS = np.array([2.0, 2.0, 0.5, 0.5, 0.0, 0.0])  # two nodes, then rotations
 
 
 def term_of(x_pred, mass, dt) -> Term:
-    """Inertia with its Hessian M / dt^2, which is left to the step."""
-    return Term(
-        lambda x, g: inertia.evaluate(x, x_pred, mass, dt, g),
-        lambda x, projected: np.diag(mass) / dt**2,
-    )
+    """Inertia with its Hessian."""
+
+    def second(x, projected):
+        diagonal = np.zeros_like(x)
+        inertia.hessian(mass, dt, diagonal)
+        return np.diag(diagonal)
+
+    return Term(lambda x, g: inertia.evaluate(x, x_pred, mass, dt, g), second)
 
 
 def states(seed, length=1.0):
@@ -63,3 +66,9 @@ def test_the_gradient_is_added_to_what_is_there():
     g = np.ones_like(x)
     inertia.evaluate(x, x_pred, MASS, 0.1, g)
     np.testing.assert_allclose(g, 1.0 + MASS * (x - x_pred) / 0.01)
+
+
+def test_the_hessian_is_added_to_what_is_there():
+    diagonal = np.ones_like(MASS)
+    inertia.hessian(MASS, 0.1, diagonal)
+    np.testing.assert_allclose(diagonal, 1.0 + MASS / 0.01)

@@ -132,11 +132,18 @@ MUTANTS = [
         f"{TERMS}/inertia.py",
         ("inertia: energy", "total += force", "total -= force"),
         ("inertia: gradient", "g[i] += force", "g[i] -= force"),
+        ("inertia: Hessian", "diagonal[i] += factor", "diagonal[i] -= factor"),
+    ),
+    *_of(
+        f"{TERMS}/loads.py",
+        ("loads: energy", "return -factor", "return factor"),
+        ("loads: gradient", "g[i] -= factor", "g[i] += factor"),
     ),
     *_of(
         f"{TERMS}/damping.py",
         ("damping by mass: energy", "total += 0.5 * alpha", "total -= 0.5 * alpha"),
         ("damping by mass: gradient", "g[i] += alpha", "g[i] -= alpha"),
+        ("damping by mass: Hessian", "diagonal[i] += factor", "diagonal[i] -= factor"),
     ),
     *_of(
         f"{TERMS}/rayleigh.py",
@@ -229,7 +236,11 @@ MUTANTS = [
         f"{SOLVE}/newton.py",
         ("line search: slope", "share * (slope +", "share * (-slope +"),
         ("Newton: direction", "-found.g[i] - direction[i]", "found.g[i] - direction[i]"),
-        ("Newton: saddles accepted", "if balanced and stable:", "if balanced:"),
+        (
+            "Newton: saddles accepted",
+            "if descent.stable and descent.balanced:",
+            "if descent.balanced:",
+        ),
     ),
     *_of(
         f"{SOLVE}/march.py",

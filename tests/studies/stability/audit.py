@@ -14,7 +14,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from kernels.solve import arc_length, integrators, march, newton, residual
+from kernels.solve import arc_length, integrators, march, outcomes, residual
 from kernels.solve.problem import Step
 from sweep.simulation.custom_history import WITHOUT_PLATENS
 from sweep.simulation.simulate import simulate
@@ -65,7 +65,7 @@ class Watch:
             (step, ahead), steps = _next_step(terms, piece, state), state.totals[0].steps
             outcome, more = MARCH(terms, tolerance, piece, state, _part(out, rows), control)
             written += more
-            if outcome != newton.CONVERGED:
+            if outcome != outcomes.CONVERGED:
                 return outcome, written
             self.still += _unborne(terms, state, step)
         undivided = state.totals[0].steps == steps + 1
@@ -82,7 +82,7 @@ class Watch:
         """Follow a path; its last point is an equilibrium under its load."""
         x0 = state.x.copy()
         outcome, written = FOLLOW(terms, tolerance, stage, state, out, control, arc)
-        if outcome == newton.CONVERGED:
+        if outcome == outcomes.CONVERGED:
             at = stage._replace(dynamic=False, factor1=state.totals[0].factor)
             step, ahead = _next_step(terms, at, state)
             self.still += _unborne(terms, state, step._replace(x0=x0))
@@ -116,9 +116,9 @@ def _unborne(terms, state, step):
     coordinates, left = terms.coordinates, np.zeros_like(state.x)
     here = whole(SimpleNamespace(terms=terms), state.x, factor=step.factor)
     here.problem.reduce(here.gradient(state.x), left)
-    size = residual.largest(left, coordinates)
+    size = residual.largest_residual(left, coordinates)
     here.problem.reduce(step.factor * coordinates.load, left)
-    load = residual.largest(left, coordinates)
+    load = residual.largest_residual(left, coordinates)
     if size > BORNE * load > 0.0:
         yield f"nothing moves under {load:.1e} N, of which {size:.1e} N are not borne"
 
@@ -239,10 +239,10 @@ def _balance(seen):
     _, found = step.found(seen.x)
     left = np.zeros_like(seen.x)
     step.problem.reduce(found.g, left)
-    size = residual.largest(left, coordinates)
+    size = residual.largest_residual(left, coordinates)
     allowed = residual.allowed(step.problem.stiffest(), seen.tolerance)
     if seen.corrected:
-        allowed += residual.largest(at_end.friction - found.friction, coordinates)
+        allowed += residual.largest_residual(at_end.friction - found.friction, coordinates)
     if not size <= 1.01 * allowed:
         yield f"{size / allowed:.1e} of the allowed residual"
     second = stored(seen.x, seen.terms, seen.step.x0)

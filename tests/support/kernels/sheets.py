@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kernels.laws import sheet
+from kernels.laws.relaxing_sheet import RelaxingSheet
 from kernels.laws.sheet import Sheet
 from sweep.config.case import Material
 from sweep.scene.material import StressLaw, stress_law
@@ -49,3 +50,8 @@ def measured(name: str) -> Sheet:
 def sheet_of_rubber() -> Sheet:
     """Neo-Hookean rubber by way of its nominal stress."""
     return sheet.measured(rubber, LEAST, MODULUS)
+
+
+def elastic_only(elastic: Sheet) -> RelaxingSheet:
+    """A sheet as a law without branches."""
+    return RelaxingSheet(elastic, np.empty(0), np.empty(0), elastic.shear_modulus)

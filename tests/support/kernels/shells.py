@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kernels.laws.law import Memory
-from kernels.laws.relaxing_sheet import RelaxingSheet, elastic_only
+from kernels.laws.relaxing_sheet import RelaxingSheet
 from kernels.laws.sheet import neo_hookean
 from kernels.plates.element import relaxing_shear, shell
 from kernels.plates.element.shell import Shell
+from tests.support.kernels.sheets import elastic_only
 from tests.support.kernels.terms import Term
 
 Floats = NDArray[np.float64]

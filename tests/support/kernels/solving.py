@@ -10,8 +10,9 @@ from kernels.compile.reference import by_reference, referred
 from kernels.planar import problem as planar
 from kernels.planar import reach
 from kernels.planar.problem import Planar
-from kernels.solve import march, newton, workspace
+from kernels.solve import march, newton, outcomes
 from kernels.solve.problem import FREE, NEGATIVE, NO_ROOM, Found, Step
+from kernels.solve.workspace import make_workspace
 from kernels.terms import contact, fold, friction, spring
 from kernels.terms.rows import ROW, STORED, Output
 from sweep.scene.lattice import build_scene
@@ -48,7 +49,7 @@ class Whole:
 
     def found(self, x, projected=False) -> tuple[float, Found]:
         """Energy and what else `evaluate` finds at ``x``."""
-        found = workspace.make_workspace(x.size, STORED).found
+        found = make_workspace(x.size, STORED).found
         return self.problem.evaluate(x, self.step, found, projected), found
 
     def energy_gradient(self, x):
@@ -85,8 +86,8 @@ class Whole:
     def factor(self, x, projected=False):
         """Whether there is a negative pivot at ``x``, the first one; whether room is lacking."""
         _, found = self.found(x, projected)
-        met, pivot = self.problem.factor(x, self.step, found, projected, False)
-        return met == NEGATIVE, pivot, met == NO_ROOM
+        result, pivot = self.problem.factor(x, self.step, found, projected, False)
+        return result == NEGATIVE, pivot, result == NO_ROOM
 
     def solve(self, b):
         """Solution (n,) for a right side ``b`` (n,) after `factor`."""
@@ -181,27 +182,28 @@ def descend(
 
     ``there``: ``start`` has been evaluated before.
     """
-    x, space = start.copy(), workspace.make_workspace(start.size, STORED)
+    x, workspace = start.copy(), make_workspace(start.size, STORED)
     descent, problem, done = np.zeros(1, newton.DESCENT)[0], args.problem, 0
     allowed = tolerances(case, scene, like(args.step))._replace(**tolerance)
-    target, descent.since_factor = x[-1] if target is None else target, np.inf
-    space.work.dx[:] = 0.0 if move is None else move
+    descent.target, descent.since_factor = x[-1] if target is None else target, np.inf
+    descent.evaluated = evaluated
+    workspace.work.dx[:] = 0.0 if move is None else move
     if evaluated:
-        space.work.trial[:] = x
-        problem.evaluate(x, args.step, space.found, False)
+        workspace.work.trial[:] = x
+        problem.evaluate(x, args.step, workspace.found, False)
     while True:
         left = allowed._replace(iterations=allowed.iterations - done)
         outcome = newton.minimise(
-            x, target, problem, args.step, left, by_reference(space), descent, control, evaluated
+            x, problem, args.step, left, by_reference(workspace), descent, control
         )
         done += int(descent.iterations)
-        if outcome != newton.OUTGROWN:
+        if outcome != outcomes.OUTGROWN:
             return Descent(outcome, done, x)
         neighbours = neighbours_of(x, scene.terms, descent.travel_bound)._replace(
             lagged_contacts=problem.neighbours.lagged_contacts
         )
-        problem, evaluated = problem._replace(neighbours=by_reference(neighbours)), False
-        space.work.dx[:], descent.since_factor = 0.0, np.inf
+        problem = problem._replace(neighbours=by_reference(neighbours))
+        workspace.work.dx[:], descent.since_factor = 0.0, np.inf
 
 
 def like(step):

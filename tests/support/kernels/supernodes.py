@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from kernels.linear.condensed.block_ldlt import ROUNDED
+from kernels.linear.pivots import ROUNDED
 from kernels.linear.supernodal import factor as ldlt
 from kernels.linear.supernodal.analysis import analyse
 from kernels.linear.supernodal.matrix import place, rounded_up

@@ -137,7 +137,7 @@ def before_of(terms: PlanarScene, x0: np.ndarray) -> damping.Before:
 
 
 def damping_of(terms: PlanarScene, x0: np.ndarray, dt: float) -> Term:
-    """Damping of a step of ``dt`` from x0, with the Hessian of its mass, which a step adds."""
+    """Damping of a step of ``dt`` from x0."""
     walls, before = terms.walls, before_of(terms, x0)
 
     def found(x, projected, g):
@@ -150,8 +150,9 @@ def damping_of(terms: PlanarScene, x0: np.ndarray, dt: float) -> Term:
 
     def second(x, projected):
         _, stiffness = found(x, projected, np.zeros_like(x))
-        inert = terms.damp.alpha_m / dt * terms.coordinates.mass
-        return assembled(walls, stiffness, x.size) + np.diag(inert)
+        diagonal = np.zeros_like(x)
+        damping.hessian(terms, dt, diagonal)
+        return assembled(walls, stiffness, x.size) + np.diag(diagonal)
 
     return Term(lambda x, g: found(x, False, g)[0], second)
 

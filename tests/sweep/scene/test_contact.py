@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.planar import reach
+from kernels.terms.moves import MOVE_MARGIN
 from sweep.config.case import Case, Contact, Lattice, Loading
 from sweep.scene.contact import PAIRS
 from sweep.scene.lattice import build_scene
@@ -59,6 +60,6 @@ def test_lists_of_neighbours_do_not_grow_with_the_square_of_a_lattice(kind):
     scene = build_scene(Case(lattice=lattice))
     touch = scene.terms.contact
     pairs, margin, _ = reach.list_neighbours(scene.terms, scene.x_rest, touch.most_move)
-    assert margin == pytest.approx(reach.MOVE_MARGIN * touch.most_move)
+    assert margin == pytest.approx(MOVE_MARGIN * touch.most_move)
     assert 50 * len(scene.mesh.points) < pairs.node.size < PAIRS * len(scene.mesh.points)
     assert touch.most_move > 0.5 * 12.5e-3 / 24  # half a cell

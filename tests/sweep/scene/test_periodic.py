@@ -5,7 +5,7 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
-from kernels.solve import newton
+from kernels.solve import outcomes
 from sweep.design.lattice import build_network
 from sweep.scene import periodic
 from sweep.simulation.simulate import simulate
@@ -87,7 +87,7 @@ def crushed(lattice, strain, steps=20):
     outcome, _ = go_on(
         case, scene, state, ramp(scene, steps, travel=(0.0, strain * lattice.height))
     )
-    assert outcome == newton.CONVERGED
+    assert outcome == outcomes.CONVERGED
     return case, scene, state.x, whole(scene, state.x)
 
 
@@ -132,4 +132,4 @@ def test_the_factor_solves_for_the_mean_strain_too(kind, cells):
 def test_a_led_step_converges_as_newton_does():
     case, scene, x, args = crushed(lattice_of("reentrant", (1, 2), 0.12), 0.45)
     found = descend(case, scene, x, args, target=x[-1] - 1e-4 * L)
-    assert (found.outcome, found.iterations <= 4) == (newton.CONVERGED, True)
+    assert (found.outcome, found.iterations <= 4) == (outcomes.CONVERGED, True)

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from kernels.solve import newton
+from kernels.solve import outcomes
 from kernels.solve.energy_book import kinetic
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
 from sweep.config.grid import expand
@@ -121,7 +121,7 @@ def test_momentum_goes_into_the_support(platen, friction):
     up = np.append(np.arange(1, 2 * len(scene.mesh.points), 2), len(state.x) - 1)
     before = np.sum(scene.terms.coordinates.mass[up] * state.v[up])
     outcome, rows = go_on(case, scene, state, ramp(scene, 150, dt))
-    assert outcome == newton.CONVERGED
+    assert outcome == outcomes.CONVERGED
     gained = np.sum(scene.terms.coordinates.mass[up] * state.v[up]) - before
     assert gained > 0.01  # N s
     assert np.sum(rows["reaction_bottom"]) * dt == pytest.approx(gained, rel=1e-5)

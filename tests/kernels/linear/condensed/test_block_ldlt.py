@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.linear.condensed import block_ldlt, block_matrix
+from kernels.linear.pivots import ROUNDED, SOFT
 from tests.support.kernels.blocks import NB, by_entry, column, put, random_pattern, shaped
 from tests.support.kernels.terms import by_home
 
@@ -39,7 +40,7 @@ def test_factor_and_solve(seed, scale):
     full = scale * definite(rng, joined)
     matrix, b = made(joined, full, scale), rng.uniform(-1, 1, len(full))
     np.testing.assert_array_equal(by_home(matrix), full)
-    assert block_ldlt.factor(matrix, (scale,) * 3, block_ldlt.ROUNDED) == (-1, 0.0)
+    assert block_ldlt.factor(matrix, (scale,) * 3, ROUNDED) == (-1, 0.0)
     np.testing.assert_allclose(full @ solved(matrix, b), b, rtol=0, atol=1e-12)
 
 
@@ -49,7 +50,7 @@ def test_the_factor_times_its_diagonal_times_its_transpose_is_the_matrix(seed):
     joined = random_pattern(rng)
     full = definite(rng, joined)
     matrix = made(joined, full, 1.0)
-    block_ldlt.factor(matrix, (1.0,) * 3, block_ldlt.ROUNDED)
+    block_ldlt.factor(matrix, (1.0,) * 3, ROUNDED)
     kept = by_home(matrix)
     lower = np.tril(kept, -1) + np.eye(len(full))
     diagonal = np.diag(1.0 / np.diag(kept))
@@ -68,7 +69,7 @@ def test_descent_along_a_negative_pivot(seed, slot, scale):
     full[bad, bad] -= np.abs(full[bad]).sum() + rng.uniform(0.01, 3)
     full *= scale
     matrix = made(joined, full, scale)
-    failed, pivot = block_ldlt.factor(matrix, (scale,) * 3, block_ldlt.ROUNDED)
+    failed, pivot = block_ldlt.factor(matrix, (scale,) * 3, ROUNDED)
     minors = [np.linalg.eigvalsh(full[:k, :k])[0] for k in range(1, len(full) + 1)]
     assert failed == next(k for k, least in enumerate(minors) if least < 0) == bad
     assert pivot < 0
@@ -91,12 +92,12 @@ def test_descent_leaves_out_a_motion_without_stiffness(loose, bad, noise):
     full[3 + bad, 3 + loose] = full[3 + loose, 3 + bad] = 3.0 * noise
     full[3 + bad, 3 + bad] = -1.0
     matrix = made(np.ones((2, 2), dtype=bool), full, 1.0)
-    failed, pivot = block_ldlt.factor(matrix, (1.0,) * 3, block_ldlt.ROUNDED)
+    failed, pivot = block_ldlt.factor(matrix, (1.0,) * 3, ROUNDED)
     assert failed == 3 + bad
     block_ldlt.descend(matrix, failed)
     d = matrix.vector
     assert d @ full @ d == pytest.approx(pivot, rel=1e-9)
-    assert abs(d[3 + loose]) < 1e-15 / block_ldlt.SOFT
+    assert abs(d[3 + loose]) < 1e-15 / SOFT
 
 
 @pytest.mark.parametrize("slot", range(3))
@@ -105,7 +106,7 @@ def test_nan_fails(slot):
     for i in range(3):
         block_matrix.add(matrix, i, i, 1.0 if i != slot else np.nan)
     block_ldlt.add_diagonal(matrix, (1.0,) * 3)
-    failed, pivot = block_ldlt.factor(matrix, (1.0,) * 3, block_ldlt.ROUNDED)
+    failed, pivot = block_ldlt.factor(matrix, (1.0,) * 3, ROUNDED)
     assert failed == slot
     assert np.isnan(pivot)
 
@@ -118,7 +119,7 @@ def test_motions_without_stiffness_are_not_moved_along(loose, scale):
     half = rng.uniform(-1, 1, (12, 12 - loose))
     full = scale * half @ half.T
     matrix = made(np.ones((4, 4), dtype=bool), full, scale)
-    assert block_ldlt.factor(matrix, (scale,) * 3, block_ldlt.ROUNDED) == (-1, 0.0)
+    assert block_ldlt.factor(matrix, (scale,) * 3, ROUNDED) == (-1, 0.0)
     b = full @ rng.uniform(-1, 1, 12)
     y = solved(matrix, b)
     assert np.abs(y).max() < 1e3
@@ -132,14 +133,14 @@ def test_a_slender_column_is_unstable_above_its_buckling_load(slender, angle):
     for compression, stable in ((0.98, True), (1.02, False)):
         full, joined = column(slender, compression, angle)
         matrix = made(joined, full, 1.0)
-        failed, _ = block_ldlt.factor(matrix, (1.0,) * 3, block_ldlt.ROUNDED)
+        failed, _ = block_ldlt.factor(matrix, (1.0,) * 3, ROUNDED)
         assert (failed < 0) == stable
 
 
 def test_a_coordinate_without_any_stiffness_gets_a_share_of_the_scale():
     matrix = made(np.eye(1, dtype=bool), np.diag([4.0, 0.0, 1.0]), 4.0)
-    assert block_ldlt.factor(matrix, (4.0,) * 3, block_ldlt.ROUNDED)[0] == -1
-    np.testing.assert_allclose(solved(matrix, np.full(3, 8.0)), [2.0, 2.0 / block_ldlt.SOFT, 8.0])
+    assert block_ldlt.factor(matrix, (4.0,) * 3, ROUNDED)[0] == -1
+    np.testing.assert_allclose(solved(matrix, np.full(3, 8.0)), [2.0, 2.0 / SOFT, 8.0])
 
 
 @pytest.mark.parametrize("apart", [1, 3])
@@ -149,6 +150,6 @@ def test_a_small_but_true_negative_pivot_is_seen(apart):
     full[apart, 0] = full[0, apart] = 1.0
     full[apart, apart] -= 1e-6
     matrix = made(np.ones((2, 2), dtype=bool), full, 1.0)
-    failed, pivot = block_ldlt.factor(matrix, (1.0,) * 3, block_ldlt.ROUNDED)
+    failed, pivot = block_ldlt.factor(matrix, (1.0,) * 3, ROUNDED)
     assert failed == apart
     assert pivot == pytest.approx(-1e-6, rel=1e-6)

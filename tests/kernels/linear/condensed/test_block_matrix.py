@@ -5,6 +5,7 @@ import pytest
 
 from kernels.linear.condensed import block_ldlt, block_matrix
 from kernels.linear.condensed.block_matrix import DRIVEN, HELD, IMAGE, INNER
+from kernels.linear.pivots import ROUNDED
 from tests.support.kernels.blocks import put, random_pattern, reduction_to, shaped
 from tests.support.kernels.terms import by_home, dense, full_matrix
 
@@ -69,7 +70,7 @@ def test_a_matrix_that_is_used_again_starts_at_zero():
         R = reduction_to(home, 2)
         expected = R.T @ full @ R + np.diag(np.where(R.any(axis=0), 0.0, scale))
         np.testing.assert_allclose(by_home(matrix), expected, rtol=0, atol=1e-14)
-        assert block_ldlt.factor(matrix, (scale,) * 3, block_ldlt.ROUNDED)[0] == -1
+        assert block_ldlt.factor(matrix, (scale,) * 3, ROUNDED)[0] == -1
 
 
 NO_ROOM = [(0, 5, True), (0, 3, False), (0, 7, True), (6, 7, False), (1, 0, False), (9, 0, False)]

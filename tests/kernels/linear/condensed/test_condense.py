@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from kernels.compile.simd import LANES
-from kernels.linear.condensed import block_ldlt, condense
+from kernels.linear.condensed import condense
+from kernels.linear.pivots import ROUNDED, SOFT
 from tests.support.kernels.frames import frame, walls_of
 from tests.support.kernels.terms import assembled, room
 
@@ -73,7 +74,7 @@ class Wall:
         diagonal[self.dofs] = self.diagonal.ravel()
         lane, row, pivot = condense.eliminate(
             self.all_rows, self.dofs, diagonal, self.all_own, self.all_outer, scale,
-            block_ldlt.ROUNDED,
+            ROUNDED,
         )  # fmt: skip
         assert lane == (LANES if row < 0 else self.lane)
         return row, pivot
@@ -172,7 +173,7 @@ def test_what_has_no_stiffness_inside_has_a_little():
     wall.diagonal[:] = 0.0
     assert wall.eliminate() == (-1, 0.0)
     y = wall.backward(wall.forward(np.full(3, 6.0), np.zeros(6)), np.zeros(6), 3)
-    little = 6.0 / (block_ldlt.SOFT * SCALE)
+    little = 6.0 / (SOFT * SCALE)
     np.testing.assert_allclose(y, [2.0, little, little])
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.linear.condensed.block_ldlt import CONVEX, ROUNDED, SOFT, THROUGH
+from kernels.linear.pivots import CONVEX, ROUNDED, SOFT, THROUGH
 from kernels.linear.supernodal import factor as ldlt
 from kernels.linear.supernodal.matrix import clear
 from kernels.linear.supernodal.solution import solve

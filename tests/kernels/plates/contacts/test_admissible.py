@@ -6,6 +6,7 @@ import pytest
 from kernels.geometry.space import advancement, crossing, near
 from kernels.geometry.space.vectors import SIZE
 from kernels.plates.contacts import admissible, pairs
+from kernels.terms.moves import ADVANCE
 from tests.support.kernels.surfaces import (
     Sheet,
     between_platens,
@@ -109,10 +110,10 @@ def test_nodes_stop_before_platens():
     dx = np.zeros_like(x)
     dx[-2] = 0.5
     _, share = advanced(x, dx, touch)
-    assert share == pytest.approx(admissible.ADVANCE * 0.1)
+    assert share == pytest.approx(ADVANCE * 0.1)
     assert admissible.least_gap(x, touch, pairs_of(x, touch), 0.0) == pytest.approx(0.05)
     dx[-2], dx[-1] = 0.0, -7.0
-    assert advanced(x, dx, touch)[1] == pytest.approx(admissible.ADVANCE * 0.01)
+    assert advanced(x, dx, touch)[1] == pytest.approx(ADVANCE * 0.01)
     dx[-1] = 1.0
     assert advanced(x, dx, touch)[1] == 1.0
 

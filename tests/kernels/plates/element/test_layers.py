@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from kernels.laws.law import Memory
-from kernels.laws.relaxing_sheet import elastic_only
 from kernels.laws.sheet import neo_hookean
 from kernels.plates.element import layers
-from tests.support.kernels.sheets import MODULUS, sheet_of_rubber
+from tests.support.kernels.sheets import MODULUS, elastic_only, sheet_of_rubber
 from tests.support.kernels.terms import differences
 
 LINEAR = elastic_only(neo_hookean(MODULUS))

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from kernels.laws.relaxing_sheet import elastic_only
 from kernels.plates.element import rotation, shear, shell
 from tests.support.kernels import sheets
 from tests.support.kernels.shells import (
@@ -22,7 +21,7 @@ from tests.support.kernels.shells import (
 )
 from tests.support.kernels.terms import derivative_error
 
-RUBBER = elastic_only(sheets.sheet_of_rubber())
+RUBBER = sheets.elastic_only(sheets.sheet_of_rubber())
 STATES = [(0.0, 0.0), (0.05, 0.05), (0.2, 0.3)]  # size of random moves and rotations
 MU = MODULUS / 3
 

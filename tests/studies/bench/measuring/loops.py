@@ -6,6 +6,7 @@ The one file of the bench that knows how the kernels of a step are called.
 from kernels.arrays import copy
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.linear.condensed import block_ldlt, system
+from kernels.linear.pivots import ROUNDED
 from kernels.planar import reach
 from kernels.terms import (  # fmt: skip
     bend,
@@ -72,12 +73,10 @@ def repeat(which, count, x, dx, most, problem, step, found, ones):
             problem.exchange(step, found)
             total += found.sums[0].friction
         elif which == WALLS:
-            total += system.add_walls(
-                neighbours.system, terms.layout, stiffness, block_ldlt.ROUNDED
-            )[2]
+            total += system.add_walls(neighbours.system, terms.layout, stiffness, ROUNDED)[2]
         elif which == BLOCKS:
             copy(ones, matrix.values)
-            total += block_ldlt.factor(matrix, terms.layout.scale, block_ldlt.ROUNDED)[1]
+            total += block_ldlt.factor(matrix, terms.layout.scale, ROUNDED)[1]
     return total
 
 

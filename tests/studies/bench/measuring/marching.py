@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.solve import history, march, newton
+from kernels.solve import history, march, outcomes
 from kernels.terms.rows import ROW, Output
 from sweep.scene.loading import stages, tolerances
 from tests.studies.bench.measuring.clock import seconds
@@ -47,10 +47,10 @@ def go(case, scene, state, ramps):
         )  # fmt: skip
         allowed = tolerances(case, scene, stage)
         given = (scene.terms, allowed, stage, state, out, np.zeros(2, np.int64))
-        outcomes = []
-        spent += seconds(lambda given=given, out=outcomes: out.append(march.march(*given)))
-        if outcomes[0][0] != newton.CONVERGED:
-            raise RuntimeError(f"the march of {case.case_id} did not converge: {outcomes[0]}")
+        ended = []
+        spent += seconds(lambda given=given, out=ended: out.append(march.march(*given)))
+        if ended[0][0] != outcomes.CONVERGED:
+            raise RuntimeError(f"the march of {case.case_id} did not converge: {ended[0]}")
     return Spent(spent, int(state.totals[0].iterations - before))
 
 
@@ -65,6 +65,6 @@ def sustained(march):
 
 def copied(state):
     """A state to march on from, again and again."""
-    rates, past = (type(part)(*(array.copy() for array in part)) for part in state[2:4])
+    rates, gradients = (type(part)(*(array.copy() for array in part)) for part in state[2:4])
     x, v, *rest = (array.copy() for array in (*state[:2], *state[4:]))
-    return history.State(x, v, rates, past, *rest)
+    return history.State(x, v, rates, gradients, *rest)
