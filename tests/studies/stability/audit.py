@@ -230,12 +230,14 @@ def _energies(result, case, noise):
 def _balance(seen):
     """The residual of a step and its energies, computed anew."""
     scene, coordinates = SimpleNamespace(terms=seen.terms), seen.terms.coordinates
-    made = whole(scene, seen.x, seen.step.x0, seen.step.h if seen.step.dynamic else np.inf)
+    h, points = seen.step.h if seen.step.dynamic else np.inf, 2 * seen.terms.layout.n_nodes
+    moved = np.linalg.norm((seen.x - seen.step.x0)[:points].reshape(-1, 2), axis=1).max()
+    made = whole(scene, seen.x, seen.step.x0, h, reach=seen.terms.contact.reach + 2.0 * moved)
     step = Whole(made.problem, seen.step)
     step.problem.begin(seen.step, seen.ahead, np.zeros_like(seen.x))
-    step.factor(seen.x)
     _, at_end = step.found(seen.x)
     step.problem.lag(seen.step.x0)
+    step.factor(seen.x)
     _, found = step.found(seen.x)
     left = np.zeros_like(seen.x)
     step.problem.reduce(found.g, left)
