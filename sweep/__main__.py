@@ -66,11 +66,11 @@ OPTIMIZE = """Search for the best design among those that the table [search] of 
 
 The best is what rank lists first: most energy until the lattice has packed, or up to
 --allowed-force, or the best of --by, of those designs that fulfil [require] or its options. If none
-does, the nearest are told. With a budget, walls are as thick as it allows at most. Every design is
-a row of the results file; after a stop, the same command with the same seed continues, also with
+does, the nearest are listed. With a budget, walls are as thick as it allows at most. Every design
+is a row of the results file; after a stop, the same command with the same seed continues, also with
 more --evaluations. Six designs run at a time after the first sixteen: more workers do not help. The
 three best are simulated again with twice the elements, and with walls 5 % thinner and thicker and
-other imperfections, in a results file of their own, and told with the spread of their values."""
+other imperfections, in a results file of their own, and listed with the spread of their values."""
 ACCURACY = """Simulate a sweep over numerical settings, then print error against run time: a table,
 the observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 the limit to which the finest settings of the method of highest order converge. Cases that differ in
@@ -149,7 +149,7 @@ MATERIALS_EXAMPLES = """examples:
   crumple materials fit pull.csv --gauge "33 mm" --area "8 mm^2" --density "1210 kg/m^3"
 """
 
-
+AS_WRITTEN = argparse.RawDescriptionHelpFormatter
 REQUIREMENTS = {
     "max_force": ("FORCE", 'required, while the counted energy is absorbed: "60 N"'),
     "max_deceleration": ("G", 'required, of the striker, filtered: "80 g0"'),
@@ -196,15 +196,31 @@ class Version(argparse.Action):
 
 def parser() -> Parser:
     """All verbs and their options."""
-    raw = argparse.RawDescriptionHelpFormatter
-    main = Parser(prog="crumple", description=ABOUT, epilog=EXAMPLES, formatter_class=raw)
+    main = Parser(prog="crumple", description=ABOUT, epilog=EXAMPLES, formatter_class=AS_WRITTEN)
     main.add_argument("--version", action=Version, nargs=0, help="print the version and exit")
     verbs = main.add_subparsers(dest="verb", metavar="VERB", required=True)
     main.verbs = verbs.choices
+    _add_run(verbs)
+    _add_optimize(verbs)
+    _add_accuracy(verbs)
+    verbs.add_parser(
+        "warm", help="compile the kernels", description=WARM, formatter_class=AS_WRITTEN
+    )
+    _add_status(verbs)
+    _add_rank(verbs)
+    _add_show(verbs)
+    _add_export(verbs)
+    _add_report(verbs)
+    _add_materials(verbs)
+    _add_helpers(verbs)
+    return main
 
+
+def _add_run(verbs: Any) -> None:
+    """Add the verb that simulates."""
     known = fill(f"examples that come with Crumple: {', '.join(examples())}", width=96)
     run = verbs.add_parser(
-        "run", help="simulate a sweep", description=RUN, epilog=known, formatter_class=raw
+        "run", help="simulate a sweep", description=RUN, epilog=known, formatter_class=AS_WRITTEN
     )
     offer(run.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG), configs)
     run.add_argument(
@@ -235,79 +251,6 @@ def parser() -> Parser:
     run.add_argument("--retry-failed", action="store_true", help="compute failed cases again")
     run.add_argument("--renew", action="store_true", help="compute rows of an older model again")
 
-    _add_optimize(verbs)
-    accuracy = verbs.add_parser(
-        "accuracy", help="error against run time", description=ACCURACY, formatter_class=raw
-    )
-    offer(accuracy.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG), configs)
-    accuracy.add_argument(
-        "--out",
-        type=_folder,
-        metavar="DIR",
-        default="results/accuracy",
-        help="results, tables and figure (default: results/accuracy)",
-    )
-    accuracy.add_argument("--workers", type=_count, default=2, metavar="N", help="default: 2")
-
-    verbs.add_parser("warm", help="compile the kernels", description=WARM, formatter_class=raw)
-
-    status = verbs.add_parser("status", help="what is done, and what failed and why")
-    offer(status.add_argument("file", type=_path, metavar="F.h5"), results)
-    status.add_argument("--json", action="store_true", help="as json on stdout")
-
-    rank = verbs.add_parser(
-        "rank", help="the best designs", description=RANK, epilog=RANK_EXAMPLES, formatter_class=raw
-    )
-    offer(rank.add_argument("file", type=_path, metavar="F.h5"), results)
-    _add_question(rank)
-    shape = rank.add_mutually_exclusive_group()
-    for name, what in {"csv": "all columns", "json": "all columns", "markdown": "tables"}.items():
-        shape.add_argument(f"--{name}", action="store_true", help=f"{what}, as {name} on stdout")
-    shape.add_argument(
-        "--out", type=_folder, metavar="DIR", help="write tables and figures into a folder"
-    )
-    rank.add_argument(
-        "--drop-height",
-        nargs="+",
-        action="extend",
-        metavar="LENGTH",
-        help='with --out: cushion curves of drops from "0.5 m", else those of [rank]',
-    )
-
-    show = verbs.add_parser("show", help="draw a case", description=SHOW, formatter_class=raw)
-    offer(show.add_argument("file", type=_path, metavar="F.h5"), results)
-    _add_case(show, nargs="?")
-    show.set_defaults(panel=None)
-    show.add_argument(
-        "--out", type=_folder, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
-    )
-    _add_export(verbs)
-    report = verbs.add_parser(
-        "report", help="one HTML page", description=REPORT, formatter_class=raw
-    )
-    report.add_argument("file", type=_path, metavar="F.h5")
-    report.add_argument(
-        "--out", type=_page, metavar="F.html", help="the page (default: beside F.h5)"
-    )
-    _add_materials(verbs)
-    _add_helpers(verbs)
-    return main
-
-
-def _add_case(verb: Any, **options: Any) -> None:
-    """Add the arguments that name a case."""
-    words = "number in the ranking, or beginning of an id"
-    offer(verb.add_argument("case", metavar="CASE", help=words, **options), cases)
-    verb.add_argument(
-        "--scene", metavar="N", help="of a number: which table, or words of its title"
-    )
-    verb.add_argument("--budget", nargs=1, metavar="MASS", help="of a number: its greatest mass")
-    verb.add_argument(
-        "--allowed-force", metavar="FORCE", help="of a number: force up to which energy counts"
-    )
-    verb.set_defaults(by=None, top=None, per=None)
-    verb.set_defaults(**dict.fromkeys(REQUIREMENTS))
-
 
 def _add_optimize(verbs: Any) -> None:
     """Add the verb that searches."""
@@ -315,7 +258,7 @@ def _add_optimize(verbs: Any) -> None:
         "optimize",
         help="search for the best design",
         description=OPTIMIZE,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=AS_WRITTEN,
     )
     optimize.add_argument("config", type=_path, metavar="CONFIG", help="TOML file with a [search]")
     optimize.add_argument("--budget", metavar="MASS", help='greatest mass: "25 g"')
@@ -338,6 +281,68 @@ def _add_optimize(verbs: Any) -> None:
     where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster: tcp://host:8786")
 
 
+def _add_accuracy(verbs: Any) -> None:
+    """Add the verb that compares numerical settings."""
+    accuracy = verbs.add_parser(
+        "accuracy", help="error against run time", description=ACCURACY, formatter_class=AS_WRITTEN
+    )
+    offer(accuracy.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG), configs)
+    accuracy.add_argument(
+        "--out",
+        type=_folder,
+        metavar="DIR",
+        default="results/accuracy",
+        help="results, tables and figure (default: results/accuracy)",
+    )
+    accuracy.add_argument("--workers", type=_count, default=2, metavar="N", help="default: 2")
+
+
+def _add_status(verbs: Any) -> None:
+    """Add the verb that counts cases and failures."""
+    status = verbs.add_parser("status", help="what is done, and what failed and why")
+    offer(status.add_argument("file", type=_path, metavar="F.h5"), results)
+    status.add_argument("--json", action="store_true", help="as json on stdout")
+
+
+def _add_rank(verbs: Any) -> None:
+    """Add the verb that lists the best designs."""
+    rank = verbs.add_parser(
+        "rank",
+        help="the best designs",
+        description=RANK,
+        epilog=RANK_EXAMPLES,
+        formatter_class=AS_WRITTEN,
+    )
+    offer(rank.add_argument("file", type=_path, metavar="F.h5"), results)
+    _add_question(rank)
+    shape = rank.add_mutually_exclusive_group()
+    for name, what in {"csv": "all columns", "json": "all columns", "markdown": "tables"}.items():
+        shape.add_argument(f"--{name}", action="store_true", help=f"{what}, as {name} on stdout")
+    shape.add_argument(
+        "--out", type=_folder, metavar="DIR", help="write tables and figures into a folder"
+    )
+    rank.add_argument(
+        "--drop-height",
+        nargs="+",
+        action="extend",
+        metavar="LENGTH",
+        help='with --out: cushion curves of drops from "0.5 m", else those of [rank]',
+    )
+
+
+def _add_show(verbs: Any) -> None:
+    """Add the verb that draws a case."""
+    show = verbs.add_parser(
+        "show", help="draw a case", description=SHOW, formatter_class=AS_WRITTEN
+    )
+    offer(show.add_argument("file", type=_path, metavar="F.h5"), results)
+    _add_case(show, nargs="?")
+    show.set_defaults(panel=None)
+    show.add_argument(
+        "--out", type=_folder, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
+    )
+
+
 def _add_export(verbs: Any) -> None:
     """Add the verb that writes files for other programs."""
     export = verbs.add_parser(
@@ -345,7 +350,7 @@ def _add_export(verbs: Any) -> None:
         help="a part to print, curves, shapes",
         description=EXPORT,
         epilog=EXPORT_EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=AS_WRITTEN,
     )
     offer(export.add_argument("file", type=_path, metavar="F.h5"), results)
     _add_case(export)
@@ -364,6 +369,17 @@ def _add_export(verbs: Any) -> None:
     )
 
 
+def _add_report(verbs: Any) -> None:
+    """Add the verb that writes a page."""
+    report = verbs.add_parser(
+        "report", help="one HTML page", description=REPORT, formatter_class=AS_WRITTEN
+    )
+    report.add_argument("file", type=_path, metavar="F.h5")
+    report.add_argument(
+        "--out", type=_page, metavar="F.html", help="the page (default: beside F.h5)"
+    )
+
+
 def _add_materials(verbs: Any) -> None:
     """Add the verb that lists, shows, plots and fits materials."""
     materials = verbs.add_parser(
@@ -371,7 +387,7 @@ def _add_materials(verbs: Any) -> None:
         help="list, plot and fit materials",
         description=MATERIALS,
         epilog=MATERIALS_EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=AS_WRITTEN,
     )
     words = materials.add_argument(
         "words", type=_path, metavar="WORD", nargs="*", help="NAME ..., plot [NAME ...], fit F.csv"
@@ -393,9 +409,24 @@ def _add_helpers(verbs: Any) -> None:
         "completion",
         help="complete words in a shell",
         description=COMPLETION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=AS_WRITTEN,
     )
     completion.add_argument("shell", choices=SHELLS)
+
+
+def _add_case(verb: Any, **options: Any) -> None:
+    """Add the arguments that name a case."""
+    words = "number in the ranking, or beginning of an id"
+    offer(verb.add_argument("case", metavar="CASE", help=words, **options), cases)
+    verb.add_argument(
+        "--scene", metavar="N", help="of a number: which table, or words of its title"
+    )
+    verb.add_argument("--budget", nargs=1, metavar="MASS", help="of a number: its greatest mass")
+    verb.add_argument(
+        "--allowed-force", metavar="FORCE", help="of a number: force up to which energy counts"
+    )
+    verb.set_defaults(by=None, top=None, per=None)
+    verb.set_defaults(**dict.fromkeys(REQUIREMENTS))
 
 
 def _add_question(rank: argparse.ArgumentParser) -> None:
@@ -471,6 +502,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if unknown:
         known.verbs[arguments.verb].refuse(unknown)
     from sweep.cli import verbs
+    from sweep.cli.refusals import refusals
 
     if arguments.verb not in verbs.VERBS:
         known.verbs[arguments.verb].error("ALL of sweep/cli/verbs.py has no function for it")
@@ -489,7 +521,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except OSError as error:
         _silence()
         return _refuse(arguments.verb, error)
-    except verbs.refusals() as refusal:
+    except refusals() as refusal:
         return _refuse(arguments.verb, refusal)
     return status
 

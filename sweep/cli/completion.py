@@ -51,7 +51,7 @@ def results(prefix: str, **_: object) -> list[str]:
 
 def columns(parsed_args: Namespace, **_: object) -> list[str]:
     """The columns by which a ranking may be sorted."""
-    from sweep.result import COLUMNS
+    from sweep.columns import COLUMNS
 
     return [name for name, column in COLUMNS.items() if column.better]
 

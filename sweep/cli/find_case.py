@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from pandas import DataFrame, Series
 
+    from sweep.ranking.question import Question
     from sweep.ranking.ranking import Ranking
 
 DIGITS = 3  # of a number in the ranking; a longer one begins an id
@@ -35,16 +34,16 @@ def by_id(summary: DataFrame, prefix: str) -> Series:
 
 
 def by_number(
-    summary: DataFrame, number: int, scene: str | None, question: Mapping[str, Any]
+    summary: DataFrame, number: int, scene: str | None, question: Question
 ) -> tuple[Series, str]:
     """The row with a number in the ranking of one scene, within the first budget; and a sentence.
 
-    question : keyword arguments of `rank`. scene : see `_scene`.
+    scene : see `_scene`.
     """
     from sweep.ranking.merit import doubtful
-    from sweep.ranking.rank import ranked
+    from sweep.ranking.rank import answer
 
-    ranking = ranked(summary, **{**question, "top": None})
+    ranking = answer(summary, question._replace(top=None))
     table = ranking.table
     placed = list(dict.fromkeys(table["scene"]))
     label = _scene(list(ranking.lightest_g) or [""], scene, (placed or [""])[0])
@@ -59,13 +58,13 @@ def by_number(
         raise CaseError(f"no number {number} in the ranking of {label}{within}; {allowed}")
     chosen = rows.iloc[[number - 1]]
     doubt = ", marked as not to be trusted" if doubtful(chosen).item() else ""
-    told = f"number {number} of {len(rows)}: {label}{within}{doubt}"
-    return by_id(summary, chosen["case_id"].item()), told
+    sentence = f"number {number} of {len(rows)}: {label}{within}{doubt}"
+    return by_id(summary, chosen["case_id"].item()), sentence
 
 
 def _no_place(ranking: Ranking, label: str, summary: DataFrame) -> str:
     """Why there is no number in a scene, and the id that takes its place."""
-    from sweep.report.tables.sheets import named_case
+    from sweep.report.tables.design_text import named_case
 
     why = f"no design has a place in the ranking{f' of {label}' if label else ''}"
     if (instead := ranking.instead(label)) is None:

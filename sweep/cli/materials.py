@@ -82,7 +82,7 @@ def _plot(names: list[str], out: Path) -> None:
 
 def _curve(record: Record) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Strain and stress of the first loading, to the end of the record or to the break."""
-    from sweep.config.tables import Material
+    from sweep.config.material_table import Material
     from sweep.scene.material import monotonic_law
 
     low, high, count = PLOTTED
@@ -108,7 +108,7 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
     from sweep.config.materials.material_file import read_record
     from sweep.coupon.fit import fit
     from sweep.coupon.record import read_coupon
-    from sweep.coupon.write import fit_sentence, material_text, told
+    from sweep.coupon.write import fit_sentence, material_text, sentences_on_fit
     from sweep.report.figures.case_plots import blank, save
     from sweep.report.figures.material_plots import coupon_fit
 
@@ -121,7 +121,7 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
     coupon = read_coupon(file, _size(arguments.gauge, "m"), _size(arguments.area, "m^2"))
     found = fit(coupon)
     out.write_text(material_text(found, _size(arguments.density, "kg/m^3")), encoding="utf-8")
-    say_all(told(found, read_record(out)))
+    say_all(sentences_on_fit(found, read_record(out)))
     figure = blank(8.0, 6.0)
     record, model = (coupon.strain, coupon.stress), (coupon.strain, found.model)
     coupon_fit(figure, record, model, f"{coupon.name}: {fit_sentence(found)}")

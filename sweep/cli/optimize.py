@@ -1,13 +1,14 @@
-"""The verb `optimize`: search, simulate the best designs again, tell how far to trust them."""
+"""The verb `optimize`: search, simulate the best designs again, show how far to trust them."""
 
 from __future__ import annotations
 
 import shlex
 from dataclasses import replace
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from sweep.cli.terminal import print_sheets, say, say_all
+from sweep.ranking.question import Question
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -26,7 +27,7 @@ class OptimizeError(ValueError):
 
 def optimize(config: Config, arguments: Namespace) -> int:
     """Search for the best design of a config; return how many of the finalists' cases failed."""
-    from sweep.ranking.worth import check_searched
+    from sweep.ranking.assessment import check_searched
     from sweep.running.searching.design_space import DesignSpace
     from sweep.running.searching.search import Search, Settings
 
@@ -43,19 +44,19 @@ def optimize(config: Config, arguments: Namespace) -> int:
     space = DesignSpace(_with_force(config, question), *limits)
     search = Search(space, question, out, how)
     search.run()
-    failed = _tell_best(search)
+    failed = _show_best(search)
     if arguments.pareto and search.found and search.found.by_id:
-        _tell_front(search, arguments.pareto)
+        _show_front(search, arguments.pareto)
     say_all(_to_print(search))
     say(f"results: {out}; to rank them: {_next_command(out, question)}")
     return failed
 
 
-def _question(config: Config, arguments: Namespace) -> dict[str, Any]:
-    """The arguments of `rank`: those given, else those of the config."""
+def _question(config: Config, arguments: Namespace) -> Question:
+    """What the options ask, else the config."""
+    from sweep.ranking.assessment import check_column
     from sweep.ranking.requirements import MEASURES
     from sweep.ranking.requirements import limits as required
-    from sweep.ranking.worth import check_column
 
     for name in filter(None, (arguments.by, arguments.pareto)):
         check_column(name)
@@ -71,17 +72,17 @@ def _question(config: Config, arguments: Namespace) -> dict[str, Any]:
     if per == "panel" and not panel:
         raise OptimizeError('per = "panel"; needed: a panel, as --panel or in [rank]')
     required(kept)
-    return {
-        "budget": budgets or None,
-        "panel": panel,
-        "by": arguments.by,
-        "allowed_force": arguments.allowed_force,
-        "require": kept,
-        "per": per,
-    }
+    return Question(
+        budget=budgets or None,
+        panel=panel,
+        by=arguments.by,
+        allowed_force=arguments.allowed_force,
+        require=kept,
+        per=per,
+    )
 
 
-def _of_mode(question: dict[str, Any], arguments: Namespace, mode: str) -> dict[str, Any]:
+def _of_mode(question: Question, arguments: Namespace, mode: str) -> Question:
     """The question with --max-force: the force up to which the energy of a crush counts, else a
     requirement. mode : of the loading, "" if no design is known.
     """
@@ -89,56 +90,58 @@ def _of_mode(question: dict[str, Any], arguments: Namespace, mode: str) -> dict[
     from sweep.ranking.requirements import check_modes
 
     if mode:
-        check_modes(question["require"], [mode])
+        check_modes(question.require or {}, [mode])
     if arguments.max_force in (None, "none"):
         return question
     if arguments.allowed_force is not None:
         raise OptimizeError("--max-force with --allowed-force; allowed: one of them")
     in_si(arguments.max_force, "N")
     if mode in ("displacement", ""):
-        return question | {"allowed_force": arguments.max_force}
+        return question._replace(allowed_force=arguments.max_force)
     check_modes(["max_force"], [mode])
-    return question | {"require": question["require"] | {"max_force": arguments.max_force}}
+    required = {**(question.require or {}), "max_force": arguments.max_force}
+    return question._replace(require=required)
 
 
-def _with_force(config: Config, question: dict[str, Any]) -> Config:
+def _with_force(config: Config, question: Question) -> Config:
     """The config whose cases have the column of the greatest force that is allowed."""
     from sweep.config.axis import Written
     from sweep.ranking.merit import in_si
 
-    if question["allowed_force"] is None or question["per"] == "panel":
+    if question.allowed_force is None or question.per == "panel":
         return config  # a force of the panel is looked up in the curves
-    force = in_si(question["allowed_force"], "N")
+    force = in_si(question.allowed_force, "N")
     known = config.base[FORCES].value if FORCES in config.base else ()
     forces = tuple(dict.fromkeys([*known, force]))
     return replace(config, base=config.base | {FORCES: Written(forces, str(forces), FORCES)})
 
 
-def _limits(question: dict[str, Any]) -> tuple[float, tuple[float, float] | None]:
+def _limits(question: Question) -> tuple[float, tuple[float, float] | None]:
     """Greatest mass (kg) of a specimen, or of the panel (m) if there is one; and the panel."""
     from sweep.ranking.merit import in_si
 
-    budget = in_si(question["budget"][0], "kg") if question["budget"] else inf
-    sides = [in_si(side, "m") for side in question["panel"] or ()]
-    most = question["require"].get("max_mass")
-    if most is not None and bool(sides) == (question["per"] == "panel"):
+    budget = in_si(question.budgets[0], "kg") if question.budgets else inf
+    sides = [in_si(side, "m") for side in question.panel or ()]
+    most = (question.require or {}).get("max_mass")
+    if most is not None and bool(sides) == (question.per == "panel"):
         budget = min(budget, in_si(most, "kg"))
     return budget, (sides[0], sides[1]) if sides else None
 
 
-def _tell_best(search: Search) -> int:
+def _show_best(search: Search) -> int:
     """Simulate the best designs again, and print them; return how many values are missing."""
     from sweep.ranking.curves import with_allowed
-    from sweep.ranking.rank import ranked
+    from sweep.ranking.rank import answer
     from sweep.ranking.spread import spreads
     from sweep.report.tables.search_sheets import finalist_sheet
-    from sweep.running.beside.spread import run_corners, spread_file
+    from sweep.running.beside.run_beside import file_beside
+    from sweep.running.beside.spread import run_corners
     from sweep.running.searching.finalists import finalists, perturbed
     from sweep.store.read import read_summary
 
     found, question = search.found, search.question
     if not search.cases:
-        budget = f" within {question['budget'][0]}" if question["budget"] else ""
+        budget = f" within {question.budgets[0]}" if question.budget else ""
         raise OptimizeError(f"no design of [search] exists{budget}; allowed: a wider search")
     if found is None or not (found.by_id or found.missed):
         say(f"None of {len(search.cases)} designs can be ranked.")
@@ -146,38 +149,38 @@ def _tell_best(search: Search) -> int:
     if found.doubtful:
         say(f"Left out: {found.doubtful} designs whose results rank marks with ! or x.")
     if not found.by_id:
-        _tell_nearest(search)
+        _show_nearest(search)
         return 0
     best = finalists(search.cases[case_id] for case_id in found.by_id)
     again = {case.case_id: perturbed(case) for case in best}
     run_corners(again, search.out, search.settings.workers, search.settings.scheduler)
-    summary, beside = search.rows(), spread_file(search.out)
+    summary, beside = search.rows(), file_beside(search.out, "spread")
     ids = {design: [(c.name, c.case_id) for c in corners] for design, corners in again.items()}
-    ranking = ranked(summary, **question | {"top": None})
+    ranking = answer(summary, question._replace(top=None))
     corners = with_allowed(beside, read_summary(beside), question)
     (spread,) = spreads(ranking, corners, ids, question)
     print_sheets([finalist_sheet(spread, summary)])
     return spread.failed
 
 
-def _tell_nearest(search: Search) -> None:
+def _show_nearest(search: Search) -> None:
     """Print that no design fulfils all requirements, why, and which comes nearest."""
-    from sweep.ranking.rank import ranked
+    from sweep.ranking.rank import answer
     from sweep.report.tables.search_sheets import nearest_sheet
     from sweep.report.tables.sheets import ranking_sheets
     from sweep.running.searching.finalists import finalists
 
     assert search.found is not None
-    summary, question = search.rows(), search.question | {"top": None}
+    summary, question = search.rows(), search.question._replace(top=None)
     say(f"None of {len(search.cases)} designs fulfils all requirements.")
-    print_sheets(ranking_sheets(ranked(summary, **question), summary))
-    whole, missed = ranked(summary, **question | {"require": None}), search.found.missed
+    print_sheets(ranking_sheets(answer(summary, question), summary))
+    whole, missed = answer(summary, question._replace(require=None)), search.found.missed
     chosen = [case.case_id for case in finalists(search.cases[case_id] for case_id in missed)]
     print_sheets([nearest_sheet(whole, {one: missed[one] for one in chosen}, summary)])
 
 
-def _tell_front(search: Search, other: str) -> None:
-    from sweep.ranking.worth import front, thinned
+def _show_front(search: Search, other: str) -> None:
+    from sweep.ranking.assessment import front, thinned
     from sweep.report.tables.search_sheets import front_sheet
 
     assert search.found is not None
@@ -193,19 +196,19 @@ def _to_print(search: Search) -> Iterator[str]:
     if first is None or search.cases[first].lattice.boundary == "periodic":
         return
     words = ["crumple", "export", str(search.out), first[:SHORT], "--to", "best.3mf"]
-    panel = search.question["panel"] or ()
+    panel = search.question.panel or ()
     if panel:
         words += ["--panel", *(p if isinstance(p, str) else f"{1e3 * p:g} mm" for p in panel)]
     which = "first" if found and found.by_id else "nearest"
     yield f"to print the {which}: {shlex.join(words)}"
 
 
-def _next_command(out: str, question: dict[str, Any]) -> str:
+def _next_command(out: str, question: Question) -> str:
     """The command that ranks the results as the search did."""
     words = ["crumple", "rank", str(out)]
-    asked = {name: question[name] for name in ("budget", "panel", "by", "allowed_force")}
-    asked |= {"per": question["per"] if question["per"] == "panel" else None}
-    for name, given in (asked | question["require"]).items():
+    asked = {name: getattr(question, name) for name in ("budget", "panel", "by", "allowed_force")}
+    asked |= {"per": question.per if question.per == "panel" else None}
+    for name, given in (asked | dict(question.require or {})).items():
         values = [given] if isinstance(given, str) else [] if given is None else given
         if not isinstance(values, float) and all(isinstance(value, str) for value in values):
             words += [f"--{name.replace('_', '-')}", *values] if values else []

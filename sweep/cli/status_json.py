@@ -15,8 +15,9 @@ def status_record(file: str, summary: DataFrame, about: Mapping[str, Any]) -> di
 
     about : the attributes of the file. `failures` has each message with its status and its cases.
     """
+    from sweep.columns import ERROR
     from sweep.ranking.rank import model_versions
-    from sweep.result import ERROR, Status
+    from sweep.result import Status
 
     failed = summary[summary["status"] != Status.CONVERGED]
     done = summary.drop(index=failed.index)

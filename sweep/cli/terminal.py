@@ -7,25 +7,27 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping
 from shlex import quote
 from textwrap import wrap
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
     from pandas import DataFrame
     from rich.table import Table
 
+    from sweep.ranking.question import Question
     from sweep.ranking.ranking import Ranking
-    from sweep.report.tables.sheets import Sheet
+    from sweep.report.tables.sheet import Sheet
 
 USUAL = 80  # columns of text; in wider tables, columns are closer
 WIDE = 10_000  # where no terminal limits the width
 
 
-def print_ranking(file: str, summary: DataFrame, question: Mapping[str, Any]) -> None:
+def print_ranking(file: str, summary: DataFrame, question: Question) -> None:
     """Print the tables of a ranking, their legend, and the warnings."""
-    from sweep.ranking.rank import ranked
-    from sweep.report.tables.sheets import legend, ranking_sheets
+    from sweep.ranking.rank import answer
+    from sweep.report.tables.legend import legend
+    from sweep.report.tables.sheets import ranking_sheets
 
-    ranking = ranked(summary, **question)
+    ranking = answer(summary, question)
     if ranking.failed < ranking.cases:
         say(_heading(question, ranking))
         print_sheets(ranking_sheets(ranking, summary))
@@ -81,7 +83,7 @@ def next_commands(file: str, summary: DataFrame) -> Iterator[str]:
 
 def nearest_commands(file: str, ranking: Ranking, summary: DataFrame) -> Iterator[str]:
     """How to see and print the nearest design of the first scene in which none has a place."""
-    from sweep.report.tables.sheets import short_id
+    from sweep.report.tables.design_text import short_id
 
     placed = {*ranking.table["scene"]}
     for label in ranking.lightest_g:
@@ -97,9 +99,9 @@ def _counted(count: int, noun: str) -> str:
     return f"{count} {noun} has" if count == 1 else f"{count} {noun}s have"
 
 
-def _heading(question: Mapping[str, Any], ranking: Ranking) -> str:
+def _heading(question: Question, ranking: Ranking) -> str:
     """The question that the tables answer, in one or two lines."""
-    from sweep.result import in_words, less_is_better
+    from sweep.columns import in_words, less_is_better
 
     by = ranking.by
     usual = {ranking.energy: "most energy", ranking.per_gram: "most energy per gram"}
@@ -108,13 +110,13 @@ def _heading(question: Mapping[str, Any], ranking: Ranking) -> str:
     order = usual.get(by, f"{'least' if less_is_better(by) else 'most'} {in_words(by)}")
     lines = [f"Best first: {order}."]
     crushed = ranking.table.empty or (ranking.table["loading_mode"] == "displacement").any()
-    if (force := question.get("allowed_force")) and crushed:
+    if (force := question.allowed_force) and crushed:
         lines.append(f"Energy is counted until the force of a {ranking.per} exceeds {force}.")
     elif force:
         lines.append(f"The force of {force} has no effect: without a crush no energy is ranked.")
-    if (budgets := question["budget"]) and len(budgets) == 1:
-        lines.insert(0, f"At most {_written(budgets[0], 1e3, 'g')}.")
-    if panel := question["panel"]:
+    if len(question.budgets) == 1:
+        lines.insert(0, f"At most {_written(question.budgets[0], 1e3, 'g')}.")
+    if panel := question.panel:
         sides = " x ".join(_written(side, 1e3, "mm") for side in panel)
         lines.insert(0, f"Panel of {sides}, filled with specimens side by side.")
     return " ".join(lines)
@@ -230,8 +232,8 @@ def _left_out(sheet: Sheet, shown: Sheet, limit: int) -> Iterator[str]:
     """Lines about the columns that are not shown."""
     missing = [head for head in sheet.heads if head not in shown.heads]
     if missing:
-        told = f"Not in this narrow terminal: {', '.join(missing)}."
-        yield from wrap(f"{told} A wider one shows them, and so does {sheet.elsewhere}.", limit)
+        missed = f"Not in this narrow terminal: {', '.join(missing)}."
+        yield from wrap(f"{missed} A wider one shows them, and so does {sheet.elsewhere}.", limit)
 
 
 def _terminal_table(table: Fitted) -> Table:
@@ -260,3 +262,9 @@ def say_all(lines: Iterable[object]) -> None:
     """Print lines."""
     for line in lines:
         say(line)
+
+
+def hint(lines: Iterable[str]) -> None:
+    """Print lines on stderr, after what is on stdout."""
+    sys.stdout.flush()
+    sys.stderr.writelines(f"{line}\n" for line in lines)

@@ -4,13 +4,14 @@ A `Case` is resolved when it is created (`resolve`), so that equal physics has a
 """
 
 from hashlib import blake2b
-from typing import Self, TypeVar
+from typing import Any, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from sweep.config.defaults.resolve import resolve
 from sweep.config.lattice_table import Lattice
-from sweep.config.tables import Contact, Damping, Loading, Material, Solver, Table, canonical
+from sweep.config.material_table import Material
+from sweep.config.tables import Contact, Damping, Loading, Solver, Table, canonical
 
 __all__ = [
     "TABLES",
@@ -46,6 +47,10 @@ class Case(BaseModel):
         for name, table in tables.items():
             object.__setattr__(self, name, table)  # the model is frozen
         return self
+
+    def changed(self, **tables: Any) -> "Case":
+        """The case with other tables or labels, resolved anew."""
+        return Case(**{name: getattr(self, name) for name in Case.model_fields} | tables)
 
     @property
     def case_id(self) -> str:

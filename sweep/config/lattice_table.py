@@ -7,30 +7,33 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from sweep.config.lattice_limits import (
+    CUSTOM,
+    MAX_NODES,
+    check_openings,
+    check_period,
+    check_proportion,
+)
+from sweep.config.slicer_lines import check_lines, check_pattern, spacing_of, with_mass
 from sweep.config.structures.structure import Structure
 from sweep.config.structures.structure_file import faults, read_structure
 from sweep.config.tables import Few, Length, Mass, Size, Table, refusal
+from sweep.constants import MM, TO_MM
 from sweep.design.geometry import Geometry
 from sweep.design.infill import families, trait
-from sweep.design.slicer import (
-    NO_PRISMS,
+from sweep.design.slicer_patterns import (
     OVERLAP,
     PATTERNS,
     SLICERS,
     WIDTH_PER_NOZZLE,
     Pattern,
     Sliced,
-    distance_of,
     line_of,
 )
 
-CUSTOM = "custom"
 NOZZLE, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m
 FILL_ANGLE, PERIMETERS = radians(45.0), 2  # of a slicer
 MOST_LINES = 10  # that OrcaSlicer lays side by side
-# The factor of a lattice of 70 000 nodes takes 8 GB, and a step several minutes.
-MAX_NODES = 50_000
-MAX_ASPECT = 1000.0  # of the box; above it the computed areas lose their accuracy
 
 
 def _known(kind: str) -> str:
@@ -125,10 +128,10 @@ class Lattice(Table):
     @model_validator(mode="after")
     def _complete(self) -> Self:
         if self.boundary == "periodic":
-            repeat(self)
+            check_period(self)
         if self.structure is not None:
             return self._measured(self.structure)
-        be_in_proportion(self)
+        check_proportion(self)
         if self.slicer is not None:
             return self._cut(SLICERS[self.slicer])
         if self.fill_multiline != 1:
@@ -146,9 +149,9 @@ class Lattice(Table):
         self._set(used)
         if self.infill is not None:
             self._fill(self.infill)
-        self._be_small_enough()
+        self.check_size()
         if self.mass is None or "wall_thickness" in self.model_fields_set:
-            leave_openings(self)
+            check_openings(self)
         return self
 
     def _measured(self, structure: Structure) -> Self:
@@ -159,10 +162,10 @@ class Lattice(Table):
             "file": Path(self.file).name if self.file else None,
             "cells_x": 1,
             "cells_y": 1,
-            "width": 1e-3 * width,
-            "height": 1e-3 * height,
-            "depth": 1e-3 * structure.depth_mm,
-            "wall_thickness": 1e-3 * sum(thickness) / len(thickness),
+            "width": MM * width,
+            "height": MM * height,
+            "depth": MM * structure.depth_mm,
+            "wall_thickness": MM * sum(thickness) / len(thickness),
             "nodes_per_wall": 0,
         }
         self._set(measures)
@@ -170,7 +173,7 @@ class Lattice(Table):
 
     def _cut(self, patterns: dict[str, str]) -> Self:
         """The table of a lattice that a slicer fills; ``patterns``: those that it prints."""
-        be_laid(self, patterns)
+        check_pattern(self, patterns)
         width = self.nozzle * (1.0 if self.slicer == "cura" else WIDTH_PER_NOZZLE)
         given = self.model_fields_set
         used = {
@@ -181,15 +184,15 @@ class Lattice(Table):
             "perimeters": self.perimeters if "perimeters" in given else PERIMETERS,
         }
         self._set(used)
-        be_lines(self)
+        check_lines(self)
         thickness = self.printed_as.wall * self.lines
         self._follow("wall_thickness", thickness, f"{thickness:g} m, as lattice.slicer is given")
         if self.infill is not None:
             if self.mass is not None:
                 raise refusal("lattice.mass", self.mass, "none where lattice.infill is given")
-            self._set(laid(self, self.infill))
-            self._be_small_enough()
-            leave_openings(self)
+            self._set(spacing_of(self, self.infill))
+            self.check_size()
+            check_openings(self)
         return self
 
     def _set(self, values: dict[str, Any]) -> None:
@@ -217,7 +220,8 @@ class Lattice(Table):
             raise refusal(f"lattice.{key}", getattr(self, key), allowed)
         object.__setattr__(self, key, value)
 
-    def _be_small_enough(self) -> None:
+    def check_size(self) -> None:
+        """Refuse a lattice of more than `MAX_NODES` nodes."""
         joints, walls = self._counts
         nodes = joints + walls * self.nodes_per_wall
         if nodes > MAX_NODES:
@@ -336,114 +340,10 @@ def _scaled(structure: Structure, thickness: float) -> Structure:
     """A structure whose walls are as thick on average as `thickness` (m)."""
     if not thickness > 0.0:
         return structure  # refused as a value of its key
-    made = structure.with_thickness(float(f"{1e3 * thickness:.15g}"))
+    made = structure.with_thickness(float(f"{TO_MM * thickness:.15g}"))
     if wrong := next(faults(made), None):
         raise refusal("lattice.wall_thickness", thickness, f"one that fits the structure ({wrong})")
     return made
-
-
-def be_in_proportion(lattice: Lattice) -> None:
-    """Refuse a box whose aspect ratio is too large."""
-    key, other = ("width", "height") if "width" in lattice.model_fields_set else ("height", "width")
-    value, side = getattr(lattice, key), getattr(lattice, other)
-    least, most = side / MAX_ASPECT, side * MAX_ASPECT
-    if not least <= value <= most:
-        allowed = f"from {least:g} m to {most:g} m, a thousandth to a thousand times the {other}"
-        raise refusal(f"lattice.{key}", value, allowed)
-
-
-def leave_openings(lattice: Lattice) -> None:
-    """Refuse walls as thick as the openings between them, and an outline that fills cells."""
-    limit, thickness = lattice.thickest, lattice.wall_thickness
-    if thickness >= limit * (1.0 - 1e-12):
-        if lattice.infill is not None:
-            allowed = "a share that leaves cells at least twice as wide as their walls"
-            raise refusal("lattice.infill", lattice.infill, allowed)
-        allowed = f"below half the width of the narrowest cell, {limit:.4g} m here"
-        raise refusal("lattice.wall_thickness", thickness, allowed)
-    if lattice.slicer is not None:
-        return
-    gap = lattice.opening - thickness
-    for axis, key in enumerate(("perimeters", "solid_layers")):
-        outline, count = lattice.outline[axis], getattr(lattice, key)
-        if count and outline >= gap:
-            most = int(gap / (outline / count))
-            allowed = f"at most {most} here, thinner in all than cells are open, {gap:.4g} m"
-            raise refusal(f"lattice.{key}", count, allowed)
-
-
-def be_laid(lattice: Lattice, patterns: dict[str, str]) -> None:
-    """Refuse a pattern that is no prism of the slicer, and keys that a slicer has no use for."""
-    key, pattern, names = (
-        "lattice.pattern",
-        lattice.pattern,
-        ", ".join(map('"{}"'.format, patterns)),
-    )
-    if pattern is None:
-        raise refusal(key, None, f"{names}, as lattice.slicer is given")
-    if pattern not in patterns:
-        named = pattern.lower().replace(" ", "")
-        why, nearest = NO_PRISMS.get(named, ("", "grid"))
-        nearest = next((own for own, known in patterns.items() if known == nearest), "grid")
-        reason = f"; {pattern} is no prism, as {why}: the nearest is {nearest}" if why else ""
-        raise refusal(key, pattern, f"{names}{reason}")
-    if lattice.mass is None and lattice.infill is None:
-        raise refusal("lattice.infill", None, 'a share such as "20 %", or a lattice.mass')
-    count = lattice.fill_multiline
-    if count != 1 and (lattice.slicer != "orca" or patterns[pattern] == "honeycomb"):
-        allowed = '1; more with lattice.slicer "orca" and a pattern other than honeycomb'
-        raise refusal("lattice.fill_multiline", count, allowed)
-    fixed = {"kind": "square", "orientation": None, "grading": 1.0, "solid_layers": 0}
-    for name, value in fixed.items():
-        if getattr(lattice, name) != value:
-            allowed = f"none, as lattice.slicer is given and lattice.pattern is {pattern}"
-            raise refusal(f"lattice.{name}", getattr(lattice, name), allowed)
-
-
-def be_lines(lattice: Lattice) -> None:
-    """Refuse lines that are higher than wide, and perimeters that are absent or leave no room."""
-    width, height = lattice.line_width or 0.0, lattice.layer_height or 0.0
-    if height > width:
-        raise refusal("lattice.layer_height", height, f"at most the line width, {width:g} m")
-    most = int(0.5 * min(lattice.width, lattice.height) / lattice.line)
-    if not 1 <= lattice.perimeters < most:
-        allowed = f"1 to {most - 1}, as lattice.slicer is given: perimeters hold the infill"
-        raise refusal("lattice.perimeters", lattice.perimeters, allowed)
-
-
-def laid(lattice: Lattice, share: float) -> dict[str, Any]:
-    """What follows from a share of infill: the distance of lines, and about how many cells fit."""
-    pattern = SLICERS[lattice.slicer or ""][lattice.pattern or ""]
-    distance = distance_of(pattern, share, lattice.lines)
-    cells = {
-        f"cells_{axis}": max(1, round(size / distance))
-        for axis, size in (("x", lattice.width), ("y", lattice.height))
-    }
-    if cells["cells_x"] * cells["cells_y"] > MAX_NODES:
-        allowed = f"a share whose lines make at most {MAX_NODES:,} cells in this box"
-        raise refusal("lattice.infill", share, allowed)
-    for key, value in cells.items():
-        if key in lattice.model_fields_set and getattr(lattice, key) != value:
-            allowed = f"{value}, as lattice.slicer is given"
-            raise refusal(f"lattice.{key}", getattr(lattice, key), allowed)
-    return {"infill": share, "fill_distance": distance, **cells}
-
-
-def repeat(lattice: Lattice) -> None:
-    """Refuse a lattice that cannot be the period of an endless one."""
-    endless = 'if lattice.boundary is "periodic"'
-    if lattice.kind == CUSTOM:
-        raise refusal("lattice.boundary", "periodic", '"free" if lattice.kind is "custom"')
-    if lattice.slicer is not None:
-        raise refusal("lattice.boundary", "periodic", '"free" if lattice.slicer is given')
-    for key, value in {**lattice.neutral, "infill": None}.items():
-        if key not in ("boundary", "symmetry") and getattr(lattice, key) != value:
-            wanted = "none" if value is None else f"{value:g}"
-            raise refusal(f"lattice.{key}", getattr(lattice, key), f"{wanted} {endless}")
-    key = "cells_x" if lattice.orientation == "flat" else "cells_y"
-    if trait(lattice.kind, "STAGGERED") and getattr(lattice, key) % 2:
-        allowed = f"an even number {endless}, as every other row of {lattice.kind} is shifted"
-        raise refusal(f"lattice.{key}", getattr(lattice, key), allowed)
 
 
 def sized(lattice: Lattice, density: float) -> Lattice:
@@ -451,7 +351,7 @@ def sized(lattice: Lattice, density: float) -> Lattice:
     if lattice.mass is None or lattice.structure is not None:
         return lattice
     if lattice.slicer is not None:
-        return _filled(lattice, density)
+        return with_mass(lattice, density)
     from sweep.design.sizing import thickness_for
 
     thickness, light, heavy = thickness_for(
@@ -465,27 +365,5 @@ def sized(lattice: Lattice, density: float) -> Lattice:
         allowed = f"{thickness:.6g} m at the mass given; give one of them"
         raise refusal("lattice.wall_thickness", lattice.wall_thickness, allowed)
     made = lattice.model_copy(update={"wall_thickness": thickness})
-    leave_openings(made)
-    return made
-
-
-def _filled(lattice: Lattice, density: float) -> Lattice:
-    """The lattice with the share of infill with which its `mass` is extruded."""
-    from sweep.design.sliced import LEAST_SHARE, share_for
-
-    wanted = lattice.mass or 0.0
-    pattern = lattice.printed_as
-    most = 0.5 * pattern.opening * pattern.directions / pattern.wall
-    first = lattice.model_copy(update=laid(lattice, LEAST_SHARE))
-    per_area = density * lattice.depth
-    share, *bounds = share_for(first.geometry, wanted / per_area, (1.0 - 1e-9) * most)
-    if isnan(share):
-        light, heavy = (per_area * area for area in bounds)
-        allowed = f"between {light:.4g} kg and {heavy:.4g} kg as extruded with this pattern"
-        if light < wanted < heavy:
-            allowed = "another mass: there a line along a side appears; or another fill_angle"
-        raise refusal("lattice.mass", lattice.mass, allowed)
-    made = lattice.model_copy(update=laid(lattice, share))
-    made._be_small_enough()
-    leave_openings(made)
+    check_openings(made)
     return made

@@ -19,10 +19,11 @@ from sweep.config.keys import QUANTITIES
 from sweep.config.reading.examples import examples, find_config
 from sweep.config.reading.reader import Reader, in_words
 from sweep.config.reading.unclosed import unclosed
+from sweep.constants import STANDARD_GRAVITY
 
 __all__ = ["MAX_CASES", "Config", "ConfigError", "case_count", "expand", "load_config", "quantity"]
 
-_UNITS = """
+_UNITS = f"""
 micro- = 1e-6 = µ- = u-
 milli- = 1e-3 = m-
 centi- = 1e-2 = c-
@@ -39,9 +40,9 @@ thou = 1e-3 * inch
 foot = 12 * inch = ft = feet
 ounce = 28.349523125 * gram = oz
 pound = 16 * ounce = lb
-standard_gravity = 9.80665 * meter / second ** 2 = g0 = gn
+standard_gravity = {STANDARD_GRAVITY} * meter / second ** 2 = g0 = gn
 newton = kilogram * meter / second ** 2 = N
-kilogram_force = 9.80665 * newton = kgf
+kilogram_force = {STANDARD_GRAVITY} * newton = kgf
 pound_force = 4.4482216152605 * newton = lbf
 pascal = newton / meter ** 2 = Pa
 joule = newton * meter = J

@@ -119,7 +119,7 @@ def _first_time(strain: Floats, rows: list[int]) -> NDArray[np.intp]:
 
 
 def _sure_points(strain: Floats, stress: Floats) -> Floats:
-    """The points whose stresses a noisy record tells, to `UNSURE`."""
+    """The points whose stresses a noisy record gives, to `UNSURE`."""
     most = strain.max()
     points = np.r_[STRAINS[LAST * most > STRAINS], most]
     while True:

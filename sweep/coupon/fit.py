@@ -1,10 +1,10 @@
 """Fits the curve, the loss and the softening of a material to the test of a coupon.
 
 Loss and softening (r, m, beta) are those of least squares between the record and the law, taken
-through the same test (`Loading.follow`). What the record cannot tell is left out: without unloading
-there is no loss, without reloading no softening, and unless a second cycle is larger than the first
-one only m + beta W is known, W being the greatest energy: beta is then an assumption. Of the laws
-that are as good as the best, the one with the fewest numbers is chosen.
+through the same test (`Loading.follow`). What the record does not show is left out: without
+unloading there is no loss, without reloading no softening, and unless a second cycle is larger than
+the first one only m + beta W is known, W being the greatest energy: beta is then an assumption. Of
+the laws that are as good as the best, the one with the fewest numbers is chosen.
 """
 
 from dataclasses import dataclass
@@ -15,8 +15,8 @@ from sweep.coupon import branches
 from sweep.coupon.curve import Loading
 from sweep.coupon.record import Coupon, CouponError, Floats
 
-BETA = 0.1  # assumed where the record does not tell
-LARGER = 1.2  # of the first peak: a second one that tells beta
+BETA = 0.1  # assumed where the record does not show it
+LARGER = 1.2  # of the first peak: a second one that determines beta
 SLACK = 0.02  # of the greatest stress: below it a strip may be slack
 ABOVE = 0.02  # of the work: by so much unloading may lie above loading, by noise
 UNLOADED = 0.05  # of the greatest stress
@@ -115,7 +115,7 @@ def _most(coupon: Coupon) -> float:
 
 
 def _laws(rows: list[int], grows: bool) -> list[tuple[str, ...]]:
-    """The numbers of each law that the record can tell, the fewest first."""
+    """The numbers of each law that the record determines, the fewest first."""
     softening = ("softening", "width", *(("softening_beta",) if grows else ()))
     if len(rows) < 3:
         return [()]

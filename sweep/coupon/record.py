@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sweep.config.materials.material_file import SECANT
+from sweep.constants import MM
 
 Floats = NDArray[np.float64]
 
@@ -20,7 +21,6 @@ FEWEST = 20  # rows
 MOST_STRAIN = 5.0
 SOFTEST, STIFFEST = 1e5, 1e11  # Pa
 OFFSET = 0.005, 0.05  # greatest first strain, and first stress over the greatest one
-MM = 1e-3
 KNOWN = ("time_s", "strain", "displacement_mm", "stress_Pa", "force_N")
 SEPARATORS = {";": "semicolons", "\t": "tabs"}
 
@@ -151,8 +151,8 @@ def _check(coupon: Coupon) -> None:
     if most > MOST_STRAIN:
         raise ValueError(f"a strain of {most:g}: is it in percent? allowed: up to {MOST_STRAIN:g}")
     if most < SECANT[1]:
-        told = f"strains up to {most:.3g}; needed: at least {SECANT[1]:g}"
-        raise ValueError(f"{told}; is the displacement in mm, and the gauge length right?")
+        wrong = f"strains up to {most:.3g}; needed: at least {SECANT[1]:g}"
+        raise ValueError(f"{wrong}; is the displacement in mm, and the gauge length right?")
     if strain.min() <= -1.0:
         raise ValueError("a strain of -1 or less; allowed: above -1")
     if abs(strain[0]) > OFFSET[0] or abs(stress[0]) > OFFSET[1] * np.abs(stress).max():
@@ -173,14 +173,14 @@ def _check_modulus(coupon: Coupon) -> None:
             "stress and strain have opposite signs between 1 and 4 %; allowed: both positive in "
             "tension, both negative in compression"
         )
-    told = f"a modulus of {found:.3g} Pa between 1 and 4 % strain"
+    wrong = f"a modulus of {found:.3g} Pa between 1 and 4 % strain"
     if found < SOFTEST:
         raise ValueError(
-            f"{told}: is stress_Pa in MPa or kPa (needed: Pa), a force (needed: a column force_N "
+            f"{wrong}: is stress_Pa in MPa or kPa (needed: Pa), a force (needed: a column force_N "
             "and --area), or the strain in percent (needed: 0.1 for 10 %)?"
         )
     if found > STIFFEST:
-        raise ValueError(f"{told}: are stress_Pa or the size of the specimen in another unit?")
+        raise ValueError(f"{wrong}: are stress_Pa or the size of the specimen in another unit?")
 
 
 def coarse_modulus(coupon: Coupon) -> float:

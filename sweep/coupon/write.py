@@ -70,7 +70,7 @@ def fit_sentence(fit: Fit) -> str:
     )
 
 
-def told(fit: Fit, record: Record) -> Iterator[str]:
+def sentences_on_fit(fit: Fit, record: Record) -> Iterator[str]:
     """What was found, a line each; record: the file that was written, read again."""
     yield f"modulus         {record.modulus / 1e6:.4g} MPa, secant from 1 to 4 % strain"
     yield f"reference time  {fit.reference_time:.3g} s"
@@ -85,7 +85,7 @@ def told(fit: Fit, record: Record) -> Iterator[str]:
 
 
 def doubts(fit: Fit, record: Record) -> Iterator[str]:
-    """Warnings about what is unusual and may be a mistake; record: as in `told`."""
+    """Warnings about what is unusual and may be a mistake; record: as in `sentences_on_fit`."""
     coupon, turn = fit.coupon, fit.rows[1]
     rate = abs(float(coupon.strain[turn])) / float(coupon.time[turn])
     low, high = USUAL_RATES

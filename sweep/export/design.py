@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from math import isnan, nan
 from typing import TYPE_CHECKING, Any
 
+from sweep.config.network import network_of
 from sweep.design.network import relative_density
 from sweep.export.errors import ExportError
 
@@ -68,7 +69,7 @@ def design_of(case: Case) -> Design:
     """The design of a case that need not have run."""
     from sweep.design.network import mass
 
-    network = _drawn(case.lattice)
+    network = network_of(case.lattice)
     kilograms = mass(network, case.lattice.depth, case.material.density)
     along = case.loading.direction == ALONG
     return _printable(Design(case.case_id, case.lattice, network, 1e3 * kilograms, along))
@@ -80,7 +81,7 @@ def stored_design(row: Mapping[str, Any], config: Mapping[str, Any]) -> Design:
     A design whose printed area is not that of the row is refused: the config is of another sweep.
     """
     lattice = _lattice(row, config)
-    network = _drawn(lattice)
+    network = network_of(lattice)
     found, stored = relative_density(network, lattice.outer_size), row["relative_density"]
     if not abs(found - stored) <= SAME * stored:
         raise _unknown(row)
@@ -147,17 +148,6 @@ def _keys(table: Mapping[str, Any]) -> dict[str, Any]:
     named = {str(key): value for key, value in table.items() if str(key).startswith(HEAD)}
     plain = {key: value.item() if hasattr(value, "item") else value for key, value in named.items()}
     return {key.removeprefix(HEAD): value for key, value in plain.items()}
-
-
-def _drawn(lattice: Lattice) -> Network:
-    """Centre lines and thickness of the walls."""
-    if lattice.structure is not None:
-        from sweep.scene.custom import network_of
-
-        return network_of(lattice.structure)
-    from sweep.design.lattice import build_network
-
-    return build_network(lattice.geometry)
 
 
 def _printable(design: Design) -> Design:

@@ -16,6 +16,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
+from sweep.constants import TO_MM, TO_MM3
 from sweep.export.errors import ExportError
 
 if TYPE_CHECKING:
@@ -27,8 +28,7 @@ if TYPE_CHECKING:
     from sweep.export.outline import Layout
 
 Kind = Literal["lattice", "settings"]
-MM, CUBIC = 1e3, 1e9  # per m; mm^3 per m^3
-SHOWN = 0.05  # mm: a difference of lengths that is told
+SHOWN = 0.05  # mm: a difference of lengths that is reported
 
 
 class Exported(NamedTuple):
@@ -238,7 +238,7 @@ def _stl(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     from sweep.export.stl import write_stl
 
     layout = _layout(source, wish)
-    write_stl(path, solid(layout, CUBIC * layout.specimens * source.design.volume))
+    write_stl(path, solid(layout, TO_MM3 * layout.specimens * source.design.volume))
     return _told(layout, source, wish)
 
 
@@ -249,7 +249,7 @@ def _three_mf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     from sweep.export.three_mf import write_3mf
 
     layout = _layout(source, wish)
-    body = solid(layout, CUBIC * layout.specimens * source.design.volume)
+    body = solid(layout, TO_MM3 * layout.specimens * source.design.volume)
     write_3mf(path, body, layout.name, {})
     return [*_told(layout, source, wish), "print it with 100 % infill"]
 
@@ -323,10 +323,10 @@ def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
         )
     if wish.panel is None:
         return [size]
-    asked = " x ".join(f"{MM * side:g}" for side in wish.panel)
-    nominal = MM * filled_panel(source.design, wish.panel).width
+    asked = " x ".join(f"{TO_MM * side:g}" for side in wish.panel)
+    nominal = TO_MM * filled_panel(source.design, wish.panel).width
     wider = f"; corners that stick out make them {width - nominal:.2g} mm wider"
-    deep = f"each {layout.behind} specimens of {MM * source.design.footprint[1]:.4g} mm deep"
+    deep = f"each {layout.behind} specimens of {TO_MM * source.design.footprint[1]:.4g} mm deep"
     return [
         f"{layout.across} side by side, {deep}: {size}",
         f"these {layout.specimens} specimens are what rank counts for a panel of {asked} mm"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from sweep.constants import TO_MM
 from sweep.design.panel import BEHIND, BESIDE, Panel, panel_of
 from sweep.export.errors import ExportError
 
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
     from sweep.design.network import Network
     from sweep.export.design import Design
 
-MM = 1e3  # per m
 GRID = 1e-5  # mm: vertices lie on a grid, so that single precision keeps them apart
 FINE = 1e-7  # mm: the grid of the union
 SLIT = 1e-3  # mm: half the width of gaps that are no gaps
@@ -44,7 +44,7 @@ def outline(network: Network) -> Any:
     """
     import shapely
 
-    union = shapely.union_all(shapely.polygons(MM * network.loops), grid_size=FINE)
+    union = shapely.union_all(shapely.polygons(TO_MM * network.loops), grid_size=FINE)
     wide = shapely.buffer(union, SLIT, join_style="mitre")
     closed = shapely.buffer(wide, -SLIT, join_style="mitre")
     if pieces := shapely.get_num_geometries(closed) - 1:
@@ -58,13 +58,13 @@ def block(lattice: Lattice) -> Any:
     """The box round a specimen, mm, which a slicer fills."""
     import shapely
 
-    width, height = (MM * side for side in lattice.outer_size)
+    width, height = (TO_MM * side for side in lattice.outer_size)
     return shapely.box(0.0, 0.0, width, height)
 
 
 def specimen(design: Design, shape: Any) -> Layout:
     """One specimen of this shape (mm)."""
-    return Layout(design.name, shape, MM * design.depth, 1, 1, design.grams)
+    return Layout(design.name, shape, TO_MM * design.depth, 1, 1, design.grams)
 
 
 def panel(design: Design, shape: Any, sides: Sequence[float]) -> Layout:
@@ -81,13 +81,13 @@ def panel(design: Design, shape: Any, sides: Sequence[float]) -> Layout:
     for asked, count, one in zip(sides, filled[:2], (width, depth), strict=True):
         if count < 1:
             raise ExportError(
-                f"a panel of {MM * asked:g} mm is smaller than half of a specimen of "
-                f"{MM * one:.4g} mm; allowed: a larger one, first its length along the width, then "
-                "along the depth"
+                f"a panel of {TO_MM * asked:g} mm is smaller than half of a specimen of "
+                f"{TO_MM * one:.4g} mm; allowed: a larger one, first its length along the width, "
+                "then along the depth"
             )
     across, behind = int(filled.across), int(filled.behind)
-    right, up = max(shape.bounds[2], MM * width), max(shape.bounds[3], MM * depth)
-    gap, rows = MM * BESIDE, behind if design.along else 1
+    right, up = max(shape.bounds[2], TO_MM * width), max(shape.bounds[3], TO_MM * depth)
+    gap, rows = TO_MM * BESIDE, behind if design.along else 1
     placed = [
         shapely.affinity.translate(shape, k * (right + gap), j * (up + gap))
         for j in range(rows)
@@ -95,7 +95,7 @@ def panel(design: Design, shape: Any, sides: Sequence[float]) -> Layout:
     ]
     whole = shapely.set_precision(shapely.multipolygons(shapely.get_parts(placed)), GRID)
     height, grams = design.depth if design.along else filled.depth, across * behind * design.grams
-    return Layout(design.name, whole, MM * height, across, behind, grams)
+    return Layout(design.name, whole, TO_MM * height, across, behind, grams)
 
 
 def filled_panel(design: Design, sides: Sequence[float]) -> Panel:

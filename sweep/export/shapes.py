@@ -13,6 +13,7 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
+from sweep.constants import TO_MM
 from sweep.export.three_mf import xml_bytes
 
 if TYPE_CHECKING:
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-MM = 1e3  # per m
 LINE, QUAD = 3, 9  # VTK_LINE, VTK_QUAD
 TYPES = {"f": "Float64", "i": "Int32"}
 
@@ -45,7 +45,7 @@ def _collection(times: NDArray[np.float64], names: list[str]) -> bytes:
 
 def _grid(frames: Mapping[str, Any], k: int) -> bytes:
     """Shape number ``k`` as an unstructured grid of lines or quads."""
-    rest, position = (MM * _deep(frames["position_m"][i]) for i in (0, k))
+    rest, position = (TO_MM * _deep(frames["position_m"][i]) for i in (0, k))
     of_plates = "quads" in frames
     cells_of = np.asarray(frames["quads" if of_plates else "edges"], np.int32)
     thickness = frames["quad_thickness_m" if of_plates else "edge_thickness_m"]
@@ -59,7 +59,7 @@ def _grid(frames: Mapping[str, Any], k: int) -> bytes:
     _data(Xml.SubElement(piece, "PointData", Vectors="displacement_mm"),
           "displacement_mm", position - rest)  # fmt: skip
     of_cells = Xml.SubElement(piece, "CellData", Scalars="wall_thickness_mm")
-    _data(of_cells, "wall_thickness_mm", MM * thickness)
+    _data(of_cells, "wall_thickness_mm", TO_MM * thickness)
     _data(of_cells, name, now / before - 1.0)
     _data(Xml.SubElement(piece, "Points"), "points", position)
     cells = Xml.SubElement(piece, "Cells")

@@ -19,15 +19,15 @@ from math import degrees, pi
 from typing import TYPE_CHECKING, NamedTuple
 from xml.etree import ElementTree as Xml
 
+from sweep.constants import TO_MM
 from sweep.design.drawing import extent
-from sweep.design.slicer import SLICERS
+from sweep.design.slicer_patterns import SLICERS
 from sweep.export.errors import ExportError
 from sweep.export.three_mf import OBJECT, xml_bytes
 
 if TYPE_CHECKING:
     from sweep.config.lattice_table import Lattice
 
-MM = 1e3  # per m
 LAYER_HEIGHT = 0.2  # mm, where the lattice has none
 STRETCHED = 0.05  # greatest deviation of the aspect ratio of a cell from a regular one
 PRUSA = "Metadata/Slic3r_PE_model.config"
@@ -144,9 +144,9 @@ def settings_of(lattice: Lattice) -> Settings:
     if lattice.slicer is not None:
         return _own_settings(lattice)
     pattern = _pattern(lattice)
-    thickness, layer = MM * lattice.wall_thickness, MM * (lattice.layer_height or 0.0)
-    around = MM * (lattice.line_width or 0.0) if lattice.perimeters else thickness
-    share = share_of(pattern, thickness, MM * _period(lattice))
+    thickness, layer = TO_MM * lattice.wall_thickness, TO_MM * (lattice.layer_height or 0.0)
+    around = TO_MM * (lattice.line_width or 0.0) if lattice.perimeters else thickness
+    share = share_of(pattern, thickness, TO_MM * _period(lattice))
     if not share < 1.0:
         raise ExportError(f"lattice.wall_thickness fills the cells: no infill of {share:.0%}")
     count = lattice.perimeters or int(lattice.kind == "square")
@@ -160,10 +160,13 @@ def _own_settings(lattice: Lattice) -> Settings:
     if lattice.slicer == "cura":
         raise ExportError(
             'lattice.slicer = "cura", which reads no settings from a .3mf; allowed with --kind '
-            "settings: prusa and orca. crumple show tells what to set in Cura; --kind lattice "
+            "settings: prusa and orca. crumple show says what to set in Cura; --kind lattice "
             "prints every design"
         )
-    layer, line = MM * (lattice.layer_height or LAYER_HEIGHT / MM), MM * lattice.line
+    layer, line = (
+        TO_MM * (lattice.layer_height or LAYER_HEIGHT / TO_MM),
+        TO_MM * lattice.line,
+    )
     return Settings(
         SLICERS[lattice.slicer or ""][lattice.pattern or ""],
         degrees(lattice.fill_angle or 0.0),
@@ -208,8 +211,8 @@ def _pattern(lattice: Lattice) -> Pattern:
 
 def _be_plain(lattice: Lattice) -> None:
     """Refuse what the infill of a slicer cannot be: graded, capped, or of stretched cells."""
-    stretch, width = _stretch(lattice), MM * lattice.width / _stretch(lattice)
-    regular = f"lattice.width = {MM * lattice.width:.4g} mm: cells are regular at {width:.4g} mm"
+    stretch, width = _stretch(lattice), TO_MM * lattice.width / _stretch(lattice)
+    regular = f"lattice.width = {TO_MM * lattice.width:.4g} mm: cells are regular at {width:.4g} mm"
     faults = {
         f"lattice.grading = {lattice.grading:g}": lattice.grading != 1.0,
         f"lattice.solid_layers = {lattice.solid_layers}": lattice.solid_layers > 0,

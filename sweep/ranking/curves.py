@@ -6,9 +6,8 @@ which the panel bears the allowed one. The stored curves have the answer for eac
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +18,8 @@ from sweep.simulation.until import absorbed_until
 if TYPE_CHECKING:
     from pandas import DataFrame
 
+    from sweep.ranking.question import Question
+
 ROUND_OFF = 1e-9
 Known = dict[tuple[str, float], tuple[float, float]]
 """Energy (J) and stroke (m) of a case by its id and a force (N)."""
@@ -27,19 +28,19 @@ Known = dict[tuple[str, float], tuple[float, float]]
 def with_allowed(
     file: str | PathLike[str],
     summary: DataFrame,
-    question: Mapping[str, Any],
+    question: Question,
     known: Known | None = None,
 ) -> DataFrame:
     """The summary with energy and stroke up to the allowed force, where the question needs them.
 
-    question : keyword arguments of `rank`. The columns are needed if it has an allowed force; NaN
+    question : of the ranking. The columns are needed if it has an allowed force; NaN
     in rows that are no finished crush. known : what was found before, and is not read again; new
     values are added.
     """
     from sweep.store.read import read_cases
 
-    force, panel = question.get("allowed_force"), question.get("panel")
-    of_panel = question.get("per") == "panel"
+    force, panel = question.allowed_force, question.panel
+    of_panel = question.per == "panel"
     if force is None or (of_panel and panel is None):
         return summary
     limit = in_si(force, "N")

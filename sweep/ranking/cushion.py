@@ -21,13 +21,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from sweep.constants import STANDARD_GRAVITY
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
     from pandas import DataFrame, Series
 
     Floats = NDArray[np.float64]
 
-GRAVITY = 9.80665  # m/s^2
 SLACK = 1e-6  # histories are stored with single precision
 SAME_HEIGHT = 0.02  # drops from heights that differ by less are drawn as one
 
@@ -99,9 +100,9 @@ def drops(impacts: DataFrame) -> DataFrame:
     """
     area = impacts["outer_width_m"] * impacts["depth_m"]
     return impacts.assign(
-        drop_height_m=impacts["striker_speed_m_per_s"] ** 2 / (2.0 * GRAVITY),
-        static_stress_Pa=1e-3 * impacts["striker_mass_g"] * GRAVITY / area,
-        peak_G=impacts["peak_deceleration_filtered_m_per_s2"] / GRAVITY,
+        drop_height_m=impacts["striker_speed_m_per_s"] ** 2 / (2.0 * STANDARD_GRAVITY),
+        static_stress_Pa=1e-3 * impacts["striker_mass_g"] * STANDARD_GRAVITY / area,
+        peak_G=impacts["peak_deceleration_filtered_m_per_s2"] / STANDARD_GRAVITY,
     )
 
 

@@ -13,8 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from sweep.design.panel import BEHIND, Panel, panel_of
-from sweep.result import (
+from sweep.columns import (
     ABSORBED_AT,
     COLUMNS,
     OLDER,
@@ -22,9 +21,12 @@ from sweep.result import (
     correction_column,
     error_column,
 )
+from sweep.design.panel import BEHIND, Panel, panel_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
+
+    from sweep.ranking.question import Question
 
 Quantity = float | str
 """A number in SI, or text with a unit such as "25 g"."""
@@ -59,17 +61,10 @@ class Compared(NamedTuple):
     until: str
 
 
-def merits(
-    finished: DataFrame,
-    by: str | None,
-    panel: Sequence[Quantity] | None,
-    allowed_force: Quantity | None,
-    per: str = "specimen",
-) -> tuple[DataFrame, Compared]:
+def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared]:
     """Rows with the compared columns added, and the names of these columns.
 
-    per: whether the allowed force is that of a specimen or of the panel. A budget counts the mass
-    as extruded where there is a slicer (`counted_mass_g`).
+    A budget counts the mass as extruded where there is a slicer (`counted_mass_g`).
 
     Other added columns: `passed_on_N`, the greatest force while that energy is absorbed, and
     `panel_force_N`; `counted_stroke_m`; `returned_share`, returned energy / work of the whole
@@ -80,47 +75,58 @@ def merits(
         raise RankError(
             f"no {missing[0]}: an older version wrote these results; run them again into a new file"
         )
-    filled = None if panel is None else panel_in(finished, panel)
-    factor = None if filled is None else filled.specimens
-    if per == "panel" and factor is None:
-        raise RankError('per "panel" needs a panel: --panel, or rank.panel in the config')
-    if per == "panel" and allowed_force is not None:
-        energy, force, until = _counted_of_panel(finished, factor, allowed_force)
-    else:
-        energy, force, until = _counted(finished, by, allowed_force)
+    filled = None if question.panel is None else panel_in(finished, question.panel)
+    count = None if filled is None else filled.specimens
+    energy, force, until = _counted(finished, question, count)
     per_gram = f"{energy}_per_g".replace("absorbed_energy", "specific_absorption")
     mass, grams = counted_mass(finished)
+    limited = question.allowed_force is not None
     within = finished["absorbed_energy_within_model_J"] * (1.0 + ROUND_OFF)
     added = {
         mass: grams,
         per_gram: finished[energy] / grams,
         "passed_on_N": force,
-        "counted_stroke_m": _stroke(finished, energy, allowed_force),
+        "counted_stroke_m": _stroke(finished, energy, limited),
         "returned_share": finished["returned_energy_J"] / finished["absorbed_energy_J"],
-        "ends_early": _ends_early(finished, energy, force, allowed_force is not None),
+        "ends_early": _ends_early(finished, energy, force, limited),
         "beyond_model": (finished[energy] > within) | through_solid(finished),
         "crossed": finished["max_crossings"] > 0,
         "beyond_curve": finished["stretch_over_curve"] > 1.0,
     }
-    names = Compared(mass, energy, per_gram, until)
-    crushed = finished["loading_mode"] == "displacement"
     for column in (error_column, correction_column):
         if (known := column(energy)) in finished:
+            borne = finished[column(str(force.name))]
             added[column(per_gram)] = finished[known] / grams
-            added[column("passed_on_N")] = finished[column(str(force.name))]
-            if factor is not None:
-                added[column("panel_energy_J")] = factor * finished[known]
-                borne = finished[column(str(force.name))]
+            added[column("passed_on_N")] = borne
+            if count is not None:
                 whole = finished.get(column("peak_force_N"), borne * float("nan"))
-                added[column("panel_force_N")] = factor * borne.where(crushed, whole)
-    if filled is not None and factor is not None:
-        added["panel_specimens"] = factor
-        added["panel_width_m"], added["panel_depth_m"] = filled.width, filled.depth
-        added["panel_force_N"] = factor * force.where(crushed, finished["peak_force_N"])
-        added["panel_mass_g"] = factor * grams
-        added["panel_energy_J"] = factor * finished[energy]
+                added[column("panel_energy_J")] = count * finished[known]
+                added[column("panel_force_N")] = count * _of_crush(finished, borne, whole)
+    names = Compared(mass, energy, per_gram, until)
+    if filled is not None:
+        added |= _of_panel(finished, filled, energy, force, grams)
         names = names._replace(mass="panel_mass_g", energy="panel_energy_J")
     return finished.assign(**added), names
+
+
+def _of_panel(
+    finished: DataFrame, filled: Panel, energy: str, force: Series, grams: Series
+) -> dict[str, Series]:
+    """The columns of a panel: its size, and mass, energy and force of all of its specimens."""
+    count = filled.specimens
+    return {
+        "panel_specimens": count,
+        "panel_width_m": filled.width,
+        "panel_depth_m": filled.depth,
+        "panel_force_N": count * _of_crush(finished, force, finished["peak_force_N"]),
+        "panel_mass_g": count * grams,
+        "panel_energy_J": count * finished[energy],
+    }
+
+
+def _of_crush(finished: DataFrame, counted: Series, whole: Series) -> Series:
+    """Of a crush the value until energy is counted, else that of the whole loading."""
+    return counted.where(finished["loading_mode"] == "displacement", whole)
 
 
 def counted_mass(finished: DataFrame) -> tuple[str, Series]:
@@ -177,7 +183,7 @@ def in_si(value: Any, unit: str) -> float:
     return float(number)
 
 
-def be_written(given: Mapping[str, Any]) -> None:
+def check_units(given: Mapping[str, Any]) -> None:
     """Refuse arguments with a number that has no unit."""
     examples = {"budget": "25 g", "panel": "100 mm", "allowed_force": "50 N"}
     examples |= {"max_force": "50 N", "max_deceleration": "80 g0", "max_mass": "25 g"}
@@ -190,20 +196,29 @@ def be_written(given: Mapping[str, Any]) -> None:
 
 
 def _counted(
-    finished: DataFrame, by: str | None, allowed_force: Quantity | None
+    finished: DataFrame, question: Question, count: Series | None
 ) -> tuple[str, Series, str]:
-    """The column of the counted energy, the greatest force meanwhile (N), and `Compared.until`."""
-    if allowed_force is not None:
-        limit = in_si(allowed_force, "N")
+    """The column of the counted energy, the greatest force meanwhile (N), and `Compared.until`.
+
+    count: specimens of a panel, if there is one.
+    """
+    by, force = question.by, question.allowed_force
+    if question.per == "panel":
+        if count is None:
+            raise RankError('per "panel" needs a panel: --panel, or rank.panel in the config')
+        if force is not None:
+            return _counted_of_panel(finished, count, force)
+    if force is not None:
+        limit = in_si(force, "N")
         energy, until = _energy_column(finished, limit), f"until the force exceeds {limit:g} N"
         return energy, finished["peak_force_N"].clip(upper=limit), until
     if by in WHOLE_CRUSH:
         return "absorbed_energy_J", finished["peak_force_N"], "to the end of the stroke"
     if by in AT_DENSIFICATION:
-        force = finished["peak_force_at_densification_N"]
-        return AT_DENSIFICATION[0], force, "until densification"
-    force = finished["peak_force_until_packed_N"]
-    return "absorbed_energy_until_packed_J", force, "until the lattice has packed"
+        peak = finished["peak_force_at_densification_N"]
+        return AT_DENSIFICATION[0], peak, "until densification"
+    peak = finished["peak_force_until_packed_N"]
+    return "absorbed_energy_until_packed_J", peak, "until the lattice has packed"
 
 
 def _counted_of_panel(
@@ -219,14 +234,14 @@ def _counted_of_panel(
     return AT_ALLOWED, force, f"until the force of the panel exceeds {limit:g} N"
 
 
-def _stroke(finished: DataFrame, energy: str, allowed_force: Quantity | None) -> Series:
+def _stroke(finished: DataFrame, energy: str, limited: bool) -> Series:
     """Stroke (m) in which the counted energy of a crush is absorbed; elsewhere, the greatest.
 
     NaN in a crush up to an allowed force, unless `curves` has added it.
     """
     whole = finished["peak_strain"] * finished["height_m"]
     crushed = finished["loading_mode"] == "displacement"
-    if allowed_force is not None:
+    if limited:
         return finished.get("stroke_at_allowed_m", whole * float("nan")).where(crushed, whole)
     if energy == AT_DENSIFICATION[0]:
         strain = finished["densification_strain"].fillna(finished["peak_strain"])

@@ -16,57 +16,30 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
-from sweep.numbers import NOTHING, energy_text, short, with_unit
+from sweep.columns import (
+    OLDER,
+    describe_column,
+    error_column,
+    is_grid_key,
+    less_is_better,
+)
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import (
     LEAST,
     Compared,
     Quantity,
     RankError,
-    be_written,
+    check_units,
     greatest_mass,
     in_si,
     merits,
 )
+from sweep.ranking.places import pareto, places_by
+from sweep.ranking.question import Question
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, judge, limits
-from sweep.result import (
-    OLDER,
-    Status,
-    correction_column,
-    describe_column,
-    error_column,
-    is_grid_key,
-    less_is_better,
-)
-
-SCENE = ["loading_mode", "platen", "force_N", "striker_mass_g", "striker_speed_m_per_s"]
-
-HELD_BY_SCENE = tuple(
-    f"loading.{key}"
-    for key in (
-        *("mode", "direction", "platen", "force", "allowed_forces"),
-        *("striker_mass", "striker_speed", "energy", "drop_height", "preset", "specimens"),
-    )
-)
-ASSUMPTIONS = (
-    "loading.",
-    "contact.",
-    "damping.",
-    "solver.",
-    "lattice.nodes_per_wall",
-    "lattice.layers",
-    "lattice.symmetry",
-    "lattice.imperfection",
-    "material.stretch",
-    "material.bend",
-    "material.plane",
-    "material.poisson",
-)
-"""Grid keys of the test and not of the design: every value of them makes a scene of its own."""
-
-OF_DESIGN = ("loading.direction",)
-"""Keys of the loading that belong to the design all the same: how a panel is laid."""
+from sweep.ranking.scenes import by_scene, scene_label
+from sweep.result import Status
 
 PER = ("specimen", "panel")
 NO_ATTRS = (
@@ -175,8 +148,9 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
     `attrs` holds older fields of `Ranking`, for one more release; use `ranked` for them.
     """
     asked = {"budget": budget, "panel": panel, "allowed_force": allowed_force}
-    be_written(asked | dict(require or {}))
-    ranking = ranked(source, budget, panel, by, top, allowed_force, require, per)
+    check_units(asked | dict(require or {}))
+    question = Question(budget, panel, by, top, allowed_force, require, per)
+    ranking = answer(source, question)
     names = [field.name for field in fields(ranking)[1:] if field.name not in NO_ATTRS]
     others = {name: getattr(ranking, name) for name in names}
     ranking.table.attrs = others | {"budgets_g": list(ranking.budgets_g)}
@@ -194,18 +168,23 @@ def ranked(  # noqa: PLR0913  every argument is a part of one question
     per: str = "specimen",
 ) -> Ranking:
     """The `Ranking` whose table `rank` returns for the same arguments; numbers are in SI."""
+    return answer(source, Question(budget, panel, by, top, allowed_force, require, per))
+
+
+def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranking:
+    """The ranking of a results file, or of a summary."""
+    budget, panel, by, top, allowed_force, require, per = question
     if per not in PER:
         raise RankError(f'per = "{per}"; allowed: {" or ".join(PER)}')
     required, summary = limits(require), source
     if not isinstance(summary, DataFrame):
-        question = {"panel": panel, "allowed_force": allowed_force, "require": required, "per": per}
         summary = with_allowed(summary, _read(summary), question)
     finished = summary[summary["status"] == Status.CONVERGED]
-    compared, names = merits(finished, by, panel, allowed_force, per)
+    compared, names = merits(finished, question)
     check(compared, required)
     usual = names.energy if budget is not None or panel is not None else names.per_gram
     by = by and _column(compared, by)
-    masses = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in _several(budget))] or [np.inf]
+    masses = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in question.budgets)] or [np.inf]
     found = {scene_label(rows): rows for rows in by_scene(compared)}
     allowed = np.nan if allowed_force is None else in_si(allowed_force, "N")
     judged = {
@@ -246,91 +225,6 @@ def model_versions(summary: DataFrame) -> dict[int, int]:
     """Number of rows of each version of the model, the oldest first."""
     versions = summary.get("model_version", Series(OLDER["model_version"], summary.index))
     return {int(version): int(n) for version, n in versions.value_counts().sort_index().items()}
-
-
-def by_scene(frame: DataFrame) -> list[DataFrame]:
-    """The rows of each loading scene, in the order in which scenes first appear."""
-    groups = frame.groupby(scene_keys(frame), dropna=False, sort=False)
-    return [rows for _, rows in groups] or [frame]
-
-
-def scene_keys(frame: DataFrame) -> list[str]:
-    """Columns that define a loading scene; rows that differ in one of them are not compared."""
-    assumed = [key for key in frame if key.startswith(ASSUMPTIONS) and key not in HELD_BY_SCENE]
-    return [key for key in SCENE if key in frame] + assumed
-
-
-def scene_label(rows: DataFrame) -> str:
-    """The loading of the cases of one scene, in words; different for every scene.
-
-    Keys that the scene does not use are left out.
-    """
-    if rows.empty:
-        return ""
-    first = rows.iloc[0]
-    shown = set(SCENE)
-    if first["loading_mode"] == "force":
-        words = [f"dead load of {first['force_N']:g} N"]
-    elif first["loading_mode"] == "custom":
-        words = ["loaded as its file says"]
-    elif first["loading_mode"] == "impact":
-        struck = short(float(first["striker_mass_g"])), short(float(first["striker_speed_m_per_s"]))
-        energy = energy_text(float(first["impact_energy_J"]))
-        words = [f"struck by {struck[0]} g at {struck[1]} m/s ({energy})"]
-    elif len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
-        words = [f"crushed to {100 * strains[0]:g} %"]
-        shown |= {"loading.strain", "loading.stroke"}
-    else:
-        words = ["crushed"]
-    platen = first["platen"]
-    if first["loading_mode"] != "custom":
-        words.append("no platens" if platen in ("none", "") else f"{platen} platens")
-    others = {
-        key: with_unit(first[key], describe_column(key).units)
-        for key in scene_keys(rows)
-        if key not in shown
-    }
-    used = {key: value for key, value in others.items() if value not in ("", NOTHING)}
-    words += [f"{key.replace('.', ' ').replace('_', ' ')} {value}" for key, value in used.items()]
-    return ", ".join(words)
-
-
-def pareto(mass: Series, energy: Series) -> Series:
-    """True for designs such that none lighter absorbs as much and none as light absorbs more."""
-    mass = mass.round(9)  # designs of equal mass may differ by round-off
-    best = energy.groupby(mass).max().dropna()
-    lighter = best.cummax().shift(fill_value=-np.inf)
-    return (energy == mass.map(best)) & (energy > mass.map(lighter))
-
-
-def places_by(rows: DataFrame, by: str) -> Series:
-    """Places of the rows of one scene, sorted by a column, the best first (`shared_places`)."""
-    return shared_places(rows[by], rows.get(error_column(by)), rows.get(correction_column(by)))
-
-
-def shared_places(
-    values: Series, errors: Series | None = None, corrections: Series | None = None
-) -> Series:
-    """Places of sorted values, the best first.
-
-    A value shares a place if it differs from the first value of the place by no more than their
-    corrections differ. An error that is common to both thus does not count. Without corrections,
-    which older results do not have, it shares a place if the intervals, value ± error, overlap or
-    touch. A missing correction or error is 0. Otherwise the value starts a new place, whose number
-    is 1 + the number of values before it.
-    """
-    known = errors if corrections is None else corrections
-    widths = np.zeros(len(values)) if known is None else known.fillna(0.0)
-    found: list[int] = []
-    best = first = np.nan
-    for value, width in zip(values, widths, strict=True):
-        slack = width + first if corrections is None else abs(width - first)
-        if abs(value - best) <= slack:
-            found.append(found[-1])
-        else:
-            best, first = value, width
-            found.append(len(found) + 1)
-    return Series(found, index=values.index, dtype=int)
 
 
 def _order(rows: DataFrame, by: str | None, usual: str) -> str:
@@ -393,13 +287,6 @@ def _column(frame: DataFrame, by: str) -> str:
         f'cannot sort by "{by}": {why}{near}\nallowed: {usual} and '
         f"{more} others: the first line of rank --csv has all, docs/results.md explains most"
     )
-
-
-def _several(budget: Quantity | Sequence[Quantity] | None) -> list[Quantity]:
-    """Budgets as a list, which may be empty."""
-    if budget is None:
-        return []
-    return [budget] if isinstance(budget, float | int | str) else list(budget)
 
 
 def _read(path: str | PathLike[str]) -> DataFrame:

@@ -34,7 +34,6 @@ from sweep.ranking.merit import (
 if TYPE_CHECKING:
     from pandas import Series
 
-STANDARD_GRAVITY = 9.80665  # m/s^2
 MODES = ("displacement", "impact", "force", "custom")
 NEEDED = {"displacement": "a crush", "impact": "a striker", "force": "a dead load"}
 """Loadings that a requirement may need, in words."""

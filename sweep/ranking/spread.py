@@ -13,19 +13,21 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from pandas import DataFrame
 
+from sweep.columns import less_is_better
 from sweep.ranking.merit import greatest_mass, merits
 from sweep.ranking.requirements import measured, misses
-from sweep.result import Status, less_is_better
+from sweep.result import Status
 
 if TYPE_CHECKING:
     from pandas import Series
 
+    from sweep.ranking.question import Question
     from sweep.ranking.ranking import Ranking
 
 ROUND_OFF = 1e-9
 AS_GIVEN = "as given"  # the corner at which no number is at an end of its range
 FINE = "fine mesh"  # the corner with more elements
-MISSED = "missed "  # with a requirement, the column that tells whether it is missed
+MISSED = "missed "  # with a requirement, the column that says whether it is missed
 Corners = Mapping[str, Sequence[tuple[str, str]]]
 """Name and case id of the corners of each design, by the id of the design."""
 
@@ -83,17 +85,15 @@ def _overtakes(before: Any, after: Any) -> bool:
 
 
 def spreads(
-    ranking: Ranking, summary: DataFrame, corners: Corners, question: Mapping[str, Any]
+    ranking: Ranking, summary: DataFrame, corners: Corners, question: Question
 ) -> list[Spread]:
     """The spread of each scene and budget of a ranking.
 
-    summary: rows of the corners. question: arguments of `rank`, as those of the ranking.
+    summary: rows of the corners. question: that of the ranking.
     """
     finished = summary[summary["status"] == Status.CONVERGED]
-    by, panel, force = (question.get(key) for key in ("by", "panel", "allowed_force"))
-    per = str(question.get("per") or "specimen")
-    compared, names = merits(finished, by, panel, force, per)
-    missed = misses(compared, measured(compared, names, per), ranking.required) != 0.0
+    compared, names = merits(finished, question)
+    missed = misses(compared, measured(compared, names, question.per), ranking.required) != 0.0
     compared = compared.join(missed.add_prefix(MISSED))
     known = ranking.table[ranking.table["case_id"].isin(corners)]
     groups = known.groupby(["budget_g", "scene"], dropna=False, sort=False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from math import inf
 from pathlib import Path
@@ -13,7 +13,8 @@ from pandas import concat
 from sweep.ranking.accuracy import studies
 from sweep.ranking.cushion import crush_of, drops
 from sweep.ranking.merit import RankError
-from sweep.ranking.rank import ranked
+from sweep.ranking.question import Question
+from sweep.ranking.rank import answer
 from sweep.report.figures import case_plots, cushion_plots, design_map
 from sweep.report.figures.pattern_bars import panel_size, pattern_bars
 from sweep.report.figures.probe_plots import probe_reactions
@@ -21,8 +22,11 @@ from sweep.report.figures.shaded import cut_open
 from sweep.report.figures.storyboard import headline, last_loaded
 from sweep.report.figures.work_precision import work_precision
 from sweep.report.tables.accuracy_tables import MARKS, accuracy_sheets, scene_title
+from sweep.report.tables.design_text import design_labels
+from sweep.report.tables.legend import legend
 from sweep.report.tables.markdown import markdown
-from sweep.report.tables.sheets import Sheet, design_labels, legend, ranking_sheets
+from sweep.report.tables.sheet import Sheet
+from sweep.report.tables.sheets import ranking_sheets
 from sweep.store.read import read_frames, read_history, read_summary
 
 if TYPE_CHECKING:
@@ -40,13 +44,13 @@ Named = Iterator[tuple[str, "Figure"]]
 def publish_ranking(
     file: str,
     summary: DataFrame,
-    question: Mapping[str, Any],
+    question: Question,
     folder: Path,
     drop_heights: Sequence[float] = (),
 ) -> list[Path]:
     """Write a ranking as `ranking.md`, all designs as `ranking.csv`, and the figures.
 
-    question : keyword arguments of `rank`. drop_heights : m, of the cushion curves.
+    drop_heights : m, of the cushion curves.
     """
     shown, ranking = _shown_and_all(summary, question)
     if drop_heights and not (ranking.table["loading_mode"] == "displacement").any():
@@ -62,16 +66,16 @@ def publish_ranking(
     return [text, table, *(case_plots.save(fig, folder / f"{name}.png") for name, fig in figures)]
 
 
-def ranking_figures(file: str, summary: DataFrame, question: Mapping[str, Any]) -> Named:
+def ranking_figures(file: str, summary: DataFrame, question: Question) -> Named:
     """The figures of a ranking, each with its name."""
     yield from _sweep_figures(file, *_shown_and_all(summary, question))
 
 
-def _shown_and_all(summary: DataFrame, question: Mapping[str, Any]) -> tuple[Ranking, Ranking]:
+def _shown_and_all(summary: DataFrame, question: Question) -> tuple[Ranking, Ranking]:
     """The ranking that is asked for, and the same of all designs of any mass."""
-    shown = ranked(summary, **question)
-    unlimited = question["budget"] and [inf]  # a budget, so that designs are sorted by J, not J/g
-    every = ranked(summary, **{**question, "budget": unlimited, "top": None})
+    shown = answer(summary, question)
+    unlimited = question.budget and [inf]  # a budget, so that designs are sorted by J, not J/g
+    every = answer(summary, question._replace(budget=unlimited, top=None))
     return shown, replace(every, budgets_g=shown.budgets_g)
 
 

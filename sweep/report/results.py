@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sweep.ranking.curves import with_allowed
-from sweep.ranking.merit import be_written
-from sweep.ranking.rank import ranked
+from sweep.ranking.merit import check_units
+from sweep.ranking.question import Question
+from sweep.ranking.rank import answer
 from sweep.report.publish import case_figures, ranking_figures
 from sweep.result import Status
 from sweep.store.read import read_frames, read_history, read_summary
@@ -55,7 +56,7 @@ class Results:
     ) -> None:
         self.path = Path(path)
         self._ids = ids
-        self._question = {"budget": None, "panel": None, **(question or {})}
+        self._question = Question(**(question or {}))
 
     @cached_property
     def table(self) -> DataFrame:
@@ -77,9 +78,9 @@ class Results:
         place of these. Numbers need their units, such as budget="25 g".
         """
         given = {name: question.get(name) for name in ("budget", "panel", "allowed_force")}
-        be_written(given | dict(question.get("require") or {}))
-        asked = self._question | question
-        return ranked(with_allowed(self.path, self.table, asked), **asked).table
+        check_units(given | dict(question.get("require") or {}))
+        asked = Question(**self._question._asdict() | question)
+        return answer(with_allowed(self.path, self.table, asked), asked).table
 
     def curve(self, case: int | str) -> DataFrame:
         """The history of a case: a row per stored step. case : row of the table, or its id."""

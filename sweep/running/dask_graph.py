@@ -68,7 +68,7 @@ class Stop:
             del self._running[id(control)]
 
 
-def run(
+def run_plan(
     plan: Plan, simulate: Simulate, sink: Sink, stop: Stop, scheduler: str | None = None
 ) -> None:
     """Run all cases of a plan, and pass each finished batch to `sink`, one at a time.

@@ -19,8 +19,9 @@ from sweep.config.defaults.solver_defaults import steps
 from sweep.config.grid import Config, case_count, expand
 from sweep.result import Result, Status
 from sweep.running.batches import Plan, cost
-from sweep.running.beside.error_bars import companions_beside, companions_file
-from sweep.running.dask_graph import Simulate, Stop, run
+from sweep.running.beside.error_bars import companions_beside
+from sweep.running.beside.run_beside import file_beside
+from sweep.running.dask_graph import Simulate, Stop, run_plan
 from sweep.running.sweep import Interrupted, interruptible, real_simulate
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 
@@ -67,7 +68,7 @@ def dry_run(
     )
     if error_bars:
         others = companions_beside(cases, out, rerun)
-        ready = others.keys() & finished_ids(companions_file(out), rerun)
+        ready = others.keys() & finished_ids(file_beside(out, "companions"), rerun)
         waiting += [case for case_id, case in others.items() if case_id not in ready]
         counts += f"\nerror bars: {len(others):,} companions, {len(ready):,} of them finished"
     if not waiting:
@@ -127,7 +128,7 @@ def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
     """Results by case id, computed one at a time in the same way as in a sweep."""
     stop, results = Stop(), list[Result]()
     with interruptible(stop):
-        run(Plan(map(_limited, pilots), workers=1), simulate, results.extend, stop)
+        run_plan(Plan(map(_limited, pilots), workers=1), simulate, results.extend, stop)
     if stop.asked:
         raise Interrupted("interrupted; nothing was written")
     return {result.case_id: result for result in results}

@@ -22,7 +22,7 @@ FIRM = 4.0  # seconds of measurement needed for the time left, since the first c
 SENTENCES = 5  # different failures that are reported while the sweep runs
 
 
-def tell(line: str) -> None:
+def announce(line: str) -> None:
     """Print one line on stderr before the progress starts."""
     Console(stderr=True).print(line, markup=False, highlight=False, soft_wrap=True)
 
@@ -46,7 +46,7 @@ class Progress:
     """Counts cases as they finish.
 
     costs: id of every waiting case -> its weight in the time left. done: number of cases of the
-    sweep that were finished before. part: these cases are a part of a search, which tells the end
+    sweep that were finished before. part: these cases are a part of a search, which reports the end
     of each part itself: lines appear only if a part takes long.
     """
 

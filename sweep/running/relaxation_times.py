@@ -7,7 +7,7 @@ from sweep.config.case import Case
 FAR = 100.0  # factor from a time of relaxation beyond which its branch loses next to nothing
 
 
-def lossless(cases: Sequence[Case]) -> list[str]:
+def sentences_on_lossless(cases: Sequence[Case]) -> list[str]:
     """A sentence about the cases that are too short for their times of relaxation, and another one
     about those that are too long; none if all are fine.
     """
@@ -42,7 +42,7 @@ def loading_time(case: Case) -> float:
 
 
 def _sentence(found: list[tuple[float, float]], count: int, how: str) -> list[str]:
-    """What is told of cases with these durations and times, s."""
+    """A sentence about cases with these durations and times, s; none without cases."""
     if not found:
         return []
     time, limit = found[0]

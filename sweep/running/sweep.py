@@ -11,10 +11,10 @@ from sweep.config.defaults.direction import is_along
 from sweep.config.grid import Config, expand
 from sweep.result import HOW_TO_RENEW, Status
 from sweep.running.batches import Plan, cost
-from sweep.running.dask_graph import Simulate, Stop, check_scheduler, run
-from sweep.running.progress import Progress, tell
+from sweep.running.dask_graph import Simulate, Stop, check_scheduler, run_plan
+from sweep.running.progress import Progress, announce
 from sweep.running.provenance import config_text, describe_run
-from sweep.running.relaxation_times import lossless
+from sweep.running.relaxation_times import sentences_on_lossless
 from sweep.running.writer_thread import result_sink, writer_thread
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids, older_ids, read_statuses
 from sweep.store.write import Writer
@@ -50,10 +50,12 @@ def run_sweep(  # noqa: PLR0913  what, where, how
     with Writer(out, axes, describe_run(config_text(sweep, given[0]))) as writer:
         done = cases.keys() & finished_ids(out, rerun)
         if old := done & older_ids(out):
-            tell(f"{len(old)} of {len(done)} finished cases are of an older model; {HOW_TO_RENEW}")
+            announce(
+                f"{len(old)} of {len(done)} finished cases are of an older model; {HOW_TO_RENEW}"
+            )
         waiting = {case_id: case for case_id, case in cases.items() if case_id not in done}
-        for line in lossless(list(waiting.values())):
-            tell(line)
+        for line in sentences_on_lossless(list(waiting.values())):
+            announce(line)
         plates = any(is_along(case.loading) for case in waiting.values())
         chosen = simulate or real_simulate(plates=plates) if waiting else None
         with interruptible(stop):
@@ -67,7 +69,7 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                     Progress(costs, len(done), part=part) as progress,
                     result_sink(writer, plan, progress) as sink,
                 ):
-                    run(plan, chosen, sink, stop, scheduler)
+                    run_plan(plan, chosen, sink, stop, scheduler)
     statuses = read_statuses(out)
     converged = sum(statuses.get(case_id) == Status.CONVERGED for case_id in cases)
     kept = len(cases.keys() & finished_ids(out, rerun))
@@ -97,9 +99,9 @@ def real_simulate(arcs: bool = False, plates: bool = False) -> Simulate:
     from kernels.compile.precompile import compile_ahead
 
     takes = "half a minute to one" if compiler() == FAST else "two minutes"
-    tell(f"compiling the kernels, once: this takes {takes}")
+    announce(f"compiling the kernels, once: this takes {takes}")
     if not is_lasting():
-        tell(f"for this run alone: {UNWRITABLE}")
+        announce(f"for this run alone: {UNWRITABLE}")
     compile_ahead(load)
     loaded = load()
     for name in [what, *(["plates"] if plates else [])]:

@@ -5,6 +5,7 @@ lower and the upper platen.
 """
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -14,10 +15,33 @@ BONDED = ("glued", "sliding")  # platens that hold the outer rows; "sliding": th
 
 
 @dataclass(frozen=True)
-class Numbering:
+class BetweenPlatens:
+    """Indices of the coordinates: `per_node` of each node, then the surfaces of two platens."""
+
+    per_node: ClassVar[int]
+    n_nodes: int
+
+    @property
+    def low(self) -> int:
+        """Coordinate of the lower platen's surface."""
+        return self.per_node * self.n_nodes
+
+    @property
+    def high(self) -> int:
+        """Coordinate of the upper platen's surface."""
+        return self.low + 1
+
+    @property
+    def size(self) -> int:
+        """Number of coordinates."""
+        return self.high + 1
+
+
+@dataclass(frozen=True)
+class Numbering(BetweenPlatens):
     """Indices of the coordinates. bottom, top: nodes of the outer rows."""
 
-    n_nodes: int
+    per_node: ClassVar[int] = 3
     bottom: Indices
     top: Indices
 
@@ -37,21 +61,6 @@ class Numbering:
         """Place of each coordinate in the block of its point, (size,): x, y, rotation."""
         along, platens = np.tile([0, 1], self.n_nodes), np.zeros(2, np.int64)
         return np.concatenate([along, np.full(self.n_nodes, 2), platens])
-
-    @property
-    def low(self) -> int:
-        """Coordinate of the lower platen's surface."""
-        return 3 * self.n_nodes
-
-    @property
-    def high(self) -> int:
-        """Coordinate of the upper platen's surface."""
-        return self.low + 1
-
-    @property
-    def size(self) -> int:
-        """Number of coordinates."""
-        return self.high + 1
 
 
 def held(numbering: Numbering, platen: str | None) -> Indices:

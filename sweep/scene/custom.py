@@ -12,7 +12,9 @@ import numpy as np
 from kernels.linear.condensed import analysis
 from kernels.terms import contact, spring
 from sweep.config.case import Case, given
+from sweep.config.network import network_of
 from sweep.config.structures.structure import Structure
+from sweep.constants import MM
 from sweep.design.network import Network, mass
 from sweep.scene.beams import bends, build_beams
 from sweep.scene.bending import build_bend, build_fold
@@ -31,7 +33,6 @@ from sweep.scene.terms import (
     walls_of,
 )
 
-MM = 1e-3
 SUDDEN = 5e-3  # of t^2 / size; a slender column buckles after it shortens by 0.8 t^2 / L
 FAR = 1e3  # times the size of a structure: height of the ceiling that contact requires
 DIRECTIONS = ("x", "y", "rotation")
@@ -84,22 +85,10 @@ class Ground(Numbering):
         return (2 * node, 2 * node + 1, 2 * self.n_nodes + node)[DIRECTIONS.index(direction)]
 
 
-def network_of(structure: Structure) -> Network:
-    """Centre lines in m, without bottom and top rows."""
-    none = np.empty(0, np.int64)
-    return Network(
-        MM * np.array(structure.nodes_mm),
-        np.array(structure.walls),
-        MM * np.array(structure.thickness_mm),
-        none,
-        none,
-    )
-
-
 def build_structure(case: Case) -> Scene:
     """Build the arrays of a ``case`` with a custom structure."""
     structure = given(case.lattice.structure)
-    network = network_of(structure)
+    network = network_of(case.lattice)
     arms = _arms(network, structure, case)
     mesh = split_walls(network, np.array(structure.pieces), 0.0, arms.length)
     none = np.empty(0, np.int64)

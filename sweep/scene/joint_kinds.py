@@ -40,16 +40,6 @@ KINDS: dict[str, Callable[[float], tuple[float, ...]]] = {  # openings by the fi
     "6": lambda g: (g, _halves(g), _halves(g), g, _halves(g), _halves(g)),
 }
 AXIS = {"Y": 2, "T": 1}  # which arm, in order, is the axis of the other two
-GLUED = {  # an arm that stands on a row whose outer face is glued: within the row, and at its end
-    (90.0, 90.0, 180.0): (
-        *((-1.57, -0.224, -0.183), (-0.251, -0.88, 0.0)),
-        *((0.037, 0.165, 0.0), (0.222, -0.129, -0.227)),
-    ),
-    (90.0, 270.0): (
-        *((0.303, -0.264, -0.218), (-0.174, -0.773, 0.0)),
-        *((0.4, 0.328, 0.0), (0.4, 0.007, -0.151)),
-    ),
-}
 
 
 class Joint(NamedTuple):
@@ -68,7 +58,7 @@ def find_joint(opened: Floats, in_row: NDArray[np.bool_]) -> Joint | None:
     are part of a glued row.
     """
     if in_row.any() and np.count_nonzero(~in_row) == 1:
-        for openings, known in GLUED.items():
+        for openings, known in on_glued_rows().items():
             if any(_off(turned, openings) < NEAR for turned, _ in _turned(opened)):
                 shape = len(opened), 1, 1
                 return Joint(np.tile(known, shape), np.full(len(opened), LENGTHS[0]))
@@ -164,11 +154,28 @@ def _off(opened: Floats, openings: tuple[float, ...]) -> float:
 @lru_cache(maxsize=1)
 def table() -> dict[tuple[str, str], tuple[Floats, Floats]]:
     """Angles (k,) and values (6, k) of `COLUMNS` by kind of joint and arm, from `joints.csv`."""
-    lines = (Path(__file__).parent / "joints.csv").read_text("utf-8").splitlines()
-    rows = list(DictReader(line for line in lines if line[0] != "#"))
-    found = {}
+    rows, found = _rows("joints.csv"), {}
     for key in {(row["kind"], row["arm"]) for row in rows}:
         mine = [row for row in rows if (row["kind"], row["arm"]) == key]
         angles = np.array([float(row["angle"]) for row in mine])
         found[key] = angles, np.array([[float(row[name]) for row in mine] for name in COLUMNS])
     return found
+
+
+@lru_cache(maxsize=1)
+def on_glued_rows() -> dict[tuple[float, ...], Floats]:
+    """C (4, 3) of an arm that stands upright on a row whose outer face is glued, by the openings
+    round their joint.
+    """
+    found: dict[tuple[float, ...], list[list[float]]] = {}
+    for row in _rows("joints_on_glued_rows.csv"):  # MM, MV, VV, NN of each
+        openings = tuple(float(angle) for angle in row["openings"].split())
+        values = [float(row[power]) for power in ("constant", "nu", "nu2")]
+        found.setdefault(openings, []).append(values)
+    return {openings: np.array(values) for openings, values in found.items()}
+
+
+def _rows(name: str) -> list[dict[str, str]]:
+    """The rows of a table beside this file, without its comments."""
+    lines = (Path(__file__).parent / name).read_text("utf-8").splitlines()
+    return list(DictReader(line for line in lines if line[0] != "#"))

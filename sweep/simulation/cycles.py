@@ -2,7 +2,7 @@
 
 from math import nan
 
-from sweep.result import cycle_columns
+from sweep.columns import cycle_columns
 from sweep.scene.loading import CycleRows
 from sweep.scene.mesh import Floats
 

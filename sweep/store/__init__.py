@@ -1,5 +1,5 @@
 """Results as HDF5: sealed parts that survive any end of a sweep, folded into one file.
 
-`write` decides when, `hdf5` writes the columns of a file, `read` reads them; `batch` and `columns`
-are tables in memory. `hdf5` and `read` are the only home of h5py.
+`write` decides when, `hdf5` writes the columns of a file, `read` reads them; `batch` and `tables`
+are in memory. `hdf5` and `read` are the only home of h5py.
 """

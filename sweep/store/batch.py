@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from sweep.result import Result
-from sweep.store.columns import Columns, stack, tabulate, take
+from sweep.store.tables import Columns, stack, tabulate, take
 
 FRAME_GROUPS = {
     "frames": ("strain", "time_s", "plate_y_m"),

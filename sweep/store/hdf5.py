@@ -13,10 +13,10 @@ import h5py
 import numpy as np
 from h5py import h5d, h5s, h5t
 
-from sweep.result import Column, describe_array, describe_column
+from sweep.columns import Column, describe_array, describe_column
 from sweep.store.batch import GROUPS, Block, Ragged, newest_rows
-from sweep.store.columns import Axes, Columns, arrange, beyond, relabel, rows_in_order, stack, take
 from sweep.store.parts import Unsealed
+from sweep.store.tables import Axes, Columns, arrange, beyond, relabel, rows_in_order, stack, take
 
 FORMAT = 1  # version of the layout
 CHUNK = 4096  # rows of a chunk that is compressed and has a checksum

@@ -23,10 +23,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import h5py
 import numpy as np
 
-from sweep.result import HISTORY_COLUMNS, MODEL_VERSION, OLDER, Status
+from sweep.columns import HISTORY_COLUMNS, OLDER
+from sweep.result import MODEL_VERSION, Status
 from sweep.store.batch import FRAME_GROUPS, GROUPS, OF_PLATES, Block, Ragged, newest
-from sweep.store.columns import Axes, arrange, beyond, relabel, rows_in_order, take
 from sweep.store.parts import list_parts
+from sweep.store.tables import Axes, arrange, beyond, relabel, rows_in_order, take
 
 if TYPE_CHECKING:
     from pandas import DataFrame

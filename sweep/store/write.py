@@ -11,7 +11,6 @@ import numpy as np
 
 from sweep.result import Result
 from sweep.store.batch import Block, block_of
-from sweep.store.columns import Axes
 from sweep.store.hdf5 import About, Growing, seal_blocks
 from sweep.store.lock import LockedError, exclusive
 from sweep.store.parts import (
@@ -26,6 +25,7 @@ from sweep.store.parts import (
     too_many,
 )
 from sweep.store.read import StoreError, exists, folded_batches, is_labelled, open_sealed
+from sweep.store.tables import Axes
 
 
 class Writer:

@@ -15,7 +15,7 @@ import numpy as np
 from sweep.numbers import three_digits
 from sweep.report.figures import case_plots
 from sweep.report.tables.markdown import markdown
-from sweep.report.tables.sheets import Sheet
+from sweep.report.tables.sheet import Sheet
 from sweep.store.read import read_history, read_summary
 from sweep.studies.course_report.panels import dress, legend
 

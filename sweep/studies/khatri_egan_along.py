@@ -16,7 +16,7 @@ import numpy as np
 from sweep.numbers import three_digits
 from sweep.report.figures import case_plots
 from sweep.report.tables.markdown import markdown
-from sweep.report.tables.sheets import Sheet
+from sweep.report.tables.sheet import Sheet
 from sweep.store.read import read_history, read_summary
 from sweep.studies import khatri_egan as across
 from sweep.studies.course_report.panels import dress, legend
@@ -106,14 +106,14 @@ def _notes(cells: str, table: DataFrame, others: DataFrame) -> Iterable[str]:
     hits = int((abs(energy - mean) <= scatter).sum())
     yield f"Measured: {mean:g} +/- {scatter:g} J; {hits} of {len(table)} cases are within it."
     along = energy[done["contact.friction"] == COMPARED]
-    told = "; ".join(
+    results = "; ".join(
         f"{across.PLATENS[row.platen][0]}, {row.absorbed_energy_J:.3f} J: "
         f"{_span(along / row.absorbed_energy_J, 1)}"
         for row in others.itertuples()
     )
     yield (
         f"Energy along / across the cells with friction {COMPARED:g}, for each kind of platens "
-        f"across: {told}. Measured: {mean / across.MEASURED:.0f}."
+        f"across: {results}. Measured: {mean / across.MEASURED:.0f}."
     )
 
 

@@ -10,6 +10,7 @@ import matplotlib.pyplot
 import pytest
 
 from sweep.__main__ import main, parser
+from sweep.columns import COLUMNS, PER_GRAM
 from sweep.config.case import TABLES, Case, Damping, Loading
 from sweep.config.grid import expand
 from sweep.config.keys import case_keys, table_keys
@@ -18,7 +19,6 @@ from sweep.config.structures.structure import Structure
 from sweep.config.tables import QUESTION
 from sweep.config.units import load_config, quantity
 from sweep.design.infill import families
-from sweep.result import COLUMNS, PER_GRAM
 from sweep.simulation.simulate import simulate
 from sweep.store.write import Writer
 from tests.studies import verify as figures

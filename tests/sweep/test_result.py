@@ -1,46 +1,15 @@
-"""The words of a result: fixed columns, their meaning, and the row of a case that failed."""
+"""The result of a case: its status, the row of its design, and that of a case that failed."""
 
-import re
 from math import isnan
 from types import SimpleNamespace
 
-import pytest
-
-from sweep.config.case import Case, Contact, Loading, Material
-from sweep.config.tables import BY_NUMBERS
-from sweep.result import (
+from sweep.columns import (
     COLUMNS,
-    HISTORY_COLUMNS,
-    MODEL_VERSION,
-    RANKING_COLUMNS,
-    STRIKER_COLUMNS,
-    UNIT,
-    Result,
-    Status,
-    absorbed_energy_column,
     cycle_columns,
-    describe_column,
-    design_columns,
-    failed_result,
-    in_words,
-    is_grid_key,
 )
-
-
-@pytest.mark.parametrize(
-    ("name", "words"),
-    [
-        ("peak_force_N", "peak force, in N"),
-        ("mass_g", "mass, in g"),
-        ("peak_strain", "peak strain"),
-        ("lost_energy_J_per_g", "lost energy, in J/g"),
-        ("absorbed_energy_at_50N_J", "absorbed energy at 50N, in J"),
-        ("peak_deceleration_filtered_m_per_s2", "peak deceleration filtered, in m/s^2"),
-        ("energy_to_50_J_per_m3", "energy to 50, in J/m^3"),
-    ],
-)
-def test_columns_in_words_have_their_unit(name, words):
-    assert in_words(name) == words
+from sweep.config.case import Case, Material
+from sweep.config.material_table import BY_NUMBERS
+from sweep.result import MODEL_VERSION, Result, Status, design_columns, failed_result
 
 
 def a_case(**loading):
@@ -62,82 +31,10 @@ def a_case(**loading):
     )
 
 
-@pytest.mark.parametrize("columns", [COLUMNS, HISTORY_COLUMNS, STRIKER_COLUMNS, RANKING_COLUMNS])
-def test_every_column_has_units_that_its_name_ends_in(columns):
-    """J_per_m3 is J/m^3; `UNIT` has all of these endings."""
-    for name, column in columns.items():
-        found = UNIT.search(name)
-        said = re.sub(r"(\d)$", r"^\1", found[1].replace("_per_", "/")) if found else '"" or "1"'
-        assert column.description, f"{name} has no sentence"
-        assert column.units == said if found else column.units in ("", "1"), (
-            f"{name} has units {column.units!r}, and by its name {said}: "
-            "a unit that is new to columns needs its ending in UNIT"
-        )
-
-
-def test_allowed_force_is_a_column_with_units():
-    assert absorbed_energy_column(50.0) == "absorbed_energy_at_50N_J"
-    assert absorbed_energy_column(12.5) == "absorbed_energy_at_12.5N_J"
-    assert describe_column("absorbed_energy_at_50N_J").units == "J"
-    assert "50 N" in describe_column("absorbed_energy_at_50N_J").description
-
-
-def test_energy_per_gram_is_a_column_with_units():
-    for name in ("specific_absorption_at_densification_J_per_g", "specific_absorption_J_per_g"):
-        found = describe_column(name)
-        assert (found.units, found.better) == ("J/g", "more")
-        assert not is_grid_key(name)
-
-
-def test_columns_of_a_cycle_say_what_is_better():
-    found = [describe_column(name) for name in cycle_columns(2)]
-    assert [(each.units, each.better) for each in found] == [
-        ("J", "more"),
-        ("J", "more"),
-        ("N", "less"),
-    ]
-    assert all("cycle 2" in each.description for each in found)
-    assert not any(map(is_grid_key, cycle_columns(12)))
-
-
-def test_text_is_neither_better_nor_worse():
-    words = [name for name, column in COLUMNS.items() if not column.units]
-    assert {"case_id", "material"} < set(words)
-    assert {COLUMNS[name].better for name in words} == {None}
-
-
-def test_grid_key_has_the_unit_of_its_parameter():
-    assert describe_column("lattice.wall_thickness").units == "m"
-    assert describe_column("damping.mass").units == "1/s"
-    assert describe_column("lattice.cells").units == ""
-
-
-@pytest.mark.parametrize(
-    ("column", "table", "key"),
-    [
-        ("loading_mode", Loading, "mode"),
-        ("platen", Loading, "platen"),
-        ("contact_model", Contact, "model"),
-    ],
-)
-def test_choices_are_those_that_a_config_has(column, table, key):
-    arms = table.model_json_schema()["properties"][key]
-    choices = next(arm["enum"] for arm in [arms, *arms.get("anyOf", [])] if "enum" in arm)
-    choices = [choice for choice in choices if choice != "auto"]  # which is never kept
-    said = COLUMNS[column].description.split(": ")[-1]
-    assert said == f"{', '.join(choices[:-1])} or {choices[-1]}"
-
-
 def test_a_material_given_by_numbers_says_so():
     case = Case(material=Material(modulus=12e6, density=1190.0))
     assert design_columns(case)["material"] == BY_NUMBERS
     assert f'"{BY_NUMBERS}"' in COLUMNS["material"].description
-
-
-def test_gaps_are_described_alike_in_summary_and_history():
-    said = COLUMNS["min_gap_m"]
-    assert said == HISTORY_COLUMNS["min_gap_m"]
-    assert "platen" in said.description
 
 
 def test_status_is_its_word():

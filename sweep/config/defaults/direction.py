@@ -8,15 +8,14 @@ that equal physics has an equal id; what cannot work along the cells is refused.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sweep.config.lattice_table import Lattice
-from sweep.config.tables import Damping, Loading, Material, Solver, refusal
+from sweep.config.material_table import Material
+from sweep.config.network import network_of
+from sweep.config.tables import Damping, Loading, Solver, refusal
+from sweep.constants import TO_MM
 
-if TYPE_CHECKING:
-    from sweep.design.network import Network
-
-MM = 1e-3  # m
 ALONG = "out_of_plane"
 WHERE = f'if loading.direction is "{ALONG}"'
 NODES = 5  # inside a wall: six quads across
@@ -139,21 +138,6 @@ def check_platen(loading: Loading) -> None:
         raise refusal("loading.platen", platen, allowed)
 
 
-def network_of(lattice: Lattice) -> Network:
-    """The centre lines of the walls in the plan, m; of a custom structure, those of its file."""
-    import numpy as np
-
-    from sweep.design.lattice import build_network
-    from sweep.design.network import Network
-
-    structure = lattice.structure
-    if structure is None:
-        return build_network(lattice.geometry)
-    points = MM * np.array(structure.nodes_mm)
-    thickness, none = MM * np.array(structure.thickness_mm), np.empty(0, np.int64)
-    return Network(points, np.array(structure.walls), thickness, none, none)
-
-
 def quads_wanted(lattice: Lattice) -> Any:
     """Number of quads along a whole wall: one for all walls, or (w,) of a custom structure."""
     if lattice.structure is None:
@@ -182,7 +166,7 @@ def _meshed(lattice: Lattice) -> Lattice:
         raise _too_low(lattice, float(plan.thickness.max()))
     along = quads_along(plan, quads_wanted(meshed))
     layers = lattice.layers or layers_of(plan, along, lattice.depth)
-    _be_solvable(meshed, len(plan.points) + int((along - 1).sum()), layers)
+    _check_nodes(meshed, len(plan.points) + int((along - 1).sum()), layers)
     if layers > most:
         allowed = f"at most {most} here, as quads are no lower than walls are thick"
         raise refusal("lattice.layers", layers, allowed)
@@ -191,13 +175,13 @@ def _meshed(lattice: Lattice) -> Lattice:
 
 def _too_low(lattice: Lattice, thickest: float) -> Exception:
     """The error of a height below that of one quad, the thickness of the thickest wall, m."""
-    allowed = f"at least the wall thickness, {1e3 * thickest:.4g} mm here, {WHERE}"
+    allowed = f"at least the wall thickness, {TO_MM * thickest:.4g} mm here, {WHERE}"
     if lattice.structure is not None:
         return refusal("lattice.file", lattice.file, f"a depth_mm of {allowed}")
     return refusal("lattice.depth", lattice.depth, allowed)
 
 
-def _be_solvable(lattice: Lattice, columns: int, layers: int) -> None:
+def _check_nodes(lattice: Lattice, columns: int, layers: int) -> None:
     nodes = columns * (layers + 1)
     if nodes > MOST_NODES:
         values = {key: getattr(lattice, key) for key in ("cells_x", "cells_y", "nodes_per_wall")}

@@ -4,12 +4,13 @@ from collections.abc import Sequence
 
 from sweep.config.lattice_table import Lattice
 from sweep.config.tables import refusal
+from sweep.constants import MM, TO_MM
 
 TOLERANCE = 0.05  # of a line: how far a wall may be from a whole number of them
 ROUND_OFF = 1e-9
 
 
-def be_printable(lattice: Lattice) -> None:
+def check_printable(lattice: Lattice) -> None:
     """Refuse what does not print if the lattice is to be `printable`."""
     wrong = what_does_not_print(lattice) if lattice.printable else ""
     if wrong:
@@ -27,7 +28,7 @@ def what_does_not_print(lattice: Lattice) -> str:
     wrong = [f"walls of {_span(found)} lines"] if found else []
     if lattice.structure is None and (gap := _gap(lattice)) < width * (1.0 - ROUND_OFF):
         wrong.append(f"gaps of {gap / width:.2g} lines")
-    return " and ".join(wrong) + (f" of {1e3 * width:g} mm" if wrong else "")
+    return " and ".join(wrong) + (f" of {TO_MM * width:g} mm" if wrong else "")
 
 
 def _span(lines: Sequence[float]) -> str:
@@ -40,7 +41,7 @@ def _thicknesses(lattice: Lattice) -> list[float]:
     if lattice.slicer is not None:
         return []
     if lattice.structure is not None:
-        return [1e-3 * thickness for thickness in lattice.structure.thickness_mm]
+        return [MM * thickness for thickness in lattice.structure.thickness_mm]
     if lattice.grading == 1.0:
         return [lattice.wall_thickness]
     from sweep.design.box import gradient

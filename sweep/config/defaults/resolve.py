@@ -13,7 +13,7 @@ from pydantic_core import PydanticCustomError
 
 from sweep.config.defaults.direction import check_platen, height_pressed, is_along, turned
 from sweep.config.defaults.drop_tests import Drop, drop_of
-from sweep.config.defaults.printable import be_printable
+from sweep.config.defaults.printable import check_printable
 from sweep.config.defaults.solver_defaults import (
     ARCS,
     IN_TIME,
@@ -27,10 +27,10 @@ from sweep.config.defaults.solver_defaults import (
 from sweep.config.lattice_table import Lattice, sized
 from sweep.config.structures.structure import Structure
 from sweep.config.tables import Contact, Damping, Loading, Solver, refusal
+from sweep.constants import STANDARD_GRAVITY
 
 STRAIN_RATE = 0.01  # 1/s, of a quasi-static crush of a material that relaxes
 FILTER_CLASS: Literal[1000] = 1000  # of SAE J211-1, as of a head form in drop tests (ASTM F1292)
-GRAVITY = 9.80665  # m/s^2, standard
 PASSAGES = 10  # default duration of an impact / time the striker takes for the lattice's height
 PLATENS = '"contact", "glued" or "sliding"'
 DEPENDENT = ("loading", "contact", "damping", "solver")
@@ -48,7 +48,7 @@ def resolve(
     try:
         if sound:
             found["lattice"] = sized(found["lattice"], found["material"].density)
-            be_printable(found["lattice"])
+            check_printable(found["lattice"])
         found |= turned(found, sound)
         material = found["material"]
         settled = _settled(
@@ -207,10 +207,10 @@ def _at_touch(
     """
     speed = given_or(loading.striker_speed, 2.0)
     if loading.striker_speed is None and drop_height is not None:
-        speed = sqrt(2.0 * GRAVITY * drop_height)
+        speed = sqrt(2.0 * STANDARD_GRAVITY * drop_height)
     elif loading.striker_speed is None and loading.energy is not None:
         speed = sqrt(2.0 * loading.energy / mass)
-    energy, fall = 0.5 * mass * speed**2, speed**2 / (2.0 * GRAVITY)
+    energy, fall = 0.5 * mass * speed**2, speed**2 / (2.0 * STANDARD_GRAVITY)
     source = "drop height" if loading.striker_speed is None else "speed"
     for key, value, found, unit in (
         ("drop_height", drop_height, fall, "m"),

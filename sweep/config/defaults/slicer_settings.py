@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 from sweep.config.case import Case
 from sweep.config.lattice_table import LAYER_HEIGHT, Lattice
-from sweep.design.slicer import PATTERNS, ROUNDED, SLICERS
+from sweep.constants import TO_MM
+from sweep.design.slicer_patterns import PATTERNS, ROUNDED, SLICERS
 
 NAMES = {"prusa": "PrusaSlicer", "orca": "OrcaSlicer", "cura": "Cura"}
 REGULAR = 0.05  # relative difference of a cell's proportions from the slicer's
@@ -38,7 +39,7 @@ class SlicerSettings:
         several = f"{self.fill_multiline} lines a wall, " if self.fill_multiline > 1 else ""
         return (
             f"{NAMES[self.slicer]}{near}: {self.pattern}, {100.0 * self.infill:.3g} %, {several}"
-            f"line {1e3 * self.line_width:.3g} mm, layer {1e3 * self.layer_height:.3g} mm, "
+            f"line {TO_MM * self.line_width:.3g} mm, layer {TO_MM * self.layer_height:.3g} mm, "
             f"angle {degrees(self.fill_angle):.3g} degrees, "
             f"{self.perimeters} perimeter{'' if self.perimeters == 1 else 's'}"
         )

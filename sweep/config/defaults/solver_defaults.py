@@ -5,7 +5,8 @@ from typing import TypeVar
 
 from sweep.config.defaults.direction import height_pressed
 from sweep.config.lattice_table import Lattice
-from sweep.config.tables import MAX_STEPS, Loading, Material, Solver, refusal
+from sweep.config.material_table import Material
+from sweep.config.tables import MAX_STEPS, Loading, Solver, refusal
 
 T = TypeVar("T")
 

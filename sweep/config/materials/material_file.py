@@ -167,8 +167,8 @@ def _columns(lines: list[str]) -> tuple[Numbers, Numbers]:
     """Strain and stress below the header."""
     rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))
     if not rows or [word.strip() for word in rows[0]] != COLUMNS:
-        told = f"the first row must read {','.join(COLUMNS)}"
-        raise RecordError(f"{told}, with a comma between the heads")
+        wrong = f"the first row must read {','.join(COLUMNS)}"
+        raise RecordError(f"{wrong}, with a comma between the heads")
     strain, stress = zip(*(_pair(row) for row in rows[1:]), strict=True) if rows[1:] else ((), ())
     return strain, stress
 
@@ -191,8 +191,8 @@ def check_curve(strain: Numbers, stress: Numbers) -> None:
     if any(b <= a for a, b in pairwise(strain)) or min(strain, default=0.0) <= -1.0:
         raise RecordError("the strains of a curve must increase, from above -1")
     if max(strain, default=0.0) > MOST_STRAIN:
-        told = f"a curve to a strain of {max(strain):g}: is it in percent?"
-        raise RecordError(f"{told} allowed: up to {MOST_STRAIN:g}; 10 % is 0.1")
+        wrong = f"a curve to a strain of {max(strain):g}: is it in percent?"
+        raise RecordError(f"{wrong} allowed: up to {MOST_STRAIN:g}; 10 % is 0.1")
     if max(strain, default=0.0) < SECANT[1]:
         raise RecordError(f"a curve must reach a strain of {SECANT[1]:g}")
     if stress_at(TOE, strain, stress) <= 0.0:

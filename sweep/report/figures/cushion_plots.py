@@ -10,7 +10,7 @@ from pandas import isna
 
 from sweep.ranking.cushion import absorbed_below, cushion_curve, dropped_from, shoulder
 from sweep.ranking.merit import doubtful
-from sweep.ranking.rank import ASSUMPTIONS
+from sweep.ranking.scenes import ASSUMPTIONS
 from sweep.report.figures.case_plots import legend, round_ticks
 from sweep.report.figures.design_map import SHAPED, scene_axes
 from sweep.report.figures.design_style import PLAIN, THIN, Looks, looks

@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from pandas import concat
 
+from sweep.columns import error_column, less_is_better
 from sweep.numbers import energy_text, tenths, three_digits
 from sweep.ranking.merit import LEAST, doubtful, greatest_mass
-from sweep.ranking.rank import places_by
-from sweep.report.tables.sheets import WAYS, design_labels
-from sweep.result import error_column, less_is_better
+from sweep.ranking.places import places_by
+from sweep.report.tables.design_text import WAYS, design_labels
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series

@@ -10,8 +10,8 @@ import numpy as np
 from sweep.ranking.merit import doubtful
 from sweep.report.figures.case_plots import beside, walls
 from sweep.report.figures.design_style import errors_of, until
+from sweep.report.tables.design_text import design_labels
 from sweep.report.tables.requirement_notes import titled
-from sweep.report.tables.sheets import design_labels
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

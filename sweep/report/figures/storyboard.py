@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pandas import DataFrame
 
-from sweep.ranking.rank import scene_label
+from sweep.ranking.scenes import scene_label
 
 ALONG = "out_of_plane"
 

@@ -9,12 +9,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from sweep.columns import ABSORBED_AT, correction_column, error_column
 from sweep.design.panel import BEHIND
 from sweep.numbers import short
 from sweep.ranking.curves import reached
 from sweep.ranking.merit import LEAST, Compared, merits, through_solid
-from sweep.ranking.rank import by_scene, pareto, ranked, scene_label
+from sweep.ranking.places import pareto
+from sweep.ranking.question import Question
+from sweep.ranking.rank import answer
 from sweep.ranking.requirements import MEASURES, limits
+from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.figures.flattened import lines, plan
 from sweep.report.figures.storyboard import last_loaded, parts_of, path_of
 from sweep.report.page.thinning import (
@@ -25,9 +29,10 @@ from sweep.report.page.thinning import (
     work_until,
 )
 from sweep.report.page.trails import UNIT, drawing, moving_shape
+from sweep.report.tables.design_text import design_labels, design_text
 from sweep.report.tables.requirement_notes import UNITS, WORDS
-from sweep.report.tables.sheets import crush_text, design_labels, design_text, impact_text
-from sweep.result import ABSORBED_AT, Status, correction_column, error_column
+from sweep.report.tables.sheets import crush_text, impact_text
+from sweep.result import Status
 from sweep.store.read import StoredCase, read_attributes, read_cases
 
 if TYPE_CHECKING:
@@ -57,11 +62,10 @@ class Counted(NamedTuple):
     names: Compared
 
 
-def page_data(file: str, summary: DataFrame, question: Mapping[str, Any]) -> dict[str, Any]:
+def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, Any]:
     """All that a page shows, for JSON; numbers that rank designs keep all their digits.
 
-    question : budget (kg) and panel (m) that the page starts with, lists or None; `require` and
-    `per` of `rank`.
+    question : what the page starts with; budget (kg) and panel (m) are lists or None.
     """
     finished = summary[summary["status"] == Status.CONVERGED]
     counted = _counted(finished)
@@ -82,10 +86,10 @@ def page_data(file: str, summary: DataFrame, question: Mapping[str, Any]) -> dic
         "energies": [_energy(each) for each in counted],
         "heads": list(design_text(finished, summary)),
         "question": {
-            "budgets_g": [1e3 * mass for mass in question.get("budget") or ()],
-            "panel": list(question.get("panel") or ()) or None,
-            "require": limits(question.get("require")),
-            "per": question.get("per") or "specimen",
+            "budgets_g": [1e3 * float(mass) for mass in question.budgets],
+            "panel": list(question.panel or ()) or None,
+            "require": limits(question.require),
+            "per": question.per,
         },
         "measures": _requirements(),
         "cases": list(cases.values()),
@@ -98,11 +102,6 @@ def page_data(file: str, summary: DataFrame, question: Mapping[str, Any]) -> dic
         "about": _about(about, summary),
         "config": _config(about),
     }
-
-
-def required(question: Mapping[str, Any]) -> dict[str, Any]:
-    """The arguments of `rank` that say what a design must fulfil."""
-    return {"require": question.get("require"), "per": question.get("per") or "specimen"}
 
 
 def _requirements() -> dict[str, dict[str, Any]]:
@@ -126,7 +125,7 @@ def _counted(finished: DataFrame) -> list[Counted]:
     """Energies that are known for all cases: until packed, and up to the forces of the columns."""
     held = [match[1] for name in finished if (match := ABSORBED_AT.fullmatch(str(name)))]
     forces = [None, *sorted(float(text) for text in held)]
-    return [Counted(force, *merits(finished, None, None, force)) for force in forces]
+    return [Counted(force, *merits(finished, Question(allowed_force=force))) for force in forces]
 
 
 def _cases(
@@ -212,12 +211,10 @@ def _bar(rows: DataFrame, name: str) -> str | None:
     return "error" if error_column(name) in rows else None
 
 
-def _first_shown(
-    finished: DataFrame, counted: Sequence[Counted], question: Mapping[str, Any]
-) -> list[str]:
+def _first_shown(finished: DataFrame, counted: Sequence[Counted], question: Question) -> list[str]:
     """Ids of all cases; those whose shapes are kept first: winners, then those that may win."""
-    budget, panel = question.get("budget"), question.get("panel")
-    best = ranked(finished, budget, panel, top=3, **required(question)).table
+    asked = question._replace(by=None, top=3, allowed_force=None)
+    best = answer(finished, asked).table
     winners = best.sort_values("place", kind="stable")
     fronts = [front for each in counted for front in _fronts(finished, each)]
     return list(dict.fromkeys([*winners["case_id"], *fronts, *finished["case_id"]]))
@@ -226,7 +223,7 @@ def _first_shown(
 def _fronts(finished: DataFrame, counted: Counted) -> Iterator[str]:
     """Ids of the designs that are the best for some budget, and of the best per gram."""
     for panel in (None, (1.0, 1.0)):
-        rows, names = merits(finished, None, panel, counted.force)
+        rows, names = merits(finished, Question(panel=panel, allowed_force=counted.force))
         for scene in by_scene(rows) if len(rows) else []:
             least = LEAST.get(scene["loading_mode"].iloc[0])
             merit = scene[names.energy] if least is None else -scene[least]

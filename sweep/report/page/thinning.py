@@ -113,7 +113,7 @@ def work_until(limit: float, highest: Floats, work: Floats) -> float:
 
 
 def thin_stairs(force: Floats, work: Floats, most: int) -> tuple[Floats, Floats]:
-    """At most ``most`` points of `force_stairs`, those that tell the work best, relatively."""
+    """At most ``most`` points of `force_stairs`, those that give the work best, relatively."""
     highest, done = force_stairs(force, work)
     kept = thinned(np.column_stack([highest, done]), most, gap=_work_gaps)
     return highest[kept], done[kept]

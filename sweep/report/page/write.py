@@ -12,15 +12,18 @@ from string import Template
 from typing import TYPE_CHECKING, Any
 
 from sweep.ranking.merit import doubtful
-from sweep.ranking.rank import ranked
+from sweep.ranking.question import Question
+from sweep.ranking.rank import answer
 from sweep.report.figures.storyboard import PARTS
-from sweep.report.page.gather import page_data, required
-from sweep.report.tables.sheets import design_labels, legend, ranking_sheets
+from sweep.report.page.gather import page_data
+from sweep.report.tables.design_text import design_labels
+from sweep.report.tables.legend import legend
+from sweep.report.tables.sheets import ranking_sheets
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from sweep.report.tables.sheets import Sheet
+    from sweep.report.tables.sheet import Sheet
 
 HERE = Path(__file__).parent
 PROGRAM = ("rank.js", "plots.js", "page.js")
@@ -28,7 +31,7 @@ IN_HTML = ("failures", "about", "config", "total")
 TOP, TOP_OF_A_BUDGET = 10, 3
 
 
-def write_page(file: str, summary: DataFrame, question: Mapping[str, Any], out: Path) -> Path:
+def write_page(file: str, summary: DataFrame, question: Question, out: Path) -> Path:
     """Write the page of a results file; `question`: of `page_data`."""
     text = page(page_data(file, summary, question), tables(summary, question))
     out.parent.mkdir(parents=True, exist_ok=True)
@@ -57,11 +60,10 @@ def page(data: Mapping[str, Any], static: str) -> str:
     )
 
 
-def tables(summary: DataFrame, question: Mapping[str, Any]) -> str:
+def tables(summary: DataFrame, question: Question) -> str:
     """The ranking of a question: the best designs in words, then tables with their legend."""
-    budget, panel = question.get("budget"), question.get("panel")
-    top = TOP_OF_A_BUDGET if len(budget or ()) > 1 else TOP
-    ranking = ranked(summary, budget, panel, top=top, **required(question))
+    top = TOP_OF_A_BUDGET if len(question.budgets) > 1 else TOP
+    ranking = answer(summary, question._replace(by=None, top=top, allowed_force=None))
     if ranking.failed == ranking.cases:
         return "<p>No case has converged, so there is no ranking.</p>"
     sheets = "".join(_table(sheet) for sheet in ranking_sheets(ranking, summary))

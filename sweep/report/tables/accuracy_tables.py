@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from sweep.columns import describe_column
 from sweep.numbers import NOTHING, energy_text, short, three_digits, with_unit
 from sweep.ranking.accuracy import REFINED, TARGETS, Study, varies
-from sweep.ranking.rank import HELD_BY_SCENE, scene_keys, scene_label
-from sweep.report.tables.sheets import Sheet
-from sweep.result import Status, describe_column
+from sweep.ranking.scenes import HELD_BY_SCENE, scene_keys, scene_label
+from sweep.report.tables.sheet import Sheet
+from sweep.result import Status
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series

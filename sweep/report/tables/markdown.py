@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from sweep.report.tables.sheets import Sheet
+    from sweep.report.tables.sheet import Sheet
 
 
 def markdown(sheets: Iterable[Sheet]) -> str:

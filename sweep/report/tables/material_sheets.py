@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from sweep.config.materials.material_file import MEMORY, PLASTICITY
 from sweep.config.materials.material_header import assumed, source
 from sweep.numbers import NOTHING, percent
-from sweep.report.tables.sheets import Sheet
+from sweep.report.tables.sheet import Sheet
 
 if TYPE_CHECKING:
     from sweep.config.materials.material_file import Record

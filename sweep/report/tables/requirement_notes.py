@@ -8,9 +8,10 @@ from itertools import groupby
 from textwrap import fill
 from typing import TYPE_CHECKING, NamedTuple
 
+from sweep.constants import STANDARD_GRAVITY
 from sweep.numbers import energy_text, numerals, tenths, three_digits
 from sweep.ranking.merit import doubtful
-from sweep.ranking.requirements import MEASURES, STANDARD_GRAVITY
+from sweep.ranking.requirements import MEASURES
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -132,24 +133,24 @@ def _of_budgets(
     outcomes: Sequence[Outcome], ranking: Ranking, named: Callable[[DataFrame], str]
 ) -> Iterator[str]:
     """The counts of each budget with a design, then what most of them have in common."""
-    told = [outcome for outcome in outcomes if outcome.designs]
-    for outcome in told:
+    counted = [outcome for outcome in outcomes if outcome.designs]
+    for outcome in counted:
         yield _counts(outcome)
-    widest = max(told, key=lambda outcome: outcome.designs, default=outcomes[0])
+    widest = max(counted, key=lambda outcome: outcome.designs, default=outcomes[0])
     for name, count in widest.unknown.items():
         if count:
             yield f"{count} without a value for {name}: {UNKNOWN[name]}."
     if widest.open:
         which = f"{widest.open} of them may fulfil min_absorbed in a longer crush"
         yield f"{which}: this one ended before {_end(ranking)}."
-    for _, alike in groupby(told, lambda outcome: list(outcome.nearest["case_id"])):
+    for _, alike in groupby(counted, lambda outcome: list(outcome.nearest["case_id"])):
         yield from _nearest(list(alike), ranking.required, named)
-    if any(outcome.fulfil > outcome.doubtful for outcome in told):
+    if any(outcome.fulfil > outcome.doubtful for outcome in counted):
         return
     if not (row := widest.lightest).empty:
         mass = f"{row[ranking.mass].item():.3g} g"
         yield f"The lightest design that fulfils this weighs {mass}: {named(row)}."
-    elif told:
+    elif counted:
         yield from _rectangle(widest)
 
 

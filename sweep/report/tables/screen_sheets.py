@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from math import isnan
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from sweep.numbers import NOTHING, three_digits
 from sweep.ranking.merit import merits
-from sweep.ranking.rank import ranked
-from sweep.report.tables.sheets import Sheet, design_text
+from sweep.ranking.question import Question
+from sweep.ranking.rank import answer
+from sweep.report.tables.design_text import design_text
+from sweep.report.tables.sheet import Sheet
 from sweep.result import Status
 
 if TYPE_CHECKING:
@@ -19,20 +21,17 @@ ABOUT = (
     "estimate: one cell, scaled by mass; no result, and in no ranking. full: the whole model; "
     f"{NOTHING}: not run, or it failed."
 )
-FEWEST = 3  # designs whose order is told
+FEWEST = 3  # designs whose order is stated
 
 
-def screen_sheets(
-    estimates: DataFrame, summary: DataFrame, question: Mapping[str, Any]
-) -> Iterator[Sheet]:
+def screen_sheets(estimates: DataFrame, summary: DataFrame, question: Question) -> Iterator[Sheet]:
     """A sheet for each scene and budget. summary: rows of the whole models; question: arguments of
     `rank`, of which requirements are left out, as they are asked of the whole models.
     """
-    asked = {**question, "top": None, "require": None}
-    table = ranked(estimates, **asked).table
+    table = answer(estimates, question._replace(top=None, require=None)).table
     finished = summary[summary["status"] == Status.CONVERGED]
-    panel, per = question.get("panel"), str(question.get("per") or "specimen")
-    compared = merits(finished, None, panel, None, per)[0].set_index("case_id")
+    usual = question._replace(by=None, allowed_force=None)
+    compared = merits(finished, usual)[0].set_index("case_id")
     for (_, scene), rows in table.groupby(["budget_g", "scene"], dropna=False, sort=False):
         column, budget = str(rows["ranked_by"].iloc[0]), rows["budget_g"].iloc[0]
         within = f", up to {budget:g} g" if budget > 0.0 else ""

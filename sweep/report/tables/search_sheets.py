@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 from pandas import Series
 
 from sweep.numbers import NOTHING, numerals, three_digits
+from sweep.ranking.assessment import ALIKE
 from sweep.ranking.spread import AS_GIVEN, FINE, Spread, ends
-from sweep.ranking.worth import ALIKE
+from sweep.report.tables.design_text import design_text
+from sweep.report.tables.legend import mark_notes, marks
 from sweep.report.tables.requirement_notes import panel_column
-from sweep.report.tables.sheets import Sheet, design_text, mark_notes, marks
+from sweep.report.tables.sheet import Sheet
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -109,7 +111,7 @@ def _where(spread: Spread) -> str:
 
 
 def nearest_sheet(ranking: Ranking, missed: Mapping[str, float], summary: DataFrame) -> Sheet:
-    """The designs that come nearest to all requirements; missed: of `Worths`, by id.
+    """The designs that come nearest to all requirements; missed: of `Assessment`, by id.
 
     ranking: of all designs, whatever is required.
     """

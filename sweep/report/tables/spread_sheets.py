@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from sweep.numbers import NOTHING, three_digits
 from sweep.ranking.spread import Spread, ends
-from sweep.report.tables.sheets import Sheet, design_text
+from sweep.report.tables.design_text import design_text
+from sweep.report.tables.sheet import Sheet
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series

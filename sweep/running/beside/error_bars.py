@@ -20,21 +20,21 @@ but not a branch that only finer meshes or shorter steps would follow.
 import os
 from collections.abc import Mapping, Sequence
 from math import hypot, isfinite, isnan, nan
-from pathlib import Path
 from statistics import median
 from typing import Any, NamedTuple
 
+from sweep.columns import ABSORBED_AT, IN_CYCLE, correction_column, error_column
 from sweep.config.case import Case
-from sweep.config.defaults.direction import network_of
 from sweep.config.grid import Config, expand
 from sweep.config.lattice_table import Lattice
+from sweep.config.network import network_of
 from sweep.config.tables import Solver
 from sweep.design.extrusion import most_layers
-from sweep.result import ABSORBED_AT, IN_CYCLE, Status, correction_column, error_column
+from sweep.result import Status
+from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
-from sweep.running.progress import tell
+from sweep.running.progress import announce
 from sweep.running.provenance import config_text, describe_run
-from sweep.running.sweep import run_sweep
 from sweep.store.read import ONLY_MISSING, Rerun, exists, finished_ids, read_summary
 from sweep.store.write import Writer
 
@@ -144,11 +144,6 @@ def _longer_steps(solver: Solver) -> tuple[Solver, float]:
     return solver.model_copy(update=scaled | {"load_steps": other}), ratio
 
 
-def companions_file(out: str | os.PathLike[str]) -> Path:
-    """The results file of the companions of the designs in `out`."""
-    return Path(out).with_suffix(".companions.h5")
-
-
 def companions_beside(
     designs: Sequence[Case], out: str | os.PathLike[str], rerun: Rerun = ONLY_MISSING
 ) -> dict[str, Case]:
@@ -172,12 +167,11 @@ def add_error_bars(
     version of the model. The arguments are those of `run_sweep`.
     """
     cases = expand(sweep) if isinstance(sweep, Config) else sweep
-    beside, rows = companions_file(out), _converged(out)
+    beside, rows = file_beside(out, "companions"), _converged(out)
     designs = [case for case in cases if case.case_id in rows]
     others = companions_beside(designs, out, rerun)
-    if others.keys() - finished_ids(beside, rerun):
-        tell(f"error bars of {len(designs)} designs: {len(others)} companions, in {beside}")
-        run_sweep(list(others.values()), beside, workers, scheduler, rerun, simulate)
+    what = f"error bars of {len(designs)} designs: {len(others)} companions"
+    run_beside(others, beside, what, How(workers, scheduler, rerun, simulate))
     rows |= _converged(beside) if exists(beside) else {}
     bars = {design.case_id: error_bars(design, rows) for design in designs}
     labels = {case.case_id: {**case.axes, **bars.get(case.case_id, {})} for case in cases}
@@ -185,7 +179,7 @@ def add_error_bars(
         writer.fold()
     without = sum(all(map(isnan, bar.values())) for bar in bars.values())
     if without:
-        tell(f"{without} of {len(designs)} designs have no error bar: crumple status {beside}")
+        announce(f"{without} of {len(designs)} designs have no error bar: crumple status {beside}")
     return without
 
 

@@ -13,22 +13,23 @@ are no designs of its ranking: `armor.screen.h5` beside `armor.h5`. The values i
 
 import os
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 from pandas import DataFrame
 
+from sweep.columns import describe_column
 from sweep.config.case import Case
-from sweep.config.defaults.direction import is_along, network_of
+from sweep.config.defaults.direction import is_along
 from sweep.config.lattice_table import Lattice
+from sweep.config.network import network_of
 from sweep.design.drawing import extent
 from sweep.design.extrusion import mirror_fault
-from sweep.ranking.rank import ranked
-from sweep.result import Status, describe_column, design_columns
+from sweep.ranking.question import Question
+from sweep.ranking.rank import answer
+from sweep.result import Status, design_columns
+from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
-from sweep.running.progress import tell
-from sweep.running.sweep import run_sweep
-from sweep.store.read import ONLY_MISSING, Rerun, exists, finished_ids, read_summary
+from sweep.store.read import ONLY_MISSING, Rerun, read_summary
 
 EXTENSIVE = ("J", "N", "g")
 PER_AREA = ("Pa", "J/m^3")
@@ -60,14 +61,8 @@ def unit_column(design: Case) -> Case:
     cell = lattice.model_copy(update=change)
     if cell.symmetry == "quarter" and mirror_fault(network_of(cell)):
         cell = cell.model_copy(update={"symmetry": "none"})
-    tables: dict[str, Any] = {table: getattr(design, table) for table in Case.model_fields}
-    tables["loading"] = design.loading.model_copy(update={"allowed_forces": ()})
-    return Case(**tables | {"lattice": cell})
-
-
-def screen_file(out: str | os.PathLike[str]) -> Path:
-    """The results file of the unit columns of the designs in `out`."""
-    return Path(out).with_suffix(".screen.h5")
+    loading = design.loading.model_copy(update={"allowed_forces": ()})
+    return design.changed(lattice=cell, loading=loading)
 
 
 def run_columns(
@@ -81,10 +76,9 @@ def run_columns(
     """Run the missing columns of designs; return `estimates`. Arguments as of `run_sweep`."""
     columns = {design.case_id: unit_column(design) for design in designs}
     alone = {column.case_id: column for column in columns.values()}
-    beside = screen_file(out)
-    if not exists(beside) or alone.keys() - finished_ids(beside, rerun):
-        tell(f"screen of {len(designs)} designs: {len(alone)} unit columns, in {beside}")
-        run_sweep(list(alone.values()), beside, workers, scheduler, rerun, simulate)
+    beside = file_beside(out, "screen")
+    what = f"screen of {len(designs)} designs: {len(alone)} unit columns"
+    run_beside(alone, beside, what, How(workers, scheduler, rerun, simulate))
     rows = read_summary(beside)
     found = rows[rows["status"] == Status.CONVERGED].set_index("case_id", drop=False)
     return DataFrame(
@@ -116,15 +110,15 @@ def _scaled(row: dict[str, Any], design: Case, cell: Lattice) -> dict[str, Any]:
     return made | design_columns(design) | design.axes | own
 
 
-def best_of(estimates: DataFrame, question: dict[str, Any], count: int) -> list[str]:
+def best_of(estimates: DataFrame, question: Question, count: int) -> list[str]:
     """Ids of the `count` best estimates of each infill, scene and budget of a ranking.
 
     If none of an infill meets the requirements, its best without: the whole model decides.
     """
     best: list[str] = []
     for _, alike in estimates.groupby("lattice_kind", sort=False):
-        table = ranked(alike, **question | {"top": count}).table
+        table = answer(alike, question._replace(top=count)).table
         if table.empty:
-            table = ranked(alike, **question | {"top": count, "require": None}).table
+            table = answer(alike, question._replace(top=count, require=None)).table
         best.extend(table["case_id"])
     return [*dict.fromkeys(best)]

@@ -11,18 +11,19 @@ they are no designs of its ranking: `armor.spread.h5` beside `armor.h5`.
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path
 from typing import Any, NamedTuple
 
 from sweep.config.case import Case, Material
 from sweep.config.defaults.direction import is_along
 from sweep.config.grid import Config, expand
+from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
-from sweep.running.progress import tell
-from sweep.running.sweep import run_sweep
-from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
+from sweep.store.read import ONLY_MISSING, Rerun
 
-FRICTION = 0.2, 0.9  # of TPU on TPU or steel, which no source tells: configs/materials/README.md
+FRICTION = (
+    0.2,
+    0.9,
+)  # of TPU on TPU or steel, assumed: no source gives it (configs/materials/README.md)
 BEST = 5  # designs of a ranking
 SEEDS = 1, 2, 3  # of other imperfections of a lattice that is pressed along its cells
 
@@ -60,9 +61,7 @@ def corners(design: Case) -> list[Corner]:
 def _bowed(design: Case, seed: int) -> Case:
     """The design with an imperfection that a seed draws."""
     lattice = design.lattice.model_copy(update={"imperfection_seed": seed, "mass": None})
-    tables: dict[str, Any] = {table: getattr(design, table) for table in Case.model_fields}
-    axes = design.axes | {"lattice.imperfection_seed": seed}
-    return Case(**tables | {"lattice": lattice, "axes": axes})
+    return design.changed(lattice=lattice, axes=design.axes | {"lattice.imperfection_seed": seed})
 
 
 def _named(name: str, ends: tuple[float, float]) -> Iterable[tuple[str, float]]:
@@ -75,14 +74,17 @@ def _named(name: str, ends: tuple[float, float]) -> Iterable[tuple[str, float]]:
 
 def _moved(design: Case, name: str, value: float) -> Case:
     """The design with another value of an uncertain number, which labels it."""
-    tables: dict[str, Any] = {table: getattr(design, table) for table in Case.model_fields}
+    contact, material, table = design.contact, design.material, "material"
     if name == "friction":
-        tables["contact"] = design.contact.model_copy(update={"friction": value})
+        contact, table = contact.model_copy(update={"friction": value}), "contact"
     else:
-        tables["material"] = _other(design.material, name, value)
-    tables["lattice"] = design.lattice.model_copy(update={"mass": None})  # its walls stay
-    key = f"contact.{name}" if name == "friction" else f"material.{name}"
-    return Case(**tables | {"axes": design.axes | {key: value}})
+        material = _other(material, name, value)
+    return design.changed(
+        lattice=design.lattice.model_copy(update={"mass": None}),  # its walls stay
+        contact=contact,
+        material=material,
+        axes=design.axes | {f"{table}.{name}": value},
+    )
 
 
 def _other(material: Material, name: str, value: float) -> Material:
@@ -92,11 +94,6 @@ def _other(material: Material, name: str, value: float) -> Material:
         scale = value / material.modulus
         change["curve_stress"] = tuple(scale * stress for stress in material.curve_stress)
     return material.model_copy(update=change)
-
-
-def spread_file(out: str | os.PathLike[str]) -> Path:
-    """The results file of the corners of the designs in `out`."""
-    return Path(out).with_suffix(".spread.h5")
 
 
 def corners_of(sweep: Config | Sequence[Case], best: Iterable[str]) -> dict[str, list[Corner]]:
@@ -115,7 +112,6 @@ def run_corners(
 ) -> None:
     """Run the corners of designs in `out` that are missing; arguments as those of `run_sweep`."""
     others = {c.case_id: c.case for several in found.values() for c in several}
-    beside = spread_file(out)
-    if others.keys() - finished_ids(beside, rerun):
-        tell(f"spread of {len(found)} designs: {len(others)} cases, in {beside}")
-        run_sweep(list(others.values()), beside, workers, scheduler, rerun, simulate)
+    what = f"spread of {len(found)} designs: {len(others)} cases"
+    how = How(workers, scheduler, rerun, simulate)
+    run_beside(others, file_beside(out, "spread"), what, how)

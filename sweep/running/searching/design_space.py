@@ -17,6 +17,7 @@ from sweep.config.axis import Interval, Written, rounded_down
 from sweep.config.case import Case, Lattice, Loading
 from sweep.config.defaults.direction import footprint
 from sweep.config.grid import Config, Values, chosen_case
+from sweep.config.network import network_of
 from sweep.design.lattice import counted_area
 from sweep.design.panel import BEHIND, panel_of
 from sweep.ranking.merit import greatest_mass
@@ -144,12 +145,8 @@ def _with_walls(lattice: Lattice, thickness: float) -> Lattice:
 
 def _mass(case: Case, lattice: Lattice) -> float:
     """Mass of a specimen (kg) as budgets count it."""
-    if lattice.structure is not None:
-        from sweep.scene.custom import network_of
-
-        area = network_of(lattice.structure).printed_area
-    else:
-        area = counted_area(lattice.geometry)
+    drawn = lattice.structure is not None
+    area = network_of(lattice).printed_area if drawn else counted_area(lattice.geometry)
     return case.material.density * lattice.depth * area
 
 

@@ -6,18 +6,21 @@ for the same designs again, so that a search that was stopped continues where it
 file holds is looked up. When a population has converged before all evaluations are used up, the
 search starts again from other points.
 
-Requirements are compared by the rules of K. Deb (Comput. Methods Appl. Mech. Eng. 186, 311-338,
-2000), which scipy applies as J. Lampinen (2002) describes for differential evolution: a design that
-fulfils all of them is better than one that does not; of two that do, the value decides; of two that
-do not, the nearest one as `rank` defines it (`ranking.requirements`): their violation is the
-greatest share by which a limit is missed, where Deb takes the sum.
+Requirements are compared by the three rules of K. Deb (Comput. Methods Appl. Mech. Eng. 186,
+311-338, 2000), which scipy applies as J. Lampinen (2002) describes for differential evolution:
+
+- A design that fulfils all requirements is better than one that does not.
+- Of two designs that do, the one with the better value is better.
+- Of two designs that do not, the one with the smaller violation is better. The violation is the
+  greatest share by which a limit is missed, as in `rank` (`ranking.requirements`); Deb takes the
+  sum.
 """
 
 import os
 from dataclasses import dataclass, field
 from itertools import count
 from math import inf
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from pandas import DataFrame
@@ -27,10 +30,11 @@ from scipy.stats import qmc
 from sweep.config.case import Case
 from sweep.config.grid import designs_of
 from sweep.numbers import three_digits
+from sweep.ranking.assessment import Assessment, assess
 from sweep.ranking.curves import Known, with_allowed
-from sweep.ranking.worth import Worths, worths
+from sweep.ranking.question import Question
 from sweep.running.dask_graph import Simulate
-from sweep.running.progress import tell
+from sweep.running.progress import announce
 from sweep.running.searching.design_space import DesignSpace
 from sweep.running.sweep import run_sweep
 from sweep.store.read import Rerun, finished_ids, read_summary
@@ -54,19 +58,18 @@ class Settings(NamedTuple):
 
 @dataclass
 class Search:
-    """A search into the results file `out`; question: the arguments of `rank`, with what is
-    required.
+    """A search into the results file `out`; question: what its ranking is asked.
 
-    cases: the designs so far by id. found: their worths.
+    cases: the designs so far by id. found: their values and misses.
     """
 
     space: DesignSpace
-    question: dict[str, Any]
+    question: Question
     out: str | os.PathLike[str]
     settings: Settings
     simulate: Simulate | None = None
     cases: dict[str, Case] = field(default_factory=dict)
-    found: Worths | None = None
+    found: Assessment | None = None
     _known: Known = field(default_factory=dict)
     _idle: int = 0
     _before: int = 0  # designs before the present generation
@@ -83,7 +86,7 @@ class Search:
         """Number of evaluations left."""
         return self.settings.evaluations - len(self.cases)
 
-    def run(self) -> Worths | None:
+    def run(self) -> Assessment | None:
         """Search until all evaluations are used up, or nothing new is found."""
         for seed in count(self.settings.seed * 1000):
             before = len(self.cases)
@@ -99,7 +102,7 @@ class Search:
         start = _start(self.space.dimension, seed)
         best = np.lexsort([self.costs(start.T), self.violations(start.T)[0]])[:POPULATION]
         self._idle, self._before = 1, len(self.cases)
-        required = any(value is not None for value in (self.question.get("require") or {}).values())
+        required = any(value is not None for value in (self.question.require or {}).values())
         if self.left > 0:
             differential_evolution(
                 self.costs,
@@ -142,10 +145,10 @@ class Search:
         values = [0.0 if case_id in fulfil else missed.get(case_id, inf) for case_id in ids]
         return np.array(values if points.ndim == 1 else [values])
 
-    def _assessed(self, points: np.ndarray) -> tuple[list[str], Worths | None]:
-        """The ids of designs, "" where there is none, and the worths of all, the new ones included.
+    def _assessed(self, points: np.ndarray) -> tuple[list[str], Assessment | None]:
+        """The ids of designs, "" where there is none, and the assessment of all so far.
 
-        No more designs are simulated than are left; further ones are worthless.
+        No more designs are simulated than are left; further ones have no value.
         """
         designs = [self.space.case(point) for point in points.T]
         new = {d.case_id: d for d in designs if d is not None and d.case_id not in self.cases}
@@ -164,10 +167,10 @@ class Search:
         run_sweep(designs, self.out, *how, part=True)
 
     def _assess(self) -> None:
-        """Value the designs so far, and tell the best."""
-        self.found = worths(self.rows(), self.question)
+        """Value the designs so far, and report the best."""
+        self.found = assess(self.rows(), self.question)
         counted = f"{len(self.cases)} of at most {self.settings.evaluations} designs"
-        tell(f"{counted}: {self.found.column}, {_best(self.found)}")
+        announce(f"{counted}: {self.found.column}, {_best(self.found)}")
 
     def rows(self) -> DataFrame:
         """The rows of the designs so far, with energies up to an allowed force of the panel."""
@@ -176,7 +179,7 @@ class Search:
         return with_allowed(self.out, mine, self.question, self._known)
 
 
-def _best(found: Worths) -> str:
+def _best(found: Assessment) -> str:
     """How good the best design so far is, in words."""
     if found.by_id:
         return f"the best {three_digits(next(iter(found.by_id.values())))}"

@@ -12,11 +12,13 @@ normal e a node cannot move along e, and turns about e alone.
 """
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from kernels.plates.layout import PER_NODE
 from sweep.design.drawing import Indices
+from sweep.scene.coordinates import BetweenPlatens
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.mesh import PlateMesh
 
@@ -26,10 +28,10 @@ VERTICAL = 2  # of the axes x, y, z of a node of a joint
 
 
 @dataclass(frozen=True)
-class Numbering:
+class Numbering(BetweenPlatens):
     """Indices of the coordinates of ``n_nodes`` nodes."""
 
-    n_nodes: int
+    per_node: ClassVar[int] = PER_NODE
 
     def position(self, nodes: Indices, axis: int) -> Indices:
         """Coordinates of nodes along an axis x, y, z."""
@@ -38,21 +40,6 @@ class Numbering:
     def rotation(self, nodes: Indices, axis: int | Indices) -> Indices:
         """Coordinates of turns of nodes about axes of their frames."""
         return np.asarray(PER_NODE * nodes + 3 + axis)
-
-    @property
-    def low(self) -> int:
-        """Coordinate of the lower platen's surface."""
-        return PER_NODE * self.n_nodes
-
-    @property
-    def high(self) -> int:
-        """Coordinate of the upper platen's surface."""
-        return self.low + 1
-
-    @property
-    def size(self) -> int:
-        """Number of coordinates."""
-        return self.high + 1
 
 
 def leaders(mesh: PlateMesh, platen: str) -> Indices:

@@ -6,7 +6,8 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from sweep.config.case import Lattice, given
-from sweep.config.defaults.direction import network_of, quads_wanted
+from sweep.config.defaults.direction import quads_wanted
+from sweep.config.network import network_of
 from sweep.design.extrusion import Plan, plan_of, quads_along
 from sweep.scene.mesh import Floats, Ints
 from sweep.scene.plates.imperfection import amplitudes, bow

@@ -11,7 +11,7 @@ from kernels.solve import march
 from kernels.solve.history import State
 from kernels.solve.problem import Coordinates
 from sweep.config.case import Case, given
-from sweep.config.defaults.direction import network_of
+from sweep.config.network import network_of
 from sweep.design.drawing import Indices
 from sweep.design.network import Network, mass
 from sweep.scene.mesh import Floats

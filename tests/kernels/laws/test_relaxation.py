@@ -9,7 +9,7 @@ from kernels.laws import relaxation
 from kernels.laws.elastic import GUARD
 from kernels.laws.relaxation import NEAR, inverse
 from kernels.laws.softening import Softening
-from sweep.config.tables import Material
+from sweep.config.material_table import Material
 from sweep.scene.material import as_law, linear_law, stress_law
 from tests.support.designs.scenes import slopes
 from tests.support.kernels.frames import MODULUS

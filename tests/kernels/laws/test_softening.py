@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from kernels.laws.relaxation import MOST
 from kernels.laws.softening import Softening
-from sweep.config.tables import Material
+from sweep.config.material_table import Material
 from sweep.scene.material import as_law, stress_law
 from tests.support.designs.scenes import slopes
 from tests.support.kernels.terms import differences

@@ -4,7 +4,7 @@ The sides of two neighbouring arms with an opening g between them meet at t/2 co
 at a re-entrant corner if g < 180 degrees, in a mitre if more.
 
 python -m tests.studies.continuum.joint_compliance prints the table sweep/scene/joints.csv in ten
-minutes.
+minutes; with the word glued, what sweep/scene/joints_on_glued_rows.csv has, in ten seconds.
 """
 
 import sys
@@ -34,6 +34,11 @@ def sheared(u, v, _):
 def swollen(u, v, _):
     """Of the first Lamé constant of plane stress."""
     return div(u) * div(v)
+
+
+def stiffness(one, other, poisson):
+    """Matrix of modulus 1, from those of the shear modulus and of the first Lamé constant."""
+    return one / (2.0 * (1.0 + poisson)) + other * poisson / (1.0 - poisson**2)
 
 
 def beam(length, poisson):
@@ -94,7 +99,7 @@ class Star:
             found |= (np.abs(o) < 0.5 - NEAR) & (x > start - NEAR) & (x < self.length - NEAR)
         return found
 
-    def _loads(self, mesh, element):
+    def loads(self, mesh, element):
         """Nodal forces of (N, V, M / t) of every arm at the centre, (3 n, dofs)."""
         middle, found = mesh.p[:, mesh.facets].mean(axis=1), []
         for i, wide in enumerate(self.wide):
@@ -121,12 +126,12 @@ class Star:
         held = [*basis.nodal_dofs[:, 0], basis.nodal_dofs[across, far]]
         free = np.setdiff1d(np.arange(basis.N), held)
         matrices = (form.assemble(basis)[free][:, free] for form in (sheared, swollen))
-        return *matrices, self._loads(mesh, element)[:, free]
+        return *matrices, self.loads(mesh, element)[:, free]
 
     def beyond(self, poisson):
         """C of all arms, (n, 3, n, 3), for (N, V, M / t) in balance."""
         one, other, loads = self._assembled
-        matrix = one / (2.0 * (1.0 + poisson)) + other * poisson / (1.0 - poisson**2)
+        matrix = stiffness(one, other, poisson)
         form = (loads @ factor(matrix).solve(loads.T.copy())).reshape(2 * (len(self.wide), 3))
         for i, wide in enumerate(self.wide):
             form[i, :, i] -= beam(self.length / wide, poisson)
@@ -191,6 +196,23 @@ class Yield:
             yield "side", np.array([*side[:4], nm, nv])
 
 
+def on_glued_row(openings, poisson):
+    """C of the second arm, upright on a row along x whose outer face is glued, (3, 3)."""
+    star = Star(openings)
+    element, mesh = ElementVector(ElementTriP4()), star.mesh()
+    basis = Basis(mesh, element)
+    face = mesh.facets_satisfying(lambda x: np.isclose(x[1], -0.5))
+    free = np.setdiff1d(np.arange(basis.N), basis.get_dofs(facets=face).all())
+    one, other = (form.assemble(basis)[free][:, free] for form in (sheared, swollen))
+    loads = star.loads(mesh, element)[3:6, free]
+    matrix = stiffness(one, other, poisson)
+    return loads @ factor(matrix).solve(loads.T.copy()) - beam(star.length, poisson)
+
+
+GLUED = (90.0, 90.0, 180.0), (90.0, 270.0)
+ENTRIES = {"MM": (2, 2, 2), "MV": (1, 2, 1), "VV": (1, 1, 1), "NN": (0, 0, 2)}
+"""Entries of C over (N, V, M), and up to which power of nu' the table has them."""
+
 KINDS = {  # openings by the angle, and its range
     "V": (lambda g: (g, 360 - g), (30, 175)),
     "Y": (lambda g: (g, 180 - g / 2, 180 - g / 2), (90, 285)),
@@ -230,6 +252,18 @@ def rows(kind, angle):
         yield arm, np.array([*one, *slope[[2, 3, 5]]])
 
 
+def print_glued(out):
+    """Print what arms on glued rows yield, fitted for Poisson's ratios of the plane up to 0.95."""
+    poisson = np.linspace(0.0, 0.95, 5)
+    for openings in GLUED:
+        forms = np.array([on_glued_row(openings, nu) for nu in poisson])
+        for entry, (i, j, power) in ENTRIES.items():
+            fit = np.zeros(3)
+            fit[: power + 1] = np.polyfit(poisson, forms[:, i, j], power)[::-1]
+            angles = " ".join(f"{angle:g}" for angle in openings)
+            out.write(f"{angles},{entry}," + ",".join(f"{c:.3f}" for c in fit + 0.0) + "\n")
+
+
 def main(out):
     """Print the table."""
     out.write(HEAD + "\n")
@@ -245,4 +279,4 @@ def main(out):
 
 
 if __name__ == "__main__":
-    main(sys.stdout)
+    print_glued(sys.stdout) if sys.argv[1:] == ["glued"] else main(sys.stdout)

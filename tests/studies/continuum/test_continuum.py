@@ -6,11 +6,20 @@ from scipy.optimize import brentq, minimize_scalar
 from skfem import MeshQuad
 
 from sweep.scene.beams import contraction, plane_factors
+from sweep.scene.joint_kinds import on_glued_rows
 from sweep.scene.material import law_of_section
 from tests.studies.continuum import pixels
 from tests.studies.continuum.arms import ARMS, Joint
 from tests.studies.continuum.grid import Grid
-from tests.studies.continuum.joint_compliance import KINDS, Star, Yield, rows
+from tests.studies.continuum.joint_compliance import (
+    ENTRIES,
+    GLUED,
+    KINDS,
+    Star,
+    Yield,
+    on_glued_row,
+    rows,
+)
 from tests.studies.continuum.lattices import Lattice, exact, from_table, placed, table
 from tests.studies.continuum.network import MPA, material
 from tests.studies.continuum.press import Press, StuckError, factor
@@ -380,3 +389,11 @@ def test_crush_with_contact_comes_to_the_solid():
     force, energy = np.split(default.at(WATCHED) / truth - 1.0, 2)
     assert np.abs(force).max() < 0.1
     assert np.abs(energy).max() < 0.05
+
+
+@pytest.mark.parametrize("openings", GLUED)
+def test_arms_on_glued_rows_are_as_in_the_table(openings):
+    for nu, close in ((0.0, 6e-3), (0.5, 0.015)):
+        found = on_glued_row(openings, nu)
+        values = [found[i, j] for i, j, _ in ENTRIES.values()]
+        assert values == pytest.approx(on_glued_rows()[openings] @ nu ** np.arange(3), abs=close)

@@ -4,7 +4,7 @@ import time
 
 from sweep.config.case import Case, Lattice, Loading, Material, Solver
 from sweep.numbers import tenths
-from sweep.report.tables.sheets import Sheet
+from sweep.report.tables.sheet import Sheet
 from sweep.simulation.simulate import simulate
 from tests.studies.memory.variants import PARTS
 

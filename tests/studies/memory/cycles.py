@@ -6,7 +6,7 @@ import numpy as np
 
 from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
 from sweep.numbers import tenths
-from sweep.report.tables.sheets import Sheet
+from sweep.report.tables.sheet import Sheet
 from tests.studies.rankings.spread import CELLS
 
 PATTERNS = ("square", "hex", "circle", "triangle", "kagome")

@@ -1,7 +1,7 @@
 """What laws of the walls cost: processor time of a crush against that of elastic sections."""
 
 from sweep.config.case import Case, Lattice, Loading, Material
-from sweep.report.tables.sheets import Sheet
+from sweep.report.tables.sheet import Sheet
 from sweep.simulation.simulate import simulate
 from tests.studies.bench.measuring.clock import medians, seconds
 

@@ -1,7 +1,7 @@
 """Which answers change: the order of the designs of a sweep, with and without each part."""
 
-from sweep.ranking.rank import by_scene, scene_label
-from sweep.report.tables.sheets import Sheet
+from sweep.ranking.scenes import by_scene, scene_label
+from sweep.report.tables.sheet import Sheet
 from tests.studies.memory.variants import PARTS, changed
 from tests.studies.rankings.orders import CONFIGS, cases_of, compared, merits
 

@@ -1,7 +1,7 @@
 """The order of the designs of the shipped sweeps at the default mesh and at a fine one."""
 
-from sweep.ranking.rank import by_scene, scene_label
-from sweep.report.tables.sheets import Sheet
+from sweep.ranking.scenes import by_scene, scene_label
+from sweep.report.tables.sheet import Sheet
 from tests.studies.rankings.orders import compared, merits
 
 FINE = 12  # elements of a wall

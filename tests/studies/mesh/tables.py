@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from sweep.numbers import short, tenths
-from sweep.report.tables.sheets import Sheet
+from sweep.report.tables.sheet import Sheet
 from tests.studies.mesh.crushes import APART, COLUMNS, DESIGN, FINEST, LASTING, USUAL, WINDOW
 from tests.studies.rankings.spread import nine_of_ten
 

@@ -15,7 +15,7 @@ from rich.console import Console
 from rich.progress import track
 
 from sweep.report.tables.markdown import markdown
-from sweep.report.tables.sheets import Sheet
+from sweep.report.tables.sheet import Sheet
 from tests.studies.mutants.changes import MUTANTS
 from tests.studies.mutants.trial import Copy, StudyError, check
 

@@ -10,10 +10,11 @@ from pathlib import Path
 
 import pandas as pd
 
+from sweep.columns import ERROR
 from sweep.config.units import expand, load_config
 from sweep.report.tables.markdown import markdown
-from sweep.report.tables.sheets import Sheet
-from sweep.result import ERROR, Status
+from sweep.report.tables.sheet import Sheet
+from sweep.result import Status
 from sweep.running.beside.error_bars import add_error_bars
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_summary

@@ -21,9 +21,10 @@ from sweep.config.case import Case
 from sweep.config.grid import Config, chosen_case
 from sweep.config.units import load_config
 from sweep.numbers import three_digits
-from sweep.ranking.worth import worths
+from sweep.ranking.assessment import assess
+from sweep.ranking.question import Question
 from sweep.report.tables.markdown import markdown
-from sweep.report.tables.sheets import Sheet
+from sweep.report.tables.sheet import Sheet
 from sweep.running.searching.design_space import DesignSpace
 from sweep.running.searching.search import Search, Settings
 from sweep.running.sweep import run_sweep
@@ -31,7 +32,7 @@ from sweep.store.read import read_summary
 
 CONFIG = Path(__file__).parents[3] / "configs" / "search.toml"
 ENERGY = "absorbed_energy_at_50N_J"
-QUESTION = {"budget": None, "panel": None, "by": ENERGY, "allowed_force": "50 N"}
+QUESTION = Question(by=ENERGY, allowed_force="50 N")
 SEEDS = (1, 2, 3, 4, 5)
 KEYS = ("lattice.kind", "lattice.cells_x", "lattice.cells_y", "lattice.wall_thickness")
 WALLS = KEYS[-1]
@@ -93,7 +94,7 @@ def best_beside(question, folder, simulate=None):
     every = [case for cases in question.beside.values() for case in cases]
     out = folder / f"{question.name}_beside.h5"
     run_sweep(every, out, simulate=simulate)
-    values = worths(read_summary(out), QUESTION).by_id
+    values = assess(read_summary(out), QUESTION).by_id
     return {
         name: max(
             ((values[case.case_id], case) for case in cases if case.case_id in values),

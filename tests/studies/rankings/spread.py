@@ -12,11 +12,12 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from sweep.columns import ABSORBED_AT
 from sweep.config.case import Case, Contact, Lattice, Loading, Solver
 from sweep.numbers import tenths
 from sweep.report.tables.markdown import markdown
-from sweep.report.tables.sheets import Sheet
-from sweep.result import ABSORBED_AT, Status
+from sweep.report.tables.sheet import Sheet
+from sweep.result import Status
 from sweep.running.beside.error_bars import HEADLINE
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_summary

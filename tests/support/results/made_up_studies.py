@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from sweep.columns import HISTORY_COLUMNS
 from sweep.ranking.accuracy import studies
-from sweep.result import HISTORY_COLUMNS, Result, Status
+from sweep.result import Result, Status
 from sweep.store.read import read_summary
 from sweep.store.write import Writer
 from tests.support.results.specimens import summary

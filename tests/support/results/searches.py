@@ -4,14 +4,8 @@ from math import exp, nan
 
 import numpy as np
 
-from sweep.result import (
-    COLUMNS,
-    HISTORY_COLUMNS,
-    Result,
-    Status,
-    absorbed_energy_column,
-    design_columns,
-)
+from sweep.columns import COLUMNS, HISTORY_COLUMNS, absorbed_energy_column
+from sweep.result import Result, Status, design_columns
 
 TOML = """
 name = "sought"

@@ -5,7 +5,8 @@ from itertools import count
 import numpy as np
 import pandas as pd
 
-from sweep.result import COLUMNS, HISTORY_COLUMNS, MODEL_VERSION, Result, Status
+from sweep.columns import COLUMNS, HISTORY_COLUMNS
+from sweep.result import MODEL_VERSION, Result, Status
 from sweep.store.write import Writer
 
 HEIGHT, T = 10e-3, 1e-3  # of the squeezed cell

@@ -7,16 +7,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from sweep.columns import COLUMNS, HISTORY_COLUMNS, OLDER, absorbed_energy_column
 from sweep.config.case import Case, Lattice
-from sweep.result import (
-    COLUMNS,
-    HISTORY_COLUMNS,
-    OLDER,
-    Result,
-    Status,
-    absorbed_energy_column,
-    design_columns,
-)
+from sweep.result import Result, Status, design_columns
 from sweep.store.write import Writer
 
 NODES = 5

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from sweep.cli.completion import SHELLS, script
-from sweep.result import COLUMNS
+from sweep.columns import COLUMNS
 from tests.support.command import crumple
 from tests.support.results.specimens import summary, write
 

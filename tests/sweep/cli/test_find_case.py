@@ -3,9 +3,10 @@
 import pytest
 
 from sweep.cli.find_case import CaseError, by_id, by_number, is_number
+from sweep.ranking.question import Question
 from tests.support.results.specimens import designs, summary
 
-QUESTION = {"budget": ["1.5 g", "10 g"]}
+QUESTION = Question(budget=["1.5 g", "10 g"])
 
 
 @pytest.fixture
@@ -28,13 +29,15 @@ def test_number_counts_within_the_first_budget_and_scene(two_scenes):
     row, told = by_number(two_scenes, 1, None, QUESTION)
     assert row["case_id"] == two_scenes["case_id"][0]
     assert told == "number 1 of 1: crushed to 50 %, glued platens, up to 1.5 g"
-    ids = [by_number(two_scenes, n, None, {"budget": "10 g"})[0]["case_id"] for n in range(1, 6)]
+    ids = [
+        by_number(two_scenes, n, None, Question(budget="10 g"))[0]["case_id"] for n in range(1, 6)
+    ]
     assert ids == list(two_scenes["case_id"].iloc[[1, 2, 3, 4, 0]])
 
 
 @pytest.mark.parametrize("scene", ["2", "contact", "Crushed to 50 %, contact platens"])
 def test_scene_is_a_number_or_words(two_scenes, scene):
-    row, told = by_number(two_scenes, 1, scene, {"budget": "10 g"})
+    row, told = by_number(two_scenes, 1, scene, Question(budget="10 g"))
     assert row["case_id"] == two_scenes["case_id"][6]
     assert told == "number 1 of 2: crushed to 50 %, contact platens, up to 10 g"
 
@@ -49,21 +52,21 @@ def test_scene_is_a_number_or_words(two_scenes, scene):
 )
 def test_what_is_not_there_is_refused(two_scenes, number, scene, why):
     with pytest.raises(CaseError, match=why):
-        by_number(two_scenes, number, scene, {})
+        by_number(two_scenes, number, scene, Question())
 
 
 def test_ranking_without_places_has_no_numbers():
     with pytest.raises(CaseError, match="no design has a place in the ranking; without CASE, show"):
-        by_number(summary({"status": "stopped"}), 1, None, {})
+        by_number(summary({"status": "stopped"}), 1, None, Question())
 
 
 def test_where_nothing_has_a_place_the_nearest_design_is_named(two_scenes):
     """A scene without places keeps its number."""
-    of_scene = {**QUESTION, "budget": "0.8 g"}
+    of_scene = QUESTION._replace(budget="0.8 g")
     why = "of crushed to 50 %, contact platens; .* lightest design: case 0+5, ninjaflex"
     with pytest.raises(CaseError, match=why):
         by_number(two_scenes, 1, "2", of_scene)
-    question = {"require": {"min_absorbed": "0.4 J"}}
+    question = Question(require={"min_absorbed": "0.4 J"})
     assert by_number(two_scenes, 1, None, question)[0]["case_id"] == two_scenes["case_id"][1]
     with pytest.raises(CaseError, match=r"that of the nearest design: case 0+6, ninjaflex"):
         by_number(two_scenes, 1, "contact", question)
@@ -71,10 +74,10 @@ def test_where_nothing_has_a_place_the_nearest_design_is_named(two_scenes):
 
 def test_a_number_of_a_doubtful_design_says_so(two_scenes):
     doubtful = two_scenes.assign(max_crossings=[0, 1, 0, 0, 0, 0, 0])
-    assert by_number(doubtful, 1, None, {"budget": "10 g"})[1].endswith(
+    assert by_number(doubtful, 1, None, Question(budget="10 g"))[1].endswith(
         "up to 10 g, marked as not to be trusted"
     )
-    assert by_number(doubtful, 2, None, {"budget": "10 g"})[1].endswith("up to 10 g")
+    assert by_number(doubtful, 2, None, Question(budget="10 g"))[1].endswith("up to 10 g")
 
 
 def test_id_begins_so(two_scenes):

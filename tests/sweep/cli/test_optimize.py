@@ -5,7 +5,7 @@ from importlib import import_module
 
 import pytest
 
-from sweep.running.beside.spread import spread_file
+from sweep.running.beside.run_beside import file_beside
 from sweep.store.read import read_summary
 from tests.support.command import crumple
 from tests.support.results.searches import TOML, simulate
@@ -32,7 +32,7 @@ def test_it_tells_the_best_with_their_spread_and_the_next_command(capsys, config
     assert f"Pareto front of {ENERGY} and mass_g" in out
     assert "Left out: " in out
     assert len(read_summary("results/sought.h5")) == 60
-    assert len(read_summary(spread_file("results/sought.h5"))) == 15
+    assert len(read_summary(file_beside("results/sought.h5", "spread"))) == 15
     *_, last = out.splitlines()
     told, _, command = last.partition("; to rank them: crumple ")
     assert told == "results: results/sought.h5"

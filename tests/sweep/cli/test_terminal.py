@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from sweep.cli.terminal import fitted
-from sweep.report.tables.sheets import Sheet
+from sweep.report.tables.sheet import Sheet
 from tests.support.results.specimens import summary, write
 
 ROOT = Path(__file__).parents[3]

@@ -5,6 +5,7 @@ import json
 import re
 import subprocess
 import sys
+from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
 
@@ -12,10 +13,11 @@ import pandas as pd
 import pytest
 
 from sweep.__main__ import REQUIREMENTS, main
+from sweep.cli.refusals import REFUSALS
 from sweep.cli.verbs import VERBS
+from sweep.columns import absorbed_energy_column
 from sweep.config.tables import Require
 from sweep.ranking.requirements import MEASURES
-from sweep.result import absorbed_energy_column
 from sweep.running.sweep import Interrupted
 from sweep.store.read import read_summary
 from tests.support.command import crumple
@@ -613,3 +615,8 @@ def test_help_without_examples_promises_none(capsys):
     assert err.endswith("crumple status --help shows what it takes\n")
     _, _, err = crumple(capsys, "rank")
     assert err.endswith("crumple rank --help shows examples\n")
+
+
+@pytest.mark.parametrize(("module", "error"), REFUSALS.items())
+def test_errors_that_are_refusals_are_there(module, error):
+    assert issubclass(getattr(import_module(module), error), Exception)

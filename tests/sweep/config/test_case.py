@@ -55,3 +55,11 @@ def test_a_changed_copy_has_an_id_of_its_own():
 def test_a_case_cannot_be_changed():
     with pytest.raises(ValidationError, match="frozen"):
         Case().lattice.width = 1.0
+
+
+def test_changed_case_is_resolved_anew():
+    case = Case(axes={"lattice.cells": 3})
+    pressed = case.changed(loading=Loading(strain=0.5))
+    assert pressed == Case(loading=Loading(strain=0.5), axes=case.axes)
+    assert pressed.solver != case.solver
+    assert case.changed() == case

@@ -6,7 +6,7 @@ from pydantic import ValidationError
 from sweep.config.case import Case, Loading, Material
 from sweep.config.grid import expand
 from sweep.config.materials.material_file import locate, read_record
-from sweep.config.tables import MODES, by_curve
+from sweep.config.tables import MODES
 from sweep.config.units import ConfigError
 from tests.support.designs.cases import pressed
 from tests.support.materials.records import HEADER
@@ -123,21 +123,6 @@ def test_every_key_of_a_loading_belongs_to_a_mode_or_to_all():
     """A key that no mode names would be taken without a sentence where it has no effect."""
     of_all = {"mode", "platen", "duration", "allowed_forces", "direction"}
     assert {key for keys in MODES.values() for key in keys} == set(Loading.model_fields) - of_all
-
-
-@pytest.mark.parametrize(
-    ("stretch", "bend", "key"),
-    [
-        ("nonlinear", "section", "stretch"),
-        ("nonlinear", "linear", "stretch"),
-        ("linear", "fibres", "bend"),
-        ("linear", "none", None),
-        ("of a formula", "section", None),
-    ],
-)
-def test_laws_that_go_by_the_curve(stretch, bend, key):
-    """Sections of a law with a formula go by that."""
-    assert by_curve(stretch, bend) == key
 
 
 def test_a_curve_that_is_not_given_is_missed_where_it_is_used():

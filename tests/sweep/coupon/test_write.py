@@ -9,7 +9,7 @@ from sweep.config.materials.material_file import read_record
 from sweep.config.materials.material_header import assumed, source
 from sweep.coupon.fit import fit
 from sweep.coupon.record import Coupon
-from sweep.coupon.write import fit_sentence, material_text, told
+from sweep.coupon.write import fit_sentence, material_text, sentences_on_fit
 from tests.support.materials.coupons import coupon
 
 NAMES = ("time", "strain", "stress")
@@ -51,7 +51,7 @@ def test_puck_says_that_its_tension_is_derived(own_record):
 
 
 def test_what_was_found_is_told(own_record, both):
-    lines = [*told(both, read(own_record, both))]
+    lines = [*sentences_on_fit(both, read(own_record, both))]
     words = "\n".join(lines)
     assert "loss            0.35, without softening" in words
     assert "r 2.5, m 0.3 MPa, beta 0.1, which is assumed: the cycles are of one size" in words
@@ -73,7 +73,9 @@ def test_what_is_unusual_is_a_warning(own_record, scales, noise, wrong):
     test = coupon(0.5, noise=noise)
     columns = (scale * getattr(test, name) for scale, name in zip(scales, NAMES, strict=True))
     found = fit(Coupon("odd", *columns))
-    warnings = [line for line in told(found, read(own_record, found)) if "Warning" in line]
+    warnings = [
+        line for line in sentences_on_fit(found, read(own_record, found)) if "Warning" in line
+    ]
     assert len(warnings) == (wrong is not None)
     assert wrong is None or re.search(wrong, warnings[0])
 
@@ -90,4 +92,4 @@ def test_what_is_unusual_is_a_warning(own_record, scales, noise, wrong):
 )
 def test_what_is_not_known_is_told(own_record, ends, line):
     found = fit(coupon(*ends))
-    assert line in "\n".join(told(found, read(own_record, found)))
+    assert line in "\n".join(sentences_on_fit(found, read(own_record, found)))

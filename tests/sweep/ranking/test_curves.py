@@ -5,6 +5,7 @@ import pytest
 
 from sweep.ranking.curves import reached, with_allowed
 from sweep.ranking.merit import AT_ALLOWED
+from sweep.ranking.question import Question
 from sweep.ranking.rank import rank
 from sweep.store.read import read_history, read_summary
 from tests.support.results.specimens import designs, ids, summary, write
@@ -43,7 +44,7 @@ def test_each_design_bears_its_share_of_the_force_of_the_panel(file):
 
 
 def test_stroke_up_to_a_force_of_a_specimen_needs_no_column(file):
-    table = with_allowed(file, read_summary(file), {"allowed_force": 24.0})
+    table = with_allowed(file, read_summary(file), Question(allowed_force=24.0))
     assert list(table["stroke_at_allowed_m"][:3]) == pytest.approx([2e-3] * 3)
     assert np.isnan(table["stroke_at_allowed_m"][3])
 
@@ -56,5 +57,5 @@ def test_stroke_and_force_of_a_panel_are_required_together(file):
 
 def test_curves_are_left_alone_where_the_summary_has_the_answer(file):
     table = read_summary(file)
-    assert with_allowed("nowhere.h5", table, {"require": {"max_stroke": 1e-3}}) is table
-    assert with_allowed("nowhere.h5", table, {"per": "panel", "panel": PANEL}) is table
+    assert with_allowed("nowhere.h5", table, Question(require={"max_stroke": 1e-3})) is table
+    assert with_allowed("nowhere.h5", table, Question(per="panel", panel=PANEL)) is table

@@ -5,7 +5,8 @@ import pytest
 
 from sweep.ranking.merit import AT_DENSIFICATION
 from sweep.ranking.rank import rank, ranked
-from sweep.report.tables.sheets import legend, ranking_sheets
+from sweep.report.tables.legend import legend
+from sweep.report.tables.sheets import ranking_sheets
 from tests.support.results.specimens import CRUSHED_SOLID, SPARSE, designs, ids, summary
 
 NAN = float("nan")

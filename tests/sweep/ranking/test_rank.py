@@ -6,9 +6,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from sweep.ranking.rank import USUAL, RankError, pareto, rank, ranked, scene_label
+from sweep.columns import COLUMNS
+from sweep.ranking.places import pareto
+from sweep.ranking.rank import USUAL, RankError, rank, ranked
 from sweep.report.tables.sheets import ranking_sheets
-from sweep.result import COLUMNS, MODEL_VERSION
+from sweep.result import MODEL_VERSION
 from tests.support.readme import QUOTED
 from tests.support.results.specimens import designs, ids, summary
 
@@ -43,34 +45,6 @@ def test_a_design_that_weighs_just_the_budget_is_within_it():
     assert ids(ranking.table) == [0]
     (sheet,) = ranking_sheets(ranking, table)
     assert sheet.notes == ()
-
-
-def test_scenes_are_never_compared():
-    table = summary(
-        {"absorbed_energy_J": 0.5},
-        {"absorbed_energy_J": 0.1, "platen": "contact"},
-        {"absorbed_energy_J": 0.2, "loading_mode": "force", "force_N": 5.0, "stroke_m": NAN},
-        {"absorbed_energy_J": 0.3, "loading_mode": "force", "force_N": 10.0, "stroke_m": NAN},
-    )
-    ranking = rank(table)
-    assert list(ranking["place"]) == [1, 1, 1, 1]
-    assert ranking["pareto"].all()
-    assert list(ranking["scene"]) == [
-        "crushed to 50 %, glued platens",
-        "crushed to 50 %, contact platens",
-        "dead load of 5 N, glued platens",
-        "dead load of 10 N, glued platens",
-    ]
-
-
-def test_assumptions_make_scenes_and_designs_do_not():
-    rows = designs([1.0, 1.0, 1.0], [0.1, 0.2, 0.3])
-    for row, friction, infill in zip(rows, [0.2, 0.9, 0.9], [0.1, 0.1, 0.3], strict=True):
-        row |= {"contact.friction": friction, "lattice.infill": infill}
-    ranking = rank(summary(*rows))
-    assert ids(ranking) == [0, 2, 1]
-    assert ranking["scene"].nunique() == 2
-    assert ranking.loc[0, "scene"].endswith(", contact friction 0.2")
 
 
 def test_pareto_agrees_with_its_definition():
@@ -260,33 +234,6 @@ def test_refusals_name_what_is_allowed():
 def test_number_without_a_unit_is_refused(asked, told):
     with pytest.raises(RankError, match=told):
         rank(summary({}), **asked)
-
-
-def test_scenes_never_share_a_label():
-    rows = [{"loading.strain": strain, "stroke_m": strain * 12.2e-3} for strain in (0.6, 0.604)]
-    rows += [row | {"height_m": 10e-3} for row in rows]
-    rows += [{"loading.strain": float("nan"), "contact.friction": mu} for mu in (0.2, 0.3)]
-    assert rank(summary(*rows))["scene"].nunique() == 4
-
-
-def test_label_leaves_out_keys_that_a_scene_does_without():
-    keys = "loading.strain", "solver.integrator", "solver.time_step"
-    load = {"loading_mode": "force", "force_N": 5.0, "stroke_m": NAN}
-    rows = [
-        dict(zip(keys, (0.5, "", NAN), strict=True)),
-        load | dict(zip(keys, (NAN, "bdf2", NAN), strict=True)),
-        load | dict(zip(keys, (NAN, "bdf2", 0.001), strict=True)),
-    ]
-    assert list(rank(summary(*rows))["scene"]) == [
-        "crushed to 50 %, glued platens",
-        "dead load of 5 N, glued platens, solver integrator bdf2",
-        "dead load of 5 N, glued platens, solver integrator bdf2, solver time step 1 ms",
-    ]
-
-
-def test_label_leaves_out_a_depth_that_differs():
-    table = summary({"stroke_m": 3.05e-3}, {})
-    assert scene_label(table) == "crushed, glued platens"
 
 
 def test_a_design_without_the_energy_hides_no_heavier_one_from_the_front():

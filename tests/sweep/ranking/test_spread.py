@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from sweep.ranking.question import Question
 from sweep.ranking.rank import ranked
 from sweep.ranking.spread import AS_GIVEN, ends, spreads
 from sweep.result import Status
@@ -25,7 +26,7 @@ def found(at_corners, masses=(1.0, 1.0), energies=(0.4, 0.3), **question):
         for k, case_id in enumerate(own["case_id"])
     }
     asked = QUESTION | question
-    return spreads(ranked(own, **asked), summary(*rows), corners, asked)
+    return spreads(ranked(own, **asked), summary(*rows), corners, Question(**asked))
 
 
 def test_values_and_places_at_the_corners():
@@ -72,7 +73,7 @@ def test_limits_that_corners_miss_are_told():
         ids[k]: [(name, f"corner {2 * k + j}") for j, name in enumerate(NAMES)] for k in (0, 1)
     }
     asked = QUESTION | {"budget": [1.15e-3], "require": {"min_absorbed": "0.3 J"}}
-    (spread,) = spreads(ranked(own, **asked), summary(*rows), corners, asked)
+    (spread,) = spreads(ranked(own, **asked), summary(*rows), corners, Question(**asked))
     assert spread.masses.to_numpy().tolist() == [[1.0, 1.0, 1.0], [1.1, 1.2, 1.2]]
     assert spread.missed == (
         (2, "soft", "budget"),

@@ -7,8 +7,10 @@ import pandas as pd
 import pytest
 
 from sweep.__main__ import main
-from sweep.ranking.rank import rank, ranked, shared_places
-from sweep.report.tables.sheets import TIED, legend, ranking_sheets
+from sweep.ranking.places import shared_places
+from sweep.ranking.rank import rank, ranked
+from sweep.report.tables.legend import TIED, legend
+from sweep.report.tables.sheets import ranking_sheets
 from tests.support.results.specimens import designs, summary, write
 
 NAN = float("nan")

@@ -4,8 +4,9 @@ import pandas as pd
 import pytest
 
 from sweep.ranking.merit import RankError
+from sweep.ranking.question import Question
 from sweep.report.publish import publish_case, publish_ranking
-from sweep.report.tables.sheets import LOADED, MARKS
+from sweep.report.tables.legend import LOADED, MARKS
 from tests.support.results.specimens import designs, summary, write
 
 DESIGN_MAP = "sweep.report.figures.design_map.design_map"
@@ -20,7 +21,7 @@ def published(tmp_path):
     def publish(table=usual, drop_heights=(), **question):
         question = {"budget": None, "panel": None} | question
         file, out = write(tmp_path / "f.h5", table), tmp_path / "out"
-        paths = publish_ranking(file, table, question, out, drop_heights)
+        paths = publish_ranking(file, table, Question(**question), out, drop_heights)
         return {path.name: path for path in paths}
 
     return publish

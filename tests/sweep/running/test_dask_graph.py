@@ -11,7 +11,7 @@ import pytest
 from sweep.config.case import Case, Lattice, Material, Solver
 from sweep.result import Status
 from sweep.running.batches import Plan, cost
-from sweep.running.dask_graph import GraphError, Stop, check_scheduler, run
+from sweep.running.dask_graph import GraphError, Stop, check_scheduler, run_plan
 from tests.support.results.standin import cases, number_of, simulate
 
 
@@ -30,7 +30,7 @@ class Kept(list):
 
 def run_on_threads(batch, simulate, stop=None, workers=2):
     kept = Kept()
-    run(Plan(batch, workers), simulate, kept, stop or Stop())
+    run_plan(Plan(batch, workers), simulate, kept, stop or Stop())
     return kept
 
 
@@ -56,7 +56,9 @@ def test_batches_are_handed_over_one_at_a_time_while_others_run():
         time.sleep(0.002)
         busy.release()
 
-    run(Plan(cases(100), 2), lambda case, stop: time.sleep(0.001) or simulate(case), sink, Stop())
+    run_plan(
+        Plan(cases(100), 2), lambda case, stop: time.sleep(0.001) or simulate(case), sink, Stop()
+    )
     assert len(clashes) > 1
     assert not any(clashes)
 
@@ -94,7 +96,7 @@ def test_error_of_the_sink_ends_the_sweep():
 
     started = time.perf_counter()
     with pytest.raises(OSError, match="no space"):
-        run(
+        run_plan(
             Plan(cases(200), 2), lambda case, stop: time.sleep(0.05) or simulate(case), full, Stop()
         )
     assert time.perf_counter() - started < 2
@@ -211,7 +213,7 @@ def test_case_that_kills_its_worker_is_a_row_and_its_neighbours_succeed():
     batch, kept = cases(24), Kept()
     options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
     with LocalCluster(**options, silence_logs=50) as cluster:
-        run(Plan(batch, 2), poisonous, kept, Stop(), cluster.scheduler_address)
+        run_plan(Plan(batch, 2), poisonous, kept, Stop(), cluster.scheduler_address)
         assert cluster.scheduler.allowed_failures == 3
     statuses = {number_of(case): kept.results[case.case_id].status for case in batch}
     assert statuses.pop(11) is Status.WORKER_DIED
@@ -232,7 +234,7 @@ def test_stop_on_a_cluster_keeps_what_has_landed():
 
     options = {"n_workers": 1, "threads_per_worker": 1, "processes": False}
     with LocalCluster(**options, dashboard_address=None, silence_logs=50) as cluster:
-        run(Plan(batch, 2), simulate, sink, stop, cluster.scheduler_address)
+        run_plan(Plan(batch, 2), simulate, sink, stop, cluster.scheduler_address)
     assert 0 < sum(map(len, kept)) < 40
 
 
@@ -268,7 +270,7 @@ def test_scheduler_that_goes_away_is_told_in_one_line(monkeypatch):
         LocalCluster(**options, dashboard_address=None, silence_logs=60) as cluster,
         pytest.raises(GraphError, match="lost the Dask scheduler at inproc"),
     ):
-        run(
+        run_plan(
             Plan(cases(40), 2),
             simulate,
             lambda _: cluster.close(),
@@ -296,5 +298,5 @@ def test_stop_while_a_cluster_has_no_worker():
     threading.Timer(0.5, stop.ask).start()
     with LocalCluster(n_workers=0, dashboard_address=None, silence_logs=50) as cluster:
         kept = Kept()
-        run(Plan(cases(3), 2), simulate, kept, stop, cluster.scheduler_address)
+        run_plan(Plan(cases(3), 2), simulate, kept, stop, cluster.scheduler_address)
     assert kept == []

@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.config.case import Case, Loading, Material
-from sweep.running.relaxation_times import loading_time, lossless
+from sweep.running.relaxation_times import loading_time, sentences_on_lossless
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from tests.support.designs.cases import pressed
@@ -27,7 +27,7 @@ def test_time_of_a_loading(loading, time):
 
 def test_an_impact_is_too_short_for_slow_branches_and_is_told():
     struck = Case(material=SLOW, loading=Loading(mode="impact", striker_speed=2.5))
-    (line,) = lossless([struck, struck, pressed()])
+    (line,) = sentences_on_lossless([struck, struck, pressed()])
     assert line == (
         "2 of 3 cases last less than a hundredth of the shortest material.relaxation time "
         "(0.01 s and 2 s): the material loses next to nothing in them"
@@ -38,8 +38,8 @@ def test_an_impact_is_too_short_for_slow_branches_and_is_told():
 def test_only_what_is_far_from_all_times_is_told(rate, lines):
     """Times of 1.2 over the rate: 1.2e5 s, 1200 s, 12 s, 60 ms and 12 ms; limits: 6000 s, 20 ms."""
     case = Case(material=SLOW, loading=Loading(mode="displacement", strain_rate=rate))
-    assert len(lossless([case])) == lines
-    assert "longest" in "".join(lossless([case])) or rate > 1e-4
+    assert len(sentences_on_lossless([case])) == lines
+    assert "longest" in "".join(sentences_on_lossless([case])) or rate > 1e-4
 
 
 def test_a_sweep_tells_before_it_runs(tmp_path, capsys):
@@ -53,7 +53,12 @@ def test_a_sweep_tells_before_it_runs(tmp_path, capsys):
 
 def test_elastic_walls_and_a_measured_loss_are_never_told():
     short = Loading(mode="impact", striker_speed=100.0)
-    assert lossless([Case(loading=short), Case(loading=short, material=Material(loss=0.4))]) == []
+    assert (
+        sentences_on_lossless(
+            [Case(loading=short), Case(loading=short, material=Material(loss=0.4))]
+        )
+        == []
+    )
 
 
 def test_what_is_told_is_true():
@@ -61,7 +66,7 @@ def test_what_is_told_is_true():
     shares = []
     for rate in (0.6, 1200.0):
         loading = Loading(mode="displacement", strain=0.3, strain_rate=rate)
-        lines = lossless([case := Case(material=SLOW, loading=loading)])
+        lines = sentences_on_lossless([case := Case(material=SLOW, loading=loading)])
         assert len(lines) == (rate > 1.0)
         shares.append(simulate(case).summary["lost_share"])
     elastic = simulate(Case(loading=loading)).summary["lost_share"]

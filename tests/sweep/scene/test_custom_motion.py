@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from sweep.columns import Column, describe_history
 from sweep.config.case import Contact, Damping
-from sweep.result import Column, describe_history
 from tests.studies.verify import MATERIAL
 from tests.support.designs.scenes import unbalanced
 from tests.support.designs.structures import (

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from sweep.columns import cycle_columns
 from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
-from sweep.result import cycle_columns
 from sweep.scene.loading import CycleRows
 from sweep.simulation.cycles import columns_of_cycles
 from sweep.simulation.simulate import simulate

@@ -7,8 +7,9 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
+from sweep.columns import ABSORBED_AT, COLUMNS, HISTORY_COLUMNS
 from sweep.config.case import Case, Contact, Lattice, Loading, Solver
-from sweep.result import ABSORBED_AT, COLUMNS, HISTORY_COLUMNS, Status
+from sweep.result import Status
 from sweep.simulation.simulate import simulate
 from tests.support.designs.scenes import is_sound, pressed
 

@@ -5,8 +5,8 @@ from importlib import import_module
 import numpy as np
 import pytest
 
+from sweep.columns import COLUMNS, HISTORY_COLUMNS
 from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
-from sweep.result import COLUMNS, HISTORY_COLUMNS
 from sweep.scene.plates.scene import build_scene
 from sweep.simulation.plate_shapes import plate_frames
 from sweep.simulation.simulate import simulate

@@ -6,7 +6,8 @@ import h5py
 import numpy as np
 import pytest
 
-from sweep.result import COLUMNS, MODEL_VERSION, OLDER
+from sweep.columns import COLUMNS, OLDER
+from sweep.result import MODEL_VERSION
 from sweep.store.read import read_summary
 from tests.support.results.standin import cases, write, write_older
 

@@ -10,7 +10,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from sweep.result import COLUMNS, HISTORY_COLUMNS, Status, failed_result
+from sweep.columns import COLUMNS, HISTORY_COLUMNS
+from sweep.result import Status, failed_result
 from sweep.store import parts
 from sweep.store.read import (
     Rerun,

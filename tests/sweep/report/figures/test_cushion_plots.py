@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from sweep.ranking.cushion import GRAVITY, Crush, cushion_curve, drops
+from sweep.constants import STANDARD_GRAVITY
+from sweep.ranking.cushion import Crush, cushion_curve, drops
 from sweep.ranking.rank import ranked
 from sweep.report.figures.case_plots import blank
 from sweep.report.figures.cushion_plots import (
@@ -15,12 +16,12 @@ from sweep.report.figures.cushion_plots import (
 from tests.support.results.specimens import summary
 
 STRAIN = np.linspace(0.001, 0.6, 600)
-SPEED = (2.0 * GRAVITY * 0.5) ** 0.5  # of a fall from 0.5 m
+SPEED = (2.0 * STANDARD_GRAVITY * 0.5) ** 0.5  # of a fall from 0.5 m
 HIT = {
     "loading_mode": "impact",
     "striker_mass_g": 40.0,
     "striker_speed_m_per_s": SPEED,
-    "peak_deceleration_filtered_m_per_s2": 60.0 * GRAVITY,
+    "peak_deceleration_filtered_m_per_s2": 60.0 * STANDARD_GRAVITY,
 }
 WALLS = {"wall_thickness_m": 0.4e-3, "lattice.wall_thickness": 0.4e-3, "mass_g": 0.5}
 
@@ -105,7 +106,7 @@ def test_cushion_curves_have_the_impacts_of_their_design_beside(designs):
     np.testing.assert_allclose(drawn, np.column_stack([1e-3 * static, peak]))
     assert [len(dots.get_offsets()) for dots in ax.collections] == [1, 2, 1, 1]
     ring = ax.collections[1].get_offsets()[0]
-    assert list(ring) == pytest.approx([1e-3 * 40e-3 * GRAVITY / (13e-3 * 10e-3), 60.0])
+    assert list(ring) == pytest.approx([1e-3 * 40e-3 * STANDARD_GRAVITY / (13e-3 * 10e-3), 60.0])
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
     assert labels[-1] == "simulated impact"
 
@@ -113,7 +114,7 @@ def test_cushion_curves_have_the_impacts_of_their_design_beside(designs):
 def test_an_impact_far_above_the_curves_is_in_view(designs):
     rows, crushes = crushed(designs)
     figure = blank(8, 4)
-    hard = designs[2:].assign(peak_deceleration_filtered_m_per_s2=1e5 * GRAVITY)
+    hard = designs[2:].assign(peak_deceleration_filtered_m_per_s2=1e5 * STANDARD_GRAVITY)
     cushion_diagram(figure, rows, crushes, 0.5, drops(hard))
     assert figure.axes[0].get_ylim()[1] > 1e5
 

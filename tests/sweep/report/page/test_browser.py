@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 import pandas as pd
 import pytest
 
+from sweep.ranking.question import Question
 from sweep.report.page.write import write_page
 from tests.support.browser import CHROMIUM, browser
 from tests.support.command import crumple
@@ -18,7 +19,7 @@ from tests.support.results.specimens import summary, write
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="needs chromium (a package of Debian)")
 
 CONFIG = {"name": "<b>trial</b>", "rank": {"budgets": [0.03, 0.06], "panel": [0.1, 0.05]}}
-QUESTION = CONFIG["rank"] | {"budget": CONFIG["rank"]["budgets"]}
+QUESTION = Question(CONFIG["rank"]["budgets"], CONFIG["rank"]["panel"])
 ROWS = """
 document.getElementById("all").hidden || view.all || document.getElementById("all").click(),
 [...document.querySelectorAll("#table tbody tr")].map((row) =>
@@ -240,6 +241,6 @@ def test_tables_stay_where_scripts_do_not_run(chromium, file):
 def test_page_of_failures_alone_opens(chromium, tmp_path):
     table = summary({"status": "stopped", "message": "no"})
     file = write(tmp_path / "trial.h5", table)
-    chromium.open(write_page(file, table, {}, tmp_path / "trial.html"))
+    chromium.open(write_page(file, table, Question(), tmp_path / "trial.html"))
     assert "No case has converged" in chromium.run("document.body.innerText")
     assert chromium.complaints == []

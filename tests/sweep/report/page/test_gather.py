@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from sweep.ranking.curves import with_allowed
+from sweep.ranking.question import Question
 from sweep.ranking.rank import ranked
 from sweep.report.page import gather
 from sweep.report.page.gather import curve_of, page_data
@@ -39,7 +40,7 @@ process.stdout.write(JSON.stringify(told));
 
 
 def gathered(path, table, **question):
-    return page_data(write(path / "trial.h5", table, {"config": "{}"}), table, question)
+    return page_data(write(path / "trial.h5", table, {"config": "{}"}), table, Question(**question))
 
 
 def told_by_the_script(data, questions):
@@ -95,7 +96,7 @@ def free(tmp_path_factory):
     folder, table = tmp_path_factory.mktemp("required"), sweep()
     data = gathered(folder, table)
     tables = {
-        force: with_allowed(folder / "trial.h5", table, {"allowed_force": force})
+        force: with_allowed(folder / "trial.h5", table, Question(allowed_force=force))
         for force in (None, 20.0, 50.0)
     }
     counts = [
@@ -241,7 +242,7 @@ def test_five_hundred_cases_fit_into_five_megabytes(tmp_path):
     with Writer(path) as writer:
         writer.append(results)
         writer.fold()
-    data = page_data(str(path), table, {})
+    data = page_data(str(path), table, Question())
     size = len(json.dumps(data, separators=(",", ":")))
     assert 2_000_000 < size < 4_900_000
     assert data["points"] == 60

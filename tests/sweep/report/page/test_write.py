@@ -6,6 +6,7 @@ from html.parser import HTMLParser
 
 import pytest
 
+from sweep.ranking.question import Question
 from sweep.report.page.gather import page_data
 from sweep.report.page.write import page, tables, write_page
 from tests.support.command import crumple
@@ -42,9 +43,11 @@ class Reader(HTMLParser):
         self.text[where] = self.text.get(where, "") + data
 
 
-def written(path, table, question=None):
+def written(path, table, **question):
     file = write(path / "trial.h5", table, {"config": json.dumps({"name": EVIL, "rank": {}})})
-    return write_page(file, table, question or {}, path / "out" / "trial.html").read_text("utf-8")
+    return write_page(file, table, Question(**question), path / "out" / "trial.html").read_text(
+        "utf-8"
+    )
 
 
 @pytest.fixture
@@ -94,17 +97,17 @@ def test_only_the_program_may_run(evil):
 
 def test_tables_are_readable_without_scripts(tmp_path):
     table = summary(*designs([1.0, 2.0, 4.0], [0.1, 0.3, 0.4]))
-    text = tables(table, {"budget": [0.002, 0.004]})
+    text = tables(table, Question(budget=[0.002, 0.004]))
     read = Reader(text)
     assert "The best design up to 2 g, crushed to 50 %, glued platens" in read.text["p"]
     assert [tag for tag, _ in read.elements].count("tr") == 6
     assert "Pareto front" in read.text["p"]
-    assert text in written(tmp_path, table, {"budget": [0.002, 0.004]})
+    assert text in written(tmp_path, table, budget=[0.002, 0.004])
 
 
 def test_tables_have_only_what_is_required(tmp_path):
     table = summary(*designs([1.0, 2.0, 4.0], [0.1, 0.3, 0.4]))
-    read = Reader(tables(table, {"require": {"max_mass": 2.5e-3, "min_absorbed": 0.2}}))
+    read = Reader(tables(table, Question(require={"max_mass": 2.5e-3, "min_absorbed": 0.2})))
     assert "absorbed energy at least 200 mJ" in read.text["p"]
     assert "1 of 3 designs fulfil this" in " ".join(read.text["p"].split())
     assert [tag for tag, _ in read.elements].count("tr") == 2
@@ -112,7 +115,7 @@ def test_tables_have_only_what_is_required(tmp_path):
 
 def test_tables_say_that_nothing_fulfils_what_is_required(tmp_path):
     table = summary(*designs([1.0, 2.0], [0.1, 0.3]))
-    said = written(tmp_path, table, {"require": {"min_absorbed": 9.0}})
+    said = written(tmp_path, table, require={"min_absorbed": 9.0})
     assert "0 of 2 designs fulfil this" in " ".join(Reader(said).text["p"].split())
 
 
@@ -135,7 +138,7 @@ def test_page_tells_where_its_numbers_come_from(tmp_path):
     about |= {"version_numpy": "9.9"}
     table = summary({})
     file = write(tmp_path / "trial.h5", table, about)
-    read = Reader(page(page_data(file, table, {}), ""))
+    read = Reader(page(page_data(file, table, Question()), ""))
     said = read.text["dd"]
     assert all(word in said for word in ("trial.h5", "abc", "now", "9.9"))
     assert '"depth": 0.0123' in read.text["pre"]

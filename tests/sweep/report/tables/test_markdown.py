@@ -2,7 +2,8 @@
 
 from sweep.ranking.rank import ranked
 from sweep.report.tables.markdown import markdown
-from sweep.report.tables.sheets import Sheet, ranking_sheets
+from sweep.report.tables.sheet import Sheet
+from sweep.report.tables.sheets import ranking_sheets
 from tests.support.results.specimens import designs, summary
 
 

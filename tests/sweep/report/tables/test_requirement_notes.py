@@ -3,8 +3,9 @@
 import pytest
 
 from sweep.ranking.rank import ranked
+from sweep.report.tables.legend import legend
 from sweep.report.tables.requirement_notes import quantity, required
-from sweep.report.tables.sheets import legend, ranking_sheets
+from sweep.report.tables.sheets import ranking_sheets
 from tests.support.results.specimens import designs, summary
 
 NAN = float("nan")

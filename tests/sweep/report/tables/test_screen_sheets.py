@@ -3,6 +3,7 @@
 import pytest
 from pandas import Series
 
+from sweep.ranking.question import Question
 from sweep.report.tables.screen_sheets import screen_sheets
 from tests.support.results.specimens import designs, summary
 
@@ -18,7 +19,7 @@ def sheet(count, factors=(1.0, 1.0, 1.0)):
     full[energies] = full[energies].mul(
         Series(factors[:count], index=full.index, dtype=float), axis=0
     )
-    (found,) = screen_sheets(estimates, full, QUESTION)
+    (found,) = screen_sheets(estimates, full, Question(**QUESTION))
     return found
 
 

@@ -3,28 +3,22 @@
 import pytest
 
 from sweep.ranking.rank import ranked
-from sweep.report.tables.markdown import markdown
-from sweep.report.tables.sheets import (
+from sweep.report.tables.design_text import design_labels, design_text
+from sweep.report.tables.legend import (
     AGAIN,
     BEYOND,
     CROSSED,
     EARLY,
-    ELASTIC,
-    LOADED,
-    LOSSY,
-    MIXED,
-    PLASTIC,
     STRETCHED,
     UNSURE,
-    about_direction,
-    design_labels,
-    design_text,
     legend,
-    ranking_sheets,
 )
+from sweep.report.tables.markdown import markdown
+from sweep.report.tables.sheets import ranking_sheets
 from tests.support.results.specimens import CRUSHED_SOLID, SPARSE, designs, summary
 
 NAN = float("nan")
+UPRIGHT = {"direction": "out_of_plane", "solid_strain": 0.7, "peak_strain": 0.6}
 
 
 def test_energy_of_the_whole_crush_is_marked_where_the_model_does_not_hold_it():
@@ -113,32 +107,6 @@ def test_a_lattice_that_packs_at_two_strains_is_marked():
     assert UNSURE not in sheet.notes
 
 
-def test_legend_explains_what_is_shown():
-    crushed = summary({"absorbed_energy_at_50N_J": 0.1})
-    assert "are counted until the lattice has packed" in legend(ranked(crushed))
-    assert "are counted until the force exceeds 50 N" in legend(ranked(crushed, allowed_force=50.0))
-    assert "are counted to the end of the stroke" in legend(ranked(crushed, by="absorbed_energy_J"))
-    assert "sink" not in legend(ranked(crushed))
-    loaded = summary({"loading_mode": "force", "force_N": 5.0})
-    assert legend(ranked(loaded)).splitlines()[1:] == [LOADED]
-
-
-def test_legend_says_what_takes_the_energy_that_does_not_come_back():
-    relaxing = {"material_memory": "relaxes", "material": "mine"}
-    struck = {"loading_mode": "impact", "striker_mass_g": 50.0, "striker_speed_m_per_s": 1.0}
-    for common in ({}, struck):
-        said = legend(ranked(summary(common, common)))
-        assert said.endswith(ELASTIC)
-        assert max(map(len, f"{said}\n{MIXED}\n{PLASTIC}\n{AGAIN}".splitlines())) <= 100
-        assert legend(ranked(summary(common | relaxing))).endswith(LOSSY)
-        assert legend(ranked(summary(common, common | relaxing))).endswith(MIXED)
-        yielding = common | {"material_memory": "yields"}
-        assert legend(ranked(summary(yielding))).endswith(PLASTIC)
-        assert legend(ranked(summary(yielding, common | relaxing))).endswith(LOSSY)
-    pulled = summary({"absorbed_energy_at_50N_J": 0.1})
-    assert ELASTIC not in legend(ranked(pulled, allowed_force=50.0))
-
-
 def test_behaviour_of_walls_is_shown_where_it_differs():
     table = summary({}, {"material_memory": "softens"})
     (sheet,) = ranking_sheets(ranked(table), table)
@@ -147,32 +115,6 @@ def test_behaviour_of_walls_is_shown_where_it_differs():
     table = summary({}, {})
     (sheet,) = ranking_sheets(ranked(table), table)
     assert "behaviour" not in sheet.heads
-
-
-@pytest.mark.parametrize(
-    ("key", "values", "head", "texts"),
-    [
-        ("material.loss", (0.2, 0.45), "loss %", ["20", "45"]),
-        ("material.reference_time", (1e-3, 0.5), "reference time ms", ["1", "500"]),
-        ("material.softening_m", (5e5, 2e6), "softening m MPa", ["0.5", "2"]),
-        ("material.softening_r", (2.0, 3.0), "softening r", ["2", "3"]),
-        ("lattice.layer_height", (2e-4, NAN), "layer height um", ["200", "–"]),
-        ("material.memory", ("none", "measured"), "memory", ["none", "measured"]),
-    ],
-)
-def test_grid_keys_are_shown_with_their_units(key, values, head, texts):
-    table = summary(*({key: value} for value in values))
-    (sheet,) = ranking_sheets(ranked(table, by="mass_g"), table)
-    assert sheet.columns[sheet.heads.index(head)] == texts
-    labels = design_labels(table, table)
-    unit = head.removeprefix(key.split(".")[1].replace("_", " "))
-    assert labels[0] == f"{head.removesuffix(unit)} {texts[0]}{unit}"
-
-
-def test_a_grid_key_that_does_not_vary_has_no_column():
-    table = summary({"material.loss": 0.2}, {"material.loss": 0.2})
-    (sheet,) = ranking_sheets(ranked(table), table)
-    assert "loss %" not in sheet.heads
 
 
 def test_the_sorted_column_is_never_spare():
@@ -225,22 +167,6 @@ def test_what_does_not_print_is_marked():
     assert not any("does not print" in note for note in sheet.notes)
 
 
-def test_designs_of_a_slicer_are_told_by_their_share_instead_of_cells():
-    table = summary({"infill_share": 0.2, "cells_x": 5}, {"infill_share": 0.3}, {"cells_x": 4})
-    assert list(design_text(table, table)["infill %"]) == ["20", "30", ""]
-    labels = ["cells 5 x 3, 20 % infill", "cells 3 x 3, 30 % infill", "cells 4 x 3"]
-    assert design_labels(table, table) == labels
-    laid = table.head(2)
-    assert "cells" not in design_text(laid, laid)
-    table["lattice.infill"] = [0.2, 0.3, 0.25]
-    assert "infill" not in design_text(table, table)
-    table["infill_share"] = NAN
-    assert list(design_text(table, table)["infill %"]) == ["20", "30", "25"]
-
-
-UPRIGHT = {"direction": "out_of_plane", "solid_strain": 0.7, "peak_strain": 0.6}
-
-
 def test_both_directions_stand_side_by_side_in_one_ranking():
     """The direction belongs to the design, also as a key of the grid."""
     across = {"absorbed_energy_J": 0.1, "loading.direction": "in_plane"}
@@ -252,21 +178,3 @@ def test_both_directions_stand_side_by_side_in_one_ranking():
     assert [row[1] for row in sheet.rows] == ["along", "across"]
     assert design_labels(table, table) == ["pressed across", "pressed along"]
     assert "pressed" not in design_text(table.iloc[:1], table.iloc[:1])
-
-
-@pytest.mark.parametrize(("depths", "shown"), [((13.0, 12.6), False), ((13.0, 14.0), True)])
-def test_depth_of_a_plan_over_all_is_no_size_of_its_own(depths, shown):
-    walls = zip((0.8, 0.4), depths, strict=True)
-    rows = [{"wall_thickness_m": 1e-3 * t, "depth_m": 1e-3 * d} | UPRIGHT for t, d in walls]
-    table = summary({}, *rows)
-    assert ("depth mm" in design_text(table, table)) == shown
-
-
-def test_what_plates_leave_out_is_told():
-    rows = summary({}, UPRIGHT, UPRIGHT | {"peak_strain": 0.8})
-    none, usual, beyond = (about_direction(row) for _, row in rows.iterrows())
-    assert none == []
-    assert len(usual) == 1
-    assert "layers part is not modelled" in usual[0]
-    assert beyond[0] == usual[0]
-    assert "beyond a strain of 70 %" in beyond[1]

@@ -6,13 +6,15 @@ from dataclasses import replace
 
 import pytest
 
+from sweep.columns import describe_column, is_grid_key
 from sweep.config.case import Case, Lattice, Loading, Solver
 from sweep.config.grid import Config, Written, expand
 from sweep.config.structures.structure_file import read_structure
 from sweep.ranking.rank import rank
-from sweep.result import Status, describe_column, is_grid_key
+from sweep.result import Status
 from sweep.running.batches import cost
-from sweep.running.beside.error_bars import add_error_bars, companions, companions_file, error_bars
+from sweep.running.beside.error_bars import add_error_bars, companions, error_bars
+from sweep.running.beside.run_beside import file_beside
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate as crush
 from sweep.store.read import Rerun, read_attributes, read_summary
@@ -219,7 +221,7 @@ def test_error_bars_are_added_to_what_is_there_and_nothing_runs_twice(out, log, 
     assert list(summary["case_id"]) == ids
     assert list(summary[BAR]) == pytest.approx([1.5, 1.5])
     assert list(summary["lattice.imperfection"]) == [0.001, 0.002]
-    assert set(read_summary(companions_file(out))["case_id"]) == set(log[2:])
+    assert set(read_summary(file_beside(out, "companions"))["case_id"]) == set(log[2:])
 
     before = out.stat().st_mtime_ns
     assert add_error_bars(config(), out, simulate=logged) == 0
@@ -258,7 +260,8 @@ def test_failed_companion_leaves_the_design_without_a_bar_and_is_told(out, capsy
     run_sweep(config(), out, simulate=without_coarse_meshes)
     assert add_error_bars(config(), out, simulate=without_coarse_meshes) == 1
     told = capsys.readouterr().err
-    assert f"1 of 2 designs have no error bar: crumple status {companions_file(out)}" in told
+    beside = file_beside(out, "companions")
+    assert f"1 of 2 designs have no error bar: crumple status {beside}" in told
     summary = read_summary(out)
     assert list(summary["status"]) == ["converged"] * 2
     assert summary[BAR].isna().tolist() == [False, True]
@@ -273,7 +276,7 @@ def test_failed_companion_leaves_the_design_without_a_bar_and_is_told(out, capsy
 def test_error_bars_are_never_of_two_models(out):
     run_sweep(config(), out, simulate=first_order)
     assert add_error_bars(config(), out, simulate=first_order) == 0
-    forget_version(companions_file(out))
+    forget_version(file_beside(out, "companions"))
     assert add_error_bars(config(), out, simulate=first_order) == 2
     assert read_summary(out)[BAR].isna().all()
     assert add_error_bars(config(), out, rerun=Rerun(older=True), simulate=first_order) == 0

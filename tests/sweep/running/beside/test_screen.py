@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Lattice, Loading
-from sweep.config.defaults.direction import network_of
+from sweep.config.network import network_of
 from sweep.design.infill import families
 from sweep.design.network import mass
+from sweep.ranking.question import Question
 from sweep.result import Result, Status, design_columns
-from sweep.running.beside.screen import best_of, has_column, run_columns, screen_file, unit_column
+from sweep.running.beside.run_beside import file_beside
+from sweep.running.beside.screen import best_of, has_column, run_columns, unit_column
 from sweep.store.read import read_summary
 from tests.support.results.standin import simulate as invent
 
@@ -110,7 +112,7 @@ def test_estimates_are_those_of_the_whole_where_walls_are_alike(tmp_path):
             "outer_width_m",
         ):
             assert found.loc[design.case_id, name] == pytest.approx(whole[name], rel=1e-9), name
-    cells = read_summary(screen_file(tmp_path / "trial.h5"))
+    cells = read_summary(file_beside(tmp_path / "trial.h5", "screen"))
     assert cells["mass_g"].max() < 0.3 * found["mass_g"].min()
 
 
@@ -127,7 +129,7 @@ def test_no_column_runs_twice_and_a_stopped_one_gives_no_estimate(tmp_path):
         found = run_columns(designs, out, simulate=logged)
     assert sorted(log) == sorted(unit_column(design).case_id for design in designs)
     assert set(found["case_id"]) == {design.case_id for design in DESIGNS}
-    assert screen_file(out).name == "trial.screen.h5"
+    assert file_beside(out, "screen").name == "trial.screen.h5"
     assert not out.exists()
 
 
@@ -135,10 +137,9 @@ def test_the_best_are_those_of_the_ranking_of_each_infill(tmp_path):
     """Between infills estimates do not order designs, and the worst one keeps its best."""
     thick = [along(kind, wall_thickness=5e-4, nodes_per_wall=4) for kind in WORTH]
     found = run_columns([*DESIGNS, *thick], tmp_path / "trial.h5", simulate=crush)
-    question = {"budget": None, "panel": None, "top": 10, "per": "specimen"}
-    question |= {"by": "absorbed_energy_J"}
+    question = Question(by="absorbed_energy_J")
     best = best_of(found, question, 1)
     assert best == [design.case_id for design in thick]
     assert len(best_of(found, question, 2)) == 6
-    unmet = question | {"require": {"max_force": 1e-3}}
+    unmet = question._replace(require={"max_force": 1e-3})
     assert best_of(found, unmet, 1) == best

@@ -3,13 +3,13 @@
 import pytest
 
 from sweep.config.case import Case, Contact, Lattice, Loading, Material
+from sweep.running.beside.run_beside import file_beside
 from sweep.running.beside.spread import (
     FRICTION,
     SEEDS,
     corners,
     corners_of,
     run_corners,
-    spread_file,
 )
 from sweep.store.read import read_summary
 from tests.support.materials.records import HEADER
@@ -90,8 +90,8 @@ def test_only_missing_corners_of_the_best_run(tmp_path):
     for _ in range(2):
         run_corners(found, out, simulate=logged)
     assert sorted(log) == sorted(ids)
-    summary = read_summary(spread_file(out))
-    assert spread_file(out).name == "trial.spread.h5"
+    summary = read_summary(file_beside(out, "spread"))
+    assert file_beside(out, "spread").name == "trial.spread.h5"
     assert set(summary["case_id"]) == ids
     assert set(summary["contact.friction"].dropna()) == set(FRICTION)
 

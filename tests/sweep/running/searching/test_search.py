@@ -6,6 +6,7 @@ from math import exp
 import pytest
 
 from sweep.config.units import load_config
+from sweep.ranking.question import Question
 from sweep.running.searching.design_space import DesignSpace
 from sweep.running.searching.search import Search, Settings
 from sweep.store.read import read_attributes, read_summary
@@ -27,7 +28,7 @@ def searched(tmp_path):
             return simulate(case)
 
         space, how = DesignSpace(load_config(path)), Settings(evaluations, seed, workers=1)
-        asked = QUESTION | {"by": by} | question
+        asked = Question(**QUESTION | {"by": by} | question)
         search = Search(space, asked, tmp_path / "sought.h5", how, logged)
         search.run()
         return search, log

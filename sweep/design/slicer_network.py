@@ -23,7 +23,7 @@ from sweep.design.drawing import (
 from sweep.design.geometry import Geometry
 from sweep.design.infill import drawer
 from sweep.design.network import Network
-from sweep.design.slicer import PATTERNS, Sliced, distance_of
+from sweep.design.slicer_patterns import PATTERNS, Sliced, distance_of
 
 LEAST_SHARE = 0.01  # of infill, tried for a mass
 CLOSE = 5e-3  # relative error allowed in a mass, where lines appear all at once

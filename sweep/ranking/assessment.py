@@ -2,27 +2,30 @@
 it is from fulfilling what is required.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 from pandas import DataFrame
 
+from sweep.columns import describe_column, less_is_better
 from sweep.ranking.merit import Compared, RankError, doubtful
-from sweep.ranking.rank import ASSUMPTIONS, OF_DESIGN, pareto, ranked
+from sweep.ranking.places import pareto
+from sweep.ranking.question import Question
+from sweep.ranking.rank import answer
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, limits, measured, misses, nearest_first
-from sweep.result import describe_column, less_is_better
+from sweep.ranking.scenes import ASSUMPTIONS, OF_DESIGN
 
 ALIKE = 0.05  # relative difference in both columns up to which a front lists one of two designs
 
 
-class Worths(NamedTuple):
+class Assessment(NamedTuple):
     """Designs by their value in a column.
 
     by_id: values by id of the designs that fulfil all requirements, the best first. missed:
     greatest misses by id of those that do not, the nearest first (`requirements.nearest_first`).
     doubtful: number of further designs whose result is marked as beyond the model or as crossed,
-    which are worth nothing.
+    which have no value.
     """
 
     column: str
@@ -36,24 +39,24 @@ class Worths(NamedTuple):
         return 1.0 if less_is_better(self.column) else -1.0
 
 
-def worths(summary: DataFrame, question: Mapping[str, Any]) -> Worths:
-    """The worths of the designs of one scene; question: arguments of `rank`.
+def assess(summary: DataFrame, question: Question) -> Assessment:
+    """The values and misses of the designs of one scene.
 
     Designs without a place in the ranking have no value: failed ones, those above the budget.
     """
-    ranking = ranked(summary, **{**question, "top": None, "require": None})
-    table, required = ranking.table, limits(question.get("require"))
-    of_specimen = question.get("per") != "panel"
-    if question.get("allowed_force") and of_specimen and ranking.unranked:
+    ranking = answer(summary, question._replace(top=None, require=None))
+    table, required = ranking.table, limits(question.require)
+    of_specimen = question.per != "panel"
+    if question.allowed_force and of_specimen and ranking.unranked:
         what = f"{ranking.unranked} rows come from a run without loading.allowed_forces = "
-        raise RankError(f"{what}{question['allowed_force']}; allowed: another --out")
+        raise RankError(f"{what}{question.allowed_force}; allowed: another --out")
     column = ranking.by if table.empty else str(table["ranked_by"].iloc[0])
     check(table, required)
     sound = _sound(table)
     shares = misses(sound, measured(sound, _names(ranking), ranking.per), required)
     missed = nearest_first(sound, ranking.mass, shares)
     fulfil, others = sound[missed[sound.index] == 0.0], missed[missed > 0.0]
-    return Worths(
+    return Assessment(
         column,
         dict(zip(fulfil["case_id"], fulfil[column].astype(float), strict=True)),
         {str(sound.loc[at, "case_id"]): float(value) for at, value in others.items()},
@@ -65,11 +68,11 @@ def _names(ranking: Ranking) -> Compared:
     return Compared(ranking.mass, ranking.energy, ranking.per_gram, ranking.until)
 
 
-def front(summary: DataFrame, question: Mapping[str, Any], other: str) -> DataFrame:
+def front(summary: DataFrame, question: Question, other: str) -> DataFrame:
     """The rows of a ranking that no row exceeds both in its column and in another one, best first
     in that other one. Rows that are marked as doubtful are left out.
     """
-    table = _sound(ranked(summary, **{**question, "top": None}).table).dropna(subset=other)
+    table = _sound(answer(summary, question._replace(top=None)).table).dropna(subset=other)
     if table.empty:
         return table
     column = str(table["ranked_by"].iloc[0])

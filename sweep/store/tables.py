@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from sweep.result import COLUMNS, is_grid_key
+from sweep.columns import COLUMNS, is_grid_key
 
 Columns = dict[str, np.ndarray]
 Axes = Mapping[str, Mapping[str, Any]]

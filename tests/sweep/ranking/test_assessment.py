@@ -2,8 +2,9 @@
 
 import pytest
 
+from sweep.ranking.assessment import assess, check_column, check_searched, front, thinned
 from sweep.ranking.merit import RankError
-from sweep.ranking.worth import check_column, check_searched, front, thinned, worths
+from sweep.ranking.question import Question
 from tests.support.results.specimens import designs, summary
 
 QUESTION = {"budget": None, "panel": None, "by": None, "allowed_force": None}
@@ -17,21 +18,21 @@ def table(**changes):
 
 
 def asked(**question):
-    return QUESTION | question
+    return Question(**QUESTION | question)
 
 
 def test_best_first_as_in_the_ranking():
-    found = worths(table(), asked(budget=[3e-3]))
+    found = assess(table(), asked(budget=[3e-3]))
     assert found.column == "absorbed_energy_until_packed_J"
     assert list(found.by_id.values()) == [0.4, 0.3, 0.1]
     assert found.sign == -1.0
-    found = worths(table(), asked())
+    found = assess(table(), asked())
     assert found.column == "specific_absorption_until_packed_J_per_g"
     assert next(iter(found.by_id.values())) == pytest.approx(0.225)
 
 
 def test_less_is_better_where_the_column_says_so():
-    found = worths(table(), asked(by="mass_g"))
+    found = assess(table(), asked(by="mass_g"))
     assert list(found.by_id.values()) == [1.0, 2.0, 3.0, 4.0]
     assert found.sign == 1.0
 
@@ -45,7 +46,7 @@ def test_less_is_better_where_the_column_says_so():
     ],
 )
 def test_failed_and_marked_designs_have_no_worth(changes, doubtful):
-    found = worths(table(**changes), asked(by="absorbed_energy_J"))
+    found = assess(table(**changes), asked(by="absorbed_energy_J"))
     assert list(found.by_id.values()) == [0.4, 0.3, 0.1]
     assert found.doubtful == doubtful
 
@@ -55,7 +56,7 @@ def test_rows_without_the_allowed_force_are_refused():
     rows = summary(rows[0] | {"absorbed_energy_at_50N_J": 0.1}, rows[1])
     rows.loc[1, "absorbed_energy_at_50N_J"] = float("nan")
     with pytest.raises(RankError, match=r"1 rows .* = 50 N; allowed: another --out"):
-        worths(rows, asked(allowed_force="50 N"))
+        assess(rows, asked(allowed_force="50 N"))
 
 
 def test_front_of_two_aims():
@@ -87,15 +88,15 @@ def test_columns_without_a_better_value_are_refused():
 def test_designs_that_miss_a_requirement_are_sorted_by_how_much():
     """Energies of 0.1, 0.4, 0.3 and 0.9 J, masses of 1 to 4 g."""
     need = {"min_absorbed": "0.35 J", "max_mass": "3 g"}
-    found = worths(table(), asked(by="absorbed_energy_J", require=need))
+    found = assess(table(), asked(by="absorbed_energy_J", require=need))
     assert list(found.by_id.values()) == [0.4]
     assert list(found.missed.values()) == pytest.approx([1 / 7, 1 / 3, 5 / 7])
-    assert worths(table(), asked(by="absorbed_energy_J")).missed == {}
+    assert assess(table(), asked(by="absorbed_energy_J")).missed == {}
 
 
 def test_doubtful_designs_do_not_come_near():
     need = {"min_absorbed": "2 J"}
-    found = worths(table(max_crossings=1), asked(by="absorbed_energy_J", require=need))
+    found = assess(table(max_crossings=1), asked(by="absorbed_energy_J", require=need))
     assert (found.by_id, found.doubtful, len(found.missed)) == ({}, 1, 3)
 
 

@@ -1,0 +1,77 @@
+"""What a ranking is asked: by options of the command line, else by the config of the results."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from sweep.cli.refusals import ArgumentError
+from sweep.ranking.question import Question
+
+if TYPE_CHECKING:
+    from argparse import Namespace
+    from collections.abc import Iterable
+
+TOP, TOP_OF_A_BUDGET = 10, 3
+
+
+def asked(arguments: Namespace) -> Question:
+    """What the options ask, completed from the config.
+
+    The budgets of the config are used unless --budget or --by is given; its panel is used unless
+    --panel is given, or --by without --budget where nothing is asked of a panel.
+    """
+    stored = stored_table(arguments.file, "rank")
+    budgets, panel = stored.get("budgets"), stored.get("panel")
+    per = arguments.per or stored.get("per") or "specimen"
+    if arguments.by and not arguments.budget:
+        budgets, panel = None, panel if per == "panel" else None
+    question = question_of(arguments.budget or budgets, arguments.panel or panel)
+    return question._replace(
+        by=arguments.by,
+        top=arguments.top or question.top,
+        allowed_force=arguments.allowed_force,
+        require=_required(arguments),
+        per=per,
+    )
+
+
+def drop_heights(arguments: Namespace) -> list[float]:
+    """The heights (m) that --drop-height gives."""
+    from sweep.ranking.merit import in_si
+
+    if arguments.drop_height and not arguments.out:
+        raise ArgumentError("--drop-height draws cushion curves into a folder: it needs --out DIR")
+    return [*dict.fromkeys(in_si(text, "m") for text in arguments.drop_height or ())]
+
+
+def stored_heights(file: str) -> list[float]:
+    """The heights (m) of cushion curves in the config of a results file."""
+    return [*dict.fromkeys(stored_table(file, "rank").get("drop_heights") or ())]
+
+
+def question_of(budgets: Iterable[Any] | None, panel: Iterable[Any] | None) -> Question:
+    """A question with these; several budgets show fewer places each."""
+    masses, sides = list(budgets or ()), list(panel or ())
+    top = TOP_OF_A_BUDGET if len(masses) > 1 else TOP
+    return Question(masses or None, sides or None, top=top)
+
+
+def _required(arguments: Namespace) -> dict[str, Any]:
+    """The requirements of the config, each replaced or dropped by its option."""
+    from sweep.ranking.requirements import MEASURES
+
+    given = {name: getattr(arguments, name) for name in MEASURES}
+    wished = stored_table(arguments.file, "require") | {k: v for k, v in given.items() if v}
+    return {name: value for name, value in wished.items() if value not in (None, "none")}
+
+
+def stored_table(file: str, table: str) -> dict[str, Any]:
+    """The table [rank] or [require] of the config stored in a results file."""
+    from sweep.store.read import read_attributes
+
+    try:
+        config: dict[str, Any] = json.loads(read_attributes(file).get("config") or "{}")
+    except ValueError:
+        raise ArgumentError(f"{file} is damaged: the config in it is no JSON") from None
+    return config.get(table) or {}

@@ -1,0 +1,122 @@
+"""The verb `run`: simulate what is missing, with error bars, a first screen or a spread; rank."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from sweep.cli.question import question_of
+from sweep.cli.refusals import ArgumentError
+from sweep.cli.terminal import hint, next_commands, print_ranking, print_sheets, say, say_all
+
+if TYPE_CHECKING:
+    from argparse import Namespace
+
+    from pandas import DataFrame
+
+    from sweep.config.grid import Config
+    from sweep.ranking.question import Question
+
+WORKERS = 2
+SCREENED = "--screen runs one cell of each design first, and only the best of each infill in full"
+NO_COLUMNS = (
+    "--screen estimates crushes along equal cells without an outline by one cell each, and no case "
+    'of this config is one; allowed: cases with loading.direction = "out_of_plane"'
+)
+UNKNOWN_BEST = "--spread runs more cases, of designs that are known only after the sweep"
+
+
+def run(config: Config, arguments: Namespace) -> int:
+    """Simulate the missing cases, then rank; with --dry-run, only estimate. Return how many failed.
+
+    With --error-bars, a design without an error bar counts as a failure.
+    """
+    from sweep.store.read import Rerun, read_summary
+
+    _check_required(config)
+    out = arguments.out or f"results/{config.name}.h5"
+    workers = arguments.workers or WORKERS
+    rerun = Rerun(failed=arguments.retry_failed, older=arguments.renew)
+    if arguments.dry_run:
+        from sweep.running.estimate import dry_run
+
+        say(dry_run(config, out, workers, rerun, arguments.error_bars))
+        say_all([UNKNOWN_BEST] if arguments.spread else [])
+        say_all([SCREENED] if arguments.screen else [])
+        return 0
+    from sweep.running.beside.error_bars import add_error_bars
+    from sweep.running.sweep import run_sweep
+
+    how = workers, arguments.scheduler, rerun
+    question = question_of(config.rank.budgets, config.rank.panel)
+    question = question._replace(require=config.require.model_dump(), per=config.rank.per)
+    failed, estimates = 0, None
+    if arguments.screen:
+        config, estimates, failed = _screen(config, out, how, question, arguments.screen)
+    failed += run_sweep(config, out, *how)
+    failed += add_error_bars(config, out, *how) if arguments.error_bars else 0
+    print_ranking(out, read_summary(out), question)
+    if estimates is not None:
+        from sweep.report.tables.screen_sheets import screen_sheets
+
+        print_sheets(screen_sheets(estimates, read_summary(out), question))
+    failed += _spread(config, out, how, question) if arguments.spread else 0
+    hint(next_commands(out, read_summary(out)))
+    return failed
+
+
+def _check_required(config: Config) -> None:
+    """Refuse a requirement that no case of a config can be asked for, before cases run."""
+    from sweep.config.grid import expand
+    from sweep.ranking.requirements import check_modes
+
+    if required := [name for name, limit in config.require if limit is not None]:
+        check_modes(required, {case.loading.mode for case in expand(config)})
+
+
+def _screen(
+    config: Config, out: str, how: tuple[Any, ...], question: Question, count: int
+) -> tuple[Config, DataFrame, int]:
+    """Run the unit columns of a sweep; return the config of what is to run as a whole, the
+    estimates, and how many designs have none.
+    """
+    from sweep.config.grid import chosen_of, expand
+    from sweep.running.beside.run_beside import file_beside
+    from sweep.running.beside.screen import best_of, has_column, run_columns
+
+    cases, beside = expand(config), file_beside(out, "screen")
+    screened = [case for case in cases if has_column(case)]
+    if not screened:
+        raise ArgumentError(NO_COLUMNS)
+    estimates, why = run_columns(screened, out, *how), f"crumple status {beside} says why"
+    missing = len(screened) - len(estimates)
+    if missing:
+        say(f"{missing} designs have no estimate: {why}")
+    if estimates.empty:
+        raise ArgumentError(f"no unit column converged: {why}")
+    best = best_of(estimates, question, count)
+    left_out = {case.case_id for case in screened} - {*best}
+    return chosen_of(config, (c for c in cases if c.case_id not in left_out)), estimates, missing
+
+
+def _spread(config: Config, out: str, how: tuple[Any, ...], question: Question) -> int:
+    """Run the best designs with uncertain numbers and print their spread; return how many values
+    are missing.
+    """
+    from sweep.ranking.rank import answer
+    from sweep.ranking.spread import spreads
+    from sweep.report.tables.spread_sheets import spread_sheets
+    from sweep.running.beside.run_beside import file_beside
+    from sweep.running.beside.spread import BEST, corners_of, run_corners
+    from sweep.store.read import read_summary
+
+    summary = read_summary(out)
+    ranking = answer(summary, question._replace(top=BEST))
+    corners = corners_of(config, ranking.table["case_id"])
+    if not any(corners.values()):
+        say("No number of the best designs is uncertain.")
+        return 0
+    run_corners(corners, out, *how)
+    ids = {design: [(c.name, c.case_id) for c in found] for design, found in corners.items()}
+    found = spreads(ranking, read_summary(file_beside(out, "spread")), ids, question)
+    print_sheets(spread_sheets(found, summary))
+    return sum(spread.failed for spread in found)

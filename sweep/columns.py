@@ -1,0 +1,521 @@
+"""The columns of results: for each its units and a sentence, and what older files are read to have.
+
+`COLUMNS` has those of a summary, `HISTORY_COLUMNS` those of a curve. Columns of energies up to a
+force, of cycles, errors and the like have derived names.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from math import nan
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class Column:
+    """Meaning of a column: its units ("1" for a pure number, "" for text) and a sentence.
+
+    better: whether more or less of it makes a design better; None: neither.
+    """
+
+    units: str
+    description: str
+    better: Literal["more", "less"] | None = None
+
+
+COLUMNS: dict[str, Column] = {
+    "case_id": Column("", "hash of all parameters of the case"),
+    "status": Column("", "converged, stopped, timed_out or worker_died"),
+    "message": Column(
+        "", "why the case did not converge and what to try, or where it broke; else empty"
+    ),
+    "lattice_kind": Column("", "family of the infill pattern, or pattern of the slicer"),
+    "cells_x": Column("1", "cells across the width"),
+    "cells_y": Column("1", "cells over the height"),
+    "wall_thickness_m": Column("m", "thickness of a wall"),
+    "infill_share": Column("1", "share of infill in a slicer's words; NaN without lattice.slicer"),
+    "slicer_settings": Column(
+        "", "settings of the slicer; those nearest to a design without one, if there are any"
+    ),
+    "does_not_print": Column(
+        "", "walls that are no whole number of lines, gaps below a line; empty if all prints"
+    ),
+    "direction": Column("", "in_plane: pressed across the cells; out_of_plane: along them"),
+    "width_m": Column("m", "width over centre lines"),
+    "height_m": Column(
+        "m", "height that is pressed: over centre lines; along the cells, lattice.depth"
+    ),
+    "depth_m": Column(
+        "m", "depth of the pressed area: of the walls; along the cells, height of the plan over all"
+    ),
+    "outer_width_m": Column("m", "width over all, walls included"),
+    "material": Column("", 'name of the material; "by numbers" if it has none'),
+    "material_modulus_Pa": Column(
+        "Pa", "modulus of the material, to which figures of foams and lattices are related"
+    ),
+    "material_memory": Column(
+        "", "what walls do that springs do not: relaxes, softens, yields; none if they are elastic"
+    ),
+    "loading_mode": Column("", "force, displacement, impact or custom"),
+    "platen": Column("", "none, contact, glued, sliding or clamped"),
+    "force_N": Column("N", "dead load on the top; NaN unless the mode is force"),
+    "stroke_m": Column("m", "prescribed travel of the top; NaN unless the mode is displacement"),
+    "striker_mass_g": Column("g", "mass of the striker; NaN unless the mode is impact"),
+    "striker_speed_m_per_s": Column(
+        "m/s", "speed of the striker at first touch; NaN unless the mode is impact"
+    ),
+    "impact_energy_J": Column(
+        "J", "energy of the striker at first touch; NaN unless the mode is impact"
+    ),
+    "contact_model": Column("", "how walls touch: none, barrier or position_based"),
+    "mass_g": Column("g", "density x exact area of the printed walls x depth", "less"),
+    "printed_mass_g": Column(
+        "g",
+        "mass as the slicer extrudes it, crossings twice; budgets and columns per gram count it; "
+        "NaN without lattice.slicer",
+        "less",
+    ),
+    "relative_density": Column("1", "printed area / area of the bounding box", "less"),
+    "solid_strain": Column(
+        "1",
+        "strain at which walls of constant volume fill the pressed area, 1 - relative density, "
+        "beyond which plates are no model; NaN across the cells",
+        "more",
+    ),
+    "absorbed_energy_J": Column(
+        "J", "work done on the lattice until release, full stroke or stop", "more"
+    ),
+    "absorbed_energy_at_densification_J": Column(
+        "J", "work done until densification; all of it if there is no densification", "more"
+    ),
+    "absorbed_energy_until_packed_J": Column(
+        "J",
+        "work done so far, mean over strains of nearly the greatest efficiency; all of it unless "
+        "the mode is displacement",
+        "more",
+    ),
+    "absorbed_energy_within_model_J": Column(
+        "J",
+        "work done until an element is shorter than 0.7 of its rest length or a wall breaks, along "
+        "the cells until the strain is solid_strain; all of it if none of this happens",
+        "more",
+    ),
+    "returned_energy_J": Column(
+        "J",
+        "work given back to the platen or striker as it moves back; NaN if none moves back",
+        "less",
+    ),
+    "dissipated_energy_J": Column(
+        "J", "dissipated by material, friction and time integrator", "more"
+    ),
+    "dissipated_material_J": Column(
+        "J", "dissipated by the material and its damping in the whole run", "more"
+    ),
+    "dissipated_friction_J": Column("J", "dissipated by friction in the whole run", "more"),
+    "dissipated_integrator_J": Column("J", "energy removed by the time integrator itself"),
+    "lost_energy_J": Column(
+        "J",
+        "absorbed energy - returned energy, if that is positive; of an impact, energy of the "
+        "striker at first touch - that of its rebound; NaN if none moves back",
+        "more",
+    ),
+    "lost_share": Column(
+        "1",
+        "lost energy / absorbed energy; of an impact, / energy of the striker at first touch",
+        "more",
+    ),
+    "lost_energy_J_per_g": Column("J/g", "lost energy / mass, as extruded if known", "more"),
+    "second_cycle_share": Column(
+        "1", "energy absorbed in the second cycle / in the first; NaN with a single cycle", "more"
+    ),
+    "injected_by_projection_J": Column(
+        "J",
+        "energy added between steps, by position-based contact or by contact of walls that thicken "
+        "(pressed along their cells); negative if energy is removed",
+    ),
+    "energy_residual_J": Column("J", "residual of the energy book"),
+    "specific_absorption_J_per_g": Column(
+        "J/g", "absorbed energy / mass, as extruded if known", "more"
+    ),
+    "plateau_stress_Pa": Column(
+        "Pa",
+        "mean nominal stress from about 5 % strain to densification or the end; NaN for dead loads",
+        "more",
+    ),
+    "plateau_stress_iso_Pa": Column(
+        "Pa",
+        "mean nominal stress from 20 to 40 % strain (ISO 13314); NaN for dead loads and shorter "
+        "crushes",
+        "more",
+    ),
+    "plateau_stress_20_30_Pa": Column(
+        "Pa",
+        "mean nominal stress from 20 to 30 % strain, the other mean of ISO 13314; NaN for dead "
+        "loads and shorter crushes",
+        "more",
+    ),
+    "plateau_end_strain": Column(
+        "1",
+        "first strain beyond 20 % where the stress rises to 1.3 x plateau_stress_iso_Pa "
+        "(ISO 13314); NaN for dead loads and shorter crushes",
+        "more",
+    ),
+    "quasi_elastic_gradient_Pa": Column(
+        "Pa",
+        "slope of the first rise of the stress, from 20 to 70 % of plateau_stress_iso_Pa "
+        "(ISO 13314); NaN for dead loads and shorter crushes",
+    ),
+    "energy_to_50_J_per_m3": Column(
+        "J/m^3",
+        "work per volume up to 50 % strain (ISO 13314); NaN for dead loads and shorter crushes",
+        "more",
+    ),
+    "efficiency_to_50": Column(
+        "1", "energy_to_50_J_per_m3 / (greatest stress up to there x 50 %), of ISO 13314", "more"
+    ),
+    "energy_to_plateau_end_J_per_m3": Column(
+        "J/m^3",
+        "work per volume up to plateau_end_strain (ISO 13314); NaN for dead loads and shorter "
+        "crushes",
+        "more",
+    ),
+    "efficiency_to_plateau_end": Column(
+        "1",
+        "energy_to_plateau_end_J_per_m3 / (greatest stress up to there x plateau_end_strain), of "
+        "ISO 13314",
+        "more",
+    ),
+    "densification_strain": Column(
+        "1",
+        "strain of greatest efficiency; NaN if the efficiency still rises, and for dead loads",
+        "more",
+    ),
+    "packing_strain": Column(
+        "1", "mean of the strains of nearly the greatest efficiency; NaN for dead loads", "more"
+    ),
+    "packing_span": Column(
+        "1",
+        "from the first to the last strain with an efficiency within 2 % of the greatest; if it is "
+        "long, densification_strain is uncertain; NaN for dead loads",
+    ),
+    "efficiency": Column(
+        "1", "greatest ratio of work per volume to peak stress so far; NaN for dead loads", "more"
+    ),
+    "ideality": Column(
+        "1",
+        "energy / (greatest force x stroke), all three until packed (Miltz & Gruenbaum 1981); NaN "
+        "for dead loads and impacts",
+        "more",
+    ),
+    "cushion_factor": Column(
+        "1",
+        "greatest stress / energy per volume, both until packed (Miltz & Gruenbaum 1981); NaN for "
+        "dead loads and impacts",
+        "less",
+    ),
+    "crush_force_efficiency": Column(
+        "1", "mean force / greatest force of the whole loading; NaN for dead loads", "more"
+    ),
+    "peak_force_N": Column(
+        "N",
+        "greatest force on a platen or support, in an impact on the support; for dead loads it "
+        "depends on the time step",
+        "less",
+    ),
+    "peak_force_at_densification_N": Column(
+        "N", "greatest force on a platen or support until densification or release", "less"
+    ),
+    "peak_force_until_packed_N": Column(
+        "N",
+        "greatest force on a platen or support so far, mean over strains of nearly the greatest "
+        "efficiency; of the whole loading unless the mode is displacement",
+        "less",
+    ),
+    "peak_strain": Column("1", "greatest top displacement / height", "less"),
+    "peak_deceleration_m_per_s2": Column(
+        "m/s^2", "greatest deceleration of the striker; NaN without one", "less"
+    ),
+    "peak_deceleration_filtered_m_per_s2": Column(
+        "m/s^2",
+        "the same behind a filter of loading.filter_class (SAE J211-1); NaN if rows are farther "
+        "apart than a tenth of 1 / class in Hz",
+        "less",
+    ),
+    "stroke_left_m": Column(
+        "m",
+        "stroke that closes all voids - greatest stroke of the striker; NaN without one",
+        "more",
+    ),
+    "rebound_speed_m_per_s": Column(
+        "m/s", "greatest speed of the striker upwards; NaN without one", "less"
+    ),
+    "rebound_share": Column(
+        "1", "energy of the striker at its rebound speed / at first touch; NaN without one", "less"
+    ),
+    "residual_strain": Column(
+        "1",
+        "decrease of the distance between top and bottom row in the last stored shape / height",
+        "less",
+    ),
+    "least_element_strain": Column("1", "least element strain in any stored shape", "more"),
+    "greatest_element_strain": Column("1", "greatest element strain in any stored shape", "less"),
+    "greatest_fibre_strain": Column(
+        "1", "greatest strain of the surface of a wall in any stored shape", "less"
+    ),
+    "broke_at_strain": Column(
+        "1", "strain at which a fibre exceeds material.fracture_strain; NaN if none does", "more"
+    ),
+    "stretch_over_curve": Column(
+        "1",
+        "greatest stretch of a wall in any stored shape / that at the end of the measured curve, "
+        "beyond which a straight line goes on; NaN without a curve",
+        "less",
+    ),
+    "kept_area": Column(
+        "1",
+        "area covered by walls at the greatest strain / at rest; 1 for incompressible walls",
+        "more",
+    ),
+    "min_gap_m": Column(
+        "m",
+        "least distance of a centre line from a near one or a loose platen; NaN if none is near",
+    ),
+    "touched": Column("1", "1 if contact acted in any row; if 0, contact is not needed"),
+    "max_crossings": Column("1", "walls that pass through one another in any stored frame", "less"),
+    "solid_joint_share": Column(
+        "1",
+        "share of walls between solid joints, others end in points; NaN if points are asked for",
+    ),
+    "steps": Column("1", "accepted time or load steps", "less"),
+    "newton_iterations": Column("1", "Newton iterations of the whole run", "less"),
+    "cpu_s": Column("s", "processor time of the run", "less"),
+    "model_version": Column("1", "version of the model that computed this row"),
+}
+"""The columns that every summary has, in the order in which they are stored and shown."""
+
+STORED_COLUMNS: dict[str, Column] = {
+    "git_revision": Column("", 'commit of the source that this row was computed with, or ""'),
+}
+"""Further columns of a results file, about the run that wrote a row."""
+
+HISTORY_COLUMNS: dict[str, Column] = {
+    "time_s": Column("s", "time since the start"),
+    "strain": Column("1", "top displacement / height"),
+    "top_displacement_m": Column(
+        "m", "travel of a driven platen or the top row; under a loose dead load, loss of height"
+    ),
+    "reaction_top_N": Column("N", "force on the upper platen or row, compression > 0"),
+    "reaction_bottom_N": Column("N", "force on the lower platen or row, compression > 0"),
+    "work_in_J": Column("J", "work done on the lattice so far"),
+    "kinetic_J": Column("J", "kinetic energy"),
+    "stretch_J": Column("J", "stretching energy of the walls"),
+    "bend_J": Column("J", "bending energy of the walls, fold barrier included"),
+    "contact_J": Column("J", "energy stored in contacts"),
+    "dissipated_material_J": Column("J", "dissipated by the material's damping so far"),
+    "dissipated_friction_J": Column("J", "dissipated by friction so far"),
+    "dissipated_integrator_J": Column("J", "removed by the time integrator so far"),
+    "injected_by_projection_J": Column(
+        "J", "energy added between steps so far, by contact; negative if energy is removed"
+    ),
+    "energy_residual_J": Column("J", "residual of the energy book so far"),
+    "newton_iterations": Column("1", "Newton iterations since the previous row"),
+    "min_gap_m": Column(
+        "m",
+        "least distance of a centre line from a near one or a loose platen; NaN if none is near",
+    ),
+}
+"""The columns that every history has, in the order in which they are stored."""
+
+STRIKER_COLUMNS: dict[str, Column] = {
+    "striker_speed_m_per_s": Column("m/s", "speed of the striker downwards"),
+    "deceleration_m_per_s2": Column("m/s^2", "mean deceleration since the previous row"),
+}
+"""Further columns of the history of an impact."""
+
+LOAD_COLUMNS: dict[str, Column] = {
+    "load_factor": Column("1", "share of the loads and prescribed moves that is applied"),
+    "unstable_modes": Column("1", "independent motions that lower the energy; 0 where stable"),
+}
+"""Further columns of the history of a custom structure in statics; the second only along arcs."""
+
+RANKING_COLUMNS: dict[str, Column] = {
+    "counted_mass_g": Column("g", "mass as extruded, or of the drawn walls without slicer", "less"),
+    "panel_mass_g": Column("g", "mass of the specimens that fill the panel", "less"),
+    "panel_energy_J": Column("J", "energy that the specimens of the panel absorb", "more"),
+    "panel_specimens": Column("1", "number of specimens that fill the panel"),
+    "panel_force_N": Column(
+        "N",
+        "greatest force of all specimens of the panel together while the counted energy is "
+        "absorbed; in an impact, on the support",
+        "less",
+    ),
+    "passed_on_N": Column("N", "greatest force while the counted energy is absorbed", "less"),
+    "counted_stroke_m": Column("m", "stroke in which the counted energy is absorbed", "less"),
+    "absorbed_energy_at_allowed_J": Column(
+        "J", "work done until the allowed force of the panel is exceeded", "more"
+    ),
+    "stroke_at_allowed_m": Column("m", "stroke at which the allowed force is exceeded", "less"),
+    "returned_share": Column("1", "returned energy / work of the whole crush", "less"),
+}
+"""Columns that a ranking adds to those of the summary, and by which it may sort."""
+
+FRAME_COLUMNS: dict[str, Column] = {
+    "strain": Column("1", "top displacement / height of a frame"),
+    "time_s": Column("s", "time of a frame"),
+    "plate_y_m": Column(
+        "m", "height of the lower and the upper platen; NaN: no platen; -inf: an endless lattice"
+    ),
+    "position_m": Column("m", "x and y, of plates also z, of every node, frame after frame"),
+    "quads": Column("", "the four nodes of every quad of a plate"),
+    "quad_thickness_m": Column("m", "wall thickness of every quad"),
+    "edges": Column("", "the two nodes of every element"),
+    "edge_thickness_m": Column("m", "wall thickness of every element"),
+}
+"""The arrays of the frames of a case."""
+
+OLDER: dict[str, float | int | str] = {
+    "model_version": 1,
+    "git_revision": "",
+    "direction": "in_plane",
+    "solid_strain": nan,
+    "absorbed_energy_until_packed_J": nan,
+    "peak_force_until_packed_N": nan,
+    "packing_strain": nan,
+    "packing_span": nan,
+    "plateau_stress_iso_Pa": nan,
+    "greatest_fibre_strain": nan,
+    "broke_at_strain": nan,
+    "stretch_over_curve": nan,
+    "material_memory": "none",
+    "lost_energy_J": nan,
+    "lost_share": nan,
+    "lost_energy_J_per_g": nan,
+    "second_cycle_share": nan,
+    "dissipated_material_J": nan,
+    "dissipated_friction_J": nan,
+    "solid_joint_share": nan,
+    "printed_mass_g": nan,
+    "infill_share": nan,
+    "slicer_settings": "",
+    "does_not_print": "",
+    "peak_deceleration_filtered_m_per_s2": nan,
+    "material_modulus_Pa": nan,
+    "plateau_stress_20_30_Pa": nan,
+    "plateau_end_strain": nan,
+    "quasi_elastic_gradient_Pa": nan,
+    "energy_to_50_J_per_m3": nan,
+    "efficiency_to_50": nan,
+    "energy_to_plateau_end_J_per_m3": nan,
+    "efficiency_to_plateau_end": nan,
+    "ideality": nan,
+    "cushion_factor": nan,
+    "crush_force_efficiency": nan,
+}
+"""Values of columns that rows of older versions do not have.
+
+A new column must be added here: NaN, or "" for text. Otherwise older files cannot be ranked.
+"""
+
+PROBE = re.compile(r"probe_(\d+)_(.+)_(m|rad|N|Nm)")
+ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
+IN_CYCLE = re.compile(r"(absorbed_energy|lost_energy|peak_force)_in_cycle_(\d+)_[JN]")
+PER_GRAM = re.compile(r"specific_absorption_((?:at|until)_.+)_J_per_g")
+CYCLED: dict[str, tuple[str, Literal["more", "less"], str]] = {
+    "absorbed_energy": ("J", "more", "work done on the lattice as cycle {} loads it"),
+    "lost_energy": ("J", "more", "work done in cycle {}, unloading included"),
+    "peak_force": ("N", "less", "greatest force on a platen in cycle {}"),
+}
+"""Units, better values and meaning of the columns of a cycle."""
+ERROR = re.compile(r"^error_(.+)")
+CORRECTION = re.compile(r"^correction_(.+)")
+UNIT = re.compile(r"_(J_per_g|J_per_m3|m_per_s2|m_per_s|Pa|[JNgms])$")
+
+
+def absorbed_energy_column(force: float) -> str:
+    """Name of the column of the energy absorbed until `force` (N) is first transmitted."""
+    return f"absorbed_energy_at_{force:.10g}N_J"
+
+
+def cycle_columns(number: int) -> tuple[str, str, str]:
+    """Names of the columns of the absorbed energy, the lost energy and the peak force of a cycle.
+
+    number: of the cycle, from 1.
+    """
+    return (
+        f"absorbed_energy_in_cycle_{number}_J",
+        f"lost_energy_in_cycle_{number}_J",
+        f"peak_force_in_cycle_{number}_N",
+    )
+
+
+def error_column(name: str) -> str:
+    """Name of the column of the estimated discretisation error of a column."""
+    return f"error_{name}"
+
+
+def correction_column(name: str) -> str:
+    """Name of the column of the estimated limit of fine meshes and short steps - value."""
+    return f"correction_{name}"
+
+
+def describe_array(group: str, name: str) -> Column:
+    """Meaning of an array of curves or shapes."""
+    return describe_history(name) if group == "/histories" else FRAME_COLUMNS[name]
+
+
+def describe_history(name: str) -> Column:
+    """Meaning of a column of a history, also of a probe of a custom structure."""
+    if match := PROBE.fullmatch(name):
+        node, what, unit = match.groups()
+        return Column(unit.replace("Nm", "N m"), f"{what.replace('_', ' ')} at node {node}")
+    return (HISTORY_COLUMNS | STRIKER_COLUMNS | LOAD_COLUMNS)[name]
+
+
+def is_grid_key(name: str) -> bool:
+    """True for the column of a grid key, such as `lattice.wall_thickness`."""
+    known = {*COLUMNS, *STORED_COLUMNS, *RANKING_COLUMNS}
+    derived = (ABSORBED_AT, IN_CYCLE, PER_GRAM, ERROR, CORRECTION)
+    return not (name in known or any(pattern.fullmatch(name) for pattern in derived))
+
+
+def describe_column(name: str) -> Column:
+    """Meaning of a column of a summary or a ranking: fixed, derived from a name, or a grid key."""
+    if found := (COLUMNS | STORED_COLUMNS | RANKING_COLUMNS).get(name):
+        return found
+    if match := ERROR.fullmatch(name):
+        units = describe_column(match[1]).units
+        meaning = f"estimated discretisation error of {match[1]}, no bound; NaN: no estimate"
+        return Column(units, meaning, "less")
+    if match := CORRECTION.fullmatch(name):
+        meaning = f"estimated limit of fine meshes and short steps - {match[1]}"
+        return Column(describe_column(match[1]).units, meaning)
+    if match := ABSORBED_AT.fullmatch(name):
+        meaning = f"work done until a force of {match[1]} N is exceeded; all of it if it never is"
+        return Column("J", meaning, "more")
+    if match := IN_CYCLE.fullmatch(name):
+        what, number = match.groups()
+        units, better, meaning = CYCLED[what]
+        return Column(units, meaning.format(number), better)
+    if match := PER_GRAM.fullmatch(name):
+        return Column("J/g", f"energy absorbed {match[1].replace('_', ' ')} / mass", "more")
+    return Column(_unit_of_key(name), f"grid key {name}")
+
+
+def in_words(name: str) -> str:
+    """A column as words with its unit: "peak_strain" -> "peak strain", "mass_g" -> "mass, in g"."""
+    units = describe_column(name).units
+    noun = UNIT.sub("", name).replace("_", " ")
+    return f"{noun}, in {units}" if units not in ("", "1") else noun
+
+
+def less_is_better(name: str) -> bool:
+    """True for a column whose least value is the best."""
+    return describe_column(name).better == "less"
+
+
+def _unit_of_key(name: str) -> str:
+    from sweep.config.keys import case_keys
+
+    key = case_keys().get(name)
+    return (key and key.unit) or ""

@@ -1,0 +1,26 @@
+"""Centre lines of the walls of a lattice: of an infill, or of the file of a custom structure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from sweep.constants import MM
+
+if TYPE_CHECKING:
+    from sweep.config.lattice_table import Lattice
+    from sweep.design.network import Network
+
+
+def network_of(lattice: Lattice) -> Network:
+    """Centre lines and thickness of the walls, m; those of a file have no bottom and top rows."""
+    import numpy as np
+
+    from sweep.design.lattice import build_network
+    from sweep.design.network import Network
+
+    structure = lattice.structure
+    if structure is None:
+        return build_network(lattice.geometry)
+    points = MM * np.array(structure.nodes_mm)
+    thickness, none = MM * np.array(structure.thickness_mm), np.empty(0, np.int64)
+    return Network(points, np.array(structure.walls), thickness, none, none)

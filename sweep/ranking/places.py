@@ -1,0 +1,49 @@
+"""The places of sorted designs, which errors may make them share, and the Pareto front."""
+
+from __future__ import annotations
+
+import numpy as np
+from pandas import DataFrame, Series
+
+from sweep.columns import (
+    correction_column,
+    error_column,
+)
+
+
+def pareto(mass: Series, energy: Series) -> Series:
+    """True for designs such that none lighter absorbs as much and none as light absorbs more."""
+    mass = mass.round(9)  # designs of equal mass may differ by round-off
+    best = energy.groupby(mass).max().dropna()
+    lighter = best.cummax().shift(fill_value=-np.inf)
+    return (energy == mass.map(best)) & (energy > mass.map(lighter))
+
+
+def places_by(rows: DataFrame, by: str) -> Series:
+    """Places of the rows of one scene, sorted by a column, the best first (`shared_places`)."""
+    return shared_places(rows[by], rows.get(error_column(by)), rows.get(correction_column(by)))
+
+
+def shared_places(
+    values: Series, errors: Series | None = None, corrections: Series | None = None
+) -> Series:
+    """Places of sorted values, the best first.
+
+    A value shares a place if it differs from the first value of the place by no more than their
+    corrections differ. An error that is common to both thus does not count. Without corrections,
+    which older results do not have, it shares a place if the intervals, value ± error, overlap or
+    touch. A missing correction or error is 0. Otherwise the value starts a new place, whose number
+    is 1 + the number of values before it.
+    """
+    known = errors if corrections is None else corrections
+    widths = np.zeros(len(values)) if known is None else known.fillna(0.0)
+    found: list[int] = []
+    best = first = np.nan
+    for value, width in zip(values, widths, strict=True):
+        slack = width + first if corrections is None else abs(width - first)
+        if abs(value - best) <= slack:
+            found.append(found[-1])
+        else:
+            best, first = value, width
+            found.append(len(found) + 1)
+    return Series(found, index=values.index, dtype=int)

@@ -1,0 +1,82 @@
+"""Loading scenes: which cases are compared, and what their loading is called."""
+
+from __future__ import annotations
+
+from pandas import DataFrame
+
+from sweep.columns import describe_column
+from sweep.numbers import NOTHING, energy_text, short, with_unit
+
+SCENE = ["loading_mode", "platen", "force_N", "striker_mass_g", "striker_speed_m_per_s"]
+HELD_BY_SCENE = tuple(
+    f"loading.{key}"
+    for key in (
+        *("mode", "direction", "platen", "force", "allowed_forces"),
+        *("striker_mass", "striker_speed", "energy", "drop_height", "preset", "specimens"),
+    )
+)
+
+ASSUMPTIONS = (
+    "loading.",
+    "contact.",
+    "damping.",
+    "solver.",
+    "lattice.nodes_per_wall",
+    "lattice.layers",
+    "lattice.symmetry",
+    "lattice.imperfection",
+    "material.stretch",
+    "material.bend",
+    "material.plane",
+    "material.poisson",
+)
+"""Grid keys of the test and not of the design: every value of them makes a scene of its own."""
+OF_DESIGN = ("loading.direction",)
+"""Keys of the loading that belong to the design all the same: how a panel is laid."""
+
+
+def by_scene(frame: DataFrame) -> list[DataFrame]:
+    """The rows of each loading scene, in the order in which scenes first appear."""
+    groups = frame.groupby(scene_keys(frame), dropna=False, sort=False)
+    return [rows for _, rows in groups] or [frame]
+
+
+def scene_keys(frame: DataFrame) -> list[str]:
+    """Columns that define a loading scene; rows that differ in one of them are not compared."""
+    assumed = [key for key in frame if key.startswith(ASSUMPTIONS) and key not in HELD_BY_SCENE]
+    return [key for key in SCENE if key in frame] + assumed
+
+
+def scene_label(rows: DataFrame) -> str:
+    """The loading of the cases of one scene, in words; different for every scene.
+
+    Keys that the scene does not use are left out.
+    """
+    if rows.empty:
+        return ""
+    first = rows.iloc[0]
+    shown = set(SCENE)
+    if first["loading_mode"] == "force":
+        words = [f"dead load of {first['force_N']:g} N"]
+    elif first["loading_mode"] == "custom":
+        words = ["loaded as its file says"]
+    elif first["loading_mode"] == "impact":
+        struck = short(float(first["striker_mass_g"])), short(float(first["striker_speed_m_per_s"]))
+        energy = energy_text(float(first["impact_energy_J"]))
+        words = [f"struck by {struck[0]} g at {struck[1]} m/s ({energy})"]
+    elif len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
+        words = [f"crushed to {100 * strains[0]:g} %"]
+        shown |= {"loading.strain", "loading.stroke"}
+    else:
+        words = ["crushed"]
+    platen = first["platen"]
+    if first["loading_mode"] != "custom":
+        words.append("no platens" if platen in ("none", "") else f"{platen} platens")
+    others = {
+        key: with_unit(first[key], describe_column(key).units)
+        for key in scene_keys(rows)
+        if key not in shown
+    }
+    used = {key: value for key, value in others.items() if value not in ("", NOTHING)}
+    words += [f"{key.replace('.', ' ').replace('_', ' ')} {value}" for key, value in used.items()]
+    return ", ".join(words)

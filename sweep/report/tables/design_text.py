@@ -1,0 +1,152 @@
+"""Designs as text: as columns of a table, or as words in a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from pandas import Series
+from pandas.api.types import is_numeric_dtype
+
+from sweep.columns import describe_column
+from sweep.numbers import NOTHING, SHOWN, scaled, short
+from sweep.ranking.scenes import ASSUMPTIONS, scene_label
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+ID = 4  # letters of an id in a sentence, if no other id begins so
+WAYS = {"in_plane": "across", "out_of_plane": "along"}
+"""How a lattice is pressed, by the column `direction`: across its cells or along them."""
+MILLIMETRES = {
+    "wall_thickness_m": "wall mm",
+    "width_m": "width mm",
+    "height_m": "height mm",
+    "depth_m": "depth mm",
+}
+SHOWN_BY_NAME = {
+    "lattice.kind",
+    "lattice.pattern",
+    "lattice.mass",
+    "lattice.cells",
+    "lattice.cells_x",
+    "lattice.cells_y",
+    "lattice.wall_thickness",
+    "lattice.width",
+    "lattice.height",
+    "lattice.depth",
+    "material.name",
+}
+"""Grid keys whose values are in a fixed column of the summary."""
+
+
+def named_case(row: DataFrame, among: DataFrame) -> str:
+    """The beginning of the id and the design of one row, in words."""
+    short_of = short_id(row["case_id"].item(), among["case_id"])
+    return f"case {short_of}, {design_labels(row, among)[0]}"
+
+
+def short_id(case_id: str, among: Iterable[str]) -> str:
+    """The shortest beginning of an id, of at least `ID` letters, that no other id has."""
+    others = [other for other in among if other != case_id]
+    lengths = range(ID, len(case_id))
+    alone = (n for n in lengths if not any(other.startswith(case_id[:n]) for other in others))
+    return case_id[: next(alone, len(case_id))]
+
+
+def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
+    """Columns that describe the designs of `frame`, as text in mm and the like.
+
+    Only columns that vary `among` all cases are shown.
+    """
+    columns = {}
+    if _varies(among, "lattice_kind"):
+        columns["pattern"] = frame["lattice_kind"].astype(str)
+    if "direction" in frame and _varies(among, "direction"):
+        columns["pressed"] = frame["direction"].map(WAYS)
+    laid = "infill_share" in frame and frame["infill_share"].notna().all()  # cells have no number
+    if _varies(among, "cells_x", "cells_y") and not laid:
+        columns["cells"] = frame["cells_x"].astype(str) + " x " + frame["cells_y"].astype(str)
+    if "infill_share" in frame and _varies(among, "infill_share"):
+        share = (100.0 * frame["infill_share"]).map("{:.3g}".format)
+        columns["infill %"] = share.where(frame["infill_share"].notna(), "")
+    for name, head in MILLIMETRES.items():
+        if _sizes_vary(among, name):
+            columns[head] = (frame[name] * 1e3).map("{:.3g}".format)
+    if _varies(among, "material"):
+        columns["material"] = frame["material"].astype(str)
+    if _varies(among, "material_memory"):
+        columns["behaviour"] = frame["material_memory"].replace("none", "elastic").astype(str)
+    by_name = SHOWN_BY_NAME | ({"lattice.infill"} if "infill %" in columns else set())
+    for key in frame:
+        hidden = key in by_name or key.startswith(ASSUMPTIONS)
+        if "." in key and not hidden and _varies(among, key):
+            columns |= _grid_text(frame[key], among[key])
+    return columns
+
+
+def _grid_text(values: Series, among: Series) -> dict[str, Series]:
+    """The column of a grid key, with its unit; ``among``: its values in all cases."""
+    unit = describe_column(str(values.name)).units
+    noun = str(values.name).split(".")[-1].replace("_", " ")
+    if not unit or not is_numeric_dtype(values):
+        return {noun: values.map(short)}
+    factor, name = scaled(unit, float(among.abs().max()))
+    return {f"{noun} {name}": (factor * values.astype(float)).map(short)}
+
+
+def about_direction(row: Series) -> list[str]:
+    """Sentences about what the model of plates leaves out; none for a case across its cells."""
+    if row["direction"] != "out_of_plane":
+        return []
+    lines = ["pressed along its cells; that printed layers part is not modelled"]
+    solid, strain = row["solid_strain"], row["peak_strain"]
+    if strain > solid:
+        share = f"{100.0 * solid:.3g} %"
+        lines.append(
+            f"beyond a strain of {share} its walls fill the pressed area: plates are no model"
+        )
+    return lines
+
+
+def describe_case(row: Series, among: DataFrame) -> str:
+    """The scene and the design of one case of a summary, in words."""
+    rows = among.loc[[row.name]]
+    return f"{scene_label(rows)}, {design_labels(rows, among)[0]}"
+
+
+def design_labels(frame: DataFrame, among: DataFrame) -> list[str]:
+    """The columns of `design_text` as one text per design: "cells 3 x 3, wall 0.8 mm, cheetah"."""
+    columns = design_text(frame, among) or {"material": frame["material"].astype(str)}
+    return [
+        ", ".join(_with_noun(head, text) for head, text in zip(columns, texts, strict=True) if text)
+        for texts in zip(*columns.values(), strict=True)
+    ]
+
+
+def _with_noun(head: str, text: str) -> str:
+    """A value with the head of its column: "wall mm", "0.8" -> "wall 0.8 mm"."""
+    if head == "infill %":
+        return f"{text} % infill"
+    noun, _, unit = head.rpartition(" ")
+    if noun and unit in SHOWN:
+        return f"{noun} {text}" if text == NOTHING else f"{noun} {text} {unit}"
+    return text if head in ("material", "pattern") else f"{head} {text}"
+
+
+def _sizes_vary(among: DataFrame, name: str) -> bool:
+    """Whether a length differs between designs by more than what follows from other columns.
+
+    Along the cells `depth_m` is the plan's over all: its centre lines and a wall, or an outline.
+    """
+    if name != "depth_m" or "direction" not in among:
+        return _varies(among, name)
+    along = among["direction"] == "out_of_plane"
+    plan = among[along].round(9)
+    inner = (plan["depth_m"] - plan["wall_thickness_m"]).round(9)
+    return _varies(among[~along], name) or (_varies(plan, name) and len(inner.unique()) > 1)
+
+
+def _varies(frame: DataFrame, *names: str) -> bool:
+    """True if one of the columns has more than one value."""
+    return any(len(frame[name].unique()) > 1 for name in names)

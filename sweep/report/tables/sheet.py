@@ -1,0 +1,33 @@
+"""A table of text, for a terminal, a page or a file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    pass
+
+
+class Sheet(NamedTuple):
+    """A table of text. opens: rows that begin a section. notes: lines below the table. spare: heads
+    of columns that a narrow terminal may leave out, the first one first; elsewhere: what has them.
+    """
+
+    title: str
+    heads: list[str]
+    rows: list[list[str]]
+    opens: frozenset[int] = frozenset()
+    notes: tuple[str, ...] = ()
+    spare: tuple[str, ...] = ()
+    elsewhere: str = ""
+
+    def without(self, head: str) -> Sheet:
+        """The table without a column."""
+        k = self.heads.index(head)
+        heads, *rows = [[*texts[:k], *texts[k + 1 :]] for texts in [self.heads, *self.rows]]
+        return self._replace(heads=heads, rows=rows)
+
+    @property
+    def columns(self) -> list[list[str]]:
+        """The texts below each head."""
+        return [[row[i] for row in self.rows] for i in range(len(self.heads))]

@@ -1,0 +1,70 @@
+"""Designs as text: columns that differ, with units."""
+
+import pytest
+
+from sweep.ranking.rank import ranked
+from sweep.report.tables.design_text import about_direction, design_labels, design_text
+from sweep.report.tables.sheets import ranking_sheets
+from tests.support.results.specimens import summary
+
+NAN = float("nan")
+
+
+@pytest.mark.parametrize(
+    ("key", "values", "head", "texts"),
+    [
+        ("material.loss", (0.2, 0.45), "loss %", ["20", "45"]),
+        ("material.reference_time", (1e-3, 0.5), "reference time ms", ["1", "500"]),
+        ("material.softening_m", (5e5, 2e6), "softening m MPa", ["0.5", "2"]),
+        ("material.softening_r", (2.0, 3.0), "softening r", ["2", "3"]),
+        ("lattice.layer_height", (2e-4, NAN), "layer height um", ["200", "–"]),
+        ("material.memory", ("none", "measured"), "memory", ["none", "measured"]),
+    ],
+)
+def test_grid_keys_are_shown_with_their_units(key, values, head, texts):
+    table = summary(*({key: value} for value in values))
+    (sheet,) = ranking_sheets(ranked(table, by="mass_g"), table)
+    assert sheet.columns[sheet.heads.index(head)] == texts
+    labels = design_labels(table, table)
+    unit = head.removeprefix(key.split(".")[1].replace("_", " "))
+    assert labels[0] == f"{head.removesuffix(unit)} {texts[0]}{unit}"
+
+
+def test_a_grid_key_that_does_not_vary_has_no_column():
+    table = summary({"material.loss": 0.2}, {"material.loss": 0.2})
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert "loss %" not in sheet.heads
+
+
+def test_designs_of_a_slicer_are_told_by_their_share_instead_of_cells():
+    table = summary({"infill_share": 0.2, "cells_x": 5}, {"infill_share": 0.3}, {"cells_x": 4})
+    assert list(design_text(table, table)["infill %"]) == ["20", "30", ""]
+    labels = ["cells 5 x 3, 20 % infill", "cells 3 x 3, 30 % infill", "cells 4 x 3"]
+    assert design_labels(table, table) == labels
+    laid = table.head(2)
+    assert "cells" not in design_text(laid, laid)
+    table["lattice.infill"] = [0.2, 0.3, 0.25]
+    assert "infill" not in design_text(table, table)
+    table["infill_share"] = NAN
+    assert list(design_text(table, table)["infill %"]) == ["20", "30", "25"]
+
+
+UPRIGHT = {"direction": "out_of_plane", "solid_strain": 0.7, "peak_strain": 0.6}
+
+
+@pytest.mark.parametrize(("depths", "shown"), [((13.0, 12.6), False), ((13.0, 14.0), True)])
+def test_depth_of_a_plan_over_all_is_no_size_of_its_own(depths, shown):
+    walls = zip((0.8, 0.4), depths, strict=True)
+    rows = [{"wall_thickness_m": 1e-3 * t, "depth_m": 1e-3 * d} | UPRIGHT for t, d in walls]
+    table = summary({}, *rows)
+    assert ("depth mm" in design_text(table, table)) == shown
+
+
+def test_what_plates_leave_out_is_told():
+    rows = summary({}, UPRIGHT, UPRIGHT | {"peak_strain": 0.8})
+    none, usual, beyond = (about_direction(row) for _, row in rows.iterrows())
+    assert none == []
+    assert len(usual) == 1
+    assert "layers part is not modelled" in usual[0]
+    assert beyond[0] == usual[0]
+    assert "beyond a strain of 70 %" in beyond[1]

@@ -1,0 +1,39 @@
+"""The legend of a ranking: what marks and heads of columns mean."""
+
+from sweep.ranking.rank import ranked
+from sweep.report.tables.legend import (
+    AGAIN,
+    ELASTIC,
+    LOADED,
+    LOSSY,
+    MIXED,
+    PLASTIC,
+    legend,
+)
+from tests.support.results.specimens import summary
+
+
+def test_legend_explains_what_is_shown():
+    crushed = summary({"absorbed_energy_at_50N_J": 0.1})
+    assert "are counted until the lattice has packed" in legend(ranked(crushed))
+    assert "are counted until the force exceeds 50 N" in legend(ranked(crushed, allowed_force=50.0))
+    assert "are counted to the end of the stroke" in legend(ranked(crushed, by="absorbed_energy_J"))
+    assert "sink" not in legend(ranked(crushed))
+    loaded = summary({"loading_mode": "force", "force_N": 5.0})
+    assert legend(ranked(loaded)).splitlines()[1:] == [LOADED]
+
+
+def test_legend_says_what_takes_the_energy_that_does_not_come_back():
+    relaxing = {"material_memory": "relaxes", "material": "mine"}
+    struck = {"loading_mode": "impact", "striker_mass_g": 50.0, "striker_speed_m_per_s": 1.0}
+    for common in ({}, struck):
+        said = legend(ranked(summary(common, common)))
+        assert said.endswith(ELASTIC)
+        assert max(map(len, f"{said}\n{MIXED}\n{PLASTIC}\n{AGAIN}".splitlines())) <= 100
+        assert legend(ranked(summary(common | relaxing))).endswith(LOSSY)
+        assert legend(ranked(summary(common, common | relaxing))).endswith(MIXED)
+        yielding = common | {"material_memory": "yields"}
+        assert legend(ranked(summary(yielding))).endswith(PLASTIC)
+        assert legend(ranked(summary(yielding, common | relaxing))).endswith(LOSSY)
+    pulled = summary({"absorbed_energy_at_50N_J": 0.1})
+    assert ELASTIC not in legend(ranked(pulled, allowed_force=50.0))
