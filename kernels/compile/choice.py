@@ -46,8 +46,8 @@ def choose(asked, numba, llvmlite):
 
 @functools.cache
 def compiler():
-    """Return the compiler of this process, "none" where Numba is told to leave all as plain Python;
-    tell on stderr, once, if it is not the usual one.
+    """Return the compiler of this process, "none" where Numba leaves all as plain Python. Say on
+    stderr, once, if it is not the usual one.
 
     Processes that this one starts find the choice in their environment, and print nothing.
     """

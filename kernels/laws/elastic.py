@@ -67,7 +67,7 @@ def respond(law, strain):
 
 @jit
 def respond_fibre(law, strain):
-    """Return the same without the barrier."""
+    """Return W, sigma and its tangent of a fibre, without the barrier."""
     return curve(law, strain)
 
 
@@ -79,7 +79,7 @@ def least(law):
 
 @jit
 def least_of_fibre(law):
-    """Return the same of a fibre, which has no such strain."""
+    """Return minus infinity: the stress of a fibre is finite at any strain."""
     return -math.inf
 
 
@@ -113,7 +113,7 @@ class FibreCurve(NamedTuple):
 
 @jit
 def respond_at_point(law, strain, memory, point):
-    """Return the same as the curve; no point has a memory."""
+    """Return potential, stress and tangent of the curve; no point has a memory."""
     return law.curve.respond(strain)
 
 

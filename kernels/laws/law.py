@@ -54,8 +54,8 @@ class Law(Protocol):
         """Set the data of a point for the present step."""
 
     def elastic(self):
-        """Return the law of a material without memory as one that is compiled without any, so that
-        elastic scenes pay for none. For a law that ``is_elastic`` only.
+        """Return the elastic law alone, if the law ``is_elastic``: code that is compiled for it has
+        no memory, which would cost time.
         """
 
     def respond(self, strain, memory, point):

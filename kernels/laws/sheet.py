@@ -70,7 +70,7 @@ def _neo_hookean(mu, a, b, v):
 
 @jit
 def _measured(curve, a, b, v):
-    """Return the same of a measured curve."""
+    """Return energy, slopes and second derivatives of a sheet of a measured curve."""
     k = a + b + a * b - v * v
     det = 1.0 + k
     mean, u = 0.5 * (a + b), 0.5 * (a - b)

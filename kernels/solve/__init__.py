@@ -2,5 +2,5 @@
 
 `problem` states what the method asks of a problem; no module here imports a term of the energy.
 `newton` finds the minimum, `integrators` and `march` advance in time, `arc_length` follows a path,
-and `energy_book` enters where the work of each step went.
+and `energy_book` enters where the work of each step went. `outcomes` lists how each of them ends.
 """

@@ -6,9 +6,9 @@
     BDF2              h = dt (1 + r) / (1 + 2 r), r = dt / last dt;  x', v': last change / last dt
     trapezoidal rule  h = dt / 2 (r infinite);  x' = v0, v' = a0, the balance at x0
 
-A first step has no rates x', v': it is one of backward Euler, and its length is `FIRST_SHARE` of
-dt. Coordinates without mass have no v', and driven ones have a constant speed: ``heavy`` (n,) is 0
-for both, else 1.
+The trapezoidal rule is `newmark` in configs. A first step has no rates x', v': it is one of
+backward Euler, and its length is `FIRST_SHARE` of dt. Coordinates without mass have no v', and
+driven ones have a constant speed: ``heavy`` (n,) is 0 for both, else 1.
 """
 
 from typing import NamedTuple

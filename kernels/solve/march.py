@@ -31,9 +31,9 @@ from kernels.solve.workspace import make_workspace
 SMALLEST_SHARE = 2.0**-24  # share of a step
 DOUBLING_ERROR = 0.1  # of the allowed error: below it the next share may be twice as long
 MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple of it
-MOST_PATIENCE = 63  # shares after a failure until a longer one is tried again, at most
+MOST_PATIENCE = 63  # most shares that are accepted after a failure before one is doubled
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
-UNCHECKED_SHARE = 2.0**-12  # share of a step that may generate more: the whole run is checked later
+UNCHECKED_SHARE = 2.0**-12  # shorter shares of a step may generate more; the caller checks the sum
 NOT_STARTED = -1  # corrections of a share before `_begin_share`
 PROGRESS = np.dtype(
     (

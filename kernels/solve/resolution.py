@@ -7,10 +7,10 @@ momentum that the load gives it. A point is therefore a step only if
 
     max |r| <= LARGEST_RESIDUAL F,   F: the largest force of this step and of all before,
 
-or if the energy that the residual can still release (twice the Newton decrement) and its work are
-small as compared with the energies of the run: this is the case of a stiff contact, or of a small
-element or opening. It is no excuse for a coordinate whose own inertia is not resolved, as the loss
-of momentum adds up from step to step.
+or if two energies are small beside those of the run: what the residual can still release (twice the
+Newton decrement), and the work of the residual. That is so at a stiff contact, a small element or a
+small opening. A residual above the limit is not accepted, however, where the inertia of its own
+coordinate is not resolved: the momentum lost there adds up from step to step.
 """
 
 from kernels.arrays import total
@@ -93,7 +93,7 @@ def is_coarse(tolerance, step, problem, load):
 
 @jit_exact
 def is_tighter(one, other):
-    """Return whether one tolerance is tighter than the other, of which `fit` made it."""
+    """Return whether ``one``, which is `fit` of the ``other`` tolerance, is tighter than that."""
     return one.force < other.force or one.resolution < other.resolution
 
 

@@ -20,11 +20,11 @@ points of a cubic or the ends of a classical element:
     theta = s_0 (a_2 - a_1) +- s_1 (a_1 + a_2),
     E_b = V w(e, theta_1, theta_2) + 1/2 k_s (a_1 + a_2)^2
 
-with the law w of `section` over the strain e of `stretch` and the bending theta of a fibre at both,
-V the volume that each of its fibres stands for, and the stiffness k_s of the element in shear.
+w: law of `section`. e: strain of `stretch`. theta_i: bending of a fibre at point i. V: volume that
+each fibre stands for. k_s: stiffness of the element in shear.
 
-Linear springs are of a `hinge`, a law of unit stiffness that relaxes as the material does. Those of
-linear bending are
+Where the material relaxes, linear bending and shear relax alike: each is made of springs whose law,
+`hinge`, has unit stiffness. Linear bending is the sum of two springs,
 
     k_11 (kappa_1 + k_12 / k_11 kappa_2)^2 / 2 + (k_22 - k_12^2 / k_11) kappa_2^2 / 2.
 """
@@ -207,7 +207,7 @@ def evaluate(bend, stretch, memory, shape, resultants, projected):
 
 @jit
 def _elastic(bend):
-    """Return the same data with laws that are compiled without memory."""
+    """Return the data of bending with the elastic laws alone, which are compiled without memory."""
     section, hinge = bend.section.elastic(), bend.hinge.elastic()
     return Bend(
         bend.measure, bend.stiffness, bend.side, section, hinge, bend.spread, bend.volume,
@@ -217,7 +217,7 @@ def _elastic(bend):
 
 @jit
 def _evaluate(bend, stretch, memory, shape, resultants, projected):
-    """Return the same. Laws without memory and those with one are compiled apart."""
+    """Return E_b as `evaluate`. Laws without memory and laws with one are compiled apart."""
     total, point, each = 0.0, shape.length.size, points(bend)
     for k in range(shape.length.size):
         if is_bent(bend, k):

@@ -8,9 +8,10 @@ longer than
     D = t [pi/2 + |c|],   c = sum (tan(tau/2) - tau/2)   over the turns tau of the path,
 
 pi t / 2 along a straight wall, 1.79 t round a right angle, 2.26 t if two arms are 60 degrees apart.
-(At a turn the inner faces are shorter than the centre line by t tan(tau/2); what then is left to
-turn, pi - tau, takes the length t (pi - tau) / 2.) A pair is weighted by the part of the node's
-tributary length that is farther than this from the segment.
+(To face each other the parts turn by pi in all. The corner is a turn of tau already, at which the
+inner face is shorter than the centre line by t tan(tau/2). The rest, pi - tau, takes a length of at
+least t (pi - tau) / 2.) A pair is weighted by the part of the node's tributary length that is
+farther than D from the segment.
 
 Walls that meet at an angle touch with centre lines less than t apart: the faces of two straight
 arms with the opening g are in contact up to t / (2 tan(g/2)) from the joint, where centre lines are
@@ -18,13 +19,14 @@ t cos(g/2) apart. In terms of the path, contact starts at
 
     t_c = t s / sqrt(s^2 + t^2).
 
-Where only part of a node's length counts, s is the mean of the paths to that part, and t_c is
-reduced in proportion to the path to the node, as the node is nearer to the joint than the part. At
-rest, what is farther than D is apart by more than t: by D sin(g/2) = t [cos(g/2) + g/2 sin(g/2)] if
-g is the opening of two arms. Contact of walls that are printed into each other starts at 0.9 x
-their rest distance, so that the rest state is free of stress. A pair of weight 0 is no contact;
-from 0.2 x its rest distance on it is kept from crossing, as collision detection alone would leave a
-move that presses it no way to go. Evaluated once for a scene.
+Where only part of a node's length counts, s is the mean of the paths to that part. The node itself
+is nearer to the joint than this part: t_c is reduced by the ratio of the path to the node to s.
+Parts of two arms at rest that are farther apart than D along the path are apart by more than t in
+the plane: by D sin(g/2) = t [cos(g/2) + g/2 sin(g/2)], g the opening of the arms. Contact of walls
+that are printed into each other starts at 0.9 x their rest distance, so that the rest state is free
+of stress. A pair of weight 0 is no contact. Below 0.2 x its rest distance a barrier keeps it from
+crossing: collision detection alone would stop every move that presses it. Evaluated once for a
+scene.
 """
 
 import math

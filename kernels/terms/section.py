@@ -58,9 +58,10 @@ def radial(theta):
 
 @jit
 def bent(law, stretched, r, theta, memory, point):
-    """Return w without its W(e), its slopes in e and theta, and ee, e theta, theta theta.
+    """Return the part of w that is of bent fibres: w without its terms W(e) of the centre line.
 
-    point: of the first fibre.
+    Its value is followed by the first derivatives in e and theta, and the second ones in e e, e
+    theta and theta theta. point: material point of the first fibre.
     """
     value, slope, second = radial(theta)
     energy, by_e, by_theta = -law.radial * value, 0.0, -law.radial * slope
@@ -101,7 +102,7 @@ def respond(law, strain, memory, point):
 
 @jit
 def elastic(law):
-    """Return the same section, of fibres that are compiled without memory."""
+    """Return the section with the elastic law of fibres alone, which is compiled without memory."""
     return BentSection(law.curve.elastic(), law.place, law.weight, law.middle, law.m, law.radial)
 
 

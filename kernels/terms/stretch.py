@@ -75,7 +75,7 @@ def evaluate(stretch, law, memory, shape, resultants, projected):
 
 @jit
 def _evaluate(stretch, law, memory, shape, resultants, projected):
-    """Return the same. Laws without memory and those with one are compiled apart."""
+    """Return E_s as `evaluate`. Laws without memory and laws with one are compiled apart."""
     total = 0.0
     for k in range(stretch.l0.size):
         e, one, two = strain(stretch, shape, k)

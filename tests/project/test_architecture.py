@@ -79,7 +79,6 @@ TESTED_ELSEWHERE = {
     "kernels.solve.history": "kernels/solve/test_chain.py",
     "kernels.solve.residual": "kernels/solve/test_newton.py",
     "kernels.solve.workspace": "kernels/solve/test_first_guess.py",
-    "kernels.laws.barrier": "kernels/terms/test_contact.py",
     "kernels.laws.law": "physics/test_memories.py",
     "kernels.terms.lagging": "kernels/plates/test_potential.py",
     "kernels.terms.moves": "kernels/planar/test_reach.py",

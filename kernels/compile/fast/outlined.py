@@ -28,7 +28,7 @@ that calls it is compiled to be kept, not to be run.
 
 
 def _spelled(kind):
-    """Return a name of a type that no other has: numba's does not tell where a tuple is from."""
+    """Return a name of a type that no other has: Numba's name lacks the module of a tuple."""
     if not isinstance(kind, types.BaseTuple):
         return repr(kind)
     made = getattr(kind, "instance_class", tuple)

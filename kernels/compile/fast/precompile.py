@@ -81,7 +81,7 @@ def _size(kernel, counted):
 
 def compile_ahead(run):
     """Compile what ``run()`` needs, or some of it: what fails here is compiled when it is called,
-    which tells why.
+    and reports its error there.
     """
     count = min(len(os.sched_getaffinity(0)), PROCESSES)
     if count == 1 or not is_lasting():
@@ -90,13 +90,13 @@ def compile_ahead(run):
         helpers = [held.enter_context(_helper()) for _ in range(count)]
         versions, idle = rehearse(run), SimpleQueue()
         for helper in helpers:
-            _tell(helper, versions)
+            _send(helper, versions)
             idle.put(helper)
 
         def compile_one(version):
             helper = idle.get()
             with suppress(OSError):  # it was killed: the others go on
-                _tell(helper, version)
+                _send(helper, version)
                 helper.stdout.read(1)
             idle.put(helper)
 
@@ -119,29 +119,29 @@ def _helper():
             process.kill()
 
 
-def _tell(helper, what):
+def _send(helper, what):
     helper.stdin.write(pickle.dumps(what))
     helper.stdin.flush()
 
 
 def help_out():
-    """Be told all versions, then compile one after the other and say so; end when nobody is there
-    to tell.
+    """Receive all versions, then those to compile, one after the other; report each that is done.
+    End when nobody sends any more.
     """
-    told = SimpleQueue()
+    received = SimpleQueue()
 
     def listen():
         try:
             while True:
-                told.put(pickle.load(sys.stdin.buffer))
+                received.put(pickle.load(sys.stdin.buffer))
         finally:
             os._exit(0)
 
     Thread(target=listen, daemon=True).start()
     gc.disable()
-    foreseen.set({(v.module, v.name, v.args): v.returns for v in told.get()})
+    foreseen.set({(v.module, v.name, v.args): v.returns for v in received.get()})
     while True:
-        version = told.get()
+        version = received.get()
         with suppress(Exception):
             version.compiled()
         os.write(sys.stdout.fileno(), b".")

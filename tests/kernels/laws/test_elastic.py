@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from kernels.laws import elastic
-from kernels.laws.barrier import barrier
 from kernels.laws.elastic import GUARD
 from tests.support.kernels.frames import curve_law, linear_law
 from tests.support.kernels.terms import differences
@@ -83,21 +82,3 @@ def test_the_guard_is_absent_above_its_strain():
     plain = linear_law(MODULUS)
     assert uniaxial(plain, GUARD + 1e-12)[1] == pytest.approx(MODULUS * GUARD, rel=1e-9)
     assert uniaxial(plain, GUARD - 0.05)[1] < MODULUS * (GUARD - 0.05) * (1 + 1e-3)
-
-
-@pytest.mark.parametrize("s", [1e-9, 1e-3, 0.02, 0.3, 0.9, 1 - 1e-3, 1 - 1e-6, 1 + 1e-6])
-def test_barrier_derivatives(s):
-    step = np.array([1e-3 * min(s, abs(1 - s))])
-    value, slope, curvature = barrier(s)
-    assert value == pytest.approx(-((s - 1) ** 2) * np.log(s) if s < 1 else 0.0, rel=1e-12)
-    by_value = differences(lambda at: barrier(at[0])[0], np.array([s]), step)[0]
-    by_slope = differences(lambda at: barrier(at[0])[1], np.array([s]), step)[0]
-    assert by_value == pytest.approx(slope, rel=1e-6)
-    assert by_slope == pytest.approx(curvature, rel=1e-6)
-
-
-def test_barrier_is_smooth_where_it_starts_and_infinite_at_zero():
-    assert barrier(1.0) == (0.0, 0.0, 0.0)
-    assert barrier(1.0 - 1e-7) == pytest.approx((0.0, 0.0, 6e-7), abs=1e-13)
-    assert barrier(0.0) == (np.inf, -np.inf, np.inf)
-    assert barrier(-1.0)[0] == np.inf

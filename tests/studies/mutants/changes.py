@@ -166,7 +166,7 @@ MUTANTS = [
         ("barrier: energy", "value = -r * r", "value = r * r"),
         ("barrier: slope", "slope = -r *", "slope = r *"),
         ("barrier: curvature", "+ r * r / (s * s)", "- r * r / (s * s)"),
-        tests=f"{TERMS}/test_contact.py",
+        ("contact: curvature of phi", "scale / starts *", "scale * starts *"),
     ),
     *_of(
         f"{TERMS}/contact.py",
