@@ -6,10 +6,12 @@ failed, or the run was interrupted; 2 the config, a file or an argument cannot b
 
 import argparse
 import os
+import re
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from difflib import get_close_matches
 from pathlib import Path
 from textwrap import fill
 from typing import Any, NoReturn
@@ -162,10 +164,22 @@ class Parser(argparse.ArgumentParser):
 
     def __init__(self, **options: Any):
         super().__init__(**options, allow_abbrev=False)
+        self.verbs: Mapping[str, Parser] = {}
 
     def error(self, message: str) -> NoReturn:
         """Print what is wrong, and how to get help."""
-        self.exit(2, f"{self.prog}: {message}\n{self.prog} --help shows examples\n")
+        shown = "examples" if self.epilog else "what it takes"
+        self.exit(2, f"{self.prog}: {message}\n{self.prog} --help shows {shown}\n")
+
+    def refuse(self, words: Sequence[str]) -> NoReturn:
+        """Refuse words that the verb does not take; of an option, name the nearest."""
+        options = re.findall(r"--[\w-]+", self.format_usage())
+        unknown = next((word.partition("=")[0] for word in words if word.startswith("-")), "")
+        near = get_close_matches(unknown, options, 1)
+        if len(unknown) == 2:  # such as -o
+            near = [option for option in options if option.startswith(f"-{unknown}")]
+        hint = f"; the nearest is {' or '.join(near)}" if near else ""
+        self.error(f"unrecognized arguments: {' '.join(words)}{hint}")
 
 
 class Version(argparse.Action):
@@ -185,6 +199,7 @@ def parser() -> Parser:
     main = Parser(prog="crumple", description=ABOUT, epilog=EXAMPLES, formatter_class=AS_WRITTEN)
     main.add_argument("--version", action=Version, nargs=0, help="print the version and exit")
     verbs = main.add_subparsers(dest="verb", metavar="VERB", required=True)
+    main.verbs = verbs.choices
     _add_run(verbs)
     _add_optimize(verbs)
     _add_accuracy(verbs)
@@ -483,10 +498,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one verb and return the exit status."""
     known = parser()
     complete(known)
-    arguments = known.parse_args(argv)
+    arguments, unknown = known.parse_known_args(argv)
+    if unknown:
+        known.verbs[arguments.verb].refuse(unknown)
     from sweep.cli import verbs
     from sweep.cli.refusals import refusals
 
+    if arguments.verb not in verbs.VERBS:
+        known.verbs[arguments.verb].error("ALL of sweep/cli/verbs.py has no function for it")
     warnings.formatwarning = lambda message, *_: f"crumple: {message}\n"  # without a place in ours
     sys.stdout = sys.stdout or os.fdopen(_nowhere(), "w")  # None if the caller closed it
     sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # ASCII has no dash

@@ -19,8 +19,9 @@ class Pairs(NamedTuple):
     """Node-segment pairs that share no node.
 
     node (n,), edge (n,): indices. distance (n,): lower bound of their distance when they were
-    listed, m, ascending. d_contact (n,): distance at which contact starts, m; 0 where only crossing
-    is prevented. rule (n,): index among the special pairs of `contact.Contact`, -1 if none.
+    listed, m, ascending. d_contact (n,): distance at which the barrier starts, m; 0 where collision
+    detection alone prevents crossing. rule (n,): index among the special pairs of
+    `contact.Contact`, -1 if none.
     """
 
     node: np.ndarray
@@ -137,7 +138,7 @@ def _find_rules(node, edge, contact, at, rule):
 def _distance(contact, p, e, rule):
     """Return the distance at which contact of a pair starts, m; 0 if it has none."""
     if rule >= 0:
-        return contact.special_distance[rule] if contact.special_weight[rule] > 0.0 else 0.0
+        return contact.special_distance[rule]
     mean = 0.5 * (contact.node_thickness[p] + contact.edge_thickness[e])
     return mean if contact.tributary[p] > 0.0 else 0.0
 
@@ -163,11 +164,19 @@ def find(x, contact, radius):
 
 
 @jit_exact
+def is_guarded(pairs, k, contact):
+    """Return whether pair ``k``, near a joint, is only kept from crossing."""
+    return pairs.rule[k] >= 0 and contact.special_weight[pairs.rule[k]] == 0.0
+
+
+@jit_exact
 def counted(pairs, k, contact):
     """Return the contact length of pair ``k`` in m, and for each end of its segment 1 if another
     segment counts the contribution of that end, else 0.
     """
     q, e = pairs.rule[k], pairs.edge[k]
+    if is_guarded(pairs, k, contact):
+        return contact.tributary[pairs.node[k]], 0.0, 0.0
     if q >= 0:
         ends = contact.special_subtract
         return contact.special_weight[q], ends[q, 0], ends[q, 1]

@@ -13,7 +13,7 @@ def stresses(law, time, strain):
     The point is at rest before the first time. The strain changes evenly between two times.
     """
     pace = law.make_pace()
-    memory = Memory(np.zeros((1, law.state_size() + 1)), np.zeros((1, 2)), pace)
+    memory = Memory(np.zeros((1, law.state_size())), np.zeros((1, 2)), pace)
     found = np.empty(strain.size)
     for i in range(strain.size):
         law.set_pace(time[i] - time[i - 1] if i > 0 else 0.0, pace)

@@ -84,7 +84,11 @@ def set_pace(law, duration, pace):
 
 @jit
 def begin(law, memory, point):
-    """Set slope and constant of the potential of a point for a step at the pace of ``memory``."""
+    """Set slope and constant of the potential of a point for a step at the pace of ``memory``;
+    nothing without a state.
+    """
+    if law.state_size() == 0:
+        return
     state, pace, n, slope = memory.committed[point], memory.pace, law.shares.size, 0.0
     density, stress, _ = law.elastic.respond(state[STRAIN], state[MOST])
     for i in range(n):

@@ -64,7 +64,6 @@ class Planar(NamedTuple):
     drift = reach.drift
     least_gap = reach.least_gap
 
-    lags = lagging.lags
     lag = lagging.lag
     exchange = lagging.exchange
     follow = lagging.follow

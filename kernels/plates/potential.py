@@ -9,7 +9,7 @@ vanishes. The Hessian is in `factoring`.
 """
 
 from kernels.arrays import dot, zero
-from kernels.compile.jit import jit_exact
+from kernels.compile.jit import jit_exact, separate
 from kernels.plates.contacts import contact, mirror
 from kernels.plates.element import shell
 from kernels.plates.reach import drift
@@ -17,6 +17,7 @@ from kernels.terms import inertia, lagging
 from kernels.terms.rows import BEND, CONTACT, STRETCH
 
 
+@separate
 @jit_exact
 def evaluate(problem, x, step, found, projected):
     """Return E in J; fill ``found``."""

@@ -71,7 +71,6 @@ class Plates(NamedTuple):
     drift = reach.drift
     least_gap = reach.least_gap
 
-    lags = lagging.lags
     lag = lagging.lag
     exchange = lagging.exchange
     follow = lagging.follow

@@ -43,6 +43,16 @@ def length(scheme, dt, last):
 
 
 @jit_exact
+def corrections(scheme):
+    """Return how often lagged forces are lagged again at the end of a step, which is then repeated.
+
+    With those of the start of a step the error is of first order, as that of backward Euler is;
+    with those of its first end it is of second order.
+    """
+    return 0 if scheme == BACKWARD_EULER else 1
+
+
+@jit_exact
 def _expected(state, i, dt, ahead, heavy):
     """Return the expected move of coordinate ``i`` in ``dt`` at its present rates."""
     if ahead > 0.0 and heavy[i] == 0.0:

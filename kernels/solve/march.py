@@ -11,7 +11,7 @@ import numpy as np
 from kernels.arrays import copy, zero
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.compile.reference import by_reference
-from kernels.solve import energy_book, friction_loop, integrators, resolution
+from kernels.solve import energy_book, integrators, resolution
 from kernels.solve.energy_book import energy_gain, enter, kinetic, strike, unbalanced
 from kernels.solve.integrators import BACKWARD_EULER, BDF2, Ahead
 from kernels.solve.newton import (
@@ -24,18 +24,16 @@ from kernels.solve.newton import (
     minimise,
 )
 from kernels.solve.problem import Step
-from kernels.solve.residual import scaled
 from kernels.solve.workspace import make_workspace
 
 SMALLEST_SHARE = 2.0**-24  # share of a step
 DOUBLING_ERROR = 0.1  # of the allowed error: below it the next share may be twice as long
 MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple of it
-EASY_LOOPS = 10  # friction loops of an easy share, at most
 MOST_PATIENCE = 63  # shares after a failure until a longer one is tried again, at most
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
 UNCHECKED_SHARE = 2.0**-12  # share of a step that may generate more: the whole run is checked later
-INACCURATE, UNBALANCED, UNRESOLVED = 7, 9, 10  # beside those of `newton` and `friction_loop`
-NOT_STARTED = -1  # friction loops of a share before `_begin_share`
+INACCURATE, UNBALANCED, UNRESOLVED = 7, 8, 9  # beside those of `newton`
+NOT_STARTED = -1  # corrections of a share before `_begin_share`
 PROGRESS = np.dtype(
     (
         np.record,  # for attributes in plain Python too
@@ -50,10 +48,7 @@ PROGRESS = np.dtype(
             ("row_iterations", np.int64),  # Newton iterations for the row
             ("share_iterations", np.int64),  # Newton iterations for the share
             ("minimum_iterations", np.int64),  # Newton iterations for the present minimum
-            ("loops", np.int64),  # friction loops in the share
-            ("least_error", np.float64),  # least residual after lagging friction again, N
-            ("stagnant", np.int64),  # loops since the least error
-            ("loosening", np.float64),  # factor on the tolerance of the next minimum
+            ("corrections", np.int64),  # of the lagged forces in the share
             ("h", np.float64),  # of the last attempted share, s
         ],
     )
@@ -137,7 +132,6 @@ def _begin_share(problem, tolerance, stage, state, space, descent, progress):
         descent.since_factor = np.inf
     progress.h = h
     copy(state.x, space.x0)
-    copy(state.x, space.lagged)
     if stage.dynamic:
         if driven >= 0 and stage.scheme != BACKWARD_EULER and last == 0.0:
             strike(state, problem, remaining / duration, work.direction)
@@ -158,28 +152,32 @@ def _begin_share(problem, tolerance, stage, state, space, descent, progress):
     if problem.lag(state.x):  # the Hessian of friction changes
         descent.since_factor = np.inf
     progress.share_iterations, progress.minimum_iterations, descent.cut_moves = 0, 0, 0
-    friction_loop.begin(progress)
+    progress.corrections = 0
 
 
 @jit_exact
-def _equilibrate(x, target, problem, step, tolerance, space, descent, control, progress):
-    """Minimise until the lagged forces are consistent with the minimum; return the outcome."""
-    outcome, evaluated = CONVERGED, False
+def _equilibrate(
+    x, target, problem, step, corrections, tolerance, space, descent, control, progress
+):
+    """Minimise; lag the forces again at the minimum and minimise once more, ``corrections`` times.
+
+    Return the outcome.
+    """
+    evaluated = False
     while True:
-        loose = scaled(tolerance, progress.loosening, 1.0)
-        outcome = minimise(x, target, problem, step, loose, space, descent, control, evaluated)
-        evaluated = True
+        outcome = minimise(x, target, problem, step, tolerance, space, descent, control, evaluated)
         progress.row_iterations += descent.iterations
         progress.share_iterations += descent.iterations
         progress.minimum_iterations += max(descent.iterations, 1)
-        if outcome != CONVERGED or not problem.lags():
-            break
-        if friction_loop.is_converged(x, problem, step, tolerance, space, progress):
-            break
-        if friction_loop.fails(progress):
-            outcome = friction_loop.UNSETTLED
-            break
-    return outcome
+        if outcome != CONVERGED or progress.corrections == corrections:
+            return outcome
+        if not problem.lag(x):
+            return outcome
+        problem.exchange(step, space.found)
+        copy(x, space.work.trial)
+        zero(space.work.dx)
+        evaluated, descent.since_factor = True, np.inf
+        progress.corrections, progress.minimum_iterations = progress.corrections + 1, 0
 
 
 @jit_exact
@@ -209,7 +207,7 @@ def _reject(outcome, problem, step, state, space, descent, progress):
     copy(space.x0, state.x)
     problem.roll_back(step)
     zero(space.found.u)
-    progress.loops, descent.since_factor = NOT_STARTED, np.inf
+    progress.corrections, descent.since_factor = NOT_STARTED, np.inf
     if outcome != UNRESOLVED:
         progress.cause = outcome
     if outcome != INACCURATE:
@@ -246,10 +244,9 @@ def _next_share(ratio, iterations, descent, progress):
     A failed attempt costs more than a double share saves: after every failure more shares have to
     be accepted before a double one is tried.
     """
-    easy = progress.share_iterations <= iterations and progress.loops <= EASY_LOOPS
-    easy = easy and ratio < DOUBLING_ERROR
-    progress.done, progress.failed, progress.loops = progress.done + progress.share, 0, NOT_STARTED
-    progress.cause = CONVERGED
+    easy = progress.share_iterations <= iterations and ratio < DOUBLING_ERROR
+    progress.done, progress.failed = progress.done + progress.share, 0
+    progress.corrections, progress.cause = NOT_STARTED, CONVERGED
     if progress.share < 1.0:
         descent.since_factor = np.inf
     if progress.wait > 0:
@@ -267,7 +264,7 @@ def _run(problem, tolerance, stage, state, out, control, space, descent, progres
     """
     work, totals = space.work, state.totals[0]
     while progress.row < stage.steps:
-        if progress.loops == NOT_STARTED:
+        if progress.corrections == NOT_STARTED:
             if not problem.covers(state.x, 0.0):  # after a rejected share
                 descent.travel_bound = 0.0
                 return OUTGROWN, progress.row
@@ -276,8 +273,9 @@ def _run(problem, tolerance, stage, state, out, control, space, descent, progres
         load = resolution.largest_load(problem, step.factor, work)
         fitting = resolution.fit(tolerance, step, problem.scene.coordinates, load)
         outcome = _equilibrate(
-            state.x, target, problem, step, fitting, space, descent, control, progress
-        )
+            state.x, target, problem, step, integrators.corrections(stage.scheme), fitting,
+            space, descent, control, progress,
+        )  # fmt: skip
         if outcome == CONVERGED and not problem.covers_projection(state.x):
             outcome, progress.minimum_iterations = OUTGROWN, 0
             zero(work.dx)
@@ -326,7 +324,7 @@ def march(scene, tolerance, stage, state, out, control):
     counts completed steps.
     """
     progress, descent = np.zeros(1, PROGRESS), np.zeros(1, DESCENT)
-    progress[0].share, progress[0].loops, descent[0].since_factor = 1.0, NOT_STARTED, np.inf
+    progress[0].share, progress[0].corrections, descent[0].since_factor = 1.0, NOT_STARTED, np.inf
     last = state.totals[0].last
     if stage.error < np.inf and last > 0.0:
         progress[0].share = last / stage.duration

@@ -171,9 +171,6 @@ class Problem(Protocol):
 
     # Lagged forces, such as friction: fixed in a minimisation, renewed between two of them.
 
-    def lags(self):
-        """Return whether the scene has lagged forces."""
-
     def lag(self, y):
         """Lag the forces at ``y``; return whether there are any now, or were before."""
 

@@ -8,16 +8,13 @@ from kernels.compile.jit import jit_exact
 class Tolerance(NamedTuple):
     """Criteria of convergence.
 
-    force: largest residual, N. decrement: largest Newton decrement, J. friction: largest change of
-    a lagged force, N; friction_share: the same as a share of the largest lagged force. noise:
-    energy differences below it are round-off, J. resolution: smallest move that positions can
-    resolve, m. iterations: most Newton iterations of one minimisation.
+    force: largest residual, N. decrement: largest Newton decrement, J. noise: energy differences
+    below it are round-off, J. resolution: smallest move that positions can resolve, m. iterations:
+    most Newton iterations of one minimisation.
     """
 
     force: float
     decrement: float
-    friction: float
-    friction_share: float
     noise: float
     resolution: float
     iterations: int
@@ -68,8 +65,6 @@ def scaled(tolerance, factor, sharpness):
     return Tolerance(
         factor * tolerance.force,
         factor * factor * tolerance.decrement,
-        tolerance.friction,
-        tolerance.friction_share,
         tolerance.noise,
         sharpness * tolerance.resolution,
         tolerance.iterations,

@@ -5,7 +5,6 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_owning
-from kernels.solve.anderson import Past, no_past
 from kernels.solve.problem import SUMS, Found
 
 
@@ -24,24 +23,19 @@ class Work(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """found, work: of the minimisation. x0, y, x_pred (n,): of the step (`problem.Step`).
-
-    lagged (n,): positions at which forces are lagged. past: of them, for `anderson`.
-    """
+    """found, work: of the minimisation. x0, y, x_pred (n,): of the step (`problem.Step`)."""
 
     found: Found
     work: Work
     x0: np.ndarray
     y: np.ndarray
     x_pred: np.ndarray
-    lagged: np.ndarray
-    past: Past
 
 
 @jit_owning
 def make_workspace(n, stored):
     """Return the arrays for ``n`` coordinates and ``stored`` kinds of stored energy."""
-    a, b, c = np.zeros((5, n)), np.zeros((5, n)), np.zeros((4, n))
+    a, b, c = np.zeros((5, n)), np.zeros((5, n)), np.zeros((3, n))
     sums = np.zeros(1, SUMS)
     found = Found(a[0], a[1], a[2], a[3], a[4], np.zeros(stored), sums)
-    return Workspace(found, Work(b[0], b[1], b[2], b[3], b[4]), c[0], c[1], c[2], c[3], no_past(n))
+    return Workspace(found, Work(b[0], b[1], b[2], b[3], b[4]), c[0], c[1], c[2])

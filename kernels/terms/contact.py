@@ -25,7 +25,7 @@ from kernels.geometry.distance import (
     push_point_stiffen,
     push_stiffen,
 )
-from kernels.geometry.near_pairs import counted, within
+from kernels.geometry.near_pairs import counted, is_guarded, within
 from kernels.laws.barrier import barrier
 from kernels.linear.condensed.block_matrix import add
 
@@ -34,11 +34,12 @@ class Contact(NamedTuple):
     """Data of contact. Lengths in m; an absent contact has empty arrays.
 
     stiffness: c Y' depth, N/m. reach: largest contact distance. most_move: longest move of a node
-    that neighbour lists cover. edges (m, 2). tributary (n,): l_p.
-    node_thickness (n,), edge_thickness (m,). subtract (m, 2): 1 for ends that another segment
-    counts. special_*: rules of pairs near a joint or near at rest, by edge (start (m + 1,)): node,
-    weight, contact distance, subtract. plate_nodes (k,): nodes that may touch a platen. low, high:
-    coordinates of the surfaces of the lower and the upper platen.
+    that neighbour lists cover. edges (m, 2). tributary (n,): l_p. node_thickness (n,),
+    edge_thickness (m,). subtract (m, 2): 1 for ends that another segment counts. special_*: rules
+    of pairs near a joint or near at rest, by edge (start (m + 1,)): node, weight, contact distance,
+    subtract. One of weight 0 is only kept from crossing, with the whole tributary length; at a
+    distance of 0, by collision detection alone. plate_nodes (k,): nodes that may touch a platen.
+    low, high: coordinates of the surfaces of the lower and the upper platen.
     """
 
     stiffness: float
@@ -252,7 +253,7 @@ def least_gap(x, contact, pairs, drift):
     for k in range(pairs.node.size):
         if pairs.distance[k] - 2.0 * drift >= least:
             break  # pairs are listed by ascending distance
-        if pairs.d_contact[k] > 0.0:
+        if pairs.d_contact[k] > 0.0 and not is_guarded(pairs, k, contact):
             a, b = pair(contact.edges, pairs.edge[k])
             least = min(least, _segment_distance(x, pairs.node[k], a, b))
     for p in contact.plate_nodes:

@@ -22,7 +22,9 @@ Where only part of a node's length counts, s is the mean of the paths to that pa
 reduced in proportion to the path to the node, as the node is nearer to the joint than the part. At
 rest, what is farther than D is apart by more than t: by D sin(g/2) = t [cos(g/2) + g/2 sin(g/2)] if
 g is the opening of two arms. Contact of walls that are printed into each other starts at 0.9 x
-their rest distance, so that the rest state is free of stress. Evaluated once for a scene.
+their rest distance, so that the rest state is free of stress. A pair of weight 0 is no contact;
+from 0.2 x its rest distance on it is kept from crossing, as collision detection alone would leave a
+move that presses it no way to go. Evaluated once for a scene.
 """
 
 import math
@@ -36,6 +38,7 @@ from kernels.geometry.distance import direction, squared_distance
 from kernels.geometry.near_pairs import near
 
 REST_SHARE = 0.9
+GUARDED_SHARE = 0.2  # of the rest distance, at which walls without contact are kept from crossing
 FAR = 5.0  # s / t beyond which t_c = t: it would be less than 2 % smaller
 UNLISTED = -1.0  # weight of an edge without a rule
 
@@ -378,6 +381,8 @@ def special_pairs(x, edges, l0, node_thickness, edge_thickness, tributary):
             rest = np.sqrt(squared_distance(x, p, a, b))
             rules.node[k], rules.weight[k] = p, weight[e]
             rules.distance[k] = starts if rest >= starts else REST_SHARE * rest
+            if weight[e] == 0.0:
+                rules.distance[k] = GUARDED_SHARE * rest if tributary[p] > 0.0 else 0.0
             rules.subtract[k, 0] = 1.0 if _is_counted(p, e, a, graph, weight) else 0.0
             rules.subtract[k, 1] = 1.0 if _is_counted(p, e, b, graph, weight) else 0.0
         for i in range(count):

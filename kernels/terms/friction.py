@@ -2,10 +2,11 @@
 
     D_f = sum mu lambda f(u),   f(u) = |u|^2/eps - |u|^3/(3 eps^2) + eps/3 for |u| < eps, else |u|
 
-u is the tangential slip since y (`solve.integrators`), lambda the normal force of a pair at the
-last iterate of the fixed-point loop (Li et al. 2020, eq. 16). Walls have a thickness, so that two
-walls that rotate together do not slip: with the tangent T, the distance d, the moves dp of the node
-and dc of the closest point, and the rotation w of the segment,
+u is the tangential slip since y (`solve.integrators`), lambda the normal force of a pair where it
+was lagged (Li et al. 2020, eq. 16): at the start of a step, and with integrators of second order
+once more at its end. Walls have a thickness, so that two walls that rotate together do not slip:
+with the tangent T, the distance d, the moves dp of the node and dc of the closest point, and the
+rotation w of the segment,
 
     u = T . (dp - dc) - d w,    linear in the moves of p, a, b; `LaggedContacts` keeps the slopes.
 
@@ -37,13 +38,11 @@ DUAL_TOLERANCE = 0.1  # largest |w - f'| at which the factor may be reused
 
 class Friction(NamedTuple):
     """mu: coefficient, 0 without friction. slip: eps of a static step in m; eps / h in m/s of a
-    dynamic one. is_renewed: whether normal forces are those of the end of a step, found by a fixed-
-    point loop; else they are those of its start, an error of first order in the step.
+    dynamic one.
     """
 
     mu: float
     slip: float
-    is_renewed: bool = True
 
 
 @jit_owning

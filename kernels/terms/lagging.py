@@ -12,12 +12,6 @@ from kernels.compile.jit import jit_exact
 
 
 @jit_exact
-def lags(problem):
-    """Return whether the scene has friction whose forces are renewed at the end of a step."""
-    return problem.scene.friction.mu > 0.0 and problem.scene.friction.is_renewed
-
-
-@jit_exact
 def lag(problem, y):
     """Lag the normal forces at ``y`` (n,); return whether there are any now, or were before."""
     if problem.scene.friction.mu == 0.0:

@@ -2,10 +2,14 @@
 
 import re
 from pathlib import Path
+from textwrap import wrap
 from typing import Any
+
+from sweep.design.infill import families
 
 NAME = re.compile(r"\w[\w.-]*")
 KINDS = ("crush", "drop", "load")
+WIDTH, COMMENT = 99, 37  # columns at which a line ends and a comment begins
 
 HEAD = """\
 # {title}
@@ -19,7 +23,7 @@ HEAD = """\
 name = "{name}"
 
 [lattice]
-kind = "square"                      # or hex, brick, reentrant, diamond, circle, triangle, kagome
+kind = "square"                      # {kinds}
 width = "25 mm"                      # of one specimen, over centre lines
 height = "12.5 mm"                   # the thickness of the pad
 depth = "12 mm"                      # along the walls, out of the drawing
@@ -96,5 +100,7 @@ def new(name: str, kind: str, out: str | None) -> Path:
 def template(name: str, kind: str, path: Path) -> str:
     """The text of a config."""
     words: dict[str, Any] = {"name": name, "file": path, "results": f"results/{name}.h5"}
-    head = HEAD.format(title=TITLES[kind], **words)
+    others = "or " + ", ".join(family for family in families() if family != "square")
+    kinds = f"\n{' ' * COMMENT}# ".join(wrap(others, WIDTH - COMMENT - 2))
+    head = HEAD.format(title=TITLES[kind], kinds=kinds, **words)
     return head + LOADINGS[kind] + TAIL.format(budget="50 g")

@@ -28,8 +28,17 @@ Loss = Annotated[float, Field(gt=0, le=0.8, json_schema_extra={"unit": "1", "bar
 Stretched = Annotated[
     float, Field(gt=0, json_schema_extra={"unit": "1", "bare": True, "bare_most": 1})
 ]
-BY_CURVE = {"stretch": ("nonlinear",), "bend": ("section", "fibres")}
-"""Laws that go by the record's curve, by their keys."""
+SECTIONS = ("section", "fibres")  # `Material.bend` that integrates a law over the thickness
+
+
+def by_curve(stretch: str, bend: str) -> str | None:
+    """The key of a material that goes by the curve of its record, if any.
+
+    Sections follow the law of stretching, or the curve where that law is linear.
+    """
+    if stretch == "nonlinear":
+        return "stretch"
+    return "bend" if stretch == "linear" and bend in SECTIONS else None
 
 
 class Material(Table):
@@ -53,6 +62,10 @@ class Material(Table):
 
     labels: ClassVar[tuple[str, ...]] = ("memory", "uncertain")
     neutral: ClassVar[dict[str, Any]] = {"relaxation_times": (), "relaxation_shares": ()}
+    not_along: ClassVar[tuple[str, ...]] = (
+        "softening_r",
+        "yield_stress",
+    )  # refused along the cells
 
     name: str = "ninjaflex"
     stretch: Literal["nonlinear", "linear"] = "nonlinear"
@@ -103,7 +116,7 @@ class Material(Table):
     @property
     def through_fibres(self) -> bool:
         """Whether bending goes by fibres through the thickness."""
-        return self.bend in ("section", "fibres")
+        return self.bend in SECTIONS
 
     @model_validator(mode="before")
     @classmethod
@@ -128,13 +141,15 @@ class Material(Table):
             if "density" not in given:
                 raise refusal("material.density", None, "a density, as no name is given")
             usual = {"reference_time": REFERENCE_TIME} if relaxes else {}
-            return {"name": BY_NUMBERS, "stretch": "linear", "bend": "linear", **usual, **given}
+            given = {"name": BY_NUMBERS, "stretch": "linear", **usual, **given}
         if given.get("stretch", "nonlinear") == "linear":
             given = {"bend": "linear", **given}
+        if record is None:
+            return given
         numbers = ("modulus", "density", "poisson", *(["reference_time"] if relaxes else []))
         known = {key: getattr(record, key) for key in numbers}
-        laws = [(key, given.get(key, cls.model_fields[key].default)) for key in BY_CURVE]
-        if given["hardening"] is None and any(law in BY_CURVE[key] for key, law in laws):
+        laws = [given.get(key, cls.model_fields[key].default) for key in ("stretch", "bend")]
+        if given["hardening"] is None and by_curve(*laws):
             known |= {"curve_strain": record.strain, "curve_stress": record.stress}
         uncertain = _uncertain(record, asked, {**known, **given})
         return {**known, **given, "name": record.name, "uncertain": uncertain}
@@ -162,14 +177,13 @@ class Material(Table):
 
     @model_validator(mode="after")
     def _has_its_curve(self) -> Self:
-        chosen = [(key, getattr(self, key)) for key in BY_CURVE]
-        used = [(key, word) for key, word in chosen if word in BY_CURVE[key]]
+        used = by_curve(self.stretch, self.bend)
         if self.yields:
             self._check_plasticity()
         elif used:
             if not self.curve_strain:
-                key, word = used[0]
-                raise refusal(f"material.{key}", word, '"linear", as no curve is given')
+                allowed = '"linear", as no curve is given'
+                raise refusal(f"material.{used}", getattr(self, used), allowed)
             check_curve(self.curve_strain, self.curve_stress)
             self._check_that_it_rises()
         elif self.curve_strain:

@@ -76,7 +76,7 @@ MODES = {
     "force": ("force", "release_time"),
     "displacement": (
         *("stroke", "strain", "speed", "strain_rate"),
-        *("quasi_static", "unload", "cycles"),
+        *("quasi_static", "hold_time", "unload", "cycles"),
     ),
     "impact": (
         *("striker_mass", "striker_speed", "energy"),
@@ -90,7 +90,7 @@ class Loading(Table):
 
     If the mode is not given, keys that only one mode has imply it. The mode of a custom structure
     is "custom": the file of the structure has its loading. `cycles`: how often a platen moves down
-    and back up.
+    and back up. `hold_time`: of the pause of a platen at its full stroke, in each of them.
 
     direction: "in_plane" presses the height of the drawing, "out_of_plane" the `lattice.depth`,
     along the cells. platen "clamped", only with the latter, holds the ends of walls upright too.
@@ -117,6 +117,7 @@ class Loading(Table):
     speed: Speed | None = None
     strain_rate: Frequency | None = None
     quasi_static: bool | None = None
+    hold_time: Duration | None = None
     unload: bool | None = None
     cycles: Cycles | None = None
     striker_mass: Mass | None = None

@@ -29,10 +29,12 @@ def sentences_on_lossless(cases: Sequence[Case]) -> list[str]:
 
 
 def loading_time(case: Case) -> float:
-    """About how long the walls are loaded, s: a stroke down and back up, or a striker's passage."""
+    """About how long the walls are loaded, s: a stroke down and back up with the pause between, or
+    a striker's passage.
+    """
     loading = case.loading
     if loading.stroke is not None and loading.speed is not None:
-        return 2.0 * loading.stroke / loading.speed
+        return 2.0 * loading.stroke / loading.speed + (loading.hold_time or 0.0)
     if loading.striker_speed is not None:
         return 2.0 * case.lattice.height / loading.striker_speed
     assert loading.duration is not None

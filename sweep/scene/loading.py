@@ -1,20 +1,20 @@
 """The stages of a loading, and the tolerances of the solver."""
 
 from math import ceil
-from typing import NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 
 from kernels.solve import integrators, march
 from kernels.solve.residual import Tolerance
 from sweep.config.case import Case, given
+from sweep.config.defaults.solver_defaults import hold_steps
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene, time_step
 
 IMPACT_STEPS = 64  # steps of a stage of an impact; after each stage the run may end
 ROUND_OFF = 4e-15
 WHOLE = 1e-6  # of a step: tolerance in the number of steps of a stage
-GRIP = 1e3  # tolerance of lagged friction / tolerance of forces
 SCHEMES = {
     "backward_euler": integrators.BACKWARD_EULER,
     "bdf2": integrators.BDF2,
@@ -24,11 +24,43 @@ SCHEMES = {
 }
 
 
+Role = Literal["loading", "hold", "unloading"]  # in the order of a cycle
+ROLES: tuple[Role, ...] = get_args(Role)
+
+
 class Phase(NamedTuple):
-    """A stage and its name in messages."""
+    """A stage, its name in messages, what it is to the measures, and its cycle."""
 
     name: str
     stage: march.Stage
+    role: Role = "loading"
+    cycle: int = 1
+
+
+class CycleRows(NamedTuple):
+    """Rows of a history at which a cycle begins, its loading ends, its unloading begins and ends.
+
+    Rows that the run has not reached count too. Without unloading the last three are one.
+    """
+
+    begun: int
+    loaded: int
+    released: int
+    ended: int
+
+
+def cycle_rows(phases: list[Phase]) -> list[CycleRows]:
+    """The rows of every cycle; row 0 is the state before the first step."""
+    found, done = list[CycleRows](), 0
+    for number in range(1, phases[-1].cycle + 1):
+        own = [phase for phase in phases if phase.cycle == number]
+        loading, held, unloading = (
+            sum(phase.stage.steps for phase in own if phase.role == role) for role in ROLES
+        )
+        turned = done + loading
+        found.append(CycleRows(done, turned, turned + held, turned + held + unloading))
+        done = found[-1].ended
+    return found
 
 
 def stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
@@ -36,8 +68,8 @@ def stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
     chosen = SCHEMES[given(case.solver.integrator)]
     error = np.inf if case.solver.step_error is None else case.solver.step_error
     return [
-        Phase(name, stage._replace(scheme=chosen, error=error))
-        for name, stage in _stages(case, scene)
+        phase._replace(stage=phase.stage._replace(scheme=chosen, error=error))
+        for phase in _stages(case, scene)
     ]
 
 
@@ -56,7 +88,14 @@ def _stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
         low, steps = rest - given(loading.stroke), given(solver.load_steps)
         down = march.Stage(steps, pace, dynamic, 0.0, 0.0, rest, low)
         up = march.Stage(steps, pace, dynamic, 0.0, 0.0, low, rest)
-        cycle = [Phase("loading", down)] + ([Phase("unloading", up)] if loading.unload else [])
+        cycle, pause = [Phase("loading", down)], hold_steps(loading, solver)
+        if pause:
+            still = down._replace(
+                steps=pause, duration=given(loading.hold_time) / pause, driven0=low
+            )
+            cycle.append(Phase("holding", still, "hold"))
+        if loading.unload:
+            cycle.append(Phase("unloading", up, "unloading"))
         return _repeated(cycle, given(loading.cycles))
     still, release, duration = (rest, rest), loading.release_time, given(loading.duration)
     if loading.mode == "impact":
@@ -65,13 +104,16 @@ def _stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
     if duration <= given(release):
         return [Phase("loading", held)]
     released = _lasting(duration - given(release), pace, (0.0, 0.0), still)
-    return [Phase("loading", held), Phase("released", released)]
+    return [Phase("loading", held), Phase("released", released, "unloading")]
 
 
 def _repeated(cycle: list[Phase], cycles: int) -> list[Phase]:
     """The phases of all cycles; from the second on, their names say the cycle."""
-    later = [f" in cycle {number}" for number in range(2, cycles + 1)]
-    return [phase._replace(name=phase.name + which) for which in ["", *later] for phase in cycle]
+    return [
+        phase._replace(name=phase.name + (f" in cycle {n}" if n > 1 else ""), cycle=n)
+        for n in range(1, cycles + 1)
+        for phase in cycle
+    ]
 
 
 def _lasting(
@@ -98,8 +140,6 @@ def tolerances(case: Case, scene: Scene | PlateScene, stage: march.Stage) -> Tol
     return Tolerance(
         force=allowed,
         decrement=1e-3 * allowed * case.lattice.wall_thickness,
-        friction=GRIP * allowed,
-        friction_share=GRIP * case.solver.tolerance,
         noise=ROUND_OFF * force * size,
         resolution=ROUND_OFF * size,
         iterations=case.solver.max_iterations,

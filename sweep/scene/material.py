@@ -69,10 +69,22 @@ def linear_law(slope: float) -> StressLaw:
 
 @lru_cache(maxsize=64)
 def stress_law(material: Material) -> StressLaw:
-    """The law of a material under uniaxial stress, without the factor of plane strain."""
+    """The law of stretching under uniaxial stress, without the factor of plane strain.
+
+    A law with a formula is sampled here as a `StressLaw`; sections and plates then follow it too.
+    """
     if material.stretch == "linear":
         return linear_law(material.modulus)
     return _record_law(material)
+
+
+def section_law(material: Material) -> StressLaw:
+    """The law of the fibres of a bent section: that of stretching, or the curve where stretching is
+    linear.
+    """
+    if material.stretch == "linear" and material.curve_strain:
+        return _record_law(material)
+    return stress_law(material)
 
 
 def monotonic_law(material: Material) -> StressLaw:
@@ -105,8 +117,7 @@ def law_of_section(material: Material, factor: float, nu: float) -> BentSection:
 
     The radial stress of a wall that yields is left out.
     """
-    curve = _record_law(material) if material.curve_strain else linear_law(material.modulus)
-    fibre = _fibre(material, curve, FibreCurve, factor)
+    fibre = _fibre(material, section_law(material), FibreCurve, factor)
     radial = 0.0 if material.yields else 2.0 / 3.0 * (1.0 - nu**2) * fibre.modulus
     place, weight = _fibres(material.fibres or 3)
     return BentSection(fibre, place, weight, 2.0 * float(weight.sum()), 1.0 + nu, radial)

@@ -178,7 +178,9 @@ def _masses(mesh: Mesh, numbering: Repeated, total: float) -> Floats:
 
 def _seen(touch: contact.Contact, numbering: Repeated) -> contact.Contact:
     """Contact of the nodes of the period: images have length 0, so that each pair counts once."""
+    own = numbering.own[touch.special_node]
     return touch._replace(
         tributary=np.where(numbering.own, touch.tributary, 0.0),
-        special_weight=np.where(numbering.own[touch.special_node], touch.special_weight, 0.0),
+        special_weight=np.where(own, touch.special_weight, 0.0),
+        special_distance=np.where(own, touch.special_distance, 0.0),
     )

@@ -3,26 +3,24 @@
 from math import nan
 
 from sweep.columns import cycle_columns
-from sweep.config.case import Case, given
+from sweep.scene.loading import CycleRows
 from sweep.scene.mesh import Floats
 
 
-def columns_of_cycles(case: Case, work: Floats, force: Floats) -> dict[str, float]:
+def columns_of_cycles(cycles: list[CycleRows], work: Floats, force: Floats) -> dict[str, float]:
     """The columns of `cycle_columns`, and the second cycle's absorbed energy over the first's.
 
     work (rows,) J done on the lattice so far, force (rows,) N passed on. NaN: the run ended before.
     """
-    cycles = case.loading.cycles or 1
-    if cycles == 1:
+    if len(cycles) == 1:
         return {"second_cycle_share": nan}
-    steps, found = given(case.solver.load_steps), dict[str, float]()
-    for number in range(cycles):
-        begun, turned, ended = (steps * (2 * number + stages) for stages in range(3))
-        absorbed = _gained(work, begun, turned)
+    found = dict[str, float]()
+    for number, (begun, loaded, _, ended) in enumerate(cycles, 1):
+        absorbed = _gained(work, begun, loaded)
         peak = force[begun : ended + 1].max() if ended < len(force) else nan
         lost = min(_gained(work, begun, ended), absorbed)  # pulling back is no loss
         values = absorbed, lost, float(peak)
-        found |= zip(cycle_columns(number + 1), values, strict=True)
+        found |= zip(cycle_columns(number), values, strict=True)
     first, second = (found[cycle_columns(number)[0]] for number in (1, 2))
     return found | {"second_cycle_share": second / first}
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from kernels.geometry.specimen_height import height
-from kernels.solve import arc_length, energy_book, friction_loop, march, newton
+from kernels.solve import arc_length, energy_book, march, newton
 from kernels.terms.rows import ROW, STRETCH, Output
 from sweep.config.case import Case, Lattice, Loading, Solver
 from sweep.config.defaults.direction import height_pressed, is_along
@@ -18,7 +18,7 @@ from sweep.result import Result, Status
 from sweep.scene.arcs import arc_of, path_columns
 from sweep.scene.custom import build_structure
 from sweep.scene.lattice import build_scene
-from sweep.scene.loading import stages, tolerances
+from sweep.scene.loading import CycleRows, cycle_rows, stages, tolerances
 from sweep.scene.mesh import Floats
 from sweep.scene.periodic import build_periodic
 from sweep.scene.plates.scene import Scene as PlateScene
@@ -41,7 +41,6 @@ GAP = 1e-3  # of the greatest energy in the book: residual that is allowed
 CREATED = 0.1  # of the work done: energy that an integrator may create
 ADVICE = {
     newton.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {further}",
-    friction_loop.UNSETTLED: "friction did not settle; try {shorter} or a smaller contact.friction",
     newton.STALLED: "the energy could not be lowered further; "
     "try a looser solver.tolerance or smaller steps",
     newton.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
@@ -82,7 +81,7 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
         if isinstance(scene, PlateScene)
         else strains_of(shapes, scene.terms)
     )
-    summary = summarise(case, scene, curves, frames, strains, run.loading_rows)
+    summary = summarise(case, scene, curves, frames, strains, run.cycles)
     if status == Status.CONVERGED and _broke(summary, case):
         message = _break_message(summary)
     case_id = case.case_id
@@ -233,13 +232,14 @@ class _Run:
         return len(back) > 0
 
     @property
-    def loading_rows(self) -> int:
-        """Number of rows of the history until release, full stroke, or the striker's stop; in the
-        first cycle.
+    def cycles(self) -> list[CycleRows]:
+        """Rows at which every cycle is loaded and unloaded: until full stroke or release, or until
+        a striker stops and until its last row.
         """
         if self.struck:
-            return int(np.argmin(self.rows["height"][: self.done])) + 1
-        return self.stages[0].stage.steps + 1
+            stopped = int(np.argmin(self.rows["height"][: self.done]))
+            return [CycleRows(0, stopped, stopped, self.done - 1)]
+        return cycle_rows(self.stages)
 
     def _expire(self) -> None:
         self.expired = True

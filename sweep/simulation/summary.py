@@ -9,6 +9,7 @@ from sweep.config.defaults.solver_defaults import given_or
 from sweep.design.network import mass, relative_density
 from sweep.design.slicer_network import extruded_area
 from sweep.result import design_columns
+from sweep.scene.loading import CycleRows
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene
@@ -101,16 +102,16 @@ def summarise(
     history: dict[str, Floats],
     frames: Frames,
     strains: tuple[Floats, ...],
-    loading_rows: int,
+    cycles: list[CycleRows],
 ) -> dict[str, float | int | str]:
     """Summary columns of a run.
 
     strains (f, m): of the elements in the stored shapes, and of their most stretched surfaces; of
-    plates, as of `plate_shapes.plate_strains`. loading_rows: number of rows of the history that are
-    loading.
+    plates, as of `plate_shapes.plate_strains`. cycles: rows at which each is loaded and unloaded;
+    energies and the curve of the loading are those of the first.
     """
     curves = history | {"work_in_J": work_on_lattice(case, history)}
-    loading = {name: column[:loading_rows] for name, column in curves.items()}
+    loading = {name: column[: cycles[0].loaded + 1] for name, column in curves.items()}
     drawn = 1e3 * mass(scene.network, case.lattice.depth, case.material.density)
     printed = printed_mass(case)
     grams = drawn if np.isnan(printed) else printed
@@ -124,7 +125,7 @@ def summarise(
         "relative_density": filled,
         "solid_strain": 1.0 - filled if is_along(case.loading) else np.nan,
         "absorbed_energy_J": absorbed,
-        **lost_columns(case, absorbed, returned(case, history, loading_rows), grams),
+        **lost_columns(case, absorbed, returned(case, history, cycles[0]), grams),
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),
         **{name: float(history[name][-1]) for name in DISSIPATED},
         "injected_by_projection_J": float(history["injected_by_projection_J"][-1]),
@@ -135,7 +136,7 @@ def summarise(
         "solid_joint_share": scene.solid_joint_share if case.solver.joints == "solid" else np.nan,
         "min_gap_m": float(gaps.min()) if len(gaps) else np.nan,
         "touched": int(any(np.any(history[name] != 0.0) for name in TOUCHING)),
-        **columns_of_cycles(case, history["work_in_J"], transmitted(case, history)),
+        **columns_of_cycles(cycles, history["work_in_J"], transmitted(case, history)),
         **impact_columns(case, scene, history),
         **crush_columns(case, loading),
         **_shape_columns(case, scene, frames, strains, loading),
@@ -162,17 +163,14 @@ def printed_mass(case: Case) -> float:
     return 1e3 * case.material.density * case.lattice.depth * extruded_area(case.lattice.geometry)
 
 
-def returned(case: Case, history: dict[str, Floats], loading_rows: int) -> float:
-    """Work given back to a platen or a striker that moves back up (J), in the first cycle; NaN if
-    none does.
-    """
+def returned(case: Case, history: dict[str, Floats], cycle: CycleRows) -> float:
+    """Work given back in a cycle to a platen or a striker that moves back up, J; NaN without."""
     if case.loading.mode == "impact":
         return float(kinetic(case, rebound_speed(history)))
-    work = history["work_in_J"]
-    if case.loading.mode == "force" or len(work) <= loading_rows:
+    given_back = history["work_in_J"][cycle.released : cycle.ended + 1]
+    if case.loading.mode == "force" or len(given_back) < 2:
         return np.nan
-    turned = loading_rows - 1
-    return float(work[turned] - work[: 2 * turned + 1][-1])
+    return float(given_back[0] - given_back[-1])
 
 
 def lost_columns(case: Case, absorbed: float, back: float, grams: float) -> dict[str, float]:

@@ -109,12 +109,13 @@ def keys_of(table):
 def test_every_key_is_explained(table):
     known = table_keys(table) if table in QUESTION else case_keys()
     fields = {name.split(".")[1] for name in known if name.startswith(f"{table}.")}
-    assert fields - {"load_steps"} - set(re.findall(r"`(\w+)`", keys_of(table))) == set()
+    unsaid = fields - {"load_steps"} - set(re.findall(r"`(\w+)`", keys_of(table)))
+    assert not unsaid, f"configs/README.md does not explain these keys of [{table}]"
 
 
 def test_every_family_of_infill_is_named():
     named = re.findall(r'"(\w+)"', keys_of("lattice"))
-    assert {*families()} <= {*named}
+    assert not {*families()} - {*named}, "configs/README.md does not name these kinds in [lattice]"
 
 
 @pytest.mark.parametrize("table", TABLES)
@@ -127,7 +128,11 @@ def test_defaults_are_those_of_a_case(table):
         unit = case_keys()[f"{table}.{name}"].unit
         value = json.loads(text)
         value = quantity(value, unit) if unit and isinstance(value, str) else value
-        assert value in [getattr(getattr(case, table), name) for case in modes], name
+        defaults = [getattr(getattr(case, table), name) for case in modes]
+        assert value in defaults, (
+            f"configs/README.md: `{name}` {text} reads as the default of this key, which is "
+            f"{defaults[0]}; before any other value write a word, as in: `{name}`, such as {text}"
+        )
 
 
 def test_structure_is_that_of_the_config():

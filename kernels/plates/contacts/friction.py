@@ -3,7 +3,7 @@
     D_f = sum mu lambda f(|u|),   f(u) = u^2/eps - u^3/(3 eps^2) + eps/3 for u < eps, else u
 
 u: tangential slip since y, two numbers in the plane normal to the contact; lambda: normal force of
-a contact at the last iterate of the fixed-point loop (Li et al. 2020, eq. 16). Walls have a
+a contact where it was lagged, as in `terms.friction` (Li et al. 2020, eq. 16). Walls have a
 thickness, so that two walls that rotate together do not slip: with the distance d, the normal n,
 the moves dp of the node and dc of the closest point, and the rotation w of the triangle,
 

@@ -24,7 +24,6 @@ TIME_LIMIT = 3600.0  # s
 MAX_ITERATIONS = 300  # of one minimisation: where walls snap, 60 to 200 are common
 MODES = '"displacement" or "impact"'
 PLATENS = '"glued", "clamped" or "contact"'
-LAWS = {"stretch": ("nonlinear", "linear"), "bend": ("section", "linear")}
 NOT_ACROSS: dict[str, Any] = {"layers": None, "symmetry": "none", "imperfection_seed": None}
 """Keys of the lattice that only a crush along the cells uses, with their values across them."""
 
@@ -118,12 +117,12 @@ def _check_lattice(lattice: Lattice) -> None:
 
 def _check_material(material: Material) -> None:
     """A wall is a sheet of layers that all follow one law, elastic or relaxing."""
-    for key in ("softening_r", "yield_stress"):
+    for key in material.not_along:
         if value := getattr(material, key):
             raise refusal(f"material.{key}", value, f"none {WHERE}: its walls are elastic or relax")
     if material.bend == "fibres":
         raise refusal("material.bend", material.bend, f'"section" or "linear" {WHERE}')
-    fit = dict(zip(*LAWS.values(), strict=True))[material.stretch]
+    fit = "linear" if material.stretch == "linear" else "section"
     if material.bend != fit:
         why = f'{WHERE} and material.stretch is "{material.stretch}"'
         raise refusal("material.bend", material.bend, f'"{fit}" {why}')

@@ -224,7 +224,9 @@ def _at_touch(
 
 
 def _displacement(loading: Loading, height: float, integrator: str | None) -> Loading:
-    """A platen that moves down by `stroke`, and back up if `unload`; the whole `cycles` times."""
+    """A platen that moves down by `stroke`, rests there for `hold_time`, and moves back up if
+    `unload`; the whole `cycles` times.
+    """
     if loading.platen == "none":
         allowed = f'{PLATENS} if loading.mode is "displacement"'
         raise refusal("loading.platen", "none", allowed)
@@ -249,6 +251,7 @@ def _displacement(loading: Loading, height: float, integrator: str | None) -> Lo
         speed=speed,
         strain_rate=rate,
         quasi_static=quasi_static,
+        hold_time=loading.hold_time,
         unload=unload,
         cycles=cycles,
         platen=loading.platen or "glued",
@@ -273,7 +276,8 @@ def _paced(loading: Loading, relaxes: bool, height: float) -> Loading:
     if not (loading.mode == "displacement" and loading.quasi_static):
         return loading
     if not relaxes:
-        return loading.model_copy(update={"speed": None, "strain_rate": None})
+        timeless = dict.fromkeys(("speed", "strain_rate", "hold_time"))
+        return loading.model_copy(update=timeless)
     speed = given_or(loading.speed, STRAIN_RATE * height)
     rate = given_or(loading.strain_rate, speed / height)
     return loading.model_copy(update={"speed": speed, "strain_rate": rate})

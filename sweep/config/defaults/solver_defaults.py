@@ -46,10 +46,20 @@ def with_joints(solver: Solver, material: Material, custom: bool) -> Solver:
 def steps(loading: Loading, solver: Solver) -> float:
     """Number of steps of a resolved case."""
     if solver.load_steps is not None:
-        return solver.load_steps * (2 if loading.unload else 1) * given_or(loading.cycles, 1)
+        moving = solver.load_steps * (2 if loading.unload else 1)
+        return (moving + hold_steps(loading, solver)) * given_or(loading.cycles, 1)
     assert loading.duration is not None
     assert solver.time_step is not None
     return loading.duration / solver.time_step
+
+
+def hold_steps(loading: Loading, solver: Solver) -> int:
+    """Number of steps of a pause at full stroke: `load_steps`, or as long as those of a motion."""
+    if loading.hold_time is None:
+        return 0
+    if solver.time_step is None:
+        return given_or(solver.load_steps, 0)
+    return _steps_in(loading.hold_time, solver.time_step)
 
 
 def check_steps(solver: Solver, loading: Loading, time_step: float | None) -> None:

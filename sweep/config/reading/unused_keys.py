@@ -119,10 +119,11 @@ def _reason(key: str, given: Mapping[str, Any], case: Case) -> str:
         return f'solver.integrator is "{case.solver.integrator}"'
     if case.lattice.structure is not None and key.startswith("loading."):
         return 'lattice.kind is "custom"'
-    if key == "loading.strain_rate" and case.loading.mode == "displacement":
+    timed = ("loading.strain_rate", "loading.hold_time")
+    if key in timed and case.loading.mode == "displacement":
         return STEADY
-    timed = key == "solver.load_steps" and case.loading.mode != "displacement"
-    if key.startswith("loading.") or timed:
+    stepped = key == "solver.load_steps" and case.loading.mode != "displacement"
+    if key.startswith("loading.") or stepped:
         return f'loading.mode is "{case.loading.mode}"'
     if key.startswith("contact.") and case.contact.friction is None:
         return f'contact.model is "{case.contact.model}"'

@@ -25,6 +25,7 @@ from sweep.numbers import energy_text, three_digits
 from sweep.report.figures import shaded
 from sweep.report.figures.storyboard import (
     PARTS,
+    crushes,
     headline,
     last_loaded,
     parts_of,
@@ -71,9 +72,11 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     disappears within one step.
     """
     strain, force = 100.0 * history["strain"], history["reaction_top_N"]
-    turn = last_loaded(history, row)
-    first = 2 * turn + 1 if row["loading_mode"] == "displacement" else None  # rows of a cycle
-    down, back = slice(turn + 1), slice(turn, first)
+    turn = released = last_loaded(history, row)
+    ended = len(history) - 1
+    if row["loading_mode"] == "displacement":
+        turn, released, ended = crushes(history)[0]
+    down, held, back = slice(turn + 1), slice(turn, released + 1), slice(released, ended + 1)
     dead = row["loading_mode"] == "force"
     absorbed = row["absorbed_energy_J"]
     given_back = f"returns {100.0 * row['returned_energy_J'] / absorbed:.0f} %"
@@ -83,11 +86,13 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     whole = f"absorbed in all\n{_energy(absorbed, row)}"
     ax.fill_between(strain[down], force[down], label=whole, **sky)
     ax.plot(strain[down], force[down], drawstyle=style, color=BLUE, lw=2.2, label=words[0])
-    if turn + 1 < len(history):
+    if released > turn:
+        ax.plot(strain[held], force[held], color=VERMILION, lw=1.6, label="held")
+    if released + 1 < len(history):
         dashes: dict[str, Any] = {"color": ORANGE, "lw": 1.6, "ls": "--", "drawstyle": style}
         ax.plot(strain[back], force[back], label=words[1], **dashes)
-    if first is not None and first < len(history):
-        again = slice(first - 1, None)
+    if ended + 1 < len(history):
+        again = slice(ended, None)
         ax.plot(strain[again], force[again], color=PURPLE, lw=1.0, label="further cycles")
     bottom = history["reaction_bottom_N"]
     if np.abs(bottom - force).max() > 0.02 * np.abs(force).max():

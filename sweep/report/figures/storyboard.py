@@ -64,8 +64,23 @@ def turns(history: DataFrame, row: Mapping[str, Any]) -> dict[int, str]:
     if row["loading_mode"] != "displacement":
         word = "load off" if row["loading_mode"] == "force" else "stops"
         return {turn: word} if turn < last else {}
-    stages = enumerate(range(turn, last, max(turn, 1)), 1)
-    return {at: "turns" if k % 2 else f"cycle {k // 2 + 1}" for k, at in stages}
+    found = dict[int, str]()
+    for number, (_, released, ended) in enumerate(crushes(history), 2):
+        found |= {released: "turns", ended: f"cycle {number}"}
+    return {at: words for at, words in found.items() if at < last}
+
+
+def crushes(history: DataFrame) -> list[tuple[int, int, int]]:
+    """Rows of a crush at which the platen reaches its full stroke, leaves it after a pause, if any,
+    and is back up, or as far up as it comes; of every cycle.
+    """
+    strain = history["strain"].to_numpy()
+    top = np.flatnonzero(strain >= (1.0 - ROUND_OFF) * np.nanmax(strain))
+    parts = np.split(top, np.flatnonzero(np.diff(top) > 1) + 1)
+    turned, released = [int(part[0]) for part in parts], [int(part[-1]) for part in parts]
+    until = [*turned[1:], len(strain)]
+    ended = [at + int(strain[at:end].argmin()) for at, end in zip(released, until, strict=True)]
+    return list(zip(turned, released, ended, strict=True))
 
 
 def parts_of(history: DataFrame) -> dict[str, str]:

@@ -34,7 +34,7 @@ or is still stored in walls that relax."""
 MIXED = """\
 behaviour: of the walls. What does not come back went into friction, damping, snaps or time steps;
 where walls are not elastic, also into the material, or it is still stored in walls that relax."""
-LOADED = "sink: greatest strain under the load, with the overshoot of its sudden start."
+LOADED = "sink: greatest strain under the load, with its overshoot."
 STRUCK = """\
 force: greatest force on the support. sink: greatest strain. left: stroke that is left until all
 voids are closed. rebound: energy of the striker when it leaves / at first touch."""

@@ -86,7 +86,7 @@ def build_scene(case: Case) -> Scene:
         contact=contact_of(mesh, numbering, case),
         mirror=mirror_of(mesh, case),
         # The loop for the forces of the end does not settle where folds snap against each other.
-        friction=friction_of(case)._replace(is_renewed=False),
+        friction=friction_of(case),
         layout=layout,
     )
     loose = platen == "contact"

@@ -101,12 +101,16 @@ def test_find_gives_special_pairs_their_own_rules():
         (at,) = np.nonzero((contact.special_node == p) & (owner == e))
         length, *subtract = near_pairs.counted(listed, k, contact)
         assert listed.rule[k] == (at[0] if len(at) else -1)
-        assert (listed.d_contact[k] > 0.0) == (length > 0.0)
+        assert listed.d_contact[k] > 0.0
+        guarded = len(at) == 1 and contact.special_weight[at[0]] == 0.0
+        assert near_pairs.is_guarded(listed, k, contact) == guarded
+        if guarded:
+            assert (length, *subtract) == (contact.tributary[p], 0.0, 0.0)
         if len(at):
             seen += 1
-            assert length == contact.special_weight[at[0]]
-            assert listed.d_contact[k] == (contact.special_distance[at[0]] if length else 0.0)
-            np.testing.assert_array_equal(subtract, contact.special_subtract[at[0]])
+            assert guarded or length == contact.special_weight[at[0]]
+            assert listed.d_contact[k] == contact.special_distance[at[0]]
+            assert guarded or subtract == [*contact.special_subtract[at[0]]]
         else:
             assert length == contact.tributary[p]
     assert 5 < seen < len(listed.node) + 1

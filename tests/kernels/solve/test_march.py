@@ -102,15 +102,14 @@ def momentum(scene, state):
 def test_what_nothing_holds_keeps_its_momentum(damping, friction):
     """Walls collide in flight. Drag on the mass alone slows it, by 1 / (1 + alpha dt) a step.
 
-    Forces of walls on walls, taken where a step ends, have no moment either; only Rayleigh's are
-    those of the place where it began.
+    Forces of walls on walls, taken where a step ends, have no moment either; only Rayleigh's and
+    those of friction are of the place where it began.
     """
     case, scene, state = loose(damping, friction, 150.0)
     kept, whole, touched = 1.0 / (1.0 + (case.damping.mass or 0.0) * DT), 0, 0.0
     for _ in range(12):
         before, taken = momentum(scene, state), state.totals[0].steps
-        tight = {"force": 1e-9, "friction": 1e-8, "friction_share": 0.0}
-        outcome, rows = go_on(case, scene, state, ramp(scene, 1, DT), **tight)
+        outcome, rows = go_on(case, scene, state, ramp(scene, 1, DT), force=1e-9)
         assert outcome == newton.CONVERGED
         assert abs(rows[0].residual) < 1e-9 * rows[0].kinetic
         touched = max(touched, rows[0].contact)
@@ -122,8 +121,8 @@ def test_what_nothing_holds_keeps_its_momentum(damping, friction):
         drift = after.sum(axis=0) - kept * before.sum(axis=0)
         np.testing.assert_allclose(drift, 0.0, atol=allowed)
         (x, y), (px, py) = nodes(scene, state.x).T, (after - before).T
-        spin = np.sum(x * py - y * px) if damping.model != "rayleigh" else 0.0
-        assert abs(spin) < allowed * case.lattice.height
+        if damping.model != "rayleigh" and friction == 0.0:
+            assert abs(np.sum(x * py - y * px)) < allowed * case.lattice.height
     assert whole > 8
     assert touched > 1e-3 * rows[0].bend
     assert (rows[0].friction > 0.0) == (friction > 0.0)
@@ -140,7 +139,11 @@ def test_contact_energy_and_gap_are_those_of_all_pairs():
         assert state.stored[CONTACT] == pytest.approx(energy, rel=1e-12, abs=1e-18)
         ends, start = touch.edges[everything.edge], everything.d_contact
         listed = zip(everything.node, ends, start, strict=True)
-        gaps = [(squared_distance(state.x, p, *at) ** 0.5, dc) for p, at, dc in listed if dc > 0.0]
+        gaps = [
+            (squared_distance(state.x, p, *at) ** 0.5, dc)
+            for k, (p, at, dc) in enumerate(listed)
+            if not near_pairs.is_guarded(everything, k, touch)
+        ]
         gap, _ = min(gaps)
         assert (energy > 0.0) == any(d < dc for d, dc in gaps)
         if gap < touch.reach:
@@ -169,15 +172,20 @@ def sliding():
 
 
 def test_friction_slows_what_slides_by_mu_times_the_forces_on_it():
-    """3 N from above; from below what is left of it once the grid has been accelerated."""
+    """3 N from above; from below what was left of it once the grid had been accelerated in the step
+    before.
+    """
     case, scene, state = sliding()
-    least, most, begun = 0.0, 0.0, state.book.copy()[0]
+    go_on(case, scene, state, ramp(scene, 1, DT, (1.0, 1.0)))
+    least, most, begun, rise = 0.0, 0.0, state.book.copy()[0], None
     for _ in range(5):
         before, x = momentum(scene, state).sum(axis=0), state.x.copy()
         outcome, rows = go_on(case, scene, state, ramp(scene, 1, DT, (1.0, 1.0)))
         assert outcome == newton.CONVERGED
         change = (momentum(scene, state).sum(axis=0) - before) / DT
-        assert change[0] == pytest.approx(-0.3 * (3.0 + 3.0 + change[1]), rel=1e-5)
+        if rise is not None:
+            assert change[0] == pytest.approx(-0.3 * (3.0 + 3.0 + rise), rel=1e-5)
+        rise = change[1]
         moves = nodes(scene, state.x - x)[:, 0]
         least, most = least - change[0] * moves.min(), most - change[0] * moves.max()
     gained = rows[0].friction - begun.friction

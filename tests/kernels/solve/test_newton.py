@@ -263,7 +263,7 @@ def test_a_driven_platen_takes_the_others_along(platen):
 
 def test_a_soft_coordinate_is_not_excused_by_a_stiff_one():
     """The residual may be as large as round-off of the stiff one, but not what it can release."""
-    tolerance = Tolerance(1e-9, 1e-12, 1e-6, 1e-5, 1e-15, 1e-16, 100)
+    tolerance = Tolerance(1e-9, 1e-12, 1e-15, 1e-16, 100)
     assert allowed(1e17, tolerance) == pytest.approx(10.0)
     assert allowed_decrement(1e17, tolerance, 92) == 1e-12
     assert allowed_decrement(1e20, tolerance, 92) == pytest.approx(9.2e-11)

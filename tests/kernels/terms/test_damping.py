@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from kernels.compile.reference import by_reference, referred
 from kernels.terms import bend, damping, elements, kelvin_voigt, stretch
 from tests.support.kernels.frames import (
     carried,
@@ -142,8 +143,8 @@ def test_projected_hessian_is_semi_definite(seed, damping):
 @pytest.mark.parametrize("seed", range(3))
 def test_projected_viscous_moments_are_semi_definite_without_stretch(seed):
     terms = damped(FRAME, VISCOUS)
-    soft = terms._replace(law=terms.law._replace(modulus=0.0))
-    term, x = term_of(soft, shaken(FRAME, seed + 30, 0.4)), shaken(FRAME, seed, 0.4)
+    soft = referred(terms)._replace(law=terms.law._replace(modulus=0.0))
+    term, x = term_of(by_reference(soft), shaken(FRAME, seed + 30, 0.4)), shaken(FRAME, seed, 0.4)
     assert np.linalg.eigvalsh(term.hessian(x))[0] < -1.0
     assert least_share(term, x, FRAME.unit) > -1e-12
 

@@ -1,10 +1,10 @@
 """Simulate a scene under observation, and name whatever it violates.
 
 The last step of every stage of loading is taken by itself, with what was before and after it kept:
-the balance there is computed anew, with contact listed afresh and friction lagged at the end of the
-step, and what the walls store is compared with `model`, unless the material has a memory: then its
-dissipation must not fall. What nothing holds has to move: a structure
-that stays where it is, at rest, has to bear its load there.
+the balance there is computed anew, with contact listed afresh and friction lagged at the start of
+the step, and what the walls store is compared with `model`, unless the material has a memory: then
+its dissipation must not fall. What nothing holds has to move: a structure that stays where it is,
+at rest, has to bear its load there.
 """
 
 import time
@@ -24,7 +24,6 @@ from tests.support.kernels.solving import Whole, whole
 
 MARCH, FOLLOW = march.march, arc_length.follow
 GRACE = 10.0  # s beyond its limit that a case may take
-LAG = 10.0  # times what a lagged force may be off: it lagged at an extrapolated place
 SAME = 1e-9  # of the largest force: two sums of the same forces
 EARNED = 1e-6  # of the work done: what an energy may be off
 MADE = 5e-3  # of the work done: what backward Euler may make
@@ -35,7 +34,7 @@ SAID = "the integrator made energy", "work and energies do not balance"
 class Seen(NamedTuple):
     """One step: its scene, allowed residuals, itself, what damping expects, where it has ended.
 
-    whole: not divided into shares.
+    whole: not divided into shares. corrected: friction lags between start and end of the step.
     """
 
     terms: object
@@ -45,6 +44,7 @@ class Seen(NamedTuple):
     x: np.ndarray
     stored: np.ndarray
     whole: bool
+    corrected: bool
 
 
 class Watch:
@@ -69,9 +69,13 @@ class Watch:
                 return outcome, written
             self.still += _unborne(terms, state, step)
         undivided = state.totals[0].steps == steps + 1
+        corrected = integrators.corrections(stage.scheme) > 0
         self.seen.append(
-            Seen(terms, tolerance, step, ahead, state.x.copy(), state.stored.copy(), undivided)
-        )
+            Seen(
+                terms, tolerance, step, ahead, state.x.copy(), state.stored.copy(), undivided,
+                corrected,
+            )
+        )  # fmt: skip
         return outcome, written
 
     def follow(self, terms, tolerance, stage, state, out, control, arc):
@@ -82,7 +86,9 @@ class Watch:
             at = stage._replace(dynamic=False, factor1=state.totals[0].factor)
             step, ahead = _next_step(terms, at, state)
             self.still += _unborne(terms, state, step._replace(x0=x0))
-            seen = Seen(terms, tolerance, step, ahead, state.x.copy(), state.stored.copy(), True)
+            seen = Seen(
+                terms, tolerance, step, ahead, state.x.copy(), state.stored.copy(), True, False
+            )
             self.seen.append(seen)
         return outcome, written
 
@@ -228,14 +234,15 @@ def _balance(seen):
     step = Whole(made.problem, seen.step)
     step.problem.begin(seen.step, seen.ahead, np.zeros_like(seen.x))
     step.factor(seen.x)
+    _, at_end = step.found(seen.x)
+    step.problem.lag(seen.step.x0)
     _, found = step.found(seen.x)
     left = np.zeros_like(seen.x)
     step.problem.reduce(found.g, left)
     size = residual.largest(left, coordinates)
     allowed = residual.allowed(step.problem.stiffest(), seen.tolerance)
-    if seen.terms.friction.mu > 0.0:
-        rubbing = residual.largest(found.friction, coordinates)
-        allowed += LAG * max(seen.tolerance.friction, seen.tolerance.friction_share * rubbing)
+    if seen.corrected:
+        allowed += residual.largest(at_end.friction - found.friction, coordinates)
     if not size <= 1.01 * allowed:
         yield f"{size / allowed:.1e} of the allowed residual"
     second = stored(seen.x, seen.terms, seen.step.x0)

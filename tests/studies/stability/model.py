@@ -228,10 +228,11 @@ def _weighed(node, edge, contact):
     special = {key: k for k, key in enumerate((contact.special_node * m + owner).tolist())}
     at = np.array([special.get(key, -1) for key in (node * m + edge).tolist()], int)
     own = at >= 0
-    weight[own] = contact.special_weight[at[own]]
+    counts = contact.special_weight[at[own]] > 0.0  # others are only kept from crossing
+    weight[own] = np.where(counts, contact.special_weight[at[own]], weight[own])
     start[own] = contact.special_distance[at[own]]
-    off[own] = contact.special_subtract[at[own]]
-    acts = weight > 0.0
+    off[own] = np.where(counts[:, None], contact.special_subtract[at[own]], 0.0)
+    acts = (weight > 0.0) & (start > 0.0)
     weight, start = np.where(acts, weight, 0.0), np.where(acts, start, 1.0)
     return weight, start, off
 

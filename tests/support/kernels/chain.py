@@ -260,11 +260,6 @@ def covers(problem, x, far):
 
 
 @jit_exact
-def lags(problem):
-    return problem.scene.friction > 0.0
-
-
-@jit_exact
 def lag(problem, y):
     scene, normal = problem.scene, problem.buffers.normal
     for i in range(y.size):
@@ -345,7 +340,6 @@ class Chain(NamedTuple):
     travel = travel
     step_limit = step_limit
     covers = covers
-    lags = lags
     lag = lag
     exchange = exchange
     follow = follow

@@ -8,12 +8,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from kernels.compile.reference import by_reference
 from kernels.geometry import near_pairs
 from kernels.laws import elastic
 from kernels.laws.fibre import Fibre
-from kernels.laws.relaxation import Relaxing
-from kernels.laws.softening import Softening
-from kernels.laws.yielding import Yielding
 from kernels.linear.condensed import analysis, periodic_images
 from kernels.planar import position_based
 from kernels.planar.problem import PlanarScene
@@ -31,6 +29,7 @@ from kernels.terms import (
     stretch,
 )
 from sweep.scene.bending import FIBRE, OUTER
+from tests.support.materials.memory import relaxing
 
 MODULUS, DEPTH = 12.0, 10.0
 NO_SPRINGS = spring.Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
@@ -171,9 +170,7 @@ def curve_law(modulus: float) -> elastic.ElasticCurve:
 
 def point_of(curve: elastic.ElasticCurve | elastic.FibreCurve) -> Fibre:
     """The law of a material point without a memory."""
-    softening = Softening(curve, 0.0, 0.0, 0.0)
-    relaxing = Relaxing(softening, np.empty(0), np.empty(0), curve.modulus)
-    return Fibre(relaxing, Yielding(curve.modulus, 0.0, 0.0, 0.0), curve.modulus, True)
+    return relaxing(curve)
 
 
 def fibre_of(curve: elastic.ElasticCurve) -> Fibre:
@@ -265,12 +262,13 @@ def terms_of(of: Frame, law: Fibre, measure: int, damped: damping.Damp) -> Plana
     mass, one, none = np.zeros(n), np.ones(n), np.empty(0)
     mass[: 2 * len(of.points)] = np.repeat(share, 2)
     role, load = np.full(n, FREE), np.zeros(n)
-    return PlanarScene(
+    scene = PlanarScene(
         Coordinates(role, one, one, mass, one, load, -1, 1.0, 1.0, 1.0), law, walls_of(of),
         stretch_of(of), bend_of(of, measure), fold.Fold(np.empty((0, 3), np.int64), none, none),
         NO_SPRINGS, contact_of(of), friction.Friction(0.0, 1.0), damped, layout_of(of),
         position_based.Projection(contact_of(of), none),
     )  # fmt: skip
+    return by_reference(scene)
 
 
 def two_walls(gap: float, pieces=(3, 3), length=4.0, slope=0.0, shift=0.0) -> Frame:

@@ -43,7 +43,7 @@ def add(matrix, i, j, block):
 
 def assembled(sizes, pairs, points, full, spans):
     """A `Matrix` with the entries of the array ``full``."""
-    matrix = analyse(sizes, pairs, points)
+    matrix = analyse(sizes, np.ascontiguousarray(pairs), points)
     for i in range(len(sizes)):
         add(matrix, i, i, full[spans[i], spans[i]])
     for i, j in {(max(i, j), min(i, j)) for i, j in pairs if i != j}:

@@ -35,7 +35,12 @@ def relaxing(curve: ElasticCurve, shares=(), times=(), softening=NO_SOFTENING) -
     branches = np.array(shares, float), np.array(times, float)
     law = Relaxing(Softening(curve, *softening), *branches, curve.modulus)
     elastic = len(shares) == 0 and softening == NO_SOFTENING
-    return Fibre(law, Yielding(curve.modulus, 0.0, 0.0, 0.0), curve.modulus, elastic)
+    return Fibre(
+        relaxing=law,
+        yielding=Yielding(curve.modulus, 0.0, 0.0, 0.0),
+        modulus=curve.modulus,
+        is_elastic=elastic,
+    )
 
 
 def virgin(law: Fibre, points=1) -> Memory:

@@ -1,13 +1,16 @@
 """First configs: each runs as it is, is explained, and takes nobody's file."""
 
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
 
+from sweep.cli import new as cli_new
 from sweep.cli.new import KINDS, template
 from sweep.config.grid import expand
 from sweep.config.units import load_config
+from sweep.design.infill import families
 from sweep.result import Status
 from sweep.simulation.simulate import simulate
 from tests.support.command import crumple
@@ -67,3 +70,14 @@ def test_name_may_have_its_ending_and_is_checked(capsys, tmp_path, monkeypatch):
         assert (status, out) == (2, "")
         assert why in err
     assert [path.name for path in tmp_path.iterdir()] == ["pad.toml"]
+
+
+def test_every_family_is_offered(monkeypatch):
+    """On as many lines as they take."""
+    many = ("square", *(f"family_{number}" for number in range(20)))
+    for offered in (families(), many):
+        monkeypatch.setattr(cli_new, "families", lambda offered=offered: offered)
+        text = template("a", "crush", Path("a.toml"))
+        assert tomllib.loads(text)["lattice"]["kind"] == "square"
+        assert max(map(len, text.splitlines())) <= 100
+        assert {*offered} <= {*re.findall(r"\w+", text)}

@@ -39,12 +39,23 @@ def test_help_teaches_every_verb_by_an_example():
     done = subprocess.run(
         [sys.executable, "-m", "sweep", "--help"], capture_output=True, text=True, check=True
     )
-    assert all(f"crumple {verb} " in done.stdout for verb in VERBS)
+    without = [verb for verb in VERBS if f"crumple {verb} " not in done.stdout]
+    assert not without, "EXAMPLES has no example of these verbs"
 
 
 def test_every_verb_has_its_arguments_and_its_function(capsys):
     _, _, told = crumple(capsys, "fly")
-    assert re.findall(r"\w+", told.split("choose from ")[1].split(")")[0]) == list(VERBS)
+    said = re.findall(r"\w+", told.split("choose from ")[1].split(")")[0])
+    assert said == list(VERBS), "parser has other verbs than ALL, or in another order"
+
+
+def test_a_verb_without_a_function_is_told(capsys, monkeypatch, file):
+    monkeypatch.delitem(VERBS, "status")
+    status, _, err = crumple(capsys, "status", file)
+    assert (status, err.splitlines()[0]) == (
+        2,
+        "crumple status: ALL of sweep/cli/verbs.py has no function for it",
+    )
 
 
 @pytest.mark.parametrize("module", ["crumple", "sweep"])
@@ -576,7 +587,34 @@ def test_what_an_allowed_force_is_for_is_told(capsys, tmp_path, mode, told):
 def test_options_are_not_abbreviated(capsys, config):
     status, _, err = crumple(capsys, "run", config, "--worker", "1")
     assert status == 2
-    assert "--worker" in err
+    assert err.startswith(
+        "crumple run: unrecognized arguments: --worker 1; the nearest is --workers\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "hint"),
+    [
+        (["-o", "f.h5"], "-o f.h5; the nearest is --out"),
+        (["--outt=f.h5"], "--outt=f.h5; the nearest is --out"),
+        (["-s"], "-s; the nearest is --scheduler or --spread or --screen"),
+        (["f.h5"], "f.h5"),
+        (["-x"], "-x"),
+    ],
+)
+def test_what_a_verb_does_not_take_is_told_with_the_nearest(capsys, config, words, hint):
+    status, out, err = crumple(capsys, "run", config, *words)
+    assert (status, out) == (2, "")
+    assert err == (
+        f"crumple run: unrecognized arguments: {hint}\ncrumple run --help shows examples\n"
+    )
+
+
+def test_help_without_examples_promises_none(capsys):
+    _, _, err = crumple(capsys, "status")
+    assert err.endswith("crumple status --help shows what it takes\n")
+    _, _, err = crumple(capsys, "rank")
+    assert err.endswith("crumple rank --help shows examples\n")
 
 
 @pytest.mark.parametrize(("module", "error"), REFUSALS.items())

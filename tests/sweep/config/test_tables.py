@@ -5,6 +5,7 @@ from pydantic import ValidationError
 
 from sweep.config.case import Case, Loading, Material
 from sweep.config.grid import expand
+from sweep.config.material_table import by_curve
 from sweep.config.materials.material_file import locate, read_record
 from sweep.config.tables import MODES
 from sweep.config.units import ConfigError
@@ -27,7 +28,7 @@ def test_what_does_not_fit_is_one_line(lines, text):
     "given",
     [
         *({"strain": 0.5}, {"stroke": 5e-3}, {"speed": 1e-3}),
-        *({"quasi_static": True}, {"unload": False}, {"cycles": 2}),
+        *({"quasi_static": True}, {"unload": False}, {"cycles": 2}, {"hold_time": 2.0}),
     ],
 )
 def test_keys_of_a_platen_say_the_mode(given):
@@ -123,3 +124,25 @@ def test_every_key_of_a_loading_belongs_to_a_mode_or_to_all():
     """A key that no mode names would be taken without a sentence where it has no effect."""
     of_all = {"mode", "platen", "duration", "allowed_forces", "direction"}
     assert {key for keys in MODES.values() for key in keys} == set(Loading.model_fields) - of_all
+
+
+@pytest.mark.parametrize(
+    ("stretch", "bend", "key"),
+    [
+        ("nonlinear", "section", "stretch"),
+        ("nonlinear", "linear", "stretch"),
+        ("linear", "fibres", "bend"),
+        ("linear", "none", None),
+        ("of a formula", "section", None),
+    ],
+)
+def test_laws_that_go_by_the_curve(stretch, bend, key):
+    """Sections of a law with a formula go by that."""
+    assert by_curve(stretch, bend) == key
+
+
+def test_a_curve_that_is_not_given_is_missed_where_it_is_used():
+    numbers = {"modulus": 12e6, "density": 1190.0}
+    for key, word in (("stretch", "nonlinear"), ("bend", "section"), ("bend", "fibres")):
+        with pytest.raises(ValueError, match=f'material.{key} = {word}; allowed: "linear", as'):
+            Material(**numbers, **{key: word})

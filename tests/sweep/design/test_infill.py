@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import shapely
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
@@ -66,6 +67,39 @@ def test_joints_and_walls_are_as_many_as_closed_forms_say(kind, way, cells):
     points, walls = joints_and_walls(drawn)
     expected = COUNTS[kind](*(cells if way == "pointy" else cells[::-1]))
     assert (len(points), len(walls)) == counts(drawn) == expected
+
+
+def crossings(points, walls):
+    """Places in mm where walls cross, overlap, or end on another one, without a vertex there."""
+    lines = shapely.linestrings(1e3 * points[walls])
+    pairs = shapely.STRtree(lines).query(lines, "intersects").T
+    pairs = pairs[pairs[:, 0] < pairs[:, 1]]
+    met = shapely.intersection(*lines[pairs.T])
+    apart = shapely.distance(shapely.boundary(lines[pairs]), met[:, None]).max(axis=1) > 1e-6
+    ends = shapely.get_type_id(met) == shapely.GeometryType.POINT
+    return shapely.get_coordinates(shapely.centroid(met[apart | ~ends])).round(3).tolist()
+
+
+@pytest.mark.parametrize("cells", [(1, 1), (3, 3), (2, 4)])
+@pytest.mark.parametrize(("kind", "way"), KINDS)
+def test_walls_meet_in_joints_only(kind, way, cells):
+    network = build_network(lattice_of(kind, way, cells).geometry)
+    found = crossings(network.points, network.walls)
+    assert not found, f"walls of {kind} cross at {found[0]} mm: draw a vertex there in both lines"
+
+
+@pytest.mark.parametrize(
+    ("walls", "places"),
+    [
+        ([[0, 1], [2, 3]], [[1.0, 1.0]]),  # they cross
+        ([[0, 1], [2, 4]], [[1.0, 1.0]]),  # one ends on the other
+        ([[0, 4], [0, 1]], [[0.5, 0.5]]),  # one covers a part of the other
+        ([[0, 4], [4, 1], [4, 2], [4, 3]], []),
+    ],
+)
+def test_walls_without_a_vertex_are_found(walls, places):
+    points = 1e-3 * np.array([[0, 0], [2, 2], [2, 0], [0, 2], [1, 1]])
+    assert crossings(points, np.array(walls)) == places
 
 
 @pytest.mark.parametrize("edge", EDGES)

@@ -21,7 +21,8 @@ def test_all_families_have_a_period(kind):
         with cut_elsewhere(cut):
             made = period.build_period(lattice_of(kind, cells, 0.05).geometry)
         found.append(made.printed_area / np.prod(cells))
-    assert found == pytest.approx([found[0]] * 3, rel=1e-9)
+    same = pytest.approx([found[0]] * 3, rel=1e-9)
+    assert found == same, f"{kind} does not repeat after one column and two rows"
 
 
 def test_density_of_the_endless_square_grid():
@@ -42,6 +43,7 @@ def test_copies_have_all_walls_round_the_openings_of_a_period(kind):
         lines = shapely.linestrings(network.points[network.walls])
         cells = shapely.get_parts(shapely.polygonize(lines))
         beside = shapely.STRtree(cells).query(lines[: network.own], "covered_by")
-        assert np.all(np.bincount(beside[0], minlength=network.own) == 2)
+        between = np.bincount(beside[0], minlength=network.own)
+        assert np.all(between == 2), f"a wall of {kind} is not between two openings"
         sizes.append(np.sort(shapely.area(cells[beside[1]])))
     np.testing.assert_allclose(*sizes, rtol=1e-9)

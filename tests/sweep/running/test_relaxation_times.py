@@ -16,6 +16,7 @@ SLOW = Material(relaxation_times=(2.0, 60.0), relaxation_shares=(0.2, 0.1), refe
     ("loading", "time"),
     [
         ({"strain": 0.5, "speed": 0.1}, 0.125),
+        ({"strain": 0.5, "speed": 0.1, "hold_time": 2.0}, 2.125),
         ({"mode": "impact", "striker_speed": 2.5}, 0.01),
         ({"force": 2.0, "duration": 0.3}, 0.3),
     ],

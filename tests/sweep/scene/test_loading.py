@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Loading, Solver
+from sweep.config.case import Case, Loading, Material, Solver
 from sweep.config.defaults.solver_defaults import steps
 from sweep.scene.lattice import build_scene
-from sweep.scene.loading import stages, tolerances
+from sweep.scene.loading import CycleRows, Phase, cycle_rows, stages, tolerances
 from tests.support.designs.cases import pressed
 
 
@@ -56,6 +56,50 @@ def test_a_dead_load_is_on_until_its_release():
     assert ends(case) == [(1.0, 1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)]
     kept = Case(loading=Loading(force=1.0, release_time=30e-3, duration=30e-3))
     assert ends(kept) == [(1.0, 1.0, 0.0, 0.0)]
+
+
+@pytest.mark.parametrize(
+    ("loading", "rows"),
+    [
+        (Loading(mode="displacement"), [(0, 7, 7, 14)]),
+        (Loading(mode="displacement", unload=False), [(0, 7, 7, 7)]),
+        (Loading(mode="displacement", cycles=2), [(0, 7, 7, 14), (14, 21, 21, 28)]),
+        (Loading(mode="displacement", hold_time=9.0), [(0, 7, 14, 21)]),
+        (Loading(mode="displacement", hold_time=9.0, unload=False), [(0, 7, 14, 14)]),
+        (Loading(strain=0.56, speed=1.0, hold_time=3.5e-3), [(0, 7, 11, 18)]),
+    ],
+)
+def test_rows_at_which_a_crush_turns(loading, rows):
+    case = Case(material=Material(loss=0.3), loading=loading, solver=Solver(load_steps=7))
+    assert cycle_rows(stages(case, build_scene(case))) == rows
+    assert steps(case.loading, case.solver) == rows[-1][-1]
+
+
+def test_a_pause_lasts_as_long_as_it_is_given():
+    loading = Loading(strain=0.56, speed=1.0, hold_time=3.5e-3)
+    case = Case(loading=loading, solver=Solver(load_steps=7))
+    (_, pause, _) = stages(case, build_scene(case))
+    assert (pause.name, pause.role, pause.stage.dynamic) == ("holding", "hold", True)
+    assert pause.stage.steps * pause.stage.duration == pytest.approx(3.5e-3)
+    assert pause.stage.driven0 == pause.stage.driven1
+
+
+def test_rows_at_which_a_dead_load_is_removed():
+    loading = Loading(force=1.0, release_time=20e-3, duration=30e-3)
+    case = Case(loading=loading, solver=Solver(time_step=10e-3))
+    assert cycle_rows(stages(case, build_scene(case))) == [(0, 2, 2, 3)]
+
+
+def test_a_cycle_of_many_phases_is_loaded_until_the_last_loading():
+    """Five, then four steps down; three at rest; twice two steps up."""
+    case = pressed()
+    stage = stages(case, build_scene(case))[0].stage
+    phases = [
+        Phase(role, stage._replace(steps=steps), role)
+        for role, steps in [("loading", 5), ("loading", 4), ("hold", 3), *[("unloading", 2)] * 2]
+    ]
+    again = [phase._replace(cycle=2) for phase in phases]
+    assert cycle_rows(phases + again) == [CycleRows(0, 9, 12, 16), CycleRows(16, 25, 28, 32)]
 
 
 def test_the_tolerance_goes_with_the_load_and_not_below_round_off():

@@ -7,7 +7,15 @@ from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
 from kernels.laws.law import Memory
 from kernels.laws.yielding import STATE
 from sweep.config.case import Material
-from sweep.scene.material import law_in_stretch, monotonic_law, stress_law
+from sweep.scene import material as laws
+from sweep.scene.material import (
+    as_law,
+    law_in_stretch,
+    law_of_section,
+    linear_law,
+    monotonic_law,
+    stress_law,
+)
 from tests.support.materials.records import HEADER, RUBBERS
 
 NAMES = RUBBERS
@@ -155,3 +163,25 @@ def test_a_plastic_is_first_straight_and_then_hardens(name):
     for strain in (-0.08, -0.01, 0.0, 0.005, 0.03, 0.09):
         stress = law.respond(strain, memory, 0)[1]
         assert monotonic_law(material).at(np.array([strain])) == pytest.approx(stress, abs=1.0)
+
+
+def curve_of(law):
+    return law.relaxing.elastic.curve
+
+
+@pytest.mark.parametrize("bend", ["section", "fibres"])
+def test_sections_follow_the_law_of_stretching(monkeypatch, bend):
+    """Any law, so that one with a formula has a single place."""
+    monkeypatch.setattr(laws, "stress_law", lambda material: linear_law(5e6))
+    material = Material(name="ninjaflex", bend=bend)
+    found = curve_of(law_of_section.__wrapped__(material, 2.0, 0.0).curve)
+    assert found.coefficients[0, 1] == 1e7
+    assert curve_of(law_in_stretch.__wrapped__(material, 2.0)).coefficients[0, 1] == 1e7
+
+
+def test_sections_follow_the_curve_where_stretching_is_linear():
+    taut = Material(name="ninjaflex", stretch="linear", bend="section")
+    found = curve_of(law_of_section(taut, 1.0, 0.0).curve)
+    expected = as_law(stress_law(Material(name="ninjaflex")), 1.0, taut.modulus)
+    np.testing.assert_array_equal(found.coefficients, expected.coefficients)
+    assert stress_law(taut).coefficients.shape == (1, 4)

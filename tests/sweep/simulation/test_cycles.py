@@ -5,12 +5,13 @@ import pytest
 
 from sweep.columns import cycle_columns
 from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
+from sweep.scene.loading import CycleRows
 from sweep.simulation.cycles import columns_of_cycles
 from sweep.simulation.simulate import simulate
-from tests.support.designs.cases import pressed
 
 WORK = np.array([0.0, 1.0, 4.0, 3.0, 2.0, 2.5, 4.0, 3.5, 3.0])
 FORCE = np.array([0.0, 5.0, 9.0, 3.0, 1.0, 4.0, 8.0, 2.0, 0.0])
+TWICE = [CycleRows(0, 2, 2, 4), CycleRows(4, 6, 6, 8)]
 
 
 def twice(steps=2, **others):
@@ -20,23 +21,22 @@ def twice(steps=2, **others):
 
 
 def test_each_cycle_begins_where_the_last_one_ends():
-    found = columns_of_cycles(twice(), WORK, FORCE)
+    found = columns_of_cycles(TWICE, WORK, FORCE)
     assert [found[name] for name in cycle_columns(1)] == [4.0, 2.0, 9.0]
     assert [found[name] for name in cycle_columns(2)] == [2.0, 1.0, 8.0]
     assert found["second_cycle_share"] == 0.5
 
 
 def test_a_single_cycle_has_no_columns_but_the_share():
-    found = columns_of_cycles(pressed(), WORK, FORCE)
+    found = columns_of_cycles(TWICE[:1], WORK, FORCE)
     assert list(found) == ["second_cycle_share"]
     assert np.isnan(found["second_cycle_share"])
-    assert np.isnan(columns_of_cycles(Case(), WORK, FORCE)["second_cycle_share"])
 
 
 @pytest.mark.parametrize(("rows", "known"), [(4, 1), (6, 3), (8, 4)])
 def test_what_a_run_that_stops_has_not_done_is_unknown(rows, known):
     """It ends while unloading, while loading again, or while unloading again."""
-    found = columns_of_cycles(twice(), WORK[:rows], FORCE[:rows])
+    found = columns_of_cycles(TWICE, WORK[:rows], FORCE[:rows])
     values = [found[name] for number in (1, 2) for name in cycle_columns(number)]
     assert np.isfinite(values).sum() == known
     assert np.isfinite(found["second_cycle_share"]) == (rows == 8)

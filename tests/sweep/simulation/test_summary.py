@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Lattice, Loading, Material
+from sweep.scene.loading import CycleRows
 from sweep.simulation.packing import efficiency
 from sweep.simulation.summary import (
     OF_A_CRUSH,
@@ -168,11 +169,12 @@ def test_work_is_split_where_the_platen_turns():
     strain, force = (column[:501] for column in FOAM[:2])
     there_and_back = np.append(strain, strain[-2::-1])
     history = {"work_in_J": worked(there_and_back, np.append(force, np.full(500, 2.0)))}
-    turned = returned(Case(loading=Loading(strain=0.5)), history, 501)
+    turned = returned(Case(loading=Loading(strain=0.5)), history, CycleRows(0, 500, 500, 1000))
     # The force falls from 10 to 2 N in the first step up: 6 N x 10 um, less 2 N x 10 um.
     assert turned == pytest.approx(10e-3 + 4.0 * STEP * HEIGHT)
     again = {"work_in_J": np.append(history["work_in_J"], np.full(1000, 7.0))}
-    assert returned(Case(loading=Loading(strain=0.5, cycles=2)), again, 501) == turned
+    twice = Case(loading=Loading(strain=0.5, cycles=2))
+    assert returned(twice, again, CycleRows(0, 500, 500, 1000)) == turned
 
 
 def test_what_does_not_come_back_is_lost():
@@ -186,10 +188,16 @@ def test_what_does_not_come_back_is_lost():
 
 @pytest.mark.parametrize(
     ("loading", "rows"),
-    [(Loading(strain=0.5), 601), (Loading(strain=0.5), 700), (Loading(force=5.0), 300)],
-    ids=["not let up", "not even pressed", "dead load"],
+    [
+        (Loading(strain=0.5, unload=False), CycleRows(0, 600, 600, 600)),
+        (Loading(strain=0.5), CycleRows(0, 600, 600, 1200)),
+        (Loading(strain=0.5), CycleRows(0, 700, 700, 1400)),
+        (Loading(force=5.0), CycleRows(0, 300, 300, 600)),
+    ],
+    ids=["not let up", "stopped as it turns", "not even pressed", "dead load"],
 )
 def test_nothing_comes_back_where_no_platen_moves_back(loading, rows):
+    assert len(FOAM[2]) == 601
     assert np.isnan(returned(Case(loading=loading), {"work_in_J": FOAM[2]}, rows))
 
 

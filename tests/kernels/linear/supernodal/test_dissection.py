@@ -30,9 +30,10 @@ def test_neighbours():
 def test_a_long_grid_is_cut_across(axis):
     """The last blocks are a plane of 3 x 4 blocks that separates both halves."""
     shape = np.insert([3, 4], axis, 30)
-    points = np.argwhere(np.ones(shape)).astype(float)
+    points = np.ascontiguousarray(np.argwhere(np.ones(shape)), float)
     near = np.abs(points[:, None] - points[None]).max(axis=2) == 1.0
-    order = dissect(*neighbours(len(points), np.argwhere(near)), np.full(360, 3), points)
+    pairs = np.ascontiguousarray(np.argwhere(near))
+    order = dissect(*neighbours(len(points), pairs), np.full(360, 3), points)
     along = points[order][:, axis]
     assert np.ptp(along[-12:]) == 0.0
     assert abs(along[-1] - 14.5) < 30 / 4
@@ -42,7 +43,7 @@ def test_a_long_grid_is_cut_across(axis):
 
 def test_blocks_of_the_same_position_are_not_cut():
     n = 4 * SMALLEST
-    pairs = np.argwhere(np.tri(n, k=-1))
+    pairs = np.ascontiguousarray(np.argwhere(np.tri(n, k=-1)))
     order = dissect(*neighbours(n, pairs), np.ones(n, int), np.zeros((n, 3)))
     np.testing.assert_array_equal(np.sort(order), np.arange(n))
 

@@ -6,7 +6,7 @@ import re
 import pytest
 from pydantic import ValidationError
 
-from sweep.config.case import Case, Contact, Damping, Loading, Solver
+from sweep.config.case import Case, Contact, Damping, Loading, Material, Solver
 from sweep.config.units import ConfigError, load_config
 from tests.support.designs.cases import pressed
 
@@ -71,6 +71,20 @@ def test_displacement_defaults():
     assert (case.solver.integrator, case.solver.load_steps) == ("static", 200)
     assert case.solver.time_step is None
     assert case.damping.model == "none"
+
+
+def test_only_a_crush_that_takes_time_has_a_pause():
+    slow, fast = Material(loss=0.3), {"speed": 0.1}
+    assert pressed().loading.hold_time is None
+    assert pressed(hold_time=3.0).case_id == pressed().case_id
+    assert pressed(**fast, hold_time=3.0).case_id != pressed(**fast).case_id
+    relaxing, held = (
+        Case(material=slow, loading=Loading(mode="displacement", hold_time=time))
+        for time in (None, 3.0)
+    )
+    assert (held.loading.hold_time, held.loading.strain_rate) == (3.0, 0.01)
+    assert held.case_id != relaxing.case_id
+    assert Case(loading=Loading(mode="impact", hold_time=3.0)).loading.hold_time is None
 
 
 def test_a_crush_has_one_cycle_unless_more_are_given():

@@ -17,6 +17,13 @@ IDLE = {
     PRESSED + 'force = "3 N"': 'loading.force = "3 N": as loading.mode is "displacement"',
     '[loading]\nforce = "3 N"\nload_steps = 9': f"loading.load_steps = 9: {LOADED}",
     '[loading]\nmode = "force"\nstrain = 0.5': f"loading.strain = 0.5: {LOADED}",
+    '[loading]\nhold_time = "3 s"': (
+        'loading.hold_time = "3 s": as the stress of the material does not depend on time:'
+        " it has neither loss nor relaxation"
+    ),
+    '[loading]\nmode = "impact"\nhold_time = "3 s"': (
+        'loading.hold_time = "3 s": as loading.mode is "impact"'
+    ),
     '[loading]\nmode = "impact"\ncycles = 2': ('loading.cycles = 2: as loading.mode is "impact"'),
     PRESSED + '[damping]\nmass = "5 1/s"': f'damping.mass = "5 1/s": {STATIC}',
     PRESSED + '[damping]\nmodel = "kelvin_voigt"': f'damping.model = "kelvin_voigt": {STATIC}',

@@ -71,6 +71,17 @@ def test_way_down_and_way_back_are_told_apart(row):
     assert labels(ax)[1:3] == ["loading", "unloading,\nreturns 50 %"]
 
 
+def test_a_pause_is_neither_loading_nor_unloading(row):
+    once = there_and_back()
+    held = pandas.concat([once[:21], *[once[20:21]] * 5, once[21:]], ignore_index=True)
+    held.loc[20:25, "reaction_top_N"] = np.linspace(100.0, 60.0, 6)
+    ax = axes_of(case_plots.force_displacement, held, row)
+    down, pause, back = ax.get_lines()[:3]
+    assert list(pause.get_ydata()) == pytest.approx(np.linspace(100.0, 60.0, 6))
+    assert [len(line.get_xdata()) for line in (down, back)] == [21, 21]
+    assert labels(ax)[1:4] == ["loading", "held", "unloading,\nreturns 50 %"]
+
+
 def test_further_cycles_have_a_line_of_their_own(row):
     once = there_and_back()
     thrice = pandas.concat([once, once[1:], once[1:]], ignore_index=True)

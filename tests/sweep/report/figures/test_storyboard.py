@@ -3,7 +3,15 @@
 import pandas
 import pytest
 
-from sweep.report.figures.storyboard import headline, last_loaded, parts_of, path_of, shots
+from sweep.report.figures.storyboard import (
+    crushes,
+    headline,
+    last_loaded,
+    parts_of,
+    path_of,
+    shots,
+    turns,
+)
 from tests.support.results.specimens import squeezed_cell, summary, there_and_back, under_dead_load
 
 
@@ -57,6 +65,20 @@ def test_later_cycles_do_not_move_the_turn():
     again.loc[21:, "strain"] *= 1.0 + 1e-15
     assert again["strain"].argmax() > 20
     assert last_loaded(again, {"loading_mode": "displacement"}) == 20
+
+
+def test_a_platen_turns_after_its_pause():
+    """Twice 20 rows down, 5 at rest, 20 up; then halted while it moves up or down again."""
+    once = there_and_back()
+    held = pandas.concat([once[:21], *[once[20:21]] * 5, once[21:]])
+    twice = pandas.concat([held, held[1:]], ignore_index=True)
+    assert crushes(twice) == [(20, 25, 45), (65, 70, 90)]
+    assert crushes(twice[:31]) == [(20, 25, 30)]
+    assert crushes(twice[:61]) == [(20, 25, 45)]
+    assert crushes(twice[:11]) == [(10, 10, 10)]
+    row = {"loading_mode": "displacement"}
+    assert turns(twice, row) == {25: "turns", 45: "cycle 2", 70: "turns"}
+    assert turns(twice[:24], row) == {}
 
 
 def test_headline_of_a_slicers_design_has_its_share():

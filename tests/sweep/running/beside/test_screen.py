@@ -7,6 +7,7 @@ import pytest
 
 from sweep.config.case import Case, Lattice, Loading
 from sweep.config.network import network_of
+from sweep.design.infill import families
 from sweep.design.network import mass
 from sweep.ranking.question import Question
 from sweep.result import Result, Status, design_columns
@@ -16,7 +17,6 @@ from sweep.store.read import read_summary
 from tests.support.results.standin import simulate as invent
 
 ALONG = Loading(direction="out_of_plane", strain=0.3, allowed_forces=(50.0,))
-KINDS = ("square", "hex", "triangle", "brick", "kagome", "circle", "diamond", "reentrant")
 
 
 def along(kind="square", **lattice):
@@ -36,7 +36,7 @@ def grams(case):
     return 1e3 * mass(network_of(case.lattice), case.lattice.depth, case.material.density)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", families())
 def test_column_is_one_cell_with_the_walls_of_the_design(kind):
     design = along(kind)
     column = unit_column(design)
