@@ -62,7 +62,7 @@ class Material(Table):
 
     labels: ClassVar[tuple[str, ...]] = ("memory", "uncertain")
     neutral: ClassVar[dict[str, Any]] = {"relaxation_times": (), "relaxation_shares": ()}
-    not_along: ClassVar[tuple[str, ...]] = ("softening_r", "yield_stress")  # along the cells
+    not_along: ClassVar[tuple[str, ...]] = ("softening_r", "yield_stress")  # refused so
 
     name: str = "ninjaflex"
     stretch: Literal["nonlinear", "linear"] = "nonlinear"
