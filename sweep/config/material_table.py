@@ -62,7 +62,7 @@ class Material(Table):
 
     labels: ClassVar[tuple[str, ...]] = ("memory", "uncertain")
     neutral: ClassVar[dict[str, Any]] = {"relaxation_times": (), "relaxation_shares": ()}
-    not_along: ClassVar[tuple[str, ...]] = ("softening_r", "yield_stress")  # refused so
+    not_along: ClassVar[tuple[str, ...]] = ("softening_r", "yield_stress")  # refused along cells
 
     name: str = "ninjaflex"
     stretch: Literal["nonlinear", "linear"] = "nonlinear"
