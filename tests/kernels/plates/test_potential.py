@@ -131,7 +131,6 @@ def test_lagged_forces_are_exchanged_for_those_of_another_place():
     x = pinched(of)
     args = whole(of, x)
     energy, at = args.found(x)
-    assert not args.problem.lags()  # forces are those of the start of a step
     assert args.problem.lag(shaken(of, x, 7, 0.01))
     exchanged = args.problem.exchange(args.step, at)
     expected, fresh = args.found(x)

@@ -246,8 +246,8 @@ MUTANTS = [
         f"{SOLVE}/march.py",
         (
             "friction: lagged again where it is not needed",
-            "progress.corrections == corrections:",
-            "progress.corrections == 1 - corrections:",
+            "progress.corrections == corrections or",
+            "progress.corrections == 1 - corrections or",
         ),
         tests=f"{SOLVE}/test_chain.py",
     ),
