@@ -172,7 +172,7 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {message}\n{self.prog} --help shows {shown}\n")
 
     def refuse(self, words: Sequence[str]) -> NoReturn:
-        """Refuse words that the verb does not take; of an option, tell the nearest."""
+        """Refuse words that the verb does not take; of an option, name the nearest."""
         options = re.findall(r"--[\w-]+", self.format_usage())
         unknown = next((word.partition("=")[0] for word in words if word.startswith("-")), "")
         near = get_close_matches(unknown, options, 1)

@@ -4,9 +4,9 @@ import numpy as np
 import pandas
 import pytest
 
+from sweep.columns import cycle_columns
 from sweep.config.case import Case, Lattice, Loading, Material, Solver
 from sweep.report.figures.storyboard import crushes
-from sweep.result import cycle_columns
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import cycle_rows, stages
 from tests.physics.test_memory import mean_modulus, slender
