@@ -91,7 +91,6 @@ TESTED_ELSEWHERE = {
     "sweep.cli.run": "sweep/cli/test_verbs.py",
     "sweep.cli.status": "sweep/cli/test_verbs.py",
     "sweep.config.lattice_limits": "sweep/config/test_lattice_table.py",
-    "sweep.config.material_table": "sweep/config/test_tables.py",
     "sweep.config.slicer_lines": "sweep/config/test_lattice_table.py",
     "sweep.design.infill": "sweep/design/test_infill.py",
     "sweep.ranking.places": "sweep/ranking/test_ties.py",
