@@ -26,10 +26,7 @@ from sweep.design.panel import BEHIND, Panel, panel_of
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
 
-    from sweep.ranking.question import Question
-
-Quantity = float | str
-"""A number in SI, or text with a unit such as "25 g"."""
+    from sweep.ranking.question import Quantity, Question
 
 LEAST = {"force": "peak_strain", "impact": "peak_force_N"}
 """Columns that are compared instead of energy, by `loading_mode`; the least value is the best.

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from sweep.ranking.merit import Quantity
+Quantity = float | str
+"""A number in SI, or text with a unit such as "25 g"."""
 
 
 class Question(NamedTuple):

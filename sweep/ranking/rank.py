@@ -27,7 +27,6 @@ from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import (
     LEAST,
     Compared,
-    Quantity,
     RankError,
     check_units,
     greatest_mass,
@@ -35,7 +34,7 @@ from sweep.ranking.merit import (
     merits,
 )
 from sweep.ranking.places import pareto, places_by
-from sweep.ranking.question import Question
+from sweep.ranking.question import Quantity, Question
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, judge, limits
 from sweep.ranking.scenes import by_scene, scene_label

@@ -24,7 +24,6 @@ from pandas import DataFrame
 from sweep.ranking.merit import (
     ROUND_OFF,
     Compared,
-    Quantity,
     RankError,
     doubtful,
     greatest_mass,
@@ -33,6 +32,8 @@ from sweep.ranking.merit import (
 
 if TYPE_CHECKING:
     from pandas import Series
+
+    from sweep.ranking.question import Quantity
 
 MODES = ("displacement", "impact", "force", "custom")
 NEEDED = {"displacement": "a crush", "impact": "a striker", "force": "a dead load"}
