@@ -2,7 +2,8 @@
 
 Numba's own cache looks at the file of the compiled function alone, so that an edited callee in
 another file leaves the old code running. Here the folder is named by a hash of all kernel sources,
-the compiler, the versions and the processor: sources that differ in anything never meet.
+their place, the compiler, the versions and the processor: sources that differ in anything never
+meet. The place counts because Numba keeps code by path: a second checkout compiles its own.
 """
 
 import atexit
@@ -28,8 +29,8 @@ SECONDS_KEPT = 7 * 24 * 3600.0
 
 
 def fingerprint(sources):
-    """Hash (16 hex) of all kernel sources below a folder and of what compiles and runs them."""
-    digest = hashlib.blake2b(digest_size=8)
+    """Hash (16 hex) of a folder's place, its kernel sources and what compiles and runs them."""
+    digest = hashlib.blake2b(str(sources.absolute()).encode(), digest_size=8)
     versions = [compiler(), numba.__version__, llvmlite.__version__, np.__version__]
     machine = [platform.python_version(), platform.machine(), llvmlite.binding.get_host_cpu_name()]
     digest.update("\0".join(versions + machine).encode())

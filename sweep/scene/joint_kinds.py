@@ -18,6 +18,7 @@ from sweep.design.drawing import Floats
 from sweep.design.drawing import Indices as Ints
 
 NEAR = 6.0  # degrees: difference of an opening from that of a known joint
+DIGITS = 6  # decimals of a degree, beyond which openings are equal
 COLUMNS = ("MM", "MV", "VV", "NN", "VV_nu", "NN_nu")
 MV_NU = -1.2  # slope of MV in nu' at all joints: the one of a beam's shear, with the sign changed
 LENGTHS = np.linspace(0.6, 3.0, 241)  # x, length of an element over t: the first stable one
@@ -55,13 +56,20 @@ def find_joint(opened: Floats, in_row: NDArray[np.bool_]) -> Joint | None:
     """The joint of some openings; None where it is not known.
 
     opened (k,): openings round the joint, degrees; opening i follows arm i. in_row (k,): arms that
-    are part of a glued row.
+    are part of a glued row. A lattice has few different joints: each is sought once.
     """
+    return _joint(tuple(opened.round(DIGITS).tolist()), tuple(in_row.tolist()))
+
+
+@lru_cache(maxsize=1024)
+def _joint(around: tuple[float, ...], glued: tuple[bool, ...]) -> Joint | None:
+    """As `find_joint`, whose arguments it has as tuples."""
+    opened, in_row = np.array(around), np.array(glued)
     if in_row.any() and np.count_nonzero(~in_row) == 1:
         for openings, known in on_glued_rows().items():
             if any(_off(turned, openings) < NEAR for turned, _ in _turned(opened)):
                 shape = len(opened), 1, 1
-                return Joint(np.tile(known, shape), np.full(len(opened), LENGTHS[0]))
+                return _kept(np.tile(known, shape), np.full(len(opened), LENGTHS[0]))
     fits = [
         (_off(turned, drawn(turned[0])), kind, turned[0], tuple(arms))
         for turned, arms in _turned(opened)
@@ -75,10 +83,16 @@ def find_joint(opened: Floats, in_row: NDArray[np.bool_]) -> Joint | None:
     length = np.empty(len(arms))
     for place, arm in enumerate(arms):
         part = "all" if kind not in AXIS else "axis" if place == AXIS[kind] else "side"
-        found = _arm(kind, part, round(float(angle), 6))
+        found = _arm(kind, part, float(angle))
         if found is None:
             return None
         compliance[arm], length[arm] = found
+    return _kept(compliance, length)
+
+
+def _kept(compliance: Floats, length: Floats) -> Joint:
+    """A joint that several callers share: its arrays cannot be changed."""
+    compliance.flags.writeable = length.flags.writeable = False
     return Joint(compliance, length)
 
 
@@ -96,6 +110,8 @@ def unequal(joint: Joint, opened: Floats, thickness: Floats) -> Joint:
     Axial forces pass straight through and spread into about half of d: NN - d / 2. Beside a thinner
     arm, C is less, in the ratio of the thicknesses: without the other arm it is 0.
     """
+    if np.all(thickness == thickness[0]):
+        return joint
     gap = np.stack([opened, np.roll(opened, 1)])  # after and before each arm
     corner, beside = gap < FLAT, np.stack([np.roll(thickness, way) for way in (-1, 1)]) / thickness
     beyond = np.where(corner, np.maximum(beside - 1.0, 0.0) / np.sin(np.radians(gap)), 0.0)
