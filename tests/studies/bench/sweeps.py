@@ -20,7 +20,7 @@ from tests.studies.bench.measuring.clock import seconds
 from tests.studies.bench.table import Table
 
 CONFIG = Path(__file__).parents[3] / "configs/thousand.toml"
-FINER = 4  # times the load steps, to see what they leave out
+FINER = 4  # times the load steps and the elements, to see what they leave out
 WORKERS = (1, 2)
 IDLE, WAITING = 3, 4  # columns of /proc/stat
 RATIO = "times the ideal"  # wall clock, had no other program run, over CPU of the cases / workers
@@ -99,12 +99,19 @@ def overhead(designs, count):
     return found
 
 
-def errors(sample):
-    """Share by which the absorbed energy of each design changes with `FINER` times its steps."""
-    energies = []
-    for factor in (1, FINER):
-        finer = [changed(c, solver={"load_steps": factor * c.solver.load_steps}) for c in sample]
-        energies.append([simulate(case).summary["absorbed_energy_J"] for case in finer])
+def refined(case, elements):
+    """A case with `FINER` times its load steps and so many times its elements."""
+    per_wall, steps = case.lattice.nodes_per_wall + 1, FINER * case.solver.load_steps
+    mesh = {"nodes_per_wall": elements * per_wall - 1}
+    return changed(case, lattice=mesh, solver={"load_steps": steps})
+
+
+def errors(sample, elements=1):
+    """Share by which the absorbed energy of each design changes if it is `refined`."""
+    fine = [refined(case, elements) for case in sample]
+    energies = [
+        [simulate(case).summary["absorbed_energy_J"] for case in cases] for cases in (sample, fine)
+    ]
     return np.abs(np.divide(*energies) - 1.0)
 
 
@@ -116,14 +123,17 @@ def kinds(designs):
 
 def throughput(designs, every):
     """Designs a second with friction and without, and what a sample of them is off by."""
-    columns = ("a second", "wall, s", "others, s", "CPU of each, ms", RATIO, "error, % (most)")
-    found = Table(f"{len(designs):,} designs", columns)
+    times = ("a second", "wall, s", "others, s", "CPU of each, ms", RATIO)
+    finer = {"error, % (most)": FINER, "of steps alone": 1}  # times the elements
+    found = Table(f"{len(designs):,} designs", (*times, *finer))
     for name, chosen in kinds(designs).items():
-        sweep, off = swept(chosen, 2), 100.0 * errors(chosen[::every])
+        sweep, sample = swept(chosen, 2), chosen[::every]
         each = 1e3 * sweep.own / len(chosen)
         ratio = 2.0 * sweep.free / sweep.own
         figures = len(chosen) / sweep.free, sweep.wall, sweep.others, each, ratio
-        for column, figure in zip(columns, figures, strict=False):
+        for column, figure in zip(times, figures, strict=True):
             found.put(name, column, figure)
-        found.put(name, columns[-1], float(np.median(off)), f"{off.max():.2g}")
+        for column, elements in finer.items():
+            off = 100.0 * errors(sample, elements)
+            found.put(name, column, float(np.median(off)), f"{off.max():.2g}")
     return found
