@@ -259,10 +259,13 @@ def _ends_early(finished: DataFrame, energy: str, force: Series, limited: bool) 
 
 
 def _energy_column(frame: DataFrame, force: float) -> str:
-    """The column of the energy absorbed up to an allowed force (N), which the sweep must have."""
+    """The column of the energy absorbed up to an allowed force (N): of the sweep or of `curves`."""
     name = absorbed_energy_column(force)
     if name in frame:
         return name
+    if AT_ALLOWED in frame:
+        return AT_ALLOWED
     held = [match[1] for key in frame if (match := ABSORBED_AT.fullmatch(key))]
-    known = " or ".join(f"{text} N" for text in held) or "none (set loading.allowed_forces)"
-    raise RankError(f"no energies up to {force:g} N in these results; allowed: {known}")
+    known = ", ".join(f"{text} N" for text in held) or "none"
+    others = "other forces need the curves of the results: rank the file itself"
+    raise RankError(f"no energies up to {force:g} N in this table; allowed: {known}; {others}")

@@ -35,8 +35,10 @@ function massRange() {
   return { low: 0.95 * Math.min(...masses), high: 1.05 * Math.max(...masses) };
 }
 
+// Of a specimen or of the panel.
 function forceRange() {
-  const peaks = data.cases.filter((design) => design.scene === asked.scene).map((design) => design.peak);
+  const count = (design) => (ofPanel(asked) ? panelOf(asked.panel, design.outer, design.gap).specimens : 1);
+  const peaks = data.cases.filter((design) => design.scene === asked.scene).map((design) => count(design) * design.peak);
   return { low: 0.5 * Math.min(...peaks), high: 1.05 * Math.max(...peaks) };
 }
 
@@ -204,7 +206,8 @@ function showAsked() {
   showHeight(1000 * height);
   picks($("budgets"), data.question.budgets_g, "g", "budget", asked.budget);
   const forces = data.energies.map((energy) => energy.force).filter((force) => force !== null);
-  picks($("forces"), forces, "N", "force", asked.force);
+  picks($("forces"), ofPanel(asked) ? [] : forces, "N", "force", asked.force);
+  $("force-of").textContent = ofPanel(asked) ? "the panel" : "a specimen";
 }
 
 // ---- the answer ----
@@ -237,7 +240,8 @@ function panelText(row) {
 
 function until() {
   if (asked.force === null) return data.energies[0].until;
-  return `until the force of a specimen exceeds ${Number(asked.force.toPrecision(6))} N`;
+  const noun = ofPanel(asked) ? "the panel" : "a specimen";
+  return `until the force of ${noun} exceeds ${Number(asked.force.toPrecision(6))} N`;
 }
 
 function showAnswer() {
@@ -277,7 +281,7 @@ function* words(best) {
   else if (!crushed()) yield `${panel} and ${absorbs()}, ${digits(best.perGram)} J/g.`;
   else
     yield `${panel} and ${absorbs()} ${until()}, ${digits(best.perGram)} J/g; ` +
-      `a specimen then passes on ${digits(best.passed)} N.`;
+      `a specimen then passes on ${digits(best.passed)} N${best.panel ? `, the panel ${digits(best.panel.specimens * best.passed)} N` : ""}.`;
   if (best.early) yield "The crush ended before that force was reached; a longer one absorbs more.";
   if (best.beyond) yield "Its result is beyond the model: do not trust it.";
   if (best.design.crossed) yield "Its walls cross one another: do not trust this result.";
@@ -293,12 +297,10 @@ function detail(best) {
 
 // The command that prints the same ranking, if there is one.
 function showCommand() {
-  // --allowed-force is of what requirements are of; that of the page is of a specimen
-  const known = storedEnergy(data, asked) >= 0 && (asked.force === null || asked.per === "specimen");
   if (asked.per === "panel" && !asked.panel) return;
   const budgeted = asked.budget !== null || !data.question.budgets_g.length;
   const paneled = asked.panel !== null || !data.question.panel;
-  if (!(known && budgeted && paneled)) return;
+  if (!(budgeted && paneled)) return;
   const file = /^[\w./-]+$/.test(data.file) ? data.file : `'${data.file.replaceAll("'", "'\\''")}'`;
   const budget = asked.budget === null ? "" : ` --budget "${inUnit(asked.budget, 9)}"`;
   const panel = asked.panel ? ` --panel ${asked.panel.map((side) => `"${Number((1000 * side).toPrecision(6))} mm"`).join(" ")}` : "";
@@ -340,7 +342,11 @@ function columns() {
     const more = (row) => (row.early ? "> " : "");
     found.push(number(`${asked.panel ? "panel" : "absorbs"} ${unit}`, (row) => more(row) + digits(scale * row.energy), (row) => row.energy));
     found.push(number("J/g", (row) => more(row) + digits(row.perGram), (row) => row.perGram));
-    if (crushed()) found.push(number("peak N", (row) => digits(row.passed), (row) => row.passed));
+    if (crushed()) {
+      found.push(number("peak N", (row) => digits(row.passed), (row) => row.passed));
+      if (asked.panel)
+        found.push(number("panel N", (row) => digits(row.panel.specimens * row.passed), (row) => row.panel.specimens * row.passed));
+    }
   }
   if (now.bar) found.push(number("± %", (row) => (percentOf(row) ? share(row) : "?")));
   if (asked.force === null)

@@ -11,25 +11,33 @@ function workUntil(limit, [forces, works]) {
   return works[k - 1] + share * (works[k] - works[k - 1]);
 }
 
-// Number of the energy whose force is that of the question; -1 if it must be read from curves.
+// Whether the force and what is required are of the panel.
+function ofPanel(question) {
+  return question.per === "panel" && Boolean(question.panel);
+}
+
+// Number of the energy whose force is that of the question; -1 if it must be read from curves, as
+// the force of a specimen must which has its share of that of a panel.
 function storedEnergy(data, question) {
+  if (question.force !== null && ofPanel(question)) return -1;
   return data.energies.findIndex((energy) => energy.force === question.force);
 }
 
-function countedEnergy(data, design, question) {
+// Energy (J) until a specimen bears a force (N), its error and its correction.
+function countedEnergy(data, design, question, force) {
   const known = storedEnergy(data, question);
   if (known >= 0) return design.energies[known];
-  return design.stairs ? [workUntil(question.force, design.stairs), null, null] : [null, null, null];
+  return design.stairs ? [workUntil(force, design.stairs), null, null] : [null, null, null];
 }
 
-// Stroke (m) in which the counted energy is absorbed; read from the curve where it is not stored.
-function countedStroke(data, design, question) {
+// Stroke (m) in which that energy is absorbed; read from the curve where it is not stored.
+function countedStroke(data, design, question, force) {
   const known = storedEnergy(data, question);
   if (known >= 0) return design.strokes?.[known] ?? null;
   if (!design.curve) return null;
   const [strains, forces] = design.curve;
   const end = strains.indexOf(Math.max(...strains)) + 1;
-  return (design.height * workUntil(question.force, [forces.slice(0, end), strains.slice(0, end)])) / 100;
+  return (design.height * workUntil(force, [forces.slice(0, end), strains.slice(0, end)])) / 100;
 }
 
 // The limits (SI) that are asked of the designs of a scene: sweep/ranking/requirements.py. Those of
@@ -53,7 +61,7 @@ function required(data, row, question) {
     min_absorbed: row.energy === null ? null : row.energy / count,
     max_stroke: row.stroke,
   };
-  const together = question.per === "panel" ? count : 1;
+  const together = ofPanel(question) ? count : 1;
   for (const [name, { shared }] of Object.entries(data.measures))
     if (shared && of[name] !== null) of[name] *= together;
   return of;
@@ -86,12 +94,13 @@ function panelOf([first, second], [width, depth], gap) {
 }
 
 // What is compared of one design. question: scene, budget (g) or null, panel [m, m] or null,
-// force (N) or null, require {name: limit} and per, "specimen" or "panel", if anything is required.
+// force (N) or null, require {name: limit}, and per: force and limits are of a "specimen" or "panel".
 function measured(data, design, question) {
   const scene = data.scenes[question.scene];
-  const [energy, error, correction] = countedEnergy(data, design, question);
   const panel = question.panel ? panelOf(question.panel, design.outer, design.gap) : null;
   const factor = panel ? panel.specimens : 1;
+  const force = question.force === null ? null : question.force / (ofPanel(question) ? factor : 1);
+  const [energy, error, correction] = countedEnergy(data, design, question, force);
   const times = (value, by) => (value === null ? null : by * value);
   const row = {
     design,
@@ -99,12 +108,11 @@ function measured(data, design, question) {
     mass: factor * design.mass,
     energy: times(energy, factor),
     perGram: energy === null ? null : energy / design.mass,
-    passed: question.force === null ? design.passed : Math.min(design.peak, question.force),
+    passed: force === null ? design.passed : Math.min(design.peak, force),
     beyond: design.solid || (energy !== null && energy > design.within * (1 + ROUND_OFF)),
   };
-  row.stroke = countedStroke(data, design, question);
-  row.early =
-    scene.mode === "displacement" && question.force !== null && design.peak <= row.passed;
+  row.stroke = countedStroke(data, design, question, force);
+  row.early = scene.mode === "displacement" && force !== null && design.peak <= row.passed;
   let bars;
   if (scene.least) bars = design.least;
   else if (question.panel || question.budget !== null)

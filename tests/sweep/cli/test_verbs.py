@@ -82,7 +82,6 @@ REFUSED = [
     (["rank", "FILE", "--out", "F", "--drop-height", "0 m"], "heights must be above zero"),
     (["rank", "FILE", "--panel", "100 mm"], "expected 2 arguments"),
     (["rank", "FILE", "--by", "peak_forse_N"], "the nearest are peak_force_N, "),
-    (["rank", "FILE", "--allowed-force", "50 N"], "set loading.allowed_forces"),
     (["rank", "FILE", "--top", "0"], "1 or more"),
     (["rank", "FILE", "--max-force", "60"], "a bare number"),
     (["rank", "FILE", "--max-deceleration", "60 g"], '"g" is a unit of another kind'),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.ranking.curves import reached, with_allowed
-from sweep.ranking.merit import AT_ALLOWED
+from sweep.ranking.merit import AT_ALLOWED, RankError
 from sweep.ranking.question import Question
 from sweep.ranking.rank import rank
 from sweep.store.read import read_history, read_summary
@@ -31,6 +31,13 @@ def test_a_curve_answers_for_any_force(file):
     assert energy == pytest.approx(44e-3)
     energy, stroke = reached(first, 1e3)
     assert (energy, stroke) == pytest.approx((96e-3, 4e-3))
+
+
+def test_any_force_of_a_specimen_can_be_ranked_by(file):
+    table = rank(file, allowed_force="24 N", by="mass_g")
+    np.testing.assert_allclose(table[AT_ALLOWED], [44e-3] * 3)
+    with pytest.raises(RankError, match="up to 24 N in this table; allowed: none; other forces"):
+        rank(read_summary(file), allowed_force="24 N")
 
 
 def test_each_design_bears_its_share_of_the_force_of_the_panel(file):

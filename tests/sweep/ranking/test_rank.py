@@ -213,7 +213,7 @@ def test_refusals_name_what_is_allowed():
     table = summary({"absorbed_energy_at_50N_J": 0.1, "absorbed_energy_at_200N_J": 0.2})
     with pytest.raises(RankError, match="cannot sort by"):
         rank(table, by="material")
-    with pytest.raises(RankError, match=r"up to 60 N in these results; allowed: 50 N or 200 N"):
+    with pytest.raises(RankError, match="up to 60 N in this table; allowed: 50 N, 200 N; other"):
         rank(table, allowed_force="60 N")
     with pytest.raises(RankError, match="two lengths, got 1"):
         rank(table, panel=("0.1 m",))

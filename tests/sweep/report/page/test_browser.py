@@ -93,6 +93,8 @@ MOVES = [
     [("unit", "28.349523125"), ("budget", "2")],
     [("min_absorbed", "0.3"), ("max_force", "60")],
     [("min_absorbed", "12"), ("per", "panel")],
+    [("force", "24.5")],
+    [("force", "700"), ("per", "panel")],
 ]
 
 

@@ -144,6 +144,25 @@ def test_energies_between_the_stored_forces_are_read_from_curves(tmp_path):
     assert stored["value"] == 1.0
 
 
+@pytest.mark.skipif(NODE is None, reason="needs node")
+def test_an_allowed_force_may_be_that_of_the_panel(tmp_path):
+    """A specimen has its share of it, which is read from curves even where a column has it."""
+    known = {"absorbed_energy_at_24N_J": 9.0}
+    table = summary(*[known | {"outer_width_m": width} for width in (0.012, 0.013, 0.0165)])
+    data, panel = gathered(tmp_path, table), (0.1, 0.05)
+    question = Question(panel=panel, allowed_force=840.0, per="panel")
+    at_force = with_allowed(tmp_path / "trial.h5", table, question)
+    (wanted,) = expected(at_force, panel=panel, force=840.0, per="panel").values()
+    asked = {"budget": None, "panel": panel, "force": 840.0, "per": "panel"}
+    no_panel = asked | {"panel": None, "force": 24.0}
+    (found,), ((alone, *_),) = told_by_the_script(data, [asked, no_panel])
+    assert [row["case_id"] for row in found] == [row["case_id"] for row in wanted]
+    values = [row["value"] for row in found]
+    assert values == pytest.approx([row["value"] for row in wanted], rel=1e-3)
+    assert 3.5 > values[0] > 1.1 * values[1] > 1.2 * values[2]  # 30, 35 and 40 specimens
+    assert alone["value"] == pytest.approx(9.0 / alone["mass"])
+
+
 def test_page_has_every_finished_case_once_and_every_failure(tmp_path):
     lost = {"status": "stopped", "message": "stopped at strain 0.5: more solver.load_steps"}
     table = summary({}, lost, {"platen": "contact"})
