@@ -109,7 +109,7 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
         `absorbed_energy_at_densification_J` or the same per gram to the greatest efficiency.
     top : number of designs listed for each scene and budget; None lists all.
     allowed_force : count energy only up to this force, such as "50 N". A table as the source needs
-        the column `absorbed_energy_at_..N_J` and knows no force of the panel; a file has the curves.
+        the column `absorbed_energy_at_..N_J`, and knows no force of a panel; a file has the curves.
     require : limits that a design must meet to have a place: `max_force`, `max_deceleration`
         (filtered), `max_mass`, `min_absorbed`, `max_stroke`.
     per : "specimen" or "panel": what `allowed_force` and `require` are of.
