@@ -8,6 +8,7 @@ from tests.studies.bench.measuring import cases, loops
 from tests.studies.bench.measuring.clock import medians
 from tests.studies.bench.measuring.crushes import COLLAPSED, Crush
 from tests.studies.bench.measuring.spot import Spot
+from tests.studies.bench.sweeps import changed
 from tests.studies.bench.table import Table
 
 PARTS = {
@@ -30,8 +31,9 @@ PARTS = {
 
 
 def spot(cells):
-    """A crush at a speed, at the first strain of `COLLAPSED`."""
-    crushed, full = Crush(cells, cases.SMOOTH, COLLAPSED), cases.blow(cells)
+    """A crush at a speed, at the first strain of `COLLAPSED`, with the mesh of that crush."""
+    crushed = Crush(cells, cases.SMOOTH, COLLAPSED)
+    full = changed(cases.blow(cells), solver={"joints": "points"})
     return Spot(build_scene(full), crushed.state.x, crushed.move, time_step(full))
 
 

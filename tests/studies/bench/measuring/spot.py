@@ -15,6 +15,8 @@ class Spot:
     """A state ``x`` of a scene, from where a step of ``dt`` sets out by ``move``."""
 
     def __init__(self, scene, x, move, dt=np.inf):
+        if x.shape != scene.terms.coordinates.mass.shape:
+            raise ValueError(f"a state of {x.size} coordinates for a scene of other ones")
         self.x, self.move, self.whole = x, move, whole(scene, x, dt=dt)
         self.most = np.abs(move[: 2 * len(scene.mesh.points)]).max()
         self.found = self.whole.found(x)[1]
