@@ -50,9 +50,11 @@ def push(stretch, resultants, k, volume, slopes, stress, tangent, projected):
     force[0, k] = volume * stress * by_l0
     force[1, k] = volume * stress * one
     force[2, k] = volume * stress * two
+    same, mixed = 2.0 * stretch.arc[0, k], stretch.arc[1, k]
     if projected:
         stress, tangent = max(stress, 0.0), max(tangent, 0.0)
-    same, mixed = 2.0 * stress * stretch.arc[0, k], stress * stretch.arc[1, k]
+        same, mixed = _convex(same, mixed)
+    same, mixed = stress * same, stress * mixed
     rigidity[0, k] = volume * tangent * by_l0 * by_l0
     rigidity[1, k] = volume * tangent * by_l0 * one
     rigidity[2, k] = volume * tangent * by_l0 * two
@@ -62,11 +64,22 @@ def push(stretch, resultants, k, volume, slopes, stress, tangent, projected):
 
 
 @jit
+def _convex(same, mixed):
+    """Return the second derivatives [[same, mixed], [mixed, same]] of e without the turns in which
+    they are negative: stout elements shorten where both ends turn alike, as they shear.
+    """
+    if abs(mixed) <= same:
+        return same, mixed
+    alike, opposed = max(same + mixed, 0.0), max(same - mixed, 0.0)
+    return 0.5 * (alike + opposed), 0.5 * (alike - opposed)
+
+
+@jit
 def evaluate(stretch, law, memory, shape, resultants, projected):
     """Return E_s in J; write its derivatives into ``resultants``.
 
-    Elements are the material points of the ``law``. projected: stress and tangent are clipped at
-    zero in second derivatives, which makes every element positive semi-definite.
+    Elements are the material points of the ``law``. projected: stress, tangent and second
+    derivatives of e are clipped at zero, which makes every element positive semi-definite.
     """
     if law.is_elastic:
         return _evaluate(stretch, law.elastic(), (), shape, resultants, projected)
