@@ -15,7 +15,7 @@ from sweep.config.defaults.direction import height_pressed, is_along
 from sweep.config.defaults.solver_defaults import given_or
 from sweep.config.structures.structure import Load, Structure, Support
 from sweep.result import Result, Status
-from sweep.scene.arcs import arc_of, path_columns
+from sweep.scene.arc_length import arc_of, path_columns
 from sweep.scene.custom import build_structure
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import CycleRows, cycle_rows, stages, tolerances
