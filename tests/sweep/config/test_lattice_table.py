@@ -9,7 +9,7 @@ from pydantic import ValidationError
 from sweep.config.case import Case, Lattice
 from sweep.config.grid import expand
 from sweep.config.units import load_config
-from sweep.design.slicer_network import extruded_area
+from sweep.design.slicer.network import extruded_area
 
 UNFIT = {
     '[lattice]\nwall_thickness = "2.5 mm"': (
