@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from sweep.config.units import load_config
     from sweep.export.errors import ExportError
     from sweep.export.export import Exported, export_case
-    from sweep.ranking.merit import RankError
+    from sweep.ranking.question import RankError
     from sweep.ranking.rank import rank, ranked
     from sweep.ranking.ranking import Ranking
     from sweep.report.results import Picture, Results
@@ -63,7 +63,7 @@ _HOME = {
     "Exported": "export.export",
     "Interrupted": "running.sweep",
     "Picture": "report.results",
-    "RankError": "ranking.merit",
+    "RankError": "ranking.question",
     "Ranking": "ranking.ranking",
     "Rerun": "store.read",
     "Result": "result",

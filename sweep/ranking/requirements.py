@@ -21,14 +21,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from pandas import DataFrame
 
-from sweep.ranking.merit import (
-    ROUND_OFF,
-    Compared,
-    RankError,
-    doubtful,
-    greatest_mass,
-    in_si,
-)
+from sweep.ranking.budget import ROUND_OFF, greatest_mass
+from sweep.ranking.merit import Compared, doubtful
+from sweep.ranking.question import RankError, in_si
 
 if TYPE_CHECKING:
     from pandas import Series
