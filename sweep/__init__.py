@@ -1,9 +1,11 @@
 """Configs, units, objects and files; and the public names of `crumple`.
 
-These functions raise `ConfigError`, `StoreError`, `RankError` and `ExportError`, which are public
-too.
+The public functions raise `ConfigError`, `StoreError`, `RankError` and `ExportError`, which are
+public too. Each name is loaded when it is first used, so that `import sweep` takes almost no time.
 
-Each name is loaded when it is first used, so that `import sweep` takes almost no time.
+Modules outside of the packages: `columns` lists the columns of results, `result` is that of one
+case, `numbers` writes numbers as text, `constants` has factors between units, `version` those of
+installed packages.
 """
 
 from importlib import import_module

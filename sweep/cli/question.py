@@ -1,4 +1,4 @@
-"""What a ranking is asked: by options of the command line, else by the config of the results."""
+"""The question of a ranking: from the options of a command, else from the config of the results."""
 
 from __future__ import annotations
 

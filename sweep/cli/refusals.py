@@ -1,4 +1,4 @@
-"""What the command line refuses: errors whose text is all that it prints."""
+"""Errors that end a command, with their text as all that it prints."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""Lattices that a slicer lays: what it can print, and what follows from a share or a mass."""
+"""Lattices as slicers print them: checks of pattern and lines; the infill for a share or a mass."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a ranking is asked, with quantities as text with a unit or as numbers in SI."""
+"""The question of a ranking: its arguments, as text with a unit or as numbers in SI."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a part must fulfil: limits on results, which only read them.
+"""Requirements on a part: limits on its results, by which designs are excluded from a ranking.
 
 A requirement is of a specimen or of the panel. The force of a panel is that of its specimens
 together, since all are pressed alike; stroke and deceleration are the same for both. No curve of a
