@@ -1,9 +1,11 @@
 """Configs, units, objects and files; and the public names of `crumple`.
 
-These functions raise `ConfigError`, `StoreError`, `RankError` and `ExportError`, which are public
-too.
+The public functions raise `ConfigError`, `StoreError`, `RankError` and `ExportError`, which are
+public too. Each name is loaded when it is first used, so that `import sweep` takes almost no time.
 
-Each name is loaded when it is first used, so that `import sweep` takes almost no time.
+Modules outside of the packages: `columns` lists the columns of results, `result` is that of one
+case, `numbers` writes numbers as text, `constants` has factors between units, `version` those of
+installed packages.
 """
 
 from importlib import import_module
@@ -15,7 +17,7 @@ if TYPE_CHECKING:
     from sweep.config.units import load_config
     from sweep.export.errors import ExportError
     from sweep.export.export import Exported, export_case
-    from sweep.ranking.merit import RankError
+    from sweep.ranking.question import RankError
     from sweep.ranking.rank import rank, ranked
     from sweep.ranking.ranking import Ranking
     from sweep.report.results import Picture, Results
@@ -63,7 +65,7 @@ _HOME = {
     "Exported": "export.export",
     "Interrupted": "running.sweep",
     "Picture": "report.results",
-    "RankError": "ranking.merit",
+    "RankError": "ranking.question",
     "Ranking": "ranking.ranking",
     "Rerun": "store.read",
     "Result": "result",

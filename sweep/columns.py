@@ -1,4 +1,4 @@
-"""The columns of results: for each its units and a sentence, and what older files are read to have.
+"""The columns of results: units and a description of each, and its value in files that lack it.
 
 `COLUMNS` has those of a summary, `HISTORY_COLUMNS` those of a curve. Columns of energies up to a
 force, of cycles, errors and the like have derived names.

@@ -2,8 +2,8 @@
 
 Numba's own cache looks at the file of the compiled function alone, so that an edited callee in
 another file leaves the old code running. Here the folder is named by a hash of all kernel sources,
-their place, the compiler, the versions and the processor: sources that differ in anything never
-meet. The place counts because Numba keeps code by path: a second checkout compiles its own.
+their place, the compiler, the versions and the processor: a change of any of them leads to another
+folder. The place counts because Numba keeps code by path: a second checkout compiles its own.
 """
 
 import atexit

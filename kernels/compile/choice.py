@@ -1,4 +1,4 @@
-"""Which compiler the kernels have: the environment variable CRUMPLE_COMPILER, else what fits Numba.
+"""Chooses the compiler: by the environment variable CRUMPLE_COMPILER, else by the Numba installed.
 
 "fast" is made of private parts of the Numba that it knows; "stock" is `numba.njit`. Both give the
 same results.

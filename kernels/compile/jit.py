@@ -1,12 +1,12 @@
-"""How kernels are compiled: the only options of Numba.
+"""The decorators of kernels, by the arithmetic that they allow.
 
 ``@jit`` is for arithmetic; ``@jit_exact`` keeps every rounding as written, for collision detection,
 distances, tests of a sign or a pivot, and sums of the energy book (fast-math destroys exact zeros
 and compensated sums); ``@jit_owning`` is exact too and may make arrays. All release the GIL, so
 that threads run side by side.
 
-What is called from Python becomes machine code at the first such call, together with all that it
-calls, and is kept (`cache`). Which compiler does that: `choice`.
+A kernel that Python calls becomes machine code at the first such call, together with all that it
+calls, and is kept (`cache`). `choice` says which compiler does that.
 """
 
 import numba

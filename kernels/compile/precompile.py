@@ -1,4 +1,4 @@
-"""Compiles all that a run needs beforehand, as the compiler in use can."""
+"""`compile_ahead` of the compiler in use: it compiles the kernels of a run beforehand."""
 
 from kernels.compile.choice import FAST, compiler
 

@@ -1,4 +1,4 @@
-"""Height of a lattice."""
+"""Height of a lattice: the distance of its outer rows, or its extent."""
 
 import numpy as np
 

@@ -2,7 +2,10 @@
 
 A material law (`law`) maps a strain and what the material remembers to a potential, its slope and
 its tangent. `fibre` is the law of all points in walls of the plane; `elastic`, `relaxation`,
-`softening` and `yielding` are its parts, `one_point` runs it alone. `sheet` is the law of walls in
-space, of three strains (`separable`), and `relaxing_sheet` the one with memory, in logarithmic
-strains (`log_strain`). `barrier` is that of contacts and folds.
+`softening` and `yielding` are its parts, and `one_point` runs it alone. `sheet` is the law of walls
+in space, with three strains; `separable` finds its function of one stretch. `relaxing_sheet` is the
+same with memory, in the strains of `log_strain`.
+
+`barrier` is not a material law. Like one, it is a function of one number with its derivatives; it
+is here because `elastic` needs it, as contacts and folds do (`kernels.terms`, `kernels.plates`).
 """

@@ -1,4 +1,4 @@
-"""Logarithmic strain L = ln(c) / 2 of a sheet, and the derivatives of a stress times it.
+"""Logarithmic strain L = ln(c) / 2 of a sheet, and the derivatives of its product with a stress.
 
 With the mean p and the deviator (u, v) = ((c11 - c22) / 2, c12) of c, y = (u^2 + v^2) / p^2 and
 det c = p^2 (1 - y),

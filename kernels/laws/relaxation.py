@@ -20,7 +20,7 @@ stress is a multiple of s plus a constant. Both follow from the potential
 whose constant makes it the stored energy in a step without duration. A step thus costs hardly more
 than an elastic one; only the commit goes through the branches.
 
-Source: Y. C. Fung, Biomechanics, 1981; the energies: this page, by the Legendre transform of phi.
+Source: Y. C. Fung, Biomechanics, 1981. The energies follow by the Legendre transform of phi.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""A law that yields: linear elastic up to a yield stress, then plastic with linear hardening.
+"""Yielding: a law that is linear elastic up to a yield stress, then plastic with linear hardening.
 
 The stress is Y (e - e_p) with the plastic strain e_p, and at most sigma_y + H alpha in magnitude,
 alpha being the sum of all |d e_p| (isotropic hardening). In a step from e_p and alpha to a strain e

@@ -2,6 +2,7 @@
 
 `element` has the quad with a director at each node, `contacts` what touches and slides. As in
 `kernels.planar`, `problem` has the data and lists the verbs, `potential` sums the energy,
-`factoring` the matrix (`assembly` says where its entries go), `reach` limits a move, `steps`
-begins and commits.
+`factoring` the matrix, `reach` limits a move, `steps` begins and commits. `layout` says where the
+unknowns are in the matrix, `couplings` which of its blocks are needed, and `assembly` where the
+entries of the Hessian go.
 """

@@ -1,4 +1,4 @@
-"""The terms of the energy, one file each, in the symbols of the paper.
+"""The terms of the energy, one file each, in the symbols of kernels/README.md.
 
 There are two patterns. *Terms of walls* (`stretch`, `bend` with `section`, `kelvin_voigt`) depend
 on the deformation of each element alone. Their `evaluate` returns the energy and writes its
@@ -6,7 +6,9 @@ derivatives in strain and turns, the resultants of the sections, from which `ele
 gradient and Hessian. `rayleigh` starts from that Hessian. The *other terms* have two verbs:
 `evaluate` returns the energy and adds the gradient, `hessian` adds to the matrix (`inertia`,
 `damping` by mass, `spring`, `fold`, `contact`, `friction`). `loads` are linear.
-
-`followers`, `lagging`, `moves` and `rows` have verbs that problems of walls and of plates share.
 `contact_near_joints` prepares `contact`. The material laws are in `kernels.laws`.
+
+Four files are no terms. They have verbs that terms, and the problems of walls and of plates, share:
+`followers` (coordinates that follow others), `lagging` (when friction is updated), `moves` (how far
+nodes move, and whether a list of pairs still holds) and `rows` (rows and shapes of a history).
 """

@@ -135,6 +135,6 @@ def _size(text: str | None, unit: str) -> float | None:
     """An option with a unit in SI."""
     if text is None:
         return None
-    from sweep.ranking.merit import in_si
+    from sweep.ranking.question import in_si
 
     return in_si(text, unit)

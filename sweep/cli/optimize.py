@@ -8,7 +8,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from sweep.cli.terminal import print_sheets, say, say_all
-from sweep.ranking.question import Question
+from sweep.ranking.question import Question, in_si
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -86,7 +86,6 @@ def _of_mode(question: Question, arguments: Namespace, mode: str) -> Question:
     """The question with --max-force: the force up to which the energy of a crush counts, else a
     requirement. mode : of the loading, "" if no design is known.
     """
-    from sweep.ranking.merit import in_si
     from sweep.ranking.requirements import check_modes
 
     if mode:
@@ -106,7 +105,6 @@ def _of_mode(question: Question, arguments: Namespace, mode: str) -> Question:
 def _with_force(config: Config, question: Question) -> Config:
     """The config whose cases have the column of the greatest force that is allowed."""
     from sweep.config.axis import Written
-    from sweep.ranking.merit import in_si
 
     if question.allowed_force is None or question.per == "panel":
         return config  # a force of the panel is looked up in the curves
@@ -118,8 +116,6 @@ def _with_force(config: Config, question: Question) -> Config:
 
 def _limits(question: Question) -> tuple[float, tuple[float, float] | None]:
     """Greatest mass (kg) of a specimen, or of the panel (m) if there is one; and the panel."""
-    from sweep.ranking.merit import in_si
-
     budget = in_si(question.budgets[0], "kg") if question.budgets else inf
     sides = [in_si(side, "m") for side in question.panel or ()]
     most = (question.require or {}).get("max_mass")

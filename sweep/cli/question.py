@@ -1,4 +1,4 @@
-"""What a ranking is asked: by options of the command line, else by the config of the results."""
+"""The question of a ranking: from the options of a command, else from the config of the results."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from sweep.cli.refusals import ArgumentError
-from sweep.ranking.question import Question
+from sweep.ranking.question import Question, in_si
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -38,8 +38,6 @@ def asked(arguments: Namespace) -> Question:
 
 def drop_heights(arguments: Namespace) -> list[float]:
     """The heights (m) that --drop-height gives."""
-    from sweep.ranking.merit import in_si
-
     if arguments.drop_height and not arguments.out:
         raise ArgumentError("--drop-height draws cushion curves into a folder: it needs --out DIR")
     return [*dict.fromkeys(in_si(text, "m") for text in arguments.drop_height or ())]

@@ -1,4 +1,4 @@
-"""What the command line refuses: errors whose text is all that it prints."""
+"""Errors that end a command, with their text as all that it prints."""
 
 import sys
 
@@ -14,7 +14,7 @@ REFUSALS = {
     f"{HOME}.store.read": "StoreError",
     f"{HOME}.export.errors": "ExportError",
     f"{HOME}.running.dask_graph": "GraphError",
-    f"{HOME}.ranking.rank": "RankError",
+    f"{HOME}.ranking.question": "RankError",
     f"{HOME}.ranking.accuracy": "AccuracyError",
     f"{HOME.rpartition('.')[0]}.kernels.compile.choice".lstrip("."): "CompilerError",
 }

@@ -1,4 +1,4 @@
-"""What a key of a config takes: a written value, or the values of one axis of a search."""
+"""The values of a key in a config: one that is written, or those of an axis of a search."""
 
 from dataclasses import dataclass
 from math import floor, log10

@@ -1,4 +1,4 @@
-"""Lattices that are refused: flat boxes, closed cells, and what is no period of an endless one."""
+"""Refuses lattices: flat boxes, closed cells, and drawings that are no period of an endless one."""
 
 from __future__ import annotations
 

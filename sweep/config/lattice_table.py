@@ -21,7 +21,7 @@ from sweep.config.tables import Few, Length, Mass, Size, Table, refusal
 from sweep.constants import MM, TO_MM
 from sweep.design.geometry import Geometry
 from sweep.design.infill import families, trait
-from sweep.design.slicer_patterns import (
+from sweep.design.slicer.patterns import (
     OVERLAP,
     PATTERNS,
     SLICERS,

@@ -1,4 +1,4 @@
-"""Lattices that a slicer lays: what it can print, and what follows from a share or a mass."""
+"""Lattices as slicers print them: checks of pattern and lines; the infill for a share or a mass."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from sweep.config.lattice_limits import MAX_NODES, check_openings
 from sweep.config.tables import refusal
-from sweep.design.slicer_patterns import (
+from sweep.design.slicer.patterns import (
     NO_PRISMS,
     SLICERS,
     distance_of,
@@ -76,7 +76,7 @@ def spacing_of(lattice: Lattice, share: float) -> dict[str, Any]:
 
 def with_mass(lattice: Lattice, density: float) -> Lattice:
     """The lattice with the share of infill with which its `mass` is extruded."""
-    from sweep.design.slicer_network import LEAST_SHARE, share_for
+    from sweep.design.slicer.network import LEAST_SHARE, share_for
 
     wanted = lattice.mass or 0.0
     pattern = lattice.printed_as

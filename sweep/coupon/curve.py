@@ -1,9 +1,9 @@
-"""The curve of a coupon: a few points of its first loading, that a law of its memory follows.
+"""The curve of a material, at a few strains, from the first loading of a coupon.
 
-A test takes time, in which the material relaxes, so that its first loading is not the curve that
-holds at one time after loading. The stresses at the points are therefore those with which the law,
-taken through the same test, has the same first loading: every stress times record / law, until they
-agree. Record and law are compared as least-squares fits of straight lines between the points.
+The material relaxes during the test, so that the first loading is not the curve that holds at one
+time after loading. The stresses of the curve are therefore chosen such that the law, taken through
+the same test, has the same first loading: each is multiplied by record / law until they agree.
+Record and law are compared as least-squares fits of straight lines between the points.
 """
 
 from typing import Any
@@ -14,7 +14,7 @@ from pydantic import ValidationError
 
 from kernels.laws.one_point import stresses
 from sweep.config.case import Material
-from sweep.coupon import branches
+from sweep.coupon import legs
 from sweep.coupon.record import Coupon, CouponError, Floats
 from sweep.scene.material import LOWER_WEIGHT, UPPER_WEIGHT, law_in_stretch
 
@@ -35,7 +35,7 @@ class Loading:
 
     def __init__(self, coupon: Coupon, rows: list[int]) -> None:
         self.name, self.sign = coupon.name, coupon.sign
-        self.time, self.strain = branches.path(coupon, rows)
+        self.time, self.strain = legs.path(coupon, rows)
         self.all_times = coupon.time
         self.rows = _first_time(self.sign * coupon.strain, rows)
         reached = self.sign * coupon.strain[self.rows]

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sweep.coupon import branches
+from sweep.coupon import legs
 from sweep.coupon.curve import Loading
 from sweep.coupon.record import Coupon, CouponError, Floats
 
@@ -57,13 +57,13 @@ class Fit:
 
 def fit(coupon: Coupon) -> Fit:
     """The material of a coupon."""
-    rows = branches.turns(coupon)
+    rows = legs.turns(coupon)
     _check_unloading(coupon, rows)
     loading = Loading(coupon, rows)
     if loading.record[0] <= 0.0:
         raise CouponError(f"{coupon.name}: the stress does not rise with the strain")
     grows = len(rows) > 3 and _peak(coupon, rows[3]) > LARGER * _peak(coupon, rows[1])
-    scale = branches.work(coupon, 0, rows[1])
+    scale = legs.work(coupon, 0, rows[1])
     found = [_fitted(coupon, loading, names, scale) for names in _laws(rows, grows)]
     least = min(misfit for _, misfit in found)
     memory = next(m for m, misfit in found if misfit <= AS_GOOD[0] * least + AS_GOOD[1])
@@ -166,8 +166,8 @@ def _ends_loaded(coupon: Coupon, row: int) -> bool:
 
 
 def _lost(coupon: Coupon, rows: list[int], first: int) -> float | None:
-    """Lost share of the work of the cycle that begins with a branch, if it ends unloaded."""
+    """Lost share of the work of the cycle that begins with a leg, if it ends unloaded."""
     if len(rows) < first + 3 or _ends_loaded(coupon, rows[first + 2]):
         return None
-    done = branches.work(coupon, *rows[first : first + 2])
-    return 1.0 + branches.work(coupon, *rows[first + 1 : first + 3]) / done
+    done = legs.work(coupon, *rows[first : first + 2])
+    return 1.0 + legs.work(coupon, *rows[first + 1 : first + 3]) / done

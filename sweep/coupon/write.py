@@ -1,11 +1,11 @@
-"""The material that a coupon has, as a csv file for `material.name`, and how well it fits."""
+"""Writes the material of a coupon as a csv file for `material.name`, and says how well it fits."""
 
 from collections.abc import Iterator
 from textwrap import wrap
 
 from sweep.config.materials.material_file import Record
-from sweep.coupon.branches import branch_name
 from sweep.coupon.fit import Fit
+from sweep.coupon.legs import leg_name
 
 DENSITY = 1200.0, "1190 .. 1220", "of printed TPU"  # kg/m^3
 USUAL_RATES = 2e-4, 1.0  # 1/s, of tests of coupons
@@ -63,7 +63,7 @@ def _memory(fit: Fit) -> Iterator[str]:
 def fit_sentence(fit: Fit) -> str:
     """How well the law follows the record, in words."""
     apart, row = fit.worst
-    where = f"{branch_name(fit.rows, row)} at a strain of {fit.coupon.strain[row]:.3g}"
+    where = f"{leg_name(fit.rows, row)} at a strain of {fit.coupon.strain[row]:.3g}"
     return (
         f"The law follows the record within {100 * fit.misfit:.2g} % of the greatest stress (root "
         f"mean square), and at worst within {100 * apart:.2g} %, in {where}."

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from sweep.design.slicer_patterns import Sliced
+from sweep.design.slicer.patterns import Sliced
 
 
 class Geometry(NamedTuple):

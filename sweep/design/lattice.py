@@ -6,7 +6,7 @@ from sweep.design.box import build_box
 from sweep.design.geometry import Geometry
 from sweep.design.network import Network
 from sweep.design.period import build_period
-from sweep.design.slicer_network import build_sliced, extruded_area
+from sweep.design.slicer.network import build_sliced, extruded_area
 
 
 @lru_cache(maxsize=1024)

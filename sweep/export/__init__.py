@@ -1,5 +1,6 @@
 """Files for other programs: a part to print, an outline, curves, shapes. One file per format.
 
-`export.py` knows which ending asks for which format; `design.py` and `outline.py` rebuild what was
-drawn from a results file; `solid.py` makes it a body, whose volume is compared with the mass.
+`export.py` chooses the format by the ending of the file's name. `design.py` and `outline.py`
+rebuild what was drawn from a results file. `solid.py` makes a closed body of it, and refuses one
+whose volume is not that of the mass.
 """

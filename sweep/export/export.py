@@ -1,4 +1,4 @@
-"""Writes a case as a file for another program; the ending of its name asks for the format.
+"""Writes a case as a file for another program, in the format that the ending of the file names.
 
 Nothing is half-written: files are made in a folder beside, then get their names.
 """

@@ -21,7 +21,7 @@ from xml.etree import ElementTree as Xml
 
 from sweep.constants import TO_MM
 from sweep.design.drawing import extent
-from sweep.design.slicer_patterns import SLICERS
+from sweep.design.slicer.patterns import SLICERS
 from sweep.export.errors import ExportError
 from sweep.export.three_mf import OBJECT, xml_bytes
 

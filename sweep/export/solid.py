@@ -1,4 +1,4 @@
-"""The body of a layout: its outline extruded along the depth, closed, and as heavy as computed."""
+"""The body of a layout: its outline extruded along the depth, with a check of its volume."""
 
 from __future__ import annotations
 

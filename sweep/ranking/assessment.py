@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 from pandas import DataFrame
 
 from sweep.columns import describe_column, less_is_better
-from sweep.ranking.merit import Compared, RankError, doubtful
+from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.places import pareto
-from sweep.ranking.question import Question
+from sweep.ranking.question import Question, RankError
 from sweep.ranking.rank import answer
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, limits, measured, misses, nearest_first

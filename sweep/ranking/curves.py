@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sweep.ranking.merit import AT_ALLOWED, in_si, panel_in
+from sweep.ranking.merit import AT_ALLOWED, panel_in
+from sweep.ranking.question import in_si
 from sweep.result import Status
 from sweep.simulation.until import absorbed_until
 

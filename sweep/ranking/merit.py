@@ -10,8 +10,8 @@ force are n times those of a specimen.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
 from sweep.columns import (
     ABSORBED_AT,
@@ -22,6 +22,8 @@ from sweep.columns import (
     error_column,
 )
 from sweep.design.panel import BEHIND, Panel, panel_of
+from sweep.ranking.budget import ROUND_OFF, counted_mass
+from sweep.ranking.question import RankError, in_si
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -42,11 +44,6 @@ AT_DENSIFICATION = (
     "specific_absorption_at_densification_J_per_g",
 )
 AT_ALLOWED = "absorbed_energy_at_allowed_J"
-ROUND_OFF = 1e-9
-
-
-class RankError(ValueError):
-    """A ranking that cannot be made; the text is one sentence with the allowed values."""
 
 
 class Compared(NamedTuple):
@@ -126,14 +123,6 @@ def _of_crush(finished: DataFrame, counted: Series, whole: Series) -> Series:
     return counted.where(finished["loading_mode"] == "displacement", whole)
 
 
-def counted_mass(finished: DataFrame) -> tuple[str, Series]:
-    """The column of the mass that counts, and its values, g: as extruded if there is a slicer."""
-    printed = finished.get("printed_mass_g")
-    if printed is None or printed.isna().all():
-        return "mass_g", finished["mass_g"]
-    return "counted_mass_g", printed.fillna(finished["mass_g"])
-
-
 def doubtful(ranked: DataFrame) -> Series:
     """True for designs whose results are beyond the model or have walls that cross."""
     return ranked["beyond_model"].astype(bool) | ranked["crossed"].astype(bool)
@@ -160,36 +149,6 @@ def panel_in(frame: DataFrame, panel: Sequence[Quantity]) -> Panel:
                 "mm; allowed: a larger one, first its length along the width, then along the depth"
             )
     return found._replace(across=found.across.astype(int), behind=found.behind.astype(int))
-
-
-def greatest_mass(budget: float) -> float:
-    """The greatest mass within a budget: the budget, with a tolerance for round-off."""
-    return budget * (1.0 + ROUND_OFF)
-
-
-def in_si(value: Any, unit: str) -> float:
-    """A positive number in SI, from a number or from text with a unit."""
-    number = value
-    if isinstance(value, str):
-        from sweep.config.units import quantity
-
-        number = quantity(value, unit)
-    if not number > 0.0:
-        written = value if isinstance(value, str) else f"{value:g} {unit}"
-        raise RankError(f"{written}: budgets, panels, forces and heights must be above zero")
-    return float(number)
-
-
-def check_units(given: Mapping[str, Any]) -> None:
-    """Refuse arguments with a number that has no unit."""
-    examples = {"budget": "25 g", "panel": "100 mm", "allowed_force": "50 N"}
-    examples |= {"max_force": "50 N", "max_deceleration": "80 g0", "max_mass": "25 g"}
-    examples |= {"min_absorbed": "1 J", "max_stroke": "8 mm"}
-    for name, value in given.items():
-        for item in [value] if isinstance(value, str) or not isinstance(value, Iterable) else value:
-            if not isinstance(item, str | None):
-                allowed = f'text with a unit, such as "{examples.get(name, "50 N")}"'
-                raise RankError(f"{name} = {item!r}: a bare number; allowed: {allowed}")
 
 
 def _counted(

@@ -1,14 +1,16 @@
-"""What a ranking is asked."""
+"""The question of a ranking: its arguments, as text with a unit or as numbers in SI."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 Quantity = float | str
 """A number in SI, or text with a unit such as "25 g"."""
+
+
+class RankError(ValueError):
+    """A ranking that cannot be made; the text is one sentence with the allowed values."""
 
 
 class Question(NamedTuple):
@@ -28,3 +30,28 @@ class Question(NamedTuple):
         if self.budget is None:
             return []
         return [self.budget] if isinstance(self.budget, float | int | str) else list(self.budget)
+
+
+def in_si(value: Any, unit: str) -> float:
+    """A positive number in SI, from a number or from text with a unit."""
+    number = value
+    if isinstance(value, str):
+        from sweep.config.units import quantity
+
+        number = quantity(value, unit)
+    if not number > 0.0:
+        written = value if isinstance(value, str) else f"{value:g} {unit}"
+        raise RankError(f"{written}: budgets, panels, forces and heights must be above zero")
+    return float(number)
+
+
+def check_units(given: Mapping[str, Any]) -> None:
+    """Refuse arguments with a number that has no unit."""
+    examples = {"budget": "25 g", "panel": "100 mm", "allowed_force": "50 N"}
+    examples |= {"max_force": "50 N", "max_deceleration": "80 g0", "max_mass": "25 g"}
+    examples |= {"min_absorbed": "1 J", "max_stroke": "8 mm"}
+    for name, value in given.items():
+        for item in [value] if isinstance(value, str) or not isinstance(value, Iterable) else value:
+            if not isinstance(item, str | None):
+                allowed = f'text with a unit, such as "{examples.get(name, "50 N")}"'
+                raise RankError(f"{name} = {item!r}: a bare number; allowed: {allowed}")

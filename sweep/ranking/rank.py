@@ -23,18 +23,11 @@ from sweep.columns import (
     is_grid_key,
     less_is_better,
 )
+from sweep.ranking.budget import greatest_mass
 from sweep.ranking.curves import with_allowed
-from sweep.ranking.merit import (
-    LEAST,
-    Compared,
-    RankError,
-    check_units,
-    greatest_mass,
-    in_si,
-    merits,
-)
+from sweep.ranking.merit import LEAST, Compared, merits
 from sweep.ranking.places import pareto, places_by
-from sweep.ranking.question import Quantity, Question
+from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, judge, limits
 from sweep.ranking.scenes import by_scene, scene_label

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from sweep.ranking.merit import greatest_mass
+from sweep.ranking.budget import greatest_mass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""What a part must fulfil: limits on results, which only read them.
+"""Requirements on a part: limits on its results, by which designs are excluded from a ranking.
 
 A requirement is of a specimen or of the panel. The force of a panel is that of its specimens
 together, since all are pressed alike; stroke and deceleration are the same for both. No curve of a
@@ -21,14 +21,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from pandas import DataFrame
 
-from sweep.ranking.merit import (
-    ROUND_OFF,
-    Compared,
-    RankError,
-    doubtful,
-    greatest_mass,
-    in_si,
-)
+from sweep.ranking.budget import ROUND_OFF, greatest_mass
+from sweep.ranking.merit import Compared, doubtful
+from sweep.ranking.question import RankError, in_si
 
 if TYPE_CHECKING:
     from pandas import Series

@@ -14,7 +14,8 @@ import numpy as np
 from pandas import DataFrame
 
 from sweep.columns import less_is_better
-from sweep.ranking.merit import greatest_mass, merits
+from sweep.ranking.budget import greatest_mass
+from sweep.ranking.merit import merits
 from sweep.ranking.requirements import measured, misses
 from sweep.result import Status
 

@@ -12,8 +12,7 @@ from pandas import concat
 
 from sweep.ranking.accuracy import studies
 from sweep.ranking.cushion import crush_of, drops
-from sweep.ranking.merit import RankError
-from sweep.ranking.question import Question
+from sweep.ranking.question import Question, RankError
 from sweep.ranking.rank import answer
 from sweep.report.figures import case_plots, cushion_plots, design_map
 from sweep.report.figures.pattern_bars import panel_size, pattern_bars

@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sweep.ranking.curves import with_allowed
-from sweep.ranking.merit import check_units
-from sweep.ranking.question import Question
+from sweep.ranking.question import Question, check_units
 from sweep.ranking.rank import answer
 from sweep.report.publish import case_figures, ranking_figures
 from sweep.result import Status

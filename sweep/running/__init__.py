@@ -1,7 +1,8 @@
 """A sweep from its cases to its results file.
 
 `sweep` runs what is missing: `batches` groups cases, `dask_graph` (the only home of dask) runs
-them, `writer_thread` keeps results, `progress` reports how far a sweep is, `estimate` how long it
-will take. `run` is the same for a user in Python. `beside` has runs that accompany a sweep,
-`searching` the search for the best design.
+them, `writer_thread` keeps results, with the attributes of `provenance`. `progress` reports how far
+a sweep is, `estimate` how long it will take, `relaxation_warning` which cases are too short or too
+long for their material. `run` is the same for a user in Python. `beside` has runs that accompany a
+sweep, `searching` the search for the best design.
 """

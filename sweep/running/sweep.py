@@ -14,7 +14,7 @@ from sweep.running.batches import Plan, cost
 from sweep.running.dask_graph import Simulate, Stop, check_scheduler, run_plan
 from sweep.running.progress import Progress, announce
 from sweep.running.provenance import config_text, describe_run
-from sweep.running.relaxation_times import sentences_on_lossless
+from sweep.running.relaxation_warning import sentences_on_lossless
 from sweep.running.writer_thread import result_sink, writer_thread
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids, older_ids, read_statuses
 from sweep.store.write import Writer

@@ -3,6 +3,6 @@
 `lattice`, `periodic` and `custom` each build one kind of scene out of the same parts: `mesh`
 divides the walls, `joints` (with `joint_kinds`) says how they end, `coordinates` what moves.
 `beams`, `bending`, `contact` and `material` (with `relaxation`) have the data of the terms, which
-`terms` puts together. `loading` has the stages, `arcs` the data of the arc-length method. `plates`
-is the same for a lattice that is pressed along its cells.
+`terms` puts together. `loading` has the stages, `arc_length` the data of that method. `plates` is
+the same for a lattice that is pressed along its cells.
 """

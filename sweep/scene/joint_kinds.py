@@ -1,8 +1,9 @@
-"""C of the arms of solid joints, by the openings between them: kinds of joints, tables, look-up.
+"""The compliance C of solid joints, by the openings between their arms: kinds, tables, look-up.
 
-`joints.py` says what C is. `joints.csv` has it for each kind of joint at several angles; between
-them it is interpolated. It is a mean over the states in which a lattice of such joints deforms,
-and the same for all arms, except at joints with an axis. The columns NM, NV and NV_nu are not used.
+`joints.py` has the definition of C. `joints.csv` has its values for each kind of joint at several
+angles; between them C is interpolated. C is a mean over the states in which a lattice of such
+joints deforms, and the same for all arms, except at joints with an axis. The columns NM, NV and
+NV_nu are not used.
 """
 
 from collections.abc import Callable, Iterator

@@ -24,7 +24,7 @@ from sweep.config.case import Case, Loading, given
 from sweep.config.defaults.direction import height_pressed
 from sweep.design.network import Network
 from sweep.scene.beams import Beams, plane_factors
-from sweep.scene.coordinates import Numbering
+from sweep.scene.coordinates import BetweenPlatens, Numbering
 from sweep.scene.material import law_in_stretch
 from sweep.scene.mesh import Floats, Ints, Mesh
 
@@ -190,7 +190,7 @@ def solved_by(
         leader=leader,
         ratio=np.ones(numbering.size),
         images=periodic_images.NONE,
-        driven=numbering.high if case.loading.mode == "displacement" else -1,
+        driven=driven_by(case.loading, numbering),
         point=numbering.point,
         slot=numbering.slot,
         n_nodes=numbering.n_nodes,
@@ -201,6 +201,11 @@ def solved_by(
         outer=np.hstack([walls.dofs[first, :3], walls.dofs[last, 3:]]),
         scale=(stiffest, stiffest, float((axial * mesh.thickness**2).max()) / 3.0),
     )
+
+
+def driven_by(loading: Loading, numbering: BetweenPlatens) -> int:
+    """The coordinate whose motion a loading prescribes; -1 if it prescribes none."""
+    return numbering.high if loading.mode == "displacement" else -1
 
 
 def masses_of(mesh: Mesh, numbering: Numbering, total: float, loading: Loading) -> Floats:

@@ -1,9 +1,7 @@
 """From a case to its result: build the arrays, march through the stages, measure. No files."""
 
 import time
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -15,7 +13,7 @@ from sweep.config.defaults.direction import height_pressed, is_along
 from sweep.config.defaults.solver_defaults import given_or
 from sweep.config.structures.structure import Load, Structure, Support
 from sweep.result import Result, Status
-from sweep.scene.arcs import arc_of, path_columns
+from sweep.scene.arc_length import arc_of, path_columns
 from sweep.scene.custom import build_structure
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import CycleRows, cycle_rows, stages, tolerances
@@ -25,6 +23,16 @@ from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.plates.scene import build_scene as build_plates
 from sweep.scene.terms import Scene
 from sweep.simulation.custom_history import structure_columns
+from sweep.simulation.failures import (
+    Failure,
+    break_message,
+    broke,
+    energy_made,
+    still_sinking,
+    stopped,
+    timed_out,
+    unbalanced,
+)
 from sweep.simulation.plate_shapes import plate_frames, plate_strains
 from sweep.simulation.shape_checks import strains_of
 from sweep.simulation.summary import BOOK, history_columns, summarise
@@ -32,27 +40,8 @@ from sweep.simulation.time_limit import WATCH
 
 FRAMES = 40
 EARLY_FRAMES = 4 * FRAMES  # most impacts and many paths end within a quarter of their steps
-LONGER = "try a longer loading.duration"
-SAFER = 'try smaller steps, damping or solver.integrator "backward_euler"'
-SAFER_ALONG = 'try smaller steps or solver.integrator "backward_euler"'  # there is no damping
-FINER = "try more solver.load_steps"
-SOUNDER = "try a smaller solver.tolerance, and look for values out of all proportion"
 GAP = 1e-3  # of the greatest energy in the book: residual that is allowed
 CREATED = 0.1  # of the work done: energy that an integrator may create
-ADVICE = {
-    outcomes.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {further}",
-    outcomes.STALLED: "the energy could not be lowered further; "
-    "try a looser solver.tolerance or smaller steps",
-    outcomes.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
-    outcomes.INACCURATE: "no step was short enough for solver.step_error; "
-    "try a larger one or {shorter}",
-    outcomes.UNBALANCED: f"work and energies do not balance; {SOUNDER}",
-    outcomes.UNRESOLVED: "the forces are too small, or the steps too short, for the motion to "
-    "exceed round-off; try larger steps or loads",
-    outcomes.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
-}
-
-LOST = "no equilibrium within the shortest arc; try a smaller solver.arc_length"
 
 
 def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
@@ -82,8 +71,8 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
         else strains_of(shapes, scene.terms)
     )
     summary = summarise(case, scene, curves, frames, strains, run.cycles)
-    if status == Status.CONVERGED and _broke(summary, case):
-        message = _break_message(summary)
+    if status == Status.CONVERGED and broke(summary, case):
+        message = break_message(summary)
     case_id = case.case_id
     summary |= {
         "case_id": case_id,
@@ -93,22 +82,6 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
         "newton_iterations": int(run.state.totals["iterations"][0]),
     }
     return Result(case_id, status, message, summary, curves, frames)
-
-
-def _broke(summary: Mapping[str, Any], case: Case) -> bool:
-    """Whether a fibre was stretched beyond the strain at which its material breaks."""
-    limit = case.material.fracture_strain
-    return limit is not None and summary["greatest_fibre_strain"] > limit
-
-
-def _break_message(summary: Mapping[str, Any]) -> str:
-    """Where the specimen broke; a custom structure has no strain of its own."""
-    broke = summary["broke_at_strain"]
-    where = f"broke at a strain of {broke:.3g}:"
-    if np.isnan(broke):
-        strain = summary["greatest_fibre_strain"]
-        where = f"a wall broke: the greatest strain of a fibre is {strain:.3g},"
-    return f"{where} later rows are those of unbroken walls"
 
 
 def _scene(case: Case) -> Scene | PlateScene:
@@ -187,16 +160,15 @@ class _Run:
             for phase in self.stages:
                 outcome = self._through(phase.stage)
                 if outcome != outcomes.INTERRUPTED and self._creates_energy():
-                    advice = self._for_less_energy()
-                    return Status.STOPPED, f"the integrator made energy out of nothing; {advice}"
+                    return energy_made(self.case)
                 if outcome != outcomes.CONVERGED:
                     return self._failed(outcome, phase.name)
                 if self.struck and self._is_back():
                     break
         if not self._balances():
-            return Status.STOPPED, f"work and energies do not balance {self._where()}; {SOUNDER}"
+            return unbalanced(self._where())
         if self.struck and self.rows["speed"][self.done - 1] < 0.0:
-            return Status.STOPPED, f"the striker still sinks {self._where()}; {LONGER}"
+            return still_sinking(self._where())
         return Status.CONVERGED, ""
 
     def _creates_energy(self) -> bool:
@@ -208,13 +180,6 @@ class _Run:
             return False
         rows = self.rows[: self.done]
         return bool(rows["integrator"].min() < -CREATED * rows["work"].max() - self.noise)
-
-    def _for_less_energy(self) -> str:
-        """What to try if the integrator has created energy."""
-        loading = self.case.loading
-        if loading.quasi_static:
-            return FINER
-        return SAFER_ALONG if is_along(loading) else SAFER
 
     def _balances(self) -> bool:
         """True if the residual of the energy book is below a share `GAP` of its greatest entry."""
@@ -268,25 +233,11 @@ class _Run:
         self.done += written
         return outcome
 
-    def _failed(self, outcome: int, stage: str) -> tuple[Status, str]:
+    def _failed(self, outcome: int, stage: str) -> Failure:
         where = f"while {stage}, {self._where()}"
         if self.expired:
-            limit = self.case.solver.time_limit
-            return Status.TIMED_OUT, f"solver.time_limit of {limit:g} s reached {where}; raise it"
-        if outcome == outcomes.INTERRUPTED:
-            return Status.STOPPED, f"interrupted {where}; run again to complete it"
-        solver = self.case.solver
-        timed = solver.load_steps is None
-        shorter = "a smaller solver.time_step" if timed else "more solver.load_steps"
-        # What buckles under a dead load goes all the way at once, in however short a step.
-        buckles = not timed and self.scene.terms.coordinates.driven < 0
-        further = "a larger solver.max_iterations" if buckles else shorter
-        advice = ADVICE[outcome].format(
-            limit=solver.max_iterations, shorter=shorter, further=further
-        )
-        if self.arc is not None:
-            advice = LOST
-        return Status.STOPPED, f"stopped {where}: {advice}"
+            return timed_out(self.case, where)
+        return stopped(self.case, outcome, where, driven=self.scene.terms.coordinates.driven >= 0)
 
     def _where(self) -> str:
         """Strain and number of steps so far, in words."""

@@ -7,7 +7,7 @@ from sweep.config.case import Case, Material, given
 from sweep.config.defaults.direction import footprint, height_pressed, is_along
 from sweep.config.defaults.solver_defaults import given_or
 from sweep.design.network import mass, relative_density
-from sweep.design.slicer_network import extruded_area
+from sweep.design.slicer.network import extruded_area
 from sweep.result import design_columns
 from sweep.scene.loading import CycleRows
 from sweep.scene.mesh import Floats

@@ -1,4 +1,4 @@
-"""What a curve has reached when it first bears a force; a stored curve answers for any force."""
+"""Energy or stroke of a crush up to the point at which its force first exceeds a given force."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -1,5 +1,6 @@
 """Results as HDF5: sealed parts that survive any end of a sweep, folded into one file.
 
-`write` decides when, `hdf5` writes the columns of a file, `read` reads them; `batch` and `tables`
-are in memory. `hdf5` and `read` are the only home of h5py.
+`write` decides when rows are written, `parts` names the sealed files, `hdf5` writes one, `read`
+reads all of them, and `lock` admits one writer at a time. `batch` and `tables` hold rows in memory.
+`hdf5` and `read` are the only home of h5py.
 """

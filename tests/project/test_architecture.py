@@ -62,7 +62,6 @@ print([main(words) for words in {calls}])
 """
 # Modules without a test file at their place, or packages of them, and which file tests them.
 TESTED_ELSEWHERE = {
-    "kernels.compile.cache": "kernels/compile/test_jit.py",
     "kernels.compile.undisturbed": "kernels/compile/fast/test_linking.py",
     "kernels.compile.reference": "kernels/solve/test_first_guess.py",
     "kernels.compile.verbs": "kernels/solve/test_chain.py",
@@ -90,12 +89,8 @@ TESTED_ELSEWHERE = {
     "sweep.cli.refusals": "sweep/cli/test_verbs.py",
     "sweep.cli.run": "sweep/cli/test_verbs.py",
     "sweep.cli.status": "sweep/cli/test_verbs.py",
-    "sweep.config.lattice_limits": "sweep/config/test_lattice_table.py",
-    "sweep.config.slicer_lines": "sweep/config/test_lattice_table.py",
     "sweep.design.infill": "sweep/design/test_infill.py",
-    "sweep.ranking.places": "sweep/ranking/test_ties.py",
     "sweep.running.beside.run_beside": "sweep/running/beside/test_spread.py",
-    "sweep.running.batches": "sweep/running/test_dask_graph.py",
     "sweep.running.provenance": "sweep/running/test_sweep.py",
     "sweep.running.writer_thread": "sweep/running/test_sweep.py",
     "sweep.store.batch": "sweep/store/test_read.py",

@@ -1,8 +1,9 @@
-"""How kernels hand arrays on to each other: by address and shape.
+"""How kernels pass arrays to one another: by address and shape.
 
-Numba hands on seven words for a vector and nine for a matrix: the owner too, which is of no use
-where references are not counted, and what follows from the shape where an array is contiguous. Of
-the thousand arguments of a step, named tuples of arrays, a third are left to compile.
+Numba passes seven words for a vector and nine for a matrix. Among them are the owner, which is not
+needed where references are not counted, and the strides, which follow from the shape of a
+contiguous array. A step, with its named tuples of arrays, has a thousand arguments; a third of them
+are left.
 """
 
 import functools

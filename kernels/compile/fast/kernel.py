@@ -1,8 +1,8 @@
-"""Kernels of the fast compiler: linked into each other, machine code where Python calls them.
+"""What a decorated function becomes: a `Kernel`, which other kernels and Python can call.
 
-A kernel that other kernels call is only linked into them, and is machine code only there; one that
-is `jit.separate` they call where it is. What is called from Python becomes machine code at the
-first such call, together with all that it calls, and is kept (`sealed`).
+For a kernel that calls it, it is code to be linked (`linking`), or the address of its own machine
+code if it is `jit.separate` (`outlined`). For Python it is machine code that includes all that it
+calls, which is made at the first such call and is kept (`sealed`).
 """
 
 import functools

@@ -1,6 +1,8 @@
-"""How compiled kernels come together: linked into what Python calls, and machine code only there.
+"""Numba's classes for compiled code, changed so that a kernel is optimised where it is linked.
 
-Numba would optimise and link every function at every level again.
+Numba would optimise a function again in every function that calls it, directly or not. Here the
+code of a kernel that other kernels call (`Linked`) is only tidied. It is optimised and becomes
+machine code once, as a part of the kernel that Python calls (`Entry`).
 """
 
 from llvmlite.binding import Linkage

@@ -1,9 +1,8 @@
-"""Kernels with machine code of their own, which other kernels call where it is.
+"""Separate kernels (`jit.separate`): compiled once, and called by other kernels instead of linked.
 
-What is linked into its callers is compiled with each of them. A large kernel is better compiled
-once: beside the others, in another process (`precompile`), and for several callers. The price is a
-call that passes every array of its named tuples: right for what is called a few times a step, at
-most.
+A kernel that is linked into its callers is compiled with each of them. A large kernel is better
+compiled once for all callers, in another process (`precompile`). The price is a call that passes
+every array of its named tuples, which suits kernels that are called a few times a step, at most.
 """
 
 import hashlib

@@ -1,4 +1,4 @@
-"""Numba's compiler for kernels, without much that costs time and changes nothing there."""
+"""The passes of Numba's compiler that kernels need, with searches for signatures remembered."""
 
 import functools
 

@@ -1,8 +1,7 @@
-"""Compiles all that a run needs beforehand, in several processes at once.
+"""Compiles the kernels of a run before it starts, in several processes at once.
 
-Which kernels meet arguments of which types is found out by a rehearsal: the run once as plain
-Python, for which it must be a small one. What is compiled is kept (`cache`), and found there by the
-run itself.
+A rehearsal finds out which kernels are called with arguments of which types: a small run in plain
+Python. What is compiled is kept (`cache`), where the run itself finds it.
 """
 
 import gc

@@ -1,7 +1,7 @@
-"""Numba's cache of one function, which is never trusted blindly.
+"""Numba's cache of one function, with a check of every file that is read.
 
-Numba trusts what it reads: here every file ends with a seal, and what does not fit its seal is
-compiled again.
+Numba trusts what it reads. Here every file ends with a seal, a digest of its content: if they do
+not agree, the function is compiled again.
 """
 
 import contextlib

@@ -1,12 +1,12 @@
-"""Symbolic analysis: the order of elimination, and a zero matrix with room for all entries."""
+"""Analysis of a matrix before it is factored: the order of elimination, room for all entries."""
 
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning, separate
 from kernels.linear import minimum_degree
 from kernels.linear.supernodal.dissection import dissect, neighbours
-from kernels.linear.supernodal.elimination import children, columns, supernodes
 from kernels.linear.supernodal.matrix import COLUMNS, ROWS, Matrix, rounded_up
+from kernels.linear.supernodal.symbolic import children, columns, supernodes
 
 
 @jit_owning

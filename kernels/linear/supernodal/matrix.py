@@ -31,7 +31,7 @@ class Matrix(NamedTuple):
     of `row`, their places, of `up`, their rows in the front of the parent, and of `beside`, where
     those start in its tiles (see `fronts`). run_start (ns + 1,), run: neighbours in a strip of the
     parent are the rows from run[run_start[s]] on, from run[run_start[s] + 1] on, and so on.
-    child_start (ns + 2,), child: see `elimination.children`. panel, tile (ns + 1,), update (ns,):
+    child_start (ns + 2,), child: see `symbolic.children`. panel, tile (ns + 1,), update (ns,):
     where its panel in `values`, its tiles in `tiles` and its update in `updates` start.
 
     values: entries. tiles: factor. updates: what is passed on to parents. own, pivots, inverse

@@ -1,4 +1,4 @@
-"""The arc of an element is longer than its chord.
+"""Corrects the strain measures of a bent element: lengths of arcs in place of chords.
 
 Where an element is bent to a circle and turns by phi from one side to the other, the differences of
 its positions and of its directors are chords, short by the factor sin(phi / 2) / (phi / 2). The

@@ -1,4 +1,4 @@
-"""Barrier on the angle between a director and the normal of its corner, as of a fold.
+"""Barrier that keeps directors from turning over: on the angle to the normal of their corner.
 
     E_f = K sum over the corners  b(v / v_f) for v < v_f, else 0,    v = d . (s x z) / (h_s h_z)
 

@@ -149,7 +149,7 @@ def quads_wanted(lattice: Lattice) -> Any:
 
 def _meshed(lattice: Lattice) -> Lattice:
     """The lattice with its numbers of quads; refused if there are too many, or no mirror planes."""
-    from sweep.design.extrusion import layers_of, mirror_fault, most_layers, plan_of, quads_along
+    from sweep.design.upright_plan import layers_of, mirror_fault, most_layers, plan_of, quads_along
 
     changes: dict[str, Any] = {}
     if lattice.structure is None and "nodes_per_wall" not in lattice.model_fields_set:

@@ -1,4 +1,4 @@
-"""What of a design does not print as drawn, by lines as wide as the nozzle lays them."""
+"""Finds walls and gaps of a design that do not print as drawn, from the width of a line."""
 
 from collections.abc import Sequence
 

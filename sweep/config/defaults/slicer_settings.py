@@ -7,7 +7,7 @@ from typing import NamedTuple
 from sweep.config.case import Case
 from sweep.config.lattice_table import LAYER_HEIGHT, Lattice
 from sweep.constants import TO_MM
-from sweep.design.slicer_patterns import PATTERNS, ROUNDED, SLICERS
+from sweep.design.slicer.patterns import PATTERNS, ROUNDED, SLICERS
 
 NAMES = {"prusa": "PrusaSlicer", "orca": "OrcaSlicer", "cura": "Cura"}
 REGULAR = 0.05  # relative difference of a cell's proportions from the slicer's

@@ -1,1 +1,3 @@
-"""Files of materials: the measured curve, and the numbers and sources in its header."""
+"""Files of materials: `material_file` reads the measured curve, `material_header` the numbers and
+sources in the comment lines above it.
+"""

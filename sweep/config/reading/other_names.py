@@ -1,4 +1,4 @@
-"""Names that slicers and users give to what a config calls otherwise: choices, and keys."""
+"""Other names of keys and of their choices, as slicers and users call them."""
 
 from collections.abc import Iterable
 from typing import Any

@@ -1,4 +1,4 @@
-"""Keys of the release before, which are understood for one more release, with a warning."""
+"""Keys by their names in the last release, which still work in this one, with a warning."""
 
 import warnings
 from typing import Any

@@ -1,4 +1,4 @@
-"""Finds what is not closed in a text that is no TOML: a text, a list or a table in braces.
+"""Finds the text, list or table that is left open in a file that is not valid TOML.
 
 The parser of the standard library says where it gave up, which may be many lines after the fault.
 """

@@ -1,1 +1,5 @@
-"""Custom structures: the JSON file, what it may hold, and which motions it must not leave free."""
+"""Custom structures, from a JSON file.
+
+`structure` has the keys of the file, `structure_file` reads it and lists its faults, and
+`mechanism` finds motions that no support, spring or wall resists.
+"""

@@ -16,7 +16,8 @@ from pandas import concat
 
 from sweep.columns import error_column, less_is_better
 from sweep.numbers import energy_text, tenths, three_digits
-from sweep.ranking.merit import LEAST, doubtful, greatest_mass
+from sweep.ranking.budget import greatest_mass
+from sweep.ranking.merit import LEAST, doubtful
 from sweep.ranking.places import places_by
 from sweep.report.tables.design_text import WAYS, design_labels
 

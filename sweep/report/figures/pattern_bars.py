@@ -1,4 +1,4 @@
-"""Which pattern: designs of several families side by side, as bars."""
+"""Bars of energy per gram, to compare patterns: one for each design, the best on top."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is drawn of a case: which shapes, with captions, and which energies."""
+"""Chooses what is drawn of a case: its shapes, with captions, and its energies."""
 
 from __future__ import annotations
 

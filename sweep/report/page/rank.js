@@ -1,4 +1,6 @@
 // Ranks designs as sweep/ranking/rank.py does: the same sums in the same order, so the same ties.
+// Other files of that folder are repeated too: budget.py (ROUND_OFF), places.py (markFront,
+// markPlaces) and requirements.py (which limits a scene has, and by how much a design misses them).
 
 const ROUND_OFF = 1e-9;
 

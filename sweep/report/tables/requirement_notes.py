@@ -1,4 +1,4 @@
-"""What was required of the designs, and how many fail which requirement, in sentences."""
+"""Sentences on what was required of the designs, and on how many of them fail each requirement."""
 
 from __future__ import annotations
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from pandas import Series
 
 from sweep.numbers import numerals, percent, tenths
-from sweep.ranking.merit import LEAST, greatest_mass
+from sweep.ranking.budget import greatest_mass
+from sweep.ranking.merit import LEAST
 from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.legend import (

@@ -29,7 +29,7 @@ from sweep.config.grid import Config, expand
 from sweep.config.lattice_table import Lattice
 from sweep.config.network import network_of
 from sweep.config.tables import Solver
-from sweep.design.extrusion import most_layers
+from sweep.design.upright_plan import most_layers
 from sweep.result import Status
 from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate

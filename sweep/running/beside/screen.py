@@ -23,7 +23,7 @@ from sweep.config.defaults.direction import is_along
 from sweep.config.lattice_table import Lattice
 from sweep.config.network import network_of
 from sweep.design.drawing import extent
-from sweep.design.extrusion import mirror_fault
+from sweep.design.upright_plan import mirror_fault
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.result import Status, design_columns

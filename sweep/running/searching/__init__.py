@@ -1,1 +1,5 @@
-"""The search for the best design: the space of designs, the search in it, its finalists."""
+"""The search for the best design.
+
+`design_space` has the designs as points of a unit cube, `search` chooses which of them to simulate,
+and `finalists` simulates the best ones again.
+"""

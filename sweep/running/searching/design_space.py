@@ -20,7 +20,7 @@ from sweep.config.grid import Config, Values, chosen_case
 from sweep.config.network import network_of
 from sweep.design.lattice import counted_area
 from sweep.design.panel import BEHIND, panel_of
-from sweep.ranking.merit import greatest_mass
+from sweep.ranking.budget import greatest_mass
 
 SIZES = ("lattice.wall_thickness", "lattice.mass", "lattice.infill")
 USED_UP = 1.05  # shares above 1 / USED_UP stand for the greatest value: the whole budget

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from sweep.config.case import Case, given
 from sweep.config.lattice_table import Lattice
 from sweep.config.network import network_of
-from sweep.design.extrusion import most_layers
+from sweep.design.upright_plan import most_layers
 from sweep.ranking.spread import FINE
 from sweep.running.beside.spread import Corner
 

@@ -5,8 +5,9 @@ wave across a wall, and k half waves up the height H, as near as k fits to squar
 
     bow = sign a sin(pi s / l) sin(k pi z / H),    k = H / mean l, rounded, at least 1
 
-with a of `lattice.imperfection` wall thicknesses and signs as of `design.extrusion.turns`. A seed
-draws every wall by itself instead, with standard normal numbers g from numpy's default generator,
+with a of `lattice.imperfection` wall thicknesses and the sign of `design.upright_plan.turns`. A
+seed draws every wall by itself instead, with standard normal numbers g from numpy's default
+generator,
 
     bow = a sin(pi s / l) sum_j g_j sin(j pi z / H) / (2 k)^(1/2),    j = 1 .. 2 k.
 """
@@ -14,7 +15,7 @@ draws every wall by itself instead, with standard normal numbers g from numpy's 
 import numpy as np
 
 from sweep.config.case import Lattice
-from sweep.design.extrusion import Plan
+from sweep.design.upright_plan import Plan
 from sweep.scene.mesh import Floats
 
 

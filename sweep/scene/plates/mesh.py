@@ -8,7 +8,7 @@ import numpy as np
 from sweep.config.case import Lattice, given
 from sweep.config.defaults.direction import quads_wanted
 from sweep.config.network import network_of
-from sweep.design.extrusion import Plan, plan_of, quads_along
+from sweep.design.upright_plan import Plan, plan_of, quads_along
 from sweep.scene.mesh import Floats, Ints
 from sweep.scene.plates.imperfection import amplitudes, bow
 

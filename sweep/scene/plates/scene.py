@@ -20,7 +20,7 @@ from sweep.scene.plates.contact import contact_of, mirror_of
 from sweep.scene.plates.coordinates import Numbering
 from sweep.scene.plates.law import law_of_sheet, shear_moduli
 from sweep.scene.plates.mesh import PlateMesh, build_mesh
-from sweep.scene.terms import friction_of, heavy, roles
+from sweep.scene.terms import driven_by, friction_of, heavy, roles
 
 NONE = np.empty(0, np.int64)
 
@@ -145,7 +145,7 @@ def _shell(mesh: PlateMesh, x_rest: Floats, case: Case) -> shell.Shell:
 
 def _layout(mesh: PlateMesh, numbering: Numbering, leader: Indices, case: Case) -> Layout:
     """Constraints, and the places of the unknowns: node by node, then the upper platen."""
-    driven = numbering.high if case.loading.mode == "displacement" else -1
+    driven = driven_by(case.loading, numbering)
     own, low = np.arange(leader.size), numbering.low
     free = (leader == own) & (own != driven)
     follows = (leader >= 0) & (leader != own)

@@ -1,17 +1,12 @@
-"""Compilation options, and a cache that is never stale and never trusted blindly."""
+"""Compilation options, and a cache that is never stale."""
 
 import math
-import os
-import shutil
-import time
 from concurrent.futures import ThreadPoolExecutor
 
 import numba
 import numpy as np
 import pytest
 
-from kernels.compile import cache as kept
-from kernels.compile.cache import fingerprint, open_cache, prune
 from kernels.compile.jit import jit, jit_exact
 from tests.support.kernels import packages
 
@@ -75,54 +70,6 @@ def test_first_calls_from_many_threads(cache):
         values = list(pool.map(kernel, np.arange(64.0)))
     assert values == list(np.arange(1.0, 65.0))
     assert len(kernel.entry.signatures) == 1
-
-
-def test_fingerprint_follows_every_source(package):
-    before = fingerprint(package)
-    assert fingerprint(package) == before
-
-    (package / "caller.py").rename(package / "renamed.py")
-    renamed = fingerprint(package)
-    (package / "callee.py").write_text("")
-    assert len({before, renamed, fingerprint(package)}) == 3
-
-
-def test_a_second_checkout_is_not_told_that_its_code_is_compiled(package):
-    copy = shutil.copytree(package, package.with_name("copy"))
-    assert fingerprint(copy) != fingerprint(package)
-
-
-def test_cache_folder_is_where_it_was_asked_for(package, monkeypatch, tmp_path):
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "xdg"))
-    monkeypatch.delenv("CRUMPLE_CACHE_DIR", raising=False)
-    assert open_cache(package).parent == tmp_path / "xdg" / "crumple"
-    monkeypatch.setenv("CRUMPLE_CACHE_DIR", str(tmp_path / "chosen"))
-    assert open_cache(package).parent == tmp_path / "chosen"
-
-
-def test_cache_folder_is_temporary_where_none_can_be_written(package, monkeypatch, tmp_path):
-    (tmp_path / "file").touch()
-    monkeypatch.setenv("CRUMPLE_CACHE_DIR", str(tmp_path / "file"))
-    folder = open_cache(package)
-    assert folder.is_dir()
-    assert tmp_path not in folder.parents
-    folder.rmdir()
-
-
-def test_prune_keeps_what_is_new_or_in_use(tmp_path):
-    ages = {f"kernels-{days:02d}": days for days in range(12)} | {"other": 99}
-    for name, days in ages.items():
-        (tmp_path / name).mkdir()
-        os.utime(tmp_path / name, (time.time() - 86400 * days - 60,) * 2)
-    prune(tmp_path)
-    stay = [f"kernels-{days:02d}" for days in range(kept.FOLDERS_KEPT)] + ["other"]
-    assert sorted(path.name for path in tmp_path.iterdir()) == stay
-
-    for number in range(kept.FOLDERS_KEPT):
-        (tmp_path / f"kernels-just-used-{number}").mkdir()
-    prune(tmp_path)
-    assert not (tmp_path / "kernels-07").exists()
-    assert (tmp_path / "kernels-06").exists()
 
 
 def test_exact_kernels_keep_every_rounding(cache):

@@ -10,7 +10,7 @@ from kernels.solve import arc_length, outcomes
 from sweep.config.case import Case, Contact, Lattice, Loading, Solver
 from sweep.config.grid import ConfigError, expand
 from sweep.config.units import load_config
-from sweep.scene.arcs import arc_of
+from sweep.scene.arc_length import arc_of
 from sweep.scene.custom import build_structure
 from sweep.simulation.simulate import simulate
 from tests.studies.validation.frames import LEE, TRUSS, followed, lee, truss_force

@@ -1,1 +1,1 @@
-"""Five hundred stiff and extreme scenes, each watched by a second model: `make stability`."""
+"""1,015 stiff and extreme scenes, each watched by a second model: `make stability`."""

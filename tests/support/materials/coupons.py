@@ -10,7 +10,7 @@ from sweep.coupon.record import Coupon
 from sweep.scene.material import law_in_stretch
 
 RATE = 0.05  # 1/s
-ROWS = 200  # of a branch
+ROWS = 200  # of a leg
 
 
 def ninjaflex(**memory):

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from sweep.coupon.branches import turns
 from sweep.coupon.curve import Loading, tension
+from sweep.coupon.legs import turns
 from sweep.coupon.record import Coupon
 from sweep.scene.material import stress_law
 from tests.support.materials.coupons import RATE, coupon, ninjaflex

@@ -3,8 +3,7 @@
 import pytest
 
 from sweep.ranking.assessment import assess, check_column, check_searched, front, thinned
-from sweep.ranking.merit import RankError
-from sweep.ranking.question import Question
+from sweep.ranking.question import Question, RankError
 from tests.support.results.specimens import designs, summary
 
 QUESTION = {"budget": None, "panel": None, "by": None, "allowed_force": None}

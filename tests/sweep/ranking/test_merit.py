@@ -104,34 +104,3 @@ def test_energy_counts_until_the_lattice_has_packed_down():
     assert ranking.energy == "absorbed_energy_until_packed_J"
     assert list(ranking.table["passed_on_N"]) == [25.0, 30.0]
     assert not ranking.table["beyond_model"].any()
-
-
-def test_budgets_count_what_is_extruded():
-    """0.3 J in 2.5 g as extruded, 0.1 J in 1 g without a slicer."""
-    table = summary(*designs([2.0], [0.3], printed_mass_g=2.5), *designs([1.0, 2.4], [0.1, 0.2]))
-    ranking = ranked(table, budget="2.4 g")
-    assert ranking.mass == "counted_mass_g"
-    assert ids(ranking.table) == [2, 1]
-    assert list(ranked(table).table["counted_mass_g"]) == [2.5, 1.0, 2.4]
-    (sheet,) = ranking_sheets(ranked(table), table)
-    at = sheet.heads.index("print g")
-    assert [row[at - 1 : at + 1] for row in sheet.rows] == [
-        ["2.00", "2.50"],
-        ["1.00", "–"],
-        ["2.40", "–"],
-    ]
-    assert any("print g: mass as the slicer extrudes it" in note for note in sheet.notes)
-    found = ranked(table, panel=(0.130, 0.050)).table.set_index("mass_g")
-    assert found.loc[2.0, "panel_mass_g"] == pytest.approx(50.0 * 2.5)
-    per_gram = found["specific_absorption_until_packed_J_per_g"]
-    assert per_gram[2.0] == pytest.approx(0.12)
-    assert per_gram[1.0] == pytest.approx(0.1)
-
-
-def test_without_a_slicer_nothing_is_said_of_extruding():
-    table = summary(*designs([1.0, 2.0], [0.1, 0.2]))
-    ranking = ranked(table)
-    (sheet,) = ranking_sheets(ranking, table)
-    assert ranking.mass == "mass_g"
-    assert "print g" not in sheet.heads
-    assert "counted_mass_g" not in ranking.table

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from sweep.ranking.rank import RankError, rank, ranked
+from sweep.ranking.question import RankError
+from sweep.ranking.rank import rank, ranked
 from sweep.ranking.requirements import MEASURES, Best, limits, measured
 from tests.support.results.specimens import designs, ids, summary
 

@@ -3,8 +3,7 @@
 import pandas as pd
 import pytest
 
-from sweep.ranking.merit import RankError
-from sweep.ranking.question import Question
+from sweep.ranking.question import Question, RankError
 from sweep.report.publish import publish_case, publish_ranking
 from sweep.report.tables.legend import LOADED, MARKS
 from tests.support.results.specimens import designs, summary, write

@@ -1,16 +1,14 @@
-"""Cases on Dask: every case once, longest first, whatever its neighbours do."""
+"""Cases on Dask: every case once, whatever its neighbours do."""
 
 import os
 import socket
 import threading
 import time
-from itertools import groupby
 
 import pytest
 
-from sweep.config.case import Case, Lattice, Material, Solver
 from sweep.result import Status
-from sweep.running.batches import Plan, cost
+from sweep.running.batches import Plan
 from sweep.running.dask_graph import GraphError, Stop, check_scheduler, run_plan
 from tests.support.results.standin import cases, number_of, simulate
 
@@ -32,10 +30,6 @@ def run_on_threads(batch, simulate, stop=None, workers=2):
     kept = Kept()
     run_plan(Plan(batch, workers), simulate, kept, stop or Stop())
     return kept
-
-
-def with_work(steps):
-    return Case(solver=Solver(time_step=0.2 / steps))
 
 
 def test_every_case_runs_once():
@@ -140,62 +134,6 @@ def test_each_case_has_its_own_control():
     kept = run_on_threads(cases(2), expire)
     assert seen[0] is not seen[1]
     assert len(kept.results) == 2
-
-
-def test_cost_counts_steps_and_nodes():
-    assert cost(with_work(2000)) == pytest.approx(10 * cost(with_work(200)))
-    fine = Case(lattice=Lattice(cells_x=6, cells_y=6))
-    assert 4 < cost(fine) / cost(Case()) < 16
-
-
-def test_shortest_case_first_then_the_longest():
-    plan = Plan([with_work(steps) for steps in (100, 400, 200, 800, 50)], workers=2)
-    (first,) = plan.take()
-    assert first == with_work(50)
-    plan.learn([first], 1.0)
-    order = [case for batch in iter(plan.take, []) for case in batch]
-    assert order == [with_work(steps) for steps in (800, 400, 200, 100)]
-
-
-def test_cases_of_a_lattice_follow_one_another():
-    """So that it is built once; those that take longer go first none the less."""
-    made = [
-        Case(
-            lattice=Lattice(width=0.01 * w, cells_x=n),
-            material=Material(modulus=1e6 * y, density=1e3),
-        )
-        for y in (1, 2, 3)
-        for w in (1, 2)
-        for n in (3, 4)
-    ]
-    plan = Plan(made, workers=2)
-    plan.take()
-    plan.learn(made[:1], 1.0)
-    order = [case.lattice for batch in iter(plan.take, []) for case in batch]
-    assert [lattice.cells_x for lattice in order] == [4] * 6 + [3] * 5
-    assert [len(list(run)) for _, run in groupby(order)] in ([3, 3, 3, 2], [3, 3, 2, 3])
-
-
-def test_batches_hold_about_a_second_and_shrink_towards_the_end():
-    plan = Plan(cases(1000), workers=2)
-    plan.learn(plan.take(), 0.02)
-    sizes = []
-    while batch := plan.take():
-        sizes.append(len(batch))
-        plan.learn(batch, 0.02 * len(batch))
-    assert sizes[:6] == [1, 2, 4, 8, 16, 32]  # no more than have told of the pace
-    assert 49 <= sizes[6] <= max(sizes) <= 50
-    assert sizes[-1] <= 5
-    assert sum(sizes) == 999
-
-
-def test_compiling_in_the_first_case_is_soon_forgotten():
-    plan = Plan(cases(1000), workers=2)
-    plan.learn(plan.take(), 30.0)
-    for _ in range(8):
-        batch = plan.take()
-        plan.learn(batch, 0.01 * len(batch))
-    assert 20 <= len(plan.take()) <= 100
 
 
 def poisonous(case, stop=None):

@@ -7,9 +7,11 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
+from kernels.solve import outcomes
 from sweep.columns import ABSORBED_AT, COLUMNS, HISTORY_COLUMNS
 from sweep.config.case import Case, Contact, Lattice, Loading, Solver
 from sweep.result import Status
+from sweep.simulation.failures import ADVICE, LOST, stopped
 from sweep.simulation.simulate import simulate
 from tests.support.designs.scenes import is_sound, pressed
 
@@ -137,3 +139,25 @@ def test_a_book_that_does_not_close_is_no_result():
     assert result.message.startswith(
         "work and energies do not balance at strain 0.2 after 10 steps;"
     )
+
+
+def test_every_end_of_the_solver_has_its_advice():
+    """But for those after which the march goes on, or calls the solver again."""
+    known = {value for name, value in vars(outcomes).items() if name.isupper()}
+    goes_on = {outcomes.CONVERGED, outcomes.OUTGROWN, outcomes.UNFINISHED}
+    assert {*ADVICE, outcomes.INTERRUPTED} == known - goes_on
+    for outcome in ADVICE:
+        status, message = stopped(LONG, outcome, "while loading, here", driven=True)
+        assert status == Status.STOPPED
+        assert message.startswith("stopped while loading, here: ")
+        assert "{" not in message
+
+
+def test_a_dead_load_that_buckles_needs_iterations_and_a_path_shorter_arcs():
+    few = "more solver.load_steps", "a larger solver.max_iterations"
+    for driven in (True, False):
+        _, message = stopped(LONG, outcomes.ITERATIONS, "there", driven)
+        assert message.endswith(f"Newton iterations; try {few[not driven]}")
+    solver = LONG.solver.model_copy(update={"integrator": "arc_length"})
+    path = LONG.model_copy(update={"solver": solver})
+    assert stopped(path, outcomes.ITERATIONS, "there", False)[1] == f"stopped there: {LOST}"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sweep.design.extrusion import plan_of
+from sweep.design.upright_plan import plan_of
 from sweep.scene.plates.coordinates import at_rest
 from sweep.scene.plates.mesh import build_mesh, extruded
 from sweep.scene.plates.scene import build_scene

@@ -6,7 +6,7 @@ import pytest
 from kernels.linear import minimum_degree
 from kernels.linear.supernodal.analysis import analyse
 from kernels.linear.supernodal.dissection import neighbours
-from kernels.linear.supernodal.elimination import columns
+from kernels.linear.supernodal.symbolic import columns
 from tests.support.kernels.supernodes import random_blocks
 from tests.support.kernels.wall_graph import folded, lattice_of_plates, near_pairs
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.linear.supernodal.dissection import SMALLEST, dissect, neighbours
-from kernels.linear.supernodal.elimination import columns
+from kernels.linear.supernodal.symbolic import columns
 from tests.support.kernels.supernodes import random_blocks
 from tests.support.kernels.wall_graph import lattice_of_plates
 

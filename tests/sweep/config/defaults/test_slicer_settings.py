@@ -6,7 +6,7 @@ import pytest
 
 from sweep.config.case import Case, Lattice
 from sweep.config.defaults.slicer_settings import slicer_settings
-from sweep.design.slicer_patterns import line_of
+from sweep.design.slicer.patterns import line_of
 
 LINE = line_of("prusa", 0.45e-3, 0.2e-3)
 BOX = {"width": 20e-3, "height": 20e-3}

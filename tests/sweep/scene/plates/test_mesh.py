@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case
-from sweep.design.extrusion import plan_of, quads_along
+from sweep.design.upright_plan import plan_of, quads_along
 from sweep.scene.plates.mesh import build_mesh, extruded
 from tests.support.designs.plates import BOX, FAMILIES, T, along, network
 

@@ -1,9 +1,9 @@
-"""Cases in which a relaxing material loses nothing are told."""
+"""A sweep warns of cases in which a relaxing material loses nothing."""
 
 import pytest
 
 from sweep.config.case import Case, Loading, Material
-from sweep.running.relaxation_times import loading_time, sentences_on_lossless
+from sweep.running.relaxation_warning import loading_time, sentences_on_lossless
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from tests.support.designs.cases import pressed

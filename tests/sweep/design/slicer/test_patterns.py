@@ -5,7 +5,7 @@ from math import sqrt
 import pytest
 
 from sweep.design.infill import families
-from sweep.design.slicer_patterns import NO_PRISMS, PATTERNS, SLICERS, Sliced, distance_of, line_of
+from sweep.design.slicer.patterns import NO_PRISMS, PATTERNS, SLICERS, Sliced, distance_of, line_of
 
 LINE = line_of("prusa", 0.45e-3, 0.2e-3)
 

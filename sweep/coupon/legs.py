@@ -1,4 +1,4 @@
-"""The branches of a test: first loading, unloading, reloading, and so on, between turns."""
+"""The legs of a test, from turn to turn of the strain: first loading, unloading, reloading, ..."""
 
 from itertools import pairwise
 
@@ -7,7 +7,7 @@ import numpy as np
 from sweep.coupon.record import Coupon, Floats
 
 TURN = 0.05  # of the greatest strain: smaller turns are noise
-POINTS = 80  # of the path of a branch
+POINTS = 80  # of the path of a leg
 NAMES = ("the first loading", "unloading", "reloading")
 
 
@@ -25,14 +25,14 @@ def turns(coupon: Coupon) -> list[int]:
     return [*found, extreme] if extreme > found[-1] else found
 
 
-def branch_name(rows: list[int], row: int) -> str:
-    """The branch to which a row belongs, in words."""
+def leg_name(rows: list[int], row: int) -> str:
+    """The leg to which a row belongs, in words."""
     passed = sum(row > turn for turn in rows[1:-1])
     return NAMES[passed] if passed < len(NAMES) else "a later cycle"
 
 
 def path(coupon: Coupon, rows: list[int]) -> tuple[Floats, Floats]:
-    """Times and strains of at most `POINTS` points of each branch; between its ends, means of the
+    """Times and strains of at most `POINTS` points of each leg; between its ends, means of the
     rows around them, so that noise of the strain is no cycle.
     """
     time, strain = [coupon.time[0]], [coupon.strain[0]]

@@ -1,11 +1,11 @@
-"""Branches of a test: turns of strain, the path through them, and the work of each."""
+"""Legs of a test: turns of strain, the path through them, and the work of each."""
 
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
-from sweep.coupon.branches import POINTS, branch_name, path, turns, work
+from sweep.coupon.legs import POINTS, leg_name, path, turns, work
 from sweep.coupon.record import Coupon
 from tests.support.materials.coupons import ROWS, coupon
 
@@ -42,9 +42,9 @@ def test_path_of_a_few_rows_is_all_of_them():
     assert time.tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]
 
 
-def test_branches_have_names():
+def test_legs_have_names():
     rows = [0, 10, 20, 30, 40]
-    names = [branch_name(rows, row) for row in (0, 10, 11, 30, 40)]
+    names = [leg_name(rows, row) for row in (0, 10, 11, 30, 40)]
     loading = "the first loading"
     assert names == [loading, loading, "unloading", "reloading", "a later cycle"]
 

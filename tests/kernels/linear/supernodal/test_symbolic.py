@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.linear.supernodal.dissection import neighbours
-from kernels.linear.supernodal.elimination import columns, supernodes
+from kernels.linear.supernodal.symbolic import columns, supernodes
 from tests.support.kernels.supernodes import random_blocks
 
 

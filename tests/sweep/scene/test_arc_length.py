@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Lattice, Solver
-from sweep.scene.arcs import arc_of, path_columns
+from sweep.scene.arc_length import arc_of, path_columns
 from sweep.scene.custom import build_structure
 from tests.support.designs.structures import BEAM, LENGTH, MATERIAL, MM, end_load, structure
 

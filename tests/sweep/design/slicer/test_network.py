@@ -9,8 +9,8 @@ from scipy.sparse.csgraph import connected_components
 
 from sweep.design.geometry import Geometry
 from sweep.design.lattice import build_network
-from sweep.design.slicer_network import extruded_area, infill, share_for
-from sweep.design.slicer_patterns import PATTERNS, Sliced, distance_of, line_of
+from sweep.design.slicer.network import extruded_area, infill, share_for
+from sweep.design.slicer.patterns import PATTERNS, Sliced, distance_of, line_of
 
 LINE = line_of("prusa", 0.45e-3, 0.2e-3)
 

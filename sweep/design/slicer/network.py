@@ -1,4 +1,4 @@
-"""The network that a slicer prints: its infill within a box of perimeters, and what is extruded.
+"""The network that a slicer prints: infill within a box of perimeters, and its extruded area.
 
 A joint of the pattern is in the middle of the box, or a cell of the honeycomb; slicers place the
 pattern otherwise. Joints nearer to one another than a line are one, and so are those between which
@@ -23,7 +23,7 @@ from sweep.design.drawing import (
 from sweep.design.geometry import Geometry
 from sweep.design.infill import drawer
 from sweep.design.network import Network
-from sweep.design.slicer_patterns import PATTERNS, Sliced, distance_of
+from sweep.design.slicer.patterns import PATTERNS, Sliced, distance_of
 
 LEAST_SHARE = 0.01  # of infill, tried for a mass
 CLOSE = 5e-3  # relative error allowed in a mass, where lines appear all at once

@@ -1,4 +1,4 @@
-"""The plan of walls that are pressed along their cells: how it is divided, how it bows and mirrors.
+"""The plan of upright walls, which are pressed along their cells: its quads, its bow, its quarter.
 
 Equal walls between joints of an even network, one whose closed ways all have an even number of
 walls, buckle so that all arms of a joint turn alike and those of neighbouring joints oppositely.

@@ -1,4 +1,4 @@
-"""Cases that last so short or so long that branches of relaxation do not lose energy in them."""
+"""Warns of cases in which a relaxing material loses no energy: they are too short or too long."""
 
 from collections.abc import Sequence
 

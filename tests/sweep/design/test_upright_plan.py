@@ -5,7 +5,10 @@ import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from sweep.design.extrusion import (
+from sweep.design.geometry import Geometry
+from sweep.design.infill import families, trait
+from sweep.design.lattice import build_network
+from sweep.design.upright_plan import (
     layers_of,
     lengths,
     mirror_fault,
@@ -13,9 +16,6 @@ from sweep.design.extrusion import (
     quads_along,
     turns,
 )
-from sweep.design.geometry import Geometry
-from sweep.design.infill import families, trait
-from sweep.design.lattice import build_network
 from tests.support.designs.plates import network
 
 EVEN = ("circle", "diamond", "hex", "reentrant", "square")  # bricks have five sides at the edges

@@ -1,4 +1,4 @@
-"""The data of the arc-length method, and the columns that it adds to a history."""
+"""The data of the arc-length method (`kernels.solve.arc_length`), and its columns of a history."""
 
 import numpy as np
 

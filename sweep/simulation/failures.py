@@ -1,0 +1,96 @@
+"""The status of a case that does not finish, and its sentence: what happened, and what to try.
+
+A converged case whose material breaks has a sentence too. Cases that end without a simulation, as
+their memory or their worker is lost, have theirs in `running.dask_graph`, which alone sees that.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from kernels.solve import outcomes
+from sweep.config.case import Case
+from sweep.config.defaults.direction import is_along
+from sweep.result import Status
+
+Failure = tuple[Status, str]
+
+SAFER = 'try smaller steps, damping or solver.integrator "backward_euler"'
+SAFER_ALONG = 'try smaller steps or solver.integrator "backward_euler"'  # there is no damping
+FINER = "try more solver.load_steps"
+SOUNDER = "try a smaller solver.tolerance, and look for values out of all proportion"
+ADVICE = {
+    outcomes.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {further}",
+    outcomes.STALLED: "the energy could not be lowered further; "
+    "try a looser solver.tolerance or smaller steps",
+    outcomes.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
+    outcomes.INACCURATE: "no step was short enough for solver.step_error; "
+    "try a larger one or {shorter}",
+    outcomes.UNBALANCED: f"work and energies do not balance; {SOUNDER}",
+    outcomes.UNRESOLVED: "the forces are too small, or the steps too short, for the motion to "
+    "exceed round-off; try larger steps or loads",
+    outcomes.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
+}
+LOST = "no equilibrium within the shortest arc; try a smaller solver.arc_length"
+
+
+def stopped(case: Case, outcome: int, where: str, driven: bool) -> Failure:
+    """The solver has ended with an ``outcome`` other than `outcomes.CONVERGED`.
+
+    where: stage, strain and number of steps, in words. driven: a platen or a support is moved.
+    """
+    if outcome == outcomes.INTERRUPTED:
+        return Status.STOPPED, f"interrupted {where}; run again to complete it"
+    advice = LOST if case.solver.integrator == "arc_length" else _advice(case, outcome, driven)
+    return Status.STOPPED, f"stopped {where}: {advice}"
+
+
+def _advice(case: Case, outcome: int, driven: bool) -> str:
+    """What happened in a step, and what to try."""
+    solver = case.solver
+    timed = solver.load_steps is None
+    shorter = "a smaller solver.time_step" if timed else "more solver.load_steps"
+    # A lattice that buckles under a dead load goes all the way at once, in however short a step.
+    buckles = not timed and not driven
+    further = "a larger solver.max_iterations" if buckles else shorter
+    return ADVICE[outcome].format(limit=solver.max_iterations, shorter=shorter, further=further)
+
+
+def timed_out(case: Case, where: str) -> Failure:
+    """The case has taken longer than `solver.time_limit`."""
+    limit = case.solver.time_limit
+    return Status.TIMED_OUT, f"solver.time_limit of {limit:g} s reached {where}; raise it"
+
+
+def energy_made(case: Case) -> Failure:
+    """The integrator has created energy."""
+    safer = SAFER_ALONG if is_along(case.loading) else SAFER
+    advice = FINER if case.loading.quasi_static else safer
+    return Status.STOPPED, f"the integrator made energy out of nothing; {advice}"
+
+
+def unbalanced(where: str) -> Failure:
+    """The energy book of a case that has finished does not balance."""
+    return Status.STOPPED, f"work and energies do not balance {where}; {SOUNDER}"
+
+
+def still_sinking(where: str) -> Failure:
+    """The striker of a case that has finished still moves down."""
+    return Status.STOPPED, f"the striker still sinks {where}; try a longer loading.duration"
+
+
+def broke(summary: Mapping[str, Any], case: Case) -> bool:
+    """Whether a fibre was stretched beyond the strain at which its material breaks."""
+    limit = case.material.fracture_strain
+    return limit is not None and summary["greatest_fibre_strain"] > limit
+
+
+def break_message(summary: Mapping[str, Any]) -> str:
+    """Where the specimen broke; a custom structure has no strain of its own."""
+    strain = summary["broke_at_strain"]
+    where = f"broke at a strain of {strain:.3g}:"
+    if np.isnan(strain):
+        greatest = summary["greatest_fibre_strain"]
+        where = f"a wall broke: the greatest strain of a fibre is {greatest:.3g},"
+    return f"{where} later rows are those of unbroken walls"

@@ -1,0 +1,73 @@
+"""Lattices that are refused: flat boxes, closed cells, too many nodes, and what has no period."""
+
+import re
+
+import pytest
+from pydantic import ValidationError
+
+from sweep.config.case import Case, Lattice
+
+UNFIT = {
+    '[lattice]\nwall_thickness = "2.5 mm"': (
+        'lattice.wall_thickness = "2.5 mm": does not fit; allowed: below half the width of'
+        " the narrowest cell, 2.083 mm here"
+    ),
+    "[lattice]\ncells = 20": (
+        "lattice.wall_thickness = 0.0008 m by default: does not fit; allowed: below half the"
+        " width of the narrowest cell, 0.0003125 m here"
+    ),
+    '[lattice]\ncells = 300\nwidth = "3 m"\nheight = "3 m"': (
+        "lattice.cells = 300: does not fit; allowed: at most 50,000 nodes in all, 451,801 here"
+    ),
+    "[lattice]\ncells_y = 4\nnodes_per_wall = 999\ncells_x = 6": (
+        "lattice.nodes_per_wall = 999: does not fit; allowed: at most 50,000 nodes in all,"
+        " 57,977 here"
+    ),
+    '[lattice]\nwidth = "40 mm"\nheight = "0.01 mm"': (
+        'lattice.width = "40 mm": does not fit; allowed: from 1e-05 mm to 10 mm, a thousandth to'
+        " a thousand times the height"
+    ),
+    '[lattice]\nheight = "30 m"': (
+        'lattice.height = "30 m": does not fit; allowed: from 1.25e-05 m to 12.5 m, a thousandth'
+        " to a thousand times the width"
+    ),
+}
+
+
+@pytest.mark.parametrize("text", UNFIT)
+def test_what_does_not_fit_is_one_line(lines, text):
+    assert lines(text) == [UNFIT[text]]
+
+
+def test_of_a_lattice_that_is_refused_no_mass_is_told(lines):
+    (line,) = lines('[lattice]\ncells = 6\nnodes_per_wall = 999\nmass = "9 g"')
+    assert line.startswith("lattice.nodes_per_wall = 999: does not fit; allowed: at most 50,000")
+
+
+ENDLESS = [
+    ({"grading": 2.0}, "lattice.grading = 2.0; allowed: 1"),
+    ({"perimeters": 1}, "lattice.perimeters = 1; allowed: 0"),
+    ({"solid_layers": 2}, "lattice.solid_layers = 2; allowed: 0"),
+    ({"infill": 0.2}, "lattice.infill = 0.2; allowed: none"),
+    ({"kind": "hex"}, "lattice.cells_y = 3; allowed: an even number"),
+    ({"kind": "hex", "orientation": "flat"}, "lattice.cells_x = 3; allowed: an even number"),
+]
+
+
+@pytest.mark.parametrize(("lattice", "words"), ENDLESS)
+def test_what_has_no_endless_lattice_is_refused(lattice, words):
+    with pytest.raises(ValidationError, match=re.escape(words)):
+        Case(lattice={"boundary": "periodic"} | lattice, loading={"strain": 0.5})
+
+
+def test_a_structure_of_ones_own_is_not_repeated(tmp_path):
+    (tmp_path / "bar.json").write_text('{"nodes_mm": [[0, 0], [10, 0]], "walls": [[0, 1]]}')
+    words = 'lattice.boundary = periodic; allowed: "free"'
+    with pytest.raises(ValidationError, match=re.escape(words)):
+        Lattice(kind="custom", file=str(tmp_path / "bar.json"), boundary="periodic")
+
+
+def test_a_slicer_prints_no_endless_lattice():
+    printed = {"slicer": "prusa", "pattern": "grid", "infill": 0.2}
+    with pytest.raises(ValidationError, match=re.escape('"free" if lattice.slicer is given')):
+        Lattice(width=20e-3, height=20e-3, boundary="periodic", **printed)

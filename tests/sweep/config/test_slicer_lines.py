@@ -1,0 +1,164 @@
+"""The table `lattice` with a slicer: what follows from its lines, and what it does not print."""
+
+import math
+
+import pytest
+from pydantic import ValidationError
+
+from sweep.config.case import Case, Lattice
+from sweep.config.grid import expand
+from sweep.design.slicer.network import extruded_area
+
+SLICED = '[lattice]\nwidth = "20 mm"\nheight = "20 mm"\nslicer = "prusa"\n'
+GRID = f'{SLICED}pattern = "grid"\n'
+
+
+def sliced(**lattice):
+    usual = {"slicer": "prusa", "pattern": "grid", "width": 20e-3, "height": 20e-3}
+    return Lattice(**usual | {"infill": 0.2} | lattice)
+
+
+def test_a_slicer_fills_in_its_own_defaults():
+    """Lines of 1.125 nozzles, at 45 degrees; Cura's are as wide as the nozzle, and are w apart."""
+    found = sliced()
+    assert found.line_width == pytest.approx(0.45e-3)
+    assert (found.layer_height, found.perimeters) == (0.2e-3, 2)
+    assert found.fill_angle == pytest.approx(math.pi / 4.0)
+    assert found.wall_thickness == found.line == pytest.approx(0.407e-3, abs=0.5e-6)
+    assert found.fill_distance == pytest.approx(2.0 * found.line / 0.2)
+    assert found.outline == (2 * found.line,) * 2
+    assert found.geometry.sliced.inset == pytest.approx((1.0 - 0.25) * found.line)
+    assert sliced(nozzle=0.6e-3).line_width == pytest.approx(0.675e-3)
+    cura = sliced(slicer="cura")
+    assert cura.wall_thickness == cura.line == cura.line_width == 0.4e-3
+    assert cura.fill_distance == pytest.approx(2.0 * 0.4e-3 / 0.2)
+
+
+def test_walls_of_a_printed_honeycomb_are_four_thirds_of_a_line():
+    found = sliced(pattern="honeycomb")
+    assert found.wall_thickness == pytest.approx(4.0 * found.line / 3.0)
+    assert found.fill_distance == pytest.approx(2.0 * found.line / 0.2)
+
+
+def test_names_of_keys_and_patterns_are_the_slicers(load):
+    (case,) = expand(
+        load(
+            '[lattice]\nslicer = "orca"\npattern = "tri-hexagon"\ninfill = "15 %"\n'
+            'extrusion_width = "0.42 mm"\nfill_angle = "30 deg"\nwidth = "25 mm"\nheight = "25 mm"'
+        )
+    )
+    assert case.lattice.line_width == 0.42e-3
+    assert math.degrees(case.lattice.fill_angle) == pytest.approx(30.0)
+    assert case.lattice.geometry.sliced.pattern == "stars"
+
+
+def test_what_is_printed_tells_designs_apart():
+    ids = {
+        Case(lattice=sliced(**lattice)).case_id
+        for lattice in (
+            *({}, {"infill": 0.21}, {"fill_angle": 0.5}, {"slicer": "cura"}, {"perimeters": 3}),
+            *({"pattern": "stars"}, {"layer_height": 0.15e-3}),
+        )
+    }
+    assert len(ids) == 7
+    labelled = sliced(nozzle=0.5e-3, line_width=0.45e-3, printable=True)
+    assert Case(lattice=labelled).case_id == Case(lattice=sliced(line_width=0.45e-3)).case_id
+
+
+@pytest.mark.parametrize("pattern", ["grid", "triangles", "stars", "honeycomb"])
+def test_a_mass_is_that_which_is_extruded(pattern):
+    """At any density of the material."""
+    case = Case(lattice=sliced(pattern=pattern, mass=2.1e-3, infill=None))
+    grams = case.material.density * case.lattice.depth * extruded_area(case.lattice.geometry)
+    assert grams == pytest.approx(2.1e-3, rel=1e-9)
+    again = Case(lattice=sliced(pattern=pattern, infill=case.lattice.infill))
+    assert again.case_id == case.case_id
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        (SLICED + 'infill = "20 %"', "lattice.pattern is missing; needed: "),
+        (GRID, 'lattice.infill is missing; needed: a share such as "20 %", or a lattice.mass'),
+        (
+            SLICED + 'infill = "20 %"\npattern = "gyroid"',
+            'lattice.pattern = "gyroid": does not fit; allowed: "grid", "triangles", "stars",'
+            ' "honeycomb", "alignedrectilinear"; gyroid is no prism, as its walls wander from layer'
+            " to layer: the nearest is honeycomb",
+        ),
+        (
+            GRID.replace("prusa", "cura").replace("grid", "gyroid") + 'infill = "20 %"',
+            'lattice.pattern = "gyroid": does not fit; allowed: "grid", "triangles", "trihexagon";'
+            " gyroid is no prism, as its walls wander from layer to layer: the nearest is grid",
+        ),
+        (
+            SLICED + 'infill = "20 %"\npattern = "stripes"',
+            'lattice.pattern = "stripes": does not fit; allowed: "grid", "triangles", "stars",'
+            ' "honeycomb", "alignedrectilinear"',
+        ),
+        (
+            GRID + 'infill = "20 %"\nkind = "hex"',
+            'lattice.kind = "hex": does not fit; allowed: none, as lattice.slicer is given and'
+            " lattice.pattern is grid",
+        ),
+        (
+            GRID + 'infill = "20 %"\nwall_thickness = "0.8 mm"',
+            'lattice.wall_thickness = "0.8 mm": does not fit; allowed: 0.4071 mm, as lattice.slicer'
+            " is given",
+        ),
+        (
+            GRID + 'infill = "20 %"\nperimeters = 0',
+            "lattice.perimeters = 0: does not fit; allowed: 1 to 23, as lattice.slicer is given:"
+            " perimeters hold the infill",
+        ),
+        (
+            GRID + 'infill = "20 %"\nlayer_height = "0.5 mm"',
+            'lattice.layer_height = "0.5 mm": does not fit; allowed: at most the line width,'
+            " 0.45 mm",
+        ),
+        (
+            SLICED + 'pattern = "stars"\ninfill = "60 %"',
+            'lattice.infill = "60 %": does not fit; allowed: a share that leaves cells at least'
+            " twice as wide as their walls",
+        ),
+        (
+            GRID + 'mass = "1 g"',
+            'lattice.mass = "1 g": does not fit; allowed: between 1.249 g and 6.301 g as',
+        ),
+        (
+            GRID + 'mass = "2 g"\ninfill = "20 %"',
+            'lattice.mass = "2 g": does not fit; allowed: none where lattice.infill is given',
+        ),
+        (
+            GRID + 'infill = "20 %"\ncells = 3',
+            "lattice.cells = 3: does not fit; allowed: 5, as lattice.slicer is given",
+        ),
+        (
+            '[lattice]\npattern = "grid"',
+            'lattice.pattern = "grid": has no effect, as lattice.slicer is not given',
+        ),
+    ],
+)
+def test_what_is_asked_of_a_slicer_must_go_together(lines, text, line):
+    assert lines(text)[0].startswith(line)
+
+
+def test_lines_side_by_side_are_as_many_times_farther_apart():
+    """OrcaSlicer keeps the share: m lines are m s thick, at m times the distance."""
+    one, three = (sliced(slicer="orca", fill_multiline=lines, infill=0.2) for lines in (1, 3))
+    assert three.wall_thickness == pytest.approx(3.0 * one.wall_thickness)
+    assert three.fill_distance == pytest.approx(3.0 * one.fill_distance)
+    assert three.outline == one.outline
+    areas = [lattice.geometry.sliced.share for lattice in (one, three)]
+    assert areas == pytest.approx([0.2, 0.2])
+    assert Case(lattice=one).case_id == Case(lattice=sliced(slicer="orca", infill=0.2)).case_id
+
+
+@pytest.mark.parametrize(
+    "wish", [{"slicer": "prusa"}, {"slicer": "cura"}, {"slicer": "orca", "pattern": "honeycomb"}]
+)
+def test_several_lines_are_of_orca_and_of_patterns_with_a_known_relation(wish):
+    with pytest.raises(ValidationError, match=r"fill_multiline|1; more with lattice.slicer"):
+        sliced(**{"pattern": "grid", "infill": 0.2, "fill_multiline": 2} | wish)
+    with pytest.raises(ValidationError, match=r"1 without lattice.slicer"):
+        Lattice(fill_multiline=2)
