@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from sweep.config.case import Case
 
 
-MODEL_VERSION = 7
+MODEL_VERSION = 8
 """Version of the model: raised by every change of the numbers that a case gives."""
 
 HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones again"

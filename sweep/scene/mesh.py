@@ -46,6 +46,15 @@ class Mesh:
         return np.column_stack([at_end, self.edges[at_end, 1], at_end + 1])
 
     @cached_property
+    def stubs(self) -> NDArray[np.bool_]:
+        """Elements that are all that solid joints leave of a wall, and too short for a beam, (m,).
+
+        Their fibres would be bent far beyond a radius of half the thickness.
+        """
+        jointed = np.isin(self.wall, self.wall[self.joint >= 0])
+        return jointed & (self.joint < 0) & (self.rest_length < SHORTEST * self.thickness)
+
+    @cached_property
     def direction(self) -> Floats:
         """Direction of every element, (m, 2)."""
         along = self.points[self.edges[:, 1]] - self.points[self.edges[:, 0]]

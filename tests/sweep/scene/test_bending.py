@@ -4,11 +4,14 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case, Lattice, Loading, Material, Solver
+from sweep.result import Status
 from sweep.scene.lattice import build_scene
+from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
 from tests.support.kernels.solving import whole
 
 DEPTH, THICKNESS, WALL = 12e-3, 0.8e-3, 12.5e-3 / 3
+LOOSE = Loading(mode="displacement", strain=0.6, platen="contact", unload=False)
 RIGIDITY = MATERIAL.modulus * DEPTH * THICKNESS**3 / 12
 
 
@@ -97,3 +100,28 @@ def test_walls_are_chains_from_joint_to_joint(elements, imperfection):
     assert np.any(np.ptp(walls.rest.reshape(24, -1, 2), axis=1) > 1e-3) == (
         imperfection > 0.0 and elements > 1
     )
+
+
+def test_what_full_joints_leave_of_a_wall_bends_linearly():
+    """Circles of 2 g: their joints overlap, and the stubs between them are no beams."""
+    lattice = Lattice(kind="circle", width=20e-3, height=20e-3, mass=2e-3)
+    case = Case(lattice=lattice, material=Material(), loading=LOOSE)
+    scene = build_scene(case)
+    bent = scene.terms.bend.volume > 0.0
+    stubs, short = scene.mesh.stubs, scene.mesh.rest_length < 0.5 * scene.mesh.thickness
+    assert stubs.any() and bent.any()
+    np.testing.assert_array_equal(bent, ~short & (scene.mesh.joint < 0))
+    np.testing.assert_array_equal(stubs, short & (scene.mesh.joint < 0))
+
+
+def test_such_a_lattice_reaches_the_end_of_its_crush():
+    """Its stubs once bent as if they had fibres, by many radians."""
+    lattice = Lattice(kind="circle", width=20e-3, height=20e-3, mass=2e-3)
+    result = simulate(Case(lattice=lattice, material=Material(), loading=LOOSE))
+    assert result.status == Status.CONVERGED
+
+
+def test_short_elements_of_a_fine_mesh_are_no_stubs():
+    fine = scene_of(24, solver=Solver(joints="points")).mesh
+    assert np.all(fine.rest_length < 0.5 * fine.thickness)
+    assert not fine.stubs.any()
