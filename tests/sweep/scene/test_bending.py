@@ -109,7 +109,8 @@ def test_what_full_joints_leave_of_a_wall_bends_linearly():
     scene = build_scene(case)
     bent = scene.terms.bend.volume > 0.0
     stubs, short = scene.mesh.stubs, scene.mesh.rest_length < 0.5 * scene.mesh.thickness
-    assert stubs.any() and bent.any()
+    assert stubs.any()
+    assert bent.any()
     np.testing.assert_array_equal(bent, ~short & (scene.mesh.joint < 0))
     np.testing.assert_array_equal(stubs, short & (scene.mesh.joint < 0))
 
