@@ -4,6 +4,7 @@ import json
 import subprocess
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
+from functools import cache
 from pathlib import Path
 from platform import platform, python_version
 from typing import Any
@@ -59,8 +60,12 @@ def _searched(axes: Mapping[str, Interval | Choice]) -> dict[str, Any]:
     }
 
 
+@cache
 def git_revision() -> str:
-    """Commit of the source tree, with "-dirty" if files differ from it; "unknown" if installed."""
+    """Commit of the source tree, with "-dirty" if files differ from it; "unknown" if installed.
+
+    It is asked for once, as later changes are not those of the modules that are loaded.
+    """
     root = Path(__file__).parents[2]
     if not (root / ".git").exists():  # installed; a parent folder may be another repository
         return "unknown"
