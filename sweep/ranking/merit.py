@@ -44,6 +44,7 @@ AT_DENSIFICATION = (
     "specific_absorption_at_densification_J_per_g",
 )
 AT_ALLOWED = "absorbed_energy_at_allowed_J"
+SEVEN_DIGITS = 1e-6  # relative round-off of `AT_ALLOWED`, as stored curves have single precision
 
 
 class Compared(NamedTuple):
@@ -75,7 +76,8 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
     per_gram = f"{energy}_per_g".replace("absorbed_energy", "specific_absorption")
     mass, grams = counted_mass(finished)
     limited = question.allowed_force is not None
-    within = finished["absorbed_energy_within_model_J"] * (1.0 + ROUND_OFF)
+    round_off = SEVEN_DIGITS if energy == AT_ALLOWED else ROUND_OFF
+    within = finished["absorbed_energy_within_model_J"] * (1.0 + round_off)
     added = {
         mass: grams,
         per_gram: finished[energy] / grams,

@@ -13,6 +13,7 @@ from pydantic_core import PydanticCustomError
 
 from sweep.config.defaults.direction import check_platen, height_pressed, is_along, turned
 from sweep.config.defaults.drop_tests import Drop, drop_of
+from sweep.config.defaults.elements import with_elements
 from sweep.config.defaults.printable import check_printable
 from sweep.config.defaults.solver_defaults import (
     ARCS,
@@ -50,6 +51,8 @@ def resolve(
             found["lattice"] = sized(found["lattice"], found["material"].density)
             check_printable(found["lattice"])
         found |= turned(found, sound)
+        if not is_along(found["loading"]):
+            found["lattice"] = with_elements(found["lattice"])
         material = found["material"]
         settled = _settled(
             (material.relaxes, material.remembers),

@@ -16,7 +16,7 @@ from sweep.running.beside.error_bars import companions
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_history, read_summary
 from tests.studies.mesh.certainty import covered
-from tests.studies.mesh.crushes import USUAL, cases_of, compare, without_contact
+from tests.studies.mesh.crushes import cases_of, compare, usual, without_contact
 from tests.studies.mesh.orders import by_order, finer
 from tests.studies.mesh.tables import by_column, by_design, by_group
 from tests.studies.rankings.orders import cases_of as cases_of_sweeps
@@ -29,8 +29,8 @@ def main(folder):
     folder.mkdir(parents=True, exist_ok=True)
     file, cases = folder / "mesh.h5", cases_of()
     bending = without_contact(cases)
-    usual = [case for (_, n), case in cases.items() if n == USUAL]
-    others = [companion.case for case in usual for companion in companions(case)]
+    ranked = [case for (design, n), case in cases.items() if n == usual(design)]
+    others = [companion.case for case in ranked for companion in companions(case)]
     crushes = [*cases.values(), *bending.values()]
     shipped = cases_of_sweeps(CONFIGS)
     fine = {name: [finer(case) for case in group] for name, group in shipped.items()}

@@ -1,19 +1,19 @@
-"""Error bars and ties of the usual mesh beside the errors and the order of the finest one."""
+"""Error bars and ties of the default mesh beside the errors and the order of the finest one."""
 
 import numpy as np
 import pandas as pd
 
 from sweep.running.beside.error_bars import companions, error_bars
-from tests.studies.mesh.crushes import USUAL, work
+from tests.studies.mesh.crushes import usual, work
 from tests.studies.rankings.bars import beside_finer, coverage
 
 
 def covered(cases, rows):
-    """How many error bars of the usual mesh cover the error, by column: the sheet of `bars`.
+    """How many error bars of the default mesh cover the error, by column: the sheet of `bars`.
 
     The notes tell what the bars cost, and whether the designs that are no ties are in order.
     """
-    designs = {design: case for (design, n), case in cases.items() if n == USUAL}
+    designs = {design: case for (design, n), case in cases.items() if n == usual(design)}
     known = dict(zip(rows.index, rows.to_dict("records"), strict=True))
     bars = {case.case_id: error_bars(case, known) for case in designs.values()}
     finest = max(n for _, n in cases)

@@ -5,14 +5,15 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
-from sweep.config.case import Case, Contact, Lattice
+from sweep.config.case import Case, Contact
+from sweep.config.defaults.elements import NODES
 from sweep.design.lattice import build_network
 from sweep.result import Status
 from tests.studies.rankings.spread import ALLOWED, CELLS, crush
 
 MESHES = (1, 2, 3, 4, 6, 8)  # elements of a wall
 FINEST = (12, 24)
-USUAL = Lattice().nodes_per_wall + 1
+BASE = 3  # elements of a wall, to whose cost that of others is compared
 MASSES = (0.6e-3, 1.2e-3, 2.0e-3)  # kg: about 0.1, 0.2 and 0.35 of a solid block
 DESIGNS = tuple(product(CELLS, product(("glued", "contact"), MASSES)))
 COLUMNS = {
@@ -28,7 +29,12 @@ NAMES = {"glued": "glued", "contact": "loose"}
 DESIGN = ["infill", "platens", "g"]
 
 
-def cases_of(designs=DESIGNS, meshes=(*MESHES, USUAL, *FINEST)):
+def usual(design):
+    """Elements of a wall of a design by default."""
+    return NODES[design[0]] + 1
+
+
+def cases_of(designs=DESIGNS, meshes=(*MESHES, *FINEST)):
     """The crush of every design, as those of `spread`, on every mesh."""
     sizes = product(designs, meshes)
     return {(design, n): crush(design, n, imperfection=0.01, steps=200) for design, n in sizes}
@@ -73,7 +79,8 @@ def compare(cases, rows, curves):
 
     rows: the summary by case id; curves: case id -> (strain, work). `parted`: the strain at which
     the crush leaves the path of the finest mesh; `branches`: where the finest but one does, 0 if
-    one of both failed; `work`: Newton iterations x elements. Other columns: relative errors.
+    one of both failed; `default`: whether the mesh is the default of its infill; `work`: Newton
+    iterations x elements. Other columns: relative errors.
     """
     *_, fine, finest = sorted({n for _, n in cases})
     found = []
@@ -85,7 +92,7 @@ def compare(cases, rows, curves):
         kind, (platen, mass) = design
         found.append(
             {"infill": kind, "platens": NAMES[platen], "g": 1e3 * mass, "elements": n}
-            | {"l/t": slenderness(case), "failed": failed[0]}
+            | {"l/t": slenderness(case), "failed": failed[0], "default": n == usual(design)}
             | {"work": work(case, rows), "cpu": row["cpu_s"]}
             | {"parted": parted(path, true_path)}
             | {"branches": 0.0 if any(failed[1:]) else parted(curves[ids[1]], true_path)}

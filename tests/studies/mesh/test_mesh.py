@@ -10,26 +10,26 @@ from tests.studies.mesh.certainty import covered, order
 from tests.studies.mesh.crushes import (
     COLUMNS,
     DESIGNS,
-    USUAL,
     cases_of,
     compare,
     parted,
     slenderness,
+    usual,
     without_contact,
 )
 from tests.studies.mesh.tables import by_column, by_design, by_group, verdict
 
 FEW = [("square", ("glued", 1.2e-3)), ("hex", ("contact", 1.2e-3))]
-COARSE, FINE, FINEST = 1, 6, 8
+COARSE, THREE, FINE, FINEST = 1, 3, 6, 8
 STRAIN = np.linspace(0.0, 0.6, 61)
 
 
 @pytest.fixture(scope="module")
 def piece():
     """Two designs on three meshes and the usual one: cases, summary by id, curves by id."""
-    cases = cases_of(FEW, sorted({COARSE, USUAL, FINE, FINEST}))
-    usual = [case for (_, n), case in cases.items() if n == USUAL]
-    others = [companion.case for case in usual for companion in companions(case)]
+    cases = cases_of(FEW, (COARSE, THREE, FINE, FINEST))
+    ranked = [case for (design, n), case in cases.items() if n == usual(design)]
+    others = [companion.case for case in ranked for companion in companions(case)]
     results = {case.case_id: simulate(case) for case in (*cases.values(), *others)}
     rows = pd.DataFrame({key: result.summary for key, result in results.items()}).T
     rows["status"] = [str(result.status) for result in results.values()]
@@ -69,10 +69,12 @@ def test_cheapest_mesh_has_small_errors_in_the_middle_and_in_nine_of_ten():
 
     good, wide = errors(0.0, 0.009, 0.019), errors(0.0, 0.0, 0.04)
     off = errors(0.0, 0.012, 0.013)
-    assert verdict({2: wide, 3: off, 4: good, 6: good}).endswith("every column: 4 elements a wall.")
-    assert verdict({2: wide, 3: off}).startswith("No mesh")
+    several = verdict({2: wide, 3: off, 4: good, 6: good}, good)
+    assert several.endswith("every column: 4 elements a wall; so is the default.")
+    assert verdict({2: wide, 3: off}, off).startswith("No mesh")
+    assert verdict({2: good}, off).endswith("; the default is not.")
     one_bad = good.assign(packing_strain=0.03)
-    assert verdict({2: one_bad}).startswith("No mesh")
+    assert verdict({2: one_bad}, good).startswith("No mesh")
 
 
 def test_a_piece_of_the_study(piece):
@@ -88,9 +90,10 @@ def test_a_piece_of_the_study(piece):
         assert 0.0 < worst[infill, FINE] < 0.01 < worst[infill, COARSE] < 0.5
     sheets = by_column(found), by_group(found), by_design(found)
     assert [len(sheet.rows[0]) for sheet in sheets] == [len(sheet.heads) for sheet in sheets]
-    assert sheets[0].notes[-1] == "The cheapest mesh with 1 / 2 % in every column: " + (
-        f"{min(n for n in (COARSE, USUAL, FINE) if cheap(found, n))} elements a wall."
-    )
+    least = min(n for n in (COARSE, THREE, FINE) if cheap(found, n))
+    default = "so is the default" if cheap(found, THREE) else "the default is not"
+    expected = f"Within 1 / 2 % in every column: {least} elements a wall; {default}."
+    assert sheets[0].notes[-1] == expected
 
 
 def cheap(found, n):
@@ -122,7 +125,7 @@ def test_wrong_orders_and_ties_are_counted_in_pairs():
     assert list(order(values, 0.0 * corrections, limits)) == [6, 1, 0, 0]
 
 
-def test_error_bars_of_the_usual_mesh_are_measured_and_cheap(piece):
+def test_error_bars_of_the_default_mesh_are_measured_and_cheap(piece):
     cases, rows, _ = piece
     sheet = covered(cases, rows)
     assert sheet.rows[0][:2] == ["crushed", "all"]

@@ -40,6 +40,17 @@ def test_any_force_of_a_specimen_can_be_ranked_by(file):
         rank(read_summary(file), allowed_force="24 N")
 
 
+def test_round_off_of_stored_curves_is_no_doubt(file):
+    """What is absorbed up to a force that is never reached is all that was absorbed."""
+    before = read_summary(file).head(3)
+    whole = with_allowed(file, before, Question(allowed_force=1e3))[AT_ALLOWED]
+    barely = before.assign(absorbed_energy_within_model_J=whole * (1.0 - 1e-7))
+    less = before.assign(absorbed_energy_within_model_J=whole * (1.0 - 1e-4))
+    for table, doubted in ((barely, False), (less, True)):
+        added = with_allowed(file, table, Question(allowed_force=1e3))
+        assert list(rank(added, allowed_force="1 kN")["beyond_model"]) == [doubted] * 3
+
+
 def test_each_design_bears_its_share_of_the_force_of_the_panel(file):
     """1200 N: 24 N of each of 50 specimens, 48 N of each of 25."""
     table = rank(file, panel=PANEL, allowed_force="1.2 kN", per="panel", by="mass_g")
@@ -62,7 +73,7 @@ def test_stroke_and_force_of_a_panel_are_required_together(file):
     assert ids(rank(file, **asked, require={"min_absorbed": "2.3 J"})) == [1]
 
 
-def test_curves_are_left_alone_where_the_summary_has_the_answer(file):
+def test_curves_are_left_alone_where_the_beforehas_the_answer(file):
     table = read_summary(file)
     assert with_allowed("nowhere.h5", table, Question(require={"max_stroke": 1e-3})) is table
     assert with_allowed("nowhere.h5", table, Question(per="panel", panel=PANEL)) is table
