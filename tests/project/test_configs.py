@@ -81,7 +81,7 @@ def infills():
 
 
 @pytest.mark.parametrize(
-    ("design", "energy"), [(("hex", "flat", 0), 161.4), (("diamond", None, 0), 110.84)]
+    ("design", "energy"), [(("hex", "flat", 0), 161.4), (("diamond", None, 0), 111.43)]
 )
 def test_infills_hold_their_numbers(design, energy):
     result = simulate(infills()[design])
@@ -147,9 +147,9 @@ def test_drop_holds_its_numbers():
     assert summary["status"] == "converged"
     assert summary["impact_energy_J"] == pytest.approx(15e-3 * 9.80665 * 0.5)
     assert abs(summary["energy_residual_J"]) < 1e-6 * summary["impact_energy_J"]
-    assert summary["peak_force_N"] == pytest.approx(8.832, rel=2e-3)
+    assert summary["peak_force_N"] == pytest.approx(8.810, rel=2e-3)
     filtered = "peak_deceleration_filtered_m_per_s2"
-    assert summary[filtered] / 9.80665 == pytest.approx(76.77, rel=2e-3)
+    assert summary[filtered] / 9.80665 == pytest.approx(76.23, rel=2e-3)
     stiff = simulate(found["square", 3, 0.8e-3]).summary
     assert stiff[filtered] > 5.0 * summary[filtered]
 

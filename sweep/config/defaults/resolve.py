@@ -51,7 +51,7 @@ def resolve(
             found["lattice"] = sized(found["lattice"], found["material"].density)
             check_printable(found["lattice"])
         found |= turned(found, sound)
-        if not is_along(found["loading"]):
+        if sound and not is_along(found["loading"]):
             found["lattice"] = with_elements(found["lattice"])
         material = found["material"]
         settled = _settled(

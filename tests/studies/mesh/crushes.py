@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from sweep.config.case import Case, Contact
-from sweep.config.defaults.elements import NODES
+from sweep.config.defaults.elements import nodes_of
 from sweep.design.lattice import build_network
 from sweep.result import Status
 from tests.studies.rankings.spread import ALLOWED, CELLS, crush
@@ -31,7 +31,7 @@ DESIGN = ["infill", "platens", "g"]
 
 def usual(design):
     """Elements of a wall of a design by default."""
-    return NODES[design[0]] + 1
+    return nodes_of(design[0]) + 1
 
 
 def cases_of(designs=DESIGNS, meshes=(*MESHES, *FINEST)):
