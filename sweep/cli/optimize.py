@@ -133,12 +133,15 @@ def _show_best(search: Search) -> int:
     from sweep.running.beside.run_beside import file_beside
     from sweep.running.beside.spread import run_corners
     from sweep.running.searching.finalists import finalists, perturbed
+    from sweep.running.searching.search import MOST_TRIED
     from sweep.store.read import read_summary
 
     found, question = search.found, search.question
     if not search.cases:
-        budget = f" within {question.budgets[0]}" if question.budget else ""
-        raise OptimizeError(f"no design of [search] exists{budget}; allowed: a wider search")
+        budget = f" of at most {question.budgets[0]}" if question.budget else ""
+        panel = " that fits the panel" if question.panel else ""
+        tried = f"none of {MOST_TRIED:,} points of [search] is a design{budget}{panel}"
+        raise OptimizeError(f"{tried}; allowed: more mass, a larger panel, or a wider search")
     if found is None or not (found.by_id or found.missed):
         say(f"None of {len(search.cases)} designs can be ranked.")
         return max(1, len(search.cases))

@@ -40,6 +40,7 @@ from sweep.running.sweep import run_sweep
 from sweep.store.read import Rerun, finished_ids, read_summary
 
 START = 4  # binary logarithm of the number of designs of a Sobol start
+MOST_TRIED = 1024  # points of the cube, in search of a first design
 POPULATION = 6  # of the best of them evolve
 MUTATION = 0.2, 0.6  # below scipy's, which suits searches of thousands; `make search`
 IDLE = 20  # generations without a new design that end a population
@@ -77,7 +78,7 @@ class Search:
     @property
     def mode(self) -> str:
         """The loading mode of the first design that exists; "" if none of the start does."""
-        points = _start(self.space.dimension, self.settings.seed * 1000)
+        points = self._start(self.settings.seed * 1000)
         found = next((case for point in points if (case := self.space.case(point))), None)
         return found.loading.mode if found else ""
 
@@ -99,7 +100,7 @@ class Search:
 
     def _evolve(self, seed: int) -> None:
         """One population, from its Sobol start until it has converged or is stopped."""
-        start = _start(self.space.dimension, seed)
+        start = self._start(seed)
         best = np.lexsort([self.costs(start.T), self.violations(start.T)[0]])[:POPULATION]
         self._idle, self._before = 1, len(self.cases)
         required = any(value is not None for value in (self.question.require or {}).values())
@@ -118,6 +119,16 @@ class Search:
                 constraints=NonlinearConstraint(self.violations, -inf, 0.0) if required else (),
                 callback=self._is_over,
             )
+
+    def _start(self, seed: int) -> np.ndarray:
+        """The first points of a scrambled Sobol sequence (n, dimension): 2^START of them, or as
+        many more, up to `MOST_TRIED`, as it takes until one of them is a design.
+        """
+        sobol = qmc.Sobol(self.space.dimension, scramble=True, seed=seed)
+        points = sobol.random_base2(START)
+        while len(points) < MOST_TRIED and not any(map(self.space.case, points)):
+            points = np.concatenate([points, sobol.random(len(points))])
+        return points
 
     def _is_over(self, *_: object, **__: object) -> bool:
         """Whether a population ends after this generation."""
@@ -187,8 +198,3 @@ def _best(found: Assessment) -> str:
     if least < inf:
         return f"none fulfils all requirements; the nearest misses them by {100.0 * least:.3g} %"
     return "none can be ranked"
-
-
-def _start(dimension: int, seed: int) -> np.ndarray:
-    """The first points of a scrambled Sobol sequence (2^START, dimension)."""
-    return qmc.Sobol(dimension, scramble=True, seed=seed).random_base2(START)

@@ -63,7 +63,9 @@ def test_a_search_whose_designs_all_fail(capsys, config):
 def test_budget_that_no_design_keeps(capsys, config, tmp_path):
     status, _, err = crumple(capsys, "optimize", str(config), "--budget", "0.01 g")
     assert (status, err.count("\n")) == (2, 1)
-    assert "no design of [search] exists within 0.01 g; allowed: a wider search" in err
+    assert (
+        "none of 1,024 points of [search] is a design of at most 0.01 g; allowed: more mass" in err
+    )
     assert [path.name for path in tmp_path.iterdir()] == ["sought.toml"]
 
 

@@ -8,7 +8,7 @@ import pytest
 from sweep.config.units import load_config
 from sweep.ranking.question import Question
 from sweep.running.searching.design_space import DesignSpace
-from sweep.running.searching.search import Search, Settings
+from sweep.running.searching.search import MOST_TRIED, Search, Settings
 from sweep.store.read import read_attributes, read_summary
 from tests.support.results.searches import BEST, THIN, TOML, energy, simulate
 
@@ -134,6 +134,20 @@ def test_search_approaches_requirements_that_none_fulfils(searched):
         for t in [0.55 + 0.001 * k for k in range(200)]
     )
     assert missed == pytest.approx(least, rel=0.1)
+
+
+@pytest.mark.parametrize(("share", "points"), [(1.0, 16), (0.01, 128), (0.0, MOST_TRIED)])
+def test_a_first_design_is_sought_where_few_points_are_one(searched, monkeypatch, share, points):
+    search, _ = searched(evaluations=1)
+
+    def rare(_, point):
+        return "a design" if point[0] <= share else None
+
+    monkeypatch.setattr(DesignSpace, "case", rare)
+    start = search._start(1000)
+    assert len(start) == points
+    assert any(search.space.case(point) for point in start) == (share > 0.0)
+    assert not any(search.space.case(point) for point in start[: points // 2]) or points == 16
 
 
 def test_mode_is_that_of_the_loading(searched):
