@@ -329,7 +329,8 @@ def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
     deep = f"each {layout.behind} specimens of {TO_MM * source.design.footprint[1]:.4g} mm deep"
     return [
         f"{layout.across} side by side, {deep}: {size}",
-        f"these {layout.specimens} specimens are what rank counts for a panel of {asked} mm"
+        f"these {layout.specimens} specimens, which are not joined, are what rank counts "
+        f"for a panel of {asked} mm"
         f"{wider if width - nominal > SHOWN else ''}",
     ]
 

@@ -20,7 +20,10 @@ if TYPE_CHECKING:
     from sweep.ranking.requirements import Outcome
 
 DECELERATION = "peak_deceleration_filtered_m_per_s2"
-PANEL = "panel N: force of the {} specimens of a panel together. Its true size is {} mm."
+PANEL = (
+    "panel N: force of the {} specimens of a panel together. Its true size is {} mm. Specimens are "
+    "simulated alone: neighbours that have grown wider by the gap of 0.4 mm press one another."
+)
 UNKNOWN = {
     "max_deceleration": "rows are too far apart for loading.filter_class, or older than the filter",
     "max_force": "it has not been measured",

@@ -67,7 +67,9 @@ def test_panel_is_a_row_of_specimens(file, tmp_path):
     assert mesh.extents == pytest.approx([7 * 13.7 - 0.4, 13.3, 48.0], abs=1e-3)
     told = "7 side by side, each 4 specimens of 12 mm deep: 95.5 x 13.3 mm, 48 mm deep: "
     assert found.notes[0].startswith(told)
-    assert found.notes[1:] == ["these 28 specimens are what rank counts for a panel of 100 x 50 mm"]
+    assert found.notes[1:] == [
+        "these 28 specimens, which are not joined, are what rank counts for a panel of 100 x 50 mm"
+    ]
 
 
 def test_panel_of_what_is_pressed_along_its_cells_shows_its_drawing(tmp_path):
