@@ -123,8 +123,8 @@ def kinds(designs):
 
 def throughput(designs, every):
     """Designs a second with friction and without, and what a sample of them is off by."""
-    times = ("a second", "wall, s", "others, s", "CPU of each, ms", RATIO)
-    finer = {"error, % (most)": FINER, "of steps alone": 1}  # times the elements
+    times = ("per s", "wall, s", "others, s", "CPU, ms", RATIO)
+    finer = {"error, %": FINER, "of steps": 1}  # times the elements
     found = Table(f"{len(designs):,} designs", (*times, *finer))
     for name, chosen in kinds(designs).items():
         sweep, sample = swept(chosen, 2), chosen[::every]
