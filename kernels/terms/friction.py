@@ -29,7 +29,7 @@ from kernels.compile.jit import jit, jit_exact, jit_owning
 from kernels.geometry import near_pairs
 from kernels.geometry.distance import direction, normal
 from kernels.linear.condensed.block_matrix import add_block
-from kernels.terms.contact import Touching, detect, normal_force, plate_force
+from kernels.terms.contact import Touching, detect, normal_force, platen_force
 from kernels.terms.contact import no_contacts as none_touching
 
 UNKNOWN = 2.0  # dual that is not set; a dual is within -1 .. 1
@@ -50,7 +50,7 @@ def no_contacts(pairs, contact, friction):
     """Return an empty `LaggedContacts`, with room for all pairs if there is friction."""
     if friction.mu == 0.0:
         return none()
-    size = 3 * pairs.node.size + 2 * contact.plate_nodes.size
+    size = 3 * pairs.node.size + 2 * contact.platen_nodes.size
     nodes, slopes = np.empty((size, 3), np.int64), np.empty((size, 3, 2))
     count = np.zeros(1, np.int64)
     return LaggedContacts(
@@ -118,9 +118,9 @@ def lag(lagged_contacts, x, contact, pairs, drift, friction):
         a, b = pair(contact.edges, pairs.edge[k])
         load = friction.mu * normal_force(contact, pairs, touching, i)
         n = _lag_segment(x, lagged_contacts, n, (pairs.node[k], a, b), touching.tau[i], load)
-    for p in contact.plate_nodes:
+    for p in contact.platen_nodes:
         for d in (x[2 * p + 1] - x[contact.low], x[contact.high] - x[2 * p + 1]):
-            load = friction.mu * plate_force(contact, p, d)
+            load = friction.mu * platen_force(contact, p, d)
             if load > 0.0:
                 n = _append(lagged_contacts, n, (p, p, p), load)
                 lagged_contacts.slopes[n - 1, 0, 0] = 1.0
