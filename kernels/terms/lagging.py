@@ -3,7 +3,7 @@
 Verbs of a problem for lagged forces (`solve.problem`), whatever the dimension of its contacts: the
 class of `Neighbours.lagged_contacts` has the verbs
 
-    lag(x, contact, pairs, drift, friction), evaluate(u, slip, g), follow(u, dx, share, slip),
+    lag(x, contact, pairs, drift, friction), evaluate(u, eps, g), follow(u, dx, share, eps),
     forget()
 """
 
@@ -25,7 +25,7 @@ def lag(problem, y):
 
 @jit_exact
 def slip_of(problem, step):
-    """Return the smoothing length of friction: the slip in a step, m."""
+    """Return eps, the smoothing length of friction as the slip in a step, m."""
     slip = problem.scene.friction.slip
     return slip * step.h if step.dynamic else slip
 

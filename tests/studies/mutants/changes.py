@@ -206,7 +206,7 @@ MUTANTS = [
     ),
     *_of(
         f"{TERMS}/friction.py",
-        ("friction: energy", "(value - slip / 3.0)", "(slip / 3.0 - value)"),
+        ("friction: energy", "(value - eps / 3.0)", "(eps / 3.0 - value)"),
         ("friction: gradient", "g[i] += lagged_", "g[i] -= lagged_"),
         ("friction: Hessian", "return (1.0 - w * slope) / psi", "return (1.0 + w * slope) / psi"),
         ("friction: turning walls slip", "-d * uy / length", "d * uy / length"),
