@@ -25,7 +25,7 @@ def lag(problem, y):
 
 @jit_exact
 def slip_of(problem, step):
-    """Return eps, the smoothing length of friction as the slip in a step, m."""
+    """Return eps of the step, the slip up to which friction is smoothed, m."""
     slip = problem.scene.friction.slip
     return slip * step.h if step.dynamic else slip
 
