@@ -2,11 +2,14 @@
 
     E_c = 1/2 sum_p l_p [ sum_e phi(d(p, e)) - sum_v (n_v - 1) phi(d(p, v)) ]
           + sum_p l_p phi(d(p, platen))
-    phi(d) = c Y' depth t_c b(d / t_c)
+    phi(d) = c Y' depth t_c b(d / t_c),   J/m
 
 p: nodes with tributary length l_p; e: segments in reach; v: vertices shared by n_v of them; t_c:
-distance at which contact starts; b: `barrier`. With the subtraction a straight wall counts once at
-any mesh; 1/2, as each pair of walls counts from both sides.
+distance at which contact starts, (t_p + t_e) / 2 with the thicknesses of node and segment, t_p / 2
+at a platen; c: a number, `contact.stiffness` in configs; Y': modulus in stretching, Pa; depth: of
+the lattice, m; b: `barrier`. Rules for pairs near joints replace l_p and t_c
+(`contact_near_joints`). With the subtraction a straight wall counts once at any mesh; 1/2, as each
+pair of walls counts from both sides.
 """
 
 from typing import NamedTuple
@@ -174,7 +177,9 @@ def hessian(x, contact, pairs, touching, matrix, projected):
 
 @jit
 def normal_force(contact, pairs, touching, n):
-    """Return the normal force of contact ``n`` in N, negative for a subtracted contribution."""
+    """Return the normal force of contact ``n`` in N: positive in compression, negative for a
+    subtracted contribution.
+    """
     d_contact = pairs.d_contact[touching.pair[n]]
     _, slope, _ = phi(touching.weight[n], contact.stiffness, d_contact, touching.distance[n])
     return -slope
