@@ -39,20 +39,21 @@ def exchange(problem, step, found):
     for i in range(found.g.size):
         found.g[i] -= found.friction[i]
         found.friction[i] = 0.0
-    slip = slip_of(problem, step)
-    potential = problem.neighbours.lagged_contacts.evaluate(found.u, slip, found.friction)
-    add(found.friction, found.g)
-    sums.potential += potential - sums.friction
-    sums.friction = potential
+    before = sums.friction
+    sums.potential += friction(problem, step, found) - before
     return sums.potential
 
 
 @jit_exact
-def complete(problem, step, found, potential):
-    """Enter the ``potential`` of all other terms in J, and add friction; return their sum."""
+def friction(problem, step, found):
+    """Return D_f in J; fill ``found.friction``, zero on entry, and add it to ``found.g``."""
     sums = found.sums[0]
-    sums.potential, sums.friction, sums.dissipated = potential, 0.0, 0.0
-    return exchange(problem, step, found)
+    sums.friction = 0.0
+    if problem.scene.friction.mu != 0.0:
+        eps, lagged_contacts = slip_of(problem, step), problem.neighbours.lagged_contacts
+        sums.friction = lagged_contacts.evaluate(found.u, eps, found.friction)
+        add(found.friction, found.g)
+    return sums.friction
 
 
 @jit_exact
