@@ -28,10 +28,11 @@ def barrier(s):
 
 @jit
 def phi(weight, stiffness, starts, d):
-    """Return ``weight`` times phi(d) = stiffness t_c b(d / t_c), and its first two derivatives in
-    the distance ``d``, m.
+    """Return ``weight`` times phi(d) = stiffness t_c b(d / t_c) in J, and its first two derivatives
+    in the distance ``d``, m.
 
-    starts: t_c, the distance at which contact starts, m.
+    weight: contact length, m, and stiffness, N/m; in space contact area, m^2, and Pa. starts: t_c,
+    the distance at which contact starts, m.
     """
     value, slope, curvature = barrier(d / starts)
     scale = weight * stiffness

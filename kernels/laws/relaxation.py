@@ -18,7 +18,8 @@ stress is a multiple of s plus a constant. Both follow from the potential
                                       slope = sum g_i (a_i x_i - c_i s)
 
 whose constant makes it the stored energy in a step without duration. A step thus costs hardly more
-than an elastic one; only the commit goes through the branches.
+than an elastic one; only the commit goes through the branches. It also books what the elastic law
+dissipates where it softens (Mullins effect, `softening`).
 
 Source: Y. C. Fung, Biomechanics, 1981. The energies follow by the Legendre transform of phi.
 """

@@ -9,7 +9,7 @@ and the curve itself beyond. The potential is a function of W alone,
     phi = W - (I(W_m / b) - I((W_m - W) / b)) b / r,   I(u) = u erf(u) + exp(-u^2) / sqrt(pi)
 
 up to W_m, from where it rises as W does. As W_m grows, phi falls at the same strain: that is
-dissipated.
+dissipated, and booked at the commit of `relaxation`.
 
 Source: R. W. Ogden and D. G. Roxburgh, A pseudo-elastic model for the Mullins effect, 1999; beta:
 Abaqus Theory Guide, 4.7.1.
@@ -46,10 +46,10 @@ def respond(law, strain, most):
         return energy - _lost(law, most, most), stress, tangent
     b = law.m + law.beta * most
     u = (most - energy) / b
-    share = 1.0 - law.softening * math.erf(u)
+    eta = 1.0 - law.softening * math.erf(u)
     slope = 2.0 * BY_ROOT_PI * law.softening / b * math.exp(-u * u)
-    tangent = share * tangent + slope * stress * stress
-    return energy - _lost(law, energy, most), share * stress, tangent
+    tangent = eta * tangent + slope * stress * stress
+    return energy - _lost(law, energy, most), eta * stress, tangent
 
 
 @jit

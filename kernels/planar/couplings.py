@@ -25,7 +25,7 @@ def couplings(x, scene, pairs, lagged_contacts):
     """
     layout, reach = scene.layout, 1.0 + MARGIN
     size = pairs.node.size + lagged_contacts.count[0] + scene.fold.limit.size
-    size += scene.contact.plate_nodes.size + scene.spring.l0.size
+    size += scene.contact.platen_nodes.size + scene.spring.l0.size
     nodes, n = np.empty((size, 3), np.int64), 0
     for k in range(pairs.node.size):
         if pairs.distance[k] < reach * pairs.d_contact[k]:
@@ -47,7 +47,7 @@ def couplings(x, scene, pairs, lagged_contacts):
             a, b, c = triple(scene.fold.nodes, k)
             n = _couple(nodes, n, a, b, c)
     if layout.leader[scene.contact.high] >= 0 and layout.driven < 0:
-        for p in scene.contact.plate_nodes:
+        for p in scene.contact.platen_nodes:
             gap = x[scene.contact.high] - x[2 * p + 1]
             if gap < 0.5 * reach * scene.contact.node_thickness[p]:
                 n = _couple(nodes, n, p, p, layout.n_nodes)

@@ -33,7 +33,7 @@ class Projection(NamedTuple):
 @jit_exact
 def is_absent(projection):
     """Return whether the scene has no projection."""
-    return projection.contact.edges.shape[0] + projection.contact.plate_nodes.size == 0
+    return projection.contact.edges.shape[0] + projection.contact.platen_nodes.size == 0
 
 
 @jit_exact
@@ -61,11 +61,11 @@ def _separate(x, inverse_mass, p, a, b, d_contact):
 def _leave_platens(x, contact, inverse_mass):
     """Move nodes out of the platens, which do not move; return whether any was inside."""
     moved = False
-    for p in contact.plate_nodes:
+    for p in contact.platen_nodes:
         i, d_contact = 2 * p + 1, 0.5 * contact.node_thickness[p]
-        for plate, side in ((contact.low, 1.0), (contact.high, -1.0)):
-            if inverse_mass[i] > 0.0 and side * (x[i] - x[plate]) < (1.0 - TOLERANCE) * d_contact:
-                x[i] = x[plate] + side * d_contact
+        for platen, side in ((contact.low, 1.0), (contact.high, -1.0)):
+            if inverse_mass[i] > 0.0 and side * (x[i] - x[platen]) < (1.0 - TOLERANCE) * d_contact:
+                x[i] = x[platen] + side * d_contact
                 moved = True
     return moved
 

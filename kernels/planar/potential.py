@@ -1,10 +1,11 @@
 """The potential of one step of a lattice: the sum of all terms, with its gradient.
 
-    E(x) = E_s + E_b + E_f + E_c - f . u + |x - x~|_M^2 / (2 h^2) + D(u) + D_f(u),   u = x - y
+    E(x) = |x - x~|_M^2 / (2 h^2) + E_s + E_b + E_f + E_c - f . u + D(u) + D_f(u),   u = x - y
 
-u / h is the velocity at the end of the step (`solve.integrators`). In a static step y = x0, and
-inertia and damping vanish. A term that is absent from a scene has empty arrays. The Hessian is in
-`factoring`.
+in J. |v|_M^2 = sum m v^2. E_s has the springs, and W in it the barrier of short elements
+(`laws.elastic`). u / h is the velocity at the end of the step (`solve.integrators`). In a static
+step y = x0, and inertia and damping vanish. A term that is absent from a scene has empty arrays.
+The Hessian is in `factoring`.
 """
 
 import numpy as np
@@ -54,14 +55,16 @@ def evaluate(problem, x, step, found, projected):
     if step.dynamic:
         total += inertia.evaluate(x, step.x_pred, coordinates.mass, step.h, found.g)
         total += _damping(problem, step, found, projected)
-    return lagging.complete(problem, step, found, total)
+    total += lagging.friction(problem, step, found)
+    return moves.end(found, total)
 
 
 @jit_exact
 def store(problem, x, step, found):
     """Fill the stored energies of the walls at ``x``; add their gradient to ``found.elastic``.
 
-    The duration is zero: the step is accepted, and its time has passed.
+    The duration is zero: the step is accepted, and its time has passed. Scenes with a projection
+    have no E_c.
     """
     recall(problem, 0.0)
     store_walls(problem, x, found, True)

@@ -1,9 +1,9 @@
 """The potential of one step of a lattice of plates: the sum of all terms, with its gradient.
 
-    E(x) = E_s + E_b + E_c - f . u + |x - x~|_M^2 / (2 h^2) + D_f(u),   u = x - y
+    E(x) = |x - x~|_M^2 / (2 h^2) + E_s + E_b + E_c - f . u + D_f(u),   u = x - y
 
-E_s: strain of the mid-surfaces; E_b: bending, transverse shear and folds; both of a law that may
-relax, whose potential of the step they then are. E_c: contact, also of images. u / h is the
+in J. E_s: strain of the mid-surfaces; E_b: bending, transverse shear and folds; both of a law that
+may relax, whose potential of the step they then are. E_c: contact, also of images. u / h is the
 velocity at the end of the step (`solve.integrators`). In a static step y = x0, and inertia
 vanishes. The Hessian is in `factoring`.
 """
@@ -29,7 +29,8 @@ def evaluate(problem, x, step, found, projected):
     total += loads.evaluate(found.u, coordinates.load, step.factor, found.g)
     if step.dynamic:
         total += inertia.evaluate(x, step.x_pred, coordinates.mass, step.h, found.g)
-    return lagging.complete(problem, step, found, total)
+    total += lagging.friction(problem, step, found)
+    return moves.end(found, total)
 
 
 @jit_exact

@@ -1,14 +1,14 @@
 """The energy book of a march, in J.
 
-The work of every force g in a step dx is (theta g' + (1 - theta) g) . dx, with g at the start and
-g' at the end of the step. The integrator's loss is the work against inertia and elastic forces less
-the gain of kinetic and stored energy U. With backward Euler (theta = 1) it is 1/2 |v' - v|_M^2 +
-[grad U' . dx - dU]. The other integrators and static steps use the trapezoidal rule (theta = 1/2);
-their loss has either sign and is of third order in the step where the motion is smooth. The
-trapezoidal integrator loses no kinetic energy.
+The work against a force of gradient g in a step dx is (theta g' + (1 - theta) g) . dx, with g at
+the start and g' at the end of the step. The integrator's loss is the work against inertia and
+elastic forces less the gain of kinetic and stored energy U. With backward Euler (theta = 1) it is
+1/2 |v' - v|_M^2 + [grad U' . dx - dU]. The other integrators and static steps use the trapezoidal
+rule (theta = 1/2); their loss has either sign and is of third order in the step where the motion is
+smooth. The trapezoidal integrator loses no kinetic energy.
 
-The dissipation of the material in a step is part of the work of the elastic forces. The law returns
-it at commit; it is booked under material, and subtracted from the integrator's loss.
+The dissipation of the material in a step is part of the work against elastic forces. The law
+returns it at commit; it is booked under material, and subtracted from the integrator's loss.
 """
 
 from kernels.arrays import copy, dot, zero
@@ -29,8 +29,8 @@ def kinetic(v, mass):
 
 @jit_exact
 def _works(found, last, theta):
-    """Return the work of the elastic forces, of damping and of friction along ``found.u``; copy
-    these forces to ``last``, which has those of the last step.
+    """Return the work against elastic forces, damping and friction along ``found.u``; copy their
+    gradients to ``last``, which has those of the last step.
     """
     u, elastic, material, friction, before = found.u, 0.0, 0.0, 0.0, 1.0 - theta
     for i in range(u.size):
@@ -47,7 +47,8 @@ def _works(found, last, theta):
 def impose_speed(state, problem, speed, led):
     """Set the velocity of the driven coordinate to ``speed`` (m/s), and of all that it leads.
 
-    Inelastic impact: half of its work is kinetic energy, half is lost. led (n,): scratch.
+    Inelastic impact: a change dv of velocity loses m dv^2 / 2, from rest half of the work. led
+    (n,): scratch.
     """
     coordinates, book = problem.scene.coordinates, state.book[0]
     zero(led)
@@ -113,7 +114,7 @@ def unbalanced(problem, step, tolerance, state, found, work):
 
 @jit_exact
 def enter_step(problem, step, state, found, work):
-    """Enter a converged step into the book; ``found``: of the last `evaluate`, committed."""
+    """Enter a converged step into the book. found: of its end, after `Problem.commit`."""
     book, totals, theta = state.book[0], state.totals[0], step.theta
     reaction, move, driven = 0.0, 0.0, problem.scene.coordinates.driven
     if driven >= 0:
@@ -150,9 +151,9 @@ def _add_velocity(x, start, h, load, v):
 
 @jit_exact
 def project(problem, step, state, found, start):
-    """Change what changes between steps (`Problem.project`), and book the energy injected.
+    """Let the problem correct positions or data (`Problem.project`), and book the energy injected.
 
-    Return whether anything has changed. start (n,): scratch.
+    Return whether it has. start (n,): scratch.
     """
     book, coordinates = state.book[0], problem.scene.coordinates
     copy(state.x, start)

@@ -31,9 +31,10 @@ from kernels.solve.workspace import make_workspace
 SMALLEST_SHARE = 2.0**-24  # share of a step
 DOUBLING_ERROR = 0.1  # of the allowed error: below it the next share may be twice as long
 MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple of it
-MOST_PATIENCE = 63  # most shares that are accepted after a failure before one is doubled
+MOST_PATIENCE = 63  # most shares to accept after a failure before one is doubled
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
-UNCHECKED_SHARE = 2.0**-12  # shorter shares of a step may generate more; the caller checks the sum
+UNCHECKED_SHARE = 2.0**-12  # shorter shares of a step may generate more energy: the sum over all
+# steps is checked in sweep/simulation/simulate.py
 NOT_STARTED = -1  # corrections of a share before `_begin_share`
 PROGRESS = np.dtype(
     (
@@ -43,9 +44,9 @@ PROGRESS = np.dtype(
             ("done", np.float64),  # completed share of the step of the row
             ("share", np.float64),  # share of the step of the row that is attempted
             ("failed", np.int64),  # failed attempts since the last accepted share
-            ("patience", np.int64),  # shares to be accepted after a failure before one is doubled
-            ("wait", np.int64),  # those of them that are still to come
-            ("cause", np.int64),  # outcome of the last of them that was not `UNRESOLVED`
+            ("patience", np.int64),  # shares to accept after a failure before one is doubled
+            ("wait", np.int64),  # shares still to accept before one is doubled
+            ("cause", np.int64),  # outcome of the last failed attempt that was not `UNRESOLVED`
             ("row_iterations", np.int64),  # Newton iterations for the row
             ("share_iterations", np.int64),  # Newton iterations for the share
             ("minimum_iterations", np.int64),  # Newton iterations for the present minimum
@@ -119,33 +120,15 @@ def _extrapolation(u, driven, remaining):
 
 
 @jit_exact
-def _begin_share(problem, tolerance, stage, state, workspace, descent, progress):
-    """Begin the next share of a step.
+def _first_guess(problem, stage, state, workspace, duration, h, remaining):
+    """Fill y, x~ and the move ``work.dx`` from which the minimisation starts.
 
-    The minimisation starts from the extrapolated positions, except after a snap in a static step,
-    where it starts from x0.
+    It leads to the extrapolated positions; after a snap in a static step it is zero. remaining:
+    move of the driven coordinate, m.
     """
-    last, work = state.totals[0].last, workspace.work
-    if stage.scheme != BACKWARD_EULER and last == 0.0:
-        factor = stage.factor0 + (stage.factor1 - stage.factor0) * _stage_fraction(stage, progress)
-        first = resolution.first_share(
-            problem, tolerance, stage.duration, factor, state, workspace.work
-        )
-        progress.share = min(progress.share, first)
-    duration, coordinates = stage.duration * progress.share, problem.scene.coordinates
-    u, work, driven, remaining = workspace.found.u, workspace.work, coordinates.driven, 0.0
-    if driven >= 0:
-        remaining = _target(stage, progress) - state.x[driven]
-    factor = _extrapolation(u, driven, remaining)
-    h = integrators.length(stage.scheme, duration, last)
-    if stage.dynamic and h != progress.h:  # the Hessian depends on h
-        descent.since_factor = np.inf
-    progress.h = h
-    copy(state.x, workspace.x0)
+    u, work, coordinates = workspace.found.u, workspace.work, problem.scene.coordinates
+    factor, heavy = _extrapolation(u, coordinates.driven, remaining), coordinates.heavy
     if stage.dynamic:
-        if driven >= 0 and stage.scheme != BACKWARD_EULER and last == 0.0:
-            impose_speed(state, problem, remaining / duration, work.direction)
-        heavy = coordinates.heavy
         integrators.predict(state, duration, h, heavy, workspace.y, workspace.x_pred, work.dx)
     else:
         copy(state.x, workspace.y)
@@ -154,7 +137,29 @@ def _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
         for i in range(u.size):
             work.dx[i] = factor * u[i]
     if factor > 0.0:
-        work.dx[driven] = remaining
+        work.dx[coordinates.driven] = remaining
+
+
+@jit_exact
+def _begin_share(problem, tolerance, stage, state, workspace, descent, progress):
+    """Begin the next share of a step."""
+    work, driven, last = workspace.work, problem.scene.coordinates.driven, state.totals[0].last
+    begins = stage.scheme != BACKWARD_EULER and last == 0.0
+    if begins:
+        factor = stage.factor0 + (stage.factor1 - stage.factor0) * _stage_fraction(stage, progress)
+        first = resolution.first_share(problem, tolerance, stage.duration, factor, state, work)
+        progress.share = min(progress.share, first)
+    duration, remaining = stage.duration * progress.share, 0.0
+    if driven >= 0:
+        remaining = _target(stage, progress) - state.x[driven]
+    h = integrators.length(stage.scheme, duration, last)
+    if stage.dynamic and h != progress.h:  # the Hessian depends on h
+        descent.since_factor = np.inf
+    progress.h = h
+    copy(state.x, workspace.x0)
+    if stage.dynamic and driven >= 0 and begins:
+        impose_speed(state, problem, remaining / duration, work.direction)
+    _first_guess(problem, stage, state, workspace, duration, h, remaining)
     ahead = duration - h if h < duration else 0.0
     last = last if stage.scheme == BDF2 else 0.0
     rates = Ahead(ahead, last, state.rates.position, work.dx)
@@ -180,21 +185,25 @@ def _equilibrate(x, problem, step, corrections, tolerance, workspace, descent, c
         if outcome != CONVERGED or progress.corrections == corrections or not problem.lag(x):
             break
         problem.exchange(step, workspace.found)
-        copy(x, workspace.work.trial)
+        copy(x, workspace.work.trial)  # for a projected Hessian, which is evaluated there
         zero(workspace.work.dx)
         descent.evaluated, descent.since_factor = True, np.inf
         progress.corrections, progress.minimum_iterations = progress.corrections + 1, 0
-    if outcome == CONVERGED and not problem.covers_projection(x):
+    unlisted = outcome == CONVERGED and not problem.covers_projection(x)
+    if unlisted:
         outcome, progress.minimum_iterations = OUTGROWN, 0
-        zero(workspace.work.dx)
-    if outcome == OUTGROWN and step.dynamic:
+    if unlisted or (outcome == OUTGROWN and step.dynamic):
         zero(workspace.work.dx)  # the present point is the better guess
     return outcome
 
 
 @jit_exact
 def _gains_energy(problem, stage, state, found, share, noise):
-    """Return whether backward Euler generates more energy than the integrator has lost so far."""
+    """Return whether backward Euler generates too much energy in a ``share`` of a step.
+
+    That is, `LARGEST_GAIN` of the largest energy more than the integrator has lost so far, and more
+    than the part of this limit that the share has in the stage.
+    """
     dt, mass = stage.duration * share, problem.scene.coordinates.mass
     gain, largest = energy_gain(state, found, mass, dt)
     limit = LARGEST_GAIN * largest + noise

@@ -3,9 +3,14 @@
 The exact Hessian is used where it is positive definite (all pivots positive). Elsewhere the search
 direction is that of the projected Hessian, or the direction of negative curvature of the first
 negative pivot, whichever has the larger predicted decrease. The line search starts from the
-admissible share of the move and backtracks to sufficient decrease (Armijo). Converged means: scaled
-residual and Newton decrement below tolerance *and* no negative pivot of the exact Hessian at a
-point within `Coordinates.close`. A factor is reused within that distance.
+admissible share of the move and backtracks to sufficient decrease (Armijo); predictors and moves
+that drive the problem are accepted at any finite energy. Converged means: scaled residual and
+Newton decrement below tolerance *and* no negative pivot of the exact Hessian at a point within
+`Coordinates.close`. A factor is reused within that distance.
+
+Exact means not projected. Lagged forces have a primal-dual matrix, which is the second derivative
+where the duals fit (`Problem.follow`), and `solver.hessian` of configs may leave a part out. With
+either, a point without a negative pivot need not be a minimum.
 """
 
 from typing import NamedTuple
@@ -33,7 +38,9 @@ DUAL_HALVINGS = 3  # after more halvings the duals of lagged forces are reset
 SLOW_REDUCTION = 0.1  # a reused factor is renewed if the ratio of two residuals is larger
 LEAST_SHARE = 1e-12  # of a move: a shorter one is a stall
 RESOLVED = 1e-11  # relative energy changes below it are round-off
-MOST_CUT_MOVES = 20  # of a dynamic step: more do not pay, as a shorter step is easier
+MOST_CUT_MOVES = 20  # shortened moves of a dynamic step: after more, a shorter step costs less
+DRIVEN_CAP = 5.0  # least cap of a move that contains a driven one, as a multiple of that: with a
+# shorter one the driven coordinate would often not arrive
 DESCENT = np.dtype(
     (
         np.record,  # for attributes in plain Python too
@@ -43,7 +50,7 @@ DESCENT = np.dtype(
             ("evaluated", np.bool_),  # whether `Workspace.found` is the evaluation at x
             # Over the minimisations of a step.
             # bound of the move, m, since the last factor of an exact Hessian without a negative
-            # pivot; infinite: there is none. Lagged forces may have changed since.
+            # pivot; infinite: there is no such factor, or it has to be renewed.
             ("since_factor", np.float64),
             ("cut_moves", np.int64),  # of the step, shortened by `Coordinates.cap` or a step limit
             # Of the last minimisation.
@@ -66,9 +73,10 @@ class Move(NamedTuple):
     """The next move, ``work.dx``.
 
     slope, curvature: the predicted change of energy in a share s of it is s slope + s^2 curvature /
-    2, J. longest: of a coordinate, m. arrives: the whole move brings the driven coordinate to its
-    target. shortened: by `Coordinates.cap`. any_energy: the move is accepted if the energy is
-    finite: it is a predictor, or drives the problem.
+    2, J; of a Newton move s slope alone, curvature 0. longest: of a coordinate, m. arrives: the
+    whole move brings the driven coordinate to its target. shortened: by `Coordinates.cap`.
+    any_energy: the move is accepted if the energy is finite: it is a predictor, or drives the
+    problem.
     """
 
     slope: float
@@ -169,12 +177,12 @@ def _choose_move(slope, escape, coordinates, work, descent):
     else:
         copy(work.escape, work.dx)
     longest = _longest(work.dx, coordinates)
-    cut = _cap(work.dx, longest, max(coordinates.cap, 5.0 * remaining))
+    cut = _cap(work.dx, longest, max(coordinates.cap, DRIVEN_CAP * remaining))
     shortened = cut != 1.0
     return Move(
         fall * cut,
         curvature * cut * cut,
-        max(longest * cut, remaining),
+        max(longest * cut, remaining),  # `_longest` leaves out the driven coordinate
         drives and not shortened,
         shortened,
         drives,
@@ -237,7 +245,7 @@ def _search(x, problem, step, noise, found, work, descent, move, share):
 
 @jit_exact
 def _balance(x, problem, tolerance, found, work, descent):
-    """Measure the residual at ``x``; have the factor renewed if it has fallen too slowly."""
+    """Measure the residual at ``x``; if it has fallen too slowly, the factor is to be renewed."""
     coordinates, before = problem.scene.coordinates, descent.residual
     descent.potential = found.sums[0].potential
     problem.reduce(found.g, work.residual)
@@ -256,8 +264,8 @@ def _renew_factor(x, problem, step, tolerance, found, work, descent):
     """Factor the exact Hessian, and where it has a negative pivot the projected one, unless ``x``
     is an equilibrium.
 
-    Return the outcome, `UNFINISHED` if the factor can be used, and slope and curvature of
-    ``work.escape``, J, which is filled if there is a negative pivot.
+    Return the outcome, `UNFINISHED` if the factor can be used; and slope and curvature along
+    ``work.escape``, J. Without a negative pivot that is not filled, and both are 0.
     """
     escape = (0.0, 0.0)
     result, pivot = problem.factor(x, step, found, False, False)
@@ -271,6 +279,7 @@ def _renew_factor(x, problem, step, tolerance, found, work, descent):
         escape = _escape_direction(problem, found, work, pivot)
         if descent.balanced:
             return UNFINISHED, escape
+        # The trial point is x but for round-off of the driven coordinate: ``found`` stays as it is.
         problem.evaluate(work.trial, step, found, True)
         result, _ = problem.factor(x, step, found, True, False)
     if result == NO_ROOM:

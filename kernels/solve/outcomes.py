@@ -10,4 +10,4 @@ OUTGROWN = 6  # neighbour lists or matrix are too small: renew them and call aga
 INACCURATE = 7  # the local error is larger than allowed, or energy is generated
 UNBALANCED = 8  # the work of the residual is too large
 UNRESOLVED = 9  # the residual is round-off, but too large beside the forces
-UNFINISHED = 10  # it goes on
+UNFINISHED = 10  # none yet: the iteration continues

@@ -3,15 +3,17 @@
 A *problem* is a named tuple of arrays whose class has the verbs of `Problem`:
 ``problem.evaluate(...)`` and so on. Compiled code finds a verb by the type of the tuple, so that
 the solver is compiled once for each kind of problem in the process, and the call of a verb costs no
-more than that of any other kernel (`compile.verbs`). The solver distinguishes coordinates by their
-role only: it knows no walls, no plates and no dimension of space.
+more than that of any other kernel (`compile.verbs`). The solver knows mechanics (mass, stored
+energy, dissipation, lagged forces) and the role of each coordinate, but no structure: no walls, no
+plates and no dimension of space.
 """
 
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
-HELD, LED, TIED, FREE = range(4)  # roles; a TIED coordinate follows a FREE one
+HELD, LED, TIED, FREE = range(4)  # roles; a TIED coordinate follows a FREE one. The order counts:
+# from TIED on a coordinate is not prescribed (`newton._longest`, `arc_length`).
 POSITIVE, NEGATIVE, NO_ROOM = range(3)  # results of a factorisation
 
 
@@ -105,11 +107,15 @@ class Problem(Protocol):
     def evaluate(self, x, step, found, projected):
         """Return the potential of the step at ``x`` in J, and fill ``found``.
 
-        projected: `factor` is to use the positive semi-definite projection of the Hessian.
+        projected: `factor`, called with the same flag, is to use the positive semi-definite
+        projection of the Hessian.
         """
 
     def store(self, x, step, found):
-        """Fill ``found.stored`` and add its gradient to ``found.elastic``, nothing else."""
+        """Renew what `project` may have changed in ``found.stored``, in a step of no duration.
+
+        The gradient is added to ``found.elastic``, which is not read before the next `evaluate`.
+        """
 
     def commit(self, x, step, found):
         """Accept ``x``, the point of the last `evaluate`: commit the state of the material laws.
@@ -126,8 +132,9 @@ class Problem(Protocol):
     def factor(self, x, step, found, projected, through):
         """Factor the Hessian; return the result and the first negative pivot.
 
-        POSITIVE: all pivots are positive. NEGATIVE: one is not; the factorisation stops there,
-        unless ``through``. NO_ROOM: the pattern lacks an entry, `Scene.renew_neighbours` adds it.
+        projected: as in the last `evaluate`. POSITIVE: all pivots are positive. NEGATIVE: one is
+        not; the factorisation stops there, unless ``through``. NO_ROOM: the pattern lacks an entry,
+        `Scene.renew_neighbours` adds it.
         """
 
     def solve(self, b):
@@ -189,8 +196,8 @@ class Problem(Protocol):
     # After a step: projection and output.
 
     def project(self, x):
-        """Change what changes between steps, positions in ``x`` or data of the problem; return
-        whether the stored energy may have changed.
+        """Correct the accepted positions ``x`` or the data of the problem before the next step;
+        return whether the stored energy may have changed.
         """
 
     def covers_projection(self, x):

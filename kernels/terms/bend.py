@@ -2,31 +2,34 @@
 
 With the turns a_1 and a_2 of `elements`,
 
-    E_b = 1/2 (k_11 kappa_1^2 + 2 k_12 kappa_1 kappa_2 + k_22 kappa_2^2),   kappa_i = a_i (`ANGLE`)
+    E_b = 1/2 (k_11 chi_1^2 + 2 k_12 chi_1 chi_2 + k_22 chi_2^2),   chi_i = a_i (`ANGLE`), rad
 
-A *cubic* element, whose deflection from the chord is a cubic, has k_11 = k_22 = 4 Y I / h and
-k_12 = 2 Y I / h: its curvature is linear along the element,
+A *cubic* element, whose deflection from the chord is a cubic, has k_11 = k_22 = 4 Y I / l0 and
+k_12 = 2 Y I / l0 (with shear: sweep/scene/beams.py). Its curvature in 1/m is linear along it,
 
-    h kappa(s) = (4 - 6 s) a_1 + (2 - 6 s) a_2,   s = 0 .. 1.
+    l0 kappa(s) = (4 - 6 s) a_1 + (2 - 6 s) a_2,   s = 0 .. 1.
 
-A *classical* element is the rod of discrete hinges, a trapezoidal rule: k_11 = k_22 = 2 Y I / h and
-k_12 = 0. Eliminating phi of a node inside a wall leaves a hinge of Y I / h between its elements.
-The measure `TANGENT` of such a rod is kappa = c tan(a / c): c = 2 at joints and c = 1 inside walls,
-where two elements share the turn of a hinge.
+A *classical* element is the rod of discrete hinges, a trapezoidal rule: k_11 = k_22 = 2 Y I / l0
+and k_12 = 0. Eliminating phi of a node inside a wall leaves a hinge of Y I / l0 between its
+elements. The measure `TANGENT` of such a rod is chi = c tan(a / c): c = 2 at joints and c = 1
+inside walls, where two elements share the turn of a hinge.
 
-With a measured curve (``section``) the curvature counts at two points of an element, the Gauss
-points of a cubic or the ends of a classical element:
+With a measured curve (``section``) an element has two sections, at the Gauss points of a cubic or
+at the ends of a classical element:
 
-    theta = s_0 (a_2 - a_1) +- s_1 (a_1 + a_2),
-    E_b = V w(e, theta_1, theta_2) + 1/2 k_s (a_1 + a_2)^2
+    E_b = V [w(e, theta_1) + w(e, theta_2)] + 1/2 k_s (a_1 + a_2)^2,
+    theta_i = s_0 (a_2 - a_1) +- s_1 (a_1 + a_2)
 
-w: law of `section`. e: strain of `stretch`. theta_i: bending of a fibre at point i. V: volume that
-each fibre stands for. k_s: stiffness of the element in shear.
+w: potential of one section, J/m^3. e: strain of `stretch`. theta: bending kappa z of its outer
+fibre (`section`), but for the sign, which is immaterial as fibres are in pairs. Hence s_0 = z / l0
+and, without shear, s_1 = 3^(1/2) s_0 in a cubic, s_0 in a classical element
+(sweep/scene/bending.py). theta_1 belongs to the section nearer end 2. V: volume that each fibre
+stands for, m^3. k_s: stiffness of the element in shear, N m.
 
 Where the material relaxes, linear bending and shear relax alike: each is made of springs whose law,
 `hinge`, has unit stiffness. Linear bending is the sum of two springs,
 
-    k_11 (kappa_1 + k_12 / k_11 kappa_2)^2 / 2 + (k_22 - k_12^2 / k_11) kappa_2^2 / 2.
+    k_11 (chi_1 + k_12 / k_11 chi_2)^2 / 2 + (k_22 - k_12^2 / k_11) chi_2^2 / 2.
 """
 
 import math
@@ -45,8 +48,8 @@ ANGLE, TANGENT = 0, 1
 class Bend(NamedTuple):
     """stiffness (3, m): k_11, k_12, k_22 in N m. side (2, m): c of the measure `TANGENT`.
 
-    section: law over e, theta_1, theta_2. hinge: law of linear springs, of unit stiffness. spread
-    (2, m): s_0, s_1. volume (m,): V in m^3, zero where an element bends linearly. shear (m,): k_s
+    section: law of both sections. hinge: law of linear springs, of unit stiffness. spread (2, m):
+    s_0, s_1, numbers. volume (m,): V in m^3, zero where an element bends linearly. shear (m,): k_s
     in N m. The last three are empty where all bending is linear.
     """
 
@@ -75,10 +78,10 @@ def is_bent(bend, k):
 
 
 @jit
-def curvature(bend, k, end, turn):
-    """Return kappa and its first two derivatives in the ``turn`` at an end of element ``k``.
+def measured(bend, k, end, turn):
+    """Return chi and its first two derivatives in the ``turn`` at an end of element ``k``.
 
-    kappa is infinite from where its tangent would change sign.
+    chi is infinite from the pole of its tangent on, |a| >= c pi / 2.
     """
     if bend.measure == ANGLE:
         return turn, 1.0, 0.0
@@ -107,7 +110,7 @@ def _springs(bend, k):
 
 @jit
 def _moments(bend, k, one, two, memory, point):
-    """Return E_b of linear bending, its slopes in both kappa, and its second derivatives."""
+    """Return E_b of linear bending, its slopes in both chi, and its second derivatives."""
     if bend.hinge.state_size() == 0:
         k11, k12, k22 = bend.stiffness[0, k], bend.stiffness[1, k], bend.stiffness[2, k]
         first, second = k11 * one + k12 * two, k12 * one + k22 * two
@@ -123,8 +126,8 @@ def _moments(bend, k, one, two, memory, point):
 @jit
 def _linear(bend, memory, point, k, shape, resultants, projected):
     """Return E_b of element ``k`` of linear bending; add its derivatives."""
-    one, d1, s1 = curvature(bend, k, 0, shape.turn[0, k])
-    two, d2, s2 = curvature(bend, k, 1, shape.turn[1, k])
+    one, d1, s1 = measured(bend, k, 0, shape.turn[0, k])
+    two, d2, s2 = measured(bend, k, 1, shape.turn[1, k])
     if math.isinf(one) or math.isinf(two):
         return math.inf
     if projected:
@@ -197,7 +200,7 @@ def evaluate(bend, stretch, memory, shape, resultants, projected):
     incomplete.
 
     Material points are numbered after those of stretching. projected: without the second
-    derivatives of kappa and of e, and with no falling moment, which makes every element
+    derivatives of chi and of e, and with no falling moment, which makes every element
     semi-definite.
     """
     if bend.section.curve.is_elastic:
@@ -257,11 +260,11 @@ def _commit_section(bend, stretch, memory, point, k, shape):
 
 @jit_exact
 def _commit_linear(bend, memory, point, k, shape):
-    """Commit the curvatures of element ``k``, as `commit`."""
+    """Commit the turns of element ``k``, as `commit`."""
     stiff, ratio, rest = _springs(bend, k)
     one, two = (
-        curvature(bend, k, 0, shape.turn[0, k])[0],
-        curvature(bend, k, 1, shape.turn[1, k])[0],
+        measured(bend, k, 0, shape.turn[0, k])[0],
+        measured(bend, k, 1, shape.turn[1, k])[0],
     )
     release1, dissipation1 = commit_point(bend.hinge, one + ratio * two, memory, point)
     release2, dissipation2 = commit_point(bend.hinge, two, memory, point + 1)

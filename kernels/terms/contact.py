@@ -2,11 +2,14 @@
 
     E_c = 1/2 sum_p l_p [ sum_e phi(d(p, e)) - sum_v (n_v - 1) phi(d(p, v)) ]
           + sum_p l_p phi(d(p, platen))
-    phi(d) = c Y' depth t_c b(d / t_c)
+    phi(d) = c Y' depth t_c b(d / t_c),   J/m
 
 p: nodes with tributary length l_p; e: segments in reach; v: vertices shared by n_v of them; t_c:
-distance at which contact starts; b: `barrier`. With the subtraction a straight wall counts once at
-any mesh; 1/2, as each pair of walls counts from both sides.
+distance at which contact starts, (t_p + t_e) / 2 with the thicknesses of node and segment, t_p / 2
+at a platen; c: a number, `contact.stiffness` in configs; Y': modulus in stretching, Pa; depth: of
+the lattice, m; b: `barrier`. Rules for pairs near joints replace l_p and t_c
+(`contact_near_joints`). With the subtraction a straight wall counts once at any mesh; 1/2, as each
+pair of walls counts from both sides.
 """
 
 from typing import NamedTuple
@@ -38,7 +41,7 @@ class Contact(NamedTuple):
     edge_thickness (m,). subtract (m, 2): 1 for ends that another segment counts. special_*: rules
     of pairs near a joint or near at rest, by edge (start (m + 1,)): node, weight, contact distance,
     subtract. One of weight 0 is only kept from crossing, with the whole tributary length; at a
-    distance of 0, by collision detection alone. plate_nodes (k,): nodes that may touch a platen.
+    distance of 0, by collision detection alone. platen_nodes (k,): nodes that may touch a platen.
     low, high: coordinates of the surfaces of the lower and the upper platen.
     """
 
@@ -55,7 +58,7 @@ class Contact(NamedTuple):
     special_weight: np.ndarray
     special_distance: np.ndarray
     special_subtract: np.ndarray
-    plate_nodes: np.ndarray
+    platen_nodes: np.ndarray
     low: int
     high: int
 
@@ -141,7 +144,7 @@ def evaluate(x, contact, pairs, drift, touching, g):
 
     Fill ``touching``. drift: as in `detect`.
     """
-    total = _plates(x, contact, g)
+    total = _platens(x, contact, g)
     if not detect(x, contact, pairs, drift, touching):
         return np.inf
     for n in range(touching.count[0]):
@@ -160,7 +163,7 @@ def evaluate(x, contact, pairs, drift, touching, g):
 @jit
 def hessian(x, contact, pairs, touching, matrix, projected):
     """Add d2E_c/dx2 at ``x`` of the contacts in ``touching``; projected: without concave parts."""
-    _plates_hessian(x, contact, matrix)
+    _platens_hessian(x, contact, matrix)
     for n in range(touching.count[0]):
         k, end = touching.pair[n], touching.end[n]
         p, dc = pairs.node[k], pairs.d_contact[k]
@@ -174,14 +177,16 @@ def hessian(x, contact, pairs, touching, matrix, projected):
 
 @jit
 def normal_force(contact, pairs, touching, n):
-    """Return the normal force of contact ``n`` in N, negative for a subtracted contribution."""
+    """Return the normal force of contact ``n`` in N: positive in compression, negative for a
+    subtracted contribution.
+    """
     d_contact = pairs.d_contact[touching.pair[n]]
     _, slope, _ = phi(touching.weight[n], contact.stiffness, d_contact, touching.distance[n])
     return -slope
 
 
 @jit
-def plate_force(contact, p, d):
+def platen_force(contact, p, d):
     """Return the normal force of a platen on node ``p`` at a distance ``d`` (m), N."""
     d_contact = 0.5 * contact.node_thickness[p]
     if d >= d_contact:
@@ -191,33 +196,33 @@ def plate_force(contact, p, d):
 
 
 @jit
-def _plates(x, contact, g):
+def _platens(x, contact, g):
     """Return the energy of contact with platens, J; add its gradient to ``g``."""
     total = 0.0
-    for p in contact.plate_nodes:
+    for p in contact.platen_nodes:
         dc, y = 0.5 * contact.node_thickness[p], x[2 * p + 1]
-        for plate, side in ((contact.low, 1.0), (contact.high, -1.0)):
-            d = side * (y - x[plate])
+        for platen, side in ((contact.low, 1.0), (contact.high, -1.0)):
+            d = side * (y - x[platen])
             if d < dc:
                 value, slope, _ = phi(contact.tributary[p], contact.stiffness, dc, d)
                 total += value
                 g[2 * p + 1] += side * slope
-                g[plate] -= side * slope
+                g[platen] -= side * slope
     return total
 
 
 @jit
-def _plates_hessian(x, contact, matrix):
+def _platens_hessian(x, contact, matrix):
     """Add the Hessian of contact with platens, which is positive semi-definite."""
-    for p in contact.plate_nodes:
+    for p in contact.platen_nodes:
         dc, y = 0.5 * contact.node_thickness[p], x[2 * p + 1]
-        for plate, side in ((contact.low, 1.0), (contact.high, -1.0)):
-            d = side * (y - x[plate])
+        for platen, side in ((contact.low, 1.0), (contact.high, -1.0)):
+            d = side * (y - x[platen])
             if d < dc:
                 _, _, curvature = phi(contact.tributary[p], contact.stiffness, dc, d)
                 add(matrix, 2 * p + 1, 2 * p + 1, curvature)
-                add(matrix, plate, plate, curvature)
-                add(matrix, plate, 2 * p + 1, -curvature)
+                add(matrix, platen, platen, curvature)
+                add(matrix, platen, 2 * p + 1, -curvature)
 
 
 @jit_exact
@@ -230,11 +235,11 @@ def step_limit(x, dx, far, contact, pairs, drift):
     for k in range(within(pairs, 2.0 * (drift + far))):
         a, b = pair(contact.edges, pairs.edge[k])
         first = min(first, ccd.first_contact(x, dx, pairs.node[k], a, b))
-    for p in contact.plate_nodes:
-        for plate, side in ((contact.low, 1.0), (contact.high, -1.0)):
-            closing = side * (dx[plate] - dx[2 * p + 1])
+    for p in contact.platen_nodes:
+        for platen, side in ((contact.low, 1.0), (contact.high, -1.0)):
+            closing = side * (dx[platen] - dx[2 * p + 1])
             if closing > 0.0:
-                first = min(first, side * (x[2 * p + 1] - x[plate]) / closing)
+                first = min(first, side * (x[2 * p + 1] - x[platen]) / closing)
     return first
 
 
@@ -248,7 +253,7 @@ def least_gap(x, contact, pairs, drift):
         if pairs.d_contact[k] > 0.0 and not is_guarded(pairs, k, contact):
             a, b = pair(contact.edges, pairs.edge[k])
             least = min(least, _segment_distance(x, pairs.node[k], a, b))
-    for p in contact.plate_nodes:
+    for p in contact.platen_nodes:
         y = x[2 * p + 1]
         least = min(least, y - x[contact.low], x[contact.high] - y)
     return least

@@ -14,17 +14,17 @@ least t (pi - tau) / 2.) A pair is weighted by the part of the node's tributary 
 farther than D from the segment.
 
 Walls that meet at an angle touch with centre lines less than t apart: the faces of two straight
-arms with the opening g are in contact up to t / (2 tan(g/2)) from the joint, where centre lines are
-t cos(g/2) apart. In terms of the path, contact starts at
+arms with the opening gamma are in contact up to t / (2 tan(gamma/2)) from the joint, where centre
+lines are t cos(gamma/2) apart. In terms of the path, contact starts at
 
     t_c = t s / sqrt(s^2 + t^2).
 
 Where only part of a node's length counts, s is the mean of the paths to that part. The node itself
 is nearer to the joint than this part: t_c is reduced by the ratio of the path to the node to s.
 Parts of two arms at rest that are farther apart than D along the path are apart by more than t in
-the plane: by D sin(g/2) = t [cos(g/2) + g/2 sin(g/2)], g the opening of the arms. Contact of walls
-that are printed into each other starts at 0.9 x their rest distance, so that the rest state is free
-of stress. A pair of weight 0 is no contact. Below 0.2 x its rest distance a barrier keeps it from
+the plane: by D sin(gamma/2) = t [cos(gamma/2) + gamma/2 sin(gamma/2)]. Contact of walls that are
+printed into each other starts at 0.9 x their rest distance, so that the rest state is free of
+stress. A pair of weight 0 is no contact. Below 0.2 x its rest distance a barrier keeps it from
 crossing: collision detection alone would stop every move that presses it. Evaluated once for a
 scene.
 """
@@ -228,11 +228,11 @@ def _half(p, k, t, graph, paths):
 
     Both ways to a point have to be long enough, over ``p`` and over the other end of ``k``.
     """
-    h, near_end, far_end = graph.l0[k], paths.length[p], np.inf
-    low, high = t * _least_path(_corners(graph, paths, p, k)) - near_end, 0.5 * h
+    l0, near_end, far_end = graph.l0[k], paths.length[p], np.inf
+    low, high = t * _least_path(_corners(graph, paths, p, k)) - near_end, 0.5 * l0
     other = _other(graph, k, p)
     if paths.length[other] < np.inf:
-        far_end = paths.length[other] + h
+        far_end = paths.length[other] + l0
         high = min(high, far_end - t * _least_path(_corners(graph, paths, other, k)))
     low = max(low, 0.0)
     middle = 0.5 * (low + high)

@@ -76,21 +76,21 @@ def prepare(x0, scene, memory, before, ahead, place, past, resultants):
 
 
 @jit
-def evaluate(u, scene, before, dt, shape, resultants, stiffness, projected, g):
-    """Return D in J for a move ``u`` = x - y in ``dt`` = h; add dD/dx to ``g`` and the walls' part
+def evaluate(u, scene, before, h, shape, resultants, stiffness, projected, g):
+    """Return D in J for a move ``u`` = x - y in ``h`` (s); add dD/dx to ``g`` and the walls' part
     of the Hessian to ``stiffness``. Slopes of ``shape`` are zero on entry.
     """
     total = 0.0
-    alpha, mass = scene.damp.alpha_m / dt, scene.coordinates.mass
+    alpha, mass = scene.damp.alpha_m / h, scene.coordinates.mass
     if alpha > 0.0:
         for i in range(2 * scene.layout.n_nodes):
             total += 0.5 * alpha * mass[i] * u[i] * u[i]
             g[i] += alpha * mass[i] * u[i]
     if scene.damp.beta_k > 0.0:
-        rate = scene.damp.beta_k / dt
+        rate = scene.damp.beta_k / h
         total += rayleigh.evaluate(u, scene.walls, before.stiffness, rate, shape, stiffness)
     if scene.damp.relaxation > 0.0:
-        rate = scene.damp.relaxation / dt
+        rate = scene.damp.relaxation / h
         total += kelvin_voigt.evaluate(scene, before, rate, shape, resultants, projected)
         elements.add(resultants, True, projected, shape, stiffness)
     if scene.damp.beta_k > 0.0 or scene.damp.relaxation > 0.0:
@@ -99,10 +99,10 @@ def evaluate(u, scene, before, dt, shape, resultants, stiffness, projected, g):
 
 
 @jit_exact
-def hessian(scene, dt, diagonal):
+def hessian(scene, h, diagonal):
     """Add the Hessian of D_mass to the ``diagonal`` (n,); `evaluate` has added that of the others
-    to the stiffness of the walls. dt: h.
+    to the stiffness of the walls. h: s.
     """
-    factor, mass = scene.damp.alpha_m / dt, scene.coordinates.mass
+    factor, mass = scene.damp.alpha_m / h, scene.coordinates.mass
     for i in range(2 * scene.layout.n_nodes):
         diagonal[i] += factor * mass[i]

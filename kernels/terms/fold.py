@@ -1,11 +1,16 @@
 """Fold barrier: keeps two neighbouring elements of a node from closing onto each other.
 
-For every opening g between elements that are adjacent round a node (rest opening g0; two openings
-at a node inside a wall):
+For every opening gamma between elements that are adjacent round a node (gamma_0 at rest; two
+openings at a node inside a wall):
 
-    E_f = K (g0 / 2)^2 b(g / g_f)   for g < g_f = min(20 degrees, g0 / 2),   else 0
+    E_f = K (gamma_0 / 2)^2 b(gamma / gamma_f)   for gamma < gamma_f = min(20 degrees, gamma_0 / 2),
+          0                                      else
 
-With u, v the elements and psi = arg v - arg u: d arg(v) = (-v_y, v_x) / r^2 =: q, and
+K: bending stiffness of the adjacent halves of both elements in series, N m. They would take K
+gamma_0^2 / 2 to close the opening: the barrier is of that order, and zero at rest. 20 degrees is a
+choice, by which it acts only where walls have nearly closed.
+
+For the vector v of an element from the node, of length r: d arg(v) = (-v_y, v_x) / r^2 =: q, and
 d2 arg(v) = [[-2 q_x q_y, q_x^2 - q_y^2], [., 2 q_x q_y]].
 """
 
@@ -26,7 +31,7 @@ LIMIT = math.radians(20.0)
 class Fold(NamedTuple):
     """Openings: nodes (f, 3); the angle is anticlockwise from element 1-0 to element 1-2.
 
-    limit (f,): g_f in rad. stiffness (f,): K (g0 / 2)^2 in N m.
+    limit (f,): gamma_f in rad. stiffness (f,): K (gamma_0 / 2)^2 in J.
     """
 
     nodes: np.ndarray
@@ -37,14 +42,18 @@ class Fold(NamedTuple):
 @jit
 def _cross_dot(x, a, b, c):
     """Return (cross, dot) of arm b-a with arm b-c."""
-    ux, uy = x[2 * a] - x[2 * b], x[2 * a + 1] - x[2 * b + 1]
-    vx, vy = x[2 * c] - x[2 * b], x[2 * c + 1] - x[2 * b + 1]
-    return ux * vy - uy * vx, ux * vx + uy * vy
+    ax, ay = x[2 * a] - x[2 * b], x[2 * a + 1] - x[2 * b + 1]
+    cx, cy = x[2 * c] - x[2 * b], x[2 * c + 1] - x[2 * b + 1]
+    return ax * cy - ay * cx, ax * cx + ay * cy
 
 
 @jit
 def opening(x, fold, k):
-    """Return min(g, 45 degrees) in rad; every limit is below 45 degrees."""
+    """Return min(gamma, 45 degrees) in rad; every limit is below 45 degrees.
+
+    A negative cross product is an opening of more than 180 degrees: collision detection
+    (`ccd.first_fold`) lets no element pass through the other.
+    """
     a, b, c = triple(fold.nodes, k)
     cross, dot = _cross_dot(x, a, b, c)
     if cross < 0.0 or dot <= cross:

@@ -1,23 +1,25 @@
 """Coulomb friction, smoothed at a small slip, with normal force and direction lagged.
 
-    D_f = sum mu lambda f(u),   f(u) = |u|^2/eps - |u|^3/(3 eps^2) + eps/3 for |u| < eps, else |u|
+    D_f = sum mu lambda f(delta),
+    f = delta^2/eps - |delta|^3/(3 eps^2) + eps/3 for |delta| < eps, else |delta|
 
-u is the tangential slip since y (`solve.integrators`), lambda the normal force of a pair where it
-was lagged (Li et al. 2020, eq. 16): at the start of a step, and with integrators of second order
-once more at its end. Walls have a thickness, so that two walls that rotate together do not slip:
-with the tangent T, the distance d, the moves dp of the node and dc of the closest point, and the
-rotation w of the segment,
+delta is the tangential slip since y (`solve.integrators`), lambda the normal force of a pair (Li et
+al. 2020, eq. 16) at the point where it was last lagged: the start of the step or, in the second
+minimisation of integrators of second order, the end that the first one has found. Walls have a
+thickness, so that two walls that rotate together do not slip: with the tangent T, the distance d,
+the moves dp of the node and dc of the closest point, and the rotation omega of the segment,
 
-    u = T . (dp - dc) - d w,    linear in the moves of p, a, b; `LaggedContacts` keeps the slopes.
+    delta = T . (dp - dc) - d omega,   linear in the moves of p, a, b, with the slopes of
+                                       `LaggedContacts`.
 
 Contributions that the contact sum subtracts have a negative normal force here too, so that friction
 and contact have the same normal forces.
 
-f'' is a spike at u = 0, over which Newton's method oscillates. A primal-dual method avoids this:
-the dual w = f' is an unknown, and with f' = u / psi(u) the linearised equation is psi(u) w = u. In
-the Hessian (1 - w psi') / psi replaces f'' and equals it where w = f' (Chan, Golub & Mulet 1999,
-SIAM J. Sci. Comput. 20, 1964). When the slip of a contact changes its sign, w still has the old
-sign, which makes the contact stick.
+f'' is a spike at delta = 0, over which Newton's method oscillates. A primal-dual method avoids
+this: the dual w = f' is an unknown, and with f' = delta / psi(delta) the linearised equation is
+psi(delta) w = delta. In the Hessian (1 - w psi') / psi replaces f'' and equals it where w = f'
+(Chan, Golub & Mulet 1999, SIAM J. Sci. Comput. 20, 1964). When the slip of a contact changes its
+sign, w still has the old sign, which makes the contact stick.
 """
 
 from typing import NamedTuple
@@ -29,16 +31,17 @@ from kernels.compile.jit import jit, jit_exact, jit_owning
 from kernels.geometry import near_pairs
 from kernels.geometry.distance import direction, normal
 from kernels.linear.condensed.block_matrix import add_block
-from kernels.terms.contact import Touching, detect, normal_force, plate_force
+from kernels.terms.contact import Touching, detect, normal_force, platen_force
 from kernels.terms.contact import no_contacts as none_touching
 
 UNKNOWN = 2.0  # dual that is not set; a dual is within -1 .. 1
-DUAL_TOLERANCE = 0.1  # largest |w - f'| at which the factor may be reused
+DUAL_TOLERANCE = 0.1  # largest |w - f'| at which the factor may be reused: its part in a contact
+# then differs from f'' by at most a tenth of 1 / psi
 
 
 class Friction(NamedTuple):
-    """mu: coefficient, 0 without friction. slip: eps of a static step in m; eps / h in m/s of a
-    dynamic one.
+    """mu: coefficient, 0 without friction. slip: eps in a static step, m; eps / h in a dynamic
+    one, m/s.
     """
 
     mu: float
@@ -50,7 +53,7 @@ def no_contacts(pairs, contact, friction):
     """Return an empty `LaggedContacts`, with room for all pairs if there is friction."""
     if friction.mu == 0.0:
         return none()
-    size = 3 * pairs.node.size + 2 * contact.plate_nodes.size
+    size = 3 * pairs.node.size + 2 * contact.platen_nodes.size
     nodes, slopes = np.empty((size, 3), np.int64), np.empty((size, 3, 2))
     count = np.zeros(1, np.int64)
     return LaggedContacts(
@@ -82,13 +85,12 @@ def enlarged(lagged_contacts, larger):
 
 
 @jit_exact
-def _append(lagged_contacts, n, nodes, load):
-    """Write contact ``n`` with zero slopes; return the new count."""
+def _start(lagged_contacts, n, nodes, load):
+    """Write contact ``n`` with zero slopes."""
     lagged_contacts.nodes[n, 0], lagged_contacts.nodes[n, 1], lagged_contacts.nodes[n, 2] = nodes
     lagged_contacts.load[n], lagged_contacts.dual[n] = load, UNKNOWN
     for v in range(3):
         lagged_contacts.slopes[n, v, 0], lagged_contacts.slopes[n, v, 1] = 0.0, 0.0
-    return n + 1
 
 
 @jit_exact
@@ -98,7 +100,7 @@ def _lag_segment(x, lagged_contacts, n, nodes, tau, load):
     nx, ny, d = normal(x, p, a, b, tau)
     ux, uy, length = direction(x, a, b)
     rx, ry = -d * uy / length, d * ux / length
-    _append(lagged_contacts, n, nodes, load)
+    _start(lagged_contacts, n, nodes, load)
     lagged_contacts.slopes[n, 0, 0], lagged_contacts.slopes[n, 0, 1] = -ny, nx
     lagged_contacts.slopes[n, 1, 0] = rx + (1.0 - tau) * ny
     lagged_contacts.slopes[n, 1, 1] = ry - (1.0 - tau) * nx
@@ -118,40 +120,41 @@ def lag(lagged_contacts, x, contact, pairs, drift, friction):
         a, b = pair(contact.edges, pairs.edge[k])
         load = friction.mu * normal_force(contact, pairs, touching, i)
         n = _lag_segment(x, lagged_contacts, n, (pairs.node[k], a, b), touching.tau[i], load)
-    for p in contact.plate_nodes:
+    for p in contact.platen_nodes:
         for d in (x[2 * p + 1] - x[contact.low], x[contact.high] - x[2 * p + 1]):
-            load = friction.mu * plate_force(contact, p, d)
+            load = friction.mu * platen_force(contact, p, d)
             if load > 0.0:
-                n = _append(lagged_contacts, n, (p, p, p), load)
-                lagged_contacts.slopes[n - 1, 0, 0] = 1.0
+                _start(lagged_contacts, n, (p, p, p), load)
+                lagged_contacts.slopes[n, 0, 0] = 1.0
+                n += 1
     lagged_contacts.count[0] = n
 
 
 @jit
-def smooth(u, slip):
-    """Return f and f' of the smoothed |u|."""
-    size = abs(u)
-    if size >= slip:
-        return size, 1.0 if u > 0.0 else -1.0
-    s = size / slip
-    return slip * (s * s * (1.0 - s / 3.0) + 1.0 / 3.0), u / slip * (2.0 - s)
+def smooth(delta, eps):
+    """Return f, the smoothed |delta|, and f'."""
+    size = abs(delta)
+    if size >= eps:
+        return size, 1.0 if delta > 0.0 else -1.0
+    s = size / eps
+    return eps * (s * s * (1.0 - s / 3.0) + 1.0 / 3.0), delta / eps * (2.0 - s)
 
 
 @jit
-def _psi(u, slip):
-    """Return psi(u), defined by f' = u / psi, and psi'."""
-    s, sign = abs(u) / slip, 1.0 if u > 0.0 else -1.0
+def _psi(delta, eps):
+    """Return psi(delta), defined by f' = delta / psi, and psi'."""
+    s, sign = abs(delta) / eps, 1.0 if delta > 0.0 else -1.0
     if s >= 1.0:
-        return abs(u), sign
-    return slip / (2.0 - s), sign / (2.0 - s) ** 2
+        return abs(delta), sign
+    return eps / (2.0 - s), sign / (2.0 - s) ** 2
 
 
 @jit
-def curvature(u, w, slip):
+def curvature(delta, w, eps):
     """Return (1 - w psi') / psi, which is f'' if the dual ``w`` is f' or `UNKNOWN`."""
-    psi, slope = _psi(u, slip)
+    psi, slope = _psi(delta, eps)
     if w == UNKNOWN:
-        w = u / psi
+        w = delta / psi
     return (1.0 - w * slope) / psi
 
 
@@ -166,12 +169,12 @@ def _slip(u, lagged_contacts, k):
 
 
 @jit
-def evaluate(lagged_contacts, u, slip, g):
+def evaluate(lagged_contacts, u, eps, g):
     """Return D_f in J for a move ``u`` (n,) from y, shifted to 0 at u = 0; add dD_f/dx to ``g``."""
     total = 0.0
     for k in range(lagged_contacts.count[0]):
-        value, slope = smooth(_slip(u, lagged_contacts, k), slip)
-        total += lagged_contacts.load[k] * (value - slip / 3.0)
+        value, slope = smooth(_slip(u, lagged_contacts, k), eps)
+        total += lagged_contacts.load[k] * (value - eps / 3.0)
         for v in range(3):
             i = 2 * lagged_contacts.nodes[k, v]
             g[i] += lagged_contacts.load[k] * slope * lagged_contacts.slopes[k, v, 0]
@@ -180,7 +183,7 @@ def evaluate(lagged_contacts, u, slip, g):
 
 
 @jit
-def follow(lagged_contacts, u, dx, share, slip):
+def follow(lagged_contacts, u, dx, share, eps):
     """Update the duals in a Newton step ``dx`` (n,), a ``share`` of which has led to ``u``.
 
     Return whether they agree with f' there, so that `hessian` is the second derivative.
@@ -189,9 +192,9 @@ def follow(lagged_contacts, u, dx, share, slip):
     for k in range(lagged_contacts.count[0]):
         move, at = _slip(dx, lagged_contacts, k), _slip(u, lagged_contacts, k)
         before = at - share * move
-        w = before / _psi(before, slip)[0] + curvature(before, lagged_contacts.dual[k], slip) * move
+        w = before / _psi(before, eps)[0] + curvature(before, lagged_contacts.dual[k], eps) * move
         lagged_contacts.dual[k] = min(max(w, -1.0), 1.0)
-        agree = agree and abs(lagged_contacts.dual[k] - at / _psi(at, slip)[0]) < DUAL_TOLERANCE
+        agree = agree and abs(lagged_contacts.dual[k] - at / _psi(at, eps)[0]) < DUAL_TOLERANCE
     return agree
 
 
@@ -224,21 +227,21 @@ class LaggedContacts(NamedTuple):
 
 
 @jit
-def hessian(u, lagged_contacts, slip, matrix, projected):
+def hessian(u, lagged_contacts, eps, matrix, projected):
     """Add the primal-dual d2D_f/dx2; projected: without contributions of negative force."""
     for k in range(lagged_contacts.count[0]):
         weight = lagged_contacts.load[k] * curvature(
-            _slip(u, lagged_contacts, k), lagged_contacts.dual[k], slip
+            _slip(u, lagged_contacts, k), lagged_contacts.dual[k], eps
         )
         if weight == 0.0 or (projected and weight < 0.0):
             continue
         last = 3 if lagged_contacts.nodes[k, 1] != lagged_contacts.nodes[k, 0] else 1
-        for v in range(last):
-            vx, vy = (
-                weight * lagged_contacts.slopes[k, v, 0],
-                weight * lagged_contacts.slopes[k, v, 1],
+        for a in range(last):
+            ax, ay = (
+                weight * lagged_contacts.slopes[k, a, 0],
+                weight * lagged_contacts.slopes[k, a, 1],
             )
-            for w in range(v + 1):
-                wx, wy = lagged_contacts.slopes[k, w, 0], lagged_contacts.slopes[k, w, 1]
-                i, j = 2 * lagged_contacts.nodes[k, v], 2 * lagged_contacts.nodes[k, w]
-                add_block(matrix, i, j, vx * wx, vx * wy, vy * wx, vy * wy)
+            for b in range(a + 1):
+                bx, by = lagged_contacts.slopes[k, b, 0], lagged_contacts.slopes[k, b, 1]
+                i, j = 2 * lagged_contacts.nodes[k, a], 2 * lagged_contacts.nodes[k, b]
+                add_block(matrix, i, j, ax * bx, ax * by, ay * bx, ay * by)

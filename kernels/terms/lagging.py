@@ -3,7 +3,7 @@
 Verbs of a problem for lagged forces (`solve.problem`), whatever the dimension of its contacts: the
 class of `Neighbours.lagged_contacts` has the verbs
 
-    lag(x, contact, pairs, drift, friction), evaluate(u, slip, g), follow(u, dx, share, slip),
+    lag(x, contact, pairs, drift, friction), evaluate(u, eps, g), follow(u, dx, share, eps),
     forget()
 """
 
@@ -25,7 +25,7 @@ def lag(problem, y):
 
 @jit_exact
 def slip_of(problem, step):
-    """Return the smoothing length of friction: the slip in a step, m."""
+    """Return eps of the step, the slip up to which friction is smoothed, m."""
     slip = problem.scene.friction.slip
     return slip * step.h if step.dynamic else slip
 
@@ -39,20 +39,21 @@ def exchange(problem, step, found):
     for i in range(found.g.size):
         found.g[i] -= found.friction[i]
         found.friction[i] = 0.0
-    slip = slip_of(problem, step)
-    potential = problem.neighbours.lagged_contacts.evaluate(found.u, slip, found.friction)
-    add(found.friction, found.g)
-    sums.potential += potential - sums.friction
-    sums.friction = potential
+    before = sums.friction
+    sums.potential += friction(problem, step, found) - before
     return sums.potential
 
 
 @jit_exact
-def complete(problem, step, found, potential):
-    """Enter the ``potential`` of all other terms in J, and add friction; return their sum."""
+def friction(problem, step, found):
+    """Return D_f in J; fill ``found.friction``, zero on entry, and add it to ``found.g``."""
     sums = found.sums[0]
-    sums.potential, sums.friction, sums.dissipated = potential, 0.0, 0.0
-    return exchange(problem, step, found)
+    sums.friction = 0.0
+    if problem.scene.friction.mu != 0.0:
+        eps, lagged_contacts = slip_of(problem, step), problem.neighbours.lagged_contacts
+        sums.friction = lagged_contacts.evaluate(found.u, eps, found.friction)
+        add(found.friction, found.g)
+    return sums.friction
 
 
 @jit_exact

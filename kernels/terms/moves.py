@@ -26,6 +26,14 @@ def begin(x, y, found):
 
 
 @jit_exact
+def end(found, potential):
+    """Enter the ``potential`` in J of a step that is not committed; return it."""
+    sums = found.sums[0]
+    sums.potential, sums.dissipated = potential, 0.0
+    return potential
+
+
+@jit_exact
 def travel(problem, dx):
     """Return the longest move of a node in ``dx``, m, at most the longest that lists may cover."""
     return min(problem.longest(dx), problem.scene.contact.most_move)

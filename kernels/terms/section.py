@@ -1,22 +1,26 @@
 """The law of a bent section: energy over the strain e of the centre line and the bending of fibres.
 
 A wall of curvature kappa (per rest length) becomes thinner where its fibres are stretched and
-thicker where they are compressed. A fibre at z from the centre line at rest is at y with
-dy/dz = a^(-nu'), and its stretch is a = lambda + kappa y, lambda = 1 + e. Hence, with m = 1 + nu',
+thicker where they are compressed. A fibre at a distance z from the centre line at rest is at a
+distance y when the wall is bent. With its stretch a, and lambda = 1 + e of the centre line,
 
-    a = (lambda^m + m kappa z)^(1/m)
-      = lambda (1 + u + (1 - m)/2 u^2 + (1 - m)(1 - 2 m)/6 u^3 + ..),   u = kappa z lambda^(-m).
+    dy/dz = a^(-nu'),   a = lambda + kappa y.
+
+Hence, with m = 1 + nu', a = (lambda^m + m kappa z)^(1/m), which is taken to third order:
+
+    a = lambda (1 + zeta + (1 - m)/2 zeta^2 + (1 - m)(1 - 2 m)/6 zeta^3),  zeta = kappa z / lambda^m
 
 Fibres are at Gauss points through the thickness, in pairs at +-z and one in the middle, which
 belongs to stretching. The potential of a section is that of its pairs, over their part of the
 volume,
 
-    w(e, theta) = sum of v (W(a(theta p) - 1) + W(a(-theta p) - 1) - 2 W(e)) - r(theta),
-    r = 2/3 (1 - nu'^2) Y' theta^4 / (1 + 5/3 theta^2),   theta = kappa z of the pair p = 1.
+    w(e, theta) = sum of v (W(a(theta p) - 1) + W(a(-theta p) - 1) - 2 W(e)) - R(theta),
+    R = 2/3 (1 - nu'^2) Y' theta^4 / (1 + 5/3 theta^2).
 
-With three fibres there is one pair, p = v = 1. r is the energy of the radial stress
-Y' kappa^2 (t^2/4 - z^2) / 2 that keeps fibres on their bent line, (1 - nu'^2) Y' t^5 kappa^4 / 240
-per length and depth, here bounded for large bending. It stays elastic where fibres relax.
+theta = kappa z is the bending of the outer of three fibres, z = (3/20)^(1/2) t. A pair is p times
+as far out and has v times its weight; of three fibres p = v = 1. R is the energy of the radial
+stress Y' kappa^2 (t^2/4 - z^2) / 2 that keeps fibres on their bent line, (1 - nu'^2) Y' t^5 kappa^4
+/ 240 per length and depth, here bounded for large bending. It stays elastic where fibres relax.
 """
 
 from typing import NamedTuple
@@ -26,24 +30,25 @@ import numpy as np
 from kernels.compile.jit import jit, jit_exact
 from kernels.laws.law import commit_point
 
-LEAST = 0.05  # stretch of the centre line below which the energy is infinite
+LEAST = 0.05  # stretch of the centre line up to which bending takes infinite energy, as lambda^(-m)
+# grows without bound there; the barrier below `elastic.GUARD` keeps walls longer
 
 
 @jit
 def fibre(m, stretched, r, theta):
     """Return the stretch a and its derivatives in e, theta; ee, e theta, theta theta.
 
-    m: of the module's formula. stretched: lambda. r: lambda^(-m).
+    m: of the module's formula. stretched: lambda. r: lambda^(-m). theta: kappa z of this fibre.
     """
-    u = theta * r
+    zeta = theta * r
     c2, c3 = 0.5 * (1.0 - m), (1.0 - m) * (1.0 - 2.0 * m) / 6.0
-    f = 1.0 + u * (1.0 + u * (c2 + u * c3))
-    slope = 1.0 + u * (2.0 * c2 + u * 3.0 * c3)
-    second = 2.0 * c2 + 6.0 * c3 * u
-    mixed = (1.0 - m) * slope - m * u * second
+    f = 1.0 + zeta * (1.0 + zeta * (c2 + zeta * c3))
+    slope = 1.0 + zeta * (2.0 * c2 + zeta * 3.0 * c3)
+    second = 2.0 * c2 + 6.0 * c3 * zeta
+    mixed = (1.0 - m) * slope - m * zeta * second
     return (
-        stretched * f, f - m * u * slope, stretched * r * slope,
-        -m * u / stretched * mixed, r * mixed, stretched * r * r * second,
+        stretched * f, f - m * zeta * slope, stretched * r * slope,
+        -m * zeta / stretched * mixed, r * mixed, stretched * r * r * second,
     )  # fmt: skip
 
 
@@ -58,7 +63,7 @@ def radial(theta):
 
 @jit
 def bent(law, stretched, r, theta, memory, point):
-    """Return the part of w that is of bent fibres: w without its terms W(e) of the centre line.
+    """Return the part of w that is of bent fibres: w without its terms W(e), J/m^3.
 
     Its value is followed by the first derivatives in e and theta, and the second ones in e e, e
     theta and theta theta. point: material point of the first fibre.

@@ -4,8 +4,10 @@ e is the strain of the centre line, which is an arc over its chord of length l:
 
     e = l / l0 - 1 + c_s (a_1^2 + a_2^2) + c_m a_1 a_2
 
-c_s = 1/15 and c_m = -1/30 for a cubic, whose arc is longer than its chord by h times the mean of
-half the square of its slope against the chord; both are zero for the strain of the chord.
+c_s = 1/15 and c_m = -1/30 for a cubic without shear, whose arc is longer than its chord by l0 times
+the mean of half the square of its slope against the chord (with shear: sweep/scene/beams.py). Both
+are zero where e is the strain of the chord: in classical elements and solid joints. W of a law with
+memory is its incremental potential (`laws.law`).
 """
 
 from typing import NamedTuple
@@ -19,8 +21,8 @@ from kernels.laws.law import commit_point
 class Stretch(NamedTuple):
     """l0 (m,) rest length in m, area (m,) in m^2, arc (2, m): c_s and c_m.
 
-    geometric: the Hessian has its geometric part, across elements. Without that it is the
-    material tangent alone, and the iteration is a quasi-Newton method.
+    geometric: the Hessian has its part N n n / l (`elements`). Without that it is not exact: the
+    iteration is a quasi-Newton method, and stability is checked with that matrix.
     """
 
     l0: np.ndarray
@@ -65,8 +67,8 @@ def push(stretch, resultants, k, volume, slopes, stress, tangent, projected):
 
 @jit
 def _convex(same, mixed):
-    """Return the second derivatives [[same, mixed], [mixed, same]] of e without the turns in which
-    they are negative: stout elements shorten where both ends turn alike, as they shear.
+    """Return the second derivatives [[same, mixed], [mixed, same]] of e with negative eigenvalues
+    set to zero. With shear, a short thick element shortens when both ends turn the same way.
     """
     if abs(mixed) <= same:
         return same, mixed

@@ -113,7 +113,7 @@ class Planned:
     def _refusal(self, what: str) -> ExportError:
         return ExportError(
             f"a case alone has no {what}; allowed: a results file and the id of a case in it, or "
-            ".stl, .3mf, .svg, .dxf"
+            f"{PRINTED}"
         )
 
 

@@ -1,15 +1,15 @@
 """The constants of the elements: areas, arcs, stiffness against bending and shear.
 
 With shear, of stiffness S = 5/6 G A in a section, an element is Timoshenko's beam: with
-P = 12 Y' I / (S h^2) and p = P / (2 (1 + P)),
+P = 12 Y' I / (S l0^2) and p = P / (2 (1 + P)),
 
-    k_11 = k_22 = (4 + P) Y' I / (h (1 + P)),   k_12 = (2 - P) Y' I / (h (1 + P)),
+    k_11 = k_22 = (4 + P) Y' I / (l0 (1 + P)),   k_12 = (2 - P) Y' I / (l0 (1 + P)),
 
 and the slopes of its axis against the chord, which make the arc longer, are b_i = a_i - p (a_1 +
 a_2). The axial force does no work on shear (Haringx): the strain is that along the normal of the
 section, which is turned from the axis by g = p (a_1 + a_2),
 
-    e = l / h - 1 + (2 b_1^2 - b_1 b_2 + 2 b_2^2) / 30 - g^2 / 2.
+    e = l / l0 - 1 + (2 b_1^2 - b_1 b_2 + 2 b_2^2) / 30 - g^2 / 2.
 
 A wall whose layers have unequal thicknesses (`Network.gyration`, i) has the mean area, of a
 thickness t, the mean second moment I = i^2 t^3 / 12, and fibres i times as far from its centre
@@ -66,13 +66,13 @@ def contraction(material: Material) -> float:
 
 def build_beams(mesh: Mesh, arms: Arms, case: Case) -> Beams:
     """The constants of the elements of a ``mesh`` whose walls end in ``arms``."""
-    material, depth, t, h = case.material, case.lattice.depth, mesh.thickness, mesh.rest_length
+    material, depth, t, l0 = case.material, case.lattice.depth, mesh.thickness, mesh.rest_length
     modulus = plane_factors(material)[1] * material.modulus
     area, rigidity = depth * t, modulus * depth * t**3 / 12.0
     if mesh.gyration is not None:
         rigidity = rigidity * mesh.gyration**2
     rigid_in_shear = SHEAR_COEFFICIENT * material.modulus / (2.0 * (1.0 + material.poisson)) * area
-    shear = np.where(arms.sheared[mesh.wall], 12.0 * rigidity / (rigid_in_shear * h**2), 0.0)
+    shear = np.where(arms.sheared[mesh.wall], 12.0 * rigidity / (rigid_in_shear * l0**2), 0.0)
     if case.solver.element == "classical":
         arc, factors = np.zeros((2, len(t))), np.multiply.outer([2.0, 0.0, 2.0], np.ones(len(t)))
     else:
@@ -80,17 +80,17 @@ def build_beams(mesh: Mesh, arms: Arms, case: Case) -> Beams:
             _arc(shear),
             np.stack([4.0 + shear, 2.0 - shear, 4.0 + shear]) / (1.0 + shear),
         )
-    stiffness = factors * rigidity / h
+    stiffness = factors * rigidity / l0
     joint = mesh.joint >= 0
     if joint.any():
         ends = mesh.joint[joint]
         along, across = joint_elements(
             ends % 2,
-            (h / t)[joint],
+            (l0 / t)[joint],
             arms.compliance.reshape(-1, 4, 3)[ends],
             contraction(material),
         )
-        area[joint] = depth * h[joint] * along
+        area[joint] = depth * l0[joint] * along
         stiffness[:, joint] = modulus * depth * t[joint] ** 2 * across
         if mesh.gyration is not None:
             stiffness[:, joint] *= mesh.gyration[joint] ** 2

@@ -32,14 +32,14 @@ def _sections(mesh: Mesh, beams: Beams, case: Case) -> tuple[Floats, Floats, Flo
     """``spread`` (2, m), ``volume`` (m,) and ``shear`` (m,) of `kernels.terms.bend.Bend`.
 
     The moments of Timoshenko's element are those of its curvature, less their part in shear:
-    k_s = 3 P / (1 + P)^2 Y' I / h. Solid joints bend linearly, and so do the stubs between them.
+    k_s = 3 P / (1 + P)^2 Y' I / l0. Solid joints bend linearly, and so do the stubs between them.
     """
-    h, by = mesh.rest_length, 1.0 / (1.0 + beams.shear)
-    across = FIBRE * mesh.thickness / h * (1.0 if mesh.gyration is None else mesh.gyration)
+    l0, by = mesh.rest_length, 1.0 / (1.0 + beams.shear)
+    across = FIBRE * mesh.thickness / l0 * (1.0 if mesh.gyration is None else mesh.gyration)
     along = ALONG[case.solver.element] * across * by
     linear = beams.joint | mesh.stubs
-    volume = np.where(linear, 0.0, 0.5 * OUTER * case.lattice.depth * mesh.thickness * h)
-    shear = 3.0 * beams.shear * by**2 * beams.rigidity / h
+    volume = np.where(linear, 0.0, 0.5 * OUTER * case.lattice.depth * mesh.thickness * l0)
+    shear = 3.0 * beams.shear * by**2 * beams.rigidity / l0
     return np.stack([across, along]), volume, shear
 
 

@@ -63,7 +63,7 @@ def contact_of(
         special_weight=special[2],
         special_distance=special[3] if by_force else np.where(special[2] > 0.0, special[3], 0.0),
         special_subtract=special[4],
-        plate_nodes=_loose(numbering, case) if acts else np.empty(0, np.int64),
+        platen_nodes=_loose(numbering, case) if acts else np.empty(0, np.int64),
         low=numbering.low,
         high=numbering.high,
     )

@@ -206,7 +206,7 @@ def _springs(structure: Structure) -> spring.Spring:
 def _on_floor(touch: contact.Contact, structure: Structure, numbering: Ground) -> contact.Contact:
     """Contact of all nodes with the floor, where there is one."""
     nodes = np.arange(numbering.n_nodes if structure.floor_y_mm is not None else 0)
-    return touch._replace(plate_nodes=nodes, low=numbering.low, high=numbering.ceiling)
+    return touch._replace(platen_nodes=nodes, low=numbering.low, high=numbering.ceiling)
 
 
 def _masses(structure: Structure, masses: Floats) -> Floats:

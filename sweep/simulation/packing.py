@@ -7,8 +7,8 @@ Montanini 2001; Li, Magkiriadis & Harrigan 2006).
 
 The place of a maximum is not continuous in the curve. A lattice whose rows fold one after another
 has several maxima of nearly the same height, and the least change of a force moves the place from
-one to another (`packed_row`). `packing` replaces the place by a mean over all strains of nearly the
-greatest efficiency,
+one to another (`packed_row`). `weights` are those of a mean over all strains of nearly the greatest
+efficiency, which replaces that place,
 
     X = integral w x de / integral w de,    w(e) = max(0, eta(e) - (1 - BAND) max eta),
 

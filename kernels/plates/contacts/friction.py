@@ -1,24 +1,26 @@
 """Coulomb friction of walls in space, with normal force and tangent plane lagged.
 
-    D_f = sum mu lambda f(|u|),   f(u) = u^2/eps - u^3/(3 eps^2) + eps/3 for u < eps, else u
+    D_f = sum mu lambda f(|delta|),   f of `terms.friction`
 
-u: tangential slip since y, two numbers in the plane normal to the contact; lambda: normal force of
-a contact where it was lagged, as in `terms.friction` (Li et al. 2020, eq. 16). Walls have a
+delta: tangential slip since y, two numbers in the plane normal to the contact; lambda: normal force
+of a contact where it was lagged, as in `terms.friction` (Li et al. 2020, eq. 16). Walls have a
 thickness, so that two walls that rotate together do not slip: with the distance d, the normal n,
-the moves dp of the node and dc of the closest point, and the rotation w of the triangle,
+the moves dp of the node and dc of the closest point, and the rotation omega of the triangle,
 
-    u = T^T [dp - dc - d w x n],   linear in the moves of p, a, b, c
+    delta = T^T [dp - dc - d omega x n],   linear in the moves of p, a, b, c
 
 The rotation of a triangle with the sides e_1, e_2, its normal N and the dual basis e^k is that of
-any rigid motion, w = (sum e^k x de_k + N x dN) / 2, so that friction has no resultant moment.
+any rigid motion, omega = (sum e^k x de_k + N x dN) / 2, so that friction has no resultant moment.
 
 Primal-dual Newton method (Chan, Golub & Mulet 1999, SIAM J. Sci. Comput. 20, 1964): the dual w =
-f' u/|u| is an unknown, and psi(|u|) w = u is linearised. With e = u / |u| the Hessian in u is
+f' e, e = delta / |delta|, is an unknown, and psi(|delta|) w = delta is linearised. The Hessian in
+delta is
 
     (I - psi' (w e^T + e w^T) / 2) / psi,
 
-positive semi-definite for |w| <= 1, and the second derivative where w = u / psi. `terms.friction`
-is the same in the plane. Contributions that the contact sum subtracts have a negative lambda.
+positive semi-definite for |w| <= 1, and the second derivative where w = delta / psi.
+`terms.friction` is the same in the plane. Contributions that the contact sum subtracts have a
+negative lambda.
 """
 
 import math
@@ -172,12 +174,12 @@ def lag(lagged_contacts, x, contact, pairs, drift, friction):
 
 
 @jit
-def _psi(size, slip):
-    """Return psi, defined by f' = |u| / psi, and psi' at |u| = ``size``."""
-    s = size / slip
+def _psi(size, eps):
+    """Return psi, defined by f' = |delta| / psi, and psi' at |delta| = ``size``."""
+    s = size / eps
     if s >= 1.0:
         return size, 1.0
-    return slip / (2.0 - s), 1.0 / (2.0 - s) ** 2
+    return eps / (2.0 - s), 1.0 / (2.0 - s) ** 2
 
 
 @jit
@@ -193,15 +195,15 @@ def _slip(u, lagged_contacts, k):
 
 
 @jit
-def evaluate(lagged_contacts, u, slip, g):
+def evaluate(lagged_contacts, u, eps, g):
     """Return D_f in J for a move ``u`` (n,) from y, shifted to 0 at u = 0; add dD_f/dx to ``g``."""
     total = 0.0
     for k in range(lagged_contacts.count[0]):
         one, two = _slip(u, lagged_contacts, k)
         size = math.hypot(one, two)
-        value, _ = smooth(size, slip)
-        total += lagged_contacts.load[k] * (value - slip / 3.0)
-        factor = lagged_contacts.load[k] / _psi(size, slip)[0]
+        value, _ = smooth(size, eps)
+        total += lagged_contacts.load[k] * (value - eps / 3.0)
+        factor = lagged_contacts.load[k] / _psi(size, eps)[0]
         for i in range(lagged_contacts.size[k]):
             place = SIZE * lagged_contacts.nodes[k, i]
             for m in range(3):
@@ -213,38 +215,38 @@ def evaluate(lagged_contacts, u, slip, g):
 
 
 @jit
-def curvature(u, w, slip):
-    """Return (c_11, c_12, c_22), the matrix of the module's docstring at the slip ``u`` and the
+def curvature(delta, w, eps):
+    """Return (c_11, c_12, c_22), the matrix of the module's docstring at the slip ``delta`` and the
     dual ``w``, of two numbers each.
     """
-    size = math.hypot(u[0], u[1])
-    psi, slope = _psi(size, slip)
+    size = math.hypot(delta[0], delta[1])
+    psi, slope = _psi(size, eps)
     if size == 0.0:
         return 1.0 / psi, 0.0, 1.0 / psi
-    one, two = (u[0] / psi, u[1] / psi) if w[0] == UNKNOWN else (w[0], w[1])
-    e, f = u[0] / size, u[1] / size
+    one, two = (delta[0] / psi, delta[1] / psi) if w[0] == UNKNOWN else (w[0], w[1])
+    e, f = delta[0] / size, delta[1] / size
     c11, c22 = 1.0 - slope * one * e, 1.0 - slope * two * f
     return c11 / psi, -0.5 * slope * (one * f + two * e) / psi, c22 / psi
 
 
 @jit
-def _next_dual(u, move, w, slip):
-    """Return the dual after the Newton step ``move`` from the slip ``u`` and the dual ``w``.
+def _next_dual(delta, move, w, eps):
+    """Return the dual after the Newton step ``move`` from the slip ``delta`` and the dual ``w``.
 
     Its size is at most 1. It is linearised with the symmetric `curvature`, as the Hessian is: with
     the linearisation that is not symmetric, a tenth of 200 random problems of one contact ended in
     a cycle.
     """
-    psi, _ = _psi(math.hypot(u[0], u[1]), slip)
-    c11, c12, c22 = curvature(u, w, slip)
-    one = u[0] / psi + c11 * move[0] + c12 * move[1]
-    two = u[1] / psi + c12 * move[0] + c22 * move[1]
+    psi, _ = _psi(math.hypot(delta[0], delta[1]), eps)
+    c11, c12, c22 = curvature(delta, w, eps)
+    one = delta[0] / psi + c11 * move[0] + c12 * move[1]
+    two = delta[1] / psi + c12 * move[0] + c22 * move[1]
     shrink = max(math.hypot(one, two), 1.0)
     return one / shrink, two / shrink
 
 
 @jit
-def follow(lagged_contacts, u, dx, share, slip):
+def follow(lagged_contacts, u, dx, share, eps):
     """Update the duals in a Newton step ``dx`` (n,), a ``share`` of which has led to ``u``.
 
     Return whether they agree with the slip there, so that `block` is the second derivative.
@@ -254,9 +256,9 @@ def follow(lagged_contacts, u, dx, share, slip):
         move, at = _slip(dx, lagged_contacts, k), _slip(u, lagged_contacts, k)
         before = at[0] - share * move[0], at[1] - share * move[1]
         dual = lagged_contacts.dual[k, 0], lagged_contacts.dual[k, 1]
-        one, two = _next_dual(before, move, dual, slip)
+        one, two = _next_dual(before, move, dual, eps)
         lagged_contacts.dual[k, 0], lagged_contacts.dual[k, 1] = one, two
-        psi, _ = _psi(math.hypot(at[0], at[1]), slip)
+        psi, _ = _psi(math.hypot(at[0], at[1]), eps)
         off = math.hypot(one - at[0] / psi, two - at[1] / psi)
         agree = agree and off < DUAL_TOLERANCE
     return agree
@@ -292,7 +294,7 @@ class LaggedContacts(NamedTuple):
 
 
 @jit
-def block(u, lagged_contacts, slip, k, projected, K):
+def block(u, lagged_contacts, eps, k, projected, K):
     """Write the primal-dual Hessian of contact ``k`` to ``K`` (12, 12); return the number of its
     nodes, 0 if there is nothing to add.
 
@@ -303,7 +305,7 @@ def block(u, lagged_contacts, slip, k, projected, K):
     if load == 0.0 or (projected and load < 0.0):
         return 0
     dual = lagged_contacts.dual[k, 0], lagged_contacts.dual[k, 1]
-    c11, c12, c22 = curvature(_slip(u, lagged_contacts, k), dual, slip)
+    c11, c12, c22 = curvature(_slip(u, lagged_contacts, k), dual, eps)
     for i in range(size):
         for m in range(3):
             one, two = lagged_contacts.slopes[k, i, 0, m], lagged_contacts.slopes[k, i, 1, m]

@@ -64,7 +64,9 @@ def leaders(mesh: PlateMesh, platen: str) -> Indices:
 
 
 def _mirrored(mesh: PlateMesh, numbering: Numbering) -> list[Indices]:
-    """Coordinates that mirror planes hold; walls cross these planes at right angles."""
+    """Coordinates that the mirror planes of `lattice.symmetry` "quarter" hold; walls cross these
+    planes at right angles.
+    """
     held = []
     for axis in (0, 1):
         nodes = np.flatnonzero(mesh.on[:, axis])

@@ -73,20 +73,20 @@ def test_what_is_held_stays():
     assert nearest > 0.8 * APART
 
 
-@pytest.mark.parametrize(("plate", "side"), [(-2, 1.0), (-1, -1.0)], ids=["lower", "upper"])
-def test_a_platen_keeps_half_a_thickness_from_all_nodes(plate, side):
+@pytest.mark.parametrize(("platen", "side"), [(-2, 1.0), (-1, -1.0)], ids=["lower", "upper"])
+def test_a_platen_keeps_half_a_thickness_from_all_nodes(platen, side):
     """One that is nearer, or beyond it, is moved straight away from the platen."""
     walls = two_walls(2.0)
     x, contacts = walls.rest.copy(), touching(walls)
     x[-2:] = -50.0, 50.0
-    x[plate] = 1.0 - side
-    x[1] = x[plate] - 0.1 * side
+    x[platen] = 1.0 - side
+    x[1] = x[platen] - 0.1 * side
     nodes, ease = x[:-2].copy(), np.ones(x.size)
-    near = side * (x[contacts.plate_nodes * 2 + 1] - x[plate]) < 0.4
+    near = side * (x[contacts.platen_nodes * 2 + 1] - x[platen]) < 0.4
     assert 0 < near.sum() < near.size
     assert position_based._leave_platens(x, contacts, ease)
     assert not position_based._leave_platens(x, contacts, ease)
-    gaps = side * (x[contacts.plate_nodes * 2 + 1] - x[plate])
+    gaps = side * (x[contacts.platen_nodes * 2 + 1] - x[platen])
     np.testing.assert_allclose(gaps[near], 0.4, rtol=1e-12)
     np.testing.assert_array_equal(x[:-2][0::2], nodes[0::2])
     np.testing.assert_array_equal(gaps[~near], 2.0)

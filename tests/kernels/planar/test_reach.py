@@ -80,7 +80,7 @@ def hits(scene, x, dx):
     near = zip(everything.node, terms.contact.edges[everything.edge], strict=True)
     met = [ccd.first_contact(x, dx, p, a, b) for p, (a, b) in near]
     met += [ccd.first_fold(x, dx, a, b, c) for a, b, c in terms.fold.nodes]
-    for p in terms.contact.plate_nodes:
+    for p in terms.contact.platen_nodes:
         gaps = x[2 * p + 1] - x[low], x[high] - x[2 * p + 1]
         closing = dx[low] - dx[2 * p + 1], dx[2 * p + 1] - dx[high]
         met += [gap / way for gap, way in zip(gaps, closing, strict=True) if way > 0.0]

@@ -201,7 +201,7 @@ def test_units_change_nothing():
     assert term_of(metre, 1e-3 * x).energy(1e-3 * x) == pytest.approx(1e-3 * in_mm)
 
 
-def between_plates(low, high):
+def between_platens(low, high):
     x = ONE.rest.copy()
     x[-2:] = low, high
     return x
@@ -212,7 +212,7 @@ def between_plates(low, high):
 def test_derivatives_of_platens(low, high, length):
     """A platen touches at half a thickness; both, one and none of the walls' sides are near."""
     of = scaled(ONE, length)
-    x = length * between_plates(low, high)
+    x = length * between_platens(low, high)
     assert derivative_error(plates(of), x, of.unit, 1e-4 if low < -0.05 else 1e-5) < 1e-6
     assert least_share(plates(of), x) > -1e-12
 
@@ -222,15 +222,15 @@ def plates(of):
 
 
 def test_a_wall_on_a_platen_has_its_length_times_phi_at_half_the_thickness():
-    x = between_plates(-0.15, 30.0)
+    x = between_platens(-0.15, 30.0)
     term = plates(ONE)
     assert term.energy(x) == pytest.approx(4.0 * phi(0.15, t=0.4), rel=1e-12)
     slope = term.gradient(x)
     assert slope[-2] == pytest.approx(-slope[1:8:2].sum())
     assert slope[-2] > 1
-    assert term.energy(between_plates(0.0, 30.0)) == np.inf
-    assert term.energy(between_plates(0.1, 30.0)) == np.inf
-    assert term.energy(between_plates(-0.4, 0.9)) == 0.0
+    assert term.energy(between_platens(0.0, 30.0)) == np.inf
+    assert term.energy(between_platens(0.1, 30.0)) == np.inf
+    assert term.energy(between_platens(-0.4, 0.9)) == 0.0
 
 
 @pytest.mark.parametrize("fall", [0.1, 0.6, 5.0])

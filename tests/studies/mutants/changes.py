@@ -183,10 +183,10 @@ MUTANTS = [
             "touching.distance[n])\n    return -slope",
             "touching.distance[n])\n    return slope",
         ),
-        ("plates: energy", "                total += value", "                total -= value"),
-        ("plates: force on the platen", "g[plate] -= side * slope", "g[plate] += side * slope"),
-        ("plates: Hessian", "2 * p + 1, -curvature", "2 * p + 1, curvature"),
-        ("plates: step limit", "closing > 0.0", "closing < 0.0"),
+        ("platens: energy", "                total += value", "                total -= value"),
+        ("platens: force on the platen", "g[platen] -= side * slope", "g[platen] += side * slope"),
+        ("platens: Hessian", "2 * p + 1, -curvature", "2 * p + 1, curvature"),
+        ("platens: step limit", "closing > 0.0", "closing < 0.0"),
     ),
     *_of(
         f"{TERMS}/contact_near_joints.py",
@@ -206,7 +206,7 @@ MUTANTS = [
     ),
     *_of(
         f"{TERMS}/friction.py",
-        ("friction: energy", "(value - slip / 3.0)", "(slip / 3.0 - value)"),
+        ("friction: energy", "(value - eps / 3.0)", "(eps / 3.0 - value)"),
         ("friction: gradient", "g[i] += lagged_", "g[i] -= lagged_"),
         ("friction: Hessian", "return (1.0 - w * slope) / psi", "return (1.0 + w * slope) / psi"),
         ("friction: turning walls slip", "-d * uy / length", "d * uy / length"),
@@ -215,7 +215,11 @@ MUTANTS = [
     *_of(
         f"{PLANAR}/position_based.py",
         ("by position: pulled", "(d_contact - d) / weight", "(d - d_contact) / weight"),
-        ("by position: off a platen", "x[plate] + side * d_contact", "x[plate] - side * d_contact"),
+        (
+            "by position: off a platen",
+            "x[platen] + side * d_contact",
+            "x[platen] - side * d_contact",
+        ),
     ),
     *_of(
         f"{PLANAR}/couplings.py",

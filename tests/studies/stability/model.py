@@ -46,7 +46,7 @@ def stored(x, terms, x0):
     elastic = np.abs(force).max()
     stretching += _springs(x, terms.spring, g)
     touching, push = _walls(x, terms.contact, g)
-    touching += _plates(x, terms.contact, g)
+    touching += _platens(x, terms.contact, g)
     return Stored(np.array([stretching, bending, touching]), g, max(elastic, push))
 
 
@@ -237,14 +237,14 @@ def _weighed(node, edge, contact):
     return weight, start, off
 
 
-def _plates(x, contact, g):
+def _platens(x, contact, g):
     """Energy of nodes that touch a platen."""
-    nodes, total = contact.plate_nodes, 0.0
+    nodes, total = contact.platen_nodes, 0.0
     start, y = 0.5 * contact.node_thickness[nodes], x[2 * nodes + 1]
-    for plate, side in ((contact.low, 1.0), (contact.high, -1.0)):
-        value, slope = barrier(side * (y - x[plate]) / start)
+    for platen, side in ((contact.low, 1.0), (contact.high, -1.0)):
+        value, slope = barrier(side * (y - x[platen]) / start)
         force = side * contact.tributary[nodes] * contact.stiffness * slope
         np.add.at(g, 2 * nodes + 1, force)
-        g[plate] -= force.sum()
+        g[platen] -= force.sum()
         total += np.sum(contact.tributary[nodes] * contact.stiffness * start * value)
     return total

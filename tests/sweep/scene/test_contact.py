@@ -24,7 +24,7 @@ def test_without_contact_its_arrays_are_empty():
     terms = scene_of(contact=Contact(model="none")).terms
     touch = terms.contact
     empty = ("edges", "edge_thickness", "subtract", "special_node", "special_weight",
-             "special_distance", "special_subtract", "plate_nodes")  # fmt: skip
+             "special_distance", "special_subtract", "platen_nodes")  # fmt: skip
     assert {name: getattr(touch, name).size for name in empty} == dict.fromkeys(empty, 0)
     assert touch.reach == 0.0
     assert not touch.special_start.any()
@@ -39,7 +39,7 @@ def test_platens_touch_what_is_not_glued_to_them(platen, model):
     touched = np.full(len(y), platen.endswith("contact"))
     if platen.endswith("glued") and model == "barrier":
         touched = (y > 0.0) & (y < 12.5e-3)
-    np.testing.assert_array_equal(scene.terms.contact.plate_nodes, np.flatnonzero(touched))
+    np.testing.assert_array_equal(scene.terms.contact.platen_nodes, np.flatnonzero(touched))
     assert len(scene.terms.contact.edges) == (0 if model == "none" else len(scene.mesh.edges))
     np.testing.assert_allclose(
         scene.x_rest[-2:], [-0.5 * THICKNESS, 12.5e-3 + 0.5 * THICKNESS], rtol=1e-12
