@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from sweep.ranking.ranking import Ranking
 
 DONE, SOME_FAILED = 0, 1
-NUMBERED = "--scene, --budget and --allowed-force"
 
 
 def run(arguments: Namespace) -> int:
@@ -247,9 +246,14 @@ def _warn(file: str, ranking: Ranking, summary: DataFrame) -> None:
     hint(nearest_commands(file, ranking, summary))
 
 
-def _of_a_number(arguments: Namespace) -> bool:
-    """Whether options say in which ranking a number is a place."""
-    return bool(arguments.scene or arguments.budget or arguments.allowed_force)
+def _of_a_number(arguments: Namespace) -> list[str]:
+    """The options that say in which ranking a number is a place; an export has a panel anyway."""
+    from sweep.ranking.requirements import MEASURES
+
+    names = ["scene", "budget", "panel", "by", "allowed_force", "per", *MEASURES]
+    if arguments.verb == "export":
+        names.remove("panel")
+    return [f"--{name.replace('_', '-')}" for name in names if getattr(arguments, name)]
 
 
 def _named(arguments: Namespace, summary: DataFrame) -> tuple[Series, str]:
@@ -258,8 +262,10 @@ def _named(arguments: Namespace, summary: DataFrame) -> tuple[Series, str]:
     from sweep.ranking.curves import with_allowed
 
     if not (arguments.case and is_number(arguments.case)):
-        if _of_a_number(arguments):
-            raise ArgumentError(f"{NUMBERED} belong to a number in the ranking")
+        if options := _of_a_number(arguments):
+            raise ArgumentError(
+                f"{', '.join(options)}: only with a number in the ranking, such as 1"
+            )
         return by_id(summary, arguments.case), ""
     question = asked(arguments)
     summary = with_allowed(arguments.file, summary, question)

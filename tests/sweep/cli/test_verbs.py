@@ -420,7 +420,66 @@ def test_show_takes_a_number_of_the_ranking_and_says_which_case_that_is(capsys, 
     status, _, err = crumple(capsys, "show", file, f"{1:016x}", "--scene", "1")
     assert (status, err) == (
         2,
-        "crumple show: --scene, --budget and --allowed-force belong to a number in the ranking\n",
+        "crumple show: --scene: only with a number in the ranking, such as 1\n",
+    )
+
+
+QUESTIONS = [
+    ["--panel", "100 mm", "50 mm"],
+    ["--panel", "100 mm", "50 mm", "--per", "panel", "--allowed-force", "1 kN"],
+    ["--budget", "2 g", "4 g", "--max-force", "25 N"],
+    ["--by", "mass_g"],
+    ["--min-absorbed", "0.25 J", "--max-mass", "3 g", "--max-stroke", "9 mm"],
+]
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+@pytest.mark.parametrize("number", [1, 2])
+def test_a_number_is_that_of_the_ranking_with_the_same_options(capsys, tmp_path, question, number):
+    rows = designs([1.0, 2.0, 4.0], [0.1, 0.3, 0.4])
+    for row, width, peak in zip(rows, [13e-3, 26e-3, 52e-3], [20.0, 22.0, 27.0], strict=True):
+        row |= {"outer_width_m": width, "peak_force_N": peak}
+    file = write(tmp_path / "trial.h5", summary(*rows))
+    ranking = pd.read_csv(
+        io.StringIO(crumple(capsys, "rank", file, *question, "--csv")[1]), dtype={"case_id": str}
+    )
+    if "budget_g" in ranking:
+        first = ranking["budget_g"].iloc[0]
+        ranking = ranking[ranking["budget_g"].isna() | (ranking["budget_g"] == first)]
+    words = [file, str(number), *question]
+    if number > len(ranking):
+        assert f"no number {number} " in crumple(capsys, "show", *words)[2]
+        return
+    wanted = ranking["case_id"].iloc[number - 1]
+    assert f"case {wanted}, " in crumple(capsys, "show", *words)[1]
+    if "--panel" not in question:  # curves have none
+        told = crumple(capsys, "export", *words, "--to", str(tmp_path / "a.csv"))[1]
+        assert told.splitlines()[0] == crumple(capsys, "show", *words)[1].splitlines()[0]
+
+
+def test_the_panel_of_an_exported_number_is_also_that_of_the_ranking(capsys, tmp_path, monkeypatch):
+    """A panel has more of the narrow design, which is the second alone."""
+    asked = []
+    monkeypatch.setattr(
+        "sweep.export.export.export_case", lambda *words: asked.append(words) or (["a.stl"], [])
+    )
+    rows = designs([1.0, 2.0], [0.2, 0.3])
+    rows[1] |= {"outer_width_m": 50e-3}
+    file = write(tmp_path / "trial.h5", summary(*rows))
+    panel = ["--panel", "100 mm", "50 mm"]
+    words = ["--to", str(tmp_path / "a.stl"), "--by", "absorbed_energy_J"]
+    assert crumple(capsys, "export", file, "1", *words)[0] == 0
+    assert crumple(capsys, "export", file, "1", *panel, *words[:2])[0] == 0
+    assert crumple(capsys, "export", file, f"{1:016x}", *panel, *words[:2])[0] == 0
+    assert [(each[2], each[3]) for each in asked] == [
+        (f"{1:016x}", None),
+        (f"{0:016x}", panel[1:]),
+        (f"{1:016x}", panel[1:]),
+    ]
+    status, _, err = crumple(capsys, "export", file, f"{1:016x}", "--per", "panel", *words[:2])
+    assert (status, err) == (
+        2,
+        "crumple export: --per: only with a number in the ranking, such as 1\n",
     )
 
 
