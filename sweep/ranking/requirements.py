@@ -204,7 +204,7 @@ def _outcome(judged: Judged, mode: str, budget_g: float, energy: float, force: f
         doubtful=int(part.fulfil.sum()) - soundly,
         failed={name: int((part.shares[name] != 0.0).sum()) for name in part.asked},
         unknown={name: int(part.found[name].isna().sum()) for name in part.asked},
-        open=_open(part),
+        open=_open(part, energy, force),
         best={k: _best(part.found[k], sound, MEASURES[k].least) for k in part.asked},
         left_out=part.left_out,
         nearest=nearest,
@@ -274,13 +274,19 @@ def _best(values: Series, sound: Series, least: bool) -> Best:
     return Best(float(known.max() if least else known.min()), trusted.empty)
 
 
-def _open(part: Judged) -> int:
-    """Number of designs that fail `min_absorbed` alone, with an energy that is a lower bound."""
+def _open(part: Judged, energy: float, force: float) -> int:
+    """Number of designs that fail `min_absorbed` alone, with an energy that is a lower bound.
+
+    No longer crush of a design absorbs the energy (J) that is required if the allowed force (N)
+    over all of its height, or over the greatest stroke, would not.
+    """
     if "min_absorbed" not in part.asked:
         return 0
     others = (part.shares.drop(columns="min_absorbed") == 0.0).all(axis=1)
     short = part.shares["min_absorbed"] > 0.0
-    return int((part.rows["ends_early"] & short & others).sum())
+    stroke = part.rows["height_m"].clip(upper=part.asked.get("max_stroke", np.inf))
+    impossible = force * stroke < energy
+    return int((part.rows["ends_early"] & short & others & ~impossible).sum())
 
 
 def _nearest(part: Judged) -> tuple[DataFrame, dict[str, float]]:
