@@ -86,7 +86,7 @@ def nearest_commands(file: str, ranking: Ranking, summary: DataFrame) -> Iterato
     from sweep.report.tables.design_text import short_id
 
     placed = {*ranking.table["scene"]}
-    for label in ranking.lightest_g:
+    for label in ranking.scenes:
         if label not in placed and (instead := ranking.instead(label)):
             word, row = instead
             name, case_id = quote(file), short_id(row["case_id"].item(), summary["case_id"])
@@ -128,7 +128,7 @@ def _written(value: float | str, scale: float, unit: str) -> str:
 
 
 def print_sheets(sheets: Iterable[Sheet]) -> None:
-    """Print tables that fit the terminal, each after a blank line."""
+    """Print tables that fit the terminal, with a blank line before each and after the last."""
     from rich.console import Console
 
     console = Console()

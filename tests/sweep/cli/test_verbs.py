@@ -238,6 +238,17 @@ def test_budget_that_nothing_meets_is_told(capsys, file):
     assert out.splitlines()[:3] == said
 
 
+def test_the_lightest_case_has_the_same_id_in_the_sentence_and_in_the_command(capsys, tmp_path):
+    heavy, light = designs([2.0, 2.0], [0.1, 0.3]), designs([1.0, 1.0 - 1e-13], [0.1, 0.3])
+    rows = [heavy[0], light[0] | {"platen": "contact"}, light[1] | {"platen": "sliding"}]
+    file = write(
+        tmp_path / "trial.h5", summary(*(r | {"case_id": f"{k}00"} for k, r in enumerate(rows)))
+    )
+    _, out, _ = crumple(capsys, "rank", file, "--budget", "0.5 g")
+    assert "the lightest weighs 1 g, case 100, ninjaflex." in out
+    assert f"to see the lightest: crumple show {file} 100\n" in out
+
+
 def test_ranking_without_any_finished_case_is_no_ranking(capsys, tmp_path):
     file = write(tmp_path / "trial.h5", summary({"status": "stopped"}, {"status": "timed_out"}))
     status, out, _ = crumple(capsys, "rank", file)
