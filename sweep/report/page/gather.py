@@ -11,7 +11,7 @@ import numpy as np
 
 from sweep.columns import ABSORBED_AT, correction_column, error_column
 from sweep.design.panel import BEHIND
-from sweep.numbers import short
+from sweep.numbers import counted, short
 from sweep.ranking.curves import reached
 from sweep.ranking.merit import LEAST, Compared, merits, through_solid
 from sweep.ranking.places import pareto
@@ -364,7 +364,7 @@ def _about(about: Mapping[str, Any], summary: DataFrame) -> list[tuple[str, str]
     """Where the numbers come from, as pairs of words."""
     versions = summary["model_version"].value_counts().sort_index().items()
     known = {name.removeprefix("version_"): v for name, v in about.items() if "version_" in name}
-    model = ", ".join(f"{version} ({n} cases)" for version, n in versions)
+    model = ", ".join(f"{version} ({counted(n, 'case')})" for version, n in versions)
     pairs = [(words, str(about[name])) for name, words in OF_THE_RUN.items() if name in about]
     pairs += [("version of the model", model)]
     pairs += [(name, short(version)) for name, version in known.items()]

@@ -95,7 +95,10 @@ REFUSED = [
     (["export", "FILE", "0000000000000000", "--to", "a.step"], "a.step: .step is unknown; allow"),
     (["export", "FILE", "0000000000000000", "--to", "a.stl"], "does not follow from the config"),
     (["export", "FILE", "0000000000000000", "--to", "a.3mf", "--kind", "x"], "invalid choice: 'x'"),
-    (["export", "FILE", "0000000000000000", "--to", "/proc/a.csv"], "/proc cannot be written: "),
+    (
+        ["export", "FILE", "0000000000000000", "--to", "/proc/a.csv"],
+        "/proc/a.csv cannot be written: ",
+    ),
     (["export", "FILE", "0000000000000000", "--to", "FILE/a.csv"], "is or lies in a file; allow"),
     (["show", "FILE", "0"], "begins 5 ids: 0000000000000000"),
     (["run", "nowhere.toml"], "nowhere.toml"),
@@ -112,6 +115,8 @@ REFUSED = [
     (["run", "nowhere.toml", "--out", "LINK"], "a.h5'; allowed: a file whose name ends in .h5"),
     (["rank", "FILE", "--out", "/dev/full/x"], "/dev/full/x is or lies in a file; allowed: a "),
     (["rank", "FILE", "--out", "/proc/x"], "/proc/x cannot be written: "),
+    (["report", "FILE", "--out", "/proc/a.html"], "/proc/a.html cannot be written: "),
+    (["materials", "plot", "cheetah", "--out", "/proc/a.png"], "/proc/a.png cannot be written: "),
     (["rank", "/proc"], "/proc cannot be read: Is a directory"),
 ]
 
@@ -335,6 +340,53 @@ def test_requirement_that_no_case_can_be_asked_for_is_refused_before_the_run(cap
     assert not out.exists()
 
 
+@pytest.mark.parametrize("words", [[], ["--dry-run"]])
+def test_panel_below_half_a_specimen_is_refused_before_the_run(capsys, tmp_path, words):
+    path, out = tmp_path / "trial.toml", tmp_path / "trial.h5"
+    text = '[loading]\nstrain = 0.1\n[lattice]\nwidth = "25 mm"\n[rank]\npanel = ["{}", "50 mm"]'
+    path.write_text(text.format("9 mm"))
+    status, _, err = crumple(capsys, "run", str(path), "--out", str(out), *words)
+    assert status == 2
+    assert err.startswith("crumple run: a panel of 9 mm is smaller than half of a specimen of 2")
+    assert not out.exists()
+
+
+def test_results_that_are_complete_are_ranked_where_nothing_can_be_written(
+    capsys, config, monkeypatch
+):
+    def refused(*_):
+        raise PermissionError(13, "Permission denied")
+
+    assert crumple(capsys, "run", config)[0] == 1
+    monkeypatch.setattr("sweep.store.write.exclusive", refused)
+    status, out, err = crumple(capsys, "run", config)
+    assert status == 1
+    assert "Best first: " in out
+    assert err.startswith(
+        "results/trial.h5 cannot be written: Permission denied. All 3 cases are in it already.\n"
+    )
+    status, out, err = crumple(capsys, "run", config, "--retry-failed")
+    assert (status, out) == (2, "")
+    assert err == "crumple run: results/trial.h5 cannot be written: Permission denied.\n"
+
+
+def test_run_proposes_no_pictures_of_a_first_design_that_there_is_not(capsys, config):
+    text = Path(config).read_text()
+    assert "[rank]" in text
+    Path(config).write_text(re.sub(r"budgets = \[.*?\]", 'budgets = ["1 g"]', text))
+    _, out, err = crumple(capsys, "run", config)
+    assert "Nothing weighs 1 g or less" in out
+    assert "to see the lightest: crumple show results/trial.h5 " in out
+    assert err.splitlines()[-1] == "results: results/trial.h5"
+
+
+def test_lists_begin_with_one_blank_line(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({}))
+    for words in (["show", file], ["materials"]):
+        first, second, *_ = crumple(capsys, *words)[1].splitlines()
+        assert (first, second.strip() != "") == ("", True)
+
+
 def test_status_gathers_failures_of_one_kind(capsys, file):
     status, out, _ = crumple(capsys, "status", file)
     assert status == 1
@@ -534,7 +586,7 @@ def test_dry_run_counts_and_writes_nothing(capsys, config, tmp_path):
     crumple(capsys, "run", config)
     assert "nothing is left to run" in crumple(capsys, "run", config, "--dry-run")[1]
     assert (
-        "estimate for 1 cases" in crumple(capsys, "run", config, "--dry-run", "--retry-failed")[1]
+        "estimate for 1 case," in crumple(capsys, "run", config, "--dry-run", "--retry-failed")[1]
     )
 
 
