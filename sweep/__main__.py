@@ -69,8 +69,9 @@ The best is what rank lists first: most energy until the lattice has packed, or 
 does, the nearest are listed. With a budget, walls are as thick as it allows at most. Every design
 is a row of the results file; after a stop, the same command with the same seed continues, also with
 more --evaluations. Six designs run at a time after the first sixteen: more workers do not help. The
-three best are simulated again with twice the elements, and with walls 5 % thinner and thicker and
-other imperfections, in a results file of their own, and listed with the spread of their values."""
+three best, without near duplicates, are simulated again with twice the elements, and with walls 5 %
+thinner and thicker and other imperfections, in a results file of their own, and listed with the
+spread of their values."""
 ACCURACY = """Simulate a sweep over numerical settings, then print error against run time: a table,
 the observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 the limit to which the finest settings of the method of highest order converge. Cases that differ in
@@ -86,8 +87,8 @@ RANK = """List the designs that absorb the most energy, one table for each loadi
 Budgets, panel and requirements are those of [rank] and [require] in the config, unless they are
 given here ("none" drops a requirement); --by alone ranks single specimens of any mass. Designs that
 fail a requirement have no place; notes say how many of those within the budget fail which. If all
-of them fail, the nearest one is named: that whose greatest miss, in percent of the limit, is the
-least. The exit status is then 0, as the question is answered; it is 1 if some cases failed."""
+of them fail, the nearest one is named: the one whose worst miss, in percent of the limit, is the
+smallest. The exit status is then 0, as the question is answered; it is 1 if some cases failed."""
 RANK_EXAMPLES = """examples:
   crumple rank F.h5                                         as [rank] in the config says; else J/g
   crumple rank F.h5 --budget "25 g" "2 oz"                  two budgets

@@ -7,7 +7,7 @@ force that stays below F absorbs an energy W in a stroke shorter than W / F, tha
 A loading that sets a quantity is not asked for it: the force and the energy under a dead load, and
 the energy of a striker, are not those of the design.
 
-The nearest design to requirements that none fulfils is the one whose greatest miss is the least: a
+The nearest design to requirements that none fulfils is the one whose worst miss is the smallest: a
 value v misses a greatest value L by v / L - 1, and a least value L by 1 - v / L.
 """
 
@@ -221,8 +221,8 @@ def _outcome(judged: Judged, mode: str, budget_g: float, energy: float, force: f
 def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
     """The value (SI) of each row for each requirement, per specimen or per panel.
 
-    Force and energy of a crush are those that are counted; of an impact or a dead load, of all of
-    it. The deceleration is filtered.
+    The energy of a crush is the counted one, and its force the greatest until then; an impact or a
+    dead load counts as a whole. The deceleration is filtered.
     """
     crushed = rows["loading_mode"] == "displacement"
     together = rows.get("panel_specimens", 1.0)
