@@ -21,8 +21,9 @@ if TYPE_CHECKING:
 
 DECELERATION = "peak_deceleration_filtered_m_per_s2"
 PANEL = (
-    "panel N: force of the {} specimens of a panel together. Its true size is {} mm. Specimens are "
-    "simulated alone: neighbours that have grown wider by the gap of 0.4 mm press one another."
+    "panel N: force of the {} specimens of a panel together. Its true size is {} mm.\n"
+    "Specimens are simulated alone: neighbours that have grown wider by the gap of\n"
+    "0.4 mm press one another."
 )
 STRUCK_PANEL = "All specimens of a panel are struck at once, each by a striker of its own."
 UNKNOWN = {
