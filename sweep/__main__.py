@@ -69,8 +69,9 @@ The best is what rank lists first: most energy until the lattice has packed, or 
 does, the nearest are listed. With a budget, walls are as thick as it allows at most. Every design
 is a row of the results file; after a stop, the same command with the same seed continues, also with
 more --evaluations. Six designs run at a time after the first sixteen: more workers do not help. The
-three best are simulated again with twice the elements, and with walls 5 % thinner and thicker and
-other imperfections, in a results file of their own, and listed with the spread of their values."""
+three best, without near duplicates, are simulated again with twice the elements, and with walls 5 %
+thinner and thicker and other imperfections, in a results file of their own, and listed with the
+spread of their values."""
 ACCURACY = """Simulate a sweep over numerical settings, then print error against run time: a table,
 the observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 the limit to which the finest settings of the method of highest order converge. Cases that differ in
@@ -86,8 +87,8 @@ RANK = """List the designs that absorb the most energy, one table for each loadi
 Budgets, panel and requirements are those of [rank] and [require] in the config, unless they are
 given here ("none" drops a requirement); --by alone ranks single specimens of any mass. Designs that
 fail a requirement have no place; notes say how many of those within the budget fail which. If all
-of them fail, the nearest one is named: that whose greatest miss, in percent of the limit, is the
-least. The exit status is then 0, as the question is answered; it is 1 if some cases failed."""
+of them fail, the nearest one is named: the one whose worst miss, in percent of the limit, is the
+smallest. The exit status is then 0, as the question is answered; it is 1 if some cases failed."""
 RANK_EXAMPLES = """examples:
   crumple rank F.h5                                         as [rank] in the config says; else J/g
   crumple rank F.h5 --budget "25 g" "2 oz"                  two budgets
@@ -109,8 +110,15 @@ results files, columns and ids. To use it:
   zsh    eval "$(crumple completion zsh)"              in ~/.zshrc, after compinit
   fish   crumple completion fish > ~/.config/fish/completions/crumple.fish"""
 SHOW = """Draw one case: force against strain, the parts of its energy, and six deformed shapes.
-A CASE of at most three digits is a number in the ranking: of the first scene, or of --scene, within
-the first budget, or --budget. Without CASE: list the ids and the designs of all cases."""
+A CASE of at most three digits is a number in the ranking that rank prints with the same options: of
+the first scene, or of --scene, within the first budget. Without CASE: list the ids and the designs
+of all cases."""
+SHOW_EXAMPLES = """examples:
+  crumple show F.h5                                         the ids of all cases
+  crumple show F.h5 a44d                                    the case whose id begins with a44d
+  crumple show F.h5 1                                       the first that rank lists
+  crumple show F.h5 2 --budget "25 g" --allowed-force "60 N"    the second of that ranking
+"""
 EXPORT = """Write one case as a file for another program, in the format that its ending names:
   .stl .3mf     the print as a closed body, as heavy as the ranking says
   .svg .dxf     its outline, in mm
@@ -119,7 +127,9 @@ EXPORT = """Write one case as a file for another program, in the format that its
   .gif          the crush as a moving picture
 A file of that name is replaced, and a folder that is missing is made. With --panel: the whole
 specimens that rank counts for these two lengths, side by side along the first and one behind the
-other along the second. A .3mf has two kinds: "lattice", the walls themselves, to be printed with
+other along the second. A CASE of at most three digits is a number in the ranking that rank prints
+with the same options; --panel is then both the panel that is ranked and the one that is written.
+A .3mf has two kinds: "lattice", the walls themselves, to be printed with
 100 % infill; "settings", a solid block with the pattern, the per cent and the line width with which
 a slicer draws the lattice: one of lattice.slicer, or of regular square, diamond, triangle, kagome
 or hex cells."""
@@ -128,6 +138,7 @@ EXPORT_EXAMPLES = """examples:
   crumple export F.h5 a44d --to bumper.3mf --panel "100 mm" "50 mm"
   crumple export F.h5 a44d --to block.3mf --kind settings
   crumple export F.h5 a44d --to crush.gif
+  crumple export F.h5 1 --budget "25 g" --panel "100 mm" "50 mm" --to first.stl
 """
 REPORT = """Write one HTML page that needs no network: the best design; sliders for budget, panel
 and allowed force, which rank again; energy over mass, with drawings; curves, moving shapes and
@@ -149,6 +160,7 @@ MATERIALS_EXAMPLES = """examples:
   crumple materials fit pull.csv --gauge "33 mm" --area "8 mm^2" --density "1210 kg/m^3"
 """
 
+AREA = "area to fill with specimens"
 AS_WRITTEN = argparse.RawDescriptionHelpFormatter
 REQUIREMENTS = {
     "max_force": ("FORCE", 'required, while the counted energy is absorbed: "60 N"'),
@@ -262,9 +274,7 @@ def _add_optimize(verbs: Any) -> None:
     )
     optimize.add_argument("config", type=_path, metavar="CONFIG", help="TOML file with a [search]")
     optimize.add_argument("--budget", metavar="MASS", help='greatest mass: "25 g"')
-    optimize.add_argument(
-        "--panel", nargs=2, metavar="LENGTH", help='area to fill with specimens: "100 mm" "50 mm"'
-    )
+    optimize.add_argument("--panel", nargs=2, metavar="LENGTH", help=f'{AREA}: "100 mm" "50 mm"')
     force = 'of a crush, as --allowed-force; of an impact or a load, required: "60 N"'
     _add_limits(optimize, force)
     optimize.add_argument("--by", metavar="COLUMN", help="seek the best of this column")
@@ -315,6 +325,7 @@ def _add_rank(verbs: Any) -> None:
     )
     offer(rank.add_argument("file", type=_path, metavar="F.h5"), results)
     _add_question(rank)
+    rank.add_argument("--top", type=_count, metavar="N", help="places shown: 10, or 3 per budget")
     shape = rank.add_mutually_exclusive_group()
     for name, what in {"csv": "all columns", "json": "all columns", "markdown": "tables"}.items():
         shape.add_argument(f"--{name}", action="store_true", help=f"{what}, as {name} on stdout")
@@ -333,11 +344,14 @@ def _add_rank(verbs: Any) -> None:
 def _add_show(verbs: Any) -> None:
     """Add the verb that draws a case."""
     show = verbs.add_parser(
-        "show", help="draw a case", description=SHOW, formatter_class=AS_WRITTEN
+        "show",
+        help="draw a case",
+        description=SHOW,
+        epilog=SHOW_EXAMPLES,
+        formatter_class=AS_WRITTEN,
     )
     offer(show.add_argument("file", type=_path, metavar="F.h5"), results)
     _add_case(show, nargs="?")
-    show.set_defaults(panel=None)
     show.add_argument(
         "--out", type=_folder, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
     )
@@ -353,16 +367,13 @@ def _add_export(verbs: Any) -> None:
         formatter_class=AS_WRITTEN,
     )
     offer(export.add_argument("file", type=_path, metavar="F.h5"), results)
-    _add_case(export)
+    _add_case(export, "area to fill with specimens, ranked by and written")
     export.add_argument(
         "--to",
         type=_path,
         metavar="FILE",
         required=True,
         help="FILE.stl, .3mf, .svg, .dxf, .csv, .pvd, .vtu or .gif",
-    )
-    export.add_argument(
-        "--panel", nargs=2, metavar="LENGTH", help='fill with specimens: "100 mm" "50 mm"'
     )
     export.add_argument(
         "--kind", choices=["lattice", "settings"], help="of a .3mf (default: lattice)"
@@ -414,36 +425,30 @@ def _add_helpers(verbs: Any) -> None:
     completion.add_argument("shell", choices=SHELLS)
 
 
-def _add_case(verb: Any, **options: Any) -> None:
-    """Add the arguments that name a case."""
+def _add_case(verb: Any, panel: str = AREA, **options: Any) -> None:
+    """Add the arguments that name a case; panel: what the option of this name means."""
     words = "number in the ranking, or beginning of an id"
     offer(verb.add_argument("case", metavar="CASE", help=words, **options), cases)
-    verb.add_argument(
-        "--scene", metavar="N", help="of a number: which table, or words of its title"
+    ranking = verb.add_argument_group(
+        "of a number in the ranking", "the question whose ranking it is in, as rank takes it"
     )
-    verb.add_argument("--budget", nargs=1, metavar="MASS", help="of a number: its greatest mass")
-    verb.add_argument(
-        "--allowed-force", metavar="FORCE", help="of a number: force up to which energy counts"
-    )
-    verb.set_defaults(by=None, top=None, per=None)
-    verb.set_defaults(**dict.fromkeys(REQUIREMENTS))
+    ranking.add_argument("--scene", metavar="N", help="which table, or words of its title")
+    _add_question(ranking, panel)
+    verb.set_defaults(top=None)
 
 
-def _add_question(rank: argparse.ArgumentParser) -> None:
-    """Add the options that define a ranking."""
-    rank.add_argument(
+def _add_question(verb: Any, panel: str = AREA) -> None:
+    """Add the options that define a ranking; panel: what the option of this name means."""
+    verb.add_argument(
         "--budget", nargs="+", action="extend", metavar="MASS", help='greatest mass: "25 g" "2 oz"'
     )
-    rank.add_argument(
-        "--panel", nargs=2, metavar="LENGTH", help='area to fill with specimens: "100 mm" "50 mm"'
-    )
-    by = rank.add_argument("--by", metavar="COLUMN", help="sort by this column of the summary")
+    verb.add_argument("--panel", nargs=2, metavar="LENGTH", help=f'{panel}: "100 mm" "50 mm"')
+    by = verb.add_argument("--by", metavar="COLUMN", help="sort by this column of the summary")
     offer(by, columns)
-    rank.add_argument("--top", type=_count, metavar="N", help="places shown: 10, or 3 per budget")
-    _add_limits(rank, REQUIREMENTS["max_force"][1])
+    _add_limits(verb, REQUIREMENTS["max_force"][1])
 
 
-def _add_limits(verb: argparse.ArgumentParser, max_force: str) -> None:
+def _add_limits(verb: Any, max_force: str) -> None:
     """Add the options that limit a design; max_force: what the option of this name means."""
     verb.add_argument(
         "--allowed-force", metavar="FORCE", help='count energy up to this force: "50 N"'

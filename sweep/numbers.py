@@ -78,3 +78,8 @@ def tenths(share: float) -> str:
 def energy_text(joules: float) -> str:
     """An energy with its unit."""
     return f"{three_digits(joules)} J" if joules >= 1.0 else f"{three_digits(1e3 * joules)} mJ"
+
+
+def counted(count: int, noun: str) -> str:
+    """A number of things, such as "1 case" or "1,200 cases"."""
+    return f"{count:,} {noun}{'' if count == 1 else 's'}"

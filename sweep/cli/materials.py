@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from sweep.cli.refusals import writing
 from sweep.cli.terminal import print_sheets, say, say_all
 
 if TYPE_CHECKING:
@@ -77,7 +78,9 @@ def _plot(names: list[str], out: Path) -> None:
 
     figure = blank(11.0, 4.6)
     material_curves(figure, {record.name: _curve(record) for record in map(_record, names)})
-    say(save(figure, _png(out)))
+    with writing(out.parent, out):
+        picture = save(figure, _png(out))
+    say(picture)
 
 
 def _curve(record: Record) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -120,7 +123,8 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
         raise MaterialsError(f"--out {out}; allowed: another file, whose name ends in .csv")
     coupon = read_coupon(file, _size(arguments.gauge, "m"), _size(arguments.area, "m^2"))
     found = fit(coupon)
-    out.write_text(material_text(found, _size(arguments.density, "kg/m^3")), encoding="utf-8")
+    with writing(out.parent, out):
+        out.write_text(material_text(found, _size(arguments.density, "kg/m^3")), encoding="utf-8")
     say_all(sentences_on_fit(found, read_record(out)))
     figure = blank(8.0, 6.0)
     record, model = (coupon.strain, coupon.stress), (coupon.strain, found.model)

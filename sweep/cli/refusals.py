@@ -1,6 +1,9 @@
 """Errors that end a command, with their text as all that it prints."""
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 
 HOME = __name__.removesuffix(".cli.refusals")
 REFUSALS = {
@@ -22,6 +25,18 @@ REFUSALS = {
 
 class ArgumentError(ValueError):
     """An argument that cannot be used."""
+
+
+@contextmanager
+def writing(folder: Path, file: Path | None = None) -> Iterator[None]:
+    """Refuse in one line what cannot be written into a folder; file: what is to be written."""
+    try:
+        yield
+    except (FileExistsError, NotADirectoryError) as error:
+        raise ArgumentError(f"{folder} is or lies in a file; allowed: a folder") from error
+    except OSError as error:
+        why = error.strerror or error
+        raise ArgumentError(f"{file or folder} cannot be written: {why}") from error
 
 
 def refusals() -> tuple[type[Exception], ...]:

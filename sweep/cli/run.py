@@ -32,7 +32,7 @@ def run(config: Config, arguments: Namespace) -> int:
     """
     from sweep.store.read import Rerun, read_summary
 
-    _check_required(config)
+    _check_question(config)
     out = arguments.out or f"results/{config.name}.h5"
     workers = arguments.workers or WORKERS
     rerun = Rerun(failed=arguments.retry_failed, older=arguments.renew)
@@ -54,21 +54,26 @@ def run(config: Config, arguments: Namespace) -> int:
         config, estimates, failed = _screen(config, out, how, question, arguments.screen)
     failed += run_sweep(config, out, *how)
     failed += add_error_bars(config, out, *how) if arguments.error_bars else 0
-    print_ranking(out, read_summary(out), question)
+    ranking = print_ranking(out, read_summary(out), question)
     if estimates is not None:
         from sweep.report.tables.screen_sheets import screen_sheets
 
         print_sheets(screen_sheets(estimates, read_summary(out), question))
     failed += _spread(config, out, how, question) if arguments.spread else 0
-    hint(next_commands(out, read_summary(out)))
+    hint(next_commands(out, ranking))
     return failed
 
 
-def _check_required(config: Config) -> None:
-    """Refuse a requirement that no case of a config can be asked for, before cases run."""
+def _check_question(config: Config) -> None:
+    """Refuse what no case of a config can be asked for, before cases run: a requirement, or a panel
+    that is smaller than half a specimen.
+    """
     from sweep.config.grid import expand
+    from sweep.ranking.merit import check_panel
     from sweep.ranking.requirements import check_modes
 
+    if config.rank.panel:
+        check_panel(config.rank.panel, expand(config))
     if required := [name for name, limit in config.require if limit is not None]:
         check_modes(required, {case.loading.mode for case in expand(config)})
 

@@ -20,6 +20,7 @@ NUMBER = re.compile(r"(?:(?<!\w)-)?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 def print_status(file: str, as_json: bool) -> bool:
     """Print the status of a results file; return whether all of its cases converged."""
     from sweep.cli.status_json import missing_cases, status_record
+    from sweep.numbers import counted
     from sweep.store.read import read_attributes, read_summary
 
     summary, about = read_summary(file), read_attributes(file)
@@ -29,7 +30,7 @@ def print_status(file: str, as_json: bool) -> bool:
     counts = summary["status"].value_counts()
     missing = missing_cases(summary, about)
     more = f"; {missing} that the last run was asked for are missing" if missing else ""
-    say(f"{file}: {len(summary)} cases{more}")
+    say(f"{file}: {counted(len(summary), 'case')}{more}")
     say_all(f"{count:7d} {name}" for name, count in counts.items())
     say_all(_failures(file, summary))
     say_all(_bars(summary))

@@ -21,8 +21,8 @@ USUAL = 80  # columns of text; in wider tables, columns are closer
 WIDE = 10_000  # where no terminal limits the width
 
 
-def print_ranking(file: str, summary: DataFrame, question: Question) -> None:
-    """Print the tables of a ranking, their legend, and the warnings."""
+def print_ranking(file: str, summary: DataFrame, question: Question) -> Ranking:
+    """Print the tables of a ranking, their legend, and the warnings; return it."""
     from sweep.ranking.rank import answer
     from sweep.report.tables.legend import legend
     from sweep.report.tables.sheets import ranking_sheets
@@ -35,6 +35,7 @@ def print_ranking(file: str, summary: DataFrame, question: Question) -> None:
         say(legend(ranking))
     say_all(warnings(file, ranking))
     say_all(nearest_commands(file, ranking, summary))
+    return ranking
 
 
 def version_counts(counts: Mapping[int, int]) -> str:
@@ -67,17 +68,18 @@ def warnings(file: str, ranking: Ranking) -> Iterator[str]:
         yield f"{ranking.failed} of {ranking.cases} cases failed: crumple status {file} says why"
 
 
-def next_commands(file: str, summary: DataFrame) -> Iterator[str]:
-    """Where the results are, and the commands that a user may want next."""
-    from sweep.result import Status
+def next_commands(file: str, ranking: Ranking) -> Iterator[str]:
+    """Where the results are, and the commands that a user may want next.
 
+    Where no design has a place, `nearest_commands` has told more.
+    """
     yield f"results: {file}"
     name = quote(file)
-    if (summary["status"] == Status.CONVERGED).any():
+    if len(ranking.table):
         yield f"next: crumple show {name} 1: pictures of the first design"
         folder = quote(file.removesuffix(".h5"))
         yield f"      crumple rank {name} --out {folder}: tables and pictures"
-    else:
+    elif ranking.failed == ranking.cases:
         yield f"next: crumple status {name}: what failed, and why"
 
 
@@ -86,7 +88,7 @@ def nearest_commands(file: str, ranking: Ranking, summary: DataFrame) -> Iterato
     from sweep.report.tables.design_text import short_id
 
     placed = {*ranking.table["scene"]}
-    for label in ranking.lightest_g:
+    for label in ranking.scenes:
         if label not in placed and (instead := ranking.instead(label)):
             word, row = instead
             name, case_id = quote(file), short_id(row["case_id"].item(), summary["case_id"])
@@ -128,7 +130,7 @@ def _written(value: float | str, scale: float, unit: str) -> str:
 
 
 def print_sheets(sheets: Iterable[Sheet]) -> None:
-    """Print tables that fit the terminal, each after a blank line."""
+    """Print tables that fit the terminal, with a blank line before each and after the last."""
     from rich.console import Console
 
     console = Console()
@@ -138,7 +140,7 @@ def print_sheets(sheets: Iterable[Sheet]) -> None:
         say("")
         shown = fitted(sheet, limit or WIDE, limit or USUAL)
         with console.capture() as text:
-            if sheet.title or sheet.heads:
+            if sheet.title:
                 console.print(sheet.title, style="bold", markup=False, highlight=False)
         say(text.get(), end="")
         if sheet.heads:

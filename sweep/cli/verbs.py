@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from shlex import quote
 from typing import TYPE_CHECKING
 
 from sweep.cli.question import asked, drop_heights, stored_heights, stored_table
-from sweep.cli.refusals import ArgumentError
+from sweep.cli.refusals import ArgumentError, writing
 from sweep.cli.status import failed_cases, print_status
 from sweep.cli.terminal import (
     hint,
@@ -31,7 +29,6 @@ if TYPE_CHECKING:
     from sweep.ranking.ranking import Ranking
 
 DONE, SOME_FAILED = 0, 1
-NUMBERED = "--scene, --budget and --allowed-force"
 
 
 def run(arguments: Namespace) -> int:
@@ -59,7 +56,7 @@ def accuracy(arguments: Namespace) -> int:
     cases, out = expand(config), folder / f"{config.name}.h5"
     check_axes([case.axes for case in cases])
     failed = run_sweep(config, out, arguments.workers)
-    with _writing(folder):
+    with writing(folder):
         sheets, files = publish_accuracy(out, [case.case_id for case in cases])
     print_sheets(sheets)
     say_all(files)
@@ -102,7 +99,7 @@ def rank(arguments: Namespace) -> int:
         folder, ranking = Path(arguments.out), answer(summary, question)
         if (ranking.table["loading_mode"] == "displacement").any():
             heights = heights or stored_heights(arguments.file)
-        with _writing(folder):
+        with writing(folder):
             files = publish_ranking(arguments.file, summary, question, folder, heights)
         say_all(files)
         _warn(arguments.file, ranking, summary)
@@ -140,7 +137,7 @@ def show(arguments: Namespace) -> int:
     say_all([f"printed by {row['slicer_settings']}"] if row["slicer_settings"] else [])
     say_all([f"does not print: {row['does_not_print']}"] if row["does_not_print"] else [])
     say_all(about_direction(row))
-    with _writing(folder):
+    with writing(folder):
         pictures = publish_case(arguments.file, row, folder)
     say_all(pictures or ["nothing to draw: the case has no curves and no shapes"])
     return DONE
@@ -156,7 +153,7 @@ def export(arguments: Namespace) -> int:
     row, taken = _named(arguments, read_summary(arguments.file))
     say_all([taken] if taken else [])
     replaced, is_new = target.exists(), not target.parent.exists()
-    with _writing(target.parent):
+    with writing(target.parent, target):
         files, notes = export_case(
             arguments.file, target, row["case_id"], arguments.panel, arguments.kind
         )
@@ -180,7 +177,7 @@ def report(arguments: Namespace) -> int:
         per=stored.get("per") or "specimen",
     )
     out = Path(arguments.out or Path(arguments.file).with_suffix(".html"))
-    with _writing(out.parent):
+    with writing(out.parent, out):
         page = write_page(arguments.file, summary, question, out)
     say(f"{page} ({page.stat().st_size / 1e6:.2g} MB)")
     return _exit_status(summary)
@@ -221,24 +218,16 @@ VERBS = {verb.__name__: verb for verb in ALL}
 def _config(name: str) -> Config:
     """The config of a file or of an example; for an example, print the path of its file."""
     from sweep.config.units import load_config
+    from sweep.numbers import counted
 
     config = load_config(name)
     if config.path != Path(name):
         hint([f"example {name}: {config.path} (copy it to change it)"])
     if config.unprintable:
-        left_out = f"{config.unprintable:,} combinations, which do not print"
+        verb = "does" if config.unprintable == 1 else "do"
+        left_out = f"{counted(config.unprintable, 'combination')}, which {verb} not print"
         hint([f"left out {left_out} (lattice.printable)"])
     return config
-
-
-@contextmanager
-def _writing(folder: Path) -> Iterator[None]:
-    try:
-        yield
-    except (FileExistsError, NotADirectoryError) as error:
-        raise ArgumentError(f"{folder} is or lies in a file; allowed: a folder") from error
-    except OSError as error:
-        raise ArgumentError(f"{folder} cannot be written: {error.strerror or error}") from error
 
 
 def _warn(file: str, ranking: Ranking, summary: DataFrame) -> None:
@@ -247,9 +236,14 @@ def _warn(file: str, ranking: Ranking, summary: DataFrame) -> None:
     hint(nearest_commands(file, ranking, summary))
 
 
-def _of_a_number(arguments: Namespace) -> bool:
-    """Whether options say in which ranking a number is a place."""
-    return bool(arguments.scene or arguments.budget or arguments.allowed_force)
+def _of_a_number(arguments: Namespace) -> list[str]:
+    """The options that say in which ranking a number is a place; an export has a panel anyway."""
+    from sweep.ranking.requirements import MEASURES
+
+    names = ["scene", "budget", "panel", "by", "allowed_force", "per", *MEASURES]
+    if arguments.verb == "export":
+        names.remove("panel")
+    return [f"--{name.replace('_', '-')}" for name in names if getattr(arguments, name)]
 
 
 def _named(arguments: Namespace, summary: DataFrame) -> tuple[Series, str]:
@@ -258,8 +252,10 @@ def _named(arguments: Namespace, summary: DataFrame) -> tuple[Series, str]:
     from sweep.ranking.curves import with_allowed
 
     if not (arguments.case and is_number(arguments.case)):
-        if _of_a_number(arguments):
-            raise ArgumentError(f"{NUMBERED} belong to a number in the ranking")
+        if options := _of_a_number(arguments):
+            raise ArgumentError(
+                f"{', '.join(options)}: only with a number in the ranking, such as 1"
+            )
         return by_id(summary, arguments.case), ""
     question = asked(arguments)
     summary = with_allowed(arguments.file, summary, question)

@@ -60,6 +60,9 @@ def load_config(path: str | PathLike[str]) -> Config:
 
     path: path of a TOML file; if there is no such file, the name of an example, such as "smoke".
     """
+    if not isinstance(path, str | PathLike):
+        needed = "the path of a TOML file, or the name of an example"
+        raise ConfigError([Fault("path", f"{in_words(path)} is no path; needed: {needed}")])
     path = find_config(path)
     reader = Reader(path.parent, _converted)
     config = reader.config(_document(path), path)

@@ -20,8 +20,18 @@ def write_curves(path: Path, history: DataFrame, row: Mapping[str, Any]) -> None
 
 
 def with_stress(history: DataFrame, row: Mapping[str, Any]) -> DataFrame:
-    """The history with the column `stress_Pa`: force on the top / (width over all x depth)."""
+    """The history with the column `stress_Pa`: force on the top / (width over all x depth); without
+    `time_s` if the case takes no time.
+    """
     stress = history["reaction_top_N"] / (row["outer_width_m"] * row["depth_m"])
     found = history.copy()
+    if not _takes_time(history, row):
+        del found["time_s"]
     found.insert(found.columns.get_loc(AFTER) + 1, "stress_Pa", stress)
     return found
+
+
+def _takes_time(history: DataFrame, row: Mapping[str, Any]) -> bool:
+    """Whether time means something: not in a slow crush of walls that do not relax."""
+    slow = row["loading_mode"] == "displacement" and not history["kinetic_J"].any()
+    return not slow or "relaxes" in row["material_memory"]

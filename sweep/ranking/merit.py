@@ -10,7 +10,7 @@ force are n times those of a specimen.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from sweep.columns import (
@@ -28,6 +28,7 @@ from sweep.ranking.question import RankError, in_si
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
 
+    from sweep.config.case import Case
     from sweep.ranking.question import Quantity, Question
 
 LEAST = {"force": "peak_strain", "impact": "peak_force_N"}
@@ -138,8 +139,8 @@ def through_solid(finished: DataFrame) -> Series:
 
 def panel_in(frame: DataFrame, panel: Sequence[Quantity]) -> Panel:
     """The panel of each design, in whole numbers."""
-    if len(panel) != 2:
-        raise RankError(f"a panel has two lengths, got {len(panel)}")
+    if isinstance(panel, str) or len(panel) != 2:
+        raise RankError(f'panel = {panel!r}; allowed: two lengths, such as ("100 mm", "50 mm")')
     sides = in_si(panel[0], "m"), in_si(panel[1], "m")
     gap = frame["direction"].map(BEHIND)
     found = panel_of(sides, frame["outer_width_m"], frame["depth_m"], gap)
@@ -151,6 +152,16 @@ def panel_in(frame: DataFrame, panel: Sequence[Quantity]) -> Panel:
                 "mm; allowed: a larger one, first its length along the width, then along the depth"
             )
     return found._replace(across=found.across.astype(int), behind=found.behind.astype(int))
+
+
+def check_panel(panel: Sequence[Quantity], cases: Iterable[Case]) -> None:
+    """Refuse a panel that is smaller than half a specimen of one of these cases."""
+    from pandas import DataFrame
+
+    from sweep.config.defaults.direction import footprint
+
+    sizes = [(case.loading.direction, *footprint(case.lattice, case.loading)) for case in cases]
+    panel_in(DataFrame(sizes, columns=["direction", "outer_width_m", "depth_m"]), panel)
 
 
 def _counted(

@@ -36,9 +36,12 @@ def in_si(value: Any, unit: str) -> float:
     """A positive number in SI, from a number or from text with a unit."""
     number = value
     if isinstance(value, str):
-        from sweep.config.units import quantity
+        from sweep.config.units import ConfigError, quantity
 
-        number = quantity(value, unit)
+        try:
+            number = quantity(value, unit)
+        except ConfigError as error:
+            raise RankError(str(error)) from None
     if not number > 0.0:
         written = value if isinstance(value, str) else f"{value:g} {unit}"
         raise RankError(f"{written}: budgets, panels, forces and heights must be above zero")

@@ -165,7 +165,7 @@ def ranked(  # noqa: PLR0913  every argument is a part of one question
 
 def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranking:
     """The ranking of a results file, or of a summary."""
-    budget, panel, by, top, allowed_force, require, per = question
+    _, panel, by, top, allowed_force, require, per = question
     if per not in PER:
         raise RankError(f'per = "{per}"; allowed: {" or ".join(PER)}')
     required, summary = limits(require), source
@@ -174,7 +174,7 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
     finished = summary[summary["status"] == Status.CONVERGED]
     compared, names = merits(finished, question)
     check(compared, required)
-    usual = names.energy if budget is not None or panel is not None else names.per_gram
+    usual = names.energy if question.budgets or panel is not None else names.per_gram
     by = by and _column(compared, by)
     masses = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in question.budgets)] or [np.inf]
     found = {scene_label(rows): rows for rows in by_scene(compared)}

@@ -57,6 +57,23 @@ class Ranking:
     required: Mapping[str, float] = field(default_factory=dict)
     outcomes: Mapping[str, tuple[Outcome, ...]] = field(default_factory=dict)
 
+    @property
+    def is_above_budgets(self) -> bool:
+        """Whether every design of every scene is heavier than all budgets."""
+        return bool(self.budgets_g) and all(
+            mass > greatest_mass(max(self.budgets_g)) for mass in self.lightest_g.values()
+        )
+
+    @property
+    def scenes(self) -> list[str]:
+        """The scenes in their order, or that of the lightest design first if all are too heavy.
+
+        The same design may weigh more by round-off in another scene: the first one then counts.
+        """
+        if not self.is_above_budgets:
+            return list(self.lightest_g)
+        return sorted(self.lightest_g, key=lambda scene: round(self.lightest_g[scene], 9))
+
     def instead(self, scene: str) -> tuple[str, DataFrame] | None:
         """What comes nearest to the question in a scene: a word for it, and its row.
 

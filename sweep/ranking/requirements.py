@@ -7,7 +7,7 @@ force that stays below F absorbs an energy W in a stroke shorter than W / F, tha
 A loading that sets a quantity is not asked for it: the force and the energy under a dead load, and
 the energy of a striker, are not those of the design.
 
-The nearest design to requirements that none fulfils is the one whose greatest miss is the least: a
+The nearest design to requirements that none fulfils is the one whose worst miss is the smallest: a
 value v misses a greatest value L by v / L - 1, and a least value L by 1 - v / L.
 """
 
@@ -204,7 +204,7 @@ def _outcome(judged: Judged, mode: str, budget_g: float, energy: float, force: f
         doubtful=int(part.fulfil.sum()) - soundly,
         failed={name: int((part.shares[name] != 0.0).sum()) for name in part.asked},
         unknown={name: int(part.found[name].isna().sum()) for name in part.asked},
-        open=_open(part),
+        open=_open(part, energy, force),
         best={k: _best(part.found[k], sound, MEASURES[k].least) for k in part.asked},
         left_out=part.left_out,
         nearest=nearest,
@@ -221,8 +221,8 @@ def _outcome(judged: Judged, mode: str, budget_g: float, energy: float, force: f
 def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
     """The value (SI) of each row for each requirement, per specimen or per panel.
 
-    Force and energy of a crush are those that are counted; of an impact or a dead load, of all of
-    it. The deceleration is filtered.
+    The energy of a crush is the counted one, and its force the greatest until then; an impact or a
+    dead load counts as a whole. The deceleration is filtered.
     """
     crushed = rows["loading_mode"] == "displacement"
     together = rows.get("panel_specimens", 1.0)
@@ -274,13 +274,19 @@ def _best(values: Series, sound: Series, least: bool) -> Best:
     return Best(float(known.max() if least else known.min()), trusted.empty)
 
 
-def _open(part: Judged) -> int:
-    """Number of designs that fail `min_absorbed` alone, with an energy that is a lower bound."""
+def _open(part: Judged, energy: float, force: float) -> int:
+    """Number of designs that fail `min_absorbed` alone, with an energy that is a lower bound.
+
+    No longer crush of a design absorbs the energy (J) that is required if the allowed force (N)
+    over all of its height, or over the greatest stroke, would not.
+    """
     if "min_absorbed" not in part.asked:
         return 0
     others = (part.shares.drop(columns="min_absorbed") == 0.0).all(axis=1)
     short = part.shares["min_absorbed"] > 0.0
-    return int((part.rows["ends_early"] & short & others).sum())
+    stroke = part.rows["height_m"].clip(upper=part.asked.get("max_stroke", np.inf))
+    impossible = force * stroke < energy
+    return int((part.rows["ends_early"] & short & others & ~impossible).sum())
 
 
 def _nearest(part: Judged) -> tuple[DataFrame, dict[str, float]]:

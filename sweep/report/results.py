@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from sweep.numbers import counted
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.question import Question, check_units
 from sweep.ranking.rank import answer
@@ -120,7 +121,7 @@ class Results:
         return len(self.table)
 
     def __repr__(self) -> str:
-        counts = f"{len(self.table)} cases, {len(self.failed)} failed"
+        counts = f"{counted(len(self.table), 'case')}, {len(self.failed)} failed"
         return f"Results of {counts}, in {self.path}"
 
     def _repr_html_(self) -> str:

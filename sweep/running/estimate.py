@@ -17,6 +17,7 @@ from sweep.config.case import Case
 from sweep.config.defaults.direction import is_along
 from sweep.config.defaults.solver_defaults import steps
 from sweep.config.grid import Config, case_count, expand
+from sweep.numbers import counted
 from sweep.result import Result, Status
 from sweep.running.batches import Plan, cost
 from sweep.running.beside.error_bars import companions_beside
@@ -63,14 +64,16 @@ def dry_run(
     done = finished_ids(out, rerun)
     waiting = [case for case in cases if case.case_id not in done]
     counts = (
-        f"{config.name}: {case_count(config):,} combinations, {len(cases):,} different cases, "
+        f"{config.name}: {counted(case_count(config), 'combination')}, "
+        f"{counted(len(cases), 'different case')}, "
         f"{len(cases) - len(waiting):,} of them finished in {out}"
     )
     if error_bars:
         others = companions_beside(cases, out, rerun)
         ready = others.keys() & finished_ids(file_beside(out, "companions"), rerun)
         waiting += [case for case_id, case in others.items() if case_id not in ready]
-        counts += f"\nerror bars: {len(others):,} companions, {len(ready):,} of them finished"
+        companions = counted(len(others), "companion")
+        counts += f"\nerror bars: {companions}, {len(ready):,} of them finished"
     if not waiting:
         return f"{counts}\nnothing is left to run"
     plates = any(is_along(case.loading) for case in waiting)
@@ -78,7 +81,7 @@ def dry_run(
     wall = found.cpu / min(workers, len(waiting))
     lines = [
         counts,
-        f"estimate for {len(waiting):,} cases, after running {found.pilots} of them "
+        f"estimate for {counted(len(waiting), 'case')}, after running {found.pilots} of them "
         f"({found.seconds:.1f} s); it may be off by a factor of two:",
         f"  processor time  {duration(found.cpu)}",
         f"  wall time       {duration(wall)} on {workers} workers",

@@ -2,8 +2,8 @@
 
 import os
 import signal
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from threading import current_thread, main_thread
 
 from sweep.config.case import Case
@@ -17,7 +17,7 @@ from sweep.running.provenance import config_text, describe_run
 from sweep.running.relaxation_warning import sentences_on_lossless
 from sweep.running.writer_thread import result_sink, writer_thread
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids, older_ids, read_statuses
-from sweep.store.write import Writer
+from sweep.store.write import WriteError, Writer
 
 UNWRITABLE = "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is no folder that can be written to"
 
@@ -47,7 +47,15 @@ def run_sweep(  # noqa: PLR0913  what, where, how
     stop = Stop()
     if scheduler is not None:
         check_scheduler(scheduler)
-    with Writer(out, axes, describe_run(config_text(sweep, given[0]))) as writer:
+    with ExitStack() as held:
+        try:
+            about = describe_run(config_text(sweep, given[0]))
+            writer = held.enter_context(Writer(out, axes, about))
+        except WriteError as error:
+            if cases.keys() - finished_ids(out, rerun):
+                raise
+            announce(f"{error} All {len(cases)} cases are in it already.")
+            return len(cases) - _converged(out, cases)
         done = cases.keys() & finished_ids(out, rerun)
         if old := done & older_ids(out):
             announce(
@@ -70,13 +78,17 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                     result_sink(writer, plan, progress) as sink,
                 ):
                     run_plan(plan, chosen, sink, stop, scheduler)
-    statuses = read_statuses(out)
-    converged = sum(statuses.get(case_id) == Status.CONVERGED for case_id in cases)
     kept = len(cases.keys() & finished_ids(out, rerun))
     if stop.asked and kept < len(cases):
         line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
         raise Interrupted(f"{line}, and the same command runs the rest")
-    return len(cases) - converged
+    return len(cases) - _converged(out, cases)
+
+
+def _converged(out: str | os.PathLike[str], cases: Iterable[str]) -> int:
+    """How many of these cases, by id, have converged."""
+    statuses = read_statuses(out)
+    return sum(statuses.get(case_id) == Status.CONVERGED for case_id in cases)
 
 
 def real_simulate(arcs: bool = False, plates: bool = False) -> Simulate:

@@ -28,6 +28,10 @@ from sweep.store.read import StoreError, exists, folded_batches, is_labelled, op
 from sweep.store.tables import Axes
 
 
+class WriteError(StoreError):
+    """A results file, or its folder, that the system does not let a run write to."""
+
+
 class Writer:
     """The only writer of a results file, from the beginning to the end of a `with` block.
 
@@ -138,7 +142,7 @@ def _writing(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        raise StoreError(f"{path} cannot be written: {error.strerror or error}.") from error
+        raise WriteError(f"{path} cannot be written: {error.strerror or error}.") from error
 
 
 @contextmanager

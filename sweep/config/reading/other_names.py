@@ -70,6 +70,15 @@ def present_choice(key: str, raw: Any) -> Any:
     return CHOICES.get(key, {}).get(raw.lower(), raw) if isinstance(raw, str) else raw
 
 
+def with_words(key: str, allowed: str) -> str:
+    """The choices of a key with the first other word for each: "displacement" ("crush")."""
+    for choice in dict.fromkeys(CHOICES.get(key, {}).values()):
+        word = next(word for word, other in CHOICES[key].items() if other == choice)
+        if not word.startswith(choice):
+            allowed = allowed.replace(f'"{choice}"', f'"{choice}" ("{word}")')
+    return allowed
+
+
 def meant(name: str, known: Iterable[str]) -> tuple[str, str]:
     """The known key that an unknown one means, and a clause that says so."""
     names = list(known)

@@ -22,7 +22,7 @@ from sweep.config.materials.material_file import (
     locate,
     read_record,
 )
-from sweep.config.reading.other_names import meant, present_choice
+from sweep.config.reading.other_names import meant, present_choice, with_words
 from sweep.config.reading.renamed import present
 from sweep.config.structures.structure_file import StructureError, read_structure
 from sweep.config.tables import QUESTION, Rank, Require, rounded
@@ -256,7 +256,8 @@ class Reader:
                 self._refuse(name, raw, line, where)
             return None
         except ValueError as error:
-            self._refuse(name, raw, f"{error}; allowed: {known[name].allowed}", where)
+            allowed = with_words(known[name].targets[0], known[name].allowed)
+            self._refuse(name, raw, f"{error}; allowed: {allowed}", where)
             return None
 
     def _unknown(self, name: str, raw: Any, known: Iterable[str], where: str = "") -> None:

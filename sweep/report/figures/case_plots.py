@@ -118,7 +118,8 @@ def _until_packed(ax: Axes, row: Mapping[str, Any]) -> None:
         return
     mean, end = energy / (strain * row["height_m"]), 100.0 * strain
     packs = np.isfinite(row["densification_strain"])
-    words = f"packed at {end:.0f} %, until then\n{_energy(energy, row)}" if packs else "not packed"
+    at = f"packed at {end:.0f} %, until then" if packs else f"not packed; counted to {end:.0f} %:"
+    words = f"{at}\n{_energy(energy, row)}"
     stairs = [0.0, end, end], [mean, mean, 0.0]
     label = f"mean force {three_digits(mean)} N,\n{words}"
     ax.plot(*stairs, color="black", lw=1.0, ls=":", label=label)

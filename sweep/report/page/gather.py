@@ -11,7 +11,7 @@ import numpy as np
 
 from sweep.columns import ABSORBED_AT, correction_column, error_column
 from sweep.design.panel import BEHIND
-from sweep.numbers import short
+from sweep.numbers import counted, short
 from sweep.ranking.curves import reached
 from sweep.ranking.merit import LEAST, Compared, merits, through_solid
 from sweep.ranking.places import pareto
@@ -30,7 +30,8 @@ from sweep.report.page.thinning import (
 )
 from sweep.report.page.trails import UNIT, drawing, moving_shape
 from sweep.report.tables.design_text import design_labels, design_text
-from sweep.report.tables.requirement_notes import UNITS, WORDS
+from sweep.report.tables.legend import meanings, unprintable
+from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL, UNITS, WORDS
 from sweep.report.tables.sheets import crush_text, impact_text
 from sweep.result import Status
 from sweep.store.read import StoredCase, read_attributes, read_cases
@@ -92,6 +93,8 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
             "per": question.per,
         },
         "measures": _requirements(),
+        "column_notes": COLUMN_NOTES,
+        "struck_panel": STRUCK_PANEL,
         "cases": list(cases.values()),
         "total": len(summary),
         "failures": list(_failures(summary)),
@@ -156,6 +159,10 @@ def _cases(
             "strokes": [[stroke] for stroke in _exact(part["counted_stroke_m"])],
             "solid": through_solid(part).tolist(),
             "crossed": part["crossed"].tolist(),
+            "stretched": part["beyond_curve"].tolist(),
+            "undrawn": unprintable(part),
+            "open": part["ends_early"].tolist(),
+            "struck": _exact(part["impact_energy_J"]),
             "message": part["message"],
             "slicer": part["slicer_settings"] if "slicer_settings" in part else [""] * len(part),
         }
@@ -196,6 +203,7 @@ def _scene(rows: DataFrame) -> dict[str, Any]:
         "least": least,
         "bar": _bar(rows, least) if least else None,
         "heads": list(_measures(rows)),
+        "meanings": meanings(rows, mode),
     }
 
 
@@ -212,12 +220,15 @@ def _bar(rows: DataFrame, name: str) -> str | None:
 
 
 def _first_shown(finished: DataFrame, counted: Sequence[Counted], question: Question) -> list[str]:
-    """Ids of all cases; those whose shapes are kept first: winners, then those that may win."""
+    """Ids of all cases; those whose shapes are kept first: winners, else the nearest, then those
+    that may win.
+    """
     asked = question._replace(by=None, top=3, allowed_force=None)
-    best = answer(finished, asked).table
-    winners = best.sort_values("place", kind="stable")
+    found = answer(finished, asked)
+    winners = found.table.sort_values("place", kind="stable")["case_id"]
+    nearest = [k for scene in found.outcomes.values() for o in scene for k in o.nearest["case_id"]]
     fronts = [front for each in counted for front in _fronts(finished, each)]
-    return list(dict.fromkeys([*winners["case_id"], *fronts, *finished["case_id"]]))
+    return list(dict.fromkeys([*winners, *nearest, *fronts, *finished["case_id"]]))
 
 
 def _fronts(finished: DataFrame, counted: Counted) -> Iterator[str]:
@@ -353,7 +364,7 @@ def _about(about: Mapping[str, Any], summary: DataFrame) -> list[tuple[str, str]
     """Where the numbers come from, as pairs of words."""
     versions = summary["model_version"].value_counts().sort_index().items()
     known = {name.removeprefix("version_"): v for name, v in about.items() if "version_" in name}
-    model = ", ".join(f"{version} ({n} cases)" for version, n in versions)
+    model = ", ".join(f"{version} ({counted(n, 'case')})" for version, n in versions)
     pairs = [(words, str(about[name])) for name, words in OF_THE_RUN.items() if name in about]
     pairs += [("version of the model", model)]
     pairs += [(name, short(version)) for name, version in known.items()]

@@ -186,9 +186,28 @@ function missText(row) {
     .map(([name, share]) => {
       const { noun, far } = data.measures[name];
       if (share === Infinity) return `${noun} unknown`;
+      if (name === "min_absorbed" && row.open)
+        return `${noun} at least ${limitText(name, found[name])}, at most ${Number((100 * share).toPrecision(2))} % ${far}`;
       return `${noun} ${limitText(name, found[name])}, ${Number((100 * share).toPrecision(2))} % ${far}`;
     })
     .join("; ");
+}
+
+// The lightest design that fulfils what is required, above the budget; else the stroke that it takes.
+function* instead() {
+  const whole = now.rows.filter((row) => row.worst === 0 && !doubtful(row));
+  const [lightest] = whole.sort((a, b) => a.mass - b.mass);
+  const needed = rectangle(data, now.rows, asked);
+  if (lightest) yield `The lightest design that fulfils this weighs ${inUnit(lightest.mass, 3)}: ${lightest.design.label}.`;
+  else if (needed)
+    yield `To absorb ${energyText(needed.energy)} at no more than ${limitText("max_force", needed.force)} takes at least ` +
+      `${digits(1e3 * needed.stroke)} mm of stroke (energy / force); the lattice is ${digits(1e3 * needed.height)} mm high.`;
+}
+
+function* nearestText() {
+  const row = now.nearest;
+  const doubt = doubtful(row) ? ` (marked ${row.beyond ? "!" : ""}${row.design.crossed ? "x" : ""}: do not trust it)` : "";
+  yield `Nearest: ${row.design.label}${doubt}: ${missText(row)}.`;
 }
 
 function showAsked() {
@@ -244,6 +263,10 @@ function until() {
   return `until the force of ${noun} exceeds ${Number(asked.force.toPrecision(6))} N`;
 }
 
+function showPicture({ design }) {
+  if (design.drawing !== undefined && design.drawing !== null) $("picture").append(drawingOf(data.drawings[design.drawing]));
+}
+
 function showAnswer() {
   const best = now.placed[0];
   const limit = asked.budget === null ? "" : ` up to ${inUnit(asked.budget)}`;
@@ -254,10 +277,11 @@ function showAnswer() {
     $("sentence").textContent = none
       ? `Nothing weighs ${inUnit(asked.budget)} or less: the lightest weighs ${inUnit(now.lightest)}.`
       : "No design has a value to rank by.";
-    const nearest = none ? undefined : now.missing[0];
-    if (nearest) $("sentence").textContent = `No design${limit} fulfils what is required.`;
-    const near = nearest ? `Nearest: ${nearest.design.label}: ${missText(nearest)}.` : "";
-    $("detail").textContent = [requiredText(), near].filter(Boolean).join(" ");
+    const missed = !none && now.missing.length > 0;
+    if (missed) $("sentence").textContent = `No design${limit} fulfils what is required.`;
+    if (now.nearest) showPicture(now.nearest);
+    const more = [...(now.nearest ? nearestText() : []), ...(missed ? instead() : [])];
+    $("detail").textContent = [requiredText(), ...more].filter(Boolean).join(" ");
     showCommand();
     return;
   }
@@ -266,8 +290,7 @@ function showAnswer() {
     element("strong", {}, best.design.label),
     `: ${valueText(best)}${percentOf(best)}.`,
   );
-  if (best.design.drawing !== undefined && best.design.drawing !== null)
-    $("picture").append(drawingOf(data.drawings[best.design.drawing]));
+  showPicture(best);
   $("detail").textContent = detail(best).join(" ");
   showCommand();
 }
@@ -285,6 +308,7 @@ function* words(best) {
   if (best.early) yield "The crush ended before that force was reached; a longer one absorbs more.";
   if (best.beyond) yield "Its result is beyond the model: do not trust it.";
   if (best.design.crossed) yield "Its walls cross one another: do not trust this result.";
+  if (best.design.undrawn) yield `It does not print as drawn: ${best.design.undrawn}.`;
   const tied = now.placed.filter((row) => row !== best && row.place === best.place);
   const others = tied.slice(0, 3).map((row) => row.design.label).join("; ");
   if (tied.length)
@@ -351,12 +375,26 @@ function columns() {
   if (now.bar) found.push(number("± %", (row) => (percentOf(row) ? share(row) : "?")));
   if (asked.force === null)
     scene().heads.forEach((head, i) => found.push(number(head, (row) => row.design.more[i])));
+  for (const [head, value] of requiredColumns()) found.push(number(head, (row) => digits(value(row)), value));
+  return found;
+}
+
+// Columns of what is required that the table does not have by itself: requirement_notes.py.
+function requiredColumns() {
+  const limits = askedOf(data, asked);
+  const found = [];
+  if ("max_deceleration" in limits) found.push(["decel. g0", (row) => row.design.deceleration && row.design.deceleration * data.measures.max_deceleration.scale]);
+  const limited = crushed() && (asked.force !== null || "max_force" in limits);
+  if ((limited || "max_stroke" in limits) && now.placed.some((row) => row.stroke !== null))
+    found.push(["stroke mm", (row) => row.stroke && 1e3 * row.stroke]);
   return found;
 }
 
 function placeText(row) {
   const tied = now.bar && row.sharing > 1 ? "=" : "";
-  return `${row.place}${tied}${row.pareto ? "*" : ""}${row.beyond ? "!" : ""}${row.design.crossed ? "x" : ""}`;
+  const { crossed, stretched, undrawn } = row.design;
+  const marks = `${row.beyond ? "!" : ""}${crossed ? "x" : ""}${stretched ? "^" : ""}${undrawn ? "p" : ""}`;
+  return `${row.place}${tied}${row.pareto ? "*" : ""}${marks}`;
 }
 
 function sorted(shown) {
@@ -417,6 +455,9 @@ function notes() {
   const lines = ["*: on the Pareto front: no lighter design of the scene is as good. mass: of one specimen."];
   const rows = now.placed;
   if (crushed()) lines.push(`Energy and peak are counted ${until()}.`);
+  if (!(crushed() && asked.force !== null)) lines.push(...scene().meanings);
+  if (asked.panel && scene().mode === "impact") lines.push(data.struck_panel);
+  lines.push(...requiredColumns().map(([head]) => data.column_notes[head]));
   if (storedEnergy(data, asked) < 0)
     lines.push(
       `These energies are read from curves of at most ${data.points} points: they are off by ` +
@@ -428,9 +469,12 @@ function notes() {
   if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
   if (rows.some((row) => row.beyond)) lines.push("!: beyond the model: do not trust this result.");
   if (rows.some((row) => row.design.crossed)) lines.push("x: walls cross one another: do not trust this result.");
+  if (rows.some((row) => row.design.stretched)) lines.push("^: a wall is stretched beyond the measured curve.");
+  if (rows.some((row) => row.design.undrawn))
+    lines.push("p: does not print as drawn: walls are no whole number of lines, or gaps are below a line.");
   const over = now.rows.length - rows.length - now.missing.length;
   if (over > 0 && asked.budget !== null) lines.push(`${over} of ${now.rows.length} designs are above the budget or have no value.`);
-  $("notes").textContent = lines.join(" ");
+  $("notes").replaceChildren(...lines.map((words) => element("span", {}, words)));
 }
 
 // ---- merit over mass ----
@@ -517,11 +561,11 @@ function showCard(plot, row, x, y) {
 // ---- chosen designs ----
 
 function chosen() {
-  return view.chosen ?? now.placed.slice(0, FIRST).map((row) => row.design.id);
+  return view.chosen ?? (now.nearest ? [now.nearest] : now.placed.slice(0, FIRST)).map((row) => row.design.id);
 }
 
 function current() {
-  return view.current ?? now.placed[0]?.design.id;
+  return view.current ?? (now.placed[0] ?? now.nearest)?.design.id;
 }
 
 function designOf(id) {
@@ -589,7 +633,10 @@ function showOne() {
   $("one").hidden = !design;
   if (!design) return;
   $("one-title").textContent = design.label;
-  const said = [`Case ${design.id}.`, design.message, design.slicer && `Printed by ${design.slicer}.`];
+  const said = [
+    ...[`Case ${design.id}.`, design.message, design.slicer && `Printed by ${design.slicer}.`],
+    design.undrawn && `Does not print as drawn: ${design.undrawn}.`,
+  ];
   $("one-words").textContent = said.filter(Boolean).join(" ");
   showStage(design);
   showBook(design);

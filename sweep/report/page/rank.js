@@ -83,6 +83,19 @@ function missesOf(data, row, question) {
   return Object.fromEntries(shares);
 }
 
+// The energy (J) that must be absorbed, of a striker or as required, the force (N) that is allowed
+// meanwhile, the least stroke (m) for both, and the greatest height; null if one is not known.
+function rectangle(data, rows, question) {
+  const { mode } = data.scenes[question.scene];
+  const limits = askedOf(data, question);
+  const together = (row) => (ofPanel(question) ? row.panel.specimens : 1);
+  const struck = () => Math.min(...rows.map((row) => together(row) * row.design.struck));
+  const energy = mode === "impact" ? struck() : mode === "displacement" ? limits.min_absorbed : undefined;
+  const force = Math.min(limits.max_force ?? Infinity, question.force ?? Infinity);
+  if (!(energy > 0) || force === Infinity) return null;
+  return { energy, force, stroke: energy / force, height: Math.max(...rows.map((row) => row.design.height)) };
+}
+
 const BESIDE = 0.4e-3; // m, between two specimens
 
 // Numbers of specimens of an outer width x depth (m) side by side and one behind the other, with a
@@ -115,6 +128,7 @@ function measured(data, design, question) {
   };
   row.stroke = countedStroke(data, design, question, force);
   row.early = scene.mode === "displacement" && force !== null && design.peak <= row.passed;
+  row.open = force === null ? design.open : row.early;
   let bars;
   if (scene.least) bars = design.least;
   else if (question.panel || question.budget !== null)
@@ -161,8 +175,13 @@ function markPlaces(rows, bar) {
   for (const row of rows) row.sharing = sharing.get(row.place);
 }
 
+function doubtful(row) {
+  return Number(row.beyond || row.design.crossed);
+}
+
 // All designs of a scene as `rows`, and those with a place, best first, as `placed`; those within
-// the budget that miss what is required, the nearest first, as `missing`.
+// the budget that miss what is required, the nearest first, as `missing`; `nearest`: the first of
+// them whose values are known, where none has a place.
 function ranked(data, question) {
   const scene = data.scenes[question.scene];
   const designs = data.cases.filter((design) => design.scene === question.scene);
@@ -174,12 +193,12 @@ function ranked(data, question) {
   const placed = meeting.filter((row) => row.mass <= most && row.value !== null);
   const byId = (a, b) => (a.design.id < b.design.id ? -1 : 1);
   placed.sort((a, b) => sign * (a.value - b.value) || a.mass - b.mass || byId(a, b));
-  const doubtful = (row) => Number(row.beyond || row.design.crossed);
   const missing = rows.filter((row) => row.worst > 0 && row.mass <= most);
   const further = (a, b) => (a.worst === b.worst ? 0 : a.worst - b.worst);
   missing.sort((a, b) => doubtful(a) - doubtful(b) || further(a, b) || a.mass - b.mass || byId(a, b));
   const known = storedEnergy(data, question);
   const bar = scene.least ? scene.bar : known >= 0 ? data.energies[known].bar : null;
   markPlaces(placed, bar);
-  return { rows, placed, missing, bar, lightest: Math.min(...rows.map((row) => row.mass)) };
+  const nearest = placed.length ? undefined : missing.find((row) => row.worst < Infinity);
+  return { rows, placed, missing, nearest, bar, lightest: Math.min(...rows.map((row) => row.mass)) };
 }

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from pandas import Series
 
+from sweep.numbers import percent
 from sweep.report.tables.requirement_notes import (
     column_notes,
     panel_note,
@@ -18,10 +19,11 @@ if TYPE_CHECKING:
 
 MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of one specimen."
 CRUSHED = "peak: greatest force of one specimen. Peak and energy are counted {until}."
-WHOLE = """\
-pack: strain at which the lattice has packed down, a mean over strains of nearly the greatest
-efficiency; "> 60": not before the end of a crush to 60 %.
-back: returned energy / work of the whole crush."""
+PACKED = (
+    "pack: strain at which the lattice has packed down: energy / greatest force is greatest there."
+)
+NOT_PACKED = '"> {0}": it has not packed at the end of the crush, at {0} %.'
+BACK = "back: returned energy / work of the whole crush."
 AGAIN = "again: energy absorbed in the second cycle / in the first; other columns are of the first."
 ELASTIC = (
     "Walls are elastic: what does not come back went into friction, damping, snaps or time steps."
@@ -60,24 +62,38 @@ EARLY = """\
 STRETCHED = """\
 ^: a wall is stretched beyond the measured curve, which is continued as a straight line (column
 stretch_over_curve: how far)."""
+HEADS = ("displacement", "force", "impact")
 CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
 
 
 def legend(ranking: Ranking) -> str:
     """The meaning of the marks and column heads in the sheets of a ranking."""
-    modes = set(ranking.table["loading_mode"])
-    heads = {
-        "displacement": [CRUSHED.format(until=ranking.until)],
-        "force": [LOADED],
-        "impact": [STRUCK, _what_is_missing(ranking.table)],
-    }
-    if not ranking.limited:
-        again = [AGAIN] if ranking.table["second_cycle_share"].notna().any() else []
-        heads["displacement"] += [WHOLE, *again, _what_is_missing(ranking.table)]
-    lines = [line for mode, words in heads.items() if mode in modes for line in words]
-    lines += panel_note(ranking.table) + column_notes(ranking)
-    bars = [TIED] if "ranked_error" in ranking.table else []
+    table = ranking.table
+    heads = {mode: meanings(table, mode) for mode in dict.fromkeys(table["loading_mode"])}
+    if "displacement" in heads:
+        whole = [] if ranking.limited else heads["displacement"]
+        heads["displacement"] = [CRUSHED.format(until=ranking.until), *whole]
+    lines = [line for mode in HEADS if mode in heads for line in heads[mode]]
+    lines += panel_note(table) + column_notes(ranking)
+    bars = [TIED] if "ranked_error" in table else []
     return "\n".join(dict.fromkeys([MARKS, *lines, *bars]))
+
+
+def meanings(rows: DataFrame, mode: str) -> list[str]:
+    """What the columns mean that a table has for one kind of loading, whatever is asked."""
+    if mode == "displacement":
+        again = [AGAIN] if rows["second_cycle_share"].notna().any() else []
+        return [PACKED, *_not_packed(rows), BACK, *again, _what_is_missing(rows)]
+    if mode == "impact":
+        return [STRUCK, _what_is_missing(rows)]
+    return [LOADED] if mode == "force" else []
+
+
+def _not_packed(rows: DataFrame) -> list[str]:
+    """What stands in place of the strain where a crush ends too early; nothing if none does."""
+    crushed = rows[rows["loading_mode"] == "displacement"]
+    ends = crushed["peak_strain"][crushed["densification_strain"].isna()].dropna()
+    return [] if ends.empty else [NOT_PACKED.format(percent(ends.iloc[0]))]
 
 
 def _what_is_missing(rows: DataFrame) -> str:

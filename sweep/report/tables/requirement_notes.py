@@ -21,9 +21,11 @@ if TYPE_CHECKING:
 
 DECELERATION = "peak_deceleration_filtered_m_per_s2"
 PANEL = (
-    "panel N: force of the {} specimens of a panel together. Its true size is {} mm. Specimens are "
-    "simulated alone: neighbours that have grown wider by the gap of 0.4 mm press one another."
+    "panel N: force of the {} specimens of a panel together. Its true size is {} mm.\n"
+    "Specimens are simulated alone: neighbours that have grown wider by the gap of\n"
+    "0.4 mm press one another."
 )
+STRUCK_PANEL = "All specimens of a panel are struck at once, each by a striker of its own."
 UNKNOWN = {
     "max_deceleration": "rows are too far apart for loading.filter_class, or older than the filter",
     "max_force": "it has not been measured",
@@ -273,10 +275,11 @@ def panel_size(rows: DataFrame) -> dict[str, Series]:
 
 
 def panel_note(rows: DataFrame) -> list[str]:
-    """How many specimens a panel has; none without a panel."""
+    """How many specimens a panel has, and what strikes them; none without a panel."""
     if "panel_specimens" not in rows or (rows["loading_mode"] == "force").all():
         return []
     least, most = rows["panel_specimens"].min(), rows["panel_specimens"].max()
     sizes = list(dict.fromkeys(panel_size(rows.sort_values("panel_width_m"))["panel mm"]))
     size = sizes[0] if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
-    return [PANEL.format(least if least == most else f"{least} to {most}", size)]
+    struck = [STRUCK_PANEL] if (rows["loading_mode"] == "impact").any() else []
+    return [PANEL.format(least if least == most else f"{least} to {most}", size), *struck]

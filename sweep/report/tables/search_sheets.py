@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 AGAIN = """\
 fine mesh: with twice the elements. lowest, highest: of this, of walls 5 % thinner and thicker, and
 of a quarter and four times the imperfection, one change at a time. {}: least and greatest of
-these."""
+these. Near duplicates are left out: the same choices, and sizes within 5 % of a better design."""
 NARROW = 0.8  # of its value: a design that keeps less stands on a narrow peak
 FRONT = """\
 This is the front of the designs that were evaluated; the search itself sought only {}.
@@ -131,7 +131,7 @@ def nearest_sheet(ranking: Ranking, missed: Mapping[str, float], summary: DataFr
         "Nearest to what is required",
         list(columns),
         [list(row) for row in zip(*columns.values(), strict=True)],
-        notes=("misses by: greatest share by which a limit is missed.", *mark_notes(rows)),
+        notes=("misses by: the worst miss, in % of its limit.", *mark_notes(rows)),
     )
 
 

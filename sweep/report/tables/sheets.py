@@ -66,10 +66,8 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
     """
     budgets, table = ranking.budgets_g, ranking.table
     named = partial(named_case, among=summary)
-    lightest_of_all = min(ranking.lightest_g, key=ranking.lightest_g.__getitem__, default="")
-    missed_by_all = _missed(lightest_of_all, ranking, named)
-    if missed_by_all and len(missed_by_all) == len(budgets):
-        yield Sheet("", [], [], notes=missed_by_all)
+    if ranking.lightest_g and ranking.is_above_budgets:
+        yield Sheet("", [], [], notes=_missed(ranking.scenes[0], ranking, named))
         return
     for scene in ranking.lightest_g:
         placed = rows = table[table["scene"] == scene]

@@ -27,6 +27,7 @@ from pandas import DataFrame
 from scipy.optimize import NonlinearConstraint, differential_evolution
 from scipy.stats import qmc
 
+from sweep.columns import in_words, less_is_better
 from sweep.config.case import Case
 from sweep.config.grid import designs_of
 from sweep.numbers import three_digits
@@ -181,7 +182,7 @@ class Search:
         """Value the designs so far, and report the best."""
         self.found = assess(self.rows(), self.question)
         counted = f"{len(self.cases)} of at most {self.settings.evaluations} designs"
-        announce(f"{counted}: {self.found.column}, {_best(self.found)}")
+        announce(f"{counted}: {_best(self.found)}")
 
     def rows(self) -> DataFrame:
         """The rows of the designs so far, with energies up to an allowed force of the panel."""
@@ -193,7 +194,11 @@ class Search:
 def _best(found: Assessment) -> str:
     """How good the best design so far is, in words."""
     if found.by_id:
-        return f"the best {three_digits(next(iter(found.by_id.values())))}"
+        value = three_digits(next(iter(found.by_id.values())))
+        column = in_words(found.column)
+        noun, _, unit = column.partition(", in ")
+        most = "least" if less_is_better(found.column) else "most"
+        return f"the {most} {noun} is {value} {unit}".rstrip()
     least = min(found.missed.values(), default=inf)
     if least < inf:
         return f"none fulfils all requirements; the nearest misses them by {100.0 * least:.3g} %"

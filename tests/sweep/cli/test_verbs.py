@@ -95,7 +95,10 @@ REFUSED = [
     (["export", "FILE", "0000000000000000", "--to", "a.step"], "a.step: .step is unknown; allow"),
     (["export", "FILE", "0000000000000000", "--to", "a.stl"], "does not follow from the config"),
     (["export", "FILE", "0000000000000000", "--to", "a.3mf", "--kind", "x"], "invalid choice: 'x'"),
-    (["export", "FILE", "0000000000000000", "--to", "/proc/a.csv"], "/proc cannot be written: "),
+    (
+        ["export", "FILE", "0000000000000000", "--to", "/proc/a.csv"],
+        "/proc/a.csv cannot be written: ",
+    ),
     (["export", "FILE", "0000000000000000", "--to", "FILE/a.csv"], "is or lies in a file; allow"),
     (["show", "FILE", "0"], "begins 5 ids: 0000000000000000"),
     (["run", "nowhere.toml"], "nowhere.toml"),
@@ -112,6 +115,8 @@ REFUSED = [
     (["run", "nowhere.toml", "--out", "LINK"], "a.h5'; allowed: a file whose name ends in .h5"),
     (["rank", "FILE", "--out", "/dev/full/x"], "/dev/full/x is or lies in a file; allowed: a "),
     (["rank", "FILE", "--out", "/proc/x"], "/proc/x cannot be written: "),
+    (["report", "FILE", "--out", "/proc/a.html"], "/proc/a.html cannot be written: "),
+    (["materials", "plot", "cheetah", "--out", "/proc/a.png"], "/proc/a.png cannot be written: "),
     (["rank", "/proc"], "/proc cannot be read: Is a directory"),
 ]
 
@@ -238,6 +243,17 @@ def test_budget_that_nothing_meets_is_told(capsys, file):
     assert out.splitlines()[:3] == said
 
 
+def test_the_lightest_case_has_the_same_id_in_the_sentence_and_in_the_command(capsys, tmp_path):
+    heavy, light = designs([2.0, 2.0], [0.1, 0.3]), designs([1.0, 1.0 - 1e-13], [0.1, 0.3])
+    rows = [heavy[0], light[0] | {"platen": "contact"}, light[1] | {"platen": "sliding"}]
+    file = write(
+        tmp_path / "trial.h5", summary(*(r | {"case_id": f"{k}00"} for k, r in enumerate(rows)))
+    )
+    _, out, _ = crumple(capsys, "rank", file, "--budget", "0.5 g")
+    assert "the lightest weighs 1 g, case 100, ninjaflex." in out
+    assert f"to see the lightest: crumple show {file} 100\n" in out
+
+
 def test_ranking_without_any_finished_case_is_no_ranking(capsys, tmp_path):
     file = write(tmp_path / "trial.h5", summary({"status": "stopped"}, {"status": "timed_out"}))
     status, out, _ = crumple(capsys, "rank", file)
@@ -322,6 +338,53 @@ def test_requirement_that_no_case_can_be_asked_for_is_refused_before_the_run(cap
     assert status == 2
     assert err == ("crumple run: min_absorbed needs a crush, and there is none\n")
     assert not out.exists()
+
+
+@pytest.mark.parametrize("words", [[], ["--dry-run"]])
+def test_panel_below_half_a_specimen_is_refused_before_the_run(capsys, tmp_path, words):
+    path, out = tmp_path / "trial.toml", tmp_path / "trial.h5"
+    text = '[loading]\nstrain = 0.1\n[lattice]\nwidth = "25 mm"\n[rank]\npanel = ["{}", "50 mm"]'
+    path.write_text(text.format("9 mm"))
+    status, _, err = crumple(capsys, "run", str(path), "--out", str(out), *words)
+    assert status == 2
+    assert err.startswith("crumple run: a panel of 9 mm is smaller than half of a specimen of 2")
+    assert not out.exists()
+
+
+def test_results_that_are_complete_are_ranked_where_nothing_can_be_written(
+    capsys, config, monkeypatch
+):
+    def refused(*_):
+        raise PermissionError(13, "Permission denied")
+
+    assert crumple(capsys, "run", config)[0] == 1
+    monkeypatch.setattr("sweep.store.write.exclusive", refused)
+    status, out, err = crumple(capsys, "run", config)
+    assert status == 1
+    assert "Best first: " in out
+    assert err.startswith(
+        "results/trial.h5 cannot be written: Permission denied. All 3 cases are in it already.\n"
+    )
+    status, out, err = crumple(capsys, "run", config, "--retry-failed")
+    assert (status, out) == (2, "")
+    assert err == "crumple run: results/trial.h5 cannot be written: Permission denied.\n"
+
+
+def test_run_proposes_no_pictures_of_a_first_design_that_there_is_not(capsys, config):
+    text = Path(config).read_text()
+    assert "[rank]" in text
+    Path(config).write_text(re.sub(r"budgets = \[.*?\]", 'budgets = ["1 g"]', text))
+    _, out, err = crumple(capsys, "run", config)
+    assert "Nothing weighs 1 g or less" in out
+    assert "to see the lightest: crumple show results/trial.h5 " in out
+    assert err.splitlines()[-1] == "results: results/trial.h5"
+
+
+def test_lists_begin_with_one_blank_line(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({}))
+    for words in (["show", file], ["materials"]):
+        first, second, *_ = crumple(capsys, *words)[1].splitlines()
+        assert (first, second.strip() != "") == ("", True)
 
 
 def test_status_gathers_failures_of_one_kind(capsys, file):
@@ -420,7 +483,66 @@ def test_show_takes_a_number_of_the_ranking_and_says_which_case_that_is(capsys, 
     status, _, err = crumple(capsys, "show", file, f"{1:016x}", "--scene", "1")
     assert (status, err) == (
         2,
-        "crumple show: --scene, --budget and --allowed-force belong to a number in the ranking\n",
+        "crumple show: --scene: only with a number in the ranking, such as 1\n",
+    )
+
+
+QUESTIONS = [
+    ["--panel", "100 mm", "50 mm"],
+    ["--panel", "100 mm", "50 mm", "--per", "panel", "--allowed-force", "1 kN"],
+    ["--budget", "2 g", "4 g", "--max-force", "25 N"],
+    ["--by", "mass_g"],
+    ["--min-absorbed", "0.25 J", "--max-mass", "3 g", "--max-stroke", "9 mm"],
+]
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+@pytest.mark.parametrize("number", [1, 2])
+def test_a_number_is_that_of_the_ranking_with_the_same_options(capsys, tmp_path, question, number):
+    rows = designs([1.0, 2.0, 4.0], [0.1, 0.3, 0.4])
+    for row, width, peak in zip(rows, [13e-3, 26e-3, 52e-3], [20.0, 22.0, 27.0], strict=True):
+        row |= {"outer_width_m": width, "peak_force_N": peak}
+    file = write(tmp_path / "trial.h5", summary(*rows))
+    ranking = pd.read_csv(
+        io.StringIO(crumple(capsys, "rank", file, *question, "--csv")[1]), dtype={"case_id": str}
+    )
+    if "budget_g" in ranking:
+        first = ranking["budget_g"].iloc[0]
+        ranking = ranking[ranking["budget_g"].isna() | (ranking["budget_g"] == first)]
+    words = [file, str(number), *question]
+    if number > len(ranking):
+        assert f"no number {number} " in crumple(capsys, "show", *words)[2]
+        return
+    wanted = ranking["case_id"].iloc[number - 1]
+    assert f"case {wanted}, " in crumple(capsys, "show", *words)[1]
+    if "--panel" not in question:  # curves have none
+        told = crumple(capsys, "export", *words, "--to", str(tmp_path / "a.csv"))[1]
+        assert told.splitlines()[0] == crumple(capsys, "show", *words)[1].splitlines()[0]
+
+
+def test_the_panel_of_an_exported_number_is_also_that_of_the_ranking(capsys, tmp_path, monkeypatch):
+    """A panel has more of the narrow design, which is the second alone."""
+    asked = []
+    monkeypatch.setattr(
+        "sweep.export.export.export_case", lambda *words: asked.append(words) or (["a.stl"], [])
+    )
+    rows = designs([1.0, 2.0], [0.2, 0.3])
+    rows[1] |= {"outer_width_m": 50e-3}
+    file = write(tmp_path / "trial.h5", summary(*rows))
+    panel = ["--panel", "100 mm", "50 mm"]
+    words = ["--to", str(tmp_path / "a.stl"), "--by", "absorbed_energy_J"]
+    assert crumple(capsys, "export", file, "1", *words)[0] == 0
+    assert crumple(capsys, "export", file, "1", *panel, *words[:2])[0] == 0
+    assert crumple(capsys, "export", file, f"{1:016x}", *panel, *words[:2])[0] == 0
+    assert [(each[2], each[3]) for each in asked] == [
+        (f"{1:016x}", None),
+        (f"{0:016x}", panel[1:]),
+        (f"{1:016x}", panel[1:]),
+    ]
+    status, _, err = crumple(capsys, "export", file, f"{1:016x}", "--per", "panel", *words[:2])
+    assert (status, err) == (
+        2,
+        "crumple export: --per: only with a number in the ranking, such as 1\n",
     )
 
 
@@ -464,7 +586,7 @@ def test_dry_run_counts_and_writes_nothing(capsys, config, tmp_path):
     crumple(capsys, "run", config)
     assert "nothing is left to run" in crumple(capsys, "run", config, "--dry-run")[1]
     assert (
-        "estimate for 1 cases" in crumple(capsys, "run", config, "--dry-run", "--retry-failed")[1]
+        "estimate for 1 case," in crumple(capsys, "run", config, "--dry-run", "--retry-failed")[1]
     )
 
 

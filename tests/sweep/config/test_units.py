@@ -74,6 +74,10 @@ def test_not_toml(lines, tmp_path):
 def test_missing_file(tmp_path):
     with pytest.raises(ConfigError, match=r"no\.toml: cannot be read \(No such file"):
         load_config(tmp_path / "no.toml")
+    with pytest.raises(
+        ConfigError, match=r'^\{"name": "a"\} is no path; needed: the path of a TOML'
+    ):
+        load_config({"name": "a"})
 
 
 def test_not_text(tmp_path):

@@ -24,3 +24,17 @@ def test_file_has_all_columns_with_their_units(tmp_path):
     assert needed <= {*read}
     pd.testing.assert_frame_equal(read[list(history)], history, check_dtype=False, rtol=1e-7)
     assert "stress_Pa" not in history
+
+
+@pytest.mark.parametrize(
+    ("row", "kinetic", "timed"),
+    [
+        ({}, 0.0, False),
+        ({}, 1e-6, True),
+        ({"material_memory": "relaxes"}, 0.0, True),
+        ({"loading_mode": "impact"}, 0.0, True),
+    ],
+)
+def test_a_crush_that_takes_no_time_has_none(row, kinetic, timed):
+    history = there_and_back().assign(kinetic_J=kinetic)
+    assert ("time_s" in with_stress(history, {**ROW, **row})) == timed

@@ -212,10 +212,27 @@ def test_designs_without_a_value_are_not_the_nearest():
     assert outcome.nearest.empty
 
 
+def test_no_crush_absorbs_more_than_the_allowed_force_over_the_height():
+    """40 N over 12.2 mm are 0.488 J, of 50 specimens together 24.4 J; over 10 mm, 0.4 J."""
+    rising = CRUSHED.assign(densification_strain=NAN)
+
+    def still_open(energy, per="specimen", force="40 N", **more):
+        asked = {"max_force": force, "min_absorbed": energy, **more}
+        return ranked(rising, panel=PANEL, require=asked, per=per).outcomes[SCENE][0].open
+
+    assert (still_open("0.48 J"), still_open("0.49 J")) == (2, 0)
+    assert (still_open("24 J", "panel", "2 kN"), still_open("25 J", "panel", "2 kN")) == (2, 0)
+    assert still_open("0.48 J", max_stroke="10 mm") == 0
+    up_to = CRUSHED.assign(absorbed_energy_at_40N_J=0.1, peak_force_N=20.0)
+    for energy, count in {"0.48 J": 3, "0.49 J": 0}.items():
+        found = ranked(up_to, allowed_force="40 N", require={"min_absorbed": energy})
+        assert found.outcomes[SCENE][0].open == count
+
+
 def test_energies_that_a_longer_crush_may_raise_are_open():
     """The first has not packed, the second has, the third also passes too much force."""
     rising = CRUSHED.assign(densification_strain=[NAN, 0.5, NAN])
-    asked = {"max_force": "40 N", "min_absorbed": "0.5 J"}
+    asked = {"max_force": "40 N", "min_absorbed": "0.45 J"}
     (outcome,) = ranked(rising, require=asked).outcomes[SCENE]
     assert (outcome.failed["min_absorbed"], outcome.open) == (3, 1)
     whole = ranked(rising, by="absorbed_energy_J", require={"min_absorbed": "0.5 J"})

@@ -44,6 +44,12 @@ def test_words_are_understood_in_every_table(load):
     assert kinds == [(kind, mode) for kind in ("square", "kagome") for mode in modes]
 
 
+def test_other_words_for_the_choices_are_named(lines):
+    (line,) = lines('[loading]\nmode = "crash"')
+    allowed = '"force" ("dead load"), "displacement" ("crush"), "impact" ("drop") or "custom"'
+    assert line == f'loading.mode = "crash": unknown choice; allowed: {allowed}'
+
+
 def test_other_values_are_left_for_the_key_to_refuse(lines):
     assert present_choice("lattice.kind", 3) == 3
     assert present_choice("material.name", "grid") == "grid"

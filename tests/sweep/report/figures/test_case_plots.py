@@ -104,7 +104,7 @@ def test_the_area_below_the_mean_force_is_the_energy_until_packed(row):
 def test_what_has_not_packed_is_told(row):
     never = row | {"densification_strain": np.nan}
     ax = axes_of(case_plots.force_displacement, there_and_back(), never)
-    assert labels(ax)[-1] == "mean force 22.0 N,\nnot packed"
+    assert labels(ax)[-1] == "mean force 22.0 N,\nnot packed; counted to 30 %:\n66.0 mJ, 0.0660 J/g"
     older = row | {"packing_strain": np.nan, "absorbed_energy_until_packed_J": np.nan}
     ax = axes_of(case_plots.force_displacement, there_and_back(), older)
     assert ":" not in [line.get_linestyle() for line in ax.get_lines()]

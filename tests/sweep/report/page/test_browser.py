@@ -11,6 +11,7 @@ import pytest
 
 from sweep.ranking.question import Question
 from sweep.report.page.write import write_page
+from sweep.report.tables.legend import marks
 from tests.support.browser import CHROMIUM, browser
 from tests.support.command import crumple
 from tests.support.results.page_data import expected, sweep
@@ -36,7 +37,14 @@ SET = """
 
 @pytest.fixture(scope="module")
 def table():
-    return sweep(40, more={"material": "<img src=x onerror=alert(1)>"})
+    known = sweep(40, more={"material": "<img src=x onerror=alert(1)>"})
+    undrawn = ["walls of 1.5 lines" if k % 3 == 1 else "" for k in range(len(known))]
+    unpacked = [k % 4 == 2 for k in range(len(known))]
+    return known.assign(
+        does_not_print=undrawn,
+        stretch_over_curve=[1.5 if k % 7 == 3 else 0.5 for k in range(len(known))],
+        densification_strain=known["densification_strain"].mask(unpacked),
+    )
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +78,7 @@ def put(tab, name, value, what="value", event="input"):
 
 def places(texts):
     """Numbers of places without their marks."""
-    return [int(text.rstrip("=*!x")) for text in texts]
+    return [int(text.rstrip("=*!x^p")) for text in texts]
 
 
 def ranked_by_the_command(tab, capsys, file, scene=0):
@@ -159,6 +167,102 @@ def test_requirements_that_nothing_fulfils_are_answered(tab):
     assert without_budget == "No design fulfils what is required."
     put(tab, "min_absorbed-on", False, what="checked", event="change")
     assert len(tab.run(ROWS)) > 5
+
+
+def told_by_rank(capsys, file, *words):
+    """The lines of a ranking, with one blank in place of line ends."""
+    return " ".join(crumple(capsys, "rank", file, *words)[1].split())
+
+
+def test_what_would_be_needed_is_told_as_in_a_terminal_and_the_nearest_is_drawn(tab, capsys, file):
+    put(tab, "min_absorbed", "1000")
+    put(tab, "max_force", "60")
+    more = tab.run('document.getElementById("detail").textContent')
+    asked = ["--budget", "60 g", "--min-absorbed", "1 kJ", "--max-force", "60 N"]
+    told = told_by_rank(capsys, file, *asked)
+    needed = "To absorb 1000 J at no more than 60 N takes at least 16667 mm of stroke"
+    for words in (needed, "the lattice is 12.2 mm high"):
+        assert words in told
+        assert words in more
+    nearest = tab.run("now.nearest.design.id")
+    assert f"case {nearest}, " in told
+    assert tab.run("document.querySelectorAll('#picture svg').length") == 1
+    assert nearest in tab.run('document.getElementById("one-words").textContent')
+    assert tab.run("document.querySelectorAll('#curves polyline').length") == 1
+
+
+def test_energy_of_a_crush_that_ended_early_is_a_lower_bound(tab):
+    put(tab, "min_absorbed", "1000")
+    early = "now.missing.find((row) => row.open && !row.design.crossed)"
+    assert "absorbed energy at least " in tab.run(f"missText({early})")
+    late = "now.missing.find((row) => !row.open)"
+    assert "at least" not in tab.run(f"missText({late})")
+
+
+def test_the_lightest_design_above_the_budget_is_told(tab):
+    put(tab, "min_absorbed", "1.9")
+    put(tab, "budget", "24")
+    more = tab.run('document.getElementById("detail").textContent')
+    assert "The lightest design that fulfils this weighs " in more
+
+
+def test_marks_are_those_of_the_terminal(tab, capsys, file):
+    put(tab, "budget-on", False, what="checked", event="change")
+    shown = {case_id: text.lstrip("0123456789=") for case_id, text in tab.run(ROWS)}
+    words = ["--by", "panel_energy_J", "--panel", "100 mm", "50 mm", "--top", "99"]
+    table = pd.read_csv(
+        io.StringIO(crumple(capsys, "rank", file, *words, "--csv")[1]),
+        dtype={"case_id": str},
+        keep_default_na=False,
+    )
+    rows = table[table["scene"] == table["scene"].iloc[0]]
+    pareto = rows["pareto"].map(lambda front: "*" if front in (True, "True") else "")
+    told = pareto + marks(rows.replace({"True": True, "False": False}))
+    assert shown == dict(zip(rows["case_id"], told, strict=True))
+    assert any("p" in text for text in shown.values())
+    assert any("^" in text for text in shown.values())
+    notes = tab.run('document.getElementById("notes").textContent')
+    assert "p: does not print as drawn" in notes
+
+
+def heads(tab):
+    """The heads of the table, in one line each."""
+    texts = "[...document.querySelectorAll('#table th button')].map((head) => head.textContent)"
+    return [text.replace("\n", " ") for text in tab.run(texts)]
+
+
+def test_stroke_and_deceleration_are_shown_where_the_terminal_shows_them(tab):
+    assert "stroke mm" not in heads(tab)
+    put(tab, "max_force", "60")
+    assert "stroke mm" in heads(tab)
+    put(tab, "max_force-on", False, what="checked", event="change")
+    put(tab, "force", "20")
+    assert heads(tab)[-1] == "stroke mm"
+    assert "stroke: in which" in tab.run('document.getElementById("notes").textContent')
+    put(tab, "scene", "2", event="change")
+    assert "stroke mm" not in heads(tab)
+    put(tab, "max_deceleration", "900")
+    assert heads(tab)[-1] == "decel. g0"
+
+
+def test_columns_of_the_whole_crush_are_explained(tab):
+    notes = tab.run('document.getElementById("notes").textContent')
+    assert "pack: strain at which the lattice has packed down" in notes
+    assert "back: returned energy" in notes
+    put(tab, "force", "20")
+    assert "pack: " not in tab.run('document.getElementById("notes").textContent')
+    put(tab, "scene", "2", event="change")
+    notes = tab.run('document.getElementById("notes").textContent')
+    assert "rebound: energy of the striker" in notes
+    assert "All specimens of a panel are struck at once" in notes
+
+
+@pytest.mark.parametrize("width", [1024, 1280, 1500])
+def test_table_is_not_cut_off(chromium, file, width):
+    chromium.open(file.replace(".h5", ".html"), width, 900)
+    assert heads(chromium)[-2:] == ["pack %", "back %"]
+    box = "document.querySelector('.wide .scroll')"
+    assert chromium.run(f"{box}.scrollWidth - {box}.clientWidth") <= 0
 
 
 def test_heads_sort_the_rows_without_changing_places(tab):

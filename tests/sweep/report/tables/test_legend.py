@@ -10,6 +10,7 @@ from sweep.report.tables.legend import (
     PLASTIC,
     legend,
 )
+from sweep.report.tables.requirement_notes import STRUCK_PANEL
 from tests.support.results.specimens import summary
 
 
@@ -21,6 +22,22 @@ def test_legend_explains_what_is_shown():
     assert "sink" not in legend(ranked(crushed))
     loaded = summary({"loading_mode": "force", "force_N": 5.0})
     assert legend(ranked(loaded)).splitlines()[1:] == [LOADED]
+
+
+def test_strain_at_which_a_crush_ended_unpacked_is_that_of_the_crush():
+    packed = {"peak_strain": 0.5}
+    assert '">' not in legend(ranked(summary(packed)))
+    unpacked = packed | {"densification_strain": float("nan")}
+    said = legend(ranked(summary(packed, unpacked)))
+    assert '"> 50": it has not packed at the end of the crush, at 50 %.' in said
+
+
+def test_all_specimens_of_a_panel_are_struck_at_once():
+    struck = {"loading_mode": "impact", "striker_mass_g": 50.0, "striker_speed_m_per_s": 1.0}
+    panel = ("130 mm", "50 mm")
+    assert STRUCK_PANEL in legend(ranked(summary(struck), panel=panel))
+    assert STRUCK_PANEL not in legend(ranked(summary(struck)))
+    assert STRUCK_PANEL not in legend(ranked(summary({}), panel=panel))
 
 
 def test_legend_says_what_takes_the_energy_that_does_not_come_back():
