@@ -30,9 +30,10 @@ def run(config: Config, arguments: Namespace) -> int:
 
     With --error-bars, a design without an error bar counts as a failure.
     """
+    from sweep.running.run import check_question
     from sweep.store.read import Rerun, read_summary
 
-    _check_question(config)
+    check_question(config)
     out = arguments.out or f"results/{config.name}.h5"
     workers = arguments.workers or WORKERS
     rerun = Rerun(failed=arguments.retry_failed, older=arguments.renew)
@@ -62,20 +63,6 @@ def run(config: Config, arguments: Namespace) -> int:
     failed += _spread(config, out, how, question) if arguments.spread else 0
     hint(next_commands(out, ranking))
     return failed
-
-
-def _check_question(config: Config) -> None:
-    """Refuse what no case of a config can be asked for, before cases run: a requirement, or a panel
-    that is smaller than half a specimen.
-    """
-    from sweep.config.grid import expand
-    from sweep.ranking.merit import check_panel
-    from sweep.ranking.requirements import check_modes
-
-    if config.rank.panel:
-        check_panel(config.rank.panel, expand(config))
-    if required := [name for name, limit in config.require if limit is not None]:
-        check_modes(required, {case.loading.mode for case in expand(config)})
 
 
 def _screen(

@@ -5,6 +5,8 @@ from pathlib import Path
 
 from sweep.config.grid import Config, expand
 from sweep.config.units import load_config
+from sweep.ranking.merit import check_panel
+from sweep.ranking.requirements import check_modes
 from sweep.report.results import Results
 from sweep.running.sweep import run_sweep
 from sweep.store.read import ONLY_MISSING, Rerun
@@ -22,6 +24,7 @@ def run(
     results file, by default results/NAME.h5. Progress is shown, in a notebook as one line.
     """
     known = config if isinstance(config, Config) else load_config(config)
+    check_question(known)
     path = Path(out or f"results/{known.name}.h5")
     run_sweep(known, path, workers, rerun=rerun)
     ids = [case.case_id for case in expand(known)]
@@ -32,3 +35,13 @@ def run(
         "per": known.rank.per,
     }
     return Results(path, ids, question)
+
+
+def check_question(config: Config) -> None:
+    """Refuse what no case of a config can be asked for, before cases run: a requirement, or a panel
+    that is smaller than half a specimen.
+    """
+    if config.rank.panel:
+        check_panel(config.rank.panel, expand(config))
+    if required := [name for name, limit in config.require if limit is not None]:
+        check_modes(required, {case.loading.mode for case in expand(config)})

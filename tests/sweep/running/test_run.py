@@ -2,7 +2,10 @@
 
 from pathlib import Path
 
+import pytest
+
 from sweep.config.units import load_config
+from sweep.ranking.question import RankError
 from sweep.ranking.rank import ranked
 from sweep.running.run import run
 
@@ -37,3 +40,11 @@ def test_pictures_require_what_the_config_requires(config):
     table = ranked(run(config).table, **run(config)._question._asdict()).table
     assert table.empty
     assert not ranked(run(config).table).table.empty
+
+
+def test_a_panel_that_holds_no_specimen_is_refused_before_anything_runs(config):
+    text = Path(config).read_text()
+    Path(config).write_text(text.replace("[rank]\n", '[rank]\npanel = ["5 mm", "5 mm"]\n'))
+    with pytest.raises(RankError, match="a panel of 5 mm is smaller than half of a specimen"):
+        run(config)
+    assert not Path("results").exists()
