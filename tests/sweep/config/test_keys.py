@@ -17,12 +17,22 @@ def test_load_steps_has_two_names(load):
     assert case.solver.load_steps == 50
 
 
-KINDS = ", ".join(f'"{kind}"' for kind in families())
+OTHERS = {
+    "diamond": "rhombus",
+    "hex": "honeycomb",
+    "kagome": "stars",
+    "reentrant": "auxetic",
+    "square": "grid",
+}
+KINDS = ", ".join(
+    f'"{kind}" ("{OTHERS[kind]}")' if kind in OTHERS else f'"{kind}"' for kind in families()
+)
 
 
 CHOICES = {
     '[loading]\nmode = "shake"': (
-        'loading.mode = "shake"; "force", "displacement", "impact" or "custom"'
+        'loading.mode = "shake"; "force" ("dead load"), "displacement" ("crush"), '
+        '"impact" ("drop") or "custom"'
     ),
     '[lattice]\nkind = "heptagon"': f'lattice.kind = "heptagon"; {KINDS} or "custom"',
     '[material]\nbend = "curve"': (
