@@ -1,14 +1,14 @@
 """How many elements a wall has if nobody says so: the cheapest mesh that ranks within 2 %.
 
 `make mesh` measures it, in every column of a ranking, beside 24 elements a wall: of nine of ten
-designs the error is at most 2 %. Walls that meet at acute corners fold upon each other there, and
-need more elements than others; so do the long parallel lines of a slicer.
+designs the error is at most 2 %. Which families need more elements is measured, not derived; so is
+the number for the parallel lines of a slicer, whose walls run from side to side.
 """
 
 from sweep.config.lattice_table import Lattice
 
 THREE, EIGHT, TWELVE = 2, 7, 11  # nodes between joints
-WITH_THREE = ("square", "brick", "hex", "circle")  # families of infill that have no acute corners
+WITH_THREE = ("square", "brick", "hex", "circle")  # families of infill for which three suffice
 
 
 def with_elements(lattice: Lattice) -> Lattice:

@@ -126,9 +126,10 @@ class Search:
         many more, up to `MOST_TRIED`, as it takes until one of them is a design.
         """
         sobol = qmc.Sobol(self.space.dimension, scramble=True, seed=seed)
-        points = sobol.random_base2(START)
-        while len(points) < MOST_TRIED and not any(map(self.space.case, points)):
-            points = np.concatenate([points, sobol.random(len(points))])
+        points = tried = sobol.random_base2(START)
+        while len(points) < MOST_TRIED and not any(map(self.space.case, tried)):
+            tried = sobol.random(len(points))
+            points = np.concatenate([points, tried])
         return points
 
     def _is_over(self, *_: object, **__: object) -> bool:

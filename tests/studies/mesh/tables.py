@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from sweep.config.defaults.elements import EIGHT, THREE
+from sweep.config.defaults.elements import EIGHT, THREE, WITH_THREE
 from sweep.numbers import short, tenths
 from sweep.report.tables.sheet import Sheet
 from tests.studies.mesh.crushes import APART, BASE, COLUMNS, DESIGN, FINEST, LASTING, WINDOW
@@ -55,7 +55,7 @@ def by_column(found, title="Errors by column"):
         f"Paths part where mean forces over {100 * WINDOW:g} % of strain differ by "
         f"{100 * APART:g} %, {LASTING} times on end.",
         f"Work: iterations x elements. Work and time are medians, {BASE} elements being 1.",
-        f"default: {THREE + 1} or, in cells with acute corners, {EIGHT + 1} elements.",
+        f"default: {THREE + 1} elements in {', '.join(WITH_THREE)} cells, else {EIGHT + 1}.",
         verdict(dict(zip(meshes, groups, strict=True)), by_default),
     )
     return Sheet(title, ["elements a wall", *map(str, meshes), "default"], rows, notes=notes)
