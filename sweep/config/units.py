@@ -64,7 +64,7 @@ def load_config(path: str | PathLike[str]) -> Config:
         needed = "the path of a TOML file, or the name of an example"
         raise ConfigError([Fault("path", f"{in_words(path)} is no path; needed: {needed}")])
     path = find_config(path)
-    reader = Reader(path.parent, _converted)
+    reader = Reader(path.parent, converted)
     config = reader.config(_document(path), path)
     try:
         check(config)
@@ -78,7 +78,7 @@ def load_config(path: str | PathLike[str]) -> Config:
 def quantity(text: object, unit: str) -> float:
     """A quantity such as "25 g" in the SI unit given, rounded to 15 digits."""
     try:
-        return _converted(text, unit)
+        return converted(text, unit)
     except ValueError as error:
         line = f"{in_words(text)}: {error}; allowed: {QUANTITIES[unit]}"
         raise ConfigError([Fault(unit, line)]) from None
@@ -103,7 +103,7 @@ def _open_place(path: Path) -> str | None:
     return None
 
 
-def _converted(text: object, unit: str) -> float:
+def converted(text: object, unit: str) -> float:
     """A number with a unit in SI, or ValueError with the reason."""
     if isinstance(text, bool) or not isinstance(text, str | int | float):
         raise ValueError("no quantity")
