@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 MODEL_VERSION = 8
 """Version of the model: raised by every change of the numbers that a case gives."""
 
+LOADED = ("force_N", "stroke_m", "striker_mass_g", "striker_speed_m_per_s", "impact_energy_J")
+"""Columns of which each loading has its own."""
+
 HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones again"
 
 
@@ -58,34 +61,30 @@ class Result:
 
 def design_columns(case: Case) -> dict[str, float | int | str]:
     """The summary columns that are known before the case runs."""
-    from sweep.config.defaults.direction import footprint, height_pressed
-    from sweep.config.defaults.printable import what_does_not_print
     from sweep.config.defaults.slicer_settings import slicer_settings
+    from sweep.config.kinds.printable import what_does_not_print
+    from sweep.config.kinds.sliced import Sliced
 
     lattice, loading = case.lattice, case.loading
     return {
-        "lattice_kind": lattice.pattern or lattice.kind,
+        "lattice_kind": lattice.name,
         "cells_x": lattice.cells_x,
         "cells_y": lattice.cells_y,
         "wall_thickness_m": lattice.wall_thickness,
-        "infill_share": nan if lattice.slicer is None else lattice.infill or nan,
+        "infill_share": lattice.infill if isinstance(lattice, Sliced) else nan,
         "slicer_settings": str(slicer_settings(case) or ""),
         "does_not_print": what_does_not_print(lattice),
         "direction": loading.direction,
         "width_m": lattice.width,
-        "height_m": height_pressed(lattice, loading),
-        "depth_m": footprint(lattice, loading)[1],
+        "height_m": case.height,
+        "depth_m": case.footprint[1],
         "outer_width_m": lattice.outer_size[0],
         "material": case.material.name,
         "material_modulus_Pa": case.material.modulus,
         "material_memory": case.material.inelasticity,
         "loading_mode": loading.mode,
-        "platen": loading.platen or "",
-        "force_N": nan if loading.force is None else loading.force,
-        "stroke_m": nan if loading.stroke is None else loading.stroke,
-        "striker_mass_g": nan if loading.striker_mass is None else 1e3 * loading.striker_mass,
-        "striker_speed_m_per_s": nan if loading.striker_speed is None else loading.striker_speed,
-        "impact_energy_J": nan if loading.energy is None else loading.energy,
+        "platen": loading.platen,
+        **dict.fromkeys(LOADED, nan) | loading.columns,
         "contact_model": case.contact.model,
         "model_version": MODEL_VERSION,
     }
@@ -94,8 +93,8 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
 def failed_result(case: Case, status: Status, message: str) -> Result:
     """Result of a case without any measurement: its design, NaN for all measures, no curves."""
     measures = {name: nan for name in COLUMNS if name not in ("case_id", "status", "message")}
-    measures |= {absorbed_energy_column(force): nan for force in case.loading.allowed_forces or ()}
-    cycles = case.loading.cycles or 1
+    measures |= {absorbed_energy_column(force): nan for force in case.loading.allowed_forces}
+    cycles = case.loading.cycles
     for number in range(1, cycles + 1) if cycles > 1 else ():
         measures |= dict.fromkeys(cycle_columns(number), nan)
     counts = {"touched": 0, "max_crossings": 0, "steps": 0, "newton_iterations": 0}

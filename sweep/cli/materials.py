@@ -85,7 +85,7 @@ def _plot(names: list[str], out: Path) -> None:
 
 def _curve(record: Record) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Strain and stress of the first loading, to the end of the record or to the break."""
-    from sweep.config.material_table import Material
+    from sweep.config.kinds.material import Material, material
     from sweep.scene.material import monotonic_law
 
     low, high, count = PLOTTED
@@ -94,11 +94,11 @@ def _curve(record: Record) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     strain = np.linspace(max(low, ends[0]), min(high, ends[1]), count)
     numbers = {"modulus": record.modulus, "density": record.density, "poisson": record.poisson}
     if record.plasticity:
-        material = Material.model_validate({**numbers, **record.plasticity})
+        plotted = material({**numbers, **record.plasticity})
     else:
         curve = {"curve_strain": record.strain, "curve_stress": record.stress}
-        material = Material.model_validate({"name": record.name, **numbers, **curve})
-    return strain, monotonic_law(material).at(strain)
+        plotted = Material.model_validate({"name": record.name, **numbers, **curve})
+    return strain, monotonic_law(plotted).at(strain)
 
 
 def _png(path: Path) -> Path:

@@ -192,7 +192,7 @@ def _to_print(search: Search) -> Iterator[str]:
     """The command that exports the first design, or the one that comes nearest."""
     found = search.found
     first = next(iter({**found.by_id, **found.missed}), None) if found else None
-    if first is None or search.cases[first].lattice.boundary == "periodic":
+    if first is None or search.cases[first].lattice.endless:
         return
     words = ["crumple", "export", str(search.out), first[:SHORT], "--to", "best.3mf"]
     panel = search.question.panel or ()

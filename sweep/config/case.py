@@ -1,56 +1,85 @@
-"""The parameters of one case.
+"""One case: a lattice of a material under a loading, with contact, damping and a solver.
 
-A `Case` is resolved when it is created (`resolve`), so that equal physics has an equal id.
+`complete` makes a case from the values that a config gives, and from the defaults that follow from
+them, so that equal physics has an equal id.
 """
 
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
 from hashlib import blake2b
-from typing import Any, Self, TypeVar
+from math import hypot
+from typing import Any, NamedTuple, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic_core import ErrorDetails
 
-from sweep.config.defaults.resolve import resolve
-from sweep.config.lattice_table import Lattice
-from sweep.config.material_table import Material
-from sweep.config.tables import Contact, Damping, Loading, Solver, Table, canonical
+from sweep.config.kinds import contact as contacts
+from sweep.config.kinds import damping as dampings
+from sweep.config.kinds import loading as loadings
+from sweep.config.kinds import material as materials
+from sweep.config.kinds import steps
+from sweep.config.kinds.cells import CUSTOM, cells
+from sweep.config.kinds.contact import Contact
+from sweep.config.kinds.custom_structure import CustomStructure, custom_structure
+from sweep.config.kinds.damping import Damping
+from sweep.config.kinds.direction import is_along
+from sweep.config.kinds.lattice import Lattice
+from sweep.config.kinds.loading import Loading, Pressed
+from sweep.config.kinds.material import Material
+from sweep.config.kinds.printable import check_printable
+from sweep.config.kinds.sliced import sliced
+from sweep.config.kinds.solver import Solver
+from sweep.config.kinds.specimen import Specimen
+from sweep.config.kinds.table import Given, RefusedError, Table, canonical
+from sweep.config.kinds.upright import across, upright
 
-__all__ = [
-    "TABLES",
-    "Case",
-    "Contact",
-    "Damping",
-    "Lattice",
-    "Loading",
-    "Material",
-    "Solver",
-    "given",
-]
+T = TypeVar("T")
+TABLES = ("lattice", "material", "loading", "contact", "damping", "solver")
 
 
 class Case(BaseModel):
-    """One simulation. `axes`: its values along the grid of its sweep, which are labels only."""
+    """One simulation, complete. `axes`: its values along the grid of its sweep, labels only."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    lattice: Lattice = Field(default_factory=Lattice)
-    material: Material = Field(default_factory=Material)
-    loading: Loading = Field(default_factory=Loading)
-    contact: Contact = Field(default_factory=Contact)
-    damping: Damping = Field(default_factory=Damping)
-    solver: Solver = Field(default_factory=Solver)
+    lattice: Lattice
+    material: Material
+    loading: Loading
+    contact: Contact
+    damping: Damping
+    solver: Solver
     axes: dict[str, float | int | str | None] = {}
 
-    @model_validator(mode="after")
-    def _resolve(self) -> Self:
-        tables, refused = resolve({name: getattr(self, name) for name in TABLES})
-        if refused is not None:
-            raise refused
-        for name, table in tables.items():
-            object.__setattr__(self, name, table)  # the model is frozen
-        return self
+    @staticmethod
+    def of(axes: Mapping[str, Any] | None = None, **tables: Given | Table) -> "Case":
+        """The case of these values by table and key, in SI; a key that is None has its default.
 
-    def changed(self, **tables: Any) -> "Case":
-        """The case with other tables or labels, resolved anew."""
-        return Case(**{name: getattr(self, name) for name in Case.model_fields} | tables)
+        `RefusedError` says what contradicts what, or which keys a table of its kind has.
+        """
+        wanted = {name: _values(values) for name, values in tables.items()}
+        if other := next((name for name in wanted if name not in TABLES), None):
+            raise RefusedError(other, None, f"the tables {', '.join(TABLES)}")
+        case = complete(wanted).sound()
+        for name, values in wanted.items():
+            _check_keys(getattr(case, name), name, values)
+        return case.model_copy(update={"axes": dict(axes or {})})
+
+    @property
+    def along(self) -> bool:
+        """Whether the lattice is pressed along its cells, out of the plane of its drawing."""
+        return self.loading.along
+
+    @property
+    def height(self) -> float:
+        """The height that a platen or a striker presses, m."""
+        return self.lattice.depth if self.along else self.lattice.height
+
+    @property
+    def footprint(self) -> tuple[float, float]:
+        """Outer width and depth (m) of the area that is pressed."""
+        width, height = self.lattice.outer_size
+        return (width, height) if self.along else (width, self.lattice.depth)
 
     @property
     def case_id(self) -> str:
@@ -58,22 +87,200 @@ class Case(BaseModel):
         tables = ",".join(f'"{name}":{canonical(getattr(self, name))}' for name in sorted(TABLES))
         return blake2b(f"{{{tables}}}".encode(), digest_size=8).hexdigest()
 
+    def changed(self, axes: Mapping[str, Any] | None = None, **tables: Given) -> "Case":
+        """The case with other values, by table and key, completed anew; None takes a value away.
 
-TABLES: dict[str, type[Table]] = {
-    "lattice": Lattice,
-    "material": Material,
-    "loading": Loading,
-    "contact": Contact,
-    "damping": Damping,
-    "solver": Solver,
-}
+        axes: labels beside those it has. A loading of another mode has only the new values.
+        """
+        values = {name: getattr(self, name).given() for name in TABLES}
+        if tables.get("loading", {}).get("mode", self.loading.mode) != self.loading.mode:
+            values["loading"] = {}
+        values |= {name: values[name] | dict(change) for name, change in tables.items()}
+        case = complete({name: _values(table) for name, table in values.items()}).sound()
+        for name, change in tables.items():
+            _check_keys(getattr(case, name), name, _values(change))
+        return case.model_copy(update={"axes": self.axes | dict(axes or {})})
+
+    def to_json(self) -> str:
+        """The case as JSON text, which `from_json` reads."""
+        return self.model_dump_json()
+
+    @staticmethod
+    def from_json(text: str | bytes) -> "Case":
+        """The case of a text that `to_json` wrote; ValueError if it is none."""
+        try:
+            return Case.model_validate_json(text)
+        except ValidationError as error:
+            first = error.errors()[0]
+            place = ".".join(map(str, first["loc"])) or "the text"
+            raise ValueError(f"no case: {place}: {first['msg']}") from None
 
 
-T = TypeVar("T")
+@dataclass
+class Draft:
+    """A case that is being completed: its tables so far, and the values that are refused."""
+
+    tables: dict[str, Table] = field(default_factory=dict)
+    refused: list[RefusedError] = field(default_factory=list)
+
+    def add(self, name: str, make: Callable[..., T], *values: Any) -> T | None:
+        """Make a table, or note why it cannot be made."""
+        try:
+            made = make(*values)
+        except RefusedError as error:
+            self.refused.append(error)
+            return None
+        except ValidationError as error:
+            self.refused += [_refused(name, wrong) for wrong in error.errors()]
+            return None
+        self.tables[name] = made  # type: ignore[assignment]
+        return made
+
+    def sound(self) -> Case:
+        """The case; raises the first refusal if there is one."""
+        if self.refused:
+            raise self.refused[0]
+        return Case.model_construct(None, **self.tables, axes={})  # type: ignore[arg-type]
 
 
-def given(value: T | None) -> T:
-    """Return a parameter that is never None in a resolved case of this mode."""
-    if value is None:
-        raise ValueError("a resolved case has this parameter; this one was not resolved")
-    return value
+class Makers(NamedTuple):
+    """The functions that make the tables of a case from values that can be looked up."""
+
+    material: Callable[..., Material]
+    lattice: Callable[..., Lattice]
+    loading: Callable[..., Loading]
+    solver: Callable[..., Solver]
+
+
+def complete(given: Mapping[str, Given], make: "Makers | None" = None) -> Draft:
+    """The case of the values of each table, in SI. make: `cached` for many cases.
+
+    The loading is checked even if the material and the lattice are refused.
+    """
+    make = make or MAKERS
+    draft, wanted = Draft(), {name: _frozen(given.get(name, {})) for name in TABLES}
+    press = dict(wanted["loading"])
+    along, integrator = is_along(press), dict(wanted["solver"]).get("integrator")
+    material = draft.add("material", make.material, wanted["material"], along)
+    density = material.density if material else None
+    lattice = None
+    if density or "mass" not in dict(wanted["lattice"]):
+        lattice = draft.add("lattice", make.lattice, wanted["lattice"], density or 1.0, along)
+    pressed = _pressed(lattice, dict(wanted["lattice"]), along)
+    relaxes = materials.relaxes(dict(wanted["material"])) if material is None else material.relaxes
+    loading = draft.add("loading", make.loading, wanted["loading"], pressed, integrator, relaxes)
+    if loading is not None and material is not None:
+        _numerics(draft, wanted, pressed, loading, material, make)
+    return draft
+
+
+def _numerics(
+    draft: Draft,
+    wanted: Mapping[str, tuple[tuple[str, Any], ...]],
+    pressed: Pressed,
+    loading: Loading,
+    material: Material,
+    make: Makers,
+) -> None:
+    """Complete the tables that say how a case is computed; the first refusal ends it."""
+    asked = dict(wanted["contact"])
+    by_position = asked.get("model") == "position_based"
+    try:
+        steps.check_memory(material, dict(wanted["solver"]).get("integrator"))
+        diagonal = _diagonal(draft.tables.get("lattice"))
+        made = make.solver(wanted["solver"], loading, pressed.height, diagonal, by_position)
+        draft.tables["solver"] = made
+        draft.tables["contact"] = contacts.contact(
+            asked, loading, pressed.structure, made.integrator
+        )
+        draft.tables["damping"] = dampings.damping(
+            dict(wanted["damping"]), loading, material.relaxes
+        )
+        draft.tables["solver"] = steps.in_the_plane(made, material, loading)
+    except RefusedError as error:
+        draft.refused.append(error)
+
+
+def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
+    """What is pressed; of a lattice that is refused, by its own values."""
+    key = "depth" if along else "height"
+    if lattice is None:
+        return Pressed(given.get(key, Specimen.model_fields[key].default))
+    structure = lattice.structure if isinstance(lattice, CustomStructure) else None
+    return Pressed(getattr(lattice, key), structure, lattice.endless)
+
+
+def _diagonal(lattice: Table | None) -> float:
+    """The diagonal of the box of a lattice, m."""
+    return hypot(lattice.width, lattice.height) if isinstance(lattice, Specimen) else 1.0
+
+
+def _refused(table: str, wrong: ErrorDetails) -> RefusedError:
+    """The refusal of a value of the wrong type or out of range."""
+    allowed = wrong["msg"].removeprefix("Input should be ")
+    return RefusedError(f"{table}.{wrong['loc'][0]}", wrong["input"], allowed)
+
+
+def _values(table: Given | Table) -> dict[str, Any]:
+    """The values of a table that are not None."""
+    values = table.given() if isinstance(table, Table) else table
+    return {key: value for key, value in values.items() if value is not None}
+
+
+def _check_keys(table: Table, name: str, values: Given) -> None:
+    """Refuse a key that the kind of a table does not have."""
+    for key, value in values.items():
+        if not (key in type(table).model_fields or table.implies(key, value)):
+            allowed = f"a key of {type(table).__name__}: {', '.join(type(table).model_fields)}"
+            raise RefusedError(f"{name}.{key}", value, allowed)
+
+
+def _frozen(values: Given) -> tuple[tuple[str, Any], ...]:
+    return tuple((key, tuple(v) if isinstance(v, list) else v) for key, v in values.items())
+
+
+def lattice_of(given: Given, density: float, along: bool) -> Lattice:
+    """The lattice of these values; density (kg/m^3): of its material."""
+    made: Lattice
+    if given.get("kind") == CUSTOM:
+        made = custom_structure(given)
+    else:
+        made = sliced(given, density) if "slicer" in given else cells(given, density)
+    check_printable(made)
+    return upright(made, given) if along else across(made)
+
+
+def _material(values: tuple[tuple[str, Any], ...], along: bool) -> Material:
+    return materials.material(dict(values), along)
+
+
+def _lattice(values: tuple[tuple[str, Any], ...], density: float, along: bool) -> Lattice:
+    return lattice_of(dict(values), density, along)
+
+
+def _loading(
+    values: tuple[tuple[str, Any], ...], pressed: Pressed, integrator: str | None, relaxes: bool
+) -> Loading:
+    return loadings.loading(dict(values), pressed, integrator, relaxes)
+
+
+def _solver(
+    values: tuple[tuple[str, Any], ...],
+    loading: Loading,
+    height: float,
+    diagonal: float,
+    by_position: bool,
+) -> Solver:
+    return steps.solver(dict(values), loading, height, diagonal, by_position)
+
+
+MAKERS = Makers(_material, _lattice, _loading, _solver)
+
+
+def cached() -> Makers:
+    """Makers for the cases of one sweep, which share most of their tables.
+
+    They keep what they have read from files, so that they are made anew for each sweep.
+    """
+    keep = lru_cache(maxsize=4096)
+    return Makers(keep(_material), keep(_lattice), keep(_loading), keep(_solver))

@@ -5,22 +5,20 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, fields, replace
-from functools import cache, cached_property
+from functools import cached_property
 from itertools import product
 from math import prod
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from pydantic import ValidationError
-from pydantic_core import ErrorDetails
-
 from sweep.config.axis import Choice, Interval, Written
-from sweep.config.case import TABLES, Case
-from sweep.config.defaults.resolve import resolve
-from sweep.config.keys import ALIASES, case_keys
+from sweep.config.case import TABLES, Case, Draft, cached, complete
+from sweep.config.keys import ALIASES, KINDS, case_keys
+from sweep.config.kinds.table import RefusedError, rounded
+from sweep.config.materials.material_file import RecordError
 from sweep.config.materials.material_header import KEYS
+from sweep.config.question import Rank, Require
 from sweep.config.reading.unused_keys import still_unused
-from sweep.config.tables import Rank, Require, Table, rounded
 
 MAX_CASES = 1_000_000
 SHOWN = 10  # faults that the text of a ConfigError lists
@@ -59,7 +57,6 @@ def _shown(faults: list[Fault]) -> list[str]:
     return [faults[k].line for k in sorted(chosen)] + counted
 
 
-Reason = dict[str, Any]  # key, value, allowed
 Values = dict[str, Written]
 Axes = dict[str, tuple[Written, ...]]
 
@@ -208,19 +205,31 @@ def _cases(config: Config) -> tuple[Iterable[Case], int]:
 
 
 @dataclass(frozen=True)
-class _Draft:
-    """One combination: its values along the axes, all given values, its case and its faults."""
+class _Combination:
+    """One combination: its values along the axes, all given values, its draft and its faults."""
 
     chosen: Values
     given: dict[str, Any]
-    case: Case
+    draft: Draft
     faults: list[Fault]
 
+    @property
+    def case(self) -> Case:
+        """The case of a combination without faults."""
+        return self.draft.sound()
+
     def value(self, key: str) -> Any:
-        """The value of the resolved case; of an alias, the value that all its targets share."""
-        targets = [target.split(".") for target in _keys(key)]
-        first, *others = [getattr(getattr(self.case, table), name) for table, name in targets]
+        """The value of the case; of an alias, the value that all its targets share."""
+        first, *others = [self._value(target) for target in _keys(key)]
         return first if all(other == first for other in others) else None
+
+    def _value(self, target: str) -> Any:
+        """The value of a key; where its table is refused, the given one or the default."""
+        table, name = target.split(".")
+        if table in self.draft.tables:
+            return getattr(self.draft.tables[table], name, None)
+        kinds = [kind.model_fields[name] for kind in KINDS[table] if name in kind.model_fields]
+        return self.given.get(target, kinds[0].get_default() if kinds else None)
 
     def matches(self, table: dict[str, tuple[object, ...]]) -> bool:
         """True if the case has, for every key of an [[exclude]] table, one of its values."""
@@ -233,23 +242,22 @@ class _Draft:
         return self.case.model_copy(update={"axes": axes})
 
 
-def _drafts(config: Config) -> Iterator[_Draft]:
-    made = cache(_table)  # most cases share most of their tables
+def _drafts(config: Config) -> Iterator[_Combination]:
+    make = cached()
     for chosen in _combinations(config):
         written = config.base | _targets(chosen)
         given = {key: value for key, (value, *_) in written.items()}
-        values = [(*key.split("."), value) for key, value in given.items()]
-        tables: dict[str, Table] = {}
-        wrong: list[Reason] = []
-        for name in TABLES:
-            items = tuple((field, value) for table, field, value in values if table == name)
-            tables[name], reasons = made(name, items)
-            wrong += reasons
-        sound = not any(reason["key"].startswith("lattice.") for reason in wrong)
-        resolved, refused = resolve(tables, sound)
-        wrong += [refused.context or {}] if refused else []
-        case = Case.model_construct(None, **resolved)
-        yield _Draft(chosen, given, case, [_fault(reason, written) for reason in wrong])
+        tables: dict[str, dict[str, Any]] = {name: {} for name in TABLES}
+        for key, value in given.items():
+            table, name = key.split(".")
+            tables[table][name] = value
+        try:
+            draft = complete(tables, make)
+        except RecordError as error:
+            raise ConfigError([Fault("material.name", f"material.name: {error}")]) from None
+        in_order = sorted(draft.refused, key=lambda refused: TABLES.index(refused.table))
+        faults = [_fault(refused, written) for refused in in_order]
+        yield _Combination(chosen, given, draft, faults)
 
 
 def _keys_to_use(config: Config) -> list[str]:
@@ -309,31 +317,9 @@ def _keys(name: str) -> tuple[str, ...]:
     return ALIASES.get(name, (name,))
 
 
-def _table(name: str, items: tuple[tuple[str, Any], ...]) -> tuple[Table, list[Reason]]:
-    """A table of these values, and the reasons why it cannot be used."""
-    try:
-        return TABLES[name].model_validate(dict(items)), []
-    except ValidationError as error:
-        table = TABLES[name].model_construct(None, **dict(items))
-        return table, [_reason(name, wrong) for wrong in error.errors()]
-
-
-def _reason(table: str, wrong: ErrorDetails) -> Reason:
-    """The reason of a refusal, or of a number of a record that is out of range.
-
-    A record that cannot be read raises `ConfigError`.
-    """
-    if wrong["type"] == "refused":
-        return wrong["ctx"]
-    if wrong["type"] == "value_error":
-        raise ConfigError([Fault("material.name", f"material.name: {wrong['ctx']['error']}")])
-    key = f"{table}.{wrong['loc'][0]}"
-    return {"key": key, "value": wrong["input"], "allowed": case_keys()[key].allowed}
-
-
-def _fault(reason: Reason, given: Values) -> Fault:
+def _fault(refused: RefusedError, given: Values) -> Fault:
     """The fault of one case, in the words of the file if the file sets the key."""
-    key, value, allowed = reason["key"], reason["value"], reason["allowed"]
+    key, value, allowed = refused.key, refused.value, refused.allowed
     if key in given:
         written, allowed = given[key], _in_unit_of(given[key], key, allowed)
         line = f"{written.name or key} = {written.text}: does not fit; allowed: {allowed}"
@@ -345,7 +331,7 @@ def _fault(reason: Reason, given: Values) -> Fault:
     text = text if unit in (None, "1") else f"{text} {unit}"
     of_a_file = "material.name" in given and key in OF_A_FILE
     why = f" in the file of {given['material.name'].text}" if of_a_file else " by default"
-    why = f", as {reason['since']} is given" if reason.get("since") else why
+    why = f", as {refused.since} is given" if refused.since else why
     return Fault(key, f"{key} = {text}{why}: does not fit; allowed: {allowed}")
 
 

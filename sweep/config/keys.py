@@ -1,6 +1,6 @@
 """The keys of a config: which values each key accepts, in words, and the key nearest to a typo.
 
-All of it is derived from the models in `tables`, so that a new key needs no second entry.
+All of it is derived from the kinds of the tables, so that a new key needs no second entry.
 """
 
 import difflib
@@ -8,21 +8,51 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cache
 from math import inf
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import ConfigDict, TypeAdapter
 
 from sweep.config.case import TABLES
 from sweep.config.defaults import drop_tests
+from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.contact import Barrier
+from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.damping import KelvinVoigt, Rayleigh
+from sweep.config.kinds.direction import Direction
+from sweep.config.kinds.loading import BY_MODE, mode_word
+from sweep.config.kinds.material import Material
+from sweep.config.kinds.sliced import Sliced
+from sweep.config.kinds.solver import Arcs, Integrator, InTime
+from sweep.config.kinds.table import Table
 from sweep.config.materials.material_file import available
-from sweep.config.tables import QUESTION, Table
+from sweep.config.question import QUESTION
+
+KINDS: dict[str, tuple[type[Table], ...]] = {
+    "lattice": (Cells, Sliced, CustomStructure),
+    "material": (Material,),
+    "loading": BY_MODE,
+    "contact": (Barrier,),
+    "damping": (Rayleigh, KelvinVoigt),
+    "solver": (InTime, Arcs),
+}
+"""The kinds of a table, whose keys a config may set."""
+
+CHOICES: dict[str, Any] = {
+    "loading.mode": Literal[*(mode_word(kind) for kind in BY_MODE), "custom"],
+    "loading.direction": Direction,
+    "loading.platen": Literal["none", "contact", "glued", "sliding", "clamped"],
+    "contact.model": Literal["auto", "none", "barrier", "position_based"],
+    "damping.model": Literal["none", "rayleigh", "kelvin_voigt"],
+    "solver.integrator": Integrator,
+}
+"""The choices of keys which choose a kind, or of which a kind has only some."""
 
 ALIASES = {
     "lattice.cells": ("lattice.cells_x", "lattice.cells_y"),
     "lattice.extrusion_width": ("lattice.line_width",),
     "loading.load_steps": ("solver.load_steps",),
 }
-RESOLVED = {
+DERIVED = {
     "lattice.structure",
     "lattice.fill_distance",
     "material.curve_strain",
@@ -82,14 +112,15 @@ def case_keys() -> dict[str, Key]:
 @cache
 def table_keys(table: str) -> dict[str, Key]:
     """The keys of one table by their dotted names."""
-    model = (TABLES | QUESTION)[table]
-    schema = model.model_json_schema()["properties"]
-    names = {field: f"{table}.{field}" for field in schema}
-    return {
-        name: _key(name, model, field, _plain(schema[field]))
-        for field, name in names.items()
-        if name not in RESOLVED
-    }
+    keys: dict[str, Key] = {}
+    for kind in KINDS.get(table) or (QUESTION[table],):
+        schemas = kind.model_json_schema()["properties"]
+        for field, info in kind.model_fields.items():
+            name = f"{table}.{field}"
+            if name not in keys and name not in DERIVED and name not in CHOICES:
+                keys[name] = _key(name, info.rebuild_annotation(), schemas[field])
+    chosen = {name: choices for name, choices in CHOICES.items() if name.startswith(f"{table}.")}
+    return keys | {name: _key(name, choices) for name, choices in chosen.items()}
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
@@ -99,7 +130,9 @@ def nearest(name: str, known: Iterable[str]) -> str:
     return difflib.get_close_matches(name, begun or names, n=1, cutoff=0.0)[0]
 
 
-def _key(name: str, model: type[Table], field: str, schema: dict[str, Any]) -> Key:
+def _key(name: str, kind: Any, schema: dict[str, Any] | None = None) -> Key:
+    adapter = TypeAdapter(kind, config=ConfigDict(strict=True, allow_inf_nan=False))
+    schema = _plain(schema or adapter.json_schema())
     is_list = schema.get("type") == "array"
     item = _item(schema) if is_list else schema
     allowed = _words(schema)
@@ -107,9 +140,6 @@ def _key(name: str, model: type[Table], field: str, schema: dict[str, Any]) -> K
         allowed = f"{', '.join(available())}, or the path of a .csv file"
     if name == "loading.preset":
         allowed = drop_tests.in_words()
-    info = model.model_fields[field]
-    config = ConfigDict(strict=True, allow_inf_nan=False)
-    adapter = TypeAdapter(info.rebuild_annotation(), config=config)
     unit, bare, most = item.get("unit"), item.get("bare", False), item.get("bare_most", inf)
     return Key((name,), unit, bare, most, is_list, allowed, adapter)
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.lattice import Lattice
 from sweep.constants import MM
 
 if TYPE_CHECKING:
-    from sweep.config.lattice_table import Lattice
     from sweep.design.network import Network
 
 
@@ -18,9 +19,9 @@ def network_of(lattice: Lattice) -> Network:
     from sweep.design.lattice import build_network
     from sweep.design.network import Network
 
-    structure = lattice.structure
-    if structure is None:
+    if not isinstance(lattice, CustomStructure):
         return build_network(lattice.geometry)
+    structure = lattice.structure
     points = MM * np.array(structure.nodes_mm)
     thickness, none = MM * np.array(structure.thickness_mm), np.empty(0, np.int64)
     return Network(points, np.array(structure.walls), thickness, none, none)

@@ -10,10 +10,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import ValidationError
 
 from kernels.laws.one_point import stresses
-from sweep.config.case import Material
+from sweep.config.kinds.material import Material, material
 from sweep.coupon import legs
 from sweep.coupon.record import Coupon, CouponError, Floats
 from sweep.scene.material import LOWER_WEIGHT, UPPER_WEIGHT, law_in_stretch
@@ -70,7 +69,7 @@ class Loading:
             numbers["reference_time"] = self.reference_time
         try:
             return self._law(numbers, strain, stress, at_points)
-        except ValidationError:
+        except ValueError:  # refused, or not rising at all
             raise CouponError(
                 f"{self.name}: the stress hardly rises towards a strain of {self.points[-1]:.3g}, "
                 "and no law with a loss has such a curve; leave out the rows of larger strains, or "
@@ -80,15 +79,15 @@ class Loading:
     def _law(
         self, numbers: dict[str, Any], strain: Floats, stress: Floats, at_points: Floats
     ) -> Material:
-        return Material(
-            name="coupon",
-            modulus=float(at_points[0] / self.points[0]),
-            density=DENSITY,
-            poisson=POISSON,
-            curve_strain=tuple(strain.tolist()),
-            curve_stress=tuple(stress.tolist()),
-            **numbers,
-        )
+        values = {
+            "name": "coupon",
+            "modulus": float(at_points[0] / self.points[0]),
+            "density": DENSITY,
+            "poisson": POISSON,
+            "curve_strain": tuple(strain.tolist()),
+            "curve_stress": tuple(stress.tolist()),
+        }
+        return material(values | numbers)
 
     def curve(self, at_points: Floats) -> tuple[Floats, Floats]:
         """Strains and stresses of the curve; that of a puck has both signs, see `tension`."""

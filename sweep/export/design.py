@@ -14,7 +14,7 @@ from sweep.export.errors import ExportError
 
 if TYPE_CHECKING:
     from sweep.config.case import Case
-    from sweep.config.lattice_table import Lattice
+    from sweep.config.kinds.lattice import Lattice
     from sweep.config.structures.structure import Structure
     from sweep.design.network import Network
 
@@ -93,7 +93,7 @@ def _lattice(row: Mapping[str, Any], config: Mapping[str, Any]) -> Lattice:
     """The table `lattice`: that of the first case, what the config gives, what the row has."""
     from pydantic import ValidationError
 
-    from sweep.config.lattice_table import Lattice
+    from sweep.config.kinds.lattice import Lattice
 
     if row.get("direction") == ALONG:
         row = _across(row, config)
@@ -152,7 +152,7 @@ def _keys(table: Mapping[str, Any]) -> dict[str, Any]:
 
 def _printable(design: Design) -> Design:
     """A design that is a part, and no period of an endless lattice."""
-    if design.lattice.boundary == "periodic":
+    if design.lattice.endless:
         raise ExportError(
             f"case {design.name} is one period of an endless lattice (lattice.boundary), which is "
             "no part; allowed: .csv, .pvd, .vtu, .gif"

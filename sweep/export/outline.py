@@ -11,7 +11,7 @@ from sweep.export.errors import ExportError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from sweep.config.lattice_table import Lattice
+    from sweep.config.kinds.lattice import Lattice
     from sweep.design.network import Network
     from sweep.export.design import Design
 

@@ -26,7 +26,9 @@ from sweep.export.errors import ExportError
 from sweep.export.three_mf import OBJECT, xml_bytes
 
 if TYPE_CHECKING:
-    from sweep.config.lattice_table import Lattice
+    from sweep.config.kinds.cells import Cells
+    from sweep.config.kinds.lattice import Lattice
+    from sweep.config.kinds.sliced import Sliced
 
 LAYER_HEIGHT = 0.2  # mm, where the lattice has none
 STRETCHED = 0.05  # greatest deviation of the aspect ratio of a cell from a regular one
@@ -141,9 +143,13 @@ def settings_of(lattice: Lattice) -> Settings:
 
     A square grid has walls all round, which a slicer prints as a perimeter.
     """
-    if lattice.slicer is not None:
+    from sweep.config.kinds.cells import Cells
+    from sweep.config.kinds.sliced import Sliced
+
+    if isinstance(lattice, Sliced):
         return _own_settings(lattice)
     pattern = _pattern(lattice)
+    assert isinstance(lattice, Cells)
     thickness, layer = TO_MM * lattice.wall_thickness, TO_MM * (lattice.layer_height or 0.0)
     around = TO_MM * (lattice.line_width or 0.0) if lattice.perimeters else thickness
     share = share_of(pattern, thickness, TO_MM * _period(lattice))
@@ -155,7 +161,7 @@ def settings_of(lattice: Lattice) -> Settings:
     return Settings(pattern.name, pattern.angle, share, line, layer, count, around)
 
 
-def _own_settings(lattice: Lattice) -> Settings:
+def _own_settings(lattice: Sliced) -> Settings:
     """The settings with which a lattice of a slicer is laid."""
     if lattice.slicer == "cura":
         raise ExportError(
@@ -163,14 +169,11 @@ def _own_settings(lattice: Lattice) -> Settings:
             "settings: prusa and orca. crumple show says what to set in Cura; --kind lattice "
             "prints every design"
         )
-    layer, line = (
-        TO_MM * (lattice.layer_height or LAYER_HEIGHT / TO_MM),
-        TO_MM * lattice.line,
-    )
+    layer, line = TO_MM * lattice.layer_height, TO_MM * lattice.line
     return Settings(
-        SLICERS[lattice.slicer or ""][lattice.pattern or ""],
-        degrees(lattice.fill_angle or 0.0),
-        lattice.infill or 0.0,
+        SLICERS[lattice.slicer][lattice.pattern],
+        degrees(lattice.fill_angle),
+        lattice.infill,
         line,
         layer,
         lattice.perimeters,
@@ -197,19 +200,23 @@ def slicer_files(settings: Settings, name: str, triangles: int) -> dict[str, byt
 
 def _pattern(lattice: Lattice) -> Pattern:
     """The pattern of a family of infill, if slicers have it."""
-    if found := PATTERNS.get((lattice.kind, lattice.orientation)):
-        _be_plain(lattice)
-        return found
+    from sweep.config.kinds.cells import Cells
+
+    if isinstance(lattice, Cells):
+        found = PATTERNS.get((lattice.kind, lattice.orientation))
+        if found:
+            _be_plain(lattice)
+            return found
     allowed = ", ".join(dict.fromkeys(kind for kind, _ in PATTERNS))
-    nearest = NEAREST.get(lattice.kind)
+    nearest = NEAREST.get(lattice.name)
     hint = f"; the nearest is {nearest}" if nearest else ""
     raise ExportError(
-        f"no slicer draws {lattice.kind} cells; allowed with --kind settings: {allowed}{hint}. "
+        f"no slicer draws {lattice.name} cells; allowed with --kind settings: {allowed}{hint}. "
         "--kind lattice prints every design"
     )
 
 
-def _be_plain(lattice: Lattice) -> None:
+def _be_plain(lattice: Cells) -> None:
     """Refuse what the infill of a slicer cannot be: graded, capped, or of stretched cells."""
     stretch, width = _stretch(lattice), TO_MM * lattice.width / _stretch(lattice)
     regular = f"lattice.width = {TO_MM * lattice.width:.4g} mm: cells are regular at {width:.4g} mm"
@@ -225,19 +232,19 @@ def _be_plain(lattice: Lattice) -> None:
         )
 
 
-def _scales(lattice: Lattice) -> tuple[float, float]:
+def _scales(lattice: Cells) -> tuple[float, float]:
     """Size of the box / that of the drawing in its own unit, in x and y."""
     low, high = extent(lattice.kind, lattice.orientation, (lattice.cells_x, lattice.cells_y))
     width, height = high - low
     return lattice.width / float(width), lattice.height / float(height)
 
 
-def _stretch(lattice: Lattice) -> float:
+def _stretch(lattice: Cells) -> float:
     across, up = _scales(lattice)
     return across / up
 
 
-def _period(lattice: Lattice) -> float:
+def _period(lattice: Cells) -> float:
     """Distance of neighbouring lines of one direction, m."""
     across, up = _scales(lattice)
     return PERIODS[lattice.kind] * (across * up) ** 0.5

@@ -158,9 +158,7 @@ def check_panel(panel: Sequence[Quantity], cases: Iterable[Case]) -> None:
     """Refuse a panel that is smaller than half a specimen of one of these cases."""
     from pandas import DataFrame
 
-    from sweep.config.defaults.direction import footprint
-
-    sizes = [(case.loading.direction, *footprint(case.lattice, case.loading)) for case in cases]
+    sizes = [(case.loading.direction, *case.footprint) for case in cases]
     panel_in(DataFrame(sizes, columns=["direction", "outer_width_m", "depth_m"]), panel)
 
 

@@ -4,10 +4,9 @@ import threading
 from collections import deque
 from collections.abc import Iterable, Sequence
 
-from sweep.config.case import Case, given
-from sweep.config.defaults.direction import is_along
-from sweep.config.defaults.solver_defaults import steps
-from sweep.config.tables import canonical
+from sweep.config.case import Case
+from sweep.config.kinds.steps import count_of
+from sweep.config.kinds.table import canonical
 
 SECONDS = 1.0  # of work in a batch: long against the cost of a task, short for progress
 LEAST = 0.05  # of SECONDS: the smallest batches, at the end of a sweep
@@ -22,11 +21,11 @@ def cost(case: Case) -> float:
     A quad of a plate counts as `QUAD` elements.
     """
     lattice = case.lattice
-    elements = float(lattice.walls * (lattice.nodes_per_wall + 1))
-    if is_along(case.loading):
+    elements = float(lattice.elements)
+    if lattice.layers is not None:
         quarter = 0.25 if lattice.symmetry == "quarter" else 1.0
-        elements *= QUAD * quarter * given(lattice.layers)
-    return steps(case.loading, case.solver) * elements**1.5
+        elements *= QUAD * quarter * lattice.layers
+    return count_of(case.loading, case.solver) * elements**1.5
 
 
 class Plan:

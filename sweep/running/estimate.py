@@ -14,9 +14,12 @@ from itertools import accumulate, pairwise
 from math import isnan
 
 from sweep.config.case import Case
-from sweep.config.defaults.direction import is_along
-from sweep.config.defaults.solver_defaults import steps
 from sweep.config.grid import Config, case_count, expand
+from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.dead_load import DeadLoad
+from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.specimen import Laid
+from sweep.config.kinds.steps import count_of
 from sweep.numbers import counted
 from sweep.result import Result, Status
 from sweep.running.batches import Plan, cost
@@ -76,7 +79,7 @@ def dry_run(
         counts += f"\nerror bars: {companions}, {len(ready):,} of them finished"
     if not waiting:
         return f"{counts}\nnothing is left to run"
-    plates = any(is_along(case.loading) for case in waiting)
+    plates = any(case.along for case in waiting)
     found = estimate(waiting, real_simulate(plates=plates))
     wall = found.cpu / min(workers, len(waiting))
     lines = [
@@ -151,7 +154,7 @@ def _seconds(pilot: Case, result: Result) -> float:
     if result.status is not Status.TIMED_OUT:
         return seconds
     done = max(len(next(iter(result.history.values()))) - 1, 1)
-    return seconds * max(steps(pilot.loading, pilot.solver) / done, 1.0)
+    return seconds * max(count_of(pilot.loading, pilot.solver) / done, 1.0)
 
 
 def duration(seconds: float) -> str:
@@ -167,7 +170,9 @@ def duration(seconds: float) -> str:
 def _kind(case: Case) -> tuple[str | int, ...]:
     """The parameters that affect the pace most, besides the numbers of elements and steps."""
     loading = case.loading.direction, case.loading.mode, str(case.loading.platen)
-    return *loading, case.contact.model, case.lattice.nodes_per_wall
+    lattice = case.lattice
+    nodes = lattice.nodes_per_wall if isinstance(lattice, Laid) else 0
+    return *loading, case.contact.model, nodes
 
 
 def _middle(ordered: Sequence[Case]) -> Case:
@@ -195,9 +200,11 @@ def _groups(
 
 def _design(case: Case) -> tuple[str, float, float, float]:
     """What decides how a case of its kind behaves: family, wall thickness, load, cost."""
-    loading = case.loading
-    load = loading.force or loading.energy or loading.stroke or 0.0
-    return case.lattice.kind, case.lattice.wall_thickness, load, cost(case)
+    load = 0.0
+    match case.loading:
+        case DeadLoad(force=size) | Impact(energy=size) | Crush(stroke=size):
+            load = size
+    return case.lattice.name, case.lattice.wall_thickness, load, cost(case)
 
 
 def _stored(result: Result) -> float:

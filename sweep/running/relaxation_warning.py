@@ -1,8 +1,13 @@
 """Warns of cases in which a relaxing material loses no energy: they are too short or too long."""
 
 from collections.abc import Sequence
+from math import inf
 
 from sweep.config.case import Case
+from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.dead_load import DeadLoad
+from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.of_file import OfFile
 
 FAR = 100.0  # factor from a time of relaxation beyond which its branch loses next to nothing
 
@@ -32,13 +37,13 @@ def loading_time(case: Case) -> float:
     """About how long the walls are loaded, s: a stroke down and back up with the pause between, or
     a striker's passage.
     """
-    loading = case.loading
-    if loading.stroke is not None and loading.speed is not None:
-        return 2.0 * loading.stroke / loading.speed + (loading.hold_time or 0.0)
-    if loading.striker_speed is not None:
-        return 2.0 * case.lattice.height / loading.striker_speed
-    assert loading.duration is not None
-    return loading.duration
+    match case.loading:
+        case Crush(stroke=stroke, speed=speed, hold_time=pause):
+            return 2.0 * stroke / (speed or inf) + (pause or 0.0)
+        case Impact(striker_speed=speed):
+            return 2.0 * case.height / speed
+        case DeadLoad(duration=duration) | OfFile(duration=duration):
+            return duration
 
 
 def _sentence(found: list[tuple[float, float]], count: int, how: str) -> list[str]:

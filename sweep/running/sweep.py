@@ -7,7 +7,6 @@ from contextlib import ExitStack, contextmanager
 from threading import current_thread, main_thread
 
 from sweep.config.case import Case
-from sweep.config.defaults.direction import is_along
 from sweep.config.grid import Config, expand
 from sweep.result import HOW_TO_RENEW, Status
 from sweep.running.batches import Plan, cost
@@ -64,7 +63,7 @@ def run_sweep(  # noqa: PLR0913  what, where, how
         waiting = {case_id: case for case_id, case in cases.items() if case_id not in done}
         for line in sentences_on_lossless(list(waiting.values())):
             announce(line)
-        plates = any(is_along(case.loading) for case in waiting.values())
+        plates = any(case.along for case in waiting.values())
         chosen = simulate or real_simulate(plates=plates) if waiting else None
         with interruptible(stop):
             if not chosen:

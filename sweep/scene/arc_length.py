@@ -3,7 +3,8 @@
 import numpy as np
 
 from kernels.solve import arc_length
-from sweep.config.case import Case, given
+from sweep.config.case import Case
+from sweep.config.kinds.solver import Arcs
 from sweep.scene.mesh import Floats
 from sweep.scene.terms import Scene
 
@@ -13,14 +14,14 @@ def arc_of(scene: Scene, case: Case) -> arc_length.Arc | None:
 
     A node is weighted by its share of the length of all walls.
     """
-    if case.solver.integrator != "arc_length":
+    if not isinstance(case.solver, Arcs):
         return None
     mesh = scene.mesh
     share = mesh.node_length
     weight = np.zeros(scene.x_rest.size)
     weight[: 2 * len(share)] = np.repeat(share / share.sum(), 2)
-    path = np.zeros(given(case.solver.load_steps) + 1, arc_length.POINT)
-    return arc_length.Arc(weight, given(case.solver.arc_length), path)
+    path = np.zeros(case.solver.load_steps + 1, arc_length.POINT)
+    return arc_length.Arc(weight, case.solver.arc_length, path)
 
 
 def path_columns(arc: arc_length.Arc | None, rows: int) -> dict[str, Floats]:

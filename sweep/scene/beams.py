@@ -23,7 +23,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sweep.config.case import Case, Material
+from sweep.config.case import Case
+from sweep.config.kinds.material import Material
 from sweep.scene.joints import Arms, joint_elements
 from sweep.scene.mesh import Floats, Mesh
 

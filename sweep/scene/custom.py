@@ -11,7 +11,8 @@ import numpy as np
 
 from kernels.linear.condensed import analysis
 from kernels.terms import contact, spring
-from sweep.config.case import Case, given
+from sweep.config.case import Case
+from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.network import network_of
 from sweep.config.structures.structure import Structure
 from sweep.constants import MM
@@ -87,7 +88,8 @@ class Ground(Numbering):
 
 def build_structure(case: Case) -> Scene:
     """Build the arrays of a ``case`` with a custom structure."""
-    structure = given(case.lattice.structure)
+    assert isinstance(case.lattice, CustomStructure)
+    structure = case.lattice.structure
     network = network_of(case.lattice)
     arms = _arms(network, structure, case)
     mesh = split_walls(network, np.array(structure.pieces), 0.0, arms.length)
@@ -173,10 +175,7 @@ def _led(
 ) -> tuple[analysis.Layout, float]:
     """The layout with the prescribed moves, and the travel of the driver: the largest move, m."""
     moves = {
-        numbering.coordinate(part.node, part.direction): MM * given(part.displacement_mm)
-        if part.direction != "rotation"
-        else given(part.angle_rad)
-        for part in structure.prescribed
+        numbering.coordinate(part.node, part.direction): part.move for part in structure.prescribed
     }
     lever = mesh.rest_length.mean()
     travels = [

@@ -2,7 +2,10 @@
 
 import numpy as np
 
-from sweep.config.case import Case, Loading, given
+from sweep.config.case import Case
+from sweep.config.kinds.dead_load import DeadLoad
+from sweep.config.kinds.loading import Loading
+from sweep.config.kinds.specimen import Laid
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
 from sweep.scene.beams import bends, build_beams
@@ -18,29 +21,31 @@ from sweep.scene.terms import (
     force_scale,
     masses_of,
     solved_by,
+    striker_of,
     walls_of,
 )
 
 
 def _velocity(numbering: Numbering, leader: Ints, loading: Loading) -> Floats:
     """Initial velocity of each coordinate, m/s: that of the striker and the row glued to it."""
-    return np.where(leader == numbering.high, -(loading.striker_speed or 0.0), 0.0)
+    return np.where(leader == numbering.high, -striker_of(loading).speed, 0.0)
 
 
 def _load(numbering: Numbering, case: Case) -> Floats:
     """Dead load of each coordinate, N: on the upper platen, or in equal parts on the top nodes."""
     load = np.zeros(numbering.size)
-    if case.loading.mode == "force":
-        if case.loading.platen == "none":
-            load[2 * numbering.top + 1] = -given(case.loading.force) / len(numbering.top)
-        else:
-            load[numbering.high] = -given(case.loading.force)
+    match case.loading:
+        case DeadLoad(platen="none", force=force):
+            load[2 * numbering.top + 1] = -force / len(numbering.top)
+        case DeadLoad(force=force):
+            load[numbering.high] = -force
     return load
 
 
 def build_scene(case: Case) -> Scene:
     """Build the arrays of ``case``."""
     lattice, platen = case.lattice, case.loading.platen
+    assert isinstance(lattice, Laid)
     network, solid = build_network(lattice.geometry), case.solver.joints == "solid"
     mesh, arms = build_mesh(lattice, solid, platen)
     numbering = Numbering(
@@ -95,8 +100,8 @@ def _reported(numbering: Numbering, loading: Loading) -> tuple[Ints, Ints, Ints]
     bottom = 2 * numbering.bottom + 1
     low, high = np.array([numbering.low]), np.array([numbering.high])
     bonded = dict.fromkeys(BONDED, np.append(bottom, low))
-    reaction = ({"contact": low} | bonded).get(loading.platen or "", bottom)
-    if loading.mode != "force":
+    reaction = ({"contact": low} | bonded).get(loading.platen, bottom)
+    if not isinstance(loading, DeadLoad):
         return reaction, high, low
     if loading.platen == "contact":
         return reaction, np.empty(0, np.int64), 2 * np.arange(numbering.n_nodes) + 1

@@ -7,8 +7,13 @@ import numpy as np
 
 from kernels.solve import integrators, march
 from kernels.solve.residual import Tolerance
-from sweep.config.case import Case, given
-from sweep.config.defaults.solver_defaults import hold_steps
+from sweep.config.case import Case
+from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.dead_load import DeadLoad
+from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.of_file import OfFile
+from sweep.config.kinds.solver import InTime, Solver
+from sweep.config.kinds.steps import hold_steps
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene, time_step
 
@@ -65,8 +70,8 @@ def cycle_rows(phases: list[Phase]) -> list[CycleRows]:
 
 def stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
     """The stages of a case: linear ramps of loading and unloading, with the chosen integrator."""
-    chosen = SCHEMES[given(case.solver.integrator)]
-    error = np.inf if case.solver.step_error is None else case.solver.step_error
+    chosen, timed = SCHEMES[case.solver.integrator], case.solver
+    error = timed.step_error if isinstance(timed, InTime) and timed.step_error else np.inf
     return [
         phase._replace(stage=phase.stage._replace(scheme=chosen, error=error))
         for phase in _stages(case, scene)
@@ -74,37 +79,51 @@ def stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
 
 
 def _stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
-    loading, solver = case.loading, case.solver
-    pace, dynamic = time_step(case), not loading.quasi_static
-    if loading.mode == "custom":
-        start, travel = 0.0 if loading.quasi_static else 1.0, scene.travel
-        if solver.load_steps is not None:
-            stage = march.Stage(solver.load_steps, pace, dynamic, start, 1.0, 0.0, travel)
-        else:
-            stage = _lasting(given(loading.duration), pace, (start, 1.0), (0.0, travel))
-        return [Phase("loading", stage)]
-    rest = float(scene.x_rest[-1])
-    if loading.mode == "displacement":
-        low, steps = rest - given(loading.stroke), given(solver.load_steps)
-        down = march.Stage(steps, pace, dynamic, 0.0, 0.0, rest, low)
-        up = march.Stage(steps, pace, dynamic, 0.0, 0.0, low, rest)
-        cycle, pause = [Phase("loading", down)], hold_steps(loading, solver)
-        if pause:
-            still = down._replace(
-                steps=pause, duration=given(loading.hold_time) / pause, driven0=low
-            )
-            cycle.append(Phase("holding", still, "hold"))
-        if loading.unload:
-            cycle.append(Phase("unloading", up, "unloading"))
-        return _repeated(cycle, given(loading.cycles))
-    still, release, duration = (rest, rest), loading.release_time, given(loading.duration)
-    if loading.mode == "impact":
-        return _flight(_lasting(duration, pace, (0.0, 0.0), still))
-    held = _lasting(min(given(release), duration), pace, (1.0, 1.0), still)
-    if duration <= given(release):
-        return [Phase("loading", held)]
-    released = _lasting(duration - given(release), pace, (0.0, 0.0), still)
-    return [Phase("loading", held), Phase("released", released, "unloading")]
+    pace = time_step(case)
+    match case.loading:
+        case OfFile() as loading:
+            return _stages_of_file(loading, case.solver, pace, scene.travel)
+        case Crush() as loading:
+            return _stages_of_crush(loading, case.solver, pace, float(scene.x_rest[-1]))
+        case Impact(duration=duration):
+            rest = float(scene.x_rest[-1])
+            return _flight(_lasting(duration, pace, (0.0, 0.0), (rest, rest)))
+        case DeadLoad() as loading:
+            return _stages_of_load(loading, pace, float(scene.x_rest[-1]))
+
+
+def _stages_of_file(loading: OfFile, solver: Solver, pace: float, travel: float) -> list[Phase]:
+    """Loads and moves that act from the start, or that grow together in statics."""
+    dynamic = not loading.quasi_static
+    start = 1.0 if dynamic else 0.0
+    if isinstance(solver, InTime):
+        return [Phase("loading", _lasting(loading.duration, pace, (start, 1.0), (0.0, travel)))]
+    stage = march.Stage(solver.load_steps, pace, dynamic, start, 1.0, 0.0, travel)
+    return [Phase("loading", stage)]
+
+
+def _stages_of_crush(loading: Crush, solver: Solver, pace: float, rest: float) -> list[Phase]:
+    """Down from ``rest`` (m), a pause, and back up, for each cycle."""
+    low, steps, dynamic = rest - loading.stroke, solver.load_steps or 1, not loading.quasi_static
+    down = march.Stage(steps, pace, dynamic, 0.0, 0.0, rest, low)
+    up = march.Stage(steps, pace, dynamic, 0.0, 0.0, low, rest)
+    cycle, pause = [Phase("loading", down)], hold_steps(loading, solver)
+    if loading.hold_time is not None:
+        still = down._replace(steps=pause, duration=loading.hold_time / pause, driven0=low)
+        cycle.append(Phase("holding", still, "hold"))
+    if loading.unload:
+        cycle.append(Phase("unloading", up, "unloading"))
+    return _repeated(cycle, loading.cycles)
+
+
+def _stages_of_load(loading: DeadLoad, pace: float, rest: float) -> list[Phase]:
+    """A load that is on until its release."""
+    still, release = (rest, rest), loading.release_time
+    phases = [Phase("loading", _lasting(release, pace, (1.0, 1.0), still))]
+    if release < loading.duration:
+        released = _lasting(loading.duration - release, pace, (0.0, 0.0), still)
+        phases.append(Phase("released", released, "unloading"))
+    return phases
 
 
 def _repeated(cycle: list[Phase], cycles: int) -> list[Phase]:

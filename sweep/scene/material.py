@@ -23,7 +23,7 @@ from kernels.laws.relaxation import Relaxing
 from kernels.laws.softening import Softening
 from kernels.laws.yielding import Yielding
 from kernels.terms.section import BentSection
-from sweep.config.case import Material
+from sweep.config.kinds.material import Material
 from sweep.config.materials.material_file import TOE, stress_at
 from sweep.scene.relaxation import relaxation_of
 

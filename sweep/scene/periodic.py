@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from kernels.terms import contact
-from sweep.config.case import Case, Lattice
+from sweep.config.case import Case
+from sweep.config.kinds.cells import Cells
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
 from sweep.design.period import Endless
@@ -56,6 +57,7 @@ class Repeated(Numbering):
 def build_periodic(case: Case) -> Scene:
     """Build the arrays of an endless lattice."""
     lattice = case.lattice
+    assert isinstance(lattice, Cells)
     network = build_network(lattice.geometry)
     assert isinstance(network, Endless)
     arms = _arms(network, case)
@@ -117,7 +119,7 @@ def _arms(network: Endless, case: Case) -> Arms:
     return Arms(arms.length[of], arms.compliance[of], arms.sheared[of])
 
 
-def _repeated(network: Endless, lattice: Lattice, arms: Arms) -> tuple[Mesh, Repeated]:
+def _repeated(network: Endless, lattice: Cells, arms: Arms) -> tuple[Mesh, Repeated]:
     """Mesh of all walls, those of the period first, and its numbering."""
     pieces = elements_of(network, lattice.nodes_per_wall + 1, arms)
     mesh = split_walls(network, pieces, 0.0, arms.length)
@@ -136,7 +138,7 @@ def _repeated(network: Endless, lattice: Lattice, arms: Arms) -> tuple[Mesh, Rep
     return replace(mesh, points=points + shift * network.period), numbering
 
 
-def imperfection(lattice: Lattice, y: Floats) -> Floats:
+def imperfection(lattice: Cells, y: Floats) -> Floats:
     """Stress-free shift in x at heights ``y``, both in m.
 
     It is `lattice.imperfection` x wall thickness x cos(2 pi y / height).

@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sweep.config.material_table import Material
+from sweep.config.kinds.material import Material
 from sweep.scene.mesh import Floats
 
 FASTEST, SLOWEST, BRANCHES = 1e-5, 1e3, 13  # s, s

@@ -20,8 +20,12 @@ from kernels.terms.bend import Bend
 from kernels.terms.contact import Contact
 from kernels.terms.fold import Fold
 from kernels.terms.spring import Spring
-from sweep.config.case import Case, Loading, given
-from sweep.config.defaults.direction import height_pressed
+from sweep.config.case import Case
+from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.damping import KelvinVoigt, Rayleigh
+from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.loading import Loading
+from sweep.config.kinds.solver import InTime, Static
 from sweep.design.network import Network
 from sweep.scene.beams import Beams, plane_factors
 from sweep.scene.coordinates import BetweenPlatens, Numbering
@@ -167,7 +171,7 @@ def contact_stiffness(case: Case) -> float:
     """C Y' depth of the barrier, N/m."""
     in_stretch, _ = plane_factors(case.material)
     modulus = in_stretch * case.material.modulus
-    return modulus * case.lattice.depth * (case.contact.stiffness or 0.0)
+    return modulus * case.lattice.depth * case.contact.stiffness
 
 
 def walls_of(mesh: Mesh, rotation: Ints) -> elements.Walls:
@@ -205,7 +209,21 @@ def solved_by(
 
 def driven_by(loading: Loading, numbering: BetweenPlatens) -> int:
     """The coordinate whose motion a loading prescribes; -1 if it prescribes none."""
-    return numbering.high if loading.mode == "displacement" else -1
+    return numbering.high if isinstance(loading, Crush) else -1
+
+
+class Striker(NamedTuple):
+    """Mass (kg) and speed (m/s) of what hits the lattice."""
+
+    mass: float = 0.0
+    speed: float = 0.0
+
+
+def striker_of(loading: Loading) -> Striker:
+    """The striker of a loading; without one, of mass and speed 0."""
+    if isinstance(loading, Impact):
+        return Striker(loading.striker_mass, loading.striker_speed)
+    return Striker()
 
 
 def masses_of(mesh: Mesh, numbering: Numbering, total: float, loading: Loading) -> Floats:
@@ -213,7 +231,7 @@ def masses_of(mesh: Mesh, numbering: Numbering, total: float, loading: Loading) 
     share = mesh.node_area
     masses = np.zeros(numbering.size)
     masses[: 2 * numbering.n_nodes] = np.repeat(total * share / share.sum(), 2)
-    masses[numbering.high] = loading.striker_mass or 0.0
+    masses[numbering.high] = striker_of(loading).mass
     return masses
 
 
@@ -222,26 +240,24 @@ def friction_of(case: Case) -> friction.Friction:
     slip = STATIC_SLIP * case.lattice.wall_thickness
     if case.contact.slip_speed is not None:
         slip = case.contact.slip_speed
-    return friction.Friction(case.contact.friction or 0.0, slip)
+    return friction.Friction(case.contact.friction, slip)
 
 
 def time_step(case: Case) -> float:
     """Duration of one step in s; in statics a nominal one."""
-    if case.loading.mode == "displacement":
-        speed = case.loading.speed or height_pressed(case.lattice, case.loading)
-        return given(case.loading.stroke) / speed / given(case.solver.load_steps)
-    if case.solver.load_steps is not None:
-        return given(case.loading.duration) / case.solver.load_steps
-    return given(case.solver.time_step)
+    loading, solver = case.loading, case.solver
+    if isinstance(loading, Crush):
+        return loading.stroke / (loading.speed or case.height) / (solver.load_steps or 1)
+    return solver.time_step if isinstance(solver, InTime) else loading.duration / solver.load_steps
 
 
 def damp_of(case: Case) -> damping.Damp:
     """The data of the chosen damping model; no damping in statics."""
-    chosen = "none" if case.solver.integrator == "static" else case.damping.model
-    if chosen == "rayleigh":
-        return damping.Damp(given(case.damping.mass), given(case.damping.stiffness), 0.0)
-    if chosen == "kelvin_voigt":
-        return damping.Damp(0.0, 0.0, given(case.damping.relaxation_time))
+    match case.damping:
+        case Rayleigh(mass=alpha, stiffness=beta) if not isinstance(case.solver, Static):
+            return damping.Damp(alpha, beta, 0.0)
+        case KelvinVoigt(relaxation_time=time) if not isinstance(case.solver, Static):
+            return damping.Damp(0.0, 0.0, time)
     return damping.Damp(0.0, 0.0, 0.0)
 
 

@@ -3,7 +3,9 @@
 import numpy as np
 
 from kernels.solve.problem import FREE
-from sweep.config.case import Case, given
+from sweep.config.case import Case
+from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.of_file import OfFile
 from sweep.scene.mesh import Floats
 from sweep.scene.terms import Scene
 
@@ -20,13 +22,15 @@ def structure_columns(
     probed (rows, 2, 3 probes): values and reactions, as in `rows.Output`. Reactions act on the
     structure; they are zero where it is free.
     """
-    structure = given(case.lattice.structure)
+    assert isinstance(case.lattice, CustomStructure)
+    assert isinstance(case.loading, OfFile)
+    structure = case.lattice.structure
     blank = np.full(len(probed), np.nan)
     history = history | dict.fromkeys(WITHOUT_PLATENS, blank)
     if structure.floor_y_mm is None:
         history["reaction_bottom_N"] = blank
     if case.solver.integrator == "static":
-        history["load_factor"] = history["time_s"] / given(case.loading.duration)
+        history["load_factor"] = history["time_s"] / case.loading.duration
     free = scene.terms.coordinates.role[scene.probes] == FREE
     reactions = np.where(free, 0.0, probed[:, 1])
     for k, node in enumerate(structure.probes):

@@ -11,7 +11,7 @@ import numpy as np
 
 from kernels.solve import outcomes
 from sweep.config.case import Case
-from sweep.config.defaults.direction import is_along
+from sweep.config.kinds.solver import Arcs
 from sweep.result import Status
 
 Failure = tuple[Status, str]
@@ -42,7 +42,7 @@ def stopped(case: Case, outcome: int, where: str, driven: bool) -> Failure:
     """
     if outcome == outcomes.INTERRUPTED:
         return Status.STOPPED, f"interrupted {where}; run again to complete it"
-    advice = LOST if case.solver.integrator == "arc_length" else _advice(case, outcome, driven)
+    advice = LOST if isinstance(case.solver, Arcs) else _advice(case, outcome, driven)
     return Status.STOPPED, f"stopped {where}: {advice}"
 
 
@@ -65,7 +65,7 @@ def timed_out(case: Case, where: str) -> Failure:
 
 def energy_made(case: Case) -> Failure:
     """The integrator has created energy."""
-    safer = SAFER_ALONG if is_along(case.loading) else SAFER
+    safer = SAFER_ALONG if case.along else SAFER
     advice = FINER if case.loading.quasi_static else safer
     return Status.STOPPED, f"the integrator made energy out of nothing; {advice}"
 

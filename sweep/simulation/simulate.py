@@ -8,9 +8,13 @@ import numpy as np
 from kernels.geometry.specimen_height import height
 from kernels.solve import arc_length, energy_book, march, outcomes
 from kernels.terms.rows import ROW, STRETCH, Output
-from sweep.config.case import Case, Lattice, Loading, Solver
-from sweep.config.defaults.direction import height_pressed, is_along
-from sweep.config.defaults.solver_defaults import given_or
+from sweep.config.case import Case, complete
+from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.of_file import OfFile
+from sweep.config.kinds.solver import Arcs
+from sweep.config.kinds.table import Given
 from sweep.config.structures.structure import Load, Structure, Support
 from sweep.result import Result, Status
 from sweep.scene.arc_length import arc_of, path_columns
@@ -85,11 +89,14 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
 
 
 def _scene(case: Case) -> Scene | PlateScene:
-    if is_along(case.loading):
+    if case.along:
         return build_plates(case)
-    if case.lattice.structure is not None:
-        return build_structure(case)
-    return build_periodic(case) if case.lattice.boundary == "periodic" else build_scene(case)
+    match case.lattice:
+        case CustomStructure():
+            return build_structure(case)
+        case Cells(endless=True):
+            return build_periodic(case)
+    return build_scene(case)
 
 
 def warm_up(arcs: bool = False, plates: bool = False) -> None:
@@ -98,20 +105,24 @@ def warm_up(arcs: bool = False, plates: bool = False) -> None:
     arcs, plates: also the kernels of the arc-length method, and of crushes along the cells, which
     few sweeps need.
     """
-    lattice = Lattice(cells_x=1, cells_y=1)
-    simulate(Case(lattice=lattice, loading=Loading(release_time=1e-4, duration=2e-4)))
+    cell = {"cells_x": 1, "cells_y": 1}
+    _warm(lattice=cell, loading={"release_time": 1e-4, "duration": 2e-4})
     if arcs:
         clamp = Support(node=0, fix=("x", "y", "rotation"))
         tip = Load(node=1, force_N=(0.0, -1e-3))
         wall = Structure(
             nodes_mm=((0, 0), (10, 0)), walls=((0, 1),), supports=(clamp,), loads=(tip,)
         )
-        path = Solver(integrator="arc_length", load_steps=1)
-        simulate(Case(lattice=Lattice(kind="custom", structure=wall), solver=path))
+        path = {"integrator": "arc_length", "load_steps": 1}
+        _warm(lattice={"kind": "custom", "structure": wall}, solver=path)
     if plates:
-        tube = Lattice(cells_x=1, cells_y=1, nodes_per_wall=1, layers=2)
-        pressed = Loading(direction="out_of_plane", strain=1e-3, unload=False)
-        simulate(Case(lattice=tube, loading=pressed, solver=Solver(load_steps=1)))
+        tube = cell | {"nodes_per_wall": 1, "layers": 2}
+        pressed = {"direction": "out_of_plane", "strain": 1e-3, "unload": False}
+        _warm(lattice=tube, loading=pressed, solver={"load_steps": 1})
+
+
+def _warm(**tables: Given) -> None:
+    simulate(complete(tables).sound())
 
 
 class _Run:
@@ -122,7 +133,7 @@ class _Run:
 
     def __init__(self, scene: Scene | PlateScene, case: Case, control: np.ndarray):
         self.scene, self.case, self.control = scene, case, control
-        self.blind = case.lattice.structure is not None and not is_along(case.loading)
+        self.blind = isinstance(case.loading, OfFile)
         self.stages = stages(case, scene)
         total = sum(s.stage.steps for s in self.stages)
         self.state = scene.at_rest()
@@ -131,9 +142,9 @@ class _Run:
         self.probed = np.zeros((total + 1, 2, scene.probes.size))
         self.probed[0, 0] = scene.x_rest[scene.probes]
         self._begin()
-        self.struck = case.loading.mode == "impact"
-        early = self.struck or case.solver.integrator == "arc_length"
-        count = EARLY_FRAMES if early else FRAMES * given_or(case.loading.cycles, 1)
+        self.struck = isinstance(case.loading, Impact)
+        early = self.struck or isinstance(case.solver, Arcs)
+        count = EARLY_FRAMES if early else FRAMES * case.loading.cycles
         self.frame_of, kept = _frames(total + 1, count)
         self.positions = np.tile(scene.x_rest, (kept, 1))
         self.arc = None if isinstance(scene, PlateScene) else arc_of(scene, case)
@@ -251,8 +262,7 @@ class _Run:
         """Strain if the top is ``height`` (m) above the base; NaN for a custom structure."""
         if self.blind:
             return np.full_like(height, np.nan)
-        pressed = height_pressed(self.case.lattice, self.case.loading)
-        return (self.rows["height"][0] - height) / pressed
+        return (self.rows["height"][0] - height) / self.case.height
 
     def whole_rows(self) -> np.ndarray:
         """The rows so far, of the whole lattice where one of several equal parts is computed."""
@@ -269,14 +279,14 @@ class _Run:
         if isinstance(self.scene, PlateScene):
             return plate_frames(x, self._strain(rows["height"]), rows["time"], self.scene)
         n = len(self.scene.mesh.points)
-        structure = self.case.lattice.structure
         plates = x[:, -2:].copy()
         if self.case.loading.platen == "none":
             plates[:] = np.nan
-        if self.case.lattice.boundary == "periodic":
-            plates[:, 0] = -np.inf
-        if structure is not None and structure.floor_y_mm is not None:
-            plates[:, 0] = x[:, self.scene.terms.contact.low]
+        match self.case.lattice:
+            case Cells(endless=True):
+                plates[:, 0] = -np.inf
+            case CustomStructure(structure=Structure(floor_y_mm=float())):
+                plates[:, 0] = x[:, self.scene.terms.contact.low]
         return {
             "strain": self._strain(rows["height"]),
             "time_s": rows["time"],

@@ -9,8 +9,8 @@ from math import nan
 
 import numpy as np
 
-from sweep.config.case import Case, given
-from sweep.config.defaults.direction import is_along
+from sweep.config.case import Case
+from sweep.config.kinds.impact import Impact
 from sweep.design.network import relative_density
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
@@ -27,28 +27,28 @@ MEASURES = (
 )
 
 
-def striker_curves(time: Floats, velocity: Floats, case: Case) -> Curves:
-    """History columns of a striker. time (rows,) s; velocity (rows,) m/s, upwards.
+def striker_curves(time: Floats, velocity: Floats, mass: float) -> Curves:
+    """History columns of a striker. time (rows,) s; velocity (rows,) m/s, upwards; mass in kg.
 
     The force is the mean since the previous row: force x time = change of momentum.
     """
     deceleration = np.append(0.0, np.diff(velocity) / np.diff(time))
     return {
-        "reaction_top_N": given(case.loading.striker_mass) * deceleration,
+        "reaction_top_N": mass * deceleration,
         "striker_speed_m_per_s": -velocity,
         "deceleration_m_per_s2": deceleration,
     }
 
 
-def kinetic(case: Case, speed: Floats | float) -> Floats | float:
+def kinetic(loading: Impact, speed: Floats | float) -> Floats | float:
     """Kinetic energy of the striker alone, without the row glued to it, J."""
-    return 0.5 * given(case.loading.striker_mass) * speed**2
+    return 0.5 * loading.striker_mass * speed**2
 
 
 def work_on_lattice(case: Case, history: Curves) -> Floats:
     """Work done on the lattice so far, (rows,) J; in an impact, the energy lost by the striker."""
-    if case.loading.mode == "impact":
-        return history["work_in_J"] - kinetic(case, history["striker_speed_m_per_s"])
+    if isinstance(case.loading, Impact):
+        return history["work_in_J"] - kinetic(case.loading, history["striker_speed_m_per_s"])
     return history["work_in_J"]
 
 
@@ -57,16 +57,16 @@ def impact_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> di
 
     stroke_left_m: the stroke that closes all voids, minus the greatest stroke.
     """
-    if case.loading.mode != "impact":
+    loading = case.loading
+    if not isinstance(loading, Impact):
         return dict.fromkeys(MEASURES, nan)
-    lattice, rebound = case.lattice, rebound_speed(history)
-    outer = lattice.outer_size
-    height = lattice.depth if is_along(case.loading) else outer[1]
+    outer, rebound = case.lattice.outer_size, rebound_speed(history)
+    height = case.height if case.along else outer[1]
     voids = (1.0 - relative_density(scene.network, outer)) * height
     left = voids - history["top_displacement_m"].max()
-    share = kinetic(case, rebound) / given(case.loading.energy)
+    share = kinetic(loading, rebound) / loading.energy
     peak = history["deceleration_m_per_s2"].max()
-    velocity, passed = -history["striker_speed_m_per_s"], given(case.loading.filter_class)
+    velocity, passed = -history["striker_speed_m_per_s"], loading.filter_class
     filtered = filtered_peak(history["time_s"], velocity, passed)
     return dict(zip(MEASURES, map(float, (peak, filtered, left, rebound, share)), strict=True))
 

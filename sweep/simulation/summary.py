@@ -3,9 +3,13 @@
 import numpy as np
 
 from sweep.columns import absorbed_energy_column
-from sweep.config.case import Case, Material, given
-from sweep.config.defaults.direction import footprint, height_pressed, is_along
-from sweep.config.defaults.solver_defaults import given_or
+from sweep.config.case import Case
+from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.dead_load import DeadLoad
+from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.material import Material
+from sweep.config.kinds.sliced import Sliced
+from sweep.config.kinds.table import given_or
 from sweep.design.network import mass, relative_density
 from sweep.design.slicer.network import extruded_area
 from sweep.result import design_columns
@@ -70,19 +74,21 @@ PLATEAU_START = 0.05  # strain where the mean up to densification starts
 def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
     """Columns of the history, (rows,) each, from the rows of the march, (rows,) of `rows.ROW`."""
     travel = rows["height"][0] - rows["height"]
-    endless = case.lattice.boundary == "periodic"  # one mean stress, so both reactions are equal
-    below = "reaction_top" if endless else "reaction_bottom"
-    time, struck = rows["time"].copy(), case.loading.mode == "impact"
+    # An endless lattice has one mean stress, so that both reactions are equal.
+    below = "reaction_top" if case.lattice.endless else "reaction_bottom"
+    time, loading, struck = rows["time"].copy(), case.loading, {}
+    if isinstance(loading, Impact):
+        struck = striker_curves(time, rows["speed"], loading.striker_mass)
     return {
         "time_s": time,
-        "strain": travel / (height_pressed(case.lattice, case.loading) or np.nan),
+        "strain": travel / (case.height or np.nan),
         "top_displacement_m": travel,
         "reaction_top_N": rows["reaction_top"].copy(),
         "reaction_bottom_N": rows[below].copy(),
         **{column: rows[name].copy() for column, name in BOOK.items()},
         "newton_iterations": np.diff(rows["iterations"], prepend=0.0),
         "min_gap_m": np.where(np.isfinite(rows["gap"]), rows["gap"], np.nan),
-    } | (striker_curves(time, rows["speed"], case) if struck else {})
+    } | struck
 
 
 def plateau_stress(strain: Floats, density: Floats, row: int) -> float:
@@ -123,7 +129,7 @@ def summarise(
         "mass_g": drawn,
         "printed_mass_g": printed,
         "relative_density": filled,
-        "solid_strain": 1.0 - filled if is_along(case.loading) else np.nan,
+        "solid_strain": 1.0 - filled if case.along else np.nan,
         "absorbed_energy_J": absorbed,
         **lost_columns(case, absorbed, returned(case, history, cycles[0]), grams),
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),
@@ -158,17 +164,18 @@ def _shape_columns(
 
 def printed_mass(case: Case) -> float:
     """Mass as a slicer extrudes it, g; NaN without a slicer."""
-    if case.lattice.slicer is None:
+    lattice = case.lattice
+    if not isinstance(lattice, Sliced):
         return np.nan
-    return 1e3 * case.material.density * case.lattice.depth * extruded_area(case.lattice.geometry)
+    return 1e3 * case.material.density * lattice.depth * extruded_area(lattice.geometry)
 
 
 def returned(case: Case, history: dict[str, Floats], cycle: CycleRows) -> float:
     """Work given back in a cycle to a platen or a striker that moves back up, J; NaN without."""
-    if case.loading.mode == "impact":
-        return float(kinetic(case, rebound_speed(history)))
+    if isinstance(case.loading, Impact):
+        return float(kinetic(case.loading, rebound_speed(history)))
     given_back = history["work_in_J"][cycle.released : cycle.ended + 1]
-    if case.loading.mode == "force" or len(given_back) < 2:
+    if isinstance(case.loading, DeadLoad) or len(given_back) < 2:
         return np.nan
     return float(given_back[0] - given_back[-1])
 
@@ -179,7 +186,7 @@ def lost_columns(case: Case, absorbed: float, back: float, grams: float) -> dict
     absorbed, back: work done and given back, J; negative if a glued platen has to pull the lattice
     back, which is no loss of the loading. grams: mass of the specimen, g.
     """
-    brought = given(case.loading.energy) if case.loading.mode == "impact" else absorbed
+    brought = case.loading.energy if isinstance(case.loading, Impact) else absorbed
     lost = brought - np.maximum(back, 0.0)  # NaN stays NaN
     return {
         "returned_energy_J": back,
@@ -191,7 +198,7 @@ def lost_columns(case: Case, absorbed: float, back: float, grams: float) -> dict
 
 def transmitted(case: Case, history: dict[str, Floats]) -> Floats:
     """The greater force of the two platens; for an impact that on the support, (rows,) N."""
-    if case.loading.mode == "impact":
+    if isinstance(case.loading, Impact):
         return history["reaction_bottom_N"]
     return np.fmax(history["reaction_top_N"], history["reaction_bottom_N"])
 
@@ -201,7 +208,7 @@ def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
     work, force = loading["work_in_J"], transmitted(case, loading)
     row, share = len(work) - 1, np.eye(len(work))[-1]
     found = dict.fromkeys(OF_A_CRUSH, np.nan)
-    if case.loading.mode == "displacement":
+    if isinstance(case.loading, Crush):
         row, share, found = packing_columns(case, loading)
     peak = np.maximum.accumulate(force)
     found |= {
@@ -223,11 +230,11 @@ def ratios(case: Case, loading: dict[str, Floats], found: dict[str, float]) -> d
 
     found: columns until packed; `packing_strain` is NaN unless the mode is displacement.
     """
-    height = height_pressed(case.lattice, case.loading) or np.nan
+    height = case.height or np.nan
     strain = loading["strain"].max()
     work, peak = found["absorbed_energy_until_packed_J"], found["peak_force_until_packed_N"]
     greatest = transmitted(case, loading).max()
-    driven = case.loading.mode in ("displacement", "impact")
+    driven = isinstance(case.loading, Crush | Impact)
     brought = greatest * strain * height if driven else np.nan
     packed = peak * found["packing_strain"] * height
     return {
@@ -242,7 +249,7 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
 
     Without densification the row is the last one.
     """
-    area, height = _area(case), height_pressed(case.lattice, case.loading)
+    area, height = _area(case), case.height
     strain, density = loading["strain"], loading["work_in_J"] / (area * height)
     stress = loading["reaction_top_N"] / area
     gained = efficiency(stress, density)
@@ -261,7 +268,7 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
 
 def _area(case: Case) -> float:
     """The area that is pressed, m^2."""
-    width, depth = footprint(case.lattice, case.loading)
+    width, depth = case.footprint
     return width * depth
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Contact, Lattice, Material, Solver
+from sweep.config.case import Case
 from sweep.config.structures.structure import Load, Structure, Support
 from sweep.simulation.simulate import simulate
 
@@ -25,11 +25,11 @@ def column(slenderness, share, angle=90.0, element="cubic", iterations=3000):
         loads=(Load(node=1, force_N=tuple(-load * along)),),
     )
     return simulate(
-        Case(
-            lattice=Lattice(kind="custom", structure=structure),
-            material=Material(modulus=1e6 * MODULUS, density=1190.0, plane="stress"),
-            contact=Contact(model="none"),
-            solver=Solver(
+        Case.of(
+            lattice=dict(kind="custom", structure=structure),
+            material=dict(modulus=1e6 * MODULUS, density=1190.0, plane="stress"),
+            contact=dict(model="none"),
+            solver=dict(
                 integrator="static", load_steps=5, max_iterations=iterations, element=element
             ),
         )

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Loading, Solver
+from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import FRAME, SOLID
 from tests.support.designs.scenes import at, is_sound, pressed, run, summed, trapezoid, unbalanced
@@ -131,12 +131,12 @@ def test_work_of_a_static_crush_is_the_area_under_its_curve():
 
 
 def test_steps_too_few_to_balance_are_refused():
-    case = Case(
-        loading=Loading(mode="displacement", strain=0.6, platen="contact"),
-        solver=Solver(load_steps=2),
+    case = Case.of(
+        loading=dict(mode="displacement", strain=0.6, platen="contact"),
+        solver=dict(load_steps=2),
     )
     found = simulate(case)
     assert found.status == "stopped"
     assert found.message.endswith("made energy out of nothing; try more solver.load_steps")
-    more = Case(loading=case.loading, solver=Solver(load_steps=20))
+    more = Case.of(loading=case.loading, solver=dict(load_steps=20))
     assert simulate(more).status == "converged"

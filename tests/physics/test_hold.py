@@ -5,7 +5,7 @@ import pandas
 import pytest
 
 from sweep.columns import cycle_columns
-from sweep.config.case import Case, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.report.figures.storyboard import crushes
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import cycle_rows, stages
@@ -27,11 +27,11 @@ def held(kind, **others):
     """A cell that is pressed, rests, and is let up."""
     loading, solver = HELD[kind]
     along = {"nodes_per_wall": 1, "layers": 2} if kind == "along" else {}
-    return Case(
-        lattice=Lattice(cells_x=1, cells_y=1, **along),
-        material=Material() if kind == "moving" else Material(loss=0.4),
-        loading=Loading(**loading | others),
-        solver=Solver(**solver),
+    return Case.of(
+        lattice=dict(cells_x=1, cells_y=1, **along),
+        material={} if kind == "moving" else dict(loss=0.4),
+        loading=loading | others,
+        solver=solver,
     )
 
 
@@ -94,8 +94,8 @@ def test_the_force_falls_as_the_relaxation_modulus(unload):
     """Pressed in 10 ms, held for a minute; linear all over."""
     pressed = slender(0.01)
     loading = pressed.loading.model_copy(update={"hold_time": 60.0, "unload": unload})
-    solver = Solver(load_steps=30, joints="points")
-    case = Case(**dict(pressed) | {"loading": loading, "solver": solver})
+    solver = dict(load_steps=30, joints="points")
+    case = Case.of(**dict(pressed) | {"loading": loading, "solver": solver})
     history = run(case).history
     assert len(history["time_s"]) == 31 + 30 + 30 * unload
     rows = slice(30, 61)

@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
+from tests.support.designs.tables import material_with
 
 Y, NU, DEPTH, SIDE = 12e6, 0.3, 10e-3, 1e-3
 PLANE = Y / (1 - NU**2)
-MATERIAL = Material(modulus=Y, density=1e3, poisson=NU)
+MATERIAL = material_with(modulus=Y, density=1e3, poisson=NU)
 ROOT3 = 3**0.5
 STRAIN = 1e-6
 
@@ -24,17 +25,17 @@ def endless(kind, way, slenderness, cells=(2, 2), strain=STRAIN, **chosen):
     """A period of so many cells, pressed; ``slenderness`` of its walls."""
     pitch = PITCH[kind][::-1] if way == "flat" else PITCH[kind]
     width, height = (SIDE * n * length for n, length in zip(cells, pitch, strict=True))
-    lattice = Lattice(
+    lattice = dict(
         kind=kind, orientation=way, boundary="periodic", cells_x=cells[0], cells_y=cells[1],
         width=width, height=height, depth=DEPTH, wall_thickness=slenderness * SIDE,
         imperfection=0.0,
     )  # fmt: skip
     return simulate(
-        Case(
+        Case.of(
             lattice=lattice,
             material=MATERIAL,
-            loading=Loading(mode="displacement", strain=strain, unload=False),
-            solver=Solver(load_steps=1, joints="points"),
+            loading=dict(mode="displacement", strain=strain, unload=False),
+            solver=dict(load_steps=1, joints="points"),
             **chosen,
         )
     )
@@ -90,17 +91,17 @@ def test_triangles_are_as_stiff_as_their_walls_stretch(kind, share):
 def block(cells, t):
     """Tangent modulus of a regular block between loose platens without friction, sides free."""
     width, height = (cells + 0.5) * ROOT3 * SIDE, (1.5 * cells + 0.5) * SIDE
-    lattice = Lattice(
+    lattice = dict(
         kind="hex", cells_x=cells, cells_y=cells, width=width, height=height, depth=DEPTH,
         wall_thickness=t * SIDE, imperfection=0.0, nodes_per_wall=0,
     )  # fmt: skip
     result = simulate(
-        Case(
+        Case.of(
             lattice=lattice,
             material=MATERIAL,
-            loading=Loading(mode="displacement", strain=1e-4, unload=False, platen="contact"),
-            contact=Contact(model="none", friction=0.0),
-            solver=Solver(load_steps=2, joints="points"),
+            loading=dict(mode="displacement", strain=1e-4, unload=False, platen="contact"),
+            contact=dict(model="none", friction=0.0),
+            solver=dict(load_steps=2, joints="points"),
         )
     )
     assert result.status == "converged"

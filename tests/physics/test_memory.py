@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 from kernels.solve import march, outcomes
-from sweep.config.case import Case, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from sweep.scene.relaxation import relaxation_of
 from tests.support.designs.scenes import is_sound, run, unbalanced
 from tests.support.designs.structures import APART
+from tests.support.designs.tables import material_with
 from tests.support.kernels.solving import at_rest, go_on
 
 LOSS = 0.4
@@ -23,9 +24,7 @@ LOADINGS = {
 
 
 def case(loading, bend="section", loss=LOSS, **solver):
-    return Case(
-        material=Material(bend=bend, loss=loss), loading=Loading(**loading), solver=Solver(**solver)
-    )
+    return Case.of(material=dict(bend=bend, loss=loss), loading=loading, solver=solver)
 
 
 @pytest.mark.parametrize("bend", ["section", "linear"])
@@ -56,13 +55,13 @@ def test_what_is_absorbed_is_lost_returned_or_left_in_the_branches(bend):
 
 def slender(rate, loss=0.3, strain=1e-4):
     """A cell of slender walls pressed a little at a rate (1/s), linear all over."""
-    material = Material(modulus=20e6, density=1190.0, loss=loss, plane="stress")
-    return Case(
-        lattice=Lattice(cells_x=1, cells_y=1, wall_thickness=4e-4, imperfection=0.0),
+    material = material_with(modulus=20e6, density=1190.0, loss=loss, plane="stress")
+    return Case.of(
+        lattice=dict(cells_x=1, cells_y=1, wall_thickness=4e-4, imperfection=0.0),
         material=material,
-        loading=Loading(mode="displacement", strain=strain, strain_rate=rate, unload=False),
+        loading=dict(mode="displacement", strain=strain, strain_rate=rate, unload=False),
         contact=APART,
-        solver=Solver(load_steps=4, joints="points"),
+        solver=dict(load_steps=4, joints="points"),
     )
 
 

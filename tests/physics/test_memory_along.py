@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Contact, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.scene.relaxation import lost_share, relaxation_of
 from sweep.simulation.simulate import simulate
+from tests.support.designs.tables import material_with
 from tests.support.kernels.pressed_plates import SIDE, T, tube
 
 LOSS = 0.4
@@ -14,17 +15,17 @@ SMALL = 0.004  # strain before any wall buckles
 
 def pressed(strain, steps, strain_rate=1e-2, loss=LOSS, **loading):
     """A glued tube pressed and let go again."""
-    material = Material(name="ultimaker_tpu95a", **({"loss": loss} if loss else {}))
+    material = material_with(name="ultimaker_tpu95a", **({"loss": loss} if loss else {}))
     rate = {"strain_rate": strain_rate} if loss else {}
-    return Case(
+    return Case.of(
         lattice=tube({"mode": "displacement", "platen": "glued"}).lattice,
         material=material,
-        loading=Loading(
+        loading=dict(
             direction="out_of_plane", mode="displacement", strain=strain, platen="glued",
             **rate, **loading,
         ),
-        contact=Contact(friction=0.0),
-        solver=Solver(load_steps=steps),
+        contact=dict(friction=0.0),
+        solver=dict(load_steps=steps),
     )  # fmt: skip
 
 

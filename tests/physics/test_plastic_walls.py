@@ -6,9 +6,10 @@ Closed form of the cantilever: W. Prager and P. G. Hodge, Theory of Perfectly Pl
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.support.designs.structures import APART, CLAMPED, MM, finished, structure
+from tests.support.designs.tables import material_with
 
 LENGTH, THICKNESS, DEPTH = 100.0, 1.0, 10.0  # mm
 MODULUS, LIMIT = 2e9, 2e5  # a limit so low that deflections stay small
@@ -21,18 +22,18 @@ BOOK = 1e-6  # of the work
 
 def plastic(limit=LIMIT, hardening=0.0, **keys):
     numbers = {"modulus": MODULUS, "density": 1200.0, "poisson": 0.0, "plane": "stress"}
-    return Material(**numbers, yield_stress=limit, hardening=hardening, **keys)
+    return material_with(**numbers, yield_stress=limit, hardening=hardening, **keys)
 
 
 def loaded(material, steps=40, **parts):
     """Result of a rod that is loaded in equal increments."""
     whole = {"wall_thickness_mm": THICKNESS, "depth_mm": DEPTH, **ROD, **parts}
-    return Case(
-        lattice=Lattice(kind="custom", structure=structure(**whole)),
+    return Case.of(
+        lattice=dict(kind="custom", structure=structure(**whole)),
         material=material,
         contact=APART,
-        damping=Damping(model="none"),
-        solver=Solver(integrator="static", load_steps=steps),
+        damping=dict(model="none"),
+        solver=dict(integrator="static", load_steps=steps),
     )
 
 
@@ -90,11 +91,11 @@ def test_a_bent_wall_breaks_at_the_strain_of_its_surface():
 def crushed():
     """A loose grid of PLA, crushed and let go."""
     return simulate(
-        Case(
-            lattice=Lattice(cells_x=2, cells_y=2, wall_thickness=1e-3),
-            material=Material(name="pla"),
-            loading=Loading(mode="displacement", strain=0.2, platen="contact"),
-            contact=Contact(friction=0.0),
+        Case.of(
+            lattice=dict(cells_x=2, cells_y=2, wall_thickness=1e-3),
+            material=dict(name="pla"),
+            loading=dict(mode="displacement", strain=0.2, platen="contact"),
+            contact=dict(friction=0.0),
         )
     )
 

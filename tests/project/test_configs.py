@@ -5,13 +5,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Loading, Material
+from sweep.config.case import Case
 from sweep.config.grid import chosen_case, expand
 from sweep.config.units import load_config
 from sweep.ranking.rank import rank
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from sweep.store.read import read_attributes, read_frames, read_history, read_summary
+from tests.support.designs.tables import material_with
 from tests.support.materials.strips import pulled
 
 CONFIGS = Path(__file__).parents[2] / "configs"
@@ -113,9 +114,9 @@ def test_reuse_holds_its_numbers():
 def test_reuse_softens_as_it_says():
     """A strip that is stretched by 20 % absorbs 0.7 of the first cycle; 0.79 without softening."""
     (material,) = {case.material for case in expand(load_config(CONFIGS / "reuse.toml"))}
-    relaxing = Material(loss=material.loss)
+    relaxing = material_with(loss=material.loss)
     assert relaxing.softening_r is None
-    works = [pulled(each, 0.2, 50.0) for each in (Material(), relaxing, material)]
+    works = [pulled(each, 0.2, 50.0) for each in (material_with(), relaxing, material)]
     shares = [second / first for first, _, second, _ in works]
     assert shares == pytest.approx([1.0, 0.79, 0.70], abs=0.01)
     lost = [1.0 + back / there for there, back, *_ in works]
@@ -171,10 +172,10 @@ def test_search_holds_its_number():
 def pressed_a_little(case, steps=2, **lattice):
     """The summary of a case that is pressed by 1 %, with coarse walls; along its cells."""
     coarse = case.lattice.model_copy(update={"layers": None} | lattice)
-    loading = Loading(direction="out_of_plane", platen=case.loading.platen, strain=0.01)
+    loading = dict(direction="out_of_plane", platen=case.loading.platen, strain=0.01)
     steps = case.solver.model_copy(update={"load_steps": steps})
     tables = {"lattice": coarse, "material": case.material, "loading": loading, "solver": steps}
-    return simulate(Case(**tables)).summary
+    return simulate(Case.of(**tables)).summary
 
 
 @pytest.mark.parametrize(

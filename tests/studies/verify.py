@@ -20,11 +20,12 @@ from contextlib import redirect_stdout
 import numpy as np
 
 from sweep.__main__ import main
-from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.ranking.rank import rank
 from sweep.simulation.simulate import simulate
 from sweep.store.read import read_summary
 from tests.support import readme
+from tests.support.designs.tables import material_with
 
 FRAME = {0.05: 11.62, 0.1: 12.04, 0.3: 13.93}
 SOLID = {0.1: 13.65, 0.3: 47.5, 0.4: 66.0, 0.5: 95.3, 0.6: 138.3}
@@ -32,30 +33,30 @@ CRITICAL = 7.35
 LOADS = (6.6, 7.0, 7.5)
 WATCHED = 0.137  # s
 
-MATERIAL = Material(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
+MATERIAL = material_with(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
 ROD = {"element": "classical", "bend_measure": "tangent"}
 
 
 def pressed(pieces, strain, contact, **solver):
     """Result of a quasi-static crush between glued platens, ``pieces`` elements a wall."""
-    case = Case(
-        lattice=Lattice(nodes_per_wall=pieces - 1),
+    case = Case.of(
+        lattice=dict(nodes_per_wall=pieces - 1),
         material=MATERIAL,
-        loading=Loading(mode="displacement", strain=strain, unload=False),
-        contact=Contact(model=contact, friction=0.0),
-        solver=Solver(load_steps=round(100 * strain), **{"joints": "points"} | solver),
+        loading=dict(mode="displacement", strain=strain, unload=False),
+        contact=dict(model=contact, friction=0.0),
+        solver=dict(load_steps=round(100 * strain), **{"joints": "points"} | solver),
     )
     return simulate(case)
 
 
 def loaded(force, contact="none", platen="none", **solver):
     """Result of a sudden dead load, three elements a wall, steps of 1 ms, undamped."""
-    case = Case(
+    case = Case.of(
         material=MATERIAL,
-        loading=Loading(mode="force", force=force, platen=platen),
-        contact=Contact(model=contact, friction=0.0),
-        damping=Damping(model="none"),
-        solver=Solver(time_step=1e-3, joints="points", **solver),
+        loading=dict(mode="force", force=force, platen=platen),
+        contact=dict(model=contact, friction=0.0),
+        damping=dict(model="none"),
+        solver=dict(time_step=1e-3, joints="points", **solver),
     )
     return simulate(case)
 
@@ -147,8 +148,8 @@ def beyond(file):
 
 def failure():
     """What a case says that may not iterate enough."""
-    solver = Solver(load_steps=20, max_iterations=4)
-    case = Case(loading=Loading(mode="displacement"), solver=solver)
+    solver = dict(load_steps=20, max_iterations=4)
+    case = Case.of(loading=dict(mode="displacement"), solver=solver)
     result = simulate(case)
     return f'`{result.status}`, "{result.message}"'
 

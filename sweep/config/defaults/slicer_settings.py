@@ -5,7 +5,9 @@ from math import degrees, isclose, radians, sqrt
 from typing import NamedTuple
 
 from sweep.config.case import Case
-from sweep.config.lattice_table import LAYER_HEIGHT, Lattice
+from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.sliced import Sliced
+from sweep.config.kinds.specimen import LAYER_HEIGHT
 from sweep.constants import TO_MM
 from sweep.design.slicer.patterns import PATTERNS, ROUNDED, SLICERS
 
@@ -72,28 +74,27 @@ def slicer_settings(case: Case) -> SlicerSettings | None:
     Without a slicer it corresponds to PrusaSlicer's if its cells are nearly regular, its walls even
     and as thick as one line of at most `WIDEST` nozzles, or, in a honeycomb, as 4/3 lines.
     """
-    lattice = case.lattice
-    if lattice.slicer is None:
-        return _nearest(lattice)
-    known = lattice.line_width, lattice.layer_height, lattice.fill_angle, lattice.infill
-    if lattice.pattern is None or None in known:
-        raise ValueError("a resolved case has these parameters; this one was not resolved")
-    return SlicerSettings(
-        lattice.slicer,
-        lattice.pattern,
-        lattice.infill or 0.0,
-        lattice.line_width or 0.0,
-        lattice.layer_height or 0.0,
-        lattice.fill_angle or 0.0,
-        lattice.perimeters,
-        exact=True,
-        fill_multiline=lattice.fill_multiline,
-    )
+    match case.lattice:
+        case Cells() as lattice:
+            return _nearest(lattice)
+        case Sliced() as lattice:
+            return SlicerSettings(
+                lattice.slicer,
+                lattice.pattern,
+                lattice.infill,
+                lattice.line_width,
+                lattice.layer_height,
+                lattice.fill_angle,
+                lattice.perimeters,
+                exact=True,
+                fill_multiline=lattice.fill_multiline,
+            )
+    return None
 
 
-def _nearest(lattice: Lattice) -> SlicerSettings | None:
+def _nearest(lattice: Cells) -> SlicerSettings | None:
     like = LIKE.get((lattice.kind, lattice.orientation))
-    if like is None or lattice.grading != 1.0 or lattice.boundary == "periodic":
+    if like is None or lattice.grading != 1.0 or lattice.endless:
         return None
     from sweep.design.drawing import extent
 

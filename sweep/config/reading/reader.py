@@ -16,16 +16,17 @@ from sweep.config.case import TABLES
 from sweep.config.defaults import drop_tests
 from sweep.config.grid import Axes, Config, Fault, Values
 from sweep.config.keys import ALIASES, Key, case_keys, table_keys
+from sweep.config.kinds.table import rounded
 from sweep.config.materials.material_file import (
     RecordError,
     UnknownMaterialError,
     locate,
     read_record,
 )
+from sweep.config.question import QUESTION, Rank, Require
 from sweep.config.reading.other_names import meant, present_choice, with_words
 from sweep.config.reading.renamed import present
 from sweep.config.structures.structure_file import StructureError, read_structure
-from sweep.config.tables import QUESTION, Rank, Require, rounded
 
 _REASONS = {
     "literal_error": "unknown choice",
@@ -87,7 +88,7 @@ class Reader:
             "material": {"material"},
             "grid": set(),
             "exclude": {*TABLES, "exclude", "grid", "zip"},
-        }.get(_table(fault.key), TABLES.keys() - {"material"})
+        }.get(_table(fault.key), set(TABLES) - {"material"})
         depends_on = depends_on | ({"material"} if fault.key in BY_MATERIAL else set())
         return not depends_on & {_table(known.key) for known in self.faults}
 

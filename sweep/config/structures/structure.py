@@ -7,6 +7,8 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from sweep.constants import MM
+
 Pair = tuple[float, float]
 Positive = Annotated[float, Field(gt=0)]
 Node = Annotated[int, Field(ge=0)]
@@ -41,6 +43,12 @@ class Prescribed(Part):
     direction: Literal["x", "y", "rotation"]
     displacement_mm: float | None = None
     angle_rad: float | None = None
+
+    @property
+    def move(self) -> float:
+        """Displacement, m, or rotation, rad."""
+        turned = self.direction == "rotation"
+        return (self.angle_rad if turned else MM * (self.displacement_mm or 0.0)) or 0.0
 
 
 class PointMass(Part):

@@ -26,9 +26,11 @@ from typing import Any, NamedTuple
 from sweep.columns import ABSORBED_AT, IN_CYCLE, correction_column, error_column
 from sweep.config.case import Case
 from sweep.config.grid import Config, expand
-from sweep.config.lattice_table import Lattice
+from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.dead_load import DeadLoad
+from sweep.config.kinds.lattice import Lattice
+from sweep.config.kinds.solver import Solver
 from sweep.config.network import network_of
-from sweep.config.tables import Solver
 from sweep.design.upright_plan import most_layers
 from sweep.result import Status
 from sweep.running.beside.run_beside import How, file_beside, run_beside
@@ -100,7 +102,7 @@ def _labelled(case: Case) -> Case:
     """The case, labelled by its mesh and its steps, in which companions differ."""
     step = "time_step" if case.solver.load_steps is None else "load_steps"
     numerics = {
-        "lattice.nodes_per_wall": case.lattice.nodes_per_wall,
+        "lattice.nodes_per_wall": getattr(case.lattice, "nodes_per_wall", 0),
         f"solver.{step}": getattr(case.solver, step),
     }
     return case.model_copy(update={"axes": numerics})
@@ -108,15 +110,17 @@ def _labelled(case: Case) -> Case:
 
 def _remeshed(lattice: Lattice) -> tuple[Lattice, float]:
     """Half the elements per wall, or twice as many if a wall has only one; the ratio of sizes."""
-    structure = lattice.structure
-    pieces = (lattice.nodes_per_wall + 1,) if structure is None else structure.pieces
+    pieces = (
+        lattice.structure.pieces
+        if isinstance(lattice, CustomStructure)
+        else (lattice.nodes_per_wall + 1,)
+    )
     others = tuple(n // 2 if min(pieces) > 1 else 2 * n for n in pieces)
     ratio = min(n / other for n, other in zip(pieces, others, strict=True))
-    if structure is None:
-        changes = {"nodes_per_wall": others[0] - 1, **_layers(lattice, ratio)}
-        return lattice.model_copy(update=changes), ratio
-    remeshed = structure.model_copy(update={"subdivide": others})
-    return lattice.model_copy(update={"structure": remeshed, **_layers(lattice, ratio)}), ratio
+    changes: dict[str, Any] = {"nodes_per_wall": others[0] - 1}
+    if isinstance(lattice, CustomStructure):
+        changes = {"structure": lattice.structure.model_copy(update={"subdivide": others})}
+    return lattice.model_copy(update=changes | _layers(lattice, ratio)), ratio
 
 
 def _layers(lattice: Lattice, ratio: float) -> dict[str, int]:
@@ -139,7 +143,7 @@ def _longer_steps(solver: Solver) -> tuple[Solver, float]:
         ratio = count / other
     order = 1 if solver.integrator == "backward_euler" else 2
     scales = {"time_step": ratio, "arc_length": ratio, "step_error": ratio ** (order + 1)}
-    values = {key: getattr(solver, key) for key in scales}
+    values = {key: getattr(solver, key, None) for key in scales}
     scaled = {key: scales[key] * value for key, value in values.items() if value is not None}
     return solver.model_copy(update=scaled | {"load_steps": other}), ratio
 
@@ -190,7 +194,7 @@ def error_bars(design: Case, rows: Rows) -> dict[str, float]:
     load belongs to a wave: it grows as steps get shorter, and has no error bar.
     """
     own = rows[design.case_id]
-    unsettled = PEAKS if design.loading.mode == "force" else ()
+    unsettled = PEAKS if isinstance(design.loading, DeadLoad) else ()
     names = [name for name in own if _has_bar(name)]
     errors = dict.fromkeys(names, 0.0)
     corrections = dict.fromkeys(names, 0.0)

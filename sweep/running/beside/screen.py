@@ -19,8 +19,9 @@ from pandas import DataFrame
 
 from sweep.columns import describe_column
 from sweep.config.case import Case
-from sweep.config.defaults.direction import is_along
-from sweep.config.lattice_table import Lattice
+from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.lattice import Lattice
 from sweep.config.network import network_of
 from sweep.design.drawing import extent
 from sweep.design.upright_plan import mirror_fault
@@ -38,10 +39,11 @@ ONE = 1, 1
 
 def has_column(design: Case) -> bool:
     """Whether one cell stands for a design: a crush along several equal cells without outline."""
-    lattice = design.lattice
-    even = lattice.structure is None and lattice.grading == 1.0 and not any(lattice.outline)
+    lattice, crushed = design.lattice, isinstance(design.loading, Crush)
+    if not (isinstance(lattice, Cells) and crushed and design.along):
+        return False
     several = (lattice.cells_x, lattice.cells_y) != ONE
-    return even and several and is_along(design.loading) and design.loading.mode == "displacement"
+    return several and lattice.grading == 1.0 and not any(lattice.outline)
 
 
 def unit_column(design: Case) -> Case:
@@ -51,6 +53,7 @@ def unit_column(design: Case) -> Case:
     to allowed forces are left out, since the column reaches these forces later.
     """
     lattice = design.lattice
+    assert isinstance(lattice, Cells)
     cells = lattice.cells_x, lattice.cells_y
     (low, high), (left, right) = (
         extent(lattice.kind, lattice.orientation, count) for count in (cells, ONE)
@@ -60,9 +63,8 @@ def unit_column(design: Case) -> Case:
     change |= {"width": float(width), "height": float(height)}
     cell = lattice.model_copy(update=change)
     if cell.symmetry == "quarter" and mirror_fault(network_of(cell)):
-        cell = cell.model_copy(update={"symmetry": "none"})
-    loading = design.loading.model_copy(update={"allowed_forces": ()})
-    return design.changed(lattice=cell, loading=loading)
+        change["symmetry"] = "none"
+    return design.changed(lattice=change, loading={"allowed_forces": ()})
 
 
 def run_columns(

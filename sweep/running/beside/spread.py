@@ -13,9 +13,10 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from sweep.config.case import Case, Material
-from sweep.config.defaults.direction import is_along
+from sweep.config.case import Case
 from sweep.config.grid import Config, expand
+from sweep.config.kinds.contact import Barrier
+from sweep.config.kinds.material import Material
 from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
 from sweep.store.read import ONLY_MISSING, Rerun
@@ -46,22 +47,22 @@ def corners(design: Case) -> list[Corner]:
     if design.material.plane == "stress":
         ranges.pop("poisson", None)
     friction = ranges.pop("friction", FRICTION)
-    if design.contact.friction is not None and "contact.friction" not in design.axes:
+    if isinstance(design.contact, Barrier) and "contact.friction" not in design.axes:
         ranges["friction"] = friction
     found = [
         Corner(f"{name} {end}", _moved(design, name, value))
         for name, ends in ranges.items()
         for end, value in _named(name, ends)
     ]
-    if is_along(design.loading) and design.lattice.imperfection > 0.0:
+    if design.along and design.lattice.imperfection > 0.0:
         found += [Corner(f"imperfection {seed}", _bowed(design, seed)) for seed in SEEDS]
     return [corner for corner in found if corner.case_id != design.case_id]
 
 
 def _bowed(design: Case, seed: int) -> Case:
     """The design with an imperfection that a seed draws."""
-    lattice = design.lattice.model_copy(update={"imperfection_seed": seed, "mass": None})
-    return design.changed(lattice=lattice, axes=design.axes | {"lattice.imperfection_seed": seed})
+    labels = {"lattice.imperfection_seed": seed}
+    return design.changed(labels, lattice={"imperfection_seed": seed, "mass": None})
 
 
 def _named(name: str, ends: tuple[float, float]) -> Iterable[tuple[str, float]]:
@@ -74,26 +75,20 @@ def _named(name: str, ends: tuple[float, float]) -> Iterable[tuple[str, float]]:
 
 def _moved(design: Case, name: str, value: float) -> Case:
     """The design with another value of an uncertain number, which labels it."""
-    contact, material, table = design.contact, design.material, "material"
     if name == "friction":
-        contact, table = contact.model_copy(update={"friction": value}), "contact"
-    else:
-        material = _other(material, name, value)
-    return design.changed(
-        lattice=design.lattice.model_copy(update={"mass": None}),  # its walls stay
-        contact=contact,
-        material=material,
-        axes=design.axes | {f"{table}.{name}": value},
-    )
+        return design.changed({"contact.friction": value}, contact={"friction": value})
+    walls = {"mass": None}  # they stay
+    labels, change = {f"material.{name}": value}, _other(design.material, name, value)
+    return design.changed(labels, lattice=walls, material=change)
 
 
-def _other(material: Material, name: str, value: float) -> Material:
-    """A material with another value of a number."""
+def _other(material: Material, name: str, value: float) -> dict[str, Any]:
+    """What differs in a material with another value of a number."""
     change: dict[str, Any] = {name: value}
     if name == "modulus":
         scale = value / material.modulus
         change["curve_stress"] = tuple(scale * stress for stress in material.curve_stress)
-    return material.model_copy(update=change)
+    return change
 
 
 def corners_of(sweep: Config | Sequence[Case], best: Iterable[str]) -> dict[str, list[Corner]]:

@@ -14,9 +14,11 @@ from math import inf
 from scipy.optimize import brentq
 
 from sweep.config.axis import Interval, Written, rounded_down
-from sweep.config.case import Case, Lattice, Loading
-from sweep.config.defaults.direction import footprint
+from sweep.config.case import Case
 from sweep.config.grid import Config, Values, chosen_case
+from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.sliced import Sliced
 from sweep.config.network import network_of
 from sweep.design.lattice import counted_area
 from sweep.design.panel import BEHIND, panel_of
@@ -55,7 +57,7 @@ class DesignSpace:
                 return None
             chosen[self._size.name] = size
         case = chosen_case(self.config, chosen)
-        if case is None or not self._panels(case.lattice, case.loading):
+        if case is None or not self._panels(case):
             return None
         return case if self.weight(case) <= greatest_mass(self.budget) else None
 
@@ -79,15 +81,16 @@ class DesignSpace:
 
     def _limited(self, size: Interval, least: Case) -> Interval | None:
         """The axis up to its greatest value within the budget; None if its least exceeds that."""
-        if least.lattice.structure is not None:
-            return size
-        if least.lattice.slicer is not None:
-            return self._limited_of_slicer(size, least)
+        match least.lattice:
+            case CustomStructure():
+                return size
+            case Sliced():
+                return self._limited_of_slicer(size, least)
         return size if size.name == "lattice.infill" else self._limited_walls(size, least)
 
     def _limited_of_slicer(self, size: Interval, least: Case) -> Interval | None:
         """The axis of the mass as extruded, or of the share of infill, up to the budget."""
-        most = self.budget / (self._panels(least.lattice, least.loading) or inf)
+        most = self.budget / (self._panels(least) or inf)
         if size.name == "lattice.infill":
             most = _greatest_share(least, size, most)
         if most < size.low:
@@ -101,12 +104,13 @@ class DesignSpace:
         grams = size.high if by_mass else inf
 
         def excess(thickness: float, count: float) -> float:
-            specimen = _mass(least, _with_walls(least.lattice, thickness))
+            specimen = _mass(_with_walls(least, thickness))
             return max(count * specimen - self.budget, specimen - grams)
 
         def count(thickness: float) -> float:
-            return self._panels(_with_walls(least.lattice, thickness), least.loading)
+            return self._panels(_with_walls(least, thickness))
 
+        assert isinstance(least.lattice, Cells)
         low = least.lattice.wall_thickness
         high = min(inf if by_mass else size.high, OPEN * _widest(least.lattice))
         weighs = by_mass or self.budget < inf
@@ -115,7 +119,7 @@ class DesignSpace:
         while weighs and high > low and excess(high, count(high)) > 0.0:
             # thinner walls make narrower specimens, of which a panel may have one more
             high = max(low, brentq(excess, low, high, (count(high),), EXACT) - 2.0 * EXACT)
-        most = _mass(least, _with_walls(least.lattice, high)) if by_mass else high
+        most = _mass(_with_walls(least, high)) if by_mass else high
         top = size.high if most >= size.high else max(size.low, rounded_down(most))
         return Interval(size.name, size.low, top, size.unit)
 
@@ -123,30 +127,34 @@ class DesignSpace:
         """Mass (kg) that the budget limits, of a specimen or of the panel; 0 without a budget."""
         if self.budget == inf:
             return 0.0
-        return self._panels(case.lattice, case.loading) * _mass(case, case.lattice)
+        return self._panels(case) * _mass(case)
 
-    def _panels(self, lattice: Lattice, loading: Loading) -> float:
+    def _panels(self, case: Case) -> float:
         """Number of specimens in a panel, as a ranking counts them; 1 without a panel."""
         if self.panel is None:
             return 1.0
-        gap = BEHIND[loading.direction]
-        return float(panel_of(self.panel, *footprint(lattice, loading), gap).specimens)
+        gap = BEHIND[case.loading.direction]
+        return float(panel_of(self.panel, *case.footprint, gap).specimens)
 
 
-def _widest(lattice: Lattice) -> float:
+def _widest(lattice: Cells) -> float:
     """Wall thickness (m) that leaves no openings, between walls or beside an outline."""
     beside = [lattice.opening - outline for outline in lattice.outline if outline]
     return min([lattice.thickest, *beside])
 
 
-def _with_walls(lattice: Lattice, thickness: float) -> Lattice:
-    return lattice.model_copy(update={"wall_thickness": thickness})
+def _with_walls(case: Case, thickness: float) -> Case:
+    lattice = case.lattice.model_copy(update={"wall_thickness": thickness})
+    return case.model_copy(update={"lattice": lattice})
 
 
-def _mass(case: Case, lattice: Lattice) -> float:
+def _mass(case: Case) -> float:
     """Mass of a specimen (kg) as budgets count it."""
-    drawn = lattice.structure is not None
-    area = network_of(lattice).printed_area if drawn else counted_area(lattice.geometry)
+    lattice = case.lattice
+    if isinstance(lattice, CustomStructure):
+        area = network_of(lattice).printed_area
+    else:
+        area = counted_area(lattice.geometry)
     return case.material.density * lattice.depth * area
 
 
@@ -154,11 +162,13 @@ def _greatest_share(least: Case, size: Interval, budget: float) -> float:
     """The greatest share of a slicer's infill with which a specimen weighs at most the budget (kg);
     0 if that of the least one exceeds it.
     """
-    geometry, pattern = least.lattice.geometry, least.lattice.printed_as
-    per_area = least.material.density * least.lattice.depth
+    lattice = least.lattice
+    assert isinstance(lattice, Sliced)
+    geometry, pattern = lattice.geometry, lattice.printed_as
+    per_area = least.material.density * lattice.depth
 
     def excess(share: float) -> float:
-        distance = pattern.directions * least.lattice.lines / share
+        distance = pattern.directions * lattice.lines / share
         sliced = geometry.sliced and geometry.sliced._replace(distance=distance)
         return per_area * counted_area(geometry._replace(sliced=sliced)) - budget
 

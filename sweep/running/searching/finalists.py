@@ -9,10 +9,12 @@ thinner and thicker, and a quarter and four times the imperfection.
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from pydantic import ValidationError
-
-from sweep.config.case import Case, given
-from sweep.config.lattice_table import Lattice
+from sweep.config.case import Case
+from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.lattice import Lattice
+from sweep.config.kinds.sliced import Sliced
+from sweep.config.kinds.table import RefusedError
 from sweep.config.network import network_of
 from sweep.design.upright_plan import most_layers
 from sweep.ranking.spread import FINE
@@ -21,12 +23,6 @@ from sweep.running.beside.spread import Corner
 WALLS = {"walls -5 %": 0.95, "walls +5 %": 1.05}
 BOWS = {"imperfection / 4": 0.25, "imperfection x 4": 4.0}
 COUNT = 3
-GIVEN = (
-    *("slicer", "pattern", "fill_angle", "fill_multiline", "perimeters", "layer_height", "nozzle"),
-    *("width", "height", "depth", "nodes_per_wall", "imperfection"),
-)
-"""Keys of a lattice that a slicer lays, beside those of the line width and the share."""
-
 ALIKE = 0.05  # relative difference in all numbers up to which two designs are one peak
 
 
@@ -57,58 +53,61 @@ def perturbed(design: Case) -> list[Corner]:
     Plates that would have too many nodes then keep their mesh; changes that do not fit the rest of
     a design are left out.
     """
-    fine = _with(design, _with_elements(design.lattice, 2))
-    base = _with_elements(design.lattice, 2 if fine else 1)
+    fine = _with(design, _elements(design.lattice, 2))
+    base = fine or _with(design, _elements(design.lattice, 1)) or design
     found = {FINE: fine}
-    if base.structure is None:
-        found |= {name: _with(design, _printed(base, by)) for name, by in WALLS.items()}
-        for name, by in BOWS.items() if base.imperfection else ():
-            bent = base.model_copy(update={"imperfection": by * base.imperfection})
-            found[name] = _with(design, bent)
+    if not isinstance(base.lattice, CustomStructure):
+        layers = 2 * (design.lattice.layers or 0) if fine else design.lattice.layers
+        for name, by in WALLS.items():
+            change = _walls(base.lattice, by) | _layers(base.lattice, layers, by)
+            found[name] = _with(base, change)
+        amount = base.lattice.imperfection
+        bows = BOWS if amount else {}
+        found |= {name: _with(base, {"imperfection": by * amount}) for name, by in bows.items()}
     return [Corner(name, case) for name, case in found.items() if case]
 
 
-def _printed(lattice: Lattice, by: float) -> Lattice:
-    """The lattice with walls `by` times as thick in the same places, and perimeters if a slicer
-    lays both: it extrudes wider lines, at a share of infill that keeps their distance.
+def _walls(lattice: Cells | Sliced, by: float) -> dict[str, Any]:
+    """Walls `by` times as thick in the same places, and perimeters if a slicer lays both: it
+    extrudes wider lines, at a share of infill that keeps their distance.
     """
-    if lattice.slicer is None:
-        return lattice.model_copy(update={"wall_thickness": by * lattice.wall_thickness})
-    known = {key: getattr(lattice, key) for key in GIVEN}
-    wider = given(lattice.line_width) + (by - 1.0) * lattice.line
-    return Lattice(**known | {"line_width": wider, "infill": by * given(lattice.infill)})
+    if isinstance(lattice, Cells):
+        return {"wall_thickness": by * lattice.wall_thickness}
+    wider = lattice.line_width + (by - 1.0) * lattice.line
+    return {"line_width": wider, "infill": by * lattice.infill}
 
 
-def _with_elements(lattice: Lattice, ratio: int) -> Lattice:
+def _elements(lattice: Lattice, ratio: int) -> dict[str, Any]:
     """`ratio` times the elements in every wall, whose thickness no longer follows from a mass or a
-    share, and as many times the layers of plates.
+    share, and as many times the layers of plates, whose quads stay as high as walls are thick.
     """
-    layers = None if lattice.layers is None else ratio * lattice.layers
-    if lattice.structure is not None:
+    change: dict[str, Any] = _layers(lattice, ratio * (lattice.layers or 0), 1.0)
+    if isinstance(lattice, CustomStructure):
         pieces = tuple(ratio * n for n in lattice.structure.pieces)
-        finer = lattice.structure.model_copy(update={"subdivide": pieces})
-        return lattice.model_copy(update={"structure": finer, "layers": layers})
-    nodes = ratio * (lattice.nodes_per_wall + 1) - 1
-    change = {"nodes_per_wall": nodes, "mass": None, "layers": layers}
-    if lattice.slicer is None:
-        change["infill"] = None
-    return lattice.model_copy(update=change)
+        return change | {"structure": lattice.structure.model_copy(update={"subdivide": pieces})}
+    change |= {"nodes_per_wall": ratio * (lattice.nodes_per_wall + 1) - 1, "mass": None}
+    return change | ({"infill": None} if isinstance(lattice, Cells) else {"infill": lattice.infill})
 
 
-def _with(design: Case, lattice: Lattice) -> Case | None:
-    """The design with another lattice, labelled by what differs; None if that does not fit.
+def _layers(lattice: Lattice, wished: int | None, by: float) -> dict[str, int]:
+    """Layers of plates whose walls are `by` times as thick; none across the cells."""
+    if not wished:
+        return {}
+    most = most_layers(by * network_of(lattice).wall_thickness, lattice.depth)
+    return {"layers": max(min(wished, most), 1)}
 
-    Layers of plates are at most as many as leave quads as high as walls are thick.
-    """
-    if lattice.layers is not None:
-        most = most_layers(network_of(lattice).wall_thickness, lattice.depth)
-        lattice = lattice.model_copy(update={"layers": max(min(lattice.layers, most), 1)})
-    labels = {
-        "lattice.nodes_per_wall": lattice.nodes_per_wall,
+
+def _with(design: Case, change: dict[str, Any]) -> Case | None:
+    """The design with a change of its lattice, labelled by it; None if that does not fit."""
+    try:
+        made = design.changed(lattice=change)
+    except RefusedError:
+        return None
+    lattice = made.lattice
+    labels: dict[str, Any] = {
         "lattice.wall_thickness": lattice.wall_thickness,
         "lattice.imperfection": lattice.imperfection,
     }
-    try:
-        return design.changed(lattice=lattice, axes=design.axes | labels)
-    except ValidationError:
-        return None
+    if not isinstance(lattice, CustomStructure):
+        labels["lattice.nodes_per_wall"] = lattice.nodes_per_wall
+    return made.model_copy(update={"axes": design.axes | labels})

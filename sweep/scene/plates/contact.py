@@ -5,7 +5,7 @@ import numpy as np
 from kernels.plates.contacts import contact
 from kernels.plates.contacts.mirror import NO_MIRROR, Mirror
 from kernels.plates.layout import PER_NODE
-from sweep.config.case import Case, given
+from sweep.config.case import Case
 from sweep.scene.plates.coordinates import BONDED, Numbering, heights
 from sweep.scene.plates.mesh import PlateMesh
 
@@ -31,14 +31,14 @@ def contact_of(mesh: PlateMesh, numbering: Numbering, case: Case) -> contact.Con
 
     With the contact model "none", only loose platens touch nodes.
     """
-    platen, walls = given(case.loading.platen), case.contact.model != "none"
+    platen, walls = case.loading.platen, case.contact.model != "none"
     low, high = heights(mesh, platen)
     triangles = mesh.triangles[: None if walls else 0]
     height, every = mesh.rest[:, 2], np.arange(mesh.n_nodes if walls or platen == "contact" else 0)
     loose_low = np.setdiff1d(every, mesh.bottom) if platen in BONDED else every
     loose_high = np.setdiff1d(every, mesh.top) if platen in BONDED else every
     return contact.build(
-        case.material.modulus * 4.0 / 3.0 * (case.contact.stiffness or 0.0),
+        case.material.modulus * 4.0 / 3.0 * case.contact.stiffness,
         MOST_MOVE * float(mesh.plan.span.mean()),
         triangles, mesh.area, mesh.node_thickness, mesh.rest,
         (loose_low, height[loose_low] - low, numbering.low),

@@ -14,7 +14,7 @@ generator,
 
 import numpy as np
 
-from sweep.config.case import Lattice
+from sweep.config.kinds.specimen import Specimen
 from sweep.design.upright_plan import Plan
 from sweep.scene.mesh import Floats
 
@@ -25,7 +25,7 @@ def half_waves(plan: Plan, height: float) -> int:
     return max(round(height / mean), 1)
 
 
-def amplitudes(plan: Plan, lattice: Lattice) -> Floats:
+def amplitudes(plan: Plan, lattice: Specimen) -> Floats:
     """Amplitude (w, j) in m, to the right of each wall, of one to j half waves up the height."""
     waves = half_waves(plan, lattice.depth)
     size = lattice.imperfection * plan.thickness[:, None]

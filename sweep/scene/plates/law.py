@@ -7,7 +7,7 @@ import numpy as np
 from kernels.laws import sheet
 from kernels.laws.relaxing_sheet import RelaxingSheet
 from kernels.plates.element.shear import KAPPA
-from sweep.config.case import Material
+from sweep.config.kinds.material import Material
 from sweep.scene.material import Floats, StressLaw, stress_law
 from sweep.scene.relaxation import relaxation_of
 

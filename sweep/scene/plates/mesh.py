@@ -5,8 +5,8 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from sweep.config.case import Lattice, given
-from sweep.config.defaults.direction import quads_wanted
+from sweep.config.kinds.lattice import Lattice
+from sweep.config.kinds.upright import quads_wanted
 from sweep.config.network import network_of
 from sweep.design.upright_plan import Plan, plan_of, quads_along
 from sweep.scene.mesh import Floats, Ints
@@ -104,9 +104,10 @@ class PlateMesh:
 @lru_cache(maxsize=16)
 def build_mesh(lattice: Lattice) -> PlateMesh:
     """The mesh of a lattice that is pressed along its cells; as it is resolved, with its layers."""
+    assert lattice.layers is not None
     plan = plan_of(network_of(lattice), lattice.symmetry == "quarter")
     along = quads_along(plan, quads_wanted(lattice))
-    return extruded(plan, along, given(lattice.layers), lattice.depth, amplitudes(plan, lattice))
+    return extruded(plan, along, lattice.layers, lattice.depth, amplitudes(plan, lattice))
 
 
 def extruded(

@@ -10,7 +10,7 @@ from kernels.plates.problem import PlateScene, at_rest
 from kernels.solve import march
 from kernels.solve.history import State
 from kernels.solve.problem import Coordinates
-from sweep.config.case import Case, given
+from sweep.config.case import Case
 from sweep.config.network import network_of
 from sweep.design.drawing import Indices
 from sweep.design.network import Network, mass
@@ -20,7 +20,7 @@ from sweep.scene.plates.contact import contact_of, mirror_of
 from sweep.scene.plates.coordinates import Numbering
 from sweep.scene.plates.law import law_of_sheet, shear_moduli
 from sweep.scene.plates.mesh import PlateMesh, build_mesh
-from sweep.scene.terms import driven_by, friction_of, heavy, roles
+from sweep.scene.terms import driven_by, friction_of, heavy, roles, striker_of
 
 NONE = np.empty(0, np.int64)
 
@@ -70,13 +70,13 @@ class Scene:
 
 def build_scene(case: Case) -> Scene:
     """Build the arrays of ``case``."""
-    lattice, loading = case.lattice, case.loading
+    lattice, loading, striker = case.lattice, case.loading, striker_of(case.loading)
     mesh, network = build_mesh(lattice), network_of(lattice)
-    numbering, platen = Numbering(mesh.n_nodes), given(loading.platen)
+    numbering, platen = Numbering(mesh.n_nodes), loading.platen
     leader = coordinates.leaders(mesh, platen)
     copies = mesh.plan.copies
     printed = mass(network, lattice.depth, case.material.density) / copies
-    masses = coordinates.masses(mesh, printed, (loading.striker_mass or 0.0) / copies)
+    masses = coordinates.masses(mesh, printed, striker.mass / copies)
     x_rest = coordinates.at_rest(mesh, platen)
     layout = _layout(mesh, numbering, leader, case)
     terms = PlateScene(
@@ -95,7 +95,7 @@ def build_scene(case: Case) -> Scene:
     return Scene(
         mesh, network, terms, x_rest, bottom, high, low,
         force_scale=_force_scale(mesh, case),
-        velocity=np.where(leader == numbering.high, -(loading.striker_speed or 0.0), 0.0),
+        velocity=np.where(leader == numbering.high, -striker.speed, 0.0),
     )  # fmt: skip
 
 

@@ -51,7 +51,7 @@ def varied(case: Case, **changes: Mapping[str, Any]) -> Case:
             tables["solver"].pop(key)
     for name, change in changes.items():
         tables[name] |= change
-    return Case(**{name: TABLES[name](**table) for name, table in tables.items()})
+    return Case.of(**{name: TABLES[name](**table) for name, table in tables.items()})
 
 
 _results: dict[str, Result] = {}

@@ -5,7 +5,8 @@ from pathlib import Path
 import numpy as np
 from pandas import DataFrame
 
-from sweep.config.case import Case, Material
+from sweep.config.case import Case
+from sweep.config.kinds.material import Material
 from sweep.report.figures import case_plots
 from sweep.scene.material import stress_law
 from sweep.studies.course_report.cases import history, ours, varied

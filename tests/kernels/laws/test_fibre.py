@@ -5,8 +5,8 @@ import pytest
 
 from kernels.laws.relaxation import BRANCHES
 from kernels.laws.yielding import STATE
-from sweep.config.case import Material
 from sweep.scene.material import law_in_stretch
+from tests.support.designs.tables import material_with
 from tests.support.materials.memory import follow, there_and_back, virgin
 
 NUMBERS = {"modulus": 2e9, "density": 1240.0, "poisson": 0.35}
@@ -22,13 +22,13 @@ SIZES = {
 @pytest.mark.parametrize("kind", SIZES)
 def test_a_point_keeps_the_numbers_of_what_acts(kind):
     given, size = SIZES[kind]
-    assert law_in_stretch(Material(**given), 1.0).state_size() == size
+    assert law_in_stretch(material_with(**given), 1.0).state_size() == size
 
 
 @pytest.mark.parametrize("kind", SIZES)
 def test_what_acts_shows_in_a_cycle(kind):
     """Elastic walls give all back at once, the others lose some of it."""
-    law = law_in_stretch(Material(**SIZES[kind][0]), 1.0)
+    law = law_in_stretch(material_with(**SIZES[kind][0]), 1.0)
     path = follow(law, there_and_back(0.1, 100), 0.02)
     lost = path.dissipated[-1] / path.work[99]
     assert (lost > 0.05) == (kind != "elastic")
@@ -39,8 +39,8 @@ def test_what_acts_shows_in_a_cycle(kind):
 
 def test_the_slope_at_rest_is_the_modulus_at_the_reference_time():
     for given, _ in SIZES.values():
-        material = Material(**given)
+        material = material_with(**given)
         law = law_in_stretch(material, 1.3)
         assert law.modulus == pytest.approx(1.3 * material.modulus)
-    elastic = law_in_stretch(Material(**NUMBERS), 1.3)
+    elastic = law_in_stretch(material_with(**NUMBERS), 1.3)
     assert elastic.respond(0.0, virgin(elastic), 0)[2] == pytest.approx(1.3 * 2e9)

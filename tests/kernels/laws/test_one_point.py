@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from kernels.laws.one_point import stresses
-from sweep.config.case import Material
 from sweep.scene.material import law_in_stretch
+from tests.support.designs.tables import material_with
 
 MODULUS, SHARE, TIME = 12e6, 0.4, 0.2  # Pa; of a branch; s
 RATE = 0.1  # 1/s
 
 
 def linear(**memory):
-    return law_in_stretch(Material(modulus=MODULUS, density=1190.0, **memory), 1.0)
+    return law_in_stretch(material_with(modulus=MODULUS, density=1190.0, **memory), 1.0)
 
 
 def test_elastic_point_follows_its_curve_at_any_rate():
@@ -33,7 +33,7 @@ def test_ramp_of_a_standard_solid():
 
 def test_reused_point_is_softer_up_to_its_greatest_strain():
     law = law_in_stretch(
-        Material(name="ninjaflex", softening_r=2.0, softening_m=1e5, softening_beta=0.1), 1.0
+        material_with(name="ninjaflex", softening_r=2.0, softening_m=1e5, softening_beta=0.1), 1.0
     )
     up, down, again, beyond = stresses(law, np.arange(5.0), np.array([0.0, 0.3, 0.1, 0.3, 0.31]))[
         1:

@@ -9,9 +9,9 @@ from kernels.laws import relaxation
 from kernels.laws.elastic import GUARD
 from kernels.laws.relaxation import NEAR, inverse
 from kernels.laws.softening import Softening
-from sweep.config.material_table import Material
 from sweep.scene.material import as_law, linear_law, stress_law
 from tests.support.designs.scenes import slopes
+from tests.support.designs.tables import material_with
 from tests.support.kernels.frames import MODULUS
 from tests.support.kernels.terms import differences
 from tests.support.materials.memory import follow, prepare, relaxing, there_and_back, virgin
@@ -28,7 +28,7 @@ def straight():
 
 def measured(name="ninjaflex"):
     """A measured curve, in MPa."""
-    material = Material(name=name)
+    material = material_with(name=name)
     return as_law(stress_law(material), 1e-6, material.modulus)
 
 

@@ -8,9 +8,9 @@ from scipy.integrate import quad
 
 from kernels.laws.relaxation import MOST
 from kernels.laws.softening import Softening
-from sweep.config.material_table import Material
 from sweep.scene.material import as_law, stress_law
 from tests.support.designs.scenes import slopes
+from tests.support.designs.tables import material_with
 from tests.support.kernels.terms import differences
 from tests.support.materials.memory import follow, relaxing, there_and_back, virgin
 
@@ -21,7 +21,7 @@ DEEP = 0.3
 
 def measured():
     """A measured curve, in MPa."""
-    material = Material()
+    material = material_with()
     return as_law(stress_law(material), 1e-6, material.modulus)
 
 

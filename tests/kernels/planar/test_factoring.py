@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Contact
 from tests.support.kernels.solving import neighbours_of, reduction, whole
 from tests.support.kernels.states import (
     DT,
@@ -53,7 +52,7 @@ def test_the_factor_is_that_of_the_sum_of_all_terms(name, state, projected, dt):
 @pytest.mark.parametrize("state", ["pinched", "leaning"])
 def test_what_has_come_near_needs_room_and_gets_it(state):
     """A system found at rest has none for contacts that came later; one found there has."""
-    scene = loaded(contact=Contact(friction=0.0))
+    scene = loaded(contact=dict(friction=0.0))
     x = STATES[state](scene)
     args = whole(scene, x)
     at_rest = neighbours_of(scene.x_rest, scene.terms, SIZE)
@@ -64,7 +63,9 @@ def test_what_has_come_near_needs_room_and_gets_it(state):
 
 
 @pytest.mark.parametrize("dt", [DT, np.inf])
-@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+@pytest.mark.parametrize(
+    "damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.get("model", "default")
+)
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("seed", range(3))
 def test_projected_hessian_is_semi_definite(seed, state, damping, dt):

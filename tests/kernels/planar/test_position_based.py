@@ -7,15 +7,16 @@ from kernels.geometry import near_pairs
 from kernels.geometry.distance import squared_distance
 from kernels.planar import position_based
 from kernels.terms import contact
-from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
+from sweep.config.case import Case
 from sweep.config.units import ConfigError, load_config
 from sweep.scene.lattice import build_scene
 from tests.studies.verify import MATERIAL
 from tests.support.designs.scenes import run, unbalanced
+from tests.support.designs.tables import lattice_with
 from tests.support.kernels.frames import touching, two_walls
 
 APART = 1.0 - 1e-5  # of the thickness
-BY_POSITION = Contact(model="position_based")
+BY_POSITION = dict(model="position_based")
 
 
 def moved(gap, shift, ease):
@@ -94,8 +95,8 @@ def test_a_platen_keeps_half_a_thickness_from_all_nodes(platen, side):
 
 @pytest.mark.parametrize("kind", ["square", "hex", "triangle", "reentrant", "diamond"])
 def test_joints_at_rest_are_no_contacts(kind):
-    lattice = Lattice(kind=kind, nodes_per_wall=7)
-    scene = build_scene(Case(lattice=lattice, contact=BY_POSITION))
+    lattice = lattice_with(kind=kind, nodes_per_wall=7)
+    scene = build_scene(Case.of(lattice=lattice, contact=BY_POSITION))
     x, touch = scene.x_rest.copy(), scene.terms.project.contact
     listed = near_pairs.find(x, touch, 2.0 * touch.reach)
     assert not position_based.move_apart(x, scene.terms.project, listed)
@@ -104,12 +105,12 @@ def test_joints_at_rest_are_no_contacts(kind):
 
 def dropped(model="position_based", force=15.0, time_step=2e-4, duration=0.016):
     """A dead load under which rows land on one another, let go at three quarters of the time."""
-    return Case(
+    return Case.of(
         material=MATERIAL,
-        loading=Loading(force=force, release_time=0.75 * duration, duration=duration),
-        contact=Contact(model=model, friction=0.0),
-        damping=Damping(),
-        solver=Solver(time_step=time_step, element="classical"),
+        loading=dict(force=force, release_time=0.75 * duration, duration=duration),
+        contact=dict(model=model, friction=0.0),
+        damping={},
+        solver=dict(time_step=time_step, element="classical"),
     )
 
 
@@ -168,8 +169,8 @@ def test_walls_end_no_closer_than_where_they_touch():
 
 def test_a_glued_platen_stops_what_is_not_glued_to_it():
     tables = {"contact": BY_POSITION, "material": MATERIAL}
-    loading = Loading(strain=0.6, speed=1.0, unload=False)
-    result = run(Case(loading=loading, solver=Solver(load_steps=2000), **tables))
+    loading = dict(strain=0.6, speed=1.0, unload=False)
+    result = run(Case.of(loading=loading, solver=dict(load_steps=2000), **tables))
     y, plates = result.frames["position_m"][..., 1], result.frames["plate_y_m"]
     assert result.status == "converged"
     assert y[-1].min() >= plates[-1, 0] + 0.4e-3 * APART

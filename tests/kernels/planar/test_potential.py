@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from kernels.terms import fold, friction, stretch
-from sweep.config.case import Material, Solver
 from tests.studies.verify import MATERIAL
 from tests.support.kernels.solving import whole
 from tests.support.kernels.states import (
@@ -37,7 +36,9 @@ def error(scene, x, args, step=1e-5):
 
 
 @pytest.mark.parametrize("dt", [DT, np.inf])
-@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+@pytest.mark.parametrize(
+    "damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.get("model", "default")
+)
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("seed", range(2))
 def test_derivatives(seed, state, damping, dt):
@@ -49,7 +50,7 @@ def test_derivatives(seed, state, damping, dt):
 @pytest.mark.parametrize("state", STATES)
 def test_derivatives_with_solid_joints_and_sections(state):
     """The third derivative of a measured curve jumps at its knots."""
-    scene = loaded(damping=VISCOUS, material=Material(), solver=Solver(time_step=DT))
+    scene = loaded(damping=VISCOUS, material={}, solver=dict(time_step=DT))
     x = STATES[state](scene)
     assert error(scene, x, step_to(scene, x, 0), 1e-6) < 1e-6
 
@@ -63,11 +64,13 @@ def test_derivatives_at_rest(elements, dt):
 
 
 @pytest.mark.parametrize("measure", ["angle", "tangent"])
-@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+@pytest.mark.parametrize(
+    "damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.get("model", "default")
+)
 @pytest.mark.parametrize("state", ["bent", "leaning"])
 def test_derivatives_of_single_elements(state, damping, measure):
     scene = loaded(
-        1, damping=damping, solver=Solver(time_step=DT, bend_measure=measure, joints="points")
+        1, damping=damping, solver=dict(time_step=DT, bend_measure=measure, joints="points")
     )
     x = STATES[state](scene)
     assert error(scene, x, step_to(scene, x, 0)) < 1e-9
@@ -133,7 +136,9 @@ def potentials(args):
 
 @pytest.mark.parametrize("projected", [False, True])
 @pytest.mark.parametrize("dt", [DT, np.inf])
-@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+@pytest.mark.parametrize(
+    "damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.get("model", "default")
+)
 def test_the_sum_has_all_terms_and_each_of_them_counts(damping, dt, projected):
     scene = loaded(damping=damping)
     x = leaning(scene)
@@ -160,7 +165,9 @@ def test_the_sum_has_all_terms_and_each_of_them_counts(damping, dt, projected):
 
 
 @pytest.mark.parametrize("dt", [DT, np.inf])
-@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.model)
+@pytest.mark.parametrize(
+    "damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.get("model", "default")
+)
 def test_what_evaluate_tells_the_book(damping, dt):
     """Energies that are stored, and the forces by what they come from."""
     scene = loaded(damping=damping)

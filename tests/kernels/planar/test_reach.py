@@ -8,7 +8,7 @@ import pytest
 from kernels.geometry import ccd, near_pairs
 from kernels.planar import reach
 from kernels.terms.moves import ADVANCE
-from sweep.config.case import Case, Contact, Lattice, Loading, Solver
+from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from tests.support.kernels.solving import whole
 from tests.support.kernels.states import GRIP, STATES, loaded, nodes, unit
@@ -31,13 +31,13 @@ def node_at(scene, x, y):
 def one_cell(platen):
     """A cell of 10 mm with walls of two elements; without a platen, without contact."""
     return build_scene(
-        Case(
-            lattice=Lattice(
+        Case.of(
+            lattice=dict(
                 cells_x=1, cells_y=1, nodes_per_wall=1, width=0.01, height=0.01, imperfection=0.0
             ),
-            loading=Loading(platen=platen),
-            contact=Contact(model="none" if platen == "none" else "barrier"),
-            solver=Solver(joints="points"),
+            loading=dict(platen=platen),
+            contact=dict(model="none" if platen == "none" else "barrier"),
+            solver=dict(joints="points"),
         )
     )
 
@@ -88,11 +88,11 @@ def hits(scene, x, dx):
     return np.array(met), np.array(short)
 
 
-@pytest.mark.parametrize("contact", [GRIP, Contact(model="none")], ids=["contact", "no contact"])
+@pytest.mark.parametrize("contact", [GRIP, dict(model="none")], ids=["contact", "no contact"])
 @pytest.mark.parametrize("state", ["rest", *STATES])
 def test_the_bounds_of_a_step_miss_nothing(state, contact):
     """Of walls that meet, corners that close and elements that shrink, for moves of any size."""
-    scene = loaded(contact=contact, platen="none" if contact.model == "none" else "contact")
+    scene = loaded(contact=contact, platen="none" if contact.get("model") == "none" else "contact")
     x = scene.x_rest if state == "rest" else STATES[state](scene)
     args, limited = whole(scene, x, reach=0.1), 0
     for seed in range(60):

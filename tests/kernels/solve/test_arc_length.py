@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from kernels.solve import arc_length, outcomes
-from sweep.config.case import Case, Contact, Lattice, Loading, Solver
+from sweep.config.case import Case
 from sweep.config.grid import ConfigError, expand
 from sweep.config.units import load_config
 from sweep.scene.arc_length import arc_of
@@ -29,11 +29,11 @@ from tests.support.kernels.solving import free_of, whole
 
 
 def case_of(parts, arcs=200, contact="none", **solver):
-    return Case(
-        lattice=Lattice(kind="custom", structure=structure(**parts)),
+    return Case.of(
+        lattice=dict(kind="custom", structure=structure(**parts)),
         material=MATERIAL,
-        contact=Contact(model=contact),
-        solver=Solver(integrator="arc_length", load_steps=arcs, **solver),
+        contact=dict(model=contact),
+        solver=dict(integrator="arc_length", load_steps=arcs, **solver),
     )
 
 
@@ -176,7 +176,7 @@ def test_a_path_that_is_lost_is_told(monkeypatch):
 
 def test_lattices_have_no_arcs():
     with pytest.raises(ValueError, match=r'unless lattice.kind is "custom"'):
-        Case(loading=Loading(force=1.0), solver=Solver(integrator="arc_length"))
+        Case.of(loading=dict(force=1.0), solver=dict(integrator="arc_length"))
 
 
 @pytest.mark.parametrize(

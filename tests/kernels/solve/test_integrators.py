@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Contact, Damping, Loading, Solver
+from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.studies.validation import energy
 from tests.studies.validation.energy import moving
@@ -17,32 +17,32 @@ ORDERS = {"backward_euler": 1, "bdf2": 2, "newmark": 2}
 INTEGRATORS = pytest.mark.parametrize("integrator", ORDERS)
 HIGHER = pytest.mark.parametrize("integrator", ["bdf2", "newmark"])
 NAMES = ["none", "drag", "rayleigh", "viscous"]
-DRAG = Damping(model="rayleigh", mass=100.0, stiffness=0.0)
-STIFF = Damping(model="rayleigh", mass=0.0, stiffness=5e-4)
-CREEP = Damping(model="kelvin_voigt", relaxation_time=5e-4)
-SOFT = Damping(model="rayleigh", mass=300.0, stiffness=3e-5)
+DRAG = dict(model="rayleigh", mass=100.0, stiffness=0.0)
+STIFF = dict(model="rayleigh", mass=0.0, stiffness=5e-4)
+CREEP = dict(model="kelvin_voigt", relaxation_time=5e-4)
+SOFT = dict(model="rayleigh", mass=300.0, stiffness=3e-5)
 TIMES = 25  # at which runs are compared
 STEPS_OF_A_PLATE = {"bdf2": 800, "newmark": 200}
 
 
 def loaded(duration, steps, integrator, damping, platen="none", release=0.5, **loading):
     """A grid under a dead load, let go after a share of the duration; friction on a platen."""
-    loads = Loading(platen=platen, duration=duration, release_time=release * duration, **loading)
-    touch = {"none": APART, "contact": Contact(friction=0.3, slip_speed=0.5)}[platen]
-    solver = Solver(
+    loads = dict(platen=platen, duration=duration, release_time=release * duration, **loading)
+    touch = {"none": APART, "contact": dict(friction=0.3, slip_speed=0.5)}[platen]
+    solver = dict(
         time_step=duration / steps, integrator=integrator, tolerance=1e-10, joints="points"
     )
-    return Case(
+    return Case.of(
         material=MATERIAL, loading=loads, contact=touch, damping=damping, solver=solver
     )  # fmt: skip
 
 
 def struck(integrator, steps, duration, friction=None, damping=SOFT, **loading):
     """A grid that 50 g hit, glued where there is no friction."""
-    touch = APART if friction is None else Contact(friction=friction)
-    loads = Loading(striker_mass=0.05, duration=duration, **loading)
-    solver = Solver(time_step=duration / steps, integrator=integrator)
-    return Case(material=MATERIAL, loading=loads, contact=touch, damping=damping, solver=solver)
+    touch = APART if friction is None else dict(friction=friction)
+    loads = dict(striker_mass=0.05, duration=duration, **loading)
+    solver = dict(time_step=duration / steps, integrator=integrator)
+    return Case.of(material=MATERIAL, loading=loads, contact=touch, damping=damping, solver=solver)
 
 
 def orders(cases, column):
@@ -99,7 +99,7 @@ def test_orders_of_a_strike(integrator):
 
 def rubbed(steps, integrator):
     """A plate lies on a grid that creeps under it."""
-    damping = Damping(model="rayleigh", mass=300.0, stiffness=3e-4)
+    damping = dict(model="rayleigh", mass=300.0, stiffness=3e-4)
     return loaded(5e-3, steps, integrator, damping, "contact", 1.0, force=3.0)
 
 
@@ -163,12 +163,12 @@ def test_a_stiff_pendulum_is_not_safe_with_newmark():
 
 
 SCENES = {
-    "dead load": lambda how, damping, friction: Case(
+    "dead load": lambda how, damping, friction: Case.of(
         material=MATERIAL,
-        loading=Loading(force=10.0, platen="contact", release_time=0.05, duration=0.1),
-        contact=Contact(friction=friction),
+        loading=dict(force=10.0, platen="contact", release_time=0.05, duration=0.1),
+        contact=dict(friction=friction),
         damping=damping,
-        solver=Solver(time_step=1e-4, integrator=how),
+        solver=dict(time_step=1e-4, integrator=how),
     ),
     "platen": lambda how, damping, friction: pressed(
         3, 0.5, 100, "contact", friction, unload=True, speed=0.1, damping=damping,
@@ -215,12 +215,12 @@ def test_book_closes_over_halved_steps(integrator):
 def released(integrator, time_step, step_error=None, damping=CREEP):
     """A grid under 5 N, let go."""
     numerics = {"integrator": integrator, "step_error": step_error, "tolerance": 1e-9}
-    return Case(
+    return Case.of(
         material=MATERIAL,
-        loading=Loading(force=5.0, release_time=0.01, duration=0.02),
+        loading=dict(force=5.0, release_time=0.01, duration=0.02),
         contact=APART,
         damping=damping,
-        solver=Solver(time_step=time_step, **numerics),
+        solver=dict(time_step=time_step, **numerics),
     )
 
 

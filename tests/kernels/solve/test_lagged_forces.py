@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import pytest
 
-from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
 
@@ -12,19 +12,19 @@ from tests.studies.verify import MATERIAL
 def crushed(contact, **numerics):
     """Result of a 3 x 3 grid pressed between glued platens."""
     strain = numerics.pop("strain")
-    case = Case(
-        lattice=Lattice(wall_thickness=0.6e-3),
+    case = Case.of(
+        lattice=dict(wall_thickness=0.6e-3),
         material=MATERIAL,
-        loading=Loading(mode="displacement", strain=strain, unload=False, platen="glued"),
+        loading=dict(mode="displacement", strain=strain, unload=False, platen="glued"),
         contact=contact,
-        solver=Solver(**numerics),
+        solver=numerics,
     )
     return simulate(case)
 
 
 def test_contact_that_nothing_touches_takes_no_iteration():
     """Though its list of pairs is renewed in each of the long steps."""
-    models = [Contact(model=model) for model in ("barrier", "none")]
+    models = [dict(model=model) for model in ("barrier", "none")]
     summary, bare = (crushed(model, strain=0.1, load_steps=10).summary for model in models)
     assert not summary["touched"]
     assert summary["newton_iterations"] == bare["newton_iterations"]
@@ -34,7 +34,7 @@ def test_contact_that_nothing_touches_takes_no_iteration():
 def test_an_error_of_the_first_order_in_the_step():
     """The normal forces are those of the start of a step."""
     energies = [
-        crushed(Contact(friction=0.6), strain=0.5, load_steps=steps).summary["absorbed_energy_J"]
+        crushed(dict(friction=0.6), strain=0.5, load_steps=steps).summary["absorbed_energy_J"]
         for steps in (50, 100, 200, 400)
     ]
     coarse, _, fine = (abs(a - b) for a, b in pairwise(energies))
@@ -44,12 +44,12 @@ def test_an_error_of_the_first_order_in_the_step():
 
 def test_duals_that_mislead_are_forgotten():
     """Stout walls snap: Newton goes on by a hundredth of a step at a time if it keeps them."""
-    case = Case(
-        lattice=Lattice(wall_thickness=1.2e-3, nodes_per_wall=8),
-        material=Material(name="ultimaker_tpu95a"),
-        loading=Loading(mode="displacement", strain=0.6, unload=False, platen="glued"),
-        contact=Contact(friction=1.0),
-        solver=Solver(load_steps=100),
+    case = Case.of(
+        lattice=dict(wall_thickness=1.2e-3, nodes_per_wall=8),
+        material=dict(name="ultimaker_tpu95a"),
+        loading=dict(mode="displacement", strain=0.6, unload=False, platen="glued"),
+        contact=dict(friction=1.0),
+        solver=dict(load_steps=100),
     )
     assert simulate(case).status == "converged"
 
@@ -57,14 +57,14 @@ def test_duals_that_mislead_are_forgotten():
 @pytest.mark.parametrize("friction", [0.1, 0.6])
 def test_walls_of_acute_corners_are_kept_from_crossing(friction):
     """Where sliced honeycombs end on their perimeters, walls fold flat onto them."""
-    lattice = Lattice(slicer="prusa", pattern="honeycomb", infill=0.3, height=12.5e-3)
-    loading = Loading(mode="displacement", strain=0.6, unload=False, platen="contact")
-    case = Case(
+    lattice = dict(slicer="prusa", pattern="honeycomb", infill=0.3, height=12.5e-3)
+    loading = dict(mode="displacement", strain=0.6, unload=False, platen="contact")
+    case = Case.of(
         lattice=lattice,
-        material=Material(name="cheetah"),
+        material=dict(name="cheetah"),
         loading=loading,
-        contact=Contact(friction=friction),
-        solver=Solver(load_steps=100),
+        contact=dict(friction=friction),
+        solver=dict(load_steps=100),
     )
     found = simulate(case)
     assert found.status == "converged"

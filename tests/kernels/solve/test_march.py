@@ -13,7 +13,7 @@ from kernels.geometry.specimen_height import height
 from kernels.solve import march, newton, outcomes
 from kernels.solve.energy_book import kinetic
 from kernels.terms.rows import CONTACT
-from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
+from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
@@ -22,23 +22,23 @@ from tests.support.kernels.solving import at_rest, floating, go_on, ramp
 from tests.support.kernels.terms import touch_of
 
 DT = 5e-5
-RAYLEIGH = Damping(model="rayleigh", mass=2000.0, stiffness=3e-5)
-VISCOUS = Damping(model="kelvin_voigt", relaxation_time=3e-5)
+RAYLEIGH = dict(model="rayleigh", mass=2000.0, stiffness=3e-5)
+VISCOUS = dict(model="kelvin_voigt", relaxation_time=3e-5)
 DAMPINGS = pytest.mark.parametrize(
-    "damping", [UNDAMPED, RAYLEIGH, VISCOUS], ids=lambda damping: damping.model
+    "damping", [UNDAMPED, RAYLEIGH, VISCOUS], ids=lambda damping: damping["model"]
 )
 GRAVITY = 1e4  # m/s^2
 
 
 def loose(damping=UNDAMPED, friction=0.0, speed=0.0):
     """A floating 2 x 2 grid; the side walls of its lower left cell fly at one another."""
-    case = Case(
-        lattice=Lattice(cells_x=2, cells_y=2, wall_thickness=1.2e-3),
+    case = Case.of(
+        lattice=dict(cells_x=2, cells_y=2, wall_thickness=1.2e-3),
         material=MATERIAL,
-        loading=Loading(force=1.0),
-        contact=Contact(friction=friction, slip_speed=0.1),
+        loading=dict(force=1.0),
+        contact=dict(friction=friction, slip_speed=0.1),
         damping=damping,
-        solver=Solver(time_step=DT),
+        solver=dict(time_step=DT),
     )
     scene = floating(case)
     scene.terms.coordinates.load[:] = 0.0
@@ -54,7 +54,7 @@ def loose(damping=UNDAMPED, friction=0.0, speed=0.0):
 @pytest.mark.parametrize("drag", [0.0, 300.0])
 def test_free_fall_follows_the_recurrence_of_backward_euler(drag):
     """Nothing in the lattice stirs: v' = (v + a dt) / (1 + drag dt), y' = y + v' dt."""
-    damping = Damping(model="rayleigh", mass=drag, stiffness=1e-4) if drag else UNDAMPED
+    damping = dict(model="rayleigh", mass=drag, stiffness=1e-4) if drag else UNDAMPED
     case, scene, state = loose(damping)
     mass, upwards = (
         0.5 * scene.terms.coordinates.mass.sum(),
@@ -106,7 +106,7 @@ def test_what_nothing_holds_keeps_its_momentum(damping, friction):
     those of friction are of the place where it began.
     """
     case, scene, state = loose(damping, friction, 150.0)
-    kept, whole, touched = 1.0 / (1.0 + (case.damping.mass or 0.0) * DT), 0, 0.0
+    kept, whole, touched = 1.0 / (1.0 + damping.get("mass", 0.0) * DT), 0, 0.0
     for _ in range(12):
         before, taken = momentum(scene, state), state.totals[0].steps
         outcome, rows = go_on(case, scene, state, ramp(scene, 1, DT), force=1e-9)
@@ -121,7 +121,7 @@ def test_what_nothing_holds_keeps_its_momentum(damping, friction):
         drift = after.sum(axis=0) - kept * before.sum(axis=0)
         np.testing.assert_allclose(drift, 0.0, atol=allowed)
         (x, y), (px, py) = nodes(scene, state.x).T, (after - before).T
-        if damping.model != "rayleigh" and friction == 0.0:
+        if damping["model"] != "rayleigh" and friction == 0.0:
             assert abs(np.sum(x * py - y * px)) < allowed * case.lattice.height
     assert whole > 8
     assert touched > 1e-3 * rows[0].bend
@@ -154,13 +154,13 @@ def test_contact_energy_and_gap_are_those_of_all_pairs():
 
 def sliding():
     """A grid between the platens, under 3 N, that slides along both at 2 m/s."""
-    case = Case(
-        lattice=Lattice(cells_x=2, cells_y=2, wall_thickness=1.2e-3),
+    case = Case.of(
+        lattice=dict(cells_x=2, cells_y=2, wall_thickness=1.2e-3),
         material=MATERIAL,
-        loading=Loading(force=3.0, platen="contact"),
-        contact=Contact(friction=0.3, slip_speed=1e-3),
+        loading=dict(force=3.0, platen="contact"),
+        contact=dict(friction=0.3, slip_speed=1e-3),
         damping=UNDAMPED,
-        solver=Solver(time_step=DT),
+        solver=dict(time_step=DT),
     )
     scene = build_scene(case)
     state = at_rest(scene)
@@ -202,12 +202,12 @@ def test_height_is_between_rows_or_the_extent():
 
 def crush(steps, speed=None, **solver):
     """A 3 x 3 grid pressed to 30 % without contact."""
-    return Case(
+    return Case.of(
         material=MATERIAL,
-        loading=Loading(mode="displacement", strain=0.3, speed=speed, unload=False),
-        contact=Contact(model="none"),
+        loading=dict(mode="displacement", strain=0.3, speed=speed, unload=False),
+        contact=dict(model="none"),
         damping=UNDAMPED,
-        solver=Solver(load_steps=steps, **solver),
+        solver=dict(load_steps=steps, **solver),
     )
 
 
@@ -299,11 +299,11 @@ def test_an_interruption_in_the_middle_stops_early():
 @pytest.mark.parametrize("steps", [8, 400])
 def test_buckling_is_seen_however_small_the_steps(steps):
     """A straight column at twice its critical strain: a factor is not kept for ever."""
-    case = Case(
-        lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=5, imperfection=0.0),
+    case = Case.of(
+        lattice=dict(cells_x=1, cells_y=1, nodes_per_wall=5, imperfection=0.0),
         material=MATERIAL,
-        loading=Loading(mode="displacement", strain=0.03),
-        contact=Contact(model="none"),
+        loading=dict(mode="displacement", strain=0.03),
+        contact=dict(model="none"),
     )
     scene = build_scene(case)
     state, travel = at_rest(scene), 0.03 * case.lattice.height

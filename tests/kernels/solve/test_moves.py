@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.solve import newton, outcomes
-from sweep.config.case import Case, Lattice, Loading
+from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from tests.support.designs.scenes import grid
 from tests.support.kernels.solving import descend, floating, shaken, whole
@@ -47,9 +47,9 @@ def test_the_first_move_goes_as_far_as_is_admissible(seed):
 def test_walls_that_fly_at_one_another_do_not_pass(angle):
     """Whichever way they go: a node is faster than either of its coordinates."""
     size, reach = 6e-3, 3.4e-3
-    case = Case(
-        lattice=Lattice(cells_x=1, cells_y=1, width=size, height=size, imperfection=0.0),
-        loading=Loading(force=1.0),
+    case = Case.of(
+        lattice=dict(cells_x=1, cells_y=1, width=size, height=size, imperfection=0.0),
+        loading=dict(force=1.0),
     )
     scene = floating(case)
     points, across = scene.mesh.points, np.array([np.cos(angle), np.sin(angle)])

@@ -6,7 +6,7 @@ import pytest
 from kernels.solve import newton, outcomes
 from kernels.solve.problem import HELD
 from kernels.solve.residual import Tolerance, allowed, allowed_decrement
-from sweep.config.case import Case, Contact, Lattice, Loading, Solver
+from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
 from tests.studies.verify import MATERIAL
@@ -20,12 +20,12 @@ BUCKLED = 0.03  # strain, beyond that of a clamped wall, (2 pi)^2 / 12 (t / H)^2
 
 def column(elements=6):
     """One cell of perfectly straight walls between glued platens."""
-    return Case(
-        lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=elements - 1, imperfection=0.0),
+    return Case.of(
+        lattice=dict(cells_x=1, cells_y=1, nodes_per_wall=elements - 1, imperfection=0.0),
         material=MATERIAL,
-        loading=Loading(mode="displacement", strain=BUCKLED),
-        contact=Contact(model="none"),
-        solver=Solver(joints="points"),
+        loading=dict(mode="displacement", strain=BUCKLED),
+        contact=dict(model="none"),
+        solver=dict(joints="points"),
     )
 
 
@@ -78,9 +78,9 @@ def test_it_goes_on_from_what_was_evaluated_before():
 @pytest.mark.parametrize("cells_y", [3, 4])
 def test_a_loose_lattice_at_rest_is_not_unstable(cells_y, thickness):
     """It may slide and rock: pivots of zero, and what stiff walls leave of them in round-off."""
-    case = Case(
-        lattice=Lattice(cells_x=3, cells_y=cells_y, wall_thickness=thickness),
-        loading=Loading(mode="displacement", strain=0.1, platen="contact"),
+    case = Case.of(
+        lattice=dict(cells_x=3, cells_y=cells_y, wall_thickness=thickness),
+        loading=dict(mode="displacement", strain=0.1, platen="contact"),
     )
     scene = build_scene(case)
     args = whole(scene, scene.x_rest)
@@ -245,11 +245,11 @@ def test_nodes_in_one_place_leave_the_range_of_numbers():
 @pytest.mark.parametrize("platen", ["glued", "contact"])
 def test_a_driven_platen_takes_the_others_along(platen):
     """To where the quadratic model is stationary: what is left falls with the square of the way."""
-    case = Case(
-        lattice=Lattice(cells_x=2, cells_y=2),
+    case = Case.of(
+        lattice=dict(cells_x=2, cells_y=2),
         material=MATERIAL,
-        loading=Loading(mode="displacement", strain=0.1, platen=platen),
-        contact=Contact(friction=0.0),
+        loading=dict(mode="displacement", strain=0.1, platen=platen),
+        contact=dict(friction=0.0),
     )
     scene = build_scene(case)
     start, left = descend(case, scene, scene.x_rest, whole(scene, scene.x_rest)), []

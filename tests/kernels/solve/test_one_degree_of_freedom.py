@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.solve import outcomes
-from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
+from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
@@ -12,23 +12,23 @@ from tests.support.designs.scenes import UNDAMPED, pressed, unbalanced
 from tests.support.kernels.solving import at_rest, go_on, ramp
 
 DT = 5e-5
-RAYLEIGH = Damping(model="rayleigh", mass=2000.0, stiffness=3e-5)
-VISCOUS = Damping(model="kelvin_voigt", relaxation_time=3e-5)
+RAYLEIGH = dict(model="rayleigh", mass=2000.0, stiffness=3e-5)
+VISCOUS = dict(model="kelvin_voigt", relaxation_time=3e-5)
 DAMPINGS = pytest.mark.parametrize(
-    "damping", [UNDAMPED, RAYLEIGH, VISCOUS], ids=lambda damping: damping.model
+    "damping", [UNDAMPED, RAYLEIGH, VISCOUS], ids=lambda damping: damping["model"]
 )
 EXACT = {"force": 1e-13, "decrement": 1e-25}
 
 
 def single(loading, damping=UNDAMPED, **solver):
     """One cell of single elements, straight: its top row goes up and down on two springs."""
-    return Case(
-        lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=0, imperfection=0.0),
+    return Case.of(
+        lattice=dict(cells_x=1, cells_y=1, nodes_per_wall=0, imperfection=0.0),
         material=MATERIAL,
         loading=loading,
-        contact=Contact(model="none"),
+        contact=dict(model="none"),
         damping=damping,
-        solver=Solver(tolerance=1e-12, joints="points", **solver),
+        solver=dict(tolerance=1e-12, joints="points", **solver),
     )
 
 
@@ -40,19 +40,19 @@ def springs(case):
     return stiffness, scene.terms.coordinates.mass[top].sum()
 
 
-def drag_of(damping, stiffness, mass):
+def drag_of(model, stiffness, mass):
     """Damping constants (N s/m) of what moves alone, and of what acts between top and bottom."""
     return {
         "none": (0.0, 0.0),
-        "rayleigh": (RAYLEIGH.mass * mass, RAYLEIGH.stiffness * stiffness),
-        "kelvin_voigt": (0.0, VISCOUS.relaxation_time * stiffness),
-    }[damping.model]
+        "rayleigh": (RAYLEIGH["mass"] * mass, RAYLEIGH["stiffness"] * stiffness),
+        "kelvin_voigt": (0.0, VISCOUS["relaxation_time"] * stiffness),
+    }[model]
 
 
 def oscillation(case, force, steps):
     """Columns y, v of backward Euler for M y'' + C y' + K y = F, all downwards; F of every step."""
     stiffness, mass = springs(case)
-    drag = sum(drag_of(case.damping, stiffness, mass))
+    drag = sum(drag_of(case.damping.model, stiffness, mass))
     y, v, rows = 0.0, 0.0, [(0.0, 0.0)]
     for k in range(steps):
         before = y
@@ -72,12 +72,12 @@ def running(gains):
 def test_book_of_an_oscillator_is_the_closed_form_of_the_scheme(damping):
     """A load on two springs, taken off again: every row and column by hand."""
     force, held, steps = 0.2, 25, 60
-    loading = Loading(force=force, release_time=held * DT, duration=steps * DT)
+    loading = dict(force=force, release_time=held * DT, duration=steps * DT)
     case = single(loading, damping, time_step=DT)
     history = simulate(case).history
     y, v = oscillation(case, lambda k: force if k < held else 0.0, steps)
     stiffness, mass = springs(case)
-    alone, between = drag_of(damping, stiffness, mass)
+    alone, between = drag_of(damping["model"], stiffness, mass)
     dy, dv = np.diff(y), np.diff(v)
     pushed = np.where(np.arange(steps) < held, force, 0.0)
     expected = {
@@ -131,11 +131,11 @@ def stiffly(scheme, past, dt, last, system, force):
 def test_book_of_an_oscillator_by_schemes_of_second_order(damping, scheme):
     """A load on two springs, taken off again; work and losses by trapezoids but in first steps."""
     force, held, steps = 0.2, 20, 30
-    loading = Loading(force=force, release_time=held * DT, duration=steps * DT)
+    loading = dict(force=force, release_time=held * DT, duration=steps * DT)
     case = single(loading, damping, time_step=DT, integrator=scheme)
     history = simulate(case).history
     stiffness, mass = springs(case)
-    drag = sum(drag_of(damping, stiffness, mass))
+    drag = sum(drag_of(damping["model"], stiffness, mass))
     past, books = [(0.0, 0.0, 0.0)] * 2, [np.zeros(3)]
     rows, last = [(0.0, 0.0, *books[0])], 0.0
     for k in range(steps):
@@ -173,13 +173,13 @@ def test_book_of_an_oscillator_by_schemes_of_second_order(damping, scheme):
 def test_book_of_a_driven_row_is_the_closed_form_of_the_scheme(damping):
     """The platen starts at its full speed: mass, springs and damping all push back."""
     speed, steps = 0.1, 20
-    loading = Loading(mode="displacement", stroke=speed * steps * DT, speed=speed, unload=True)
+    loading = dict(mode="displacement", stroke=speed * steps * DT, speed=speed, unload=True)
     case = single(loading, damping, load_steps=steps)
     history = simulate(case).history
     y = np.concatenate([np.arange(steps + 1), np.arange(steps)[::-1]]) * speed * DT
     v = np.append(0.0, np.diff(y) / DT)
     stiffness, mass = springs(case)
-    alone, between = drag_of(damping, stiffness, mass)
+    alone, between = drag_of(damping["model"], stiffness, mass)
     force = stiffness * y + (alone + between) * v + mass * np.diff(v, prepend=0.0) / DT
     expected = {
         "top_displacement_m": y,
@@ -200,7 +200,7 @@ def test_book_of_a_driven_row_is_the_closed_form_of_the_scheme(damping):
 def test_book_of_a_static_spring_is_exact():
     """Trapezoids: a straight line loses nothing, whatever the number of steps."""
     stroke = 5e-5
-    case = single(Loading(mode="displacement", stroke=stroke, unload=True), load_steps=4)
+    case = single(dict(mode="displacement", stroke=stroke, unload=True), load_steps=4)
     history = simulate(case).history
     stiffness, _ = springs(case)
     y = np.array([0, 1, 2, 3, 4, 3, 2, 1, 0]) / 4 * stroke
@@ -212,7 +212,7 @@ def test_book_of_a_static_spring_is_exact():
 
 
 def test_a_static_load_that_grows_does_half_of_its_work():
-    case = single(Loading(force=0.2))
+    case = single(dict(force=0.2))
     scene = build_scene(case)
     state = at_rest(scene)
     outcome, rows = go_on(case, scene, state, ramp(scene, 3, factor=(0.0, 1.0)), **EXACT)

@@ -7,7 +7,7 @@ import pytest
 
 from kernels.solve import outcomes
 from kernels.terms import friction
-from sweep.config.case import Case, Loading
+from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from tests.support.designs.scenes import SEED, VISCOUS, loaded, pressed, run, slopes
 from tests.support.kernels.solving import descend, free_of, residual, whole
@@ -65,7 +65,7 @@ def crushed(**solver):
 
 def folded():
     """A measured curve under a dead load that its walls do not bear, in one step of 1 ms."""
-    return Descent(Case(loading=Loading(mode="force", force=20.0)), 1e-3)
+    return Descent(Case.of(loading=dict(mode="force", force=20.0)), 1e-3)
 
 
 class Descent:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from sweep.config.case import Case, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.support.designs.structures import APART, CLAMPED, UNDAMPED, probe, structure
 
@@ -29,13 +29,13 @@ def pulled(integrator, modulus=12e6, force=1.0, time_step=1e-6):
     }
     in_time = integrator in SCHEMES
     steps = {"time_step": time_step} if in_time else {"load_steps": 40}
-    return Case(
-        lattice=Lattice(kind="custom", structure=structure(**parts)),
-        material=Material(modulus=modulus, density=DENSITY, poisson=0.48, plane="stress"),
-        loading=Loading(duration=STEPS * time_step) if in_time else Loading(),
+    return Case.of(
+        lattice=dict(kind="custom", structure=structure(**parts)),
+        material=dict(modulus=modulus, density=DENSITY, poisson=0.48, plane="stress"),
+        loading=dict(duration=STEPS * time_step) if in_time else {},
         contact=APART,
         damping=UNDAMPED,
-        solver=Solver(integrator=integrator, **steps),
+        solver=dict(integrator=integrator, **steps),
     )
 
 
@@ -93,10 +93,8 @@ def drawn_by_a_spring(integrator, time_step, force=1.0):
         "springs": [{"nodes": [1, 2], "stiffness_N_mm": force, "rest_length_mm": 9.0}],
         "probes": [1],
     }
-    lattice = Lattice(kind="custom", structure=structure(**parts))
-    return pulled(integrator, force=0.0, time_step=time_step).model_copy(
-        update={"lattice": lattice}
-    )
+    lattice = dict(kind="custom", structure=structure(**parts))
+    return pulled(integrator, force=0.0, time_step=time_step).changed(lattice=lattice)
 
 
 @pytest.mark.parametrize("integrator", SCHEMES)

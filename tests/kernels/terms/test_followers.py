@@ -7,7 +7,7 @@ tied to the platen.
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Lattice, Solver
+from sweep.config.case import Case
 from sweep.scene.custom import build_structure
 from tests.support.designs.structures import APART, BEAM, MATERIAL, structure
 from tests.support.kernels import pressed_plates, solving, states
@@ -31,11 +31,11 @@ def of_plates(name):
 
 
 def prescribed():
-    case = Case(
-        lattice=Lattice(kind="custom", structure=structure(**BEAM, **PULLED)),
+    case = Case.of(
+        lattice=dict(kind="custom", structure=structure(**BEAM, **PULLED)),
         material=MATERIAL,
         contact=APART,
-        solver=Solver(integrator="static"),
+        solver=dict(integrator="static"),
     )
     return in_the_plane(build_structure(case))
 

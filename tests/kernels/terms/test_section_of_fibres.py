@@ -10,8 +10,8 @@ from scipy.optimize import brentq
 from kernels.laws.law import Memory
 from kernels.laws.yielding import STATE
 from kernels.terms.section import bent
-from sweep.config.case import Material
 from sweep.scene.material import FIBRE, OUTER, law_of_section
+from tests.support.designs.tables import material_with
 
 MODULUS, LIMIT = 2e9, 40e6
 FIRST = 2.0 * LIMIT / MODULUS  # curvature x thickness at which the surface yields
@@ -22,7 +22,7 @@ COUNTS = (5, 7, 9)
 
 def plastic(count, hardening=0.0):
     """A section of a material that yields and does not contract."""
-    material = Material(
+    material = material_with(
         modulus=MODULUS, density=1200.0, poisson=0.0, yield_stress=LIMIT,
         hardening=hardening, bend="fibres", fibres=count,
     )  # fmt: skip
@@ -115,7 +115,7 @@ def test_more_fibres_find_the_moment_of_a_rubber(name):
     curvatures = np.array([0.1, 0.3, 0.6])
 
     def moments(**keys):
-        law = law_of_section(Material(name=name, **keys), 1.0, 0.48)
+        law = law_of_section(material_with(name=name, **keys), 1.0, 0.48)
         return np.array([moment(law, each) for each in curvatures])
 
     fine = moments(bend="fibres", fibres=15)

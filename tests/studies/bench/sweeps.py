@@ -35,7 +35,7 @@ def changed(case, **tables):
     """A case with some keys of some tables changed."""
     given = {name: getattr(case, name).model_copy(update=keys) for name, keys in tables.items()}
     kept = {name: getattr(case, name) for name in Case.model_fields if name not in given}
-    return Case(**kept, **given)
+    return Case.of(**kept, **given)
 
 
 class Swept(NamedTuple):

@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.scene.beams import plane_factors
 from sweep.simulation.simulate import simulate
 from tests.studies.continuum.rubber import Rubber
+from tests.support.designs.tables import material_with
 
 MM = 1e-3
 MPA = 1e6
@@ -21,11 +22,11 @@ def material(rubber, plane, bend):
     A curve is one of plane stress: the network raises its stresses to those of plane strain.
     """
     numbers = {"modulus": MPA * rubber.modulus, "poisson": rubber.poisson, "plane": plane}
-    plain = Material(**numbers, density=1190.0, bend="linear")
+    plain = material_with(**numbers, density=1190.0, bend="linear")
     if bend == "linear":
         return plain
     stress = MPA * rubber.uniaxial(1.0 + STRAINS) / plane_factors(plain)[1]
-    return Material(
+    return material_with(
         **numbers,
         density=1190.0,
         name="neo-Hookean",
@@ -53,8 +54,8 @@ class Network:
     def case(self, strain, steps):
         """A crush up to a strain."""
         grid = self.grid
-        return Case(
-            lattice=Lattice(
+        return Case.of(
+            lattice=dict(
                 cells_x=grid.cells,
                 cells_y=grid.cells,
                 width=grid.width * MM,
@@ -65,9 +66,9 @@ class Network:
                 imperfection=grid.bow,
             ),
             material=material(self.rubber, self.plane, self.bend),
-            loading=Loading(mode="displacement", strain=strain, unload=False, platen="glued"),
-            contact=Contact(model=self.contact, friction=0.0),
-            solver=Solver(load_steps=steps, joints=self.joints),
+            loading=dict(mode="displacement", strain=strain, unload=False, platen="glued"),
+            contact=dict(model=self.contact, friction=0.0),
+            solver=dict(load_steps=steps, joints=self.joints),
         )
 
     def crush(self, strain, steps=STEPS):

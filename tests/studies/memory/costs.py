@@ -2,7 +2,7 @@
 
 import time
 
-from sweep.config.case import Case, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.numbers import tenths
 from sweep.report.tables.sheet import Sheet
 from sweep.simulation.simulate import simulate
@@ -17,11 +17,11 @@ ELASTIC = {"elastic": {}}
 
 def crush(part, steps):
     """A crush of the default lattice to 60 % and back."""
-    return Case(
-        lattice=Lattice(),
-        material=Material(**part),
-        loading=Loading(mode="displacement", strain=0.6),
-        solver=Solver(load_steps=steps),
+    return Case.of(
+        lattice={},
+        material=part,
+        loading=dict(mode="displacement", strain=0.6),
+        solver=dict(load_steps=steps),
     )
 
 

@@ -4,10 +4,11 @@ from itertools import product
 
 import numpy as np
 
-from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.numbers import tenths
 from sweep.report.tables.sheet import Sheet
 from tests.studies.rankings.spread import CELLS
+from tests.support.designs.tables import lattice_with
 
 PATTERNS = ("square", "hex", "circle", "triangle", "kagome")
 LOSSES = (None, 0.2, 0.4)
@@ -21,12 +22,12 @@ BOX = {"width": 20e-3, "height": 20e-3, "mass": 1.2e-3}
 def cycle(pattern, platen, friction, loss, strain=DEEP):
     """One cycle of a lattice, quasi-static."""
     cells = CELLS[pattern]
-    return Case(
-        lattice=Lattice(kind=pattern, cells_x=cells, cells_y=cells, **BOX),
-        material=Material(loss=loss),
-        loading=Loading(mode="displacement", strain=strain, platen=platen),
-        contact=Contact(friction=friction),
-        solver=Solver(load_steps=200),
+    return Case.of(
+        lattice=dict(kind=pattern, cells_x=cells, cells_y=cells, **BOX),
+        material=dict(loss=loss),
+        loading=dict(mode="displacement", strain=strain, platen=platen),
+        contact=dict(friction=friction),
+        solver=dict(load_steps=200),
     )
 
 
@@ -60,14 +61,14 @@ def rated():
     """Crushes of one lattice at all rates: (rate, moving) -> case; moving: with inertia."""
     found = {}
     for rate, moving in product(RATES, (False, True)):
-        lattice = Lattice()
+        lattice = lattice_with()
         pace = {"speed": rate * lattice.height} if moving else {"strain_rate": rate}
-        found[rate, moving] = Case(
+        found[rate, moving] = Case.of(
             lattice=lattice,
-            material=Material(loss=0.4),
-            loading=Loading(mode="displacement", strain=DEEP, quasi_static=not moving, **pace),
-            damping=Damping(),
-            solver=Solver(load_steps=200),
+            material=dict(loss=0.4),
+            loading=dict(mode="displacement", strain=DEEP, quasi_static=not moving, **pace),
+            damping={},
+            solver=dict(load_steps=200),
         )
     return found
 

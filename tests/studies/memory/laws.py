@@ -1,6 +1,6 @@
 """What laws of the walls cost: processor time of a crush against that of elastic sections."""
 
-from sweep.config.case import Case, Lattice, Loading, Material
+from sweep.config.case import Case
 from sweep.report.tables.sheet import Sheet
 from sweep.simulation.simulate import simulate
 from tests.studies.bench.measuring.clock import medians, seconds
@@ -23,10 +23,10 @@ LAWS = {
 
 def case_of(material):
     """A grid of 3 x 3 cells crushed to `STRAIN`."""
-    return Case(
-        lattice=Lattice(),
-        material=Material(**material),
-        loading=Loading(mode="displacement", strain=STRAIN),
+    return Case.of(
+        lattice={},
+        material=material,
+        loading=dict(mode="displacement", strain=STRAIN),
     )
 
 

@@ -4,14 +4,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from sweep.config.case import Case, Loading
+from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.studies.memory import costs, cycles, orders
 from tests.studies.memory.__main__ import CONFIGS
 from tests.studies.memory.variants import PARTS, changed
 from tests.support import readme
 
-PRESSED = Case(loading=Loading(mode="displacement", strain=0.2))
+PRESSED = Case.of(loading=dict(mode="displacement", strain=0.2))
 
 
 def test_parts_change_the_material_alone():
@@ -20,7 +20,7 @@ def test_parts_change_the_material_alone():
         assert (case.lattice, case.contact) == (PRESSED.lattice, PRESSED.contact)
         assert {key: getattr(case.material, key) for key in part} == part
     assert changed(PRESSED, {}).case_id == PRESSED.case_id
-    struck = changed(Case(loading=Loading(mode="impact")), {"loss": 0.2})
+    struck = changed(Case.of(loading=dict(mode="impact")), {"loss": 0.2})
     assert struck.damping.model == "none"
 
 

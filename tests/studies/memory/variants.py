@@ -1,6 +1,7 @@
 """Cases whose material has a memory, beside the same cases without."""
 
-from sweep.config.case import TABLES, Case, Damping, Material
+from sweep.config.case import TABLES, Case
+from tests.support.designs.tables import material_with
 
 SOFTENED = {"softening_r": 7.0, "softening_m": 1e5}  # assumed: see configs/reuse.toml
 PARTS = {
@@ -19,7 +20,7 @@ def changed(case, part):
     """A case with the keys of ``part`` in its material. What relaxes has no other damping."""
     given = {key: getattr(case.material, key) for key in KEPT} | CURVED | part
     tables = {name: getattr(case, name) for name in TABLES}
-    tables["material"] = Material(**given)
+    tables["material"] = material_with(**given)
     if tables["material"].relaxes:
-        tables["damping"] = Damping()
-    return Case(**tables)
+        tables["damping"] = {}
+    return Case.of(**tables)

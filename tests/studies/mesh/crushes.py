@@ -5,8 +5,8 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
-from sweep.config.case import Case, Contact
-from sweep.config.defaults.elements import nodes_of
+from sweep.config.case import Case
+from sweep.config.kinds.mesh import nodes_of
 from sweep.design.lattice import build_network
 from sweep.result import Status
 from tests.studies.rankings.spread import ALLOWED, CELLS, crush
@@ -43,10 +43,10 @@ def cases_of(designs=DESIGNS, meshes=(*MESHES, *FINEST)):
 def without_contact(cases):
     """The crushes between glued platens, with walls that pass through one another."""
     return {
-        (design, n): Case(
+        (design, n): Case.of(
             lattice=case.lattice,
             loading=case.loading,
-            contact=Contact(model="none"),
+            contact=dict(model="none"),
             solver=case.solver,
         )
         for (design, n), case in cases.items()

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from sweep.config.defaults.elements import EIGHT, THREE, WITH_THREE
+from sweep.config.kinds.mesh import EIGHT, THREE, WITH_THREE
 from sweep.numbers import short, tenths
 from sweep.report.tables.sheet import Sheet
 from tests.studies.mesh.crushes import APART, BASE, COLUMNS, DESIGN, FINEST, LASTING, WINDOW

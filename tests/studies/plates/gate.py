@@ -12,7 +12,7 @@ from functools import cache
 
 import numpy as np
 
-from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.studies.plates.tied import Platen
 from tests.studies.plates.tube import CLAMPED, HINGED, SolidTube
@@ -85,8 +85,8 @@ def solid(thickness, ends, shortenings, **mesh):
 def plates(thickness, ends, last, n):
     """Curve of the plates, n quads a wall; ``last``: greatest shortening."""
     n = min(n, int(4.0 / thickness * (1.0 + 1e-9)))
-    case = Case(
-        lattice=Lattice(
+    case = Case.of(
+        lattice=dict(
             kind="square",
             cells_x=1,
             cells_y=1,
@@ -99,16 +99,16 @@ def plates(thickness, ends, last, n):
             imperfection=0.02,
             symmetry="quarter",
         ),
-        loading=Loading(
+        loading=dict(
             mode="displacement",
             direction="out_of_plane",
             strain=last * strain(thickness),
             platen=PLATEN[ends],
             unload=False,
         ),
-        material=Material(modulus=67e6, stretch="linear", bend="linear", density=1180.0),
-        contact=Contact(model="none", friction=0.0),
-        solver=Solver(integrator="static", load_steps=round(20 * last)),
+        material=dict(modulus=67e6, stretch="linear", bend="linear", density=1180.0),
+        contact=dict(model="none", friction=0.0),
+        solver=dict(integrator="static", load_steps=round(20 * last)),
     )
     result = simulate(case)
     if result.status != "converged":

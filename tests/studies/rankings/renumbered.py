@@ -11,7 +11,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from sweep.config.case import Case, Contact, Lattice, Loading, Material
+from sweep.config.case import Case
 from sweep.design.lattice import build_network
 from sweep.scene.mesh import build_mesh
 from sweep.simulation.simulate import simulate
@@ -59,11 +59,11 @@ def crushed(case, seed):
 
 def scene(friction, imperfection=0.01):
     """The 3 x 3 grid pressed by half between loose platens."""
-    return Case(
-        lattice=Lattice(imperfection=imperfection),
-        material=Material(name="ultimaker_tpu95a"),
-        loading=Loading(mode="displacement", strain=0.5, platen="contact"),
-        contact=Contact(friction=friction),
+    return Case.of(
+        lattice=dict(imperfection=imperfection),
+        material=dict(name="ultimaker_tpu95a"),
+        loading=dict(mode="displacement", strain=0.5, platen="contact"),
+        contact=dict(friction=friction),
     )
 
 

@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from sweep.columns import ABSORBED_AT
-from sweep.config.case import Case, Contact, Lattice, Loading, Solver
+from sweep.config.case import Case
 from sweep.numbers import tenths
 from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
@@ -49,13 +49,13 @@ def crush(design, elements, imperfection, steps):
     kind, (platen, mass) = design
     box = {"width": 20e-3, "height": 20e-3, "cells_x": CELLS[kind], "cells_y": CELLS[kind]}
     numerics = {"nodes_per_wall": elements - 1, "imperfection": imperfection}
-    return Case(
-        lattice=Lattice(kind=kind, mass=mass, **box, **numerics),
-        loading=Loading(
+    return Case.of(
+        lattice=dict(kind=kind, mass=mass, **box, **numerics),
+        loading=dict(
             mode="displacement", strain=0.6, platen=platen, unload=False, allowed_forces=ALLOWED
         ),
-        contact=Contact(friction=0.3),
-        solver=Solver(load_steps=steps, time_limit=PATIENCE),
+        contact=dict(friction=0.3),
+        solver=dict(load_steps=steps, time_limit=PATIENCE),
     )
 
 

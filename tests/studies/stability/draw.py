@@ -8,13 +8,13 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from pydantic import ValidationError
 
 from sweep.config.case import TABLES, Case
 from sweep.config.keys import case_keys
-from sweep.config.lattice_table import Lattice
+from sweep.config.kinds.table import RefusedError
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
+from tests.support.designs.tables import lattice_with
 
 COUNT, SEED = 500, 20
 MEMORY = 1000  # beyond `COUNT`: first number of a scene with a memory
@@ -81,7 +81,7 @@ def scene(number):
                 keys["solver.bend_measure"] = "angle"
             keys |= _loading(draw, keys)
             return keys, case_of(keys)
-        except ValidationError:
+        except RefusedError:
             continue
 
 
@@ -100,7 +100,7 @@ def remembering(number):
     while True:
         try:
             return case_of(keys | _memory(draw, keys))
-        except ValidationError:
+        except RefusedError:
             continue
 
 
@@ -139,7 +139,7 @@ def case_of(keys):
     keys = dict(keys)
     if keys.get("material.name", "").endswith(".csv"):
         keys["material.name"] = str(CONFIGS / keys["material.name"])
-    return Case(**{name: _table(ALIKE | keys, name) for name in TABLES})
+    return Case.of(**{name: _table(ALIKE | keys, name) for name in TABLES})
 
 
 def _table(keys, name):
@@ -177,7 +177,7 @@ def _lattice(draw):
         "grading": draw.between(0.3, 3.0) if draw.chance(0.1) else 1.0,
         "imperfection": 0.0 if draw.chance(0.5) else draw.between(1e-6, 1.0),
     }
-    thin = Lattice(**keys, wall_thickness=1e-4 * min(keys["width"] / cells_x, pitch))
+    thin = lattice_with(**keys, wall_thickness=1e-4 * min(keys["width"] / cells_x, pitch))
     joints, walls = thin._counts
     if joints + walls * keys["nodes_per_wall"] > MOST_NODES:
         keys["nodes_per_wall"] = max(0, (MOST_NODES - joints) // walls)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sweep.config.case import Case, Lattice, Loading, Solver
+from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.support.designs.scenes import STORED, UNDAMPED, summed
 from tests.support.designs.structures import APART, GRAVITY, LENGTH, MATERIAL, set_off, structure
@@ -14,13 +14,13 @@ SOFT, STIFF = 12e6, 12e9  # Pa
 
 def moving(parts, duration, steps, integrator, damping=UNDAMPED, material=MATERIAL, tolerance=1e-8):
     """A structure that moves for a while, s."""
-    return Case(
-        lattice=Lattice(kind="custom", structure=structure(**parts)),
+    return Case.of(
+        lattice=dict(kind="custom", structure=structure(**parts)),
         material=material,
-        loading=Loading(duration=duration),
+        loading=dict(duration=duration),
         contact=APART,
         damping=damping,
-        solver=Solver(time_step=duration / steps, integrator=integrator, tolerance=tolerance),
+        solver=dict(time_step=duration / steps, integrator=integrator, tolerance=tolerance),
     )
 
 

@@ -4,7 +4,7 @@ import numpy as np
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
-from sweep.config.case import Case, Contact, Lattice, Solver
+from sweep.config.case import Case
 from sweep.scene.custom import build_structure
 from tests.studies.validation.problem import Problem
 from tests.support.designs.structures import (
@@ -53,12 +53,12 @@ def frequency(mode):
 
     def value(pieces):
         parts = BEAM | {"subdivide": pieces}
-        lattice = Lattice(kind="custom", structure=structure(**parts))
-        case = Case(
+        lattice = dict(kind="custom", structure=structure(**parts))
+        case = Case.of(
             lattice=lattice,
             material=MATERIAL,
-            contact=Contact(model="none"),
-            solver=Solver(integrator="static"),
+            contact=dict(model="none"),
+            solver=dict(integrator="static"),
         )
         scene = build_structure(case)
         n, leader = scene.x_rest.size, scene.terms.layout.leader

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from sweep.config.case import Lattice
 from sweep.design.lattice import build_network
 from tests.studies.validation.joints import ARM, CROSS
 from tests.support.designs.structures import CLAMPED, LENGTH, MM
+from tests.support.designs.tables import lattice_with
 
 HINGED = ["x", "y"]
 FLAT = 12.5  # mm, height and width of the grid
@@ -55,13 +55,13 @@ def on_corner(slenderness, share):
 def grid(thickness, share):
     """The grid of 3 x 3 cells, glued, perfect; thickness in mm, and a share of the height."""
     box = {"cells_x": 3, "cells_y": 3, "width": FLAT * MM, "height": FLAT * MM}
-    return _glued(Lattice(kind="square", **box), thickness, share)
+    return _glued(lattice_with(kind="square", **box), thickness, share)
 
 
 def hexagons(slenderness, share):
     """Two rows of two regular hexagons, glued; thickness / side, and a share of the height."""
     box = {"cells_x": 2, "cells_y": 2, **{key: size * MM for key, size in REGULAR.items()}}
-    return _glued(Lattice(kind="hex", **box), slenderness * SIDE, share)
+    return _glued(lattice_with(kind="hex", **box), slenderness * SIDE, share)
 
 
 def _glued(lattice, thickness, share):

@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from sweep.config.case import Contact
+from sweep.config.kinds.contact import Contact
 from sweep.result import Result
 from tests.studies.validation import frames, pressed
 from tests.studies.validation.elastica import cantilever
@@ -102,7 +102,7 @@ def lattices():
         lambda result: result.history["work_in_J"][-1],
         lambda scene: scene.value(FINEST),
         steps=120,
-        contact=Contact(friction=0.0),
+        contact=dict(friction=0.0),
     )
 
 

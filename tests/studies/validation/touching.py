@@ -3,7 +3,6 @@
 import numpy as np
 from scipy.optimize import brentq
 
-from sweep.config.case import Contact, Damping
 from tests.studies.validation.problem import Problem
 from tests.support.designs.structures import (
     BENDING,
@@ -22,8 +21,8 @@ from tests.support.designs.structures import (
 )
 
 L, G = LENGTH * MM, GRAVITY * MM
-SMOOTH = Contact(friction=0.0)
-HEAVY = Damping(model="rayleigh", mass=50.0, stiffness=1e-3)
+SMOOTH = dict(friction=0.0)
+HEAVY = dict(model="rayleigh", mass=50.0, stiffness=1e-3)
 
 
 def dropped(pieces):
@@ -68,7 +67,7 @@ def piled(pieces):
         "subdivide": pieces,
         "probes": [0, 1, 2, 3],
     }
-    result = let_go(parts, 0.02, 2e-5, SMOOTH, Damping(model="rayleigh", mass=5e3, stiffness=1e-5))
+    result = let_go(parts, 0.02, 2e-5, SMOOTH, dict(model="rayleigh", mass=5e3, stiffness=1e-5))
     return (probe(result, 3, "y_m")[-1] - probe(result, 1, "y_m")[-1]) / (MM * THICKNESS)
 
 

@@ -1,8 +1,8 @@
 """Cases for tests of a config."""
 
-from sweep.config.case import Case, Loading
+from sweep.config.case import Case
 
 
 def pressed(**loading):
     """A case under a platen that moves."""
-    return Case(loading=Loading(mode="displacement", **loading))
+    return Case.of(loading=dict(mode="displacement", **loading))

@@ -2,26 +2,26 @@
 
 import numpy as np
 
-from sweep.config.case import Case, Lattice, Loading, Solver
+from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from tests.studies.verify import MATERIAL
 
 DEPTH, THICKNESS, WALL = 12e-3, 0.8e-3, 12.5e-3 / 3
 LOADINGS = {
-    "none": Loading(force=5.0),
-    "contact": Loading(force=5.0, platen="contact"),
-    "glued": Loading(force=5.0, platen="glued"),
-    "driven, contact": Loading(mode="displacement", platen="contact"),
-    "driven, glued": Loading(mode="displacement", platen="glued"),
+    "none": dict(force=5.0),
+    "contact": dict(force=5.0, platen="contact"),
+    "glued": dict(force=5.0, platen="glued"),
+    "driven, contact": dict(mode="displacement", platen="contact"),
+    "driven, glued": dict(mode="displacement", platen="glued"),
 }
 
 
 def scene_of(elements=3, platen="none", imperfection=0.0, **tables):
     """A 3 x 3 grid of a linear material in plane stress, with joints that are points."""
-    lattice = Lattice(nodes_per_wall=elements - 1, imperfection=imperfection)
+    lattice = dict(nodes_per_wall=elements - 1, imperfection=imperfection)
     chosen = {"lattice": lattice, "material": MATERIAL, "loading": LOADINGS[platen]}
-    chosen |= {"solver": Solver(joints="points")} | tables
-    return build_scene(Case(**chosen))
+    chosen |= {"solver": dict(joints="points")} | tables
+    return build_scene(Case.of(**chosen))
 
 
 def row_of_nodes(scene, height):

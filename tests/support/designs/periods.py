@@ -4,32 +4,33 @@ from unittest.mock import patch
 
 import numpy as np
 
-from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.design import period
 from sweep.design.drawing import welded
+from tests.support.designs.tables import lattice_with, material_with
 
 Y, NU, L, DEPTH = 12e6, 0.48, 4e-3, 10e-3
 PLANE = Y / (1 - NU**2)
-MATERIAL = Material(modulus=Y, density=1e3, poisson=NU)
+MATERIAL = material_with(modulus=Y, density=1e3, poisson=NU)
 PITCH = {"hex": (0.6 * 3**0.5, 0.9), "kagome": (1.0, 0.75**0.5)}
 
 
 def lattice_of(kind, cells, slenderness, **chosen):
     pitch = PITCH.get(kind, (1.0, 1.0))
     width, height = (L * n * length for n, length in zip(cells, pitch, strict=True))
-    return Lattice(
+    return lattice_with(
         kind=kind, boundary="periodic", cells_x=cells[0], cells_y=cells[1], width=width,
         height=height, depth=DEPTH, wall_thickness=slenderness * L, **chosen,
     )  # fmt: skip
 
 
 def pressed(lattice, strain=0.6, steps=60, friction=0.0, model="barrier", unload=False):
-    return Case(
+    return Case.of(
         lattice=lattice,
         material=MATERIAL,
-        loading=Loading(mode="displacement", strain=strain, unload=unload),
-        contact=Contact(model=model, friction=friction),
-        solver=Solver(load_steps=steps, joints="points"),
+        loading=dict(mode="displacement", strain=strain, unload=unload),
+        contact=dict(model=model, friction=friction),
+        solver=dict(load_steps=steps, joints="points"),
     )
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sweep.config.case import Case, Lattice, Loading
+from sweep.config.case import Case
 from sweep.design.infill import families
 from sweep.design.network import Network
 
@@ -13,8 +13,8 @@ BOX, T = 12e-3, 0.3e-3
 def along(platen="glued", **lattice):
     """A case of 3 x 3 cells in a cube of 12 mm with walls of 0.3 mm, or of another ``lattice``."""
     box = {"width": BOX, "height": BOX, "depth": BOX, "wall_thickness": T}
-    loading = Loading(direction="out_of_plane", platen=platen)
-    return Case(lattice=Lattice(**box | lattice), loading=loading)
+    loading = dict(direction="out_of_plane", platen=platen)
+    return Case.of(lattice=box | lattice, loading=loading)
 
 
 def network(points, walls, thickness=0.3e-3):

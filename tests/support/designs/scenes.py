@@ -5,14 +5,14 @@ A 3 x 3 grid, 12.5 mm over centre lines, walls of 0.8 mm, of the linear material
 
 import numpy as np
 
-from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
+from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
 
-UNDAMPED = Damping(model="none")
-SEED = Damping()  # Rayleigh, as light as the seed's
-HEAVY = Damping(model="rayleigh", mass=50.0, stiffness=1e-3)
-VISCOUS = Damping(model="kelvin_voigt", relaxation_time=1e-3)
+UNDAMPED = dict(model="none")
+SEED = {}  # Rayleigh, as light as the seed's
+HEAVY = dict(model="rayleigh", mass=50.0, stiffness=1e-3)
+VISCOUS = dict(model="kelvin_voigt", relaxation_time=1e-3)
 
 STORED = ("kinetic_J", "stretch_J", "bend_J", "contact_J")
 LOST = ("dissipated_material_J", "dissipated_friction_J", "dissipated_integrator_J")
@@ -34,10 +34,10 @@ def pressed(
     """Crush to ``strain`` in equal steps, quasi-static without a ``speed`` (m/s); ``elements`` a
     wall, joints that are points.
     """
-    return Case(
-        lattice=Lattice(nodes_per_wall=elements - 1, imperfection=imperfection),
+    return Case.of(
+        lattice=dict(nodes_per_wall=elements - 1, imperfection=imperfection),
         material=MATERIAL,
-        loading=Loading(
+        loading=dict(
             mode="displacement",
             strain=strain,
             speed=speed,
@@ -45,9 +45,9 @@ def pressed(
             unload=unload,
             platen=platen,
         ),
-        contact=Contact(model=contact, friction=friction),
+        contact=dict(model=contact, friction=friction),
         damping=damping,
-        solver=Solver(load_steps=steps, **{"joints": "points"} | (solver or {})),
+        solver=dict(load_steps=steps, **{"joints": "points"} | (solver or {})),
     )
 
 
@@ -62,18 +62,18 @@ def loaded(
     element="cubic",
 ):
     """Sudden dead load, three elements a wall; contact only between platens in contact."""
-    return Case(
+    return Case.of(
         material=MATERIAL,
-        loading=Loading(
+        loading=dict(
             mode="force",
             force=force,
             platen=platen,
             release_time=release_time,
             duration=duration,
         ),
-        contact=Contact(model="none" if platen == "none" else "barrier", friction=friction),
+        contact=dict(model="none") if platen == "none" else dict(friction=friction),
         damping=damping,
-        solver=Solver(time_step=time_step, element=element, joints="points"),
+        solver=dict(time_step=time_step, element=element, joints="points"),
     )
 
 
@@ -137,11 +137,11 @@ def is_sound(result):
 
 def grid(force, platen="none", contact="none", elements=3):
     """A 2 x 2 grid under a dead load."""
-    return Case(
-        lattice=Lattice(cells_x=2, cells_y=2, nodes_per_wall=elements - 1),
+    return Case.of(
+        lattice=dict(cells_x=2, cells_y=2, nodes_per_wall=elements - 1),
         material=MATERIAL,
-        loading=Loading(force=force, platen=platen),
-        contact=Contact(model=contact, friction=0.0),
-        damping=Damping(model="none"),
-        solver=Solver(time_step=1e-3, joints="points"),
+        loading=dict(force=force, platen=platen),
+        contact=dict(model=contact, friction=0.0),
+        damping=dict(model="none"),
+        solver=dict(time_step=1e-3, joints="points"),
     )

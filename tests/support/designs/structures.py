@@ -7,19 +7,20 @@ import json
 
 import numpy as np
 
-from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.config.structures.structure import Structure
 from sweep.simulation.simulate import simulate
+from tests.support.designs.tables import material_with
 
-MATERIAL = Material(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
+MATERIAL = material_with(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
 MM = 1e-3
 LENGTH, THICKNESS, DEPTH = 100.0, 1.0, 10.0  # mm
 BENDING = 12e6 * DEPTH * THICKNESS**3 / 12 * MM**4  # Y I, N m^2
 AXIAL = 12e6 * DEPTH * THICKNESS * MM**2  # Y A, N
 MASS = 1190.0 * LENGTH * THICKNESS * DEPTH * MM**3  # of a wall of `LENGTH`, kg
 GRAVITY = 9810.0  # mm/s^2
-APART = Contact(model="none")
-UNDAMPED = Damping(model="none")
+APART = dict(model="none")
+UNDAMPED = dict(model="none")
 FIRST_ROOT = 1.8751040687119611  # of cos k cosh k = -1: first mode of a cantilever
 CLAMPED = ["x", "y", "rotation"]
 ROD = {"nodes_mm": [[0, 0], [LENGTH, 0]], "walls": [[0, 1]], "probes": [0, 1]}
@@ -45,24 +46,24 @@ def structure(**parts):
 
 def pushed(parts, steps=10, contact=APART, integrator="static", **solver):
     """Result of a structure that is loaded in equal increments, or along arcs."""
-    case = Case(
-        lattice=Lattice(kind="custom", structure=structure(**parts)),
+    case = Case.of(
+        lattice=dict(kind="custom", structure=structure(**parts)),
         material=MATERIAL,
         contact=contact,
-        solver=Solver(integrator=integrator, load_steps=steps, **solver),
+        solver=dict(integrator=integrator, load_steps=steps, **solver),
     )
     return finished(case)
 
 
 def let_go(parts, duration, time_step, contact=APART, damping=UNDAMPED, material=MATERIAL):
     """Result of a structure that moves for a while, s."""
-    case = Case(
-        lattice=Lattice(kind="custom", structure=structure(**parts)),
+    case = Case.of(
+        lattice=dict(kind="custom", structure=structure(**parts)),
         material=material,
-        loading=Loading(duration=duration),
+        loading=dict(duration=duration),
         contact=contact,
         damping=damping,
-        solver=Solver(time_step=time_step),
+        solver=dict(time_step=time_step),
     )
     return finished(case)
 

@@ -18,34 +18,35 @@ from kernels.plates.contacts.touching import no_contacts
 from kernels.plates.element import shell
 from kernels.plates.problem import Plates
 from kernels.solve.problem import NO_ROOM, Step
-from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.scene.plates.scene import build_scene
+from tests.support.designs.tables import material_with
 from tests.support.kernels.solving import Whole
 from tests.support.kernels.terms import nowhere
 
 SIDE, T = 4e-3, 0.4e-3
-LINEAR = Material(name="ultimaker_tpu95a", stretch="linear")
-RELAXING = Material(name="ultimaker_tpu95a", stretch="linear", loss=0.4)
+LINEAR = material_with(name="ultimaker_tpu95a", stretch="linear")
+RELAXING = material_with(name="ultimaker_tpu95a", stretch="linear", loss=0.4)
 MOVED = 0.02  # of a quad, in a step that ends in a state
 DT = 1e-4
 
 
 def tube(loading, symmetry="none", steps=20, friction=0.3, material=LINEAR):
     """A case of a square tube of 4 x 4 x 8 mm with walls of 0.4 mm."""
-    return Case(
-        lattice=Lattice(
+    return Case.of(
+        lattice=dict(
             cells_x=1, cells_y=1, nodes_per_wall=5 if symmetry == "quarter" else 2, layers=6,
             width=SIDE, height=SIDE, depth=2 * SIDE, wall_thickness=T, imperfection=0.05,
             symmetry=symmetry,
         ),
         material=material,
-        loading=Loading(direction="out_of_plane", unload=False, **loading),
-        contact=Contact(friction=friction),
-        solver=Solver(load_steps=steps) if loading["mode"] == "displacement" else Solver(),
+        loading=dict(direction="out_of_plane", **loading),
+        contact=dict(friction=friction),
+        solver=dict(load_steps=steps) if loading["mode"] == "displacement" else {},
     )  # fmt: skip
 
 
-DRIVEN = {"mode": "displacement", "strain": 0.4}
+DRIVEN = {"mode": "displacement", "strain": 0.4, "unload": False}
 STRUCK = {"mode": "impact", "striker_mass": 0.02}
 CASES = {
     "glued": tube(DRIVEN | {"platen": "glued"}),

@@ -6,8 +6,8 @@ from numpy.typing import NDArray
 from kernels.laws import sheet
 from kernels.laws.relaxing_sheet import RelaxingSheet
 from kernels.laws.sheet import Sheet
-from sweep.config.case import Material
 from sweep.scene.material import StressLaw, stress_law
+from tests.support.designs.tables import material_with
 
 Floats = NDArray[np.float64]
 
@@ -38,7 +38,7 @@ class Nominal:
 
 def nominal(name: str) -> Nominal:
     """The nominal stress of a shipped material."""
-    return Nominal(stress_law(Material(name=name)))
+    return Nominal(stress_law(material_with(name=name)))
 
 
 def measured(name: str) -> Sheet:

@@ -2,44 +2,45 @@
 
 import numpy as np
 
-from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
+from tests.support.designs.tables import material_with
 from tests.support.kernels.solving import whole
 
 DT = 1e-3
-RAYLEIGH = Damping(model="rayleigh", mass=300.0, stiffness=1e-3)
-VISCOUS = Damping(model="kelvin_voigt", relaxation_time=1e-3)
-CURVE = Material(name="ninjaflex", bend="linear")
+RAYLEIGH = dict(model="rayleigh", mass=300.0, stiffness=1e-3)
+VISCOUS = dict(model="kelvin_voigt", relaxation_time=1e-3)
+CURVE = material_with(name="ninjaflex", bend="linear")
 SIZE = 12.5e-3
-GRIP = Contact(friction=0.3, slip_speed=0.1)  # smoothed below 0.1 mm in a step
-SLIDE = Contact(friction=0.3, slip_speed=1e-4)
+GRIP = dict(friction=0.3, slip_speed=0.1)  # smoothed below 0.1 mm in a step
+SLIDE = dict(friction=0.3, slip_speed=1e-4)
 
 
 def loaded(elements=3, platen="contact", damping=RAYLEIGH, size=1.0, **tables):
     """A 2 x 2 grid, ``size`` times as large as the usual one, under as much stress as by 3 N. Its
     joints are points.
     """
-    lattice = Lattice(
+    lattice = dict(
         cells_x=2, cells_y=2, nodes_per_wall=elements - 1, width=size * SIZE, height=size * SIZE,
         depth=size * 12e-3, wall_thickness=size * 1.2e-3,
     )  # fmt: skip
-    loading = Loading(force=3.0 * size**2, platen=platen, duration=0.01)
+    loading = dict(force=3.0 * size**2, platen=platen, duration=0.01)
     chosen = {
         "material": CURVE,
         "contact": GRIP,
-        "solver": Solver(time_step=DT, joints="points"),
+        "solver": dict(time_step=DT, joints="points"),
     } | tables
-    return build_scene(Case(lattice=lattice, loading=loading, damping=damping, **chosen))
+    return build_scene(Case.of(lattice=lattice, loading=loading, damping=damping, **chosen))
 
 
 def driven(platen, elements=3):
     """The same grid, pressed quasi-statically."""
     return build_scene(
-        Case(
-            lattice=Lattice(cells_x=2, cells_y=2, nodes_per_wall=elements - 1),
-            loading=Loading(mode="displacement", strain=0.5, platen=platen),
+        Case.of(
+            lattice=dict(cells_x=2, cells_y=2, nodes_per_wall=elements - 1),
+            loading=dict(mode="displacement", strain=0.5, platen=platen),
             material=CURVE,
-            solver=Solver(joints="points"),
+            solver=dict(joints="points"),
         )
     )
 

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 
 from kernels.laws.one_point import stresses
-from sweep.config.case import Material
 from sweep.coupon.record import Coupon
 from sweep.scene.material import law_in_stretch
+from tests.support.designs.tables import material_with
 
 RATE = 0.05  # 1/s
 ROWS = 200  # of a leg
@@ -16,7 +16,7 @@ ROWS = 200  # of a leg
 def ninjaflex(**memory):
     """A material of that curve, at the reference time of a test at `RATE`."""
     reference = {"reference_time": 0.025 / RATE} if "loss" in memory else {}
-    return Material(name="ninjaflex", **memory, **reference)
+    return material_with(name="ninjaflex", **memory, **reference)
 
 
 def coupon(*ends, noise=0.0, **memory):

@@ -2,7 +2,7 @@
 
 import json
 
-from sweep.config.case import Case, Lattice
+from sweep.config.case import Case
 from sweep.config.grid import Config
 from sweep.design.lattice import build_network
 from sweep.design.network import mass, relative_density
@@ -33,4 +33,4 @@ def config_of(case):
 
 def grid(cells=3, **lattice):
     """A case with a square grid of 12.5 mm."""
-    return Case(lattice=Lattice(cells_x=cells, cells_y=cells, **lattice))
+    return Case.of(lattice=dict(cells_x=cells, cells_y=cells, **lattice))

@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 from sweep.columns import COLUMNS, HISTORY_COLUMNS, OLDER, absorbed_energy_column
-from sweep.config.case import Case, Lattice
+from sweep.config.case import Case
 from sweep.result import Result, Status, design_columns
 from sweep.store.write import Writer
 
@@ -20,7 +20,7 @@ def cases(count, first=0):
     values = [0.001 * number for number in range(first, first + count)]
     axes = [{"lattice.imperfection": value} for value in values]
     return [
-        Case(lattice=Lattice(imperfection=v), axes=a) for v, a in zip(values, axes, strict=True)
+        Case.of(lattice=dict(imperfection=v), axes=a) for v, a in zip(values, axes, strict=True)
     ]
 
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from sweep.config.case import Material
 from sweep.config.materials.material_file import available
 from tests.support.command import crumple
+from tests.support.designs.tables import material_with
 from tests.support.materials.coupons import coupon, written
 
 
@@ -38,7 +38,7 @@ def test_coupon_becomes_a_material(capsys, tmp_path):
     status, out, err = crumple(capsys, "materials", *words, "--density", "1.21 g/cm^3")
     assert (status, err) == (0, "")
     assert "loss            0.35, without softening" in out
-    found = Material(name=str(mine), memory="measured")
+    found = material_with(name=str(mine), memory="measured")
     assert found.loss == pytest.approx(0.35, rel=0.01)
     assert found.density == pytest.approx(1210.0)
     assert (tmp_path / "mine.png").exists()

@@ -16,7 +16,7 @@ from sweep.__main__ import REQUIREMENTS, main
 from sweep.cli.refusals import REFUSALS
 from sweep.cli.verbs import VERBS
 from sweep.columns import absorbed_energy_column
-from sweep.config.tables import Require
+from sweep.config.question import Require
 from sweep.ranking.requirements import MEASURES
 from sweep.running.sweep import Interrupted
 from sweep.store.read import read_summary

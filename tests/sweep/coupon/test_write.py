@@ -4,12 +4,12 @@ import re
 
 import pytest
 
-from sweep.config.case import Material
 from sweep.config.materials.material_file import read_record
 from sweep.config.materials.material_header import assumed, source
 from sweep.coupon.fit import fit
 from sweep.coupon.record import Coupon
 from sweep.coupon.write import fit_sentence, material_text, sentences_on_fit
+from tests.support.designs.tables import material_with
 from tests.support.materials.coupons import coupon
 
 NAMES = ("time", "strain", "stress")
@@ -34,7 +34,7 @@ def test_material_is_read_with_what_was_fitted(own_record, both):
     assert source(record.comments) == "own coupon"
     assert assumed(record.comments) == ("Density", "Poisson's ratio", "Softening beta")
     assert max(map(len, material_text(both).splitlines())) <= 100
-    measured = Material(name=str(own_record(material_text(both))), memory="measured")
+    measured = material_with(name=str(own_record(material_text(both))), memory="measured")
     assert measured.loss == record.memory["loss"]
 
 

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Lattice
 from sweep.design.box import gradient, infill_walls, opening
 from sweep.design.drawing import extent
 from sweep.design.infill import families, trait
 from sweep.design.lattice import build_network
 from sweep.design.network import relative_density
 from tests.support.designs.infills import lattice_of
+from tests.support.designs.tables import lattice_with
 
 T, W, H = 0.8e-3, 12.5e-3, 12.5e-3
 
@@ -25,7 +25,7 @@ T, W, H = 0.8e-3, 12.5e-3, 12.5e-3
 )
 def test_an_outline_is_as_thick_as_its_lines(lines, sides, caps):
     """Outer box less the openings: those at the sides lose half of the outline."""
-    lattice = Lattice(**lines)
+    lattice = lattice_with(**lines)
     network, pitch = build_network(lattice.geometry), W / 3
     across = [pitch - 0.5 * (sides + T), pitch - T, pitch - 0.5 * (sides + T)]
     up = [pitch - 0.5 * (caps + T), pitch - T, pitch - 0.5 * (caps + T)]
@@ -39,7 +39,7 @@ def test_an_outline_is_as_thick_as_its_lines(lines, sides, caps):
 @pytest.mark.parametrize("kind", families())
 @pytest.mark.parametrize("ratio", [0.25, 1.0, 3.0])
 def test_grading_is_linear_and_keeps_the_mean(kind, ratio):
-    lattice = Lattice(kind=kind, wall_thickness=0.3e-3, grading=ratio)
+    lattice = lattice_with(kind=kind, wall_thickness=0.3e-3, grading=ratio)
     network = build_network(lattice.geometry)
     length, height = infill_walls(lattice.geometry)
     thickness = network.wall_thickness

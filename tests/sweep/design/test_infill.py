@@ -7,7 +7,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 import sweep.design.infill
-from sweep.config.case import Case, Loading
+from sweep.config.case import Case
 from sweep.design.drawing import Sketch, counts, extent, joints_and_walls
 from sweep.design.infill import families
 from sweep.design.lattice import build_network
@@ -199,7 +199,7 @@ def test_every_family_is_free_of_stress_at_rest(kind, way, edge, platen):
     lattice = lattice_of(
         kind, way, (2, 3), **(EDGES | {"graded": {"grading": 3.0}})[edge], imperfection=0.1
     )
-    scene = build_scene(Case(lattice=lattice, loading=Loading(mode="displacement", platen=platen)))
+    scene = build_scene(Case.of(lattice=lattice, loading=dict(mode="displacement", platen=platen)))
     rest = whole(scene, scene.x_rest)
     assert np.abs(rest.gradient(scene.x_rest)).max() < 1e-10  # N, N m
     assert rest.energy(scene.x_rest) < 1e-13  # J

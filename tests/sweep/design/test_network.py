@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Lattice
 from sweep.design.lattice import build_network
 from sweep.design.network import Network, mass, relative_density
+from tests.support.designs.tables import lattice_with
 
 
 def closed_form(lattice):
@@ -20,7 +20,9 @@ def closed_form(lattice):
 @pytest.mark.parametrize("cells", [(1, 1), (1, 3), (2, 1), (3, 3), (4, 7)])
 @pytest.mark.parametrize("thickness", [0.1e-3, 0.8e-3])
 def test_printed_area_counts_joints_once(cells, thickness):
-    lattice = Lattice(cells_x=cells[0], cells_y=cells[1], height=20e-3, wall_thickness=thickness)
+    lattice = lattice_with(
+        cells_x=cells[0], cells_y=cells[1], height=20e-3, wall_thickness=thickness
+    )
     assert build_network(lattice.geometry).printed_area == pytest.approx(
         closed_form(lattice), rel=1e-11
     )
@@ -29,7 +31,7 @@ def test_printed_area_counts_joints_once(cells, thickness):
 def test_printed_area_of_the_seed_is_the_closed_form_of_a_square_grid():
     n, p, t = 3, 12.5e-3 / 3, 0.8e-3
     expected = (n * p + t) ** 2 - n**2 * (p - t) ** 2
-    assert build_network(Lattice().geometry).printed_area == pytest.approx(expected, rel=1e-12)
+    assert build_network(lattice_with().geometry).printed_area == pytest.approx(expected, rel=1e-12)
 
 
 def test_walls_of_different_thickness():
@@ -40,7 +42,7 @@ def test_walls_of_different_thickness():
 
 
 def test_mass_and_relative_density_of_the_published_specimen():
-    lattice = Lattice(
+    lattice = lattice_with(
         width=12e-3, height=12e-3, depth=12e-3, wall_thickness=0.4e-3, cells_x=3, cells_y=3
     )
     network = build_network(lattice.geometry)

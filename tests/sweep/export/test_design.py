@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Lattice, Loading
+from sweep.config.case import Case
 from sweep.config.grid import Config, Written
 from sweep.config.reading.examples import examples
 from sweep.config.units import load_config
@@ -20,7 +20,7 @@ from tests.support.results.exported import config_of, grid, row_of
 @pytest.mark.parametrize(("kind", "way"), KINDS)
 @pytest.mark.parametrize("edge", EDGES)
 def test_every_family_is_rebuilt(kind, way, edge):
-    case = Case(lattice=lattice_of(kind, way, grading=1.5, **EDGES[edge]))
+    case = Case.of(lattice=lattice_of(kind, way, grading=1.5, **EDGES[edge]))
     found = stored_design(row_of(case), config_of(case))
     assert found.lattice == case.lattice
     assert found.volume == pytest.approx(1e-3 * found.grams / case.material.density, rel=1e-12)
@@ -28,7 +28,7 @@ def test_every_family_is_rebuilt(kind, way, edge):
 
 @pytest.mark.parametrize("wish", [{"mass": 1.2e-3}, {"infill": 0.2, "width": 50e-3}])
 def test_what_follows_from_a_wish_is_kept(wish):
-    case = Case(lattice=Lattice(**wish))
+    case = Case.of(lattice=wish)
     found = stored_design(row_of(case), config_of(case))
     drawn = build_network(case.lattice.geometry)
     np.testing.assert_array_equal(found.network.points, drawn.points)
@@ -36,7 +36,7 @@ def test_what_follows_from_a_wish_is_kept(wish):
 
 
 def test_axes_and_given_values_go_before_the_first_case():
-    first, case = grid(), Case(lattice=lattice_of("hex", "flat", cells=(2, 3), perimeters=1))
+    first, case = grid(), Case.of(lattice=lattice_of("hex", "flat", cells=(2, 3), perimeters=1))
     config = config_of(first) | {"base": {"lattice.orientation": "flat", "solver.element": "cubic"}}
     row = row_of(case) | {"lattice.perimeters": np.int64(1), "lattice.cells": np.int64(2)}
     assert stored_design(row, config).lattice.orientation == "flat"
@@ -47,7 +47,7 @@ def test_axes_and_given_values_go_before_the_first_case():
 def test_given_values_are_in_the_config_of_a_file():
     given = {"lattice.orientation": Written("flat", '"flat"'), "solver.load_steps": Written(9, "9")}
     config = json.loads(config_text(Config("trial", base=given), grid()))
-    case = Case(lattice=lattice_of("hex", "flat", cells=(2, 3)))
+    case = Case.of(lattice=lattice_of("hex", "flat", cells=(2, 3)))
     assert stored_design(row_of(case), config).lattice == case.lattice
 
 
@@ -95,13 +95,13 @@ def test_custom_structure_is_drawn_as_in_its_file():
 
 def test_period_of_an_endless_lattice_is_no_part():
     with pytest.raises(ExportError, match=r"lattice\.boundary.*no part; allowed: \.csv"):
-        design_of(Case(lattice=Lattice(boundary="periodic"), loading={"mode": "displacement"}))
+        design_of(Case.of(lattice=dict(boundary="periodic"), loading={"mode": "displacement"}))
 
 
 @pytest.mark.parametrize("perimeters", [0, 1])
 def test_design_that_is_pressed_along_its_cells_is_rebuilt(perimeters):
-    lattice = Lattice(height=9e-3, depth=14e-3, perimeters=perimeters, cells_x=2, cells_y=2)
-    case = Case(lattice=lattice, loading=Loading(direction="out_of_plane"))
+    lattice = dict(height=9e-3, depth=14e-3, perimeters=perimeters, cells_x=2, cells_y=2)
+    case = Case.of(lattice=lattice, loading=dict(direction="out_of_plane"))
     row = row_of(case)
     assert row["height_m"] == 14e-3
     found = stored_design(row, config_of(case))
@@ -124,10 +124,8 @@ SLICED = {"slicer": "orca", "width": 25e-3, "height": 25e-3}
 )
 def test_infill_of_a_slicer_is_rebuilt(wish):
     """Also where the first case of the sweep has another pattern and share."""
-    case = Case(lattice=Lattice(**SLICED, **wish))
-    other = Case(
-        lattice=Lattice(**SLICED | wish | {"pattern": "triangles", "infill": 0.1, "mass": None})
-    )
+    case = Case.of(lattice=dict(**SLICED, **wish))
+    other = Case.of(lattice=SLICED | wish | {"pattern": "triangles", "infill": 0.1, "mass": None})
     row = row_of(case) | {"lattice.pattern": wish["pattern"]}
     for first in (case, other):
         found = stored_design(row, config_of(first))
@@ -138,6 +136,6 @@ def test_infill_of_a_slicer_is_rebuilt(wish):
 
 
 def test_family_beside_a_slicer_has_no_pattern():
-    first, case = Case(lattice=Lattice(**SLICED, pattern="grid", infill=0.2, perimeters=1)), grid()
+    first, case = Case.of(lattice=dict(**SLICED, pattern="grid", infill=0.2, perimeters=1)), grid()
     row = row_of(case) | {"lattice.perimeters": 0}
     assert stored_design(row, config_of(first)).lattice.slicer is None

@@ -13,7 +13,7 @@ import trimesh
 from PIL import Image
 
 import crumple
-from sweep.config.case import Case, Lattice, Loading
+from sweep.config.case import Case
 from sweep.config.units import quantity
 from sweep.export import export as module
 from sweep.export.errors import ExportError
@@ -26,7 +26,7 @@ CASE = grid()
 
 @pytest.fixture(scope="module")
 def file(tmp_path_factory):
-    other = Case(lattice=Lattice(kind="reentrant", depth=20e-3))
+    other = Case.of(lattice=dict(kind="reentrant", depth=20e-3))
     return results(tmp_path_factory.mktemp("stored") / "trial.h5", CASE, other)
 
 
@@ -74,7 +74,7 @@ def test_panel_is_a_row_of_specimens(file, tmp_path):
 
 def test_panel_of_what_is_pressed_along_its_cells_shows_its_drawing(tmp_path):
     """Plans of 13.3 x 13.3 mm, 7 x 4 of them: as high as one, apart in both directions."""
-    case = Case(loading=Loading(direction="out_of_plane"))
+    case = Case.of(loading=dict(direction="out_of_plane"))
     found = export_case(case, tmp_path / "panel.stl", panel=("100 mm", 0.05))
     body = trimesh.load_mesh(tmp_path / "panel.stl")
     side, height = 1e3 * case.lattice.outer_size[0], 1e3 * case.lattice.depth
@@ -111,7 +111,7 @@ def test_a_panel_is_what_is_ranked_and_searched(file, tmp_path, sides):
 def test_corners_that_stick_out_are_told(tmp_path):
     """The tips of a diamond are farther out than half a wall: 4 specimens, (2^0.5 - 1) t each."""
     shape = {"kind": "diamond", "cells_x": 2, "cells_y": 2, "wall_thickness": 1.6e-3}
-    found = export_case(Case(lattice=Lattice(**shape)), tmp_path / "a.stl", panel=(0.058, 0.012))
+    found = export_case(Case.of(lattice=shape), tmp_path / "a.stl", panel=(0.058, 0.012))
     assert found.notes[1].endswith("; corners that stick out make them 2.7 mm wider")
 
 

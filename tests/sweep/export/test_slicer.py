@@ -15,12 +15,12 @@ from xml.etree import ElementTree as Xml
 import pytest
 import shapely
 
-from sweep.config.case import Lattice
 from sweep.design.drawing import extent, pitch
 from sweep.design.infill import families
 from sweep.design.lattice import build_network
 from sweep.export.errors import ExportError
 from sweep.export.slicer import NEAREST, PATTERNS, settings_of, share_of, slicer_files
+from tests.support.designs.tables import lattice_with
 
 T = 0.4  # mm
 RISE = 0.75**0.5
@@ -39,7 +39,7 @@ def regular(kind, way, **changes):
     (width, height), (columns, rows), _ = REGULAR[kind, way]
     box = {"width": 1e-3 * width, "height": 1e-3 * height, "wall_thickness": 1e-3 * T}
     cells = {"cells_x": columns, "cells_y": rows}
-    return Lattice(kind=kind, orientation=way, **box | cells | changes)
+    return lattice_with(kind=kind, orientation=way, **box | cells | changes)
 
 
 def length_per_area(lattice):
@@ -189,7 +189,7 @@ def test_no_profile_of_a_printer_is_invented():
 @pytest.mark.parametrize("kind", sorted({*families()} - {kind for kind, _ in PATTERNS}))
 def test_other_families_are_refused_with_the_nearest_if_any(kind):
     with pytest.raises(ExportError, match=f"no slicer draws {kind} cells; ") as refused:
-        settings_of(Lattice(kind=kind))
+        settings_of(lattice_with(kind=kind))
     hints = re.findall(r"; the nearest is (\w+)\.", str(refused.value))
     assert hints == ([NEAREST[kind]] if kind in NEAREST else [])
 
@@ -225,7 +225,7 @@ def test_share_takes_a_pattern_a_thickness_and_a_period():
 def laid(slicer, pattern, **changes):
     """A lattice of a slicer in a box of 25 mm."""
     box = {"width": 25e-3, "height": 25e-3, "infill": 0.2}
-    return Lattice(slicer=slicer, pattern=pattern, **box | changes)
+    return lattice_with(slicer=slicer, pattern=pattern, **box | changes)
 
 
 def test_lattice_of_a_slicer_asks_for_its_own_settings():

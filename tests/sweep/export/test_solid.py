@@ -34,7 +34,7 @@ def read_by_another_program(body):
 @pytest.mark.parametrize("thickness", THICKNESSES)
 def test_every_family_is_a_closed_body_of_the_mass(kind, way, edge, thickness):
     changes = EDGES[edge] | {"wall_thickness": thickness, "grading": 1.3}
-    design = design_of(Case(lattice=lattice_of(kind, way, **changes)))
+    design = design_of(Case.of(lattice=lattice_of(kind, way, **changes)))
     mesh = read_by_another_program(made(design))
     assert mesh.is_watertight
     assert mesh.is_winding_consistent

@@ -15,7 +15,7 @@ from tests.support.designs.infills import lattice_of
 
 
 def test_rings_are_the_outline_with_y_upwards(tmp_path):
-    design = design_of(Case(lattice=lattice_of("hex", cells=(2, 1))))
+    design = design_of(Case.of(lattice=lattice_of("hex", cells=(2, 1))))
     part = specimen(design, outline(design.network))
     write_svg(tmp_path / "part.svg", part)
     root = Xml.parse(tmp_path / "part.svg").getroot()

@@ -4,19 +4,19 @@ from itertools import groupby
 
 import pytest
 
-from sweep.config.case import Case, Lattice, Material, Solver
+from sweep.config.case import Case
 from sweep.running.batches import Plan, cost
 from tests.support.results.standin import cases
 
 
 def with_work(steps):
-    return Case(solver=Solver(time_step=0.2 / steps))
+    return Case.of(solver=dict(time_step=0.2 / steps))
 
 
 def test_cost_counts_steps_and_nodes():
     assert cost(with_work(2000)) == pytest.approx(10 * cost(with_work(200)))
-    fine = Case(lattice=Lattice(cells_x=6, cells_y=6))
-    assert 4 < cost(fine) / cost(Case()) < 16
+    fine = Case.of(lattice=dict(cells_x=6, cells_y=6))
+    assert 4 < cost(fine) / cost(Case.of()) < 16
 
 
 def test_shortest_case_first_then_the_longest():
@@ -31,9 +31,9 @@ def test_shortest_case_first_then_the_longest():
 def test_cases_of_a_lattice_follow_one_another():
     """So that it is built once; those that take longer go first none the less."""
     made = [
-        Case(
-            lattice=Lattice(width=0.01 * w, cells_x=n),
-            material=Material(modulus=1e6 * y, density=1e3),
+        Case.of(
+            lattice=dict(width=0.01 * w, cells_x=n),
+            material=dict(modulus=1e6 * y, density=1e3),
         )
         for y in (1, 2, 3)
         for w in (1, 2)

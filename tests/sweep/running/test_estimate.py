@@ -7,18 +7,18 @@ import time
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Lattice, Loading
-from sweep.config.defaults.solver_defaults import steps
+from sweep.config.case import Case
+from sweep.config.kinds.steps import count_of
 from sweep.result import Result, Status
 from sweep.running.batches import cost
 from sweep.running.estimate import LONGEST, duration, estimate
 from sweep.running.sweep import Interrupted
 
-GLUED = Loading(mode="displacement", platen="glued")
+GLUED = dict(mode="displacement", platen="glued")
 
 
 def cases(loading, cells=(2, 3, 4, 5)):
-    return [Case(lattice=Lattice(cells_x=n, cells_y=n), loading=loading) for n in cells]
+    return [Case.of(lattice=dict(cells_x=n, cells_y=n), loading=loading) for n in cells]
 
 
 def stand_in(status=Status.CONVERGED):
@@ -35,7 +35,7 @@ def stand_in(status=Status.CONVERGED):
 
 
 def test_each_kind_of_loading_is_scaled_by_its_own_pace():
-    force, glued = cases(Loading()), cases(GLUED)
+    force, glued = cases({}), cases(GLUED)
     expected = 1e-6 * sum(map(cost, force)) + 5e-6 * sum(map(cost, glued))
     found = estimate([*force, *glued], stand_in()[0])
     assert found.cpu == pytest.approx(expected)
@@ -54,7 +54,7 @@ def by_thickness(seconds):
     """Cases of five wall thicknesses, and a simulation that thin walls make slow, with its log."""
     sizes = [(n, t * 1e-4) for n in (3, 4, 5) for t in (3, 4, 6, 8, 10)]
     many = [
-        Case(lattice=Lattice(cells_x=n, cells_y=n, wall_thickness=t), loading=GLUED)
+        Case.of(lattice=dict(cells_x=n, cells_y=n, wall_thickness=t), loading=GLUED)
         for n, t in sizes
     ]
     asked = []
@@ -89,7 +89,7 @@ def test_long_pilots_are_stopped_and_extrapolated():
 
     def slow(case, control):
         asked.append(case)
-        done = int(steps(case.loading, case.solver) / 4)
+        done = int(count_of(case.loading, case.solver) / 4)
         history = {"strain": np.zeros(done + 1)}
         taken = {"cpu_s": case.solver.time_limit}
         return Result(case.case_id, Status.TIMED_OUT, "raise it", taken, history)

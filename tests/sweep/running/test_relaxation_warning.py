@@ -2,14 +2,15 @@
 
 import pytest
 
-from sweep.config.case import Case, Loading, Material
+from sweep.config.case import Case
 from sweep.running.relaxation_warning import loading_time, sentences_on_lossless
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from tests.support.designs.cases import pressed
+from tests.support.designs.tables import material_with
 from tests.support.results import standin
 
-SLOW = Material(relaxation_times=(2.0, 60.0), relaxation_shares=(0.2, 0.1), reference_time=1.0)
+SLOW = material_with(relaxation_times=(2.0, 60.0), relaxation_shares=(0.2, 0.1), reference_time=1.0)
 
 
 @pytest.mark.parametrize(
@@ -22,11 +23,11 @@ SLOW = Material(relaxation_times=(2.0, 60.0), relaxation_shares=(0.2, 0.1), refe
     ],
 )
 def test_time_of_a_loading(loading, time):
-    assert loading_time(Case(loading=Loading(**loading))) == pytest.approx(time)
+    assert loading_time(Case.of(loading=loading)) == pytest.approx(time)
 
 
 def test_an_impact_is_too_short_for_slow_branches_and_is_told():
-    struck = Case(material=SLOW, loading=Loading(mode="impact", striker_speed=2.5))
+    struck = Case.of(material=SLOW, loading=dict(mode="impact", striker_speed=2.5))
     (line,) = sentences_on_lossless([struck, struck, pressed()])
     assert line == (
         "2 of 3 cases last less than a hundredth of the shortest material.relaxation time "
@@ -37,13 +38,13 @@ def test_an_impact_is_too_short_for_slow_branches_and_is_told():
 @pytest.mark.parametrize(("rate", "lines"), [(1e-5, 1), (1e-3, 0), (0.1, 0), (20.0, 0), (100.0, 1)])
 def test_only_what_is_far_from_all_times_is_told(rate, lines):
     """Times of 1.2 over the rate: 1.2e5 s, 1200 s, 12 s, 60 ms and 12 ms; limits: 6000 s, 20 ms."""
-    case = Case(material=SLOW, loading=Loading(mode="displacement", strain_rate=rate))
+    case = Case.of(material=SLOW, loading=dict(mode="displacement", strain_rate=rate))
     assert len(sentences_on_lossless([case])) == lines
     assert "longest" in "".join(sentences_on_lossless([case])) or rate > 1e-4
 
 
 def test_a_sweep_tells_before_it_runs(tmp_path, capsys):
-    struck = Case(material=SLOW, loading=Loading(mode="impact", striker_speed=2.5))
+    struck = Case.of(material=SLOW, loading=dict(mode="impact", striker_speed=2.5))
     for line in ("1 of 1 cases last less than", ""):
         run_sweep([struck], tmp_path / "trial.h5", simulate=standin.simulate)
         told = capsys.readouterr().err
@@ -52,10 +53,10 @@ def test_a_sweep_tells_before_it_runs(tmp_path, capsys):
 
 
 def test_elastic_walls_and_a_measured_loss_are_never_told():
-    short = Loading(mode="impact", striker_speed=100.0)
+    short = dict(mode="impact", striker_speed=100.0)
     assert (
         sentences_on_lossless(
-            [Case(loading=short), Case(loading=short, material=Material(loss=0.4))]
+            [Case.of(loading=short), Case.of(loading=short, material=dict(loss=0.4))]
         )
         == []
     )
@@ -65,10 +66,10 @@ def test_what_is_told_is_true():
     """Walls whose branches are a hundred times slower than the crush lose 1 % of it at most."""
     shares = []
     for rate in (0.6, 1200.0):
-        loading = Loading(mode="displacement", strain=0.3, strain_rate=rate)
-        lines = sentences_on_lossless([case := Case(material=SLOW, loading=loading)])
+        loading = dict(mode="displacement", strain=0.3, strain_rate=rate)
+        lines = sentences_on_lossless([case := Case.of(material=SLOW, loading=loading)])
         assert len(lines) == (rate > 1.0)
         shares.append(simulate(case).summary["lost_share"])
-    elastic = simulate(Case(loading=loading)).summary["lost_share"]
+    elastic = simulate(Case.of(loading=loading)).summary["lost_share"]
     assert shares[0] - elastic > 0.03
     assert shares[1] - elastic < 0.01

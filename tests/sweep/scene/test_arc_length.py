@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Lattice, Solver
+from sweep.config.case import Case
 from sweep.scene.arc_length import arc_of, path_columns
 from sweep.scene.custom import build_structure
 from tests.support.designs.structures import BEAM, LENGTH, MATERIAL, MM, end_load, structure
@@ -11,8 +11,8 @@ from tests.support.designs.structures import BEAM, LENGTH, MATERIAL, MM, end_loa
 
 def arc(**solver):
     """The scene of a cantilever, and its arc."""
-    lattice = Lattice(kind="custom", structure=structure(**BEAM | end_load(-1e-3)))
-    case = Case(lattice=lattice, material=MATERIAL, solver=Solver(**solver))
+    lattice = dict(kind="custom", structure=structure(**BEAM | end_load(-1e-3)))
+    case = Case.of(lattice=lattice, material=MATERIAL, solver=solver)
     scene = build_structure(case)
     return scene, arc_of(scene, case)
 

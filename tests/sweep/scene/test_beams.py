@@ -5,12 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Lattice, Material, Solver
+from sweep.config.case import Case
 from sweep.design.lattice import build_network
 from sweep.scene.beams import build_beams, contraction
 from sweep.scene.bending import build_bend
 from sweep.scene.joints import point_joints, solid_joints
 from sweep.scene.mesh import build_mesh, split_walls
+from tests.support.designs.tables import lattice_with, material_with
 
 DEPTH, T, NU, Y = 12e-3, 0.8e-3, 0.4, 12e6
 MATERIAL = {"modulus": Y, "density": 1e3, "poisson": NU}
@@ -18,12 +19,12 @@ MATERIAL = {"modulus": Y, "density": 1e3, "poisson": NU}
 
 def beams(plane="stress", solid=True, **solver):
     """The elements of a grid, three between the joints of a wall."""
-    lattice = Lattice(nodes_per_wall=2)
+    lattice = lattice_with(nodes_per_wall=2)
     network = build_network(lattice.geometry)
     arms = solid_joints(network, "glued") if solid else point_joints(len(network.walls))
     mesh = split_walls(network, 3, 0.0, arms.length)
-    material = Material(plane=plane, **MATERIAL)
-    return mesh, build_beams(mesh, arms, Case(material=material, solver=Solver(**solver)))
+    material = material_with(plane=plane, **MATERIAL)
+    return mesh, build_beams(mesh, arms, Case.of(material=material, solver=solver))
 
 
 @pytest.mark.parametrize("plane", ["stress", "strain"])
@@ -73,15 +74,17 @@ def test_points_have_no_shear(element):
 
 
 def test_contraction_across_a_fibre():
-    material = {plane: Material(plane=plane, **MATERIAL) for plane in ("stress", "strain")}
+    material = {plane: material_with(plane=plane, **MATERIAL) for plane in ("stress", "strain")}
     assert contraction(material["stress"]) == NU
     assert contraction(material["strain"]) == pytest.approx(NU / (1.0 - NU))
 
 
 def test_a_printed_honeycomb_bends_as_its_layers_do():
     """Layers of 2 s, s and s: area 4 s, second moment (8 + 1 + 1) s^3 / 12, of three layers."""
-    lattice = Lattice(slicer="prusa", pattern="honeycomb", infill=0.2, width=20e-3, height=20e-3)
-    case = Case(lattice=lattice, material=Material(plane="stress", **MATERIAL))
+    lattice = lattice_with(
+        slicer="prusa", pattern="honeycomb", infill=0.2, width=20e-3, height=20e-3
+    )
+    case = Case.of(lattice=lattice, material=dict(plane="stress", **MATERIAL))
     mesh, arms = build_mesh(lattice, True, "glued")
     found, line = build_beams(mesh, arms, case), lattice.line
     infill = mesh.thickness < 1.5 * line
@@ -91,7 +94,7 @@ def test_a_printed_honeycomb_bends_as_its_layers_do():
     layers = np.array([2.0, 1.0, 1.0]) * line
     expected = Y * DEPTH * np.mean(layers**3) / 12.0
     np.testing.assert_allclose(found.rigidity[between], expected, rtol=1e-12)
-    bend = build_bend(mesh, found, case.model_copy(update={"material": Material()}))
+    bend = build_bend(mesh, found, case.model_copy(update={"material": material_with()}))
     across = bend.spread[0, between] * mesh.rest_length[between]
     fibres = 4.0 * bend.volume[between] / mesh.rest_length[between] * across**2  # two pairs
     np.testing.assert_allclose(Y * fibres, expected, rtol=1e-12)

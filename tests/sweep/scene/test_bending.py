@@ -3,26 +3,27 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.result import Status
 from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
+from tests.support.designs.tables import material_with
 from tests.support.kernels.solving import whole
 
 DEPTH, THICKNESS, WALL = 12e-3, 0.8e-3, 12.5e-3 / 3
-LOOSE = Loading(mode="displacement", strain=0.6, platen="contact", unload=False)
+LOOSE = dict(mode="displacement", strain=0.6, platen="contact", unload=False)
 RIGIDITY = MATERIAL.modulus * DEPTH * THICKNESS**3 / 12
 
 
 def scene_of(elements=3, imperfection=0.0, solver=None):
     """A 3 x 3 grid of a linear material in plane stress, with joints that are points."""
     return build_scene(
-        Case(
-            lattice=Lattice(nodes_per_wall=elements - 1, imperfection=imperfection),
+        Case.of(
+            lattice=dict(nodes_per_wall=elements - 1, imperfection=imperfection),
             material=MATERIAL,
-            loading=Loading(force=5.0),
-            solver=Solver(joints="points") if solver is None else solver,
+            loading=dict(force=5.0),
+            solver=dict(joints="points") if solver is None else solver,
         )
     )
 
@@ -33,7 +34,7 @@ def scene_of(elements=3, imperfection=0.0, solver=None):
     [("cubic", (4.0, 2.0, 4.0), (1 / 15, -1 / 30)), ("classical", (2.0, 0.0, 2.0), (0.0, 0.0))],
 )
 def test_stiffness_of_elements(element, factors, arc, elements):
-    terms = scene_of(elements, solver=Solver(element=element, joints="points")).terms
+    terms = scene_of(elements, solver=dict(element=element, joints="points")).terms
     per_length, every = RIGIDITY / (WALL / elements), np.ones(24 * elements)
     np.testing.assert_allclose(
         terms.bend.stiffness, np.outer(factors, per_length * every), rtol=1e-12
@@ -48,8 +49,8 @@ def test_a_half_turn_is_shared_inside_walls_only():
 
 
 def test_walls_without_bending_have_neither_rotations_nor_arcs():
-    material = Material(modulus=12e6, density=1190.0, bend="none")
-    case = Case(material=material, loading=Loading(force=5.0))
+    material = material_with(modulus=12e6, density=1190.0, bend="none")
+    case = Case.of(material=material, loading=dict(force=5.0))
     terms = build_scene(case).terms
     assert not terms.bend.stiffness.any()
     assert not terms.stretch.arc.any()
@@ -60,7 +61,7 @@ def test_walls_without_bending_have_neither_rotations_nor_arcs():
 @pytest.mark.parametrize("imperfection", [0.0, 0.5])
 def test_elements_are_free_of_stress_at_rest(imperfection, measure):
     scene = scene_of(
-        4, imperfection=imperfection, solver=Solver(bend_measure=measure, joints="points")
+        4, imperfection=imperfection, solver=dict(bend_measure=measure, joints="points")
     )
     assert scene.terms.bend.measure == {"angle": 0, "tangent": 1}[measure]
     g = whole(scene, scene.x_rest).gradient(scene.x_rest)
@@ -104,8 +105,8 @@ def test_walls_are_chains_from_joint_to_joint(elements, imperfection):
 
 def test_what_full_joints_leave_of_a_wall_bends_linearly():
     """Circles of 2 g: their joints overlap, and the stubs between them are no beams."""
-    lattice = Lattice(kind="circle", width=20e-3, height=20e-3, mass=2e-3)
-    case = Case(lattice=lattice, material=Material(), loading=LOOSE)
+    lattice = dict(kind="circle", width=20e-3, height=20e-3, mass=2e-3)
+    case = Case.of(lattice=lattice, material={}, loading=LOOSE)
     scene = build_scene(case)
     bent = scene.terms.bend.volume > 0.0
     stubs, short = scene.mesh.stubs, scene.mesh.rest_length < 0.5 * scene.mesh.thickness
@@ -117,12 +118,12 @@ def test_what_full_joints_leave_of_a_wall_bends_linearly():
 
 def test_such_a_lattice_reaches_the_end_of_its_crush():
     """Its stubs once bent as if they had fibres, by many radians."""
-    lattice = Lattice(kind="circle", width=20e-3, height=20e-3, mass=2e-3)
-    result = simulate(Case(lattice=lattice, material=Material(), loading=LOOSE))
+    lattice = dict(kind="circle", width=20e-3, height=20e-3, mass=2e-3)
+    result = simulate(Case.of(lattice=lattice, material={}, loading=LOOSE))
     assert result.status == Status.CONVERGED
 
 
 def test_short_elements_of_a_fine_mesh_are_no_stubs():
-    fine = scene_of(24, solver=Solver(joints="points")).mesh
+    fine = scene_of(24, solver=dict(joints="points")).mesh
     assert np.all(fine.rest_length < 0.5 * fine.thickness)
     assert not fine.stubs.any()

@@ -5,7 +5,7 @@ import pytest
 
 from kernels.planar import reach
 from kernels.terms.moves import MOVE_MARGIN
-from sweep.config.case import Case, Contact, Lattice, Loading
+from sweep.config.case import Case
 from sweep.scene.contact import PAIRS
 from sweep.scene.lattice import build_scene
 from tests.studies.verify import MATERIAL
@@ -13,7 +13,7 @@ from tests.support.designs.grids import DEPTH, LOADINGS, THICKNESS, WALL, scene_
 
 
 def test_stiffness_of_contact_is_c_times_that_of_a_wall():
-    touch = scene_of(contact=Contact(stiffness=2.5)).terms.contact
+    touch = scene_of(contact=dict(stiffness=2.5)).terms.contact
     assert touch.stiffness == pytest.approx(2.5 * MATERIAL.modulus * DEPTH)
     assert touch.reach == THICKNESS
     np.testing.assert_allclose(touch.node_thickness, THICKNESS, rtol=1e-12)
@@ -21,7 +21,7 @@ def test_stiffness_of_contact_is_c_times_that_of_a_wall():
 
 
 def test_without_contact_its_arrays_are_empty():
-    terms = scene_of(contact=Contact(model="none")).terms
+    terms = scene_of(contact=dict(model="none")).terms
     touch = terms.contact
     empty = ("edges", "edge_thickness", "subtract", "special_node", "special_weight",
              "special_distance", "special_subtract", "platen_nodes")  # fmt: skip
@@ -34,7 +34,7 @@ def test_without_contact_its_arrays_are_empty():
 @pytest.mark.parametrize("model", ["none", "barrier"])
 @pytest.mark.parametrize("platen", LOADINGS)
 def test_platens_touch_what_is_not_glued_to_them(platen, model):
-    scene = scene_of(platen=platen, contact=Contact(model=model))
+    scene = scene_of(platen=platen, contact=dict(model=model))
     y = scene.mesh.points[:, 1]
     touched = np.full(len(y), platen.endswith("contact"))
     if platen.endswith("glued") and model == "barrier":
@@ -47,8 +47,8 @@ def test_platens_touch_what_is_not_glued_to_them(platen, model):
 
 
 def test_platens_touch_an_outline():
-    lattice = Lattice(solid_layers=6)
-    scene = build_scene(Case(lattice=lattice, loading=Loading(force=1.0, platen="contact")))
+    lattice = dict(solid_layers=6)
+    scene = build_scene(Case.of(lattice=lattice, loading=dict(force=1.0, platen="contact")))
     thickness = scene.terms.contact.node_thickness[scene.mesh.points[:, 1] == 0.0].max()
     assert 0.8e-3 < thickness < 1.2001e-3
     assert scene.x_rest[-2] == pytest.approx(-0.5 * thickness)
@@ -56,8 +56,8 @@ def test_platens_touch_an_outline():
 
 @pytest.mark.parametrize("kind", ["square", "circle"])
 def test_lists_of_neighbours_do_not_grow_with_the_square_of_a_lattice(kind):
-    lattice = Lattice(kind=kind, cells_x=24, cells_y=12, wall_thickness=5e-5, nodes_per_wall=1)
-    scene = build_scene(Case(lattice=lattice))
+    lattice = dict(kind=kind, cells_x=24, cells_y=12, wall_thickness=5e-5, nodes_per_wall=1)
+    scene = build_scene(Case.of(lattice=lattice))
     touch = scene.terms.contact
     pairs, margin, _ = reach.list_neighbours(scene.terms, scene.x_rest, touch.most_move)
     assert margin == pytest.approx(MOVE_MARGIN * touch.most_move)

@@ -5,7 +5,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sweep.config.case import Contact
 from sweep.config.grid import expand
 from sweep.config.units import load_config
 from tests.studies.validation.elastica import cantilever
@@ -254,7 +253,7 @@ def test_arms_that_close_touch():
         ],
         "probes": [0, 1, 2, 3],
     }
-    result = pushed(clamp, steps=24, contact=Contact(friction=0.0))
+    result = pushed(clamp, steps=24, contact=dict(friction=0.0))
     gap = result.history["min_gap_m"]
     touching = result.history["contact_J"] > 0.0
     assert not touching[:12].any()

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from sweep.columns import Column, describe_history
-from sweep.config.case import Contact, Damping
 from tests.studies.verify import MATERIAL
 from tests.support.designs.scenes import unbalanced
 from tests.support.designs.structures import (
@@ -23,7 +22,7 @@ from tests.support.designs.structures import (
 
 L = LENGTH * MM
 G = GRAVITY * MM
-HEAVY = Damping(model="rayleigh", mass=50.0, stiffness=1e-3)
+HEAVY = dict(model="rayleigh", mass=50.0, stiffness=1e-3)
 
 
 def test_free_fall():
@@ -83,7 +82,7 @@ def test_pendulum():
 
 def test_rod_comes_to_rest_on_the_floor():
     parts = ROD | {"gravity_mm_s2": [0, -GRAVITY], "floor_y_mm": -2.0}
-    result = let_go(parts, 0.4, 5e-4, Contact(friction=0.3), HEAVY)
+    result = let_go(parts, 0.4, 5e-4, dict(friction=0.3), HEAVY)
     assert result.history["reaction_bottom_N"][-1] == pytest.approx(MASS * G, rel=1e-4)
     assert not result.history["reaction_bottom_N"][:20].any()
     assert result.history["kinetic_J"][-1] < 1e-9 * result.history["kinetic_J"].max()
@@ -105,7 +104,7 @@ def on_incline(slope, friction, duration):
         "floor_y_mm": -2.0,
         "probes": [0],
     }
-    result = let_go(parts, duration, 1e-3, Contact(friction=friction))
+    result = let_go(parts, duration, 1e-3, dict(friction=friction))
     return np.diff(probe(result, 0, "x_m")[-2:])[0] / 1e-3
 
 
@@ -134,7 +133,7 @@ def test_book_of_what_is_led_in_time():
         "initial_velocity_mm_s": [0.0, 50.0],
         "gravity_mm_s2": [0, -GRAVITY],
     }
-    result = let_go(parts, 0.05, 5e-4, damping=Damping())
+    result = let_go(parts, 0.05, 5e-4, damping={})
     history = result.history
     np.testing.assert_allclose(probe(result, 1, "y_m"), 0.2 * history["time_s"], atol=1e-12)
     np.testing.assert_allclose(probe(result, 1, "rotation_rad"), 6.0 * history["time_s"])

@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Lattice, Solver
+from sweep.config.case import Case
 from sweep.design.infill import families
 from sweep.design.lattice import build_network
 from sweep.scene.joint_kinds import AXIS, KINDS, find_joint, table
 from sweep.scene.joints import MOST, joint_elements, point_joints, solid_joints
 from sweep.scene.lattice import build_scene
 from sweep.scene.mesh import split_walls
+from tests.support.designs.tables import lattice_with
 
 NONE = np.zeros(6, np.bool_)
 
@@ -22,7 +23,7 @@ def found(*openings, in_row=(), arm=0):
 
 
 def network_of(kind="square", **keys):
-    return build_network(Lattice(kind=kind, width=20e-3, height=20e-3, **keys).geometry)
+    return build_network(lattice_with(kind=kind, width=20e-3, height=20e-3, **keys).geometry)
 
 
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.48, 0.923, 1.0])
@@ -176,7 +177,7 @@ def test_points_are_beams_without_shear():
     assert not arms.sheared.any()
     assert not arms.length.any()
     solid, points = (
-        build_scene(Case(solver=Solver(joints=joints))).terms for joints in ("solid", "points")
+        build_scene(Case.of(solver=dict(joints=joints))).terms for joints in ("solid", "points")
     )
     assert len(points.stretch.l0) == 24 * 3
     assert len(solid.stretch.l0) > len(points.stretch.l0)
@@ -185,7 +186,7 @@ def test_points_are_beams_without_shear():
 
 def test_walls_reach_the_perimeters_of_a_slicer_as_beams():
     """Within the perimeters joints are solid; all walls are sheared."""
-    lattice = Lattice(slicer="prusa", pattern="grid", infill=0.2, width=20e-3, height=20e-3)
+    lattice = lattice_with(slicer="prusa", pattern="grid", infill=0.2, width=20e-3, height=20e-3)
     network = build_network(lattice.geometry)
     arms = solid_joints(network, "glued")
     on = np.isin(network.walls, network.perimeter)
@@ -194,4 +195,4 @@ def test_walls_reach_the_perimeters_of_a_slicer_as_beams():
     assert 10 < on.all(axis=1).sum() < len(on)
     np.testing.assert_array_equal(arms.length > 0.0, ~on)
     assert arms.sheared.all()
-    assert len(build_network(Lattice(perimeters=1).geometry).perimeter) == 0
+    assert len(build_network(lattice_with(perimeters=1).geometry).perimeter) == 0

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Loading, Solver
+from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
 from tests.support.designs.grids import LOADINGS, row_of_nodes, scene_of
@@ -31,10 +31,10 @@ def test_the_load_sums_to_the_force(platen, elements):
 def test_a_glued_row_keeps_its_shape():
     """Through a whole crush its nodes stay side by side and go down with the platen."""
     result = simulate(
-        Case(
+        Case.of(
             material=MATERIAL,
-            loading=Loading(mode="displacement", strain=0.2, unload=False),
-            solver=Solver(load_steps=10),
+            loading=dict(mode="displacement", strain=0.2, unload=False),
+            solver=dict(load_steps=10),
         )
     )
     shapes, rest = result.frames["position_m"], result.frames["position_m"][0]

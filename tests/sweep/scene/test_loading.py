@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Loading, Material, Solver
-from sweep.config.defaults.solver_defaults import steps
+from sweep.config.case import Case
+from sweep.config.kinds.steps import count_of
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import CycleRows, Phase, cycle_rows, stages, tolerances
 from tests.support.designs.cases import pressed
@@ -12,15 +12,15 @@ from tests.support.designs.cases import pressed
 
 @pytest.mark.parametrize(("step", "steps", "dt"), [(15e-3, 2, 10e-3), (10e-3, 2, 10e-3)])
 def test_steps_fill_the_time_until_release_and_after(step, steps, dt):
-    loading = Loading(force=1.0, release_time=20e-3, duration=40e-3)
-    case = Case(loading=loading, solver=Solver(time_step=step))
+    loading = dict(force=1.0, release_time=20e-3, duration=40e-3)
+    case = Case.of(loading=loading, solver=dict(time_step=step))
     for phase in stages(case, build_scene(case)):
         assert (phase.stage.steps, phase.stage.duration) == (steps, dt)
 
 
 def test_steps_fill_the_flight_of_a_striker():
-    loading = Loading(mode="impact", duration=10e-3)
-    case = Case(loading=loading, solver=Solver(time_step=6e-3))
+    loading = dict(mode="impact", duration=10e-3)
+    case = Case.of(loading=loading, solver=dict(time_step=6e-3))
     (phase,) = stages(case, build_scene(case))
     assert (phase.stage.steps, phase.stage.duration) == (2, 5e-3)
 
@@ -35,49 +35,49 @@ def ends(case):
 
 @pytest.mark.parametrize("unload", [True, False])
 def test_a_platen_goes_down_and_back_if_it_is_let_up(unload):
-    loading = Loading(mode="displacement", stroke=4e-3, unload=unload)
-    case = Case(loading=loading, solver=Solver(load_steps=7))
+    loading = dict(mode="displacement", stroke=4e-3, unload=unload)
+    case = Case.of(loading=loading, solver=dict(load_steps=7))
     there, back = (0.0, 0.0, 0.0, -4e-3), (0.0, 0.0, -4e-3, 0.0)
     assert np.array(ends(case)) == pytest.approx(np.array([there, back][: 1 + unload]))
     assert all(phase.stage.steps == 7 for phase in stages(case, build_scene(case)))
 
 
 def test_a_crush_is_repeated():
-    loading = Loading(mode="displacement", stroke=4e-3, cycles=3)
-    case = Case(loading=loading, solver=Solver(load_steps=7))
+    loading = dict(mode="displacement", stroke=4e-3, cycles=3)
+    case = Case.of(loading=loading, solver=dict(load_steps=7))
     assert ends(case) == ends(pressed(stroke=4e-3)) * 3
     phases = stages(case, build_scene(case))
     assert [phase.name for phase in phases[:3]] == ["loading", "unloading", "loading in cycle 2"]
-    assert steps(case.loading, case.solver) == sum(phase.stage.steps for phase in phases) == 42
+    assert count_of(case.loading, case.solver) == sum(phase.stage.steps for phase in phases) == 42
 
 
 def test_a_dead_load_is_on_until_its_release():
-    case = Case(loading=Loading(force=1.0, release_time=20e-3, duration=30e-3))
+    case = Case.of(loading=dict(force=1.0, release_time=20e-3, duration=30e-3))
     assert ends(case) == [(1.0, 1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)]
-    kept = Case(loading=Loading(force=1.0, release_time=30e-3, duration=30e-3))
+    kept = Case.of(loading=dict(force=1.0, release_time=30e-3, duration=30e-3))
     assert ends(kept) == [(1.0, 1.0, 0.0, 0.0)]
 
 
 @pytest.mark.parametrize(
     ("loading", "rows"),
     [
-        (Loading(mode="displacement"), [(0, 7, 7, 14)]),
-        (Loading(mode="displacement", unload=False), [(0, 7, 7, 7)]),
-        (Loading(mode="displacement", cycles=2), [(0, 7, 7, 14), (14, 21, 21, 28)]),
-        (Loading(mode="displacement", hold_time=9.0), [(0, 7, 14, 21)]),
-        (Loading(mode="displacement", hold_time=9.0, unload=False), [(0, 7, 14, 14)]),
-        (Loading(strain=0.56, speed=1.0, hold_time=3.5e-3), [(0, 7, 11, 18)]),
+        (dict(mode="displacement"), [(0, 7, 7, 14)]),
+        (dict(mode="displacement", unload=False), [(0, 7, 7, 7)]),
+        (dict(mode="displacement", cycles=2), [(0, 7, 7, 14), (14, 21, 21, 28)]),
+        (dict(mode="displacement", hold_time=9.0), [(0, 7, 14, 21)]),
+        (dict(mode="displacement", hold_time=9.0, unload=False), [(0, 7, 14, 14)]),
+        (dict(strain=0.56, speed=1.0, hold_time=3.5e-3), [(0, 7, 11, 18)]),
     ],
 )
 def test_rows_at_which_a_crush_turns(loading, rows):
-    case = Case(material=Material(loss=0.3), loading=loading, solver=Solver(load_steps=7))
+    case = Case.of(material=dict(loss=0.3), loading=loading, solver=dict(load_steps=7))
     assert cycle_rows(stages(case, build_scene(case))) == rows
-    assert steps(case.loading, case.solver) == rows[-1][-1]
+    assert count_of(case.loading, case.solver) == rows[-1][-1]
 
 
 def test_a_pause_lasts_as_long_as_it_is_given():
-    loading = Loading(strain=0.56, speed=1.0, hold_time=3.5e-3)
-    case = Case(loading=loading, solver=Solver(load_steps=7))
+    loading = dict(strain=0.56, speed=1.0, hold_time=3.5e-3)
+    case = Case.of(loading=loading, solver=dict(load_steps=7))
     (_, pause, _) = stages(case, build_scene(case))
     assert (pause.name, pause.role, pause.stage.dynamic) == ("holding", "hold", True)
     assert pause.stage.steps * pause.stage.duration == pytest.approx(3.5e-3)
@@ -85,8 +85,8 @@ def test_a_pause_lasts_as_long_as_it_is_given():
 
 
 def test_rows_at_which_a_dead_load_is_removed():
-    loading = Loading(force=1.0, release_time=20e-3, duration=30e-3)
-    case = Case(loading=loading, solver=Solver(time_step=10e-3))
+    loading = dict(force=1.0, release_time=20e-3, duration=30e-3)
+    case = Case.of(loading=loading, solver=dict(time_step=10e-3))
     assert cycle_rows(stages(case, build_scene(case))) == [(0, 2, 2, 3)]
 
 
@@ -104,9 +104,7 @@ def test_a_cycle_of_many_phases_is_loaded_until_the_last_loading():
 
 def test_the_tolerance_goes_with_the_load_and_not_below_round_off():
     def allowed(force, tolerance):
-        case = Case(
-            loading=Loading(force=force), solver=Solver(tolerance=tolerance, joints="points")
-        )
+        case = Case.of(loading=dict(force=force), solver=dict(tolerance=tolerance, joints="points"))
         scene = build_scene(case)
         return tolerances(case, scene, stages(case, scene)[0].stage)
 

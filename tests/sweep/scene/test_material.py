@@ -6,7 +6,6 @@ from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
 
 from kernels.laws.law import Memory
 from kernels.laws.yielding import STATE
-from sweep.config.case import Material
 from sweep.scene import material as laws
 from sweep.scene.material import (
     as_law,
@@ -16,6 +15,7 @@ from sweep.scene.material import (
     monotonic_law,
     stress_law,
 )
+from tests.support.designs.tables import material_with
 from tests.support.materials.records import HEADER, RUBBERS
 
 NAMES = RUBBERS
@@ -28,7 +28,7 @@ def polynomial(law):
 
 @pytest.fixture(params=NAMES)
 def material(request):
-    return Material(name=request.param)
+    return material_with(name=request.param)
 
 
 @pytest.mark.parametrize(
@@ -43,9 +43,9 @@ def material(request):
     ],
 )
 def test_records_are_as_published(name, at_10, at_100, modulus):
-    law = polynomial(stress_law(Material(name=name)))
+    law = polynomial(stress_law(material_with(name=name)))
     assert law([0.1, 1.0]) == pytest.approx([at_10 * 1e6, at_100 * 1e6], rel=1e-6)
-    assert Material(name=name).modulus == pytest.approx(modulus * 1e6, rel=2e-3)
+    assert material_with(name=name).modulus == pytest.approx(modulus * 1e6, rel=2e-3)
 
 
 def test_law_at_strains_is_its_polynomial_and_beyond_its_ends_the_last_tangent(material):
@@ -78,7 +78,7 @@ def test_tension_is_the_shape_preserving_cubic_of_scipy(material):
 
 def test_slopes_of_a_record_that_falls_and_rises_are_those_of_scipy(own_record):
     path = own_record(HEADER + "0.01,2e4\n0.05,1e5\n0.1,8e4\n0.2,8e4\n0.3,9e5\n0.31,8e5\n0.5,8e6\n")
-    law = stress_law(Material(name=str(path)))
+    law = stress_law(material_with(name=str(path)))
     knots = law.knots[law.knots >= 0.0]
     slopes = PchipInterpolator(knots, polynomial(law)(knots)).derivative()(knots)
     assert polynomial(law)(knots[2:], 1) == pytest.approx(slopes[2:], rel=1e-12)
@@ -129,35 +129,35 @@ def test_compression_lies_between_its_bounds(material):
 
 
 def test_linear_law():
-    law = stress_law(Material(modulus=12e6, density=1190.0))
+    law = stress_law(material_with(modulus=12e6, density=1190.0))
     assert law.coefficients.shape == (1, 4)
     assert polynomial(law)([-0.5, 0.0, 0.25]) == pytest.approx([-6e6, 0.0, 3e6])
 
 
 def test_own_compression_branch_is_kept(own_record):
     path = own_record(HEADER + "-0.5,-4e6\n-0.1,-3e5\n0.01,2e4\n0.05,1e5\n0.5,8e5\n")
-    law = stress_law(Material(name=str(path)))
+    law = stress_law(material_with(name=str(path)))
     assert polynomial(law)([-0.5, -0.1, 0.05]) == pytest.approx([-4e6, -3e5, 1e5])
     assert polynomial(law)([-1e-9, 1e-9], 1) == pytest.approx([2e6, 2e6], rel=1e-4)
 
 
 def test_points_below_one_percent_are_replaced(own_record):
     path = own_record(HEADER + "0,0\n0.002,-500\n0.02,4e4\n0.05,1e5\n")
-    law = polynomial(stress_law(Material(name=str(path))))
+    law = polynomial(stress_law(material_with(name=str(path))))
     at_toe = -500 + (4e4 + 500) * 8 / 18
     assert law(0.005) == pytest.approx(0.5 * at_toe)
 
 
 def test_a_record_that_ends_early_goes_on_straight(own_record):
     path = own_record(HEADER + "0.01,2e4\n0.05,1e5\n0.1,2e5\n")
-    law = polynomial(stress_law(Material(name=str(path))))
+    law = polynomial(stress_law(material_with(name=str(path))))
     assert law(-0.5) == pytest.approx(-0.7 * 1e6 - 0.3 * 2e6 / 0.25, rel=1e-3)
 
 
 @pytest.mark.parametrize("name", ["pla", "abs"])
 def test_a_plastic_is_first_straight_and_then_hardens(name):
     """As the kernels' law pulls it in one step from rest."""
-    material = Material(name=name)
+    material = material_with(name=name)
     law = law_in_stretch(material, 1.0).yielding
     memory = Memory(np.zeros((1, STATE)), np.empty((1, 2)), None)
     for strain in (-0.08, -0.01, 0.0, 0.005, 0.03, 0.09):
@@ -173,15 +173,15 @@ def curve_of(law):
 def test_sections_follow_the_law_of_stretching(monkeypatch, bend):
     """Any law, so that one with a formula has a single place."""
     monkeypatch.setattr(laws, "stress_law", lambda material: linear_law(5e6))
-    material = Material(name="ninjaflex", bend=bend)
+    material = material_with(name="ninjaflex", bend=bend)
     found = curve_of(law_of_section.__wrapped__(material, 2.0, 0.0).curve)
     assert found.coefficients[0, 1] == 1e7
     assert curve_of(law_in_stretch.__wrapped__(material, 2.0)).coefficients[0, 1] == 1e7
 
 
 def test_sections_follow_the_curve_where_stretching_is_linear():
-    taut = Material(name="ninjaflex", stretch="linear", bend="section")
+    taut = material_with(name="ninjaflex", stretch="linear", bend="section")
     found = curve_of(law_of_section(taut, 1.0, 0.0).curve)
-    expected = as_law(stress_law(Material(name="ninjaflex")), 1.0, taut.modulus)
+    expected = as_law(stress_law(material_with(name="ninjaflex")), 1.0, taut.modulus)
     np.testing.assert_array_equal(found.coefficients, expected.coefficients)
     assert stress_law(taut).coefficients.shape == (1, 4)

@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Lattice
 from sweep.design.infill import families
 from sweep.design.lattice import build_network
 from sweep.scene.mesh import build_mesh, row_nodes, split_walls
+from tests.support.designs.tables import lattice_with
 
 SHIFT = 2e-4
 
 
 def network_of(kind):
-    return build_network(Lattice(kind=kind, width=20e-3, height=18e-3).geometry)
+    return build_network(lattice_with(kind=kind, width=20e-3, height=18e-3).geometry)
 
 
 @pytest.mark.parametrize("kind", families())
@@ -68,7 +68,7 @@ def test_the_imperfection_is_half_a_sine_over_the_height():
 
 
 def test_the_mesh_of_a_lattice_has_its_nodes_and_its_imperfection():
-    lattice = Lattice(nodes_per_wall=3, imperfection=0.5)
+    lattice = lattice_with(nodes_per_wall=3, imperfection=0.5)
     mesh, _ = build_mesh(lattice, False, "glued")
     assert (len(mesh.points), len(mesh.edges)) == (16 + 24 * 3, 24 * 4)
     assert np.ptp(mesh.points[:, 0]) == pytest.approx(12.5e-3 + 0.5 * 0.8e-3, rel=1e-3)
@@ -87,7 +87,7 @@ def test_an_outer_row_has_the_nodes_of_its_walls(kind):
 
 def test_pieces_of_a_perimeter_are_not_split_into_slivers():
     """Its walls are as long as the infill leaves them; elements are as long as thick."""
-    lattice = Lattice(slicer="prusa", pattern="stars", infill=0.3, width=20e-3, height=20e-3)
+    lattice = lattice_with(slicer="prusa", pattern="stars", infill=0.3, width=20e-3, height=20e-3)
     for solid in (True, False):
         mesh, _ = build_mesh(lattice, solid, "glued")
         beams = np.flatnonzero(mesh.joint < 0)

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from kernels.laws.relaxation import _square
-from sweep.config.case import Material
 from sweep.scene.material import law_in_stretch, law_of_hinge, law_of_section, stress_law
 from sweep.scene.relaxation import ELASTIC, exponent, lost_share, power_law, relaxation_of
+from tests.support.designs.tables import material_with
 from tests.support.materials.memory import follow, prepare, relaxing, virgin
 
 LOSSES = [0.1, 0.2, 0.3, 0.4, 0.45]
-STRIP = Material(modulus=12e6, density=1190.0, loss=0.3)
+STRIP = material_with(modulus=12e6, density=1190.0, loss=0.3)
 
 
 def modulus_at(times, shares, t):
@@ -79,7 +79,7 @@ def test_a_strip_loses_its_share_at_any_pace(loss):
 )
 def test_the_curve_holds_at_the_reference_time(memory, reference):
     """After a sudden strain; the modulus, too, in stretching, in bending and of a hinge."""
-    material = Material(**memory, reference_time=reference)
+    material = material_with(**memory, reference_time=reference)
     laws = law_in_stretch(material, 1.3), law_of_section(material, 1.3, 0.0).curve
     for law in laws:
         stress = follow(law, [0.08, 0.08], [0.0, reference]).stress[-1]
@@ -94,12 +94,12 @@ def test_the_curve_holds_at_the_reference_time(memory, reference):
 
 def test_branches_are_those_given_or_none():
     branches = {"relaxation_times": (1e-3, 2.0), "relaxation_shares": (0.1, 0.2)}
-    given = Material(**branches, reference_time=1.0)
+    given = material_with(**branches, reference_time=1.0)
     shares, times, instant = relaxation_of(given)
     assert (list(shares), list(times)) == ([0.1, 0.2], [1e-3, 2.0])
     left = 1.0 - 0.1 * -np.expm1(-1e3) - 0.2 * -np.expm1(-0.5)
     assert instant == pytest.approx(1.0 / left, rel=1e-12)
-    assert relaxation_of(Material()) is ELASTIC
+    assert relaxation_of(material_with()) is ELASTIC
 
 
 @pytest.mark.parametrize("z", [1e-12, 1e-9, 1e-4, 9.9e-3, 1.01e-2, 0.3, 30.0])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Lattice, Solver
+from sweep.config.case import Case
 from sweep.scene.custom import build_structure
 from sweep.simulation.custom_history import structure_columns
 from tests.support.designs.structures import BEAM, MATERIAL, end_load, probe, pushed, structure
@@ -20,8 +20,8 @@ def test_rows_of_equal_increments():
 @pytest.mark.parametrize("floor", [{}, {"floor_y_mm": -5.0}])
 def test_reactions_are_zero_where_a_node_is_free(floor):
     parts = BEAM | floor | {"probes": [1, 0]}
-    lattice = Lattice(kind="custom", structure=structure(**parts))
-    case = Case(lattice=lattice, material=MATERIAL, solver=Solver(integrator="static"))
+    lattice = dict(kind="custom", structure=structure(**parts))
+    case = Case.of(lattice=lattice, material=MATERIAL, solver=dict(integrator="static"))
     probed = np.arange(24.0).reshape(2, 2, 6)
     given = {"time_s": np.array([0.0, 0.5]), "reaction_bottom_N": np.array([1.0, 2.0])}
     found = structure_columns(given, probed, build_structure(case), case)

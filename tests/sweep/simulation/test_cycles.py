@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.columns import cycle_columns
-from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.scene.loading import CycleRows
 from sweep.simulation.cycles import columns_of_cycles
 from sweep.simulation.simulate import simulate
@@ -16,8 +16,8 @@ TWICE = [CycleRows(0, 2, 2, 4), CycleRows(4, 6, 6, 8)]
 
 def twice(steps=2, **others):
     """A case of two cycles."""
-    loading = Loading(mode="displacement", strain=0.3, cycles=2)
-    return Case(loading=loading, solver=Solver(load_steps=steps), **others)
+    loading = dict(mode="displacement", strain=0.3, cycles=2)
+    return Case.of(loading=loading, solver=dict(load_steps=steps), **others)
 
 
 def test_each_cycle_begins_where_the_last_one_ends():
@@ -45,10 +45,8 @@ def test_what_a_run_that_stops_has_not_done_is_unknown(rows, known):
 def crushed(**material):
     """The summary of a small lattice that is pressed twice, and its history."""
     given = {"modulus": 12e6, "density": 1190.0, "plane": "stress"} | material
-    lattice = Lattice(cells_x=1, cells_y=1, nodes_per_wall=0)
-    result = simulate(
-        twice(10, lattice=lattice, material=Material(**given), contact=Contact(model="none"))
-    )
+    lattice = dict(cells_x=1, cells_y=1, nodes_per_wall=0)
+    result = simulate(twice(10, lattice=lattice, material=given, contact=dict(model="none")))
     assert result.status == "converged"
     return result.summary, result.history
 

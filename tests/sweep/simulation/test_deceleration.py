@@ -5,7 +5,7 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Loading
+from sweep.config.case import Case
 from sweep.simulation.deceleration import filtered, filtered_peak
 
 CLASS = 1000
@@ -71,5 +71,5 @@ def test_rows_too_far_apart_have_no_filtered_peak():
 
 
 def test_class_enters_an_id_only_if_it_is_not_the_usual_one():
-    usual, other = (Case(loading=Loading(energy=0.1, filter_class=k)) for k in (1000, 180))
-    assert Case(loading=Loading(energy=0.1)).case_id == usual.case_id != other.case_id
+    usual, other = (Case.of(loading=dict(energy=0.1, filter_class=k)) for k in (1000, 180))
+    assert Case.of(loading=dict(energy=0.1)).case_id == usual.case_id != other.case_id

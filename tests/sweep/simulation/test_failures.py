@@ -9,16 +9,17 @@ import pytest
 
 from kernels.solve import outcomes
 from sweep.columns import ABSORBED_AT, COLUMNS, HISTORY_COLUMNS
-from sweep.config.case import Case, Contact, Lattice, Loading, Solver
+from sweep.config.case import Case
+from sweep.config.kinds.solver import Arcs
 from sweep.result import Status
 from sweep.simulation.failures import ADVICE, LOST, stopped
 from sweep.simulation.simulate import simulate
 from tests.support.designs.scenes import is_sound, pressed
 
-LONG = Case(
-    lattice=Lattice(cells_x=8, cells_y=8, wall_thickness=0.4e-3),
-    loading=Loading(mode="displacement", strain=0.6),
-    solver=Solver(load_steps=2000, time_limit=60.0),
+LONG = Case.of(
+    lattice=dict(cells_x=8, cells_y=8, wall_thickness=0.4e-3),
+    loading=dict(mode="displacement", strain=0.6),
+    solver=dict(load_steps=2000, time_limit=60.0),
 )
 
 
@@ -79,43 +80,41 @@ def test_stop_that_is_asked_for_in_the_middle():
 
 
 EXTREMES = {
-    "one cell of single elements": Case(
-        lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=0),
-        loading=Loading(mode="displacement"),
+    "one cell of single elements": Case.of(
+        lattice=dict(cells_x=1, cells_y=1, nodes_per_wall=0),
+        loading=dict(mode="displacement"),
     ),
-    "crushed flat at once": Case(
-        loading=Loading(mode="displacement", strain=0.999),
-        solver=Solver(load_steps=1, max_iterations=10),
+    "crushed flat at once": Case.of(
+        loading=dict(mode="displacement", strain=0.999),
+        solver=dict(load_steps=1, max_iterations=10),
     ),
-    "walls that almost fill the cells": Case(
-        lattice=Lattice(cells_x=2, cells_y=2, wall_thickness=3.1e-3),
-        loading=Loading(mode="displacement", strain=0.3, platen="contact"),
-        solver=Solver(load_steps=20),
+    "walls that almost fill the cells": Case.of(
+        lattice=dict(cells_x=2, cells_y=2, wall_thickness=3.1e-3),
+        loading=dict(mode="displacement", strain=0.3, platen="contact"),
+        solver=dict(load_steps=20),
     ),
-    "walls like foil": Case(
-        lattice=Lattice(wall_thickness=2e-5),
-        loading=Loading(mode="displacement"),
-        solver=Solver(load_steps=30),
+    "walls like foil": Case.of(
+        lattice=dict(wall_thickness=2e-5),
+        loading=dict(mode="displacement"),
+        solver=dict(load_steps=30),
     ),
-    "a heavy load": Case(
-        loading=Loading(force=1e3, platen="contact", duration=2e-3), solver=Solver(time_step=1e-3)
+    "a heavy load": Case.of(
+        loading=dict(force=1e3, platen="contact", duration=2e-3), solver=dict(time_step=1e-3)
     ),
-    "one step": Case(loading=Loading(force=10.0, platen="contact"), solver=Solver(time_step=0.2)),
-    "100 m/s": Case(
-        loading=Loading(mode="displacement", speed=100.0), solver=Solver(load_steps=30)
+    "one step": Case.of(loading=dict(force=10.0, platen="contact"), solver=dict(time_step=0.2)),
+    "100 m/s": Case.of(loading=dict(mode="displacement", speed=100.0), solver=dict(load_steps=30)),
+    "walls bent like arches": Case.of(
+        lattice=dict(imperfection=20.0),
+        loading=dict(mode="displacement", strain=0.4),
+        solver=dict(load_steps=40),
     ),
-    "walls bent like arches": Case(
-        lattice=Lattice(imperfection=20.0),
-        loading=Loading(mode="displacement", strain=0.4),
-        solver=Solver(load_steps=40),
+    "walls that stick": Case.of(
+        loading=dict(mode="displacement", platen="contact"),
+        contact=dict(friction=5.0),
+        solver=dict(load_steps=30, max_iterations=30),
     ),
-    "walls that stick": Case(
-        loading=Loading(mode="displacement", platen="contact"),
-        contact=Contact(friction=5.0),
-        solver=Solver(load_steps=30, max_iterations=30),
-    ),
-    "a tolerance below round-off": Case(
-        loading=Loading(mode="displacement", strain=0.2), solver=Solver(tolerance=1e-16)
+    "a tolerance below round-off": Case.of(
+        loading=dict(mode="displacement", strain=0.2), solver=dict(tolerance=1e-16)
     ),
 }
 
@@ -158,6 +157,5 @@ def test_a_dead_load_that_buckles_needs_iterations_and_a_path_shorter_arcs():
     for driven in (True, False):
         _, message = stopped(LONG, outcomes.ITERATIONS, "there", driven)
         assert message.endswith(f"Newton iterations; try {few[not driven]}")
-    solver = LONG.solver.model_copy(update={"integrator": "arc_length"})
-    path = LONG.model_copy(update={"solver": solver})
+    path = LONG.model_copy(update={"solver": Arcs(arc_length=1e-3)})
     assert stopped(path, outcomes.ITERATIONS, "there", False)[1] == f"stopped there: {LOST}"

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Lattice, Loading
+from sweep.config.case import Case
 from sweep.simulation.packing import BAND, efficiency, packed_row, span, weights
 from sweep.simulation.summary import crush_columns
 
 HEIGHT, AREA = 10e-3, 1e-4
-CRUSH = Case(
-    lattice=Lattice(width=9e-3, wall_thickness=1e-3, height=HEIGHT, depth=10e-3),
-    loading=Loading(strain=0.6),
+CRUSH = Case.of(
+    lattice=dict(width=9e-3, wall_thickness=1e-3, height=HEIGHT, depth=10e-3),
+    loading=dict(strain=0.6),
 )
 STRAIN = np.linspace(0.0, 0.6, 601)
 NEW = ("absorbed_energy_until_packed_J", "peak_force_until_packed_N", "packing_strain")

@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from sweep.columns import COLUMNS, HISTORY_COLUMNS
-from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.scene.plates.scene import build_scene
 from sweep.simulation.plate_shapes import plate_frames
 from sweep.simulation.simulate import simulate
 from sweep.simulation.summary import plate_columns
+from tests.support.designs.tables import material_with
 
-LINEAR = Material(name="ultimaker_tpu95a", stretch="linear")
+LINEAR = material_with(name="ultimaker_tpu95a", stretch="linear")
 SIDE = 4e-3
 
 
@@ -20,12 +21,12 @@ def tube(platen="glued", steps=6, **lattice):
     """A square tube of 4 x 4 x 8 mm with walls of 0.4 mm, pressed by 6 %."""
     size = {"width": SIDE, "height": SIDE, "depth": 2 * SIDE, "wall_thickness": 0.4e-3}
     box = {"cells_x": 1, "cells_y": 1, "nodes_per_wall": 3, "imperfection": 0.05}
-    return Case(
-        lattice=Lattice(**size | box | lattice),
+    return Case.of(
+        lattice=size | box | lattice,
         material=LINEAR,
-        loading=Loading(direction="out_of_plane", strain=0.06, platen=platen, unload=False),
-        contact=Contact(friction=0.2),
-        solver=Solver(load_steps=steps),
+        loading=dict(direction="out_of_plane", strain=0.06, platen=platen, unload=False),
+        contact=dict(friction=0.2),
+        solver=dict(load_steps=steps),
     )
 
 
@@ -107,19 +108,21 @@ def test_energy_within_the_model_ends_where_walls_fill_the_area(stroke, within):
 def test_damping_is_no_advice_as_it_is_refused(monkeypatch):
     module = import_module("sweep.simulation.simulate")
     monkeypatch.setattr(module._Run, "_creates_energy", lambda run: True)
-    loading = Loading(direction="out_of_plane", striker_mass=5e-3, striker_speed=0.3, duration=1e-4)
-    steps = Solver(integrator="newmark", time_step=2e-5)
-    found = simulate(Case(lattice=tube().lattice, material=LINEAR, loading=loading, solver=steps))
+    loading = dict(direction="out_of_plane", striker_mass=5e-3, striker_speed=0.3, duration=1e-4)
+    steps = dict(integrator="newmark", time_step=2e-5)
+    found = simulate(
+        Case.of(lattice=tube().lattice, material=LINEAR, loading=loading, solver=steps)
+    )
     advice = 'try smaller steps or solver.integrator "backward_euler"'
     assert found.message == f"the integrator made energy out of nothing; {advice}"
 
 
 def test_a_striker_is_stopped_and_thrown_back():
     case = tube(symmetry="quarter", nodes_per_wall=2)
-    loading = Loading(direction="out_of_plane", striker_mass=5e-3, striker_speed=0.3)
-    struck = Case(
-        lattice=case.lattice, material=LINEAR, loading=loading, contact=Contact(friction=0.0),
-        solver=Solver(time_step=2e-5),
+    loading = dict(direction="out_of_plane", striker_mass=5e-3, striker_speed=0.3)
+    struck = Case.of(
+        lattice=case.lattice, material=LINEAR, loading=loading, contact=dict(friction=0.0),
+        solver=dict(time_step=2e-5),
     )  # fmt: skip
     result = simulate(struck)
     summary = result.summary

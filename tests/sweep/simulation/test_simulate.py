@@ -6,7 +6,7 @@ from importlib import import_module
 import pytest
 
 from kernels.solve import march
-from sweep.config.case import Case, Loading
+from sweep.config.case import Case
 from sweep.simulation.simulate import simulate, warm_up
 
 PARTS = {"scene": "build_scene", "rows": "history_columns", "measures": "summarise"}
@@ -33,7 +33,7 @@ def before(first, function):
 def seconds(monkeypatch):
     """Processor time of a small case, of which some part does something else before."""
     warm_up()
-    case = Case(loading=Loading(release_time=1e-4, duration=2e-4))
+    case = Case.of(loading=dict(release_time=1e-4, duration=2e-4))
 
     def measure(module, name, first):
         monkeypatch.setattr(module, name, before(first, getattr(module, name)))

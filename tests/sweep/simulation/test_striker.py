@@ -7,7 +7,7 @@ import pytest
 
 from kernels.solve import outcomes
 from kernels.solve.energy_book import kinetic
-from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Solver
+from sweep.config.case import Case
 from sweep.config.grid import expand
 from sweep.config.units import load_config
 from sweep.scene.lattice import build_scene
@@ -28,11 +28,12 @@ from tests.support.designs.scenes import (
     summed,
     unbalanced,
 )
+from tests.support.designs.tables import lattice_with
 from tests.support.kernels.solving import at_rest, go_on, ramp
 
 RECOVERABLE = ("stretch_J", "bend_J", "contact_J")
 EULER = "backward_euler"
-CREEP = Damping(model="rayleigh", mass=200.0, stiffness=5e-3)  # no overshoot
+CREEP = dict(model="rayleigh", mass=200.0, stiffness=5e-3)  # no overshoot
 
 
 def struck(
@@ -45,31 +46,31 @@ def struck(
     **loading,
 ):
     """A 3 x 3 grid and a striker; ``steps`` in the time that it takes for the height."""
-    loads = Loading(mode="impact", platen=platen, **loading)
-    passage = Case(loading=loads).loading.duration / 10
-    return Case(
-        lattice=Lattice(imperfection=imperfection),
+    loads = dict(mode="impact", platen=platen, **loading)
+    passage = Case.of(loading=loads).loading.duration / 10
+    return Case.of(
+        lattice=dict(imperfection=imperfection),
         material=MATERIAL,
         loading=loads,
-        contact=Contact(friction=friction),
+        contact=dict(friction=friction),
         damping=damping,
-        solver=Solver(joints="points", time_step=steps and passage / steps, integrator=integrator),
+        solver=dict(joints="points", time_step=steps and passage / steps, integrator=integrator),
     )
 
 
 def column(steps, damping=UNDAMPED):
     """Two straight walls without mass under 50 g at 20 mm/s, and v sqrt(k m), the peak in N."""
     striker, speed, wall = 0.05, 0.02, 2e-3
-    lattice = Lattice(cells_x=1, cells_y=1, wall_thickness=wall, imperfection=0.0)
+    lattice = lattice_with(cells_x=1, cells_y=1, wall_thickness=wall, imperfection=0.0)
     stiffness = 2 * MATERIAL.modulus * lattice.depth * wall / lattice.height
     swing = np.pi * np.sqrt(striker / stiffness)
-    case = Case(
+    case = Case.of(
         lattice=lattice,
         material=MATERIAL.model_copy(update={"density": 1.0}),
-        loading=Loading(striker_mass=striker, striker_speed=speed, duration=2 * swing),
-        contact=Contact(model="none"),
+        loading=dict(striker_mass=striker, striker_speed=speed, duration=2 * swing),
+        contact=dict(model="none"),
         damping=damping,
-        solver=Solver(joints="points", time_step=swing / steps, integrator=EULER),
+        solver=dict(joints="points", time_step=swing / steps, integrator=EULER),
     )
     return case, speed * np.sqrt(stiffness * striker)
 
@@ -91,7 +92,7 @@ def test_a_straight_column_is_a_spring():
 
 
 def test_the_drag_of_the_lattice_does_not_slow_the_striker():
-    drag = Damping(model="rayleigh", mass=1e3, stiffness=0.0)
+    drag = dict(model="rayleigh", mass=1e3, stiffness=0.0)
     free, damped = (run(column(500, damping)[0]) for damping in (UNDAMPED, drag))
     shares = [result.summary["rebound_share"] for result in (free, damped)]
     assert shares[0] == pytest.approx(shares[1], abs=1e-3)
@@ -135,9 +136,9 @@ def test_momentum_goes_into_the_support(platen, friction):
 @pytest.mark.parametrize("platen", ["glued", "contact"])
 def test_impulse_of_the_striker_s_force_is_its_change_of_momentum(platen, count, step_error):
     """However many steps fill the duration, and however a step is divided."""
-    loading = Loading(mode="impact", platen=platen, duration=0.02)
-    solver = Solver(time_step=0.02 / count, step_error=step_error)
-    case = Case(material=MATERIAL, loading=loading, solver=solver)
+    loading = dict(mode="impact", platen=platen, duration=0.02)
+    solver = dict(time_step=0.02 / count, step_error=step_error)
+    case = Case.of(material=MATERIAL, loading=loading, solver=solver)
     history = run(case).history
     time, speed = history["time_s"], history["striker_speed_m_per_s"]
     impulse = np.cumsum(history["reaction_top_N"][1:] * np.diff(time))
@@ -204,7 +205,7 @@ def test_columns_of_an_impact(platen):
     assert summary["returned_energy_J"] == pytest.approx(0.025 * speed.min() ** 2)
     assert summary["rebound_share"] == pytest.approx(summary["returned_energy_J"] / 0.1)
     assert summary["absorbed_energy_J"] == pytest.approx(0.1, rel=0.005)
-    grown = Case().lattice.outer_size[1] * (1.0 - summary["relative_density"])
+    grown = Case.of().lattice.outer_size[1] * (1.0 - summary["relative_density"])
     assert summary["stroke_left_m"] == pytest.approx(grown - history["top_displacement_m"].max())
 
 

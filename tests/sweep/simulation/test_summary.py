@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Lattice, Loading, Material
+from sweep.config.case import Case
 from sweep.scene.loading import CycleRows
 from sweep.simulation.packing import efficiency
 from sweep.simulation.summary import (
@@ -14,8 +14,9 @@ from sweep.simulation.summary import (
     stretch_over_curve,
     transmitted,
 )
+from tests.support.designs.tables import material_with
 
-LATTICE = Lattice(width=9e-3, wall_thickness=1e-3, height=10e-3, depth=10e-3)  # area 1 cm^2
+LATTICE = dict(width=9e-3, wall_thickness=1e-3, height=10e-3, depth=10e-3)  # area 1 cm^2
 AREA, HEIGHT = 1e-4, 10e-3
 STEP = 1e-3  # strain of a row
 
@@ -41,7 +42,7 @@ def curve(strain, force, work, **columns):
 
 def measured(strain, force, work):
     """Columns of a crush."""
-    case = Case(lattice=LATTICE, loading=Loading(strain=0.6))
+    case = Case.of(lattice=LATTICE, loading=dict(strain=0.6))
     return crush_columns(case, curve(strain, force, work))
 
 
@@ -58,7 +59,7 @@ def test_plateau_of_a_foam():
 
 
 def test_energy_and_force_until_packed():
-    case = Case(lattice=LATTICE, loading=Loading(strain=0.6, allowed_forces=(20.0,)))
+    case = Case.of(lattice=LATTICE, loading=dict(strain=0.6, allowed_forces=(20.0,)))
     found = crush_columns(case, curve(*FOAM))
     assert found["absorbed_energy_at_densification_J"] == pytest.approx(45e-3)
     assert found["peak_force_at_densification_N"] == pytest.approx(10.0)
@@ -88,7 +89,7 @@ def test_efficiency_of_a_straight_line_is_half_the_strain():
 )
 def test_what_is_still_gaining_at_the_stroke_has_not_packed(strains, forces):
     strain, force, work = crushed(strains, forces)
-    case = Case(lattice=LATTICE, loading=Loading(strain=0.5))
+    case = Case.of(lattice=LATTICE, loading=dict(strain=0.5))
     found = crush_columns(case, curve(strain, force, work))
     assert np.isnan(found["densification_strain"])
     assert found["efficiency"] == pytest.approx(work[-1] / max(forces) / HEIGHT)
@@ -127,9 +128,9 @@ def test_mean_over_greatest_force_until_packed_and_in_the_whole_loading():
 
 
 def test_a_striker_has_a_mean_force_but_a_dead_load_has_none():
-    struck = Loading(mode="impact", striker_mass=0.1, striker_speed=1.0)
-    for loading, share in ((struck, 0.25), (Loading(force=50.0), np.nan)):
-        found = crush_columns(Case(lattice=LATTICE, loading=loading), curve(*FOAM))
+    struck = dict(mode="impact", striker_mass=0.1, striker_speed=1.0)
+    for loading, share in ((struck, 0.25), (dict(force=50.0), np.nan)):
+        found = crush_columns(Case.of(lattice=LATTICE, loading=loading), curve(*FOAM))
         assert found["crush_force_efficiency"] == pytest.approx(share, nan_ok=True)
         assert np.isnan([found["ideality"], found["cushion_factor"]]).all()
 
@@ -145,7 +146,7 @@ def test_nothing_is_measured_on_one_row_or_without_force():
 
 
 def test_a_dead_load_has_no_plateau():
-    case = Case(lattice=LATTICE, loading=Loading(force=50.0, allowed_forces=(20.0,)))
+    case = Case.of(lattice=LATTICE, loading=dict(force=50.0, allowed_forces=(20.0,)))
     found = crush_columns(case, curve(*FOAM))
     assert np.isnan([found[name] for name in OF_A_CRUSH]).all()
     for point in ("at_densification", "until_packed"):
@@ -155,12 +156,12 @@ def test_a_dead_load_has_no_plateau():
 
 def test_the_greater_of_both_platens_is_passed_on():
     history = {"reaction_top_N": np.array([1.0, 5.0]), "reaction_bottom_N": np.array([2.0, 4.0])}
-    assert list(transmitted(Case(), history)) == [2.0, 5.0]
+    assert list(transmitted(Case.of(), history)) == [2.0, 5.0]
 
 
 def test_a_struck_lattice_passes_on_what_its_support_bears():
     history = {"reaction_top_N": np.array([9.0, 5.0]), "reaction_bottom_N": np.array([2.0, 4.0])}
-    struck = Case(loading=Loading(mode="impact"))
+    struck = Case.of(loading=dict(mode="impact"))
     assert list(transmitted(struck, history)) == [2.0, 4.0]
 
 
@@ -169,43 +170,43 @@ def test_work_is_split_where_the_platen_turns():
     strain, force = (column[:501] for column in FOAM[:2])
     there_and_back = np.append(strain, strain[-2::-1])
     history = {"work_in_J": worked(there_and_back, np.append(force, np.full(500, 2.0)))}
-    turned = returned(Case(loading=Loading(strain=0.5)), history, CycleRows(0, 500, 500, 1000))
+    turned = returned(Case.of(loading=dict(strain=0.5)), history, CycleRows(0, 500, 500, 1000))
     # The force falls from 10 to 2 N in the first step up: 6 N x 10 um, less 2 N x 10 um.
     assert turned == pytest.approx(10e-3 + 4.0 * STEP * HEIGHT)
     again = {"work_in_J": np.append(history["work_in_J"], np.full(1000, 7.0))}
-    twice = Case(loading=Loading(strain=0.5, cycles=2))
+    twice = Case.of(loading=dict(strain=0.5, cycles=2))
     assert returned(twice, again, CycleRows(0, 500, 500, 1000)) == turned
 
 
 def test_what_does_not_come_back_is_lost():
-    crushed_once = lost_columns(Case(loading=Loading(strain=0.5)), 0.5, 0.2, 2.0)
+    crushed_once = lost_columns(Case.of(loading=dict(strain=0.5)), 0.5, 0.2, 2.0)
     assert list(crushed_once.values()) == pytest.approx([0.2, 0.3, 0.6, 0.15])
-    struck = lost_columns(Case(loading=Loading(energy=0.4)), 0.5, 0.1, 2.0)
+    struck = lost_columns(Case.of(loading=dict(energy=0.4)), 0.5, 0.1, 2.0)
     assert list(struck.values()) == pytest.approx([0.1, 0.3, 0.75, 0.15])
-    assert np.isnan(lost_columns(Case(), 0.5, np.nan, 2.0)["lost_share"])
-    assert np.isnan(lost_columns(Case(), 0.0, 0.0, 2.0)["lost_share"])
+    assert np.isnan(lost_columns(Case.of(), 0.5, np.nan, 2.0)["lost_share"])
+    assert np.isnan(lost_columns(Case.of(), 0.0, 0.0, 2.0)["lost_share"])
 
 
 @pytest.mark.parametrize(
     ("loading", "rows"),
     [
-        (Loading(strain=0.5, unload=False), CycleRows(0, 600, 600, 600)),
-        (Loading(strain=0.5), CycleRows(0, 600, 600, 1200)),
-        (Loading(strain=0.5), CycleRows(0, 700, 700, 1400)),
-        (Loading(force=5.0), CycleRows(0, 300, 300, 600)),
+        (dict(strain=0.5, unload=False), CycleRows(0, 600, 600, 600)),
+        (dict(strain=0.5), CycleRows(0, 600, 600, 1200)),
+        (dict(strain=0.5), CycleRows(0, 700, 700, 1400)),
+        (dict(force=5.0), CycleRows(0, 300, 300, 600)),
     ],
     ids=["not let up", "stopped as it turns", "not even pressed", "dead load"],
 )
 def test_nothing_comes_back_where_no_platen_moves_back(loading, rows):
     assert len(FOAM[2]) == 601
-    assert np.isnan(returned(Case(loading=loading), {"work_in_J": FOAM[2]}, rows))
+    assert np.isnan(returned(Case.of(loading=loading), {"work_in_J": FOAM[2]}, rows))
 
 
 def test_stretch_is_compared_with_the_end_of_the_measured_curve():
     curve = {"curve_strain": (-0.9, 0.01, 0.1, 0.4), "curve_stress": (-9e6, 1e5, 1e6, 3e6)}
     given = curve | {"name": "mine", "modulus": 1e7, "density": 1200.0}
     strains = np.array([[0.0, 0.1], [-0.8, 0.2]]), np.array([[0.0, 0.3], [0.5, 0.2]])
-    assert stretch_over_curve(Material(**given), strains) == pytest.approx(0.5 / 0.4)
-    taut = Material(**given, bend="linear")
+    assert stretch_over_curve(material_with(**given), strains) == pytest.approx(0.5 / 0.4)
+    taut = material_with(**given, bend="linear")
     assert stretch_over_curve(taut, strains) == pytest.approx(0.2 / 0.4)
-    assert np.isnan(stretch_over_curve(Material(modulus=1e7, density=1200.0), strains))
+    assert np.isnan(stretch_over_curve(material_with(modulus=1e7, density=1200.0), strains))

@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Contact, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.config.grid import expand
 from sweep.config.units import load_config
 from sweep.running.sweep import run_sweep
@@ -118,13 +118,13 @@ def test_two_columns_buckle_at_eulers_load(platen, buckles_at):
     Beyond the load P of buckling the elastica bears P (1 + d / 2 l) when pressed by d.
     """
     side, thickness, strain = 10e-3, 0.2e-3, 0.01
-    case = Case(
-        lattice=Lattice(cells_x=1, cells_y=1, width=side, height=side, depth=10e-3,
+    case = Case.of(
+        lattice=dict(cells_x=1, cells_y=1, width=side, height=side, depth=10e-3,
                         wall_thickness=thickness, nodes_per_wall=35, imperfection=1e-3),
-        material=Material(modulus=10e6, density=1200.0, plane="stress"),
-        loading=Loading(strain=strain, platen=platen, unload=False),
-        contact=Contact(model="none"),
-        solver=Solver(joints="points"),
+        material=dict(modulus=10e6, density=1200.0, plane="stress"),
+        loading=dict(strain=strain, platen=platen, unload=False),
+        contact=dict(model="none"),
+        solver=dict(joints="points"),
     )  # fmt: skip
     result = simulate(case)
     second_moment = 10e-3 * thickness**3 / 12

@@ -6,37 +6,37 @@ import subprocess
 import sys
 from pathlib import Path
 
-from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.support.designs.structures import BEAM, structure
 
 PRESSED = {"mode": "displacement", "strain": 0.01}
 BRIEF = {"release_time": 2e-4, "duration": 4e-4}
-TWO = Solver(load_steps=2)
+TWO = dict(load_steps=2)
 TIP = {"node": 1, "force_N": [0.0, -1e-3]}
 CASES = {
-    "glued": Case(loading=Loading(**PRESSED), solver=TWO),
-    "loose": Case(loading=Loading(**PRESSED, platen="contact", unload=False), solver=TWO),
-    "at a speed": Case(loading=Loading(**PRESSED, speed=0.1), solver=TWO),
-    "classical": Case(
-        loading=Loading(**PRESSED),
-        material=Material(bend="linear"),
-        solver=Solver(load_steps=2, element="classical", bend_measure="tangent"),
+    "glued": Case.of(loading=PRESSED, solver=TWO),
+    "loose": Case.of(loading=dict(**PRESSED, platen="contact", unload=False), solver=TWO),
+    "at a speed": Case.of(loading=dict(**PRESSED, speed=0.1), solver=TWO),
+    "classical": Case.of(
+        loading=PRESSED,
+        material=dict(bend="linear"),
+        solver=dict(load_steps=2, element="classical", bend_measure="tangent"),
     ),
-    "dead load": Case(loading=Loading(**BRIEF)),
-    "dead load on a platen": Case(loading=Loading(**BRIEF, platen="glued")),
-    "without contact": Case(loading=Loading(**BRIEF), contact=Contact(model="none")),
-    "without friction": Case(loading=Loading(**BRIEF), contact=Contact(friction=0.0)),
-    "without damping": Case(loading=Loading(**BRIEF), damping=Damping(model="none")),
-    "viscous": Case(loading=Loading(**BRIEF), damping=Damping(model="kelvin_voigt")),
-    "linear": Case(loading=Loading(**BRIEF), material=Material(stretch="linear")),
-    "no inner nodes": Case(loading=Loading(**BRIEF), lattice=Lattice(nodes_per_wall=0)),
-    "one inner node": Case(loading=Loading(**BRIEF), lattice=Lattice(nodes_per_wall=1)),
-    "an arc": Case(
-        lattice=Lattice(kind="custom", structure=structure(**BEAM, loads=[TIP])),
-        solver=Solver(integrator="arc_length", load_steps=2),
+    "dead load": Case.of(loading=BRIEF),
+    "dead load on a platen": Case.of(loading=dict(**BRIEF, platen="glued")),
+    "without contact": Case.of(loading=BRIEF, contact=dict(model="none")),
+    "without friction": Case.of(loading=BRIEF, contact=dict(friction=0.0)),
+    "without damping": Case.of(loading=BRIEF, damping=dict(model="none")),
+    "viscous": Case.of(loading=BRIEF, damping=dict(model="kelvin_voigt")),
+    "linear": Case.of(loading=BRIEF, material=dict(stretch="linear")),
+    "no inner nodes": Case.of(loading=BRIEF, lattice=dict(nodes_per_wall=0)),
+    "one inner node": Case.of(loading=BRIEF, lattice=dict(nodes_per_wall=1)),
+    "an arc": Case.of(
+        lattice=dict(kind="custom", structure=structure(**BEAM, loads=[TIP])),
+        solver=dict(integrator="arc_length", load_steps=2),
     ),
-    "one cell": Case(loading=Loading(**BRIEF), lattice=Lattice(cells_x=1, cells_y=1)),
+    "one cell": Case.of(loading=BRIEF, lattice=dict(cells_x=1, cells_y=1)),
 }
 
 

@@ -1,15 +1,16 @@
 """What is timed: the seed's scene and crushes of square cells, all cells of one size."""
 
-from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.design.lattice import build_network
 from sweep.scene.lattice import build_scene
 from sweep.scene.mesh import build_mesh
+from tests.support.designs.tables import lattice_with, material_with
 
 PITCH = 12.5e-3 / 3
-MATERIAL = Material(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
-UNDAMPED = Damping(model="none")
-APART = Contact(model="none")
-SMOOTH, ROUGH = Contact(friction=0.0), Contact(friction=0.3)
+MATERIAL = material_with(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
+UNDAMPED = dict(model="none")
+APART = dict(model="none")
+SMOOTH, ROUGH = dict(friction=0.0), dict(friction=0.3)
 SPEED = 0.5  # m/s
 
 
@@ -22,35 +23,35 @@ def new_scene(case):
 
 def lattice(cells):
     """Cells by cells, walls of 0.8 mm in three elements each."""
-    return Lattice(cells_x=cells, cells_y=cells, width=cells * PITCH, height=cells * PITCH)
+    return lattice_with(cells_x=cells, cells_y=cells, width=cells * PITCH, height=cells * PITCH)
 
 
 def seed(cells=3, duration=0.2, contact=APART):
     """A dead load, 5 N on three cells a side, let go later; undamped, steps of 0.1 ms."""
     force, release = 5.0 * cells / 3, 0.69 * duration
-    return Case(
+    return Case.of(
         lattice=lattice(cells),
         material=MATERIAL,
-        loading=Loading(force=force, release_time=release, duration=duration, platen="none"),
+        loading=dict(force=force, release_time=release, duration=duration, platen="none"),
         contact=contact,
         damping=UNDAMPED,
-        solver=Solver(time_step=1e-4, joints="points"),
+        solver=dict(time_step=1e-4, joints="points"),
     )
 
 
 def crush(cells, strain, steps, contact=APART):
     """Quasi-static crush to ``strain`` between glued platens, joints that are points."""
-    return Case(
+    return Case.of(
         lattice=lattice(cells),
         material=MATERIAL,
-        loading=Loading(mode="displacement", strain=strain, unload=False),
+        loading=dict(mode="displacement", strain=strain, unload=False),
         contact=contact,
-        solver=Solver(load_steps=steps, joints="points"),
+        solver=dict(load_steps=steps, joints="points"),
     )
 
 
 def blow(cells=3, strain=0.6, steps=200, **left_out):
     """Crush at a speed with all there is: measured curve, contact, friction, damping."""
-    chosen = {"material": Material(), "contact": ROUGH, "damping": Damping()} | left_out
-    loading = Loading(mode="displacement", strain=strain, unload=False, speed=SPEED)
-    return Case(lattice=lattice(cells), loading=loading, solver=Solver(load_steps=steps), **chosen)
+    chosen = {"material": material_with(), "contact": ROUGH, "damping": {}} | left_out
+    loading = dict(mode="displacement", strain=strain, unload=False, speed=SPEED)
+    return Case.of(lattice=lattice(cells), loading=loading, solver=dict(load_steps=steps), **chosen)

@@ -4,7 +4,7 @@ from math import degrees, radians
 
 import pytest
 
-from sweep.config.case import Case, Lattice
+from sweep.config.case import Case
 from sweep.config.defaults.slicer_settings import slicer_settings
 from sweep.design.slicer.patterns import line_of
 
@@ -13,7 +13,7 @@ BOX = {"width": 20e-3, "height": 20e-3}
 
 
 def settings(**lattice):
-    return slicer_settings(Case(lattice=Lattice(**lattice)))
+    return slicer_settings(Case.of(lattice=lattice))
 
 
 def test_of_a_slicer_they_are_those_of_the_config():

@@ -2,7 +2,7 @@
 
 import pytest
 
-from sweep.config.case import Case, Contact, Loading, Solver
+from sweep.config.case import Case
 from tests.support.designs.cases import pressed
 
 UNFIT = {
@@ -44,16 +44,16 @@ def test_a_speed_brings_time_back():
 
 
 def test_time_step_under_a_speed_makes_a_whole_number_of_steps():
-    loading = Loading(mode="displacement", speed=1e-3, stroke=5e-3)
-    case = Case(loading=loading, solver=Solver(time_step=0.03))
+    loading = dict(mode="displacement", speed=1e-3, stroke=5e-3)
+    case = Case.of(loading=loading, solver=dict(time_step=0.03))
     assert case.solver.load_steps == 167
     assert case.solver.time_step == pytest.approx(5.0 / 167)
-    assert Case(loading=loading, solver=Solver(time_step=0.02)).solver.load_steps == 250
+    assert Case.of(loading=loading, solver=dict(time_step=0.02)).solver.load_steps == 250
 
 
 EULER = "backward_euler"
 
 
 def test_a_striker_on_walls_moved_apart_goes_by_backward_euler():
-    contact = Contact(model="position_based")
-    assert Case(loading=Loading(mode="impact"), contact=contact).solver.integrator == EULER
+    contact = dict(model="position_based")
+    assert Case.of(loading=dict(mode="impact"), contact=contact).solver.integrator == EULER

@@ -2,7 +2,6 @@
 
 import pytest
 
-from sweep.config.case import Material
 from sweep.config.materials.material_file import (
     FOLDER,
     RecordError,
@@ -11,13 +10,14 @@ from sweep.config.materials.material_file import (
     read_record,
     stress_at,
 )
+from tests.support.designs.tables import material_with
 from tests.support.materials.records import HEADER
 
 
 def test_a_stated_modulus_wins(own_record):
     path = own_record("# modulus_Pa: 3e6\n" + HEADER + "0.01,2e4\n0.05,1e5\n")
     assert read_record(path).modulus == 3e6
-    assert Material(name=str(path)).name == "own"
+    assert material_with(name=str(path)).name == "own"
 
 
 CURVE = "0.01,1e5\n0.1,9e5\n"
@@ -79,12 +79,12 @@ PLASTIC = "# density_kg_m3: 1200\n# poisson: 0.35\n# modulus_Pa: 2e9\n# yield_st
 
 def test_a_material_with_a_yield_stress_yields_unless_told_otherwise(own_record):
     path = own_record(PLASTIC + "# hardening_Pa: 1e7\n# fracture_strain: 0.05\n")
-    material = Material(name=str(path))
+    material = material_with(name=str(path))
     assert (material.stretch, material.bend, material.fibres) == ("linear", "fibres", 7)
     assert (material.modulus, material.yield_stress, material.hardening) == (2e9, 4e7, 1e7)
     assert material.fracture_strain == 0.05
     assert material.curve_strain == ()
-    other = Material(name=str(path), yield_stress=3e7, bend="section", hardening=None)
+    other = material_with(name=str(path), yield_stress=3e7, bend="section")
     assert (other.yield_stress, other.hardening, other.fibres) == (3e7, 1e7, None)
 
 

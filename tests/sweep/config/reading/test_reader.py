@@ -14,7 +14,7 @@ from tests.support.designs.structures import BEAM
 
 def test_empty_config_is_the_seed(load):
     (case,) = expand(load(""))
-    assert case == Case()
+    assert case == Case.of()
 
 
 def test_config_keeps_its_name_and_path(load, tmp_path):

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from sweep.columns import describe_column, is_grid_key
-from sweep.config.case import Case, Lattice, Loading, Solver
+from sweep.config.case import Case
 from sweep.config.grid import Config, Written, expand
 from sweep.config.structures.structure_file import read_structure
 from sweep.ranking.rank import rank
@@ -22,7 +22,7 @@ from tests.support.designs.structures import BEAM
 from tests.support.results.standin import forget_version, simulate
 
 ENERGY, BAR = "absorbed_energy_J", "error_absorbed_energy_J"
-PRESSED = Loading(mode="displacement", strain=0.3)
+PRESSED = dict(mode="displacement", strain=0.3)
 
 
 def first_order(case, control=None):
@@ -81,7 +81,7 @@ def without_coarse_meshes(case, control):
 )
 def test_other_mesh_is_half_as_fine_or_twice_where_there_is_no_half(pieces, other, weight):
     def pressed(elements):
-        return Case(lattice=Lattice(nodes_per_wall=elements - 1), loading=PRESSED)
+        return Case.of(lattice=dict(nodes_per_wall=elements - 1), loading=PRESSED)
 
     mesh, _ = companions(pressed(pieces))
     assert mesh.case.case_id == pressed(other).case_id
@@ -91,13 +91,13 @@ def test_other_mesh_is_half_as_fine_or_twice_where_there_is_no_half(pieces, othe
 @pytest.mark.parametrize(
     ("design", "solver", "weight"),
     [
-        (Case(loading=PRESSED), {"load_steps": 100}, 1.0),
-        (Case(loading=PRESSED, solver=Solver(load_steps=5)), {"load_steps": 2}, 2 / 3),
-        (Case(loading=PRESSED, solver=Solver(load_steps=1)), {"load_steps": 2}, 2.0),
-        (Case(), {"time_step": 2e-4}, 1.0),
-        (Case(solver=Solver(step_error=1e-6)), {"time_step": 2e-4, "step_error": 4e-6}, 1.0),
+        (Case.of(loading=PRESSED), {"load_steps": 100}, 1.0),
+        (Case.of(loading=PRESSED, solver=dict(load_steps=5)), {"load_steps": 2}, 2 / 3),
+        (Case.of(loading=PRESSED, solver=dict(load_steps=1)), {"load_steps": 2}, 2.0),
+        (Case.of(), {"time_step": 2e-4}, 1.0),
+        (Case.of(solver=dict(step_error=1e-6)), {"time_step": 2e-4, "step_error": 4e-6}, 1.0),
         (
-            Case(solver=Solver(integrator="bdf2", step_error=1e-6)),
+            Case.of(solver=dict(integrator="bdf2", step_error=1e-6)),
             {"time_step": 2e-4, "step_error": 8e-6},
             1.0,
         ),
@@ -112,8 +112,8 @@ def test_longer_steps_are_all_that_differs(design, solver, weight):
 
 def test_longer_steps_of_a_platen_at_a_speed_are_those_of_a_config():
     def moving(steps):
-        loading = Loading(mode="displacement", strain=0.3, speed=0.1)
-        return Case(loading=loading, solver=Solver(load_steps=steps))
+        loading = dict(mode="displacement", strain=0.3, speed=0.1)
+        return Case.of(loading=loading, solver=dict(load_steps=steps))
 
     _, steps = companions(moving(50))
     assert steps.case.case_id == moving(25).case_id
@@ -122,8 +122,8 @@ def test_longer_steps_of_a_platen_at_a_speed_are_those_of_a_config():
 @pytest.mark.parametrize("mode", ["displacement", "force", "impact"])
 def test_companions_take_less_work_than_the_design(mode):
     """The sweep with its error bars is at most three times the work of the sweep alone."""
-    loading = Loading(mode=mode) if mode != "impact" else Loading(energy=0.1, striker_mass=0.05)
-    design = Case(loading=loading)
+    loading = dict(mode=mode) if mode != "impact" else dict(energy=0.1, striker_mass=0.05)
+    design = Case.of(loading=loading)
     work = [cost(c.case) for c in companions(design)]
     assert sum(work) < 2.0 * cost(design)
 
@@ -134,8 +134,8 @@ def test_companions_take_less_work_than_the_design(mode):
 def test_walls_of_a_structure_are_divided_otherwise(tmp_path, subdivide, others, weight):
     file = tmp_path / "beam.json"
     file.write_text(json.dumps(BEAM | {"subdivide": subdivide}))
-    lattice = Lattice(kind="custom", structure=read_structure(file), file=str(file))
-    mesh, _ = companions(Case(lattice=lattice, loading=Loading(mode="custom")))
+    lattice = dict(kind="custom", structure=read_structure(file), file=str(file))
+    mesh, _ = companions(Case.of(lattice=lattice, loading=dict(mode="custom")))
     assert mesh.case.lattice.structure.pieces == others
     assert mesh.weight == weight
 
@@ -201,7 +201,7 @@ def test_what_follows_from_other_columns_has_a_bar_and_no_part_in_the_others():
 
 
 def test_peak_force_under_a_load_that_is_put_on_at_once_has_no_error_bar():
-    design = Case()
+    design = Case.of()
     rows = {c.case_id: simulate(c).summary for c in [design, *(c.case for c in companions(design))]}
     bars = error_bars(design, rows)
     assert math.isnan(bars["error_peak_force_N"])
@@ -316,10 +316,10 @@ def test_error_columns_have_the_unit_of_what_they_are_about():
 def test_error_bar_covers_the_error_of_a_crush():
     """A slice of what `make bars` measures: four cells pressed to half their height."""
     cells = {"cells_x": 2, "cells_y": 2, "wall_thickness": 0.6e-3}
-    loading = Loading(mode="displacement", strain=0.5)
-    design = Case(lattice=Lattice(**cells), loading=loading, solver=Solver(load_steps=50))
-    fine = Lattice(**cells, nodes_per_wall=11)
-    reference = crush(Case(lattice=fine, loading=loading, solver=Solver(load_steps=200))).summary
+    loading = dict(mode="displacement", strain=0.5)
+    design = Case.of(lattice=cells, loading=loading, solver=dict(load_steps=50))
+    fine = dict(**cells, nodes_per_wall=11)
+    reference = crush(Case.of(lattice=fine, loading=loading, solver=dict(load_steps=200))).summary
     rows = {c.case_id: crush(c).summary for c in [design, *(c.case for c in companions(design))]}
     for name in (ENERGY, "plateau_stress_Pa", "peak_force_N", "absorbed_energy_until_packed_J"):
         error = abs(rows[design.case_id][name] - reference[name])
@@ -328,7 +328,7 @@ def test_error_bar_covers_the_error_of_a_crush():
 
 
 def test_other_mesh_of_plates_has_other_layers_too():
-    case = Case(loading=Loading(direction="out_of_plane", strain=0.3))
+    case = Case.of(loading=dict(direction="out_of_plane", strain=0.3))
     coarse, longer = (companion.case.lattice for companion in companions(case))
     assert (case.lattice.nodes_per_wall, case.lattice.layers) == (5, 14)
     assert (coarse.nodes_per_wall, coarse.layers) == (2, 7)
@@ -337,8 +337,8 @@ def test_other_mesh_of_plates_has_other_layers_too():
 
 def test_other_mesh_of_plates_has_no_quads_lower_than_walls_are_thick():
     """One quad a wall: the other mesh is finer, and quads of 20 layers would be too low."""
-    lattice = Lattice(nodes_per_wall=0, layers=10)
-    case = Case(lattice=lattice, loading=Loading(direction="out_of_plane", strain=0.3))
+    lattice = dict(nodes_per_wall=0, layers=10)
+    case = Case.of(lattice=lattice, loading=dict(direction="out_of_plane", strain=0.3))
     fine = companions(case)[0].case.lattice
     assert fine.nodes_per_wall == 1
-    assert fine.layers == int(lattice.depth / lattice.wall_thickness) < 20
+    assert fine.layers == int(case.lattice.depth / case.lattice.wall_thickness) < 20

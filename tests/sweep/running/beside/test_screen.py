@@ -5,7 +5,7 @@ from math import nan
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Lattice, Loading
+from sweep.config.case import Case
 from sweep.config.network import network_of
 from sweep.design.infill import families
 from sweep.design.network import mass
@@ -16,13 +16,13 @@ from sweep.running.beside.screen import best_of, has_column, run_columns, unit_c
 from sweep.store.read import read_summary
 from tests.support.results.standin import simulate as invent
 
-ALONG = Loading(direction="out_of_plane", strain=0.3, allowed_forces=(50.0,))
+ALONG = dict(direction="out_of_plane", strain=0.3, allowed_forces=(50.0,))
 
 
 def along(kind="square", **lattice):
     box = {"width": 12e-3, "height": 12e-3, "depth": 12e-3, "nodes_per_wall": 3}
     cells = {"cells_x": 3, "cells_y": 3, "wall_thickness": 4e-4}
-    return Case(lattice=Lattice(kind=kind, **box | cells | lattice), loading=ALONG)
+    return Case.of(lattice=dict(kind=kind, **box | cells | lattice), loading=ALONG)
 
 
 def pitch(case):
@@ -49,7 +49,7 @@ def test_column_is_one_cell_with_the_walls_of_the_design(kind):
 
 
 def test_walls_that_follow_from_a_mass_stay():
-    design = Case(lattice=Lattice(cells_x=3, cells_y=3, mass=1e-3), loading=ALONG)
+    design = Case.of(lattice=dict(cells_x=3, cells_y=3, mass=1e-3), loading=ALONG)
     column = unit_column(design)
     assert column.lattice.wall_thickness == design.lattice.wall_thickness
     assert column.lattice.mass is None
@@ -66,10 +66,10 @@ def test_only_crushes_along_equal_cells_have_a_column():
     assert not has_column(along(cells_x=1, cells_y=1))
     assert has_column(along(cells_x=2, cells_y=1))
     assert not has_column(along(perimeters=1))
-    across = Loading(mode="displacement", strain=0.3)
-    assert not has_column(Case(lattice=along().lattice, loading=across))
-    struck = Loading(direction="out_of_plane", mode="impact", striker_mass=0.05, striker_speed=1.0)
-    assert not has_column(Case(lattice=along().lattice, loading=struck))
+    across = dict(mode="displacement", strain=0.3)
+    assert not has_column(Case.of(lattice=along().lattice, loading=across))
+    struck = dict(direction="out_of_plane", mode="impact", striker_mass=0.05, striker_speed=1.0)
+    assert not has_column(Case.of(lattice=along().lattice, loading=struck))
 
 
 WORTH = {"square": 2.0, "hex": 3.0, "triangle": 1.0}  # J/g

@@ -2,19 +2,20 @@
 
 import pytest
 
-from sweep.config.case import Case, Lattice, Loading
+from sweep.config.case import Case
 from sweep.design.lattice import counted_area
 from sweep.ranking.spread import FINE
 from sweep.result import design_columns
 from sweep.running.searching.finalists import finalists, perturbed
+from tests.support.designs.tables import lattice_with
 
-PRESSED = Loading(mode="displacement", strain=0.3)
+PRESSED = dict(mode="displacement", strain=0.3)
 
 
 def design(kind, cells, walls):
     axes = {"lattice.kind": kind, "lattice.cells_x": cells, "lattice.wall_thickness": walls}
-    lattice = Lattice(kind=kind, cells_x=cells, wall_thickness=walls)
-    return Case(lattice=lattice, loading=PRESSED, axes=axes)
+    lattice = dict(kind=kind, cells_x=cells, wall_thickness=walls)
+    return Case.of(lattice=lattice, loading=PRESSED, axes=axes)
 
 
 def test_finalists_stand_on_different_peaks():
@@ -37,20 +38,20 @@ def test_each_has_twice_the_elements_and_one_change():
 
 
 def test_walls_of_a_given_mass_stay_as_they_were():
-    case = Case(lattice=Lattice(mass=1e-3), loading=PRESSED, axes={"lattice.mass": 1e-3})
+    case = Case.of(lattice=dict(mass=1e-3), loading=PRESSED, axes={"lattice.mass": 1e-3})
     walls = [corner.case.lattice.wall_thickness for corner in perturbed(case)[:3]]
     same = case.lattice.wall_thickness
     assert walls == pytest.approx([same, 0.95 * same, 1.05 * same])
 
 
 def test_straight_walls_have_no_imperfection_to_change():
-    case = Case(lattice=Lattice(imperfection=0.0), loading=PRESSED)
+    case = Case.of(lattice=dict(imperfection=0.0), loading=PRESSED)
     assert [corner.name for corner in perturbed(case)] == [FINE, "walls -5 %", "walls +5 %"]
 
 
 def test_plates_have_twice_the_layers_too():
-    loading = Loading(direction="out_of_plane", strain=0.3)
-    case = Case(lattice=Lattice(wall_thickness=0.2e-3), loading=loading)
+    loading = dict(direction="out_of_plane", strain=0.3)
+    case = Case.of(lattice=dict(wall_thickness=0.2e-3), loading=loading)
     fine = perturbed(case)[0].case.lattice
     assert (case.lattice.nodes_per_wall, fine.nodes_per_wall) == (5, 11)
     assert fine.layers == pytest.approx(2 * case.lattice.layers, abs=1)
@@ -59,8 +60,8 @@ def test_plates_have_twice_the_layers_too():
 def test_layers_that_are_given_are_twice_as_many_but_no_lower_than_walls():
     """12 mm hold 30 quads as high as walls of 0.4 mm."""
     given = {"width": 12e-3, "height": 12e-3, "depth": 12e-3, "cells_x": 1, "cells_y": 1}
-    lattice = Lattice(wall_thickness=0.4e-3, nodes_per_wall=3, layers=12, **given)
-    case = Case(lattice=lattice, loading=Loading(direction="out_of_plane", strain=0.3))
+    lattice = dict(wall_thickness=0.4e-3, nodes_per_wall=3, layers=12, **given)
+    case = Case.of(lattice=lattice, loading=dict(direction="out_of_plane", strain=0.3))
     assert perturbed(case)[0].case.lattice.layers == 24
     high = case.model_copy(update={"lattice": case.lattice.model_copy(update={"layers": 28})})
     assert [corner.case.lattice.layers for corner in perturbed(high)] == [30, 31, 28, 30, 30]
@@ -68,7 +69,7 @@ def test_layers_that_are_given_are_twice_as_many_but_no_lower_than_walls():
 
 def test_plates_of_many_nodes_keep_their_mesh():
     given = {"width": 20e-3, "height": 20e-3, "cells_x": 5, "cells_y": 5, "wall_thickness": 0.3e-3}
-    case = Case(lattice=Lattice(**given), loading=Loading(direction="out_of_plane", strain=0.3))
+    case = Case.of(lattice=given, loading=dict(direction="out_of_plane", strain=0.3))
     found = {corner.name: corner.case.lattice for corner in perturbed(case)}
     assert list(found) == ["walls -5 %", "walls +5 %", "imperfection / 4", "imperfection x 4"]
     meshes = {(lattice.nodes_per_wall, lattice.layers) for lattice in found.values()}
@@ -78,8 +79,10 @@ def test_plates_of_many_nodes_keep_their_mesh():
 @pytest.mark.parametrize("slicer", ["prusa", "cura"])
 def test_lines_of_a_slicer_are_wider_at_the_same_distance(slicer):
     """So that 5 % more is extruded. The settings are a column of the results."""
-    laid = Lattice(slicer=slicer, pattern="grid", infill=0.2, width=25e-3, height=25e-3)
-    found = {corner.name: corner.case for corner in perturbed(Case(lattice=laid, loading=PRESSED))}
+    laid = lattice_with(slicer=slicer, pattern="grid", infill=0.2, width=25e-3, height=25e-3)
+    found = {
+        corner.name: corner.case for corner in perturbed(Case.of(lattice=laid, loading=PRESSED))
+    }
     thin, fine, thick = (found[name].lattice for name in ("walls -5 %", FINE, "walls +5 %"))
     assert fine.infill == 0.2
     walls = [lattice.wall_thickness / laid.wall_thickness for lattice in (thin, fine, thick)]

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Material
 from sweep.scene.material import stress_law
 from sweep.scene.plates.law import law_of_sheet, shear_moduli
 from sweep.scene.relaxation import relaxation_of
+from tests.support.designs.tables import material_with
 
 
 def uniaxial(law, stretch):
@@ -22,13 +22,13 @@ def uniaxial(law, stretch):
 @pytest.mark.parametrize("name", ["ninjaflex", "ultimaker_tpu95a", "cheetah"])
 @pytest.mark.parametrize("strain", [-0.1, -0.01, 0.01, 0.1, 0.5])
 def test_stress_of_a_strip_is_that_of_the_curve(name, strain):
-    material = Material(name=name)
+    material = material_with(name=name)
     found = uniaxial(law_of_sheet(material), 1.0 + strain)
     assert found == pytest.approx(float(stress_law(material).at(np.array([strain]))[0]), rel=0.02)
 
 
 def test_linear_material_is_neo_hookean():
-    material = Material(modulus=12e6, density=1200.0)
+    material = material_with(modulus=12e6, density=1200.0)
     mu, stretch = 4e6, 0.8
     assert uniaxial(law_of_sheet(material), stretch) == pytest.approx(
         mu * (stretch - 1.0 / stretch**2), rel=1e-6
@@ -37,7 +37,7 @@ def test_linear_material_is_neo_hookean():
 
 
 def test_shear_modulus_is_that_of_the_curve_at_rest():
-    material = Material(name="ninjaflex")
+    material = material_with(name="ninjaflex")
     slope = float(stress_law(material).at(np.array([1e-6]))[0]) / 1e-6
     assert shear_moduli(material) == pytest.approx((5.0 / 18.0 * slope,) * 2, rel=1e-6)
 
@@ -45,7 +45,7 @@ def test_shear_modulus_is_that_of_the_curve_at_rest():
 @pytest.mark.parametrize("table", [{"name": "ninjaflex"}, {"modulus": 12e6, "density": 1200.0}])
 def test_a_material_that_relaxes_has_its_curve_at_the_reference_time(table):
     """At once it is stiffer, by the same factor at all strains."""
-    elastic, material = Material(**table), Material(**table, loss=0.4)
+    elastic, material = material_with(**table), material_with(**table, loss=0.4)
     law, instant = law_of_sheet(material), relaxation_of(material).instant
     left = law.shares @ np.exp(-material.reference_time / law.times) + 1.0 - law.shares.sum()
     assert instant * left == pytest.approx(1.0, rel=1e-12)

@@ -5,7 +5,7 @@ import pytest
 
 from kernels.plates.element import shell
 from kernels.solve.problem import FREE, HELD, LED, TIED
-from sweep.config.case import TABLES, Case, Loading
+from sweep.config.case import TABLES, Case
 from sweep.scene.plates.scene import build_scene
 from tests.support.designs.plates import along
 
@@ -13,8 +13,8 @@ from tests.support.designs.plates import along
 def struck(platen="glued", **lattice):
     case = along(platen, **lattice)
     tables = {name: getattr(case, name) for name in TABLES}
-    loading = Loading(direction="out_of_plane", mode="impact", platen=platen, striker_mass=0.02)
-    return build_scene(Case(**tables | {"loading": loading, "solver": type(case.solver)()}))
+    loading = dict(direction="out_of_plane", mode="impact", platen=platen, striker_mass=0.02)
+    return build_scene(Case.of(**tables | {"loading": loading, "solver": {}}))
 
 
 @pytest.fixture(scope="module")

@@ -3,9 +3,9 @@
 import re
 
 import pytest
-from pydantic import ValidationError
 
-from sweep.config.case import Case, Lattice
+from sweep.config.case import Case
+from sweep.config.kinds.table import RefusedError
 
 UNFIT = {
     '[lattice]\nwall_thickness = "2.5 mm"': (
@@ -56,18 +56,18 @@ ENDLESS = [
 
 @pytest.mark.parametrize(("lattice", "words"), ENDLESS)
 def test_what_has_no_endless_lattice_is_refused(lattice, words):
-    with pytest.raises(ValidationError, match=re.escape(words)):
-        Case(lattice={"boundary": "periodic"} | lattice, loading={"strain": 0.5})
+    with pytest.raises(RefusedError, match=re.escape(words)):
+        Case.of(lattice={"boundary": "periodic"} | lattice, loading={"strain": 0.5})
 
 
-def test_a_structure_of_ones_own_is_not_repeated(tmp_path):
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ('kind = "custom"\nfile = "bar.json"', 'lattice.kind is "custom"'),
+        ('slicer = "prusa"\npattern = "grid"\ninfill = "20 %"', "lattice.slicer is given"),
+    ],
+)
+def test_only_cells_repeat_without_end(lines, tmp_path, text, why):
     (tmp_path / "bar.json").write_text('{"nodes_mm": [[0, 0], [10, 0]], "walls": [[0, 1]]}')
-    words = 'lattice.boundary = periodic; allowed: "free"'
-    with pytest.raises(ValidationError, match=re.escape(words)):
-        Lattice(kind="custom", file=str(tmp_path / "bar.json"), boundary="periodic")
-
-
-def test_a_slicer_prints_no_endless_lattice():
-    printed = {"slicer": "prusa", "pattern": "grid", "infill": 0.2}
-    with pytest.raises(ValidationError, match=re.escape('"free" if lattice.slicer is given')):
-        Lattice(width=20e-3, height=20e-3, boundary="periodic", **printed)
+    found = lines(f'[lattice]\nwidth = "25 mm"\nboundary = "periodic"\n{text}')
+    assert f'lattice.boundary = "periodic": has no effect, as {why}' in found

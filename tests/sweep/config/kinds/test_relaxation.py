@@ -2,11 +2,12 @@
 
 import pytest
 
-from sweep.config.case import Case, Damping, Lattice, Loading, Material, Solver
+from sweep.config.case import Case
 from sweep.config.grid import expand
 from sweep.config.materials.material_file import locate, not_rising, read_record
 from sweep.scene.material import stress_law
 from tests.support.designs.structures import BEAM, structure
+from tests.support.designs.tables import lattice_with, material_with
 from tests.support.materials.records import HEADER, RUBBERS
 
 SAGS = "0.01,1e5\n0.05,4e5\n0.1,3e5\n1,2e6\n"
@@ -76,32 +77,32 @@ def test_a_loss_may_vary(load):
 
 def test_a_curve_that_falls_does_not_relax(own_record):
     path = own_record(HEADER + SAGS)
-    assert not Material(name=str(path)).relaxes
+    assert not material_with(name=str(path)).relaxes
     falls = r"does not rise from a strain of 0\.05 on"
     with pytest.raises(ValueError, match=rf"material\.loss = 0\.3; .* {falls}"):
-        Material(name=str(path), loss=0.3)
+        material_with(name=str(path), loss=0.3)
     branch = {"relaxation_times": (1.0,), "relaxation_shares": (0.3,)}
     with pytest.raises(ValueError, match=rf"material\.relaxation_times = .* {falls}"):
-        Material(name=str(path), **branch)
+        material_with(name=str(path), **branch)
 
 
 def test_a_curve_that_ends_level_does_not_relax(own_record):
     """Its record rises, but the last tangent of its law, with which it goes on, is flat."""
     path = own_record(HEADER + LEVEL)
-    law = stress_law(Material(name=str(path)))
+    law = stress_law(material_with(name=str(path)))
     _, c1, c2, c3 = law.coefficients[-1]
     width = law.knots[-1] - law.knots[-2]
     modulus = law.coefficients[0, 1]
     assert c1 + 2.0 * c2 * width + 3.0 * c3 * width**2 == pytest.approx(0.0, abs=1e-9 * modulus)
     with pytest.raises(ValueError, match=r"does not rise from a strain of 0\.2 on"):
-        Material(name=str(path), loss=0.3)
+        material_with(name=str(path), loss=0.3)
 
 
 @pytest.mark.parametrize("name", RUBBERS)
 def test_shipped_curves_rise(name):
     record = read_record(locate(name))
     assert not_rising(record.strain, record.stress) is None
-    assert Material(name=name, loss=0.3).reference_time == record.reference_time
+    assert material_with(name=name, loss=0.3).reference_time == record.reference_time
 
 
 @pytest.mark.parametrize(
@@ -119,18 +120,22 @@ def test_where_a_curve_does_not_rise(strain, stress, at):
 
 
 def test_a_crush_with_memory_takes_its_time():
-    lattice, loss = Lattice(), Material(loss=0.3)
+    lattice, loss = lattice_with(), material_with(loss=0.3)
     press = {"mode": "displacement", "strain": 0.3}
 
     def settled(material=loss, **loading):
-        found = Case(lattice=lattice, material=material, loading=Loading(**press | loading)).loading
+        found = Case.of(lattice=lattice, material=material, loading=press | loading).loading
         return found.quasi_static, found.speed
 
     assert settled() == (True, pytest.approx(0.01 * lattice.height))
     assert settled(strain_rate=2.0) == (True, pytest.approx(2.0 * lattice.height))
     assert settled(speed=0.1) == (False, 0.1)
     assert settled(speed=0.1, quasi_static=True) == (True, 0.1)
-    assert settled(Material()) == settled(Material(), quasi_static=True, speed=0.1) == (True, None)
+    assert (
+        settled(material_with())
+        == settled(material_with(), quasi_static=True, speed=0.1)
+        == (True, None)
+    )
 
 
 def test_strain_rates_may_vary(load):
@@ -140,18 +145,18 @@ def test_strain_rates_may_vary(load):
 
 
 def test_a_material_with_memory_has_no_other_damping_unless_asked():
-    loss, push = Material(loss=0.3), Loading(force=5.0)
-    assert Case(loading=push).damping.model == "rayleigh"
-    assert Case(loading=push, material=loss).damping.model == "none"
-    asked = Case(loading=push, material=loss, damping=Damping(model="rayleigh"))
+    loss, push = material_with(loss=0.3), dict(force=5.0)
+    assert Case.of(loading=push).damping.model == "rayleigh"
+    assert Case.of(loading=push, material=loss).damping.model == "none"
+    asked = Case.of(loading=push, material=loss, damping=dict(model="rayleigh"))
     assert asked.damping.model == "rayleigh"
 
 
 def test_arcs_have_no_time():
-    lattice = Lattice(kind="custom", structure=structure(
+    lattice = dict(kind="custom", structure=structure(
         **BEAM, loads=[{"node": 1, "force_N": [0.0, -1e-3]}]
     ))  # fmt: skip
-    arcs = Solver(integrator="arc_length")
-    assert Case(lattice=lattice, solver=arcs).solver.integrator == "arc_length"
+    arcs = dict(integrator="arc_length")
+    assert Case.of(lattice=lattice, solver=arcs).solver.integrator == "arc_length"
     with pytest.raises(ValueError, match=r"arc_length; allowed: .* if the material has a memory"):
-        Case(lattice=lattice, solver=arcs, material=Material(loss=0.3))
+        Case.of(lattice=lattice, solver=arcs, material=dict(loss=0.3))

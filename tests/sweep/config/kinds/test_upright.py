@@ -4,8 +4,7 @@ import json
 
 import pytest
 
-from sweep.config.case import TABLES, Case, Lattice, Loading, Material
-from sweep.config.defaults.direction import footprint, height_pressed
+from sweep.config.case import TABLES, Case
 from sweep.config.grid import expand
 
 ALONG = '[loading]\ndirection = "out_of_plane"\n'
@@ -14,59 +13,59 @@ STRUCTURE = {"nodes_mm": [[0, 0], [5, 0], [5, 4]], "walls": [[0, 1], [1, 2]]}
 
 
 def along(lattice=None, **loading):
-    return Case(lattice=lattice or Lattice(), loading=Loading(direction="out_of_plane", **loading))
+    return Case.of(lattice=lattice or {}, loading=dict(direction="out_of_plane", **loading))
 
 
 def test_a_crush_along_the_cells_presses_the_depth():
-    case = along(Lattice(height=9e-3, depth=20e-3))
+    case = along(dict(height=9e-3, depth=20e-3))
     assert (case.loading.mode, case.loading.platen) == ("displacement", "glued")
     assert case.loading.stroke == pytest.approx(0.6 * 20e-3)
-    assert height_pressed(case.lattice, case.loading) == 20e-3
-    assert footprint(case.lattice, case.loading) == pytest.approx((13.3e-3, 9.8e-3))
+    assert case.height == 20e-3
+    assert case.footprint == pytest.approx((13.3e-3, 9.8e-3))
 
 
 def test_the_plane_has_its_own_height_and_footprint():
-    case = Case(lattice=Lattice(height=9e-3, depth=20e-3), loading=Loading(mode="displacement"))
-    assert height_pressed(case.lattice, case.loading) == 9e-3
-    assert footprint(case.lattice, case.loading) == pytest.approx((13.3e-3, 20e-3))
+    case = Case.of(lattice=dict(height=9e-3, depth=20e-3), loading=dict(mode="displacement"))
+    assert case.height == 9e-3
+    assert case.footprint == pytest.approx((13.3e-3, 20e-3))
 
 
 def test_a_wall_has_six_quads_and_layers_as_high():
     """A wall of 4 mm has quads of 0.667 mm, and 12 mm have 18 of them."""
-    case = along(Lattice(width=12e-3, height=12e-3, depth=12e-3, wall_thickness=0.4e-3))
+    case = along(dict(width=12e-3, height=12e-3, depth=12e-3, wall_thickness=0.4e-3))
     assert (case.lattice.nodes_per_wall, case.lattice.layers) == (5, 18)
-    coarse = along(Lattice(width=12e-3, height=12e-3, wall_thickness=0.4e-3, nodes_per_wall=3))
+    coarse = along(dict(width=12e-3, height=12e-3, wall_thickness=0.4e-3, nodes_per_wall=3))
     assert (coarse.lattice.nodes_per_wall, coarse.lattice.layers) == (3, 12)
 
 
 def test_quads_are_no_smaller_than_walls_are_thick():
-    thick = along(Lattice(width=12e-3, height=12e-3, wall_thickness=0.8e-3))
+    thick = along(dict(width=12e-3, height=12e-3, wall_thickness=0.8e-3))
     assert thick.lattice.layers == 15
 
 
 def test_a_resolved_case_stays_as_it_is():
     case = along()
-    again = Case(**{name: getattr(case, name) for name in TABLES})
+    again = Case.of(**{name: getattr(case, name) for name in TABLES})
     assert again == case
     assert again.case_id == case.case_id
 
 
 def test_layers_that_are_given_and_found_are_the_same_case():
-    assert along(Lattice(layers=14)).case_id == along().case_id != along(Lattice(layers=9)).case_id
+    assert along(dict(layers=14)).case_id == along().case_id != along(dict(layers=9)).case_id
 
 
 def test_each_draw_of_the_imperfection_is_a_case_unless_there_is_none():
-    ids = {along(Lattice(imperfection_seed=seed)).case_id for seed in (None, 0, 1)}
+    ids = {along(dict(imperfection_seed=seed)).case_id for seed in (None, 0, 1)}
     assert len(ids) == 3
-    straight = {along(Lattice(imperfection=0.0, imperfection_seed=s)).case_id for s in (None, 1)}
+    straight = {along(dict(imperfection=0.0, imperfection_seed=s)).case_id for s in (None, 1)}
     assert len(straight) == 1
 
 
 def test_what_only_the_other_direction_uses_does_not_count():
-    pressed = Loading(mode="displacement")
-    turned = Lattice(layers=7, symmetry="quarter", imperfection_seed=3)
-    assert Case(lattice=turned, loading=pressed).case_id == Case(loading=pressed).case_id
-    sheet = Case(material=Material(plane="stress"), loading=along().loading)
+    pressed = dict(mode="displacement")
+    turned = dict(layers=7, symmetry="quarter", imperfection_seed=3)
+    assert Case.of(lattice=turned, loading=pressed).case_id == Case.of(loading=pressed).case_id
+    sheet = Case.of(material=dict(plane="stress"), loading=along().loading)
     assert sheet.case_id == along().case_id
 
 
@@ -138,7 +137,7 @@ def test_a_height_below_the_wall_thickness_is_refused(tmp_path, lines):
     (line,) = lines(f'{ALONG}[lattice]\ndepth = "0.3 mm"\nwall_thickness = "0.4 mm"')
     why = f"does not fit; allowed: at least the wall thickness, 0.4 mm here, {ONLY}"
     assert line == f'lattice.depth = "0.3 mm": {why}'
-    assert along(Lattice(depth=0.4e-3, wall_thickness=0.4e-3)).lattice.layers == 1
+    assert along(dict(depth=0.4e-3, wall_thickness=0.4e-3)).lattice.layers == 1
     written(tmp_path, depth_mm=0.3, wall_thickness_mm=0.4)
     (line,) = lines(f'{ALONG}[lattice]\nkind = "custom"\nfile = "angle.json"')
     assert "a depth_mm of at least the wall thickness, 0.4 mm here" in line
@@ -193,7 +192,7 @@ def test_both_directions_in_one_sweep_share_keys_of_either(load):
 def written(tmp_path, **parts):
     file = tmp_path / "angle.json"
     file.write_text(json.dumps(STRUCTURE | parts))
-    return Lattice(kind="custom", file=str(file), imperfection=0.2)
+    return dict(kind="custom", file=str(file), imperfection=0.2)
 
 
 def test_custom_structure_stands_on_its_walls(tmp_path):
@@ -204,7 +203,7 @@ def test_custom_structure_stands_on_its_walls(tmp_path):
 
 def test_custom_structure_in_the_plane_has_no_imperfection(tmp_path):
     fixed = written(tmp_path, supports=[{"node": 0, "fix": ["x", "y", "rotation"]}])
-    assert Case(lattice=fixed).lattice.imperfection == 0.0
+    assert Case.of(lattice=fixed).lattice.imperfection == 0.0
 
 
 def test_parts_of_a_structure_that_plates_lack_are_refused(tmp_path, lines):

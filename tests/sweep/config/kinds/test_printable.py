@@ -2,10 +2,11 @@
 
 import pytest
 
-from sweep.config.case import Case, Lattice
-from sweep.config.defaults.printable import what_does_not_print
+from sweep.config.case import Case
 from sweep.config.grid import ConfigError, expand
+from sweep.config.kinds.printable import what_does_not_print
 from tests.support.designs.structures import ROD, structure
+from tests.support.designs.tables import lattice_with
 
 KEPT = (
     '[lattice]\nprintable = true\n[grid]\n"lattice.wall_thickness" = ["0.4 mm", "0.6 mm", "0.8 mm"]'
@@ -32,13 +33,13 @@ KEPT = (
     ],
 )
 def test_what_does_not_print_is_said(lattice, wrong):
-    assert what_does_not_print(Lattice(**lattice)) == wrong
+    assert what_does_not_print(lattice_with(**lattice)) == wrong
 
 
 def test_walls_of_a_structure_are_judged_too():
     """Its gaps are not known."""
     found = [
-        what_does_not_print(Lattice(kind="custom", structure=structure(**ROD, **walls)))
+        what_does_not_print(lattice_with(kind="custom", structure=structure(**ROD, **walls)))
         for walls in ({"wall_thickness_mm": 0.8}, {"wall_thickness_mm": 1.0})
     ]
     assert found == ["", "walls of 2.5 lines of 0.4 mm"]
@@ -69,5 +70,5 @@ def test_other_faults_are_not_left_out(load):
 
 
 def test_what_prints_has_the_id_that_it_has_without_the_key():
-    assert Case(lattice=Lattice(printable=True)).case_id == Case().case_id
-    assert Case(lattice=Lattice(nozzle=0.2e-3)).case_id == Case().case_id
+    assert Case.of(lattice=dict(printable=True)).case_id == Case.of().case_id
+    assert Case.of(lattice=dict(nozzle=0.2e-3)).case_id == Case.of().case_id

@@ -4,11 +4,12 @@ import pickle
 import re
 
 import pytest
-from pydantic import ValidationError
 
-from sweep.config.case import Case, Contact, Damping, Loading, Material, Solver
+from sweep.config.case import Case
+from sweep.config.kinds.table import RefusedError
 from sweep.config.units import ConfigError, load_config
 from tests.support.designs.cases import pressed
+from tests.support.designs.tables import material_with
 
 PERIODIC = '[lattice]\nboundary = "periodic"\n'
 LED = 'allowed: "displacement" if lattice.boundary is "periodic"'
@@ -56,12 +57,18 @@ def test_what_does_not_fit_is_one_line(lines, text):
     assert lines(text) == [UNFIT[text]]
 
 
-def test_keys_that_the_mode_does_not_use_do_not_count():
-    assert pressed(force=5.0, duration=3.0).case_id == pressed().case_id
-    loaded = Loading(mode="force", stroke=1e-3, unload=False)
-    assert Case(loading=loaded).case_id == Case().case_id
-    undamped = Case(damping=Damping(model="none", mass=1.0, relaxation_time=2.0))
-    assert undamped.case_id == Case(damping=Damping(model="none")).case_id
+@pytest.mark.parametrize(
+    ("tables", "key"),
+    [
+        ({"loading": {"mode": "displacement", "force": 5.0}}, "loading.force"),
+        ({"loading": {"mode": "force", "unload": False}}, "loading.unload"),
+        ({"damping": {"model": "none", "mass": 1.0}}, "damping.mass"),
+        ({"contact": {"model": "none", "friction": 0.1}}, "contact.friction"),
+    ],
+)
+def test_a_key_that_its_kind_does_not_have_is_refused(tables, key):
+    with pytest.raises(RefusedError, match=f"{key} = .*; allowed: a key of"):
+        Case.of(**tables)
 
 
 def test_displacement_defaults():
@@ -69,46 +76,39 @@ def test_displacement_defaults():
     assert case.loading.stroke == pytest.approx(0.6 * 12.5e-3)
     assert (case.loading.strain, case.loading.unload, case.loading.platen) == (0.6, True, "glued")
     assert (case.solver.integrator, case.solver.load_steps) == ("static", 200)
-    assert case.solver.time_step is None
     assert case.damping.model == "none"
 
 
 def test_only_a_crush_that_takes_time_has_a_pause():
-    slow, fast = Material(loss=0.3), {"speed": 0.1}
+    slow, fast = material_with(loss=0.3), {"speed": 0.1}
     assert pressed().loading.hold_time is None
     assert pressed(hold_time=3.0).case_id == pressed().case_id
     assert pressed(**fast, hold_time=3.0).case_id != pressed(**fast).case_id
     relaxing, held = (
-        Case(material=slow, loading=Loading(mode="displacement", hold_time=time))
+        Case.of(material=slow, loading=dict(mode="displacement", hold_time=time))
         for time in (None, 3.0)
     )
     assert (held.loading.hold_time, held.loading.strain_rate) == (3.0, 0.01)
     assert held.case_id != relaxing.case_id
-    assert Case(loading=Loading(mode="impact", hold_time=3.0)).loading.hold_time is None
 
 
 def test_a_crush_has_one_cycle_unless_more_are_given():
     assert pressed().loading.cycles == pressed(unload=False).loading.cycles == 1
     assert pressed(cycles=1).case_id == pressed().case_id == "4ffe28fe5c9c5794"
     assert pressed(cycles=2).case_id != pressed().case_id
-    assert Case().loading.cycles is None
 
 
 def test_contact_by_itself_is_the_barrier():
-    assert Contact().model == "auto"
-    case = Case(contact=Contact(model="auto"))
+    case = Case.of(contact=dict(model="auto"))
     assert case.contact.model == "barrier"
-    assert case.case_id == Case(contact=Contact(model="barrier")).case_id == Case().case_id
+    assert case.case_id == Case.of(contact=dict(model="barrier")).case_id == Case.of().case_id
 
 
 def test_slip_speed_without_friction_does_not_count():
     slow, fast = (
-        pressed(speed=1e-3).model_copy(update={"contact": Contact(friction=0.0, slip_speed=v)})
-        for v in (1e-5, 1e-3)
+        pressed(speed=1e-3).changed(contact=dict(friction=0.0, slip_speed=v)) for v in (1e-5, 1e-3)
     )
-    assert Case.model_validate(slow.model_dump()).case_id == (
-        Case.model_validate(fast.model_dump()).case_id
-    )
+    assert slow.case_id == fast.case_id
 
 
 def test_strain_and_stroke_give_each_other():
@@ -119,12 +119,13 @@ def test_strain_and_stroke_give_each_other():
 
 @pytest.mark.parametrize(
     "case",
-    [Case(), pressed(), pressed(speed=1e-3), pressed(platen="contact", stroke=4e-3)],
+    [Case.of(), pressed(), pressed(speed=1e-3), pressed(platen="contact", stroke=4e-3)],
 )
-def test_resolving_twice_changes_nothing(case):
-    again = Case.model_validate(case.model_dump())
+def test_completing_twice_changes_nothing(case):
+    assert case.changed() == case
+    again = Case.from_json(case.to_json())
     assert again == case
-    assert Case.model_validate_json(case.model_dump_json()).case_id == case.case_id
+    assert again.case_id == case.case_id
     assert pickle.loads(pickle.dumps(case)) == case
 
 
@@ -135,21 +136,21 @@ def test_resolving_twice_changes_nothing(case):
         (lambda: pressed(strain=0.5, stroke=5e-3), "give one of them"),
         (lambda: pressed(stroke=12.5e-3), "below the height"),
         (lambda: pressed(quasi_static=False), "a speed if quasi_static is false"),
-        (lambda: Case(loading=Loading(release_time=0.3)), "up to the duration, 0.2 s"),
-        (lambda: Case(solver=Solver(integrator="static")), "backward_euler"),
+        (lambda: Case.of(loading=dict(release_time=0.3)), "up to the duration, 0.2 s"),
+        (lambda: Case.of(solver=dict(integrator="static")), "backward_euler"),
     ],
 )
 def test_refused(make, message):
-    with pytest.raises(ValidationError, match=message):
+    with pytest.raises(RefusedError, match=message):
         make()
 
 
 def test_a_fall_sets_the_speed():
     """v^2 = 2 g h: 1 m gives 4.43 m/s; the height is another word for the speed in an id."""
-    fallen = Case(loading=Loading(striker_mass=0.1, drop_height=1.0))
+    fallen = Case.of(loading=dict(striker_mass=0.1, drop_height=1.0))
     assert fallen.loading.striker_speed == pytest.approx(4.4287, abs=1e-4)
     assert fallen.loading.energy == pytest.approx(0.1 * 9.80665)
-    struck = Case(loading=Loading(striker_mass=0.1, striker_speed=fallen.loading.striker_speed))
+    struck = Case.of(loading=dict(striker_mass=0.1, striker_speed=fallen.loading.striker_speed))
     assert struck.loading.drop_height == pytest.approx(1.0)
     assert fallen.case_id == struck.case_id
 
@@ -170,13 +171,12 @@ def test_a_fall_beside_another_speed_is_refused(lines):
 
 
 def test_speed_and_energy_follow_from_one_another():
-    by_speed = Loading(striker_mass=0.1, striker_speed=2.0)
-    by_energy = Loading(striker_mass=0.1, energy=0.2)
-    both = Loading(striker_mass=0.1, energy=0.2, striker_speed=2.0)
-    assert by_speed.mode == by_energy.mode == "impact"
-    assert len({Case(loading=loading).case_id for loading in (by_speed, by_energy, both)}) == 1
-    with pytest.raises(ValidationError, match=r"loading\.energy = 0\.3; allowed: 0\.2 J"):
-        Case(loading=Loading(striker_mass=0.1, striker_speed=2.0, energy=0.3))
+    by_speed = dict(striker_mass=0.1, striker_speed=2.0)
+    by_energy = dict(striker_mass=0.1, energy=0.2)
+    both = dict(striker_mass=0.1, energy=0.2, striker_speed=2.0)
+    assert len({Case.of(loading=loading).case_id for loading in (by_speed, by_energy, both)}) == 1
+    with pytest.raises(RefusedError, match=r"loading\.energy = 0\.3; allowed: 0\.2 J"):
+        Case.of(loading=dict(striker_mass=0.1, striker_speed=2.0, energy=0.3))
 
 
 @pytest.mark.parametrize(
@@ -187,22 +187,22 @@ def test_speed_and_energy_follow_from_one_another():
     ],
 )
 def test_what_does_not_go_with_an_impact_is_refused(loading, solver, words):
-    with pytest.raises(ValidationError, match=words):
-        Case(loading=Loading(mode="impact", **loading), solver=Solver(**solver))
+    with pytest.raises(RefusedError, match=words):
+        Case.of(loading=dict(mode="impact", **loading), solver=solver)
 
 
 ENDLESS = [
     ({"mode": "force"}, 'loading.mode = force; allowed: "displacement"'),
     ({"striker_speed": 1.0}, 'loading.mode = impact; allowed: "displacement"'),
     ({"strain": 0.5, "platen": "glued"}, 'loading.platen = glued; allowed: "none"'),
-    ({"strain": 0.5, "speed": 0.1}, "loading.quasi_static = 0; allowed: true"),
+    ({"strain": 0.5, "speed": 0.1}, "loading.quasi_static = False; allowed: true"),
 ]
 
 
 @pytest.mark.parametrize(("loading", "words"), ENDLESS)
 def test_what_an_endless_lattice_cannot_be_loaded_by_is_refused(loading, words):
-    with pytest.raises(ValidationError, match=re.escape(words)):
-        Case(lattice={"boundary": "periodic"}, loading=loading)
+    with pytest.raises(RefusedError, match=re.escape(words)):
+        Case.of(lattice={"boundary": "periodic"}, loading=loading)
 
 
 def test_mode_of_a_structure_is_its_own(tmp_path):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from sweep.config.material_table import by_curve
+from sweep.config.kinds.material import by_curve
 
 
 @pytest.mark.parametrize(

@@ -2,8 +2,11 @@
 
 from collections.abc import Sequence
 
-from sweep.config.lattice_table import Lattice
-from sweep.config.tables import refusal
+from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.lattice import Lattice
+from sweep.config.kinds.sliced import Sliced
+from sweep.config.kinds.table import RefusedError
 from sweep.constants import MM, TO_MM
 
 TOLERANCE = 0.05  # of a line: how far a wall may be from a whole number of them
@@ -14,7 +17,7 @@ def check_printable(lattice: Lattice) -> None:
     """Refuse what does not print if the lattice is to be `printable`."""
     wrong = what_does_not_print(lattice) if lattice.printable else ""
     if wrong:
-        raise refusal("lattice.printable", True, f"false, as it has {wrong}")
+        raise RefusedError("lattice.printable", True, f"false, as it has {wrong}")
 
 
 def what_does_not_print(lattice: Lattice) -> str:
@@ -22,13 +25,18 @@ def what_does_not_print(lattice: Lattice) -> str:
 
     The walls of a slicer are lines. Of a custom structure gaps are not known.
     """
-    width = lattice.line_width or lattice.nozzle
+    width = lattice.nozzle if isinstance(lattice, CustomStructure) else _line_width(lattice)
     walls = [thickness / width for thickness in _thicknesses(lattice)]
-    found = [lines for lines in walls if abs(lines - max(1, round(lines))) > TOLERANCE]
-    wrong = [f"walls of {_span(found)} lines"] if found else []
-    if lattice.structure is None and (gap := _gap(lattice)) < width * (1.0 - ROUND_OFF):
+    uneven = [lines for lines in walls if abs(lines - max(1, round(lines))) > TOLERANCE]
+    wrong = [f"walls of {_span(uneven)} lines"] if uneven else []
+    gap = _gap(lattice)
+    if gap is not None and gap < width * (1.0 - ROUND_OFF):
         wrong.append(f"gaps of {gap / width:.2g} lines")
     return " and ".join(wrong) + (f" of {TO_MM * width:g} mm" if wrong else "")
+
+
+def _line_width(lattice: Cells | Sliced) -> float:
+    return lattice.line_width or lattice.nozzle
 
 
 def _span(lines: Sequence[float]) -> str:
@@ -38,20 +46,24 @@ def _span(lines: Sequence[float]) -> str:
 
 def _thicknesses(lattice: Lattice) -> list[float]:
     """Thicknesses of the walls of the infill that have to be whole numbers of lines, m."""
-    if lattice.slicer is not None:
-        return []
-    if lattice.structure is not None:
-        return [MM * thickness for thickness in lattice.structure.thickness_mm]
-    if lattice.grading == 1.0:
-        return [lattice.wall_thickness]
+    match lattice:
+        case Sliced():
+            return []
+        case CustomStructure(structure=structure):
+            return [MM * thickness for thickness in structure.thickness_mm]
+        case Cells(grading=1.0):
+            return [lattice.wall_thickness]
     from sweep.design.box import gradient
 
     return [lattice.wall_thickness * float(part) for part in gradient(lattice.geometry)]
 
 
-def _gap(lattice: Lattice) -> float:
+def _gap(lattice: Lattice) -> float | None:
     """Clear width of the narrowest cell, m; beside the double walls of a printed honeycomb."""
-    if lattice.slicer is not None:
-        double = lattice.printed_as.wall > 1.0
-        return lattice.opening - (2.0 if double else 1.0) * lattice.lines
+    match lattice:
+        case CustomStructure():
+            return None
+        case Sliced():
+            double = lattice.printed_as.wall > 1.0
+            return lattice.opening - (2.0 if double else 1.0) * lattice.lines
     return lattice.opening - max(_thicknesses(lattice))

@@ -1,0 +1,227 @@
+"""A lattice of cells of one family, drawn in a box."""
+
+from math import isclose, isnan
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import AfterValidator, Field
+from pydantic_core import PydanticCustomError
+
+from sweep.config.kinds.mesh import nodes_of
+from sweep.config.kinds.specimen import (
+    LAYER_HEIGHT,
+    MAX_NODES,
+    Laid,
+    Lines,
+    check_proportion,
+    check_size,
+)
+from sweep.config.kinds.table import Few, Given, Length, Mass, Positive, RefusedError, Share, chosen
+from sweep.design.geometry import Geometry
+from sweep.design.infill import families, trait
+
+CUSTOM = "custom"
+
+
+def _known(kind: str) -> str:
+    if kind not in (*families(), CUSTOM):
+        raise PydanticCustomError("literal_error", "no family of infill")
+    return kind
+
+
+Kind = Annotated[
+    str, AfterValidator(_known), Field(json_schema_extra={"enum": list[Any]([*families(), CUSTOM])})
+]
+
+
+class Cells(Laid):
+    """Cells of a family of infill, in walls of one thickness or of a gradient, with an outline.
+
+    `mass` sets the wall thickness; `infill`, the share of the box that lines of `line_width` fill,
+    as slicers count, sets it and the numbers of cells. boundary "periodic": one period of an
+    endless lattice, of size `width` x `height`. Opposite sides are tied to each other; the mean
+    shear strain and the mean lateral stress are zero.
+    """
+
+    because: ClassVar[str] = "lattice.slicer is not given"
+
+    kind: Kind = "square"
+    orientation: Literal["pointy", "flat"] | None = None
+    boundary: Literal["free", "periodic"] = "free"
+    cells_x: Few = 3
+    cells_y: Few = 3
+    mass: Mass | None = None
+    infill: Share | None = None
+    grading: Positive = 1.0
+    line_width: Length | None = None
+    solid_layers: Lines = 0
+    layer_height: Length | None = None
+
+    @property
+    def name(self) -> str:
+        """The family of its cells."""
+        return self.kind
+
+    @property
+    def endless(self) -> bool:
+        """Whether this is one period of an endless lattice."""
+        return self.boundary == "periodic"
+
+    @property
+    def geometry(self) -> Geometry:
+        """The numbers that define the drawing."""
+        return Geometry(
+            self.kind,
+            self.orientation,
+            (self.cells_x, self.cells_y),
+            (self.width, self.height),
+            self.wall_thickness,
+            self.grading,
+            self.outline,
+            self.endless,
+        )
+
+    @property
+    def line(self) -> float:
+        """Width of a line, m."""
+        return self.line_width or self.nozzle
+
+    @property
+    def outline(self) -> tuple[float, float]:
+        """Thickness (m) of the outline: at the left and right sides, at the bottom and top."""
+        sides = self.perimeters * self.line if self.perimeters else 0.0
+        return sides, self.solid_layers * (self.layer_height or 0.0) or sides
+
+    @property
+    def outer_size(self) -> tuple[float, float]:
+        """As of `Specimen`; of an endless lattice, the size of the period."""
+        return (self.width, self.height) if self.endless else super().outer_size
+
+    @property
+    def counts(self) -> tuple[int, int]:
+        """Numbers of joints and of walls between joints."""
+        known = trait(self.kind, "counts")
+        return known(self.cells_x, self.cells_y) if known else super().counts
+
+    @property
+    def opening(self) -> float:
+        """Clear width of the narrowest whole cell between centre lines, m."""
+        if known := trait(self.kind, "opening"):
+            return float(known(self.width / self.cells_x, self.height / self.cells_y))
+        from sweep.design.box import opening
+
+        return opening(self.geometry)
+
+    @property
+    def thickest(self) -> float:
+        """As of `Laid`, of the mean wall of a gradient."""
+        if self.grading == 1.0:
+            return super().thickest
+        from sweep.design.box import gradient
+
+        return super().thickest / float(gradient(self.geometry).max())
+
+
+def cells(given: Given, density: float) -> Cells:
+    """The cells of these values; density (kg/m^3): of the material."""
+    made = Cells.model_validate(
+        {"nodes_per_wall": nodes_of(given.get("kind", "square"))} | chosen(given, Cells)
+    )
+    if made.endless:
+        _check_period(made)
+    check_proportion(made)
+    made = made.model_copy(update=_lines(made))
+    if made.infill is not None:
+        made = _filled(made, made.infill, given)
+    check_size(made, ("infill",) if made.infill else ("cells_x", "cells_y", "nodes_per_wall"))
+    if made.mass is None or "wall_thickness" in given:
+        check_openings(made)
+    return _weighing(made, given, density)
+
+
+def _lines(made: Cells) -> dict[str, Any]:
+    """The keys that only an outline, a share of infill or some families use."""
+    lines = made.perimeters > 0 or made.infill is not None
+    turned = trait(made.kind, "ORIENTED")
+    return {
+        "orientation": (made.orientation or "pointy") if turned else None,
+        "line_width": made.line if lines else None,
+        "layer_height": (made.layer_height or LAYER_HEIGHT) if made.solid_layers else None,
+    }
+
+
+def _filled(made: Cells, share: float, given: Given) -> Cells:
+    """The lattice with the cells and the wall thickness of a share of infill."""
+    if made.mass is not None:
+        raise RefusedError("lattice.mass", made.mass, "none where lattice.infill is given")
+    from sweep.design.sizing import cells_for
+
+    width = made.line
+    wished = f"as lattice.infill is {100 * share:g} %; give one of them"
+    _check_follows("wall_thickness", width, f"{width:g} m, {wished}", given)
+    thin = made.model_copy(update={"wall_thickness": width})
+    count = cells_for(thin.geometry, share, MAX_NODES)
+    if count is None:
+        lines = f"lines of {width:g} m in this box"
+        allowed = f"a share that 1 to {MAX_NODES:,} cells fill with {lines}"
+        raise RefusedError("lattice.infill", share, allowed)
+    follows = dict(zip(("cells_x", "cells_y"), count, strict=True))
+    for key, value in follows.items():
+        _check_follows(key, value, f"{value}, {wished}", given)
+    return thin.model_copy(update=follows)
+
+
+def _check_follows(key: str, value: object, allowed: str, given: Given) -> None:
+    """Refuse a given value that differs from the one that follows from other keys."""
+    if given.get(key, value) != value:
+        raise RefusedError(f"lattice.{key}", given[key], allowed)
+
+
+def _weighing(made: Cells, given: Given, density: float) -> Cells:
+    """The lattice with the wall thickness that gives its `mass`, if it has one."""
+    if made.mass is None:
+        return made
+    from sweep.design.sizing import thickness_for
+
+    thickness, light, heavy = thickness_for(
+        made.geometry, made.mass, made.thickest, made.depth, density
+    )
+    if isnan(thickness):
+        allowed = f"between {light:.4g} kg and {heavy:.4g} kg with these cells"
+        raise RefusedError("lattice.mass", made.mass, allowed)
+    if not isclose(given.get("wall_thickness", thickness), thickness, rel_tol=1e-9):
+        allowed = f"{thickness:.6g} m at the mass given; give one of them"
+        raise RefusedError("lattice.wall_thickness", given["wall_thickness"], allowed)
+    sized = made.model_copy(update={"wall_thickness": thickness})
+    check_openings(sized)
+    return sized
+
+
+def check_openings(made: Cells) -> None:
+    """Refuse walls as thick as the openings between them, and an outline that fills cells."""
+    limit, thickness = made.thickest, made.wall_thickness
+    if thickness >= limit * (1.0 - 1e-12):
+        if made.infill is not None:
+            allowed = "a share that leaves cells at least twice as wide as their walls"
+            raise RefusedError("lattice.infill", made.infill, allowed)
+        allowed = f"below half the width of the narrowest cell, {limit:.4g} m here"
+        raise RefusedError("lattice.wall_thickness", thickness, allowed)
+    gap = made.opening - thickness
+    for axis, key in enumerate(("perimeters", "solid_layers")):
+        outline, count = made.outline[axis], getattr(made, key)
+        if count and outline >= gap:
+            most = int(gap / (outline / count))
+            allowed = f"at most {most} here, thinner in all than cells are open, {gap:.4g} m"
+            raise RefusedError(f"lattice.{key}", count, allowed)
+
+
+def _check_period(made: Cells) -> None:
+    """Refuse a lattice that cannot be the period of an endless one."""
+    endless = 'if lattice.boundary is "periodic"'
+    for key, value in {"grading": 1.0, "perimeters": 0, "solid_layers": 0, "infill": None}.items():
+        if getattr(made, key) != value:
+            wanted = "none" if value is None else f"{value:g}"
+            raise RefusedError(f"lattice.{key}", getattr(made, key), f"{wanted} {endless}")
+    key = "cells_x" if made.orientation == "flat" else "cells_y"
+    if trait(made.kind, "STAGGERED") and getattr(made, key) % 2:
+        allowed = f"an even number {endless}, as every other row of {made.kind} is shifted"
+        raise RefusedError(f"lattice.{key}", getattr(made, key), allowed)

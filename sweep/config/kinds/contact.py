@@ -1,0 +1,109 @@
+"""Contact between walls and with platens."""
+
+from typing import ClassVar, Literal
+
+from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.direction import WHERE
+from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.loading import Loading
+from sweep.config.kinds.solver import ARCS
+from sweep.config.kinds.table import (
+    Given,
+    NonNegative,
+    Positive,
+    RefusedError,
+    Speed,
+    Table,
+    chosen,
+)
+from sweep.config.structures.structure import Structure
+
+SLIP = 0.01  # default slip speed / speed of the platen or the striker
+REFERENCE_SPEED = 0.1  # m/s, where nothing has a speed
+
+
+class NoContact(Table):
+    """A scene in which nothing can touch."""
+
+    because: ClassVar[str] = 'contact.model is "none"'
+    friction: ClassVar[float] = 0.0
+    stiffness: ClassVar[float] = 0.0
+    slip_speed: ClassVar[None] = None
+
+    model: Literal["none"] = "none"
+
+
+class Barrier(Table):
+    """The barrier, which acts if walls come within one thickness of each other.
+
+    model "none": with platens and a floor alone. `stiffness`: the factor c. `slip_speed`: None in
+    statics, where slip is a length.
+    """
+
+    because: ClassVar[str] = "the crush is quasi-static"
+
+    model: Literal["barrier", "none"] = "barrier"
+    friction: NonNegative = 0.3
+    stiffness: Positive = 1.0
+    slip_speed: Speed | None = None
+
+
+class ByPosition(Table):
+    """Walls that are too close are moved apart after each step, as in the course report."""
+
+    because: ClassVar[str] = 'contact.model is "position_based"'
+    friction: ClassVar[float] = 0.0
+    stiffness: ClassVar[float] = 0.0
+    slip_speed: ClassVar[None] = None
+
+    model: Literal["position_based"] = "position_based"
+
+
+Contact = NoContact | Barrier | ByPosition
+
+
+def contact(
+    given: Given, loading: Loading, structure: Structure | None, integrator: str
+) -> Contact:
+    """The contact of these values.
+
+    Loose platens and a floor need the barrier even if the contact model is "none". Friction is zero
+    along arcs, since the unstable parts of an equilibrium path are not a motion.
+    """
+    model = given.get("model", "auto")
+    if model == "position_based":
+        return _by_position(loading, structure, integrator)
+    floor = structure is not None and structure.floor_y_mm is not None
+    if model == "none" and loading.platen != "contact" and not floor:
+        return NoContact()
+    acts = chosen(given, Barrier) | {"model": "none" if model == "none" else "barrier"}
+    if integrator == ARCS:
+        return Barrier.model_validate(acts | {"friction": 0.0, "slip_speed": None})
+    if loading.quasi_static or not acts.get("friction", 0.3):
+        return Barrier.model_validate(acts | {"slip_speed": None})
+    return Barrier.model_validate({"slip_speed": SLIP * _reference_speed(loading)} | acts)
+
+
+def _reference_speed(loading: Loading) -> float:
+    """The speed of what presses, m/s."""
+    match loading:
+        case Crush(speed=float() as speed) | Impact(striker_speed=speed):
+            return speed
+    return REFERENCE_SPEED
+
+
+def _by_position(loading: Loading, structure: Structure | None, integrator: str) -> ByPosition:
+    """Contact by position exerts no force, so it can neither carry a platen nor cause friction."""
+    key, model, allowed = "contact.model", "position_based", '"none" or "barrier" if '
+    if loading.along:
+        raise RefusedError(key, model, f'"barrier" or "none" {WHERE}')
+    if loading.quasi_static:
+        raise RefusedError(key, model, f"{allowed}loading.quasi_static")
+    if loading.platen == "contact":
+        raise RefusedError(key, model, f'{allowed}loading.platen is "contact"')
+    if structure is not None:
+        raise RefusedError(key, model, f'{allowed}lattice.kind is "custom"')
+    if integrator != "backward_euler":
+        only = '"backward_euler" if contact.model is "position_based"'
+        raise RefusedError("solver.integrator", integrator, only)
+    return ByPosition()

@@ -1,0 +1,142 @@
+"""A crush: a platen moves down by `stroke`, rests for `hold_time`, and moves back up."""
+
+from math import isclose
+from typing import Any, ClassVar, Literal
+
+from sweep.config.kinds.direction import ACROSS, ALONG, Direction, is_along
+from sweep.config.kinds.solver import IN_TIME
+from sweep.config.kinds.table import (
+    Cycles,
+    Duration,
+    Forces,
+    Frequency,
+    Given,
+    Length,
+    RefusedError,
+    Speed,
+    Strain,
+    Table,
+    chosen,
+    given_or,
+)
+
+STRAIN_RATE = 0.01  # 1/s, of a quasi-static crush of a material that relaxes
+PLATENS = '"contact", "glued" or "sliding"'
+
+
+class Crush(Table):
+    """A platen that moves down and back up if `unload`; the whole `cycles` times.
+
+    strain: stroke / the height pressed. speed, strain_rate: None if the crush takes no time, as it
+    is quasi-static and the stress of the material does not depend on time. platen "none": an
+    endless lattice under a mean strain; "clamped": the ends of walls stay upright, along the cells.
+    """
+
+    because: ClassVar[str] = 'loading.mode is "displacement"'
+    neutral: ClassVar[dict[str, Any]] = {"cycles": 1, "direction": ACROSS}
+
+    direction: Direction = ACROSS
+    mode: Literal["displacement"] = "displacement"
+    stroke: Length
+    strain: Strain = 0.6
+    speed: Speed | None = None
+    strain_rate: Frequency | None = None
+    quasi_static: bool
+    hold_time: Duration | None = None
+    unload: bool = True
+    cycles: Cycles = 1
+    platen: Literal["none", "contact", "glued", "sliding", "clamped"] = "glued"
+    allowed_forces: Forces = ()
+
+    @property
+    def along(self) -> bool:
+        """Whether the lattice is pressed along its cells."""
+        return self.direction == ALONG
+
+    @property
+    def columns(self) -> dict[str, float]:
+        """Its columns of a results file."""
+        return {"stroke_m": self.stroke}
+
+
+def crush(given: Given, height: float, integrator: str | None, relaxes: bool) -> Crush:
+    """The crush of these values; height (m): that is pressed."""
+    if given.get("platen") == "none":
+        raise RefusedError("loading.platen", "none", f'{PLATENS} if loading.mode is "displacement"')
+    speed = _speed(given, height)
+    quasi_static = _is_quasi_static(given, speed, integrator)
+    stroke, strain = _stroke_and_strain(given, height)
+    if given.get("cycles", 1) > 1 and not given.get("unload", True):
+        raise RefusedError("loading.cycles", given["cycles"], "1 if loading.unload is false")
+    motion = {"stroke": stroke, "strain": strain, "speed": speed, "quasi_static": quasi_static}
+    if quasi_static:
+        motion |= _pace(given, speed, height, relaxes)
+    return Crush.model_validate(chosen(given, Crush) | motion)
+
+
+def mean_crush(given: Given, height: float, integrator: str | None, relaxes: bool) -> Crush:
+    """The crush of an endless lattice: a prescribed mean strain, quasi-static, without platens.
+
+    The inertia of a mean motion depends on the point of reference, so that motion is refused.
+    """
+    endless = 'if lattice.boundary is "periodic"'
+    if given.get("platen", "none") != "none":
+        raise RefusedError("loading.platen", given["platen"], f'"none" {endless}')
+    others = {key: value for key, value in given.items() if key != "platen"}
+    pressed = crush(others, height, integrator, relaxes)
+    if not pressed.quasi_static:
+        raise RefusedError("loading.quasi_static", False, f"true {endless}", "loading.speed")
+    return pressed.model_copy(update={"platen": "none"})
+
+
+def _speed(given: Given, height: float) -> float | None:
+    """The speed of a platen, from the strain rate if that is given."""
+    if "strain_rate" not in given:
+        return given.get("speed")
+    speed: float = given["strain_rate"] * height
+    if not isclose(given.get("speed", speed), speed, rel_tol=1e-9):
+        raise RefusedError(
+            "loading.strain_rate", given["strain_rate"], "one of speed and strain_rate"
+        )
+    return speed
+
+
+def _is_quasi_static(given: Given, speed: float | None, integrator: str | None) -> bool:
+    """Whether there is no inertia: as given, else without a speed, or with a rate."""
+    rate = given.get("strain_rate")
+    timed = speed is not None and rate is None
+    quasi_static: bool = given.get("quasi_static", not timed or integrator == "static")
+    if rate is not None and not quasi_static:
+        raise RefusedError("loading.strain_rate", rate, "a speed, if quasi_static is false")
+    if not quasi_static and integrator == "static":
+        raise RefusedError("solver.integrator", "static", f"{IN_TIME} if not quasi_static")
+    if not quasi_static and speed is None:
+        raise RefusedError("loading.speed", None, "a speed if quasi_static is false")
+    return quasi_static
+
+
+def _pace(
+    given: Given, speed: float | None, height: float, relaxes: bool
+) -> dict[str, float | None]:
+    """The pace of a quasi-static crush, which takes time only if the stress depends on it."""
+    if not relaxes:
+        return dict.fromkeys(("speed", "strain_rate", "hold_time"))
+    pace = given_or(speed, STRAIN_RATE * height)
+    return {"speed": pace, "strain_rate": given.get("strain_rate", pace / height)}
+
+
+def _stroke_and_strain(given: Given, height: float) -> tuple[float, float]:
+    """Stroke and strain, one from the other; 60 % strain if neither is given."""
+    if "stroke" not in given:
+        strain = given.get("strain", 0.6)
+        return strain * height, strain
+    stroke = given["stroke"]
+    strain = given.get("strain", stroke / height)
+    if stroke >= height:
+        pressed = "depth" if is_along(given) else "height"
+        allowed = f"below the {pressed} of the lattice, {height:g} m"
+        raise RefusedError("loading.stroke", stroke, allowed)
+    if not isclose(stroke, strain * height, rel_tol=1e-9):
+        allowed = f"{strain * height:g} m at the strain given; give one of them"
+        raise RefusedError("loading.stroke", stroke, allowed)
+    return stroke, strain

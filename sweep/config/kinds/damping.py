@@ -1,0 +1,49 @@
+"""Damping that stands for a loss which is not known otherwise."""
+
+from typing import ClassVar, Literal
+
+from sweep.config.kinds.direction import WHERE
+from sweep.config.kinds.loading import Loading
+from sweep.config.kinds.table import Given, Lag, Rate, RefusedError, Table, chosen
+
+
+class NoDamping(Table):
+    """No damping: also of a quasi-static crush, and by default of a material that relaxes."""
+
+    because: ClassVar[str] = 'damping.model is "none"'
+
+    model: Literal["none"] = "none"
+
+
+class Rayleigh(Table):
+    """Alpha M + beta K: `mass` alpha, `stiffness` beta."""
+
+    because: ClassVar[str] = 'damping.model is "rayleigh"'
+
+    model: Literal["rayleigh"] = "rayleigh"
+    mass: Rate = 5.0
+    stiffness: Lag = 1e-4
+
+
+class KelvinVoigt(Table):
+    """Viscosity = modulus x `relaxation_time`."""
+
+    because: ClassVar[str] = 'damping.model is "kelvin_voigt"'
+
+    model: Literal["kelvin_voigt"] = "kelvin_voigt"
+    relaxation_time: Lag = 1e-4
+
+
+Damping = NoDamping | Rayleigh | KelvinVoigt
+
+
+def damping(given: Given, loading: Loading, relaxes: bool) -> Damping:
+    """The damping of these values; along the cells there is none."""
+    model = given.get("model", "none" if relaxes or loading.along else "rayleigh")
+    if loading.along and model != "none":
+        raise RefusedError("damping.model", model, f'"none" {WHERE}')
+    if loading.quasi_static or model == "none":
+        return NoDamping()
+    if model == "rayleigh":
+        return Rayleigh.model_validate(chosen(given, Rayleigh) | {"model": "rayleigh"})
+    return KelvinVoigt.model_validate(chosen(given, KelvinVoigt))

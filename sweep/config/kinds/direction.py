@@ -1,0 +1,19 @@
+"""The direction in which a lattice is pressed: across its cells, in the plane, or along them.
+
+Along the cells the drawing is extruded to `lattice.depth`, which is then the height pressed, and
+its walls are plates (`scene.plates`).
+"""
+
+from typing import Final, Literal
+
+from sweep.config.kinds.table import Given
+
+Direction = Literal["in_plane", "out_of_plane"]
+ACROSS: Final = "in_plane"
+ALONG: Final = "out_of_plane"
+WHERE = f'if loading.direction is "{ALONG}"'
+
+
+def is_along(loading: Given) -> bool:
+    """Whether these values of a loading press along the cells."""
+    return loading.get("direction") == ALONG

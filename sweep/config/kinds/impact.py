@@ -1,0 +1,125 @@
+"""An impact: a striker hits the lattice; the run ends when it is back, or at `duration`."""
+
+from math import isclose, sqrt
+from typing import Any, ClassVar, Literal
+
+from sweep.config.defaults.drop_tests import Drop, drop_of
+from sweep.config.kinds.crush import PLATENS
+from sweep.config.kinds.direction import ACROSS, ALONG, Direction
+from sweep.config.kinds.solver import IN_TIME
+from sweep.config.kinds.table import (
+    Count,
+    Duration,
+    Energy,
+    Forces,
+    Given,
+    Length,
+    Mass,
+    RefusedError,
+    Speed,
+    Table,
+    chosen,
+    given_or,
+)
+from sweep.constants import STANDARD_GRAVITY
+
+PASSAGES = 10  # default duration / time in which the striker travels the lattice's height
+
+
+class Impact(Table):
+    """A rigid striker of `striker_mass` that hits the lattice at `striker_speed`.
+
+    `drop_height` and `preset` (`drop_tests`) are other words for its speed and mass, `specimens`
+    for the share of the mass of the preset that one specimen bears. `filter_class`: of the filter
+    behind which its deceleration is measured (SAE J211-1); 1000 as of a head form in drop tests
+    (ASTM F1292).
+    """
+
+    because: ClassVar[str] = 'loading.mode is "impact"'
+    labels: ClassVar[tuple[str, ...]] = ("drop_height", "preset", "specimens")
+    neutral: ClassVar[dict[str, Any]] = {"filter_class": 1000, "direction": ACROSS}
+    quasi_static: ClassVar[bool] = False
+    cycles: ClassVar[int] = 1
+
+    direction: Direction = ACROSS
+    mode: Literal["impact"] = "impact"
+    striker_mass: Mass
+    striker_speed: Speed
+    energy: Energy
+    drop_height: Length
+    preset: str | None = None
+    specimens: Count | None = None
+    filter_class: Literal[60, 180, 600, 1000] = 1000
+    duration: Duration
+    platen: Literal["contact", "glued", "sliding", "clamped"] = "glued"
+    allowed_forces: Forces = ()
+
+    @property
+    def along(self) -> bool:
+        """Whether the lattice is pressed along its cells."""
+        return self.direction == ALONG
+
+    @property
+    def columns(self) -> dict[str, float]:
+        """Its columns of a results file."""
+        return {
+            "striker_mass_g": 1e3 * self.striker_mass,
+            "striker_speed_m_per_s": self.striker_speed,
+            "impact_energy_J": self.energy,
+        }
+
+
+def impact(given: Given, height: float, integrator: str | None) -> Impact:
+    """The impact of these values; height (m): that is pressed."""
+    if integrator == "static":
+        raise RefusedError("solver.integrator", "static", f'{IN_TIME} if loading.mode is "impact"')
+    if given.get("platen") == "none":
+        raise RefusedError("loading.platen", "none", f'{PLATENS} if loading.mode is "impact"')
+    mass, drop_height = _dropped(given)
+    speed, energy, fall = _at_touch(given, mass, drop_height)
+    motion = {"striker_mass": mass, "striker_speed": speed, "energy": energy, "drop_height": fall}
+    usual = {"duration": PASSAGES * height / speed}
+    return Impact.model_validate(usual | chosen(given, Impact) | motion)
+
+
+def _dropped(given: Given) -> tuple[float, float | None]:
+    """Mass of the striker and height of its fall, of the preset where it says them."""
+    mass, height, count = (given.get(key) for key in ("striker_mass", "drop_height", "specimens"))
+    preset = given.get("preset")
+    drop = drop_of(preset) if preset else Drop(None, height or 0.0)
+    if count and drop.mass is None:
+        raise RefusedError("loading.specimens", count, "none unless loading.preset has a mass")
+    if preset and drop.mass is None and mass is None:
+        allowed = "the mass that falls, as the preset has none"
+        raise RefusedError("loading.striker_mass", None, allowed)
+    usual = given_or(mass, 0.05) if drop.mass is None else drop.mass / (count or 1)
+    if not isclose(given_or(mass, usual), usual, rel_tol=1e-9):
+        allowed = f"{usual:g} kg, as loading.preset is given"
+        raise RefusedError("loading.striker_mass", mass, allowed)
+    if not isclose(given_or(height, drop.height), drop.height, rel_tol=1e-9):
+        allowed = f"{drop.height:g} m, as loading.preset is given"
+        raise RefusedError("loading.drop_height", height, allowed)
+    return usual, drop.height or None
+
+
+def _at_touch(given: Given, mass: float, drop_height: float | None) -> tuple[float, float, float]:
+    """Speed and energy of a striker and the height of its fall, from one of them: v^2 = 2 g h.
+
+    2 m/s if none is given.
+    """
+    speed = given.get("striker_speed", 2.0)
+    if "striker_speed" not in given and drop_height is not None:
+        speed = sqrt(2.0 * STANDARD_GRAVITY * drop_height)
+    elif "striker_speed" not in given and "energy" in given:
+        speed = sqrt(2.0 * given["energy"] / mass)
+    energy, fall = 0.5 * mass * speed**2, speed**2 / (2.0 * STANDARD_GRAVITY)
+    source = "speed" if "striker_speed" in given else "drop height"
+    for key, value, follows, unit in (
+        ("drop_height", drop_height, fall, "m"),
+        ("energy", given.get("energy"), energy, "J"),
+    ):
+        if not isclose(given_or(value, follows), follows, rel_tol=1e-9):
+            of = "preset" if key == "drop_height" and "drop_height" not in given else key
+            allowed = f"{follows:g} {unit} at the {source} given; give one of them"
+            raise RefusedError(f"loading.{of}", given.get(of), allowed)
+    return speed, given.get("energy", energy), given_or(drop_height, fall)

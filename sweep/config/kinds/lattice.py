@@ -1,0 +1,23 @@
+"""The kinds of lattice."""
+
+from typing import Annotated, Any
+
+from pydantic import Discriminator, Tag
+
+from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.sliced import Sliced
+
+
+def _kind(value: Any) -> str:
+    """The kind of a lattice, or of its values."""
+    held = value if isinstance(value, dict) else vars(value)
+    return "custom" if "structure" in held else "sliced" if "slicer" in held else "cells"
+
+
+Lattice = Annotated[
+    Annotated[Cells, Tag("cells")]
+    | Annotated[Sliced, Tag("sliced")]
+    | Annotated[CustomStructure, Tag("custom")],
+    Discriminator(_kind),
+]

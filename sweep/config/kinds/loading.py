@@ -1,0 +1,99 @@
+"""The kinds of loading, and which of them a config means."""
+
+from typing import Annotated, NamedTuple
+
+from pydantic import Field
+
+from sweep.config.kinds.crush import Crush, crush, mean_crush
+from sweep.config.kinds.dead_load import DeadLoad, dead_load
+from sweep.config.kinds.direction import WHERE, is_along
+from sweep.config.kinds.impact import Impact, impact
+from sweep.config.kinds.of_file import OfFile, of_file
+from sweep.config.kinds.solver import ARCS, IN_TIME
+from sweep.config.kinds.table import Given, RefusedError, Table
+from sweep.config.structures.structure import Structure
+
+Loading = Annotated[DeadLoad | Crush | Impact | OfFile, Field(discriminator="mode")]
+BY_MODE = (DeadLoad, Crush, Impact)  # chosen by `loading.mode`, or by keys that only one has
+MODES = '"displacement" or "impact"'
+PLATENS_ALONG = '"glued", "clamped" or "contact"'
+PLATENS_ACROSS = '"contact", "glued" or "sliding"'
+
+
+class Pressed(NamedTuple):
+    """What a loading presses: its height (m), the custom structure, whether it is endless."""
+
+    height: float
+    structure: Structure | None = None
+    endless: bool = False
+
+
+def loading(given: Given, pressed: Pressed, integrator: str | None, relaxes: bool) -> Loading:
+    """The loading of these values; relaxes: whether the stress of the material depends on time."""
+    along = is_along(given)
+    if pressed.structure is not None and not along:
+        return of_file(given, pressed.structure, integrator)
+    mode = mode_of(given)
+    _check(given, mode, pressed, integrator)
+    if pressed.endless:
+        return mean_crush(given, pressed.height, integrator, relaxes)
+    if mode == "force":
+        return dead_load(given, integrator)
+    if mode == "impact":
+        return impact(given, pressed.height, integrator)
+    return crush(given, pressed.height, integrator, relaxes)
+
+
+def mode_of(given: Given) -> str:
+    """The mode, which keys that only one mode has imply if it is not given."""
+    if "mode" in given:
+        return str(given["mode"])
+    implied = _implied(given)
+    if len(implied) > 1:
+        (one, key), (other, also) = list(implied.items())[:2]
+        keys = f"as loading.{key} needs the one and loading.{also} the other"
+        raise RefusedError("loading.mode", None, f'"{one}" or "{other}", {keys}')
+    usual = "displacement" if is_along(given) else "force"
+    return next(iter(implied), usual)
+
+
+def mode_word(kind: type[Table]) -> str:
+    """The `loading.mode` of a kind."""
+    return str(kind.model_fields["mode"].default)
+
+
+def _implied(given: Given) -> dict[str, str]:
+    """The modes that keys imply, each with the first of its keys."""
+    implied: dict[str, str] = {}
+    for kind in BY_MODE:
+        others = {key for other in BY_MODE if other is not kind for key in other.model_fields}
+        own = [key for key in kind.model_fields if key not in others and key in given]
+        if own:
+            implied[mode_word(kind)] = own[0]
+    if "duration" in given and "impact" not in implied:
+        implied.setdefault("force", "duration")
+    return implied
+
+
+def _check(given: Given, mode: str, pressed: Pressed, integrator: str | None) -> None:
+    """Refuse a mode, an integrator or platens that the lattice or the direction does not have."""
+    along, since = is_along(given), _implied(given).get(mode)
+    because = f"loading.{since}" if since else None
+    if along and mode not in ("displacement", "impact"):
+        raise RefusedError("loading.mode", mode, f"{MODES} {WHERE}", because)
+    if mode == "custom":
+        allowed = '"force", "displacement" or "impact" unless lattice.kind is "custom"'
+        raise RefusedError("loading.mode", "custom", allowed)
+    if integrator == ARCS:
+        unless = "" if along else ', unless lattice.kind is "custom"'
+        allowed = f'"static" where quasi-static, else {IN_TIME}{unless}'
+        raise RefusedError("solver.integrator", ARCS, allowed)
+    if pressed.endless and mode != "displacement":
+        allowed = '"displacement" if lattice.boundary is "periodic"'
+        raise RefusedError("loading.mode", mode, allowed, because)
+    platen = given.get("platen")
+    if along and platen not in (None, "glued", "clamped", "contact"):
+        raise RefusedError("loading.platen", platen, f"{PLATENS_ALONG} {WHERE}")
+    if not along and not pressed.endless and platen == "clamped":
+        allowed = f'{PLATENS_ACROSS} if loading.direction is "in_plane"'
+        raise RefusedError("loading.platen", platen, allowed)

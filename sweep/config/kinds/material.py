@@ -1,0 +1,295 @@
+"""The material: a named record or numbers, and what follows from them."""
+
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field
+
+from sweep.config.kinds.direction import WHERE
+from sweep.config.kinds.table import (
+    Density,
+    Duration,
+    Given,
+    NonNegative,
+    RefusedError,
+    Strain,
+    Stress,
+    Table,
+)
+from sweep.config.materials.material_file import (
+    REFERENCE_TIME,
+    Record,
+    check_curve,
+    locate,
+    not_rising,
+    read_record,
+)
+
+BY_NUMBERS = "by numbers"
+SOFTENING_BETA = 0.1
+FIBRE_COUNT = 7
+FIBRES = '"section" or "fibres"'
+# JSON returns lists, so that lists are accepted too.
+Curve = Annotated[tuple[float, ...], Field(strict=False)]
+Range = Annotated[tuple[str, float, float], Field(strict=False)]
+Durations = Annotated[tuple[Duration, ...], Field(strict=False)]
+Shares = Annotated[tuple[Strain, ...], Field(strict=False)]
+Loss = Annotated[float, Field(gt=0, le=0.8, json_schema_extra={"unit": "1", "bare": True})]
+# Without a unit at most 1: a greater number is likely a percentage.
+Stretched = Annotated[
+    float, Field(gt=0, json_schema_extra={"unit": "1", "bare": True, "bare_most": 1})
+]
+IDLE_ALONG = ("plane", "poisson")  # keys of which plates take the default
+SECTIONS = ("section", "fibres")  # `Material.bend` that integrates a law over the thickness
+
+
+def by_curve(stretch: str, bend: str) -> str | None:
+    """The key of a material that goes by the curve of its record, if any.
+
+    Sections follow the law of stretching, or the curve where that law is linear.
+    """
+    if stretch == "nonlinear":
+        return "stretch"
+    return "bend" if stretch == "linear" and bend in SECTIONS else None
+
+
+class Material(Table):
+    """A material: a named record, whose numbers may be overridden, or numbers without a record.
+
+    It relaxes if it has a `loss`, the share of the work that is lost in a cycle of loading and
+    unloading, or branches: shares of the instantaneous stress, each with the time in which it
+    relaxes. The curve, or the modulus, then holds at `reference_time` after loading. It softens on
+    reuse if it has the numbers r, m (J/m^3) and beta of Ogden and Roxburgh. It yields, instead of
+    following a curve, if it has a `yield_stress`; `hardening` is its slope beyond that over plastic
+    strain. A fibre that is stretched beyond `fracture_strain` counts as broken.
+
+    memory "measured": loss and softening are those that the record states, unless they are given.
+
+    `bend` "fibres" is "section" with `fibres` points through the thickness in place of three.
+
+    `curve_strain`, `curve_stress` (k,) in Pa hold the record itself, so that a case needs no file.
+    They are empty if neither stretching nor bending uses the curve. `uncertain`: key, low and high
+    end of each number that is the record's and has a range there.
+    """
+
+    labels: ClassVar[tuple[str, ...]] = ("memory", "uncertain")
+    neutral: ClassVar[dict[str, Any]] = {"relaxation_times": (), "relaxation_shares": ()}
+    not_along: ClassVar[tuple[str, ...]] = ("softening_r", "yield_stress")  # refused along cells
+
+    name: str = "ninjaflex"
+    stretch: Literal["nonlinear", "linear"] = "nonlinear"
+    bend: Literal["linear", "section", "fibres", "none"] = "section"
+    fibres: Annotated[int, Field(ge=4, le=15)] | None = None
+    plane: Literal["strain", "stress", "strain_bending"] = "strain"
+    modulus: Stress
+    density: Density
+    poisson: Annotated[float, Field(ge=0, lt=0.5)] = 0.48
+    loss: Loss | None = None
+    relaxation_times: Durations = ()
+    relaxation_shares: Shares = ()
+    reference_time: Duration | None = None
+    memory: Literal["none", "measured"] = "none"
+    softening_r: Annotated[float, Field(gt=1)] | None = None
+    softening_m: Stress | None = None
+    softening_beta: NonNegative | None = None
+    yield_stress: Stress | None = None
+    hardening: Annotated[float, Field(ge=0, json_schema_extra={"unit": "Pa"})] | None = None
+    fracture_strain: Stretched | None = None
+    curve_strain: Curve = ()
+    curve_stress: Curve = ()
+    uncertain: Annotated[tuple[Range, ...], Field(strict=False)] = ()
+
+    @property
+    def relaxes(self) -> bool:
+        """Whether the stress depends on time."""
+        return self.loss is not None or bool(self.relaxation_times)
+
+    @property
+    def remembers(self) -> bool:
+        """Whether the stress depends on the past."""
+        return self.relaxes or self.softening_r is not None or self.yields
+
+    @property
+    def inelasticity(self) -> str:
+        """What the walls do that springs do not: "relaxes, softens" and the like, or "none"."""
+        softens = self.softening_r is not None
+        words = {"relaxes": self.relaxes, "softens": softens, "yields": self.yields}
+        return ", ".join(word for word, true in words.items() if true) or "none"
+
+    @property
+    def yields(self) -> bool:
+        """Whether it deforms plastically."""
+        return self.yield_stress is not None
+
+    @property
+    def through_fibres(self) -> bool:
+        """Whether bending goes by fibres through the thickness."""
+        return self.bend in SECTIONS
+
+
+def material(given: Given, along: bool = False) -> Material:
+    """The material of these values; along: of walls that are pressed along the cells.
+
+    `RecordError` if the file of a named one cannot be read.
+    """
+    made = Material.model_validate(given if "curve_strain" in given else _completed(given))
+    _check_relaxation(made)
+    _check_softening(made)
+    _check_law(made)
+    return _of_plates(made) if along else made
+
+
+def relaxes(given: Given) -> bool:
+    """Whether these values of a material make its stress depend on time."""
+    return given.get("loss") is not None or bool(given.get("relaxation_times"))
+
+
+def _completed(asked: Given) -> dict[str, Any]:
+    """The values with those of the record, and the defaults that follow from both."""
+    by_numbers = "modulus" in asked and "name" not in asked
+    record = None if by_numbers else read_record(locate(asked.get("name", "ninjaflex")))
+    given = _with_memory(dict(asked), record)
+    if record is not None:
+        given = dict(record.plasticity) | given
+    if not relaxes(given):
+        given = {**given, "reference_time": None}
+    if "softening_r" in given:
+        given = {"softening_beta": SOFTENING_BETA, **given}
+    else:
+        given = {**given, "softening_m": None, "softening_beta": None}
+    given = _with_plasticity(given)
+    if record is None:
+        return _by_numbers(given)
+    return _of_record(record, _with_law(given), asked)
+
+
+def _by_numbers(given: dict[str, Any]) -> dict[str, Any]:
+    """A material without a record, which is linear."""
+    if "density" not in given:
+        raise RefusedError("material.density", None, "a density, as no name is given")
+    usual = {"reference_time": REFERENCE_TIME} if relaxes(given) else {}
+    return _with_law({"name": BY_NUMBERS, "stretch": "linear", **usual, **given})
+
+
+def _with_law(given: dict[str, Any]) -> dict[str, Any]:
+    """The values with the law of bending; that of a linear material is linear."""
+    linear = given.get("stretch", "nonlinear") == "linear"
+    return {"bend": "linear", **given} if linear else given
+
+
+def _of_record(record: Record, given: dict[str, Any], asked: Given) -> dict[str, Any]:
+    """The values with the numbers and the curve of a record."""
+    numbers = ("modulus", "density", "poisson", *(["reference_time"] if relaxes(given) else []))
+    known = {key: getattr(record, key) for key in numbers}
+    laws = [given.get(key, Material.model_fields[key].default) for key in ("stretch", "bend")]
+    if given["hardening"] is None and by_curve(*laws):
+        known |= {"curve_strain": record.strain, "curve_stress": record.stress}
+    uncertain = _uncertain(record, asked, {**known, **given})
+    return {**known, **given, "name": record.name, "uncertain": uncertain}
+
+
+def _check_relaxation(made: Material) -> None:
+    times, shares = made.relaxation_times, made.relaxation_shares
+    if len(times) != len(shares):
+        raise RefusedError("material.relaxation_times", list(times), "a time for each share")
+    if times and made.loss is not None:
+        raise RefusedError("material.loss", made.loss, "one of loss and relaxation")
+    if sum(shares) >= 1.0:
+        allowed = "shares whose sum is below 1"
+        raise RefusedError("material.relaxation_shares", list(shares), allowed)
+
+
+def _check_softening(made: Material) -> None:
+    if made.softening_r is None:
+        return
+    if made.softening_m is None:
+        raise RefusedError("material.softening_m", None, "a stress, as softening_r is given")
+    if not made.through_fibres:
+        raise RefusedError("material.bend", made.bend, f"{FIBRES} if softening_r is given")
+
+
+def _check_law(made: Material) -> None:
+    """Refuse a law of stretching or bending without its curve, or beside another law."""
+    used = by_curve(made.stretch, made.bend)
+    if made.yields:
+        _check_plasticity(made)
+    elif used and not made.curve_strain:
+        allowed = '"linear", as no curve is given'
+        raise RefusedError(f"material.{used}", getattr(made, used), allowed)
+    elif used:
+        check_curve(made.curve_strain, made.curve_stress)
+        _check_that_it_rises(made)
+
+
+def _check_that_it_rises(made: Material) -> None:
+    """Refuse a material that relaxes if its stress does not rise with strain."""
+    at = not_rising(made.curve_strain, made.curve_stress) if made.relaxes else None
+    if at is not None:
+        key = "relaxation_times" if made.loss is None else "loss"
+        value = list(made.relaxation_times) if made.loss is None else made.loss
+        falls = f"the stress of {made.name} does not rise from a strain of {at:g} on"
+        raise RefusedError(f"material.{key}", value, f"none, as {falls}")
+
+
+def _check_plasticity(made: Material) -> None:
+    """Refuse a plastic material with other laws beside."""
+    if made.stretch != "linear":
+        raise RefusedError("material.stretch", made.stretch, '"linear" if yield_stress is given')
+    if not made.through_fibres:
+        raise RefusedError("material.bend", made.bend, f"{FIBRES} if yield_stress is given")
+    if made.relaxes or made.softening_r is not None:
+        other = "relaxation" if made.relaxes else "softening_r"
+        other = "loss" if made.loss is not None else other
+        raise RefusedError("material.yield_stress", made.yield_stress, f"none if {other} is given")
+
+
+def _of_plates(made: Material) -> Material:
+    """The material of walls that are plates: incompressible sheets in plane stress, whose layers
+    all follow one law, elastic or relaxing.
+    """
+    for key in made.not_along:
+        if value := getattr(made, key):
+            allowed = f"none {WHERE}: its walls are elastic or relax"
+            raise RefusedError(f"material.{key}", value, allowed)
+    if made.bend == "fibres":
+        raise RefusedError("material.bend", made.bend, f'"section" or "linear" {WHERE}')
+    fit = "linear" if made.stretch == "linear" else "section"
+    if made.bend != fit:
+        why = f'{WHERE} and material.stretch is "{made.stretch}"'
+        raise RefusedError("material.bend", made.bend, f'"{fit}" {why}')
+    usual = {key: Material.model_fields[key].default for key in IDLE_ALONG}
+    return made.model_copy(update=usual)
+
+
+def _with_memory(given: dict[str, Any], record: Record | None) -> dict[str, Any]:
+    """The given keys with the loss and softening of the record, where they are asked for."""
+    if given.get("memory") != "measured":
+        return given
+    if record is None:
+        raise RefusedError("material.memory", "measured", '"none", as no name is given')
+    if not record.memory:
+        allowed = f'"none", as {record.name} states neither loss nor softening'
+        raise RefusedError("material.memory", "measured", allowed)
+    stated = dict(record.memory)
+    if given.get("relaxation_times"):
+        stated.pop("loss", None)
+    return {**stated, **given}
+
+
+def _uncertain(
+    record: Record, asked: Given, known: dict[str, Any]
+) -> tuple[tuple[str, float, float], ...]:
+    """The ranges of the record's numbers that a material uses, without those that it is given."""
+    used = [key for key in record.ranges if key not in asked]
+    used = [key for key in used if known.get(key) is not None or key == "friction"]
+    return tuple((key, *record.ranges[key]) for key in used)
+
+
+def _with_plasticity(given: dict[str, Any]) -> dict[str, Any]:
+    """The given keys with the defaults of fibres and of a material that yields."""
+    if given.get("yield_stress") is not None:
+        given = {"stretch": "linear", "bend": "fibres", "hardening": 0.0, **given}
+    else:
+        given = {**given, "hardening": None, "fracture_strain": None}
+    if given.get("bend") == "fibres":
+        return {"fibres": FIBRE_COUNT, **given}
+    return {**given, "fibres": None}

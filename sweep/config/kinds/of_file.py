@@ -1,0 +1,53 @@
+"""The loading in the file of a custom structure: for a duration, or quasi-static in equal steps."""
+
+from typing import Any, ClassVar, Literal
+
+from sweep.config.kinds.direction import ACROSS
+from sweep.config.kinds.solver import ARCS, IN_TIME
+from sweep.config.kinds.table import Duration, Given, RefusedError, Table
+from sweep.config.structures.structure import Structure
+
+
+class OfFile(Table):
+    """Loads and prescribed moves of the file. `quasi_static`: they grow together in equal steps."""
+
+    because: ClassVar[str] = 'lattice.kind is "custom"'
+    constants: ClassVar[dict[str, Any]] = {"platen": "none", "allowed_forces": []}
+    neutral: ClassVar[dict[str, Any]] = {"direction": ACROSS}
+    along: ClassVar[bool] = False
+    cycles: ClassVar[int] = 1
+    platen: ClassVar[str] = "none"
+    columns: ClassVar[dict[str, float]] = {}
+    allowed_forces: ClassVar[tuple[float, ...]] = ()
+
+    direction: Literal["in_plane"] = ACROSS
+    mode: Literal["custom"] = "custom"
+    duration: Duration
+    quasi_static: bool
+
+
+def of_file(given: Given, structure: Structure, integrator: str | None) -> OfFile:
+    """The loading of a structure; what is at rest only with inertia is refused in statics."""
+    still = integrator in ("static", ARCS)
+    quasi_static = still or bool(given.get("quasi_static"))
+    if quasi_static and not still and integrator is not None:
+        raise RefusedError("solver.integrator", integrator, '"static" if quasi_static')
+    if quasi_static and structure.floor_y_mm is None:
+        _check_mechanism(structure, integrator)
+    if integrator == ARCS and structure.prescribed:
+        allowed = '"static", or loads instead of prescribed moves'
+        raise RefusedError("solver.integrator", ARCS, allowed)
+    if integrator == ARCS and not (structure.loads or any(structure.gravity_mm_s2)):
+        raise RefusedError("solver.integrator", ARCS, '"static" where there are no loads')
+    duration = given.get("duration", 1.0 if quasi_static else 0.2)
+    return OfFile(duration=duration, quasi_static=quasi_static)
+
+
+def _check_mechanism(structure: Structure, integrator: str | None) -> None:
+    """Refuse a structure that can move without resistance."""
+    from sweep.config.structures.mechanism import find_mechanism
+
+    if motion := find_mechanism(structure):
+        allowed = f"{IN_TIME}, or more supports: {motion}"
+        since = "loading.quasi_static"
+        raise RefusedError("solver.integrator", integrator or "static", allowed, since)

@@ -1,0 +1,202 @@
+"""A lattice as a slicer lays it: lines in perimeters, in a pattern of the slicer's own name."""
+
+from math import isnan, radians
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field
+
+from sweep.config.kinds.mesh import nodes_of
+from sweep.config.kinds.specimen import LAYER_HEIGHT, MAX_NODES, Laid, check_proportion, check_size
+from sweep.config.kinds.table import Angle, Few, Given, Length, Mass, RefusedError, Share, chosen
+from sweep.design.geometry import Geometry
+from sweep.design.slicer.patterns import (
+    NO_PRISMS,
+    OVERLAP,
+    PATTERNS,
+    SLICERS,
+    WIDTH_PER_NOZZLE,
+    Pattern,
+    distance_of,
+    line_of,
+)
+from sweep.design.slicer.patterns import Sliced as Lay
+
+FILL_ANGLE, PERIMETERS = radians(45.0), 2
+MOST_LINES = 10  # that OrcaSlicer lays side by side
+UNKNOWN = {"infill": 0.5, "fill_distance": 1.0, "cells_x": 1, "cells_y": 1}  # until it is computed
+
+
+class Sliced(Laid):
+    """An infill with the `pattern` of a slicer, within `perimeters`, layers stacked along `depth`.
+
+    `infill`, or the `mass` as extruded, sets `fill_distance`, that of parallel walls, and about how
+    many cells fit. `fill_multiline`: number of lines in each wall. line_width: of a line of mean
+    thickness `line`, of which the `wall_thickness` is a multiple.
+    """
+
+    because: ClassVar[str] = "lattice.slicer is given"
+    constants: ClassVar[dict[str, Any]] = {"kind": "square"}
+    derived: ClassVar[tuple[str, ...]] = ("fill_distance", "cells_x", "cells_y", "wall_thickness")
+
+    slicer: Literal["prusa", "orca", "cura"]
+    pattern: str
+    infill: Share
+    mass: Mass | None = None
+    fill_angle: Angle = FILL_ANGLE
+    fill_distance: Length
+    fill_multiline: Annotated[int, Field(ge=1, le=MOST_LINES)] = 1
+    line_width: Length
+    layer_height: Length = LAYER_HEIGHT
+    cells_x: Few
+    cells_y: Few
+
+    def given(self) -> dict[str, Any]:
+        """As of `Table.given`, without the share if it follows from the mass."""
+        values = super().given()
+        return values if self.mass is None else {k: v for k, v in values.items() if k != "infill"}
+
+    @property
+    def name(self) -> str:
+        """The slicer's own name of the pattern."""
+        return self.pattern
+
+    @property
+    def printed_as(self) -> Pattern:
+        """The pattern."""
+        return PATTERNS[self._pattern]
+
+    @property
+    def _pattern(self) -> str:
+        return SLICERS[self.slicer][self.pattern]
+
+    @property
+    def line(self) -> float:
+        """What one line fills, m."""
+        return line_of(self.slicer, self.line_width, self.layer_height)
+
+    @property
+    def lines(self) -> float:
+        """What the lines of one wall of the infill fill, side by side (m)."""
+        return self.fill_multiline * self.line
+
+    @property
+    def outline(self) -> tuple[float, float]:
+        """Thickness (m) of the outline: at the left and right sides, at the bottom and top."""
+        return self.perimeters * self.line, self.perimeters * self.line
+
+    @property
+    def geometry(self) -> Geometry:
+        """The numbers that define the drawing."""
+        inset = (0.5 * self.perimeters - OVERLAP) * self.line
+        lay = Lay(self._pattern, self.fill_distance, self.fill_angle, self.lines, inset)
+        return Geometry(
+            "square",
+            None,
+            (self.cells_x, self.cells_y),
+            (self.width, self.height),
+            self.wall_thickness,
+            outline=self.outline,
+            sliced=lay,
+        )
+
+    @property
+    def counts(self) -> tuple[int, int]:
+        """Numbers of joints and of walls between joints."""
+        from sweep.design.lattice import build_network
+
+        network = build_network(self.geometry)
+        return len(network.points), len(network.walls)
+
+    @property
+    def opening(self) -> float:
+        """Clear width of the narrowest whole cell between centre lines, m."""
+        return self.printed_as.opening * self.fill_distance
+
+
+def sliced(given: Given, density: float) -> Sliced:
+    """The infill of these values; density (kg/m^3): of the material."""
+    slicer, pattern = given["slicer"], _checked_pattern(given)
+    width = given.get("nozzle", Sliced.model_fields["nozzle"].default)
+    width = given.get("line_width", width * (1.0 if slicer == "cura" else WIDTH_PER_NOZZLE))
+    usual = {"perimeters": PERIMETERS, "nodes_per_wall": nodes_of(PATTERNS[pattern].family)}
+    made = Sliced.model_validate(usual | chosen(given, Sliced) | UNKNOWN | {"line_width": width})
+    check_proportion(made)
+    _check_lines(made)
+    made = made.model_copy(update={"wall_thickness": made.printed_as.wall * made.lines})
+    if made.mass is None:
+        return _laid(made, given["infill"])
+    if "infill" in given:
+        raise RefusedError("lattice.mass", made.mass, "none where lattice.infill is given")
+    return _laid(made, _share_for(made, made.mass, density * made.depth))
+
+
+def _laid(made: Sliced, share: float) -> Sliced:
+    """The infill of a share."""
+    laid = made.model_copy(update=_spacing(made, share))
+    check_size(laid, ("infill",))
+    if laid.wall_thickness >= laid.thickest * (1.0 - 1e-12):
+        allowed = "a share that leaves cells at least twice as wide as their walls"
+        raise RefusedError("lattice.infill", share, allowed)
+    return laid
+
+
+def _spacing(made: Sliced, share: float) -> dict[str, Any]:
+    """The distance of lines of a share, and about how many cells fit."""
+    distance = distance_of(made._pattern, share, made.lines)
+    columns, rows = (max(1, round(size / distance)) for size in (made.width, made.height))
+    if columns * rows > MAX_NODES:
+        allowed = f"a share whose lines make at most {MAX_NODES:,} cells in this box"
+        raise RefusedError("lattice.infill", share, allowed)
+    return {"infill": share, "fill_distance": distance, "cells_x": columns, "cells_y": rows}
+
+
+def _share_for(made: Sliced, wanted: float, per_area: float) -> float:
+    """The share with which a mass (kg) is extruded; per_area: kg/m^2."""
+    from sweep.design.slicer.network import LEAST_SHARE, share_for
+
+    pattern = made.printed_as
+    most = 0.5 * pattern.opening * pattern.directions / pattern.wall
+    first = made.model_copy(update=_spacing(made, LEAST_SHARE))
+    share, *bounds = share_for(first.geometry, wanted / per_area, (1.0 - 1e-9) * most)
+    if isnan(share):
+        light, heavy = (per_area * area for area in bounds)
+        allowed = f"between {light:.4g} kg and {heavy:.4g} kg as extruded with this pattern"
+        if light < wanted < heavy:
+            allowed = "another mass: there a line along a side appears; or another fill_angle"
+        raise RefusedError("lattice.mass", wanted, allowed)
+    return share
+
+
+def _checked_pattern(given: Given) -> str:
+    """The pattern, by its name in `PATTERNS`; refused is what is no prism of the slicer."""
+    patterns, pattern = SLICERS[given["slicer"]], given.get("pattern")
+    key, names = "lattice.pattern", ", ".join(map('"{}"'.format, patterns))
+    if pattern is None:
+        raise RefusedError(key, None, f"{names}, as lattice.slicer is given")
+    if pattern not in patterns:
+        raise RefusedError(key, pattern, f"{names}{_no_prism(pattern, patterns)}")
+    if "mass" not in given and "infill" not in given:
+        raise RefusedError("lattice.infill", None, 'a share such as "20 %", or a lattice.mass')
+    count = given.get("fill_multiline", 1)
+    if count != 1 and (given["slicer"] != "orca" or patterns[pattern] == "honeycomb"):
+        allowed = '1; more with lattice.slicer "orca" and a pattern other than honeycomb'
+        raise RefusedError("lattice.fill_multiline", count, allowed)
+    return patterns[pattern]
+
+
+def _no_prism(pattern: str, patterns: dict[str, str]) -> str:
+    """Why a pattern is no prism, and the nearest that is; empty if it is not known."""
+    why, nearest = NO_PRISMS.get(pattern.lower().replace(" ", ""), ("", "grid"))
+    nearest = next((own for own, known in patterns.items() if known == nearest), "grid")
+    return f"; {pattern} is no prism, as {why}: the nearest is {nearest}" if why else ""
+
+
+def _check_lines(made: Sliced) -> None:
+    """Refuse lines that are higher than wide, and perimeters that are absent or leave no room."""
+    width, height = made.line_width, made.layer_height
+    if height > width:
+        raise RefusedError("lattice.layer_height", height, f"at most the line width, {width:g} m")
+    most = int(0.5 * min(made.width, made.height) / made.line)
+    if not 1 <= made.perimeters < most:
+        allowed = f"1 to {most - 1}, as lattice.slicer is given: perimeters hold the infill"
+        raise RefusedError("lattice.perimeters", made.perimeters, allowed)

@@ -1,0 +1,63 @@
+"""How the equations are solved: in time, quasi-statically, or along arcs of an equilibrium path."""
+
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field
+
+from sweep.config.kinds.table import Count, Duration, Length, Table
+
+ARCS = "arc_length"
+IN_TIME = '"backward_euler", "bdf2" or "newmark"'  # the integrators
+Integrator = Literal["backward_euler", "bdf2", "newmark", "static", "arc_length"]
+
+
+class _Solver(Table):
+    """What all solvers have. joints: None along the cells."""
+
+    labels: ClassVar[tuple[str, ...]] = ("time_limit",)  # a new limit does not change results
+    neutral: ClassVar[dict[str, Any]] = {"hessian": "exact"}
+
+    tolerance: Annotated[float, Field(gt=0, lt=1)] = 1e-8
+    max_iterations: Count = 100
+    time_limit: Duration = 300.0
+    element: Literal["cubic", "classical"] = "cubic"
+    joints: Literal["solid", "points"] | None = None
+    bend_measure: Literal["angle", "tangent"] = "angle"
+    hessian: Literal["exact", "tangent_modulus"] = "exact"
+
+
+class InTime(_Solver):
+    """Steps of a motion. newmark: the trapezoidal rule.
+
+    `step_error`: error of a position allowed in a single step, which is a fraction of the time step
+    where needed. `load_steps`: of a platen that is driven, which set the time step.
+    """
+
+    because: ClassVar[str] = "solver.load_steps sets it"
+
+    integrator: Literal["backward_euler", "bdf2", "newmark"] = "backward_euler"
+    time_step: Duration
+    step_error: Length | None = None
+    load_steps: Count | None = None
+
+
+class Static(_Solver):
+    """Equilibria after equal steps of a load or a platen."""
+
+    because: ClassVar[str] = "the crush is quasi-static"
+
+    integrator: Literal["static"] = "static"
+    load_steps: Count = 200
+
+
+class Arcs(_Solver):
+    """Equilibria one `arc_length` apart along a path."""
+
+    because: ClassVar[str] = f'solver.integrator is "{ARCS}"'
+
+    integrator: Literal["arc_length"] = "arc_length"
+    load_steps: Count = 200
+    arc_length: Length
+
+
+Solver = Annotated[InTime | Static | Arcs, Field(discriminator="integrator")]

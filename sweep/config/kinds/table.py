@@ -1,0 +1,110 @@
+"""What the tables of a case have in common: types of values in SI, refusals, and canonical text."""
+
+import json
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import Annotated, Any, ClassVar, TypeVar
+
+from pydantic import BaseModel, ConfigDict, Field
+
+T = TypeVar("T")
+Given = Mapping[str, Any]
+"""The values of one table that a config gives, in SI, by their keys."""
+
+SIGNIFICANT = 12  # digits of a number that enter an id; unit conversions do not change them
+
+Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m"})]
+Size = Annotated[float, Field(gt=0, le=1e3, json_schema_extra={"unit": "m"})]
+Duration = Annotated[float, Field(gt=0, json_schema_extra={"unit": "s"})]
+Lag = Annotated[float, Field(ge=0, json_schema_extra={"unit": "s"})]
+Frequency = Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/s"})]
+Rate = Annotated[float, Field(ge=0, json_schema_extra={"unit": "1/s"})]
+# The unit may be left out: 0.6 is 60 %.
+Strain = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1", "bare": True})]
+Speed = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m/s"})]
+Force = Annotated[float, Field(gt=0, json_schema_extra={"unit": "N"})]
+Energy = Annotated[float, Field(gt=0, json_schema_extra={"unit": "J"})]
+Stress = Annotated[float, Field(gt=0, json_schema_extra={"unit": "Pa"})]
+Acceleration = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m/s^2"})]
+Mass = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
+Density = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg/m^3"})]
+Angle = Annotated[float, Field(json_schema_extra={"unit": "rad"})]
+Share = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})]
+Count = Annotated[int, Field(ge=1)]
+Few = Annotated[int, Field(ge=1, le=1000)]  # a typo must not fill the memory
+Cycles = Annotated[int, Field(ge=1, le=100)]
+# JSON returns lists, so that lists are accepted too.
+Forces = Annotated[tuple[Force, ...], Field(strict=False)]
+NonNegative = Annotated[float, Field(ge=0)]
+Positive = Annotated[float, Field(gt=0)]
+
+
+class Table(BaseModel):
+    """One table of a case, complete and in SI; its attributes are keys of the config.
+
+    labels: keys that never enter an id. neutral: keys that enter it only with other values.
+    constants: what enters it beside the attributes. derived: attributes that no config sets.
+    """
+
+    model_config = ConfigDict(frozen=True, strict=True, extra="forbid", allow_inf_nan=False)
+    labels: ClassVar[tuple[str, ...]] = ()
+    neutral: ClassVar[dict[str, Any]] = {}
+    constants: ClassVar[dict[str, Any]] = {}
+    derived: ClassVar[tuple[str, ...]] = ()
+
+    def given(self) -> dict[str, Any]:
+        """The values from which this table follows, by key."""
+        held = {name: value for name, value in self if name not in self.derived}
+        return {name: value for name, value in held.items() if value is not None}
+
+    @classmethod
+    def implies(cls, key: str, value: object) -> bool:
+        """Whether a value of a key that a kind need not have says what is so anyway."""
+        implied = {**cls.neutral, **cls.constants}
+        return bool(implied.get(key, getattr(cls, key, None)) == value)
+
+
+class RefusedError(ValueError):
+    """A value that contradicts the rest of its case.
+
+    value: None if it is missing. since: the key that implies the value, if it is not given itself.
+    """
+
+    def __init__(self, key: str, value: object, allowed: str, since: str | None = None) -> None:
+        super().__init__(f"{key} = {value}; allowed: {allowed}")
+        self.key, self.value, self.allowed, self.since = key, value, allowed, since
+
+    @property
+    def table(self) -> str:
+        """The table of the key."""
+        return self.key.split(".")[0]
+
+
+def chosen(values: Given, model: type[Table]) -> dict[str, Any]:
+    """The values of the keys that a model has."""
+    return {key: value for key, value in values.items() if key in model.model_fields}
+
+
+def given_or(value: T | None, default: T) -> T:
+    """A value, or its default if it is None."""
+    return default if value is None else value
+
+
+@lru_cache(maxsize=4096)
+def canonical(table: Table) -> str:
+    """A table as JSON, with sorted keys and rounded numbers, without unused keys."""
+    used = {
+        key: rounded(value)
+        for key, value in table
+        if value is not None and key not in table.labels and value != table.neutral.get(key)
+    }
+    return json.dumps(table.constants | used, sort_keys=True, separators=(",", ":"))
+
+
+def rounded(value: object) -> object:
+    """A value as it enters an id."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return float(f"{value:.{SIGNIFICANT}g}")
+    if isinstance(value, BaseModel):
+        return {key: rounded(item) for key, item in value}
+    return [rounded(item) for item in value] if isinstance(value, tuple) else value

@@ -1,0 +1,30 @@
+"""The tables of a config that ask something of the results: they enter no case and no id."""
+
+from typing import Literal
+
+from sweep.config.kinds.table import Acceleration, Energy, Force, Length, Mass, Table
+
+
+class Rank(Table):
+    """Defaults of a ranking: budgets of mass (kg), and the panel that specimens fill (m).
+
+    per: what allowed forces and requirements are of. drop_heights: of cushion curves (m).
+    """
+
+    budgets: tuple[Mass, ...] = ()
+    panel: tuple[Length, Length] | None = None
+    drop_heights: tuple[Length, ...] = ()
+    per: Literal["specimen", "panel"] = "specimen"
+
+
+class Require(Table):
+    """What a design must fulfil to have a place in a ranking."""
+
+    max_force: Force | None = None
+    max_deceleration: Acceleration | None = None
+    max_mass: Mass | None = None
+    min_absorbed: Energy | None = None
+    max_stroke: Length | None = None
+
+
+QUESTION: dict[str, type[Table]] = {"rank": Rank, "require": Require}

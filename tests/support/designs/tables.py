@@ -1,0 +1,16 @@
+"""Tables of cases from a few of their values."""
+
+from sweep.config.case import lattice_of
+from sweep.config.kinds.material import material
+
+DENSITY = 1190.0  # kg/m^3, that of ninjaflex
+
+
+def material_with(**values):
+    """The material of these values."""
+    return material(values)
+
+
+def lattice_with(**values):
+    """The lattice of these values, pressed across its cells."""
+    return lattice_of(values, DENSITY, along=False)
