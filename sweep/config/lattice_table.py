@@ -24,8 +24,8 @@ from sweep.design.infill import families, trait
 from sweep.design.slicer.patterns import (
     OVERLAP,
     PATTERNS,
+    PROGRAMS,
     SLICERS,
-    WIDTH_PER_NOZZLE,
     Pattern,
     Sliced,
     line_of,
@@ -174,7 +174,7 @@ class Lattice(Table):
     def _cut(self, patterns: dict[str, str]) -> Self:
         """The table of a lattice that a slicer fills; ``patterns``: those that it prints."""
         check_pattern(self, patterns)
-        width = self.nozzle * (1.0 if self.slicer == "cura" else WIDTH_PER_NOZZLE)
+        width = self.nozzle * PROGRAMS[self.slicer or ""].nozzles
         given = self.model_fields_set
         used = {
             "file": None,

@@ -11,6 +11,7 @@ from sweep.design.slicer.patterns import (
     NO_PRISMS,
     SLICERS,
     distance_of,
+    lines_at_most,
 )
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ def check_pattern(lattice: Lattice, patterns: dict[str, str]) -> None:
     if lattice.mass is None and lattice.infill is None:
         raise refusal("lattice.infill", None, 'a share such as "20 %", or a lattice.mass')
     count = lattice.fill_multiline
-    if count != 1 and (lattice.slicer != "orca" or patterns[pattern] == "honeycomb"):
+    if count > lines_at_most(lattice.slicer or "", patterns[pattern]):
         allowed = '1; more with lattice.slicer "orca" and a pattern other than honeycomb'
         raise refusal("lattice.fill_multiline", count, allowed)
     fixed = {"kind": "square", "orientation": None, "grading": 1.0, "solid_layers": 0}
