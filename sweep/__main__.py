@@ -20,6 +20,7 @@ from sweep.cli.completion import SHELLS, cases, columns, complete, configs, offe
 from sweep.cli.completion import materials as material_words
 from sweep.cli.new import KINDS
 from sweep.config.reading.examples import examples
+from sweep.ranking.requirement_table import MEASURES
 
 ABOUT = "Which printed infill absorbs the most energy per gram?"
 EXAMPLES = """examples:
@@ -162,13 +163,6 @@ MATERIALS_EXAMPLES = """examples:
 
 AREA = "area to fill with specimens"
 AS_WRITTEN = argparse.RawDescriptionHelpFormatter
-REQUIREMENTS = {
-    "max_force": ("FORCE", 'required, while the counted energy is absorbed: "60 N"'),
-    "max_deceleration": ("G", 'required, of the striker, filtered: "80 g0"'),
-    "max_mass": ("MASS", 'required: "2 g"'),
-    "min_absorbed": ("ENERGY", 'required: "1.5 J"'),
-    "max_stroke": ("LENGTH", 'required: "8 mm"'),
-}
 
 
 class Parser(argparse.ArgumentParser):
@@ -275,7 +269,7 @@ def _add_optimize(verbs: Any) -> None:
     optimize.add_argument("config", type=_path, metavar="CONFIG", help="TOML file with a [search]")
     optimize.add_argument("--budget", metavar="MASS", help='greatest mass: "25 g"')
     optimize.add_argument("--panel", nargs=2, metavar="LENGTH", help=f'{AREA}: "100 mm" "50 mm"')
-    force = 'of a crush, as --allowed-force; of an impact or a load, required: "60 N"'
+    force = "of a crush, as --allowed-force; of an impact or a load, required"
     _add_limits(optimize, force)
     optimize.add_argument("--by", metavar="COLUMN", help="seek the best of this column")
     optimize.add_argument("--pareto", metavar="COLUMN", help="list the front of a second aim, too")
@@ -445,10 +439,10 @@ def _add_question(verb: Any, panel: str = AREA) -> None:
     verb.add_argument("--panel", nargs=2, metavar="LENGTH", help=f'{panel}: "100 mm" "50 mm"')
     by = verb.add_argument("--by", metavar="COLUMN", help="sort by this column of the summary")
     offer(by, columns)
-    _add_limits(verb, REQUIREMENTS["max_force"][1])
+    _add_limits(verb)
 
 
-def _add_limits(verb: Any, max_force: str) -> None:
+def _add_limits(verb: Any, max_force: str = MEASURES["max_force"].about) -> None:
     """Add the options that limit a design; max_force: what the option of this name means."""
     verb.add_argument(
         "--allowed-force", metavar="FORCE", help='count energy up to this force: "50 N"'
@@ -456,9 +450,10 @@ def _add_limits(verb: Any, max_force: str) -> None:
     verb.add_argument(
         "--per", choices=("specimen", "panel"), help="what that force and requirements are of"
     )
-    words = REQUIREMENTS | {"max_force": (REQUIREMENTS["max_force"][0], max_force)}
-    for name, (kind, what) in words.items():
-        verb.add_argument(f"--{name.replace('_', '-')}", metavar=kind, help=what)
+    for name, measure in MEASURES.items():
+        about = max_force if name == "max_force" else measure.about
+        words = f'{about}: "{measure.example}"'
+        verb.add_argument(f"--{name.replace('_', '-')}", metavar=measure.kind, help=words)
 
 
 def _count(text: str) -> int:

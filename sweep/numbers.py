@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-import pandas as pd
-
 if TYPE_CHECKING:
     from pandas import Series
 
@@ -30,7 +28,7 @@ SHOWN = frozenset(name for scales in SCALES.values() for _, name in scales) | {"
 
 def short(value: float | str | None) -> str:
     """A number with four digits, text unchanged, a dash for a missing value."""
-    if pd.isna(value):
+    if value is None or value != value:  # NaN
         return NOTHING
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
@@ -44,7 +42,7 @@ def scaled(unit: str, greatest: float) -> tuple[float, str]:
 
 def with_unit(value: float | str | None, unit: str) -> str:
     """A value in SI as text in a unit of its size: 0.0001, "s" -> "100 us"; text unchanged."""
-    if not unit or value is None or isinstance(value, str) or pd.isna(value):
+    if not unit or value is None or isinstance(value, str) or math.isnan(value):
         return short(value)
     factor, name = scaled(unit, value)
     return f"{short(factor * value)} {name}"

@@ -72,7 +72,7 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
         "cells_y": lattice.cells_y,
         "wall_thickness_m": lattice.wall_thickness,
         "infill_share": lattice.infill if isinstance(lattice, Sliced) else nan,
-        "slicer_settings": str(slicer_settings(case) or ""),
+        "slicer_settings": str(slicer_settings(lattice) or ""),
         "does_not_print": what_does_not_print(lattice),
         "direction": loading.direction,
         "width_m": lattice.width,

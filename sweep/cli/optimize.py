@@ -55,7 +55,7 @@ def optimize(config: Config, arguments: Namespace) -> int:
 def _question(config: Config, arguments: Namespace) -> Question:
     """What the options ask, else the config."""
     from sweep.ranking.assessment import check_column
-    from sweep.ranking.requirements import MEASURES
+    from sweep.ranking.requirement_table import MEASURES
     from sweep.ranking.requirements import limits as required
 
     for name in filter(None, (arguments.by, arguments.pareto)):

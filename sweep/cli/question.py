@@ -57,7 +57,7 @@ def question_of(budgets: Iterable[Any] | None, panel: Iterable[Any] | None) -> Q
 
 def _required(arguments: Namespace) -> dict[str, Any]:
     """The requirements of the config, each replaced or dropped by its option."""
-    from sweep.ranking.requirements import MEASURES
+    from sweep.ranking.requirement_table import MEASURES
 
     given = {name: getattr(arguments, name) for name in MEASURES}
     wished = stored_table(arguments.file, "require") | {k: v for k, v in given.items() if v}

@@ -238,7 +238,7 @@ def _warn(file: str, ranking: Ranking, summary: DataFrame) -> None:
 
 def _of_a_number(arguments: Namespace) -> list[str]:
     """The options that say in which ranking a number is a place; an export has a panel anyway."""
-    from sweep.ranking.requirements import MEASURES
+    from sweep.ranking.requirement_table import MEASURES
 
     names = ["scene", "budget", "panel", "by", "allowed_force", "per", *MEASURES]
     if arguments.verb == "export":

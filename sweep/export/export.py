@@ -256,7 +256,7 @@ def _three_mf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
 
 def _block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     """A block, and what the slicer shall fill it with."""
-    from sweep.export.slicer import settings_of, slicer_files
+    from sweep.export.slicer import by_hand, prusa_reads, settings_of, slicer_files
     from sweep.export.solid import extruded
     from sweep.export.three_mf import write_3mf
 
@@ -265,10 +265,11 @@ def _block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     body = extruded(layout)
     write_3mf(path, body, layout.name, slicer_files(settings, layout.name, len(body.triangles)))
     prusa = "PrusaSlicer reads the settings of the object from the file. "
+    prusa = prusa if prusa_reads(settings) else ""
     return [
         *_told(layout, source, wish),
-        f"{prusa if settings.lines == 1 else ''}OrcaSlicer and Bambu Studio read only the block if "
-        f"they say so; then set by hand: {settings.by_hand}",
+        f"{prusa}OrcaSlicer and Bambu Studio read only the block if "
+        f"they say so; then set by hand: {by_hand(settings)}",
         "the slicer chooses where its lines begin, so that walls may be shifted, and lays "
         "crossings twice, so that the block is heavier than the lattice",
     ]

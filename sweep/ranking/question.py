@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
+from sweep.ranking.requirement_table import MEASURES
+
 Quantity = float | str
 """A number in SI, or text with a unit such as "25 g"."""
 
@@ -51,8 +53,7 @@ def in_si(value: Any, unit: str) -> float:
 def check_units(given: Mapping[str, Any]) -> None:
     """Refuse arguments with a number that has no unit."""
     examples = {"budget": "25 g", "panel": "100 mm", "allowed_force": "50 N"}
-    examples |= {"max_force": "50 N", "max_deceleration": "80 g0", "max_mass": "25 g"}
-    examples |= {"min_absorbed": "1 J", "max_stroke": "8 mm"}
+    examples |= {name: measure.example for name, measure in MEASURES.items()}
     for name, value in given.items():
         for item in [value] if isinstance(value, str) or not isinstance(value, Iterable) else value:
             if not isinstance(item, str | None):

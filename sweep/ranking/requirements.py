@@ -24,38 +24,12 @@ from pandas import DataFrame
 from sweep.ranking.budget import ROUND_OFF, greatest_mass
 from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.question import RankError, in_si
+from sweep.ranking.requirement_table import MEASURES, NEEDED
 
 if TYPE_CHECKING:
     from pandas import Series
 
     from sweep.ranking.question import Quantity
-
-MODES = ("displacement", "impact", "force", "custom")
-NEEDED = {"displacement": "a crush", "impact": "a striker", "force": "a dead load"}
-"""Loadings that a requirement may need, in words."""
-
-
-class Measure(NamedTuple):
-    """What a requirement limits. unit: in SI. shared: whether specimens of a panel add up.
-
-    asked_of: kinds of loading in which the design, not the loading, sets the value. least: the
-    limit is a least value; else it is a greatest one.
-    """
-
-    unit: str
-    shared: bool
-    asked_of: tuple[str, ...]
-    least: bool = False
-
-
-MEASURES = {
-    "max_force": Measure("N", True, ("displacement", "impact")),
-    "max_deceleration": Measure("m/s^2", False, ("impact",)),
-    "max_mass": Measure("kg", True, MODES),
-    "min_absorbed": Measure("J", True, ("displacement",), least=True),
-    "max_stroke": Measure("m", False, ("displacement", "impact", "force")),
-}
-"""The requirements by their keys in [require]."""
 
 
 class Best(NamedTuple):
@@ -249,8 +223,7 @@ def misses(
     """
     shares = DataFrame(index=rows.index)
     for name, limit in required.items():
-        values = found[name].astype(float)
-        share = 1.0 - values / limit if MEASURES[name].least else values / limit - 1.0
+        share = MEASURES[name].share_missed(found[name].astype(float), limit)
         asked = rows["loading_mode"].isin(MEASURES[name].asked_of)
         shares[name] = share.mask(share <= ROUND_OFF, 0.0).where(asked, 0.0)
     return shares

@@ -1,14 +1,14 @@
-"""Cases on Dask: on threads of this process, or on the workers of a `distributed` scheduler.
+"""Cases on threads of this process, or on the workers of a Dask cluster.
 
 With one task per case, Dask would need more time to build the graph than the cases need to run.
-Therefore a task is a batch of about one second of work, and the number of tasks at a time is
+Therefore a task is a batch of about one second of work, and the number of tasks in flight is
 limited.
 """
 
 import time
 from asyncio import wait_for
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from multiprocessing import get_context
@@ -17,7 +17,6 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from dask.threaded import get
 
 from sweep.config.case import Case
 from sweep.result import Result, Status, failed_result
@@ -26,7 +25,6 @@ from sweep.running.batches import Plan
 if TYPE_CHECKING:
     from distributed import Client, Future
 
-WAVE = 256  # tasks of one graph on threads
 WINDOW = 8  # batches in flight per thread of a cluster
 ANSWER = 10  # seconds in which a scheduler must answer
 PATIENCE = 60  # seconds in which the first worker of a cluster must join
@@ -84,27 +82,22 @@ def run_plan(
 
 def _run_on_threads(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop) -> None:
     one_at_a_time = Lock()
-    errors: list[Exception] = []
 
-    def next_batch() -> None:
-        """One task. It takes its batch when it starts, with the newest estimate of the pace."""
-        batch = [] if stop.asked else plan.take()
-        if not batch:
-            return
-        results, seconds = run_batch(simulate, batch, stop)
-        plan.learn(batch, seconds)
-        try:
+    def work() -> None:
+        """Batches, each taken when the last has ended: with the newest estimate of the pace."""
+        while not stop.asked and (batch := plan.take()):
+            results, seconds = run_batch(simulate, batch, stop)
+            plan.learn(batch, seconds)
             with one_at_a_time:
                 sink(results)
-        except Exception as error:  # noqa: BLE001 raised below, when all threads have ended
-            errors.append(error)
-            stop.ask()
 
-    while len(plan) and not stop.asked:
-        wave = dict.fromkeys(range(min(WAVE, len(plan))), (next_batch,))
-        get(wave, list(wave), num_workers=plan.workers)
-    if errors:
-        raise errors[0]
+    with ThreadPoolExecutor(plan.workers) as pool:
+        try:
+            for ended in as_completed([pool.submit(work) for _ in range(plan.workers)]):
+                ended.result()
+        except BaseException:  # of the sink, or a second Ctrl-C: the other threads end too
+            stop.ask()
+            raise
 
 
 def run_batch(

@@ -15,7 +15,7 @@ from sweep.config.case import Case
 from sweep.config.grid import Config, Designs
 from sweep.version import installed_version
 
-PACKAGES = ("crumple", "numpy", "numba", "h5py", "dask")
+PACKAGES = ("crumple", "numpy", "numba", "h5py", "distributed")
 
 
 def describe_run(config: str) -> dict[str, str]:

@@ -31,11 +31,9 @@ FLOORS = [
 HOMES = {
     "numba": "kernels.compile",
     "llvmlite": "kernels.compile",
-    "dask": "sweep.running.dask_graph",
     "distributed": "sweep.running.dask_graph",
     "h5py": "sweep.store.read sweep.store.hdf5",
     "matplotlib": "sweep.report.figures.case_plots",
-    "pint": "sweep.config.units",
     "manifold3d": "sweep.export.solid",
     "ezdxf": "sweep.export.dxf",
     "PIL": "sweep.report.figures.animation",
@@ -43,7 +41,7 @@ HOMES = {
 # What reads results, and so must run where nothing is installed that simulates.
 READERS = [m for m in PROGRAM if m.startswith(("sweep.store", "sweep.ranking", "sweep.report"))]
 READERS += ["sweep.cli.verbs"]
-ABSENT = ["kernels", "numba", "llvmlite", "dask", "distributed", "pydantic", "pint", "scipy"]
+ABSENT = ["kernels", "numba", "llvmlite", "dask", "distributed", "pydantic", "scipy"]
 ABSENT += ["pydantic_core", "shapely", "tornado"]
 READING = """
 import sys

@@ -1,19 +1,26 @@
 """The settings of a slicer that print a design: those of the config, or the nearest ones."""
 
 from dataclasses import dataclass
-from math import degrees, isclose, radians, sqrt
-from typing import NamedTuple
+from math import degrees, sqrt
 
-from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.specimen import LAYER_HEIGHT
 from sweep.constants import TO_MM
-from sweep.design.slicer.patterns import PATTERNS, ROUNDED, SLICERS
+from sweep.design.slicer.patterns import (
+    LIKE,
+    NEAREST,
+    PATTERNS,
+    PROGRAMS,
+    line_of,
+    share_of,
+    width_of,
+)
 
-NAMES = {"prusa": "PrusaSlicer", "orca": "OrcaSlicer", "cura": "Cura"}
 REGULAR = 0.05  # relative difference of a cell's proportions from the slicer's
-WIDEST = 2.0  # nozzles: width of a line
+WIDEST = 2.0  # nozzles: what a line fills
+ROUND_OFF = 1e-9
 
 
 @dataclass(frozen=True)
@@ -21,9 +28,10 @@ class SlicerSettings:
     """slicer: "prusa", "orca" or "cura". pattern: in the slicer's words. infill: share, 0 to 1.
     fill_multiline: number of lines of a wall.
 
-    line_width, layer_height in m; fill_angle in rad from the width of the design, whose layers are
-    stacked along its depth. exact: False for a design that only corresponds to these settings; then
-    the slicer's cells may be REGULAR longer or shorter, and lie otherwise in the part.
+    line_width, of the infill, perimeter_width and layer_height in m; fill_angle in rad from the
+    width of the design, whose layers are stacked along its depth. exact: False for a design that
+    only corresponds to these settings; then the slicer's cells may be REGULAR longer or shorter,
+    and lie otherwise in the part.
     """
 
     slicer: str
@@ -33,6 +41,7 @@ class SlicerSettings:
     layer_height: float
     fill_angle: float
     perimeters: int
+    perimeter_width: float
     exact: bool
     fill_multiline: int = 1
 
@@ -40,82 +49,101 @@ class SlicerSettings:
         near = "" if self.exact else ", nearly"
         several = f"{self.fill_multiline} lines a wall, " if self.fill_multiline > 1 else ""
         return (
-            f"{NAMES[self.slicer]}{near}: {self.pattern}, {100.0 * self.infill:.3g} %, {several}"
-            f"line {TO_MM * self.line_width:.3g} mm, layer {TO_MM * self.layer_height:.3g} mm, "
+            f"{PROGRAMS[self.slicer].title}{near}: {self.pattern}, {100.0 * self.infill:.3g} %, "
+            f"{several}line {TO_MM * self.line_width:.3g} mm, "
+            f"layer {TO_MM * self.layer_height:.3g} mm, "
             f"angle {degrees(self.fill_angle):.3g} degrees, "
             f"{self.perimeters} perimeter{'' if self.perimeters == 1 else 's'}"
         )
 
 
-class Likeness(NamedTuple):
-    """A pattern of PrusaSlicer that a family looks like.
+def slicer_settings(lattice: Lattice) -> SlicerSettings | None:
+    """The settings that print a lattice; None if no infill of a slicer is like it (`unlike`)."""
+    if isinstance(lattice, Sliced):
+        return _own(lattice)
+    return _nearest(lattice) if isinstance(lattice, Cells) and not unlike(lattice) else None
 
-    distance: of parallel lines in the unit of the family. angle: of the first ones, rad.
+
+def unlike(lattice: Lattice) -> str:
+    """Why no infill of a slicer is like a drawn lattice, and what would be; empty if one is.
+
+    One is if the lattice is whole and even, its cells are nearly regular, and its walls are as
+    thick as the pattern's with lines at least as wide as the nozzle that fill at most `WIDEST`.
     """
-
-    pattern: str
-    distance: float
-    angle: float
-
-
-LIKE = {
-    ("square", None): Likeness("grid", 1.0, 0.0),
-    ("diamond", None): Likeness("grid", sqrt(0.5), radians(45.0)),
-    ("triangle", None): Likeness("triangles", sqrt(0.75), 0.0),
-    ("kagome", None): Likeness("stars", sqrt(3.0), 0.0),
-    ("hex", "pointy"): Likeness("honeycomb", sqrt(3.0), radians(30.0)),
-    ("hex", "flat"): Likeness("honeycomb", sqrt(3.0), 0.0),
-}
-
-
-def slicer_settings(case: Case) -> SlicerSettings | None:
-    """The settings that print a design; None if no infill of a slicer is like it.
-
-    Without a slicer it corresponds to PrusaSlicer's if its cells are nearly regular, its walls even
-    and as thick as one line of at most `WIDEST` nozzles, or, in a honeycomb, as 4/3 lines.
-    """
-    match case.lattice:
-        case Cells() as lattice:
-            return _nearest(lattice)
-        case Sliced() as lattice:
-            return SlicerSettings(
-                lattice.slicer,
-                lattice.pattern,
-                lattice.infill,
-                lattice.line_width,
-                lattice.layer_height,
-                lattice.fill_angle,
-                lattice.perimeters,
-                exact=True,
-                fill_multiline=lattice.fill_multiline,
-            )
-    return None
+    if not isinstance(lattice, Cells) or (lattice.kind, lattice.orientation) not in LIKE:
+        kinds = ", ".join(dict.fromkeys(kind for kind, _ in LIKE))
+        near = NEAREST.get(lattice.name)
+        hint = f"; the nearest is {near}" if near else ""
+        return f"no slicer draws {lattice.name} cells; allowed: {kinds}{hint}"
+    even = {"boundary": "free", "grading": 1.0, "solid_layers": 0}
+    for key, value in even.items():
+        if getattr(lattice, key) != value:
+            return f"lattice.{key} = {getattr(lattice, key)}; allowed for a slicer: {value}"
+    across, along = _scales(lattice)
+    if abs(across / along - 1.0) > REGULAR:
+        regular = f"{TO_MM * lattice.width * along / across:.4g} mm within {REGULAR:.0%}"
+        written = f"lattice.width = {TO_MM * lattice.width:.4g} mm"
+        return f"{written}; allowed for a slicer: {regular}, where cells are regular"
+    return _other_lines(lattice)
 
 
-def _nearest(lattice: Cells) -> SlicerSettings | None:
-    like = LIKE.get((lattice.kind, lattice.orientation))
-    if like is None or lattice.grading != 1.0 or lattice.endless:
-        return None
-    from sweep.design.drawing import extent
+def _other_lines(lattice: Cells) -> str:
+    """Why no lines make the walls of a lattice; empty if some do."""
+    like, nozzle = LIKE[lattice.kind, lattice.orientation], lattice.nozzle
+    thickness = lattice.wall_thickness
+    written = f"lattice.wall_thickness = {TO_MM * thickness:.4g} mm"
+    wall, height = PATTERNS[like.pattern].wall, lattice.layer_height or LAYER_HEIGHT
+    least = wall * line_of("prusa", nozzle, height)
+    most = wall * WIDEST * nozzle
+    if not (1.0 - ROUND_OFF) * least <= thickness <= (1.0 + ROUND_OFF) * most:
+        allowed = f"{TO_MM * least:.4g} to {TO_MM * most:.4g} mm"
+        return f"{written}; allowed for a slicer: {allowed}, with a nozzle of {TO_MM * nozzle:g} mm"
+    if not (share := _nearest(lattice).infill) < 1.0:
+        return f"{written} makes an infill of {share:.0%}; allowed for a slicer: below 100 %"
+    return ""
 
-    cells = lattice.cells_x, lattice.cells_y
-    low, high = extent(lattice.kind, lattice.orientation, cells)
-    across, along = (lattice.width, lattice.height) / (high - low)
-    pattern, height = PATTERNS[like.pattern], lattice.layer_height or LAYER_HEIGHT
-    line = lattice.wall_thickness / pattern.wall
-    width = line + height * ROUNDED
-    share = pattern.directions * line / (like.distance * sqrt(across * along))
-    fits = lattice.nozzle <= width <= WIDEST * lattice.nozzle and share < 1.0
-    if not (fits and isclose(across, along, rel_tol=REGULAR)):
-        return None
+
+def _nearest(lattice: Cells) -> SlicerSettings:
+    """The settings of PrusaSlicer for the pattern that a drawn lattice is like."""
+    like = LIKE[lattice.kind, lattice.orientation]
+    across, along = _scales(lattice)
+    height = lattice.layer_height or LAYER_HEIGHT
+    line = lattice.wall_thickness / PATTERNS[like.pattern].wall
+    around = lattice.line if lattice.perimeters else line
     bordered = 1 if lattice.kind == "square" else 0  # its outer walls go all round
     return SlicerSettings(
         "prusa",
-        SLICERS["prusa"][like.pattern],
-        float(share),
-        width,
+        like.pattern,
+        share_of(like.pattern, like.distance * sqrt(across * along), line),
+        width_of("prusa", line, height),
         height,
         like.angle,
         max(bordered, lattice.perimeters),
+        width_of("prusa", around, height),
         exact=False,
     )
+
+
+def _own(lattice: Sliced) -> SlicerSettings:
+    """The settings with which the lattice of a slicer is laid."""
+    return SlicerSettings(
+        lattice.slicer,
+        lattice.pattern,
+        lattice.infill,
+        lattice.line_width,
+        lattice.layer_height,
+        lattice.fill_angle,
+        lattice.perimeters,
+        lattice.line_width,
+        exact=True,
+        fill_multiline=lattice.fill_multiline,
+    )
+
+
+def _scales(lattice: Cells) -> tuple[float, float]:
+    """Size of the box / that of the drawing in its own unit, in x and y."""
+    from sweep.design.drawing import extent
+
+    low, high = extent(lattice.kind, lattice.orientation, (lattice.cells_x, lattice.cells_y))
+    width, height = high - low
+    return lattice.width / float(width), lattice.height / float(height)

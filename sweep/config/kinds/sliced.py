@@ -13,16 +13,17 @@ from sweep.design.slicer.patterns import (
     NO_PRISMS,
     OVERLAP,
     PATTERNS,
+    PROGRAMS,
     SLICERS,
-    WIDTH_PER_NOZZLE,
     Pattern,
     distance_of,
     line_of,
+    lines_at_most,
 )
 from sweep.design.slicer.patterns import Sliced as Lay
 
 FILL_ANGLE, PERIMETERS = radians(45.0), 2
-MOST_LINES = 10  # that OrcaSlicer lays side by side
+MOST_LINES = max(program.lines for program in PROGRAMS.values())  # side by side in a wall
 UNKNOWN = {"infill": 0.5, "fill_distance": 1.0, "cells_x": 1, "cells_y": 1}  # until it is computed
 
 
@@ -117,7 +118,7 @@ def sliced(given: Given, density: float) -> Sliced:
     """The infill of these values; density (kg/m^3): of the material."""
     slicer, pattern = given["slicer"], _checked_pattern(given)
     width = given.get("nozzle", Sliced.model_fields["nozzle"].default)
-    width = given.get("line_width", width * (1.0 if slicer == "cura" else WIDTH_PER_NOZZLE))
+    width = given.get("line_width", width * PROGRAMS[slicer].nozzles)
     usual = {"perimeters": PERIMETERS, "nodes_per_wall": nodes_of(PATTERNS[pattern].family)}
     made = Sliced.model_validate(usual | chosen(given, Sliced) | UNKNOWN | {"line_width": width})
     check_proportion(made)
@@ -178,7 +179,7 @@ def _checked_pattern(given: Given) -> str:
     if "mass" not in given and "infill" not in given:
         raise RefusedError("lattice.infill", None, 'a share such as "20 %", or a lattice.mass')
     count = given.get("fill_multiline", 1)
-    if count != 1 and (given["slicer"] != "orca" or patterns[pattern] == "honeycomb"):
+    if count > lines_at_most(given["slicer"], patterns[pattern]):
         allowed = '1; more with lattice.slicer "orca" and a pattern other than honeycomb'
         raise RefusedError("lattice.fill_multiline", count, allowed)
     return patterns[pattern]

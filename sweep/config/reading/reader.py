@@ -25,7 +25,6 @@ from sweep.config.materials.material_file import (
 )
 from sweep.config.question import QUESTION, Rank, Require
 from sweep.config.reading.other_names import meant, present_choice, with_words
-from sweep.config.reading.renamed import present
 from sweep.config.structures.structure_file import StructureError, read_structure
 
 _REASONS = {
@@ -62,7 +61,6 @@ class Reader:
 
     def config(self, document: dict[str, Any], path: Path) -> Config:
         """The config of a whole document."""
-        document = present(document)
         sections = ["name", *TABLES, "grid", "zip", "exclude", "search", *QUESTION]
         for section in document:
             if section not in sections:
@@ -266,7 +264,7 @@ class Reader:
         self._refuse(name, raw, f"unknown key; {clause}", where, about=near)
 
     def _refuse(self, name: str, raw: Any, wrong: str, where: str = "", about: str = "") -> None:
-        line = f"{where} {_one_line(name)} = {in_words(raw)}: {wrong}".lstrip()
+        line = f"{where} {one_line(name)} = {in_words(raw)}: {wrong}".lstrip()
         self.faults.append(Fault(about or name, line))
 
     def _checked(self, key: Key, raw: Any) -> Any:
@@ -344,8 +342,9 @@ def _table(key: str) -> str:
 def in_words(raw: object) -> str:
     """A value as TOML writes it, on one line of at most 60 characters."""
     text = json.dumps(raw, default=str, ensure_ascii=False)
-    return _one_line(text if len(text) <= 60 else f"{text[:57]}...")
+    return one_line(text if len(text) <= 60 else f"{text[:57]}...")
 
 
-def _one_line(text: str) -> str:
+def one_line(text: str) -> str:
+    """A text with a question mark for each character that is not printable."""
     return "".join(char if char.isprintable() else "?" for char in text)

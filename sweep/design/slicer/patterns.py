@@ -1,4 +1,6 @@
-"""Infills as slicers print them: widths of lines, distances of lines, names of patterns.
+"""Infills as slicers print them: the table of slicers, of their patterns, of families like them.
+
+A new pattern is a row of `PATTERNS` and its names in `PROGRAMS`; a new slicer is a row of these.
 
 A line of width w and height h has rounded sides. PrusaSlicer and its children lay lines at a
 distance s = w - h (1 - pi/4), so that a line fills h s; Cura lays them w apart and extrudes w h.
@@ -27,7 +29,8 @@ class Pattern(NamedTuple):
     unit of the family over the distance of lines. opening: clear width of the narrowest cell over
     the distance of lines. turn: of the family's drawing at a fill angle of 0, rad. middle: of the
     drawing, in the unit of the family. wall: mean thickness over s; gyration: radius of gyration of
-    the section over that of a rectangle of the mean thickness.
+    the section over that of a rectangle of the mean thickness. corners: per share of infill, what
+    paths that cut corners save of a wall / s. multiline: whether walls may be several lines.
     """
 
     family: str
@@ -38,6 +41,8 @@ class Pattern(NamedTuple):
     middle: tuple[float, float] = (0.0, 0.0)
     wall: float = 1.0
     gyration: float = 1.0
+    corners: float = 0.0
+    multiline: bool = True
 
 
 PATTERNS = {
@@ -53,23 +58,90 @@ PATTERNS = {
         middle=(sqrt(0.75), 1.0),
         wall=4.0 / 3.0,
         gyration=sqrt((10.0 / 3.0) / (4.0 / 3.0) ** 3),
+        corners=1.0 / 3.0,
+        multiline=False,
     ),
     "alignedrectilinear": Pattern("", 1, 1.0, 1.0),
 }
 """Patterns by their names in PrusaSlicer."""
 
-SLICERS = {
-    "prusa": {name: name for name in PATTERNS},
-    "orca": {
-        "grid": "grid",
-        "triangles": "triangles",
-        "tri-hexagon": "stars",
-        "honeycomb": "honeycomb",
-        "alignedrectilinear": "alignedrectilinear",
-    },
-    "cura": {"grid": "grid", "triangles": "triangles", "trihexagon": "stars"},
+
+class Program(NamedTuple):
+    """A slicer.
+
+    title: its name for people. patterns: those that it prints as prisms, its own name -> the name
+    in `PATTERNS`. rounded: whether it counts lines with round sides. nozzles: width of a line by
+    default. lines: the most that it lays side by side in a wall. reads: whether it reads settings
+    from a .3mf.
+    """
+
+    title: str
+    patterns: dict[str, str]
+    rounded: bool = True
+    nozzles: float = WIDTH_PER_NOZZLE
+    lines: int = 1
+    reads: bool = True
+
+
+PROGRAMS = {
+    "prusa": Program("PrusaSlicer", {name: name for name in PATTERNS}),
+    "orca": Program(
+        "OrcaSlicer",
+        {
+            "grid": "grid",
+            "triangles": "triangles",
+            "tri-hexagon": "stars",
+            "honeycomb": "honeycomb",
+            "alignedrectilinear": "alignedrectilinear",
+        },
+        lines=10,
+    ),
+    "cura": Program(
+        "Cura",
+        {"grid": "grid", "triangles": "triangles", "trihexagon": "stars"},
+        rounded=False,
+        nozzles=1.0,
+        reads=False,
+    ),
 }
-"""The patterns that a slicer prints as prisms: its own name -> that in `PATTERNS`."""
+SLICERS = {name: program.patterns for name, program in PROGRAMS.items()}
+"""Slicer -> its patterns: their own names -> the names in `PATTERNS`."""
+
+
+def family_of(name: str) -> str:
+    """The family of a slicer's pattern, empty for parallel lines; other names unchanged."""
+    known = {own: pattern for patterns in SLICERS.values() for own, pattern in patterns.items()}
+    return PATTERNS[known[name]].family if name in known else name
+
+
+class Likeness(NamedTuple):
+    """A pattern of PrusaSlicer that a family of `design.infill` looks like.
+
+    angle: fill angle at which it lies as the family is drawn, rad. unit: of the pattern's family in
+    the unit of this one.
+    """
+
+    pattern: str
+    angle: float = 0.0
+    unit: float = 1.0
+
+    @property
+    def distance(self) -> float:
+        """Distance of the parallel walls in the unit of the family."""
+        return self.unit / PATTERNS[self.pattern].side
+
+
+LIKE = {
+    ("square", None): Likeness("grid"),
+    ("diamond", None): Likeness("grid", radians(45.0), sqrt(0.5)),
+    ("triangle", None): Likeness("triangles"),
+    ("kagome", None): Likeness("stars"),
+    ("hex", "pointy"): Likeness("honeycomb", radians(30.0)),
+    ("hex", "flat"): Likeness("honeycomb"),
+}
+"""By family and orientation."""
+NEAREST = {"brick": "square", "circle": "hex", "reentrant": "hex"}
+"""Families that no slicer draws -> one like them that slicers draw; not all have one."""
 
 TURNS = "it turns from layer to layer", "alignedrectilinear"
 WANDERS = "its walls wander from layer to layer", "honeycomb"
@@ -126,19 +198,35 @@ class Sliced(NamedTuple):
     @property
     def share(self) -> float:
         """Share of infill r, as the slicer counts."""
-        return PATTERNS[self.pattern].directions * self.line / self.distance
+        return share_of(self.pattern, self.distance, self.line)
 
     @property
     def extruded(self) -> float:
         """What is extruded per length of wall / layer height, m."""
-        return self.line * ((4.0 - self.share) / 3.0 if self.pattern == "honeycomb" else 1.0)
+        pattern = PATTERNS[self.pattern]
+        return self.line * (pattern.wall - pattern.corners * self.share)
 
 
 def line_of(slicer: str, width: float, height: float) -> float:
     """What a line of this width and height fills in the mean (m): s, or w for Cura."""
-    return width if slicer == "cura" else width - height * ROUNDED
+    return width - height * ROUNDED if PROGRAMS[slicer].rounded else width
+
+
+def width_of(slicer: str, line: float, height: float) -> float:
+    """Width (m) of a line that fills this much in the mean: the inverse of `line_of`."""
+    return line + height * ROUNDED if PROGRAMS[slicer].rounded else line
 
 
 def distance_of(pattern: str, share: float, line: float) -> float:
     """Distance (m) of the parallel walls of a pattern; line: what the lines of a wall fill."""
     return PATTERNS[pattern].directions * line / share
+
+
+def share_of(pattern: str, distance: float, line: float) -> float:
+    """Share of infill at a distance (m) of the parallel walls: the inverse of `distance_of`."""
+    return PATTERNS[pattern].directions * line / distance
+
+
+def lines_at_most(slicer: str, pattern: str) -> int:
+    """The most lines side by side in a wall of a pattern, by its name in `PATTERNS`."""
+    return PROGRAMS[slicer].lines if PATTERNS[pattern].multiline else 1

@@ -15,6 +15,7 @@ import numpy as np
 from pandas import concat
 
 from sweep.columns import error_column, less_is_better
+from sweep.design.slicer.patterns import family_of
 from sweep.numbers import energy_text, tenths, three_digits
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import LEAST, doubtful
@@ -28,8 +29,8 @@ if TYPE_CHECKING:
 
 RAMP = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98))  # viridis: few to many cells
 SIGNS = "o^sDvP*Xh<>pd"
-LIKE_PATTERNS = {"circle": "o", "triangle": "^", "square": "s", "diamond": "D", "hex": "h"}
-LIKE_PATTERNS |= {"triangles": "^", "grid": "s", "honeycomb": "h", "stars": "*"}
+OF_FAMILY = {"circle": "o", "triangle": "^", "square": "s", "diamond": "D", "hex": "h"}
+OF_FAMILY |= {"kagome": "*"}
 SIZES = 5  # greatest number of wall thicknesses in a legend
 AREAS = (15.0, 75.0)  # points^2: sign of the thinnest and of the thickest wall
 THIN = 0.2  # points of a line / diameter of the sign of a design
@@ -120,7 +121,8 @@ def _rows(designs: DataFrame, names: list[str]) -> Iterator[tuple[Any, ...]]:
 
 def _signs(names: list[str]) -> dict[str, str]:
     """A sign for each name, similar to the pattern of this name if possible."""
-    alike = {name: LIKE_PATTERNS[name] for name in names if name in LIKE_PATTERNS}
+    families = {name: family_of(name) for name in names}
+    alike = {name: OF_FAMILY[kind] for name, kind in families.items() if kind in OF_FAMILY}
     spare = cycle(sign for sign in SIGNS if sign not in alike.values())
     return {name: alike.get(name) or next(spare) for name in names}
 

@@ -17,7 +17,8 @@ from sweep.ranking.merit import LEAST, Compared, merits, through_solid
 from sweep.ranking.places import pareto
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
-from sweep.ranking.requirements import MEASURES, limits
+from sweep.ranking.requirement_table import MEASURES
+from sweep.ranking.requirements import limits
 from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.figures.flattened import lines, plan
 from sweep.report.figures.storyboard import last_loaded, parts_of, path_of
@@ -31,7 +32,7 @@ from sweep.report.page.thinning import (
 from sweep.report.page.trails import UNIT, drawing, moving_shape
 from sweep.report.tables.design_text import design_labels, design_text
 from sweep.report.tables.legend import meanings, unprintable
-from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL, UNITS, WORDS
+from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL
 from sweep.report.tables.sheets import crush_text, impact_text
 from sweep.result import Status
 from sweep.store.read import StoredCase, read_attributes, read_cases
@@ -110,16 +111,7 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
 def _requirements() -> dict[str, dict[str, Any]]:
     """What may be required, of which loadings, in which unit and words."""
     return {
-        name: {
-            "shared": measure.shared,
-            "least": measure.least,
-            "modes": measure.asked_of,
-            "scale": UNITS[name][0],
-            "unit": UNITS[name][1],
-            "limit": WORDS[name].limit,
-            "noun": WORDS[name].noun,
-            "far": WORDS[name].far,
-        }
+        name: {**measure._asdict(), "limit": measure.limit, "far": measure.far}
         for name, measure in MEASURES.items()
     }
 

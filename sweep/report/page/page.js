@@ -118,7 +118,7 @@ function settle() {
 
 // A box and a number for each requirement that the scene can be asked for, in a maker's unit.
 function showRequired() {
-  const known = Object.entries(data.measures).filter(([, measure]) => measure.modes.includes(scene().mode));
+  const known = Object.entries(data.measures).filter(([, measure]) => measure.asked_of.includes(scene().mode));
   $("require-box").hidden = !known.length;
   $("per").value = asked.per;
   for (const input of [...$("require").children]) input.hidden = !known.some(([name]) => name === input.dataset.name);
@@ -130,10 +130,10 @@ function showRequired() {
 }
 
 function makeRequired() {
-  for (const [name, { scale, unit, limit }] of Object.entries(data.measures)) {
+  for (const [name, { scale, shown, limit }] of Object.entries(data.measures)) {
     const words = limit.replace(/ *\{\}/, "");
     const box = element("input", { type: "checkbox", id: `${name}-on` });
-    const number = element("input", { type: "number", id: name, min: 0, step: "any", "aria-label": `${words}, ${unit}` });
+    const number = element("input", { type: "number", id: name, min: 0, step: "any", "aria-label": `${words}, ${shown}` });
     const tell = () => {
       const value = Number(number.value);
       if (box.checked && value > 0) asked.require[name] = value / scale;
@@ -147,7 +147,7 @@ function makeRequired() {
       box.checked = true;
       tell();
     });
-    $("require").append(element("span", { "data-name": name }, element("label", {}, box, ` ${words}`), number, unit));
+    $("require").append(element("span", { "data-name": name }, element("label", {}, box, ` ${words}`), number, shown));
   }
   $("per").addEventListener("change", () => {
     asked.per = $("per").value;
@@ -156,9 +156,9 @@ function makeRequired() {
 }
 
 function limitText(name, value) {
-  const { scale, unit } = data.measures[name];
+  const { scale, shown } = data.measures[name];
   if (name === "min_absorbed") return energyText(value);
-  return `${Number((scale * value).toPrecision(4))} ${unit}`;
+  return `${Number((scale * value).toPrecision(4))} ${shown}`;
 }
 
 // What is required, and how many designs within the budget fulfil it.
@@ -335,9 +335,9 @@ function showCommand() {
 // The options that differ from what the config of the file requires.
 function requiredOptions() {
   const { require, per } = data.question;
-  const options = Object.entries(data.measures).flatMap(([name, { scale, unit }]) => {
+  const options = Object.entries(data.measures).flatMap(([name, { scale, shown }]) => {
     if (asked.require[name] === require[name]) return [];
-    const value = asked.require[name] === undefined ? "none" : `"${Number((scale * asked.require[name]).toPrecision(12))} ${unit}"`;
+    const value = asked.require[name] === undefined ? "none" : `"${Number((scale * asked.require[name]).toPrecision(12))} ${shown}"`;
     return [` --${name.replaceAll("_", "-")} ${value}`];
   });
   return options.join("") + (asked.per === per ? "" : ` --per ${asked.per}`);

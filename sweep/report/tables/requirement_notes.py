@@ -6,12 +6,12 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from textwrap import fill
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from sweep.constants import STANDARD_GRAVITY
 from sweep.numbers import energy_text, numerals, tenths, three_digits
 from sweep.ranking.merit import doubtful
-from sweep.ranking.requirements import MEASURES
+from sweep.ranking.requirement_table import MEASURES
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -26,52 +26,6 @@ PANEL = (
     "0.4 mm press one another."
 )
 STRUCK_PANEL = "All specimens of a panel are struck at once, each by a striker of its own."
-UNKNOWN = {
-    "max_deceleration": "rows are too far apart for loading.filter_class, or older than the filter",
-    "max_force": "it has not been measured",
-    "max_mass": "it has not been measured",
-    "min_absorbed": "it has not been measured",
-    "max_stroke": "it has not been measured",
-}
-
-
-class Words(NamedTuple):
-    """How a requirement is written. limit: "force at most 60 N"; noun: of its value; far: of a
-    value beyond the limit; none: why nothing fulfils it.
-    """
-
-    limit: str
-    noun: str
-    far: str
-    none: str
-
-
-WORDS = {
-    "max_force": Words(
-        "force at most {}", "force", "too much", "None passes less than {}; the least is {}"
-    ),
-    "max_deceleration": Words(
-        "deceleration at most {}",
-        "deceleration",
-        "too much",
-        "None stops the striker with less than {}; the least is {}",
-    ),
-    "max_mass": Words(
-        "mass at most {}", "mass", "too much", "None weighs less than {}; the lightest weighs {}"
-    ),
-    "min_absorbed": Words(
-        "absorbed energy at least {}",
-        "absorbed energy",
-        "too little",
-        "None absorbs as much as {}; the most is {}",
-    ),
-    "max_stroke": Words(
-        "stroke at most {}",
-        "stroke",
-        "too much",
-        "None needs less stroke than {}; the least is {}",
-    ),
-}
 NOT_ASKED = {
     "displacement": "Not asked of a crush, which has no striker: {}.",
     "impact": "Not asked of an impact, as the striker sets its energy: {}.",
@@ -82,14 +36,6 @@ COLUMN_NOTES = {
     "decel. g0": "decel.: greatest deceleration of the striker, filtered (loading.filter_class).",
     "stroke mm": "stroke: in which the counted energy is absorbed; without a crush, the greatest.",
 }
-UNITS = {
-    "max_force": (1.0, "N"),
-    "max_deceleration": (1.0 / STANDARD_GRAVITY, "g0"),
-    "max_mass": (1e3, "g"),
-    "min_absorbed": (1.0, "J"),
-    "max_stroke": (1e3, "mm"),
-}
-"""Value in the unit of a maker / value in SI, and that unit."""
 WIDTH = 100  # letters in a line
 DISTRUST = "marked {}: do not trust it"
 
@@ -98,15 +44,15 @@ def quantity(name: str, value: float, digits: int = 4) -> str:
     """The value of a requirement (SI) in the unit of a maker."""
     if name == "min_absorbed":
         return energy_text(value)
-    scale, unit = UNITS[name]
-    return f"{float(f'{scale * value:.{digits}g}'):g} {unit}"
+    measure = MEASURES[name]
+    return f"{float(f'{measure.scale * value:.{digits}g}'):g} {measure.shown}"
 
 
 def required(ranking: Ranking, modes: Iterable[str]) -> str:
     """What is required of these kinds of loading in one sentence; empty if it is nothing."""
     known = set(modes)
     asked = {k: v for k, v in ranking.required.items() if known.intersection(MEASURES[k].asked_of)}
-    limits = [WORDS[k].limit.format(quantity(k, v)) for k, v in asked.items()]
+    limits = [MEASURES[k].limit.format(quantity(k, v)) for k, v in asked.items()]
     return f"Required of a {ranking.per}: {', '.join(limits)}." if limits else ""
 
 
@@ -144,7 +90,7 @@ def _of_budgets(
     widest = max(counted, key=lambda outcome: outcome.designs, default=outcomes[0])
     for name, count in widest.unknown.items():
         if count:
-            yield f"{count} without a value for {name}: {UNKNOWN[name]}."
+            yield f"{count} without a value for {name}: {MEASURES[name].unknown}."
     if widest.open:
         which = f"{widest.open} of them may fulfil min_absorbed in a longer crush"
         yield f"{which}: this one ended before {_end(ranking)}."
@@ -198,16 +144,16 @@ def _nearest(
         if count == outcome.designs and not known:
             found = quantity(name, best.value)
             unsure = " (marked ! or x: do not trust it)" if best.doubtful else ""
-            yield f"{WORDS[name].none.format(quantity(name, limits[name]), found)}{unsure}."
+            yield f"{MEASURES[name].none.format(quantity(name, limits[name]), found)}{unsure}."
 
 
 def _miss(name: str, outcome: Outcome, early: bool) -> str:
     """What the nearest design has of a requirement, and by how much this is too much or little."""
-    words, share = WORDS[name], percentage(outcome.misses[name])
+    measure, share = MEASURES[name], percentage(outcome.misses[name])
     value = quantity(name, outcome.missed[name])
     if early and name == "min_absorbed":
-        return f"{words.noun} at least {value}, at most {share} {words.far}"
-    return f"{words.noun} {value}, {share} {words.far}"
+        return f"{measure.noun} at least {value}, at most {share} {measure.far}"
+    return f"{measure.noun} {value}, {share} {measure.far}"
 
 
 def percentage(share: float) -> str:

@@ -12,12 +12,10 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from sweep.__main__ import REQUIREMENTS, main
+from sweep.__main__ import main
 from sweep.cli.refusals import REFUSALS
 from sweep.cli.verbs import VERBS
 from sweep.columns import absorbed_energy_column
-from sweep.config.question import Require
-from sweep.ranking.requirements import MEASURES
 from sweep.running.sweep import Interrupted
 from sweep.store.read import read_summary
 from tests.support.command import crumple
@@ -206,10 +204,6 @@ def test_requirements_of_the_config_hold_unless_an_option_replaces_or_drops_them
     assert "Required" not in crumple(capsys, "rank", file, "--max-force", "none")[1]
     _, out, _ = crumple(capsys, "rank", file, "--per", "specimen", "--max-force", "20 N")
     assert "Required of a specimen: force at most 20 N." in out
-
-
-def test_every_requirement_has_an_option_and_a_key():
-    assert list(REQUIREMENTS) == list(MEASURES) == list(Require.model_fields)
 
 
 def test_force_of_a_panel_is_allowed_by_curves(capsys, tmp_path):

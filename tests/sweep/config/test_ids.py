@@ -8,7 +8,7 @@ import pytest
 
 from sweep.config.grid import Config
 from sweep.config.reading.reader import Reader
-from sweep.config.units import load_config
+from sweep.config.units import in_si, load_config
 
 FOLDER = Path(__file__).parent / "ids"
 FROZEN = [json.loads(line) for line in (FOLDER / "configs.jsonl").read_text("utf-8").splitlines()]
@@ -17,10 +17,8 @@ EXAMPLES = json.loads((FOLDER / "examples.json").read_text("utf-8"))
 
 def config(tables: dict[str, dict[str, object]]) -> Config:
     """The config of tables; names of files are relative to the folder of the frozen ids."""
-    from sweep.config.units import converted
-
     lists = {name: [table] if name == "exclude" else table for name, table in tables.items()}
-    reader = Reader(FOLDER, converted)
+    reader = Reader(FOLDER, in_si)
     found = reader.config(lists, FOLDER / "frozen.toml")
     assert reader.faults == []
     return found

@@ -5,7 +5,8 @@ import pytest
 
 from sweep.ranking.question import RankError
 from sweep.ranking.rank import rank, ranked
-from sweep.ranking.requirements import MEASURES, Best, limits, measured
+from sweep.ranking.requirement_table import MEASURES
+from sweep.ranking.requirements import Best, limits, measured
 from tests.support.results.specimens import designs, ids, summary
 
 NAN = float("nan")

@@ -5,7 +5,19 @@ from math import sqrt
 import pytest
 
 from sweep.design.infill import families
-from sweep.design.slicer.patterns import NO_PRISMS, PATTERNS, SLICERS, Sliced, distance_of, line_of
+from sweep.design.slicer.patterns import (
+    LIKE,
+    NEAREST,
+    NO_PRISMS,
+    PATTERNS,
+    SLICERS,
+    Sliced,
+    distance_of,
+    family_of,
+    line_of,
+    share_of,
+    width_of,
+)
 
 LINE = line_of("prusa", 0.45e-3, 0.2e-3)
 
@@ -18,6 +30,8 @@ def test_a_line_with_round_sides_fills_less_than_its_width():
     assert pytest.approx(0.407e-3, abs=0.0005e-3) == LINE
     assert line_of("orca", 0.45e-3, 0.2e-3) == LINE
     assert line_of("cura", 0.45e-3, 0.2e-3) == 0.45e-3
+    for slicer in SLICERS:
+        assert width_of(slicer, line_of(slicer, 0.45e-3, 0.2e-3), 0.2e-3) == pytest.approx(0.45e-3)
 
 
 @pytest.mark.parametrize(
@@ -36,6 +50,7 @@ def test_sides_are_those_of_the_slicer(pattern, side):
 
 
 def test_share_is_that_of_the_lines():
+    assert share_of("grid", 4e-3, 0.4e-3) == pytest.approx(0.2)
     assert [laid(name, 0.2).share for name in PATTERNS] == pytest.approx([0.2] * len(PATTERNS))
 
 
@@ -58,3 +73,9 @@ def test_names_lead_to_patterns_and_families():
     assert {pattern.family for pattern in PATTERNS.values()} - {""} <= {*families()}
     assert not {*NO_PRISMS} & {name for own in SLICERS.values() for name in own}
     assert {nearest for _, nearest in NO_PRISMS.values()} <= {*PATTERNS}
+    assert {*LIKE} <= {(kind, way) for kind in families() for way in (None, "pointy", "flat")}
+    assert {*NEAREST} <= {*families()} - {kind for kind, _ in LIKE}
+    assert {*NEAREST.values()} <= {kind for kind, _ in LIKE}
+    assert [family_of(name) for name in ("trihexagon", "alignedrectilinear", "brick")] == [
+        *("kagome", "", "brick")
+    ]

@@ -1,0 +1,101 @@
+"""The requirements on a part, each in one row: what it limits, of which loadings, in which words.
+
+Rankings, sentences, options of the command line and the page take them from here; `Require` in
+`config/tables.py` has the keys of a config. No heavy imports, as every command reads this.
+"""
+
+from typing import Any, NamedTuple
+
+from sweep.constants import STANDARD_GRAVITY
+
+MODES = ("displacement", "impact", "force", "custom")
+NEEDED = {"displacement": "a crush", "impact": "a striker", "force": "a dead load"}
+"""Loadings that a requirement may need, in words."""
+
+
+class Measure(NamedTuple):
+    """What a requirement limits.
+
+    unit: in SI. shown, scale: the unit of a maker, and a value in it / the value in SI. kind: of
+    quantity, in the help of an option. shared: whether specimens of a panel add up. asked_of: kinds
+    of loading in which the design, not the loading, sets the value. least: the limit is a least
+    value; else it is a greatest one.
+    noun: the value in words. none: why nothing fulfils it. unknown: why a value is unknown.
+    example: a limit. about: what the option means, before the example.
+    """
+
+    unit: str
+    shown: str
+    scale: float
+    kind: str
+    shared: bool
+    asked_of: tuple[str, ...]
+    noun: str
+    none: str
+    example: str
+    about: str = "required"
+    least: bool = False
+    unknown: str = "it has not been measured"
+
+    @property
+    def limit(self) -> str:
+        """The requirement in words, with a place for its limit: "force at most {}"."""
+        return f"{self.noun} at {'least' if self.least else 'most'} {{}}"
+
+    @property
+    def far(self) -> str:
+        """In words, a value beyond the limit."""
+        return "too little" if self.least else "too much"
+
+    def share_missed(self, value: Any, limit: float) -> Any:
+        """By what share of its limit a value misses it; below zero if it does not."""
+        return 1.0 - value / limit if self.least else value / limit - 1.0
+
+
+MEASURES = {
+    "max_force": Measure(
+        *("N", "N", 1.0, "FORCE"),
+        shared=True,
+        asked_of=("displacement", "impact"),
+        noun="force",
+        none="None passes less than {}; the least is {}",
+        example="60 N",
+        about="required, while the counted energy is absorbed",
+    ),
+    "max_deceleration": Measure(
+        *("m/s^2", "g0", 1.0 / STANDARD_GRAVITY, "ACCELERATION"),
+        shared=False,
+        asked_of=("impact",),
+        noun="deceleration",
+        none="None stops the striker with less than {}; the least is {}",
+        example="80 g0",
+        about="required, of the striker, filtered",
+        unknown="rows are too far apart for loading.filter_class, or older than the filter",
+    ),
+    "max_mass": Measure(
+        *("kg", "g", 1e3, "MASS"),
+        shared=True,
+        asked_of=MODES,
+        noun="mass",
+        none="None weighs less than {}; the lightest weighs {}",
+        example="2 g",
+    ),
+    "min_absorbed": Measure(
+        *("J", "J", 1.0, "ENERGY"),
+        shared=True,
+        asked_of=("displacement",),
+        noun="absorbed energy",
+        none="None absorbs as much as {}; the most is {}",
+        example="1.5 J",
+        least=True,
+    ),
+    "max_stroke": Measure(
+        *("m", "mm", 1e3, "LENGTH"),
+        shared=False,
+        asked_of=("displacement", "impact", "force"),
+        noun="stroke",
+        none="None needs less stroke than {}; the least is {}",
+        example="8 mm",
+    ),
+}
+"""By their keys in [require]."""

@@ -1,0 +1,154 @@
+"""Drawing, column, export and settings say the same of every slicer's pattern, and of families."""
+
+from math import degrees, hypot
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case
+from sweep.config.defaults.slicer_settings import slicer_settings, unlike
+from sweep.config.reading.other_names import present_choice
+from sweep.design.drawing import clipped, extent
+from sweep.design.infill import families, trait
+from sweep.design.lattice import build_network
+from sweep.design.slicer.network import infill
+from sweep.design.slicer.patterns import LIKE, NEAREST, PATTERNS, PROGRAMS, SLICERS, line_of
+from sweep.export.errors import ExportError
+from sweep.export.slicer import orca_keys, prusa_keys, settings_of
+from sweep.report.figures.design_style import OF_FAMILY, _signs
+from sweep.result import design_columns
+from tests.support.designs.tables import lattice_with
+
+LAID = [(slicer, own) for slicer, patterns in SLICERS.items() for own in patterns]
+SIDE = 4e-3  # m, of the unit of a drawing
+LINE = line_of("prusa", 0.45e-3, 0.2e-3)
+
+
+def laid(slicer, pattern, **changes):
+    """A lattice of a slicer in a box of 60 mm."""
+    box = {"width": 60e-3, "height": 60e-3, "infill": 0.2, "fill_angle": 0.3, "nodes_per_wall": 1}
+    return lattice_with(slicer=slicer, pattern=pattern, **box | changes)
+
+
+def regular(kind, way, **changes):
+    """A drawn lattice of cells that are regular, with walls of the pattern that it is like."""
+    low, high = extent(kind, way, (4, 4))
+    width, height = SIDE * (high - low)
+    wall = PATTERNS[LIKE[kind, way].pattern].wall
+    size = {"width": float(width), "height": float(height), "wall_thickness": wall * LINE}
+    return lattice_with(kind=kind, orientation=way, cells_x=4, cells_y=4, **size | changes)
+
+
+def directions(segments):
+    """Directions of lines (s, 2, 2), degrees from the width, in [0, 180)."""
+    across, up = (segments[:, 1] - segments[:, 0]).T
+    return {round(angle % 180.0, 4) % 180.0 for angle in np.degrees(np.arctan2(up, across))}
+
+
+def length_per_area(segments, box):
+    """Length of lines in a box / its area, 1/m."""
+    inside = clipped(segments, np.array(box), [True, True])
+    return sum(hypot(*line) for line in inside[:, 1] - inside[:, 0]) / (box[0] * box[1])
+
+
+@pytest.mark.parametrize(("slicer", "pattern"), LAID)
+def test_of_a_slicer(slicer, pattern):
+    lattice = laid(slicer, pattern)
+    settings, sliced = slicer_settings(lattice), lattice.geometry.sliced
+    assert (settings.slicer, settings.pattern, settings.infill) == (slicer, pattern, 0.2)
+    assert sliced.share == pytest.approx(0.2)
+    assert sliced.angle == settings.fill_angle
+    width = settings.line_width
+    assert sliced.line == line_of(slicer, width, settings.layer_height)
+    drawn = length_per_area(infill(sliced, lattice.geometry.box), lattice.geometry.box)
+    assert drawn * sliced.line == pytest.approx(0.2, rel=0.05)
+    columns = design_columns(Case.of(lattice=lattice))
+    assert (columns["lattice_kind"], columns["infill_share"]) == (pattern, 0.2)
+    start = f"{PROGRAMS[slicer].title}: {pattern}, 20 %, line {1e3 * width:.3g} mm"
+    assert columns["slicer_settings"].startswith(start)
+    assert f"angle {degrees(0.3):.3g} degrees" in columns["slicer_settings"]
+
+
+@pytest.mark.parametrize(("slicer", "pattern"), LAID)
+def test_of_an_export(slicer, pattern):
+    lattice = laid(slicer, pattern)
+    if slicer == "cura":
+        with pytest.raises(ExportError, match=r"cura.* allowed .*: prusa and orca\. .* in Cura;"):
+            settings_of(lattice)
+        return
+    settings = settings_of(lattice)
+    assert settings == slicer_settings(lattice)
+    prusa, orca = prusa_keys(settings), orca_keys(settings)
+    assert prusa["fill_pattern"] == SLICERS[slicer][pattern]
+    assert SLICERS["orca"][orca["sparse_infill_pattern"]] == SLICERS[slicer][pattern]
+    assert prusa["fill_density"] == orca["sparse_infill_density"] == "20%"
+    assert prusa["fill_angle"] == orca["infill_direction"] == f"{degrees(0.3):.4g}"
+    assert prusa["infill_extrusion_width"] == f"{1e3 * lattice.line_width:.4g}"
+
+
+@pytest.mark.parametrize(("slicer", "pattern"), LAID)
+def test_of_names_and_signs(slicer, pattern):
+    family = PATTERNS[SLICERS[slicer][pattern]].family
+    if family:
+        assert present_choice("lattice.kind", pattern) == family
+        assert _signs([pattern]) == {pattern: OF_FAMILY[family]}
+
+
+@pytest.mark.parametrize(("kind", "way"), LIKE)
+def test_of_a_family(kind, way):
+    """The slicer's lines have the directions and the density of the drawn walls, whose thickness is
+    that of its walls.
+    """
+    drawn = regular(kind, way)
+    settings = settings_of(drawn)
+    assert settings == slicer_settings(drawn)
+    assert design_columns(Case.of(lattice=drawn))["slicer_settings"] == str(settings)
+    printed = laid(
+        *("prusa", settings.pattern),
+        infill=settings.infill,
+        fill_angle=settings.fill_angle,
+        line_width=settings.line_width,
+    )
+    assert printed.wall_thickness == pytest.approx(drawn.wall_thickness)
+    lines = infill(printed.geometry.sliced, printed.geometry.box)
+    larger = drawn.model_copy(update={"cells_x": 40, "cells_y": 40}).geometry
+    low, high = extent(kind, way, (40, 40))
+    network = build_network(larger._replace(box=tuple(SIDE * (high - low))))
+    walls = network.points[network.walls]
+    assert directions(lines) == directions(walls)
+    densities = (
+        length_per_area(lines, printed.geometry.box),
+        length_per_area(walls, tuple(SIDE * (high - low))),
+    )
+    assert densities[0] == pytest.approx(densities[1], rel=0.05)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in families() if not trait(kind, "ORIENTED")])
+def test_of_families_without_a_pattern(kind):
+    if (kind, None) in LIKE:
+        assert unlike(regular(kind, None)) == ""
+        return
+    lattice = lattice_with(kind=kind)
+    assert slicer_settings(lattice) is None
+    assert design_columns(Case.of(lattice=lattice))["slicer_settings"] == ""
+    with pytest.raises(ExportError, match=f"no slicer draws {kind} cells; allowed: square, ") as no:
+        settings_of(lattice)
+    assert (kind in NEAREST) == (f"nearest is {NEAREST.get(kind)}" in str(no.value))
+
+
+UNLIKE = [
+    ({"grading": 2.0}, "lattice.grading = 2.0"),
+    ({"solid_layers": 2}, "lattice.solid_layers = 2"),
+    ({"boundary": "periodic"}, "lattice.boundary = periodic"),
+    ({"width": 4.3 * SIDE}, "lattice.width = 17.2 mm; allowed for a slicer: 16 mm"),
+    ({"wall_thickness": 1.2e-3}, "lattice.wall_thickness = 1.2 mm; allowed for a slicer: 0.357"),
+    ({"wall_thickness": 0.2e-3}, "lattice.wall_thickness = 0.2 mm; allowed for a slicer: 0.357"),
+]
+
+
+@pytest.mark.parametrize(("changes", "why"), UNLIKE)
+def test_of_what_no_infill_can_be(changes, why):
+    lattice = regular("square", None, **changes)
+    assert slicer_settings(lattice) is None
+    with pytest.raises(ExportError, match=f"^{why}.*--kind lattice prints every design"):
+        settings_of(lattice)

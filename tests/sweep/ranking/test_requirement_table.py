@@ -1,0 +1,40 @@
+"""The list of requirements: a row each, which config, options, sentences and page follow."""
+
+import pytest
+
+from sweep.__main__ import parser
+from sweep.config.keys import table_keys
+from sweep.config.units import quantity
+from sweep.ranking.requirement_table import MEASURES, MODES, NEEDED
+from sweep.report.tables.requirement_notes import quantity as text_of
+
+
+def test_the_keys_of_a_config_are_those_of_the_list():
+    keys = {name.removeprefix("require."): key.unit for name, key in table_keys("require").items()}
+    assert list(keys) == list(MEASURES)
+    assert keys == {name: measure.unit for name, measure in MEASURES.items()}
+
+
+@pytest.mark.parametrize("name", MEASURES)
+def test_a_requirement_is_an_option_of_every_question(name):
+    option = f"--{name.replace('_', '-')}"
+    for words in (["rank", "a.h5"], ["show", "a.h5"], ["optimize", "a.toml"]):
+        arguments = parser().parse_args([*words, option, MEASURES[name].example])
+        assert getattr(arguments, name) == MEASURES[name].example
+
+
+@pytest.mark.parametrize(("name", "measure"), MEASURES.items())
+def test_an_example_is_shown_in_the_unit_of_a_maker(name, measure):
+    value = quantity(measure.example, measure.unit)
+    assert text_of(name, value).endswith(f" {measure.shown}")
+    assert quantity(text_of(name, value), measure.unit) == pytest.approx(value)
+    assert measure.scale == pytest.approx(1.0 / quantity(f"1 {measure.shown}", measure.unit))
+    assert {*measure.asked_of} <= {*MODES}
+    assert measure.asked_of == MODES or {*measure.asked_of} <= {*NEEDED}
+
+
+def test_a_miss_is_a_share_of_the_limit():
+    assert MEASURES["max_mass"].share_missed(3.0, 2.0) == pytest.approx(0.5)
+    assert MEASURES["min_absorbed"].share_missed(1.5, 2.0) == pytest.approx(0.25)
+    assert MEASURES["min_absorbed"].limit == "absorbed energy at least {}"
+    assert MEASURES["max_force"].limit.format("60 N") == "force at most 60 N"
