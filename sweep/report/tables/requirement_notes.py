@@ -22,16 +22,16 @@ if TYPE_CHECKING:
 DECELERATION = "peak_deceleration_filtered_m_per_s2"
 PANEL = (
     "panel N: force of the {} specimens of a panel together. Its true size is {} mm.\n"
-    "Specimens are simulated alone: neighbours that have grown wider by the gap of\n"
-    "0.4 mm press one another."
+    "Specimens are simulated one by one: neighbours that widen by more than the gap\n"
+    "of 0.4 mm press on one another."
 )
-STRUCK_PANEL = "All specimens of a panel are struck at once, each by a striker of its own."
+STRUCK_PANEL = "All specimens of a panel are struck at once, each by its own striker."
 UNKNOWN = {
     "max_deceleration": "rows are too far apart for loading.filter_class, or older than the filter",
-    "max_force": "it has not been measured",
-    "max_mass": "it has not been measured",
-    "min_absorbed": "it has not been measured",
-    "max_stroke": "it has not been measured",
+    "max_force": "not measured",
+    "max_mass": "not measured",
+    "min_absorbed": "not measured",
+    "max_stroke": "not measured",
 }
 
 
@@ -48,7 +48,7 @@ class Words(NamedTuple):
 
 WORDS = {
     "max_force": Words(
-        "force at most {}", "force", "too much", "None passes less than {}; the least is {}"
+        "force at most {}", "force", "too much", "None transmits less than {}; the least is {}"
     ),
     "max_deceleration": Words(
         "deceleration at most {}",
@@ -72,15 +72,15 @@ WORDS = {
         "None needs less stroke than {}; the least is {}",
     ),
 }
-NOT_ASKED = {
-    "displacement": "Not asked of a crush, which has no striker: {}.",
-    "impact": "Not asked of an impact, as the striker sets its energy: {}.",
-    "force": "Not asked of a dead load, which sets force and energy itself: {}.",
-    "custom": "Not asked of a custom structure: {}.",
+NOT_APPLIED = {
+    "displacement": "Not applied to a crush, which has no striker: {}.",
+    "impact": "Not applied to an impact, whose striker sets the energy: {}.",
+    "force": "Not applied to a dead load, which sets force and energy itself: {}.",
+    "custom": "Not applied to a custom structure: {}.",
 }
 COLUMN_NOTES = {
     "decel. g0": "decel.: greatest deceleration of the striker, filtered (loading.filter_class).",
-    "stroke mm": "stroke: in which the counted energy is absorbed; without a crush, the greatest.",
+    "stroke mm": "stroke: over which the counted energy is absorbed; without crush, the greatest.",
 }
 UNITS = {
     "max_force": (1.0, "N"),
@@ -131,7 +131,7 @@ def requirement_notes(
         yield from _of_budgets(outcomes, ranking, named)
     alike = [label for label, found in ranking.outcomes.items() if found[0].mode == first.mode]
     if first.left_out and scene == alike[0]:
-        yield NOT_ASKED[first.mode].format(", ".join(first.left_out))
+        yield NOT_APPLIED[first.mode].format(", ".join(first.left_out))
 
 
 def _of_budgets(
@@ -161,7 +161,7 @@ def _of_budgets(
 
 def _end(ranking: Ranking) -> str:
     """Where the energy of a crush is counted to its end."""
-    return "the allowed force was reached" if ranking.limited else "the lattice had packed"
+    return "the allowed force was reached" if ranking.limited else "densification"
 
 
 def _within(*outcomes: Outcome) -> str:
@@ -226,7 +226,7 @@ def _rectangle(outcome: Outcome) -> Iterator[str]:
         energy, force = energy_text(outcome.energy), quantity("max_force", outcome.force)
         stroke, height = (f"{three_digits(1e3 * x)} mm" for x in (outcome.stroke, outcome.height))
         yield (
-            f"To absorb {energy} at no more than {force} takes at least {stroke} of stroke "
+            f"Absorbing {energy} at no more than {force} takes a stroke of at least {stroke} "
             f"(energy / force);\nthe lattice is {height} high."
         )
 
