@@ -12,7 +12,6 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from sweep.config.case import Case
     from sweep.config.grid import Config, ConfigError, expand
     from sweep.config.units import load_config
     from sweep.export.errors import ExportError

@@ -45,7 +45,7 @@ EXAMPLES = """examples:
 
 armor, search and accuracy/impact are examples that come with Crumple; your own is a file: mine.toml
 
-exit status: 0 done, also if no design meets what is asked; 1 some cases failed, or interrupted;
+exit status: 0 done, also if no design meets the requirements; 1 some cases failed, or interrupted;
 2 wrong config, file or arguments
 """
 CONFIG = "TOML file with the case and its [grid], or the name of an example"
@@ -65,14 +65,13 @@ OPTIMIZE = """Search for the best design among those that the table [search] of 
   "lattice.cells_x" = {from = 2, to = 8}                           whole numbers
   "lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"}      or lattice.mass
 
-The best is what rank lists first: most energy until the lattice has packed, or up to
---allowed-force, or the best of --by, of those designs that fulfil [require] or its options. If none
-does, the nearest are listed. With a budget, walls are as thick as it allows at most. Every design
-is a row of the results file; after a stop, the same command with the same seed continues, also with
-more --evaluations. Six designs run at a time after the first sixteen: more workers do not help. The
-three best, without near duplicates, are simulated again with twice the elements, and with walls 5 %
-thinner and thicker and other imperfections, in a results file of their own, and listed with the
-spread of their values."""
+The best is what rank lists first: most energy until densification, or up to --allowed-force, or the
+best of --by, among the designs that fulfil [require] or its options. If none does, the nearest are
+listed. With a budget, walls are as thick as it allows at most. Every design is a row of the results
+file; after a stop, the same command with the same seed continues, also with more --evaluations. Six
+designs run at a time after the first sixteen: more workers do not help. The three best, without
+near duplicates, are simulated again with twice the elements, and with walls 5 % thinner and thicker
+and other imperfections, in a results file of their own, and listed with the spread of their values."""
 ACCURACY = """Simulate a sweep over numerical settings, then print error against run time: a table,
 the observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 the limit to which the finest settings of the method of highest order converge. Cases that differ in
@@ -87,7 +86,7 @@ same processor."""
 RANK = """List the designs that absorb the most energy, one table for each loading scene.
 Budgets, panel and requirements are those of [rank] and [require] in the config, unless they are
 given here ("none" drops a requirement); --by alone ranks single specimens of any mass. Designs that
-fail a requirement have no place; notes say how many of those within the budget fail which. If all
+fail a requirement are not ranked; notes say how many within the budget fail which. If all
 of them fail, the nearest one is named: the one whose worst miss, in percent of the limit, is the
 smallest. The exit status is then 0, as the question is answered; it is 1 if some cases failed."""
 RANK_EXAMPLES = """examples:
@@ -104,7 +103,7 @@ RANK_EXAMPLES = """examples:
   crumple rank F.h5 --out results/armor --drop-height "1 m" cushion curves too
 """
 NEW = """Write a config with comments that runs as it is: a crush, a drop of a rigid striker, or a
-dead load. A file that is there already is left as it is."""
+dead load. An existing file is not overwritten."""
 COMPLETION = """Print what a shell needs to complete the words of crumple: verbs, options, examples,
 results files, columns and ids. To use it:
   bash   eval "$(crumple completion bash)"             in ~/.bashrc

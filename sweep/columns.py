@@ -39,7 +39,8 @@ COLUMNS: dict[str, Column] = {
         "", "settings of the slicer; those nearest to a design without one, if there are any"
     ),
     "does_not_print": Column(
-        "", "walls that are no whole number of lines, gaps below a line; empty if all prints"
+        "",
+        "walls that are not a multiple of the line width, and narrower gaps; empty if all prints",
     ),
     "direction": Column("", "in_plane: pressed across the cells; out_of_plane: along them"),
     "width_m": Column("m", "width over centre lines"),
@@ -63,10 +64,10 @@ COLUMNS: dict[str, Column] = {
     "stroke_m": Column("m", "prescribed travel of the top; NaN unless the mode is displacement"),
     "striker_mass_g": Column("g", "mass of the striker; NaN unless the mode is impact"),
     "striker_speed_m_per_s": Column(
-        "m/s", "speed of the striker at first touch; NaN unless the mode is impact"
+        "m/s", "speed of the striker at first contact; NaN unless the mode is impact"
     ),
     "impact_energy_J": Column(
-        "J", "energy of the striker at first touch; NaN unless the mode is impact"
+        "J", "energy of the striker at first contact; NaN unless the mode is impact"
     ),
     "contact_model": Column("", "how walls touch: none, barrier or position_based"),
     "mass_g": Column("g", "density x exact area of the printed walls x depth", "less"),
@@ -80,7 +81,7 @@ COLUMNS: dict[str, Column] = {
     "solid_strain": Column(
         "1",
         "strain at which walls of constant volume fill the pressed area, 1 - relative density, "
-        "beyond which plates are no model; NaN across the cells",
+        "beyond which the plate model does not hold; NaN across the cells",
         "more",
     ),
     "absorbed_energy_J": Column(
@@ -103,7 +104,7 @@ COLUMNS: dict[str, Column] = {
     ),
     "returned_energy_J": Column(
         "J",
-        "work given back to the platen or striker as it moves back; NaN if none moves back",
+        "work returned to the platen or striker as it moves back; NaN if none moves back",
         "less",
     ),
     "dissipated_energy_J": Column(
@@ -122,7 +123,7 @@ COLUMNS: dict[str, Column] = {
     ),
     "lost_share": Column(
         "1",
-        "lost energy / absorbed energy; of an impact, / energy of the striker at first touch",
+        "lost energy / absorbed energy; of an impact, / energy of the striker at first contact",
         "more",
     ),
     "lost_energy_J_per_g": Column("J/g", "lost energy / mass, as extruded if known", "more"),
@@ -204,14 +205,14 @@ COLUMNS: dict[str, Column] = {
     ),
     "ideality": Column(
         "1",
-        "energy / (greatest force x stroke), all three until packed (Miltz & Gruenbaum 1981); NaN "
-        "for dead loads and impacts",
+        "energy / (greatest force x stroke), all three until densification (Miltz & Gruenbaum "
+        "1981); NaN for dead loads and impacts",
         "more",
     ),
     "cushion_factor": Column(
         "1",
-        "greatest stress / energy per volume, both until packed (Miltz & Gruenbaum 1981); NaN for "
-        "dead loads and impacts",
+        "greatest stress / energy per volume, both until densification (Miltz & Gruenbaum 1981); "
+        "NaN for dead loads and impacts",
         "less",
     ),
     "crush_force_efficiency": Column(
@@ -238,7 +239,7 @@ COLUMNS: dict[str, Column] = {
     ),
     "peak_deceleration_filtered_m_per_s2": Column(
         "m/s^2",
-        "the same behind a filter of loading.filter_class (SAE J211-1); NaN if rows are farther "
+        "the same, filtered with loading.filter_class (SAE J211-1); NaN if rows are farther "
         "apart than a tenth of 1 / class in Hz",
         "less",
     ),
@@ -251,7 +252,9 @@ COLUMNS: dict[str, Column] = {
         "m/s", "greatest speed of the striker upwards; NaN without one", "less"
     ),
     "rebound_share": Column(
-        "1", "energy of the striker at its rebound speed / at first touch; NaN without one", "less"
+        "1",
+        "energy of the striker at its rebound speed / at first contact; NaN without one",
+        "less",
     ),
     "residual_strain": Column(
         "1",
@@ -281,11 +284,11 @@ COLUMNS: dict[str, Column] = {
         "m",
         "least distance of a centre line from a near one or a loose platen; NaN if none is near",
     ),
-    "touched": Column("1", "1 if contact acted in any row; if 0, contact is not needed"),
+    "touched": Column("1", "1 if contact acted in any row, else 0"),
     "max_crossings": Column("1", "walls that pass through one another in any stored frame", "less"),
     "solid_joint_share": Column(
         "1",
-        "share of walls between solid joints, others end in points; NaN if points are asked for",
+        'share of walls between solid joints, others end in points; NaN with joints = "points"',
     ),
     "steps": Column("1", "accepted time or load steps", "less"),
     "newton_iterations": Column("1", "Newton iterations of the whole run", "less"),

@@ -57,7 +57,7 @@ def by_number(
         allowed = f"allowed: 1 to {len(rows)}, or the beginning of an id"
         raise CaseError(f"no number {number} in the ranking of {label}{within}; {allowed}")
     chosen = rows.iloc[[number - 1]]
-    doubt = ", marked as not to be trusted" if doubtful(chosen).item() else ""
+    doubt = ", marked as unreliable" if doubtful(chosen).item() else ""
     sentence = f"number {number} of {len(rows)}: {label}{within}{doubt}"
     return by_id(summary, chosen["case_id"].item()), sentence
 
@@ -66,7 +66,7 @@ def _no_place(ranking: Ranking, label: str, summary: DataFrame) -> str:
     """Why there is no number in a scene, and the id that takes its place."""
     from sweep.report.tables.design_text import named_case
 
-    why = f"no design has a place in the ranking{f' of {label}' if label else ''}"
+    why = f"no design is ranked{f' in {label}' if label else ''}"
     if (instead := ranking.instead(label)) is None:
         return f"{why}; without CASE, show lists all ids"
     word, row = instead

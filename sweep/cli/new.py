@@ -50,10 +50,10 @@ platen = "contact"                   # loose between striker and support; "glued
 # energy = "0.1 J"                   # instead of the speed
 """,
     "load": """\
-mode = "force"                       # a dead load, put on at once and taken off again
+mode = "force"                       # a dead load, applied suddenly and removed
 force = "10 N"                       # on one specimen
 platen = "contact"                   # loose between plates; "glued": bonded to them
-release_time = "0.138 s"             # when the load is taken off
+release_time = "0.138 s"             # when the load is removed
 duration = "0.2 s"                   # when the run ends
 """,
 }
@@ -70,8 +70,8 @@ panel = ["100 mm", "50 mm"]          # the area that specimens fill, side by sid
 """
 TITLES = {
     "crush": "Which design absorbs the most energy in a crush?",
-    "drop": "Which design passes on the least force when something hits it?",
-    "load": "Which design gives way least under a load?",
+    "drop": "Which design transmits the least force in an impact?",
+    "load": "Which design deforms least under a load?",
 }
 
 
@@ -83,7 +83,9 @@ def new(name: str, kind: str, out: str | None) -> Path:
     """Write the config of a kind of loading; return its path. An existing file is refused."""
     name = name.removesuffix(".toml")
     if not NAME.fullmatch(name):
-        raise NewError(f'"{name}" is no name; allowed: letters, digits, dots, dashes, underscores')
+        raise NewError(
+            f'"{name}" is not a name; allowed: letters, digits, dots, dashes, underscores'
+        )
     path = Path(out or f"{name}.toml")
     if path.suffix != ".toml":
         raise NewError(f"--out {path}; allowed: a file whose name ends in .toml")
@@ -91,7 +93,7 @@ def new(name: str, kind: str, out: str | None) -> Path:
         with path.open("x", encoding="utf-8") as file:
             file.write(template(name, kind, path))
     except FileExistsError:
-        raise NewError(f"{path} is there already; allowed: another name, or --out") from None
+        raise NewError(f"{path} already exists; allowed: another name, or --out") from None
     except OSError as error:
         raise NewError(f"{path} cannot be written: {error.strerror or error}") from error
     return path

@@ -140,13 +140,13 @@ def _show_best(search: Search) -> int:
     if not search.cases:
         budget = f" of at most {question.budgets[0]}" if question.budget else ""
         panel = " that fits the panel" if question.panel else ""
-        tried = f"none of {MOST_TRIED:,} points of [search] is a design{budget}{panel}"
+        tried = f"none of {MOST_TRIED:,} points of [search] gives a design{budget}{panel}"
         raise OptimizeError(f"{tried}; allowed: more mass, a larger panel, or a wider search")
     if found is None or not (found.by_id or found.missed):
         say(f"None of {len(search.cases)} designs can be ranked.")
         return max(1, len(search.cases))
     if found.doubtful:
-        say(f"Left out: {found.doubtful} designs whose results rank marks with ! or x.")
+        say(f"Excluded: {found.doubtful} designs whose results rank marks with ! or x.")
     if not found.by_id:
         _show_nearest(search)
         return 0

@@ -71,5 +71,5 @@ def stored_table(file: str, table: str) -> dict[str, Any]:
     try:
         config: dict[str, Any] = json.loads(read_attributes(file).get("config") or "{}")
     except ValueError:
-        raise ArgumentError(f"{file} is damaged: the config in it is no JSON") from None
+        raise ArgumentError(f"{file} is damaged: the config in it is not JSON") from None
     return config.get(table) or {}

@@ -29,14 +29,14 @@ def print_status(file: str, as_json: bool) -> bool:
         return failed_cases(summary).empty
     counts = summary["status"].value_counts()
     missing = missing_cases(summary, about)
-    more = f"; {missing} that the last run was asked for are missing" if missing else ""
+    more = f"; {missing} of the last run are missing" if missing else ""
     say(f"{file}: {counted(len(summary), 'case')}{more}")
     say_all(f"{count:7d} {name}" for name, count in counts.items())
     say_all(_failures(file, summary))
     say_all(_bars(summary))
     say_all(_versions(summary))
     if others := about.get("other_cases", 0):
-        say(f"{others} cases belong to other configs than that of the last run")
+        say(f"{others} cases belong to other configs than the last run")
     say(f"{summary['cpu_s'].sum():.4g} s of processor time in all")
     known = {name.removeprefix("version_"): about[name] for name in about if "version_" in name}
     say(f"last run {about.get('created', '?')}, revision {about.get('git_revision', '?')}")
@@ -55,7 +55,7 @@ def _failures(file: str, summary: DataFrame) -> Iterator[str]:
         more = f" and {len(rows) - IDS} more" if len(rows) > IDS else ""
         yield f"{len(rows)} x {_in_common(list(rows['message']))} (case {cases}{more})"
     if len(failed):
-        yield f"crumple show {file} lists all ids with their status; with an id, it says why"
+        yield f"crumple show {file} lists all ids and statuses; with an id, it says why"
 
 
 def _in_common(messages: list[str]) -> str:

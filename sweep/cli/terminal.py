@@ -51,7 +51,7 @@ def warnings(file: str, ranking: Ranking) -> Iterator[str]:
 
     if others := read_attributes(file).get("other_cases", 0):
         yield (
-            f"{others} of {ranking.cases} cases belong to other configs than that of the last run; "
+            f"{others} of {ranking.cases} cases belong to other configs than the last run; "
             "they are ranked too. To keep configs apart, give each its own --out or name."
         )
     if len(ranking.versions) > 1:
@@ -60,7 +60,7 @@ def warnings(file: str, ranking: Ranking) -> Iterator[str]:
         cases_have = _counted(ranking.without_bar, "ranked case")
         yield f"{cases_have} no error bar: placed by value alone."
     if ranking.unranked:
-        yield f"{_counted(ranking.unranked, 'case')} no {ranking.by} and so no place."
+        yield f"{_counted(ranking.unranked, 'case')} no {ranking.by} and cannot be ranked."
     if ranking.pointed:
         some = f"In {ranking.pointed} of {ranking.cases} cases some walls end in points"
         yield f"{some}, not in solid joints: see solid_joint_share."
@@ -234,7 +234,7 @@ def _left_out(sheet: Sheet, shown: Sheet, limit: int) -> Iterator[str]:
     """Lines about the columns that are not shown."""
     missing = [head for head in sheet.heads if head not in shown.heads]
     if missing:
-        missed = f"Not in this narrow terminal: {', '.join(missing)}."
+        missed = f"Hidden in this narrow terminal: {', '.join(missing)}."
         yield from wrap(f"{missed} A wider one shows them, and so does {sheet.elsewhere}.", limit)
 
 

@@ -226,7 +226,7 @@ def _config(name: str) -> Config:
     if config.unprintable:
         verb = "does" if config.unprintable == 1 else "do"
         left_out = f"{counted(config.unprintable, 'combination')}, which {verb} not print"
-        hint([f"left out {left_out} (lattice.printable)"])
+        hint([f"excluded {left_out} (lattice.printable)"])
     return config
 
 

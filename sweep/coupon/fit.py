@@ -101,7 +101,7 @@ def _check_unloading(coupon: Coupon, rows: list[int]) -> None:
     if more > ABOVE * all_taken:
         raise CouponError(
             f"{coupon.name}: the unloading lies above the loading, by {100 * more / all_taken:.2g} "
-            "% of its work, but no material gives back more than it takes; are the rows in the "
+            "% of its work, but no material returns more than it absorbs; are the rows in the "
             "order in which they were measured, and of one test?"
         )
 

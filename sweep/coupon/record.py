@@ -85,7 +85,7 @@ def _rows(path: Path) -> list[list[str]]:
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
     except UnicodeDecodeError:
-        raise ValueError("no UTF-8 text; needed: saved as csv in UTF-8") from None
+        raise ValueError("not UTF-8 text; needed: saved as csv in UTF-8") from None
     lines = [line for line in lines if line.strip() and not line.startswith("#")]
     if not lines:
         raise ValueError("no rows; needed: columns time_s, strain, stress_Pa")
@@ -105,7 +105,7 @@ def _numbers(head: str, texts: list[str]) -> Floats:
         try:
             found.append(float(text))
         except ValueError:
-            wrong = f'{head} in row {number} is "{text}", no number'
+            wrong = f'{head} in row {number} is "{text}", not a number'
             raise ValueError(f"{wrong}; needed: numbers alone below the heads") from None
     return np.array(found)
 

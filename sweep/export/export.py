@@ -54,7 +54,7 @@ class Source:
         try:
             config = json.loads(read_attributes(self.file).get("config") or "{}")
         except ValueError as error:
-            raise ExportError(f"{self.file} is damaged: the config in it is no JSON") from error
+            raise ExportError(f"{self.file} is damaged: the config in it is not JSON") from error
         return stored_design(self.row, config)
 
     @property

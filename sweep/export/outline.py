@@ -48,7 +48,7 @@ def outline(network: Network) -> Any:
     wide = shapely.buffer(union, SLIT, join_style="mitre")
     closed = shapely.buffer(wide, -SLIT, join_style="mitre")
     if pieces := shapely.get_num_geometries(closed) - 1:
-        raise ExportError(f"the walls do not hang together: {pieces + 1} pieces; allowed: one")
+        raise ExportError(f"the walls are not connected: {pieces + 1} pieces; allowed: one")
     left, low, *_ = closed.bounds
     placed = shapely.transform(closed, lambda xy: xy - (left, low))
     return shapely.set_precision(placed, GRID)

@@ -183,9 +183,9 @@ def _counted(
         return "absorbed_energy_J", finished["peak_force_N"], "to the end of the stroke"
     if by in AT_DENSIFICATION:
         peak = finished["peak_force_at_densification_N"]
-        return AT_DENSIFICATION[0], peak, "until densification"
+        return AT_DENSIFICATION[0], peak, "up to the strain of greatest efficiency"
     peak = finished["peak_force_until_packed_N"]
-    return "absorbed_energy_until_packed_J", peak, "until the lattice has packed"
+    return "absorbed_energy_until_packed_J", peak, "until densification"
 
 
 def _counted_of_panel(
@@ -219,7 +219,7 @@ def _stroke(finished: DataFrame, energy: str, limited: bool) -> Series:
 
 def _ends_early(finished: DataFrame, energy: str, force: Series, limited: bool) -> Series:
     """True for crushes that absorb more than the counted energy if they are longer: they ended
-    before the allowed force was exceeded, or before the lattice had packed.
+    before the allowed force was exceeded, or before densification.
     """
     crushed = finished["loading_mode"] == "displacement"
     if limited:

@@ -59,7 +59,7 @@ def scene_label(rows: DataFrame) -> str:
     if first["loading_mode"] == "force":
         words = [f"dead load of {first['force_N']:g} N"]
     elif first["loading_mode"] == "custom":
-        words = ["loaded as its file says"]
+        words = ["loaded as in its file"]
     elif first["loading_mode"] == "impact":
         struck = short(float(first["striker_mass_g"])), short(float(first["striker_speed_m_per_s"]))
         energy = energy_text(float(first["impact_energy_J"]))

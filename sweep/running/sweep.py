@@ -18,7 +18,7 @@ from sweep.running.writer_thread import result_sink, writer_thread
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids, older_ids, read_statuses
 from sweep.store.write import WriteError, Writer
 
-UNWRITABLE = "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is no folder that can be written to"
+UNWRITABLE = "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is not a writable folder"
 
 
 class Interrupted(KeyboardInterrupt):

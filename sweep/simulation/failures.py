@@ -19,18 +19,17 @@ Failure = tuple[Status, str]
 SAFER = 'try smaller steps, damping or solver.integrator "backward_euler"'
 SAFER_ALONG = 'try smaller steps or solver.integrator "backward_euler"'  # there is no damping
 FINER = "try more solver.load_steps"
-SOUNDER = "try a smaller solver.tolerance, and look for values out of all proportion"
+SOUNDER = "try a smaller solver.tolerance, and check for values of the wrong order of magnitude"
 ADVICE = {
     outcomes.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {further}",
-    outcomes.STALLED: "the energy could not be lowered further; "
-    "try a looser solver.tolerance or smaller steps",
-    outcomes.SINGULAR: "the lattice found no stable shape; check its supports or add damping",
+    outcomes.STALLED: "the minimisation stalled; try a looser solver.tolerance or smaller steps",
+    outcomes.SINGULAR: "no stable equilibrium was found; check the supports or add damping",
     outcomes.INACCURATE: "no step was short enough for solver.step_error; "
     "try a larger one or {shorter}",
     outcomes.UNBALANCED: f"work and energies do not balance; {SOUNDER}",
     outcomes.UNRESOLVED: "the forces are too small, or the steps too short, for the motion to "
     "exceed round-off; try larger steps or loads",
-    outcomes.NOT_FINITE: "forces left the range of numbers; try smaller steps or a smaller load",
+    outcomes.NOT_FINITE: "the solution diverged; try smaller steps or a smaller load",
 }
 LOST = "no equilibrium within the shortest arc; try a smaller solver.arc_length"
 
@@ -63,11 +62,11 @@ def timed_out(case: Case, where: str) -> Failure:
     return Status.TIMED_OUT, f"solver.time_limit of {limit:g} s reached {where}; raise it"
 
 
-def energy_made(case: Case) -> Failure:
-    """The integrator has created energy."""
+def energy_gained(case: Case) -> Failure:
+    """The time integration has gained energy."""
     safer = SAFER_ALONG if case.along else SAFER
     advice = FINER if case.loading.quasi_static else safer
-    return Status.STOPPED, f"the integrator made energy out of nothing; {advice}"
+    return Status.STOPPED, f"the time integration gained energy; {advice}"
 
 
 def unbalanced(where: str) -> Failure:
@@ -75,9 +74,9 @@ def unbalanced(where: str) -> Failure:
     return Status.STOPPED, f"work and energies do not balance {where}; {SOUNDER}"
 
 
-def still_sinking(where: str) -> Failure:
+def still_moving_down(where: str) -> Failure:
     """The striker of a case that has finished still moves down."""
-    return Status.STOPPED, f"the striker still sinks {where}; try a longer loading.duration"
+    return Status.STOPPED, f"the striker still moves down {where}; try a longer loading.duration"
 
 
 def broke(summary: Mapping[str, Any], case: Case) -> bool:
@@ -93,4 +92,4 @@ def break_message(summary: Mapping[str, Any]) -> str:
     if np.isnan(strain):
         greatest = summary["greatest_fibre_strain"]
         where = f"a wall broke: the greatest strain of a fibre is {greatest:.3g},"
-    return f"{where} later rows are those of unbroken walls"
+    return f"{where} later rows assume unbroken walls"

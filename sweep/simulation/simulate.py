@@ -31,8 +31,8 @@ from sweep.simulation.failures import (
     Failure,
     break_message,
     broke,
-    energy_made,
-    still_sinking,
+    energy_gained,
+    still_moving_down,
     stopped,
     timed_out,
     unbalanced,
@@ -171,7 +171,7 @@ class _Run:
             for phase in self.stages:
                 outcome = self._through(phase.stage)
                 if outcome != outcomes.INTERRUPTED and self._creates_energy():
-                    return energy_made(self.case)
+                    return energy_gained(self.case)
                 if outcome != outcomes.CONVERGED:
                     return self._failed(outcome, phase.name)
                 if self.struck and self._is_back():
@@ -179,7 +179,7 @@ class _Run:
         if not self._balances():
             return unbalanced(self._where())
         if self.struck and self.rows["speed"][self.done - 1] < 0.0:
-            return still_sinking(self._where())
+            return still_moving_down(self._where())
         return Status.CONVERGED, ""
 
     def _creates_energy(self) -> bool:

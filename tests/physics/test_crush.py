@@ -137,6 +137,6 @@ def test_steps_too_few_to_balance_are_refused():
     )
     found = simulate(case)
     assert found.status == "stopped"
-    assert found.message.endswith("made energy out of nothing; try more solver.load_steps")
+    assert found.message.endswith("gained energy; try more solver.load_steps")
     more = Case.of(loading=case.loading, solver=dict(load_steps=20))
     assert simulate(more).status == "converged"

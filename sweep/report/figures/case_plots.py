@@ -80,14 +80,14 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     dead = row["loading_mode"] == "force"
     absorbed = row["absorbed_energy_J"]
     given_back = f"returns {100.0 * row['returned_energy_J'] / absorbed:.0f} %"
-    words = ("load on", "load off") if dead else ("loading", f"unloading,\n{given_back}")
+    words = ("load applied", "load removed") if dead else ("loading", f"unloading,\n{given_back}")
     style: Any = "steps-pre" if dead else "default"
     sky: dict[str, Any] = {"color": SKY, "alpha": 0.3, "lw": 0, "step": "pre" if dead else None}
-    whole = f"absorbed in all\n{_energy(absorbed, row)}"
+    whole = f"absorbed in total\n{_energy(absorbed, row)}"
     ax.fill_between(strain[down], force[down], label=whole, **sky)
     ax.plot(strain[down], force[down], drawstyle=style, color=BLUE, lw=2.2, label=words[0])
     if released > turn:
-        ax.plot(strain[held], force[held], color=VERMILION, lw=1.6, label="held")
+        ax.plot(strain[held], force[held], color=VERMILION, lw=1.6, label="hold")
     if released + 1 < len(history):
         dashes: dict[str, Any] = {"color": ORANGE, "lw": 1.6, "ls": "--", "drawstyle": style}
         ax.plot(strain[back], force[back], label=words[1], **dashes)
@@ -97,28 +97,29 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     bottom = history["reaction_bottom_N"]
     if np.abs(bottom - force).max() > 0.02 * np.abs(force).max():
         ax.plot(strain, bottom, color=GREY, lw=1.0, zorder=1, label="on the support")
-    _until_packed(ax, row)
+    _until_densification(ax, row)
     ax.set(xlabel="strain, %", ylabel="force, N")
     ax.set_title(headline(row), loc="left", fontsize="medium")
     ax.set(xlim=(0.0, 1.02 * strain.max()), ylim=(min(0.0, force[down].min()), None))
     scale = 10.0 * row["height_m"]  # mm of travel for one percent
     travel = ax.secondary_xaxis("top", functions=(lambda x: x * scale, lambda x: x / scale))
-    travel.set_xlabel("travel of the top, mm")
+    travel.set_xlabel("top displacement, mm")
     ax.legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
     plain(ax, top=True)
 
 
-def _until_packed(ax: Axes, row: Mapping[str, Any]) -> None:
-    """The mean force until the lattice has packed, with the energy; the area below is that energy.
+def _until_densification(ax: Axes, row: Mapping[str, Any]) -> None:
+    """The mean force until densification, with the energy; the area below is that energy.
 
-    If the efficiency still rises at full stroke, the lattice has not packed.
+    If the efficiency still rises at full stroke, there is no densification.
     """
     strain, energy = row["packing_strain"], row["absorbed_energy_until_packed_J"]
     if row["loading_mode"] != "displacement" or not strain > 0.0:
         return
     mean, end = energy / (strain * row["height_m"]), 100.0 * strain
-    packs = np.isfinite(row["densification_strain"])
-    at = f"packed at {end:.0f} %, until then" if packs else f"not packed; counted to {end:.0f} %:"
+    densified = np.isfinite(row["densification_strain"])
+    until = f"densification at {end:.0f} %, until then"
+    at = until if densified else f"no densification; counted to {end:.0f} %:"
     words = f"{at}\n{_energy(energy, row)}"
     stairs = [0.0, end, end], [mean, mean, 0.0]
     label = f"mean force {three_digits(mean)} N,\n{words}"
@@ -145,7 +146,7 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     colors = [COLORS[name] for name in parts]
     values = [1e3 * history[name] for name in parts]
     ax.stackplot(place, *values, colors=colors, labels=list(parts.values()), linewidth=0)
-    total = "brought by the striker" if row["loading_mode"] == "impact" else "work done"
+    total = "energy of the striker" if row["loading_mode"] == "impact" else "work done"
     ax.plot(place, work, color="black", lw=1.4, label=total)
     ax.set_ylabel("energy, mJ")
     ax.set_title(headline(row), loc="left", fontsize="medium")

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-LEAST_SHOWN = {"force": "sink, %", "impact": "greatest force on the support, N"}
+LEAST_SHOWN = {"force": "greatest strain, %", "impact": "greatest force on the support, N"}
 TITLE = 72  # letters in a line above a panel
 WHITE = (1.0, 1.0, 1.0, 1.0)
 VARIANT = [

@@ -85,7 +85,7 @@ class Looks(NamedTuple):
             },
         }
         groups["wall"] = _some(groups["wall"], SIZES)
-        beyond = {**PLAIN, "mfc": "white", "ls": "--", "label": "not to be trusted"}
+        beyond = {**PLAIN, "mfc": "white", "ls": "--", "label": "unreliable"}
         shown = [name for name in groups if len(groups[name]) > 1 and (walls or name != "wall")]
         entries = [
             {**PLAIN, **look, "label": label}
@@ -144,7 +144,7 @@ def _some(entries: dict[str, Any], count: int) -> dict[str, Any]:
 
 
 def merits(rows: DataFrame, energy: str) -> Series:
-    """The compared values of the designs of one scene: sink in %, force in N, or energy in J."""
+    """The compared values of the designs of one scene: strain in %, force in N, or energy in J."""
     name, scale = _compared(rows, energy)
     return scale * rows[name]
 
@@ -206,7 +206,7 @@ def _words(won: DataFrame, among: DataFrame, ranking: Ranking, name: str) -> str
     (design,), energy = design_labels(won, ranking.table), ranking.energy
     merit, value = merits(won, energy).item(), three_digits(won[name].item())
     words_by_mode = {
-        "force": f"sinks {three_digits(merit)} %",
+        "force": f"compressed by {three_digits(merit)} %",
         "impact": f"{three_digits(merit)} N on the support{_of_panel(won)}",
     }
     words = words_by_mode.get(won["loading_mode"].item(), energy_text(merit))
@@ -223,7 +223,7 @@ def _of_panel(won: DataFrame) -> str:
     """The force of a panel beside that of a specimen; "" without a panel."""
     if "panel_force_N" not in won:
         return ""
-    return f", {three_digits(won['panel_force_N'].item())} N of the panel"
+    return f", {three_digits(won['panel_force_N'].item())} N on the panel"
 
 
 def _ties(rows: DataFrame, won: DataFrame, name: str) -> str:

@@ -23,7 +23,7 @@ PARTS = {
     "kinetic_J": "motion",
     "dissipated_material_J": "lost in the material",
     "dissipated_friction_J": "lost to friction",
-    "dissipated_integrator_J": "lost by the time steps",
+    "dissipated_integrator_J": "lost in time integration",
 }
 """Columns of a history that add up to the work done, in words."""
 
@@ -62,12 +62,12 @@ def turns(history: DataFrame, row: Mapping[str, Any]) -> dict[int, str]:
     """
     turn, last = last_loaded(history, row), len(history) - 1
     if row["loading_mode"] != "displacement":
-        word = "load off" if row["loading_mode"] == "force" else "stops"
+        word = "load removed" if row["loading_mode"] == "force" else "standstill"
         return {turn: word} if turn < last else {}
-    found = dict[int, str]()
+    marks = dict[int, str]()
     for number, (_, released, ended) in enumerate(crushes(history), 2):
-        found |= {released: "turns", ended: f"cycle {number}"}
-    return {at: words for at, words in found.items() if at < last}
+        marks |= {released: "reversal", ended: f"cycle {number}"}
+    return {at: words for at, words in marks.items() if at < last}
 
 
 def crushes(history: DataFrame) -> list[tuple[int, int, int]]:
@@ -93,7 +93,7 @@ def path_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str]:
     """Abscissa of the energies of a case, and its label: path of a driven platen, or time."""
     if row["loading_mode"] == "displacement":
         travel = history["top_displacement_m"].diff().abs().cumsum().fillna(0.0)
-        return 1e3 * travel, "path of the platen, down and back up, mm"
+        return 1e3 * travel, "platen travel, down and up, mm"
     return 1e3 * history["time_s"], "time, ms"
 
 

@@ -166,7 +166,7 @@ function requiredText() {
   const limits = Object.entries(askedOf(data, asked));
   if (!limits.length)
     return Object.keys(asked.require).length && asked.per === "panel" && !asked.panel
-      ? "What is required of a panel is not asked, as there is no panel."
+      ? "Requirements on a panel are not applied, as there is no panel."
       : "";
   const words = limits.map(([name, limit]) => data.measures[name].limit.replace("{}", limitText(name, limit)));
   const counts = limits.map(([name]) => [name, now.missing.filter((row) => row.misses[name] > 0).length]);
@@ -200,8 +200,8 @@ function* instead() {
   const needed = rectangle(data, now.rows, asked);
   if (lightest) yield `The lightest design that fulfils this weighs ${inUnit(lightest.mass, 3)}: ${lightest.design.label}.`;
   else if (needed)
-    yield `To absorb ${energyText(needed.energy)} at no more than ${limitText("max_force", needed.force)} takes at least ` +
-      `${digits(1e3 * needed.stroke)} mm of stroke (energy / force); the lattice is ${digits(1e3 * needed.height)} mm high.`;
+    yield `Absorbing ${energyText(needed.energy)} at no more than ${limitText("max_force", needed.force)} takes a stroke of at least ` +
+      `${digits(1e3 * needed.stroke)} mm (energy / force); the lattice is ${digits(1e3 * needed.height)} mm high.`;
 }
 
 function* nearestText() {
@@ -247,7 +247,7 @@ function share(row) {
 function valueText(row) {
   const mode = scene().mode;
   if (mode === "impact") return `${digits(row.value)} N on the support`;
-  if (mode === "force") return `a sink of ${digits(100 * row.value)} %`;
+  if (mode === "force") return `compressed by ${digits(100 * row.value)} %`;
   const least = row.early ? "at least " : "";
   return least + (row.value === row.energy ? energyText(row.energy) : `${digits(row.perGram)} J/g`);
 }
@@ -275,10 +275,10 @@ function showAnswer() {
   if (!best) {
     const none = asked.budget !== null && Number.isFinite(now.lightest) && asked.budget < now.lightest;
     $("sentence").textContent = none
-      ? `Nothing weighs ${inUnit(asked.budget)} or less: the lightest weighs ${inUnit(now.lightest)}.`
+      ? `No design weighs ${inUnit(asked.budget)} or less; the lightest weighs ${inUnit(now.lightest)}.`
       : "No design has a value to rank by.";
     const missed = !none && now.missing.length > 0;
-    if (missed) $("sentence").textContent = `No design${limit} fulfils what is required.`;
+    if (missed) $("sentence").textContent = `No design${limit} meets the requirements.`;
     if (now.nearest) showPicture(now.nearest);
     const more = [...(now.nearest ? nearestText() : []), ...(missed ? instead() : [])];
     $("detail").textContent = [requiredText(), ...more].filter(Boolean).join(" ");
@@ -304,7 +304,7 @@ function* words(best) {
   else if (!crushed()) yield `${panel} and ${absorbs()}, ${digits(best.perGram)} J/g.`;
   else
     yield `${panel} and ${absorbs()} ${until()}, ${digits(best.perGram)} J/g; ` +
-      `a specimen then passes on ${digits(best.passed)} N${best.panel ? `, the panel ${digits(best.panel.specimens * best.passed)} N` : ""}.`;
+      `a specimen then transmits ${digits(best.passed)} N${best.panel ? `, the panel ${digits(best.panel.specimens * best.passed)} N` : ""}.`;
   if (best.early) yield "The crush ended before that force was reached; a longer one absorbs more.";
   if (best.beyond) yield "Its result is beyond the model: do not trust it.";
   if (best.design.crossed) yield "Its walls cross one another: do not trust this result.";
@@ -312,7 +312,7 @@ function* words(best) {
   const tied = now.placed.filter((row) => row !== best && row.place === best.place);
   const others = tied.slice(0, 3).map((row) => row.design.label).join("; ");
   if (tied.length)
-    yield `As good within the estimated errors: ${others}${tied.length > 3 ? ` and ${tied.length - 3} more` : ""}.`;
+    yield `Tied within the estimated errors: ${others}${tied.length > 3 ? ` and ${tied.length - 3} more` : ""}.`;
 }
 
 function detail(best) {
@@ -359,12 +359,12 @@ function columns() {
     found.push(number("panel g", (row) => digits(row.mass)));
   }
   if (mode === "impact") found.push(number("force N", (row) => digits(row.value), (row) => row.value));
-  else if (mode === "force") found.push(number("sink %", (row) => digits(100 * row.value), (row) => row.value));
+  else if (mode === "force") found.push(number("strain %", (row) => digits(100 * row.value), (row) => row.value));
   else {
     const most = Math.max(...now.placed.map((row) => row.energy ?? 0));
     const [unit, scale] = most < 1 ? ["mJ", 1e3] : ["J", 1];
     const more = (row) => (row.early ? "> " : "");
-    found.push(number(`${asked.panel ? "panel" : "absorbs"} ${unit}`, (row) => more(row) + digits(scale * row.energy), (row) => row.energy));
+    found.push(number(`${asked.panel ? "panel" : "absorbed"} ${unit}`, (row) => more(row) + digits(scale * row.energy), (row) => row.energy));
     found.push(number("J/g", (row) => more(row) + digits(row.perGram), (row) => row.perGram));
     if (crushed()) {
       found.push(number("peak N", (row) => digits(row.passed), (row) => row.passed));
@@ -460,18 +460,18 @@ function notes() {
   lines.push(...requiredColumns().map(([head]) => data.column_notes[head]));
   if (storedEnergy(data, asked) < 0)
     lines.push(
-      `These energies are read from curves of at most ${data.points} points: they are off by ` +
-        `${(100 * data.doubt).toFixed(1)} % at most, if above 1 % of the energy of the whole crush. ` +
+      `These energies are read from curves of at most ${data.points} points: their error is at most ` +
+        `${(100 * data.doubt).toFixed(1)} %, if they exceed 1 % of the energy of the whole crush. ` +
         (data.energies.length > 1 ? "At the forces below the slider they are exact." : ""),
     );
   if (now.bar)
-    lines.push("±: estimated error from mesh and steps, not a bound. =: the place is shared, as errors may reverse the order.");
+    lines.push("±: estimated error from mesh and steps, not a bound. =: a tie, as errors may reverse the order.");
   if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
   if (rows.some((row) => row.beyond)) lines.push("!: beyond the model: do not trust this result.");
   if (rows.some((row) => row.design.crossed)) lines.push("x: walls cross one another: do not trust this result.");
   if (rows.some((row) => row.design.stretched)) lines.push("^: a wall is stretched beyond the measured curve.");
   if (rows.some((row) => row.design.undrawn))
-    lines.push("p: does not print as drawn: walls are no whole number of lines, or gaps are below a line.");
+    lines.push("p: does not print as drawn: walls are not a multiple of the line width, or gaps are narrower.");
   const over = now.rows.length - rows.length - now.missing.length;
   if (over > 0 && asked.budget !== null) lines.push(`${over} of ${now.rows.length} designs are above the budget or have no value.`);
   $("notes").replaceChildren(...lines.map((words) => element("span", {}, words)));
@@ -487,7 +487,7 @@ function merit(row) {
 function showMap() {
   const mode = scene().mode;
   const noun = asked.panel ? "panel" : "specimen";
-  const names = { impact: ["Force over mass", "force on the support, N"], force: ["Sink over mass", "greatest strain, %"] };
+  const names = { impact: ["Force over mass", "force on the support, N"], force: ["Strain over mass", "greatest strain, %"] };
   const rows = now.rows.filter((row) => merit(row) > 0);
   const small = Math.max(...rows.map(merit)) < 1;
   const [title, label] = names[mode] ?? ["Energy over mass", `energy of a ${noun}, ${small ? "mJ" : "J"}`];
@@ -547,7 +547,7 @@ function showCard(plot, row, x, y) {
   const { design } = row;
   const card = $("card");
   const drawn = design.drawing === undefined || design.drawing === null ? [] : [drawingOf(data.drawings[design.drawing])];
-  const out = missText(row) || (row.value === null ? "no place" : "above the budget");
+  const out = missText(row) || (row.value === null ? "not ranked" : "above the budget");
   const place = row.place === undefined ? out : `place ${placeText(row)}`;
   const values = `${digits(row.mass)} g, ${row.value === null ? "no value" : valueText(row) + percentOf(row)}`;
   card.replaceChildren(...drawn, element("p", {}, design.label), element("p", {}, `${values}; ${place}`));
@@ -602,7 +602,7 @@ function showCurves() {
     ),
   );
   view.mark = null;
-  if (!designs.length) return $("curves").replaceChildren("No chosen design has a curve.");
+  if (!designs.length) return $("curves").replaceChildren("No selected design has a curve.");
   const [x, y] = curveLabels();
   const plot = chart($("curves"), {
     x: { range: extent(designs.map((design) => design.curve[0])), label: x },
@@ -708,7 +708,7 @@ function showBook(design) {
     line(plot, [...place, ...[...place].reverse()], [...sum, ...back], { style: `fill: var(--p${partColor(book.parts[i])})` });
   });
   line(plot, place, work, { style: "stroke: var(--ink)", "stroke-width": 1.6 });
-  const total = scene().mode === "impact" ? "brought by the striker" : "work done";
+  const total = scene().mode === "impact" ? "energy of the striker" : "work done";
   $("parts").replaceChildren(
     ...book.parts.map((name) => element("span", {}, swatch(`--p${partColor(name)}`), name)),
     element("span", {}, element("span", { class: "swatch", style: "background: var(--ink); height: 3px" }), total),

@@ -48,7 +48,7 @@ def page(data: Mapping[str, Any], static: str) -> str:
     total = "1 case" if data["total"] == 1 else f"{data['total']} cases"
     done = total + (f", {failed} of them failed" if failed else "")
     return Template(_read("page.html")).substitute(
-        title=escape(f"{data['name']}: which lattice is the best?"),
+        title=escape(f"{data['name']}: which lattice is best?"),
         subtitle=escape(f"{data['file']}, {done}"),
         style=_read("page.css"),
         script=script,
@@ -77,7 +77,7 @@ def _winners(table: DataFrame, summary: DataFrame) -> str:
     labels, doubts = design_labels(first, summary), doubtful(first)
     lines = [
         f"The best design{f' up to {row.budget_g:g} g' if row.budget_g > 0.0 else ''}, "
-        f"{row.scene}: {label}{', whose result is not to be trusted' if doubt else ''}."
+        f"{row.scene}: {label}{', whose result is unreliable' if doubt else ''}."
         for row, label, doubt in zip(first.itertuples(), labels, doubts, strict=True)
     ]
     return "".join(f"<p>{escape(line)}</p>" for line in lines)

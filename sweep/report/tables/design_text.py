@@ -99,12 +99,12 @@ def about_direction(row: Series) -> list[str]:
     """Sentences about what the model of plates leaves out; none for a case across its cells."""
     if row["direction"] != "out_of_plane":
         return []
-    lines = ["pressed along its cells; that printed layers part is not modelled"]
+    lines = ["pressed along its cells; delamination of printed layers is not modelled"]
     solid, strain = row["solid_strain"], row["peak_strain"]
     if strain > solid:
         share = f"{100.0 * solid:.3g} %"
         lines.append(
-            f"beyond a strain of {share} its walls fill the pressed area: plates are no model"
+            f"beyond a strain of {share} its walls fill the pressed area, which plates do not model"
         )
     return lines
 

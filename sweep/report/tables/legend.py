@@ -19,44 +19,43 @@ if TYPE_CHECKING:
 
 MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of one specimen."
 CRUSHED = "peak: greatest force of one specimen. Peak and energy are counted {until}."
-PACKED = (
-    "pack: strain at which the lattice has packed down: energy / greatest force is greatest there."
+DENSIFIED = "dens.: densification strain, at which energy / greatest force is greatest."
+NOT_DENSIFIED = '"> {0}": no densification before the end of the crush, at {0} %.'
+RETURNED = "returned: returned energy / work of the whole crush."
+SECOND = (
+    "cycle 2: energy absorbed in the second cycle / in the first; other columns: the first cycle."
 )
-NOT_PACKED = '"> {0}": it has not packed at the end of the crush, at {0} %.'
-BACK = "back: returned energy / work of the whole crush."
-AGAIN = "again: energy absorbed in the second cycle / in the first; other columns are of the first."
 ELASTIC = (
-    "Walls are elastic: what does not come back went into friction, damping, snaps or time steps."
+    "Walls are elastic: the rest is lost to friction, damping, snap-through or time integration."
 )
-
-PLASTIC = "What does not come back is lost in the material, in friction and in snaps."
+PLASTIC = "The rest is lost in the material, to friction and in snap-through."
 LOSSY = """\
-What does not come back is lost in the material (dissipated_material_J), in friction and in snaps,
-or is still stored in walls that relax."""
+The rest is lost in the material (dissipated_material_J), to friction and in snap-through, or is
+still stored in walls that relax."""
 MIXED = """\
-behaviour: of the walls. What does not come back went into friction, damping, snaps or time steps;
-where walls are not elastic, also into the material, or it is still stored in walls that relax."""
-LOADED = "sink: greatest strain under the load, with its overshoot."
+behaviour: of the walls. The rest is lost to friction, damping, snap-through or time integration; in
+walls that are not elastic also in the material, or is still stored as they relax."""
+LOADED = "strain: greatest strain under the load, including overshoot."
 STRUCK = """\
-force: greatest force on the support. sink: greatest strain. left: stroke that is left until all
-voids are closed. rebound: energy of the striker when it leaves / at first touch."""
+force: greatest force on the support. strain: greatest strain. left: stroke left until all voids are
+closed. rebound: energy of the striker at rebound / at first contact."""
 TIED = """\
 ±: estimated error of the sorted column, from mesh and steps, in % of the value; not a bound.
-=: a shared place: the errors may reverse the order. Errors that all have in common do not count.
-?: the error is unknown; the place is that of the value alone."""
+=: a tie: the errors may reverse the order. Errors common to all designs do not count.
+?: the error is unknown; the design is placed by its value alone."""
 BEYOND = """\
 !: do not trust this result, which is beyond the model: an element is shorter than 0.7 of its rest
 length, the lattice is pressed below its solid height, a wall is broken (message: where), or walls
-that are pressed along the cells fill all of their area (solid_strain)."""
+pressed along the cells fill the whole area (solid_strain)."""
 PRINTED = """\
 print g: mass as the slicer extrudes it, crossings twice. Budgets, panels and J/g count this mass;
 for designs without a slicer they count mass g."""
 UNPRINTABLE = """\
-p: does not print as drawn (does_not_print: why): walls are no whole number of lines, or gaps are
-below a line (lattice.line_width or lattice.nozzle). lattice.printable = true leaves these out."""
+p: does not print as drawn (does_not_print: why): walls are not a multiple of the line width, or
+gaps narrower (lattice.line_width or lattice.nozzle). lattice.printable = true excludes these."""
 UNSURE = """\
-~: pack is not sharp, as the lattice packs at two strains or slowly: the efficiency is within 2 % of
-the greatest over more than 10 % of strain."""
+~: densification is gradual, or occurs at two strains: the efficiency is within 2 % of the greatest
+over more than 10 % of strain."""
 EARLY = """\
 >: at least: the crush ended before the allowed force was reached; a longer one absorbs more."""
 STRETCHED = """\
@@ -82,22 +81,22 @@ def legend(ranking: Ranking) -> str:
 def meanings(rows: DataFrame, mode: str) -> list[str]:
     """What the columns mean that a table has for one kind of loading, whatever is asked."""
     if mode == "displacement":
-        again = [AGAIN] if rows["second_cycle_share"].notna().any() else []
-        return [PACKED, *_not_packed(rows), BACK, *again, _what_is_missing(rows)]
+        second = [SECOND] if rows["second_cycle_share"].notna().any() else []
+        return [DENSIFIED, *_not_densified(rows), RETURNED, *second, _losses(rows)]
     if mode == "impact":
-        return [STRUCK, _what_is_missing(rows)]
+        return [STRUCK, _losses(rows)]
     return [LOADED] if mode == "force" else []
 
 
-def _not_packed(rows: DataFrame) -> list[str]:
+def _not_densified(rows: DataFrame) -> list[str]:
     """What stands in place of the strain where a crush ends too early; nothing if none does."""
     crushed = rows[rows["loading_mode"] == "displacement"]
     ends = crushed["peak_strain"][crushed["densification_strain"].isna()].dropna()
-    return [] if ends.empty else [NOT_PACKED.format(percent(ends.iloc[0]))]
+    return [] if ends.empty else [NOT_DENSIFIED.format(percent(ends.iloc[0]))]
 
 
-def _what_is_missing(rows: DataFrame) -> str:
-    """What takes the energy that does not come back: the material, or anything but the material."""
+def _losses(rows: DataFrame) -> str:
+    """Where the energy goes that is not returned: into the material, or anywhere else."""
     elastic = rows["material_memory"] == "none"
     if elastic.all():
         return ELASTIC

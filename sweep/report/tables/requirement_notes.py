@@ -22,19 +22,19 @@ if TYPE_CHECKING:
 DECELERATION = "peak_deceleration_filtered_m_per_s2"
 PANEL = (
     "panel N: force of the {} specimens of a panel together. Its true size is {} mm.\n"
-    "Specimens are simulated alone: neighbours that have grown wider by the gap of\n"
-    "0.4 mm press one another."
+    "Specimens are simulated one by one: neighbours that widen by more than the gap\n"
+    "of 0.4 mm press on one another."
 )
-STRUCK_PANEL = "All specimens of a panel are struck at once, each by a striker of its own."
-NOT_ASKED = {
-    "displacement": "Not asked of a crush, which has no striker: {}.",
-    "impact": "Not asked of an impact, as the striker sets its energy: {}.",
-    "force": "Not asked of a dead load, which sets force and energy itself: {}.",
-    "custom": "Not asked of a custom structure: {}.",
+STRUCK_PANEL = "All specimens of a panel are struck at once, each by its own striker."
+NOT_APPLIED = {
+    "displacement": "Not applied to a crush, which has no striker: {}.",
+    "impact": "Not applied to an impact, whose striker sets the energy: {}.",
+    "force": "Not applied to a dead load, which sets force and energy itself: {}.",
+    "custom": "Not applied to a custom structure: {}.",
 }
 COLUMN_NOTES = {
     "decel. g0": "decel.: greatest deceleration of the striker, filtered (loading.filter_class).",
-    "stroke mm": "stroke: in which the counted energy is absorbed; without a crush, the greatest.",
+    "stroke mm": "stroke: over which the counted energy is absorbed; without crush, the greatest.",
 }
 WIDTH = 100  # letters in a line
 DISTRUST = "marked {}: do not trust it"
@@ -77,7 +77,7 @@ def requirement_notes(
         yield from _of_budgets(outcomes, ranking, named)
     alike = [label for label, found in ranking.outcomes.items() if found[0].mode == first.mode]
     if first.left_out and scene == alike[0]:
-        yield NOT_ASKED[first.mode].format(", ".join(first.left_out))
+        yield NOT_APPLIED[first.mode].format(", ".join(first.left_out))
 
 
 def _of_budgets(
@@ -107,7 +107,7 @@ def _of_budgets(
 
 def _end(ranking: Ranking) -> str:
     """Where the energy of a crush is counted to its end."""
-    return "the allowed force was reached" if ranking.limited else "the lattice had packed"
+    return "the allowed force was reached" if ranking.limited else "densification"
 
 
 def _within(*outcomes: Outcome) -> str:
@@ -172,7 +172,7 @@ def _rectangle(outcome: Outcome) -> Iterator[str]:
         energy, force = energy_text(outcome.energy), quantity("max_force", outcome.force)
         stroke, height = (f"{three_digits(1e3 * x)} mm" for x in (outcome.stroke, outcome.height))
         yield (
-            f"To absorb {energy} at no more than {force} takes at least {stroke} of stroke "
+            f"Absorbing {energy} at no more than {force} takes a stroke of at least {stroke} "
             f"(energy / force);\nthe lattice is {height} high."
         )
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame, Series
 
 ABOUT = (
-    "estimate: one cell, scaled by mass; no result, and in no ranking. full: the whole model; "
+    "estimate: one cell, scaled by mass; not a result, and in no ranking. full: the whole model; "
     f"{NOTHING}: not run, or it failed."
 )
 FEWEST = 3  # designs whose order is stated

@@ -38,20 +38,20 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-FIRST = {"peak_strain": ": least sink first", "peak_force_N": ": least force first"}
-NO_PLACE = "No design has a place here."
+FIRST = {"peak_strain": ": least strain first", "peak_force_N": ": least force first"}
+NO_PLACE = "No design is ranked here."
 LONG_SPAN = 0.1  # of strain
 
 
 SPARE = {
     "panel mm": "panel_specimens",
-    "again %": "second_cycle_share",
-    "back %": "returned_share",
+    "cycle 2 %": "second_cycle_share",
+    "returned %": "returned_share",
     "rebound %": "rebound_share",
     "panel g": "panel_mass_g",
     "left mm": "stroke_left_m",
-    "pack %": "packing_strain",
-    "sink %": "peak_strain",
+    "dens. %": "packing_strain",
+    "strain %": "peak_strain",
     "peak N": "passed_on_N",
     "mass g": "mass_g",
 }
@@ -98,7 +98,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
                 *((PRINTED,) if "print g" in columns else ()),
                 *((UNPRINTABLE,) if (unprintable(rows) != "").any() else ()),
                 *((STRETCHED,) if rows["beyond_curve"].any() else ()),
-                *((UNSURE,) if "~" in "".join(columns.get("pack %", ())) else ()),
+                *((UNSURE,) if "~" in "".join(columns.get("dens. %", ())) else ()),
                 *((EARLY,) if ranking.limited and rows["ends_early"].any() else ()),
                 *_cut_off(rows),
                 *_not_shown(placed),
@@ -121,7 +121,7 @@ def _missed(scene: str, ranking: Ranking, named: Callable[[DataFrame], str]) -> 
     """A sentence for each budget below the mass of the lightest design of a scene."""
     lightest = ranking.lightest_g.get(scene, 0.0)
     return tuple(
-        f"Nothing weighs {budget:g} g or less: the lightest weighs {lightest:.3g} g, "
+        f"No design weighs {budget:g} g or less; the lightest weighs {lightest:.3g} g, "
         f"{named(ranking.lightest[scene])}."
         for budget in ranking.budgets_g
         if greatest_mass(budget) < lightest
@@ -143,7 +143,7 @@ def _cut_off(rows: DataFrame) -> Iterator[str]:
         left = last["sharing"] - (shown["place"] == last["place"]).sum()
         within = f"Up to {last['up_to']} g, " if "up_to" in rows else ""
         if left:
-            yield f"{within}{left} more share{'s' if left == 1 else ''} place {last['place']}."
+            yield f"{within}{left} more tied for place {last['place']}."
 
 
 def _not_shown(rows: DataFrame) -> Iterator[str]:
@@ -212,7 +212,7 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
 
 
 def _under_load(rows: DataFrame) -> dict[str, Series]:
-    return {"sink %": numerals(100.0 * rows["peak_strain"])}
+    return {"strain %": numerals(100.0 * rows["peak_strain"])}
 
 
 def impact_text(rows: DataFrame) -> dict[str, Series]:
@@ -220,14 +220,14 @@ def impact_text(rows: DataFrame) -> dict[str, Series]:
     return {
         "force N": numerals(rows["peak_force_N"]),
         **panel_column(rows),
-        "sink %": numerals(100.0 * rows["peak_strain"]),
+        "strain %": numerals(100.0 * rows["peak_strain"]),
         "left mm": numerals(1e3 * rows["stroke_left_m"]),
         "rebound %": rows["rebound_share"].map(percent),
     }
 
 
 def _crushed(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
-    energy, noun = rows[ranking.energy], "panel" if "panel_mass_g" in rows else "absorbs"
+    energy, noun = rows[ranking.energy], "panel" if "panel_mass_g" in rows else "absorbed"
     unit, scale = ("mJ", 1e3) if energy.max() < 1.0 else ("J", 1.0)
     early = rows["ends_early"] & ranking.limited & energy.notna()
     more = early.map({True: "> ", False: ""})
@@ -240,15 +240,15 @@ def _crushed(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
 
 def crush_text(rows: DataFrame) -> dict[str, Series]:
     """Columns about the whole crush."""
-    packed = rows["densification_strain"].notna() | rows["peak_strain"].isna()
+    densified = rows["densification_strain"].notna() | rows["peak_strain"].isna()
     unsure = _unsure(rows).map({True: "~", False: ""})
-    again = rows["second_cycle_share"]
+    second = rows["second_cycle_share"]
     return {
-        "pack %": (rows["packing_strain"].map(percent) + unsure).where(
-            packed, rows["peak_strain"].map(lambda strain: f"> {percent(strain)}")
+        "dens. %": (rows["packing_strain"].map(percent) + unsure).where(
+            densified, rows["peak_strain"].map(lambda strain: f"> {percent(strain)}")
         ),
-        "back %": rows["returned_share"].map(percent),
-    } | ({"again %": again.map(percent)} if again.notna().any() else {})
+        "returned %": rows["returned_share"].map(percent),
+    } | ({"cycle 2 %": second.map(percent)} if second.notna().any() else {})
 
 
 def _unsure(rows: DataFrame) -> Series:

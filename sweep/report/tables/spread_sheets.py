@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 ABOUT = (
     "lowest, highest: with one uncertain number at a time at an end of its range.\n"
-    "places: among these designs only; designs that did not run again may pass them."
+    "places: among these designs only; designs that were not run again may overtake them."
 )
 
 
@@ -73,9 +73,9 @@ def _order(spread: Spread, labels: list[str]) -> Iterator[str]:
     elif not swaps:
         yield "The order of these designs does not change."
     elif not others:
-        yield f"The first design stays the first; others change places with {', '.join(swaps)}."
+        yield f"The first design stays first; others change places with {', '.join(swaps)}."
     else:
         firsts = "; ".join(f"with {name}, the first is {label}" for name, label in others.items())
         yield f"The order changes: {firsts}."
     if spread.failed:
-        yield f"{spread.failed} values are missing, as these cases failed or have no such value."
+        yield f"{spread.failed} values are missing: these cases failed or have no such value."

@@ -56,14 +56,14 @@ def test_what_is_not_there_is_refused(two_scenes, number, scene, why):
 
 
 def test_ranking_without_places_has_no_numbers():
-    with pytest.raises(CaseError, match="no design has a place in the ranking; without CASE, show"):
+    with pytest.raises(CaseError, match="no design is ranked; without CASE, show"):
         by_number(summary({"status": "stopped"}), 1, None, Question())
 
 
 def test_where_nothing_has_a_place_the_nearest_design_is_named(two_scenes):
     """A scene without places keeps its number."""
     of_scene = QUESTION._replace(budget="0.8 g")
-    why = "of crushed to 50 %, contact platens; .* lightest design: case 0+5, ninjaflex"
+    why = "in crushed to 50 %, contact platens; .* lightest design: case 0+5, ninjaflex"
     with pytest.raises(CaseError, match=why):
         by_number(two_scenes, 1, "2", of_scene)
     question = Question(require={"min_absorbed": "0.4 J"})
@@ -75,7 +75,7 @@ def test_where_nothing_has_a_place_the_nearest_design_is_named(two_scenes):
 def test_a_number_of_a_doubtful_design_says_so(two_scenes):
     doubtful = two_scenes.assign(max_crossings=[0, 1, 0, 0, 0, 0, 0])
     assert by_number(doubtful, 1, None, Question(budget="10 g"))[1].endswith(
-        "up to 10 g, marked as not to be trusted"
+        "up to 10 g, marked as unreliable"
     )
     assert by_number(doubtful, 2, None, Question(budget="10 g"))[1].endswith("up to 10 g")
 

@@ -56,14 +56,14 @@ def test_file_that_is_there_is_left_as_it_is(capsys, tmp_path):
     path.write_text("mine")
     status, _, err = crumple(capsys, "new", "bumper", "--out", str(path))
     assert (status, path.read_text()) == (2, "mine")
-    assert err == f"crumple new: {path} is there already; allowed: another name, or --out\n"
+    assert err == f"crumple new: {path} already exists; allowed: another name, or --out\n"
 
 
 def test_name_may_have_its_ending_and_is_checked(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert crumple(capsys, "new", "pad.toml")[0] == 0
     assert load_config("pad.toml").name == "pad"
-    refused = {("a b",): "is no name; allowed", ("a", "--out", "a.txt"): "ends in .toml"}
+    refused = {("a b",): "is not a name; allowed", ("a", "--out", "a.txt"): "ends in .toml"}
     refused[("a", "--out", "/dev/full/a.toml")] = "cannot be written"
     for words, why in refused.items():
         status, out, err = crumple(capsys, "new", *words)

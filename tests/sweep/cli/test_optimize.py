@@ -30,7 +30,7 @@ def test_it_tells_the_best_with_their_spread_and_the_next_command(capsys, config
     assert "60 of at most 60 designs: the most absorbed energy is 1.00 J" in out + err
     assert f"Best designs, simulated again: {ENERGY}" in out
     assert f"Pareto front of {ENERGY} and mass_g" in out
-    assert "Left out: " in out
+    assert "Excluded: " in out
     assert len(read_summary("results/sought.h5")) == 60
     assert len(read_summary(file_beside("results/sought.h5", "spread"))) == 15
     *_, last = out.splitlines()
@@ -64,7 +64,8 @@ def test_budget_that_no_design_keeps(capsys, config, tmp_path):
     status, _, err = crumple(capsys, "optimize", str(config), "--budget", "0.01 g")
     assert (status, err.count("\n")) == (2, 1)
     assert (
-        "none of 1,024 points of [search] is a design of at most 0.01 g; allowed: more mass" in err
+        "none of 1,024 points of [search] gives a design of at most 0.01 g; allowed: more mass"
+        in err
     )
     assert [path.name for path in tmp_path.iterdir()] == ["sought.toml"]
 

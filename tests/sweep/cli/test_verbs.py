@@ -154,7 +154,7 @@ def test_damaged_file_is_refused_in_one_line(capsys, tmp_path, words):
 def test_config_of_a_file_that_cannot_be_read(capsys, tmp_path):
     file = write(tmp_path / "trial.h5", summary({}), {"config": "{"})
     status, _, err = crumple(capsys, "rank", file)
-    assert (status, err) == (2, f"crumple rank: {file} is damaged: the config in it is no JSON\n")
+    assert (status, err) == (2, f"crumple rank: {file} is damaged: the config in it is not JSON\n")
 
 
 def test_ranking_counts_failures_aloud(capsys, file):
@@ -232,7 +232,7 @@ def test_budget_that_nothing_meets_is_told(capsys, file):
     said = [
         "At most 0.5 g. Best first: most energy.",
         "",
-        f"Nothing weighs 0.5 g or less: the lightest weighs 1 g, case {16 * '0'}, ninjaflex.",
+        f"No design weighs 0.5 g or less; the lightest weighs 1 g, case {16 * '0'}, ninjaflex.",
     ]
     assert out.splitlines()[:3] == said
 
@@ -308,7 +308,7 @@ def test_that_nothing_meets_what_is_asked_is_an_answer(capsys, tmp_path):
     file = write(tmp_path / "trial.h5", summary({}))
     status, out, _ = crumple(capsys, "rank", file, "--max-force", "1 N")
     assert status == 0
-    assert "No design has a place here." in out
+    assert "No design is ranked here." in out
     status, _, err = crumple(capsys, "show", file, "1", "--budget", "0.1 g")
     assert status == 2
     assert "that of the lightest design: case 0000" in err
@@ -369,7 +369,7 @@ def test_run_proposes_no_pictures_of_a_first_design_that_there_is_not(capsys, co
     assert "[rank]" in text
     Path(config).write_text(re.sub(r"budgets = \[.*?\]", 'budgets = ["1 g"]', text))
     _, out, err = crumple(capsys, "run", config)
-    assert "Nothing weighs 1 g or less" in out
+    assert "No design weighs 1 g or less" in out
     assert "to see the lightest: crumple show results/trial.h5 " in out
     assert err.splitlines()[-1] == "results: results/trial.h5"
 
@@ -437,7 +437,7 @@ def test_run_says_how_many_designs_do_not_print(capsys, tmp_path):
     )
     status, _, err = crumple(capsys, "run", str(path), "--dry-run")
     assert status == 0
-    assert err.startswith("left out 2 combinations, which do not print (lattice.printable)\n")
+    assert err.startswith("excluded 2 combinations, which do not print (lattice.printable)\n")
 
 
 def test_export_tells_what_it_wrote(capsys, tmp_path):
@@ -567,7 +567,7 @@ def test_run_simulates_ranks_and_tells_of_failures(capsys, config):
         "      crumple rank results/trial.h5 --out results/trial: tables and pictures",
     ]
     assert "1 of 3 cases failed: crumple status results/trial.h5 says why" in out
-    assert "Nothing weighs 5 g or less: the lightest weighs 6 g, case " in out
+    assert "No design weighs 5 g or less; the lightest weighs 6 g, case " in out
     assert list(read_summary("results/trial.h5")["status"]) == ["converged", "stopped", "converged"]
 
 

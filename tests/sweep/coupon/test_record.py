@@ -117,7 +117,7 @@ def test_options_without_effect_and_files_that_are_none_are_refused(tmp_path):
     with pytest.raises(CouponError, match="row 1 has 2 values, but there are 3 heads"):
         read_coupon(path)
     path.write_text("time_s,strain,stress_Pa\n" + "0,1,soft\n" * 30)
-    with pytest.raises(CouponError, match='stress_Pa in row 1 is "soft", no number'):
+    with pytest.raises(CouponError, match='stress_Pa in row 1 is "soft", not a number'):
         read_coupon(path)
 
 
@@ -136,10 +136,10 @@ def columns(separator=",", point=".", first=""):
         (columns(";", ","), "utf-8", "separated by semicolons; .* points in numbers"),
         (columns("\t"), "utf-8", "separated by tabs"),
         (columns(",", ","), "utf-8", "values, but there are 3 heads; .*0.1, not 0,1"),
-        (columns(first="s,-,Pa"), "utf-8", 'time_s in row 1 is "s", no number; needed: numbers'),
+        (columns(first="s,-,Pa"), "utf-8", 'time_s in row 1 is "s", not a number; needed: numbers'),
         (columns().replace("time_s,strain,stress_Pa", "0,0,0"), "utf-8", "first row is 0, 0, 0"),
-        (columns(), "utf-16", "no UTF-8 text; needed: saved as csv in UTF-8"),
-        (columns().replace("time_s", "# 20 °C\ntime_s"), "latin-1", "no UTF-8 text"),
+        (columns(), "utf-16", "not UTF-8 text; needed: saved as csv in UTF-8"),
+        (columns().replace("time_s", "# 20 °C\ntime_s"), "latin-1", "not UTF-8 text"),
         ("# a comment alone\n", "utf-8", "no rows; needed: columns time_s, strain, stress_Pa"),
         ("stress_Pa\n" + "1\n" * 30, "utf-8", "no column time_s; its columns: stress_Pa"),
     ],

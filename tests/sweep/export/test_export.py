@@ -236,7 +236,7 @@ def test_case_that_failed_has_no_curves_and_says_why(tmp_path):
 
 def test_damaged_config_is_told(tmp_path):
     file = write(tmp_path / "trial.h5", summary({"case_id": "ab"}), {"config": "{"})
-    with pytest.raises(ExportError, match="is damaged: the config in it is no JSON"):
+    with pytest.raises(ExportError, match="is damaged: the config in it is not JSON"):
         export_case(file, tmp_path / "a.stl", "ab")
 
 

@@ -84,7 +84,7 @@ def test_block_is_the_box_round_the_walls():
 def test_walls_that_do_not_hang_together_are_refused():
     points = 1e-3 * np.array([[0.0, 0], [5, 0], [0, 5], [5, 5]])
     apart = Network(points, np.array([[0, 1], [2, 3]]), np.full(2, 8e-4), *2 * [np.empty(0, int)])
-    with pytest.raises(ExportError, match="do not hang together: 2 pieces"):
+    with pytest.raises(ExportError, match="are not connected: 2 pieces"):
         outline(apart)
 
 

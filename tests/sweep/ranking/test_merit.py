@@ -38,7 +38,7 @@ def test_under_a_striker_the_least_force_wins():
     assert set(designs["ranked_by"]) == {ranking.by} == {"peak_force_N"}
     first, _ = ranking_sheets(ranking, table)
     assert first.title.endswith("least force first")
-    assert first.heads[2:] == ["force N", "sink %", "left mm", "rebound %"]
+    assert first.heads[2:] == ["force N", "strain %", "left mm", "rebound %"]
     assert first.rows[1][1:] == ["1.00", "60.0", "0", "2.00", "40"]
     assert "rebound: energy" in legend(ranking)
 
@@ -80,7 +80,7 @@ def test_energy_counts_up_to_the_allowed_force():
 
     assert list(ranking.table["passed_on_N"]) == [20.0, 20.0]
     (sheet,) = ranking_sheets(ranking, table)
-    assert sheet.heads == ["#", "mass g", "absorbs mJ", "J/g", "peak N"]
+    assert sheet.heads == ["#", "mass g", "absorbed mJ", "J/g", "peak N"]
     assert not {"pack", "back"} & {line.partition(":")[0] for line in legend(ranking).splitlines()}
     packed = ranked(table, by="densification_strain", allowed_force="50 N")
     (sheet,) = ranking_sheets(packed, table)
@@ -94,7 +94,10 @@ def test_energy_counts_until_the_greatest_efficiency_if_asked():
     for by in AT_DENSIFICATION:
         ranking = ranked(summary(row, {}), by=by)
         assert (ranking.by, ranking.energy) == (by, "absorbed_energy_at_densification_J")
-        assert (ids(ranking.table), ranking.until) == ([0, 1], "until densification")
+        assert (ids(ranking.table), ranking.until) == (
+            [0, 1],
+            "up to the strain of greatest efficiency",
+        )
         assert list(ranking.table["passed_on_N"]) == [7.0, 20.0]
 
 

@@ -74,7 +74,7 @@ def test_ties_are_marked_also_where_the_other_is_not_shown():
     ]
     (sheet,) = ranking_sheets(ranking, table)
     assert [row[0] for row in sheet.rows] == ["1=*", "1= ", "3= "]
-    assert sheet.notes == ("1 more shares place 3.", not_shown("1 more", 4))
+    assert sheet.notes == ("1 more tied for place 3.", not_shown("1 more", 4))
     assert (sheet.heads[-1], [row[-1] for row in sheet.rows]) == ("± %", ["6.0", "6.7", "2.0"])
     assert legend(ranking).endswith(TIED)
 
@@ -85,13 +85,16 @@ def test_ties_that_are_cut_off_are_counted_for_each_budget():
 
     def notes(**asked):
         (sheet,) = ranking_sheets(ranked(table, by="absorbed_energy_J", **asked), table)
-        return tuple(note for note in sheet.notes if "share" in note)
+        return tuple(note for note in sheet.notes if "tied for" in note)
 
-    assert notes(top=1) == ("3 more share place 1.",)
+    assert notes(top=1) == ("3 more tied for place 1.",)
     assert notes(top=4) == notes(top=None) == ()
     several = notes(top=2, budget=["1 g", "2 g", "3 g"])
-    assert several == ("Up to 1-2 g, 1 more shares place 1.", "Up to 3 g, 2 more share place 1.")
-    assert notes(top=1, budget=["0.1 g", "3 g"])[0] == "Up to 3 g, 3 more share place 1."
+    assert several == (
+        "Up to 1-2 g, 1 more tied for place 1.",
+        "Up to 3 g, 2 more tied for place 1.",
+    )
+    assert notes(top=1, budget=["0.1 g", "3 g"])[0] == "Up to 3 g, 3 more tied for place 1."
     assert list(rank(table, by="absorbed_energy_J", top=2)["sharing"]) == [4, 4]
 
 
@@ -135,7 +138,7 @@ def test_budgets_share_a_section_only_where_their_ties_are_alike():
     (sheet,) = ranking_sheets(ranking, table)
     assert [row[:2] for row in sheet.rows] == [["1-2", "1*"], ["3", "1=*"]]
     more = not_shown("1 more up to 3 g", 2)
-    assert sheet.notes == ("Up to 3 g, 1 more shares place 1.", more)
+    assert sheet.notes == ("Up to 3 g, 1 more tied for place 1.", more)
 
 
 def test_what_is_not_shown_is_counted_for_each_budget():

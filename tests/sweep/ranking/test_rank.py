@@ -113,7 +113,7 @@ def test_attrs_of_the_table_still_say_what_else_is_known():
         "mass": "panel_mass_g",
         "energy": "panel_energy_J",
         "per_gram": "specific_absorption_until_packed_J_per_g",
-        "until": "until the lattice has packed",
+        "until": "until densification",
         "limited": False,
         "by": "panel_energy_J",
         "cases": 4,
@@ -140,10 +140,10 @@ def test_under_a_dead_load_the_least_sink_wins():
     assert ranking.by == ranking.energy
     loaded, crushed = ranking_sheets(ranking, table)
     assert (loaded.title, crushed.title) == (
-        "dead load of 5 N, glued platens: least sink first",
+        "dead load of 5 N, glued platens: least strain first",
         "crushed to 50 %, glued platens",
     )
-    assert loaded.heads == ["#", "mass g", "sink %"]
+    assert loaded.heads == ["#", "mass g", "strain %"]
     assert [row[-1] for row in loaded.rows] == ["0.200", "0.400", "60.0"]
     assert ranked(table.head(3)).by == "peak_strain"
 

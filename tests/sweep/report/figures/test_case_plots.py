@@ -59,7 +59,7 @@ def test_shaded_area_is_the_absorbed_energy(row):
     history = there_and_back()
     ax = axes_of(case_plots.force_displacement, history, row)
     assert area(ax.collections[0]) == pytest.approx(history["work_in_J"].max())
-    assert labels(ax)[0] == "absorbed in all\n96.0 mJ, 0.0960 J/g"
+    assert labels(ax)[0] == "absorbed in total\n96.0 mJ, 0.0960 J/g"
 
 
 def test_way_down_and_way_back_are_told_apart(row):
@@ -79,7 +79,7 @@ def test_a_pause_is_neither_loading_nor_unloading(row):
     down, pause, back = ax.get_lines()[:3]
     assert list(pause.get_ydata()) == pytest.approx(np.linspace(100.0, 60.0, 6))
     assert [len(line.get_xdata()) for line in (down, back)] == [21, 21]
-    assert labels(ax)[1:4] == ["loading", "held", "unloading,\nreturns 50 %"]
+    assert labels(ax)[1:4] == ["loading", "hold", "unloading,\nreturns 50 %"]
 
 
 def test_further_cycles_have_a_line_of_their_own(row):
@@ -98,13 +98,19 @@ def test_the_area_below_the_mean_force_is_the_energy_until_packed(row):
     dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
     assert dotted.get_xdata()[-1] == pytest.approx(30.0)
     assert dotted.get_ydata()[0] == pytest.approx(0.066 / (0.3 * HEIGHT))
-    assert labels(ax)[-1] == "mean force 22.0 N,\npacked at 30 %, until then\n66.0 mJ, 0.0660 J/g"
+    assert (
+        labels(ax)[-1]
+        == "mean force 22.0 N,\ndensification at 30 %, until then\n66.0 mJ, 0.0660 J/g"
+    )
 
 
 def test_what_has_not_packed_is_told(row):
     never = row | {"densification_strain": np.nan}
     ax = axes_of(case_plots.force_displacement, there_and_back(), never)
-    assert labels(ax)[-1] == "mean force 22.0 N,\nnot packed; counted to 30 %:\n66.0 mJ, 0.0660 J/g"
+    assert (
+        labels(ax)[-1]
+        == "mean force 22.0 N,\nno densification; counted to 30 %:\n66.0 mJ, 0.0660 J/g"
+    )
     older = row | {"packing_strain": np.nan, "absorbed_energy_until_packed_J": np.nan}
     ax = axes_of(case_plots.force_displacement, there_and_back(), older)
     assert ":" not in [line.get_linestyle() for line in ax.get_lines()]
@@ -118,7 +124,7 @@ def test_dead_load_comes_and_goes_in_a_step(dead):
     assert on.get_ydata()[-1] == off.get_ydata()[0] == 20.0
     assert off.get_ydata()[-1] == 0.0
     assert area(ax.collections[0]) == pytest.approx(history["work_in_J"].max())
-    assert labels(ax)[1:] == ["load on", "load off"]
+    assert labels(ax)[1:] == ["load applied", "load removed"]
 
 
 @pytest.mark.parametrize("draw", [case_plots.force_displacement, case_plots.energies])
@@ -144,9 +150,9 @@ def test_every_turn_of_the_platen_is_marked(row):
     *marks, work = ax.get_lines()
     assert [line.get_xdata()[0] for line in marks] == pytest.approx([4.0, 8.0, 12.0])
     assert work.get_xdata()[-1] == pytest.approx(16.0)
-    assert [text.get_text() for text in ax.texts] == ["turns", "cycle 2", "turns"]
+    assert [text.get_text() for text in ax.texts] == ["reversal", "cycle 2", "reversal"]
     halted = axes_of(case_plots.energies, twice[:31], row)
-    assert [text.get_text() for text in halted.texts] == ["turns"]
+    assert [text.get_text() for text in halted.texts] == ["reversal"]
 
 
 def test_energies_under_a_dead_load_are_drawn_over_time(dead):
@@ -154,7 +160,7 @@ def test_energies_under_a_dead_load_are_drawn_over_time(dead):
     release, work = ax.get_lines()
     assert release.get_xdata()[0] == pytest.approx(20.0)
     assert work.get_xdata()[-1] == pytest.approx(40.0)
-    assert [text.get_text() for text in ax.texts] == ["load off"]
+    assert [text.get_text() for text in ax.texts] == ["load removed"]
 
 
 def test_negligible_energies_have_no_colour(row):

@@ -58,7 +58,7 @@ def test_force_of_a_panel_stands_beside_that_of_a_specimen():
     figure = blank(8, 4)
     design_map(figure, ranked(summary(hit, hit), panel=("130 mm", "50 mm"), top=None))
     (ax,) = figure.axes
-    assert "30.0 N on the support, 1500 N of the panel" in ax.get_title("left")
+    assert "30.0 N on the support, 1500 N on the panel" in ax.get_title("left")
     assert ax.get_ylabel() == "greatest force on the support, N, of a specimen"
 
 
@@ -67,7 +67,7 @@ def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
     figure = blank(8, 4)
     design_map(figure, loaded)
     ax = figure.axes[0]
-    assert ax.get_ylabel() == "sink, %"
+    assert ax.get_ylabel() == "greatest strain, %"
     sinks = [y for dots in ax.collections[:2] for _, y in dots.get_offsets()]
     np.testing.assert_allclose(sorted(sinks), [10.0, 20.0, 30.0])
 

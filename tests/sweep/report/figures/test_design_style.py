@@ -59,7 +59,7 @@ def test_legend_lists_what_varies_under_headings(table):
 
 def test_legend_explains_open_signs_where_there_are_any(table):
     for mark in ("beyond_model", "crossed"):
-        assert entries(table.assign(**{mark: [False, True] * 2}))[-1] == "not to be trusted"
+        assert entries(table.assign(**{mark: [False, True] * 2}))[-1] == "unreliable"
 
 
 def test_legend_explains_error_bars_where_there_are_any(table):
@@ -152,7 +152,7 @@ def test_under_a_dead_load_the_least_sink_wins():
     load = {"loading_mode": "force", "force_N": 5.0}
     rows = [load | {"mass_g": m, "peak_strain": e, "wall_thickness_m": t} for m, e, t in sinks]
     ranking = ranked(summary(*rows), top=None)
-    assert winners(ranking) == [("best: wall 0.8 mm, sinks 20.0 %", 2.0, 20.0)]
+    assert winners(ranking) == [("best: wall 0.8 mm, compressed by 20.0 %", 2.0, 20.0)]
     assert merits(ranking.table, "absorbed_energy_J").tolist() == [20.0, 30.0, 50.0]
 
 

@@ -77,7 +77,7 @@ def test_a_platen_turns_after_its_pause():
     assert crushes(twice[:61]) == [(20, 25, 45)]
     assert crushes(twice[:11]) == [(10, 10, 10)]
     row = {"loading_mode": "displacement"}
-    assert turns(twice, row) == {25: "turns", 45: "cycle 2", 70: "turns"}
+    assert turns(twice, row) == {25: "reversal", 45: "cycle 2", 70: "reversal"}
     assert turns(twice[:24], row) == {}
 
 

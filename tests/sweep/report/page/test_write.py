@@ -70,7 +70,7 @@ def test_names_from_files_are_text(evil):
     assert [tag for tag, _ in read.elements].count("script") == 2
     assert EVIL not in evil
     assert f"stopped: {EVIL}" in read.text["td"]
-    assert f"{EVIL}: which lattice is the best?" in read.text["h1"]
+    assert f"{EVIL}: which lattice is best?" in read.text["h1"]
     data = json.loads(re.search(r'id="data">(.*?)</script>', evil)[1])
     assert data["name"] == EVIL
     assert {case["text"][-1] for case in data["cases"]} == {EVIL}

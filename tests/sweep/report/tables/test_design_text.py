@@ -65,6 +65,6 @@ def test_what_plates_leave_out_is_told():
     none, usual, beyond = (about_direction(row) for _, row in rows.iterrows())
     assert none == []
     assert len(usual) == 1
-    assert "layers part is not modelled" in usual[0]
+    assert "delamination" in usual[0]
     assert beyond[0] == usual[0]
     assert "beyond a strain of 70 %" in beyond[1]

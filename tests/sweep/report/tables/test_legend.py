@@ -2,12 +2,12 @@
 
 from sweep.ranking.rank import ranked
 from sweep.report.tables.legend import (
-    AGAIN,
     ELASTIC,
     LOADED,
     LOSSY,
     MIXED,
     PLASTIC,
+    SECOND,
     legend,
 )
 from sweep.report.tables.requirement_notes import STRUCK_PANEL
@@ -16,7 +16,7 @@ from tests.support.results.specimens import summary
 
 def test_legend_explains_what_is_shown():
     crushed = summary({"absorbed_energy_at_50N_J": 0.1})
-    assert "are counted until the lattice has packed" in legend(ranked(crushed))
+    assert "are counted until densification" in legend(ranked(crushed))
     assert "are counted until the force exceeds 50 N" in legend(ranked(crushed, allowed_force=50.0))
     assert "are counted to the end of the stroke" in legend(ranked(crushed, by="absorbed_energy_J"))
     assert "sink" not in legend(ranked(crushed))
@@ -29,7 +29,7 @@ def test_strain_at_which_a_crush_ended_unpacked_is_that_of_the_crush():
     assert '">' not in legend(ranked(summary(packed)))
     unpacked = packed | {"densification_strain": float("nan")}
     said = legend(ranked(summary(packed, unpacked)))
-    assert '"> 50": it has not packed at the end of the crush, at 50 %.' in said
+    assert '"> 50": no densification before the end of the crush, at 50 %.' in said
 
 
 def test_all_specimens_of_a_panel_are_struck_at_once():
@@ -46,7 +46,7 @@ def test_legend_says_what_takes_the_energy_that_does_not_come_back():
     for common in ({}, struck):
         said = legend(ranked(summary(common, common)))
         assert said.endswith(ELASTIC)
-        assert max(map(len, f"{said}\n{MIXED}\n{PLASTIC}\n{AGAIN}".splitlines())) <= 100
+        assert max(map(len, f"{said}\n{MIXED}\n{PLASTIC}\n{SECOND}".splitlines())) <= 100
         assert legend(ranked(summary(common | relaxing))).endswith(LOSSY)
         assert legend(ranked(summary(common, common | relaxing))).endswith(MIXED)
         yielding = common | {"material_memory": "yields"}

@@ -33,24 +33,24 @@ def notes(table, **question):
 
 def test_none_passes_less():
     assert notes(STRUCK, require={"max_force": "60 N"}) == (
-        "No design has a place here.",
+        "No design is ranked here.",
         "Required of a specimen: force at most 60 N.",
         "0 of 2 designs fulfil this; 2 fail: max_force (2).",
         f"Nearest: {CASE}0, ninjaflex: force 76 N, 27 % too much.",
-        "To absorb 1.50 J at no more than 60 N takes at least 25.0 mm of stroke (energy / force);\n"
-        "the lattice is 12.5 mm high.",
+        "Absorbing 1.50 J at no more than 60 N takes a stroke of at least 25.0 mm "
+        "(energy / force);\nthe lattice is 12.5 mm high.",
     )
 
 
 def test_designs_are_counted_by_what_they_fail():
     asked = {"max_force": "1 kN", "max_mass": "0.2 kg", "min_absorbed": "6 J"}
     assert notes(CRUSHED, require=asked, panel=PANEL, per="panel") == (
-        "No design has a place here.",
+        "No design is ranked here.",
         "Required of a panel: force at most 1000 N, mass at most 200 g, absorbed energy at least"
         " 6.00 J.",
         "0 of 3 designs fulfil this; 3 fail: max_force (2), min_absorbed (1).",
         f"Nearest: {CASE}0, ninjaflex: absorbed energy 5.00 J, 17 % too little.",
-        "To absorb 6.00 J at no more than 1000 N takes at least 6.00 mm of stroke "
+        "Absorbing 6.00 J at no more than 1000 N takes a stroke of at least 6.00 mm "
         "(energy / force);\n"
         "the lattice is 12.5 mm high.",
     )
@@ -118,8 +118,7 @@ def test_what_a_longer_crush_may_fulfil_is_told():
     rising = CRUSHED.assign(densification_strain=NAN)
     told = notes(rising, require={"min_absorbed": "0.42 J"})
     assert told[3:] == (
-        "3 of them may fulfil min_absorbed in a longer crush: this one ended before the lattice had"
-        " packed.",
+        "3 of them may fulfil min_absorbed in a longer crush: this one ended before densification.",
         f"Nearest: {CASE}2, ninjaflex: absorbed energy at least 400 mJ, at most 4.8 % too\nlittle.",
     )
     up_to = CRUSHED.assign(absorbed_energy_at_90N_J=0.1)
@@ -145,12 +144,12 @@ def test_what_a_loading_is_not_asked_for_is_said_once():
     hit, crush, first, second = ranking_sheets(ranked(table, require=asked), table)
     assert hit.notes[0] == "Required of a specimen: force at most 90 N, deceleration at most 60 g0."
     assert hit.notes[-1] == (
-        "Not asked of an impact, as the striker sets its energy: min_absorbed."
+        "Not applied to an impact, whose striker sets the energy: min_absorbed."
     )
-    assert crush.notes[-1] == "Not asked of a crush, which has no striker: max_deceleration."
+    assert crush.notes[-1] == "Not applied to a crush, which has no striker: max_deceleration."
     assert first.notes == (
-        "Not asked of a dead load, which sets force and energy itself: max_force, max_deceleration,"
-        " min_absorbed.",
+        "Not applied to a dead load, which sets force and energy itself: max_force, "
+        "max_deceleration, min_absorbed.",
     )
     assert second.notes == ()
 
@@ -174,7 +173,7 @@ def test_stroke_is_shown_where_it_or_the_force_is_limited(asked):
     ranking = ranked(CRUSHED, require=asked)
     (sheet,) = ranking_sheets(ranking, CRUSHED)
     assert {row[sheet.heads.index("stroke mm")] for row in sheet.rows} == {"6.75"}
-    assert "stroke: in which the counted energy is absorbed" in legend(ranking)
+    assert "stroke: over which the counted energy is absorbed" in legend(ranking)
     (sheet,) = ranking_sheets(ranked(CRUSHED), CRUSHED)
     assert "stroke mm" not in sheet.heads
 
@@ -217,6 +216,6 @@ def test_stroke_of_an_allowed_force_is_told_too():
     found = notes(table, require={"min_absorbed": "5 J"}, allowed_force="10 N")
     assert found[-2].endswith("absorbed energy 100 mJ, 98 % too little.")
     assert found[-1] == (
-        "To absorb 5.00 J at no more than 10 N takes at least 500 mm of stroke "
+        "Absorbing 5.00 J at no more than 10 N takes a stroke of at least 500 mm "
         "(energy / force);\nthe lattice is 12.5 mm high."
     )

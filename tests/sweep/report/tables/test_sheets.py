@@ -5,10 +5,10 @@ import pytest
 from sweep.ranking.rank import ranked
 from sweep.report.tables.design_text import design_labels, design_text
 from sweep.report.tables.legend import (
-    AGAIN,
     BEYOND,
     CROSSED,
     EARLY,
+    SECOND,
     STRETCHED,
     UNSURE,
     legend,
@@ -38,7 +38,7 @@ def test_a_crush_that_ends_below_the_allowed_force_absorbs_at_least_so_much():
     given = {"absorbed_energy_at_50N_J": 0.2, "loading.allowed_forces": 50.0}
     table = summary(CRUSHED_SOLID | given, SPARSE | given)
     (sheet,) = ranking_sheets(ranked(table, allowed_force=50.0), table)
-    energy = sheet.heads.index("absorbs mJ")
+    energy = sheet.heads.index("absorbed mJ")
     assert sorted(row[energy] for row in sheet.rows) == ["200", "> 200"]
     assert EARLY in sheet.notes
     (sheet,) = ranking_sheets(ranked(table), table)
@@ -68,7 +68,8 @@ def test_a_budget_below_all_designs_is_one_sentence_and_no_table():
     rows = designs([1.0, 2.0], [0.4, 0.5]) + designs([3.0], [0.5], platen="contact")
     table = summary(*rows)
     nothing = (
-        "Nothing weighs {} g or less: the lightest weighs {} g, case 000000000000000{}, ninjaflex."
+        "No design weighs {} g or less; the lightest weighs {} g, "
+        "case 000000000000000{}, ninjaflex."
     )
     (sheet,) = ranking_sheets(ranked(table, budget=["0.5 g", "0.7 g"]), table)
     assert (sheet.title, sheet.heads, sheet.rows) == ("", [], [])
@@ -84,7 +85,7 @@ def test_a_budget_below_all_designs_is_one_sentence_and_no_table():
 def test_a_scene_in_which_nothing_has_a_place_says_so():
     table = summary({}, {"platen": "contact", "densification_strain": NAN})
     _, sheet = ranking_sheets(ranked(table, by="densification_strain"), table)
-    assert (sheet.heads, sheet.notes) == ([], ("No design has a place here.",))
+    assert (sheet.heads, sheet.notes) == ([], ("No design is ranked here.",))
 
 
 def test_what_comes_back_and_what_has_not_packed_is_told():
@@ -93,7 +94,7 @@ def test_what_comes_back_and_what_has_not_packed_is_told():
     ranking = ranked(table)
     assert list(ranking.table["returned_share"]) == pytest.approx([0.95, 0.95, 0.9])
     (sheet,) = ranking_sheets(ranking, table)
-    assert sheet.heads[-2:] == ["pack %", "back %"]
+    assert sheet.heads[-2:] == ["dens. %", "returned %"]
     assert [row[-2:] for row in sheet.rows] == [["> 50", "95"], ["–", "95"], ["54", "90"]]
 
 
@@ -119,11 +120,11 @@ def test_behaviour_of_walls_is_shown_where_it_differs():
 
 def test_the_sorted_column_is_never_spare():
     table = summary({"second_cycle_share": 0.7}, {"second_cycle_share": 0.8})
-    heads = {None: "J/g", "second_cycle_share": "again %", "returned_share": "back %"}
+    heads = {None: "J/g", "second_cycle_share": "cycle 2 %", "returned_share": "returned %"}
     for by, head in heads.items():
         (sheet,) = ranking_sheets(ranked(table, by=by), table)
         assert head not in sheet.spare
-        others = {"again %", "back %", "pack %", "peak N", "mass g"} - {head}
+        others = {"cycle 2 %", "returned %", "dens. %", "peak N", "mass g"} - {head}
         assert others <= set(sheet.spare) < set(sheet.heads)
 
 
@@ -131,12 +132,12 @@ def test_second_cycle_is_told_where_there_is_one():
     table = summary({"second_cycle_share": 0.7}, {})
     ranking = ranked(table)
     (sheet,) = ranking_sheets(ranking, table)
-    assert sorted(row[sheet.heads.index("again %")] for row in sheet.rows) == ["70", "–"]
-    assert AGAIN in legend(ranking)
+    assert sorted(row[sheet.heads.index("cycle 2 %")] for row in sheet.rows) == ["70", "–"]
+    assert SECOND in legend(ranking)
     table = summary({})
     (sheet,) = ranking_sheets(ranked(table), table)
-    assert "again %" not in sheet.heads
-    assert AGAIN not in legend(ranked(table))
+    assert "cycle 2 %" not in sheet.heads
+    assert SECOND not in legend(ranked(table))
 
 
 @pytest.mark.parametrize("by", ["lost_energy_J", "lost_share", "lost_energy_J_per_g"])

@@ -54,4 +54,4 @@ def test_others_may_change_places_behind_the_first():
     rows = rows.assign(place=[1, 2, 3], scene="crushed", budget_g=float("nan"))
     table = DataFrame({AS_GIVEN: [1.0, 2.0, 3.0], "soft": [1.0, 3.0, 2.0]})
     found = next(spread_sheets([Spread(rows, COLUMN, table, table.rank(), 0)], rows))
-    assert found.notes[-1] == "The first design stays the first; others change places with soft."
+    assert found.notes[-1] == "The first design stays first; others change places with soft."
