@@ -70,8 +70,8 @@ best of --by, among the designs that fulfil [require] or its options. If none do
 listed. With a budget, walls are as thick as it allows at most. Every design is a row of the results
 file; after a stop, the same command with the same seed continues, also with more --evaluations. Six
 designs run at a time after the first sixteen: more workers do not help. The three best, without
-near duplicates, are simulated again with twice the elements, and with walls 5 % thinner and thicker
-and other imperfections, in a results file of their own, and listed with the spread of their values."""
+near duplicates, are simulated again with twice the elements, with walls 5 % thinner and thicker,
+and with other imperfections, in a results file of their own, and listed with their spread."""
 ACCURACY = """Simulate a sweep over numerical settings, then print error against run time: a table,
 the observed orders, the cheapest settings below 1 % and below 0.1 %, and a figure. The reference is
 the limit to which the finest settings of the method of highest order converge. Cases that differ in
