@@ -58,7 +58,7 @@ MEASURES = {
         shared=True,
         asked_of=("displacement", "impact"),
         noun="force",
-        none="None passes less than {}; the least is {}",
+        none="None transmits less than {}; the least is {}",
         example="60 N",
         about="required, while the counted energy is absorbed",
     ),
